@@ -1,0 +1,79 @@
+#include "lib/field.h"
+
+#include <cstring>
+
+namespace starfocus {
+
+void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field) {
+  field->transposed = false;
+  field->width = border.left + rect.width + border.right;
+  field->height = border.top + rect.height + border.bottom;
+  field->x = rect.x - border.left;
+  field->y = rect.y - border.top;
+  field->inner = {border.left, border.top, rect.width, rect.height};
+  const int32_t first = Clamp(-field->x, 0, field->width);
+  const int32_t last = Clamp(window.width - field->x, 0, field->width);  // exclusive
+  for (int32_t row = 0; row < field->height; ++row) {
+    const int32_t y = Clamp(field->y + row, 0, window.height - 1);
+    uint8_t* rgb = field->rgb + 3 * field->Offset(0, row);
+    int16_t* disparity = field->disparity + field->Offset(0, row);
+    const uint8_t* from = window.view[0].Row(y);
+    const int16_t* from_disparity = window.disparity.Row(y);
+    std::memcpy(rgb + 3 * first, from + 3 * (field->x + first),
+                3 * static_cast<size_t>(last - first));
+    std::memcpy(disparity + first, from_disparity + field->x + first,
+                sizeof(int16_t) * static_cast<size_t>(last - first));
+    for (int32_t column = 0; column < first; ++column) {
+      std::memcpy(rgb + 3 * column, from, 3);
+      disparity[column] = from_disparity[0];
+    }
+    for (int32_t column = last; column < field->width; ++column) {
+      std::memcpy(rgb + 3 * column, from + 3 * (window.width - 1), 3);
+      disparity[column] = from_disparity[window.width - 1];
+    }
+  }
+}
+
+void TransposeField(const Field& from, Field* to) {
+  to->transposed = !from.transposed;
+  to->width = from.height;
+  to->height = from.width;
+  to->x = from.y;
+  to->y = from.x;
+  to->inner = {from.inner.y, from.inner.x, from.inner.height, from.inner.width};
+  for (int32_t row = 0; row < to->height; ++row) {
+    uint8_t* rgb = to->rgb + 3 * to->Offset(0, row);
+    int16_t* disparity = to->disparity + to->Offset(0, row);
+    for (int32_t column = 0; column < to->width; ++column) {
+      std::memcpy(rgb + 3 * column, from.rgb + 3 * from.Offset(row, column), 3);
+      disparity[column] = from.disparity[from.Offset(row, column)];
+    }
+  }
+}
+
+DiagonalLine GetDiagonal(const Field& field, bool anti, int32_t index) {
+  const int32_t x = Max(0, index - (field.height - 1));
+  const int32_t y = anti ? Min(index, field.height - 1) : Max(0, field.height - 1 - index);
+  const int32_t rest = anti ? y + 1 : field.height - y;
+  return {x, y, Min(field.width - x, rest)};
+}
+
+void LoadDiagonals(const Field& field, bool anti, Diagonals* diagonals) {
+  diagonals->anti = anti;
+  uint32_t offset = 0;
+  const ptrdiff_t step = anti ? 1 - ptrdiff_t{field.width} : 1 + ptrdiff_t{field.width};
+  for (int32_t index = 0; index < Diagonals::Count(field); ++index) {
+    const DiagonalLine line = GetDiagonal(field, anti, index);
+    diagonals->offsets[index] = offset;
+    const uint8_t* from = field.rgb + 3 * field.Offset(line.x, line.y);
+    const int16_t* from_disparity = field.disparity + field.Offset(line.x, line.y);
+    for (int32_t t = 0; t < line.length; ++t, ++offset) {
+      std::memcpy(diagonals->rgb + 3 * size_t{offset}, from, 3);
+      diagonals->disparity[offset] = *from_disparity;
+      from += 3 * step;
+      from_disparity += step;
+    }
+  }
+}
+
+}  // namespace starfocus

@@ -1,0 +1,65 @@
+// The extended rectangle that a block is refocused from, as lines in the three orientations of the
+// star (paper, IV-B): rows, columns (90 degrees) and diagonals (the lossless 45 degree layout).
+#ifndef STARFOCUS_LIB_FIELD_H_
+#define STARFOCUS_LIB_FIELD_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/window.h"
+
+namespace starfocus {
+
+struct Rect {
+  int32_t x, y, width, height;
+};
+
+// Pixels beyond a rectangle that can splat into it.
+struct Border {
+  int32_t left, right, top, bottom;
+};
+
+// A copy of the extended rectangle; pixels outside the picture repeat its edge. Positions are
+// oriented: in a transposed field x runs down the picture and y across it.
+struct Field {
+  bool transposed = false;
+  int32_t width = 0, height = 0;  // of the extended rectangle
+  int32_t x = 0, y = 0;           // of its pixel (0, 0) in the picture
+  Rect inner = {0, 0, 0, 0};      // the rectangle itself, in pixels of the field
+  uint8_t* rgb = nullptr;         // width * height pixels, rows packed
+  int16_t* disparity = nullptr;   // the same, kDisparityBits
+
+  size_t Offset(int32_t column, int32_t row) const {
+    return static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column);
+  }
+};
+
+// Copies `rect` and its border from the window into field->rgb and ->disparity.
+void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field);
+
+// Rows become columns; to->rgb and ->disparity must be set and differ from `from`'s.
+void TransposeField(const Field& from, Field* to);
+
+// The diagonal lines of a field: direction (1, 1), or (1, -1) when anti.
+struct Diagonals {
+  bool anti = false;
+  uint8_t* rgb = nullptr;  // all lines packed one after the other
+  int16_t* disparity = nullptr;
+  uint32_t* offsets = nullptr;  // pixels before each line; Count(field) of them
+
+  static int32_t Count(const Field& field) { return field.width + field.height - 1; }
+};
+
+// Where diagonal `index` of a field starts, and its number of pixels; it goes on to (x + t, y + t),
+// or (x + t, y - t) when anti.
+struct DiagonalLine {
+  int32_t x, y, length;
+};
+DiagonalLine GetDiagonal(const Field& field, bool anti, int32_t index);
+
+// Copies the diagonals; the arrays must be set, each with room for the whole field.
+void LoadDiagonals(const Field& field, bool anti, Diagonals* diagonals);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_FIELD_H_

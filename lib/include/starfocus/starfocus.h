@@ -1,0 +1,221 @@
+/* starfocus: refocusing for star-shaped sparse light fields. C ABI.
+ *
+ * Given 1, 5, 9 or 17 rectified 8-bit RGB views and the disparity map of the centre view, the
+ * engine computes the picture that a lens of aperture radius `aperture`, focused at disparity
+ * `focus`, would have taken (Huang et al., "Fast Physically-Correct Refocusing for Sparse Light
+ * Fields Using Block-Based Multi-Rate View Interpolation"; equations are cited as in the paper).
+ *
+ * Use:
+ *   1. sf_config_init, fill the fields in, sf_workspace_size.
+ *   2. Allocate that many bytes, aligned to SF_ALIGNMENT, and sf_init. The engine lives in that
+ *      memory: it never allocates, owns nothing else and needs no destructor. Free the memory when
+ *      no call is running.
+ *   3. sf_refocus with whole pictures, or sf_stream_begin / sf_stream_push / sf_stream_pull with
+ *      rows. Both give the same bytes.
+ *
+ * Conventions: u grows to the right, v downwards; the outermost views lie at |u|, |v| = 1.
+ * Disparity d is in pixels per unit u, larger is nearer: a point seen at (x, y) in the centre view
+ * is seen at (x - u*d, y - v*d) in view (u, v). Pictures are rows of interleaved R, G, B bytes;
+ * strides are in bytes and may exceed the row length.
+ *
+ * Threads: an engine is used by one call at a time; several engines are independent. The engine
+ * starts no threads; it hands jobs to the caller's runner. Output bytes depend on neither the
+ * runner, the number of workers, the SIMD target nor the way the rows come in.
+ *
+ * Errors: every function checks all its arguments before it writes anything but its own state.
+ */
+#ifndef STARFOCUS_STARFOCUS_H_
+#define STARFOCUS_STARFOCUS_H_
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define SF_API __attribute__((visibility("default")))
+#else
+#define SF_API
+#endif
+
+/** Grows whenever a public structure or the meaning of a call changes. */
+#define SF_ABI_VERSION 1u
+/** Alignment of the workspace in bytes: the widest vector of any SIMD target (AVX-512). */
+#define SF_ALIGNMENT 64
+/** Largest number of captured views. */
+#define SF_MAX_VIEWS 17
+/** Largest width and height in pixels. */
+#define SF_MAX_SIZE 65535
+/** Largest |disparity| in pixels per unit u. */
+#define SF_MAX_DISPARITY 500.0
+/** Largest blur radius in pixels that a configuration may ask for. */
+#define SF_MAX_BLUR 128.0
+/** Largest number of workers. */
+#define SF_MAX_WORKERS 64
+
+typedef enum sf_status {
+  SF_OK = 0,
+  SF_ERROR_NULL = 1,                 /**< a pointer that must be given is null */
+  SF_ERROR_VERSION = 2,              /**< structure not initialised by its init function */
+  SF_ERROR_RESERVED = 3,             /**< a reserved field is not zero */
+  SF_ERROR_SIZE = 4,                 /**< width or height outside [1, SF_MAX_SIZE] */
+  SF_ERROR_VIEWS = 5,                /**< number of views is not 1, 5, 9 or 17 */
+  SF_ERROR_DISPARITY_RANGE = 6,      /**< configured disparity range not finite, reversed or too large */
+  SF_ERROR_MAX_BLUR = 7,             /**< max_blur outside (0, SF_MAX_BLUR] */
+  SF_ERROR_BLOCK = 8,                /**< largest_block is not 32, 64, 128 or 256 */
+  SF_ERROR_WORKERS = 9,              /**< max_workers outside [1, SF_MAX_WORKERS] */
+  SF_ERROR_THETA = 10,               /**< theta outside [SF_MIN_THETA, SF_MAX_THETA] */
+  SF_ERROR_WORKSPACE_SMALL = 11,     /**< workspace smaller than sf_workspace_size says */
+  SF_ERROR_WORKSPACE_ALIGNMENT = 12, /**< workspace not aligned to SF_ALIGNMENT */
+  SF_ERROR_MODE = 13,                /**< unknown mode */
+  SF_ERROR_FOCUS = 14,               /**< focus not finite or beyond +-SF_MAX_FOCUS */
+  SF_ERROR_APERTURE = 15,            /**< aperture outside (0, 1] */
+  SF_ERROR_BLUR_TOO_LARGE = 16,      /**< aperture * |disparity - focus| would exceed max_blur */
+  SF_ERROR_STRIDE = 17,              /**< stride smaller than a row, or misaligned for float */
+  SF_ERROR_NOT_FINITE = 18,          /**< disparity map holds NaN or infinity */
+  SF_ERROR_DISPARITY = 19,           /**< disparity map holds a value outside the configured range */
+  SF_ERROR_STATE = 20,               /**< streaming call without sf_stream_begin or streaming = 1 */
+  SF_ERROR_COUNT = 21,               /**< row count negative, or more rows than the picture has */
+  SF_ERROR_RUNNER = 22,              /**< the runner reported failure; output is incomplete */
+  SF_ERROR_OVERLAP = 23,             /**< output overlaps an input or the workspace */
+  SF_ERROR_ALL_INVALID = 24          /**< disparity map without a single finite value */
+} sf_status;
+
+/** One English sentence for a status; never null, static storage. */
+SF_API const char* sf_status_string(sf_status status);
+
+/** SF_ABI_VERSION the library was built with. */
+SF_API uint32_t sf_abi_version(void);
+
+#define SF_MIN_THETA 0.15707963267948966 /**< 0.05 pi */
+#define SF_MAX_THETA 1.413716694115407   /**< 0.45 pi */
+#define SF_MAX_FOCUS 1.0e6
+
+/** What a workspace is made for. Call sf_config_init first: it zeroes and sets the defaults. */
+typedef struct sf_config {
+  uint32_t version;     /**< SF_ABI_VERSION, set by sf_config_init */
+  int32_t width;        /**< pixels, [1, SF_MAX_SIZE] */
+  int32_t height;       /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
+  int32_t views;        /**< captured views: 1, 5, 9 or 17 (see sf_view_position) */
+  float disparity_min;  /**< smallest disparity any map may hold; with disparity_max it bounds the
+                             blur, and so N of the frame modes, in every entry path */
+  float disparity_max;  /**< largest disparity any map may hold, >= disparity_min */
+  double max_blur;      /**< largest blur radius r = aperture * |d - focus| in pixels that will be
+                             asked for, (0, SF_MAX_BLUR]; default 32 */
+  int32_t largest_block; /**< side of the largest refocusing block: 32, 64, 128, 256; default 64 */
+  int32_t max_workers;  /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
+  int32_t streaming;    /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
+  double theta;         /**< fall-off of the aperture (3) in radians; default 0.26 pi */
+  uint32_t reserved[8]; /**< zero */
+} sf_config;
+
+SF_API void sf_config_init(sf_config* config);
+
+/** Position (u, v) of captured view `index`; views of 1, 5 and 9 are the first of the 17:
+ *  0 centre; 1-4 (+1,0) (-1,0) (0,+1) (0,-1); 5-8 (+1,+1) (-1,+1) (+1,-1) (-1,-1); 9-16 the same
+ *  eight at half the distance. False when index is outside [0, SF_MAX_VIEWS) or u or v is null. */
+SF_API int sf_view_position(int32_t index, double* u, double* v);
+
+/** Bytes of workspace for `config` into *bytes. Independent of config->height. */
+SF_API sf_status sf_workspace_size(const sf_config* config, size_t* bytes);
+
+/** The engine; lives inside the caller's workspace. */
+typedef struct sf_engine sf_engine;
+
+/** Makes an engine in `workspace` (`bytes` long, aligned to SF_ALIGNMENT), which stays the
+ *  caller's and must outlive the engine's use. *engine is null on error. */
+SF_API sf_status sf_init(const sf_config* config, void* workspace, size_t bytes,
+                         sf_engine** engine);
+
+typedef enum sf_mode {
+  SF_MODE_FRAME = 0,    /**< one N for the whole picture, from (9) */
+  SF_MODE_BENCHMARK = 1 /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark */
+} sf_mode;
+
+/** What to render. Call sf_params_init first. */
+typedef struct sf_params {
+  uint32_t version;     /**< SF_ABI_VERSION, set by sf_params_init */
+  int32_t mode;         /**< sf_mode; default SF_MODE_FRAME */
+  double focus;         /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS */
+  double aperture;      /**< aperture radius u_t, (0, 1]; default 1 */
+  uint32_t reserved[8]; /**< zero */
+} sf_params;
+
+SF_API void sf_params_init(sf_params* params);
+
+/** Rows of a picture: `data` points to the first row. */
+typedef struct sf_plane {
+  const uint8_t* data; /**< interleaved R, G, B */
+  size_t stride;       /**< bytes from row to row, >= 3 * width */
+} sf_plane;
+
+/** A light field. All views have the configured width and height. */
+typedef struct sf_light_field {
+  sf_plane views[SF_MAX_VIEWS]; /**< the configured number, in the order of sf_view_position */
+  const float* disparity;       /**< disparity of the centre view, aligned for float */
+  size_t disparity_stride;      /**< bytes from row to row, >= 4 * width, multiple of 4 */
+} sf_light_field;
+
+/** A job of the engine: call it with every index in [0, count) exactly once. `worker` is in
+ *  [0, max_workers); two jobs that run at the same time must have different workers. */
+typedef void (*sf_job)(void* job_data, int32_t index, int32_t worker);
+
+/** Runs a set of jobs and returns when all are done; 0 for success. Never called with count 0. */
+typedef int (*sf_runner)(void* runner_data, sf_job job, void* job_data, int32_t count);
+
+/** What a refocusing did. */
+typedef struct sf_report {
+  double r_max;             /**< largest blur radius the configured disparity range allows, pixels */
+  int32_t n;                /**< views along the aperture radius, N */
+  int32_t rendered_views;   /**< views of i^2 + j^2 <= N^2 */
+  uint64_t rendered_samples; /**< R, G, B samples of all rendered views inside the picture */
+} sf_report;
+
+/** Refocuses whole pictures. The light field is only read, during the call; `out` (`out_stride`
+ *  bytes from row to row, >= 3 * width) must overlap neither it nor the workspace.
+ *  runner may be null: the jobs then run one after the other as worker 0. report may be null. */
+SF_API sf_status sf_refocus(sf_engine* engine, const sf_params* params,
+                            const sf_light_field* light_field, uint8_t* out, size_t out_stride,
+                            sf_runner runner, void* runner_data, sf_report* report);
+
+/** Starts (or restarts) a streamed refocusing; the engine must be configured with streaming = 1. */
+SF_API sf_status sf_stream_begin(sf_engine* engine, const sf_params* params);
+
+/** Copies up to `rows` next rows of every view and of the disparity map; light_field points at the
+ *  first of them. *consumed <= rows tells how many fitted: pull finished rows and push the rest.
+ *  A row with a bad disparity value is refused: the rows before it are consumed. */
+SF_API sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, int32_t rows,
+                                int32_t* consumed);
+
+/** Writes up to `rows` next finished rows to out; *written may be 0 until more rows are pushed.
+ *  runner as in sf_refocus. report may be null; it is complete once the last row is written. */
+SF_API sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
+                                sf_runner runner, void* runner_data, int32_t* written,
+                                sf_report* report);
+
+/** Smallest and largest finite value of a disparity map and the number of non-finite ones. */
+typedef struct sf_disparity_stats {
+  float min;       /**< smallest finite value; 0 when there is none */
+  float max;       /**< largest finite value; 0 when there is none */
+  int64_t invalid; /**< NaN and infinite values */
+} sf_disparity_stats;
+
+SF_API sf_status sf_measure_disparity(const float* disparity, size_t stride, int32_t width,
+                                      int32_t height, sf_disparity_stats* stats);
+
+/** Replaces every non-finite value, in place, by its nearest valid neighbour to the left or right
+ *  (of two at the same distance, and of two on either side, the farther surface: the smaller
+ *  disparity); rows without a valid value are filled from the nearest valid rows above and below
+ *  by the same rule. SF_ERROR_ALL_INVALID when no value is finite. */
+SF_API sf_status sf_fill_disparity(float* disparity, size_t stride, int32_t width, int32_t height);
+
+/** Name of the SIMD target the kernels run on here, e.g. "AVX2"; static storage. */
+SF_API const char* sf_simd_target(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* STARFOCUS_STARFOCUS_H_ */

@@ -1,0 +1,162 @@
+// Center-based line scan (paper, IV-A): the surfaces and holes of one rendered view along a line,
+// in a single pass without z-buffer.
+#ifndef STARFOCUS_LIB_LINE_SCAN_H_
+#define STARFOCUS_LIB_LINE_SCAN_H_
+
+#include <cstdint>
+
+#include "lib/fixed.h"
+#include "lib/runs.h"
+#include "lib/view_grid.h"
+
+namespace starfocus {
+
+// A line of the centre view (or of a type A view) with its disparity.
+struct Line {
+  const uint8_t* rgb;
+  const int16_t* disparity;
+  int32_t length;
+};
+
+// One view of a line and the part of it that is wanted.
+struct LineView {
+  const ViewGrid* grid;
+  int64_t move;       // ViewGrid::Move of the view's distance along the line
+  int64_t cell;       // ViewGrid::Move(1): the width of the aperture cell
+  int32_t out_begin;  // rendered pixels [out_begin, out_end), out_begin < out_end
+  int32_t out_end;
+};
+
+// A gap wider than this is no stretched surface, whatever the disparities say, in pixels.
+inline constexpr int32_t kMaxStretch = 4;
+
+// Weight of the neighbour (kShiftBits) in the aperture cell of width `cell` (kShiftBits) for a
+// sample `offset` away from its pixel's centre: clamp((|t| - 1/2) / L + 1/2, 0, 1) of design.md's
+// aperture cells, L <= 1.
+inline int32_t CellWeight(int32_t offset, int32_t cell) {
+  const int32_t twice = 2 * Abs(offset) - kShiftOne + cell;
+  if (twice <= 0) return 0;
+  return (twice * (kShiftOne / 2) + cell / 2) / cell;
+}
+
+// Scans `line` for one view. Calls, in pixels of the line (never mirrored),
+//   sink.Surface(begin, end, source, neighbour, weight): rendered pixel p is line pixel
+//     source + (p - begin), and its neighbour at +-1 with `weight` (kShiftBits);
+//   sink.Hole(begin, end, disparity, pixel): uncovered; what is behind continues with
+//     `disparity`, that of the visible line pixel `pixel`.
+// Every pixel of [out_begin, out_end) comes exactly once, in scan order.
+template <Direction kDirection, class Sink>
+class LineScan {
+ public:
+  LineScan(const Line& line, const Run* runs, int32_t count, const LineView& view, Sink* sink)
+      : line_(line), runs_(runs), count_(count), view_(view), sink_(sink) {
+    begin_ = kMirrored ? line.length - view.out_end : view.out_begin;
+    last_ = kMirrored ? line.length - view.out_begin : view.out_end;
+    last_pixel_ = line.length - 1;
+  }
+
+  void Scan() {
+    int32_t end = line_.length;
+    for (int32_t index = 0; index < count_ && last_ > begin_; ++index) {
+      const int32_t begin = runs_[index].begin;
+      ScanRun(begin, end, runs_[index].disparity);
+      end = begin;
+    }
+    if (last_ > begin_) Hole(begin_, last_pixel_);
+  }
+
+ private:
+  static constexpr bool kMirrored = kDirection == Direction::kLeftToRight;
+
+  int32_t Pixel(int32_t q) const { return kMirrored ? line_.length - 1 - q : q; }
+  int32_t Disparity(int32_t q) const { return line_.disparity[Pixel(q)]; }
+
+  bool SameSurface(int32_t q) const {  // of positions q and q + 1
+    return q >= 0 && q + 1 < line_.length && Abs(Disparity(q) - Disparity(q + 1)) <= kSurfaceStep;
+  }
+
+  // Positions [begin, end) move together; last_ is the lowest position filled so far, so whatever
+  // lands at or above it is hidden.
+  void ScanRun(int32_t begin, int32_t end, int32_t disparity) {
+    const int32_t shift = view_.grid->Shift(view_.move, disparity);
+    const int32_t whole = (shift + kShiftOne / 2) >> kShiftBits;
+    const int32_t low = begin - whole;
+    if (low >= last_) return;
+    if (end - whole < last_) CloseGap(end - 1, whole);
+    const int32_t first = Max(low, begin_);
+    if (first < last_) {
+      const int32_t width = Abs(view_.grid->Shift(view_.cell, disparity));
+      Surface(first, last_, whole, shift - whole * kShiftOne, Min(width, kShiftOne));
+    }
+    last_ = Min(low, last_);
+    last_pixel_ = begin;
+  }
+
+  // Between this run's last pixel `q` and what is filled lies a gap: a stretched surface, which
+  // the run then covers, or a hole.
+  void CloseGap(int32_t q, int32_t whole) {
+    const int32_t gap = q + 1 - whole;
+    const bool nearer = Disparity(q) - Disparity(last_pixel_) > kSurfaceStep;
+    if (!nearer && last_ - gap <= kMaxStretch && last_ + whole <= line_.length) return;
+    Hole(Max(gap, begin_), Disparity(q) < Disparity(last_pixel_) ? q : last_pixel_);
+    last_ = gap;
+  }
+
+  void Hole(int32_t begin, int32_t q) {
+    if (begin >= last_) return;
+    if (kMirrored) {
+      sink_->Hole(line_.length - last_, line_.length - begin, Disparity(q), Pixel(q));
+    } else {
+      sink_->Hole(begin, last_, Disparity(q), q);
+    }
+  }
+
+  // Emits [begin, end) of a surface at `whole` pixels and `offset` (kShiftBits) beyond; a pixel
+  // beside a depth edge has no neighbour across it.
+  void Surface(int32_t begin, int32_t end, int32_t whole, int32_t offset, int32_t width) {
+    const int32_t weight = CellWeight(offset, width);
+    const int32_t side = offset > 0 ? 1 : -1;
+    if (weight != 0) {
+      if (side > 0 && !SameSurface(end - 1 + whole)) {
+        Emit(end - 1, end, whole, side, 0);
+        --end;
+      } else if (side < 0 && !SameSurface(begin + whole - 1)) {
+        Emit(begin, begin + 1, whole, side, 0);
+        ++begin;
+      }
+    }
+    if (begin < end) Emit(begin, end, whole, side, weight);
+  }
+
+  void Emit(int32_t begin, int32_t end, int32_t whole, int32_t side, int32_t weight) {
+    if (kMirrored) {
+      const int32_t first = line_.length - end;
+      sink_->Surface(first, line_.length - begin, first - whole, -side, weight);
+    } else {
+      sink_->Surface(begin, end, begin + whole, side, weight);
+    }
+  }
+
+  const Line& line_;
+  const Run* runs_;
+  int32_t count_;
+  const LineView& view_;
+  Sink* sink_;
+  int32_t begin_;       // wanted positions start here
+  int32_t last_;        // lowest position filled so far
+  int32_t last_pixel_;  // the line position that filled it
+};
+
+template <class Sink>
+void ScanLine(const Line& line, Direction direction, const Run* runs, int32_t count,
+              const LineView& view, Sink* sink) {
+  if (direction == Direction::kRightToLeft) {
+    LineScan<Direction::kRightToLeft, Sink>(line, runs, count, view, sink).Scan();
+  } else {
+    LineScan<Direction::kLeftToRight, Sink>(line, runs, count, view, sink).Scan();
+  }
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_LINE_SCAN_H_

@@ -1,0 +1,24 @@
+#include "lib/rules.h"
+
+namespace starfocus {
+namespace {
+
+// Lowest N / r_max without more aliasing than over-sampling has (Fig. 6).
+constexpr double kUnderSampling = 0.787;
+
+int32_t Ceil(double value) {
+  const auto whole = static_cast<int32_t>(value);
+  return value > whole ? whole + 1 : whole;
+}
+
+}  // namespace
+
+int32_t ViewsByPaper(double r_max) {
+  if (r_max < 4.0) return Ceil(r_max);
+  if (r_max < 4.0 / kUnderSampling) return 4;
+  return Ceil(kUnderSampling * r_max);
+}
+
+int32_t ViewsOfBenchmark(double r_max) { return 2 * Ceil(r_max); }
+
+}  // namespace starfocus

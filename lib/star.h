@@ -1,0 +1,58 @@
+// The primitive: one rectangle of the picture refocused with a given N at one layer, by rendering
+// the views of the aperture as types A, B and C of eight triangles (paper, IV-B).
+#ifndef STARFOCUS_LIB_STAR_H_
+#define STARFOCUS_LIB_STAR_H_
+
+#include <cstdint>
+
+#include "lib/field.h"
+#include "lib/runs.h"
+#include "lib/span_list.h"
+#include "lib/view_grid.h"
+#include "lib/window.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+// Type A lines that are rendered before they are transposed together.
+inline constexpr int32_t kStripRows = 16;
+
+// Memory of one worker. E: largest side of an extended rectangle; R: of a rectangle. Every buffer
+// is followed by simd::kPadding bytes.
+struct StarScratch {
+  uint8_t* field_rgb[2];        // 3 E^2 each: rows and columns
+  int16_t* field_disparity[2];  // E^2 each
+  uint8_t* diagonal_rgb[2];     // 3 E^2 each: main and anti
+  int16_t* diagonal_disparity[2];
+  uint32_t* diagonal_offsets[2];  // 2 E each
+  Run* runs;                      // E^2: of all lines of a field
+  int32_t* run_counts;            // E
+  Run* line_runs;                 // E: of one line
+  uint8_t* strip_rgb;             // 3 R kStripRows: type A lines before they are transposed
+  int16_t* strip_disparity;       // R kStripRows
+  uint8_t* columns_rgb;           // 3 R E: the type A view, one line per column
+  int16_t* columns_disparity;     // R E
+  uint8_t* corner_rgb[2];         // 3 R E each: the type B views that fill its holes
+  uint32_t* accumulators[2];      // 3 R^2 each: in the orientation of either pass
+  uint32_t* line_accumulators;    // 3 E
+  Run* corner_runs;               // E: of a type B line that fills holes
+  uint8_t* line_rgb;              // 3 E: that line
+  SpanMemory spans;
+  SpanMemory corner_spans;
+};
+
+struct StarJob {
+  const Window* window;
+  const ViewGrid* grid;
+  const simd::Kernels* kernels;
+  Rect rect;
+  Border border;
+};
+
+// Sums the weighted views over job.rect into scratch->accumulators[0]: rows of 3 * width values
+// with grid.aperture.sum_bits fractional bits.
+void RefocusRectangle(const StarJob& job, StarScratch* scratch);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_STAR_H_

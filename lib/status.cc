@@ -1,0 +1,57 @@
+#include "starfocus/starfocus.h"
+
+const char* sf_status_string(sf_status status) {
+  switch (status) {
+    case SF_OK:
+      return "success";
+    case SF_ERROR_NULL:
+      return "a required pointer is null";
+    case SF_ERROR_VERSION:
+      return "structure version differs from SF_ABI_VERSION; call its init function first";
+    case SF_ERROR_RESERVED:
+      return "a reserved field is not zero";
+    case SF_ERROR_SIZE:
+      return "width or height is outside 1 to 65535";
+    case SF_ERROR_VIEWS:
+      return "number of views is not 1, 5, 9 or 17";
+    case SF_ERROR_DISPARITY_RANGE:
+      return "disparity range is not finite, reversed, or beyond 500 pixels";
+    case SF_ERROR_MAX_BLUR:
+      return "max_blur is outside 0 (exclusive) to 128 pixels";
+    case SF_ERROR_BLOCK:
+      return "largest_block is not 32, 64, 128 or 256";
+    case SF_ERROR_WORKERS:
+      return "max_workers is outside 1 to 64";
+    case SF_ERROR_THETA:
+      return "theta is outside 0.05 pi to 0.45 pi";
+    case SF_ERROR_WORKSPACE_SMALL:
+      return "workspace is smaller than sf_workspace_size asks for";
+    case SF_ERROR_WORKSPACE_ALIGNMENT:
+      return "workspace is not aligned to SF_ALIGNMENT bytes";
+    case SF_ERROR_MODE:
+      return "unknown mode";
+    case SF_ERROR_FOCUS:
+      return "focus is not finite or beyond 1e6";
+    case SF_ERROR_APERTURE:
+      return "aperture is outside 0 (exclusive) to 1";
+    case SF_ERROR_BLUR_TOO_LARGE:
+      return "aperture times the distance of the disparity range from the focus exceeds max_blur";
+    case SF_ERROR_STRIDE:
+      return "stride is smaller than a row, or misaligned for the disparity map";
+    case SF_ERROR_NOT_FINITE:
+      return "disparity map holds NaN or infinity";
+    case SF_ERROR_DISPARITY:
+      return "disparity map holds a value outside the configured disparity range";
+    case SF_ERROR_STATE:
+      return "streaming is not 0 or 1, or a streaming call came without sf_stream_begin";
+    case SF_ERROR_COUNT:
+      return "row count is negative or beyond the picture's last row";
+    case SF_ERROR_RUNNER:
+      return "the runner reported failure; the output is incomplete";
+    case SF_ERROR_OVERLAP:
+      return "output overlaps an input or the workspace";
+    case SF_ERROR_ALL_INVALID:
+      return "disparity map holds no finite value";
+  }
+  return "unknown status";
+}

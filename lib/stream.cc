@@ -1,0 +1,115 @@
+// The streaming half of the C ABI: rows in, finished rows out, through the engine's line rings.
+#include <cstring>
+
+#include "lib/engine.h"
+#include "lib/layout.h"
+#include "lib/validate.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+namespace {
+
+// First row after those that the next stripe reads.
+int32_t NeededRows(const EngineState& engine) {
+  const Reach reach = GetReach(engine.config);
+  const int32_t beyond = (reach.views - reach.stripe) / 2;
+  return Min(engine.config.height, engine.stream.finished + reach.stripe + beyond);
+}
+
+bool StripeWaiting(const EngineState& engine) {
+  return engine.stream.written < engine.stream.finished;
+}
+
+sf_status PushRow(const sf_light_field& light_field, int32_t row, EngineState* engine) {
+  const size_t offset = static_cast<size_t>(row);
+  const sf_status status = PushDisparity(
+      light_field.disparity + offset * (light_field.disparity_stride / sizeof(float)), engine);
+  if (status != SF_OK) return status;
+  for (int view = 0; view < engine->config.views; ++view) {
+    const sf_plane& plane = light_field.views[view];
+    std::memcpy(engine->rings[view].Row(engine->stream.pushed), plane.data + offset * plane.stride,
+                3 * static_cast<size_t>(engine->config.width));
+  }
+  ++engine->stream.pushed;
+  return SF_OK;
+}
+
+// Copies finished rows out of the stripe buffer.
+int32_t CopyRows(EngineState* engine, uint8_t* out, size_t out_stride, int32_t rows) {
+  Stream& stream = engine->stream;
+  const int32_t side = engine->config.largest_block;
+  const size_t row_bytes = 3 * static_cast<size_t>(engine->config.width);
+  int32_t copied = 0;
+  for (; copied < rows && StripeWaiting(*engine); ++copied, ++stream.written) {
+    const auto from = static_cast<size_t>(stream.written % side);
+    std::memcpy(out + static_cast<size_t>(copied) * out_stride,
+                engine->stripe_out + from * row_bytes, row_bytes);
+  }
+  return copied;
+}
+
+}  // namespace
+}  // namespace starfocus
+
+using starfocus::EngineState;
+
+sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
+  if (engine == nullptr || params == nullptr) return SF_ERROR_NULL;
+  EngineState& e = *reinterpret_cast<EngineState*>(engine);
+  sf_status status = starfocus::CheckParams(*params);
+  if (status != SF_OK) return status;
+  if (e.config.streaming == 0) return SF_ERROR_STATE;
+  e.stream = starfocus::Stream();
+  status = starfocus::SetLens(*params, &e);
+  if (status != SF_OK) return status;
+  for (int view = 0; view < e.config.views; ++view) {
+    e.window.view[view] = {e.rings[view].data, e.rings[view].stride, e.rings[view].rows};
+  }
+  e.stream.active = true;
+  return SF_OK;
+}
+
+sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, int32_t rows,
+                         int32_t* consumed) {
+  if (consumed == nullptr) return SF_ERROR_NULL;
+  *consumed = 0;
+  if (engine == nullptr || light_field == nullptr) return SF_ERROR_NULL;
+  EngineState& e = *reinterpret_cast<EngineState*>(engine);
+  if (!e.stream.active) return SF_ERROR_STATE;
+  if (rows < 0 || rows > e.config.height - e.stream.pushed) return SF_ERROR_COUNT;
+  const sf_status status = starfocus::CheckLightField(e.config, *light_field);
+  if (status != SF_OK) return status;
+  while (*consumed < rows && e.stream.pushed < starfocus::NeededRows(e)) {
+    const sf_status row_status = starfocus::PushRow(*light_field, *consumed, &e);
+    if (row_status != SF_OK) return row_status;
+    ++*consumed;
+  }
+  return SF_OK;
+}
+
+sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
+                         sf_runner runner, void* runner_data, int32_t* written, sf_report* report) {
+  if (written == nullptr) return SF_ERROR_NULL;
+  *written = 0;
+  if (engine == nullptr) return SF_ERROR_NULL;
+  EngineState& e = *reinterpret_cast<EngineState*>(engine);
+  if (!e.stream.active) return SF_ERROR_STATE;
+  if (rows < 0) return SF_ERROR_COUNT;
+  sf_status status = starfocus::CheckOutput(e.config, out, out_stride);
+  if (status != SF_OK) return status;
+  while (*written < rows && e.stream.written < e.config.height) {
+    if (!starfocus::StripeWaiting(e)) {
+      if (e.stream.pushed < starfocus::NeededRows(e)) break;
+      status =
+          starfocus::RefocusStripe(&e, e.stream.finished, e.stripe_out,
+                                   3 * static_cast<size_t>(e.config.width), {runner, runner_data});
+      if (status != SF_OK) return status;
+      e.stream.finished =
+          starfocus::Min(e.config.height, e.stream.finished + e.config.largest_block);
+    }
+    *written += starfocus::CopyRows(&e, out + static_cast<size_t>(*written) * out_stride,
+                                    out_stride, rows - *written);
+  }
+  if (report != nullptr) *report = e.report;
+  return SF_OK;
+}

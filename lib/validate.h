@@ -1,0 +1,35 @@
+// Checks of everything that comes from outside, before anything is written.
+#ifndef STARFOCUS_LIB_VALIDATE_H_
+#define STARFOCUS_LIB_VALIDATE_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+sf_status CheckConfig(const sf_config& config);
+sf_status CheckParams(const sf_params& params);
+
+// A disparity map of its own.
+sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height);
+
+// Pointers and strides of a light field of `config`.
+sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field);
+
+// An output of `rows` rows of the configured width.
+sf_status CheckOutput(const sf_config& config, const uint8_t* out, size_t stride);
+
+// [data, data + bytes) as a range of addresses.
+struct Extent {
+  uintptr_t begin, end;
+};
+Extent ExtentOf(const void* data, size_t stride, int32_t rows, size_t row_bytes);
+inline bool Overlaps(const Extent& a, const Extent& b) {
+  return a.begin < b.end && b.begin < a.end;
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_VALIDATE_H_

@@ -1,0 +1,53 @@
+// One table of kernels per SIMD target; Highway picks the best one of the machine.
+#include "simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/kernels.cc"
+#include "hwy/foreach_target.h"  // must precede highway.h
+#include "hwy/highway.h"
+#include "simd/accumulate-inl.h"
+#include "simd/blend-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+void Accumulate(const Span* spans, size_t count, uint32_t* accumulators) {
+  AccumulateSpans(spans, count, accumulators);
+}
+
+void Blend(const Span* spans, size_t count, uint8_t* line) { BlendSpans(spans, count, line); }
+
+void Finish(const uint32_t* accumulators, size_t count, int shift, uint8_t* out) {
+  FinishSamples(accumulators, count, shift, out);
+}
+
+bool ConvertDisparity(const float* disparity, size_t count, float low, float high, int16_t* out) {
+  return ConvertDisparities(disparity, count, low, high, out);
+}
+
+// HWY_NAMESPACE is N_ and the target's name.
+#undef STARFOCUS_TEXT
+#undef STARFOCUS_TEXT_OF
+#define STARFOCUS_TEXT(name) #name
+#define STARFOCUS_TEXT_OF(name) STARFOCUS_TEXT(name)
+
+const Kernels* Table() {
+  static constexpr Kernels kernels = {STARFOCUS_TEXT_OF(HWY_NAMESPACE) + 2, Accumulate, Blend,
+                                      Finish, ConvertDisparity};
+  return &kernels;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace starfocus::simd {
+
+HWY_EXPORT(Table);
+
+const Kernels& BestKernels() { return *HWY_DYNAMIC_DISPATCH(Table)(); }
+
+}  // namespace starfocus::simd
+#endif

@@ -1,0 +1,52 @@
+// The SIMD kernels and their contracts. kernels_ref.cc defines every result; each Highway target
+// gives the same bits. Pointers need no alignment; vector types never appear here.
+#ifndef STARFOCUS_SIMD_KERNELS_H_
+#define STARFOCUS_SIMD_KERNELS_H_
+
+#include <cstddef>
+#include <cstdint>
+
+namespace starfocus::simd {
+
+// Kernels may read this many bytes past the end of any source, and add zero to as many bytes of
+// accumulators past the end of any target: every buffer of the workspace carries this padding.
+inline constexpr size_t kPadding = 64;
+
+// A stretch of samples (R, G, B interleaved) that one source surface gives to a line:
+// value[n] = weight * source[n] + neighbour_weight * source[n + neighbour_offset].
+struct Span {
+  const uint8_t* source;
+  uint32_t target;            // first sample in the target line
+  uint32_t samples;           // > 0
+  uint16_t weight;            // [0, 32767]
+  uint16_t neighbour_weight;  // [0, 32767]; 0: the neighbour is not read
+  int32_t neighbour_offset;   // samples: +3 or -3
+};
+
+struct Kernels {
+  const char* name;  // of the SIMD target
+
+  // accumulators[target + n] += value[n], for each span. No sum exceeds 2^32 - 1.
+  void (*accumulate)(const Span* spans, size_t count, uint32_t* accumulators);
+
+  // line[target + n] = (value[n] + 128) >> 8, for each span; weights of a span sum to 256.
+  // Sources don't overlap the line. Nothing outside the spans is written.
+  void (*blend)(const Span* spans, size_t count, uint8_t* line);
+
+  // out[n] = (accumulators[n] + 2^(shift - 1)) >> shift; shift in [1, 24]; results fit a byte.
+  void (*finish)(const uint32_t* accumulators, size_t count, int shift, uint8_t* out);
+
+  // out[n] = round-half-up(disparity[n] * 64). Returns whether every value is within [low, high];
+  // when false (NaN included), out is unspecified. |low|, |high| <= 511.
+  bool (*convert_disparity)(const float* disparity, size_t count, float low, float high,
+                            int16_t* out);
+};
+
+// The best target of this machine, chosen once by Highway.
+const Kernels& BestKernels();
+// The definition of every result, in plain C++.
+const Kernels& ReferenceKernels();
+
+}  // namespace starfocus::simd
+
+#endif  // STARFOCUS_SIMD_KERNELS_H_

@@ -1,0 +1,59 @@
+// What each kernel computes, in plain C++: the truth the SIMD targets are tested against.
+#include <cmath>
+#include <cstring>
+
+#include "simd/kernels.h"
+
+namespace starfocus::simd {
+namespace {
+
+uint32_t SpanValue(const Span& span, uint32_t n) {
+  uint32_t value = uint32_t{span.weight} * span.source[n];
+  if (span.neighbour_weight != 0) {
+    value += uint32_t{span.neighbour_weight} *
+             span.source[static_cast<ptrdiff_t>(n) + span.neighbour_offset];
+  }
+  return value;
+}
+
+void Accumulate(const Span* spans, size_t count, uint32_t* accumulators) {
+  for (size_t i = 0; i < count; ++i) {
+    for (uint32_t n = 0; n < spans[i].samples; ++n) {
+      accumulators[spans[i].target + n] += SpanValue(spans[i], n);
+    }
+  }
+}
+
+void Blend(const Span* spans, size_t count, uint8_t* line) {
+  for (size_t i = 0; i < count; ++i) {
+    for (uint32_t n = 0; n < spans[i].samples; ++n) {
+      line[spans[i].target + n] = static_cast<uint8_t>((SpanValue(spans[i], n) + 128) >> 8);
+    }
+  }
+}
+
+void Finish(const uint32_t* accumulators, size_t count, int shift, uint8_t* out) {
+  const uint32_t half = uint32_t{1} << (shift - 1);
+  for (size_t n = 0; n < count; ++n) {
+    out[n] = static_cast<uint8_t>((accumulators[n] + half) >> shift);
+  }
+}
+
+bool ConvertDisparity(const float* disparity, size_t count, float low, float high, int16_t* out) {
+  bool inside = true;
+  for (size_t n = 0; n < count; ++n) {
+    inside = inside && disparity[n] >= low && disparity[n] <= high;
+    if (!inside) return false;
+    out[n] = static_cast<int16_t>(std::floor(disparity[n] * 64.0f + 0.5f));
+  }
+  return inside;
+}
+
+}  // namespace
+
+const Kernels& ReferenceKernels() {
+  static constexpr Kernels kernels = {"reference", Accumulate, Blend, Finish, ConvertDisparity};
+  return kernels;
+}
+
+}  // namespace starfocus::simd
