@@ -12,11 +12,6 @@ namespace {
 
 EngineState* Cast(sf_engine* engine) { return reinterpret_cast<EngineState*>(engine); }
 
-Extent Workspace(const EngineState& engine) {
-  EngineState* counted = nullptr;
-  return ExtentOf(&engine, 0, 1, LayOut(engine.config, nullptr, &counted));
-}
-
 // Whether `out` overlaps the workspace or `rows` rows of the light field.
 bool OutputOverlaps(const EngineState& engine, const sf_light_field* light_field,
                     const uint8_t* out, size_t stride, int32_t rows) {

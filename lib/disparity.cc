@@ -16,8 +16,8 @@ struct MapLine {
   float& operator[](int32_t k) const { return data[static_cast<size_t>(k) * step]; }
 };
 
-// Fills the gap (left, right) between valid elements; -1 and length stand for none. Each element
-// takes its nearer neighbour, the farther surface where both are equally near.
+// Fills the gap (left, right) between valid elements; -1 and length stand for none. Between two,
+// the farther surface goes on: what is unknown beside an edge is mostly what the edge hides.
 void FillGap(const MapLine& line, int32_t left, int32_t right) {
   if (left < 0 && right >= line.length) return;
   for (int32_t k = left + 1; k < right; ++k) {

@@ -75,4 +75,9 @@ size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
   return carver.used();
 }
 
+Extent Workspace(const EngineState& engine) {
+  EngineState* counted = nullptr;
+  return ExtentOf(&engine, 0, 1, LayOut(engine.config, nullptr, &counted));
+}
+
 }  // namespace starfocus

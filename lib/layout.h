@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "lib/engine.h"
+#include "lib/validate.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -33,6 +34,9 @@ class Carver {
 // Lays out an engine for a valid configuration at `base` (aligned to SF_ALIGNMENT), or counts when
 // base is null. Returns the bytes used; *engine is null when counting.
 size_t LayOut(const sf_config& config, void* base, EngineState** engine);
+
+// The memory an engine lives in.
+Extent Workspace(const EngineState& engine);
 
 }  // namespace starfocus
 

@@ -97,6 +97,12 @@ sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int
   if (rows < 0) return SF_ERROR_COUNT;
   sf_status status = starfocus::CheckOutput(e.config, out, out_stride);
   if (status != SF_OK) return status;
+  const int32_t most = starfocus::Min(rows, e.config.height - e.stream.written);
+  if (starfocus::Overlaps(
+          starfocus::Workspace(e),
+          starfocus::ExtentOf(out, out_stride, most, 3 * static_cast<size_t>(e.config.width)))) {
+    return SF_ERROR_OVERLAP;
+  }
   while (*written < rows && e.stream.written < e.config.height) {
     if (!starfocus::StripeWaiting(e)) {
       if (e.stream.pushed < starfocus::NeededRows(e)) break;

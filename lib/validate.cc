@@ -13,6 +13,12 @@ bool AllZero(const uint32_t (&reserved)[kCount]) {
   return true;
 }
 
+// Rows as wide as `row_bytes`, all of them addressable.
+bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
+  return stride >= row_bytes &&
+         (rows <= 1 || stride <= (PTRDIFF_MAX - row_bytes) / static_cast<size_t>(rows - 1));
+}
+
 bool ValidSize(int32_t size) { return size >= 1 && size <= SF_MAX_SIZE; }
 
 }  // namespace
@@ -49,8 +55,8 @@ sf_status CheckParams(const sf_params& params) {
 sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height) {
   if (disparity == nullptr) return SF_ERROR_NULL;
   if (!ValidSize(width) || !ValidSize(height)) return SF_ERROR_SIZE;
-  if (stride < static_cast<size_t>(width) * sizeof(float) || stride % sizeof(float) != 0 ||
-      reinterpret_cast<uintptr_t>(disparity) % alignof(float) != 0) {
+  if (!ValidStride(stride, static_cast<size_t>(width) * sizeof(float), height) ||
+      stride % sizeof(float) != 0 || reinterpret_cast<uintptr_t>(disparity) % alignof(float) != 0) {
     return SF_ERROR_STRIDE;
   }
   return SF_OK;
@@ -59,7 +65,8 @@ sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t
 sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field) {
   for (int view = 0; view < config.views; ++view) {
     if (light_field.views[view].data == nullptr) return SF_ERROR_NULL;
-    if (light_field.views[view].stride < 3 * static_cast<size_t>(config.width)) {
+    if (!ValidStride(light_field.views[view].stride, 3 * static_cast<size_t>(config.width),
+                     config.height)) {
       return SF_ERROR_STRIDE;
     }
   }
@@ -68,7 +75,9 @@ sf_status CheckLightField(const sf_config& config, const sf_light_field& light_f
 
 sf_status CheckOutput(const sf_config& config, const uint8_t* out, size_t stride) {
   if (out == nullptr) return SF_ERROR_NULL;
-  return stride < 3 * static_cast<size_t>(config.width) ? SF_ERROR_STRIDE : SF_OK;
+  return ValidStride(stride, 3 * static_cast<size_t>(config.width), config.height)
+             ? SF_OK
+             : SF_ERROR_STRIDE;
 }
 
 Extent ExtentOf(const void* data, size_t stride, int32_t rows, size_t row_bytes) {

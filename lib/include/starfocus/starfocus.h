@@ -206,9 +206,8 @@ SF_API sf_status sf_measure_disparity(const float* disparity, size_t stride, int
                                       int32_t height, sf_disparity_stats* stats);
 
 /** Replaces every non-finite value, in place, by its nearest valid neighbour to the left or right
- *  (of two at the same distance, and of two on either side, the farther surface: the smaller
- *  disparity); rows without a valid value are filled from the nearest valid rows above and below
- *  by the same rule. SF_ERROR_ALL_INVALID when no value is finite. */
+ *  (of one on either side, the farther surface: the smaller disparity); rows without a valid value
+ *  are filled from the nearest valid rows above and below by the same rule. SF_ERROR_ALL_INVALID when no value is finite. */
 SF_API sf_status sf_fill_disparity(float* disparity, size_t stride, int32_t width, int32_t height);
 
 /** Name of the SIMD target the kernels run on here, e.g. "AVX2"; static storage. */

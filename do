@@ -1,0 +1,166 @@
+#!/bin/bash
+# Everything a newcomer does with starfocus: ./do help
+set -u
+cd "$(dirname "$0")" || exit 1
+
+BUILD=build/release
+LOGS=build/log
+PROGRAM=$BUILD/starfocus
+PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev"
+export LC_ALL=C.UTF-8
+
+help() {
+  cat <<'TEXT'
+usage: ./do COMMAND
+
+  demo    install what is missing, build, make a demo light field and refocus it
+  test    install what is missing, build and run every test
+  build   build Release into build/release (the program: build/release/starfocus)
+  format  clang-format every source file
+  help    this text
+
+Packages are installed with apt-get, as root or with sudo, and only when absent.
+TEXT
+}
+
+fail() {
+  printf '%s\n' "$*" >&2
+  exit 1
+}
+
+# watch LABEL LOG: shows the log's last line for as long as this script waits for a step.
+watch() {
+  while kill -0 $$ 2>/dev/null; do
+    printf '\r\033[K%s: %s' "$1" "$(tail -n 1 "$2" | tr -d '\r\033' | cut -c 1-60)"
+    sleep 0.3
+  done
+}
+
+# step NAME LABEL COMMAND...: runs quietly into build/log/NAME.log; shows it when it fails.
+step() {
+  local label=$2 log=$LOGS/$1.log start=$SECONDS watcher= result=0
+  shift 2
+  mkdir -p "$LOGS" && : >"$log" || exit 1
+  if [ -t 1 ]; then
+    watch "$label" "$log" &
+    watcher=$!
+  fi
+  "$@" >"$log" 2>&1 </dev/null || result=$?
+  if [ -n "$watcher" ]; then
+    kill $watcher
+    wait $watcher 2>/dev/null
+    printf '\r\033[K'
+  fi
+  if [ $result != 0 ]; then
+    tail -n 40 "$log" >&2
+    fail "$label: failed; the whole log is $log"
+  fi
+  printf '%s (%d s)\n' "$label" $((SECONDS - start))
+}
+
+# Names of the packages of $PACKAGES that are not installed, in $missing.
+find_missing() {
+  local package
+  missing=
+  for package in $PACKAGES; do
+    dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
+      missing="$missing $package"
+  done
+  missing=${missing# }
+}
+
+apt() {
+  if [ "$(id -u)" = 0 ]; then
+    DEBIAN_FRONTEND=noninteractive apt-get -y -q "$@"
+  else
+    sudo -n env DEBIAN_FRONTEND=noninteractive apt-get -y -q "$@"
+  fi
+}
+
+# The package lists are fetched only when they cannot serve the packages as they are.
+install_packages() {
+  apt install --no-install-recommends $missing && return
+  apt update && apt install --no-install-recommends $missing
+}
+
+install_missing() {
+  find_missing
+  [ -n "$missing" ] || return 0
+  command -v apt-get >/dev/null ||
+    fail "starfocus needs these Debian packages, and there is no apt-get to install them: $missing"
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null ||
+      fail "starfocus needs these packages; install them as root: apt-get install $missing"
+    sudo -v || fail "starfocus needs root's leave to install: $missing"
+  fi
+  step install "installing $missing" install_packages
+}
+
+configure() {
+  command -v cmake >/dev/null || fail "starfocus is built with these Debian packages: $PACKAGES"
+  if [ -f $BUILD/CMakeCache.txt ]; then
+    step configure "configuring $BUILD" cmake -S . -B $BUILD -DCMAKE_BUILD_TYPE=Release
+  elif command -v ninja >/dev/null; then
+    step configure "configuring $BUILD" cmake -S . -B $BUILD -DCMAKE_BUILD_TYPE=Release -G Ninja
+  else
+    step configure "configuring $BUILD" cmake -S . -B $BUILD -DCMAKE_BUILD_TYPE=Release
+  fi
+}
+
+# build [TARGET]: everything, or one target.
+build() {
+  configure
+  step build "building ${1:-everything} in $BUILD" \
+    cmake --build $BUILD --parallel "$(nproc)" --target "${1:-all}"
+}
+
+# program LABEL ARGUMENT...: runs starfocus, which shows its progress on a terminal by itself.
+program() {
+  local label=$1 start=$SECONDS
+  shift
+  $PROGRAM "$@" >/dev/null || fail "$label: failed"
+  printf '%s (%d s)\n' "$label" $((SECONDS - start))
+}
+
+# refocus NAME: the demo's picture focused at an object whose place meta.txt tells.
+refocus() {
+  local place seconds
+  place=$(sed -n "s/^$1: *\([0-9,]*\).*/\1/p" demo/portrait/meta.txt)
+  $PROGRAM refocus demo/portrait -o "demo/$1.png" --focus-at "$place" --threads "$(nproc)" \
+    --report "demo/$1.json" || fail "refocusing at the $1 object: failed"
+  seconds=$(sed -n 's/.*"seconds_refocus": *\([0-9.e-]*\).*/\1/p' "demo/$1.json")
+  printf 'focused at the %s object (pixel %s) in %.2f s: demo/%s.png\n' "$1" "$place" "$seconds" "$1"
+}
+
+demo() {
+  install_missing
+  build starfocus
+  mkdir -p demo
+  program "made the light field demo/portrait" scene demo/portrait --name portrait
+  refocus near
+  refocus middle
+  refocus far
+  program "put the three side by side: demo/sheet.png" \
+    sheet demo/sheet.png demo/near.png demo/middle.png demo/far.png --labels near,middle,far
+}
+
+run_tests() {
+  install_missing
+  build
+  ctest --test-dir $BUILD --output-on-failure --parallel "$(nproc)"
+}
+
+format() {
+  command -v clang-format >/dev/null || fail "install the package clang-format first"
+  find lib simd platform examples tests \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' \) \
+    -exec clang-format -i {} +
+}
+
+case "${1:-help}" in
+  demo) demo ;;
+  test) run_tests ;;
+  build) build ;;
+  format) format ;;
+  help | -h | --help) help ;;
+  *) help >&2; exit 1 ;;
+esac

@@ -1,0 +1,29 @@
+/* Refocuses a chequered picture whose disparity rises from left to right; writes minimal.ppm. */
+#include <starfocus/starfocus.h>
+#include <stdio.h>
+#include <stdlib.h>
+enum { W = 320, H = 200 };
+static uint8_t view[W * H * 3], out[W * H * 3];
+static float disparity[W * H];
+
+int main(void) {
+  for (int i = 0; i < W * H; ++i) disparity[i] = (float)(i % W) / W * 16 - 8;
+  for (int i = 0; i < W * H * 3; ++i) view[i] = (i / 3 % W / 8 + i / 3 / W / 8) % 2 ? 60 : 240;
+  sf_config config; /* one view of W x H whose blur radius never exceeds 8 pixels */
+  sf_config_init(&config);
+  config.width = W, config.height = H, config.views = 1;
+  config.disparity_min = -8, config.disparity_max = 8, config.max_blur = 8;
+  size_t bytes = 0;
+  sf_status status = sf_workspace_size(&config, &bytes);
+  void* workspace = aligned_alloc(SF_ALIGNMENT, (bytes / SF_ALIGNMENT + 1) * SF_ALIGNMENT);
+  sf_engine* engine = NULL;
+  if (!status) status = sf_init(&config, workspace, bytes, &engine);
+  sf_params params; /* focus 0: the middle column; aperture 1 */
+  sf_params_init(&params);
+  sf_light_field field = {{{view, W * 3}}, disparity, W * sizeof(float)};
+  if (!status) status = sf_refocus(engine, &params, &field, out, W * 3, NULL, NULL, NULL);
+  FILE* file = status ? NULL : fopen("minimal.ppm", "wb");
+  if (file) fprintf(file, "P6 %d %d 255\n", W, H), fwrite(out, 3, W * H, file), fclose(file);
+  free(workspace);
+  return puts(sf_status_string(status)), !file;
+}

@@ -1,0 +1,235 @@
+#include "scene/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/noise.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int kTile = 16;
+constexpr int kViewGrid = 4;                        // samples of a pixel of a view, squared
+constexpr int kLensSamples = 256;                   // of a pixel of the ground truth
+constexpr double kCotSquared = 0.8818383898322281;  // cot^2(0.26 pi)
+// cos and sin of the golden angle, and of 1/256 of a turn: sequences of directions come from
+// multiplying by them, which needs no library function.
+constexpr double kGoldenCos = -0.7373688780783197, kGoldenSin = 0.6754902942615238;
+constexpr double kStepCos = 0.9996988186962042, kStepSin = 0.024541228522912288;
+// Steps of the R2 low-discrepancy sequence.
+constexpr double kR2X = 0.7548776662466927, kR2Y = 0.5698402909980532;
+
+struct Point {
+  double x, y;
+};
+
+Point Turn(Point p, Point by) { return {p.x * by.x - p.y * by.y, p.x * by.y + p.y * by.x}; }
+
+// Points on the unit disc with density (3): sunflower directions, radii by the inverse of the
+// distribution of the squared radius, whose density is proportional to 1 / (s + cot^2)^2.
+std::vector<Point> LensPoints() {
+  std::vector<Point> points;
+  Point direction = {1, 0};
+  const double at0 = 1 / kCotSquared, at1 = 1 / (1 + kCotSquared);
+  for (int k = 0; k < kLensSamples; ++k) {
+    const double share = (k + 0.5) / kLensSamples;
+    const double square = 1 / (at0 - share * (at0 - at1)) - kCotSquared;
+    const double radius = std::sqrt(square);
+    points.push_back({direction.x * radius, direction.y * radius});
+    direction = Turn(direction, {kGoldenCos, kGoldenSin});
+  }
+  return points;
+}
+
+std::vector<Point> Turns() {
+  std::vector<Point> turns = {{1, 0}};
+  while (turns.size() < 256) turns.push_back(Turn(turns.back(), {kStepCos, kStepSin}));
+  return turns;
+}
+
+uint8_t ToByte(double value) { return static_cast<uint8_t>(Clamp01(value / 255) * 255 + 0.5); }
+
+// Smallest and largest product of a value of [a, b] and one of [c, d].
+void ProductRange(double a, double b, double c, double d, double* low, double* high) {
+  *low = std::min({a * c, a * d, b * c, b * d});
+  *high = std::max({a * c, a * d, b * c, b * d});
+}
+
+}  // namespace
+
+struct Renderer::Lens {
+  double u = 0, v = 0;               // centre of the lens
+  double aperture = 0;               // its radius; 0: a pinhole
+  double focus = 0;                  // canvas units
+  std::vector<Point> points, turns;  // of a lens that is no pinhole
+};
+
+Renderer::Renderer(const Scene& scene, int width, int height, ThreadRunner* runner)
+    : scene_(scene),
+      width_(width),
+      height_(height),
+      scale_(std::min(width / kCanvasWidth, height / kCanvasHeight)),
+      runner_(runner) {
+  const double reach = std::max(width, height) / scale_;
+  for (const Surface& surface : scene.surfaces) bounds_.push_back(SurfaceBounds(surface, reach));
+}
+
+void Renderer::ToPixel(double x, double y, int* pixel_x, int* pixel_y) const {
+  const double px = x * scale_ + 0.5 * (width_ - 1), py = y * scale_ + 0.5 * (height_ - 1);
+  *pixel_x = std::clamp(static_cast<int>(std::floor(px + 0.5)), 0, width_ - 1);
+  *pixel_y = std::clamp(static_cast<int>(std::floor(py + 0.5)), 0, height_ - 1);
+}
+
+std::vector<size_t> Renderer::Candidates(const Lens& lens, int x0, int y0) const {
+  const double left = (x0 - 0.5 * width_) / scale_, top = (y0 - 0.5 * height_) / scale_;
+  const double side = kTile / scale_;
+  std::vector<size_t> found;
+  for (size_t i = 0; i < bounds_.size(); ++i) {
+    const Bounds& box = bounds_[i];
+    const double near = box.d1 - lens.focus, far = box.d0 - lens.focus;
+    double low_x, high_x, low_y, high_y;
+    ProductRange(far, near, lens.u - lens.aperture, lens.u + lens.aperture, &low_x, &high_x);
+    ProductRange(far, near, lens.v - lens.aperture, lens.v + lens.aperture, &low_y, &high_y);
+    if (left + low_x <= box.x1 && left + side + high_x >= box.x0 && top + low_y <= box.y1 &&
+        top + side + high_y >= box.y0) {
+      found.push_back(i);
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [this](size_t p, size_t q) { return bounds_[p].d1 > bounds_[q].d1; });
+  return found;
+}
+
+const Surface* Renderer::Trace(const std::vector<size_t>& candidates, const Ray& ray,
+                               Hit* hit) const {
+  const Surface* found = nullptr;
+  hit->d = -std::numeric_limits<double>::infinity();
+  for (size_t i : candidates) {
+    if (bounds_[i].d1 <= hit->d) break;
+    Hit other;
+    if (Intersect(scene_.surfaces[i], ray, &other) && other.d > hit->d) {
+      *hit = other;
+      found = &scene_.surfaces[i];
+    }
+  }
+  return found;
+}
+
+Color Renderer::RayColor(const Lens& lens, const std::vector<size_t>& candidates, double x,
+                         double y, double u, double v) const {
+  const double canvas_x = (x - 0.5 * (width_ - 1)) / scale_;
+  const double canvas_y = (y - 0.5 * (height_ - 1)) / scale_;
+  const Ray ray = {canvas_x - u * lens.focus, canvas_y - v * lens.focus, u, v};
+  Hit hit;
+  const Surface* surface = Trace(candidates, ray, &hit);
+  return surface == nullptr ? Color() : surface->paint(*surface, hit);
+}
+
+Color Renderer::ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x,
+                          int y) const {
+  Color sum;
+  for (int k = 0; k < kViewGrid * kViewGrid; ++k) {
+    // A sheared grid: 16 different positions along either axis.
+    const double i = k % kViewGrid, j = k / kViewGrid, n = kViewGrid;
+    const double dx = (i + (j + 0.5) / n) / n - 0.5, dy = (j + (n - i - 0.5) / n) / n - 0.5;
+    sum = sum + RayColor(lens, candidates, x + dx, y + dy, lens.u, lens.v);
+  }
+  return sum * (1.0 / (kViewGrid * kViewGrid));
+}
+
+Color Renderer::LensPixel(const Lens& lens, const std::vector<size_t>& candidates, int x,
+                          int y) const {
+  const Point turn = lens.turns[Hash(x, y, 1) % lens.turns.size()];
+  double dx = HashUnit(x, y, 2), dy = HashUnit(x, y, 3);
+  Color sum;
+  for (const Point& point : lens.points) {
+    const Point q = Turn(point, turn);
+    sum = sum + RayColor(lens, candidates, x + dx - 0.5, y + dy - 0.5, q.x * lens.aperture,
+                         q.y * lens.aperture);
+    dx += kR2X;
+    dy += kR2Y;
+    if (dx >= 1) dx -= 1;
+    if (dy >= 1) dy -= 1;
+  }
+  return sum * (1.0 / kLensSamples);
+}
+
+void Renderer::RenderTile(const Lens& lens, int x0, int y0, Image* image) const {
+  const std::vector<size_t> candidates = Candidates(lens, x0, y0);
+  for (int y = y0; y < std::min(y0 + kTile, height_); ++y) {
+    for (int x = x0; x < std::min(x0 + kTile, width_); ++x) {
+      const Color color =
+          lens.aperture > 0 ? LensPixel(lens, candidates, x, y) : ViewPixel(lens, candidates, x, y);
+      uint8_t* pixel = image->row(y) + 3 * x;
+      pixel[0] = ToByte(color.r);
+      pixel[1] = ToByte(color.g);
+      pixel[2] = ToByte(color.b);
+    }
+  }
+}
+
+template <class Body>
+void Renderer::ForBands(Progress* progress, int steps, const Body& body) const {
+  struct Band {
+    const Body* body;
+    Progress* progress;
+    int height, steps;
+  } band = {&body, progress, height_, steps};
+  const auto job = [](void* data, int32_t index, int32_t) {
+    const Band& self = *static_cast<const Band*>(data);
+    (*self.body)(index * kTile);
+    if (self.progress != nullptr) {
+      self.progress->Step(self.steps * std::min(kTile, self.height - index * kTile));
+    }
+  };
+  ThreadRunner::Run(runner_, job, &band, (height_ + kTile - 1) / kTile);
+}
+
+Image Renderer::Render(const Lens& lens, Progress* progress) const {
+  Image image(width_, height_);
+  ForBands(progress, lens.aperture > 0 ? kTruthCost : 1, [&](int y) {
+    for (int x = 0; x < width_; x += kTile) RenderTile(lens, x, y, &image);
+  });
+  return image;
+}
+
+Image Renderer::View(double u, double v, Progress* progress) const {
+  Lens lens;
+  lens.u = u;
+  lens.v = v;
+  return Render(lens, progress);
+}
+
+Image Renderer::Truth(double focus, double aperture, Progress* progress) const {
+  Lens lens;
+  lens.focus = focus / scale_;
+  lens.aperture = aperture;
+  lens.points = LensPoints();
+  lens.turns = Turns();
+  return Render(lens, progress);
+}
+
+FloatMap Renderer::Disparity() const {
+  FloatMap map;
+  map.width = width_;
+  map.height = height_;
+  map.values.resize(size_t(width_) * size_t(height_));
+  ForBands(nullptr, 0, [&](int y0) {
+    for (int x0 = 0; x0 < width_; x0 += kTile) {
+      const std::vector<size_t> candidates = Candidates(Lens(), x0, y0);
+      for (int y = y0; y < std::min(y0 + kTile, height_); ++y) {
+        for (int x = x0; x < std::min(x0 + kTile, width_); ++x) {
+          const double canvas_x = (x - 0.5 * (width_ - 1)) / scale_;
+          const double canvas_y = (y - 0.5 * (height_ - 1)) / scale_;
+          Hit hit;
+          Trace(candidates, {canvas_x, canvas_y, 0, 0}, &hit);
+          map.values[size_t(y) * size_t(width_) + size_t(x)] = static_cast<float>(hit.d * scale_);
+        }
+      }
+    }
+  });
+  return map;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,59 @@
+// Pictures of a scene: captured views, disparity map and thin-lens ground truth. Output depends on
+// neither the number of threads nor the machine.
+#ifndef STARFOCUS_EXAMPLES_SCENE_RENDER_H_
+#define STARFOCUS_EXAMPLES_SCENE_RENDER_H_
+
+#include "platform/image.h"
+#include "platform/pfm.h"
+#include "platform/progress.h"
+#include "platform/runner.h"
+#include "scene/scene.h"
+
+namespace starfocus {
+
+class Renderer {
+ public:
+  Renderer(const Scene& scene, int width, int height, ThreadRunner* runner);
+
+  // Progress counts rows, and rows of ground truth kTruthCost times; null for none.
+  static constexpr int kTruthCost = 16;
+
+  // What a pinhole at (u, v) sees, every pixel the mean over its box.
+  Image View(double u, double v, Progress* progress) const;
+
+  // Disparity of the centre view at pixel centres, in pixels per unit u.
+  FloatMap Disparity() const;
+
+  // What a lens of radius `aperture` with density (3), theta = 0.26 pi, focused at `focus` sees.
+  Image Truth(double focus, double aperture, Progress* progress) const;
+
+  // Pixel of a point of the canvas.
+  void ToPixel(double x, double y, int* pixel_x, int* pixel_y) const;
+
+ private:
+  struct Lens;  // which rays make a pixel
+
+  // Indices of the surfaces that the tile at (x0, y0) may see, nearest first.
+  std::vector<size_t> Candidates(const Lens& lens, int x0, int y0) const;
+  const Surface* Trace(const std::vector<size_t>& candidates, const Ray& ray, Hit* hit) const;
+  // Colour seen from pixel position (x, y) through lens position (u, v).
+  Color RayColor(const Lens& lens, const std::vector<size_t>& candidates, double x, double y,
+                 double u, double v) const;
+  Color ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y) const;
+  Color LensPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y) const;
+  void RenderTile(const Lens& lens, int x0, int y0, Image* image) const;
+  Image Render(const Lens& lens, Progress* progress) const;
+  // Calls body(y) for the first row y of every band of tiles; a row makes `steps` of progress.
+  template <class Body>
+  void ForBands(Progress* progress, int steps, const Body& body) const;
+
+  const Scene& scene_;
+  const int width_, height_;
+  const double scale_;  // pixels per canvas unit
+  std::vector<Bounds> bounds_;
+  ThreadRunner* const runner_;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_SCENE_RENDER_H_

@@ -1,0 +1,92 @@
+// Analytic scenes in disparity space.
+//
+// A scene is a set of surfaces in (x, y, d): centre-view position and disparity. It is laid out on
+// a canvas of 1024x768 units with the origin in the middle (y downwards) and d in canvas units per
+// unit u; a picture of another size scales all three alike. A ray is the line of points that one
+// picture position p sees through lens position q when the lens is focused at disparity D:
+// (x, y) = p + q * (d - D). The surface of the largest d wins. D = 0 gives the captured views.
+#ifndef STARFOCUS_EXAMPLES_SCENE_SCENE_H_
+#define STARFOCUS_EXAMPLES_SCENE_SCENE_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace starfocus {
+
+inline constexpr double kCanvasWidth = 1024, kCanvasHeight = 768;
+
+struct Color {
+  double r = 0, g = 0, b = 0;  // 0 .. 255
+};
+inline Color operator+(Color p, Color q) { return {p.r + q.r, p.g + q.g, p.b + q.b}; }
+inline Color operator*(Color p, double k) { return {p.r * k, p.g * k, p.b * k}; }
+inline Color Mix(Color p, Color q, double t) { return p * (1 - t) + q * t; }
+
+// The points (x, y) = (ox, oy) + (u, v) * d.
+struct Ray {
+  double ox, oy, u, v;
+};
+
+// Where a ray meets a surface.
+struct Hit {
+  double x, y, d;     // in the scene
+  double lx, ly;      // from the surface's centre, along its axes
+  double nx, ny, nz;  // normal: right, down, towards the camera
+};
+
+struct Surface;
+using Paint = Color (*)(const Surface&, const Hit&);
+
+enum class Shape { kPlane, kEllipsoid };
+// What part of a plane there is: all, |lx| <= rx and |ly| <= ry, the ellipse of these radii, its
+// outer ring of width `thickness`, or a leaf between two arcs.
+enum class Outline { kNone, kBox, kEllipse, kRing, kLeaf };
+
+struct Surface {
+  Shape shape = Shape::kPlane;
+  Outline outline = Outline::kNone;
+  double cx = 0, cy = 0, cd = 0;    // centre
+  double ax = 1, ay = 0;            // unit vector of the local x axis
+  double rx = 0, ry = 0, rd = 0;    // radii along the local axes (rd: ellipsoids)
+  double slope_x = 0, slope_y = 0;  // planes: d grows by so much per unit of scene x, y
+  double thickness = 0;             // rings
+  Paint paint = nullptr;
+  Color color, second;
+  double scale = 1;  // of the texture
+  uint32_t seed = 0;
+};
+
+// Whether the ray meets the surface; fills in *hit if so.
+bool Intersect(const Surface& surface, const Ray& ray, Hit* hit);
+
+// A box that holds the whole surface.
+struct Bounds {
+  double x0, x1, y0, y1, d0, d1;
+};
+// `reach` bounds |x| and |y| of what is ever seen of an endless plane.
+Bounds SurfaceBounds(const Surface& surface, double reach);
+
+// A place to focus at, on the canvas.
+struct NamedPoint {
+  const char* name;
+  double x, y;
+};
+
+struct Scene {
+  std::string name;
+  std::string description;
+  std::vector<Surface> surfaces;
+  std::vector<NamedPoint> points;  // near, middle, far
+};
+
+// "portrait", "wires" or "ramp"; false for any other name.
+bool MakeScene(const std::string& name, Scene* scene);
+
+Scene MakePortrait();
+Scene MakeWires();
+Scene MakeRamp();
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_SCENE_SCENE_H_

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cmath>
+
+#include "scene/scene.h"
+
+namespace starfocus {
+namespace {
+
+void ToLocal(const Surface& s, double dx, double dy, double* lx, double* ly) {
+  *lx = dx * s.ax + dy * s.ay;
+  *ly = dy * s.ax - dx * s.ay;
+}
+
+bool Inside(const Surface& s, double lx, double ly) {
+  const double x = s.rx > 0 ? lx / s.rx : 0, y = s.ry > 0 ? ly / s.ry : 0;
+  const double square = x * x + y * y;
+  switch (s.outline) {
+    case Outline::kNone:
+      return true;
+    case Outline::kBox:
+      return std::fabs(x) <= 1 && std::fabs(y) <= 1;
+    case Outline::kEllipse:
+      return square <= 1;
+    case Outline::kRing: {
+      const double ix = lx / (s.rx - s.thickness), iy = ly / (s.ry - s.thickness);
+      return square <= 1 && ix * ix + iy * iy >= 1;
+    }
+    case Outline::kLeaf:
+      return std::fabs(x) <= 1 && std::fabs(y) <= (1 - x * x) * (1.1 - 0.3 * x);
+  }
+  return false;
+}
+
+bool IntersectPlane(const Surface& s, const Ray& ray, Hit* hit) {
+  const double denominator = 1 - s.slope_x * ray.u - s.slope_y * ray.v;
+  if (denominator <= 0) return false;
+  const double d = (s.cd + s.slope_x * (ray.ox - s.cx) + s.slope_y * (ray.oy - s.cy)) / denominator;
+  const double x = ray.ox + ray.u * d, y = ray.oy + ray.v * d;
+  double lx, ly;
+  ToLocal(s, x - s.cx, y - s.cy, &lx, &ly);
+  if (!Inside(s, lx, ly)) return false;
+  *hit = {x, y, d, lx, ly, 0, 0, 1};
+  return true;
+}
+
+bool IntersectEllipsoid(const Surface& s, const Ray& ray, Hit* hit) {
+  // Local coordinates over the radii are linear in t = d - cd: (p + q * t, t / rd).
+  double px, py, qx, qy;
+  ToLocal(s, ray.ox + ray.u * s.cd - s.cx, ray.oy + ray.v * s.cd - s.cy, &px, &py);
+  ToLocal(s, ray.u, ray.v, &qx, &qy);
+  px /= s.rx;
+  py /= s.ry;
+  qx /= s.rx;
+  qy /= s.ry;
+  const double a = qx * qx + qy * qy + 1 / (s.rd * s.rd);
+  const double b = px * qx + py * qy, c = px * px + py * py - 1;
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return false;
+  const double t = (std::sqrt(discriminant) - b) / a;
+  const double nx = px + qx * t, ny = py + qy * t;
+  const double d = s.cd + t;
+  *hit = {ray.ox + ray.u * d,    ray.oy + ray.v * d,    d,       nx * s.rx, ny * s.ry,
+          nx * s.ax - ny * s.ay, nx * s.ay + ny * s.ax, t / s.rd};
+  return true;
+}
+
+}  // namespace
+
+bool Intersect(const Surface& surface, const Ray& ray, Hit* hit) {
+  return surface.shape == Shape::kPlane ? IntersectPlane(surface, ray, hit)
+                                        : IntersectEllipsoid(surface, ray, hit);
+}
+
+Bounds SurfaceBounds(const Surface& s, double reach) {
+  const bool endless = s.shape == Shape::kPlane && s.outline == Outline::kNone;
+  // A leaf bulges up to 1.14 of its radius.
+  const double ry = s.outline == Outline::kLeaf ? 1.2 * s.ry : s.ry;
+  const double wide = std::fabs(s.ax) * s.rx + std::fabs(s.ay) * ry;
+  const double high = std::fabs(s.ay) * s.rx + std::fabs(s.ax) * ry;
+  Bounds box = {s.cx - wide, s.cx + wide, s.cy - high, s.cy + high, s.cd - s.rd, s.cd + s.rd};
+  if (endless) box = {-reach, reach, -reach, reach, s.cd, s.cd};
+  if (s.shape == Shape::kPlane) {
+    const double x = std::max(std::fabs(box.x0 - s.cx), std::fabs(box.x1 - s.cx));
+    const double y = std::max(std::fabs(box.y0 - s.cy), std::fabs(box.y1 - s.cy));
+    const double rise = std::fabs(s.slope_x) * x + std::fabs(s.slope_y) * y;
+    box.d0 = s.cd - rise;
+    box.d1 = s.cd + rise;
+  }
+  return box;
+}
+
+bool MakeScene(const std::string& name, Scene* scene) {
+  if (name == "portrait") {
+    *scene = MakePortrait();
+  } else if (name == "wires") {
+    *scene = MakeWires();
+  } else if (name == "ramp") {
+    *scene = MakeRamp();
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace starfocus

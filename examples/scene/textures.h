@@ -1,0 +1,39 @@
+// The materials of the scenes. Every one is fine enough everywhere to show displaced pixels.
+#ifndef STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_
+#define STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_
+
+#include "scene/scene.h"
+
+namespace starfocus {
+
+// Fabrics and skin.
+Color PaintKnit(const Surface& s, const Hit& hit);   // ribs of V stitches, bands of `second`
+Color PaintTweed(const Surface& s, const Hit& hit);  // herringbone
+Color PaintSkin(const Surface& s, const Hit& hit);   // plain skin with pores and freckles
+Color PaintFace(const Surface& s, const Hit& hit);   // skin with cheeks and a mouth
+Color PaintHair(const Surface& s, const Hit& hit);   // strands along y
+Color PaintFur(const Surface& s, const Hit& hit);    // a pompom
+Color PaintEye(const Surface& s, const Hit& hit);
+
+// Things.
+Color PaintWallpaper(const Surface& s, const Hit& hit);
+Color PaintWood(const Surface& s, const Hit& hit);   // grain along local x
+Color PaintGlaze(const Surface& s, const Hit& hit);  // pottery with painted bands
+Color PaintLeaf(const Surface& s, const Hit& hit);   // veins from the midrib
+Color PaintBook(const Surface& s, const Hit& hit);   // spine with lettering
+Color PaintLandscape(const Surface& s, const Hit& hit);
+Color PaintBulb(const Surface& s, const Hit& hit);    // glows
+Color PaintMatter(const Surface& s, const Hit& hit);  // `color` with grain
+
+// Test patterns.
+Color PaintChecker(const Surface& s, const Hit& hit);
+Color PaintTwist(const Surface& s, const Hit& hit);  // a two-coloured wire
+Color PaintBark(const Surface& s, const Hit& hit);   // vertical cracks over cloudy ground
+Color PaintFloor(const Surface& s, const Hit& hit);  // tiles
+
+// Lambert's law with light from the upper left and front.
+Color Lit(Color color, const Hit& hit);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_

@@ -1,0 +1,53 @@
+// starfocus: refocuses star-shaped light fields from the command line.
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "commands.h"
+#include "platform/file.h"
+
+namespace {
+
+int Fail(const std::string& line) {
+  std::fprintf(stderr, "starfocus: %s\n", line.c_str());
+  return 1;
+}
+
+// CLI11 tells what it missed or could not place in its own words.
+int FailParse(const CLI::ParseError& error) {
+  return Fail(starfocus::Expected("command line", "what `starfocus --help` lists", error.what()));
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app(
+      "Refocuses a photograph after it was taken: from a star-shaped light field and its "
+      "disparity map.",
+      "starfocus");
+  app.require_subcommand(1);
+  starfocus::Action action;
+  starfocus::AddSceneCommand(&app, &action);
+  starfocus::AddRefocusCommand(&app, &action);
+  starfocus::AddCompareCommand(&app, &action);
+  starfocus::AddInfoCommand(&app, &action);
+  starfocus::AddSheetCommand(&app, &action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return error.get_exit_code() == 0 ? app.exit(error) : FailParse(error);
+  }
+  const std::string error = action();
+  return error.empty() ? 0 : Fail(error);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return Run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return Fail("memory: expected enough for these pictures, found too little");
+  } catch (const std::exception& error) {
+    return Fail(starfocus::Expected("starfocus", "no internal failure", error.what()));
+  }
+}

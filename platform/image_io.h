@@ -1,0 +1,24 @@
+// Picture files: PNG, PPM and JPEG to and from 8-bit RGB.
+#ifndef STARFOCUS_PLATFORM_IMAGE_IO_H_
+#define STARFOCUS_PLATFORM_IMAGE_IO_H_
+
+#include <string>
+
+#include "platform/file.h"
+#include "platform/image.h"
+
+namespace starfocus {
+
+// Reads a picture, whatever its name says, by its content. Grey becomes RGB, alpha is dropped.
+std::string ReadImage(const std::string& path, Image* image);
+
+// Writes by extension: .png, .ppm, .jpg or .jpeg.
+std::string WriteImage(const std::string& path, const Image& image);
+
+// Whether WriteImage knows the extension of `path` and its folder exists; to be asked before long
+// work.
+std::string CheckImageOutput(const std::string& path);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_IMAGE_IO_H_

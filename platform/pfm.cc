@@ -1,0 +1,89 @@
+#include "platform/pfm.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+#include "platform/text_header.h"
+
+namespace starfocus {
+namespace {
+
+float LoadFloat(const uint8_t* data, ByteOrder order) {
+  uint32_t bits = 0;
+  for (int i = 0; i < 4; ++i) {
+    const int shift = order == ByteOrder::kLittle ? 8 * i : 24 - 8 * i;
+    bits |= uint32_t(data[i]) << shift;
+  }
+  float value;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+void AppendFloat(float value, ByteOrder order, Bytes* bytes) {
+  uint32_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  for (int i = 0; i < 4; ++i) {
+    const int shift = order == ByteOrder::kLittle ? 8 * i : 24 - 8 * i;
+    bytes->push_back(static_cast<uint8_t>(bits >> shift));
+  }
+}
+
+std::string ParseHeader(const std::string& path, TextHeader* header, FloatMap* map,
+                        ByteOrder* order) {
+  const std::string magic = header->Token();
+  if (magic != "Pf") return Expected(path, "a one-channel PFM (Pf)", "'" + magic + "'");
+  const std::string width = header->Token(), height = header->Token(), scale = header->Token();
+  map->width = ParseSize(width);
+  map->height = ParseSize(height);
+  if (map->width == 0 || map->height == 0) {
+    return Expected(path, "width and height from 1 to 65535",
+                    "'" + width + "' and '" + height + "'");
+  }
+  char* end = nullptr;
+  const double factor = std::strtod(scale.c_str(), &end);
+  if (scale.empty() || *end != '\0' || !std::isfinite(factor) || factor == 0) {
+    return Expected(path, "a scale that is a number other than 0", "'" + scale + "'");
+  }
+  *order = factor < 0 ? ByteOrder::kLittle : ByteOrder::kBig;
+  return "";
+}
+
+}  // namespace
+
+std::string ReadPfm(const std::string& path, FloatMap* map) {
+  Bytes bytes;
+  std::string error = ReadFile(path, &bytes);
+  if (!error.empty()) return error;
+  TextHeader header(bytes);
+  FloatMap result;
+  ByteOrder order = ByteOrder::kLittle;
+  error = ParseHeader(path, &header, &result, &order);
+  if (!error.empty()) return error;
+  const size_t width = size_t(result.width), height = size_t(result.height);
+  if (header.remaining() != 4 * width * height) {
+    return Expected(path, std::to_string(4 * width * height) + " bytes of data",
+                    std::to_string(header.remaining()));
+  }
+  result.values.resize(width * height);
+  const uint8_t* data = header.data();
+  for (size_t y = height; y-- > 0;) {
+    float* row = result.values.data() + y * width;
+    for (size_t x = 0; x < width; ++x, data += 4) row[x] = LoadFloat(data, order);
+  }
+  *map = std::move(result);
+  return "";
+}
+
+std::string WritePfm(const std::string& path, const FloatMap& map, ByteOrder order) {
+  const std::string header = "Pf\n" + std::to_string(map.width) + " " + std::to_string(map.height) +
+                             "\n" + (order == ByteOrder::kLittle ? "-1.0" : "1.0") + "\n";
+  Bytes bytes(header.begin(), header.end());
+  bytes.reserve(bytes.size() + 4 * map.values.size());
+  for (int y = map.height - 1; y >= 0; --y) {
+    for (int x = 0; x < map.width; ++x) AppendFloat(map.at(x, y), order, &bytes);
+  }
+  return WriteFile(path, bytes);
+}
+
+}  // namespace starfocus

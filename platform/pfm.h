@@ -1,0 +1,31 @@
+// One-channel PFM files ("Pf"): 32-bit floats, rows from the bottom up, byte order by the sign of
+// the scale (negative: little endian).
+#ifndef STARFOCUS_PLATFORM_PFM_H_
+#define STARFOCUS_PLATFORM_PFM_H_
+
+#include <string>
+#include <vector>
+
+#include "platform/file.h"
+
+namespace starfocus {
+
+struct FloatMap {
+  int width = 0;
+  int height = 0;
+  std::vector<float> values;  // rows from the top down, without padding
+
+  float at(int x, int y) const { return values[size_t(y) * size_t(width) + size_t(x)]; }
+};
+
+enum class ByteOrder { kLittle, kBig };
+
+// Values may be NaN or infinite. The magnitude of the scale, a unit without meaning for
+// disparities, is ignored.
+std::string ReadPfm(const std::string& path, FloatMap* map);
+std::string WritePfm(const std::string& path, const FloatMap& map,
+                     ByteOrder order = ByteOrder::kLittle);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_PFM_H_

@@ -1,0 +1,21 @@
+// Binary PPM and PGM pictures. stb_image reads them too, but takes a truncated file for a whole
+// one and ignores the largest value, so this format has a reader of its own.
+#ifndef STARFOCUS_PLATFORM_PPM_H_
+#define STARFOCUS_PLATFORM_PPM_H_
+
+#include <string>
+
+#include "platform/file.h"
+#include "platform/image.h"
+
+namespace starfocus {
+
+// Decodes P6 or P5 (grey becomes RGB) with any largest value up to 65535, scaled to 8 bits.
+// `path` only names the file in the error.
+std::string DecodePpm(const std::string& path, const Bytes& bytes, Image* image);
+
+Bytes EncodePpm(const Image& image);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_PPM_H_

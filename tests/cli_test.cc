@@ -1,0 +1,242 @@
+// Runs the program STARFOCUS_PROGRAM (a definition of the build, or the environment variable).
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "platform/file.h"
+#include "platform/image_io.h"
+#include "platform/light_field.h"
+#include "temp_folder.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Program() {
+  const char* program = std::getenv("STARFOCUS_PROGRAM");
+#ifdef STARFOCUS_PROGRAM
+  if (program == nullptr) program = STARFOCUS_PROGRAM;
+#endif
+  REQUIRE_MESSAGE(program != nullptr, "set STARFOCUS_PROGRAM to the program to test");
+  return program;
+}
+
+struct Outcome {
+  int code = -1;  // exit code; -1 when a signal ended the program
+  std::string out, err;
+};
+
+std::string Text(const std::string& path) {
+  Bytes bytes;
+  REQUIRE(ReadFile(path, &bytes) == "");
+  return std::string(bytes.begin(), bytes.end());
+}
+
+// Runs the program in `folder` with shell-quoted arguments.
+Outcome Call(const TempFolder& folder, const std::string& arguments) {
+  TempFolder logs;
+  const std::string command = "cd '" + folder.path() + "' && '" + Program() + "' " + arguments +
+                              " >'" + logs.file("out") + "' 2>'" + logs.file("err") + "'";
+  const int status = std::system(command.c_str());
+  Outcome outcome;
+  if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
+  outcome.out = Text(logs.file("out"));
+  outcome.err = Text(logs.file("err"));
+  return outcome;
+}
+
+// Exit code 1, one line on stderr that begins with the program, nothing on stdout, no new file.
+void CheckRefused(const TempFolder& folder, const std::string& arguments,
+                  const std::string& mention) {
+  CAPTURE(arguments);
+  const int before = folder.count();
+  const Outcome outcome = Call(folder, arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.out == "");
+  CHECK(outcome.err.rfind("starfocus: ", 0) == 0);
+  CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
+  CHECK(outcome.err.find(": expected ") != std::string::npos);
+  CHECK(outcome.err.find(", found ") != std::string::npos);
+  CHECK(outcome.err.find(mention) != std::string::npos);
+  CHECK(folder.count() == before);
+}
+
+// A folder with a 40x30 light field `lf` of 5 views and some broken things around it.
+void Prepare(const TempFolder& folder) {
+  REQUIRE(Call(folder, "scene lf --size 40x30 --views 5 --name wires").code == 0);
+  REQUIRE(WriteFile(folder.file("text.png"), Bytes{'h', 'e', 'l', 'l', 'o'}) == "");
+  REQUIRE(WriteImage(folder.file("small.png"), Image(4, 4)) == "");
+  REQUIRE(WriteImage(folder.file("large.png"), Image(5, 4)) == "");
+  for (const char* name : {"missing", "broken", "nan", "huge", "short"}) {
+    fs::copy(folder.file("lf"), folder.file(name));
+  }
+  fs::remove(folder.file("missing/view_-1.0_+0.0.png"));
+  REQUIRE(WriteFile(folder.file("broken/view_-1.0_+0.0.png"), Bytes{1, 2, 3}) == "");
+  FloatMap map;
+  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  map.values[45] = std::numeric_limits<float>::quiet_NaN();
+  REQUIRE(WritePfm(folder.file("nan/disparity.pfm"), map) == "");
+  map.values[45] = 1e9f;
+  REQUIRE(WritePfm(folder.file("huge/disparity.pfm"), map) == "");
+  fs::resize_file(folder.file("short/disparity.pfm"), 100);
+}
+
+TEST_CASE("cli: refocus refuses bad input") {
+  TempFolder folder;
+  Prepare(folder);
+  const struct {
+    const char* arguments;
+    const char* mention;
+  } bad[] = {{"", "subcommand"},
+             {"frobnicate", "subcommand"},
+             {"refocus", "DIR"},
+             {"refocus lf --focus 1", "--output"},
+             {"refocus lf -o x.png", "--focus"},
+             {"refocus lf -o x.png --focus", "--focus"},
+             {"refocus lf -o x.png --focus 1 --focus-at 1,1", "--focus"},
+             {"refocus lf -o x.png --focus abc", "--focus"},
+             {"refocus lf -o x.png --focus nan", "--focus"},
+             {"refocus lf -o x.png --focus inf", "--focus"},
+             {"refocus lf -o x.png --focus 1e999", "--focus"},
+             {"refocus lf -o x.png --focus 1x", "--focus"},
+             {"refocus lf -o x.png --focus=", "--focus"},
+             {"refocus lf -o x.png --focus 1000", "128"},
+             {"refocus lf -o x.png --focus 1e300", "128"},
+             {"refocus lf -o x.png --focus-at 40,0", "39,29"},
+             {"refocus lf -o x.png --focus-at 0,30", "39,29"},
+             {"refocus lf -o x.png --focus-at -1,0", "--focus-at"},
+             {"refocus lf -o x.png --focus-at 1", "--focus-at"},
+             {"refocus lf -o x.png --focus-at 1.5,2", "--focus-at"},
+             {"refocus lf -o x.png --focus-at 1,2,3", "--focus-at"},
+             {"refocus lf -o x.png --focus 1 --aperture 0", "--aperture"},
+             {"refocus lf -o x.png --focus 1 --aperture -1", "--aperture"},
+             {"refocus lf -o x.png --focus 1 --aperture 1.01", "--aperture"},
+             {"refocus lf -o x.png --focus 1 --aperture nan", "--aperture"},
+             {"refocus lf -o x.png --focus 1 --mode fast", "--mode"},
+             {"refocus lf -o x.png --focus 1 --views 3", "--views"},
+             {"refocus lf -o x.png --focus 1 --views 9", "at most 5"},
+             {"refocus lf -o x.png --focus 1 --views -1", "--views"},
+             {"refocus lf -o x.png --focus 1 --threads 0", "--threads"},
+             {"refocus lf -o x.png --focus 1 --threads 65", "--threads"},
+             {"refocus lf -o x.png --focus 1 --threads two", "--threads"},
+             {"refocus lf -o x.bmp --focus 1", ".bmp"},
+             {"refocus lf -o x --focus 1", "extension"},
+             {"refocus lf -o '' --focus 1", "extension"},
+             {"refocus lf -o none/x.png --focus 1", "none"},
+             {"refocus lf -o x.png --focus 1 --report none/r.json", "none"},
+             {"refocus lf -o x.png --focus 1 --report lf", "folder"},
+             {"refocus lf -o x.png --focus 1 --frobnicate", "frobnicate"},
+             {"refocus lf extra -o x.png --focus 1", "extra"},
+             {"refocus none -o x.png --focus 1", "none"},
+             {"refocus text.png -o x.png --focus 1", "text.png"},
+             {"refocus missing -o x.png --focus 1", "view_-1.0_+0.0"},
+             {"refocus broken -o x.png --focus 1", "view_-1.0_+0.0.png"},
+             {"refocus nan -o x.png --focus 1", "first at 5,1"},
+             {"refocus huge -o x.png --focus 1", "disparity.pfm"},
+             {"refocus short -o x.png --focus 1", "disparity.pfm"}};
+  for (const auto& row : bad) CheckRefused(folder, row.arguments, row.mention);
+}
+
+TEST_CASE("cli: scene, compare, info and sheet refuse bad input") {
+  TempFolder folder;
+  Prepare(folder);
+  const struct {
+    const char* arguments;
+    const char* mention;
+  } bad[] = {{"scene", "DIR"},
+             {"scene new --name sea", "--name"},
+             {"scene new --size 0x10", "--size"},
+             {"scene new --size 10", "--size"},
+             {"scene new --size 65535x65535", "--size"},
+             {"scene new --size 99999999999x1", "--size"},
+             {"scene new --size -4x4", "--size"},
+             {"scene new --views 4", "--views"},
+             {"scene new --threads 0", "--threads"},
+             {"scene new --truth 1", "--truth"},
+             {"scene new --truth 1,0", "--truth"},
+             {"scene new --truth nan,1", "--truth"},
+             {"scene new --truth 1e9,1", "--truth"},
+             {"scene new --truth 1,1,1", "--truth"},
+             {"scene text.png --size 4x4", "text.png"},
+             {"scene lf --size 4x4 --views 1", "view_+1.0_+0.0.png"},
+             {"compare small.png", "B"},
+             {"compare small.png large.png", "5x4"},
+             {"compare small.png none.png", "none.png"},
+             {"compare text.png small.png", "text.png"},
+             {"compare lf lf", "lf"},
+             {"info", "DIR"},
+             {"info none", "none"},
+             {"info missing", "view_-1.0_+0.0"},
+             {"info short", "disparity.pfm"},
+             {"sheet x.png", "IMG"},
+             {"sheet x.tif small.png", ".tif"},
+             {"sheet x.png none.png", "none.png"},
+             {"sheet x.png small.png --labels a,b", "--labels"},
+             {"sheet x.png small.png --width 3", "--width"}};
+  for (const auto& row : bad) CheckRefused(folder, row.arguments, row.mention);
+}
+
+TEST_CASE("cli: scene writes what its name says, again the same bytes") {
+  TempFolder folder;
+  const std::string arguments = " --size 48x36 --views 9 --truth 1.5,0.5 -2,1 --truth 0,1";
+  REQUIRE(Call(folder, "scene a" + arguments + " --threads 1").code == 0);
+  REQUIRE(Call(folder, "scene b" + arguments + " --threads 3").code == 0);
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(folder.file("a"))) {
+    const std::string name = entry.path().filename().string();
+    CAPTURE(name);
+    CHECK(Text(folder.file("a/" + name)) == Text(folder.file("b/" + name)));
+    ++files;
+  }
+  CHECK(files == 9 + 1 + 3 + 1);
+  CHECK(fs::exists(folder.file("a/truth_dt1.5_ut0.5.png")));
+  CHECK(fs::exists(folder.file("a/truth_dt-2_ut1.png")));
+  CHECK(fs::exists(folder.file("a/truth_dt0_ut1.png")));
+  CHECK(Text(folder.file("a/meta.txt")).find("\nmiddle: ") != std::string::npos);
+  // The same set may be written over.
+  CHECK(Call(folder, "scene a --size 20x10 --views 9").code == 0);
+  LightField light_field;
+  CHECK(LoadLightField(folder.file("a"), 0, &light_field) == "");
+  CHECK(light_field.width() == 20);
+}
+
+TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together") {
+  TempFolder folder;
+  Prepare(folder);
+  const std::string refocus = "refocus lf --focus 0.5 --report report.json -o ";
+  for (const char* more : {"whole.png", "whole.ppm", "stream.png --stream", "many.png --threads 3",
+                           "one.jpg --views 1", "bench.png --mode benchmark --aperture 0.5"}) {
+    CAPTURE(more);
+    const Outcome outcome = Call(folder, refocus + more);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err == "");
+  }
+  const std::string report = Text(folder.file("report.json"));
+  for (const char* field : {"mode", "width", "height", "views", "focus", "aperture", "r_max", "N",
+                            "rendered_views", "rendered_samples", "seconds_refocus",
+                            "seconds_total", "workspace_bytes", "simd_target", "threads"}) {
+    CHECK(report.find("\"" + std::string(field) + "\": ") != std::string::npos);
+  }
+  CHECK(Call(folder, "compare whole.png stream.png").out == "PSNR inf, largest difference 0\n");
+  CHECK(Call(folder, "compare whole.png whole.ppm --json").out ==
+        "{\"psnr\":null,\"largest_difference\":0}\n");
+  CHECK(Call(folder, "compare whole.png many.png").out == "PSNR inf, largest difference 0\n");
+  CHECK(Call(folder, "refocus nan -o filled.png --focus-at 5,1 --fill-invalid").code == 0);
+  CHECK(Call(folder, "info nan").out.find("5 views") != std::string::npos);
+  CHECK(Call(folder, "info nan --json").out.find("\"invalid\":1,") != std::string::npos);
+  CHECK(Call(folder, "sheet sheet.png whole.png small.png --labels near,far --width 60").code == 0);
+  Image sheet;
+  REQUIRE(ReadImage(folder.file("sheet.png"), &sheet) == "");
+  CHECK(sheet.width <= 60);
+  CHECK(Call(folder, "--help").code == 0);
+  CHECK(Call(folder, "refocus --help").code == 0);
+}
+
+}  // namespace
+}  // namespace starfocus

@@ -1,0 +1,32 @@
+// The method once more, whole pictures in double precision, written to be read: what the engine is
+// held to. Which pixel is visible where is decided on the engine's grid (disparity and focus to
+// 1/64, shifts to 1/256 of a pixel), everything about colours in double and unrounded.
+#ifndef STARFOCUS_TESTS_REFERENCE_H_
+#define STARFOCUS_TESTS_REFERENCE_H_
+
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/test_scene.h"
+
+namespace reference {
+
+// (3) without its constant factor.
+double ApertureDensity(double u, double v, double theta);
+
+// Views along the aperture radius: (9), or 2 * ceil(r_max) for the benchmark.
+int ViewsAlongRadius(double r_max, int mode);
+
+struct Result {
+  int n = 0;                // views along the aperture radius
+  int views = 0;            // rendered
+  std::vector<double> rgb;  // unrounded, 3 * width * height
+};
+
+// Refocuses the scene. `block` is the side of the blocks: runs of one shift start at the edge of a
+// block's extended rectangle, so that results depend on it.
+Result Refocus(const test::Scene& scene, const sf_params& params, double theta, int block);
+
+}  // namespace reference
+
+#endif  // STARFOCUS_TESTS_REFERENCE_H_
