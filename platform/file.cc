@@ -41,8 +41,9 @@ File OpenTemporary(const std::string& path, std::string* name) {
 
 // Empty, or the reason why not all bytes reached the file.
 std::string WriteAndClose(File file, const Bytes& bytes) {
-  const size_t written = std::fwrite(bytes.data(), 1, bytes.size(), file.get());
-  if (written != bytes.size()) return Reason(errno);
+  const bool whole =
+      bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  if (!whole) return Reason(errno);
   if (std::fclose(file.release()) != 0) return Reason(errno);
   return "";
 }
