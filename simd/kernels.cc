@@ -7,6 +7,7 @@
 #include "hwy/highway.h"
 #include "simd/accumulate-inl.h"
 #include "simd/blend-inl.h"
+#include "simd/resample-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -26,6 +27,24 @@ bool ConvertDisparity(const float* disparity, size_t count, float low, float hig
   return ConvertDisparities(disparity, count, low, high, out);
 }
 
+void Widen(const uint8_t* in, size_t count, int16_t* out) { WidenSamples(in, count, out); }
+
+void Narrow(const int16_t* in, size_t count, uint8_t* out) { NarrowSamples(in, count, out); }
+
+void FinishLayer(const uint32_t* accumulators, size_t count, int shift, int16_t* out) {
+  FinishLayerSamples(accumulators, count, shift, out);
+}
+
+void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
+                    int16_t low, int16_t high, int16_t* out) {
+  HalfBandSamples(in, step, taps, count, low, high, out);
+}
+
+void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count, int16_t low,
+             int16_t high, int16_t* out) {
+  BetweenSamples(in, step, taps, count, low, high, out);
+}
+
 // HWY_NAMESPACE is N_ and the target's name.
 #undef STARFOCUS_TEXT
 #undef STARFOCUS_TEXT_OF
@@ -34,7 +53,8 @@ bool ConvertDisparity(const float* disparity, size_t count, float low, float hig
 
 const Kernels* Table() {
   static constexpr Kernels kernels = {STARFOCUS_TEXT_OF(HWY_NAMESPACE) + 2, Accumulate, Blend,
-                                      Finish, ConvertDisparity};
+                                      Finish, ConvertDisparity, Widen, Narrow, FinishLayer,
+                                      FilterHalfBand, Between};
   return &kernels;
 }
 

@@ -23,6 +23,17 @@ struct Span {
   int32_t neighbour_offset;   // samples: +3 or -3
 };
 
+// Layer samples are int16 with 6 fractional bits: [0, kLayerWhite] when in range.
+inline constexpr int kLayerBits = 6;
+inline constexpr int16_t kLayerWhite = 255 << kLayerBits;
+// Filter taps have 14 fractional bits.
+inline constexpr int kTapBits = 14;
+
+// Taps of a symmetric 7-tap half-band filter at 0, +-1 and +-3 (those at +-2 are zero).
+struct HalfBand {
+  int32_t centre, near, far;  // |tap| <= 2^14
+};
+
 struct Kernels {
   const char* name;  // of the SIMD target
 
@@ -40,6 +51,25 @@ struct Kernels {
   // when false (NaN included), out is unspecified. |low|, |high| <= 511.
   bool (*convert_disparity)(const float* disparity, size_t count, float low, float high,
                             int16_t* out);
+
+  // out[n] = in[n] << 6.
+  void (*widen)(const uint8_t* in, size_t count, int16_t* out);
+
+  // out[n] = in[n] rounded half up to a whole number and clamped to a byte.
+  void (*narrow)(const int16_t* in, size_t count, uint8_t* out);
+
+  // out[n] = (accumulators[n] + 2^(shift - 7)) >> (shift - 6); shift in [7, 24].
+  void (*finish_layer)(const uint32_t* accumulators, size_t count, int shift, int16_t* out);
+
+  // out[n] = clamp((centre in[n] + near (in[n - step] + in[n + step])
+  //                 + far (in[n - 3 step] + in[n + 3 step]) + 2^13) >> 14, low, high).
+  void (*half_band)(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
+                    int16_t low, int16_t high, int16_t* out);
+
+  // The odd phase of upsampling, between in[n] and in[n + step]: as half_band with
+  // near (in[n] + in[n + step]) + far (in[n - step] + in[n + 2 step]) alone.
+  void (*between)(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
+                  int16_t low, int16_t high, int16_t* out);
 };
 
 // The best target of this machine, chosen once by Highway.

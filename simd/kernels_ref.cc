@@ -49,10 +49,53 @@ bool ConvertDisparity(const float* disparity, size_t count, float low, float hig
   return inside;
 }
 
+void Widen(const uint8_t* in, size_t count, int16_t* out) {
+  for (size_t n = 0; n < count; ++n) out[n] = static_cast<int16_t>(in[n] << kLayerBits);
+}
+
+void Narrow(const int16_t* in, size_t count, uint8_t* out) {
+  for (size_t n = 0; n < count; ++n) {
+    const int value = (in[n] + (1 << (kLayerBits - 1))) >> kLayerBits;
+    out[n] = static_cast<uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value);
+  }
+}
+
+void FinishLayer(const uint32_t* accumulators, size_t count, int shift, int16_t* out) {
+  const uint32_t half = uint32_t{1} << (shift - kLayerBits - 1);
+  for (size_t n = 0; n < count; ++n) {
+    out[n] = static_cast<int16_t>((accumulators[n] + half) >> (shift - kLayerBits));
+  }
+}
+
+int16_t RoundTaps(int32_t sum, int16_t low, int16_t high) {
+  const int32_t value = (sum + (1 << (kTapBits - 1))) >> kTapBits;
+  return static_cast<int16_t>(value < low ? low : value > high ? high : value);
+}
+
+void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
+                    int16_t low, int16_t high, int16_t* out) {
+  for (size_t n = 0; n < count; ++n) {
+    const int16_t* at = in + n;
+    out[n] = RoundTaps(taps.centre * at[0] + taps.near * (at[-step] + at[step]) +
+                           taps.far * (at[-3 * step] + at[3 * step]),
+                       low, high);
+  }
+}
+
+void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count, int16_t low,
+             int16_t high, int16_t* out) {
+  for (size_t n = 0; n < count; ++n) {
+    const int16_t* at = in + n;
+    out[n] = RoundTaps(taps.near * (at[0] + at[step]) + taps.far * (at[-step] + at[2 * step]),
+                       low, high);
+  }
+}
+
 }  // namespace
 
 const Kernels& ReferenceKernels() {
-  static constexpr Kernels kernels = {"reference", Accumulate, Blend, Finish, ConvertDisparity};
+  static constexpr Kernels kernels = {"reference", Accumulate,  Blend,          Finish, ConvertDisparity, Widen,
+                                      Narrow,      FinishLayer, FilterHalfBand, Between};
   return kernels;
 }
 

@@ -1,0 +1,140 @@
+#include "lib/cells.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kRadiusOne = 1 << kDisparityBits;
+
+// Pixels that blur of radius r (kDisparityBits) reaches, with half a pixel of rounding.
+int32_t ReachOf(int32_t r) { return (r + kRadiusOne / 2 + kRadiusOne - 1) >> kDisparityBits; }
+
+// Largest |d - d_t| of the columns and rows of a cell, and the smallest of all.
+struct CellDistances {
+  int32_t column[kCellSize] = {}, row[kCellSize] = {};
+  int32_t smallest = INT32_MAX, largest = 0;
+};
+
+CellDistances Measure(const Window& window, int32_t focus, int32_t x, int32_t y) {
+  CellDistances found;
+  const int32_t width = Min(kCellSize, window.width - x);
+  const int32_t height = Min(kCellSize, window.height - y);
+  for (int32_t row = 0; row < height; ++row) {
+    const int16_t* disparity = window.disparity.Row(y + row) + x;
+    for (int32_t column = 0; column < width; ++column) {
+      const int32_t distance = Abs(disparity[column] - focus);
+      found.column[column] = Max(found.column[column], distance);
+      found.row[row] = Max(found.row[row], distance);
+      found.smallest = Min(found.smallest, distance);
+    }
+    found.largest = Max(found.largest, found.row[row]);
+  }
+  return found;
+}
+
+// Reach beyond either end of a line of 8 columns or rows, and the depth inside.
+void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], int32_t length,
+                  Side low, Side high, Cell* cell) {
+  for (int32_t k = 0; k < length; ++k) {
+    const int32_t reach = ReachOf(scale.Radius(distance[k]) + 1);
+    const int32_t beyond_low = reach - k, beyond_high = reach - (kCellSize - 1 - k);
+    cell->reach[low] = static_cast<int16_t>(Max(cell->reach[low], beyond_low));
+    cell->reach[high] = static_cast<int16_t>(Max(cell->reach[high], beyond_high));
+    if (beyond_low > 0) cell->inside[low] = static_cast<uint8_t>(Max(cell->inside[low], k + 1));
+    if (beyond_high > 0) {
+      cell->inside[high] = static_cast<uint8_t>(Max(cell->inside[high], kCellSize - k));
+    }
+  }
+}
+
+// The cell at a position outside the picture: a repetition of the edge, placed anywhere inside.
+Cell OutsideCell(const Cell& edge) {
+  Cell cell = edge;
+  for (int side = 0; side < 4; ++side) {
+    cell.reach[side] = static_cast<int16_t>(ReachOf(edge.r_max));
+    cell.inside[side] = kCellSize;
+  }
+  return cell;
+}
+
+// Cells between a block of two cells at `block` and the cell at `cell`, in pixels; negative when
+// the cell lies on the block's own columns (rows).
+int32_t GapOf(int32_t cell, int32_t block) {
+  if (cell < block) return (block - cell - 1) * kCellSize;
+  if (cell > block + 1) return (cell - block - 2) * kCellSize;
+  return -1;
+}
+
+// Widens border for a cell `gap` pixels away on one side, if it reaches the block across both gaps.
+void Widen(int32_t gap, int32_t inside, bool low, int32_t* low_border, int32_t* high_border) {
+  if (gap < 0) return;
+  int32_t* border = low ? low_border : high_border;
+  *border = Max(*border, gap + inside);
+}
+
+}  // namespace
+
+Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, int32_t row) {
+  const int32_t x = column * kCellSize, y = row * kCellSize;
+  const CellDistances found = Measure(window, scale.focus, x, y);
+  Cell cell = {};
+  cell.r_min = static_cast<uint16_t>(scale.Radius(found.smallest));
+  cell.r_max = static_cast<uint16_t>(scale.Radius(found.largest) + 1);
+  for (int16_t& reach : cell.reach) reach = INT16_MIN;
+  MeasureSides(scale, found.column, Min(kCellSize, window.width - x), kLeft, kRight, &cell);
+  MeasureSides(scale, found.row, Min(kCellSize, window.height - y), kTop, kBottom, &cell);
+  return cell;
+}
+
+BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32_t around) {
+  BlockStats stats = {INT32_MAX, 0, {}};
+  for (int32_t y = row - around; y <= row + 1 + around; ++y) {
+    for (int32_t x = column - around; x <= column + 1 + around; ++x) {
+      const int32_t cx = Clamp(x, 0, grid.columns - 1), cy = Clamp(y, 0, grid.rows - 1);
+      const Cell& stored = *grid.At(cx, cy);
+      const int32_t gap_x = GapOf(x, column), gap_y = GapOf(y, row);
+      if (gap_x < 0 && gap_y < 0) {
+        stats.r_min = Min(stats.r_min, stored.r_min);
+        stats.r_max = Max(stats.r_max, stored.r_max);
+        continue;
+      }
+      const bool outside = cx != x || cy != y;
+      const Cell cell = outside ? OutsideCell(stored) : stored;
+      // Towards the block: a cell on its left reaches to the right.
+      const Side side_x = x < column ? kRight : kLeft, side_y = y < row ? kBottom : kTop;
+      for (int layer = 0; layer < 3; ++layer) {
+        const int32_t margin = kLayerMargin[layer];
+        if (gap_x >= 0 && cell.reach[side_x] + margin <= gap_x) continue;
+        if (gap_y >= 0 && cell.reach[side_y] + margin <= gap_y) continue;
+        if (layer == 0) stats.r_max = Max(stats.r_max, cell.r_max);
+        Border& border = stats.border[layer];
+        const int32_t inside_x = margin == 0 ? cell.inside[side_x] : kCellSize;
+        const int32_t inside_y = margin == 0 ? cell.inside[side_y] : kCellSize;
+        Widen(gap_x, inside_x, x < column, &border.left, &border.right);
+        Widen(gap_y, inside_y, y < row, &border.top, &border.bottom);
+      }
+    }
+  }
+  return stats;
+}
+
+BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {
+  BlockStats merged = {INT32_MAX, 0, {}};
+  for (int child = 0; child < 4; ++child) {
+    if (children[child] == nullptr) continue;
+    const BlockStats& from = *children[child];
+    const int32_t right = child & 1, bottom = child >> 1;
+    merged.r_min = Min(merged.r_min, from.r_min);
+    merged.r_max = Max(merged.r_max, from.r_max);
+    for (int layer = 0; layer < 3; ++layer) {
+      Border& border = merged.border[layer];
+      const Border& part = from.border[layer];
+      border.left = Max(border.left, part.left - right * side);
+      border.right = Max(border.right, part.right - (1 - right) * side);
+      border.top = Max(border.top, part.top - bottom * side);
+      border.bottom = Max(border.bottom, part.bottom - (1 - bottom) * side);
+    }
+  }
+  return merged;
+}
+
+}  // namespace starfocus

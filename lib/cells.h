@@ -1,0 +1,76 @@
+// Variable-size block analysis (paper, V-A): what 8x8 cells know of the blur, and the borders it
+// gives to blocks.
+#ifndef STARFOCUS_LIB_CELLS_H_
+#define STARFOCUS_LIB_CELLS_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/field.h"
+#include "lib/window.h"
+
+namespace starfocus {
+
+inline constexpr int32_t kCellSize = 8;
+
+// Blur radii carry kDisparityBits fractional bits: 128 px are 8192.
+struct Cell {
+  uint16_t r_min, r_max;  // rounded down, up
+  // How many pixels beyond its left, right, top and bottom edge the cell splats (<= 0: not at all),
+  // and how deep inside lie the pixels that do.
+  int16_t reach[4];
+  uint8_t inside[4];
+};
+
+enum Side { kLeft, kRight, kTop, kBottom };
+
+// The lens as the analysis sees it.
+struct BlurScale {
+  int32_t focus;  // kDisparityBits
+  int64_t step;   // u_t, kStepBits
+
+  // |d - d_t| (kDisparityBits) to a blur radius, rounded down.
+  int32_t Radius(int32_t distance) const {
+    return static_cast<int32_t>((step * distance) >> kStepBits);
+  }
+};
+
+// A grid of cells over rows of the picture, all columns. Positions outside the picture, and only
+// those, take the nearest cell, whose edge the picture repeats.
+struct CellGrid {
+  Cell* cells = nullptr;
+  int32_t columns = 0;     // of the picture
+  int32_t rows = 0;        // of the picture
+  int32_t first_row = 0;   // rows [first_row, last_row) are stored
+  int32_t last_row = 0;
+
+  Cell* At(int32_t column, int32_t row) const {
+    return cells + static_cast<size_t>(row - first_row) * static_cast<size_t>(columns) + column;
+  }
+};
+
+// Measures the cell at (column, row) of the grid; the window is at layer 0.
+Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, int32_t row);
+
+// Pixels that a block refocused at layer L renders beyond its sides, because upsampling reads
+// them, in pixels of the picture.
+inline constexpr int32_t kLayerMargin[3] = {0, 4, 12};
+
+// What a block knows: radii of the pixels inside and (r_max only) of those that splat into it, and
+// for each layer the border beyond which no pixel splats into the block and its margin.
+struct BlockStats {
+  int32_t r_min, r_max;
+  Border border[3];
+};
+
+// Stats of the 2x2 cells at (column, row), looking at cells up to `around` away, which must be
+// within the grid's stored rows or outside the picture.
+BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32_t around);
+
+// Stats of the block of twice the side `side` made of children in z-order. Children outside the
+// picture are null.
+BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_CELLS_H_
