@@ -4,6 +4,22 @@
 
 namespace starfocus {
 
+namespace {
+
+// Fills what lies outside [first, last), not empty, of a row.
+void RepeatEdges(int32_t first, int32_t last, int32_t width, uint8_t* rgb, int16_t* disparity) {
+  for (int32_t column = 0; column < first; ++column) {
+    std::memcpy(rgb + 3 * column, rgb + 3 * first, 3);
+    disparity[column] = disparity[first];
+  }
+  for (int32_t column = last; column < width; ++column) {
+    std::memcpy(rgb + 3 * column, rgb + 3 * (last - 1), 3);
+    disparity[column] = disparity[last - 1];
+  }
+}
+
+}  // namespace
+
 void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field) {
   field->transposed = false;
   field->width = border.left + rect.width + border.right;
@@ -17,20 +33,14 @@ void LoadField(const Window& window, const Rect& rect, const Border& border, Fie
     const int32_t y = Clamp(field->y + row, 0, window.height - 1);
     uint8_t* rgb = field->rgb + 3 * field->Offset(0, row);
     int16_t* disparity = field->disparity + field->Offset(0, row);
-    const uint8_t* from = window.view[0].Row(y);
-    const int16_t* from_disparity = window.disparity.Row(y);
+    const uint8_t* from = window.centre.Row(y);
+    const int16_t* from_disparity = window.disparity.Row(y << window.layer);
     std::memcpy(rgb + 3 * first, from + 3 * (field->x + first),
                 3 * static_cast<size_t>(last - first));
-    std::memcpy(disparity + first, from_disparity + field->x + first,
-                sizeof(int16_t) * static_cast<size_t>(last - first));
-    for (int32_t column = 0; column < first; ++column) {
-      std::memcpy(rgb + 3 * column, from, 3);
-      disparity[column] = from_disparity[0];
+    for (int32_t column = first; column < last; ++column) {
+      disparity[column] = from_disparity[(field->x + column) << window.layer];
     }
-    for (int32_t column = last; column < field->width; ++column) {
-      std::memcpy(rgb + 3 * column, from + 3 * (window.width - 1), 3);
-      disparity[column] = from_disparity[window.width - 1];
-    }
+    RepeatEdges(first, last, field->width, rgb, disparity);
   }
 }
 

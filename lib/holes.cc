@@ -13,16 +13,14 @@ int64_t CapturedShift(const ViewGrid& grid, int32_t disparity, bool half) {
   return RoundShift(full * 2, 1 + grid.layer + (half ? 1 : 0));
 }
 
-struct Fetch {
-  const CapturedLine& line;
-
-  // Pixel of captured view (u, v) at the oriented picture position (x, y).
-  const uint8_t* operator()(int u, int v, int32_t x, int32_t y) const {
-    const bool swap = line.transposed;
-    const int index = swap ? CapturedView(v, u, line.half) : CapturedView(u, v, line.half);
-    return swap ? line.window->Pixel(index, y, x) : line.window->Pixel(index, x, y);
+// Reads captured view (u, v) at the oriented position (x, y) of the layer.
+void Read(const CapturedLine& line, int u, int v, int32_t x, int32_t y, uint8_t* rgb) {
+  if (line.transposed) {
+    ReadCaptured(*line.window, CapturedView(v, u, line.half), y, x, rgb);
+  } else {
+    ReadCaptured(*line.window, CapturedView(u, v, line.half), x, y, rgb);
   }
-};
+}
 
 int32_t Difference(const uint8_t* a, const uint8_t* b) {
   return Abs(a[0] - b[0]) + Abs(a[1] - b[1]) + Abs(a[2] - b[2]);
@@ -48,7 +46,6 @@ void FillHole(const CapturedLine& line, const ViewGrid& grid, int32_t begin, int
     for (int32_t p = begin; p < end; ++p, out += 3) std::memcpy(out, colour, 3);
     return;
   }
-  const Fetch fetch{line};
   const int u = line.sign * line.dx, v = line.sign * line.dy;
   const int64_t captured_shift = CapturedShift(grid, disparity, line.half);
   const int32_t captured = line.sign * RoundPixel(shift - captured_shift);
@@ -58,12 +55,14 @@ void FillHole(const CapturedLine& line, const ViewGrid& grid, int32_t begin, int
     const int32_t moved = p + captured;
     const int32_t x = line.x + line.dx * moved, y = line.y + line.dy * moved;
     if (!interpolate) {
-      std::memcpy(out, fetch(u, v, x, y), 3);
+      Read(line, u, v, x, y, out);
       continue;
     }
     const int32_t still = p + centre;
-    ChooseNeighbour(fetch(u, 0, x, line.y + line.dy * still),
-                    fetch(0, v, line.x + line.dx * still, y), colour, out);
+    uint8_t horizontal[3], vertical[3];
+    Read(line, u, 0, x, line.y + line.dy * still, horizontal);
+    Read(line, 0, v, line.x + line.dx * still, y, vertical);
+    ChooseNeighbour(horizontal, vertical, colour, out);
   }
 }
 

@@ -12,6 +12,9 @@ int32_t ViewsByPaper(double r_max);
 // Views along the aperture radius of the benchmark: 2 * ceil(r_max).
 int32_t ViewsOfBenchmark(double r_max);
 
+// Subsampled layer by (12), up to 2, for the smallest blur radius of a block in pixels.
+int32_t LayerByPaper(double r_min);
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_RULES_H_

@@ -52,6 +52,12 @@ const char* sf_status_string(sf_status status) {
       return "output overlaps an input or the workspace";
     case SF_ERROR_ALL_INVALID:
       return "disparity map holds no finite value";
+    case SF_ERROR_LAYER:
+      return "max_layer is not 0, 1 or 2";
+    case SF_ERROR_DEBLOCKING:
+      return "deblocking is outside 0 to 255";
+    case SF_ERROR_TIMING:
+      return "a timing coefficient exceeds SF_MAX_TIMING";
   }
   return "unknown status";
 }

@@ -1,6 +1,6 @@
 #include "lib/validate.h"
 
-#include <cmath>
+#include <initializer_list>
 
 namespace starfocus {
 namespace {
@@ -40,13 +40,20 @@ sf_status CheckConfig(const sf_config& config) {
   if (config.max_workers < 1 || config.max_workers > SF_MAX_WORKERS) return SF_ERROR_WORKERS;
   if (config.streaming != 0 && config.streaming != 1) return SF_ERROR_STATE;
   if (!(config.theta >= SF_MIN_THETA && config.theta <= SF_MAX_THETA)) return SF_ERROR_THETA;
+  if (config.max_layer < 0 || config.max_layer >= SF_LAYERS) return SF_ERROR_LAYER;
+  if (config.deblocking < 0 || config.deblocking > 255) return SF_ERROR_DEBLOCKING;
+  const sf_timing& timing = config.timing;
+  for (const uint32_t coefficient :
+       {timing.block, timing.field, timing.a, timing.b, timing.c, timing.upsample}) {
+    if (coefficient > SF_MAX_TIMING) return SF_ERROR_TIMING;
+  }
   return SF_OK;
 }
 
 sf_status CheckParams(const sf_params& params) {
   if (params.version != SF_ABI_VERSION) return SF_ERROR_VERSION;
   if (!AllZero(params.reserved)) return SF_ERROR_RESERVED;
-  if (params.mode != SF_MODE_FRAME && params.mode != SF_MODE_BENCHMARK) return SF_ERROR_MODE;
+  if (params.mode < SF_MODE_FRAME || params.mode > SF_MODE_BLUR) return SF_ERROR_MODE;
   if (!(params.focus >= -SF_MAX_FOCUS && params.focus <= SF_MAX_FOCUS)) return SF_ERROR_FOCUS;
   if (!(params.aperture > 0.0 && params.aperture <= 1.0)) return SF_ERROR_APERTURE;
   return SF_OK;

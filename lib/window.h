@@ -10,34 +10,40 @@
 
 namespace starfocus {
 
-// Rows of T; row y lies at y modulo `rows` when the plane is a ring (rows > 0).
+// Rows of T, from row `first` on; a ring (rows > 0) holds row y at y modulo `rows` instead.
 template <class T>
 struct Plane {
   T* data = nullptr;
   size_t stride = 0;  // in T
-  int32_t rows = 0;   // of the ring; 0: whole picture
+  int32_t rows = 0;
+  int32_t first = 0;
 
   T* Row(int32_t y) const {
-    const size_t row = static_cast<size_t>(rows == 0 ? y : y % rows);
-    return data + row * stride;
+    const int32_t row = rows == 0 ? y - first : y % rows;
+    return data + static_cast<size_t>(row) * stride;
   }
 };
 
 inline constexpr int kMaxViews = 17;
 
-// A light field at one layer: pixel (x, y) stands for pixel (x << L, y << L) of the pictures.
+// A light field at one layer: pixel (x, y) of the layer stands at (x << L, y << L) in the pictures.
+// Only the centre view is subsampled as a whole; of the others a few pixels are read, in holes.
 struct Window {
-  int32_t width = 0;
+  int32_t width = 0;   // of the layer
   int32_t height = 0;
-  int32_t views = 0;  // 1, 5, 9 or 17
-  Plane<const uint8_t> view[kMaxViews];
-  Plane<const int16_t> disparity;  // kDisparityBits, in pixels of the pictures
-
-  // Pixel of a view; positions outside the picture take the nearest pixel inside.
-  const uint8_t* Pixel(int index, int32_t x, int32_t y) const {
-    return view[index].Row(Clamp(y, 0, height - 1)) + 3 * Clamp(x, 0, width - 1);
-  }
+  int layer = 0;       // L
+  int32_t views = 0;   // 1, 5, 9 or 17
+  Plane<const uint8_t> centre;  // at the layer
+  int32_t picture_width = 0;
+  int32_t picture_height = 0;
+  Plane<const uint8_t> view[kMaxViews];  // of the pictures
+  Plane<const int16_t> disparity;        // of the pictures, kDisparityBits
 };
+
+// Pixel (x, y) of the layer in captured view `index`, 3 bytes; positions outside the picture take
+// the nearest pixel inside. At L > 0 a binomial of 2^(L+1) - 1 taps per axis subsamples: what shows
+// in a hole of a defocused block is blurred by at least 3 pixels of the layer afterwards.
+void ReadCaptured(const Window& window, int index, int32_t x, int32_t y, uint8_t* rgb);
 
 // Index of the captured view in direction (u, v), each -1, 0 or 1 and not both 0, at full or half
 // distance.

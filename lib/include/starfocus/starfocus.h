@@ -52,6 +52,8 @@ extern "C" {
 #define SF_MAX_DISPARITY 500.0
 /** Largest blur radius in pixels that a configuration may ask for. */
 #define SF_MAX_BLUR 128.0
+/** Number of subsampled layers, the original one included. */
+#define SF_LAYERS 3
 /** Largest number of workers. */
 #define SF_MAX_WORKERS 64
 
@@ -80,7 +82,10 @@ typedef enum sf_status {
   SF_ERROR_COUNT = 21,               /**< row count negative, or more rows than the picture has */
   SF_ERROR_RUNNER = 22,              /**< the runner reported failure; output is incomplete */
   SF_ERROR_OVERLAP = 23,             /**< output overlaps an input or the workspace */
-  SF_ERROR_ALL_INVALID = 24          /**< disparity map without a single finite value */
+  SF_ERROR_ALL_INVALID = 24,         /**< disparity map without a single finite value */
+  SF_ERROR_LAYER = 25,               /**< max_layer is not 0, 1 or 2 */
+  SF_ERROR_DEBLOCKING = 26,          /**< deblocking outside [0, 255] */
+  SF_ERROR_TIMING = 27               /**< a timing coefficient beyond SF_MAX_TIMING */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -92,6 +97,20 @@ SF_API uint32_t sf_abi_version(void);
 #define SF_MIN_THETA 0.15707963267948966 /**< 0.05 pi */
 #define SF_MAX_THETA 1.413716694115407   /**< 0.45 pi */
 #define SF_MAX_FOCUS 1.0e6
+#define SF_MAX_TIMING 100000000u
+
+/** Run-time model of a block, the paper's (14) with terms for what surrounds the line scan, in
+ *  picoseconds; only ratios matter. It decides the partition of SF_MODE_BLOCK and so its bytes.
+ *  sf_config_init sets coefficients measured for the architecture; `starfocus calibrate` measures
+ *  them on a machine. */
+typedef struct sf_timing {
+  uint32_t block;    /**< per block */
+  uint32_t field;    /**< per pixel of the extended block at its layer: loading, rotating */
+  uint32_t a;        /**< k_A: per rendered pixel of type A, extended along the other axis */
+  uint32_t b;        /**< k_B: per rendered pixel of type B */
+  uint32_t c;        /**< k_C: per rendered pixel of type C */
+  uint32_t upsample; /**< per picture pixel of a block at layer 1 or 2 */
+} sf_timing;
 
 /** What a workspace is made for. Call sf_config_init first: it zeroes and sets the defaults. */
 typedef struct sf_config {
@@ -108,6 +127,9 @@ typedef struct sf_config {
   int32_t max_workers;  /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
   int32_t streaming;    /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
   double theta;         /**< fall-off of the aperture (3) in radians; default 0.26 pi */
+  int32_t max_layer;    /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
+  int32_t deblocking;   /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
+  sf_timing timing;     /**< each coefficient <= SF_MAX_TIMING */
   uint32_t reserved[8]; /**< zero */
 } sf_config;
 
@@ -131,15 +153,35 @@ SF_API sf_status sf_init(const sf_config* config, void* workspace, size_t bytes,
 
 typedef enum sf_mode {
   SF_MODE_FRAME = 0,    /**< one N for the whole picture, from (9) */
-  SF_MODE_BENCHMARK = 1 /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark */
+  SF_MODE_BENCHMARK = 1, /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark */
+  SF_MODE_BLOCK = 2, /**< blocks of variable size, each with its own N and layer (section V) */
+  SF_MODE_BLUR = 3   /**< depth-dependent blur of the centre view alone with the ideal kernel (4) */
 } sf_mode;
+
+/** A block of SF_MODE_BLOCK as it was refocused. */
+typedef struct sf_block {
+  int32_t x, y;   /**< top left corner in the picture, pixels */
+  int32_t width;  /**< pixels; less than the side at the right edge of the picture */
+  int32_t height; /**< pixels; less than the side at the bottom edge of the picture */
+  int32_t layer;  /**< L: rendered at 1 / 2^L of the size */
+  int32_t n;      /**< N */
+} sf_block;
+
+/** Told of each block from the thread of the call, before the block is refocused. */
+typedef void (*sf_block_visitor)(void* data, const sf_block* block);
+
+/** A clock in nanoseconds, from any start; called from the runner's threads. */
+typedef uint64_t (*sf_clock)(void);
 
 /** What to render. Call sf_params_init first. */
 typedef struct sf_params {
   uint32_t version;     /**< SF_ABI_VERSION, set by sf_params_init */
-  int32_t mode;         /**< sf_mode; default SF_MODE_FRAME */
+  int32_t mode;         /**< sf_mode; default SF_MODE_BLOCK */
   double focus;         /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS */
   double aperture;      /**< aperture radius u_t, (0, 1]; default 1 */
+  sf_clock clock;       /**< fills the report's times; null: they stay 0 */
+  sf_block_visitor on_block; /**< null: nobody is told */
+  void* on_block_data;  /**< passed to on_block */
   uint32_t reserved[8]; /**< zero */
 } sf_params;
 
@@ -165,12 +207,23 @@ typedef void (*sf_job)(void* job_data, int32_t index, int32_t worker);
 /** Runs a set of jobs and returns when all are done; 0 for success. Never called with count 0. */
 typedef int (*sf_runner)(void* runner_data, sf_job job, void* job_data, int32_t count);
 
+/** What the blocks of one layer did. */
+typedef struct sf_layer_report {
+  uint64_t blocks;           /**< number of blocks */
+  uint64_t pixels;           /**< picture pixels they cover */
+  uint64_t views;            /**< rendered views, summed over the blocks */
+  uint64_t rendered_samples; /**< R, G, B samples of those views inside their blocks */
+  uint64_t predicted_ps;     /**< by the timing model, picoseconds */
+  uint64_t measured_ns;      /**< by sf_params.clock, summed over workers; 0 without one */
+} sf_layer_report;
+
 /** What a refocusing did. */
 typedef struct sf_report {
   double r_max;             /**< largest blur radius the configured disparity range allows, pixels */
-  int32_t n;                /**< views along the aperture radius, N */
-  int32_t rendered_views;   /**< views of i^2 + j^2 <= N^2 */
-  uint64_t rendered_samples; /**< R, G, B samples of all rendered views inside the picture */
+  int32_t n;                /**< views along the aperture radius, N; the largest of any block */
+  int32_t rendered_views;   /**< views of i^2 + j^2 <= N^2 for that N */
+  uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
+  sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
 } sf_report;
 
 /** Refocuses whole pictures. The light field is only read, during the call; `out` (`out_stride`

@@ -1,0 +1,152 @@
+#include "lib/partition.h"
+
+#include "lib/rules.h"
+
+namespace starfocus {
+namespace {
+
+constexpr double kRadiusOne = 1 << kDisparityBits;
+
+// Pixels of a layer that upsampling to the picture reads beyond a block.
+constexpr int32_t LayerMargin(int32_t layer) { return kLayerMargin[layer] >> layer; }
+
+int32_t CeilShift(int32_t value, int32_t layer) {
+  return (value + (1 << layer) - 1) >> layer;
+}
+
+// A border of a block to one of its rendered rectangle, at the layer: `beyond` pixels of the
+// nominal block were clipped off at the picture's edge. One pixel more for the neighbour of an
+// aperture cell.
+int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
+  return Max(0, CeilShift(border + beyond, layer) - LayerMargin(layer)) + 1;
+}
+
+class Partition {
+ public:
+  Partition(const PartitionRules& rules, PartitionScratch* scratch)
+      : rules_(rules), scratch_(scratch), side_(rules.largest_block / kSmallestBlock) {
+    while ((1 << levels_) < side_) ++levels_;
+  }
+
+  void Measure(const CellGrid& cells, int32_t x, int32_t y, int32_t around) {
+    x_ = x;
+    y_ = y;
+    for (int level = 0; level <= levels_; ++level) {
+      const int32_t count = side_ >> level;
+      for (int32_t row = 0; row < count; ++row) {
+        for (int32_t column = 0; column < count; ++column) {
+          if (!Inside(level, column, row)) continue;
+          MeasureNode(level, column, row, cells, around);
+          Plan(level, column, row);
+        }
+      }
+    }
+  }
+
+  int32_t Emit(Block* blocks) {
+    count_ = 0;
+    EmitNode(levels_, 0, 0, blocks);
+    return count_;
+  }
+
+ private:
+  int32_t NodeSide(int level) const { return kSmallestBlock << level; }
+  int32_t Index(int level, int32_t column, int32_t row) const {
+    return row * (side_ >> level) + column;
+  }
+  bool Inside(int level, int32_t column, int32_t row) const {
+    return x_ + column * NodeSide(level) < rules_.width &&
+           y_ + row * NodeSide(level) < rules_.height;
+  }
+
+  void MeasureNode(int level, int32_t column, int32_t row, const CellGrid& cells, int32_t around) {
+    BlockStats& stats = scratch_->stats[level][Index(level, column, row)];
+    if (level == 0) {
+      const int32_t cell_x = x_ / kCellSize + 2 * column, cell_y = y_ / kCellSize + 2 * row;
+      stats = MeasureBlock(cells, cell_x, cell_y, around);
+      return;
+    }
+    const BlockStats* children[4];
+    for (int child = 0; child < 4; ++child) {
+      const int32_t cx = 2 * column + (child & 1), cy = 2 * row + (child >> 1);
+      children[child] = Inside(level - 1, cx, cy)
+                            ? &scratch_->stats[level - 1][Index(level - 1, cx, cy)]
+                            : nullptr;
+    }
+    stats = MergeBlocks(children, NodeSide(level - 1));
+  }
+
+  // The node as one block, and whether splitting it is cheaper.
+  void Plan(int level, int32_t column, int32_t row) {
+    const int32_t index = Index(level, column, row);
+    Block& block = scratch_->blocks[level][index];
+    const int32_t side = NodeSide(level);
+    const int32_t x = x_ + column * side, y = y_ + row * side;
+    block.rect = {x, y, Min(side, rules_.width - x), Min(side, rules_.height - y)};
+    ChooseParameters(scratch_->stats[level][index], side, &block);
+    uint64_t best = block.cost;
+    if (level > 0) best = Smaller(best, ChildrenCost(level, column, row));
+    scratch_->best[level][index] = best;
+  }
+
+  static uint64_t Smaller(uint64_t a, uint64_t b) { return b < a ? b : a; }
+
+  uint64_t ChildrenCost(int level, int32_t column, int32_t row) const {
+    uint64_t sum = 0;
+    for (int child = 0; child < 4; ++child) {
+      const int32_t cx = 2 * column + (child & 1), cy = 2 * row + (child >> 1);
+      if (Inside(level - 1, cx, cy)) sum += scratch_->best[level - 1][Index(level - 1, cx, cy)];
+    }
+    return sum;
+  }
+
+  void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
+    const Rect& rect = block->rect;
+    const int32_t layer = Min(LayerByPaper(stats.r_min / kRadiusOne), rules_.max_layer);
+    block->layer = layer;
+    block->n = Min(ViewsByPaper(stats.r_max / kRadiusOne / (1 << layer)), rules_.max_n);
+    const int32_t margin = LayerMargin(layer);
+    block->rendered = {(rect.x >> layer) - margin, (rect.y >> layer) - margin,
+                       CeilShift(rect.width, layer) + 2 * margin,
+                       CeilShift(rect.height, layer) + 2 * margin};
+    const Border& border = stats.border[layer];
+    block->border = {LayerBorder(border.left, 0, layer),
+                     LayerBorder(border.right, side - rect.width, layer),
+                     LayerBorder(border.top, 0, layer),
+                     LayerBorder(border.bottom, side - rect.height, layer)};
+    const uint64_t upsampled =
+        layer == 0 ? 0 : static_cast<uint64_t>(rect.width) * static_cast<uint64_t>(rect.height);
+    block->cost = PredictTime(rules_.timing, MeasureWork(block->rendered, block->border,
+                                                         rules_.views[block->n], upsampled));
+  }
+
+  void EmitNode(int level, int32_t column, int32_t row, Block* blocks) {
+    if (!Inside(level, column, row)) return;
+    const int32_t index = Index(level, column, row);
+    if (scratch_->best[level][index] == scratch_->blocks[level][index].cost) {
+      blocks[count_++] = scratch_->blocks[level][index];
+      return;
+    }
+    for (int child = 0; child < 4; ++child) {
+      EmitNode(level - 1, 2 * column + (child & 1), 2 * row + (child >> 1), blocks);
+    }
+  }
+
+  const PartitionRules& rules_;
+  PartitionScratch* scratch_;
+  int32_t side_;  // in smallest blocks
+  int levels_ = 0;
+  int32_t x_ = 0, y_ = 0;
+  int32_t count_ = 0;
+};
+
+}  // namespace
+
+int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
+                       int32_t around, PartitionScratch* scratch, Block* blocks) {
+  Partition partition(rules, scratch);
+  partition.Measure(cells, x, y, around);
+  return partition.Emit(blocks);
+}
+
+}  // namespace starfocus

@@ -1,0 +1,54 @@
+// Timing-based quadtree partition of a largest block (paper, V-B).
+#ifndef STARFOCUS_LIB_PARTITION_H_
+#define STARFOCUS_LIB_PARTITION_H_
+
+#include <cstdint>
+
+#include "lib/cells.h"
+#include "lib/timing.h"
+
+namespace starfocus {
+
+inline constexpr int32_t kSmallestBlock = 16;
+inline constexpr int kMaxLevels = 5;  // 16 to 256
+
+// A block to refocus: a rectangle of the picture with its parameters.
+struct Block {
+  Rect rect;      // in pixels of the picture, clipped to it
+  Rect rendered;  // at the layer, with the margin that upsampling reads
+  Border border;  // of `rendered`, at the layer
+  int32_t layer;  // L
+  int32_t n;      // N
+  uint64_t cost;  // predicted, picoseconds
+};
+
+struct PartitionRules {
+  int32_t width, height;  // of the picture
+  int32_t largest_block;
+  int32_t max_layer;
+  int32_t max_n;
+  sf_timing timing;
+  const ViewCounts* views;  // by N, up to max_n
+};
+
+// Memory of one partition: every node of a quadtree of 256x256.
+struct PartitionScratch {
+  BlockStats stats[kMaxLevels][256];
+  Block blocks[kMaxLevels][256];
+  uint64_t best[kMaxLevels][256];
+};
+
+// Blocks a largest block can split into.
+constexpr int32_t MaxBlocks(int32_t largest_block) {
+  return (largest_block / kSmallestBlock) * (largest_block / kSmallestBlock);
+}
+
+// Splits the largest block at (x, y), multiples of largest_block, into the blocks of least
+// predicted time. `around`: how many cells away a pixel may splat from. Writes at most MaxBlocks
+// blocks in z-order; returns their number.
+int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
+                       int32_t around, PartitionScratch* scratch, Block* blocks);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_PARTITION_H_

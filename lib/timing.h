@@ -1,0 +1,37 @@
+// The timing model (13)-(15).
+#ifndef STARFOCUS_LIB_TIMING_H_
+#define STARFOCUS_LIB_TIMING_H_
+
+#include <cstdint>
+
+#include "lib/field.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// The work of refocusing one block, all at its layer: what the coefficients of sf_timing multiply.
+struct BlockWork {
+  uint64_t field;     // pixels of the extended rectangle
+  uint64_t a, b, c;   // rendered pixels P_A, P_B, P_C of (13)
+  uint64_t upsample;  // picture pixels, 0 at layer 0
+};
+
+// Views of each type inside the disc of N.
+struct ViewCounts {
+  uint32_t a, b, c;
+};
+ViewCounts CountViews(int32_t n);
+
+// The work of `rect` with `border`, both in pixels of the layer, and N views along the radius.
+BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views,
+                      uint64_t upsampled_pixels);
+
+// Picoseconds; exact in integers, so that a partition is the same on every machine.
+uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);
+
+// Coefficients measured for the architecture this is compiled for.
+sf_timing DefaultTiming();
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_TIMING_H_
