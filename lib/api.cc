@@ -4,6 +4,7 @@
 
 #include "lib/engine.h"
 #include "lib/layout.h"
+#include "lib/stripe.h"
 #include "lib/validate.h"
 #include "starfocus/starfocus.h"
 
@@ -46,18 +47,19 @@ const float* DisparityRow(const sf_light_field& light_field, int32_t y) {
 sf_status RefocusPictures(EngineState* engine, const sf_light_field& light_field, uint8_t* out,
                           size_t out_stride, const Runner& runner) {
   const int32_t height = engine->config.height, side = engine->config.largest_block;
+  Plane<const uint8_t> views[kMaxViews];
   for (int view = 0; view < engine->config.views; ++view) {
-    engine->window.view[view] = {light_field.views[view].data, light_field.views[view].stride, 0};
+    views[view] = {light_field.views[view].data, light_field.views[view].stride, 0, 0};
   }
+  SetViews(views, engine);
   for (int32_t y = 0; y < height; y += side) {
-    const int32_t needed = Min(height, y + side + engine->border);
+    const int32_t needed = Min(height, y + side + engine->reach.rows);
     while (engine->disparity_rows < needed) {
       const sf_status status =
           PushDisparity(DisparityRow(light_field, engine->disparity_rows), engine);
       if (status != SF_OK) return status;
     }
-    const sf_status status =
-        RefocusStripe(engine, y, out + static_cast<size_t>(y) * out_stride, out_stride, runner);
+    const sf_status status = RefocusStripe(engine, y, {out, out_stride, 0, 0}, runner);
     if (status != SF_OK) return status;
   }
   return SF_OK;
@@ -80,13 +82,16 @@ void sf_config_init(sf_config* config) {
   config->largest_block = 64;
   config->max_workers = 1;
   config->theta = 0.26 * 3.14159265358979323846;
+  config->max_layer = SF_LAYERS - 1;
+  config->deblocking = 35;
+  config->timing = starfocus::DefaultTiming();
 }
 
 void sf_params_init(sf_params* params) {
   if (params == nullptr) return;
   std::memset(params, 0, sizeof(*params));
   params->version = SF_ABI_VERSION;
-  params->mode = SF_MODE_FRAME;
+  params->mode = SF_MODE_BLOCK;
   params->aperture = 1.0;
 }
 
@@ -123,11 +128,7 @@ sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_eng
   starfocus::LayOut(*config, workspace, &made);
   made->config = *config;
   made->kernels = &starfocus::simd::BestKernels();
-  made->fall_off = starfocus::ApertureFallOff(config->theta);
-  made->window.width = config->width;
-  made->window.height = config->height;
-  made->window.views = config->views;
-  made->window.disparity = {made->disparity.data, made->disparity.stride, made->disparity.rows};
+  starfocus::MakeTables(made);
   *engine = reinterpret_cast<sf_engine*>(made);
   return SF_OK;
 }
@@ -150,7 +151,7 @@ sf_status sf_refocus(sf_engine* engine, const sf_params* params, const sf_light_
   status = starfocus::SetLens(*params, &e);
   if (status != SF_OK) return status;
   status = starfocus::RefocusPictures(&e, *light_field, out, out_stride, {runner, runner_data});
-  if (status == SF_OK && report != nullptr) *report = e.report;
+  if (status == SF_OK && report != nullptr) *report = starfocus::GetReport(e);
   return status;
 }
 

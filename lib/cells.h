@@ -39,9 +39,9 @@ struct BlurScale {
 // those, take the nearest cell, whose edge the picture repeats.
 struct CellGrid {
   Cell* cells = nullptr;
-  int32_t columns = 0;     // of the picture
-  int32_t rows = 0;        // of the picture
-  int32_t first_row = 0;   // rows [first_row, last_row) are stored
+  int32_t columns = 0;    // of the picture
+  int32_t rows = 0;       // of the picture
+  int32_t first_row = 0;  // rows [first_row, last_row) are stored
   int32_t last_row = 0;
 
   Cell* At(int32_t column, int32_t row) const {

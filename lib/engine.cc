@@ -12,71 +12,93 @@ int32_t CeilPixels(double value) {
 
 double AbsDouble(double value) { return value < 0 ? -value : value; }
 
-// A pixel's blur, half a pixel of rounding and the neighbour of its aperture cell.
-int32_t BorderOf(double r_max) { return CeilPixels(r_max) + 2; }
+double MaxDouble(double a, double b) { return a > b ? a : b; }
 
-struct StripeJob {
-  EngineState* engine;
-  int32_t y;
-  uint8_t* out;
-  size_t out_stride;
-};
-
-void RefocusBlock(void* data, int32_t index, int32_t worker) {
-  const auto& stripe = *static_cast<const StripeJob*>(data);
-  EngineState& engine = *stripe.engine;
-  const int32_t side = engine.config.largest_block;
-  StarJob job;
-  job.window = &engine.window;
-  job.grid = &engine.grid;
-  job.kernels = engine.kernels;
-  job.rect = {index * side, stripe.y, Min(side, engine.config.width - index * side),
-              Min(side, engine.config.height - stripe.y)};
-  job.border = {engine.border, engine.border, engine.border, engine.border};
-  StarScratch* scratch = &engine.workers[worker];
-  RefocusRectangle(job, scratch);
-  const size_t samples = 3 * static_cast<size_t>(job.rect.width);
-  for (int32_t row = 0; row < job.rect.height; ++row) {
-    engine.kernels->finish(scratch->accumulators[0] + static_cast<size_t>(row) * samples, samples,
-                           engine.grid.aperture.sum_bits,
-                           stripe.out + static_cast<size_t>(row) * stripe.out_stride +
-                               3 * static_cast<size_t>(job.rect.x));
-  }
+// Blur radius of the configured range's farther end.
+double LargestBlur(const sf_config& config, const sf_params& params) {
+  return params.aperture * MaxDouble(AbsDouble(config.disparity_min - params.focus),
+                                     AbsDouble(config.disparity_max - params.focus));
 }
 
 }  // namespace
 
-Reach GetReach(const sf_config& config) {
+Reach GetReach(double max_blur) {
+  // A cell reaches at most r and half a pixel of rounding beyond itself, or a layer's margin more;
+  // its pixels then lie less than a cell further away.
+  const int32_t splat = CeilPixels(max_blur) + 1 + kLayerMargin[2];
   Reach reach;
-  reach.stripe = config.largest_block;
-  reach.border = BorderOf(config.max_blur);
-  // A hole anywhere in the extended stripe is read from a side view at most its disparity away
-  // from a place within the blur radius.
-  const double disparity = AbsDouble(config.disparity_min) > AbsDouble(config.disparity_max)
-                               ? AbsDouble(config.disparity_min)
-                               : AbsDouble(config.disparity_max);
-  reach.views = reach.stripe + 2 * (2 * reach.border + CeilPixels(disparity) + 1);
-  reach.disparity = config.streaming != 0 ? reach.views : reach.stripe + 2 * reach.border;
+  reach.border = CeilPixels(max_blur) + kCellSize + 3;
+  reach.cells = (splat + kCellSize - 1) / kCellSize + 1;
+  // And the taps of two downsampling filters.
+  reach.rows = (reach.cells + 1) * kCellSize + 16;
   return reach;
+}
+
+int32_t SideReach(const sf_config& config) {
+  // A hole is read at most its disparity away from a place within the blur radius, by a filter of
+  // 7 taps at most.
+  const double disparity =
+      MaxDouble(AbsDouble(config.disparity_min), AbsDouble(config.disparity_max));
+  return GetReach(config.max_blur).rows + CeilPixels(config.max_blur) + CeilPixels(disparity) + 8;
+}
+
+void MakeTables(EngineState* engine) {
+  engine->fall_off = ApertureFallOff(engine->config.theta);
+  uint16_t* weights = engine->aperture_weights;
+  for (int32_t n = 0; n <= engine->max_n; ++n) {
+    engine->apertures[n] = MakeAperture(n, engine->fall_off, weights);
+    engine->view_counts[n] = CountViews(n);
+    weights += ApertureSize(n);
+  }
+  engine->blur_steps = 0;
+}
+
+void SetViews(const Plane<const uint8_t>* views, EngineState* engine) {
+  const sf_config& config = engine->config;
+  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    Window& window = engine->windows[layer];
+    window.layer = layer;
+    window.width = LayerSize(config.width, layer);
+    window.height = LayerSize(config.height, layer);
+    window.picture_width = config.width;
+    window.picture_height = config.height;
+    window.views = config.views;
+    for (int view = 0; view < config.views; ++view) window.view[view] = views[view];
+    window.disparity = {engine->disparity.data, engine->disparity.stride, engine->disparity.rows,
+                        0};
+    engine->layers[layer].width = window.width;
+    engine->layers[layer].height = window.height;
+  }
+  engine->windows[0].centre = views[0];
 }
 
 sf_status SetLens(const sf_params& params, EngineState* engine) {
   const sf_config& config = engine->config;
-  const double to_min = AbsDouble(config.disparity_min - params.focus);
-  const double to_max = AbsDouble(config.disparity_max - params.focus);
-  const double r_max = params.aperture * (to_min > to_max ? to_min : to_max);
+  const double r_max = LargestBlur(config, params);
   if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
-  const int32_t n =
-      params.mode == SF_MODE_BENCHMARK ? ViewsOfBenchmark(r_max) : ViewsByPaper(r_max);
-  const Aperture aperture = MakeAperture(n, engine->fall_off, engine->aperture_weights);
-  engine->grid = MakeViewGrid(aperture, params.focus, params.aperture, 0, config.views == 17);
-  engine->border = BorderOf(r_max);
+  engine->params = params;
+  engine->reach = GetReach(r_max);
+  if (params.mode == SF_MODE_BENCHMARK) {
+    engine->aperture =
+        MakeAperture(ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
+  } else {
+    engine->aperture = engine->apertures[ViewsByPaper(r_max)];
+  }
+  const ViewGrid grid = MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false);
+  engine->scale = {grid.focus, grid.step};
+  if (params.mode == SF_MODE_BLUR) {
+    const int32_t steps = BlurStepCount(r_max);
+    if (steps > engine->blur_steps) {
+      MakeBlurKernels(engine->blur_steps, steps, engine->fall_off, engine->blur_weights,
+                      engine->blur_kernels);
+      engine->blur_steps = steps;
+    }
+  }
+  engine->report = sf_report();
   engine->report.r_max = r_max;
-  engine->report.n = n;
-  engine->report.rendered_views = aperture.views;
-  engine->report.rendered_samples = 3 * static_cast<uint64_t>(aperture.views) *
-                                    static_cast<uint64_t>(config.width) *
-                                    static_cast<uint64_t>(config.height);
+  for (int32_t worker = 0; worker < config.max_workers; ++worker) {
+    for (sf_layer_report& layer : engine->workers[worker].layers) layer = sf_layer_report();
+  }
   engine->disparity_rows = 0;
   return SF_OK;
 }
@@ -96,16 +118,22 @@ sf_status PushDisparity(const float* row, EngineState* engine) {
   return SF_OK;
 }
 
-sf_status RefocusStripe(EngineState* engine, int32_t y, uint8_t* out, size_t out_stride,
-                        const Runner& runner) {
-  const int32_t side = engine->config.largest_block;
-  StripeJob stripe = {engine, y, out, out_stride};
-  const int32_t blocks = (engine->config.width + side - 1) / side;
-  if (runner.run != nullptr) {
-    return runner.run(runner.data, RefocusBlock, &stripe, blocks) == 0 ? SF_OK : SF_ERROR_RUNNER;
+sf_report GetReport(const EngineState& engine) {
+  sf_report report = engine.report;
+  for (int32_t worker = 0; worker < engine.config.max_workers; ++worker) {
+    for (int layer = 0; layer < SF_LAYERS; ++layer) {
+      const sf_layer_report& part = engine.workers[worker].layers[layer];
+      sf_layer_report& sum = report.layers[layer];
+      sum.blocks += part.blocks;
+      sum.pixels += part.pixels;
+      sum.views += part.views;
+      sum.rendered_samples += part.rendered_samples;
+      sum.predicted_ps += part.predicted_ps;
+      sum.measured_ns += part.measured_ns;
+      report.rendered_samples += part.rendered_samples;
+    }
   }
-  for (int32_t block = 0; block < blocks; ++block) RefocusBlock(&stripe, block, 0);
-  return SF_OK;
+  return report;
 }
 
 }  // namespace starfocus

@@ -1,10 +1,15 @@
-// The engine: the stripe loop that ties the modules together.
+// The state of an engine, and the lens of the refocusing under way.
 #ifndef STARFOCUS_LIB_ENGINE_H_
 #define STARFOCUS_LIB_ENGINE_H_
 
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/blur.h"
+#include "lib/cells.h"
+#include "lib/deblock.h"
+#include "lib/layers.h"
+#include "lib/partition.h"
 #include "lib/star.h"
 #include "lib/view_grid.h"
 #include "lib/window.h"
@@ -13,21 +18,43 @@
 
 namespace starfocus {
 
-// Rows of one stripe of blocks and how far beyond it anything may be read, in rows.
+// How far beyond a stripe of blocks anything may be read, for blur up to a radius.
 struct Reach {
-  int32_t stripe;     // rows of a stripe: the largest block
-  int32_t border;     // largest border of a block
-  int32_t disparity;  // rows of the disparity ring
-  int32_t views;      // rows of a view's line ring
+  int32_t border;  // pixels: largest border of a block
+  int32_t cells;   // how many cells away a pixel may splat from
+  int32_t rows;    // picture rows of the centre view and the disparity map
 };
-Reach GetReach(const sf_config& config);
+Reach GetReach(double max_blur);
 
-// Progress of a streamed refocusing.
+// Rows beyond a stripe that side views are read in.
+int32_t SideReach(const sf_config& config);
+
+// Progress of a streamed refocusing, in rows.
 struct Stream {
   bool active = false;
   int32_t pushed = 0;    // input rows taken
-  int32_t finished = 0;  // rows of stripes refocused
-  int32_t written = 0;   // rows the caller has pulled
+  int32_t next = 0;      // first row of the next stripe
+  int32_t finished = 0;  // output rows that no later stripe changes
+  int32_t written = 0;   // output rows the caller has pulled
+};
+
+// Memory of one worker and what it counted.
+struct Worker {
+  StarScratch star;
+  ResampleScratch resample;
+  UpsampleScratch upsample;
+  int16_t* layer_samples;   // a rendered rectangle
+  int16_t* middle_samples;  // at layer 1, on the way up from layer 2
+  int16_t* picture_samples;
+  PartitionNode* nodes;
+  sf_layer_report layers[SF_LAYERS];
+};
+
+// The blocks of a stripe, largest block by largest block.
+struct StripePlan {
+  Block* blocks;               // MaxBlocks per largest block
+  int32_t* counts;             // blocks used of each
+  uint8_t* needed[SF_LAYERS];  // per largest block's column: its columns of layer 1, 2 are read
 };
 
 struct EngineState {
@@ -35,39 +62,55 @@ struct EngineState {
   const simd::Kernels* kernels;
   uint32_t fall_off;  // ApertureFallOff(config.theta)
 
+  // Tables made once: by N up to max_n, and kernels of the blur mode as far as asked for.
+  int32_t max_n;
+  Aperture* apertures;
+  uint16_t* aperture_weights;
+  ViewCounts* view_counts;
+  uint16_t* benchmark_weights;
+  BlurKernel* blur_kernels;
+  uint16_t* blur_weights;
+  int32_t blur_steps;  // made so far
+
   // The lens of the refocusing under way.
-  ViewGrid grid;
-  int32_t border;
+  sf_params params;
+  Aperture aperture;  // frame modes: of the one N
+  BlurScale scale;
+  Reach reach;
   sf_report report;
 
-  Window window;
-  Plane<int16_t> disparity;         // ring of converted rows
-  int32_t disparity_rows;           // converted so far
+  Window windows[SF_LAYERS];
+  LayerPlane layers[SF_LAYERS];  // of layers 1 and 2
+  Plane<int16_t> disparity;      // ring of converted rows
+  int32_t disparity_rows;        // converted so far
+  CellGrid cells;
+  StripePlan plan;
+  LayerMap map;
+
   Plane<uint8_t> rings[kMaxViews];  // with streaming
-  uint8_t* stripe_out;              // with streaming: the last stripe's rows, packed
+  uint8_t* stripe_out;              // with streaming: kDeblockRows and a stripe, packed
   Stream stream;
 
-  uint16_t* aperture_weights;  // ApertureSize of the benchmark's largest N
-  StarScratch* workers;        // config.max_workers
+  Worker* workers;  // config.max_workers
 };
 
-// Sets engine->grid, border and report for params; SF_ERROR_BLUR_TOO_LARGE or SF_OK. The other
-// fields of params must have been checked.
+inline bool IsBlockMode(const EngineState& engine) { return engine.params.mode == SF_MODE_BLOCK; }
+
+// Makes the tables of a fresh engine.
+void MakeTables(EngineState* engine);
+
+// Points the windows at whole pictures (ring_rows = 0) or line rings.
+void SetViews(const Plane<const uint8_t>* views, EngineState* engine);
+
+// Sets up the lens for params; SF_ERROR_BLUR_TOO_LARGE or SF_OK. The other fields of params must
+// have been checked.
 sf_status SetLens(const sf_params& params, EngineState* engine);
 
 // Converts one disparity row, checking that it lies in the configured range.
 sf_status PushDisparity(const float* row, EngineState* engine);
 
-// Who runs the jobs.
-struct Runner {
-  sf_runner run;
-  void* data;
-};
-
-// Refocuses the stripe that starts at row y, a multiple of the stripe height, into out. All rows
-// within reach are in the window. SF_OK or SF_ERROR_RUNNER.
-sf_status RefocusStripe(EngineState* engine, int32_t y, uint8_t* out, size_t out_stride,
-                        const Runner& runner);
+// The report of what has been refocused.
+sf_report GetReport(const EngineState& engine);
 
 }  // namespace starfocus
 

@@ -34,11 +34,13 @@ void LoadField(const Window& window, const Rect& rect, const Border& border, Fie
     uint8_t* rgb = field->rgb + 3 * field->Offset(0, row);
     int16_t* disparity = field->disparity + field->Offset(0, row);
     const uint8_t* from = window.centre.Row(y);
-    const int16_t* from_disparity = window.disparity.Row(y << window.layer);
+    const int16_t* from_disparity =
+        window.disparity.Row(Min(y << window.layer, window.picture_height - 1));
     std::memcpy(rgb + 3 * first, from + 3 * (field->x + first),
                 3 * static_cast<size_t>(last - first));
     for (int32_t column = first; column < last; ++column) {
-      disparity[column] = from_disparity[(field->x + column) << window.layer];
+      const int32_t x = (field->x + column) << window.layer;
+      disparity[column] = from_disparity[Min(x, window.picture_width - 1)];
     }
     RepeatEdges(first, last, field->width, rgb, disparity);
   }

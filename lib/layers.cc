@@ -5,8 +5,8 @@
 namespace starfocus {
 namespace {
 
-using simd::kLayerWhite;
 using simd::Kernels;
+using simd::kLayerWhite;
 
 // Positions [2 begin - 3, 2 end + 2) of a line, those outside [0, size) repeating the edge.
 struct Taps {
@@ -110,7 +110,8 @@ void UpsampleByTwo(const Kernels& kernels, const LayerRect& in, int32_t first,
     int16_t* to = out.samples + 3 * static_cast<size_t>(y) * static_cast<size_t>(out.width);
     for (int32_t x = 0; x < out.width; ++x) {
       const int16_t* pixel = (x % 2 == 0 ? line : scratch.between) + 3 * (x >> 1);
-      for (int c = 0; c < 3; ++c) to[3 * x + c] = static_cast<int16_t>(Clamp(pixel[c], 0, kLayerWhite));
+      for (int c = 0; c < 3; ++c)
+        to[3 * x + c] = static_cast<int16_t>(Clamp(pixel[c], 0, kLayerWhite));
     }
   }
 }

@@ -18,6 +18,12 @@ inline constexpr simd::HalfBand kUpFilter = {16384, 9543, -1351};   // beta_U = 
 static_assert(kDownFilter.centre + 2 * (kDownFilter.near + kDownFilter.far) == 1 << simd::kTapBits);
 static_assert(2 * (kUpFilter.near + kUpFilter.far) == 1 << simd::kTapBits);
 
+// Pixels of a layer along an axis of `size` pixels: one more than those inside the picture, so that
+// upsampling finds the colour of the edge itself beyond it.
+constexpr int32_t LayerSize(int32_t size, int32_t layer) {
+  return layer == 0 ? size : (LayerSize(size, layer - 1) + 1) / 2 + 1;
+}
+
 // Rows [first, last) of a layer.
 struct RowRange {
   int32_t first, last;
@@ -25,11 +31,11 @@ struct RowRange {
 
 // One layer of the centre view around a stripe.
 struct LayerPlane {
-  int32_t width = 0, height = 0;   // of the whole layer
-  RowRange rows = {0, 0};          // what is stored
-  Plane<uint8_t> rgb;              // what is refocused
-  Plane<int16_t> samples;          // the same, simd::kLayerBits, in range: what the next layer needs
-  Plane<int16_t> half;             // between the passes: subsampled along x only
+  int32_t width = 0, height = 0;  // of the whole layer
+  RowRange rows = {0, 0};         // what is stored
+  Plane<uint8_t> rgb;             // what is refocused
+  Plane<int16_t> samples;         // the same, simd::kLayerBits, in range: what the next layer needs
+  Plane<int16_t> half;            // between the passes: subsampled along x only
 };
 
 // Memory of a worker for resampling.

@@ -15,7 +15,7 @@ SpanMemory TakeSpans(size_t side, Carver* carver) {
 }
 
 // E and R of StarScratch.
-StarScratch TakeScratch(size_t extended, size_t rectangle, Carver* carver) {
+StarScratch TakeStar(size_t extended, size_t rectangle, Carver* carver) {
   StarScratch scratch;
   const size_t area = extended * extended, stripe = rectangle * extended;
   for (int k = 0; k < 2; ++k) {
@@ -42,35 +42,108 @@ StarScratch TakeScratch(size_t extended, size_t rectangle, Carver* carver) {
   return scratch;
 }
 
+Worker TakeWorker(const sf_config& config, Carver* carver) {
+  const auto side = static_cast<size_t>(config.largest_block);
+  const Reach reach = GetReach(config.max_blur);
+  Worker worker = {};
+  worker.star = TakeStar(side + 2 * static_cast<size_t>(reach.border), side, carver);
+  worker.resample.line = carver->Take<int16_t>(3 * (side + 16));
+  worker.resample.filtered = carver->Take<int16_t>(3 * (side + 16));
+  // A rendered rectangle is at most half a block and 4 pixels wide.
+  const size_t half = side / 2 + 8;
+  worker.upsample.line = carver->Take<int16_t>(3 * half);
+  worker.upsample.between = carver->Take<int16_t>(3 * half);
+  worker.layer_samples = carver->Take<int16_t>(3 * half * half);
+  worker.middle_samples = carver->Take<int16_t>(3 * half * half);
+  worker.picture_samples = carver->Take<int16_t>(3 * side * side);
+  worker.nodes =
+      carver->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
+  return worker;
+}
+
+void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
+  // One more than (9) gives: radii are rounded up before it.
+  engine->max_n = ViewsByPaper(config.max_blur) + 1;
+  const auto count = static_cast<size_t>(engine->max_n) + 1;
+  size_t weights = 0;
+  for (int32_t n = 0; n <= engine->max_n; ++n) weights += ApertureSize(n);
+  engine->apertures = carver->Take<Aperture>(count);
+  engine->aperture_weights = carver->Take<uint16_t>(weights);
+  engine->view_counts = carver->Take<ViewCounts>(count);
+  engine->benchmark_weights =
+      carver->Take<uint16_t>(ApertureSize(ViewsOfBenchmark(config.max_blur)));
+  engine->blur_kernels =
+      carver->Take<BlurKernel>(static_cast<size_t>(BlurStepCount(config.max_blur)));
+  engine->blur_weights = carver->Take<uint16_t>(BlurWeightCount(config.max_blur));
+}
+
+// Planes of layers 1 and 2 around a stripe.
+void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
+  size_t rows = static_cast<size_t>(config.largest_block + 2 * GetReach(config.max_blur).rows);
+  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+    LayerPlane& plane = engine->layers[layer];
+    const auto width = static_cast<size_t>(LayerSize(config.width, layer));
+    plane.half.stride = plane.rgb.stride = plane.samples.stride = 3 * width;
+    plane.half.data = carver->Take<int16_t>(3 * width * (rows + 8));
+    rows = rows / 2 + 4;
+    plane.rgb.data = carver->Take<uint8_t>(3 * width * rows);
+    plane.samples.data = carver->Take<int16_t>(3 * width * rows);
+  }
+}
+
+void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
+  const Reach reach = GetReach(config.max_blur);
+  const int32_t side = config.largest_block;
+  const auto blocks = static_cast<size_t>((config.width + side - 1) / side);
+  engine->cells.columns = (config.width + kCellSize - 1) / kCellSize;
+  engine->cells.rows = (config.height + kCellSize - 1) / kCellSize;
+  engine->cells.cells =
+      carver->Take<Cell>(static_cast<size_t>(engine->cells.columns) *
+                         static_cast<size_t>(side / kCellSize + 2 * reach.cells + 2));
+  engine->plan.blocks = carver->Take<Block>(blocks * static_cast<size_t>(MaxBlocks(side)));
+  engine->plan.counts = carver->Take<int32_t>(blocks);
+  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+    engine->plan.needed[layer] = carver->Take<uint8_t>(blocks);
+  }
+  engine->map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
+  engine->map.units = carver->Take<uint8_t>(static_cast<size_t>(engine->map.columns) *
+                                            static_cast<size_t>(side / kSmallestBlock + 1));
+}
+
+void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
+  const auto width = static_cast<size_t>(config.width);
+  const bool streaming = config.streaming != 0;
+  const int32_t beyond = streaming ? SideReach(config) : GetReach(config.max_blur).rows;
+  const int32_t rows = config.largest_block + 2 * beyond;
+  engine->disparity.rows = rows;
+  engine->disparity.stride = width;
+  engine->disparity.data = carver->Take<int16_t>(width * static_cast<size_t>(rows));
+  engine->stripe_out = nullptr;
+  if (!streaming) return;
+  for (int view = 0; view < config.views; ++view) {
+    engine->rings[view].rows = rows;
+    engine->rings[view].stride = 3 * width;
+    engine->rings[view].data = carver->Take<uint8_t>(3 * width * static_cast<size_t>(rows));
+  }
+  engine->stripe_out =
+      carver->Take<uint8_t>(3 * width * static_cast<size_t>(config.largest_block + kDeblockRows));
+}
+
 }  // namespace
 
 size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
   Carver carver(base);
-  const Reach reach = GetReach(config);
-  const auto width = static_cast<size_t>(config.width);
-  const auto workers = static_cast<size_t>(config.max_workers);
   *engine = carver.Take<EngineState>(1);
   EngineState counted;  // stands in for *engine while counting
   EngineState& e = *engine == nullptr ? counted : **engine;
-  e.aperture_weights = carver.Take<uint16_t>(ApertureSize(ViewsOfBenchmark(config.max_blur)));
-  e.disparity.rows = reach.disparity;
-  e.disparity.stride = width;
-  e.disparity.data = carver.Take<int16_t>(width * static_cast<size_t>(reach.disparity));
-  e.stripe_out = nullptr;
-  if (config.streaming != 0) {
-    for (int view = 0; view < config.views; ++view) {
-      e.rings[view].rows = reach.views;
-      e.rings[view].stride = 3 * width;
-      e.rings[view].data = carver.Take<uint8_t>(3 * width * static_cast<size_t>(reach.views));
-    }
-    e.stripe_out = carver.Take<uint8_t>(3 * width * static_cast<size_t>(reach.stripe));
-  }
-  e.workers = carver.Take<StarScratch>(workers);
-  const auto rectangle = static_cast<size_t>(reach.stripe);
-  const size_t extended = rectangle + 2 * static_cast<size_t>(reach.border);
-  for (size_t worker = 0; worker < workers; ++worker) {
-    const StarScratch scratch = TakeScratch(extended, rectangle, &carver);
-    if (*engine != nullptr) e.workers[worker] = scratch;
+  TakeTables(config, &carver, &e);
+  TakeRows(config, &carver, &e);
+  TakeLayers(config, &carver, &e);
+  TakeStripe(config, &carver, &e);
+  e.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
+  for (int32_t worker = 0; worker < config.max_workers; ++worker) {
+    const Worker taken = TakeWorker(config, &carver);
+    if (*engine != nullptr) e.workers[worker] = taken;
   }
   return carver.used();
 }

@@ -10,9 +10,7 @@ constexpr double kRadiusOne = 1 << kDisparityBits;
 // Pixels of a layer that upsampling to the picture reads beyond a block.
 constexpr int32_t LayerMargin(int32_t layer) { return kLayerMargin[layer] >> layer; }
 
-int32_t CeilShift(int32_t value, int32_t layer) {
-  return (value + (1 << layer) - 1) >> layer;
-}
+int32_t CeilShift(int32_t value, int32_t layer) { return (value + (1 << layer) - 1) >> layer; }
 
 // A border of a block to one of its rendered rectangle, at the layer: `beyond` pixels of the
 // nominal block were clipped off at the picture's edge. One pixel more for the neighbour of an
@@ -23,8 +21,8 @@ int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
 
 class Partition {
  public:
-  Partition(const PartitionRules& rules, PartitionScratch* scratch)
-      : rules_(rules), scratch_(scratch), side_(rules.largest_block / kSmallestBlock) {
+  Partition(const PartitionRules& rules, PartitionNode* nodes)
+      : rules_(rules), nodes_(nodes), side_(rules.largest_block / kSmallestBlock) {
     while ((1 << levels_) < side_) ++levels_;
   }
 
@@ -51,8 +49,10 @@ class Partition {
 
  private:
   int32_t NodeSide(int level) const { return kSmallestBlock << level; }
-  int32_t Index(int level, int32_t column, int32_t row) const {
-    return row * (side_ >> level) + column;
+  PartitionNode& Node(int level, int32_t column, int32_t row) const {
+    int32_t index = row * (side_ >> level) + column;
+    for (int below = 0; below < level; ++below) index += (side_ >> below) * (side_ >> below);
+    return nodes_[index];
   }
   bool Inside(int level, int32_t column, int32_t row) const {
     return x_ + column * NodeSide(level) < rules_.width &&
@@ -60,7 +60,7 @@ class Partition {
   }
 
   void MeasureNode(int level, int32_t column, int32_t row, const CellGrid& cells, int32_t around) {
-    BlockStats& stats = scratch_->stats[level][Index(level, column, row)];
+    BlockStats& stats = Node(level, column, row).stats;
     if (level == 0) {
       const int32_t cell_x = x_ / kCellSize + 2 * column, cell_y = y_ / kCellSize + 2 * row;
       stats = MeasureBlock(cells, cell_x, cell_y, around);
@@ -69,24 +69,22 @@ class Partition {
     const BlockStats* children[4];
     for (int child = 0; child < 4; ++child) {
       const int32_t cx = 2 * column + (child & 1), cy = 2 * row + (child >> 1);
-      children[child] = Inside(level - 1, cx, cy)
-                            ? &scratch_->stats[level - 1][Index(level - 1, cx, cy)]
-                            : nullptr;
+      children[child] = Inside(level - 1, cx, cy) ? &Node(level - 1, cx, cy).stats : nullptr;
     }
     stats = MergeBlocks(children, NodeSide(level - 1));
   }
 
   // The node as one block, and whether splitting it is cheaper.
   void Plan(int level, int32_t column, int32_t row) {
-    const int32_t index = Index(level, column, row);
-    Block& block = scratch_->blocks[level][index];
+    PartitionNode& node = Node(level, column, row);
+    Block& block = node.block;
     const int32_t side = NodeSide(level);
     const int32_t x = x_ + column * side, y = y_ + row * side;
     block.rect = {x, y, Min(side, rules_.width - x), Min(side, rules_.height - y)};
-    ChooseParameters(scratch_->stats[level][index], side, &block);
+    ChooseParameters(node.stats, side, &block);
     uint64_t best = block.cost;
     if (level > 0) best = Smaller(best, ChildrenCost(level, column, row));
-    scratch_->best[level][index] = best;
+    node.best = best;
   }
 
   static uint64_t Smaller(uint64_t a, uint64_t b) { return b < a ? b : a; }
@@ -95,7 +93,7 @@ class Partition {
     uint64_t sum = 0;
     for (int child = 0; child < 4; ++child) {
       const int32_t cx = 2 * column + (child & 1), cy = 2 * row + (child >> 1);
-      if (Inside(level - 1, cx, cy)) sum += scratch_->best[level - 1][Index(level - 1, cx, cy)];
+      if (Inside(level - 1, cx, cy)) sum += Node(level - 1, cx, cy).best;
     }
     return sum;
   }
@@ -110,10 +108,9 @@ class Partition {
                        CeilShift(rect.width, layer) + 2 * margin,
                        CeilShift(rect.height, layer) + 2 * margin};
     const Border& border = stats.border[layer];
-    block->border = {LayerBorder(border.left, 0, layer),
-                     LayerBorder(border.right, side - rect.width, layer),
-                     LayerBorder(border.top, 0, layer),
-                     LayerBorder(border.bottom, side - rect.height, layer)};
+    block->border = {
+        LayerBorder(border.left, 0, layer), LayerBorder(border.right, side - rect.width, layer),
+        LayerBorder(border.top, 0, layer), LayerBorder(border.bottom, side - rect.height, layer)};
     const uint64_t upsampled =
         layer == 0 ? 0 : static_cast<uint64_t>(rect.width) * static_cast<uint64_t>(rect.height);
     block->cost = PredictTime(rules_.timing, MeasureWork(block->rendered, block->border,
@@ -122,9 +119,9 @@ class Partition {
 
   void EmitNode(int level, int32_t column, int32_t row, Block* blocks) {
     if (!Inside(level, column, row)) return;
-    const int32_t index = Index(level, column, row);
-    if (scratch_->best[level][index] == scratch_->blocks[level][index].cost) {
-      blocks[count_++] = scratch_->blocks[level][index];
+    const PartitionNode& node = Node(level, column, row);
+    if (node.best == node.block.cost) {
+      blocks[count_++] = node.block;
       return;
     }
     for (int child = 0; child < 4; ++child) {
@@ -133,7 +130,7 @@ class Partition {
   }
 
   const PartitionRules& rules_;
-  PartitionScratch* scratch_;
+  PartitionNode* nodes_;
   int32_t side_;  // in smallest blocks
   int levels_ = 0;
   int32_t x_ = 0, y_ = 0;
@@ -143,8 +140,8 @@ class Partition {
 }  // namespace
 
 int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
-                       int32_t around, PartitionScratch* scratch, Block* blocks) {
-  Partition partition(rules, scratch);
+                       int32_t around, PartitionNode* nodes, Block* blocks) {
+  Partition partition(rules, nodes);
   partition.Measure(cells, x, y, around);
   return partition.Emit(blocks);
 }

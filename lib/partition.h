@@ -10,7 +10,6 @@
 namespace starfocus {
 
 inline constexpr int32_t kSmallestBlock = 16;
-inline constexpr int kMaxLevels = 5;  // 16 to 256
 
 // A block to refocus: a rectangle of the picture with its parameters.
 struct Block {
@@ -31,11 +30,11 @@ struct PartitionRules {
   const ViewCounts* views;  // by N, up to max_n
 };
 
-// Memory of one partition: every node of a quadtree of 256x256.
-struct PartitionScratch {
-  BlockStats stats[kMaxLevels][256];
-  Block blocks[kMaxLevels][256];
-  uint64_t best[kMaxLevels][256];
+// A node of the quadtree: what it is as one block, and the least time of it or its children.
+struct PartitionNode {
+  BlockStats stats;
+  Block block;
+  uint64_t best;
 };
 
 // Blocks a largest block can split into.
@@ -43,11 +42,18 @@ constexpr int32_t MaxBlocks(int32_t largest_block) {
   return (largest_block / kSmallestBlock) * (largest_block / kSmallestBlock);
 }
 
+// Nodes of the quadtree of a largest block.
+constexpr int32_t PartitionNodes(int32_t largest_block) {
+  int32_t nodes = 0;
+  for (int32_t side = largest_block / kSmallestBlock; side > 0; side /= 2) nodes += side * side;
+  return nodes;
+}
+
 // Splits the largest block at (x, y), multiples of largest_block, into the blocks of least
-// predicted time. `around`: how many cells away a pixel may splat from. Writes at most MaxBlocks
-// blocks in z-order; returns their number.
+// predicted time. `around`: how many cells away a pixel may splat from. nodes[PartitionNodes] is
+// scratch. Writes at most MaxBlocks blocks in z-order; returns their number.
 int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
-                       int32_t around, PartitionScratch* scratch, Block* blocks);
+                       int32_t around, PartitionNode* nodes, Block* blocks);
 
 }  // namespace starfocus
 

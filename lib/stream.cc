@@ -3,17 +3,17 @@
 
 #include "lib/engine.h"
 #include "lib/layout.h"
+#include "lib/stripe.h"
 #include "lib/validate.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 namespace {
 
-// First row after those that the next stripe reads.
+// Input rows that the next stripe reads.
 int32_t NeededRows(const EngineState& engine) {
-  const Reach reach = GetReach(engine.config);
-  const int32_t beyond = (reach.views - reach.stripe) / 2;
-  return Min(engine.config.height, engine.stream.finished + reach.stripe + beyond);
+  return Min(engine.config.height,
+             engine.stream.next + engine.config.largest_block + SideReach(engine.config));
 }
 
 bool StripeWaiting(const EngineState& engine) {
@@ -34,18 +34,36 @@ sf_status PushRow(const sf_light_field& light_field, int32_t row, EngineState* e
   return SF_OK;
 }
 
+// The rows of the stripe that starts at row y, and those before it that it may still change.
+Plane<uint8_t> StripeRows(const EngineState& engine, int32_t y) {
+  return {engine.stripe_out, 3 * static_cast<size_t>(engine.config.width), 0, y - kDeblockRows};
+}
+
 // Copies finished rows out of the stripe buffer.
 int32_t CopyRows(EngineState* engine, uint8_t* out, size_t out_stride, int32_t rows) {
   Stream& stream = engine->stream;
-  const int32_t side = engine->config.largest_block;
-  const size_t row_bytes = 3 * static_cast<size_t>(engine->config.width);
+  const Plane<uint8_t> from = StripeRows(*engine, stream.next - engine->config.largest_block);
   int32_t copied = 0;
   for (; copied < rows && StripeWaiting(*engine); ++copied, ++stream.written) {
-    const auto from = static_cast<size_t>(stream.written % side);
-    std::memcpy(out + static_cast<size_t>(copied) * out_stride,
-                engine->stripe_out + from * row_bytes, row_bytes);
+    std::memcpy(out + static_cast<size_t>(copied) * out_stride, from.Row(stream.written),
+                from.stride);
   }
   return copied;
+}
+
+sf_status RefocusNext(EngineState* engine, const Runner& runner) {
+  Stream& stream = engine->stream;
+  const Plane<uint8_t> rows = StripeRows(*engine, stream.next);
+  if (stream.next > 0) {
+    const Plane<uint8_t> before = StripeRows(*engine, stream.next - engine->config.largest_block);
+    std::memmove(rows.Row(stream.next - kDeblockRows), before.Row(stream.next - kDeblockRows),
+                 kDeblockRows * rows.stride);
+  }
+  const sf_status status = RefocusStripe(engine, stream.next, rows, runner);
+  if (status != SF_OK) return status;
+  stream.finished = FinishedRows(*engine, stream.next);
+  stream.next += engine->config.largest_block;
+  return SF_OK;
 }
 
 }  // namespace
@@ -62,9 +80,11 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   e.stream = starfocus::Stream();
   status = starfocus::SetLens(*params, &e);
   if (status != SF_OK) return status;
+  starfocus::Plane<const uint8_t> views[starfocus::kMaxViews];
   for (int view = 0; view < e.config.views; ++view) {
-    e.window.view[view] = {e.rings[view].data, e.rings[view].stride, e.rings[view].rows};
+    views[view] = {e.rings[view].data, e.rings[view].stride, e.rings[view].rows, 0};
   }
+  starfocus::SetViews(views, &e);
   e.stream.active = true;
   return SF_OK;
 }
@@ -106,16 +126,12 @@ sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int
   while (*written < rows && e.stream.written < e.config.height) {
     if (!starfocus::StripeWaiting(e)) {
       if (e.stream.pushed < starfocus::NeededRows(e)) break;
-      status =
-          starfocus::RefocusStripe(&e, e.stream.finished, e.stripe_out,
-                                   3 * static_cast<size_t>(e.config.width), {runner, runner_data});
+      status = starfocus::RefocusNext(&e, {runner, runner_data});
       if (status != SF_OK) return status;
-      e.stream.finished =
-          starfocus::Min(e.config.height, e.stream.finished + e.config.largest_block);
     }
     *written += starfocus::CopyRows(&e, out + static_cast<size_t>(*written) * out_stride,
                                     out_stride, rows - *written);
   }
-  if (report != nullptr) *report = e.report;
+  if (report != nullptr) *report = starfocus::GetReport(e);
   return SF_OK;
 }

@@ -29,10 +29,10 @@ inline constexpr int kMaxViews = 17;
 // A light field at one layer: pixel (x, y) of the layer stands at (x << L, y << L) in the pictures.
 // Only the centre view is subsampled as a whole; of the others a few pixels are read, in holes.
 struct Window {
-  int32_t width = 0;   // of the layer
+  int32_t width = 0;  // of the layer
   int32_t height = 0;
-  int layer = 0;       // L
-  int32_t views = 0;   // 1, 5, 9 or 17
+  int layer = 0;                // L
+  int32_t views = 0;            // 1, 5, 9 or 17
   Plane<const uint8_t> centre;  // at the layer
   int32_t picture_width = 0;
   int32_t picture_height = 0;

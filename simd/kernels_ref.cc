@@ -86,16 +86,17 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
              int16_t high, int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
     const int16_t* at = in + n;
-    out[n] = RoundTaps(taps.near * (at[0] + at[step]) + taps.far * (at[-step] + at[2 * step]),
-                       low, high);
+    out[n] = RoundTaps(taps.near * (at[0] + at[step]) + taps.far * (at[-step] + at[2 * step]), low,
+                       high);
   }
 }
 
 }  // namespace
 
 const Kernels& ReferenceKernels() {
-  static constexpr Kernels kernels = {"reference", Accumulate,  Blend,          Finish, ConvertDisparity, Widen,
-                                      Narrow,      FinishLayer, FilterHalfBand, Between};
+  static constexpr Kernels kernels = {"reference",      Accumulate, Blend,  Finish,
+                                      ConvertDisparity, Widen,      Narrow, FinishLayer,
+                                      FilterHalfBand,   Between};
   return kernels;
 }
 

@@ -1,0 +1,98 @@
+#include "lib/refocus_block.h"
+
+namespace starfocus {
+namespace {
+
+size_t Samples(const Rect& rect) {
+  return 3 * static_cast<size_t>(rect.width) * static_cast<size_t>(rect.height);
+}
+
+uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
+  return out.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x);
+}
+
+void FinishPicture(const simd::Kernels& kernels, const Block& block, int shift,
+                   const Plane<uint8_t>& out, const Worker& worker) {
+  const size_t samples = 3 * static_cast<size_t>(block.rect.width);
+  for (int32_t row = 0; row < block.rect.height; ++row) {
+    kernels.finish(worker.star.accumulators[0] + static_cast<size_t>(row) * samples, samples, shift,
+                   At(out, block.rect, row));
+  }
+}
+
+// From layer 2 to layer 1, with the margin that the next step reads, to the picture.
+void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
+                 const Plane<uint8_t>& out, const Worker& worker) {
+  kernels.finish_layer(worker.star.accumulators[0], Samples(block.rendered), shift,
+                       worker.layer_samples);
+  LayerRect layer = {worker.layer_samples, block.rendered.width, block.rendered.height};
+  int32_t margin = kLayerMargin[block.layer] >> block.layer;
+  if (block.layer == 2) {
+    const int32_t next_margin = kLayerMargin[1] >> 1;
+    const LayerRect middle = {worker.middle_samples,
+                              ((block.rect.width + 1) >> 1) + 2 * next_margin,
+                              ((block.rect.height + 1) >> 1) + 2 * next_margin};
+    UpsampleByTwo(kernels, layer, margin - next_margin / 2, worker.upsample, middle);
+    layer = middle;
+    margin = next_margin;
+  }
+  const LayerRect picture = {worker.picture_samples, block.rect.width, block.rect.height};
+  UpsampleByTwo(kernels, layer, margin, worker.upsample, picture);
+  const size_t samples = 3 * static_cast<size_t>(block.rect.width);
+  for (int32_t row = 0; row < block.rect.height; ++row) {
+    kernels.narrow(picture.samples + static_cast<size_t>(row) * samples, samples,
+                   At(out, block.rect, row));
+  }
+}
+
+void RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+                  Worker* worker) {
+  const Aperture& aperture = IsBlockMode(engine) ? engine.apertures[block.n] : engine.aperture;
+  const ViewGrid grid = MakeViewGrid(aperture, engine.params.focus, engine.params.aperture,
+                                     block.layer, engine.config.views == 17);
+  const StarJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
+                       block.border};
+  RefocusRectangle(job, &worker->star);
+  if (block.layer == 0) {
+    FinishPicture(*engine.kernels, block, aperture.sum_bits, out, *worker);
+  } else {
+    FinishLayer(*engine.kernels, block, aperture.sum_bits, out, *worker);
+  }
+}
+
+void BlurBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+               Worker* worker) {
+  const BlurJob job = {&engine.windows[0], engine.scale, engine.blur_kernels,
+                       engine.kernels,     block.rect,   block.border.left};
+  const BlurScratch scratch = {worker->star.field_rgb[0], worker->star.accumulators[0],
+                               worker->star.spans};
+  BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
+}
+
+}  // namespace
+
+void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+                  Worker* worker) {
+  const sf_clock clock = engine.params.clock;
+  const uint64_t start = clock != nullptr ? clock() : 0;
+  const bool blur = engine.params.mode == SF_MODE_BLUR;
+  if (blur) {
+    BlurBlock(engine, block, out, worker);
+  } else {
+    RefocusViews(engine, block, out, worker);
+  }
+  sf_layer_report& report = worker->layers[block.layer];
+  const auto views = static_cast<uint64_t>(blur                  ? 0
+                                           : IsBlockMode(engine) ? engine.apertures[block.n].views
+                                                                 : engine.aperture.views);
+  report.blocks += 1;
+  report.pixels += Samples(block.rect) / 3;
+  report.views += views;
+  const uint64_t area = Samples({0, 0, (block.rect.width + (1 << block.layer) - 1) >> block.layer,
+                                 (block.rect.height + (1 << block.layer) - 1) >> block.layer});
+  report.rendered_samples += views * area;
+  report.predicted_ps += block.cost;
+  if (clock != nullptr) report.measured_ns += clock() - start;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,268 @@
+#include "lib/stripe.h"
+
+#include <cstring>
+
+#include "lib/refocus_block.h"
+
+namespace starfocus {
+namespace {
+
+// One stripe, for the jobs of its phases.
+struct Stripe {
+  EngineState* engine;
+  int32_t y, height;  // rows of the picture
+  Plane<uint8_t> out;
+  int32_t first_row;  // of the rows that deblocking finishes
+  int32_t last_row;
+};
+
+int32_t BlockSide(const EngineState& engine) { return engine.config.largest_block; }
+
+int32_t Columns(const EngineState& engine) {
+  return (engine.config.width + BlockSide(engine) - 1) / BlockSide(engine);
+}
+
+template <void (*kJob)(const Stripe&, int32_t, Worker*)>
+void Call(void* data, int32_t index, int32_t worker) {
+  const auto& stripe = *static_cast<const Stripe*>(data);
+  kJob(stripe, index, &stripe.engine->workers[worker]);
+}
+
+template <void (*kJob)(const Stripe&, int32_t, Worker*)>
+sf_status RunJobs(Stripe* stripe, int32_t count, const Runner& runner) {
+  if (runner.run != nullptr) {
+    return runner.run(runner.data, Call<kJob>, stripe, count) == 0 ? SF_OK : SF_ERROR_RUNNER;
+  }
+  for (int32_t index = 0; index < count; ++index) Call<kJob>(stripe, index, 0);
+  return SF_OK;
+}
+
+Block* BlocksOf(const EngineState& engine, int32_t column) {
+  return engine.plan.blocks + static_cast<size_t>(column) * MaxBlocks(BlockSide(engine));
+}
+
+// Frame modes and blur: one block of the largest size, at layer 0.
+void PlanWhole(const Stripe& stripe, int32_t column) {
+  EngineState& engine = *stripe.engine;
+  Block& block = *BlocksOf(engine, column);
+  const int32_t side = BlockSide(engine), x = column * side;
+  block.rect = {x, stripe.y, Min(side, engine.config.width - x), stripe.height};
+  block.rendered = block.rect;
+  const int32_t border = engine.reach.border - kCellSize;
+  block.border = {border, border, border, border};
+  block.layer = 0;
+  block.n = engine.aperture.n;
+  block.cost = PredictTime(engine.config.timing, MeasureWork(block.rendered, block.border,
+                                                             CountViews(engine.aperture.n), 0));
+  engine.plan.counts[column] = 1;
+}
+
+void MeasureCells(const Stripe& stripe, int32_t index, Worker*) {
+  EngineState& engine = *stripe.engine;
+  const int32_t per_block = BlockSide(engine) / kCellSize;
+  const int32_t last = Min((index + 1) * per_block, engine.cells.columns);
+  for (int32_t row = engine.cells.first_row; row < engine.cells.last_row; ++row) {
+    for (int32_t column = index * per_block; column < last; ++column) {
+      *engine.cells.At(column, row) = MeasureCell(engine.windows[0], engine.scale, column, row);
+    }
+  }
+}
+
+void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
+  EngineState& engine = *stripe.engine;
+  if (!IsBlockMode(engine)) {
+    PlanWhole(stripe, column);
+    return;
+  }
+  PartitionRules rules;
+  rules.width = engine.config.width;
+  rules.height = engine.config.height;
+  rules.largest_block = BlockSide(engine);
+  rules.max_layer = engine.config.max_layer;
+  rules.max_n = engine.max_n;
+  rules.timing = engine.config.timing;
+  rules.views = engine.view_counts;
+  engine.plan.counts[column] =
+      PartitionBlock(rules, engine.cells, column * BlockSide(engine), stripe.y, engine.reach.cells,
+                     worker->nodes, BlocksOf(engine, column));
+}
+
+// Marks the columns of largest blocks in which `block` reads layers 1 and 2.
+void MarkNeeded(const EngineState& engine, const Block& block) {
+  const int32_t left = (block.rendered.x - block.border.left) << block.layer;
+  const int32_t right = (block.rendered.x + block.rendered.width + block.border.right)
+                        << block.layer;
+  for (int layer = block.layer; layer > 0; --layer) {
+    // Layer 2 is made of layer 1 by a filter of 3 pixels' reach, 6 of the picture.
+    const int32_t reach = layer < block.layer ? 8 : 0;
+    const int32_t first = Max(0, (left - reach) / BlockSide(engine));
+    const int32_t last = Min(Columns(engine) - 1, (right + reach) / BlockSide(engine));
+    for (int32_t column = first; column <= last; ++column) {
+      engine.plan.needed[layer][column] = 1;
+    }
+  }
+}
+
+void MapBlock(const EngineState& engine, const Stripe& stripe, const Block& block) {
+  const Rect& rect = block.rect;
+  for (int32_t y = rect.y; y < rect.y + rect.height; y += kSmallestBlock) {
+    for (int32_t x = rect.x; x < rect.x + rect.width; x += kSmallestBlock) {
+      engine.map.At(x / kSmallestBlock, (y - stripe.y) / kSmallestBlock) =
+          static_cast<uint8_t>(block.layer);
+    }
+  }
+}
+
+// What the plan means for the other phases; tells the caller of each block.
+void ReadPlan(const Stripe& stripe) {
+  EngineState& engine = *stripe.engine;
+  LayerMap& map = engine.map;
+  if (stripe.y > 0) {
+    std::memcpy(map.units, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
+  }
+  map.rows = (stripe.height + kSmallestBlock - 1) / kSmallestBlock;
+  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+    std::memset(engine.plan.needed[layer], 0, static_cast<size_t>(Columns(engine)));
+  }
+  for (int32_t column = 0; column < Columns(engine); ++column) {
+    for (int32_t k = 0; k < engine.plan.counts[column]; ++k) {
+      const Block& block = BlocksOf(engine, column)[k];
+      MarkNeeded(engine, block);
+      MapBlock(engine, stripe, block);
+      if (block.n > engine.report.n || engine.report.rendered_views == 0) {
+        engine.report.n = block.n;
+        engine.report.rendered_views =
+            IsBlockMode(engine) ? engine.apertures[block.n].views : engine.aperture.views;
+      }
+      if (engine.params.on_block != nullptr) {
+        const sf_block told = {block.rect.x,      block.rect.y, block.rect.width,
+                               block.rect.height, block.layer,  block.n};
+        engine.params.on_block(engine.params.on_block_data, &told);
+      }
+    }
+  }
+}
+
+// Which rows of the layers the stripe may read.
+void PlaceLayers(const Stripe& stripe) {
+  EngineState& engine = *stripe.engine;
+  const int32_t around = (engine.reach.cells + 1) * kCellSize;
+  RowRange rows = {(stripe.y - around) >> 2, ((stripe.y + stripe.height + around) >> 2) + 1};
+  for (int layer = SF_LAYERS - 1; layer > 0; --layer) {
+    LayerPlane& plane = engine.layers[layer];
+    plane.rows = {Max(0, rows.first), Min(plane.height, rows.last)};
+    plane.rgb.first = plane.samples.first = plane.rows.first;
+    plane.half.first = 2 * plane.rows.first - 3;
+    rows = {2 * rows.first - 3, 2 * rows.last + 3};
+    Window& window = engine.windows[layer];
+    window.centre = {plane.rgb.data, plane.rgb.stride, 0, plane.rgb.first};
+  }
+}
+
+template <int kLayer>
+void Downsample(const Stripe& stripe, int32_t index, Worker* worker) {
+  EngineState& engine = *stripe.engine;
+  if (engine.plan.needed[kLayer][index] == 0) return;
+  LayerPlane* to = &engine.layers[kLayer];
+  const int32_t side = BlockSide(engine) >> kLayer;
+  const int32_t begin = index * side;
+  // The last column takes what a layer has beyond the picture.
+  const int32_t end = index + 1 == Columns(engine) ? to->width : begin + side;
+  if (kLayer == 1) {
+    DownsamplePicture(*engine.kernels, engine.windows[0].centre, engine.config.width,
+                      engine.config.height, begin, end, worker->resample, to);
+  } else {
+    DownsampleLayer(*engine.kernels, engine.layers[kLayer - 1], begin, end, worker->resample, to);
+  }
+}
+
+void RefocusColumn(const Stripe& stripe, int32_t column, Worker* worker) {
+  const EngineState& engine = *stripe.engine;
+  for (int32_t k = 0; k < engine.plan.counts[column]; ++k) {
+    RefocusBlock(engine, BlocksOf(engine, column)[k], stripe.out, worker);
+  }
+}
+
+DeblockJob MakeDeblockJob(const Stripe& stripe) {
+  const sf_config& config = stripe.engine->config;
+  return {&stripe.engine->map, stripe.out, config.width,
+          config.height,       stripe.y,   config.deblocking};
+}
+
+void DeblockRowBoundaries(const Stripe& stripe, int32_t column, Worker*) {
+  const int32_t units = BlockSide(*stripe.engine) / kSmallestBlock;
+  DeblockRows(MakeDeblockJob(stripe), column * units,
+              Min((column + 1) * units, stripe.engine->map.columns));
+}
+
+void DeblockColumnBoundaries(const Stripe& stripe, int32_t index, Worker*) {
+  const int32_t first = stripe.first_row + index * kSmallestBlock;
+  DeblockColumns(MakeDeblockJob(stripe), first, Min(first + kSmallestBlock, stripe.last_row));
+}
+
+sf_status PlanStripe(Stripe* stripe, const Runner& runner) {
+  EngineState& engine = *stripe->engine;
+  const int32_t columns = Columns(engine);
+  sf_status status = SF_OK;
+  if (IsBlockMode(engine)) {
+    CellGrid& cells = engine.cells;
+    const int32_t last = (stripe->y + stripe->height - 1) / kCellSize;
+    cells.first_row = Max(0, stripe->y / kCellSize - engine.reach.cells);
+    // A smallest block may hang over the picture's last row of cells.
+    cells.last_row = Min(cells.rows, last + engine.reach.cells + 2);
+    status = RunJobs<MeasureCells>(stripe, columns, runner);
+    if (status != SF_OK) return status;
+  }
+  status = RunJobs<PlanBlocks>(stripe, columns, runner);
+  if (status == SF_OK) ReadPlan(*stripe);
+  return status;
+}
+
+sf_status MakeLayers(Stripe* stripe, const Runner& runner) {
+  const EngineState& engine = *stripe->engine;
+  const int32_t columns = Columns(engine);
+  PlaceLayers(*stripe);
+  const auto any = [&](int layer) {
+    return std::memchr(engine.plan.needed[layer], 1, static_cast<size_t>(Max(columns, 1))) !=
+           nullptr;
+  };
+  sf_status status = SF_OK;
+  if (any(1)) status = RunJobs<Downsample<1>>(stripe, columns, runner);
+  if (status == SF_OK && any(2)) status = RunJobs<Downsample<2>>(stripe, columns, runner);
+  return status;
+}
+
+sf_status Deblock(Stripe* stripe, const Runner& runner) {
+  const sf_status status = RunJobs<DeblockRowBoundaries>(stripe, Columns(*stripe->engine), runner);
+  const int32_t rows = stripe->last_row - stripe->first_row;
+  if (status != SF_OK || rows <= 0) return status;
+  return RunJobs<DeblockColumnBoundaries>(stripe, (rows + kSmallestBlock - 1) / kSmallestBlock,
+                                          runner);
+}
+
+}  // namespace
+
+int32_t FinishedRows(const EngineState& engine, int32_t y) {
+  const int32_t end = y + BlockSide(engine);
+  return end >= engine.config.height ? engine.config.height : end - kDeblockRows;
+}
+
+sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& out,
+                        const Runner& runner) {
+  Stripe stripe = {engine,
+                   y,
+                   Min(BlockSide(*engine), engine->config.height - y),
+                   out,
+                   Max(0, y - kDeblockRows),
+                   FinishedRows(*engine, y)};
+  sf_status status = PlanStripe(&stripe, runner);
+  const bool layered = IsBlockMode(*engine) && engine->config.max_layer > 0;
+  if (status == SF_OK && layered) status = MakeLayers(&stripe, runner);
+  if (status == SF_OK) status = RunJobs<RefocusColumn>(&stripe, Columns(*engine), runner);
+  if (status == SF_OK && layered && engine->config.deblocking > 0) {
+    status = Deblock(&stripe, runner);
+  }
+  return status;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,29 @@
+// The stripe loop's body: plans the blocks of one stripe, refocuses them and joins them.
+#ifndef STARFOCUS_LIB_STRIPE_H_
+#define STARFOCUS_LIB_STRIPE_H_
+
+#include <cstdint>
+
+#include "lib/engine.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Who runs the jobs; a null function: the calling thread.
+struct Runner {
+  sf_runner run;
+  void* data;
+};
+
+// Output rows that are final once the stripe that starts at row y is done.
+int32_t FinishedRows(const EngineState& engine, int32_t y);
+
+// Refocuses the stripe that starts at row y, a multiple of the largest block. All rows within reach
+// are in the windows; `out` holds the stripe's rows and the kDeblockRows before it. SF_OK or
+// SF_ERROR_RUNNER.
+sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& out,
+                        const Runner& runner);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_STRIPE_H_
