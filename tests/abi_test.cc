@@ -214,7 +214,7 @@ TEST_CASE("configuration: defaults and limits are legal") {
   std::memset(&params, test::kPoison, sizeof params);
   sf_params_init(&params);
   CHECK(params.version == SF_ABI_VERSION);
-  CHECK(params.mode == SF_MODE_FRAME);
+  CHECK(params.mode == SF_MODE_BLOCK);
   CHECK(params.aperture == 1);
   CHECK(params.focus == 0);
   for (uint32_t reserved : params.reserved) CHECK(reserved == 0);
