@@ -1,16 +1,18 @@
 // Every fixed-point value of the engine: its scale, range and headroom, once.
 //
-// | value                | type   | scale | range                    | headroom |
-// |----------------------|--------|-------|--------------------------|-----------------------------|
-// | disparity d          | int16  | 2^6   | +-500 px per unit u      | 2.3 % below +-511.98 | |
-// focus d_t            | int32  | 2^6   | +-10^6 px per unit u     | 33 x                        |
-// | step u_t / 2^L       | int64  | 2^24  | (0, 1]                   | only in products below | |
-// shift s              | int64  | 2^8   | +-(128 + 1) px           | int32 after rounding, 2^16 x|
-// | cell width r / N     | int32  | 2^8   | [0, 1], clamped          | table of kMaxCell + 1 | |
-// interpolation weight | int32  | 2^8   | [0, 1/2]                 | -                           |
-// | aperture weight      | uint16 | sum   | [0, 32767]; sum is 2^k,  | signed 16-bit multiplies |
-// |                      |        | 2^k   | k <= 24                  | | | accumulator          |
-// uint32 | 2^k   | <= 255 * 2^24            | 0.4 % below 2^32            |
+// clang-format off
+// | value                | type   | scale   | range                     | headroom                  |
+// |----------------------|--------|---------|---------------------------|---------------------------|
+// | disparity d          | int16  | 2^6     | +-500 px per unit u       | 2.3 % below +-511.98      |
+// | focus d_t            | int32  | 2^6     | +-10^6 px per unit u      | 33 x                      |
+// | step u_t / 2^L       | int64  | 2^24    | (0, 1]                    | only in products below    |
+// | step * (d - d_t)     | int64  | 2^30    | blur radius, +-129 px     | 2^26 x                    |
+// | shift s              | int32  | 2^8     | +-129 px                  | 2^16 x                    |
+// | cell width r / N     | int32  | 2^8     | [0, 1], clamped           | -                         |
+// | interpolation weight | int32  | 2^8     | [0, 1/2]                  | -                         |
+// | aperture weight      | uint16 | 2^k     | [0, 32767], sum 2^k       | signed 16-bit multiplies  |
+// | accumulator          | uint32 | 2^k     | <= 255 * 2^k, k <= 24     | 0.4 % below 2^32          |
+// clang-format on
 //
 // Rounding: Round* rounds half up; a plain shift truncates towards minus infinity.
 #ifndef STARFOCUS_LIB_FIXED_H_

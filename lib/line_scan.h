@@ -51,12 +51,14 @@ class LineScan {
   LineScan(const Line& line, const Run* runs, int32_t count, const LineView& view, Sink* sink)
       : line_(line), runs_(runs), count_(count), view_(view), sink_(sink) {
     begin_ = kMirrored ? line.length - view.out_end : view.out_begin;
-    last_ = kMirrored ? line.length - view.out_begin : view.out_end;
+    end_ = kMirrored ? line.length - view.out_begin : view.out_end;
     last_pixel_ = line.length - 1;
   }
 
   void Scan() {
     int32_t end = line_.length;
+    // From the line's own end, not the wanted part's: what a gap borders on may lie beyond.
+    last_ = Max(end_, end - Whole(view_.grid->Shift(view_.move, runs_[0].disparity)));
     for (int32_t index = 0; index < count_ && last_ > begin_; ++index) {
       const int32_t begin = runs_[index].begin;
       ScanRun(begin, end, runs_[index].disparity);
@@ -75,21 +77,43 @@ class LineScan {
     return q >= 0 && q + 1 < line_.length && Abs(Disparity(q) - Disparity(q + 1)) <= kSurfaceStep;
   }
 
+  bool OneSurface(int32_t begin, int32_t end) const {  // of positions [begin, end)
+    for (int32_t q = begin; q + 1 < end; ++q) {
+      if (!SameSurface(q)) return false;
+    }
+    return true;
+  }
+
+  static int32_t Whole(int32_t shift) { return (shift + kShiftOne / 2) >> kShiftBits; }
+
   // Positions [begin, end) move together; last_ is the lowest position filled so far, so whatever
   // lands at or above it is hidden.
   void ScanRun(int32_t begin, int32_t end, int32_t disparity) {
     const int32_t shift = view_.grid->Shift(view_.move, disparity);
-    const int32_t whole = (shift + kShiftOne / 2) >> kShiftBits;
+    const int32_t whole = Whole(shift);
     const int32_t low = begin - whole;
     if (low >= last_) return;
-    if (end - whole < last_) CloseGap(end - 1, whole);
-    const int32_t first = Max(low, begin_);
-    if (first < last_) {
-      const int32_t width = Abs(view_.grid->Shift(view_.cell, disparity));
-      Surface(first, last_, whole, shift - whole * kShiftOne, Min(width, kShiftOne));
+    if (low < end_) {
+      if (end - whole < last_) CloseGap(end - 1, whole);
+      SurfaceOfRun(Max(low, begin_), end - whole, disparity, shift);
     }
-    last_ = Min(low, last_);
+    last_ = low;
     last_pixel_ = begin;
+  }
+
+  // Emits positions from `first` to what is filled; those from `own_end` on stretch the run over
+  // source pixels beyond it, one by one where they belong to several surfaces.
+  void SurfaceOfRun(int32_t first, int32_t own_end, int32_t disparity, int32_t shift) {
+    int32_t end = Min(last_, end_);
+    if (first >= end) return;
+    const int32_t whole = Whole(shift);
+    const int32_t offset = shift - whole * kShiftOne;
+    const int32_t width = Min(Abs(view_.grid->Shift(view_.cell, disparity)), kShiftOne);
+    const int32_t own = Max(first, own_end);
+    if (own < end && !OneSurface(own + whole - 1, end + whole)) {
+      for (; end > own; --end) Surface(end - 1, end, whole, offset, width);
+    }
+    if (first < end) Surface(first, end, whole, offset, width);
   }
 
   // Between this run's last pixel `q` and what is filled lies a gap: a stretched surface, which
@@ -103,11 +127,12 @@ class LineScan {
   }
 
   void Hole(int32_t begin, int32_t q) {
-    if (begin >= last_) return;
+    const int32_t end = Min(last_, end_);
+    if (begin >= end) return;
     if (kMirrored) {
-      sink_->Hole(line_.length - last_, line_.length - begin, Disparity(q), Pixel(q));
+      sink_->Hole(line_.length - end, line_.length - begin, Disparity(q), Pixel(q));
     } else {
-      sink_->Hole(begin, last_, Disparity(q), q);
+      sink_->Hole(begin, end, Disparity(q), q);
     }
   }
 
@@ -116,16 +141,14 @@ class LineScan {
   void Surface(int32_t begin, int32_t end, int32_t whole, int32_t offset, int32_t width) {
     const int32_t weight = CellWeight(offset, width);
     const int32_t side = offset > 0 ? 1 : -1;
-    if (weight != 0) {
-      if (side > 0 && !SameSurface(end - 1 + whole)) {
-        Emit(end - 1, end, whole, side, 0);
-        --end;
-      } else if (side < 0 && !SameSurface(begin + whole - 1)) {
-        Emit(begin, begin + 1, whole, side, 0);
-        ++begin;
-      }
+    int32_t first = begin;
+    if (weight != 0 && side < 0 && !SameSurface(begin + whole - 1)) ++first;
+    if (weight != 0 && side > 0 && !SameSurface(end - 1 + whole)) {
+      Emit(end - 1, end, whole, side, 0);
+      --end;
     }
-    if (begin < end) Emit(begin, end, whole, side, weight);
+    if (first < end) Emit(first, end, whole, side, weight);
+    if (begin < first) Emit(begin, first, whole, side, 0);
   }
 
   void Emit(int32_t begin, int32_t end, int32_t whole, int32_t side, int32_t weight) {
@@ -142,7 +165,8 @@ class LineScan {
   int32_t count_;
   const LineView& view_;
   Sink* sink_;
-  int32_t begin_;       // wanted positions start here
+  int32_t begin_;  // wanted positions [begin_, end_)
+  int32_t end_;
   int32_t last_;        // lowest position filled so far
   int32_t last_pixel_;  // the line position that filled it
 };

@@ -8,8 +8,6 @@
 #include <map>
 #include <utility>
 
-#include "lib/fixed.h"
-
 namespace reference {
 namespace {
 
@@ -83,11 +81,10 @@ struct Lens {
   int Shift(int k, int disparity) const {
     return int(Rounded(Move(k) * (disparity - focus), 24 + 6 - 8));
   }
-  double ExactShift(int k, int disparity) const {
-    return radius * k / n * (disparity - focus) / 64.0;
-  }
   // Width of the aperture cell on the picture, r / N, at most a pixel.
-  double Cell(int disparity) const { return std::min(1.0, std::fabs(ExactShift(1, disparity))); }
+  double Cell(int disparity) const {
+    return std::min(1.0, radius / n * std::abs(disparity - focus) / 64.0);
+  }
   // Within a run, disparities (1/64) range over a quarter pixel of displacement at the aperture's
   // rim, and never across the edge of a surface.
   int Spread() const { return int(std::min<int64_t>(kSurfaceStep, (int64_t{16} << 24) / step)); }
@@ -199,7 +196,7 @@ class LineScan {
   void SetSurface(int p, const LineRun& run, int whole) {
     if (!Inside(p)) return;
     Owner owner = {false, p + whole, p + whole, 0};
-    const double t = lens_.ExactShift(k_, run.disparity) - whole;
+    const double t = lens_.Shift(k_, run.disparity) / 256.0 - whole;
     const double cell = lens_.Cell(run.disparity);
     const int neighbour = owner.source + (t > 0 ? 1 : -1);
     if (cell > 0 && Inside(neighbour) &&
