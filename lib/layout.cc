@@ -14,8 +14,8 @@ SpanMemory TakeSpans(size_t side, Carver* carver) {
   return memory;
 }
 
-// E and R of StarScratch.
-StarScratch TakeStar(size_t extended, size_t rectangle, Carver* carver) {
+// E and R of StarScratch, and the largest N.
+StarScratch TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver) {
   StarScratch scratch;
   const size_t area = extended * extended, stripe = rectangle * extended;
   for (int k = 0; k < 2; ++k) {
@@ -27,6 +27,7 @@ StarScratch TakeStar(size_t extended, size_t rectangle, Carver* carver) {
     scratch.corner_rgb[k] = carver->Take<uint8_t>(3 * stripe);
     scratch.accumulators[k] = carver->Take<uint32_t>(3 * rectangle * rectangle);
   }
+  scratch.moves = carver->Take<int64_t>(max_n + 1);
   scratch.runs = carver->Take<Run>(area);
   scratch.run_counts = carver->Take<int32_t>(extended);
   scratch.line_runs = carver->Take<Run>(extended);
@@ -46,7 +47,8 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const auto side = static_cast<size_t>(config.largest_block);
   const Reach reach = GetReach(config.max_blur);
   Worker worker = {};
-  worker.star = TakeStar(side + 2 * static_cast<size_t>(reach.border), side, carver);
+  worker.star = TakeStar(side + 2 * static_cast<size_t>(reach.border), side,
+                         static_cast<size_t>(ViewsOfBenchmark(config.max_blur)), carver);
   worker.resample.line = carver->Take<int16_t>(3 * (side + 16));
   worker.resample.filtered = carver->Take<int16_t>(3 * (side + 16));
   // A rendered rectangle is at most half a block and 4 pixels wide.

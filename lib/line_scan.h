@@ -30,13 +30,23 @@ struct LineView {
 // A gap wider than this is no stretched surface, whatever the disparities say, in pixels.
 inline constexpr int32_t kMaxStretch = 4;
 
+// 2^16 / cell, rounded, for cells of [0, kShiftOne]; 0 at 0, where no neighbour counts.
+struct CellReciprocals {
+  uint32_t of[kShiftOne + 1] = {};
+  constexpr CellReciprocals() {
+    for (uint32_t cell = 1; cell <= kShiftOne; ++cell) of[cell] = (65536 + cell / 2) / cell;
+  }
+};
+inline constexpr CellReciprocals kCellReciprocals;
+
 // Weight of the neighbour (kShiftBits) in the aperture cell of width `cell` (kShiftBits) for a
-// sample `offset` away from its pixel's centre: clamp((|t| - 1/2) / L + 1/2, 0, 1) of design.md's
-// aperture cells, L <= 1.
+// sample `offset` away from its pixel's centre: clamp((|t| - 1/2) / L + 1/2, 0, 1) of the
+// aperture cell, L <= 1.
 inline int32_t CellWeight(int32_t offset, int32_t cell) {
-  const int32_t twice = 2 * Abs(offset) - kShiftOne + cell;
+  const int32_t twice = 2 * Abs(offset) - kShiftOne + cell;  // <= cell
   if (twice <= 0) return 0;
-  return (twice * (kShiftOne / 2) + cell / 2) / cell;
+  const uint32_t scaled = static_cast<uint32_t>(twice) * kCellReciprocals.of[cell];
+  return static_cast<int32_t>((scaled + 256) >> 9);
 }
 
 // Scans `line` for one view. Calls, in pixels of the line (never mirrored),

@@ -40,6 +40,7 @@ class Star {
     std::memset(scratch_->accumulators[0], 0, samples * sizeof(uint32_t));
     AddCentre(rows);
     if (grid_.n() == 0) return;
+    for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
     std::memset(scratch_->accumulators[1], 0, samples * sizeof(uint32_t));
     Triangles(rows, scratch_->accumulators[1]);
     TypeB(rows, false);
@@ -51,6 +52,11 @@ class Star {
   }
 
  private:
+  // Rows of a field, those that some views are rendered in.
+  struct Rows {
+    int32_t begin, end;
+  };
+
   // The type B view (sign * i, t * i) that fills holes of the type C views between it and the type
   // A view: rendered when the first hole asks for it.
   struct Corner {
@@ -58,12 +64,13 @@ class Star {
     const Field* field;
     int sign, across_sign;
     int32_t i;
+    Rows rows;
     bool rendered;
 
     const uint8_t* Column(int32_t column) {
       if (!rendered) star->RenderCorner(*this);
       rendered = true;
-      return Memory(*star->scratch_) + 3 * static_cast<size_t>(column) * field->height;
+      return Memory(*star->scratch_) + 3 * static_cast<size_t>(column) * (rows.end - rows.begin);
     }
     uint8_t* Memory(const StarScratch& scratch) const {
       return scratch.corner_rgb[across_sign > 0];
@@ -82,8 +89,9 @@ class Star {
       const int32_t shift = grid.Shift(view.move, disparity) - grid.Shift(corner_move, disparity);
       const auto moved = corner->across_sign * static_cast<int32_t>(RoundShift(shift, kShiftBits));
       const uint8_t* pixels = corner->Column(column);
+      const int32_t last = corner->rows.end - corner->rows.begin - 1;
       for (int32_t p = begin; p < end; ++p, out += 3) {
-        std::memcpy(out, pixels + 3 * Clamp(p + moved, 0, corner->field->height - 1), 3);
+        std::memcpy(out, pixels + 3 * Clamp(p + moved, 0, last), 3);
       }
     }
   };
@@ -96,7 +104,7 @@ class Star {
   }
 
   LineView MakeView(int32_t i, int32_t out_begin, int32_t out_end) const {
-    return {&grid_, grid_.Move(i), grid_.Move(1), out_begin, out_end};
+    return {&grid_, scratch_->moves[i], scratch_->moves[1], out_begin, out_end};
   }
 
   SpanList Accumulating(uint32_t* accumulators) const {
@@ -127,8 +135,10 @@ class Star {
     for (const int sign : {1, -1}) {
       FindAllRuns(field, DirectionOf(sign));
       for (int32_t i = 1; i <= grid_.n(); ++i) {
-        RenderTypeA(field, sign, i);
-        AddColumns(field, sign, i, accumulators);
+        const int32_t last = LastAcross(i);
+        const Rows rows = RowsFor(field, last);
+        RenderTypeA(field, sign, i, rows);
+        AddColumns(field, sign, i, last, rows, accumulators);
       }
     }
   }
@@ -149,59 +159,75 @@ class Star {
     return j;
   }
 
-  // Renders view (sign * i, 0) and its disparity, one line per column of the rectangle.
-  void RenderTypeA(const Field& field, int sign, int32_t i) {
+  // Rows that the type C views (i, j), j <= last, can reach from.
+  Rows RowsFor(const Field& field, int32_t last) const {
     const Rect& inner = field.inner;
-    const bool whole = LastAcross(i) > 0;
-    const int32_t begin = whole ? 0 : inner.y;
-    const int32_t end = whole ? field.height : inner.y + inner.height;
+    const int32_t n = grid_.n(), above = inner.y, end = inner.y + inner.height;
+    const auto reach = [&](int32_t border) {
+      return last == 0 ? 0 : Min(border, (border * last + n - 1) / n + 1);
+    };
+    return {inner.y - reach(above), end + reach(field.height - end)};
+  }
+
+  // Renders view (sign * i, 0) and its disparity, one line per column of the rectangle.
+  void RenderTypeA(const Field& field, int sign, int32_t i, const Rows& rows) {
+    const Rect& inner = field.inner;
     const LineView view = MakeView(i, inner.x, inner.x + inner.width);
-    for (int32_t row = begin; row < end; row += kStripRows) {
-      const int32_t count = Min(kStripRows, end - row);
-      for (int32_t k = 0; k < count; ++k) RenderRow(field, sign, i, row + k, k, view);
-      TransposeStrip(field, row, count);
+    const int32_t height = rows.end - rows.begin;
+    for (int32_t row = 0; row < height; row += kStripRows) {
+      const int32_t count = Min(kStripRows, height - row);
+      SpanList list = Blending(scratch_->strip_rgb);
+      for (int32_t k = 0; k < count; ++k) {
+        RenderRow(field, sign, i, rows.begin + row + k, k, view, &list);
+      }
+      list.Flush();
+      TransposeStrip(inner.width, height, row, count);
     }
   }
 
   void RenderRow(const Field& field, int sign, int32_t i, int32_t row, int32_t strip_row,
-                 const LineView& view) {
+                 const LineView& view, SpanList* list) {
     const size_t offset = field.Offset(0, row);
     const Line line = {field.rgb + 3 * offset, field.disparity + offset, field.width};
     const CapturedLine captured = {job_.window, field.transposed,     field.x, field.y + row, 1, 0,
                                    sign,        i <= grid_.half_views};
-    const size_t strip = static_cast<size_t>(strip_row) * field.inner.width;
+    const int32_t strip = strip_row * field.inner.width;
     const CapturedHoles holes{captured, view};
-    SpanList list = Blending(scratch_->strip_rgb + 3 * strip);
-    SpanSink<CapturedHoles> sink(line, view.out_begin, kBlendOne, holes,
-                                 scratch_->strip_disparity + strip, &list);
+    SpanSink<CapturedHoles> sink(line, view.out_begin - strip, kBlendOne, holes,
+                                 scratch_->strip_disparity, list);
     ScanLine(line, DirectionOf(sign), scratch_->runs + offset, scratch_->run_counts[row], view,
              &sink);
-    list.Flush();
   }
 
-  void TransposeStrip(const Field& field, int32_t row, int32_t count) {
-    const int32_t width = field.inner.width;
+  // Rows [row, row + count) of the type A view, from the strip to columns of `height` pixels.
+  void TransposeStrip(int32_t width, int32_t height, int32_t row, int32_t count) {
     for (int32_t x = 0; x < width; ++x) {
-      const size_t column = static_cast<size_t>(x) * field.height + row;
+      const size_t column = static_cast<size_t>(x) * height + row;
+      const uint8_t* from = scratch_->strip_rgb + 3 * x;
+      const int16_t* from_disparity = scratch_->strip_disparity + x;
+      uint8_t* to = scratch_->columns_rgb + 3 * column;
+      int16_t* to_disparity = scratch_->columns_disparity + column;
+      // Four bytes at once where the next pixel's are still to come.
       for (int32_t k = 0; k < count; ++k) {
-        const size_t from = static_cast<size_t>(k) * width + x;
-        std::memcpy(scratch_->columns_rgb + 3 * (column + k), scratch_->strip_rgb + 3 * from, 3);
-        scratch_->columns_disparity[column + k] = scratch_->strip_disparity[from];
+        std::memcpy(to + 3 * k, from + 3 * k * width, k + 1 < count ? 4 : 3);
+        to_disparity[k] = from_disparity[k * width];
       }
     }
   }
 
-  // Adds the views (sign * i, j), |j| < i, inside the disc.
-  void AddColumns(const Field& field, int sign, int32_t i, uint32_t* accumulators) {
+  // Adds the views (sign * i, j), |j| <= last, from the columns of the type A view.
+  void AddColumns(const Field& field, int sign, int32_t i, int32_t last, const Rows& rows,
+                  uint32_t* accumulators) {
     const Rect& inner = field.inner;
-    const int32_t last = LastAcross(i);
-    Corner corners[2] = {{this, &field, sign, -1, i, false}, {this, &field, sign, 1, i, false}};
+    const int32_t height = rows.end - rows.begin, top = inner.y - rows.begin;
+    Corner corners[2] = {{this, &field, sign, -1, i, rows, false},
+                         {this, &field, sign, 1, i, rows, false}};
     for (int32_t x = 0; x < inner.width; ++x) {
-      const size_t column = static_cast<size_t>(x) * field.height;
+      const size_t column = static_cast<size_t>(x) * height;
       const Line line = {scratch_->columns_rgb + 3 * column, scratch_->columns_disparity + column,
-                         field.height};
+                         height};
       SpanList list = Accumulating(accumulators + 3 * static_cast<size_t>(x) * inner.height);
-      AddLine(line.rgb + 3 * inner.y, inner.height, grid_.aperture.Weight(i, 0), 0, &list);
+      AddLine(line.rgb + 3 * top, inner.height, grid_.aperture.Weight(i, 0), 0, &list);
       for (const int across : {1, -1}) {
         if (last > 0) AddTypeC(line, x, &corners[across > 0], last, &list);
       }
@@ -210,13 +236,13 @@ class Star {
   }
 
   void AddTypeC(const Line& line, int32_t column, Corner* corner, int32_t last, SpanList* list) {
-    const Rect& inner = corner->field->inner;
+    const int32_t top = corner->field->inner.y - corner->rows.begin;
     const Direction direction = DirectionOf(corner->across_sign);
     const int32_t runs =
         FindRuns(line.disparity, line.length, direction, grid_.spread, scratch_->line_runs);
     for (int32_t j = 1; j <= last; ++j) {
-      const LineView view = MakeView(j, inner.y, inner.y + inner.height);
-      const CornerHoles holes{corner, view, grid_.Move(corner->i), column};
+      const LineView view = MakeView(j, top, top + corner->field->inner.height);
+      const CornerHoles holes{corner, view, scratch_->moves[corner->i], column};
       SpanSink<CornerHoles> sink(line, view.out_begin, grid_.aperture.Weight(corner->i, j), holes,
                                  nullptr, list);
       ScanLine(line, direction, scratch_->line_runs, runs, view, &sink);
@@ -245,7 +271,7 @@ class Star {
             1,           anti ? -1 : 1,    sign,           i <= grid_.half_views};
   }
 
-  // Renders the columns of the rectangle, over the whole height of the field, of a type B view.
+  // Renders the columns of the rectangle, in the corner's rows, of a type B view.
   // Runs in the middle of a type C scan: it must not touch line_runs or the spans in waiting.
   void RenderCorner(const Corner& corner) {
     const Field& field = *corner.field;
@@ -254,8 +280,11 @@ class Star {
     uint8_t* columns = corner.Memory(*scratch_);
     for (int32_t index = 0; index < Diagonals::Count(field); ++index) {
       const DiagonalLine at = GetDiagonal(field, anti, index);
-      const int32_t begin = Max(0, field.inner.x - at.x);
-      const int32_t end = Min(at.length, field.inner.x + field.inner.width - at.x);
+      const Rows& rows = corner.rows;
+      const int32_t top = anti ? at.y - (rows.end - 1) : rows.begin - at.y;
+      const int32_t begin = Max(Max(0, field.inner.x - at.x), top);
+      const int32_t end = Min(Min(at.length, field.inner.x + field.inner.width - at.x),
+                              top + rows.end - rows.begin);
       if (begin >= end) continue;
       const Line line = GetLine(diagonals, index, at.length);
       const int32_t runs = FindRuns(line.disparity, at.length, DirectionOf(corner.sign),
@@ -268,8 +297,9 @@ class Star {
       ScanLine(line, DirectionOf(corner.sign), scratch_->corner_runs, runs, view, &sink);
       list.Flush();
       for (int32_t t = begin; t < end; ++t) {
-        const int32_t x = at.x + t - field.inner.x, y = anti ? at.y - t : at.y + t;
-        std::memcpy(columns + 3 * (static_cast<size_t>(x) * field.height + y),
+        const int32_t x = at.x + t - field.inner.x;
+        const int32_t y = (anti ? at.y - t : at.y + t) - rows.begin;
+        std::memcpy(columns + 3 * (static_cast<size_t>(x) * (rows.end - rows.begin) + y),
                     scratch_->line_rgb + 3 * (t - begin), 3);
       }
     }

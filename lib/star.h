@@ -25,6 +25,7 @@ struct StarScratch {
   uint8_t* diagonal_rgb[2];     // 3 E^2 each: main and anti
   int16_t* diagonal_disparity[2];
   uint32_t* diagonal_offsets[2];  // 2 E each
+  int64_t* moves;                 // N + 1: ViewGrid::Move of each view
   Run* runs;                      // E^2: of all lines of a field
   int32_t* run_counts;            // E
   Run* line_runs;                 // E: of one line
