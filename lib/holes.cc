@@ -5,20 +5,30 @@
 namespace starfocus {
 namespace {
 
-int32_t RoundPixel(int64_t shift) { return static_cast<int32_t>(RoundShift(shift, kShiftBits)); }
-
 // Disparity times the distance of the captured view, kShiftBits, in pixels of the layer.
 int64_t CapturedShift(const ViewGrid& grid, int32_t disparity, bool half) {
   const int64_t full = int64_t{disparity} * (1 << (kShiftBits - kDisparityBits));
   return RoundShift(full * 2, 1 + grid.layer + (half ? 1 : 0));
 }
 
-// Reads captured view (u, v) at the oriented position (x, y) of the layer.
-void Read(const CapturedLine& line, int u, int v, int32_t x, int32_t y, uint8_t* rgb) {
-  if (line.transposed) {
-    ReadCaptured(*line.window, CapturedView(v, u, line.half), y, x, rgb);
+// From a place in the rendered view to the same point of a surface in the centre view and in the
+// captured view, along one axis, kShiftBits.
+struct Offset {
+  int32_t centre, captured;
+};
+
+Offset OffsetOf(const HoleView& view, int sign, int64_t move, int32_t disparity) {
+  const int64_t shift = view.grid->Shift(move, disparity);
+  const int64_t captured = shift - CapturedShift(*view.grid, disparity, view.half);
+  return {static_cast<int32_t>(sign * shift), static_cast<int32_t>(sign * captured)};
+}
+
+// Reads captured view (u, v) at the oriented position (x, y) of the layer, kShiftBits.
+void Read(const HoleView& view, int u, int v, int32_t x, int32_t y, uint8_t* rgb) {
+  if (view.transposed) {
+    ReadCaptured(*view.window, CapturedView(v, u, view.half), y, x, rgb);
   } else {
-    ReadCaptured(*line.window, CapturedView(u, v, line.half), x, y, rgb);
+    ReadCaptured(*view.window, CapturedView(u, v, view.half), x, y, rgb);
   }
 }
 
@@ -40,28 +50,24 @@ void ChooseNeighbour(const uint8_t* a, const uint8_t* b, const uint8_t* colour, 
 
 }  // namespace
 
-void FillHole(const CapturedLine& line, const ViewGrid& grid, int32_t begin, int32_t end,
-              int32_t disparity, int32_t shift, const uint8_t* colour, uint8_t* out) {
-  if (line.window->views == 1) {
+void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t end,
+              int32_t disparity, const uint8_t* colour, uint8_t* out) {
+  if (view.window->views == 1) {
     for (int32_t p = begin; p < end; ++p, out += 3) std::memcpy(out, colour, 3);
     return;
   }
-  const int u = line.sign * line.dx, v = line.sign * line.dy;
-  const int64_t captured_shift = CapturedShift(grid, disparity, line.half);
-  const int32_t captured = line.sign * RoundPixel(shift - captured_shift);
-  const bool interpolate = line.dy != 0 && line.window->views == 5;
-  const int32_t centre = line.sign * RoundPixel(shift);
+  const Offset along = OffsetOf(view, view.u, view.move_u, disparity);
+  const Offset across = OffsetOf(view, view.v, view.move_v, disparity);
+  const bool interpolate = view.u != 0 && view.v != 0 && view.window->views == 5;
   for (int32_t p = begin; p < end; ++p, out += 3) {
-    const int32_t moved = p + captured;
-    const int32_t x = line.x + line.dx * moved, y = line.y + line.dy * moved;
+    const int32_t x = (line.x + line.dx * p) * kShiftOne, y = (line.y + line.dy * p) * kShiftOne;
     if (!interpolate) {
-      Read(line, u, v, x, y, out);
+      Read(view, view.u, view.v, x + along.captured, y + across.captured, out);
       continue;
     }
-    const int32_t still = p + centre;
     uint8_t horizontal[3], vertical[3];
-    Read(line, u, 0, x, line.y + line.dy * still, horizontal);
-    Read(line, 0, v, line.x + line.dx * still, y, vertical);
+    Read(view, view.u, 0, x + along.captured, y + across.centre, horizontal);
+    Read(view, 0, view.v, x + along.centre, y + across.captured, vertical);
     ChooseNeighbour(horizontal, vertical, colour, out);
   }
 }

@@ -9,24 +9,29 @@
 
 namespace starfocus {
 
-// A line in the picture and the captured view its rendered views move towards. Everything is in
-// the orientation of the line's field.
-struct CapturedLine {
+// Where a rendered view lies, and which captured view it is filled from: the one at (u, v), each
+// -1, 0 or 1, at full or half distance. Everything is in the orientation of the view's lines.
+struct HoleView {
   const Window* window;
+  const ViewGrid* grid;
   bool transposed;
-  int32_t x, y;    // picture position of the line's pixel 0
-  int32_t dx, dy;  // from pixel to pixel: (1, 0), (1, 1) or (1, -1)
-  int sign;        // of the parallax along (dx, dy): +1 towards positive u
-  bool half;       // take the views at half distance
+  int u, v;
+  int64_t move_u, move_v;  // ViewGrid::Move of |u| and |v| of the rendered view; 0 where u, v are
+  bool half;
 };
 
-// Writes the colours of rendered pixels [begin, end) of a line, 3 bytes each, for a background of
-// `disparity` that moves by `shift` (kShiftBits) in the rendered view. The side view is read at the
-// index that the disparity implies (IV-A). A diagonal view that was not captured (5 views) is
-// interpolated from its horizontal and its vertical neighbour, whichever agrees with the visible
-// background `colour`; with the centre view alone the background is extended.
-void FillHole(const CapturedLine& line, const ViewGrid& grid, int32_t begin, int32_t end,
-              int32_t disparity, int32_t shift, const uint8_t* colour, uint8_t* out);
+// A line of that view: picture position of its pixel 0 and the step from pixel to pixel.
+struct HoleLine {
+  int32_t x, y, dx, dy;
+};
+
+// Writes the colours of rendered pixels [begin, end) of a line, 3 bytes each, where a background of
+// `disparity` shows. The captured view is read at the index that the disparity implies (IV-A). A
+// diagonal view that was not captured (5 views) is interpolated from its horizontal and its
+// vertical neighbour, whichever agrees with the visible background `colour`; with the centre view
+// alone the background is extended.
+void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t end,
+              int32_t disparity, const uint8_t* colour, uint8_t* out);
 
 }  // namespace starfocus
 

@@ -21,25 +21,21 @@ StarScratch TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* ca
   for (int k = 0; k < 2; ++k) {
     scratch.field_rgb[k] = carver->Take<uint8_t>(3 * area);
     scratch.field_disparity[k] = carver->Take<int16_t>(area);
-    scratch.diagonal_rgb[k] = carver->Take<uint8_t>(3 * area);
-    scratch.diagonal_disparity[k] = carver->Take<int16_t>(area);
-    scratch.diagonal_offsets[k] = carver->Take<uint32_t>(2 * extended);
-    scratch.corner_rgb[k] = carver->Take<uint8_t>(3 * stripe);
     scratch.accumulators[k] = carver->Take<uint32_t>(3 * rectangle * rectangle);
   }
+  scratch.diagonal_rgb = carver->Take<uint8_t>(3 * area);
+  scratch.diagonal_disparity = carver->Take<int16_t>(area);
+  scratch.diagonal_offsets = carver->Take<uint32_t>(2 * extended);
   scratch.moves = carver->Take<int64_t>(max_n + 1);
   scratch.runs = carver->Take<Run>(area);
   scratch.run_counts = carver->Take<int32_t>(extended);
   scratch.line_runs = carver->Take<Run>(extended);
-  scratch.corner_runs = carver->Take<Run>(extended);
   scratch.strip_rgb = carver->Take<uint8_t>(3 * rectangle * kStripRows);
   scratch.strip_disparity = carver->Take<int16_t>(rectangle * kStripRows);
   scratch.columns_rgb = carver->Take<uint8_t>(3 * stripe);
   scratch.columns_disparity = carver->Take<int16_t>(stripe);
   scratch.line_accumulators = carver->Take<uint32_t>(3 * extended);
-  scratch.line_rgb = carver->Take<uint8_t>(3 * extended);
   scratch.spans = TakeSpans(extended, carver);
-  scratch.corner_spans = TakeSpans(extended, carver);
   return scratch;
 }
 

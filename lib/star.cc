@@ -16,15 +16,14 @@ Direction DirectionOf(int sign) {
   return sign > 0 ? Direction::kRightToLeft : Direction::kLeftToRight;
 }
 
-// Holes of types A and B: from the captured views.
-struct CapturedHoles {
-  const CapturedLine& line;
-  const LineView& view;
+// Holes of one line of a view.
+struct LineHoles {
+  const HoleView& view;
+  HoleLine line;
 
   void Fill(int32_t begin, int32_t end, int32_t disparity, const uint8_t* colour,
             uint8_t* out) const {
-    FillHole(line, *view.grid, begin, end, disparity, view.grid->Shift(view.move, disparity),
-             colour, out);
+    FillHole(view, line, begin, end, disparity, colour, out);
   }
 };
 
@@ -57,45 +56,6 @@ class Star {
     int32_t begin, end;
   };
 
-  // The type B view (sign * i, t * i) that fills holes of the type C views between it and the type
-  // A view: rendered when the first hole asks for it.
-  struct Corner {
-    Star* star;
-    const Field* field;
-    int sign, across_sign;
-    int32_t i;
-    Rows rows;
-    bool rendered;
-
-    const uint8_t* Column(int32_t column) {
-      if (!rendered) star->RenderCorner(*this);
-      rendered = true;
-      return Memory(*star->scratch_) + 3 * static_cast<size_t>(column) * (rows.end - rows.begin);
-    }
-    uint8_t* Memory(const StarScratch& scratch) const {
-      return scratch.corner_rgb[across_sign > 0];
-    }
-  };
-
-  // Holes of type C along a column.
-  struct CornerHoles {
-    Corner* corner;
-    const LineView& view;
-    int64_t corner_move;
-    int32_t column;
-
-    void Fill(int32_t begin, int32_t end, int32_t disparity, const uint8_t*, uint8_t* out) const {
-      const ViewGrid& grid = *view.grid;
-      const int32_t shift = grid.Shift(view.move, disparity) - grid.Shift(corner_move, disparity);
-      const auto moved = corner->across_sign * static_cast<int32_t>(RoundShift(shift, kShiftBits));
-      const uint8_t* pixels = corner->Column(column);
-      const int32_t last = corner->rows.end - corner->rows.begin - 1;
-      for (int32_t p = begin; p < end; ++p, out += 3) {
-        std::memcpy(out, pixels + 3 * Clamp(p + moved, 0, last), 3);
-      }
-    }
-  };
-
   Field MakeField(int orientation) const {
     Field field;
     field.rgb = scratch_->field_rgb[orientation];
@@ -105,6 +65,18 @@ class Star {
 
   LineView MakeView(int32_t i, int32_t out_begin, int32_t out_end) const {
     return {&grid_, scratch_->moves[i], scratch_->moves[1], out_begin, out_end};
+  }
+
+  // The view (u * i, v * j) in the field's orientation.
+  HoleView MakeHoleView(const Field& field, int u, int v, int32_t i, int32_t j) const {
+    return {job_.window,
+            &grid_,
+            field.transposed,
+            u,
+            v,
+            u == 0 ? 0 : scratch_->moves[i],
+            v == 0 ? 0 : scratch_->moves[j],
+            Max(i, j) <= grid_.half_views};
   }
 
   SpanList Accumulating(uint32_t* accumulators) const {
@@ -131,7 +103,6 @@ class Star {
 
   // The triangles on either side of the axis "along": types A and C.
   void Triangles(const Field& field, uint32_t* accumulators) {
-    diagonals_loaded_[0] = diagonals_loaded_[1] = false;
     for (const int sign : {1, -1}) {
       FindAllRuns(field, DirectionOf(sign));
       for (int32_t i = 1; i <= grid_.n(); ++i) {
@@ -189,12 +160,11 @@ class Star {
                  const LineView& view, SpanList* list) {
     const size_t offset = field.Offset(0, row);
     const Line line = {field.rgb + 3 * offset, field.disparity + offset, field.width};
-    const CapturedLine captured = {job_.window, field.transposed,     field.x, field.y + row, 1, 0,
-                                   sign,        i <= grid_.half_views};
+    const HoleView hole_view = MakeHoleView(field, sign, 0, i, 0);
+    const LineHoles holes = {hole_view, {field.x, field.y + row, 1, 0}};
     const int32_t strip = strip_row * field.inner.width;
-    const CapturedHoles holes{captured, view};
-    SpanSink<CapturedHoles> sink(line, view.out_begin - strip, kBlendOne, holes,
-                                 scratch_->strip_disparity, list);
+    SpanSink<LineHoles> sink(line, view.out_begin - strip, kBlendOne, holes,
+                             scratch_->strip_disparity, list);
     ScanLine(line, DirectionOf(sign), scratch_->runs + offset, scratch_->run_counts[row], view,
              &sink);
   }
@@ -220,89 +190,41 @@ class Star {
                   uint32_t* accumulators) {
     const Rect& inner = field.inner;
     const int32_t height = rows.end - rows.begin, top = inner.y - rows.begin;
-    Corner corners[2] = {{this, &field, sign, -1, i, rows, false},
-                         {this, &field, sign, 1, i, rows, false}};
     for (int32_t x = 0; x < inner.width; ++x) {
       const size_t column = static_cast<size_t>(x) * height;
       const Line line = {scratch_->columns_rgb + 3 * column, scratch_->columns_disparity + column,
                          height};
+      const HoleLine hole_line = {field.x + inner.x + x, field.y + rows.begin, 0, 1};
       SpanList list = Accumulating(accumulators + 3 * static_cast<size_t>(x) * inner.height);
       AddLine(line.rgb + 3 * top, inner.height, grid_.aperture.Weight(i, 0), 0, &list);
       for (const int across : {1, -1}) {
-        if (last > 0) AddTypeC(line, x, &corners[across > 0], last, &list);
+        if (last == 0) continue;
+        const int32_t runs = FindRuns(line.disparity, height, DirectionOf(across), grid_.spread,
+                                      scratch_->line_runs);
+        for (int32_t j = 1; j <= last; ++j) {
+          const LineView view = MakeView(j, top, top + inner.height);
+          const HoleView hole_view = MakeHoleView(field, sign, across, i, j);
+          const LineHoles holes = {hole_view, hole_line};
+          SpanSink<LineHoles> sink(line, top, grid_.aperture.Weight(i, j), holes, nullptr, &list);
+          ScanLine(line, DirectionOf(across), scratch_->line_runs, runs, view, &sink);
+        }
       }
       list.Flush();
     }
   }
 
-  void AddTypeC(const Line& line, int32_t column, Corner* corner, int32_t last, SpanList* list) {
-    const int32_t top = corner->field->inner.y - corner->rows.begin;
-    const Direction direction = DirectionOf(corner->across_sign);
-    const int32_t runs =
-        FindRuns(line.disparity, line.length, direction, grid_.spread, scratch_->line_runs);
-    for (int32_t j = 1; j <= last; ++j) {
-      const LineView view = MakeView(j, top, top + corner->field->inner.height);
-      const CornerHoles holes{corner, view, scratch_->moves[corner->i], column};
-      SpanSink<CornerHoles> sink(line, view.out_begin, grid_.aperture.Weight(corner->i, j), holes,
-                                 nullptr, list);
-      ScanLine(line, direction, scratch_->line_runs, runs, view, &sink);
-    }
-  }
-
   Diagonals GetDiagonals(const Field& field, bool anti) {
     Diagonals diagonals;
-    diagonals.anti = anti;
-    diagonals.rgb = scratch_->diagonal_rgb[anti];
-    diagonals.disparity = scratch_->diagonal_disparity[anti];
-    diagonals.offsets = scratch_->diagonal_offsets[anti];
-    if (!diagonals_loaded_[anti]) LoadDiagonals(field, anti, &diagonals);
-    diagonals_loaded_[anti] = true;
+    diagonals.rgb = scratch_->diagonal_rgb;
+    diagonals.disparity = scratch_->diagonal_disparity;
+    diagonals.offsets = scratch_->diagonal_offsets;
+    LoadDiagonals(field, anti, &diagonals);
     return diagonals;
   }
 
   static Line GetLine(const Diagonals& diagonals, int32_t index, int32_t length) {
     const size_t offset = diagonals.offsets[index];
     return {diagonals.rgb + 3 * offset, diagonals.disparity + offset, length};
-  }
-
-  CapturedLine Captured(const Field& field, const DiagonalLine& at, bool anti, int sign,
-                        int32_t i) const {
-    return {job_.window, field.transposed, field.x + at.x, field.y + at.y,
-            1,           anti ? -1 : 1,    sign,           i <= grid_.half_views};
-  }
-
-  // Renders the columns of the rectangle, in the corner's rows, of a type B view.
-  // Runs in the middle of a type C scan: it must not touch line_runs or the spans in waiting.
-  void RenderCorner(const Corner& corner) {
-    const Field& field = *corner.field;
-    const bool anti = corner.sign != corner.across_sign;
-    const Diagonals diagonals = GetDiagonals(field, anti);
-    uint8_t* columns = corner.Memory(*scratch_);
-    for (int32_t index = 0; index < Diagonals::Count(field); ++index) {
-      const DiagonalLine at = GetDiagonal(field, anti, index);
-      const Rows& rows = corner.rows;
-      const int32_t top = anti ? at.y - (rows.end - 1) : rows.begin - at.y;
-      const int32_t begin = Max(Max(0, field.inner.x - at.x), top);
-      const int32_t end = Min(Min(at.length, field.inner.x + field.inner.width - at.x),
-                              top + rows.end - rows.begin);
-      if (begin >= end) continue;
-      const Line line = GetLine(diagonals, index, at.length);
-      const int32_t runs = FindRuns(line.disparity, at.length, DirectionOf(corner.sign),
-                                    grid_.spread, scratch_->corner_runs);
-      const LineView view = MakeView(corner.i, begin, end);
-      const CapturedLine captured = Captured(field, at, anti, corner.sign, corner.i);
-      const CapturedHoles holes{captured, view};
-      SpanList list(*job_.kernels, scratch_->corner_spans, scratch_->line_rgb);
-      SpanSink<CapturedHoles> sink(line, begin, kBlendOne, holes, nullptr, &list);
-      ScanLine(line, DirectionOf(corner.sign), scratch_->corner_runs, runs, view, &sink);
-      list.Flush();
-      for (int32_t t = begin; t < end; ++t) {
-        const int32_t x = at.x + t - field.inner.x;
-        const int32_t y = (anti ? at.y - t : at.y + t) - rows.begin;
-        std::memcpy(columns + 3 * (static_cast<size_t>(x) * (rows.end - rows.begin) + y),
-                    scratch_->line_rgb + 3 * (t - begin), 3);
-      }
-    }
   }
 
   // Adds the type B views on one diagonal of the aperture, inside the disc.
@@ -333,10 +255,11 @@ class Star {
           FindRuns(line.disparity, at.length, DirectionOf(sign), grid_.spread, scratch_->line_runs);
       for (int32_t k = 1; k <= last; ++k) {
         const LineView view = MakeView(k, begin, end);
-        const CapturedLine captured = Captured(field, at, diagonals.anti, sign, k);
-        const CapturedHoles holes{captured, view};
-        SpanSink<CapturedHoles> sink(line, begin, grid_.aperture.Weight(k, k), holes, nullptr,
-                                     &list);
+        const int across = diagonals.anti ? -sign : sign;
+        const HoleView hole_view = MakeHoleView(field, sign, across, k, k);
+        const LineHoles holes = {hole_view,
+                                 {field.x + at.x, field.y + at.y, 1, diagonals.anti ? -1 : 1}};
+        SpanSink<LineHoles> sink(line, begin, grid_.aperture.Weight(k, k), holes, nullptr, &list);
         ScanLine(line, DirectionOf(sign), scratch_->line_runs, runs, view, &sink);
       }
     }
@@ -366,7 +289,6 @@ class Star {
   const StarJob& job_;
   const ViewGrid& grid_;
   StarScratch* scratch_;
-  bool diagonals_loaded_[2] = {false, false};
 };
 
 }  // namespace

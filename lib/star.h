@@ -22,24 +22,20 @@ inline constexpr int32_t kStripRows = 16;
 struct StarScratch {
   uint8_t* field_rgb[2];        // 3 E^2 each: rows and columns
   int16_t* field_disparity[2];  // E^2 each
-  uint8_t* diagonal_rgb[2];     // 3 E^2 each: main and anti
-  int16_t* diagonal_disparity[2];
-  uint32_t* diagonal_offsets[2];  // 2 E each
-  int64_t* moves;                 // N + 1: ViewGrid::Move of each view
-  Run* runs;                      // E^2: of all lines of a field
-  int32_t* run_counts;            // E
-  Run* line_runs;                 // E: of one line
-  uint8_t* strip_rgb;             // 3 R kStripRows: type A lines before they are transposed
-  int16_t* strip_disparity;       // R kStripRows
-  uint8_t* columns_rgb;           // 3 R E: the type A view, one line per column
-  int16_t* columns_disparity;     // R E
-  uint8_t* corner_rgb[2];         // 3 R E each: the type B views that fill its holes
-  uint32_t* accumulators[2];      // 3 R^2 each: in the orientation of either pass
-  uint32_t* line_accumulators;    // 3 E
-  Run* corner_runs;               // E: of a type B line that fills holes
-  uint8_t* line_rgb;              // 3 E: that line
+  uint8_t* diagonal_rgb;        // 3 E^2
+  int16_t* diagonal_disparity;  // E^2
+  uint32_t* diagonal_offsets;   // 2 E
+  int64_t* moves;               // N + 1: ViewGrid::Move of each view
+  Run* runs;                    // E^2: of all lines of a field
+  int32_t* run_counts;          // E
+  Run* line_runs;               // E: of one line
+  uint8_t* strip_rgb;           // 3 R kStripRows: type A lines before they are transposed
+  int16_t* strip_disparity;     // R kStripRows
+  uint8_t* columns_rgb;         // 3 R E: the type A view, one line per column
+  int16_t* columns_disparity;   // R E
+  uint32_t* accumulators[2];    // 3 R^2 each: in the orientation of either pass
+  uint32_t* line_accumulators;  // 3 E
   SpanMemory spans;
-  SpanMemory corner_spans;
 };
 
 struct StarJob {

@@ -1,7 +1,5 @@
 #include "lib/window.h"
 
-#include <cstring>
-
 namespace starfocus {
 namespace {
 
@@ -13,29 +11,53 @@ constexpr ViewPosition kPositions[kMaxViews] = {
 // Triangular taps 1 2 1 and 1 2 3 4 3 2 1 of layers 1 and 2; each sums to 4^L.
 int32_t Tap(int layer, int32_t k) { return (1 << layer) - Abs(k); }
 
+// A view whose edges go on for ever.
+struct Endless {
+  const Plane<const uint8_t>& view;
+  int32_t right, bottom;  // last column and row
+
+  const uint8_t* operator()(int32_t x, int32_t y) const {
+    return view.Row(Clamp(y, 0, bottom)) + 3 * Clamp(x, 0, right);
+  }
+};
+
+void Interpolate(const Endless& pixel, int32_t x, int32_t y, uint8_t* rgb) {
+  const int32_t column = x >> kShiftBits, row = y >> kShiftBits;
+  const int32_t wx = x & (kShiftOne - 1), wy = y & (kShiftOne - 1);
+  const uint8_t *a = pixel(column, row), *b = pixel(column + 1, row);
+  const uint8_t *c = pixel(column, row + 1), *d = pixel(column + 1, row + 1);
+  for (int k = 0; k < 3; ++k) {
+    const int32_t above = a[k] * (kShiftOne - wx) + b[k] * wx;
+    const int32_t below = c[k] * (kShiftOne - wx) + d[k] * wx;
+    rgb[k] =
+        static_cast<uint8_t>(RoundShift(above * (kShiftOne - wy) + below * wy, 2 * kShiftBits));
+  }
+}
+
+void Subsample(const Endless& pixel, int layer, int32_t x, int32_t y, uint8_t* rgb) {
+  const int32_t reach = (1 << layer) - 1;
+  int32_t sums[3] = {0, 0, 0};
+  for (int32_t dy = -reach; dy <= reach; ++dy) {
+    for (int32_t dx = -reach; dx <= reach; ++dx) {
+      const uint8_t* from = pixel(x + dx, y + dy);
+      for (int k = 0; k < 3; ++k) sums[k] += Tap(layer, dx) * Tap(layer, dy) * from[k];
+    }
+  }
+  for (int k = 0; k < 3; ++k) rgb[k] = static_cast<uint8_t>(RoundShift(sums[k], 4 * layer));
+}
+
 }  // namespace
 
 void ReadCaptured(const Window& window, int index, int32_t x, int32_t y, uint8_t* rgb) {
-  const Plane<const uint8_t>& view = window.view[index];
-  const int32_t right = window.picture_width - 1, bottom = window.picture_height - 1;
-  // Clamped before scaling, so that no position overflows.
-  const int32_t px = Clamp(x, 0, right) << window.layer, py = Clamp(y, 0, bottom) << window.layer;
+  const Endless pixel = {window.view[index], window.picture_width - 1, window.picture_height - 1};
   if (window.layer == 0) {
-    std::memcpy(rgb, view.Row(py) + 3 * px, 3);
+    Interpolate(pixel, x, y, rgb);
     return;
   }
-  const int32_t reach = (1 << window.layer) - 1;
-  int32_t sums[3] = {0, 0, 0};
-  for (int32_t dy = -reach; dy <= reach; ++dy) {
-    const uint8_t* row = view.Row(Clamp(py + dy, 0, bottom));
-    for (int32_t dx = -reach; dx <= reach; ++dx) {
-      const int32_t tap = Tap(window.layer, dx) * Tap(window.layer, dy);
-      const uint8_t* pixel = row + 3 * Clamp(px + dx, 0, right);
-      for (int c = 0; c < 3; ++c) sums[c] += tap * pixel[c];
-    }
-  }
-  const int bits = 4 * window.layer;
-  for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>(RoundShift(sums[c], bits));
+  // One rounding from 1 / kShiftOne of the layer's pixels to the picture's.
+  const int bits = kShiftBits - window.layer;
+  Subsample(pixel, window.layer, static_cast<int32_t>(RoundShift(x, bits)),
+            static_cast<int32_t>(RoundShift(y, bits)), rgb);
 }
 
 int CapturedView(int u, int v, bool half) {
