@@ -70,8 +70,10 @@ void AddAnalyzeCommand(CLI::App* app, Action* action) {
       "(9) and (12), the rule for aperture cells, and the kernels of the running engine");
   command->add_option("-o,--output", options->folder,
                       "Folder for CSV files and, with gnuplot, SVG drawings of Figs. 4, 5, 6, 8");
-  command->add_option("--max-blur", options->max_blur,
-                      "Largest blur radius of the rule for aperture cells, 1 to 128 (default 40)");
+  command->add_option(
+      "--max-blur", options->max_blur,
+      "Largest blur radius of the rule for aperture cells, 1 to 128 (default 40; 128 takes "
+      "minutes)");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }
 

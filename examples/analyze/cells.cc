@@ -74,11 +74,11 @@ Figure AnalyseCells(double max_blur) {
               largest <= 1 ? "holds" : "FAILS", largest, largest_at);
   figure.tables.push_back(table);
   figure.commands =
-      "set title 'Views along the aperture radius'\nset xlabel 'r_{max}'\nset ylabel 'N'\n"
+      "set title 'Views along the aperture radius'\nset xlabel 'r_max'\nset ylabel 'N'\n"
       "set key top left\n"
       "plot $cells using 1:2 with steps lt 6 title 'N by (9)', "
       "'' using 1:4 with steps lt 2 title 'N by the rule for cells', "
-      "'' using 1:3 with steps lt 1 lw 1 title 'least N for every r up to r_{max}', "
+      "'' using 1:3 with steps lt 1 lw 1 title 'least N for every r up to r_max', "
       "$cells_same_r using 1:4 with points pt 7 ps 0.7 lt 3 title 'least N at r alone'\n";
   return figure;
 }

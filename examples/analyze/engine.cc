@@ -83,7 +83,7 @@ Figure AnalyseEngine(std::string* error) {
   Figure figure = {"engine", 860, 620, {table, wide}, ""};
   figure.commands =
       "set multiplot layout 2,1 title 'Kernels of the running engine, layer 0'\n"
-      "set logscale y\nset format y '10^{%T}'\nset yrange [1e-7:0.2]\n"
+      "set logscale y\nset format y '%.0e'\nset yrange [1e-7:0.2]\n"
       "set ylabel 'SSE (8)'\nset xlabel 'r = d - d_t'\n"
       "set title 'N from (9) at |r|'\nset xrange [-40:40]\n"
       "set arrow 1 from graph 0, first 1e-3 to graph 1, first 1e-3 nohead dt 2 lc rgb '#888888'\n"
@@ -91,7 +91,7 @@ Figure AnalyseEngine(std::string* error) {
       "'' using 1:5 with lines lt 3 lw 1 title 'exact cells', "
       "'' using 1:4 with lines lt 1 lw 3 title 'described', "
       "'' using 1:3 with points pt 7 ps 0.2 lt 2 title 'measured'\n"
-      "set title 'N = 32, as for r_{max} = 40'\nset xrange [0:40]\n"
+      "set title 'N = 32, as for r_max = 40'\nset xrange [0:40]\n"
       "plot $engine_r40 using 1:6 with lines lt 6 lw 1 title 'paper', "
       "'' using 1:5 with lines lt 3 lw 1 title 'exact cells', "
       "'' using 1:4 with lines lt 1 lw 3 title 'described', "

@@ -17,7 +17,7 @@ using namespace analysis;
 constexpr double kTheta = kDefaultTheta;
 constexpr double kRadius = 4;  // r of Figs. 4 and 5
 
-// b_{vi,c}(x) of (6).
+// b_vi,c(x) of (6).
 double Continuous(const Kernel1& samples, double x) {
   double sum = 0;
   for (int i = -samples.radius(); i <= samples.radius(); ++i) {
@@ -26,7 +26,7 @@ double Continuous(const Kernel1& samples, double x) {
   return sum;
 }
 
-// A_{vi}(f): the views' spectrum, repeated every N / r.
+// A_vi(f): the views' spectrum, repeated every N / r.
 double ViewResponse(const Kernel1& samples, double f) {
   return Response(samples, 2 * kPi * f * kRadius / samples.radius());
 }
@@ -64,9 +64,9 @@ Figure DrawViewKernels() {
       "height'\nset xrange [-6:6]\nset yrange [0:1.5]\nset xtics 2\n"
       "do for [i=1:4] {\nset title sprintf('N = %s', word('3 4 6 16', i))\n"
       "plot $fig4 using 1:2 with boxes lc rgb '#c8d8e8' fs solid 1 title 'b[n] ideal', "
-      "$fig4_curves using 1:(column(i + 1)) with lines lt 6 lw 1 title 'b_{vi,c}(x)', "
+      "$fig4_curves using 1:(column(i + 1)) with lines lt 6 lw 1 title 'b_vi,c(x)', "
       "$fig4 using 1:(column(i + 2)) with impulses lt 2 lw 2, "
-      "$fig4 using 1:(column(i + 2)) with points pt 7 ps 0.7 lt 2 title 'b_{vi}[n]'\n}\n"
+      "$fig4 using 1:(column(i + 2)) with points pt 7 ps 0.7 lt 2 title 'b_vi[n]'\n}\n"
       "unset multiplot\n";
   return figure;
 }
@@ -90,13 +90,13 @@ Figure DrawViewResponses() {
   Figure figure = {"fig5", 900, 760, {continuous, discrete}, ""};
   figure.commands =
       "set multiplot layout 3,1 title 'Fig. 5: responses of view interpolation, r = 4, 1D'\n"
-      "set yrange [0:1.05]\nset xrange [0:2.5]\nset xlabel 'f'\nset key top right\n"
+      "set yrange [0:1.05]\nset xrange [0:2.5]\nset xlabel 'f'\nset key outside right\n"
       "do for [i=0:1] {\n"
       "set title sprintf('(a) before sampling, N = %d', 3 + 3 * i)\n"
-      "plot $fig5a using 1:2 with lines lt 6 lw 1 dt 2 title '|H|', "
-      "'' using 1:(column(3 + 2 * i)) with lines lt 1 lw 1 title '|A_{vi}|', "
+      "plot $fig5a using 1:2 with lines lt 6 lw 2 dt 2 title '|H|', "
+      "'' using 1:(column(3 + 2 * i)) with lines lt 1 lw 1 title '|A_vi|', "
       "'' using 1:(column(4 + 2 * i)) with filledcurves y1=0 lc rgb '#d9541e' fs solid 0.6 "
-      "title '|B_{vi,c}|'\n}\n"
+      "title '|B_vi,c|'\n}\n"
       "set title '(b) after sampling'\nset xrange [0:1]\nset xlabel 'ω / π'\n"
       "plot $fig5b using 1:2 with lines lt 6 title 'ideal', '' using 1:3 with lines lt 1 "
       "title 'N = 3', '' using 1:4 with lines lt 2 title 'N = 6'\nunset multiplot\n";
@@ -127,11 +127,11 @@ Figure DrawSubsampledBlurs() {
   Figure figure = {"fig8", 900, 760, {table}, ""};
   figure.commands =
       "set multiplot layout 3,1 title 'Fig. 8: subsampled-by-two blurs, 1D, β_D = 1.28, θ = "
-      "0.26 π'\nset yrange [0:1.05]\nset xrange [0:1]\nset xlabel 'ω / π'\n"
+      "0.26 π'\nset yrange [0:1.05]\nset xrange [0:1]\nset xlabel 'ω / π'\nset key outside right\n"
       "do for [i=0:2] {\nset title sprintf('r = %d', i + 2)\n"
       "plot $fig8 using 1:(column(2 + 4 * i)) with lines lt 6 title '|B(z; r)| ideal', "
-      "'' using 1:(column(3 + 4 * i)) with lines lt 5 lw 1 dt 2 title '|B(z^2; r/2)|', "
-      "'' using 1:(column(4 + 4 * i)) with lines lt 1 title '|B_{↓2}|', "
+      "'' using 1:(column(3 + 4 * i)) with lines lt 5 lw 2 dt 2 title '|B(z²; r/2)|', "
+      "'' using 1:(column(4 + 4 * i)) with lines lt 1 title '|B↓2|', "
       "'' using 1:(column(5 + 4 * i)) with lines lt 2 title '|E|'\n}\nunset multiplot\n";
   return figure;
 }

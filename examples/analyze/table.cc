@@ -40,7 +40,7 @@ std::string Table::DataBlock() const {
 std::string Figure::Script() const {
   std::string script =
       "set terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
-      " enhanced font 'sans-serif,13' background '#ffffff'\n"
+      " noenhanced font 'sans-serif,13' background '#ffffff'\n"
       "set encoding utf8\nset key noautotitle samplen 2\n"
       "set grid lc rgb '#dddddd' lt 1\nset border lc rgb '#444444'\n"
       "set linetype 1 lc rgb '#1f6fb4' lw 2\nset linetype 2 lc rgb '#d9541e' lw 2\n"

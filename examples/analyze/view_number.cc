@@ -68,7 +68,7 @@ Figure AnalyseViewNumber() {
   PrintThreshold();
   figure.commands =
       "set title 'Fig. 6: error of N views along the aperture radius'\n"
-      "set logscale y\nset format y '10^{%T}'\nset xlabel 'N / r'\nset ylabel 'SSE (8)'\n"
+      "set logscale y\nset format y '%.0e'\nset xlabel 'N / r'\nset ylabel 'SSE (8)'\n"
       "set xrange [0.6:2.2]\nset yrange [1e-6:1e-2]\nset key outside right\n"
       "set arrow from 0.787, graph 0 to 0.787, graph 1 nohead dt 2 lc rgb '#888888'\n"
       "set label '0.787' at 0.795, 2e-6 tc rgb '#666666'\n"
