@@ -37,7 +37,7 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
 // Measures r = k * increment for k in [0, count], in the direction of `sign`; r_max 0 takes r
 // itself.
 std::string Measure(int count, double increment, int sign, double r_max, Table* table) {
-  std::printf("  r %s 0 to %d%s\n", sign > 0 ? "=" : "= -", kLargest,
+  std::printf("  r = 0 to %d%s\n", sign * kLargest,
               r_max > 0 ? " in a picture whose r_max is 40" : ", r_max = r");
   Progress progress("the engine's kernels", count);
   std::vector<Stretch> stretches;
