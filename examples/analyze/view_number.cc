@@ -39,7 +39,7 @@ Table Points() {
   return table;
 }
 
-// Where the paper's 0.787 comes from.
+// The paper's 0.787 against the exact point.
 void PrintThreshold() {
   constexpr double kPaper = 0.787, kBeside = 1.51;
   const RatioPoint over = WorstOverSampling(4, kTheta);
@@ -49,13 +49,16 @@ void PrintThreshold() {
   const RatioPoint no_rim = WorstOverSampling(4, kTheta, Rim::kExcluded);
   const double beside = PaperError(4 / kBeside, 4, kTheta, Rim::kExcluded);
   std::printf(
-      "  The over-sampling curve has a cusp at N/r = 1.5. The figure's own numbers come out when\n"
-      "  views on the very rim of the aperture are left out: 0.%03.0f with the cusp, 0.%03.0f with "
-      "the\n"
-      "  curve sampled beside it at 1.51 (SSE %.1e, below 1e-3 from N = 4 on as the paper "
-      "says).\n\n",
-      1000 * UnderSamplingRatio(4, kTheta, no_rim.error, Rim::kExcluded),
-      1000 * UnderSamplingRatio(4, kTheta, beside, Rim::kExcluded), beside);
+      "  By (3)-(8) as written, 0.787 is not the point of equal SSE: that is %.3f, the curve "
+      "having\n"
+      "  a cusp at N/r = 1.5. What the paper did differently is unknown; of the variants tried, "
+      "one\n"
+      "  gives 0.787: without views on the rim of the aperture the point is %.3f, and %.3f with\n"
+      "  the curve read beside the cusp at 1.51 (SSE %.1e). 0.787 is on the safe side either "
+      "way.\n\n",
+      UnderSamplingRatio(4, kTheta, over.error),
+      UnderSamplingRatio(4, kTheta, no_rim.error, Rim::kExcluded),
+      UnderSamplingRatio(4, kTheta, beside, Rim::kExcluded), beside);
 }
 
 }  // namespace
