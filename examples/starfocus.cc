@@ -31,6 +31,7 @@ int Run(int argc, char** argv) {
   starfocus::AddCompareCommand(&app, &action);
   starfocus::AddInfoCommand(&app, &action);
   starfocus::AddSheetCommand(&app, &action);
+  starfocus::AddAnalyzeCommand(&app, &action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -143,7 +143,7 @@ TEST_CASE("cli: refocus refuses bad input") {
   for (const auto& row : bad) CheckRefused(folder, row.arguments, row.mention);
 }
 
-TEST_CASE("cli: scene, compare, info and sheet refuse bad input") {
+TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
   TempFolder folder;
   Prepare(folder);
   const struct {
@@ -178,7 +178,12 @@ TEST_CASE("cli: scene, compare, info and sheet refuse bad input") {
              {"sheet x.tif small.png", ".tif"},
              {"sheet x.png none.png", "none.png"},
              {"sheet x.png small.png --labels a,b", "--labels"},
-             {"sheet x.png small.png --width 3", "--width"}};
+             {"sheet x.png small.png --width 3", "--width"},
+             {"analyze --max-blur 0", "--max-blur"},
+             {"analyze --max-blur 129", "--max-blur"},
+             {"analyze --max-blur 2.5", "--max-blur"},
+             {"analyze -o text.png", "text.png"},
+             {"analyze extra", "extra"}};
   for (const auto& row : bad) CheckRefused(folder, row.arguments, row.mention);
 }
 
@@ -204,6 +209,31 @@ TEST_CASE("cli: scene writes what its name says, again the same bytes") {
   LightField light_field;
   CHECK(LoadLightField(folder.file("a"), 0, &light_field) == "");
   CHECK(light_field.width() == 20);
+}
+
+TEST_CASE("cli: analyze agrees with the paper and writes its tables") {
+  TempFolder folder;
+  const Outcome outcome = Call(folder, "analyze -o a/b --max-blur 12");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err == "");
+  for (const char* bad : {"DIFFERS", "FAILS", "MORE", "unexplained", "nan"}) {
+    CHECK(outcome.out.find(bad) == std::string::npos);
+  }
+  CHECK(outcome.out.find("agrees") != std::string::npos);
+  for (const char* name :
+       {"table1", "fig4", "fig5a", "fig5b", "fig6", "fig6_points", "fig8", "cells", "engine"}) {
+    CAPTURE(name);
+    const std::string csv = Text(folder.file("a/b/" + std::string(name) + ".csv"));
+    CHECK(csv.find(",") != std::string::npos);
+    CHECK(csv.find("nan") == std::string::npos);
+  }
+  const bool drawn = outcome.out.find("gnuplot is missing") == std::string::npos;
+  for (const char* name : {"fig4", "fig5", "fig6", "fig8", "cells", "engine"}) {
+    CAPTURE(name);
+    const std::string path = folder.file("a/b/" + std::string(name) + ".svg");
+    CHECK(fs::exists(path) == drawn);
+    if (drawn) CHECK(Text(path).find("</svg>") != std::string::npos);
+  }
 }
 
 TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together") {
@@ -236,6 +266,7 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
   CHECK(sheet.width <= 60);
   CHECK(Call(folder, "--help").code == 0);
   CHECK(Call(folder, "refocus --help").code == 0);
+  CHECK(Call(folder, "analyze --help").code == 0);
 }
 
 }  // namespace

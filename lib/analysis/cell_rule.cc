@@ -1,0 +1,87 @@
+#include "lib/analysis/cell_rule.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/analysis/ideal.h"
+#include "lib/analysis/selection.h"
+#include "lib/rules.h"
+
+namespace starfocus::analysis {
+namespace {
+
+struct Step {
+  double r_max;
+  int n;
+};
+constexpr Step kSteps[] = {{0.5, 0}, {11, 4},  {24, 6},   {32, 8},   {45, 10},
+                           {59, 12}, {81, 14}, {109, 16}, {120, 18}, {128, 20}};
+
+}  // namespace
+
+int ViewsByCells(double r_max) {
+  for (const Step& step : kSteps) {
+    if (r_max <= step.r_max) return step.n;
+  }
+  return std::rbegin(kSteps)->n;
+}
+
+int FewestCells(double r, double theta) {
+  const double limit = PaperError(r, ViewsByPaper(r), theta);
+  int n = 0;
+  while (CellError(r, n, theta) > limit) ++n;
+  return n;
+}
+
+CellStudy::CellStudy(double r_limit, double step, double theta) : step_(step), theta_(theta) {
+  for (int k = 1; k * step <= r_limit; ++k) ideal_.push_back(IdealKernel(k * step, theta));
+}
+
+double CellStudy::Margin(int k_max, int n, double* worst) {
+  const std::vector<double>& cells = CellErrors(n);
+  const int paper_n = ViewsByPaper(Radius(k_max));
+  const std::vector<double>& paper = PaperErrors(paper_n);
+  const double over = over_sampling_[static_cast<size_t>(paper_n)];
+  double largest = 0;
+  for (size_t k = 0; k <= static_cast<size_t>(k_max); ++k) {
+    const double ratio = cells[k] / std::min(kThreshold, std::max(over, paper[k]));
+    if (ratio <= largest) continue;
+    largest = ratio;
+    if (worst != nullptr) *worst = Radius(static_cast<int>(k));
+  }
+  return largest;
+}
+
+int CellStudy::Fewest(int k_max) {
+  int n = 0;
+  while (Margin(k_max, n) > 1) ++n;
+  return n;
+}
+
+const std::vector<double>& CellStudy::CellErrors(int n) {
+  const size_t index = static_cast<size_t>(n);
+  if (cells_.size() <= index) cells_.resize(index + 1);
+  std::vector<double>& errors = cells_[index];
+  for (int k = static_cast<int>(errors.size()); k < count(); ++k) {
+    errors.push_back(
+        SquaredError(CellKernel(Radius(k), n, theta_), ideal_[static_cast<size_t>(k)]));
+  }
+  return errors;
+}
+
+const std::vector<double>& CellStudy::PaperErrors(int n) {
+  const size_t index = static_cast<size_t>(n);
+  if (paper_.size() <= index) {
+    paper_.resize(index + 1);
+    over_sampling_.resize(index + 1);
+  }
+  std::vector<double>& errors = paper_[index];
+  if (errors.empty()) over_sampling_[index] = WorstOverSampling(n, theta_).error;
+  for (int k = static_cast<int>(errors.size()); k < count(); ++k) {
+    errors.push_back(
+        SquaredError(PaperKernel(Radius(k), n, theta_), ideal_[static_cast<size_t>(k)]));
+  }
+  return errors;
+}
+
+}  // namespace starfocus::analysis

@@ -1,0 +1,49 @@
+#include "lib/analysis/half_band.h"
+
+#include <cmath>
+
+#include "lib/analysis/aperture.h"
+#include "lib/analysis/search.h"
+
+namespace starfocus::analysis {
+namespace {
+
+// Modified Bessel function of the first kind, order 0, by its power series.
+double Bessel0(double x) {
+  double sum = 1, term = 1;
+  for (int k = 1; term > 1e-17 * sum; ++k) {
+    term *= (x / (2 * k)) * (x / (2 * k));
+    sum += term;
+  }
+  return sum;
+}
+
+double Kaiser(int n, double beta) {
+  const double place = double(n) / kHalfBandRadius;
+  return Bessel0(beta * std::sqrt(1 - place * place)) / Bessel0(beta);
+}
+
+double HalfSinc(int n) { return n == 0 ? 1 : std::sin(kPi * n / 2) / (kPi * n / 2); }
+
+}  // namespace
+
+Kernel1 HalfBand(double beta) {
+  Kernel1 kernel(kHalfBandRadius);
+  for (int n = -kHalfBandRadius; n <= kHalfBandRadius; ++n) {
+    kernel.at(n) = n != 0 && n % 2 == 0 ? 0 : HalfSinc(n) * Kaiser(n, beta);
+  }
+  kernel.Scale(1 / kernel.Sum());
+  return kernel;
+}
+
+double GainAtPi(const Kernel1& kernel) {
+  double gain = 0;
+  for (int n = -kernel.radius(); n <= kernel.radius(); ++n) gain += n % 2 ? -kernel(n) : kernel(n);
+  return gain;
+}
+
+double BetaWithoutPi() {
+  return Cross(0, 4, 1e-12, [](double beta) { return GainAtPi(HalfBand(beta)); });
+}
+
+}  // namespace starfocus::analysis

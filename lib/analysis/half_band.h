@@ -1,0 +1,26 @@
+// The resampling filters of the subsampled layers: a half-band sinc under a Kaiser window.
+#ifndef STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
+#define STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
+
+#include "lib/analysis/kernel.h"
+
+namespace starfocus::analysis {
+
+inline constexpr int kHalfBandRadius = 3;  // seven taps
+
+// The paper's parameters: beta_U makes G_U(-1) = 0; beta_D is Table I's at r = 3.
+inline constexpr double kBetaUp = 2.17;
+inline constexpr double kBetaDown = 1.28;
+
+// sinc(n / 2) times the Kaiser window of `beta` >= 0, unit sum.
+Kernel1 HalfBand(double beta);
+
+// G(e^{j omega}) of a symmetric kernel at omega = pi: the gain of the highest frequency.
+double GainAtPi(const Kernel1& kernel);
+
+// The beta for which GainAtPi(HalfBand(beta)) = 0.
+double BetaWithoutPi();
+
+}  // namespace starfocus::analysis
+
+#endif  // STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_

@@ -1,0 +1,92 @@
+#include "lib/analysis/ideal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "lib/analysis/aperture.h"
+#include "lib/analysis/integral.h"
+
+namespace starfocus::analysis {
+namespace {
+
+// Longest piece, in radians, that the quadrature takes at once.
+constexpr double kLongestPiece = 0.4;
+
+int RadiusOf(double r) { return static_cast<int>(std::ceil(r + 0.5)); }
+
+// Angles in [low, high] at which the circle of radius r crosses the pixel's left or right side;
+// between them the integrand is smooth.
+std::vector<double> Breaks(double low, double high, double left, double right, double r) {
+  std::vector<double> breaks = {low, high};
+  for (const double x : {left, right}) {
+    if (std::fabs(x) >= r) continue;
+    const double angle = std::acos(std::fabs(x) / r);
+    for (const double at : {-angle, angle}) {
+      if (at > low && at < high) breaks.push_back(at);
+    }
+  }
+  std::sort(breaks.begin(), breaks.end());
+  return breaks;
+}
+
+// The integral of (4) over the pixel [n - 1/2, n + 1/2] x [m - 1/2, m + 1/2]. Along x it has a
+// closed form; along y = r sin(phi), which leaves no singularity where the disc ends.
+double Pixel(int n, int m, double r, double theta) {
+  const double bottom = std::max(m - 0.5, -r), top = std::min(m + 0.5, r);
+  if (bottom >= top) return 0;
+  const double c = FallOff(theta), cosine = std::cos(theta);
+  const double left = n - 0.5, right = n + 0.5;
+  const auto slice = [&](double phi) {
+    const double y = r * std::sin(phi), chord = r * std::cos(phi);
+    const double low = std::max(left, -chord), high = std::min(right, chord);
+    return low < high ? chord * InverseSquare(low, high, y * y + c * r * r) : 0;
+  };
+  const std::vector<double> breaks =
+      Breaks(std::asin(bottom / r), std::asin(top / r), left, right, r);
+  double sum = 0;
+  for (size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double length = breaks[i + 1] - breaks[i];
+    const int pieces = 1 + static_cast<int>(length / kLongestPiece);
+    for (int k = 0; k < pieces; ++k) {
+      sum +=
+          Integrate(breaks[i] + length * k / pieces, breaks[i] + length * (k + 1) / pieces, slice);
+    }
+  }
+  return sum * c * c * r * r / (kPi * cosine * cosine);
+}
+
+}  // namespace
+
+Kernel IdealKernel(double r, double theta) {
+  Kernel kernel(RadiusOf(r));
+  if (r == 0) {
+    kernel.at(0, 0) = 1;
+    return kernel;
+  }
+  for (int n = 0; n <= kernel.radius(); ++n) {
+    for (int m = 0; m <= n; ++m) {
+      const double tap = Pixel(n, m, r, theta);
+      for (const int x : {n, -n}) {
+        for (const int y : {m, -m}) kernel.at(x, y) = kernel.at(y, x) = tap;
+      }
+    }
+  }
+  return kernel;
+}
+
+Kernel1 IdealKernel1(double r, double theta) {
+  Kernel1 kernel(RadiusOf(r));
+  if (r == 0) {
+    kernel.at(0) = 1;
+    return kernel;
+  }
+  const double c = FallOff(theta), whole = InverseSquare(-1, 1, c);
+  for (int n = -kernel.radius(); n <= kernel.radius(); ++n) {
+    const double low = std::max((n - 0.5) / r, -1.0), high = std::min((n + 0.5) / r, 1.0);
+    if (low < high) kernel.at(n) = InverseSquare(low, high, c) / whole;
+  }
+  return kernel;
+}
+
+}  // namespace starfocus::analysis

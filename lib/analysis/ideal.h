@@ -1,0 +1,17 @@
+// The discrete kernel of the ideal defocusing blur (4).
+#ifndef STARFOCUS_LIB_ANALYSIS_IDEAL_H_
+#define STARFOCUS_LIB_ANALYSIS_IDEAL_H_
+
+#include "lib/analysis/kernel.h"
+
+namespace starfocus::analysis {
+
+// (4) for blur radius r >= 0 in pixels; exact to about 1e-12. r = 0 is the unit impulse.
+Kernel IdealKernel(double r, double theta);
+
+// The same with the 1D aperture.
+Kernel1 IdealKernel1(double r, double theta);
+
+}  // namespace starfocus::analysis
+
+#endif  // STARFOCUS_LIB_ANALYSIS_IDEAL_H_

@@ -1,0 +1,61 @@
+// Discrete filter kernels and their squared differences.
+#ifndef STARFOCUS_LIB_ANALYSIS_KERNEL_H_
+#define STARFOCUS_LIB_ANALYSIS_KERNEL_H_
+
+#include <cstddef>
+#include <vector>
+
+namespace starfocus::analysis {
+
+// b[n], |n| <= radius; zero beyond.
+class Kernel1 {
+ public:
+  explicit Kernel1(int radius) : radius_(radius), taps_(static_cast<size_t>(2 * radius + 1)) {}
+
+  int radius() const { return radius_; }
+  double& at(int n) { return taps_[static_cast<size_t>(n + radius_)]; }
+  double operator()(int n) const {
+    return n < -radius_ || n > radius_ ? 0 : taps_[static_cast<size_t>(n + radius_)];
+  }
+  double Sum() const;
+  void Scale(double factor);
+
+ private:
+  int radius_;
+  std::vector<double> taps_;
+};
+
+// b[n, m], |n|, |m| <= radius; zero beyond.
+class Kernel {
+ public:
+  explicit Kernel(int radius)
+      : radius_(radius), taps_(static_cast<size_t>(2 * radius + 1) * (2 * radius + 1)) {}
+
+  int radius() const { return radius_; }
+  double& at(int n, int m) { return taps_[Index(n, m)]; }
+  double operator()(int n, int m) const {
+    const bool inside = n >= -radius_ && n <= radius_ && m >= -radius_ && m <= radius_;
+    return inside ? taps_[Index(n, m)] : 0;
+  }
+  double Sum() const;
+  void Scale(double factor);
+
+ private:
+  size_t Index(int n, int m) const {
+    return static_cast<size_t>(n + radius_) * (2 * radius_ + 1) + static_cast<size_t>(m + radius_);
+  }
+
+  int radius_;
+  std::vector<double> taps_;
+};
+
+// The sum of squared errors of (8) and (10).
+double SquaredError(const Kernel& a, const Kernel& b);
+double SquaredError(const Kernel1& a, const Kernel1& b);
+
+// The sum of squares, as in (11).
+double Energy(const Kernel& kernel);
+
+}  // namespace starfocus::analysis
+
+#endif  // STARFOCUS_LIB_ANALYSIS_KERNEL_H_

@@ -1,0 +1,38 @@
+// Searches along one variable.
+#ifndef STARFOCUS_LIB_ANALYSIS_SEARCH_H_
+#define STARFOCUS_LIB_ANALYSIS_SEARCH_H_
+
+namespace starfocus::analysis {
+
+// Where f, with a single minimum in [low, high], is least; golden section to `tolerance`.
+template <class Function>
+double Minimise(double low, double high, double tolerance, const Function& f) {
+  constexpr double kGolden = 0.61803398874989485;
+  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+  double at_a = f(a), at_b = f(b);
+  while (high - low > tolerance) {
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a;
+      a = high - kGolden * (high - low), at_a = f(a);
+    } else {
+      low = a, a = b, at_a = at_b;
+      b = low + kGolden * (high - low), at_b = f(b);
+    }
+  }
+  return (low + high) / 2;
+}
+
+// Where f changes sign in [low, high]; bisection to `tolerance`.
+template <class Function>
+double Cross(double low, double high, double tolerance, const Function& f) {
+  const bool positive = f(low) > 0;
+  while (high - low > tolerance) {
+    const double middle = (low + high) / 2;
+    ((f(middle) > 0) == positive ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+}  // namespace starfocus::analysis
+
+#endif  // STARFOCUS_LIB_ANALYSIS_SEARCH_H_

@@ -1,0 +1,28 @@
+// Frequency responses of 1D kernels (Figs. 5 and 8).
+#ifndef STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_
+#define STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_
+
+#include <cmath>
+
+#include "lib/analysis/aperture.h"
+#include "lib/analysis/kernel.h"
+
+namespace starfocus::analysis {
+
+// B(e^{j omega}) of a symmetric kernel; real.
+inline double Response(const Kernel1& kernel, double omega) {
+  double sum = kernel(0);
+  for (int n = 1; n <= kernel.radius(); ++n) sum += 2 * kernel(n) * std::cos(n * omega);
+  return sum;
+}
+
+// H(f) = sinc^2(f) of the triangular h.
+inline double TriangleResponse(double f) {
+  if (f == 0) return 1;
+  const double sinc = std::sin(kPi * f) / (kPi * f);
+  return sinc * sinc;
+}
+
+}  // namespace starfocus::analysis
+
+#endif  // STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_

@@ -1,0 +1,36 @@
+// The kernel of refocusing by rendered views (5)-(7): the paper's with the triangular h, and that
+// of aperture cells.
+#ifndef STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
+#define STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
+
+#include "lib/analysis/kernel.h"
+
+namespace starfocus::analysis {
+
+// A box of width L > 0 integrated over a pixel, at distance t from the pixel's centre. L = 1 is the
+// triangular h; L -> 0 the nearest pixel.
+double Trapezoid(double t, double width);
+
+// Whether the views with u^2 + v^2 = 1 exactly are rendered. (3) includes them.
+enum class Rim { kIncluded, kExcluded };
+
+// (5)-(7) for N views along the aperture radius, N >= 1, with h(x, y) the trapezoid of `width`
+// along either axis.
+Kernel ViewKernel(double r, int n, double theta, double width, Rim rim = Rim::kIncluded);
+
+// With the triangular h of the paper.
+Kernel PaperKernel(double r, int n, double theta, Rim rim = Rim::kIncluded);
+
+// Each view stands for its cell of the aperture, u_t / N wide: h is as wide as a pixel moves from
+// view to view, L = r / N. N = 0 is the centre view alone: the unit impulse.
+Kernel CellKernel(double r, int n, double theta);
+
+// The paper's kernel with the 1D aperture, whose views are |i| <= N.
+Kernel1 PaperKernel1(double r, int n, double theta);
+
+// a_{d,N}[i] of (5) for the 1D aperture.
+Kernel1 SampledAperture1(int n, double theta);
+
+}  // namespace starfocus::analysis
+
+#endif  // STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
