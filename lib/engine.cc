@@ -27,7 +27,7 @@ Reach GetReach(double max_blur) {
   // its pixels then lie less than a cell further away.
   const int32_t splat = CeilPixels(max_blur) + 1 + kLayerMargin[2];
   Reach reach;
-  reach.border = CeilPixels(max_blur) + kCellSize + 3;
+  reach.border = CeilPixels(max_blur) + kCellSize + 2;
   reach.cells = (splat + kCellSize - 1) / kCellSize + 1;
   // And the taps of two downsampling filters.
   reach.rows = (reach.cells + 1) * kCellSize + 16;

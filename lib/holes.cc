@@ -32,20 +32,21 @@ void Read(const HoleView& view, int u, int v, int32_t x, int32_t y, uint8_t* rgb
   }
 }
 
+// Squared, of the sums over R, G and B: at most 765^2.
 int32_t Difference(const uint8_t* a, const uint8_t* b) {
-  return Abs(a[0] - b[0]) + Abs(a[1] - b[1]) + Abs(a[2] - b[2]);
+  const int32_t sum = Abs(a[0] - b[0]) + Abs(a[1] - b[1]) + Abs(a[2] - b[2]);
+  return sum * sum;
 }
 
-// The diagonal view is missing: of the two views beside it, the one whose pixel looks more like
-// the background; their mean when both do equally, so that transposing the picture transposes the
-// result.
-void ChooseNeighbour(const uint8_t* a, const uint8_t* b, const uint8_t* colour, uint8_t* out) {
-  const int32_t order = Difference(a, colour) - Difference(b, colour);
-  if (order != 0) {
-    std::memcpy(out, order < 0 ? a : b, 3);
-    return;
+// The diagonal view is missing: of the two views beside it, the more a pixel looks like the
+// background the more it counts. Nearly a choice, but without a jump, and transposing the picture
+// transposes the result.
+void MixNeighbours(const uint8_t* a, const uint8_t* b, const uint8_t* colour, uint8_t* out) {
+  const int32_t weight_a = Difference(b, colour) + 1, weight_b = Difference(a, colour) + 1;
+  const int32_t sum = weight_a + weight_b;
+  for (int c = 0; c < 3; ++c) {
+    out[c] = static_cast<uint8_t>((a[c] * weight_a + b[c] * weight_b + sum / 2) / sum);
   }
-  for (int c = 0; c < 3; ++c) out[c] = static_cast<uint8_t>((a[c] + b[c] + 1) >> 1);
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t
     uint8_t horizontal[3], vertical[3];
     Read(view, view.u, 0, x + along.captured, y + across.centre, horizontal);
     Read(view, 0, view.v, x + along.centre, y + across.captured, vertical);
-    ChooseNeighbour(horizontal, vertical, colour, out);
+    MixNeighbours(horizontal, vertical, colour, out);
   }
 }
 

@@ -28,8 +28,8 @@ struct HoleLine {
 // Writes the colours of rendered pixels [begin, end) of a line, 3 bytes each, where a background of
 // `disparity` shows. The captured view is read at the index that the disparity implies (IV-A). A
 // diagonal view that was not captured (5 views) is interpolated from its horizontal and its
-// vertical neighbour, whichever agrees with the visible background `colour`; with the centre view
-// alone the background is extended.
+// vertical neighbour, by how well each agrees with the visible background `colour`; with the centre
+// view alone the background is extended.
 void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t end,
               int32_t disparity, const uint8_t* colour, uint8_t* out);
 

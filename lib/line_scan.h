@@ -30,11 +30,11 @@ struct LineView {
 // A gap wider than this is no stretched surface, whatever the disparities say, in pixels.
 inline constexpr int32_t kMaxStretch = 4;
 
-// 2^16 / cell, rounded, for cells of [0, kShiftOne]; 0 at 0, where no neighbour counts.
+// 2^23 / cell, rounded, for cells of [0, kShiftOne]; 0 at 0, where no neighbour counts.
 struct CellReciprocals {
   uint32_t of[kShiftOne + 1] = {};
   constexpr CellReciprocals() {
-    for (uint32_t cell = 1; cell <= kShiftOne; ++cell) of[cell] = (65536 + cell / 2) / cell;
+    for (uint32_t cell = 1; cell <= kShiftOne; ++cell) of[cell] = ((1u << 23) + cell / 2) / cell;
   }
 };
 inline constexpr CellReciprocals kCellReciprocals;
@@ -46,7 +46,7 @@ inline int32_t CellWeight(int32_t offset, int32_t cell) {
   const int32_t twice = 2 * Abs(offset) - kShiftOne + cell;  // <= cell
   if (twice <= 0) return 0;
   const uint32_t scaled = static_cast<uint32_t>(twice) * kCellReciprocals.of[cell];
-  return static_cast<int32_t>((scaled + 256) >> 9);
+  return static_cast<int32_t>((scaled + (1u << 15)) >> 16);
 }
 
 // Scans `line` for one view. Calls, in pixels of the line (never mirrored),

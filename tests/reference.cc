@@ -60,10 +60,20 @@ LightField Load(const test::Scene& scene) {
   return field;
 }
 
-Colour Read(const LightField& field, int u2, int v2, int x, int y) {
+// Interpolated linearly; beyond the picture its edge goes on.
+Colour Read(const LightField& field, int u2, int v2, double x, double y) {
   const Picture& picture = field.at({u2, v2});
-  return picture.colours[picture.At(std::clamp(x, 0, picture.width - 1),
-                                    std::clamp(y, 0, picture.height - 1))];
+  const int left = int(std::floor(x)), top = int(std::floor(y));
+  Colour colour = {0, 0, 0};
+  for (int row = top; row <= top + 1; ++row) {
+    for (int column = left; column <= left + 1; ++column) {
+      const double weight = (1 - std::fabs(x - column)) * (1 - std::fabs(y - row));
+      const Colour& pixel = picture.colours[picture.At(std::clamp(column, 0, picture.width - 1),
+                                                       std::clamp(row, 0, picture.height - 1))];
+      for (size_t c = 0; c < 3; ++c) colour[c] += weight * pixel[c];
+    }
+  }
+  return colour;
 }
 
 // The lens: N views along its radius, and how far pixels move in them.
@@ -287,47 +297,70 @@ class Block {
     if (known != views_.end()) return known->second;
     const int u = Sign(i), v = Sign(j), k = std::max(std::abs(i), std::abs(j));
     const auto hole = [&](int x, int y, int disparity, const Colour& colour) {
-      return FromCaptured(u, v, k, x + x_, y + y_, disparity, colour);
+      return FromCaptured(i, j, x + x_, y + y_, disparity, colour);
     };
     return views_.emplace(std::make_pair(i, j), RenderAlong(centre_, u, v, lens_, k, hole))
         .first->second;
   }
 
-  // Type C: type A scanned across, towards type B.
+  // Type C: type A scanned across.
   const Picture& FromTypeA(int i, int j) {
     const bool wide = std::abs(i) > std::abs(j);
     const int far = std::max(std::abs(i), std::abs(j)), k = std::min(std::abs(i), std::abs(j));
     const Picture& type_a = wide ? FromCentre(i, 0) : FromCentre(0, j);
     const int u = wide ? 0 : Sign(i), v = wide ? Sign(j) : 0;
-    type_c_ = RenderAlong(
-        type_a, u, v, lens_, k, [&](int x, int y, int disparity, const Colour&) -> Colour {
-          const Picture& type_b = FromCentre(Sign(i) * far, Sign(j) * far);
-          const int moved =
-              int(Rounded(lens_.Shift(k, disparity) - lens_.Shift(far, disparity), 8));
-          return type_b.colours[type_b.At(std::clamp(x + u * moved, 0, type_b.width - 1),
-                                          std::clamp(y + v * moved, 0, type_b.height - 1))];
+    // Only the rows (columns) that the last view of this type A view can reach from: runs of one
+    // shift start there.
+    int last = far - 1;
+    while (last > 0 && !lens_.Contains(far, last)) --last;
+    const int reach = std::min(lens_.border, (lens_.border * last + lens_.n - 1) / lens_.n + 1);
+    const int cut = lens_.border - reach;
+    Picture part(type_a.width - 2 * std::abs(u) * cut, type_a.height - 2 * std::abs(v) * cut);
+    const int left = std::abs(u) * cut, top = std::abs(v) * cut;
+    for (int y = 0; y < part.height; ++y) {
+      for (int x = 0; x < part.width; ++x) {
+        part.colours[part.At(x, y)] = type_a.colours[type_a.At(x + left, y + top)];
+        part.disparities[part.At(x, y)] = type_a.disparities[type_a.At(x + left, y + top)];
+      }
+    }
+    const Picture rendered =
+        RenderAlong(part, u, v, lens_, k, [&](int x, int y, int disparity, const Colour& behind) {
+          return FromCaptured(i, j, x + left + x_, y + top + y_, disparity, behind);
         });
+    type_c_ = type_a;
+    for (int y = 0; y < part.height; ++y) {
+      for (int x = 0; x < part.width; ++x) {
+        type_c_.colours[type_c_.At(x + left, y + top)] = rendered.colours[rendered.At(x, y)];
+      }
+    }
     return type_c_;
   }
 
-  // What captured view (u, v) sees of a surface that view k of that direction shows at picture
-  // position (x, y).
-  Colour FromCaptured(int u, int v, int k, int x, int y, int disparity,
-                      const Colour& behind) const {
+  // What the captured view in the direction of view (i, j) sees of a surface that this view shows
+  // at picture position (x, y).
+  Colour FromCaptured(int i, int j, int x, int y, int disparity, const Colour& behind) const {
     if (field_.size() == 1) return behind;
-    const int distance = field_.size() == 17 && lens_.Half(k) ? 1 : 2;  // halves of a unit
-    const int to_centre = lens_.Shift(k, disparity);
-    const int still = int(Rounded(to_centre, 8));
-    const int moved = int(Rounded(to_centre - disparity * 4 * distance / 2, 8));
+    const int u = Sign(i), v = Sign(j);
+    const bool half = field_.size() == 17 && lens_.Half(std::max(std::abs(i), std::abs(j)));
+    const int distance = half ? 1 : 2;  // halves of a unit
+    const auto moved = [&](int view, bool captured) {
+      const int shift = view == 0 ? 0 : lens_.Shift(std::abs(view), disparity);
+      return Sign(view) * (shift - (captured ? disparity * 4 * distance / 2 : 0)) / 256.0;
+    };
+    const double x_far = x + moved(i, true), y_far = y + moved(j, true);
     if (u == 0 || v == 0 || field_.size() != 5) {
-      return Read(field_, u * distance, v * distance, x + u * moved, y + v * moved);
+      return Read(field_, u * distance, v * distance, x_far, y_far);
     }
-    // The diagonal view was not captured: the side view that agrees with the background.
-    const Colour a = Read(field_, 2 * u, 0, x + u * moved, y + v * still);
-    const Colour b = Read(field_, 0, 2 * v, x + u * still, y + v * moved);
-    const double order = Difference(a, behind) - Difference(b, behind);
-    if (order != 0) return order < 0 ? a : b;
-    return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+    // The diagonal view was not captured: the side views, by agreement with the background.
+    const Colour a = Read(field_, 2 * u, 0, x_far, y + moved(j, false));
+    const Colour b = Read(field_, 0, 2 * v, x + moved(i, false), y_far);
+    const double weight_a = std::pow(Difference(b, behind), 2) + 1;
+    const double weight_b = std::pow(Difference(a, behind), 2) + 1;
+    Colour mixed;
+    for (size_t c = 0; c < 3; ++c) {
+      mixed[c] = (a[c] * weight_a + b[c] * weight_b) / (weight_a + weight_b);
+    }
+    return mixed;
   }
 
   const LightField& field_;

@@ -47,8 +47,8 @@ sf_config ConfigOf(const Impulse& impulse, const EngineProbe& probe) {
 
 Kernel ReadKernel(const EngineState& engine, int side) {
   Kernel kernel(side / 2);
-  const uint32_t* sums = engine.workers[0].accumulators[0];
-  const double white = std::ldexp(double{kWhite}, engine.grid.aperture.sum_bits);
+  const uint32_t* sums = engine.workers[0].star.accumulators[0];
+  const double white = std::ldexp(double{kWhite}, engine.aperture.sum_bits);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x)
       kernel.at(x - side / 2, y - side / 2) = sums[3 * (y * side + x)] / white;
@@ -73,6 +73,7 @@ sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
   if (status != SF_OK) return status;
   sf_params params;
   sf_params_init(&params);
+  params.mode = SF_MODE_FRAME;
   sf_light_field field = {};
   const size_t side = static_cast<size_t>(impulse.side);
   field.views[0] = {impulse.rgb.data(), 3 * side};
