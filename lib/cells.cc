@@ -31,6 +31,27 @@ CellDistances Measure(const Window& window, int32_t focus, int32_t x, int32_t y)
   return found;
 }
 
+// Largest |d - d_t| of the nearer side of the depth edges between a cell's pixels and those right
+// of and below each; -1: no edge.
+int32_t MeasureEdges(const Window& window, int32_t focus, int32_t x, int32_t y) {
+  int32_t largest = -1;
+  const int32_t right = Min(x + kCellSize, window.width - 1);
+  const int32_t bottom = Min(y + kCellSize, window.height - 1);
+  const auto compare = [&](int32_t a, int32_t b) {
+    if (Abs(a - b) > kSurfaceStep) largest = Max(largest, Abs(Max(a, b) - focus));
+  };
+  for (int32_t row = y; row < y + kCellSize && row < window.height; ++row) {
+    const int16_t* here = window.disparity.Row(row);
+    for (int32_t column = x; column < right; ++column) compare(here[column], here[column + 1]);
+    if (row >= bottom) continue;
+    const int16_t* below = window.disparity.Row(row + 1);
+    for (int32_t column = x; column < x + kCellSize && column < window.width; ++column) {
+      compare(here[column], below[column]);
+    }
+  }
+  return largest;
+}
+
 // Reach beyond either end of a line of 8 columns or rows, and the depth inside.
 void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], int32_t length,
                   Side low, Side high, Cell* cell) {
@@ -79,6 +100,8 @@ Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, i
   Cell cell = {};
   cell.r_min = static_cast<uint16_t>(scale.Radius(found.smallest));
   cell.r_max = static_cast<uint16_t>(scale.Radius(found.largest) + 1);
+  const int32_t edge = MeasureEdges(window, scale.focus, x, y);
+  cell.r_edge = static_cast<uint16_t>(edge < 0 ? 0 : scale.Radius(edge) + 1);
   for (int16_t& reach : cell.reach) reach = INT16_MIN;
   MeasureSides(scale, found.column, Min(kCellSize, window.width - x), kLeft, kRight, &cell);
   MeasureSides(scale, found.row, Min(kCellSize, window.height - y), kTop, kBottom, &cell);
@@ -86,7 +109,7 @@ Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, i
 }
 
 BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32_t around) {
-  BlockStats stats = {INT32_MAX, 0, {}};
+  BlockStats stats = {INT32_MAX, 0, 0, {}};
   for (int32_t y = row - around; y <= row + 1 + around; ++y) {
     for (int32_t x = column - around; x <= column + 1 + around; ++x) {
       const int32_t cx = Clamp(x, 0, grid.columns - 1), cy = Clamp(y, 0, grid.rows - 1);
@@ -95,6 +118,7 @@ BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32
       if (gap_x < 0 && gap_y < 0) {
         stats.r_min = Min(stats.r_min, stored.r_min);
         stats.r_max = Max(stats.r_max, stored.r_max);
+        stats.r_edge = Max(stats.r_edge, stored.r_edge);
         continue;
       }
       const bool outside = cx != x || cy != y;
@@ -105,7 +129,10 @@ BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32
         const int32_t margin = kLayerMargin[layer];
         if (gap_x >= 0 && cell.reach[side_x] + margin <= gap_x) continue;
         if (gap_y >= 0 && cell.reach[side_y] + margin <= gap_y) continue;
-        if (layer == 0) stats.r_max = Max(stats.r_max, cell.r_max);
+        if (layer == 0) {
+          stats.r_max = Max(stats.r_max, cell.r_max);
+          stats.r_edge = Max(stats.r_edge, cell.r_edge);
+        }
         Border& border = stats.border[layer];
         const int32_t inside_x = margin == 0 ? cell.inside[side_x] : kCellSize;
         const int32_t inside_y = margin == 0 ? cell.inside[side_y] : kCellSize;
@@ -118,13 +145,14 @@ BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32
 }
 
 BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {
-  BlockStats merged = {INT32_MAX, 0, {}};
+  BlockStats merged = {INT32_MAX, 0, 0, {}};
   for (int child = 0; child < 4; ++child) {
     if (children[child] == nullptr) continue;
     const BlockStats& from = *children[child];
     const int32_t right = child & 1, bottom = child >> 1;
     merged.r_min = Min(merged.r_min, from.r_min);
     merged.r_max = Max(merged.r_max, from.r_max);
+    merged.r_edge = Max(merged.r_edge, from.r_edge);
     for (int layer = 0; layer < 3; ++layer) {
       Border& border = merged.border[layer];
       const Border& part = from.border[layer];

@@ -16,6 +16,7 @@ inline constexpr int32_t kCellSize = 8;
 // Blur radii carry kDisparityBits fractional bits: 128 px are 8192.
 struct Cell {
   uint16_t r_min, r_max;  // rounded down, up
+  uint16_t r_edge;        // of the nearer surface at any depth edge here, 0: none
   // How many pixels beyond its left, right, top and bottom edge the cell splats (<= 0: not at all),
   // and how deep inside lie the pixels that do.
   int16_t reach[4];
@@ -56,10 +57,10 @@ Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, i
 // them, in pixels of the picture.
 inline constexpr int32_t kLayerMargin[3] = {0, 4, 12};
 
-// What a block knows: radii of the pixels inside and (r_max only) of those that splat into it, and
-// for each layer the border beyond which no pixel splats into the block and its margin.
+// What a block knows: radii of the pixels inside and (but for r_min) of those that splat into it,
+// and for each layer the border beyond which no pixel splats into the block and its margin.
 struct BlockStats {
-  int32_t r_min, r_max;
+  int32_t r_min, r_max, r_edge;
   Border border[3];
 };
 

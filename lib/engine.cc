@@ -82,9 +82,11 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
     engine->aperture =
         MakeAperture(ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
   } else {
-    engine->aperture = engine->apertures[ViewsByPaper(r_max)];
+    engine->aperture =
+        engine->apertures[UsesCells(*engine) ? ViewsByCells(r_max) : ViewsByPaper(r_max)];
   }
-  const ViewGrid grid = MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false);
+  const ViewGrid grid =
+      MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false, false);
   engine->scale = {grid.focus, grid.step};
   if (params.mode == SF_MODE_BLUR) {
     const int32_t steps = BlurStepCount(r_max);

@@ -96,6 +96,13 @@ struct EngineState {
 
 inline bool IsBlockMode(const EngineState& engine) { return engine.params.mode == SF_MODE_BLOCK; }
 
+// Whether views stand for cells wider than a pixel.
+inline bool UsesCells(const EngineState& engine) {
+  const int32_t rule = engine.params.rule;
+  if (engine.params.mode == SF_MODE_FRAME) return rule == SF_RULE_CELLS;
+  return engine.params.mode == SF_MODE_BLOCK && rule != SF_RULE_PAPER;
+}
+
 // Makes the tables of a fresh engine.
 void MakeTables(EngineState* engine);
 

@@ -34,6 +34,8 @@ StarScratch TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* ca
   scratch.strip_disparity = carver->Take<int16_t>(rectangle * kStripRows);
   scratch.columns_rgb = carver->Take<uint8_t>(3 * stripe);
   scratch.columns_disparity = carver->Take<int16_t>(stripe);
+  scratch.surface_rgb = carver->Take<uint8_t>(3 * (extended + 2 * simd::kMaxSpread));
+  scratch.spread_rgb = carver->Take<uint8_t>(3 * extended);
   scratch.line_accumulators = carver->Take<uint32_t>(3 * extended);
   scratch.spans = TakeSpans(extended, carver);
   return scratch;

@@ -98,11 +98,19 @@ class Partition {
     return sum;
   }
 
+  int32_t Views(const BlockStats& stats, int32_t layer) const {
+    const double unit = kRadiusOne * (1 << layer);
+    const int32_t paper = ViewsByPaper(stats.r_max / unit);
+    if (!rules_.cells) return paper;
+    const int32_t edge = ViewsOfSilhouette(stats.r_edge / unit);
+    return Min(paper, Max(ViewsByCells(stats.r_max / unit), edge));
+  }
+
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
     const Rect& rect = block->rect;
     const int32_t layer = Min(LayerByPaper(stats.r_min / kRadiusOne), rules_.max_layer);
     block->layer = layer;
-    block->n = Min(ViewsByPaper(stats.r_max / kRadiusOne / (1 << layer)), rules_.max_n);
+    block->n = Min(Views(stats, layer), rules_.max_n);
     const int32_t margin = LayerMargin(layer);
     block->rendered = {(rect.x >> layer) - margin, (rect.y >> layer) - margin,
                        CeilShift(rect.width, layer) + 2 * margin,

@@ -49,7 +49,7 @@ void RefocusViews(const EngineState& engine, const Block& block, const Plane<uin
                   Worker* worker) {
   const Aperture& aperture = IsBlockMode(engine) ? engine.apertures[block.n] : engine.aperture;
   const ViewGrid grid = MakeViewGrid(aperture, engine.params.focus, engine.params.aperture,
-                                     block.layer, engine.config.views == 17);
+                                     block.layer, engine.config.views == 17, UsesCells(engine));
   const StarJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
                        block.border};
   RefocusRectangle(job, &worker->star);

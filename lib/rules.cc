@@ -14,6 +14,15 @@ int32_t Ceil(double value) {
   return value > whole ? whole + 1 : whole;
 }
 
+constexpr double kSilhouetteStep = 1.3;
+
+struct CellStep {
+  double r_max;
+  int32_t n;
+};
+constexpr CellStep kCellSteps[] = {{0.5, 0}, {11, 4},  {24, 6},   {32, 8},   {45, 10},
+                                   {59, 12}, {81, 14}, {109, 16}, {120, 18}, {128, 20}};
+
 }  // namespace
 
 int32_t ViewsByPaper(double r_max) {
@@ -21,6 +30,19 @@ int32_t ViewsByPaper(double r_max) {
   if (r_max < 4.0 / kUnderSampling) return 4;
   return Ceil(kUnderSampling * r_max);
 }
+
+int32_t ViewsByCells(double r_max) {
+  int32_t n = 0;
+  for (const CellStep& step : kCellSteps) {
+    n = step.n;
+    if (r_max <= step.r_max) break;
+  }
+  // Below 4 pixels (9) asks for fewer.
+  const int32_t paper = ViewsByPaper(r_max);
+  return n < paper ? n : paper;
+}
+
+int32_t ViewsOfSilhouette(double r) { return Ceil(r / kSilhouetteStep); }
 
 int32_t ViewsOfBenchmark(double r_max) { return 2 * Ceil(r_max); }
 

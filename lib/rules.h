@@ -9,6 +9,18 @@ namespace starfocus {
 // Views along the aperture radius by (9). r_max >= 0 in pixels; 0 needs the centre view alone.
 int32_t ViewsByPaper(double r_max);
 
+// Views along the aperture radius when each stands for its cell of the aperture, however wide; at
+// least as good as (9) for every smaller radius too (lib/analysis/cell_rule.h has the criterion).
+// r_max in [0, 128]:
+//
+//   r_max <=  1/2   11   24   32   45   59   81  109  120  128
+//   N           0    4    6    8   10   12   14   16   18   20
+int32_t ViewsByCells(double r_max);
+
+// Views that silhouettes of a surface of blur radius r need: a hard edge must not jump by more than
+// two pixels from view to view.
+int32_t ViewsOfSilhouette(double r);
+
 // Views along the aperture radius of the benchmark: 2 * ceil(r_max).
 int32_t ViewsOfBenchmark(double r_max);
 

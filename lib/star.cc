@@ -6,6 +6,7 @@
 #include "lib/holes.h"
 #include "lib/line_scan.h"
 #include "lib/span_sink.h"
+#include "lib/spread.h"
 
 namespace starfocus {
 namespace {
@@ -37,15 +38,17 @@ class Star {
     LoadField(*job_.window, job_.rect, job_.border, &rows);
     const size_t samples = 3 * static_cast<size_t>(job_.rect.width) * job_.rect.height;
     std::memset(scratch_->accumulators[0], 0, samples * sizeof(uint32_t));
-    AddCentre(rows);
+    if (!grid_.cells || grid_.n() == 0) AddCentre(rows);
     if (grid_.n() == 0) return;
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
     std::memset(scratch_->accumulators[1], 0, samples * sizeof(uint32_t));
-    Triangles(rows, scratch_->accumulators[1]);
-    TypeB(rows, false);
-    TypeB(rows, true);
     Field columns = MakeField(1);
     TransposeField(rows, &columns);
+    if (!grid_.cells) {
+      TypeB(rows, false);
+      TypeB(rows, true);
+    }
+    Triangles(rows, scratch_->accumulators[1]);
     Triangles(columns, scratch_->accumulators[0]);
     AddTransposed();
   }
@@ -105,7 +108,10 @@ class Star {
   void Triangles(const Field& field, uint32_t* accumulators) {
     for (const int sign : {1, -1}) {
       FindAllRuns(field, DirectionOf(sign));
-      for (int32_t i = 1; i <= grid_.n(); ++i) {
+      if (grid_.cells && sign > 0) SpreadRows(field);
+      // The centre view spreads over both axes like any other, once.
+      const int32_t first = grid_.cells && sign > 0 && !field.transposed ? 0 : 1;
+      for (int32_t i = first; i <= grid_.n(); ++i) {
         const int32_t last = LastAcross(i);
         const Rows rows = RowsFor(field, last);
         RenderTypeA(field, sign, i, rows);
@@ -122,10 +128,24 @@ class Star {
     }
   }
 
-  // Largest j of the type C views (i, j) inside the disc.
+  // In place, through columns_rgb: the rows of the field are read by this pass alone.
+  void SpreadRows(const Field& field) {
+    for (int32_t row = 0; row < field.height; ++row) {
+      const size_t offset = field.Offset(0, row);
+      uint8_t* rgb = field.rgb + 3 * offset;
+      const Line line = {rgb, field.disparity + offset, field.width};
+      SpreadLine(*job_.kernels, grid_, scratch_->moves[1], line, scratch_->runs + offset,
+                 scratch_->run_counts[row], scratch_->surface_rgb, scratch_->spread_rgb);
+      std::memcpy(rgb, scratch_->spread_rgb, 3 * static_cast<size_t>(field.width));
+    }
+  }
+
+  // Largest j of the type C views (i, j) inside the disc. With cells, which spread along both axes,
+  // the views on the diagonals are rendered like type C, half from either axis, since type B
+  // spreads along its diagonal only.
   int32_t LastAcross(int32_t i) const {
     const int32_t n = grid_.n();
-    int32_t j = i - 1;
+    int32_t j = grid_.cells ? i : i - 1;
     while (j > 0 && i * i + j * j > n * n) --j;
     return j;
   }
@@ -135,7 +155,8 @@ class Star {
     const Rect& inner = field.inner;
     const int32_t n = grid_.n(), above = inner.y, end = inner.y + inner.height;
     const auto reach = [&](int32_t border) {
-      return last == 0 ? 0 : Min(border, (border * last + n - 1) / n + 1);
+      const int32_t splat = last == 0 ? 0 : (border * last + n - 1) / n + 1;
+      return Min(border, splat + (grid_.cells ? simd::kMaxSpread : 0));
     };
     return {inner.y - reach(above), end + reach(field.height - end)};
   }
@@ -192,20 +213,30 @@ class Star {
     const int32_t height = rows.end - rows.begin, top = inner.y - rows.begin;
     for (int32_t x = 0; x < inner.width; ++x) {
       const size_t column = static_cast<size_t>(x) * height;
-      const Line line = {scratch_->columns_rgb + 3 * column, scratch_->columns_disparity + column,
-                         height};
+      Line line = {scratch_->columns_rgb + 3 * column, scratch_->columns_disparity + column,
+                   height};
       const HoleLine hole_line = {field.x + inner.x + x, field.y + rows.begin, 0, 1};
       SpanList list = Accumulating(accumulators + 3 * static_cast<size_t>(x) * inner.height);
-      AddLine(line.rgb + 3 * top, inner.height, grid_.aperture.Weight(i, 0), 0, &list);
       for (const int across : {1, -1}) {
-        if (last == 0) continue;
-        const int32_t runs = FindRuns(line.disparity, height, DirectionOf(across), grid_.spread,
-                                      scratch_->line_runs);
+        if (across < 0 && last == 0) continue;
+        const bool scan = last > 0 || grid_.cells;
+        const int32_t runs = scan ? FindRuns(line.disparity, height, DirectionOf(across),
+                                             grid_.spread, scratch_->line_runs)
+                                  : 0;
+        if (across > 0) {
+          if (grid_.cells) {
+            SpreadLine(*job_.kernels, grid_, scratch_->moves[1], line, scratch_->line_runs, runs,
+                       scratch_->surface_rgb, scratch_->spread_rgb);
+            line.rgb = scratch_->spread_rgb;
+          }
+          AddLine(line.rgb + 3 * top, inner.height, grid_.aperture.Weight(i, 0), 0, &list);
+        }
         for (int32_t j = 1; j <= last; ++j) {
           const LineView view = MakeView(j, top, top + inner.height);
           const HoleView hole_view = MakeHoleView(field, sign, across, i, j);
           const LineHoles holes = {hole_view, hole_line};
-          SpanSink<LineHoles> sink(line, top, grid_.aperture.Weight(i, j), holes, nullptr, &list);
+          const uint32_t weight = grid_.aperture.Weight(i, j) >> (i == j ? 1 : 0);
+          SpanSink<LineHoles> sink(line, top, weight, holes, nullptr, &list);
           ScanLine(line, DirectionOf(across), scratch_->line_runs, runs, view, &sink);
         }
       }

@@ -33,6 +33,8 @@ struct StarScratch {
   int16_t* strip_disparity;     // R kStripRows
   uint8_t* columns_rgb;         // 3 R E: the type A view, one line per column
   int16_t* columns_disparity;   // R E
+  uint8_t* surface_rgb;         // 3 (E + 2 kMaxSpread): one surface of a line
+  uint8_t* spread_rgb;          // 3 E: a line spread by its cells
   uint32_t* accumulators[2];    // 3 R^2 each: in the orientation of either pass
   uint32_t* line_accumulators;  // 3 E
   SpanMemory spans;

@@ -58,6 +58,8 @@ const char* sf_status_string(sf_status status) {
       return "deblocking is outside 0 to 255";
     case SF_ERROR_TIMING:
       return "a timing coefficient exceeds SF_MAX_TIMING";
+    case SF_ERROR_RULE:
+      return "unknown rule";
   }
   return "unknown status";
 }

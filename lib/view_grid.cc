@@ -13,7 +13,7 @@ constexpr int32_t kRunSpread = kShiftOne / 4;
 }  // namespace
 
 ViewGrid MakeViewGrid(const Aperture& aperture, double focus, double aperture_radius, int layer,
-                      bool has_half_views) {
+                      bool has_half_views, bool cells) {
   ViewGrid grid;
   grid.aperture = aperture;
   grid.focus = static_cast<int32_t>(std::floor(focus * (1 << kDisparityBits) + 0.5));
@@ -21,6 +21,7 @@ ViewGrid MakeViewGrid(const Aperture& aperture, double focus, double aperture_ra
   grid.step = RoundShift(static_cast<int64_t>(step) << 1, 1 + layer);
   if (grid.step < 1) grid.step = 1;
   grid.layer = layer;
+  grid.cells = cells;
   if (has_half_views) {
     while (grid.half_views < grid.n() && 2 * (grid.half_views + 1) * aperture_radius <= grid.n()) {
       ++grid.half_views;

@@ -1,4 +1,4 @@
-// Kernels::blend and Kernels::convert_disparity. Included once per target.
+// Kernels::blend, spread and convert_disparity. Included once per target.
 #if defined(STARFOCUS_SIMD_BLEND_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_BLEND_INL_H_
 #undef STARFOCUS_SIMD_BLEND_INL_H_
@@ -53,6 +53,29 @@ HWY_INLINE void BlendSpans(const Span* HWY_RESTRICT spans, size_t count,
       BlendSpan(spans[i], line + spans[i].target);
     }
   }
+}
+
+HWY_INLINE void SpreadSamples(const uint8_t* HWY_RESTRICT in, const SpreadTaps& taps, size_t count,
+                              uint8_t* HWY_RESTRICT out) {
+  const hn::ScalableTag<uint16_t> d16;
+  const hn::RebindToSigned<decltype(d16)> di16;
+  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  const size_t lanes = hn::Lanes(d16);
+  const auto centre = hn::Set(d16, taps.centre), inner = hn::Set(d16, taps.inner),
+             outer = hn::Set(d16, taps.outer), half = hn::Set(d16, uint16_t{128});
+  const auto load = [&](const uint8_t* at)
+                        HWY_ATTR { return hn::PromoteTo(d16, hn::LoadU(d8, at)); };
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    const uint8_t* at = in + n;
+    auto sum = hn::Add(hn::Mul(load(at), centre), half);
+    for (ptrdiff_t k = 1; k <= taps.reach; ++k) {
+      const auto pair = hn::Add(load(at - 3 * k), load(at + 3 * k));
+      sum = hn::Add(sum, hn::Mul(pair, k < taps.reach ? inner : outer));
+    }
+    hn::StoreU(hn::DemoteTo(d8, hn::BitCast(di16, hn::ShiftRight<8>(sum))), d8, out + n);
+  }
+  ReferenceKernels().spread(in + n, taps, count - n, out + n);
 }
 
 HWY_INLINE bool ConvertDisparities(const float* HWY_RESTRICT disparity, size_t count, float low,

@@ -19,6 +19,10 @@ void Accumulate(const Span* spans, size_t count, uint32_t* accumulators) {
 
 void Blend(const Span* spans, size_t count, uint8_t* line) { BlendSpans(spans, count, line); }
 
+void Spread(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out) {
+  SpreadSamples(in, taps, count, out);
+}
+
 void Finish(const uint32_t* accumulators, size_t count, int shift, uint8_t* out) {
   FinishSamples(accumulators, count, shift, out);
 }
@@ -55,6 +59,7 @@ const Kernels* Table() {
   static constexpr Kernels kernels = {STARFOCUS_TEXT_OF(HWY_NAMESPACE) + 2,
                                       Accumulate,
                                       Blend,
+                                      Spread,
                                       Finish,
                                       ConvertDisparity,
                                       Widen,

@@ -34,6 +34,14 @@ struct HalfBand {
   int32_t centre, near, far;  // |tap| <= 2^14
 };
 
+// A symmetric filter of 2 * reach + 1 taps over pixels, with 8 fractional bits: `centre`, `inner`
+// at 1 .. reach - 1, `outer` at reach. They sum to 256.
+struct SpreadTaps {
+  int32_t reach;  // [1, kMaxSpread]
+  uint16_t centre, inner, outer;
+};
+inline constexpr int32_t kMaxSpread = 3;
+
 struct Kernels {
   const char* name;  // of the SIMD target
 
@@ -43,6 +51,9 @@ struct Kernels {
   // line[target + n] = (value[n] + 128) >> 8, for each span; weights of a span sum to 256.
   // Sources don't overlap the line. Nothing outside the spans is written.
   void (*blend)(const Span* spans, size_t count, uint8_t* line);
+
+  // out[n] = (the taps over in[n + 3 k], |k| <= reach, + 128) >> 8. in and out don't overlap.
+  void (*spread)(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out);
 
   // out[n] = (accumulators[n] + 2^(shift - 1)) >> shift; shift in [1, 24]; results fit a byte.
   void (*finish)(const uint32_t* accumulators, size_t count, int shift, uint8_t* out);

@@ -32,6 +32,18 @@ void Blend(const Span* spans, size_t count, uint8_t* line) {
   }
 }
 
+void Spread(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out) {
+  for (size_t n = 0; n < count; ++n) {
+    const uint8_t* at = in + n;
+    uint32_t sum = uint32_t{taps.centre} * at[0];
+    for (ptrdiff_t k = 1; k <= taps.reach; ++k) {
+      const uint32_t tap = k < taps.reach ? taps.inner : taps.outer;
+      sum += tap * (uint32_t{at[-3 * k]} + at[3 * k]);
+    }
+    out[n] = static_cast<uint8_t>((sum + 128) >> 8);
+  }
+}
+
 void Finish(const uint32_t* accumulators, size_t count, int shift, uint8_t* out) {
   const uint32_t half = uint32_t{1} << (shift - 1);
   for (size_t n = 0; n < count; ++n) {
@@ -94,9 +106,9 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 }  // namespace
 
 const Kernels& ReferenceKernels() {
-  static constexpr Kernels kernels = {"reference",      Accumulate, Blend,  Finish,
-                                      ConvertDisparity, Widen,      Narrow, FinishLayer,
-                                      FilterHalfBand,   Between};
+  static constexpr Kernels kernels = {"reference", Accumulate,       Blend,  Spread,
+                                      Finish,      ConvertDisparity, Widen,  Narrow,
+                                      FinishLayer, FilterHalfBand,   Between};
   return kernels;
 }
 

@@ -85,7 +85,8 @@ typedef enum sf_status {
   SF_ERROR_ALL_INVALID = 24,         /**< disparity map without a single finite value */
   SF_ERROR_LAYER = 25,               /**< max_layer is not 0, 1 or 2 */
   SF_ERROR_DEBLOCKING = 26,          /**< deblocking outside [0, 255] */
-  SF_ERROR_TIMING = 27               /**< a timing coefficient beyond SF_MAX_TIMING */
+  SF_ERROR_TIMING = 27,              /**< a timing coefficient beyond SF_MAX_TIMING */
+  SF_ERROR_RULE = 28                 /**< unknown rule */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -158,6 +159,13 @@ typedef enum sf_mode {
   SF_MODE_BLUR = 3   /**< depth-dependent blur of the centre view alone with the ideal kernel (4) */
 } sf_mode;
 
+/** How many views a blur radius needs. */
+typedef enum sf_rule {
+  SF_RULE_DEFAULT = 0, /**< SF_RULE_CELLS for SF_MODE_BLOCK, SF_RULE_PAPER for SF_MODE_FRAME */
+  SF_RULE_PAPER = 1,   /**< (9): views at most a pixel or so apart */
+  SF_RULE_CELLS = 2    /**< each view stands for its cell of the aperture, however wide */
+} sf_rule;
+
 /** A block of SF_MODE_BLOCK as it was refocused. */
 typedef struct sf_block {
   int32_t x, y;   /**< top left corner in the picture, pixels */
@@ -179,6 +187,7 @@ typedef struct sf_params {
   int32_t mode;         /**< sf_mode; default SF_MODE_BLOCK */
   double focus;         /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS */
   double aperture;      /**< aperture radius u_t, (0, 1]; default 1 */
+  int32_t rule;         /**< sf_rule; ignored by the other modes; default SF_RULE_DEFAULT */
   sf_clock clock;       /**< fills the report's times; null: they stay 0 */
   sf_block_visitor on_block; /**< null: nobody is told */
   void* on_block_data;  /**< passed to on_block */
