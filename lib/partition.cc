@@ -108,7 +108,10 @@ class Partition {
 
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
     const Rect& rect = block->rect;
-    const int32_t layer = Min(LayerByPaper(stats.r_min / kRadiusOne), rules_.max_layer);
+    int32_t layer = Min(LayerByPaper(stats.r_min / kRadiusOne), rules_.max_layer);
+    // Layer 2 rounds a silhouette to four pixels of the picture: 0.6 to 0.9 dB against truth on the
+    // portrait.
+    if (rules_.cells && stats.r_edge > 0) layer = Min(layer, 1);
     block->layer = layer;
     block->n = Min(Views(stats, layer), rules_.max_n);
     const int32_t margin = LayerMargin(layer);

@@ -37,9 +37,7 @@ int32_t ViewsByCells(double r_max) {
     n = step.n;
     if (r_max <= step.r_max) break;
   }
-  // Below 4 pixels (9) asks for fewer.
-  const int32_t paper = ViewsByPaper(r_max);
-  return n < paper ? n : paper;
+  return n;
 }
 
 int32_t ViewsOfSilhouette(double r) { return Ceil(r / kSilhouetteStep); }

@@ -109,7 +109,9 @@ TEST_CASE("aperture: weights follow (3), sum to a power of two and fit signed 16
   MESSAGE("furthest from (3): " << furthest << ", the centre " << furthest_centre);
   // A weight takes up the rounding of the orbit before it: up to 4 units over 4 views, and the
   // centre alone up to 4 units; plus half a unit of its own and the 20 bits of the densities.
-  CHECK(furthest < 1.6);
+  // Half a unit of rounding, one of the orbits' carry, and another half on the diagonals, whose
+  // weights are even.
+  CHECK(furthest < 2);
   CHECK(furthest_centre < 4.6);
 }
 

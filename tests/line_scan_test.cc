@@ -73,7 +73,7 @@ using Depths = std::vector<int16_t>;
 ViewGrid MakeGrid(int n, double focus, double aperture) {
   starfocus::Aperture views;
   views.n = n;
-  return starfocus::MakeViewGrid(views, focus, aperture, 0, false);
+  return starfocus::MakeViewGrid(views, focus, aperture, 0, false, false);
 }
 
 Recorder Record(const Depths& line, const ViewGrid& grid, int view, Direction direction, int begin,

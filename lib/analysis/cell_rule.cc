@@ -8,24 +8,6 @@
 #include "lib/rules.h"
 
 namespace starfocus::analysis {
-namespace {
-
-struct Step {
-  double r_max;
-  int n;
-};
-constexpr Step kSteps[] = {{0.5, 0}, {11, 4},  {24, 6},   {32, 8},   {45, 10},
-                           {59, 12}, {81, 14}, {109, 16}, {120, 18}, {128, 20}};
-
-}  // namespace
-
-int ViewsByCells(double r_max) {
-  for (const Step& step : kSteps) {
-    if (r_max <= step.r_max) return step.n;
-  }
-  return std::rbegin(kSteps)->n;
-}
-
 int FewestCells(double r, double theta) {
   const double limit = PaperError(r, ViewsByPaper(r), theta);
   int n = 0;

@@ -9,17 +9,10 @@
 
 namespace starfocus::analysis {
 
-// Views along the aperture radius for a block whose largest blur radius is r_max, 0 <= r_max <=
-// 128, with cells r / N wide whatever r / N is:
-//
-//   r_max <=  1/2   11   24   32   45   59   81  109  120  128
-//   N           0    4    6    8   10   12   14   16   18   20
-//
-// Up to half a pixel the ideal kernel (4) is the unit impulse, so the centre view alone is exact.
-// Beyond, for every r <= r_max, the SSE (8) is below 10^-3, and below either that of the paper's
-// kernel with (9)'s N at the same r or the worst over-sampling SSE of that N, (9)'s own limit:
-// CellStudy::Margin measures it.
-int ViewsByCells(double r_max);
+// The rule is ViewsByCells of lib/rules.h. Up to half a pixel the ideal kernel (4) is the unit impulse,
+// so the centre view alone is exact. Beyond, for every r <= r_max, the SSE (8) is below 10^-3, and
+// below either that of the paper's kernel with (9)'s N at the same r or the worst over-sampling SSE
+// of that N, (9)'s own limit: CellStudy::Margin measures it.
 
 // Least N whose cells are no worse at r than the paper's kernel with N from (9).
 int FewestCells(double r, double theta);
