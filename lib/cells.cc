@@ -28,6 +28,9 @@ CellDistances Measure(const Window& window, int32_t focus, int32_t x, int32_t y)
     }
     found.largest = Max(found.largest, found.row[row]);
   }
+  // The picture's edge repeats in what a cell has beyond it.
+  for (int32_t k = width; k < kCellSize; ++k) found.column[k] = found.column[width - 1];
+  for (int32_t k = height; k < kCellSize; ++k) found.row[k] = found.row[height - 1];
   return found;
 }
 
@@ -53,9 +56,9 @@ int32_t MeasureEdges(const Window& window, int32_t focus, int32_t x, int32_t y) 
 }
 
 // Reach beyond either end of a line of 8 columns or rows, and the depth inside.
-void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], int32_t length,
-                  Side low, Side high, Cell* cell) {
-  for (int32_t k = 0; k < length; ++k) {
+void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], Side low, Side high,
+                  Cell* cell) {
+  for (int32_t k = 0; k < kCellSize; ++k) {
     const int32_t reach = ReachOf(scale.Radius(distance[k]) + 1);
     const int32_t beyond_low = reach - k, beyond_high = reach - (kCellSize - 1 - k);
     cell->reach[low] = static_cast<int16_t>(Max(cell->reach[low], beyond_low));
@@ -103,8 +106,8 @@ Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, i
   const int32_t edge = MeasureEdges(window, scale.focus, x, y);
   cell.r_edge = static_cast<uint16_t>(edge < 0 ? 0 : scale.Radius(edge) + 1);
   for (int16_t& reach : cell.reach) reach = INT16_MIN;
-  MeasureSides(scale, found.column, Min(kCellSize, window.width - x), kLeft, kRight, &cell);
-  MeasureSides(scale, found.row, Min(kCellSize, window.height - y), kTop, kBottom, &cell);
+  MeasureSides(scale, found.column, kLeft, kRight, &cell);
+  MeasureSides(scale, found.row, kTop, kBottom, &cell);
   return cell;
 }
 
