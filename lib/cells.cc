@@ -59,7 +59,7 @@ int32_t MeasureEdges(const Window& window, int32_t focus, int32_t x, int32_t y) 
 void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], Side low, Side high,
                   Cell* cell) {
   for (int32_t k = 0; k < kCellSize; ++k) {
-    const int32_t reach = ReachOf(scale.Radius(distance[k]) + 1);
+    const int32_t reach = ReachOf(scale.RadiusAbove(distance[k]));
     const int32_t beyond_low = reach - k, beyond_high = reach - (kCellSize - 1 - k);
     cell->reach[low] = static_cast<int16_t>(Max(cell->reach[low], beyond_low));
     cell->reach[high] = static_cast<int16_t>(Max(cell->reach[high], beyond_high));
@@ -102,9 +102,9 @@ Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, i
   const CellDistances found = Measure(window, scale.focus, x, y);
   Cell cell = {};
   cell.r_min = static_cast<uint16_t>(scale.Radius(found.smallest));
-  cell.r_max = static_cast<uint16_t>(scale.Radius(found.largest) + 1);
+  cell.r_max = static_cast<uint16_t>(scale.RadiusAbove(found.largest));
   const int32_t edge = MeasureEdges(window, scale.focus, x, y);
-  cell.r_edge = static_cast<uint16_t>(edge < 0 ? 0 : scale.Radius(edge) + 1);
+  cell.r_edge = static_cast<uint16_t>(edge < 0 ? 0 : scale.RadiusAbove(edge));
   for (int16_t& reach : cell.reach) reach = INT16_MIN;
   MeasureSides(scale, found.column, kLeft, kRight, &cell);
   MeasureSides(scale, found.row, kTop, kBottom, &cell);
