@@ -34,19 +34,22 @@ CellDistances Measure(const Window& window, int32_t focus, int32_t x, int32_t y)
   return found;
 }
 
-// Largest |d - d_t| of the nearer side of the depth edges between a cell's pixels and those right
-// of and below each; -1: no edge.
+// Largest |d - d_t| of the nearer side of the depth edges between a cell's pixels and all their
+// neighbours, those of the cells around it too: either may be the one that reaches a block. -1: no
+// edge.
 int32_t MeasureEdges(const Window& window, int32_t focus, int32_t x, int32_t y) {
   int32_t largest = -1;
-  const int32_t right = Min(x + kCellSize, window.width - 1);
-  const int32_t bottom = Min(y + kCellSize, window.height - 1);
+  const int32_t left = Max(x - 1, 0), right = Min(x + kCellSize, window.width - 1);
+  const int32_t top = Max(y - 1, 0), bottom = Min(y + kCellSize, window.height - 1);
   const auto compare = [&](int32_t a, int32_t b) {
     if (Abs(a - b) > kSurfaceStep) largest = Max(largest, Abs(Max(a, b) - focus));
   };
   for (int32_t row = y; row < y + kCellSize && row < window.height; ++row) {
     const int16_t* here = window.disparity.Row(row);
-    for (int32_t column = x; column < right; ++column) compare(here[column], here[column + 1]);
-    if (row >= bottom) continue;
+    for (int32_t column = left; column < right; ++column) compare(here[column], here[column + 1]);
+  }
+  for (int32_t row = top; row < bottom; ++row) {
+    const int16_t* here = window.disparity.Row(row);
     const int16_t* below = window.disparity.Row(row + 1);
     for (int32_t column = x; column < x + kCellSize && column < window.width; ++column) {
       compare(here[column], below[column]);
