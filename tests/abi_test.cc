@@ -101,6 +101,8 @@ const BadParams kBadParams[] = {
     {"mode -1", [](sf_params* p) { p->mode = -1; }, SF_ERROR_MODE},
     {"mode 4", [](sf_params* p) { p->mode = SF_MODE_BLUR + 1; }, SF_ERROR_MODE},
     {"mode 1000", [](sf_params* p) { p->mode = 1000; }, SF_ERROR_MODE},
+    {"rule -1", [](sf_params* p) { p->rule = -1; }, SF_ERROR_RULE},
+    {"rule 3", [](sf_params* p) { p->rule = SF_RULE_CELLS + 1; }, SF_ERROR_RULE},
     {"focus NaN", [](sf_params* p) { p->focus = kNan; }, SF_ERROR_FOCUS},
     {"focus inf", [](sf_params* p) { p->focus = kInf; }, SF_ERROR_FOCUS},
     {"focus -inf", [](sf_params* p) { p->focus = -kInf; }, SF_ERROR_FOCUS},
@@ -163,13 +165,13 @@ struct Fixture {
 
 TEST_CASE("statuses: every one has its own sentence") {
   std::set<std::string> seen;
-  for (int status = SF_OK; status <= SF_ERROR_TIMING; ++status) {
+  for (int status = SF_OK; status <= SF_ERROR_RULE; ++status) {
     const char* text = sf_status_string(static_cast<sf_status>(status));
     REQUIRE(text != nullptr);
     CHECK_MESSAGE(std::strlen(text) > 3, status);
     CHECK_MESSAGE(seen.insert(text).second, text);
   }
-  for (int status : {-1, SF_ERROR_TIMING + 1, 10000}) {
+  for (int status : {-1, SF_ERROR_RULE + 1, 10000}) {
     const char* text = sf_status_string(static_cast<sf_status>(status));
     REQUIRE(text != nullptr);
     CHECK(*text != '\0');

@@ -30,14 +30,22 @@ struct Setup {
   int block = 64, max_layer = 2, deblocking = 35, workers = 1;
   double max_blur = 40;
   sf_mode mode = SF_MODE_BLOCK;
+  sf_rule rule = SF_RULE_DEFAULT;
+
+  sf_params Params() const {
+    sf_params params = test::Params(focus, aperture, mode);
+    params.rule = rule;
+    return params;
+  }
 };
 
 std::string Text(const Setup& s, const test::Scene& scene) {
   char text[200];
-  std::snprintf(text, sizeof(text),
-                "%dx%d views %d focus %.3f aperture %.3f block %d max_layer %d deblocking %d",
-                scene.width, scene.height, scene.views(), s.focus, s.aperture, s.block, s.max_layer,
-                s.deblocking);
+  std::snprintf(
+      text, sizeof(text),
+      "%dx%d views %d focus %.3f aperture %.3f block %d max_layer %d deblocking %d rule %d",
+      scene.width, scene.height, scene.views(), s.focus, s.aperture, s.block, s.max_layer,
+      s.deblocking, s.rule);
   return text;
 }
 
@@ -59,8 +67,7 @@ std::vector<uint8_t> Whole(const test::Scene& scene, const Setup& s, sf_report* 
     reinterpret_cast<starfocus::EngineState*>(engine.get())->kernels = kernels;
   }
   test::Output out(scene.width, scene.height, 5);
-  REQUIRE(test::Refocus(&engine, test::Params(s.focus, s.aperture, s.mode), scene, &out, runner,
-                        data, report) == SF_OK);
+  REQUIRE(test::Refocus(&engine, s.Params(), scene, &out, runner, data, report) == SF_OK);
   CHECK(out.PaddingUntouched());
   return out.Tight();
 }
@@ -107,6 +114,7 @@ Setup RandomSetup(test::Random* random, float limit) {
   s.block = kBlocks[random->Int(0, 3)];
   s.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
   s.deblocking = random->Int(0, 3) == 0 ? random->Int(0, 255) : 35;
+  s.rule = sf_rule(random->Int(0, 2));
   return s;
 }
 
@@ -130,8 +138,8 @@ void CheckStreamed(const test::Scene& scene, const Setup& s, test::Random* rando
     CAPTURE(chunk[1]);
     test::Output out(scene.width, scene.height, 3);
     sf_report report = {};
-    REQUIRE(test::Stream(&engine, test::Params(s.focus, s.aperture, s.mode), scene, &out, chunk[0],
-                         chunk[1], nullptr, nullptr, &report) == SF_OK);
+    REQUIRE(test::Stream(&engine, s.Params(), scene, &out, chunk[0], chunk[1], nullptr, nullptr,
+                         &report) == SF_OK);
     CHECK(out.PaddingUntouched());
     const bool same = out.Tight() == whole;
     CHECK(same);
@@ -317,7 +325,7 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
     REQUIRE(engine.status() == SF_OK);
     Told told = {scene.width, scene.height, {}, 0, 0, 0};
     told.covered.assign(size_t(scene.width) * size_t(scene.height), 0);
-    sf_params params = test::Params(s.focus, s.aperture, SF_MODE_BLOCK);
+    sf_params params = s.Params();
     params.on_block_data = &told;
     params.on_block = [](void* data, const sf_block* block) {
       Told& to = *static_cast<Told*>(data);
@@ -448,7 +456,7 @@ TEST_CASE("block: an engine that is used again gives what a fresh one gives") {
     s.focus = random.Real(-9, 9);
     s.mode = kModes[random.Int(0, 3)];
     test::Output out(scene.width, scene.height);
-    REQUIRE(test::Refocus(&engine, test::Params(s.focus, 1, s.mode), scene, &out) == SF_OK);
+    REQUIRE(test::Refocus(&engine, s.Params(), scene, &out) == SF_OK);
     const bool same = out.bytes == Whole(scene, s);
     CAPTURE(round);
     CHECK(same);
@@ -492,6 +500,7 @@ TEST_CASE("block: mirrored light fields of whole blocks give mirrored pictures a
     Setup s = RandomSetup(&random, scene.disparity_max);
     s.block = block;
     s.max_layer = 0;
+    s.rule = SF_RULE_PAPER;
     const std::vector<uint8_t> plain = Whole(scene, s);
     for (const bool along_x : {true, false}) {
       const std::vector<uint8_t> moved = Whole(Mirrored(scene, along_x), s);

@@ -144,7 +144,21 @@ struct Exact {
   double inside_min = 1e9, inside_max = 0;  // radii of the block's pixels in the picture
   double reaching_max = 0;                  // of those and all that reach them
   double around_max = 0;                    // of all within the analysis' sight
+  double edge_max = 0;                      // of the nearer side of depth edges that concern it
+  double around_edge_max = 0;               // of all edges in sight
 };
+
+// Radius of the nearer of two neighbouring pixels with a depth edge between them; -1: none.
+double EdgeRadius(const Map& map, int x, int y, int other_x, int other_y) {
+  const auto disparity = [&](int px, int py) {
+    const size_t cx = size_t(std::clamp(px, 0, map.width - 1));
+    const size_t cy = size_t(std::clamp(py, 0, map.height - 1));
+    return int(map.disparity[cy * size_t(map.width) + cx]);
+  };
+  const int a = disparity(x, y), b = disparity(other_x, other_y);
+  if (std::abs(a - b) <= starfocus::kSurfaceStep) return -1;
+  return a > b ? map.Radius(x, y) : map.Radius(other_x, other_y);
+}
 
 Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
   const int x1 = std::min(x0 + side, map.width) - 1, y1 = std::min(y0 + side, map.height) - 1;
@@ -172,6 +186,16 @@ Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
   for (int y = y0 - sight - 24; y < y0 + side + sight + 24; ++y) {
     for (int x = x0 - sight - 24; x < x0 + side + sight + 24; ++x) {
       exact.around_max = std::max(exact.around_max, map.Radius(x, y));
+      for (const bool below : {false, true}) {
+        const int other_x = x + !below, other_y = y + below;
+        const double radius = EdgeRadius(map, x, y, other_x, other_y);
+        exact.around_edge_max = std::max(exact.around_edge_max, radius);
+        // An edge concerns the block when a pixel on either side is or lands in it.
+        if (Reaches(x, y, map.Radius(x, y), x0, y0, x1, y1) ||
+            Reaches(other_x, other_y, map.Radius(other_x, other_y), x0, y0, x1, y1)) {
+          exact.edge_max = std::max(exact.edge_max, radius);
+        }
+      }
     }
   }
   return exact;
@@ -227,6 +251,9 @@ void CheckBlock(const Map& map, int x0, int y0, int level, double largest,
   CHECK(r_min > exact.inside_min - unit);
   CHECK(r_max >= exact.reaching_max);
   CHECK(r_max <= std::max(exact.inside_max, exact.around_max) + unit);
+  const double r_edge = double(stats.r_edge) / kDisparityOne;
+  CHECK(r_edge >= exact.edge_max);
+  CHECK(r_edge <= exact.around_edge_max + unit);
 }
 
 // Checks all blocks of a picture, as the engine's quadtree makes them.

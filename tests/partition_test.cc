@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lib/engine.h"
+#include "lib/rules.h"
 #include "tests/test_scene.h"
 
 namespace {
@@ -72,6 +73,7 @@ struct Plan {
     rules.largest_block = largest_block;
     rules.max_layer = random->Int(0, 2);
     rules.max_n = kMaxN;
+    rules.cells = random->Int(0, 1) == 1;
     rules.timing = starfocus::DefaultTiming();
     rules.views = views.data();
   }
@@ -121,10 +123,18 @@ struct Plan {
 int LayerOf(double r_min) { return r_min / 2 >= 3 ? 2 : r_min >= 3 ? 1 : 0; }
 
 // (9).
-int ViewsOf(double r_max) {
+int ViewsByPaper(double r_max) {
   if (r_max < 4) return int(std::ceil(r_max));
   if (r_max < 4 / 0.787) return 4;
   return int(std::ceil(0.787 * r_max));
+}
+
+// With wide aperture cells, fewer but for silhouettes, and never more than (9).
+int ViewsOf(const Plan& plan, double r_max, double r_edge) {
+  const int paper = ViewsByPaper(r_max);
+  if (!plan.rules.cells) return paper;
+  return std::min(paper,
+                  std::max(starfocus::ViewsByCells(r_max), starfocus::ViewsOfSilhouette(r_edge)));
 }
 
 int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
@@ -136,7 +146,8 @@ Block Planned(const Plan& plan, int x, int y, int side) {
   block.rect = {x, y, std::min(side, plan.rules.width - x), std::min(side, plan.rules.height - y)};
   block.layer = std::min(LayerOf(stats.r_min / kRadiusOne), plan.rules.max_layer);
   const int scale = 1 << block.layer;
-  block.n = std::min(ViewsOf(stats.r_max / kRadiusOne / scale), plan.rules.max_n);
+  const double unit = kRadiusOne * scale;
+  block.n = std::min(ViewsOf(plan, stats.r_max / unit, stats.r_edge / unit), plan.rules.max_n);
   const int margin = kLayerMargin[block.layer] / scale;
   block.rendered = {x / scale - margin, y / scale - margin,
                     CeilQuotient(block.rect.width, scale) + 2 * margin,
@@ -347,15 +358,14 @@ TEST_CASE("partition: rules (12) and (9) on flat pictures, at and beside their t
       }
       plan.around = starfocus::GetReach(r).cells;
       plan.rules.max_layer = max_layer;
+      plan.rules.cells = false;
       const double exact = std::floor(r * 64) / 64;
       CAPTURE(exact);
       CAPTURE(max_layer);
       for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
         const int layer = std::min(LayerOf(exact), max_layer);
         CHECK(block.layer == layer);
-        // r_max is rounded up by a unit at most.
-        CHECK(block.n >= ViewsOf(exact / (1 << layer)));
-        CHECK(block.n <= ViewsOf((exact + 1 / 64.0) / (1 << layer)));
+        CHECK(block.n == ViewsByPaper(exact / (1 << layer)));
       }
     }
   }
