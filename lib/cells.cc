@@ -28,22 +28,28 @@ CellDistances Measure(const Window& window, int32_t focus, int32_t x, int32_t y)
     }
     found.largest = Max(found.largest, found.row[row]);
   }
+  // The picture's edge repeats in what a cell has beyond it.
+  for (int32_t k = width; k < kCellSize; ++k) found.column[k] = found.column[width - 1];
+  for (int32_t k = height; k < kCellSize; ++k) found.row[k] = found.row[height - 1];
   return found;
 }
 
-// Largest |d - d_t| of the nearer side of the depth edges between a cell's pixels and those right
-// of and below each; -1: no edge.
+// Largest |d - d_t| of the nearer side of the depth edges between a cell's pixels and all their
+// neighbours, those of the cells around it too: either may be the one that reaches a block. -1: no
+// edge.
 int32_t MeasureEdges(const Window& window, int32_t focus, int32_t x, int32_t y) {
   int32_t largest = -1;
-  const int32_t right = Min(x + kCellSize, window.width - 1);
-  const int32_t bottom = Min(y + kCellSize, window.height - 1);
+  const int32_t left = Max(x - 1, 0), right = Min(x + kCellSize, window.width - 1);
+  const int32_t top = Max(y - 1, 0), bottom = Min(y + kCellSize, window.height - 1);
   const auto compare = [&](int32_t a, int32_t b) {
     if (Abs(a - b) > kSurfaceStep) largest = Max(largest, Abs(Max(a, b) - focus));
   };
   for (int32_t row = y; row < y + kCellSize && row < window.height; ++row) {
     const int16_t* here = window.disparity.Row(row);
-    for (int32_t column = x; column < right; ++column) compare(here[column], here[column + 1]);
-    if (row >= bottom) continue;
+    for (int32_t column = left; column < right; ++column) compare(here[column], here[column + 1]);
+  }
+  for (int32_t row = top; row < bottom; ++row) {
+    const int16_t* here = window.disparity.Row(row);
     const int16_t* below = window.disparity.Row(row + 1);
     for (int32_t column = x; column < x + kCellSize && column < window.width; ++column) {
       compare(here[column], below[column]);
@@ -53,10 +59,10 @@ int32_t MeasureEdges(const Window& window, int32_t focus, int32_t x, int32_t y) 
 }
 
 // Reach beyond either end of a line of 8 columns or rows, and the depth inside.
-void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], int32_t length,
-                  Side low, Side high, Cell* cell) {
-  for (int32_t k = 0; k < length; ++k) {
-    const int32_t reach = ReachOf(scale.Radius(distance[k]) + 1);
+void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], Side low, Side high,
+                  Cell* cell) {
+  for (int32_t k = 0; k < kCellSize; ++k) {
+    const int32_t reach = ReachOf(scale.RadiusAbove(distance[k]));
     const int32_t beyond_low = reach - k, beyond_high = reach - (kCellSize - 1 - k);
     cell->reach[low] = static_cast<int16_t>(Max(cell->reach[low], beyond_low));
     cell->reach[high] = static_cast<int16_t>(Max(cell->reach[high], beyond_high));
@@ -99,12 +105,12 @@ Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, i
   const CellDistances found = Measure(window, scale.focus, x, y);
   Cell cell = {};
   cell.r_min = static_cast<uint16_t>(scale.Radius(found.smallest));
-  cell.r_max = static_cast<uint16_t>(scale.Radius(found.largest) + 1);
+  cell.r_max = static_cast<uint16_t>(scale.RadiusAbove(found.largest));
   const int32_t edge = MeasureEdges(window, scale.focus, x, y);
-  cell.r_edge = static_cast<uint16_t>(edge < 0 ? 0 : scale.Radius(edge) + 1);
+  cell.r_edge = static_cast<uint16_t>(edge < 0 ? 0 : scale.RadiusAbove(edge));
   for (int16_t& reach : cell.reach) reach = INT16_MIN;
-  MeasureSides(scale, found.column, Min(kCellSize, window.width - x), kLeft, kRight, &cell);
-  MeasureSides(scale, found.row, Min(kCellSize, window.height - y), kTop, kBottom, &cell);
+  MeasureSides(scale, found.column, kLeft, kRight, &cell);
+  MeasureSides(scale, found.row, kTop, kBottom, &cell);
   return cell;
 }
 

@@ -13,8 +13,8 @@ namespace starfocus {
 
 // Half-band filters sinc(n / 2) with a 7-tap Kaiser window, taps with simd::kTapBits. Unit gain
 // exactly: the taps of the downsampling filter and those of each upsampling phase sum to 2^14.
-inline constexpr simd::HalfBand kDownFilter = {8474, 5192, -1237};  // beta_D = 1.28
-inline constexpr simd::HalfBand kUpFilter = {16384, 9543, -1351};   // beta_U = 2.17
+inline constexpr simd::HalfBand kDownFilter = {8476, 5192, -1238};  // beta_D = 1.28
+inline constexpr simd::HalfBand kUpFilter = {16384, 9544, -1352};   // beta_U = 2.17
 static_assert(kDownFilter.centre + 2 * (kDownFilter.near + kDownFilter.far) == 1 << simd::kTapBits);
 static_assert(2 * (kUpFilter.near + kUpFilter.far) == 1 << simd::kTapBits);
 

@@ -90,9 +90,9 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
 
 // Marks the columns of largest blocks in which `block` reads layers 1 and 2.
 void MarkNeeded(const EngineState& engine, const Block& block) {
-  const int32_t left = (block.rendered.x - block.border.left) << block.layer;
-  const int32_t right = (block.rendered.x + block.rendered.width + block.border.right)
-                        << block.layer;
+  const int32_t scale = 1 << block.layer;
+  const int32_t left = (block.rendered.x - block.border.left) * scale;
+  const int32_t right = (block.rendered.x + block.rendered.width + block.border.right) * scale;
   for (int layer = block.layer; layer > 0; --layer) {
     // Layer 2 is made of layer 1 by a filter of 3 pixels' reach, 6 of the picture.
     const int32_t reach = layer < block.layer ? 8 : 0;

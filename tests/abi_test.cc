@@ -70,6 +70,20 @@ const BadConfig kBadConfigs[] = {
     {"theta negative", [](sf_config* c) { c->theta = -0.8; }, SF_ERROR_THETA},
     {"theta NaN", [](sf_config* c) { c->theta = kNan; }, SF_ERROR_THETA},
     {"theta inf", [](sf_config* c) { c->theta = kInf; }, SF_ERROR_THETA},
+    {"max_layer -1", [](sf_config* c) { c->max_layer = -1; }, SF_ERROR_LAYER},
+    {"max_layer 3", [](sf_config* c) { c->max_layer = SF_LAYERS; }, SF_ERROR_LAYER},
+    {"max_layer least", [](sf_config* c) { c->max_layer = INT32_MIN; }, SF_ERROR_LAYER},
+    {"max_layer most", [](sf_config* c) { c->max_layer = INT32_MAX; }, SF_ERROR_LAYER},
+    {"deblocking -1", [](sf_config* c) { c->deblocking = -1; }, SF_ERROR_DEBLOCKING},
+    {"deblocking 256", [](sf_config* c) { c->deblocking = 256; }, SF_ERROR_DEBLOCKING},
+    {"deblocking least", [](sf_config* c) { c->deblocking = INT32_MIN; }, SF_ERROR_DEBLOCKING},
+    {"deblocking most", [](sf_config* c) { c->deblocking = INT32_MAX; }, SF_ERROR_DEBLOCKING},
+    {"timing block", [](sf_config* c) { c->timing.block = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
+    {"timing field", [](sf_config* c) { c->timing.field = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
+    {"timing a", [](sf_config* c) { c->timing.a = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
+    {"timing b", [](sf_config* c) { c->timing.b = UINT32_MAX; }, SF_ERROR_TIMING},
+    {"timing c", [](sf_config* c) { c->timing.c = 0x80000000u; }, SF_ERROR_TIMING},
+    {"timing upsample", [](sf_config* c) { c->timing.upsample = UINT32_MAX; }, SF_ERROR_TIMING},
 };
 
 struct BadParams {
@@ -85,7 +99,10 @@ const BadParams kBadParams[] = {
     {"reserved first", [](sf_params* p) { p->reserved[0] = 1; }, SF_ERROR_RESERVED},
     {"reserved last", [](sf_params* p) { p->reserved[7] = 0x80000000u; }, SF_ERROR_RESERVED},
     {"mode -1", [](sf_params* p) { p->mode = -1; }, SF_ERROR_MODE},
+    {"mode 4", [](sf_params* p) { p->mode = SF_MODE_BLUR + 1; }, SF_ERROR_MODE},
     {"mode 1000", [](sf_params* p) { p->mode = 1000; }, SF_ERROR_MODE},
+    {"rule -1", [](sf_params* p) { p->rule = -1; }, SF_ERROR_RULE},
+    {"rule 3", [](sf_params* p) { p->rule = SF_RULE_CELLS + 1; }, SF_ERROR_RULE},
     {"focus NaN", [](sf_params* p) { p->focus = kNan; }, SF_ERROR_FOCUS},
     {"focus inf", [](sf_params* p) { p->focus = kInf; }, SF_ERROR_FOCUS},
     {"focus -inf", [](sf_params* p) { p->focus = -kInf; }, SF_ERROR_FOCUS},
@@ -148,13 +165,13 @@ struct Fixture {
 
 TEST_CASE("statuses: every one has its own sentence") {
   std::set<std::string> seen;
-  for (int status = SF_OK; status <= SF_ERROR_ALL_INVALID; ++status) {
+  for (int status = SF_OK; status <= SF_ERROR_RULE; ++status) {
     const char* text = sf_status_string(static_cast<sf_status>(status));
     REQUIRE(text != nullptr);
     CHECK_MESSAGE(std::strlen(text) > 3, status);
     CHECK_MESSAGE(seen.insert(text).second, text);
   }
-  for (int status : {-1, SF_ERROR_ALL_INVALID + 1, 10000}) {
+  for (int status : {-1, SF_ERROR_RULE + 1, 10000}) {
     const char* text = sf_status_string(static_cast<sf_status>(status));
     REQUIRE(text != nullptr);
     CHECK(*text != '\0');
@@ -208,6 +225,8 @@ TEST_CASE("configuration: defaults and limits are legal") {
   CHECK(config.largest_block == 64);
   CHECK(config.max_workers == 1);
   CHECK(config.streaming == 0);
+  CHECK(config.max_layer == 2);
+  CHECK(config.deblocking == 35);
   CHECK(config.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
   for (uint32_t reserved : config.reserved) CHECK(reserved == 0);
   sf_params params;
@@ -232,6 +251,16 @@ TEST_CASE("configuration: defaults and limits are legal") {
     config.theta = theta;
     CHECK(sf_workspace_size(&config, &bytes) == SF_OK);
     CHECK(bytes > 0);
+  }
+  for (const int max_layer : {0, 1, 2}) {
+    for (const int deblocking : {0, 1, 255}) {
+      for (const uint32_t timing : {0u, 1u, SF_MAX_TIMING}) {
+        config.max_layer = max_layer;
+        config.deblocking = deblocking;
+        config.timing = {timing, timing, timing, timing, timing, timing};
+        CHECK(sf_workspace_size(&config, &bytes) == SF_OK);
+      }
+    }
   }
 }
 
@@ -360,13 +389,36 @@ TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
   CHECK(run(joined.data() + 1) == SF_ERROR_OVERLAP);
 }
 
-TEST_CASE("refocus: a runner's failure is reported") {
+TEST_CASE("refocus: a runner's failure is reported, in whichever phase of a stripe it comes") {
+  // Out of focus, so that all phases of block mode run.
   Fixture f;
   test::Engine engine(f.config);
   REQUIRE(engine.status() == SF_OK);
-  const sf_runner fails = [](void*, sf_job, void*, int32_t) { return 1; };
-  CHECK(sf_refocus(engine.get(), &f.params, &f.field, f.out.bytes.data(), f.out.stride, fails,
-                   nullptr, nullptr) == SF_ERROR_RUNNER);
+  struct Failing {
+    int calls, last;
+    static int Run(void* self, sf_job job, void* data, int32_t count) {
+      Failing& failing = *static_cast<Failing*>(self);
+      if (++failing.calls > failing.last) return 1;
+      for (int32_t i = 0; i < count; ++i) job(data, i, 0);
+      return 0;
+    }
+  };
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
+    CAPTURE(mode);
+    f.params = test::Params(5.75, 1, mode);
+    const auto run = [&](Failing* failing) {
+      return sf_refocus(engine.get(), &f.params, &f.field, f.out.bytes.data(), f.out.stride,
+                        Failing::Run, failing, nullptr);
+    };
+    Failing never = {0, 1000};
+    REQUIRE(run(&never) == SF_OK);
+    REQUIRE(never.calls >= (mode == SF_MODE_BLOCK ? 4 : 1));
+    for (int last = 0; last < never.calls; ++last) {
+      Failing failing = {0, last};
+      CHECK(run(&failing) == SF_ERROR_RUNNER);
+      CHECK(failing.calls == last + 1);
+    }
+  }
 }
 
 TEST_CASE("refocus: the report holds what was rendered") {

@@ -125,7 +125,7 @@ TEST_CASE("the watch sees every kind of heap call") {
 
 TEST_CASE("no heap call in size query, init, refocusing and streaming") {
   for (int views : {17, 9, 5, 1}) {
-    for (sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+    for (sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
       CAPTURE(views);
       const test::Scene scene = test::RandomScene(70, 50, views, -3, 3, 5);
       sf_config config = test::ConfigFor(scene, 16);
@@ -163,6 +163,44 @@ TEST_CASE("no heap call in size query, init, refocusing and streaming") {
       CHECK(counted == 0);
     }
   }
+}
+
+TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and clock") {
+  // In focus on the left, far out of focus on the right.
+  test::Scene scene = test::RandomScene(160, 96, 5, -1, 9, 8);
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      scene.Disparity(x, y) = x < 48 ? 0.0f : x < 96 ? 4.0f : 9.0f;
+    }
+  }
+  sf_config config = test::ConfigFor(scene, 16);
+  config.largest_block = 32;
+  config.streaming = 1;
+  test::Engine holder(config);  // only its memory is used
+  REQUIRE(holder.status() == SF_OK);
+  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  params.clock = []() -> uint64_t { return 7; };
+  int told = 0;
+  params.on_block_data = &told;
+  params.on_block = [](void* data, const sf_block*) { ++*static_cast<int*>(data); };
+  const sf_light_field field = scene.Field();
+  test::Output out(scene.width, scene.height);
+
+  HeapWatch watch;
+  sf_engine* engine = nullptr;
+  sf_report report;
+  const sf_status made = sf_init(&config, holder.workspace(), holder.bytes(), &engine);
+  const sf_status refocused =
+      sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, nullptr, nullptr, &report);
+  const sf_status streamed = test::Stream(&holder, params, scene, &out, 13, 7);
+  const int counted = watch.Stop();
+
+  CHECK(made == SF_OK);
+  CHECK(refocused == SF_OK);
+  CHECK(streamed == SF_OK);
+  CHECK(counted == 0);
+  CHECK(told > 0);
+  for (const sf_layer_report& layer : report.layers) CHECK(layer.blocks > 0);
 }
 
 TEST_CASE("no heap call in measuring and filling disparity maps") {
