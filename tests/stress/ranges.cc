@@ -8,7 +8,7 @@ namespace {
 #ifdef STARFOCUS_CHECK_RANGES
 std::string first;
 
-void Remember(const Range& range, int64_t value) {
+void Remember(const FixedRange& range, int64_t value) {
   if (!first.empty()) return;
   first = std::string(range.name) + " is " + std::to_string(value) + ", outside [" +
           std::to_string(range.low) + ", " + std::to_string(range.high) + "]";

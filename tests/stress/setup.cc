@@ -1,6 +1,9 @@
 #include "tests/stress/setup.h"
 
 #include <cmath>
+#include <cstring>
+#include <memory>
+#include <new>
 #include <utility>
 
 #include "hwy/targets.h"
@@ -30,6 +33,31 @@ struct Shuffled {
     for (const int32_t index : order) job(data, index, runner->random.Int(0, runner->workers - 1));
     return 0;
   }
+};
+
+// An engine in memory of exactly the size it asked for.
+class Workspace {
+ public:
+  Workspace(const sf_config& config, int poison) {
+    size_t bytes = 0;
+    status_ = sf_workspace_size(&config, &bytes);
+    if (status_ != SF_OK) return;
+    memory_.reset(::operator new (bytes, std::align_val_t{SF_ALIGNMENT}));
+    if (poison >= 0) std::memset(memory_.get(), poison, bytes);
+    status_ = sf_init(&config, memory_.get(), bytes, &engine_);
+  }
+  sf_status status() const { return status_; }
+  sf_engine* get() const { return engine_; }
+
+ private:
+  struct Free {
+    void operator()(void* memory) const {
+      ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
+    }
+  };
+  std::unique_ptr<void, Free> memory_;
+  sf_engine* engine_ = nullptr;
+  sf_status status_ = SF_OK;
 };
 
 std::string Number(double value) {
@@ -83,6 +111,7 @@ Variant RandomVariant(test::Random* random) {
   variant.stream = random->Int(0, 1) == 1;
   variant.workers = random->Int(1, 4);
   variant.order = random->Int(0, 1) == 1 ? random->Next() + 1u : 0;
+  variant.poison = random->Int(-64, 255);
   variant.push_rows = random->Int(1, 40);
   variant.pull_rows = random->Int(1, 40);
   return variant;
@@ -198,7 +227,7 @@ std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::
   sf_config config = setup.config;
   config.streaming = variant.stream;
   config.max_workers = variant.workers;
-  test::Engine engine(config);
+  Workspace engine(config, variant.poison);
   sf_status status = engine.status();
   test::Output out(setup.scene.width, setup.scene.height, 5);
   if (status == SF_OK) {
