@@ -50,6 +50,7 @@ sf_params MakeParams(const sf_config& config, Input* input) {
   sf_params params;
   sf_params_init(&params);
   params.mode = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 3);
+  params.rule = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 2);
   params.focus = input->Real(config.disparity_min, config.disparity_max);
   if (input->Rarely()) params.focus = input->Value<double>();
   params.aperture = input->Real(0, 1);

@@ -75,7 +75,7 @@ double Setup::Radius() const {
 
 std::string Setup::Text() const {
   return std::to_string(config.width) + "x" + std::to_string(config.height) + ", " +
-         std::to_string(config.views) + " views, " + kModes[params.mode] + ", disparity [" +
+         std::to_string(config.views) + " views, " + kModes[params.mode] + ", rule " + std::to_string(params.rule) + ", disparity [" +
          Number(config.disparity_min) + ", " + Number(config.disparity_max) + "], focus " +
          Number(params.focus) + ", aperture " + Number(params.aperture) + ", max_blur " +
          Number(config.max_blur) + ", block " + std::to_string(config.largest_block) + ", layers " +
@@ -169,6 +169,7 @@ void FitBlur(Setup* setup) {
 
 void RandomMode(int modes, Setup* setup, test::Random* random) {
   setup->params.mode = random->Int(0, modes - 1);
+  setup->params.rule = random->Int(SF_RULE_DEFAULT, SF_RULE_CELLS);
   // The benchmark's number of views grows with the square of twice the radius.
   if (setup->params.mode == SF_MODE_BENCHMARK && setup->Radius() > 4) {
     setup->params.mode = SF_MODE_BLOCK;
