@@ -7,6 +7,8 @@ BUILD=build/release
 LOGS=build/log
 PROGRAM=$BUILD/starfocus
 PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev"
+FUZZ_PACKAGES="clang libclang-rt-14-dev"
+FUZZ_TARGETS="engine files folder"
 export LC_ALL=C.UTF-8
 
 help() {
@@ -14,7 +16,9 @@ help() {
 usage: ./do COMMAND
 
   demo    install what is missing, build, make a demo light field and refocus it
-  test    install what is missing, build and run every test
+  test    install what is missing, build and run every test: as released, then under sanitizers
+          with every fixed-point range checked, then a few cases under valgrind
+  fuzz [SECONDS]  run every fuzz target that long (60), new inputs kept in build/fuzz/work
   build   build Release into build/release (the program: build/release/starfocus)
   format  clang-format every source file
   help    this text
@@ -144,10 +148,46 @@ demo() {
     sheet demo/sheet.png demo/near.png demo/middle.png demo/far.png --labels near,middle,far
 }
 
+# The unit tests under AddressSanitizer and UBSan with range checks; data sets are left out, they
+# would only be slower.
+sanitize() {
+  step configure-sanitize "configuring build/sanitize" \
+    cmake --preset sanitize -DSTARFOCUS_DATA_DIR=
+  step build-sanitize "building everything in build/sanitize" \
+    cmake --build build/sanitize --parallel "$(nproc)"
+  ctest --test-dir build/sanitize --output-on-failure --parallel "$(nproc)" || exit 1
+}
+
 run_tests() {
+  PACKAGES="$PACKAGES valgrind"
   install_missing
   build
-  ctest --test-dir $BUILD --output-on-failure --parallel "$(nproc)"
+  ctest --test-dir $BUILD --output-on-failure --parallel "$(nproc)" || exit 1
+  sanitize
+  step valgrind "refocusing under valgrind" valgrind --quiet --error-exitcode=1 \
+    $PROGRAM stress --seconds 30 --family identical
+}
+
+# fuzz_target NAME SECONDS: from the seeds and what earlier runs found.
+fuzz_target() {
+  local work=build/fuzz/work/$1
+  mkdir -p "$work"
+  step "fuzz-$1" "fuzzing $1" build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -max_len=1024 \
+    -timeout=30 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1"
+  printf '%s inputs\n' "$(sed -n 's/^stat::number_of_executed_units: *//p' "$LOGS/fuzz-$1.log")"
+}
+
+fuzz() {
+  local target
+  case "$1" in *[!0-9]* | '') fail "fuzz: expected a number of seconds, found '$1'" ;; esac
+  PACKAGES="$PACKAGES $FUZZ_PACKAGES"
+  install_missing
+  step configure-fuzz "configuring build/fuzz" cmake --preset fuzz
+  for target in $FUZZ_TARGETS; do
+    step build-fuzz "building the fuzz target $target" \
+      cmake --build build/fuzz --parallel "$(nproc)" --target "fuzz_$target"
+  done
+  for target in $FUZZ_TARGETS; do fuzz_target "$target" "$1"; done
 }
 
 format() {
@@ -160,6 +200,7 @@ case "${1:-help}" in
   demo) demo ;;
   test) run_tests ;;
   build) build ;;
+  fuzz) fuzz "${2:-60}" ;;
   format) format ;;
   help | -h | --help) help ;;
   *) help >&2; exit 1 ;;

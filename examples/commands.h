@@ -16,6 +16,7 @@ void AddRefocusCommand(CLI::App* app, Action* action);
 void AddCompareCommand(CLI::App* app, Action* action);
 void AddInfoCommand(CLI::App* app, Action* action);
 void AddSheetCommand(CLI::App* app, Action* action);
+void AddStressCommand(CLI::App* app, Action* action);
 void AddAnalyzeCommand(CLI::App* app, Action* action);
 
 }  // namespace starfocus

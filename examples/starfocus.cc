@@ -32,6 +32,7 @@ int Run(int argc, char** argv) {
   starfocus::AddInfoCommand(&app, &action);
   starfocus::AddSheetCommand(&app, &action);
   starfocus::AddAnalyzeCommand(&app, &action);
+  starfocus::AddStressCommand(&app, &action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -70,9 +70,10 @@ Aperture MakeAperture(int32_t n, uint32_t fall_off, uint16_t* weights) {
     // Views on the diagonals are rendered from both axes, half the weight from either.
     const int64_t even = i == j && i > 0 ? 2 : 1;
     const int64_t weight = Max64(0, (target - given + orbit * even / 2) / (orbit * even)) * even;
-    weights[i * (i + 1) / 2 + j] = static_cast<uint16_t>(weight);
+    weights[i * (i + 1) / 2 + j] = static_cast<uint16_t>(Checked(ranges::kWeight, weight));
     given += weight * orbit;
   });
+  Checked(ranges::kRemainder, given - (int64_t{1} << bits));
   return aperture;
 }
 

@@ -83,9 +83,10 @@ void MakeKernel(int32_t step, double fall_off, uint16_t* weights, BlurKernel* ke
     wanted += orbit * integral;
     const auto target = n == 0 ? one : static_cast<int32_t>(wanted / total * one + 0.5);
     const int32_t weight = Max(0, (target - given + orbit / 2) / orbit);
-    weights[n * (n + 1) / 2 + m] = static_cast<uint16_t>(weight);
+    weights[n * (n + 1) / 2 + m] = static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
     given += weight * orbit;
   });
+  Checked(ranges::kRemainder, given - one);
 }
 
 // Copies the extended rectangle, the picture's edge repeated.
@@ -174,6 +175,7 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
       std::memset(scratch.accumulators, 0, samples * sizeof(uint32_t));
       AddRun(kernel, row + 3 * begin, stride, x - begin, &list);
       list.Flush();
+      CheckSums(scratch.accumulators, samples, kernel.sum_bits);
       job.kernels->finish(scratch.accumulators, samples, kernel.sum_bits, out + 3 * begin);
     }
   }

@@ -64,8 +64,10 @@ void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], 
   for (int32_t k = 0; k < kCellSize; ++k) {
     const int32_t reach = ReachOf(scale.RadiusAbove(distance[k]));
     const int32_t beyond_low = reach - k, beyond_high = reach - (kCellSize - 1 - k);
-    cell->reach[low] = static_cast<int16_t>(Max(cell->reach[low], beyond_low));
-    cell->reach[high] = static_cast<int16_t>(Max(cell->reach[high], beyond_high));
+    cell->reach[low] =
+        static_cast<int16_t>(Max(cell->reach[low], Checked(ranges::kReach, beyond_low)));
+    cell->reach[high] =
+        static_cast<int16_t>(Max(cell->reach[high], Checked(ranges::kReach, beyond_high)));
     if (beyond_low > 0) cell->inside[low] = static_cast<uint8_t>(Max(cell->inside[low], k + 1));
     if (beyond_high > 0) {
       cell->inside[high] = static_cast<uint8_t>(Max(cell->inside[high], kCellSize - k));

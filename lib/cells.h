@@ -32,7 +32,7 @@ struct BlurScale {
 
   // |d - d_t| (kDisparityBits) to a blur radius, rounded down.
   int32_t Radius(int32_t distance) const {
-    return static_cast<int32_t>((step * distance) >> kStepBits);
+    return static_cast<int32_t>(Checked(ranges::kRadius, (step * distance) >> kStepBits));
   }
   // The same, rounded up: 0 only for what is in focus.
   int32_t RadiusAbove(int32_t distance) const {

@@ -116,6 +116,7 @@ sf_status PushDisparity(const float* row, EngineState* engine) {
     }
     return SF_ERROR_DISPARITY;
   }
+  CheckAll(ranges::kDisparity, out, width);
   ++engine->disparity_rows;
   return SF_OK;
 }

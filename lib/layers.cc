@@ -21,6 +21,7 @@ void HalveLine(const Kernels& kernels, const Taps& taps, const ResampleScratch& 
   const int32_t pixels = taps.end - taps.begin;
   kernels.half_band(scratch.line + 9, 3, kDownFilter, 3 * static_cast<size_t>(2 * pixels - 1),
                     INT16_MIN, INT16_MAX, scratch.filtered);
+  CheckAll(ranges::kFilteredAlongX, scratch.filtered, 3 * static_cast<size_t>(2 * pixels - 1));
   for (int32_t x = 0; x < pixels; ++x) {
     std::memcpy(out + 3 * x, scratch.filtered + 6 * x, 3 * sizeof(int16_t));
   }
@@ -51,6 +52,7 @@ void HalveRows(const Kernels& kernels, int32_t begin, int32_t end, LayerPlane* t
     int16_t* samples = to->samples.Row(y) + 3 * begin;
     kernels.half_band(in, static_cast<ptrdiff_t>(to->half.stride), kDownFilter, count, 0,
                       kLayerWhite, samples);
+    CheckAll(ranges::kLayerSample, samples, count);
     kernels.narrow(samples, count, to->rgb.Row(y) + 3 * begin);
   }
 }
@@ -102,6 +104,7 @@ void UpsampleByTwo(const Kernels& kernels, const LayerRect& in, int32_t first,
     if (y % 2 == 1) {
       kernels.between(line, static_cast<ptrdiff_t>(count), kUpFilter, count, INT16_MIN, INT16_MAX,
                       scratch.line);
+      CheckAll(ranges::kUpsampledAlongY, scratch.line, count);
       line = scratch.line;
     }
     line += 3 * first;

@@ -46,7 +46,7 @@ inline int32_t CellWeight(int32_t offset, int32_t cell) {
   const int32_t twice = 2 * Abs(offset) - kShiftOne + cell;  // <= cell
   if (twice <= 0) return 0;
   const uint32_t scaled = static_cast<uint32_t>(twice) * kCellReciprocals.of[cell];
-  return static_cast<int32_t>((scaled + (1u << 15)) >> 16);
+  return static_cast<int32_t>(Checked(ranges::kCellWeight, (scaled + (1u << 15)) >> 16));
 }
 
 // Scans `line` for one view. Calls, in pixels of the line (never mirrored),

@@ -14,6 +14,7 @@ uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
 void FinishPicture(const simd::Kernels& kernels, const Block& block, int shift,
                    const Plane<uint8_t>& out, const Worker& worker) {
   const size_t samples = 3 * static_cast<size_t>(block.rect.width);
+  CheckSums(worker.star.accumulators[0], Samples(block.rect), shift);
   for (int32_t row = 0; row < block.rect.height; ++row) {
     kernels.finish(worker.star.accumulators[0] + static_cast<size_t>(row) * samples, samples, shift,
                    At(out, block.rect, row));
@@ -23,8 +24,10 @@ void FinishPicture(const simd::Kernels& kernels, const Block& block, int shift,
 // From layer 2 to layer 1, with the margin that the next step reads, to the picture.
 void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
                  const Plane<uint8_t>& out, const Worker& worker) {
+  CheckSums(worker.star.accumulators[0], Samples(block.rendered), shift);
   kernels.finish_layer(worker.star.accumulators[0], Samples(block.rendered), shift,
                        worker.layer_samples);
+  CheckAll(ranges::kLayerSample, worker.layer_samples, Samples(block.rendered));
   LayerRect layer = {worker.layer_samples, block.rendered.width, block.rendered.height};
   int32_t margin = kLayerMargin[block.layer] >> block.layer;
   if (block.layer == 2) {

@@ -16,7 +16,8 @@ ViewGrid MakeViewGrid(const Aperture& aperture, double focus, double aperture_ra
                       bool has_half_views, bool cells) {
   ViewGrid grid;
   grid.aperture = aperture;
-  grid.focus = static_cast<int32_t>(std::floor(focus * (1 << kDisparityBits) + 0.5));
+  grid.focus = static_cast<int32_t>(
+      Checked(ranges::kFocus, std::floor(focus * (1 << kDisparityBits) + 0.5)));
   const double step = aperture_radius * (int64_t{1} << kStepBits);
   grid.step = RoundShift(static_cast<int64_t>(step) << 1, 1 + layer);
   if (grid.step < 1) grid.step = 1;

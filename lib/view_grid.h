@@ -27,7 +27,8 @@ struct ViewGrid {
   // Pixels that disparity d moves by under `move`, kShiftBits. |result| is within the blur radius.
   int32_t Shift(int64_t move, int32_t disparity) const {
     return static_cast<int32_t>(
-        RoundShift(move * (disparity - focus), kStepBits + kDisparityBits - kShiftBits));
+        Checked(ranges::kShift,
+                RoundShift(move * (disparity - focus), kStepBits + kDisparityBits - kShiftBits)));
   }
 };
 

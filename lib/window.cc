@@ -29,8 +29,8 @@ void Interpolate(const Endless& pixel, int32_t x, int32_t y, uint8_t* rgb) {
   for (int k = 0; k < 3; ++k) {
     const int32_t above = a[k] * (kShiftOne - wx) + b[k] * wx;
     const int32_t below = c[k] * (kShiftOne - wx) + d[k] * wx;
-    rgb[k] =
-        static_cast<uint8_t>(RoundShift(above * (kShiftOne - wy) + below * wy, 2 * kShiftBits));
+    rgb[k] = static_cast<uint8_t>(RoundShift(
+        Checked(ranges::kHolePixel, above * (kShiftOne - wy) + below * wy), 2 * kShiftBits));
   }
 }
 
@@ -49,6 +49,8 @@ void Subsample(const Endless& pixel, int layer, int32_t x, int32_t y, uint8_t* r
 }  // namespace
 
 void ReadCaptured(const Window& window, int index, int32_t x, int32_t y, uint8_t* rgb) {
+  Checked(ranges::kHolePosition, x);
+  Checked(ranges::kHolePosition, y);
   const Endless pixel = {window.view[index], window.picture_width - 1, window.picture_height - 1};
   if (window.layer == 0) {
     Interpolate(pixel, x, y, rgb);

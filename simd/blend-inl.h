@@ -22,14 +22,16 @@ HWY_INLINE void BlendSpan(const Span& span, uint8_t* HWY_RESTRICT target) {
   const size_t lanes = hn::Lanes(d16);
   const auto weight = hn::Set(d16, span.weight);
   const auto neighbour_weight = hn::Set(d16, span.neighbour_weight);
-  const auto half = hn::Set(d16, uint16_t{128});
+  const auto below_half = hn::Set(d16, uint16_t{127}), one = hn::Set(d16, uint16_t{1});
   const uint8_t* HWY_RESTRICT source = span.source;
   const uint8_t* HWY_RESTRICT neighbour = source + span.neighbour_offset;
   const auto value = [&](size_t n) HWY_ATTR {
     const auto a = hn::Mul(hn::PromoteTo(d16, hn::LoadU(d8, source + n)), weight);
     const auto b = hn::Mul(hn::PromoteTo(d16, hn::LoadU(d8, neighbour + n)), neighbour_weight);
-    const auto sum = hn::ShiftRight<8>(hn::Add(hn::Add(a, b), half));
-    return hn::DemoteTo(d8, hn::BitCast(di16, sum));
+    const auto sum = hn::Add(a, b);
+    // Halves to even: <= 65280 + 128.
+    const auto rounding = hn::Add(hn::And(hn::ShiftRight<8>(sum), one), below_half);
+    return hn::DemoteTo(d8, hn::BitCast(di16, hn::ShiftRight<8>(hn::Add(sum, rounding))));
   };
   const size_t samples = span.samples;
   if (samples < lanes) {

@@ -56,7 +56,7 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 #define STARFOCUS_TEXT_OF(name) STARFOCUS_TEXT(name)
 
 const Kernels* Table() {
-  static constexpr Kernels kernels = {STARFOCUS_TEXT_OF(HWY_NAMESPACE) + 2,
+  static constexpr Kernels kernels = {&STARFOCUS_TEXT_OF(HWY_NAMESPACE)[2],
                                       Accumulate,
                                       Blend,
                                       Spread,

@@ -48,7 +48,8 @@ struct Kernels {
   // accumulators[target + n] += value[n], for each span. No sum exceeds 2^32 - 1.
   void (*accumulate)(const Span* spans, size_t count, uint32_t* accumulators);
 
-  // line[target + n] = (value[n] + 128) >> 8, for each span; weights of a span sum to 256.
+  // line[target + n] = value[n] / 256, halves to even, for each span; weights of a span sum to
+  // 256. Rounding halves up would brighten pictures shifted by half pixels by 1/4 gray level.
   // Sources don't overlap the line. Nothing outside the spans is written.
   void (*blend)(const Span* spans, size_t count, uint8_t* line);
 
@@ -66,7 +67,7 @@ struct Kernels {
   // out[n] = in[n] << 6.
   void (*widen)(const uint8_t* in, size_t count, int16_t* out);
 
-  // out[n] = in[n] rounded half up to a whole number and clamped to a byte.
+  // out[n] = in[n] rounded to a whole number, halves to even, and clamped to a byte.
   void (*narrow)(const int16_t* in, size_t count, uint8_t* out);
 
   // out[n] = (accumulators[n] + 2^(shift - 7)) >> (shift - 6); shift in [7, 24].

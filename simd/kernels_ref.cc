@@ -24,10 +24,15 @@ void Accumulate(const Span* spans, size_t count, uint32_t* accumulators) {
   }
 }
 
+// value / 256, halves to the even neighbour.
+uint8_t RoundBlend(uint32_t value) {
+  return static_cast<uint8_t>((value + 127 + ((value >> 8) & 1)) >> 8);
+}
+
 void Blend(const Span* spans, size_t count, uint8_t* line) {
   for (size_t i = 0; i < count; ++i) {
     for (uint32_t n = 0; n < spans[i].samples; ++n) {
-      line[spans[i].target + n] = static_cast<uint8_t>((SpanValue(spans[i], n) + 128) >> 8);
+      line[spans[i].target + n] = RoundBlend(SpanValue(spans[i], n));
     }
   }
 }
@@ -67,7 +72,8 @@ void Widen(const uint8_t* in, size_t count, int16_t* out) {
 
 void Narrow(const int16_t* in, size_t count, uint8_t* out) {
   for (size_t n = 0; n < count; ++n) {
-    const int value = (in[n] + (1 << (kLayerBits - 1))) >> kLayerBits;
+    const int odd = (in[n] >> kLayerBits) & 1;
+    const int value = (in[n] + (1 << (kLayerBits - 1)) - 1 + odd) >> kLayerBits;
     out[n] = static_cast<uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value);
   }
 }

@@ -32,11 +32,14 @@ HWY_INLINE void NarrowSamples(const int16_t* HWY_RESTRICT in, size_t count,
   const hn::ScalableTag<int16_t> d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
-  const auto half = hn::Set(d16, int16_t{1 << (kLayerBits - 1)});
+  const auto below_half = hn::Set(d16, int16_t{(1 << (kLayerBits - 1)) - 1});
+  const auto one = hn::Set(d16, int16_t{1});
   size_t n = 0;
   for (; n + lanes <= count; n += lanes) {
     // Saturating: an int16 near its limit still rounds to 255.
-    const auto sum = hn::SaturatedAdd(hn::LoadU(d16, in + n), half);
+    const auto value = hn::LoadU(d16, in + n);
+    const auto odd = hn::And(hn::ShiftRight<kLayerBits>(value), one);
+    const auto sum = hn::SaturatedAdd(value, hn::Add(below_half, odd));
     hn::StoreU(hn::DemoteTo(d8, hn::ShiftRight<kLayerBits>(sum)), d8, out + n);
   }
   ReferenceKernels().narrow(in + n, count - n, out + n);

@@ -220,9 +220,11 @@ struct Output {
   std::vector<uint8_t> bytes;
 };
 
-inline sf_status Refocus(Engine* engine, const sf_params& params, const Scene& scene, Output* out,
-                         sf_runner runner = nullptr, void* runner_data = nullptr,
-                         sf_report* report = nullptr) {
+// AnyEngine has get(), as Engine.
+template <class AnyEngine>
+sf_status Refocus(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
+                  sf_runner runner = nullptr, void* runner_data = nullptr,
+                  sf_report* report = nullptr) {
   const sf_light_field field = scene.Field();
   return sf_refocus(engine->get(), &params, &field, out->bytes.data(), out->stride, runner,
                     runner_data, report);
@@ -230,9 +232,10 @@ inline sf_status Refocus(Engine* engine, const sf_params& params, const Scene& s
 
 // Pushes and pulls at most `push_rows` and `pull_rows` rows at a time until all rows are out.
 // SF_ERROR_STATE when neither side moves.
-inline sf_status Stream(Engine* engine, const sf_params& params, const Scene& scene, Output* out,
-                        int push_rows, int pull_rows, sf_runner runner = nullptr,
-                        void* runner_data = nullptr, sf_report* report = nullptr) {
+template <class AnyEngine>
+sf_status Stream(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
+                 int push_rows, int pull_rows, sf_runner runner = nullptr,
+                 void* runner_data = nullptr, sf_report* report = nullptr) {
   sf_status status = sf_stream_begin(engine->get(), &params);
   int pushed = 0, pulled = 0;
   while (status == SF_OK && pulled < scene.height) {

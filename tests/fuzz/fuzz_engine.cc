@@ -1,0 +1,185 @@
+// The C ABI with any configuration, parameters, sizes, strides and contents, whole and streamed.
+// Every buffer has exactly the bytes the interface asks for, on the heap, so that
+// AddressSanitizer sees what is read or written beside it.
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/fuzz/input.h"
+
+namespace {
+
+using starfocus::fuzz::Input;
+
+constexpr int kViews[] = {1, 5, 9, 17};
+constexpr int kBlocks[] = {32, 64, 128, 256};
+// Rendered views times pixels that one input may ask for, so that inputs stay fast.
+constexpr double kMostWork = 300000;
+
+// Mostly valid; now and then any bytes at all in one field.
+sf_config MakeConfig(Input* input) {
+  sf_config config;
+  sf_config_init(&config);
+  const int side = input->Rarely() ? 100 : 24;
+  config.width = input->Int(1, side);
+  config.height = input->Int(1, side);
+  config.views = kViews[input->Int(0, 3)];
+  const double most = input->Rarely() ? SF_MAX_DISPARITY : 12;
+  const double a = input->Real(-most, most), b = input->Real(-most, most);
+  config.disparity_min = static_cast<float>(std::min(a, b));
+  config.disparity_max = static_cast<float>(std::max(a, b));
+  config.max_blur = input->Rarely() ? input->Real(1, SF_MAX_BLUR) : input->Real(0.01, 14);
+  config.largest_block = kBlocks[input->Int(0, 3)];
+  config.max_workers = input->Rarely() ? SF_MAX_WORKERS : 1;
+  config.streaming = input->Int(0, 1);
+  config.theta = input->Real(SF_MIN_THETA, SF_MAX_THETA);
+  config.max_layer = input->Int(0, 2);
+  config.deblocking = input->Int(0, 255);
+  config.timing.block = 1u << input->Int(0, 26);
+  config.timing.c = static_cast<uint32_t>(input->Int(0, 100000));
+  if (input->Rarely()) {
+    uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
+    input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
+  }
+  return config;
+}
+
+sf_params MakeParams(const sf_config& config, Input* input) {
+  sf_params params;
+  sf_params_init(&params);
+  params.mode = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 3);
+  params.rule = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 2);
+  params.focus = input->Real(config.disparity_min, config.disparity_max);
+  if (input->Rarely()) params.focus = input->Value<double>();
+  params.aperture = input->Real(0, 1);
+  // An aperture that the configuration allows, most of the time.
+  const double radius = params.aperture * std::max(params.focus - config.disparity_min,
+                                                   config.disparity_max - params.focus);
+  if (radius > config.max_blur && !input->Rarely()) {
+    params.aperture *= config.max_blur / radius * 0.999;
+  }
+  if (input->Rarely()) params.reserved[input->Int(0, 7)] = input->Value<uint32_t>();
+  return params;
+}
+
+struct Pictures {
+  std::vector<std::unique_ptr<uint8_t[]>> bytes;
+  std::unique_ptr<float[]> disparity;
+  sf_light_field field = {};
+};
+
+// Bytes of a picture with nothing behind the last pixel.
+size_t Needed(size_t stride, int rows, size_t row) {
+  return stride * static_cast<size_t>(rows - 1) + row;
+}
+
+void MakeDisparity(const sf_config& config, Input* input, Pictures* pictures) {
+  const auto width = static_cast<size_t>(config.width);
+  const size_t stride = width + static_cast<size_t>(input->Int(0, 3));
+  const size_t count = Needed(stride, config.height, width);
+  pictures->disparity.reset(new float[count]);
+  uint8_t levels[32];
+  input->Bytes(levels, sizeof(levels));
+  const auto length = static_cast<size_t>(input->Int(1, 40));
+  const float range = config.disparity_max - config.disparity_min;
+  for (size_t i = 0; i < count; ++i) {
+    const float value =
+        config.disparity_min + range * static_cast<float>(levels[i / length % 32]) / 255.0f;
+    pictures->disparity[i] = std::clamp(value, config.disparity_min, config.disparity_max);
+  }
+  if (input->Rarely()) {
+    pictures->disparity[input->Value<uint32_t>() % count] = input->Value<float>();
+  }
+  pictures->field.disparity = pictures->disparity.get();
+  pictures->field.disparity_stride = stride * sizeof(float);
+}
+
+Pictures MakePictures(const sf_config& config, Input* input) {
+  Pictures pictures;
+  const size_t row = 3 * static_cast<size_t>(config.width);
+  for (int view = 0; view < config.views; ++view) {
+    const size_t stride = row + static_cast<size_t>(input->Int(0, 5));
+    const size_t bytes = Needed(stride, config.height, row);
+    pictures.bytes.emplace_back(new uint8_t[bytes]);
+    uint8_t* picture = pictures.bytes.back().get();
+    uint8_t step[16];
+    input->Bytes(step, sizeof(step));
+    for (size_t i = 0; i < bytes; ++i) {
+      picture[i] = static_cast<uint8_t>(step[i % 16] + (i >> 4) * step[0]);
+    }
+    pictures.field.views[view] = {picture, stride};
+  }
+  MakeDisparity(config, input, &pictures);
+  return pictures;
+}
+
+sf_light_field Rows(const sf_light_field& field, int views, int row) {
+  sf_light_field from = field;
+  for (int view = 0; view < views; ++view) {
+    from.views[view].data += static_cast<size_t>(row) * from.views[view].stride;
+  }
+  from.disparity += static_cast<size_t>(row) * (from.disparity_stride / sizeof(float));
+  return from;
+}
+
+int RowCount(int left, Input* input) {
+  return std::min(input->Int(0, 40) + (input->empty() ? 9 : 0), left);
+}
+
+// Pushes rows and pulls finished ones into `out`, in any order; begins anew now and then.
+void Stream(sf_engine* engine, const sf_config& config, const sf_params& params,
+            const Pictures& pictures, uint8_t* out, size_t stride, Input* input) {
+  if (sf_stream_begin(engine, &params) != SF_OK) return;
+  int pushed = 0, pulled = 0;
+  for (int round = 0; round < 200 && pulled < config.height; ++round) {
+    int32_t moved = 0;
+    if (pushed < config.height) {
+      const sf_light_field rows = Rows(pictures.field, config.views, pushed);
+      const int count = RowCount(config.height - pushed, input);
+      if (sf_stream_push(engine, &rows, count, &moved) != SF_OK) return;
+      pushed += moved;
+    }
+    uint8_t* rest = out + static_cast<size_t>(pulled) * stride;
+    const int count = RowCount(config.height - pulled, input);
+    const sf_status status =
+        sf_stream_pull(engine, rest, stride, count, nullptr, nullptr, &moved, nullptr);
+    if (status != SF_OK) return;
+    pulled += moved;
+    if (!input->Rarely()) continue;
+    if (sf_stream_begin(engine, &params) != SF_OK) return;
+    pushed = pulled = 0;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  Input input(data, size);
+  const sf_config config = MakeConfig(&input);
+  size_t bytes = 0;
+  if (sf_workspace_size(&config, &bytes) != SF_OK || bytes > (size_t{200} << 20)) return 0;
+  if (int64_t{config.width} * config.height > 20000) return 0;
+  void* workspace = nullptr;
+  if (posix_memalign(&workspace, SF_ALIGNMENT, bytes) != 0) return 0;
+  const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
+  sf_engine* engine = nullptr;
+  if (sf_init(&config, workspace, bytes, &engine) != SF_OK) std::abort();
+  const Pictures pictures = MakePictures(config, &input);
+  const size_t row = 3 * static_cast<size_t>(config.width);
+  const size_t stride = row + static_cast<size_t>(input.Int(0, 5));
+  const std::unique_ptr<uint8_t[]> out(new uint8_t[Needed(stride, config.height, row)]);
+  for (int round = 0; round < 2; ++round) {
+    const sf_params params = MakeParams(config, &input);
+    const double n = (params.mode == SF_MODE_BENCHMARK ? 2 : 1) * config.max_blur;
+    if (3.2 * n * n * config.width * config.height > kMostWork) continue;
+    if (config.streaming != 0 && input.Int(0, 1) == 1) {
+      Stream(engine, config, params, pictures, out.get(), stride, &input);
+    } else {
+      sf_report report;
+      sf_refocus(engine, &params, &pictures.field, out.get(), stride, nullptr, nullptr, &report);
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,43 @@
+// The readers of single files: PFM maps, and PNG, PPM and JPEG pictures.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "platform/image_io.h"
+#include "platform/pfm.h"
+#include "tests/fuzz/input.h"
+
+namespace {
+
+// A file in memory, and the path that opens it.
+class MemoryFile {
+ public:
+  MemoryFile(const uint8_t* data, size_t size) : handle_(memfd_create("fuzz", 0)) {
+    if (handle_ < 0 || write(handle_, data, size) != static_cast<ssize_t>(size)) std::abort();
+  }
+  ~MemoryFile() { close(handle_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string path() const { return "/proc/self/fd/" + std::to_string(handle_); }
+
+ private:
+  int handle_;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const MemoryFile file(data, size);
+  starfocus::FloatMap map;
+  if (starfocus::ReadPfm(file.path(), &map).empty()) {
+    if (map.values.size() != size_t(map.width) * size_t(map.height)) std::abort();
+  }
+  starfocus::Image image;
+  if (starfocus::ReadImage(file.path(), &image).empty()) {
+    if (image.pixels.size() != image.stride() * size_t(image.height)) std::abort();
+  }
+  return 0;
+}

@@ -1,0 +1,80 @@
+// The reader of light-field folders: which files are there, and what they hold.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "platform/light_field.h"
+#include "tests/fuzz/input.h"
+#include "tests/temp_folder.h"
+
+namespace {
+
+using starfocus::fuzz::Input;
+
+constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg"};
+
+void Write(const std::string& path, const void* data, size_t size) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) std::abort();
+  if (size != 0) std::fwrite(data, 1, size, file);
+  std::fclose(file);
+}
+
+void Write(const std::string& path, std::string bytes, Input* input) {
+  if (input->Rarely()) bytes.resize(bytes.size() / 2);
+  Write(path, bytes.data(), bytes.size());
+}
+
+// A valid picture of one colour, unless the input brings its own bytes.
+void WriteView(const std::string& path, int side, Input* input) {
+  if (input->Rarely()) {
+    const size_t wanted = input->Value<uint8_t>(), size = std::min(wanted, input->size());
+    Write(path, input->data(), size);
+    input->Skip(size);
+    return;
+  }
+  const std::string header = "P6 " + std::to_string(side) + " 2 255\n";
+  const std::string pixels(static_cast<size_t>(6 * side), static_cast<char>(input->Int(0, 255)));
+  Write(path, header + pixels, input);
+}
+
+void WriteMap(const std::string& path, int side, Input* input) {
+  const std::string header = "Pf\n" + std::to_string(side) + " 2\n-1\n";
+  Write(path, header + std::string(static_cast<size_t>(8 * side), '\0'), input);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const starfocus::TempFolder folder;
+  static const std::string map = starfocus::DisparityPath(folder.path());
+  Input input(data, size);
+  std::vector<std::string> written;
+  const int side = input.Int(1, 4), views = input.Int(0, 17);
+  for (int view = 0; view < views; ++view) {
+    if (input.Rarely()) continue;
+    const char* extension = kExtensions[input.Rarely() ? input.Int(0, 2) : 1];
+    written.push_back(folder.file(starfocus::ViewName(view) + extension));
+    WriteView(written.back(), input.Rarely() ? input.Int(1, 4) : side, &input);
+  }
+  if (!input.Rarely()) {
+    WriteMap(map, input.Rarely() ? input.Int(1, 4) : side, &input);
+    written.push_back(map);
+  }
+  int found = 0;
+  starfocus::CountViews(folder.path(), &found);
+  starfocus::LightField field;
+  constexpr int kWanted[] = {0, 1, 5, 9, 17};
+  if (starfocus::LoadLightField(folder.path(), kWanted[input.Int(0, 4)], &field).empty()) {
+    if (!starfocus::IsStarSet(static_cast<int>(field.views.size()))) std::abort();
+    for (const starfocus::Image& image : field.views) {
+      if (image.width != field.width() || image.height != field.height()) std::abort();
+    }
+  }
+  for (const std::string& path : written) unlink(path.c_str());
+  return 0;
+}

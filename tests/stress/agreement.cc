@@ -1,0 +1,171 @@
+// Families of refocusings that must agree with each other.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "tests/stress/families.h"
+#include "tests/stress/setup.h"
+
+namespace starfocus::stress {
+namespace {
+
+// Gray levels by which any pixel may jump when the lens changes by a step of its scale. Views are
+// few near focus, and each moves by whole pixels there.
+constexpr int kMostJump = 24;
+
+struct Symmetry {
+  bool transpose, mirror_x, mirror_y;
+};
+
+std::pair<int, int> Moved(const Symmetry& s, int width, int height, int x, int y) {
+  if (s.transpose) {
+    std::swap(x, y);
+    std::swap(width, height);
+  }
+  return {s.mirror_x ? width - 1 - x : x, s.mirror_y ? height - 1 - y : y};
+}
+
+// Index of the view that captured view `index` becomes.
+int MovedView(const Symmetry& s, int index) {
+  double u = 0, v = 0;
+  sf_view_position(index, &u, &v);
+  if (s.transpose) std::swap(u, v);
+  if (s.mirror_x) u = -u;
+  if (s.mirror_y) v = -v;
+  for (int i = 0; i < SF_MAX_VIEWS; ++i) {
+    double other_u = 0, other_v = 0;
+    sf_view_position(i, &other_u, &other_v);
+    if (other_u == u && other_v == v) return i;
+  }
+  return 0;
+}
+
+Setup Moved(const Symmetry& s, const Setup& setup) {
+  const test::Scene& from = setup.scene;
+  Setup moved = setup;
+  moved.scene = test::EmptyScene(s.transpose ? from.height : from.width,
+                                 s.transpose ? from.width : from.height, from.views(),
+                                 from.disparity_min, from.disparity_max);
+  moved.config.width = moved.scene.width;
+  moved.config.height = moved.scene.height;
+  for (int y = 0; y < from.height; ++y) {
+    for (int x = 0; x < from.width; ++x) {
+      const auto [mx, my] = Moved(s, from.width, from.height, x, y);
+      moved.scene.Disparity(mx, my) = from.Disparity(x, y);
+      for (int view = 0; view < from.views(); ++view) {
+        std::copy_n(from.Pixel(view, x, y), 3, moved.scene.Pixel(MovedView(s, view), mx, my));
+      }
+    }
+  }
+  return moved;
+}
+
+Outcome Fail(const Setup& setup, const std::string& what) {
+  return {0, what + ": " + setup.Text()};
+}
+
+int LargestDifference(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+  int largest = 0;
+  for (size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+}  // namespace
+
+// Mirroring, turning and transposing a light field of whole blocks does the same to the result.
+Outcome Mirrors(test::Random* random) {
+  Setup setup = RandomSetup({20, 6, 4, 6}, random);
+  const float low = setup.scene.disparity_min, high = setup.scene.disparity_max;
+  setup.scene =
+      test::EmptyScene(32, random->Int(0, 3) == 0 ? 64 : 32, setup.scene.views(), low, high);
+  SetDepth(static_cast<Depth>(random->Int(0, 4)), &setup.scene, random);
+  SetColours(static_cast<Colours>(random->Int(0, 2)), &setup.scene, random);
+  setup.config.width = setup.scene.width;
+  setup.config.height = setup.scene.height;
+  setup.config.largest_block = 32;
+  setup.config.max_layer = 0;  // layers keep every second pixel, from the left and the top
+  const Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1,
+                             random->Int(0, 1) == 1};
+  std::string failure;
+  const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random), &failure);
+  const Setup other = Moved(symmetry, setup);
+  const std::vector<uint8_t> moved = Refocused(other, RandomVariant(random), &failure);
+  if (!failure.empty()) return Fail(setup, failure);
+  Outcome outcome;
+  for (int y = 0; y < setup.scene.height; ++y) {
+    for (int x = 0; x < setup.scene.width; ++x) {
+      const auto [mx, my] = Moved(symmetry, setup.scene.width, setup.scene.height, x, y);
+      for (int c = 0; c < 3; ++c) {
+        const int a = plain[3 * size_t(y * setup.scene.width + x) + size_t(c)];
+        const int b = moved[3 * size_t(my * other.scene.width + mx) + size_t(c)];
+        outcome.error = std::max<double>(outcome.error, std::abs(a - b));
+      }
+    }
+  }
+  if (outcome.error != 0) {
+    return Fail(setup, "not symmetric (transposed " + std::to_string(symmetry.transpose) +
+                           ", mirrored " + std::to_string(symmetry.mirror_x) + " " +
+                           std::to_string(symmetry.mirror_y) + ") by " +
+                           std::to_string(int(outcome.error)));
+  }
+  return outcome;
+}
+
+// Without a depth edge there is no hole, and nothing depends on the side views.
+Outcome SideViews(test::Random* random) {
+  Setup setup = FlatSetup(random->Int(1, 40), random->Int(1, 30), RandomRadius(8, random), random);
+  SetColours(static_cast<Colours>(random->Int(0, 2)), &setup.scene, random);
+  std::string failure;
+  const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random), &failure);
+  for (size_t view = 1; view < setup.scene.pictures.size(); ++view) {
+    for (uint8_t& sample : setup.scene.pictures[view]) sample = random->Byte();
+  }
+  const std::vector<uint8_t> other = Refocused(setup, RandomVariant(random), &failure);
+  if (!failure.empty()) return Fail(setup, failure);
+  if (plain != other) return Fail(setup, "a flat scene depends on side views");
+  return {0, ""};
+}
+
+// A small step of the focus or the aperture; the error is the largest change of a pixel.
+Outcome Continuity(test::Random* random) {
+  Setup setup = FlatSetup(random->Int(8, 40), random->Int(8, 30), RandomRadius(8, random), random);
+  SetColours(random->Int(0, 1) == 0 ? Colours::kSmooth : Colours::kNoise, &setup.scene, random);
+  const bool focus = random->Int(0, 1) == 0;
+  Setup other = setup;
+  if (focus) {
+    other.params.focus += other.params.focus < 0 ? -1.0 / 64 : 1.0 / 64;
+  } else {
+    setup.params.aperture = random->Real(0.1, 1);
+    other.params.aperture = setup.params.aperture * (1 - 1.0 / 256);
+  }
+  FitBlur(&setup);
+  FitBlur(&other);
+  std::string failure;
+  const std::vector<uint8_t> a = Refocused(setup, RandomVariant(random), &failure);
+  const std::vector<uint8_t> b = Refocused(other, RandomVariant(random), &failure);
+  if (!failure.empty()) return Fail(setup, failure);
+  const int jump = LargestDifference(a, b);
+  if (jump > kMostJump) return Fail(setup, "jump of " + std::to_string(jump));
+  return {static_cast<double>(jump), ""};
+}
+
+// Workers, streaming and SIMD targets give the same bytes.
+Outcome Identical(test::Random* random) {
+  const Setup setup = RandomSetup({72, 8, 4, 12}, random);
+  const Variant first = RandomVariant(random);
+  std::string failure;
+  const std::vector<uint8_t> a = Refocused(setup, first, &failure);
+  for (int round = 0; round < 2; ++round) {
+    const Variant second = RandomVariant(random);
+    const std::vector<uint8_t> b = Refocused(setup, second, &failure);
+    if (!failure.empty()) return Fail(setup, failure);
+    if (a != b) {
+      return Fail(setup, "'" + first.Text() + "' and '" + second.Text() + "' differ by " +
+                             std::to_string(LargestDifference(a, b)));
+    }
+  }
+  return {0, ""};
+}
+
+}  // namespace starfocus::stress

@@ -1,0 +1,28 @@
+// The families of stress cases.
+#ifndef STARFOCUS_TESTS_STRESS_FAMILIES_H_
+#define STARFOCUS_TESTS_STRESS_FAMILIES_H_
+
+#include "tests/stress/stress.h"
+
+namespace starfocus::stress {
+
+// Pictures whose result is known or bounded.
+Outcome Constant(test::Random* random);
+Outcome Squares(test::Random* random);
+Outcome Limits(test::Random* random);
+Outcome Thresholds(test::Random* random);
+Outcome FarFocus(test::Random* random);
+Outcome Extremes(test::Random* random);
+Outcome Noise(test::Random* random);
+Outcome Energy(test::Random* random);
+Outcome Steps(test::Random* random);
+
+// Refocusings that must agree with each other.
+Outcome Mirrors(test::Random* random);
+Outcome SideViews(test::Random* random);
+Outcome Continuity(test::Random* random);
+Outcome Identical(test::Random* random);
+
+}  // namespace starfocus::stress
+
+#endif  // STARFOCUS_TESTS_STRESS_FAMILIES_H_

@@ -1,0 +1,269 @@
+// Families of pictures whose result is known or bounded.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/stress/families.h"
+#include "tests/stress/setup.h"
+
+namespace starfocus::stress {
+namespace {
+
+// Mean brightness may change by this, in gray levels.
+constexpr double kMostEnergy = 0.05;
+// Inverting a picture inverts the result up to the rounding of halves: once per pixel at layer 0,
+// a few times on the way to a layer and back.
+constexpr int kMostInversion = 2;
+// The resampling filters have negative lobes: overshoot as a part of the step.
+constexpr double kMostOvershoot = 0.15;
+
+Outcome Fail(const Setup& setup, const std::string& what) {
+  return {0, what + ": " + setup.Text()};
+}
+
+void Invert(Setup* setup) {
+  for (auto& picture : setup->scene.pictures) {
+    for (uint8_t& sample : picture) sample = static_cast<uint8_t>(255 - sample);
+  }
+}
+
+bool MayResample(const Setup& setup) {
+  return setup.params.mode == SF_MODE_BLOCK && setup.config.max_layer > 0;
+}
+
+// Smallest and largest sample of the views.
+struct Levels {
+  int low = 255, high = 0;
+};
+Levels LevelsOf(const Setup& setup) {
+  Levels levels;
+  for (const auto& picture : setup.scene.pictures) {
+    for (size_t i = 0; i < picture.size(); ++i) {
+      if (i % setup.scene.stride >= 3 * static_cast<size_t>(setup.scene.width)) continue;
+      levels.low = std::min<int>(levels.low, picture[i]);
+      levels.high = std::max<int>(levels.high, picture[i]);
+    }
+  }
+  return levels;
+}
+
+// The inverted light field must give the inverted picture, and no level may lie outside those of
+// the views where all weights are positive. The error is the largest difference.
+Outcome CheckInversion(Setup setup, test::Random* random) {
+  std::string failure;
+  const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random), &failure);
+  if (!failure.empty()) return Fail(setup, failure);
+  if (!MayResample(setup)) {
+    const Levels levels = LevelsOf(setup);
+    for (const uint8_t sample : plain) {
+      if (sample < levels.low || sample > levels.high) {
+        return Fail(setup, "level " + std::to_string(sample) + " outside those of the views");
+      }
+    }
+  }
+  Setup inverted = setup;
+  Invert(&inverted);
+  const std::vector<uint8_t> other = Refocused(inverted, RandomVariant(random), &failure);
+  if (!failure.empty()) return Fail(setup, failure);
+  Outcome outcome;
+  for (size_t i = 0; i < plain.size(); ++i) {
+    outcome.error = std::max<double>(outcome.error, std::abs(plain[i] + other[i] - 255));
+  }
+  // Deblocking compares rounded differences with a threshold, and may decide differently.
+  const bool deblocked = MayResample(setup) && setup.config.deblocking > 0;
+  const double most = deblocked ? setup.config.deblocking + kMostInversion : kMostInversion;
+  if (outcome.error > most)
+    return Fail(setup, "inverted picture differs by " + std::to_string(int(outcome.error)));
+  return outcome;
+}
+
+void Fill(test::Scene* scene, uint8_t red, uint8_t green, uint8_t blue) {
+  const uint8_t colour[3] = {red, green, blue};
+  for (int view = 0; view < scene->views(); ++view) {
+    for (int y = 0; y < scene->height; ++y) {
+      for (int x = 0; x < scene->width; ++x) std::copy_n(colour, 3, scene->Pixel(view, x, y));
+    }
+  }
+}
+
+// Refocuses a picture of one colour; the error is the largest change.
+Outcome CheckConstant(Setup setup, test::Random* random) {
+  const uint8_t colour[3] = {random->Byte(), random->Byte(),
+                             static_cast<uint8_t>(255 * random->Int(0, 1))};
+  Fill(&setup.scene, colour[0], colour[1], colour[2]);
+  std::string failure;
+  const std::vector<uint8_t> out = Refocused(setup, RandomVariant(random), &failure);
+  if (!failure.empty()) return Fail(setup, failure);
+  Outcome outcome;
+  for (size_t i = 0; i < out.size(); ++i) {
+    outcome.error = std::max<double>(outcome.error, std::abs(out[i] - colour[i % 3]));
+  }
+  if (outcome.error != 0) return Fail(setup, "constant picture changed");
+  return outcome;
+}
+
+// The whole range of d as an aperture so narrow that the blur stays small.
+Setup RangeSetup(float low, float high, double radius, test::Random* random) {
+  constexpr int kViews[] = {1, 5, 9, 17};
+  Setup setup;
+  setup.scene = test::EmptyScene(random->Int(1, 24), random->Int(1, 24), kViews[random->Int(0, 3)],
+                                 low, high);
+  SetDepth(static_cast<Depth>(random->Int(0, 4)), &setup.scene, random);
+  SetColours(static_cast<Colours>(random->Int(0, 2)), &setup.scene, random);
+  RandomLens(radius, 4, &setup, random);
+  return setup;
+}
+
+}  // namespace
+
+Outcome Constant(test::Random* random) {
+  return CheckConstant(RandomSetup({40, 8, 4, 8}, random), random);
+}
+
+Outcome Squares(test::Random* random) {
+  Setup setup = RandomSetup({40, 8, 4, 8}, random);
+  test::Scene& scene = setup.scene;
+  Fill(&scene, 0, 0, 0);
+  const int side = random->Int(1, std::max(scene.width, scene.height));
+  const int x0 = random->Int(1 - side, scene.width - 1);
+  const int y0 = random->Int(1 - side, scene.height - 1);
+  for (int view = 0; view < scene.views(); ++view) {
+    for (int y = std::max(0, y0); y < std::min(scene.height, y0 + side); ++y) {
+      for (int x = std::max(0, x0); x < std::min(scene.width, x0 + side); ++x) {
+        std::fill_n(scene.Pixel(view, x, y), 3, uint8_t{255});
+      }
+    }
+  }
+  return CheckInversion(setup, random);
+}
+
+Outcome Limits(test::Random* random) {
+  // The largest benchmark has 205,000 views: rarely, and of a pixel or two.
+  const int kind = random->Int(0, 63);
+  Setup setup;
+  constexpr int kViews[] = {1, 5, 9, 17};
+  const int side = kind == 0 ? 1 : kind < 4 ? 2 : 5;
+  const float spread = static_cast<float>(random->Int(0, 1) * random->Real(0, 200));
+  setup.scene = test::EmptyScene(random->Int(1, side), random->Int(1, side),
+                                 kViews[random->Int(0, 3)], -spread, spread);
+  SetDepth(static_cast<Depth>(random->Int(0, 4)), &setup.scene, random);
+  SetColours(Colours::kExtreme, &setup.scene, random);
+  const double radius = kind == 0 ? 16 : kind < 4 ? SF_MAX_BLUR : random->Int(13, 30);
+  RandomLens(radius, 4, &setup, random);
+  setup.params.mode = kind == 0 ? int{SF_MODE_BENCHMARK} : random->Int(0, 1) + 2;
+  setup.config.largest_block = 32;
+  if (setup.Radius() > SF_MAX_BLUR)
+    setup.params.aperture *= SF_MAX_BLUR / setup.Radius() * 0.999999;
+  FitBlur(&setup);
+  return random->Int(0, 1) == 0 ? CheckConstant(setup, random) : CheckInversion(setup, random);
+}
+
+Outcome Thresholds(test::Random* random) {
+  constexpr int kSides[] = {1, 15, 16, 17, 31, 32, 33, 47, 48, 49, 63, 64, 65};
+  const int width = kSides[random->Int(0, random->Int(2, 12))];
+  const int height = kSides[random->Int(0, random->Int(2, 6))];
+  Setup setup = FlatSetup(width, height, RandomRadius(8, random), random);
+  SetColours(static_cast<Colours>(random->Int(0, 2)), &setup.scene, random);
+  return CheckInversion(setup, random);
+}
+
+Outcome FarFocus(test::Random* random) {
+  const Bounds bounds = {24, 6, 4, static_cast<float>(random->Int(0, 1) == 0 ? 2 : 100)};
+  Setup setup = RandomSetup(bounds, random);
+  const double distance = std::pow(10.0, random->Real(1, 5.9));
+  setup.params.focus = random->Int(0, 1) == 0 ? distance : -distance;
+  setup.params.aperture = 1;
+  setup.params.aperture = std::min(1.0, random->Real(0.01, 6) / setup.Radius());
+  FitBlur(&setup);
+  RandomMode(4, &setup, random);
+  return random->Int(0, 1) == 0 ? CheckConstant(setup, random) : CheckInversion(setup, random);
+}
+
+Outcome Extremes(test::Random* random) {
+  const float most = static_cast<float>(SF_MAX_DISPARITY);
+  const int kind = random->Int(0, 2);
+  const float low = kind == 0 ? most - 1.0f / 64 * random->Int(0, 300) : -most;
+  const float high = kind == 1 ? -most + 1.0f / 64 * random->Int(0, 300) : most;
+  const Setup setup = RangeSetup(low, high, RandomRadius(8, random), random);
+  return random->Int(0, 1) == 0 ? CheckConstant(setup, random) : CheckInversion(setup, random);
+}
+
+Outcome Noise(test::Random* random) {
+  Setup setup = RandomSetup({32, 8, 4, 16}, random);
+  SetDepth(Depth::kNoisy, &setup.scene, random);
+  SetColours(Colours::kNoise, &setup.scene, random);
+  return CheckInversion(setup, random);
+}
+
+// Content whose second half period is the first one's inverse around a whole level: what rounding
+// does to one half, it undoes in the other, so that the mean must stay.
+Outcome Energy(test::Random* random) {
+  constexpr int kPeriod = 16;
+  const double radius = RandomRadius(random->Int(0, 3) == 0 ? 7 : 4, random);
+  const int margin = static_cast<int>(radius) + 16;
+  const int side = 2 * margin + kPeriod;
+  Setup setup = FlatSetup(side, side, radius, random);
+  const int mean = random->Int(20, 235);
+  // Room for what the layers' filters may overshoot: nothing is clipped.
+  const int amplitude = std::max(1, static_cast<int>(std::min(mean, 255 - mean) / 1.8));
+  int pattern[kPeriod][kPeriod];
+  for (auto& row : pattern) {
+    for (int x = 0; x < kPeriod / 2; ++x) {
+      row[x] = mean + random->Int(-amplitude, amplitude);
+      row[x + kPeriod / 2] = 2 * mean - row[x];
+    }
+  }
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      std::fill_n(setup.scene.Pixel(0, x, y), 3,
+                  static_cast<uint8_t>(pattern[y % kPeriod][x % kPeriod]));
+    }
+  }
+  std::string failure;
+  const std::vector<uint8_t> out = Refocused(setup, RandomVariant(random), &failure);
+  if (!failure.empty()) return Fail(setup, failure);
+  int64_t sum = 0;
+  for (int y = margin; y < margin + kPeriod; ++y) {
+    for (int x = margin; x < margin + kPeriod; ++x) sum += out[3 * size_t(y * side + x)];
+  }
+  const double got = static_cast<double>(sum) / (kPeriod * kPeriod);
+  if (std::fabs(got - mean) > kMostEnergy) {
+    return Fail(setup, "mean " + std::to_string(got) + " instead of " + std::to_string(mean));
+  }
+  return {std::fabs(got - mean), ""};
+}
+
+// The error is the overshoot as a part of the step.
+Outcome Steps(test::Random* random) {
+  const int length = random->Int(8, 72), across = random->Int(1, 20);
+  const bool upright = random->Int(0, 1) == 1;
+  Setup setup = FlatSetup(upright ? across : length, upright ? length : across,
+                          RandomRadius(10, random), random);
+  const int low = random->Int(0, 120), high = random->Int(low + 1, 255);
+  const int edge = random->Int(1, length - 1);
+  test::Scene& scene = setup.scene;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t((upright ? y : x) < edge ? low : high));
+    }
+  }
+  std::string failure;
+  const std::vector<uint8_t> out = Refocused(setup, RandomVariant(random), &failure);
+  if (!failure.empty()) return Fail(setup, failure);
+  const bool positive = !MayResample(setup);
+  int over = 0;
+  for (int k = 0; k < length; ++k) {
+    const auto at = [&](int along) {
+      return int{out[3 * size_t(upright ? along * across : along)]};
+    };
+    over = std::max({over, low - at(k), at(k) - high});
+    if (positive && k > 0 && at(k) < at(k - 1)) return Fail(setup, "a step falls");
+  }
+  const double most = positive ? 0 : kMostOvershoot * (high - low) + 1;
+  if (over > most)
+    return Fail(setup, "overshoot of " + std::to_string(over) + " in a step of " +
+                           std::to_string(high - low));
+  return {static_cast<double>(over) / (high - low), ""};
+}
+
+}  // namespace starfocus::stress

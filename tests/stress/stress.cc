@@ -1,0 +1,73 @@
+#include "tests/stress/stress.h"
+
+#include <chrono>
+
+#include "tests/stress/families.h"
+#include "tests/stress/ranges.h"
+
+namespace starfocus::stress {
+
+const std::vector<Family>& Families() {
+  static const std::vector<Family> families = {
+      {"constant", "gray levels off the constant", 8, Constant},
+      {"squares", "gray levels off the inverse of the inverted picture", 6, Squares},
+      {"limits", "gray levels off the inverse or the constant", 1, Limits},
+      {"thresholds", "gray levels off the inverse of the inverted picture", 6, Thresholds},
+      {"far-focus", "gray levels off the inverse or the constant", 6, FarFocus},
+      {"extremes", "gray levels off the inverse or the constant", 6, Extremes},
+      {"noise", "gray levels off the inverse of the inverted picture", 6, Noise},
+      {"energy", "gray levels of the mean", 2, Energy},
+      {"steps", "overshoot as a part of the step", 6, Steps},
+      {"mirrors", "gray levels off the mirrored picture", 4, Mirrors},
+      {"side-views", "gray levels (flat scenes read no side view)", 4, SideViews},
+      {"continuity", "gray levels per step of 1/64 in focus, 1/256 in aperture", 6, Continuity},
+      {"identical", "gray levels between workers, streaming, SIMD targets", 6, Identical},
+  };
+  return families;
+}
+
+Outcome RunCase(const Family& family, uint64_t number) {
+  test::Random random(number);
+  for (int k = 0; k < 8; ++k) random.Next();  // neighbouring seeds start alike
+  ForgetRangeFailure();
+  Outcome outcome = family.run(&random);
+  if (outcome.failure.empty()) outcome.failure = RangeFailure();
+  return outcome;
+}
+
+Report RunStress(const Options& options, const std::function<void(const std::string&)>& failed) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  Report report;
+  for (const Family& family : Families()) {
+    if (!options.family.empty() && options.family != family.name) continue;
+    report.families.emplace_back();
+    report.families.back().family = &family;
+  }
+  uint64_t number = options.seed * 1000000000u;
+  while (!report.families.empty() && seconds() < options.seconds) {
+    for (FamilyReport& part : report.families) {
+      for (int k = 0; k < part.family->share && seconds() < options.seconds; ++k, ++number) {
+        const Outcome outcome = RunCase(*part.family, number);
+        ++part.cases;
+        if (!outcome.failure.empty()) {
+          ++part.failures;
+          failed("starfocus stress --family " + std::string(part.family->name) + " --case " +
+                 std::to_string(number) + "  # " + outcome.failure);
+        } else if (outcome.error > part.largest) {
+          part.largest = outcome.error;
+          part.largest_case = number;
+        }
+      }
+    }
+  }
+  for (const FamilyReport& part : report.families) {
+    report.cases += part.cases;
+    report.failures += part.failures;
+  }
+  report.seconds = seconds();
+  return report;
+}
+
+}  // namespace starfocus::stress
