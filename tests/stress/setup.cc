@@ -75,12 +75,12 @@ double Setup::Radius() const {
 
 std::string Setup::Text() const {
   return std::to_string(config.width) + "x" + std::to_string(config.height) + ", " +
-         std::to_string(config.views) + " views, " + kModes[params.mode] + ", rule " + std::to_string(params.rule) + ", disparity [" +
-         Number(config.disparity_min) + ", " + Number(config.disparity_max) + "], focus " +
-         Number(params.focus) + ", aperture " + Number(params.aperture) + ", max_blur " +
-         Number(config.max_blur) + ", block " + std::to_string(config.largest_block) + ", layers " +
-         std::to_string(config.max_layer) + ", deblocking " + std::to_string(config.deblocking) +
-         ", theta " + Number(config.theta);
+         std::to_string(config.views) + " views, " + kModes[params.mode] + ", rule " +
+         std::to_string(params.rule) + ", disparity [" + Number(config.disparity_min) + ", " +
+         Number(config.disparity_max) + "], focus " + Number(params.focus) + ", aperture " +
+         Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
+         std::to_string(config.largest_block) + ", layers " + std::to_string(config.max_layer) +
+         ", deblocking " + std::to_string(config.deblocking) + ", theta " + Number(config.theta);
 }
 
 std::string Variant::Text() const {
