@@ -82,7 +82,7 @@ Words Ffmpeg(const Files& files, double largest, int pictures, Image* map, doubl
 }
 
 Words Gegl(const Files& files, double largest, int pictures, Image*, double scale) {
-  Words words = {"gegl", files.centre, "-o", files.out.empty() ? "/dev/null.png" : files.out, "--"};
+  Words words = {"gegl", files.centre, "-o", files.out, "--"};
   if (files.out.empty()) words[3] = (fs::path(files.centre).parent_path() / "timed.ppm").string();
   for (int i = 0; i < pictures; ++i) {
     words.insert(words.end(), {"gegl:lens-blur", "radius=" + std::to_string(scale * largest),
@@ -150,7 +150,7 @@ struct Job {
 // Tries several ratios of the tool's unit to the blur radius and keeps the best picture.
 std::string Tune(const Job& job, const Image& truth, double* scale, ToolResult* result) {
   double best = -1;
-  for (const double tried : {0.35, 0.5, 0.7, 0.85, 1.0, 1.2}) {
+  for (const double tried : {0.35, 0.5, 0.7, 1.0}) {
     Image picture;
     double ignored = 0;
     std::string error = job.Make(tried, 1, true, &ignored);

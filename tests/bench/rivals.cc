@@ -36,6 +36,37 @@ void AddMixed(const uint8_t* a, int part, uint16_t weight, size_t count, uint16_
   }
 }
 
+// What part of the aperture disc is nearest to each view, in sums of 256, so that sums of bytes fit
+// 16 bits; the centre takes what rounding leaves.
+std::vector<uint16_t> DiscShares(int views) {
+  constexpr int kSteps = 100;
+  std::vector<int> counts(size_t(views), 0);
+  int all = 0;
+  for (int j = -kSteps; j <= kSteps; ++j) {
+    for (int i = -kSteps; i <= kSteps; ++i) {
+      if (i * i + j * j > kSteps * kSteps) continue;
+      int nearest = 0;
+      double least = 9;
+      for (int k = 0; k < views; ++k) {
+        double u = 0, v = 0;
+        sf_view_position(k, &u, &v);
+        const double distance = std::hypot(u - double(i) / kSteps, v - double(j) / kSteps);
+        if (distance < least) least = distance, nearest = k;
+      }
+      ++counts[size_t(nearest)];
+      ++all;
+    }
+  }
+  std::vector<uint16_t> weights;
+  int sum = 0;
+  for (const int count : counts) {
+    weights.push_back(uint16_t(256 * count / all));
+    sum += weights.back();
+  }
+  weights[0] = uint16_t(weights[0] + 256 - sum);
+  return weights;
+}
+
 }  // namespace
 
 ShiftAndAdd::ShiftAndAdd(const LightField& data, int views, double focus)
@@ -44,9 +75,7 @@ ShiftAndAdd::ShiftAndAdd(const LightField& data, int views, double focus)
   pad_ = 3 * (int(std::ceil(std::fabs(focus))) + 2);
   row_.resize(3 * width + 2 * size_t(pad_));
   sum_.resize(3 * width);
-  // Weights sum to 256, so that sums fit 16 bits; the centre takes what rounding leaves.
-  weights_.assign(size_t(views), uint16_t(256 / views));
-  weights_[0] = uint16_t(weights_[0] + 256 % views);
+  weights_ = DiscShares(views);
 }
 
 void ShiftAndAdd::AddView(const Image& view, int index, int y) {

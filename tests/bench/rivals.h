@@ -10,7 +10,7 @@
 
 namespace starfocus::bench {
 
-// The mean of `views` captured views, each shifted by its share of `focus` with bilinear
+// The weighted mean of `views` captured views, each shifted by its share of `focus` with bilinear
 // interpolation: the picture of a lens that consists of so many pinholes (aperture 1).
 class ShiftAndAdd {
  public:
