@@ -73,8 +73,8 @@ int main(int argc, char** argv) {
   TimedEngine timed;
   std::string error = Prepare(field, task, 0, 1, &timed);
   timed.params.clock = nullptr;  // asking the time costs instructions
-  double seconds = 0;
-  if (error.empty()) error = RunOnce(field, task, &timed, &seconds);
+  Elapsed ignored;
+  if (error.empty()) error = RunOnce(field, task, &timed, &ignored);
   if (!error.empty()) {
     std::fprintf(stderr, "%s\n", error.c_str());
     return 1;

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "platform/clock.h"
 #include "tests/bench/metrics.h"
 #include "tests/bench/rivals.h"
 #include "tests/bench/timed_engine.h"
@@ -17,17 +16,17 @@ struct Run {
   const Entry* entry;
   TimedEngine timed;
   std::unique_ptr<ShiftAndAdd> shift_and_add;
-  std::vector<double> seconds;
+  std::vector<double> seconds, walls;
   size_t wanted = 1;
 };
 
-std::string Once(const Field& field, Run* run, double* seconds) {
+std::string Once(const Field& field, Run* run, Elapsed* elapsed) {
   if (run->shift_and_add == nullptr) {
-    return RunOnce(field, run->entry->task, &run->timed, seconds);
+    return RunOnce(field, run->entry->task, &run->timed, elapsed);
   }
-  const double start = Seconds();
+  const Stopwatch stopwatch;
   run->shift_and_add->Run(&run->timed.picture);
-  *seconds = Seconds() - start;
+  *elapsed = stopwatch.Get();
   return "";
 }
 
@@ -42,14 +41,19 @@ std::string Start(const Group& group, const Entry& entry, Run* run) {
   return "";
 }
 
+void Note(const Elapsed& elapsed, Run* run) {
+  run->seconds.push_back(elapsed.cpu);
+  run->walls.push_back(elapsed.wall);
+}
+
 // A first run warms up and tells how many more there is time for; one that takes longer than the
 // patience counts itself.
 std::string WarmUp(const Field& field, const Settings& settings, Run* run) {
-  double seconds = 0;
-  const std::string error = Once(field, run, &seconds);
-  const double fit = settings.patience / std::max(seconds, 1e-9);
+  Elapsed elapsed;
+  const std::string error = Once(field, run, &elapsed);
+  const double fit = settings.patience / std::max(elapsed.wall, 1e-9);
   run->wanted = size_t(std::clamp(fit, 1.0, double(settings.repetitions)));
-  if (seconds > settings.patience) run->seconds.push_back(seconds);
+  if (elapsed.wall > settings.patience) Note(elapsed, run);
   return error;
 }
 
@@ -57,10 +61,10 @@ std::string TakeTurns(const Field& field, const Settings& settings, std::vector<
   for (int turn = 0; turn < settings.repetitions; ++turn) {
     for (Run& run : *runs) {
       if (run.seconds.size() >= run.wanted) continue;
-      double seconds = 0;
-      const std::string error = Once(field, &run, &seconds);
+      Elapsed elapsed;
+      const std::string error = Once(field, &run, &elapsed);
       if (!error.empty()) return error;
-      run.seconds.push_back(seconds);
+      Note(elapsed, &run);
     }
   }
   return "";
@@ -131,6 +135,7 @@ Row MakeRow(const Group& group, const std::vector<Run>& runs, const Run& run) {
   }
   const double median = Median(run.seconds);
   row.ms = 1e3 * median;
+  row.wall_ms = 1e3 * Median(run.walls);
   row.spread = Spread(run.seconds);
   row.runs = int(run.seconds.size());
   const Run* frame = FindMode(runs, "frame", row.task.views);

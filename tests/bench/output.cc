@@ -38,6 +38,7 @@ Json Describe(const Machine& machine, const Row& row) {
   AddQuality("benchmark", row.benchmark, &json);
   AddQuality("truth", row.truth, &json);
   json["ms"] = row.ms;
+  json["wall_ms"] = Number(row.wall_ms);
   json["spread"] = row.spread;
   json["runs"] = row.runs;
   json["ns_per_pixel"] = row.ns_per_pixel();

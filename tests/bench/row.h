@@ -39,7 +39,8 @@ struct Row {
   int n = 0;
   double rendered_views = 0, rendered_samples = 0;
   Quality benchmark, truth;   // against the benchmark mode and ray tracing
-  double ms = 0, spread = 0;  // median and relative median deviation
+  double wall_ms = kNone;     // median by the wall clock
+  double ms = 0, spread = 0;  // of processor time: median and relative median deviation
   int runs = 0;
   double ratio_frame = kNone, ratio_blur = kNone;  // time of those in the same run / this time
   size_t workspace = 0;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "lib/engine.h"
-#include "platform/clock.h"
 #include "simd/kernels.h"
 
 namespace starfocus::bench {
@@ -12,7 +11,7 @@ namespace {
 
 const char* const kModes[] = {"frame", "benchmark", "block", "blur"};
 
-uint64_t Nanoseconds() { return static_cast<uint64_t>(Seconds() * 1e9); }
+uint64_t Nanoseconds() { return static_cast<uint64_t>(CpuSeconds() * 1e9); }
 
 // A run-time engine takes the best target; the bench may want another.
 std::string UseTarget(const std::string& name, sf_engine* engine) {
@@ -59,13 +58,13 @@ std::string Prepare(const Field& field, const Task& task, double focus, double a
   return UseTarget(task.target, timed->engine);
 }
 
-std::string RunOnce(const Field& field, const Task& task, TimedEngine* timed, double* seconds) {
+std::string RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed) {
   const sf_light_field rows = Rows(field.data, task.views);
   Image& out = timed->picture;
-  const double start = Seconds();
+  const Stopwatch stopwatch;
   const sf_status status = sf_refocus(timed->engine, &timed->params, &rows, out.pixels.data(),
                                       out.stride(), nullptr, nullptr, &timed->report);
-  *seconds = Seconds() - start;
+  *elapsed = stopwatch.Get();
   if (status == SF_OK) return "";
   return Expected(field.name, "a light field that the engine refocuses", sf_status_string(status));
 }

@@ -8,6 +8,7 @@
 
 #include "tests/bench/field.h"
 #include "tests/bench/row.h"
+#include "tests/bench/stopwatch.h"
 
 namespace starfocus::bench {
 
@@ -33,8 +34,8 @@ int ModeOf(const std::string& name);
 std::string Prepare(const Field& field, const Task& task, double focus, double aperture,
                     TimedEngine* timed);
 
-// Refocuses once; *seconds is the time inside sf_refocus.
-std::string RunOnce(const Field& field, const Task& task, TimedEngine* timed, double* seconds);
+// Refocuses once; *elapsed is the time inside sf_refocus.
+std::string RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed);
 
 }  // namespace starfocus::bench
 
