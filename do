@@ -232,9 +232,9 @@ bench() {
   build starfocus
   build starfocus-bench
   mkdir -p build/bench
-  bench_scene portrait-small --name portrait --size 512x384 --truth 3.5,1
+  bench_scene portrait-small --name portrait --size 512x384 --truth=3.5,1
   if [ -z "${1:-}" ]; then
-    bench_scene portrait --name portrait --truth 7.84,1 --truth -8.6,1
+    bench_scene portrait --name portrait --truth=7.84,1 --truth=-8.6,1
     bench_scene ramp --name ramp --size 512x384
     for folder in ../shared/data/*/; do
       [ -f "$folder/disparity.pfm" ] && fields="$fields $folder"

@@ -31,7 +31,8 @@ std::string Script(const Drawing& drawing) {
                        std::to_string(number++) +
                        "'\nset encoding utf8\nset grid lc rgb '#dddddd'\n";
   script += "set title " + Quote(drawing.title) + " noenhanced\nset xlabel " + Quote(drawing.x) +
-            "\nset ylabel " + Quote(drawing.y) + "\nset key outside bottom horizontal noenhanced\n";
+            " noenhanced\nset bmargin 6\nset ylabel " + Quote(drawing.y) +
+            "\nset key outside bottom horizontal noenhanced\n";
   script += drawing.settings + "plot ";
   std::string data;
   for (size_t i = 0; i < drawing.curves.size(); ++i) {
@@ -81,7 +82,9 @@ std::string Plane(const Rows& rows, const std::string& field, const char* agains
   drawing.x = "ms per picture";
   drawing.y = "PSNR, dB";
   drawing.style = "points";
-  drawing.settings = "set logscale x\nset offsets graph 0.05, 0.05, 0.05, 0.05\n";
+  drawing.settings =
+      "set logscale x\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset key outside "
+      "right vertical\n";
   const Rows kept = Filter(rows, [&](const Row& row) {
     return row.field == field && row.aperture == 1 && std::isfinite(quality(row)) &&
            (row.study == "main" || row.study == "views" || row.study == "options" ||
@@ -154,7 +157,7 @@ std::string Growth(const Rows& rows, const char* study, const char* title, const
   drawing.x = x;
   drawing.y = "ms";
   drawing.settings = "set logscale xy\n";
-  drawing.caption = "Slopes from " + Fixed(from, 1) + " on:";
+  drawing.caption = "Slopes from " + Fixed(from, 2) + " on:";
   for (const char* mode : {"frame", "block", "blur"}) {
     const Rows some =
         Filter(rows, [&](const Row& row) { return row.study == study && row.task.mode == mode; });
@@ -179,7 +182,7 @@ std::string GrowthPlots(const Rows& rows) {
   // A blur radius of 0 stands at 0.5 on the logarithmic axis.
   return Growth(rows, "radius", "Time against the largest blur radius (0 drawn at 0.5)",
                 "r_max, pixels", 4, [](const Row& row) { return std::max(0.5, row.r_max); }) +
-         Growth(rows, "pixels", "Time against the size, r_max 8, 5 views", "megapixels", 0.5,
+         Growth(rows, "pixels", "Time against the size, r_max 8, 5 views", "megapixels", 0.45,
                 [](const Row& row) { return row.pixels() / 1e6; });
 }
 
