@@ -95,6 +95,7 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--views", choice.views, "Smaller star sets, in block mode")->delimiter(',');
   app->add_option("--max-layers", choice.max_layers, "0, 1, 2")->delimiter(',');
   app->add_option("--largest-blocks", choice.largest_blocks, "32, 64, 128, 256")->delimiter(',');
+  app->add_flag("--rules", choice.rules, "Both rules for N, in block and frame mode");
   app->add_option("--targets", choice.targets, "SIMD targets, or all")->delimiter(',');
   app->add_option("--repetitions", settings.repetitions, "Of every task")
       ->check(CLI::Range(1, 1000));

@@ -29,6 +29,9 @@ Json Describe(const Machine& machine, const Row& row) {
   json["views"] = row.task.views;
   json["max_layer"] = row.task.max_layer;
   json["largest_block"] = row.task.largest_block;
+  json["rule"] = row.task.rule == SF_RULE_DEFAULT ? "default"
+                 : row.task.rule == SF_RULE_PAPER ? "paper"
+                                                  : "cells";
   json["aperture"] = row.aperture;
   json["focus"] = row.focus;
   json["quantile"] = Number(row.quantile);

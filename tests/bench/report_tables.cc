@@ -35,8 +35,8 @@ double WithLayers(const Rows& rows, const std::string& field, int layer, const V
   return Mean(Filter(rows,
                      [&](const Row& row) {
                        return row.study == "options" && row.field == field &&
-                              row.task.max_layer == layer && row.task.largest_block == 64 &&
-                              std::isfinite(row.quantile);
+                              row.task.max_layer == layer && row.task.rule == SF_RULE_DEFAULT &&
+                              row.task.largest_block == 64 && std::isfinite(row.quantile);
                      }),
               value);
 }

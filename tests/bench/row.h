@@ -16,7 +16,8 @@ struct Task {
   int views = 0;
   int max_layer = SF_LAYERS - 1;
   int largest_block = 64;
-  std::string target;  // SIMD target; empty: the best one
+  int rule = SF_RULE_DEFAULT;  // sf_rule
+  std::string target;          // SIMD target; empty: the best one
 };
 
 inline constexpr double kNone = NAN;  // not measured

@@ -35,6 +35,13 @@ void AddOptions(const Field& field, const Choice& choice, Group* group) {
     group->entries.push_back(base);
     group->entries.back().task.max_layer = layer;
   }
+  for (const char* mode : {"block", "frame"}) {
+    for (const int rule : {SF_RULE_PAPER, SF_RULE_CELLS}) {
+      if (!choice.rules) continue;
+      group->entries.push_back(MakeEntry("options", mode, field.views()));
+      group->entries.back().task.rule = rule;
+    }
+  }
   for (const int side : choice.largest_blocks) {
     group->entries.push_back(base);
     group->entries.back().task.largest_block = side;
@@ -93,6 +100,7 @@ std::string MeasureField(const Field& field, const Choice& choice, const Setting
   for (const Truth& truth : field.truths) {
     Group group = {&field, truth.aperture, truth.focus, kNone, {}};
     AddModes(field, choice, &group);
+    if (truth.aperture == 1) AddOptions(field, choice, &group);
     if (truth.aperture == 1 && settings.rivals) AddRivals(field, &group);
     groups.push_back(group);
   }

@@ -51,6 +51,7 @@ std::string Prepare(const Field& field, const Task& task, double focus, double a
   }
   sf_params_init(&timed->params);
   timed->params.mode = ModeOf(task.mode);
+  timed->params.rule = task.rule;
   timed->params.focus = focus;
   timed->params.aperture = aperture;
   timed->params.clock = Nanoseconds;
