@@ -15,6 +15,7 @@ struct Curve {
 
 struct Drawing {
   std::string title, x, y, settings, caption;
+  int height = 430;
   const char* style = "linespoints";
   std::vector<Curve> curves;
 };
@@ -27,8 +28,8 @@ std::string Quote(const std::string& text) {
 
 std::string Script(const Drawing& drawing) {
   static int number = 0;  // SVG names must differ within a page
-  std::string script = "set terminal svg size 640,430 dynamic font 'sans-serif,13' name 'p" +
-                       std::to_string(number++) +
+  std::string script = "set terminal svg size 640," + std::to_string(drawing.height) +
+                       " dynamic font 'sans-serif,13' name 'p" + std::to_string(number++) +
                        "'\nset encoding utf8\nset grid lc rgb '#dddddd'\n";
   script += "set title " + Quote(drawing.title) + " noenhanced\nset xlabel " + Quote(drawing.x) +
             " noenhanced\nset bmargin 6\nset ylabel " + Quote(drawing.y) +
@@ -82,9 +83,10 @@ std::string Plane(const Rows& rows, const std::string& field, const char* agains
   drawing.x = "ms per picture";
   drawing.y = "PSNR, dB";
   drawing.style = "points";
+  drawing.height = 600;  // room for many names
   drawing.settings =
-      "set logscale x\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset key outside "
-      "right vertical\n";
+      "set logscale x\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
+      "set bmargin 14\n";
   const Rows kept = Filter(rows, [&](const Row& row) {
     return row.field == field && row.aperture == 1 && std::isfinite(quality(row)) &&
            (row.study == "main" || row.study == "views" || row.study == "options" ||

@@ -102,8 +102,8 @@ std::string TableFour(const Rows& rows) {
          "the "
          "gain of each ingredient. Means over quantiles of the disparity map.</p>" +
          Table({"light field", "frame", "blur", "block", "9 views", "5 views", "s frame", "s blur",
-                "s block", "L 0", "L 1", "L 2", "block / frame", "block / blur", "blocks", "+ L 1",
-                "+ L 2"},
+                "s block", "L 0", "L 1", "L 2", "times as fast as frame", "as blur", "blocks",
+                "+ L 1", "+ L 2"},
                body);
 }
 
