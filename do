@@ -20,6 +20,10 @@ usage: ./do COMMAND
           with every fixed-point range checked, then a few cases under valgrind
   fuzz [SECONDS]  run every fuzz target that long (60), new inputs kept in build/fuzz/work
   build   build Release into build/release (the program: build/release/starfocus)
+  bench   time and error of every mode, with a report: build/bench/report.html
+          --quick   small pictures, few of them: a minute or two
+          --check   only compares instruction counts with tests/bench/baseline.txt
+          --record  writes that file anew
   format  clang-format every source file
   help    this text
 
@@ -193,6 +197,58 @@ fuzz() {
   for target in $FUZZ_TARGETS; do fuzz_target "$target" "$1"; done
 }
 
+# require PACKAGE...: these too, for the commands that follow.
+require() {
+  PACKAGES="$PACKAGES $*"
+  install_missing
+}
+
+# bench_scene NAME ARGUMENT...: a scene of the bench, made once.
+bench_scene() {
+  local folder=build/bench/$1
+  shift
+  [ -f "$folder/meta.txt" ] || program "made the light field $folder" scene "$folder" "$@"
+}
+
+check_counts() {
+  require valgrind
+  build starfocus-bench-count
+  tests/bench/count.sh $BUILD "$1"
+}
+
+bench() {
+  local folder fields options
+  case "${1:-}" in
+    --check) check_counts check; return ;;
+    --record) check_counts record; return ;;
+    --quick)
+      fields=build/bench/portrait-small
+      options="--quantiles 0.1,0.5,0.9 --repetitions 3 --patience 0.5 --views 5,9 --max-layers 0,1 --rules
+        --targets all --largest-radius 16 --largest-size 1" ;;
+    '')
+      fields="build/bench/portrait build/bench/ramp"
+      options="--quantiles 0.1,0.3,0.5,0.7,0.9 --apertures 1,0.5,0.25 --views 5,9 --max-layers 0,1 --rules
+        --largest-blocks 32,128,256 --targets all --largest-radius 64 --largest-size 16" ;;
+    *) help >&2; exit 1 ;;
+  esac
+  require gnuplot-nox
+  build starfocus
+  build starfocus-bench
+  mkdir -p build/bench
+  bench_scene portrait-small --name portrait --size 512x384 --truth=3.5,1
+  if [ -z "${1:-}" ]; then
+    bench_scene portrait --name portrait --truth=7.84,1 --truth=-8.6,1
+    bench_scene ramp --name ramp --size 512x384
+    for folder in ../shared/data/*/; do
+      [ -f "$folder/disparity.pfm" ] && fields="$fields $folder"
+    done
+  fi
+  $BUILD/starfocus-bench $fields $options --sweep build/bench/portrait-small \
+    --revision "$(git rev-parse --short HEAD 2>/dev/null)" --csv build/bench/results.csv \
+    --json build/bench/results.json --html build/bench/report.html || fail "the bench failed"
+  echo "report: build/bench/report.html; rows: build/bench/results.csv and .json"
+}
+
 format() {
   command -v clang-format >/dev/null || fail "install the package clang-format first"
   find lib simd platform examples tests \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' \) \
@@ -204,6 +260,7 @@ case "${1:-help}" in
   test) run_tests ;;
   build) build ;;
   fuzz) fuzz "${2:-60}" ;;
+  bench) bench "${2:-}" ;;
   format) format ;;
   help | -h | --help) help ;;
   *) help >&2; exit 1 ;;

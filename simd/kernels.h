@@ -89,6 +89,13 @@ const Kernels& BestKernels();
 // The definition of every result, in plain C++.
 const Kernels& ReferenceKernels();
 
+// For tests and the bench, not for a run-time choice (it is slow and changes Highway's choice for
+// other threads while it runs): target `index` of those compiled in and supported here, the best
+// first; null past the last.
+const Kernels* KernelsOfTarget(size_t index);
+// The one of that name; null when there is none.
+const Kernels* FindKernels(const char* name);
+
 }  // namespace starfocus::simd
 
 #endif  // STARFOCUS_SIMD_KERNELS_H_

@@ -1,0 +1,33 @@
+// Lists the kernel tables of the machine's SIMD targets. Kept out of the engine's library: it
+// changes Highway's process-wide choice while it looks.
+#include <hwy/targets.h>
+
+#include <cstring>
+
+#include "simd/kernels.h"
+
+namespace starfocus::simd {
+
+const Kernels* KernelsOfTarget(size_t index) {
+  const Kernels* found = nullptr;
+  // Highway numbers better targets lower. One that was not compiled falls back to a worse one,
+  // which comes up again as itself.
+  for (int64_t rest = hwy::SupportedTargets(); rest != 0 && found == nullptr; rest &= rest - 1) {
+    hwy::SetSupportedTargetsForTest(rest & -rest);
+    const Kernels* kernels = &BestKernels();
+    const bool itself = std::strcmp(kernels->name, hwy::TargetName(rest & -rest)) == 0;
+    if (itself && index-- == 0) found = kernels;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  return found;
+}
+
+const Kernels* FindKernels(const char* name) {
+  const Kernels* kernels = nullptr;
+  for (size_t i = 0; (kernels = KernelsOfTarget(i)) != nullptr; ++i) {
+    if (std::strcmp(kernels->name, name) == 0) break;
+  }
+  return kernels;
+}
+
+}  // namespace starfocus::simd

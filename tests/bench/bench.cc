@@ -1,0 +1,122 @@
+// starfocus-bench: run time against error. See studies.h for what it measures.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "platform/file.h"
+#include "tests/bench/machine.h"
+#include "tests/bench/output.h"
+#include "tests/bench/report.h"
+#include "tests/bench/rivals.h"
+#include "tests/bench/studies.h"
+#include "tests/bench/timed_engine.h"
+
+namespace starfocus::bench {
+namespace {
+
+struct Options {
+  std::vector<std::string> folders;
+  std::string csv, json, html, revision, sweep;
+  Choice choice;
+  Settings settings;
+};
+
+std::string Save(const std::string& path, const std::string& text) {
+  return path.empty() ? "" : WriteFile(path, Bytes(text.begin(), text.end()));
+}
+
+std::string Check(const Options& options) {
+  for (const std::string& mode : options.choice.modes) {
+    if (ModeOf(mode) < 0) {
+      return Expected("--modes", "block, frame, benchmark or blur", "'" + mode + "'");
+    }
+  }
+  for (const std::string& path : {options.csv, options.json, options.html}) {
+    const std::string error = path.empty() ? "" : CheckOutputPath(path);
+    if (!error.empty()) return error;
+  }
+  if (options.choice.quantiles.empty()) return Expected("--quantiles", "at least one", "none");
+  return "";
+}
+
+std::vector<std::string> MissingTools() {
+  std::vector<std::string> missing;
+  for (const Tool& tool : Tools()) {
+    if (!IsInstalled(tool)) missing.push_back(tool.name);
+  }
+  return missing;
+}
+
+std::string MeasureSweeps(const Options& options, std::vector<Row>* rows) {
+  if (options.sweep.empty()) return "";
+  Field field;
+  std::string error = LoadField(options.sweep, &field);
+  if (error.empty()) error = MeasureRadii(field, options.choice, options.settings, rows);
+  if (error.empty()) error = MeasureSizes(field, options.choice, options.settings, rows);
+  return error;
+}
+
+std::string Run(Options options) {
+  std::string error = Check(options);
+  options.settings.folder = std::filesystem::temp_directory_path().string();
+  if (!options.html.empty()) {
+    options.settings.folder = std::filesystem::absolute(options.html).parent_path().string();
+  }
+  std::vector<Row> rows;
+  for (size_t i = 0; i < options.folders.size() && error.empty(); ++i) {
+    Field field;
+    error = LoadField(options.folders[i], &field);
+    if (error.empty()) error = MeasureField(field, options.choice, options.settings, &rows);
+  }
+  if (error.empty()) error = MeasureSweeps(options, &rows);
+  if (!error.empty()) return error;
+  const Machine machine = ThisMachine(options.revision);
+  error = Save(options.csv, ToCsv(machine, rows));
+  if (error.empty()) error = Save(options.json, ToJson(machine, rows));
+  if (error.empty() && !options.html.empty()) {
+    std::string page;
+    error = MakeReport({machine, rows, MissingTools()}, &page);
+    if (error.empty()) error = Save(options.html, page);
+  }
+  return error;
+}
+
+void AddOptions(CLI::App* app, Options* options) {
+  Choice& choice = options->choice;
+  Settings& settings = options->settings;
+  app->add_option("DIRS", options->folders, "Light-field folders")->required();
+  app->add_option("--csv", options->csv, "Table to write");
+  app->add_option("--json", options->json, "The same as JSON");
+  app->add_option("--html", options->html, "Report to write (drawn by gnuplot)");
+  app->add_option("--modes", choice.modes, "block, frame, benchmark, blur")->delimiter(',');
+  app->add_option("--apertures", choice.apertures, "Radii")->delimiter(',');
+  app->add_option("--quantiles", choice.quantiles, "Of the disparity map, to focus at")
+      ->delimiter(',');
+  app->add_option("--views", choice.views, "Smaller star sets, in block mode")->delimiter(',');
+  app->add_option("--max-layers", choice.max_layers, "0, 1, 2")->delimiter(',');
+  app->add_option("--largest-blocks", choice.largest_blocks, "32, 64, 128, 256")->delimiter(',');
+  app->add_flag("--rules", choice.rules, "Both rules for N, in block and frame mode");
+  app->add_option("--targets", choice.targets, "SIMD targets, or all")->delimiter(',');
+  app->add_option("--repetitions", settings.repetitions, "Of every task")
+      ->check(CLI::Range(1, 1000));
+  app->add_option("--patience", settings.patience, "Seconds per task before repetitions are cut");
+  app->add_flag("!--no-rivals", settings.rivals, "Leave the rivals out");
+  app->add_option("--sweep", options->sweep, "Light field of the sweeps of radii and sizes");
+  app->add_option("--largest-radius", choice.largest_radius, "Of that sweep, pixels; 0: none");
+  app->add_option("--largest-size", choice.largest_megapixels, "Megapixels; 0: none");
+  app->add_option("--revision", options->revision, "Said beside the version");
+}
+
+}  // namespace
+}  // namespace starfocus::bench
+
+int main(int argc, char** argv) {
+  CLI::App app("Times starfocus and measures its error.", "starfocus-bench");
+  starfocus::bench::Options options;
+  starfocus::bench::AddOptions(&app, &options);
+  CLI11_PARSE(app, argc, argv);
+  const std::string error = starfocus::bench::Run(options);
+  if (error.empty()) return 0;
+  std::fprintf(stderr, "%s\n", error.c_str());
+  return 1;
+}

@@ -1,0 +1,61 @@
+#!/bin/bash
+# Instructions per pixel of sf_refocus, counted by callgrind: the same on every run, so that a
+# slowdown shows without a clock. usage: count.sh BUILD-FOLDER check|record
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+baseline=$here/baseline.txt
+build=$1
+program=$build/starfocus-bench-count
+target=AVX2 # valgrind hides AVX-512
+allowed=3   # percent
+skip() {
+  echo "instruction counts not checked: $*"
+  exit 0
+}
+
+[ "$(uname -m)" = x86_64 ] || skip "this is not x86-64"
+command -v valgrind >/dev/null || { echo "install the package valgrind first" >&2; exit 1; }
+compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
+compiler=$("$compiler" --version | head -n 1)
+
+# count MODE: "MODE instructions-per-pixel"
+count() {
+  local out=$build/callgrind.$1 log=$build/callgrind.$1.log pixels instructions found
+  valgrind --tool=callgrind --callgrind-out-file="$out" --toggle-collect=sf_refocus \
+    "$program" "$1" >"$log" 2>"$log.err" || { cat "$log" "$log.err" >&2; exit 1; }
+  read -r pixels found <"$log"
+  [ "$found" = $target ] || { echo "target $found"; return; }
+  instructions=$(awk '/^(summary|totals):/ { print $2; exit }' "$out")
+  awk -v m="$1" -v i="$instructions" -v p="$pixels" 'BEGIN { printf "%s %.1f\n", m, i / p }'
+}
+
+counts=
+for mode in block frame; do
+  line=$(count $mode)
+  [ "${line%% *}" != target ] || skip "kernels run on ${line#* }, the baseline is of $target"
+  counts=$counts$line$'\n'
+done
+
+if [ "$2" = record ]; then
+  {
+    echo "# Instructions per pixel of sf_refocus on $target by mode; ./do bench --record writes this."
+    echo "compiler $compiler"
+    printf '%s' "$counts"
+  } >"$baseline"
+  cat "$baseline"
+  exit 0
+fi
+
+recorded=$(sed -n 's/^compiler //p' "$baseline")
+worse=0
+while read -r mode now; do
+  before=$(awk -v m="$mode" '$1 == m { print $2 }' "$baseline")
+  [ -n "$before" ] || { echo "$mode: no baseline, run ./do bench --record" >&2; exit 1; }
+  awk -v m="$mode" -v n="$now" -v b="$before" -v a=$allowed 'BEGIN {
+    printf "%s: %.1f instructions per pixel, baseline %.1f (%+.1f %%)\n", m, n, b, 100 * (n / b - 1)
+    exit n > b * (1 + a / 100) }' || worse=1
+done <<<"${counts%$'\n'}"
+if [ "$recorded" != "$compiler" ]; then
+  skip "the baseline is of $recorded, this is $compiler"
+fi
+[ $worse = 0 ] || { echo "instructions grew by more than $allowed %; if that is right: ./do bench --record" >&2; exit 1; }

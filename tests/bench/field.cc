@@ -1,0 +1,129 @@
+#include "tests/bench/field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "platform/image_io.h"
+#include "tests/bench/metrics.h"
+
+namespace starfocus::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+void Measure(Field* field) {
+  const auto [low, high] =
+      std::minmax_element(field->data.disparity.values.begin(), field->data.disparity.values.end());
+  field->low = *low;
+  field->high = *high;
+}
+
+std::string LoadTruths(const std::string& folder, Field* field) {
+  std::vector<fs::path> paths;
+  std::error_code failure;
+  for (const auto& entry : fs::directory_iterator(folder, failure)) paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  for (const fs::path& path : paths) {
+    Truth truth;
+    const std::string name = path.filename().string();
+    if (std::sscanf(name.c_str(), "truth_dt%lf_ut%lf", &truth.focus, &truth.aperture) != 2) {
+      continue;
+    }
+    const std::string error = ReadImage(path.string(), &truth.picture);
+    if (!error.empty()) return error;
+    if (truth.picture.width != field->data.width() ||
+        truth.picture.height != field->data.height()) {
+      return Expected(path.string(), "the size of the views", "another");
+    }
+    field->truths.push_back(std::move(truth));
+  }
+  return "";
+}
+
+// Of a position along a row of mirrored copies.
+int Mirror(int x, int size) {
+  const int place = x % (2 * size);
+  return place < size ? place : 2 * size - 1 - place;
+}
+
+}  // namespace
+
+double Field::FocusAt(double quantile) const { return Quantile(data.disparity.values, quantile); }
+
+double Field::LargestBlur(double focus, double aperture) const {
+  return aperture * std::max(std::fabs(low - focus), std::fabs(high - focus));
+}
+
+const Image* Field::FindTruth(double focus, double aperture) const {
+  for (const Truth& truth : truths) {
+    if (std::fabs(truth.focus - focus) < 1e-6 && truth.aperture == aperture) return &truth.picture;
+  }
+  return nullptr;
+}
+
+std::string LoadField(const std::string& folder, Field* field) {
+  const fs::path path = fs::path(folder).lexically_normal();
+  field->name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  const std::string error = LoadLightField(folder, 0, &field->data);
+  if (!error.empty()) return error;
+  FloatMap* map = &field->data.disparity;
+  const sf_status status = sf_fill_disparity(map->values.data(), sizeof(float) * size_t(map->width),
+                                             map->width, map->height);
+  if (status != SF_OK) return Expected(folder, "a disparity map", sf_status_string(status));
+  Measure(field);
+  return LoadTruths(folder, field);
+}
+
+Field Tile(const Field& field, int width, int height, int views) {
+  Field tiled;
+  tiled.name = field.name;
+  const int w = field.data.width(), h = field.data.height();
+  for (int i = 0; i < std::min(views, field.views()); ++i) {
+    Image image(width, height);
+    for (int y = 0; y < height; ++y) {
+      const uint8_t* source = field.data.views[size_t(i)].row(Mirror(y, h));
+      for (int x = 0; x < width; ++x) {
+        std::copy_n(source + 3 * Mirror(x, w), 3, image.row(y) + 3 * x);
+      }
+    }
+    tiled.data.views.push_back(std::move(image));
+  }
+  FloatMap& map = tiled.data.disparity;
+  map.width = width;
+  map.height = height;
+  map.values.reserve(size_t(width) * size_t(height));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      map.values.push_back(field.data.disparity.at(Mirror(x, w), Mirror(y, h)));
+    }
+  }
+  Measure(&tiled);
+  return tiled;
+}
+
+Field Stretch(const Field& field, double factor, int views) {
+  Field stretched;
+  stretched.name = field.name;
+  stretched.data.disparity = field.data.disparity;
+  const auto count = std::min(size_t(views), field.data.views.size());
+  stretched.data.views.assign(field.data.views.begin(),
+                              field.data.views.begin() + std::ptrdiff_t(count));
+  for (float& value : stretched.data.disparity.values) value = float(value * factor);
+  Measure(&stretched);
+  return stretched;
+}
+
+sf_light_field Rows(const LightField& data, int views) {
+  sf_light_field rows = {};
+  for (int i = 0; i < views; ++i) {
+    const Image& view = data.views[size_t(i)];
+    rows.views[i] = {view.pixels.data(), view.stride()};
+  }
+  rows.disparity = data.disparity.values.data();
+  rows.disparity_stride = sizeof(float) * size_t(data.width());
+  return rows;
+}
+
+}  // namespace starfocus::bench

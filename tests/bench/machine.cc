@@ -1,0 +1,39 @@
+#include "tests/bench/machine.h"
+
+#include <fstream>
+
+#include "starfocus/starfocus.h"
+
+namespace starfocus::bench {
+namespace {
+
+// The kernel's name of the processor; "unknown" where it gives none.
+std::string CpuName() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const size_t colon = line.find(": ");
+    if (colon == std::string::npos) continue;
+    if (line.rfind("model name", 0) == 0 || line.rfind("Model", 0) == 0) {
+      return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+Machine ThisMachine(const std::string& revision) {
+  Machine machine;
+  machine.cpu = CpuName();
+  machine.target = sf_simd_target();
+#if defined(__clang__)
+  machine.compiler = "clang " __clang_version__;
+#else
+  machine.compiler = "gcc " __VERSION__;
+#endif
+  machine.version = STARFOCUS_VERSION;
+  if (!revision.empty()) machine.version += " " + revision;
+  return machine;
+}
+
+}  // namespace starfocus::bench

@@ -1,0 +1,197 @@
+#include "tests/bench/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "tests/bench/metrics.h"
+#include "tests/bench/rivals.h"
+#include "tests/bench/timed_engine.h"
+
+namespace starfocus::bench {
+namespace {
+
+struct Run {
+  const Entry* entry;
+  TimedEngine timed;
+  std::unique_ptr<ShiftAndAdd> shift_and_add;
+  std::vector<double> seconds, walls;
+  size_t wanted = 1;
+};
+
+std::string Once(const Field& field, Run* run, Elapsed* elapsed) {
+  if (run->shift_and_add == nullptr) {
+    return RunOnce(field, run->entry->task, &run->timed, elapsed);
+  }
+  const Stopwatch stopwatch;
+  run->shift_and_add->Run(&run->timed.picture);
+  *elapsed = stopwatch.Get();
+  return "";
+}
+
+std::string Start(const Group& group, const Entry& entry, Run* run) {
+  run->entry = &entry;
+  if (entry.task.mode != "shift-and-add") {
+    return Prepare(*group.field, entry.task, group.focus, group.aperture, &run->timed);
+  }
+  const LightField& data = group.field->data;
+  run->shift_and_add = std::make_unique<ShiftAndAdd>(data, entry.task.views, group.focus);
+  run->timed.picture = Image(data.width(), data.height());
+  return "";
+}
+
+void Note(const Elapsed& elapsed, Run* run) {
+  run->seconds.push_back(elapsed.cpu);
+  run->walls.push_back(elapsed.wall);
+}
+
+// A first run warms up and tells how many more there is time for; one that takes longer than the
+// patience counts itself.
+std::string WarmUp(const Field& field, const Settings& settings, Run* run) {
+  Elapsed elapsed;
+  const std::string error = Once(field, run, &elapsed);
+  const double fit = settings.patience / std::max(elapsed.wall, 1e-9);
+  run->wanted = size_t(std::clamp(fit, 1.0, double(settings.repetitions)));
+  if (elapsed.wall > settings.patience) Note(elapsed, run);
+  return error;
+}
+
+std::string TakeTurns(const Field& field, const Settings& settings, std::vector<Run>* runs) {
+  for (int turn = 0; turn < settings.repetitions; ++turn) {
+    for (Run& run : *runs) {
+      if (run.seconds.size() >= run.wanted) continue;
+      Elapsed elapsed;
+      const std::string error = Once(field, &run, &elapsed);
+      if (!error.empty()) return error;
+      Note(elapsed, &run);
+    }
+  }
+  return "";
+}
+
+const Run* FindMode(const std::vector<Run>& runs, const char* mode, int views) {
+  const Run* found = nullptr;
+  for (const Run& run : runs) {
+    const Task& task = run.entry->task;
+    if (task.mode != mode || !task.target.empty() || task.rule != SF_RULE_DEFAULT) continue;
+    if (found == nullptr || task.views == views) found = &run;
+  }
+  return found;
+}
+
+// Quality against benchmark and truth, null where there is none.
+void Judge(const Group& group, const Image& picture, const Image* benchmark, Row* row) {
+  const Image* truth = group.field->FindTruth(group.focus, group.aperture);
+  const auto judge = [&](const Image& reference, Quality* quality) {
+    quality->psnr = Psnr(picture, reference);
+    quality->ssim = Ssim(picture, reference);
+    quality->worst = WorstBlockPsnr(picture, reference);
+    const int radius = int(std::ceil(row->r_max));
+    quality->band = MaskedPsnr(picture, reference, EdgeBand(group.field->data.disparity, radius));
+  };
+  if (benchmark != nullptr) judge(*benchmark, &row->benchmark);
+  if (truth != nullptr) judge(*truth, &row->truth);
+}
+
+Row CommonRow(const Group& group, const Entry& entry) {
+  Row row;
+  row.study = entry.study;
+  row.field = group.field->name;
+  row.width = group.field->data.width();
+  row.height = group.field->data.height();
+  row.task = entry.task;
+  row.aperture = group.aperture;
+  row.focus = group.focus;
+  row.quantile = group.quantile;
+  row.r_max = group.field->LargestBlur(group.focus, group.aperture);
+  return row;
+}
+
+void AddReport(const sf_report& report, Row* row) {
+  row->n = report.n;
+  row->rendered_samples = double(report.rendered_samples);
+  double time = 0, pixels = 0;
+  for (const sf_layer_report& layer : report.layers) {
+    row->rendered_views += double(layer.views);
+    time += double(layer.measured_ns);
+    pixels += double(layer.pixels);
+  }
+  if (row->task.mode != "block") row->rendered_views = report.rendered_views;
+  for (int i = 0; i < SF_LAYERS; ++i) {
+    if (time > 0) row->layer_time[i] = double(report.layers[i].measured_ns) / time;
+    if (pixels > 0) row->layer_pixels[i] = double(report.layers[i].pixels) / pixels;
+  }
+}
+
+Row MakeRow(const Group& group, const std::vector<Run>& runs, const Run& run) {
+  Row row = CommonRow(group, *run.entry);
+  if (run.shift_and_add == nullptr) {
+    AddReport(run.timed.report, &row);
+    row.workspace = run.timed.workspace_bytes;
+  } else {
+    row.rendered_views = row.task.views;
+    row.rendered_samples = 3 * row.pixels() * row.task.views;
+  }
+  const double median = Median(run.seconds);
+  row.ms = 1e3 * median;
+  row.wall_ms = 1e3 * Median(run.walls);
+  row.spread = Spread(run.seconds);
+  row.runs = int(run.seconds.size());
+  const Run* frame = FindMode(runs, "frame", row.task.views);
+  const Run* blur = FindMode(runs, "blur", row.task.views);
+  const Run* benchmark = FindMode(runs, "benchmark", group.field->views());
+  if (frame != nullptr) row.ratio_frame = Median(frame->seconds) / median;
+  if (blur != nullptr) row.ratio_blur = Median(blur->seconds) / median;
+  const Image* reference =
+      benchmark == nullptr || benchmark == &run ? nullptr : &benchmark->timed.picture;
+  Judge(group, run.timed.picture, reference, &row);
+  return row;
+}
+
+std::string MeasureTools(const Group& group, const Settings& settings, const Image* benchmark,
+                         std::vector<Row>* rows) {
+  const Image* truth = group.field->FindTruth(group.focus, group.aperture);
+  if (truth == nullptr) return "";
+  for (const Tool& tool : Tools()) {
+    if (!IsInstalled(tool)) continue;
+    ToolResult result;
+    const std::string error = RunTool(tool, *group.field, group.focus, *truth, settings.folder,
+                                      settings.repetitions, &result);
+    if (!error.empty()) {
+      std::fprintf(stderr, "%s\nleft out: %s\n", error.c_str(), tool.name);
+      continue;
+    }
+    Entry entry;
+    entry.study = "rivals";
+    entry.task.mode = tool.name;
+    entry.task.views = 1;
+    Row row = CommonRow(group, entry);
+    row.ms = 1e3 * result.seconds;
+    row.spread = Spread(result.each);
+    row.runs = int(result.each.size());
+    Judge(group, result.picture, benchmark, &row);
+    rows->push_back(row);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string MeasureGroup(const Group& group, const Settings& settings, std::vector<Row>* rows) {
+  std::vector<Run> runs(group.entries.size());
+  for (size_t i = 0; i < runs.size(); ++i) {
+    std::string error = Start(group, group.entries[i], &runs[i]);
+    if (error.empty()) error = WarmUp(*group.field, settings, &runs[i]);
+    if (!error.empty()) return error;
+  }
+  const std::string error = TakeTurns(*group.field, settings, &runs);
+  if (!error.empty()) return error;
+  for (const Run& run : runs) rows->push_back(MakeRow(group, runs, run));
+  if (!group.tools || !settings.rivals) return "";
+  const Run* benchmark = FindMode(runs, "benchmark", group.field->views());
+  return MeasureTools(group, settings, benchmark == nullptr ? nullptr : &benchmark->timed.picture,
+                      rows);
+}
+
+}  // namespace starfocus::bench

@@ -1,0 +1,92 @@
+#include "tests/bench/output.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace starfocus::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+void AddQuality(const char* against, const Quality& quality, Json* json) {
+  const std::string suffix = std::string("_") + against;
+  (*json)["psnr" + suffix] = Number(quality.psnr);
+  (*json)["ssim" + suffix] = Number(quality.ssim);
+  (*json)["worst_block_psnr" + suffix] = Number(quality.worst);
+  (*json)["edge_band_psnr" + suffix] = Number(quality.band);
+}
+
+// What a row says, in the order of the columns.
+Json Describe(const Machine& machine, const Row& row) {
+  Json json;
+  json["study"] = row.study;
+  json["field"] = row.field;
+  json["width"] = row.width;
+  json["height"] = row.height;
+  json["mode"] = row.task.mode;
+  json["views"] = row.task.views;
+  json["max_layer"] = row.task.max_layer;
+  json["largest_block"] = row.task.largest_block;
+  json["rule"] = row.task.rule == SF_RULE_DEFAULT ? "default"
+                 : row.task.rule == SF_RULE_PAPER ? "paper"
+                                                  : "cells";
+  json["aperture"] = row.aperture;
+  json["focus"] = row.focus;
+  json["quantile"] = Number(row.quantile);
+  json["r_max"] = Number(row.r_max);
+  json["N"] = row.n;
+  json["rendered_views"] = row.rendered_views;
+  AddQuality("benchmark", row.benchmark, &json);
+  AddQuality("truth", row.truth, &json);
+  json["ms"] = row.ms;
+  json["wall_ms"] = Number(row.wall_ms);
+  json["spread"] = row.spread;
+  json["runs"] = row.runs;
+  json["ns_per_pixel"] = row.ns_per_pixel();
+  json["msamples_per_s"] = row.msamples_per_s();
+  json["speed_to_frame"] = Number(row.ratio_frame);
+  json["speed_to_blur"] = Number(row.ratio_blur);
+  json["workspace_bytes"] = row.workspace;
+  for (int i = 0; i < SF_LAYERS; ++i) {
+    json["time_share_layer_" + std::to_string(i)] = row.layer_time[i];
+    json["pixel_share_layer_" + std::to_string(i)] = row.layer_pixels[i];
+  }
+  json["simd_target"] = row.task.target.empty() ? machine.target : row.task.target;
+  json["cpu"] = machine.cpu;
+  json["compiler"] = machine.compiler;
+  json["version"] = machine.version;
+  return json;
+}
+
+// Texts never hold quotes but may hold commas.
+std::string Cell(const Json& value) {
+  if (value.is_null()) return "";
+  return value.dump();
+}
+
+}  // namespace
+
+std::string ToCsv(const Machine& machine, const std::vector<Row>& rows) {
+  std::string text;
+  for (const Row& row : rows) {
+    const Json json = Describe(machine, row);
+    std::string head, line;
+    for (const auto& item : json.items()) {
+      head += (head.empty() ? "" : ",") + item.key();
+      line += (line.empty() ? "" : ",") + Cell(item.value());
+    }
+    if (text.empty()) text = head + "\n";
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string ToJson(const Machine& machine, const std::vector<Row>& rows) {
+  Json all = Json::array();
+  for (const Row& row : rows) all.push_back(Describe(machine, row));
+  return all.dump(1) + "\n";
+}
+
+}  // namespace starfocus::bench

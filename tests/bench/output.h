@@ -1,0 +1,18 @@
+// Rows as CSV and JSON.
+#ifndef STARFOCUS_TESTS_BENCH_OUTPUT_H_
+#define STARFOCUS_TESTS_BENCH_OUTPUT_H_
+
+#include <string>
+#include <vector>
+
+#include "tests/bench/machine.h"
+#include "tests/bench/row.h"
+
+namespace starfocus::bench {
+
+std::string ToCsv(const Machine& machine, const std::vector<Row>& rows);
+std::string ToJson(const Machine& machine, const std::vector<Row>& rows);
+
+}  // namespace starfocus::bench
+
+#endif  // STARFOCUS_TESTS_BENCH_OUTPUT_H_

@@ -1,0 +1,232 @@
+// Programs that blur one picture by a map, run without a shell and on one core.
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "platform/image_io.h"
+#include "tests/bench/metrics.h"
+#include "tests/bench/rivals.h"
+
+extern char** environ;
+
+namespace starfocus::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+struct Files {
+  std::string centre, map, out;
+};
+
+std::string Run(const Words& words) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (const int stream : {0, 1, 2}) {
+    posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
+  }
+  pid_t child = 0;
+  const int failure =
+      posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  const bool good = failure == 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
+                    WEXITSTATUS(status) == 0;
+  return good ? "" : Expected(words[0], "a run without an error", "one");
+}
+
+// The half-width of the box of the same variance as a disc of radius 1.
+constexpr double kBoxOfDisc = 0.866;
+
+// varblur's boxes have the half-width 1 + 4 max_r m / 255 for a map of m.
+Words Ffmpeg(const Files& files, double largest, int pictures, Image* map, double scale) {
+  const double reach = std::max(1.0, kBoxOfDisc * scale * largest);
+  const int max_r = std::max(1, int(std::ceil((reach - 1) / 4)));
+  for (uint8_t& value : map->pixels) {
+    const double half = kBoxOfDisc * scale * largest * value / 255;
+    value = uint8_t(std::lround(std::clamp((half - 1) * 255 / (4 * max_r), 0.0, 255.0)));
+  }
+  const std::string graph =
+      "[0]format=gbrp,loop=-1:1:0[a];[1]format=gbrp,loop=-1:1:0[b];[a][b]"
+      "varblur=max_r=" +
+      std::to_string(max_r);
+  Words words = {"ffmpeg",
+                 "-y",
+                 "-v",
+                 "error",
+                 "-filter_complex_threads",
+                 "1",
+                 "-i",
+                 files.centre,
+                 "-i",
+                 files.map,
+                 "-filter_complex",
+                 graph,
+                 "-frames:v",
+                 std::to_string(pictures)};
+  if (files.out.empty()) {
+    words.insert(words.end(), {"-f", "null", "-"});
+  } else {
+    words.insert(words.end(), {"-update", "1", files.out});
+  }
+  return words;
+}
+
+Words Gegl(const Files& files, double largest, int pictures, Image*, double scale) {
+  Words words = {"gegl", files.centre, "-o", files.out, "--"};
+  if (files.out.empty()) words[3] = (fs::path(files.centre).parent_path() / "timed.ppm").string();
+  for (int i = 0; i < pictures; ++i) {
+    words.insert(words.end(), {"gegl:lens-blur", "radius=" + std::to_string(scale * largest),
+                               "aux=[", "gegl:load", "path=" + files.map, "]"});
+  }
+  return words;
+}
+
+Words Magick(const Files& files, double largest, int pictures, Image*, double scale) {
+  const std::string radius = std::to_string(scale * largest);
+  Words words = {"convert-im6.q16", files.centre, files.map};
+  for (int i = 0; i < pictures; ++i) {
+    words.insert(words.end(), {"(", "-clone", "0,1", "-compose", "blur", "-define",
+                               "compose:args=" + radius + "x" + radius, "-composite", ")"});
+  }
+  words.insert(words.end(), {"-delete", "0,1", files.out.empty() ? "null:" : files.out});
+  return words;
+}
+
+using MakeWords = Words (*)(const Files&, double, int, Image*, double);
+
+struct Known {
+  Tool tool;
+  MakeWords words;
+  int more;  // pictures whose cost is measured
+};
+
+const Known kKnown[] = {
+    {{"ffmpeg-varblur", "ffmpeg"}, Ffmpeg, 20},
+    {{"gegl-lens-blur", "gegl"}, Gegl, 3},
+    {{"imagemagick-blur", "convert-im6.q16"}, Magick, 1},
+};
+
+// Blur radius of every pixel, white where it is the largest.
+Image BlurMap(const Field& field, double focus, double largest) {
+  Image map(field.data.width(), field.data.height());
+  const std::vector<float>& values = field.data.disparity.values;
+  for (size_t i = 0; i < values.size(); ++i) {
+    const double radius = std::fabs(values[i] - focus);
+    std::fill_n(map.pixels.begin() + std::ptrdiff_t(3 * i), 3,
+                uint8_t(std::lround(255 * radius / largest)));
+  }
+  return map;
+}
+
+// Processor time of all programs run so far.
+double ChildSeconds() {
+  rusage usage = {};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& time) {
+    return double(time.tv_sec) + 1e-6 * double(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+struct Job {
+  const Known* known;
+  Files files;
+  Image map;
+  double largest;
+
+  std::string Make(double scale, int pictures, bool keep, double* seconds) const {
+    Files used = files;
+    if (!keep) used.out.clear();
+    Image changed = map;
+    const Words words = known->words(used, largest, pictures, &changed, scale);
+    std::string error = WriteImage(files.map, changed);
+    const double start = ChildSeconds();
+    if (error.empty()) error = Run(words);
+    *seconds = ChildSeconds() - start;
+    return error;
+  }
+};
+
+// Tries several ratios of the tool's unit to the blur radius and keeps the best picture.
+std::string Tune(const Job& job, const Image& truth, double* scale, ToolResult* result) {
+  double best = -1;
+  for (const double tried : {0.35, 0.5, 0.7, 1.0}) {
+    Image picture;
+    double ignored = 0;
+    std::string error = job.Make(tried, 1, true, &ignored);
+    if (error.empty()) error = ReadImage(job.files.out, &picture);
+    if (!error.empty()) return error;
+    if (picture.pixels.size() != truth.pixels.size()) {
+      return Expected(job.known->tool.name, "a picture of the size of the view", "another");
+    }
+    const double psnr = Psnr(picture, truth);
+    if (psnr <= best) continue;
+    best = psnr;
+    *scale = tried;
+    result->picture = std::move(picture);
+  }
+  return "";
+}
+
+}  // namespace
+
+const std::vector<Tool>& Tools() {
+  static const std::vector<Tool> tools = [] {
+    std::vector<Tool> all;
+    for (const Known& known : kKnown) all.push_back(known.tool);
+    return all;
+  }();
+  return tools;
+}
+
+bool IsInstalled(const Tool& tool) {
+  const char* path = std::getenv("PATH");
+  std::string rest = path == nullptr ? "" : path;
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find(':'), rest.size());
+    std::error_code failure;
+    if (fs::exists(fs::path(rest.substr(0, end)) / tool.program, failure)) return true;
+    rest.erase(0, std::min(end + 1, rest.size()));
+  }
+  return false;
+}
+
+std::string RunTool(const Tool& tool, const Field& field, double focus, const Image& truth,
+                    const std::string& folder, int repetitions, ToolResult* result) {
+  for (const char* name : {"MAGICK_THREAD_LIMIT", "OMP_NUM_THREADS", "GEGL_THREADS"}) {
+    setenv(name, "1", 1);
+  }
+  setenv("GEGL_USE_OPENCL", "no", 1);
+  const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  Job job;
+  job.known = std::find_if(std::begin(kKnown), std::end(kKnown), [&](const Known& known) {
+    return std::string(known.tool.name) == tool.name;
+  });
+  job.files = {path("rival_centre.png"), path("rival_map.png"), path("rival_out.png")};
+  job.largest = std::max(1e-3, field.LargestBlur(focus, 1));
+  job.map = BlurMap(field, focus, job.largest);
+  double scale = 1;
+  std::string error = WriteImage(job.files.centre, field.data.views[0]);
+  if (error.empty()) error = Tune(job, truth, &scale, result);
+  const int more = job.known->more;
+  for (int i = 0; i < std::min(repetitions, 3) && error.empty(); ++i) {
+    double one = 0, many = 0;
+    error = job.Make(scale, 1, false, &one);
+    if (error.empty()) error = job.Make(scale, 1 + more, false, &many);
+    result->each.push_back(std::max(0.0, many - one) / more);
+  }
+  result->seconds = Median(result->each);
+  return error;
+}
+
+}  // namespace starfocus::bench

@@ -1,0 +1,73 @@
+#include "tests/bench/timed_engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/engine.h"
+#include "simd/kernels.h"
+
+namespace starfocus::bench {
+namespace {
+
+const char* const kModes[] = {"frame", "benchmark", "block", "blur"};
+
+uint64_t Nanoseconds() { return static_cast<uint64_t>(CpuSeconds() * 1e9); }
+
+// A run-time engine takes the best target; the bench may want another.
+std::string UseTarget(const std::string& name, sf_engine* engine) {
+  if (name.empty()) return "";
+  const simd::Kernels* kernels = simd::FindKernels(name.c_str());
+  if (kernels == nullptr) return Expected("target", "a SIMD target of this machine", name);
+  reinterpret_cast<EngineState*>(engine)->kernels = kernels;
+  return "";
+}
+
+}  // namespace
+
+int ModeOf(const std::string& name) {
+  const auto found = std::find(std::begin(kModes), std::end(kModes), name);
+  return found == std::end(kModes) ? -1 : int(found - std::begin(kModes));
+}
+
+std::string Prepare(const Field& field, const Task& task, double focus, double aperture,
+                    TimedEngine* timed) {
+  sf_config config;
+  sf_config_init(&config);
+  config.width = field.data.width();
+  config.height = field.data.height();
+  config.views = task.views;
+  config.disparity_min = field.low;
+  config.disparity_max = field.high;
+  config.max_blur = std::max(1.0, std::ceil(field.LargestBlur(focus, aperture)));
+  config.max_layer = task.max_layer;
+  config.largest_block = task.largest_block;
+  sf_status status = sf_workspace_size(&config, &timed->workspace_bytes);
+  if (status == SF_OK) {
+    timed->workspace.reset(::operator new (timed->workspace_bytes, std::align_val_t{SF_ALIGNMENT}));
+    status = sf_init(&config, timed->workspace.get(), timed->workspace_bytes, &timed->engine);
+  }
+  if (status != SF_OK) {
+    return Expected(field.name, "a light field that the engine takes", sf_status_string(status));
+  }
+  sf_params_init(&timed->params);
+  timed->params.mode = ModeOf(task.mode);
+  timed->params.rule = task.rule;
+  timed->params.focus = focus;
+  timed->params.aperture = aperture;
+  timed->params.clock = Nanoseconds;
+  timed->picture = Image(config.width, config.height);
+  return UseTarget(task.target, timed->engine);
+}
+
+std::string RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed) {
+  const sf_light_field rows = Rows(field.data, task.views);
+  Image& out = timed->picture;
+  const Stopwatch stopwatch;
+  const sf_status status = sf_refocus(timed->engine, &timed->params, &rows, out.pixels.data(),
+                                      out.stride(), nullptr, nullptr, &timed->report);
+  *elapsed = stopwatch.Get();
+  if (status == SF_OK) return "";
+  return Expected(field.name, "a light field that the engine refocuses", sf_status_string(status));
+}
+
+}  // namespace starfocus::bench

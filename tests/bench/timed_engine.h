@@ -1,0 +1,42 @@
+// An engine with its memory, ready to refocus one picture again and again.
+#ifndef STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_
+#define STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_
+
+#include <memory>
+#include <new>
+#include <string>
+
+#include "tests/bench/field.h"
+#include "tests/bench/row.h"
+#include "tests/bench/stopwatch.h"
+
+namespace starfocus::bench {
+
+struct FreeAligned {
+  void operator()(void* memory) const {
+    ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
+  }
+};
+
+struct TimedEngine {
+  std::unique_ptr<void, FreeAligned> workspace;
+  size_t workspace_bytes = 0;
+  sf_engine* engine = nullptr;
+  sf_params params;
+  sf_report report = {};
+  Image picture;
+};
+
+// The sf_mode of a name; -1 when it is none.
+int ModeOf(const std::string& name);
+
+// Makes an engine for task, focus and aperture. Errors are lines.
+std::string Prepare(const Field& field, const Task& task, double focus, double aperture,
+                    TimedEngine* timed);
+
+// Refocuses once; *elapsed is the time inside sf_refocus.
+std::string RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed);
+
+}  // namespace starfocus::bench
+
+#endif  // STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_

@@ -1,0 +1,96 @@
+// The bench's own figures on pictures and numbers whose answers are known.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/bench/metrics.h"
+
+namespace {
+
+using namespace starfocus::bench;  // every name below is of the bench
+using starfocus::FloatMap;
+using starfocus::Image;
+
+Image Gray(int width, int height, int value) {
+  Image image(width, height);
+  for (uint8_t& sample : image.pixels) sample = uint8_t(value);
+  return image;
+}
+
+TEST_CASE("PSNR of a known difference") {
+  const Image a = Gray(40, 20, 100), b = Gray(40, 20, 105);
+  CHECK(Psnr(a, a) == kBestPsnr);
+  CHECK(Psnr(a, b) == doctest::Approx(20 * std::log10(255.0 / 5)));
+  Image c = a;
+  c.pixels[0] = 255;  // one sample of 2400
+  CHECK(Psnr(a, c) == doctest::Approx(10 * std::log10(255.0 * 255 * 2400 / (155 * 155))));
+}
+
+TEST_CASE("The worst block is found, also when it is cut by the edge") {
+  const Image a = Gray(35, 18, 50);
+  Image b = a;
+  CHECK(WorstBlockPsnr(a, b) == kBestPsnr);
+  b.row(17)[3 * 34] = 60;  // in the last block of 3x2 pixels
+  CHECK(WorstBlockPsnr(a, b) == doctest::Approx(10 * std::log10(255.0 * 255 * 18 / 100)));
+}
+
+TEST_CASE("A mask limits the PSNR to its pixels") {
+  const Image a = Gray(4, 1, 10);
+  Image b = a;
+  b.pixels[0] = 20;
+  CHECK(MaskedPsnr(a, b, {0, 1, 1, 1}) == kBestPsnr);
+  CHECK(MaskedPsnr(a, b, {1, 0, 0, 0}) == doctest::Approx(10 * std::log10(255.0 * 255 * 3 / 100)));
+  CHECK(MaskedPsnr(a, b, {0, 0, 0, 0}) == kBestPsnr);
+}
+
+TEST_CASE("SSIM of equal, shifted and inverted pictures") {
+  Image a(32, 24);
+  for (size_t i = 0; i < a.pixels.size(); ++i) a.pixels[i] = uint8_t(i / 3 * 37 % 251);
+  CHECK(Ssim(a, a) == doctest::Approx(1));
+  Image inverted = a;
+  for (uint8_t& sample : inverted.pixels) sample = uint8_t(255 - sample);
+  CHECK(Ssim(a, inverted) < 0);
+  // Constant pictures differ in luminance alone.
+  const double c1 = 6.5025, expected = (2 * 100 * 120 + c1) / (100 * 100 + 120 * 120 + c1);
+  CHECK(Ssim(Gray(16, 16, 100), Gray(16, 16, 120)) == doctest::Approx(expected).epsilon(1e-3));
+  CHECK(Ssim(Gray(5, 5, 1), Gray(5, 5, 200)) == 1);
+}
+
+TEST_CASE("The edge band reaches so many rows and columns from a step") {
+  FloatMap map;
+  map.width = 12;
+  map.height = 5;
+  map.values.assign(60, 0.0f);
+  CHECK(EdgeBand(map, 3) == Mask(60, 0));
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 6; x < 12; ++x) map.values[size_t(12 * y + x)] = 2;
+  }
+  const Mask band = EdgeBand(map, 2);
+  for (int x = 0; x < 12; ++x) CHECK(int{band[size_t(24 + x)]} == int{x >= 3 && x <= 8});
+  for (float& value : map.values) value /= 2;  // steps of 1 are no edges
+  CHECK(EdgeBand(map, 2) == Mask(60, 0));
+  map.values[0] = 5;
+  const Mask corner = EdgeBand(map, 0);
+  CHECK(int{corner[0]} + corner[1] + corner[12] == 3);
+  CHECK(int{corner[13]} == 0);
+}
+
+TEST_CASE("Median, spread and quantiles") {
+  CHECK(Median({}) == 0);
+  CHECK(Median({3, 1, 2}) == 2);
+  CHECK(Median({4, 1, 2, 3}) == 2.5);
+  CHECK(Spread({10, 10, 10}) == 0);
+  CHECK(Spread({10, 12, 9, 100, 10}) == doctest::Approx(0.1));
+  CHECK(Quantile({4, 0, 2}, 0) == 0);
+  CHECK(Quantile({4, 0, 2}, 0.75) == 3);
+  CHECK(Quantile({4, 0, 2}, 1) == 4);
+}
+
+TEST_CASE("Slope and Pareto front") {
+  CHECK(LogSlope({1, 2, 4}, {3, 12, 48}) == doctest::Approx(2));
+  CHECK(LogSlope({1}, {1}) == 0);
+  const std::vector<Point> points = {{5, 40}, {1, 30}, {2, 29}, {5, 45}, {9, 45}};
+  CHECK(ParetoFront(points) == std::vector<size_t>{1, 3});
+}
+
+}  // namespace
