@@ -86,12 +86,35 @@ void BlockBench::HoldLayer(int layer) {
   engine_->windows[layer].centre = {plane.rgb.data, stride, 0, 0};
 }
 
-double BlockBench::Time(const BlockTask& task) {
+void BlockBench::Focus(const BlockTask& task) {
   sf_params params;
   sf_params_init(&params);
   params.focus = task.focus;
   params.aperture = task.aperture;
   SetLens(params, engine_);
+}
+
+BlockWork BlockBench::Work(const BlockTask& task) {
+  Focus(task);
+  const Block& block = task.block;
+  const Rect& rect = block.rect;
+  Content content = {0, 0, 0};
+  for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
+    for (int x = rect.x; x < rect.x + rect.width; x += kCellSize) {
+      const Cell cell =
+          MeasureCell(engine_->windows[0], engine_->scale, x / kCellSize, y / kCellSize);
+      content.slopes += cell.slopes;
+      content.edges += cell.edges;
+      content.gaps += cell.gaps;
+    }
+  }
+  const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
+  return MeasureWork(block.rendered, block.border, CountViews(block.n), upsampled, content,
+                     block.layer);
+}
+
+double BlockBench::Time(const BlockTask& task) {
+  Focus(task);
   const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
   const double start = ThreadSeconds();
   RefocusBlock(*engine_, task.block, out, engine_->workers);

@@ -3,12 +3,12 @@
 #ifndef STARFOCUS_EXAMPLES_CALIBRATE_BLOCK_BENCH_H_
 #define STARFOCUS_EXAMPLES_CALIBRATE_BLOCK_BENCH_H_
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "engine_run.h"
 #include "lib/engine.h"
+#include "lib/timing.h"
 #include "platform/light_field.h"
 
 namespace starfocus {
@@ -24,16 +24,18 @@ class BlockBench {
   // The light field must outlive the bench. Returns an error line, empty for success.
   std::string Open(const std::string& where, const LightField& light_field);
 
+  // What the timing model knows of the task's block; its place must be a multiple of kCellSize.
+  BlockWork Work(const BlockTask& task);
+
   // Seconds to refocus the task's block once. Blur radii must not exceed SF_MAX_BLUR.
   double Time(const BlockTask& task);
-
-  const EngineState& engine() const { return *engine_; }
 
  private:
   // The engine's rings and layers hold a stripe; here they hold whole pictures, so that blocks may
   // be refocused in any order.
   void HoldDisparity();
   void HoldLayer(int layer);
+  void Focus(const BlockTask& task);
 
   const LightField* light_field_ = nullptr;
   Workspace workspace_;

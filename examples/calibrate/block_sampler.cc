@@ -81,8 +81,8 @@ double BlockSampler::SplattingRadius(const Lens& lens, const Rect& rect) const {
   double largest = 0;
   for (int row = top - reach; row <= bottom + reach; ++row) {
     for (int column = left - reach; column <= right + reach; ++column) {
-      const int across = std::max(DistanceBeyond(column, left, right + 1),
-                                  DistanceBeyond(row, top, bottom + 1));
+      const int across =
+          std::max(DistanceBeyond(column, left, right + 1), DistanceBeyond(row, top, bottom + 1));
       const double radius = LargestRadius(lens, At(column, row));
       if (radius >= (across - 1) * kCellSize) largest = std::max(largest, radius);
     }
@@ -92,7 +92,7 @@ double BlockSampler::SplattingRadius(const Lens& lens, const Rect& rect) const {
 
 BlockSampler::Lens BlockSampler::RandomLens(int pass) {
   // Focus on something in the scene or a little beyond it; without regard to layers, farther off.
-  const double beyond = pass == kAnyLayer ? 24 : 3;
+  const double beyond = pass == kAnyLayer ? 24 : 8;
   Lens lens;
   lens.focus = range_.low - beyond + Random() * (range_.high - range_.low + 2 * beyond);
   lens.aperture = pass == kUsualLens ? 1.0 / (1 + RandomBelow(2)) : std::pow(20.0, -Random());
@@ -125,8 +125,8 @@ bool BlockSampler::Draw(int pass, const BlockKind& kind, BlockTask* task) {
   const Lens lens = RandomLens(pass);
   if (LargestRadius(lens, range_) > SF_MAX_BLUR) return false;
   const int grid = 1 << layer;
-  const Rect rect = {RandomBelow(map_.width - side + 1) / grid * grid,
-                     RandomBelow(map_.height - side + 1) / grid * grid, side, side};
+  const Rect rect = {RandomBelow(map_.width - side + 1) / kCellSize * kCellSize,
+                     RandomBelow(map_.height - side + 1) / kCellSize * kCellSize, side, side};
   const int rule = LayerByPaper(SmallestRadius(lens, rect));
   if (rule != layer && !(pass == kAnyLayer && rule > layer)) return false;
   const double r_max = SplattingRadius(lens, rect);
