@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include <chrono>
+#include <cstdint>
 
 namespace starfocus {
 
@@ -13,11 +14,12 @@ inline double Seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Seconds that the calling thread has run on a processor: what other programs take is not counted.
-inline double ThreadSeconds() {
+// Nanoseconds that the calling thread has run on a processor, from some start: what other programs
+// take is not counted. An sf_clock.
+inline uint64_t ThreadNanoseconds() {
   timespec time = {};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  return static_cast<uint64_t>(time.tv_sec) * 1000000000u + static_cast<uint64_t>(time.tv_nsec);
 }
 
 }  // namespace starfocus

@@ -116,9 +116,9 @@ BlockWork BlockBench::Work(const BlockTask& task) {
 double BlockBench::Time(const BlockTask& task) {
   Focus(task);
   const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
-  const double start = ThreadSeconds();
+  const uint64_t start = ThreadNanoseconds();
   RefocusBlock(*engine_, task.block, out, engine_->workers);
-  return ThreadSeconds() - start;
+  return 1e-9 * static_cast<double>(ThreadNanoseconds() - start);
 }
 
 }  // namespace starfocus
