@@ -1,22 +1,26 @@
 // starfocus refocus: the picture of a lens focused elsewhere.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "commands.h"
 #include "engine_run.h"
 #include "options.h"
+#include "partition_map.h"
 #include "platform/clock.h"
 #include "platform/image_io.h"
+#include "refocus_report.h"
+#include "timing_file.h"
 
 namespace starfocus {
 namespace {
 
 struct Options {
-  std::string folder, out, report;
-  std::string focus, focus_at, aperture = "1", mode = "frame", views, threads = "1";
+  std::string folder, out, report, map, timing;
+  std::string focus, focus_at, aperture = "1", mode = "block", views, threads = "1";
+  std::string largest_block = "64", max_layer = "2", deblocking = "35";
   bool stream = false, fill_invalid = false;
 };
 
@@ -24,10 +28,51 @@ struct Plan {
   double focus = 0, aperture = 1;
   bool focus_at = false;
   int x = 0, y = 0;
-  sf_mode mode = SF_MODE_FRAME;
+  sf_mode mode = SF_MODE_BLOCK;
   int views = 0;  // 0: all there are
   int threads = 1;
+  int largest_block = 0, max_layer = 0, deblocking = 0;
+  sf_timing timing = {};
 };
+
+std::string ParseMode(const std::string& text, sf_mode* mode) {
+  for (size_t i = 0; i < std::size(kModeNames); ++i) {
+    if (text != kModeNames[i]) continue;
+    *mode = static_cast<sf_mode>(i);
+    return "";
+  }
+  return Expected("--mode", "block, frame, benchmark or blur", "'" + text + "'");
+}
+
+// Sets what block mode adds to the plan.
+std::string PlanBlocks(const Options& options, Plan* plan) {
+  int* const side = &plan->largest_block;
+  const std::string range = ParseWhole("--largest-block", options.largest_block, 32, 256, side);
+  if (!range.empty() || (*side & (*side - 1)) != 0) {
+    return Expected("--largest-block", "32, 64, 128 or 256", "'" + options.largest_block + "'");
+  }
+  std::string error =
+      ParseWhole("--max-layer", options.max_layer, 0, SF_LAYERS - 1, &plan->max_layer);
+  if (error.empty()) {
+    error = ParseWhole("--deblocking", options.deblocking, 0, 255, &plan->deblocking);
+  }
+  if (!error.empty()) return error;
+  if (!options.timing.empty()) return ReadTiming(options.timing, &plan->timing);
+  sf_config defaults;
+  sf_config_init(&defaults);
+  plan->timing = defaults.timing;
+  return "";
+}
+
+std::string CheckOutputs(const Options& options) {
+  std::string error = CheckImageOutput(options.out);
+  if (error.empty() && !options.report.empty()) error = CheckOutputPath(options.report);
+  if (error.empty() && !options.map.empty()) error = CheckImageOutput(options.map);
+  if (error.empty() && options.map == options.out) {
+    error = Expected("--map", "another file than --output", "'" + options.map + "' for both");
+  }
+  return error;
+}
 
 std::string PlanFocus(const Options& options, Plan* plan) {
   if (options.focus.empty() == options.focus_at.empty()) {
@@ -41,8 +86,7 @@ std::string PlanFocus(const Options& options, Plan* plan) {
 
 // Everything that can be refused before a file is read.
 std::string MakePlan(const Options& options, Plan* plan) {
-  std::string error = CheckImageOutput(options.out);
-  if (error.empty() && !options.report.empty()) error = CheckOutputPath(options.report);
+  std::string error = CheckOutputs(options);
   if (error.empty()) error = PlanFocus(options, plan);
   if (error.empty()) error = ParseAperture("--aperture", options.aperture, &plan->aperture);
   if (error.empty()) {
@@ -51,12 +95,8 @@ std::string MakePlan(const Options& options, Plan* plan) {
   if (error.empty() && !options.views.empty()) {
     error = ParseViews("--views", options.views, &plan->views);
   }
-  if (!error.empty()) return error;
-  if (options.mode != "frame" && options.mode != "benchmark") {
-    return Expected("--mode", "frame or benchmark", "'" + options.mode + "'");
-  }
-  plan->mode = options.mode == "frame" ? SF_MODE_FRAME : SF_MODE_BENCHMARK;
-  return "";
+  if (error.empty()) error = ParseMode(options.mode, &plan->mode);
+  return error.empty() ? PlanBlocks(options, plan) : error;
 }
 
 std::string Load(const Options& options, const Plan& plan, LightField* light_field) {
@@ -131,30 +171,10 @@ std::string ChooseBlur(const Plan& plan, const sf_disparity_stats& stats, double
                       Short(stats.max) + ")");
 }
 
-std::string WriteReport(const Options& options, const Plan& plan, const EngineTask& task,
-                        const EngineResult& result, double seconds_total) {
-  nlohmann::ordered_json json;
-  json["mode"] = options.mode;
-  json["width"] = task.config.width;
-  json["height"] = task.config.height;
-  json["views"] = task.config.views;
-  json["focus"] = plan.focus;
-  json["aperture"] = plan.aperture;
-  json["r_max"] = result.report.r_max;
-  json["N"] = result.report.n;
-  json["rendered_views"] = result.report.rendered_views;
-  json["rendered_samples"] = result.report.rendered_samples;
-  json["seconds_refocus"] = result.seconds;
-  json["seconds_total"] = seconds_total;
-  json["workspace_bytes"] = result.workspace_bytes;
-  json["simd_target"] = sf_simd_target();
-  json["threads"] = plan.threads;
-  const std::string text = json.dump(2) + "\n";
-  return WriteFile(options.report, Bytes(text.begin(), text.end()));
-}
-
+// Blocks are collected where `blocks` is not null.
 EngineTask MakeTask(const Options& options, const Plan& plan, const LightField& light_field,
-                    const sf_disparity_stats& stats, double max_blur) {
+                    const sf_disparity_stats& stats, double max_blur,
+                    std::vector<sf_block>* blocks) {
   EngineTask task;
   task.light_field = &light_field;
   sf_config_init(&task.config);
@@ -164,10 +184,19 @@ EngineTask MakeTask(const Options& options, const Plan& plan, const LightField& 
   task.config.disparity_min = stats.min;
   task.config.disparity_max = stats.max;
   task.config.max_blur = max_blur;
+  task.config.largest_block = plan.largest_block;
+  task.config.max_layer = plan.max_layer;
+  task.config.deblocking = plan.deblocking;
+  task.config.timing = plan.timing;
   sf_params_init(&task.params);
   task.params.mode = plan.mode;
   task.params.focus = plan.focus;
   task.params.aperture = plan.aperture;
+  if (!options.report.empty()) task.params.clock = ThreadNanoseconds;
+  if (blocks != nullptr) {
+    task.params.on_block = CollectBlock;
+    task.params.on_block_data = blocks;
+  }
   task.threads = plan.threads;
   task.stream = options.stream;
   return task;
@@ -185,12 +214,18 @@ std::string Run(const Options& options) {
   if (error.empty()) error = ChooseFocus(light_field.disparity, &plan);
   if (error.empty()) error = ChooseBlur(plan, stats, &max_blur);
   if (!error.empty()) return error;
-  const EngineTask task = MakeTask(options, plan, light_field, stats, max_blur);
+  std::vector<sf_block> blocks;
+  const EngineTask task = MakeTask(options, plan, light_field, stats, max_blur,
+                                   options.map.empty() ? nullptr : &blocks);
   EngineResult result;
   error = RunEngine(options.folder, task, &result);
   if (error.empty()) error = WriteImage(options.out, result.picture);
+  if (error.empty() && !options.map.empty()) {
+    error = WriteImage(options.map, DrawPartition(result.picture, blocks));
+  }
   if (error.empty() && !options.report.empty()) {
-    error = WriteReport(options, plan, task, result, Seconds() - start);
+    const std::string text = ReportText(task, result, Seconds() - start);
+    error = WriteFile(options.report, Bytes(text.begin(), text.end()));
   }
   return error;
 }
@@ -208,12 +243,25 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   command->add_option("--focus-at", options->focus_at, "X,Y: the disparity of that pixel");
   command->add_option("--aperture", options->aperture, "Radius, above 0 up to 1")
       ->capture_default_str();
-  command->add_option("--mode", options->mode, "frame or benchmark")->capture_default_str();
+  command->add_option("--mode", options->mode, "block, frame, benchmark or blur")
+      ->capture_default_str();
   command->add_option("--views", options->views, "17, 9, 5 or 1; default: all of the folder");
   command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
   command->add_flag("--stream", options->stream, "Row by row instead of whole pictures");
   command->add_flag("--fill-invalid", options->fill_invalid,
                     "Replace non-finite disparities by their nearest valid neighbour");
+  command->add_option("--largest-block", options->largest_block, "32, 64, 128 or 256")
+      ->capture_default_str();
+  command->add_option("--max-layer", options->max_layer, "0, 1 or 2: may subsample by 2^L")
+      ->capture_default_str();
+  command
+      ->add_option("--deblocking", options->deblocking,
+                   "0 to 255 grey levels: the largest step smoothed between layers; 0: off")
+      ->capture_default_str();
+  command->add_option("--timing", options->timing,
+                      "JSON file that starfocus calibrate wrote; default: built in");
+  command->add_option("--map", options->map,
+                      "Picture to write: the blocks, red for L = 0, green for 1, blue for 2");
   command->add_option("--report", options->report, "JSON file for figures of the run");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }

@@ -1,7 +1,6 @@
 #include "engine_run.h"
 
 #include <algorithm>
-#include <memory>
 #include <new>
 
 #include "platform/clock.h"
@@ -13,13 +12,6 @@ namespace starfocus {
 namespace {
 
 constexpr int kStreamRows = 8;  // pushed and pulled at a time
-
-struct FreeAligned {
-  void operator()(void* memory) const {
-    ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
-  }
-};
-using Workspace = std::unique_ptr<void, FreeAligned>;
 
 // The thread pool with a progress line: every batch of jobs is a step.
 struct ShownRunner {
@@ -72,17 +64,25 @@ sf_status RunStream(sf_engine* engine, const EngineTask& task, ShownRunner* runn
 
 }  // namespace
 
+void FreeAligned::operator()(void* memory) const {
+  ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
+}
+
+sf_status MakeEngine(const sf_config& config, Workspace* workspace, size_t* bytes,
+                     sf_engine** engine) {
+  const sf_status status = sf_workspace_size(&config, bytes);
+  if (status != SF_OK) return status;
+  workspace->reset(::operator new (*bytes, std::align_val_t{SF_ALIGNMENT}));
+  return sf_init(&config, workspace->get(), *bytes, engine);
+}
+
 std::string RunEngine(const std::string& where, EngineTask task, EngineResult* result) {
   ShownRunner runner = {ThreadRunner(task.threads), Progress("refocusing", 0)};
   task.config.max_workers = task.threads;
   task.config.streaming = task.stream ? 1 : 0;
-  sf_status status = sf_workspace_size(&task.config, &result->workspace_bytes);
   Workspace workspace;
   sf_engine* engine = nullptr;
-  if (status == SF_OK) {
-    workspace.reset(::operator new (result->workspace_bytes, std::align_val_t{SF_ALIGNMENT}));
-    status = sf_init(&task.config, workspace.get(), result->workspace_bytes, &engine);
-  }
+  sf_status status = MakeEngine(task.config, &workspace, &result->workspace_bytes, &engine);
   if (status == SF_OK) {
     Image& out = result->picture;
     out = Image(task.config.width, task.config.height);

@@ -2,6 +2,7 @@
 #ifndef STARFOCUS_EXAMPLES_ENGINE_RUN_H_
 #define STARFOCUS_EXAMPLES_ENGINE_RUN_H_
 
+#include <memory>
 #include <string>
 
 #include "platform/image.h"
@@ -9,6 +10,15 @@
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
+
+struct FreeAligned {
+  void operator()(void* memory) const;
+};
+using Workspace = std::unique_ptr<void, FreeAligned>;
+
+// An engine in memory of its own, *bytes of it.
+sf_status MakeEngine(const sf_config& config, Workspace* workspace, size_t* bytes,
+                     sf_engine** engine);
 
 struct EngineTask {
   const LightField* light_field = nullptr;

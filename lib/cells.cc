@@ -1,5 +1,7 @@
 #include "lib/cells.h"
 
+#include <initializer_list>
+
 namespace starfocus {
 namespace {
 
@@ -58,6 +60,50 @@ int32_t MeasureEdges(const Window& window, int32_t focus, int32_t x, int32_t y) 
   return largest;
 }
 
+// A run ends when its pixels drift apart by a quarter pixel (kRunSpread of view_grid.cc).
+constexpr int32_t kRunDrift = kRadiusOne / 4;
+constexpr int32_t kLargestGap = 8;
+
+// Steps in disparity, kDisparityBits, of a cell, each up to the limit from where on it counts no
+// more.
+struct Steps {
+  int32_t run_limit, gap_limit;
+  uint32_t slopes = 0, edges = 0, gaps = 0;
+
+  void Add(const int16_t* from, const int16_t* to, int32_t count) {
+    for (int32_t k = 0; k < count; ++k) {
+      const int32_t step = Abs(to[k] - from[k]);
+      const bool edge = step > kSurfaceStep;
+      slopes += static_cast<uint32_t>(edge ? 0 : Min(step, run_limit));
+      gaps += static_cast<uint32_t>(edge ? Min(step, gap_limit) : 0);
+      edges += edge ? 1 : 0;
+    }
+  }
+};
+
+// Disparity that moves by `distance` (kDisparityBits of a pixel) in the outermost view.
+int32_t DisparityOf(int32_t distance, int64_t step) {
+  const int64_t disparity = (int64_t{distance} << kStepBits) / step;
+  return static_cast<int32_t>(disparity < INT16_MAX ? disparity : INT16_MAX);
+}
+
+Content MeasureContent(const Window& window, int64_t step, int32_t x, int32_t y) {
+  Steps steps = {DisparityOf(kRunDrift, step), DisparityOf(kLargestGap * kRadiusOne, step)};
+  const int32_t width = Min(kCellSize, window.width - x);
+  const int32_t height = Min(kCellSize, window.height - y);
+  for (int32_t row = 0; row < height; ++row) {
+    const int16_t* disparity = window.disparity.Row(y + row) + x;
+    steps.Add(disparity, disparity + 1, width - 1);
+    if (row > 0) steps.Add(window.disparity.Row(y + row - 1) + x, disparity, width);
+  }
+  // One step in eight leads out of the cell, and is made up for.
+  const auto scaled = [](int64_t sum, int64_t one) {
+    return static_cast<uint32_t>(sum * kContentOne * kCellSize / (one * (kCellSize - 1)));
+  };
+  return {scaled(steps.slopes, Max(1, steps.run_limit)), scaled(steps.edges, 1),
+          scaled(steps.gaps * step >> kStepBits, kRadiusOne)};
+}
+
 // Reach beyond either end of a line of 8 columns or rows, and the depth inside.
 void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], Side low, Side high,
                   Cell* cell) {
@@ -100,6 +146,12 @@ void Widen(int32_t gap, int32_t inside, bool low, int32_t* low_border, int32_t* 
   *border = Max(*border, gap + inside);
 }
 
+void AddContent(const Content& part, Content* sum) {
+  sum->slopes += part.slopes;
+  sum->edges += part.edges;
+  sum->gaps += part.gaps;
+}
+
 }  // namespace
 
 Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, int32_t row) {
@@ -113,23 +165,28 @@ Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, i
   for (int16_t& reach : cell.reach) reach = INT16_MIN;
   MeasureSides(scale, found.column, kLeft, kRight, &cell);
   MeasureSides(scale, found.row, kTop, kBottom, &cell);
+  const Content content = MeasureContent(window, scale.step, x, y);
+  cell.slopes = static_cast<uint16_t>(content.slopes);
+  cell.edges = static_cast<uint16_t>(content.edges);
+  cell.gaps = static_cast<uint16_t>(content.gaps);
   return cell;
 }
 
 BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32_t around) {
-  BlockStats stats = {INT32_MAX, 0, 0, {}};
+  BlockStats stats = {INT32_MAX, 0, 0, {}, {}};
   for (int32_t y = row - around; y <= row + 1 + around; ++y) {
     for (int32_t x = column - around; x <= column + 1 + around; ++x) {
       const int32_t cx = Clamp(x, 0, grid.columns - 1), cy = Clamp(y, 0, grid.rows - 1);
       const Cell& stored = *grid.At(cx, cy);
+      const bool outside = cx != x || cy != y;
       const int32_t gap_x = GapOf(x, column), gap_y = GapOf(y, row);
       if (gap_x < 0 && gap_y < 0) {
         stats.r_min = Min(stats.r_min, stored.r_min);
         stats.r_max = Max(stats.r_max, stored.r_max);
         stats.r_edge = Max(stats.r_edge, stored.r_edge);
+        if (!outside) AddContent({stored.slopes, stored.edges, stored.gaps}, &stats.content);
         continue;
       }
-      const bool outside = cx != x || cy != y;
       const Cell cell = outside ? OutsideCell(stored) : stored;
       // Towards the block: a cell on its left reaches to the right.
       const Side side_x = x < column ? kRight : kLeft, side_y = y < row ? kBottom : kTop;
@@ -153,7 +210,7 @@ BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32
 }
 
 BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {
-  BlockStats merged = {INT32_MAX, 0, 0, {}};
+  BlockStats merged = {INT32_MAX, 0, 0, {}, {}};
   for (int child = 0; child < 4; ++child) {
     if (children[child] == nullptr) continue;
     const BlockStats& from = *children[child];
@@ -161,6 +218,7 @@ BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {
     merged.r_min = Min(merged.r_min, from.r_min);
     merged.r_max = Max(merged.r_max, from.r_max);
     merged.r_edge = Max(merged.r_edge, from.r_edge);
+    AddContent(from.content, &merged.content);
     for (int layer = 0; layer < 3; ++layer) {
       Border& border = merged.border[layer];
       const Border& part = from.border[layer];

@@ -13,6 +13,15 @@ namespace starfocus {
 
 inline constexpr int32_t kCellSize = 8;
 
+// What line scans meet in a cell or block at layer 0, along rows and columns together, in units of
+// 1 / kContentOne: every step from pixel to pixel counts.
+inline constexpr int32_t kContentOne = 16;
+struct Content {
+  uint32_t slopes;  // runs that steps within a surface start; a fraction where it takes several
+  uint32_t edges;   // runs that depth edges start
+  uint32_t gaps;    // pixels that depth edges uncover in the outermost view, 8 at most each
+};
+
 // Blur radii carry kDisparityBits fractional bits: 128 px are 8192.
 struct Cell {
   uint16_t r_min, r_max;  // rounded down, up
@@ -21,6 +30,7 @@ struct Cell {
   // and how deep inside lie the pixels that do.
   int16_t reach[4];
   uint8_t inside[4];
+  uint16_t slopes, edges, gaps;  // Content
 };
 
 enum Side { kLeft, kRight, kTop, kBottom };
@@ -66,6 +76,7 @@ inline constexpr int32_t kLayerMargin[3] = {0, 4, 12};
 struct BlockStats {
   int32_t r_min, r_max, r_edge;
   Border border[3];
+  Content content;  // of the pixels inside
 };
 
 // Stats of the 2x2 cells at (column, row), looking at cells up to `around` away, which must be

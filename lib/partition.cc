@@ -124,8 +124,9 @@ class Partition {
         LayerBorder(border.top, 0, layer), LayerBorder(border.bottom, side - rect.height, layer)};
     const uint64_t upsampled =
         layer == 0 ? 0 : static_cast<uint64_t>(rect.width) * static_cast<uint64_t>(rect.height);
-    block->cost = PredictTime(rules_.timing, MeasureWork(block->rendered, block->border,
-                                                         rules_.views[block->n], upsampled));
+    block->cost = PredictTime(rules_.timing,
+                              MeasureWork(block->rendered, block->border, rules_.views[block->n],
+                                          upsampled, stats.content, layer));
   }
 
   void EmitNode(int level, int32_t column, int32_t row, Block* blocks) {

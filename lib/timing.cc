@@ -12,7 +12,7 @@ ViewCounts CountViews(int32_t n) {
 }
 
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views,
-                      uint64_t upsampled_pixels) {
+                      uint64_t upsampled_pixels, const Content& content, int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
   const uint64_t extended_width = width + static_cast<uint64_t>(border.left + border.right);
   const uint64_t extended_height = height + static_cast<uint64_t>(border.top + border.bottom);
@@ -23,17 +23,26 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& 
   work.b = views.b * width * height;
   work.c = views.c * width * height;
   work.upsample = upsampled_pixels;
+  // A layer has 1 / 2^L of the lines; along one of them a slope makes as many fewer runs and a gap
+  // is as many times narrower, but an edge stays an edge.
+  const uint64_t runs = (content.slopes >> 2 * layer) + (content.edges >> layer);
+  const uint64_t gaps = content.gaps >> 2 * layer;
+  // Half of the views are scanned along rows and half along columns, those of type B along both.
+  const uint64_t half = (views.a + views.b + views.c) / 2;
+  work.span = half * (width + height) + half * runs / kContentOne;
+  work.hole = half * gaps / kContentOne;
   return work;
 }
 
 uint64_t PredictTime(const sf_timing& timing, const BlockWork& work) {
   return timing.block + timing.field * work.field + timing.a * work.a + timing.b * work.b +
-         timing.c * work.c + timing.upsample * work.upsample;
+         timing.c * work.c + timing.upsample * work.upsample + timing.span * work.span +
+         timing.hole * work.hole;
 }
 
 sf_timing DefaultTiming() {
-  // block, field, a, b, c, upsample
-  return {4000000, 12000, 5000, 4000, 3000, 6000};
+  // block, field, a, b, c, upsample, span, hole
+  return {15200000, 6600, 2700, 2700, 0, 18600, 16400, 5600};
 }
 
 }  // namespace starfocus

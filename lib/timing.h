@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "lib/cells.h"
 #include "lib/field.h"
 #include "starfocus/starfocus.h"
 
@@ -14,6 +15,8 @@ struct BlockWork {
   uint64_t field;     // pixels of the extended rectangle
   uint64_t a, b, c;   // rendered pixels P_A, P_B, P_C of (13)
   uint64_t upsample;  // picture pixels, 0 at layer 0
+  uint64_t span;      // stretches of one disparity in all rendered lines
+  uint64_t hole;      // pixels that they leave uncovered, as if each view were an outermost one
 };
 
 // Views of each type inside the disc of N.
@@ -23,8 +26,10 @@ struct ViewCounts {
 ViewCounts CountViews(int32_t n);
 
 // The work of `rect` with `border`, both in pixels of the layer, and N views along the radius.
+// `content`: what the block holds at layer 0.
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views,
-                      uint64_t upsampled_pixels);
+                      uint64_t upsampled_pixels, const Content& content = {0, 0, 0},
+                      int32_t layer = 0);
 
 // Picoseconds; exact in integers, so that a partition is the same on every machine.
 uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);

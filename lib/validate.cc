@@ -43,8 +43,8 @@ sf_status CheckConfig(const sf_config& config) {
   if (config.max_layer < 0 || config.max_layer >= SF_LAYERS) return SF_ERROR_LAYER;
   if (config.deblocking < 0 || config.deblocking > 255) return SF_ERROR_DEBLOCKING;
   const sf_timing& timing = config.timing;
-  for (const uint32_t coefficient :
-       {timing.block, timing.field, timing.a, timing.b, timing.c, timing.upsample}) {
+  for (const uint32_t coefficient : {timing.block, timing.field, timing.a, timing.b, timing.c,
+                                     timing.upsample, timing.span, timing.hole}) {
     if (coefficient > SF_MAX_TIMING) return SF_ERROR_TIMING;
   }
   return SF_OK;

@@ -2,13 +2,24 @@
 #ifndef STARFOCUS_PLATFORM_CLOCK_H_
 #define STARFOCUS_PLATFORM_CLOCK_H_
 
+#include <time.h>
+
 #include <chrono>
+#include <cstdint>
 
 namespace starfocus {
 
 // Seconds since an arbitrary moment; never goes back.
 inline double Seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Nanoseconds that the calling thread has run on a processor, from some start: what other programs
+// take is not counted. An sf_clock.
+inline uint64_t ThreadNanoseconds() {
+  timespec time = {};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<uint64_t>(time.tv_sec) * 1000000000u + static_cast<uint64_t>(time.tv_nsec);
 }
 
 }  // namespace starfocus

@@ -111,6 +111,8 @@ typedef struct sf_timing {
   uint32_t b;        /**< k_B: per rendered pixel of type B */
   uint32_t c;        /**< k_C: per rendered pixel of type C */
   uint32_t upsample; /**< per picture pixel of a block at layer 1 or 2 */
+  uint32_t span;     /**< per stretch of one disparity in a rendered line, one a line at least */
+  uint32_t hole;     /**< per pixel that a depth edge uncovers in the outermost view, 8 at most */
 } sf_timing;
 
 /** What a workspace is made for. Call sf_config_init first: it zeroes and sets the defaults. */

@@ -1,0 +1,64 @@
+#include "refocus_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace starfocus {
+namespace {
+
+double Share(uint64_t part, uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+// Shares are of all layers together; seconds are those of the processor, summed over the threads.
+// The timing model is one of blocks that are refocused by views after an analysis of their content.
+nlohmann::ordered_json LayersJson(const sf_report& report, bool predicted) {
+  uint64_t pixels = 0, time = 0;
+  for (const sf_layer_report& layer : report.layers) {
+    pixels += layer.pixels;
+    time += layer.measured_ns;
+  }
+  nlohmann::ordered_json layers = nlohmann::ordered_json::array();
+  for (int l = 0; l < SF_LAYERS; ++l) {
+    const sf_layer_report& layer = report.layers[l];
+    nlohmann::ordered_json json;
+    json["layer"] = l;
+    json["blocks"] = layer.blocks;
+    json["area_share"] = Share(layer.pixels, pixels);
+    json["time_share"] = Share(layer.measured_ns, time);
+    json["views"] = layer.views;
+    json["rendered_samples"] = layer.rendered_samples;
+    json["seconds"] = 1e-9 * static_cast<double>(layer.measured_ns);
+    json["seconds_predicted"] = nullptr;
+    if (predicted) json["seconds_predicted"] = 1e-12 * static_cast<double>(layer.predicted_ps);
+    layers.push_back(json);
+  }
+  return layers;
+}
+
+}  // namespace
+
+std::string ReportText(const EngineTask& task, const EngineResult& result, double seconds_total) {
+  nlohmann::ordered_json json;
+  json["mode"] = kModeNames[task.params.mode];
+  json["width"] = task.config.width;
+  json["height"] = task.config.height;
+  json["views"] = task.config.views;
+  json["focus"] = task.params.focus;
+  json["aperture"] = task.params.aperture;
+  json["r_max"] = result.report.r_max;
+  json["N"] = result.report.n;
+  json["rendered_views"] = result.report.rendered_views;
+  json["rendered_samples"] = result.report.rendered_samples;
+  json["largest_block"] = task.config.largest_block;
+  json["max_layer"] = task.config.max_layer;
+  json["deblocking"] = task.config.deblocking;
+  json["layers"] = LayersJson(result.report, task.params.mode == SF_MODE_BLOCK);
+  json["seconds_refocus"] = result.seconds;
+  json["seconds_total"] = seconds_total;
+  json["workspace_bytes"] = result.workspace_bytes;
+  json["simd_target"] = sf_simd_target();
+  json["threads"] = task.threads;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace starfocus
