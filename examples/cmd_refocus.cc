@@ -19,7 +19,7 @@ namespace {
 
 struct Options {
   std::string folder, out, report, map, timing;
-  std::string focus, focus_at, aperture = "1", mode = "block", views, threads = "1";
+  std::string focus, focus_at, aperture = "1", mode = "block", rule, views, threads = "1";
   std::string largest_block = "64", max_layer = "2", deblocking = "35";
   bool stream = false, fill_invalid = false;
 };
@@ -29,6 +29,7 @@ struct Plan {
   bool focus_at = false;
   int x = 0, y = 0;
   sf_mode mode = SF_MODE_BLOCK;
+  sf_rule rule = SF_RULE_DEFAULT;
   int views = 0;  // 0: all there are
   int threads = 1;
   int largest_block = 0, max_layer = 0, deblocking = 0;
@@ -42,6 +43,15 @@ std::string ParseMode(const std::string& text, sf_mode* mode) {
     return "";
   }
   return Expected("--mode", "block, frame, benchmark or blur", "'" + text + "'");
+}
+
+std::string ParseRule(const std::string& text, sf_rule* rule) {
+  if (text.empty()) return "";
+  if (text != "paper" && text != "cells") {
+    return Expected("--rule", "paper or cells", "'" + text + "'");
+  }
+  *rule = text == "paper" ? SF_RULE_PAPER : SF_RULE_CELLS;
+  return "";
 }
 
 // Sets what block mode adds to the plan.
@@ -96,6 +106,7 @@ std::string MakePlan(const Options& options, Plan* plan) {
     error = ParseViews("--views", options.views, &plan->views);
   }
   if (error.empty()) error = ParseMode(options.mode, &plan->mode);
+  if (error.empty()) error = ParseRule(options.rule, &plan->rule);
   return error.empty() ? PlanBlocks(options, plan) : error;
 }
 
@@ -190,6 +201,7 @@ EngineTask MakeTask(const Options& options, const Plan& plan, const LightField& 
   task.config.timing = plan.timing;
   sf_params_init(&task.params);
   task.params.mode = plan.mode;
+  task.params.rule = plan.rule;
   task.params.focus = plan.focus;
   task.params.aperture = plan.aperture;
   if (!options.report.empty()) task.params.clock = ThreadNanoseconds;
@@ -252,6 +264,9 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
                     "Replace non-finite disparities by their nearest valid neighbour");
   command->add_option("--largest-block", options->largest_block, "32, 64, 128 or 256")
       ->capture_default_str();
+  command->add_option("--rule", options->rule,
+                      "paper or cells: how many views a blur needs (default: cells in block mode, "
+                      "paper in frame mode)");
   command->add_option("--max-layer", options->max_layer, "0, 1 or 2: may subsample by 2^L")
       ->capture_default_str();
   command

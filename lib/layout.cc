@@ -62,8 +62,8 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
 }
 
 void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
-  // One more than (9) gives: radii are rounded up before it.
-  engine->max_n = ViewsByPaper(config.max_blur) + 1;
+  // One more than (9) gives: radii are rounded up before it. For small blurs cells ask for more.
+  engine->max_n = Max(ViewsByPaper(config.max_blur), ViewsByCells(config.max_blur)) + 1;
   const auto count = static_cast<size_t>(engine->max_n) + 1;
   size_t weights = 0;
   for (int32_t n = 0; n <= engine->max_n; ++n) weights += ApertureSize(n);

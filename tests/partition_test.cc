@@ -75,6 +75,8 @@ struct Plan {
     rules.max_n = kMaxN;
     rules.cells = random->Int(0, 1) == 1;
     rules.timing = starfocus::DefaultTiming();
+    // Spans and holes depend on the cells; the tree's optimality does not depend on them.
+    rules.timing.span = rules.timing.hole = 0;
     rules.views = views.data();
   }
   Plan(const Plan&) = delete;
@@ -145,6 +147,7 @@ Block Planned(const Plan& plan, int x, int y, int side) {
   Block block = {};
   block.rect = {x, y, std::min(side, plan.rules.width - x), std::min(side, plan.rules.height - y)};
   block.layer = std::min(LayerOf(stats.r_min / kRadiusOne), plan.rules.max_layer);
+  if (plan.rules.cells && stats.r_edge > 0) block.layer = std::min(block.layer, 1);
   const int scale = 1 << block.layer;
   const double unit = kRadiusOne * scale;
   block.n = std::min(ViewsOf(plan, stats.r_max / unit, stats.r_edge / unit), plan.rules.max_n);

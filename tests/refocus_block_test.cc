@@ -144,8 +144,9 @@ Changes CheckPictures(int rounds, double least_aperture, const MakeScene& make_s
     const float limit = static_cast<float>(2 * random.Int(1, 6));
     const test::Scene scene = make_scene(width, height, kViews[random.Int(0, 3)], limit, &random);
     const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(least_aperture, 1);
-    CheckPicture(scene, test::Params(kFocus[random.Int(0, 7)], aperture, SF_MODE_BLOCK),
-                 random.Int(1, 9), &changes);
+    sf_params params = test::Params(kFocus[random.Int(0, 7)], aperture, SF_MODE_BLOCK);
+    params.rule = SF_RULE_PAPER;  // it uses all layers at depth edges too
+    CheckPicture(scene, params, random.Int(1, 9), &changes);
   }
   changes.Tell();
   return changes;

@@ -137,10 +137,10 @@ TEST_CASE("timing: the largest block with the largest coefficients stays below 2
   CHECK(256.0L * static_cast<long double>(starfocus::PredictTime(most, small)) < 1.8e19L);
 }
 
-TEST_CASE("timing: the defaults are legal and none is zero") {
+TEST_CASE("timing: the defaults are legal, and only type C may cost nothing but its spans") {
   const sf_timing timing = starfocus::DefaultTiming();
-  for (const uint32_t value :
-       {timing.block, timing.field, timing.a, timing.b, timing.c, timing.upsample}) {
+  for (const uint32_t value : {timing.block, timing.field, timing.a, timing.b, timing.upsample,
+                               timing.span, timing.hole}) {
     CHECK(value > 0);
     CHECK(value <= SF_MAX_TIMING);
   }

@@ -39,8 +39,8 @@ void PrintRule(const std::vector<int>& fewest, double limit) {
   for (size_t k = 0; k < fewest.size(); ++k) {
     const double r = double(k + 1) * kStep;
     const bool last = k + 1 == fewest.size();
-    if (last || analysis::ViewsByCells(r) != analysis::ViewsByCells(r + kStep)) {
-      std::printf(" %g:%d", r, analysis::ViewsByCells(r));
+    if (last || starfocus::ViewsByCells(r) != starfocus::ViewsByCells(r + kStep)) {
+      std::printf(" %g:%d", r, starfocus::ViewsByCells(r));
     }
   }
   std::printf("\n  Least N that could do, from each r_max up to %g\n   ", limit);
@@ -62,11 +62,11 @@ Figure AnalyseCells(double max_blur) {
   for (int k = 0; k < study.count(); ++k) {
     const double r = study.Radius(k);
     double worst = 0;
-    const double margin = study.Margin(k, analysis::ViewsByCells(r), &worst);
+    const double margin = study.Margin(k, starfocus::ViewsByCells(r), &worst);
     if (margin > largest) largest = margin, largest_at = r;
     fewest.push_back(study.Fewest(k));
     table.Row().Add(r).Add(ViewsByPaper(r)).Add(fewest.back());
-    table.Add(analysis::ViewsByCells(r)).Add(margin).Add(worst);
+    table.Add(starfocus::ViewsByCells(r)).Add(margin).Add(worst);
     progress.Step();
   }
   PrintRule(fewest, max_blur);
