@@ -16,6 +16,8 @@ usage: ./do COMMAND
   demo    install what is missing, build, make a demo light field and refocus it
   test    install what is missing, build and run every test
   build   build Release into build/release (the program: build/release/starfocus)
+  cross ARCH [build]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated
+  golden  record tests/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file
   help    this text
 
@@ -156,10 +158,14 @@ format() {
     -exec clang-format -i {} +
 }
 
+. toolchains/commands.sh
+
 case "${1:-help}" in
   demo) demo ;;
   test) run_tests ;;
   build) build ;;
+  cross) shift && cross "$@" ;;
+  golden) golden ;;
   format) format ;;
   help | -h | --help) help ;;
   *) help >&2; exit 1 ;;
