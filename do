@@ -17,6 +17,7 @@ usage: ./do COMMAND
   test    install what is missing, build and run every test
   build   build Release into build/release (the program: build/release/starfocus)
   cross ARCH [build]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated
+  size [write]   what boards need: code, stack and memory (write: into toolchains/README.md)
   golden  record tests/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file
   help    this text
@@ -166,6 +167,7 @@ case "${1:-help}" in
   build) build ;;
   cross) shift && cross "$@" ;;
   golden) golden ;;
+  size) size "${2:-}" ;;
   format) format ;;
   help | -h | --help) help ;;
   *) help >&2; exit 1 ;;
