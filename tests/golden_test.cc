@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/integer_scene.h"
 #include "tests/simd_targets.h"
 #include "tests/test_scene.h"
 
@@ -23,46 +24,6 @@ uint64_t Hash(const std::vector<uint8_t>& bytes) {
   return hash;
 }
 
-enum class Depth { kLayers, kSlanted, kNoise };
-
-// A disparity every machine computes alike: multiples of 1/64, 1/96 and 1/7, one division each.
-float DisparityAt(Depth depth, int x, int y, test::Random* random) {
-  switch (depth) {
-    case Depth::kLayers: {
-      const bool near = (x / 19 + y / 23) % 3 == 0, middle = (x * 2 + y) % 71 < 24;
-      return static_cast<float>(near ? 250 : middle ? 37 : -130) / 64.0f;
-    }
-    case Depth::kSlanted:
-      return static_cast<float>(3 * x - 2 * y) / 96.0f;
-    case Depth::kNoise:
-      return static_cast<float>(random->Int(-21, 21)) / 7.0f;
-  }
-  return 0;
-}
-
-// Smooth shading with noise and hard edges; views shifted and shaded apart, so that nothing can be
-// taken from the wrong one unnoticed. Integers only: no machine's rounding enters.
-test::Scene MakeScene(int width, int height, int views, Depth depth) {
-  test::Scene scene = test::EmptyScene(width, height, views, -4, 4);
-  test::Random random(static_cast<uint64_t>(views) * 10 + static_cast<uint64_t>(depth));
-  for (int view = 0; view < views; ++view) {
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        for (int c = 0; c < 3; ++c) {
-          const int shade = 5 * x + 3 * y * (c + 1) + 29 * view;
-          const int edge = ((x + 2 * view) / 9 + y / 7) % 2 * 90;
-          const int noise = random.Int(0, 40);
-          scene.Pixel(view, x, y)[c] = static_cast<uint8_t>(shade / 4 % 126 + edge + noise);
-        }
-      }
-    }
-  }
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) scene.Disparity(x, y) = DisparityAt(depth, x, y, &random);
-  }
-  return scene;
-}
-
 struct Lens {
   sf_mode mode;
   double focus, aperture;
@@ -71,7 +32,7 @@ struct Lens {
 struct Case {
   std::string name;
   int width, height, views;
-  Depth depth;
+  test::Depth depth;
   Lens lens;
   int block;
 };
@@ -86,10 +47,11 @@ std::vector<Case> Cases() {
   std::vector<Case> cases;
   int number = 0;
   for (const int views : {1, 5, 9, 17}) {
-    for (const Depth depth : {Depth::kLayers, Depth::kSlanted, Depth::kNoise}) {
+    for (const test::Depth depth :
+         {test::Depth::kLayers, test::Depth::kSlanted, test::Depth::kNoise}) {
       for (const Lens& lens : kLenses) {
         // Noise makes each view of a line its own; one lens of it is enough.
-        if (depth == Depth::kNoise && &lens != &kLenses[1]) continue;
+        if (depth == test::Depth::kNoise && &lens != &kLenses[1]) continue;
         Case one = {"", 97, 70, views, depth, lens, number % 2 == 0 ? 32 : 64};
         char name[80];
         std::snprintf(name, sizeof(name), "%d-%s-%s-%g-%g-%d", views,
@@ -149,7 +111,7 @@ TEST_CASE("golden: the same pictures on every machine and SIMD target") {
   if (!record) golden = ReadGolden();
   std::map<std::string, int> wrong;
   for (const Case& one : cases) {
-    const test::Scene scene = MakeScene(one.width, one.height, one.views, one.depth);
+    const test::Scene scene = test::IntegerScene(one.width, one.height, one.views, one.depth);
     // What is recorded is the reference's: the last table.
     if (record) golden[one.name] = Refocus(one, scene, tables.back());
     for (const starfocus::simd::Kernels* kernels : tables) {

@@ -34,9 +34,64 @@ golden_by_sve_length() {
   done
 }
 
+# instructions CASE KERNELS: of one refocusing, on the emulated board.
+instructions() {
+  local runs
+  for runs in 1 2; do
+    qemu-aarch64 -cpu cortex-a53 -d plugin \
+      -plugin "$LOGS/count.so,sym=starfocus,sym=sf_,sym=memcpy,sym=memset,sym=memmove" \
+      build/aarch64/tests/instruction_bench "$1" "$2" $runs 2>&1 | sed -n 's/^instructions: //p'
+  done | awk 'NR == 1 { first = $1 } NR == 2 { print $1 - first }'
+}
+
+# Instructions per pixel with NEON and with the plain reference kernels. Fails when any is more than
+# 3 % above tests/instruction_counts.txt; `record` writes that file.
+count() {
+  local baseline=tests/instruction_counts.txt now=$LOGS/instruction_counts.txt name pixels kernels
+  step plugin "building the emulator's counter" \
+    cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/count_instructions.c
+  qemu-aarch64 build/aarch64/tests/instruction_bench list | while read -r name pixels; do
+    for kernels in simd reference; do
+      printf '%s %s %s %s\n' "$name" $kernels "$pixels" "$(instructions "$name" $kernels)"
+    done
+  done >"$now"
+  [ "${1:-}" != record ] || cp "$now" $baseline
+  awk '
+    NR == FNR { expected[$1 " " $2] = $4; next }
+    { count[$1 " " $2] = $4; if ($2 == "simd") { names[++n] = $1; pixels[$1] = $3 } }
+    function change(key) { return (count[key] / expected[key] - 1) * 100 }
+    END {
+      printf "%-24s %10s %10s %7s  %s\n", "AArch64 instructions", "NEON", "scalar", "ratio",
+        "against the baseline"
+      for (i = 1; i <= n; ++i) {
+        simd = names[i] " simd"; reference = names[i] " reference"
+        if (!count[simd] || !count[reference] || !expected[simd] || !expected[reference]) {
+          print names[i] ": not counted, or not in the baseline"; bad = 1; continue
+        }
+        printf "%-24s %10.1f %10.1f %7.2f  %+.2f %% %+.2f %%\n", names[i],
+          count[simd] / pixels[names[i]], count[reference] / pixels[names[i]],
+          count[reference] / count[simd], change(simd), change(reference)
+        if (change(simd) > 3 || change(reference) > 3) bad = 1
+      }
+      if (n == 0) bad = 1
+      exit bad
+    }' $baseline "$now" ||
+    fail "more instructions than $baseline says; if that is meant: ./do count record"
+}
+
+# count_command [record]
+count_command() {
+  local PACKAGES="g++ cmake ninja-build pkg-config g++-aarch64-linux-gnu qemu-user"
+  install_missing
+  step sysroot-aarch64 "fetching headers and libraries for aarch64" \
+    toolchains/sysroot.sh arm64 build/sysroot/arm64
+  cross_build aarch64 instruction_bench
+  count "${1:-}"
+}
+
 # cross ARCHITECTURE [build]: builds everything for a board and runs every test on an emulated one.
 cross() {
-  local PACKAGES="cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot
+  local PACKAGES="g++ cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot
   board "$preset"
   PACKAGES="$PACKAGES $board_compiler"
   [ "${2:-}" = build ] || PACKAGES="$PACKAGES qemu-user"
@@ -46,7 +101,10 @@ cross() {
   cross_build "$preset"
   [ "${2:-}" = build ] && return
   ctest --preset "$preset" --parallel "$(nproc)" || exit 1
-  [ "$preset" != aarch64 ] || golden_by_sve_length
+  if [ "$preset" = aarch64 ]; then
+    golden_by_sve_length
+    count
+  fi
 }
 
 # Records the checksums of tests/golden.txt anew, after an intended change of the engine's output.
