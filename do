@@ -17,6 +17,7 @@ usage: ./do COMMAND
   test    install what is missing, build and run every test
   build   build Release into build/release (the program: build/release/starfocus)
   cross ARCH [build]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated
+  boot    run the board program on an emulated board: its GPIO lines, buttons and screen
   count [record]  AArch64 instructions per pixel against tests/instruction_counts.txt
   size [write]   what boards need: code, stack and memory (write: into toolchains/README.md)
   golden  record tests/golden.txt anew, after an intended change of the engine's output
@@ -168,6 +169,7 @@ case "${1:-help}" in
   build) build ;;
   cross) shift && cross "$@" ;;
   golden) golden ;;
+  boot) boot ;;
   count) count_command "${2:-}" ;;
   size) size "${2:-}" ;;
   format) format ;;

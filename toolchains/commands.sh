@@ -182,3 +182,23 @@ size() {
     cat "$LOGS/size.md"
   fi
 }
+
+# boot: the board program on an emulated board with a real kernel.
+boot() {
+  local PACKAGES="g++ cmake ninja-build pkg-config g++-aarch64-linux-gnu qemu-system-arm cpio"
+  find_missing
+  case " $missing " in
+    *" qemu-system-arm "*)
+      if [ -z "$(apt-cache policy qemu-system-arm 2>/dev/null | grep 'Candidate: [^(]')" ]; then
+        echo "SKIPPED: the boot test needs the package qemu-system-arm, which cannot be installed here"
+        return
+      fi
+      ;;
+  esac
+  install_missing
+  step sysroot-aarch64 "fetching headers and libraries for aarch64" \
+    toolchains/sysroot.sh arm64 build/sysroot/arm64
+  cross_build aarch64 board_refocus
+  build starfocus
+  tests/board_boot.sh $PROGRAM build/aarch64/board_refocus build/boot || exit 1
+}
