@@ -27,6 +27,9 @@ constexpr Case kCases[] = {
     {"17-slanted-frame-8", 17, test::Depth::kSlanted, SF_MODE_FRAME, 4, 1},
     {"5-layers-frame-6", 5, test::Depth::kLayers, SF_MODE_FRAME, 2, 1},
     {"1-layers-frame-4", 1, test::Depth::kLayers, SF_MODE_FRAME, 0, 1},
+    {"17-layers-block-8", 17, test::Depth::kLayers, SF_MODE_BLOCK, -4, 1},
+    {"5-slanted-block-4", 5, test::Depth::kSlanted, SF_MODE_BLOCK, 0, 1},
+    {"1-layers-blur-8", 1, test::Depth::kLayers, SF_MODE_BLUR, 4, 1},
     {"9-layers-benchmark-4", 9, test::Depth::kLayers, SF_MODE_BENCHMARK, 0, 1},
 };
 
@@ -39,7 +42,9 @@ const Case* Find(const char* name) {
 
 int Run(const Case& one, bool reference, int runs) {
   const test::Scene scene = test::IntegerScene(kWidth, kHeight, one.views, one.depth);
-  test::Engine engine(test::ConfigFor(scene, 16));
+  sf_config config = test::ConfigFor(scene, 16);
+  config.timing = {4000000, 12000, 1500, 1700, 2500, 9000};  // of no architecture in particular
+  test::Engine engine(config);
   if (engine.status() != SF_OK) return 1;
   if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());
   test::Output out(kWidth, kHeight);

@@ -185,7 +185,7 @@ size() {
 
 # boot: the board program on an emulated board with a real kernel.
 boot() {
-  local PACKAGES="g++ cmake ninja-build pkg-config g++-aarch64-linux-gnu qemu-system-arm cpio"
+  local PACKAGES="$PACKAGES g++-aarch64-linux-gnu qemu-system-arm cpio"
   find_missing
   case " $missing " in
     *" qemu-system-arm "*)
