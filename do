@@ -24,6 +24,11 @@ usage: ./do COMMAND
           --quick   small pictures, few of them: a minute or two
           --check   only compares instruction counts with tests/bench/baseline.txt
           --record  writes that file anew
+  cross ARCH [build]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated
+  boot    run the board program on an emulated board: its GPIO lines, buttons and screen
+  count [record]  AArch64 instructions per pixel against tests/instruction_counts.txt
+  size [write]   what boards need: code, stack and memory (write: into toolchains/README.md)
+  golden  record tests/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file
   help    this text
 
@@ -255,12 +260,19 @@ format() {
     -exec clang-format -i {} +
 }
 
+. toolchains/commands.sh
+
 case "${1:-help}" in
   demo) demo ;;
   test) run_tests ;;
   build) build ;;
   fuzz) fuzz "${2:-60}" ;;
   bench) bench "${2:-}" ;;
+  cross) shift && cross "$@" ;;
+  golden) golden ;;
+  boot) boot ;;
+  count) count_command "${2:-}" ;;
+  size) size "${2:-}" ;;
   format) format ;;
   help | -h | --help) help ;;
   *) help >&2; exit 1 ;;

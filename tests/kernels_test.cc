@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lib/engine.h"
+#include "tests/simd_targets.h"
 #include "tests/test_scene.h"
 
 namespace {
@@ -22,21 +23,6 @@ using starfocus::simd::Kernels;
 using starfocus::simd::kPadding;
 using starfocus::simd::ReferenceKernels;
 using starfocus::simd::Span;
-
-// The tables of all targets that were compiled and that this machine runs.
-std::vector<const Kernels*> AllTargets() {
-  std::vector<const Kernels*> all;
-  for (int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
-    hwy::SetSupportedTargetsForTest(rest & -rest);
-    const Kernels* kernels = &starfocus::simd::BestKernels();
-    const bool known = std::any_of(all.begin(), all.end(), [&](const Kernels* other) {
-      return std::string(other->name) == kernels->name;
-    });
-    if (!known) all.push_back(kernels);
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  return all;
-}
 
 // Lengths from one sample past two of the widest vectors, with all tails.
 constexpr int kLongest = 2 * 64 + 3;
@@ -175,19 +161,19 @@ void TestConvert(const Kernels& kernels) {
 }
 
 TEST_CASE("kernels: several SIMD targets run here") {
-  const std::vector<const Kernels*> all = AllTargets();
+  const std::vector<const Kernels*> all = test::SimdTargets();
   std::printf("SIMD targets:");
   for (const Kernels* kernels : all) std::printf(" %s", kernels->name);
   std::printf("\n");
   REQUIRE(!all.empty());
-#if HWY_ARCH_X86
+#if HWY_ARCH_X86 && !defined(HWY_COMPILE_ONLY_STATIC)
   CHECK(all.size() > 1);
 #endif
   CHECK(std::string(sf_simd_target()) == starfocus::simd::BestKernels().name);
 }
 
 TEST_CASE("kernels: the same results on every target") {
-  for (const Kernels* kernels : AllTargets()) {
+  for (const Kernels* kernels : test::SimdTargets()) {
     CAPTURE(kernels->name);
     TestAccumulate(*kernels);
     TestBlend(*kernels);
@@ -248,7 +234,7 @@ TEST_CASE("kernels: the engine gives the same bytes on every target") {
       for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
         const sf_params params = test::Params(1.3, 0.9, mode);
         const std::vector<uint8_t> expected = Refocused(scene, params, ReferenceKernels());
-        for (const Kernels* kernels : AllTargets()) {
+        for (const Kernels* kernels : test::SimdTargets()) {
           CAPTURE(kernels->name);
           CAPTURE(size[0]);
           CAPTURE(views);

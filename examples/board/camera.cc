@@ -1,0 +1,72 @@
+#include "board/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "platform/file.h"
+
+namespace starfocus {
+
+void Camera::FreeAligned::operator()(void* memory) const {
+  ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
+}
+
+std::string Camera::Load(const std::string& folder, sf_mode mode) {
+  std::string error = LoadLightField(folder, 0, &light_field_);
+  if (!error.empty()) return error;
+  FloatMap& map = light_field_.disparity;
+  const size_t stride = sizeof(float) * size_t(map.width);
+  sf_status status = sf_fill_disparity(map.values.data(), stride, map.width, map.height);
+  if (status == SF_OK) {
+    status = sf_measure_disparity(map.values.data(), stride, map.width, map.height, &stats_);
+  }
+  if (status != SF_OK) {
+    return Expected(DisparityPath(folder), "a disparity map", sf_status_string(status));
+  }
+  const double range = double(stats_.max) - double(stats_.min);
+  for (double aperture = 1; aperture > 0.1; aperture /= 2) {
+    if (aperture * range <= SF_MAX_BLUR) apertures_.push_back(aperture);
+  }
+  if (apertures_.empty()) {
+    return Expected(DisparityPath(folder), "disparities no further than 1000 pixels apart",
+                    std::to_string(range));
+  }
+  sf_config config;
+  sf_config_init(&config);
+  config.width = light_field_.width();
+  config.height = light_field_.height();
+  config.views = static_cast<int32_t>(light_field_.views.size());
+  config.disparity_min = stats_.min;
+  config.disparity_max = stats_.max;
+  config.max_blur = std::max(1.0, std::ceil(apertures_[0] * range));
+  config.max_workers = runner_.workers();
+  status = sf_workspace_size(&config, &bytes_);
+  if (status == SF_OK) {
+    workspace_.reset(::operator new (bytes_, std::align_val_t{SF_ALIGNMENT}));
+    status = sf_init(&config, workspace_.get(), bytes_, &engine_);
+  }
+  if (status != SF_OK) {
+    return Expected(folder, "a light field that the engine refocuses", sf_status_string(status));
+  }
+  for (size_t i = 0; i < light_field_.views.size(); ++i) {
+    rows_.views[i] = {light_field_.views[i].row(0), light_field_.views[i].stride()};
+  }
+  rows_.disparity = map.values.data();
+  rows_.disparity_stride = stride;
+  picture_ = Image(config.width, config.height);
+  mode_ = mode;
+  return "";
+}
+
+sf_status Camera::Take(double focus, double aperture) {
+  sf_params params;
+  sf_params_init(&params);
+  params.mode = mode_;
+  params.focus = focus;
+  params.aperture = aperture;
+  return sf_refocus(engine_, &params, &rows_, picture_.pixels.data(), picture_.stride(),
+                    ThreadRunner::Run, &runner_, nullptr);
+}
+
+}  // namespace starfocus

@@ -1,0 +1,52 @@
+// A light field in memory, ready to be refocused again and again without another allocation.
+#ifndef STARFOCUS_EXAMPLES_BOARD_CAMERA_H_
+#define STARFOCUS_EXAMPLES_BOARD_CAMERA_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "platform/image.h"
+#include "platform/light_field.h"
+#include "platform/runner.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+class Camera {
+ public:
+  explicit Camera(int threads) : runner_(threads) {}
+
+  // Loads the light field and makes an engine for every focus within its disparities.
+  std::string Load(const std::string& folder, sf_mode mode);
+
+  double nearest() const { return stats_.max; }
+  double farthest() const { return stats_.min; }
+  // Apertures that the engine's largest blur allows, the widest first.
+  const std::vector<double>& apertures() const { return apertures_; }
+  size_t workspace_bytes() const { return bytes_; }
+
+  // Refocuses; the result is picture().
+  sf_status Take(double focus, double aperture);
+  const Image& picture() const { return picture_; }
+
+ private:
+  struct FreeAligned {
+    void operator()(void* memory) const;
+  };
+
+  ThreadRunner runner_;
+  LightField light_field_;
+  sf_light_field rows_ = {};
+  sf_disparity_stats stats_ = {};
+  std::vector<double> apertures_;
+  std::unique_ptr<void, FreeAligned> workspace_;
+  size_t bytes_ = 0;
+  sf_engine* engine_ = nullptr;
+  sf_mode mode_ = SF_MODE_FRAME;
+  Image picture_;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_BOARD_CAMERA_H_

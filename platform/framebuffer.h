@@ -1,0 +1,35 @@
+// A Linux framebuffer (/dev/fb0) as a place for pictures.
+#ifndef STARFOCUS_PLATFORM_FRAMEBUFFER_H_
+#define STARFOCUS_PLATFORM_FRAMEBUFFER_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "platform/image.h"
+
+namespace starfocus {
+
+// Where a colour sits in a pixel: `length` bits from bit `offset` up.
+struct PixelField {
+  int offset, length;
+};
+
+// The memory of a screen.
+struct Screen {
+  uint8_t* memory = nullptr;
+  int width = 0, height = 0;  // pixels
+  size_t stride = 0;          // bytes from row to row
+  int bytes_per_pixel = 0;    // 2, 3 or 4, little-endian
+  PixelField red = {0, 0}, green = {0, 0}, blue = {0, 0};
+};
+
+// Draws the picture in the middle of the screen, cropped to it; the rest is black.
+void Draw(const Image& picture, const Screen& screen);
+
+// Draws the picture on the framebuffer device `path`.
+std::string ShowOnFramebuffer(const std::string& path, const Image& picture);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_FRAMEBUFFER_H_

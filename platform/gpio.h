@@ -1,0 +1,65 @@
+// GPIO lines of Linux boards through libgpiod, which nothing else knows. Built only where libgpiod
+// (1.5 or newer, or 2.x) is found. A chip is named "gpiochip0", "/dev/gpiochip0" or "0"; lines are
+// offsets on their chip.
+#ifndef STARFOCUS_PLATFORM_GPIO_H_
+#define STARFOCUS_PLATFORM_GPIO_H_
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace starfocus {
+
+struct GpioChip {
+  std::string name, label;
+  int lines;
+};
+
+// Every chip this user may open, and an error when there is none.
+std::string ListGpioChips(std::vector<GpioChip>* chips);
+
+enum class GpioBias { kAsIs, kPullUp, kPullDown };
+
+// An edge of a line; `high` is the level it went to.
+struct GpioEdge {
+  int line;
+  bool high;
+  int64_t nanoseconds;  // of the monotonic clock
+};
+
+// Lines watched for edges of both directions. They are this program's until destruction.
+class GpioInputs {
+ public:
+  GpioInputs();
+  ~GpioInputs();
+  std::string Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias);
+  // Level of a line now.
+  std::string Read(int line, bool* high);
+  // Waits for edges; empty after `timeout` milliseconds without one (-1: no limit). In the order
+  // of their times. The kernel drops edges when more than 16 per line wait.
+  std::string Wait(int timeout, std::vector<GpioEdge>* edges);
+
+ private:
+  struct Lines;
+  std::unique_ptr<Lines> lines_;
+};
+
+// A line driven by this program, low at first.
+class GpioOutput {
+ public:
+  GpioOutput();
+  ~GpioOutput();
+  std::string Open(const std::string& chip, int line);
+  std::string Set(bool high);
+  // The level on the line itself, where the chip can read its outputs.
+  std::string Read(bool* high);
+
+ private:
+  struct Line;
+  std::unique_ptr<Line> line_;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_GPIO_H_

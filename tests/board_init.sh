@@ -1,0 +1,60 @@
+#!/bin/sh
+# The first process of the board that board_boot.sh emulates: runs board_refocus there and tells its
+# findings on the serial line, one "board: NAME VALUE" each.
+PATH=/bin
+mount -t devtmpfs none /dev
+mount -t proc none /proc
+mount -t sysfs none /sys
+for module in $(cat /modules/order); do
+  insmod "/modules/$module"
+done
+
+tell() {
+  echo "board: $*"
+}
+
+# refused NAME COMMAND...: must end with 1 and a single line of explanation.
+refused() {
+  local name=$1
+  shift
+  "$@" >/tmp/out 2>/tmp/err
+  tell "refused-$name" $? "$(wc -l </tmp/err)" "$(cat /tmp/err)"
+}
+
+camera() {
+  board_refocus /field --chip gpiochip0 --shutter 3 --active high --bias none --mode frame \
+    --pictures 1 "$@"
+}
+
+# pressed NAME OPTIONS...: starts the camera, asks for the button and shows what it says.
+pressed() {
+  local name=$1
+  shift
+  camera "$@" >/tmp/log 2>&1 &
+  until grep -q '^ready' /tmp/log; do
+    kill -0 $! || break
+  done
+  [ "$name" != file ] || refused busy camera --out /tmp/other.ppm
+  tell press "$name"
+  wait $!
+  tell "ended-$name" $?
+  sed 's/^/board: log /' /tmp/log
+}
+
+mkdir -p /tmp
+tell chips "$(board_refocus --list)"
+refused chip board_refocus /field --chip gpiochip7 --shutter 3 --out /tmp/picture.ppm
+refused line board_refocus /field --shutter 300 --out /tmp/picture.ppm
+refused permission su -s /bin/sh nobody -c \
+  'board_refocus /field --shutter 3 --out /tmp/picture.ppm'
+pressed file --busy 5 --out /tmp/picture.ppm --focus "$(cat /focus)"
+tell sum "$(sha256sum /tmp/picture-1.ppm)"
+if [ -e /dev/fb0 ]; then
+  pressed screen --framebuffer /dev/fb0 --focus "$(cat /focus)"
+  tell shown
+  sleep 3
+else
+  tell no-screen
+fi
+tell done
+poweroff -f

@@ -1,0 +1,71 @@
+// instruction_bench CASE simd|reference RUNS: refocuses RUNS times. What one refocusing costs is
+// the difference between the instructions of two runs and of one, as counted by
+// count_instructions.c: all that happens before the first is the same. `instruction_bench list`
+// prints the cases.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "simd/kernels.h"
+#include "tests/integer_scene.h"
+#include "tests/simd_targets.h"
+
+namespace {
+
+struct Case {
+  const char* name;
+  int views;
+  test::Depth depth;
+  sf_mode mode;
+  double focus, aperture;
+};
+
+// Of 192 x 128 pixels; the name tells views, scene, mode and the largest blur radius in pixels.
+constexpr int kWidth = 192, kHeight = 128;
+constexpr Case kCases[] = {
+    {"17-layers-frame-8", 17, test::Depth::kLayers, SF_MODE_FRAME, -4, 1},
+    {"17-slanted-frame-8", 17, test::Depth::kSlanted, SF_MODE_FRAME, 4, 1},
+    {"5-layers-frame-6", 5, test::Depth::kLayers, SF_MODE_FRAME, 2, 1},
+    {"1-layers-frame-4", 1, test::Depth::kLayers, SF_MODE_FRAME, 0, 1},
+    {"17-layers-block-8", 17, test::Depth::kLayers, SF_MODE_BLOCK, -4, 1},
+    {"5-slanted-block-4", 5, test::Depth::kSlanted, SF_MODE_BLOCK, 0, 1},
+    {"1-layers-blur-8", 1, test::Depth::kLayers, SF_MODE_BLUR, 4, 1},
+    {"9-layers-benchmark-4", 9, test::Depth::kLayers, SF_MODE_BENCHMARK, 0, 1},
+};
+
+const Case* Find(const char* name) {
+  for (const Case& one : kCases) {
+    if (std::strcmp(one.name, name) == 0) return &one;
+  }
+  return nullptr;
+}
+
+int Run(const Case& one, bool reference, int runs) {
+  const test::Scene scene = test::IntegerScene(kWidth, kHeight, one.views, one.depth);
+  sf_config config = test::ConfigFor(scene, 16);
+  config.timing = {4000000, 12000, 1500, 1700, 2500, 9000};  // of no architecture in particular
+  test::Engine engine(config);
+  if (engine.status() != SF_OK) return 1;
+  if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());
+  test::Output out(kWidth, kHeight);
+  const sf_params params = test::Params(one.focus, one.aperture, one.mode);
+  for (int run = 0; run < runs; ++run) {
+    if (test::Refocus(&engine, params, scene, &out) != SF_OK) return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 2 && std::strcmp(argv[1], "list") == 0) {
+    for (const Case& one : kCases) std::printf("%s %d\n", one.name, kWidth * kHeight);
+    return 0;
+  }
+  const Case* one = argc == 4 ? Find(argv[1]) : nullptr;
+  if (one == nullptr) {
+    std::fprintf(stderr, "usage: instruction_bench list | CASE simd|reference RUNS\n");
+    return 1;
+  }
+  return Run(*one, std::strcmp(argv[2], "reference") == 0, std::atoi(argv[3]));
+}

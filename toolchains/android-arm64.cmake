@@ -1,0 +1,16 @@
+# Android on 64-bit ARM, by the NDK's own toolchain file. Untested: no NDK where this was written.
+# Set ANDROID_NDK_HOME. Highway's headers come from a sysroot made by
+# "toolchains/sysroot.sh headers build/sysroot/headers"; only the library is built.
+if(NOT DEFINED ENV{ANDROID_NDK_HOME})
+  message(FATAL_ERROR "Set the environment variable ANDROID_NDK_HOME to the folder of the NDK.")
+endif()
+set(ANDROID_ABI arm64-v8a)
+if(NOT DEFINED ANDROID_PLATFORM)
+  set(ANDROID_PLATFORM android-24)
+endif()
+set(ANDROID_STL c++_static)
+include("$ENV{ANDROID_NDK_HOME}/build/cmake/android.toolchain.cmake")
+list(APPEND CMAKE_FIND_ROOT_PATH "${CMAKE_CURRENT_LIST_DIR}/../build/sysroot/headers")
+set(STARFOCUS_STATIC_DISPATCH ON CACHE BOOL "One SIMD target, chosen when compiling")
+set(STARFOCUS_PROGRAMS OFF CACHE BOOL "Build platform/ and the programs of examples/")
+set(STARFOCUS_TESTS OFF CACHE BOOL "Build the tests")

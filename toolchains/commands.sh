@@ -1,0 +1,204 @@
+# The commands of ./do that build for boards; sourced by it.
+
+# board ARCHITECTURE: the compiler's Debian package, the emulator and the sysroot of a preset.
+board() {
+  case "$1" in
+    aarch64) board_compiler=g++-aarch64-linux-gnu board_sysroot=arm64 ;;
+    armhf) board_compiler=g++-arm-linux-gnueabihf board_sysroot=armhf ;;
+    armv6) board_compiler=g++-arm-linux-gnueabi board_sysroot=armel ;;
+    riscv64) board_compiler=g++-riscv64-linux-gnu board_sysroot=headers ;;
+    *) fail "usage: ./do cross aarch64|armhf|armv6|riscv64 [build]" ;;
+  esac
+}
+
+# cross_build PRESET [TARGET...]
+cross_build() {
+  local preset=$1
+  shift
+  step "configure-$preset" "configuring build/$preset" cmake --preset "$preset"
+  step "build-$preset" "building ${*:-everything} in build/$preset" \
+    cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}
+}
+
+# Whatever SIMD targets and vector lengths the emulator has must give the tracked checksums.
+golden_by_sve_length() {
+  cross_build aarch64-max golden_test
+  local bytes
+  for bytes in 16 32 64; do
+    printf 'SVE registers of %d bytes:\n' $bytes
+    qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
+      -E LD_LIBRARY_PATH=build/sysroot/arm64/usr/lib/aarch64-linux-gnu \
+      build/aarch64-max/tests/golden_test --no-intro=true >"$LOGS/golden-$bytes.log" 2>&1 ||
+      fail "checksums differ with SVE registers of $bytes bytes: see $LOGS/golden-$bytes.log"
+    grep '^golden:' "$LOGS/golden-$bytes.log"
+  done
+}
+
+# instructions CASE KERNELS: of one refocusing, on the emulated board.
+instructions() {
+  local runs
+  for runs in 1 2; do
+    qemu-aarch64 -cpu cortex-a53 -d plugin \
+      -plugin "$LOGS/count.so,sym=starfocus,sym=sf_,sym=memcpy,sym=memset,sym=memmove" \
+      build/aarch64/tests/instruction_bench "$1" "$2" $runs 2>&1 | sed -n 's/^instructions: //p'
+  done | awk 'NR == 1 { first = $1 } NR == 2 { print $1 - first }'
+}
+
+# Instructions per pixel with NEON and with the plain reference kernels. Fails when any is more than
+# 3 % above tests/instruction_counts.txt; `record` writes that file.
+count() {
+  local baseline=tests/instruction_counts.txt now=$LOGS/instruction_counts.txt name pixels kernels
+  step plugin "building the emulator's counter" \
+    cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/count_instructions.c
+  qemu-aarch64 build/aarch64/tests/instruction_bench list | while read -r name pixels; do
+    for kernels in simd reference; do
+      printf '%s %s %s %s\n' "$name" $kernels "$pixels" "$(instructions "$name" $kernels)"
+    done
+  done >"$now"
+  [ "${1:-}" != record ] || cp "$now" $baseline
+  awk '
+    NR == FNR { expected[$1 " " $2] = $4; next }
+    { count[$1 " " $2] = $4; if ($2 == "simd") { names[++n] = $1; pixels[$1] = $3 } }
+    function change(key) { return (count[key] / expected[key] - 1) * 100 }
+    END {
+      printf "%-24s %10s %10s %7s  %s\n", "AArch64 instructions", "NEON", "scalar", "ratio",
+        "against the baseline"
+      for (i = 1; i <= n; ++i) {
+        simd = names[i] " simd"; reference = names[i] " reference"
+        if (!count[simd] || !count[reference] || !expected[simd] || !expected[reference]) {
+          print names[i] ": not counted, or not in the baseline"; bad = 1; continue
+        }
+        printf "%-24s %10.1f %10.1f %7.2f  %+.2f %% %+.2f %%\n", names[i],
+          count[simd] / pixels[names[i]], count[reference] / pixels[names[i]],
+          count[reference] / count[simd], change(simd), change(reference)
+        if (change(simd) > 3 || change(reference) > 3) bad = 1
+      }
+      if (n == 0) bad = 1
+      exit bad
+    }' $baseline "$now" ||
+    fail "more instructions than $baseline says; if that is meant: ./do count record"
+}
+
+# count_command [record]
+count_command() {
+  local PACKAGES="g++ cmake ninja-build pkg-config g++-aarch64-linux-gnu qemu-user"
+  install_missing
+  step sysroot-aarch64 "fetching headers and libraries for aarch64" \
+    toolchains/sysroot.sh arm64 build/sysroot/arm64
+  cross_build aarch64 instruction_bench
+  count "${1:-}"
+}
+
+# cross ARCHITECTURE [build]: builds everything for a board and runs every test on an emulated one.
+cross() {
+  local PACKAGES="g++ cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot
+  board "$preset"
+  PACKAGES="$PACKAGES $board_compiler"
+  [ "${2:-}" = build ] || PACKAGES="$PACKAGES qemu-user"
+  install_missing
+  step "sysroot-$preset" "fetching headers and libraries for $preset" \
+    toolchains/sysroot.sh $board_sysroot build/sysroot/$board_sysroot
+  cross_build "$preset"
+  [ "${2:-}" = build ] && return
+  ctest --preset "$preset" --parallel "$(nproc)" || exit 1
+  if [ "$preset" = aarch64 ]; then
+    golden_by_sve_length
+    count
+  fi
+}
+
+# Records the checksums of tests/golden.txt anew, after an intended change of the engine's output.
+golden() {
+  install_missing
+  build golden_test
+  STARFOCUS_RECORD_GOLDEN=1 $BUILD/tests/golden_test --no-intro=true
+}
+
+# code_bytes TRIPLE LIBRARY: bytes of code and of read-only data that a program which calls
+# everything the engine offers for refocusing keeps after its linker's garbage collection.
+code_bytes() {
+  local object=build/log/collected.o
+  "$1-ld" -r --gc-sections -e sf_refocus -u sf_workspace_size -u sf_init -u sf_stream_begin \
+    -u sf_stream_push -u sf_stream_pull -u sf_status_string -o $object "$2" || exit 1
+  "$1-size" -A $object |
+    awk '/^\.text/ { code += $2 } /^\.(rodata|data)/ { data += $2 } END { printf "%d | %d", code, data }'
+}
+
+# size_rows PRESET TRIPLE EMULATOR NAME
+size_rows() {
+  local type
+  for type in Release MinSizeRel; do
+    cmake --preset "$1" -B "build/$1-$type" -DCMAKE_BUILD_TYPE=$type &&
+      cmake --build "build/$1-$type" --parallel "$(nproc)" || exit 1
+  done >"$LOGS/$1.log" 2>&1
+  for type in Release MinSizeRel; do
+    printf '| %s, %s | %s | %s |\n' "$4" $type \
+      "$(code_bytes "$2" "build/$1-$type/lib/libstarfocus.a")" \
+      "$("$3" "build/$1-$type/size_probe" stack)"
+  done
+}
+
+size_tables() {
+  printf '| bytes | code | read-only data | stack |\n|---|--:|--:|--:|\n'
+  size_rows embedded-aarch64 aarch64-linux-gnu qemu-aarch64 '64-bit ARM'
+  size_rows embedded-armhf arm-linux-gnueabihf qemu-arm '32-bit ARM'
+  printf '\nWorkspace in KiB on 64-bit ARM (on 32-bit ARM %s):\n\n' "$(workspace_difference)"
+  qemu-aarch64 build/embedded-aarch64-Release/size_probe workspace
+}
+
+# How far the workspaces of the two architectures lie apart.
+workspace_difference() {
+  qemu-aarch64 build/embedded-aarch64-Release/size_probe workspace >$LOGS/workspace-64
+  qemu-arm build/embedded-armhf-Release/size_probe workspace >$LOGS/workspace-32
+  paste -d '|' $LOGS/workspace-64 $LOGS/workspace-32 | awk -F '|' '
+    NR > 2 {
+      half = NF / 2
+      for (i = 4; i <= half; ++i) {
+        less = $i - $(i + half)
+        if (less > most) most = less
+      }
+    }
+    END { printf "at most %d KiB less", most }'
+}
+
+# size [write]
+size() {
+  local PACKAGES="cmake ninja-build pkg-config qemu-user g++-aarch64-linux-gnu g++-arm-linux-gnueabihf"
+  install_missing
+  mkdir -p "$LOGS"
+  local architecture
+  for architecture in arm64 armhf; do
+    step "sysroot-$architecture" "fetching headers and libraries for $architecture" \
+      toolchains/sysroot.sh $architecture build/sysroot/$architecture
+  done
+  size_tables >"$LOGS/size.md" || exit 1
+  if [ "${1:-}" = write ]; then
+    awk -v tables="$LOGS/size.md" '
+      /<!-- size: end -->/ { skip = 0 }
+      !skip { print }
+      /<!-- size: begin -->/ { skip = 1; while ((getline line < tables) > 0) print line }
+    ' toolchains/README.md >"$LOGS/README.md" && cp "$LOGS/README.md" toolchains/README.md
+  else
+    cat "$LOGS/size.md"
+  fi
+}
+
+# boot: the board program on an emulated board with a real kernel.
+boot() {
+  local PACKAGES="$PACKAGES g++-aarch64-linux-gnu qemu-system-arm cpio"
+  find_missing
+  case " $missing " in
+    *" qemu-system-arm "*)
+      if [ -z "$(apt-cache policy qemu-system-arm 2>/dev/null | grep 'Candidate: [^(]')" ]; then
+        echo "SKIPPED: the boot test needs the package qemu-system-arm, which cannot be installed here"
+        return
+      fi
+      ;;
+  esac
+  install_missing
+  step sysroot-aarch64 "fetching headers and libraries for aarch64" \
+    toolchains/sysroot.sh arm64 build/sysroot/arm64
+  cross_build aarch64 board_refocus
+  build starfocus
+  tests/board_boot.sh $PROGRAM build/aarch64/board_refocus build/boot || exit 1
+}
