@@ -16,8 +16,9 @@ help() {
 usage: ./do COMMAND
 
   demo    install what is missing, build, make a demo light field and refocus it
-  test    install what is missing, build and run every test: as released, then under sanitizers
-          with every fixed-point range checked, then a few cases under valgrind
+  test    install what is missing, build and run every test
+  check   the same tests under sanitizers with every fixed-point range checked, then a few cases
+          under valgrind
   fuzz [SECONDS]  run every fuzz target that long (60), new inputs kept in build/fuzz/work
   build   build Release into build/release (the program: build/release/starfocus)
   bench   time and error of every mode, with a report: build/bench/report.html
@@ -168,10 +169,16 @@ sanitize() {
 }
 
 run_tests() {
+  install_missing
+  build
+  ctest --test-dir $BUILD --output-on-failure --parallel "$(nproc)"
+}
+
+# The same under sanitizers with range checks, then a few cases under valgrind.
+check() {
   PACKAGES="$PACKAGES valgrind"
   install_missing
   build
-  ctest --test-dir $BUILD --output-on-failure --parallel "$(nproc)" || exit 1
   sanitize
   # Addresses only: memcheck calls some output bytes undefined that are the same whatever the
   # workspace held before (the stress family "identical" varies it). Why is not known yet.
@@ -265,6 +272,7 @@ format() {
 case "${1:-help}" in
   demo) demo ;;
   test) run_tests ;;
+  check) check ;;
   build) build ;;
   fuzz) fuzz "${2:-60}" ;;
   bench) bench "${2:-}" ;;
