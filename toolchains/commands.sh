@@ -34,6 +34,15 @@ golden_by_sve_length() {
   done
 }
 
+# into_readme NAME FILE: puts the file between the marks of that name in toolchains/README.md.
+into_readme() {
+  awk -v name="$1" -v tables="$2" '
+    $0 == "<!-- " name ": end -->" { skip = 0 }
+    !skip { print }
+    $0 == "<!-- " name ": begin -->" { skip = 1; while ((getline line < tables) > 0) print line }
+  ' toolchains/README.md >"$LOGS/README.md" && cp "$LOGS/README.md" toolchains/README.md
+}
+
 # instructions CASE KERNELS: of one refocusing, on the emulated board.
 instructions() {
   local runs
@@ -45,7 +54,7 @@ instructions() {
 }
 
 # Instructions per pixel with NEON and with the plain reference kernels. Fails when any is more than
-# 3 % above tests/instruction_counts.txt; `record` writes that file.
+# 3 % above tests/instruction_counts.txt; `record` writes that file and toolchains/README.md.
 count() {
   local baseline=tests/instruction_counts.txt now=$LOGS/instruction_counts.txt name pixels kernels
   step plugin "building the emulator's counter" \
@@ -55,7 +64,16 @@ count() {
       printf '%s %s %s %s\n' "$name" $kernels "$pixels" "$(instructions "$name" $kernels)"
     done
   done >"$now"
-  [ "${1:-}" != record ] || cp "$now" $baseline
+  if [ "${1:-}" = record ]; then
+    cp "$now" $baseline
+    awk '
+      BEGIN { print "| instructions per pixel | NEON | scalar | ratio |\n|---|--:|--:|--:|" }
+      $2 == "simd" { simd = $4 }
+      $2 == "reference" {
+        printf "| %s | %.0f | %.0f | %.2f |\n", $1, simd / $3, $4 / $3, $4 / simd
+      }' $baseline >"$LOGS/count.md"
+    into_readme count "$LOGS/count.md"
+  fi
   awk '
     NR == FNR { expected[$1 " " $2] = $4; next }
     { count[$1 " " $2] = $4; if ($2 == "simd") { names[++n] = $1; pixels[$1] = $3 } }
@@ -173,11 +191,7 @@ size() {
   done
   size_tables >"$LOGS/size.md" || exit 1
   if [ "${1:-}" = write ]; then
-    awk -v tables="$LOGS/size.md" '
-      /<!-- size: end -->/ { skip = 0 }
-      !skip { print }
-      /<!-- size: begin -->/ { skip = 1; while ((getline line < tables) > 0) print line }
-    ' toolchains/README.md >"$LOGS/README.md" && cp "$LOGS/README.md" toolchains/README.md
+    into_readme size "$LOGS/size.md"
   else
     cat "$LOGS/size.md"
   fi
