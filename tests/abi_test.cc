@@ -257,7 +257,7 @@ TEST_CASE("configuration: defaults and limits are legal") {
       for (const uint32_t timing : {0u, 1u, SF_MAX_TIMING}) {
         config.max_layer = max_layer;
         config.deblocking = deblocking;
-        config.timing = {timing, timing, timing, timing, timing, timing};
+        config.timing = {timing, timing, timing, timing, timing, timing, timing, timing};
         CHECK(sf_workspace_size(&config, &bytes) == SF_OK);
       }
     }

@@ -331,7 +331,7 @@ TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
   for (const uint32_t block : {0u, 1u, SF_MAX_TIMING}) {
     for (const int side : {32, 64, 128, 256}) {
       Plan plan(side - 5, side, side, 10, &random);
-      plan.rules.timing = {block, 0, 0, 0, 0, 0};
+      plan.rules.timing = {block, 0, 0, 0, 0, 0, 0, 0};
       const std::vector<Block> blocks = plan.Partition(0, 0);
       REQUIRE(blocks.size() == 1);
       CHECK(blocks[0].rect.width == side - 5);

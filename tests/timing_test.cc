@@ -87,32 +87,47 @@ TEST_CASE("timing: the work of a block, view by view") {
   }
 }
 
+// The terms of PredictTime beside the one for each block.
+constexpr uint64_t BlockWork::*kWorks[] = {
+    &BlockWork::field,    &BlockWork::a,    &BlockWork::b,   &BlockWork::c,
+    &BlockWork::upsample, &BlockWork::span, &BlockWork::hole};
+constexpr uint32_t sf_timing::*kCoefficients[] = {
+    &sf_timing::field,    &sf_timing::a,    &sf_timing::b,   &sf_timing::c,
+    &sf_timing::upsample, &sf_timing::span, &sf_timing::hole};
+constexpr size_t kTerms = sizeof(kWorks) / sizeof(kWorks[0]);
+static_assert(sizeof(sf_timing) == (1 + kTerms) * sizeof(uint32_t), "every coefficient");
+static_assert(sizeof(BlockWork) == kTerms * sizeof(uint64_t), "every kind of work");
+
 TEST_CASE("timing: each coefficient counts its own work") {
-  const BlockWork work = {2, 3, 5, 7, 11};
-  CHECK(starfocus::PredictTime({0, 0, 0, 0, 0, 0}, work) == 0);
-  CHECK(starfocus::PredictTime({100, 0, 0, 0, 0, 0}, work) == 100);
-  CHECK(starfocus::PredictTime({0, 100, 0, 0, 0, 0}, work) == 200);
-  CHECK(starfocus::PredictTime({0, 0, 100, 0, 0, 0}, work) == 300);
-  CHECK(starfocus::PredictTime({0, 0, 0, 100, 0, 0}, work) == 500);
-  CHECK(starfocus::PredictTime({0, 0, 0, 0, 100, 0}, work) == 700);
-  CHECK(starfocus::PredictTime({0, 0, 0, 0, 0, 100}, work) == 1100);
+  const BlockWork work = {2, 3, 5, 7, 11, 13, 17};
+  CHECK(starfocus::PredictTime(sf_timing{}, work) == 0);
+  sf_timing per_block = {};
+  per_block.block = 100;
+  CHECK(starfocus::PredictTime(per_block, work) == 100);
+  for (size_t k = 0; k < kTerms; ++k) {
+    CAPTURE(k);
+    sf_timing timing = {};
+    timing.*kCoefficients[k] = 100;
+    CHECK(starfocus::PredictTime(timing, work) == 100 * (work.*kWorks[k]));
+  }
 }
 
 TEST_CASE("timing: linear in work and in coefficients") {
   test::Random random(4);
-  const auto coefficient = [&] { return uint32_t(random.Int(0, 1 << 24)); };
-  const auto amount = [&] { return uint64_t(random.Int(0, 1 << 20)); };
   for (int round = 0; round < 200; ++round) {
-    const sf_timing s = {coefficient(), coefficient(), coefficient(),
-                         coefficient(), coefficient(), coefficient()};
-    const sf_timing t = {coefficient(), coefficient(), coefficient(),
-                         coefficient(), coefficient(), coefficient()};
-    const sf_timing sum = {s.block + t.block, s.field + t.field, s.a + t.a,
-                           s.b + t.b,         s.c + t.c,         s.upsample + t.upsample};
-    const BlockWork v = {amount(), amount(), amount(), amount(), amount()};
-    const BlockWork w = {amount(), amount(), amount(), amount(), amount()};
-    const BlockWork both = {v.field + w.field, v.a + w.a, v.b + w.b, v.c + w.c,
-                            v.upsample + w.upsample};
+    sf_timing s = {}, t = {}, sum = {};
+    BlockWork v = {}, w = {}, both = {};
+    s.block = uint32_t(random.Int(0, 1 << 24));
+    t.block = uint32_t(random.Int(0, 1 << 24));
+    sum.block = s.block + t.block;
+    for (size_t k = 0; k < kTerms; ++k) {
+      s.*kCoefficients[k] = uint32_t(random.Int(0, 1 << 24));
+      t.*kCoefficients[k] = uint32_t(random.Int(0, 1 << 24));
+      sum.*kCoefficients[k] = s.*kCoefficients[k] + t.*kCoefficients[k];
+      v.*kWorks[k] = uint64_t(random.Int(0, 1 << 20));
+      w.*kWorks[k] = uint64_t(random.Int(0, 1 << 20));
+      both.*kWorks[k] = v.*kWorks[k] + w.*kWorks[k];
+    }
     CHECK(starfocus::PredictTime(sum, v) ==
           starfocus::PredictTime(s, v) + starfocus::PredictTime(t, v));
     CHECK(starfocus::PredictTime(s, both) + s.block ==
@@ -121,20 +136,26 @@ TEST_CASE("timing: linear in work and in coefficients") {
 }
 
 TEST_CASE("timing: the largest block with the largest coefficients stays below 2^63") {
-  const sf_timing most = {SF_MAX_TIMING, SF_MAX_TIMING, SF_MAX_TIMING,
-                          SF_MAX_TIMING, SF_MAX_TIMING, SF_MAX_TIMING};
-  const BlockWork work = starfocus::MeasureWork({0, 0, 256, 256}, {140, 140, 140, 140},
-                                                starfocus::CountViews(102), 256 * 256);
-  const long double exact =
-      1e8L * (1 + static_cast<long double>(work.field) + static_cast<long double>(work.a) +
-              static_cast<long double>(work.b) + static_cast<long double>(work.c) +
-              static_cast<long double>(work.upsample));
-  CHECK(exact < 9.2e18L);
-  CHECK(static_cast<long double>(starfocus::PredictTime(most, work)) == exact);
+  sf_timing most = {};
+  most.block = SF_MAX_TIMING;
+  for (const auto coefficient : kCoefficients) most.*coefficient = SF_MAX_TIMING;
+  const auto exact = [](const BlockWork& work) {
+    long double units = 1;
+    for (const auto kind : kWorks) units += static_cast<long double>(work.*kind);
+    return 1e8L * units;
+  };
+  // At every pixel two steps, each a run of its own and beside a gap of 8 pixels.
+  const auto work_of = [](int side) {
+    const uint32_t steps = 2 * starfocus::kContentOne * uint32_t(side) * uint32_t(side);
+    return starfocus::MeasureWork({0, 0, side, side}, {140, 140, 140, 140},
+                                  starfocus::CountViews(102), uint64_t(side) * uint64_t(side),
+                                  {steps, steps, 8 * steps});
+  };
+  const BlockWork work = work_of(256);
+  CHECK(exact(work) < 9.2e18L);
+  CHECK(static_cast<long double>(starfocus::PredictTime(most, work)) == exact(work));
   // All blocks of 16 that it may be split into.
-  const BlockWork small =
-      starfocus::MeasureWork({0, 0, 16, 16}, {140, 140, 140, 140}, starfocus::CountViews(102), 256);
-  CHECK(256.0L * static_cast<long double>(starfocus::PredictTime(most, small)) < 1.8e19L);
+  CHECK(256 * exact(work_of(16)) < 1.8e19L);
 }
 
 TEST_CASE("timing: the defaults are legal, and only type C may cost nothing but its spans") {
