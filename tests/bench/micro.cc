@@ -1,5 +1,7 @@
-// starfocus-bench-micro: every kernel on every SIMD target beside a memcpy of the same size, in
-// bytes read and written per second.
+// starfocus-bench-micro: every kernel on every SIMD target, and what surrounds them, beside a
+// memcpy of the same size, in bytes read and written per second.
+#include "tests/bench/micro.h"
+
 #include <benchmark/benchmark.h>
 
 #include <cstring>
@@ -43,6 +45,8 @@ struct Buffers {
 };
 
 constexpr starfocus::simd::HalfBand kTaps = {8192, 4096, 0};
+// A box of 3.5 pixels.
+constexpr starfocus::simd::SpreadTaps kSpreadTaps = {2, 72, 72, 20};
 using Body = void (*)(const Kernels&, Buffers*);
 
 struct Case {
@@ -64,6 +68,10 @@ const Case kCases[] = {
     {"blend", true, 1 + 1,
      [](const Kernels& k, Buffers* b) {
        k.blend(b->spans.data(), b->spans.size(), b->line.data());
+     }},
+    {"spread", false, 1 + 1,
+     [](const Kernels& k, Buffers* b) {
+       k.spread(b->bytes.data() + kMargin, kSpreadTaps, kSamples, b->line.data());
      }},
     {"finish", false, 4 + 1,
      [](const Kernels& k, Buffers* b) { k.finish(b->sums.data(), kSamples, 24, b->line.data()); }},
@@ -129,8 +137,10 @@ int main(int argc, char** argv) {
   const Kernels* kernels = nullptr;
   for (size_t i = 0; (kernels = starfocus::simd::KernelsOfTarget(i)) != nullptr; ++i) {
     Register(kernels);
+    starfocus::bench::RegisterWholePictures(kernels->name);
   }
   Register(&starfocus::simd::ReferenceKernels());
+  starfocus::bench::RegisterScalarParts();
   RegisterCopies();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
