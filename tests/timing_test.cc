@@ -39,7 +39,9 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, uint6
   const auto width = uint64_t(rect.width), height = uint64_t(rect.height);
   const uint64_t wide = width + uint64_t(border.left) + uint64_t(border.right);
   const uint64_t high = height + uint64_t(border.top) + uint64_t(border.bottom);
-  BlockWork work = {wide * high, 0, 0, 0, upsampled};
+  BlockWork work = {};
+  work.field = wide * high;
+  work.upsample = upsampled;
   for (int i = -n; i <= n; ++i) {
     for (int j = -n; j <= n; ++j) {
       if (i * i + j * j > n * n || (i == 0 && j == 0)) continue;
