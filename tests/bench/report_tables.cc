@@ -187,4 +187,21 @@ std::string TargetTable(const Rows& rows) {
   return Table(head, body);
 }
 
+std::string CountTable(const std::vector<Counts>& counts) {
+  if (counts.empty()) return "<p>Not measured.</p>";
+  std::string body;
+  for (const Counts& each : counts) {
+    body += Line({Escape(each.name), Fixed(each.x86_simd, 0), Fixed(each.x86_plain, 0),
+                  Fixed(each.x86_plain / each.x86_simd, 2), Fixed(each.arm_simd, 0),
+                  Fixed(each.arm_plain, 0), Fixed(each.arm_plain / each.arm_simd, 2)});
+  }
+  return "<p>Counted inside the engine, repeating exactly; from the tracked baselines "
+         "(<code>./do bench --check</code> by callgrind, <code>./do count</code> by an emulator), "
+         "not of this run. No board was at hand: what the emulated AArch64 executes stands in for "
+         "energy, without what memory costs. Cases are views, scene, mode and largest blur "
+         "radius, 192×128 pixels.</p>" +
+         Table({"case", "x86-64 AVX2", "plain C++", "ratio", "AArch64 NEON", "plain C++", "ratio"},
+               body);
+}
+
 }  // namespace starfocus::bench
