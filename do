@@ -28,6 +28,8 @@ usage: ./do COMMAND
   cross ARCH [build]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated
   boot    run the board program on an emulated board: its GPIO lines, buttons and screen
   count [record]  AArch64 instructions per pixel against tests/instruction_counts.txt
+  partitions  what block mode costs on boards with another architecture's timing coefficients
+  coefficients  those of all boards from instruction counts, into lib/timing_defaults.h: half an hour
   size [write]   what boards need: code, stack and memory (write: into toolchains/README.md)
   golden  record tests/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file
@@ -225,6 +227,7 @@ bench_scene() {
 check_counts() {
   require valgrind
   build starfocus-bench-count
+  build instruction_bench
   tests/bench/count.sh $BUILD "$1"
 }
 
@@ -256,6 +259,7 @@ bench() {
     done
   fi
   $BUILD/starfocus-bench $fields $options --sweep build/bench/portrait-small \
+    --x86-counts tests/bench/baseline.txt --arm-counts tests/instruction_counts.txt \
     --revision "$(git rev-parse --short HEAD 2>/dev/null)" --csv build/bench/results.csv \
     --json build/bench/results.json --html build/bench/report.html || fail "the bench failed"
   echo "report: build/bench/report.html; rows: build/bench/results.csv and .json"
@@ -280,6 +284,8 @@ case "${1:-help}" in
   golden) golden ;;
   boot) boot ;;
   count) count_command "${2:-}" ;;
+  partitions) partitions ;;
+  coefficients) coefficients ;;
   size) size "${2:-}" ;;
   format) format ;;
   help | -h | --help) help ;;

@@ -1,11 +1,13 @@
-// instruction_bench CASE simd|reference RUNS: refocuses RUNS times. What one refocusing costs is
-// the difference between the instructions of two runs and of one, as counted by
+// instruction_bench CASE simd|reference RUNS [COEFFICIENTS]: refocuses RUNS times. What one
+// refocusing costs is the difference between the instructions of two runs and of one, as counted by
 // count_instructions.c: all that happens before the first is the same. `instruction_bench list`
-// prints the cases.
+// prints the cases, `instruction_bench coefficients` the architectures whose built-in coefficients
+// of the timing model may be named.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
+#include "lib/timing_defaults.h"
 #include "simd/kernels.h"
 #include "tests/integer_scene.h"
 #include "tests/simd_targets.h"
@@ -40,10 +42,20 @@ const Case* Find(const char* name) {
   return nullptr;
 }
 
-int Run(const Case& one, bool reference, int runs) {
+const sf_timing* FindTiming(const char* name) {
+  for (const starfocus::NamedTiming& each : starfocus::kBuiltInTimings) {
+    if (std::strcmp(each.name, name) == 0) return &each.timing;
+  }
+  return nullptr;
+}
+
+// Of no architecture in particular: the counts then don't change when coefficients do.
+constexpr sf_timing kTiming = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
+
+int Run(const Case& one, bool reference, int runs, const sf_timing& timing) {
   const test::Scene scene = test::IntegerScene(kWidth, kHeight, one.views, one.depth);
   sf_config config = test::ConfigFor(scene, 16);
-  config.timing = {4000000, 12000, 1500, 1700, 2500, 9000};  // of no architecture in particular
+  config.timing = timing;
   test::Engine engine(config);
   if (engine.status() != SF_OK) return 1;
   if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());
@@ -62,10 +74,17 @@ int main(int argc, char** argv) {
     for (const Case& one : kCases) std::printf("%s %d\n", one.name, kWidth * kHeight);
     return 0;
   }
-  const Case* one = argc == 4 ? Find(argv[1]) : nullptr;
-  if (one == nullptr) {
-    std::fprintf(stderr, "usage: instruction_bench list | CASE simd|reference RUNS\n");
+  if (argc == 2 && std::strcmp(argv[1], "coefficients") == 0) {
+    for (const auto& each : starfocus::kBuiltInTimings) std::printf("%s\n", each.name);
+    return 0;
+  }
+  const Case* one = argc == 4 || argc == 5 ? Find(argv[1]) : nullptr;
+  const sf_timing* timing = argc == 5 ? FindTiming(argv[4]) : &kTiming;
+  if (one == nullptr || timing == nullptr) {
+    std::fprintf(stderr,
+                 "usage: instruction_bench list | coefficients | "
+                 "CASE simd|reference RUNS [COEFFICIENTS]\n");
     return 1;
   }
-  return Run(*one, std::strcmp(argv[2], "reference") == 0, std::atoi(argv[3]));
+  return Run(*one, std::strcmp(argv[2], "reference") == 0, std::atoi(argv[3]), *timing);
 }

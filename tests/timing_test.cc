@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "lib/timing_defaults.h"
 #include "starfocus/starfocus.h"
 #include "tests/test_scene.h"
 
@@ -160,17 +161,27 @@ TEST_CASE("timing: the largest block with the largest coefficients stays below 2
   CHECK(256 * exact(work_of(16)) < 1.8e19L);
 }
 
-TEST_CASE("timing: the defaults are legal, and only type C may cost nothing but its spans") {
-  const sf_timing timing = starfocus::DefaultTiming();
-  for (const uint32_t value : {timing.block, timing.field, timing.a, timing.b, timing.upsample,
-                               timing.span, timing.hole}) {
-    CHECK(value > 0);
-    CHECK(value <= SF_MAX_TIMING);
+TEST_CASE("timing: the built-in coefficients are legal, and only some pixels cost nothing more") {
+  for (const starfocus::NamedTiming& each : starfocus::kBuiltInTimings) {
+    CAPTURE(each.name);
+    const sf_timing& timing = each.timing;
+    CHECK(timing.block > 0);
+    CHECK(timing.block <= SF_MAX_TIMING);
+    for (const auto coefficient : kCoefficients) CHECK(timing.*coefficient <= SF_MAX_TIMING);
+    // A fit cannot always tell the types apart: B and C are rendered from A.
+    CHECK(timing.a + timing.b + timing.c > 0);
+    for (const auto coefficient :
+         {&sf_timing::field, &sf_timing::upsample, &sf_timing::span, &sf_timing::hole}) {
+      CHECK(timing.*coefficient > 0);
+    }
   }
   sf_config config;
   sf_config_init(&config);
-  CHECK(config.timing.a == timing.a);
-  CHECK(config.timing.upsample == timing.upsample);
+  const sf_timing& own = starfocus::kBuiltInTimings[starfocus::kOwnTiming].timing;
+  CHECK(config.timing.block == own.block);
+  for (const auto coefficient : kCoefficients) {
+    CHECK(config.timing.*coefficient == own.*coefficient);
+  }
 }
 
 }  // namespace

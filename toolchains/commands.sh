@@ -11,6 +11,16 @@ board() {
   esac
 }
 
+# emulator PRESET: the program that runs statically linked programs as on a board.
+emulator() {
+  case "$1" in
+    aarch64) echo qemu-aarch64 -cpu cortex-a53 ;;
+    armhf) echo qemu-arm -cpu cortex-a7 ;;
+    armv6) echo qemu-arm -cpu arm1176 ;;
+    riscv64) echo qemu-riscv64 -cpu rv64 ;;
+  esac
+}
+
 # cross_build PRESET [TARGET...]
 cross_build() {
   local preset=$1
@@ -43,29 +53,39 @@ into_readme() {
   ' toolchains/README.md >"$LOGS/README.md" && cp "$LOGS/README.md" toolchains/README.md
 }
 
-# instructions CASE KERNELS: of one refocusing, on the emulated board.
+build_counter() {
+  mkdir -p "$LOGS"
+  step plugin "building the emulator's counter" \
+    cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/count_instructions.c
+}
+
+# instructions PRESET CASE KERNELS [COEFFICIENTS]: of one refocusing, on the emulated board.
 instructions() {
-  local runs
+  local runs preset=$1 name=$2 kernels=$3
+  shift 3
   for runs in 1 2; do
-    qemu-aarch64 -cpu cortex-a53 -d plugin \
+    $(emulator "$preset") -d plugin \
       -plugin "$LOGS/count.so,sym=starfocus,sym=sf_,sym=memcpy,sym=memset,sym=memmove" \
-      build/aarch64/tests/instruction_bench "$1" "$2" $runs 2>&1 | sed -n 's/^instructions: //p'
+      "build/$preset/tests/instruction_bench" "$name" "$kernels" $runs "$@" 2>&1 |
+      sed -n 's/^instructions: //p'
   done | awk 'NR == 1 { first = $1 } NR == 2 { print $1 - first }'
 }
 
 # Instructions per pixel with NEON and with the plain reference kernels. Fails when any is more than
-# 3 % above tests/instruction_counts.txt; `record` writes that file and toolchains/README.md.
+# 3 % above tests/instruction_counts.txt, if that is of the same compiler; `record` writes that file
+# and toolchains/README.md.
 count() {
   local baseline=tests/instruction_counts.txt now=$LOGS/instruction_counts.txt name pixels kernels
-  step plugin "building the emulator's counter" \
-    cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/count_instructions.c
+  local compiler recorded
+  build_counter
+  compiler=$(aarch64-linux-gnu-g++ --version | head -n 1)
   qemu-aarch64 build/aarch64/tests/instruction_bench list | while read -r name pixels; do
     for kernels in simd reference; do
-      printf '%s %s %s %s\n' "$name" $kernels "$pixels" "$(instructions "$name" $kernels)"
+      printf '%s %s %s %s\n' "$name" $kernels "$pixels" "$(instructions aarch64 "$name" $kernels)"
     done
   done >"$now"
   if [ "${1:-}" = record ]; then
-    cp "$now" $baseline
+    { printf 'compiler %s\n' "$compiler" && cat "$now"; } >$baseline
     awk '
       BEGIN { print "| instructions per pixel | NEON | scalar | ratio |\n|---|--:|--:|--:|" }
       $2 == "simd" { simd = $4 }
@@ -74,7 +94,9 @@ count() {
       }' $baseline >"$LOGS/count.md"
     into_readme count "$LOGS/count.md"
   fi
-  awk '
+  recorded=$(sed -n 's/^compiler //p' $baseline)
+  awk -v judge="$([ "$recorded" = "$compiler" ] && echo 1)" '
+    $1 == "compiler" { next }
     NR == FNR { expected[$1 " " $2] = $4; next }
     { count[$1 " " $2] = $4; if ($2 == "simd") { names[++n] = $1; pixels[$1] = $3 } }
     function change(key) { return (count[key] / expected[key] - 1) * 100 }
@@ -89,22 +111,100 @@ count() {
         printf "%-24s %10.1f %10.1f %7.2f  %+.2f %% %+.2f %%\n", names[i],
           count[simd] / pixels[names[i]], count[reference] / pixels[names[i]],
           count[reference] / count[simd], change(simd), change(reference)
-        if (change(simd) > 3 || change(reference) > 3) bad = 1
+        if (judge && (change(simd) > 3 || change(reference) > 3)) bad = 1
       }
       if (n == 0) bad = 1
       exit bad
     }' $baseline "$now" ||
     fail "more instructions than $baseline says; if that is meant: ./do count record"
+  [ "$recorded" = "$compiler" ] ||
+    echo "SKIPPED the comparison: $baseline is of $recorded, this is $compiler"
 }
 
 # count_command [record]
 count_command() {
-  local PACKAGES="g++ cmake ninja-build pkg-config g++-aarch64-linux-gnu qemu-user"
-  install_missing
-  step sysroot-aarch64 "fetching headers and libraries for aarch64" \
-    toolchains/sysroot.sh arm64 build/sysroot/arm64
+  case "${1:-}" in '' | record) ;; *) fail "usage: ./do count [record]" ;; esac
+  prepare_board aarch64
   cross_build aarch64 instruction_bench
   count "${1:-}"
+}
+
+# prepare_board PRESET: its compiler, emulator and sysroot.
+prepare_board() {
+  local PACKAGES="g++ cmake ninja-build pkg-config qemu-user" board_compiler board_sysroot
+  board "$1"
+  PACKAGES="$PACKAGES $board_compiler"
+  install_missing
+  step "sysroot-$1" "fetching headers and libraries for $1" \
+    toolchains/sysroot.sh $board_sysroot build/sysroot/$board_sysroot
+}
+
+BOARDS="aarch64 armhf armv6 riscv64"
+
+# coefficients: the built-in timing coefficients of all boards from instruction counts, into
+# lib/timing_defaults.h. Half an hour.
+coefficients() {
+  local preset numbers scene
+  install_missing
+  build starfocus
+  for scene in portrait wires; do
+    [ -f "build/coefficients/$scene/meta.txt" ] || program "made the light field $scene" \
+      scene "build/coefficients/$scene" --name $scene --size 640x480 --views 9
+  done
+  build_counter
+  for preset in $BOARDS; do
+    prepare_board $preset
+    cross_build $preset starfocus
+    head -c 8 /dev/zero >build/coefficients/counter
+    step "coefficients-$preset" "counting instructions of blocks on $preset" \
+      $(emulator $preset) -plugin "$LOGS/count.so,counter=build/coefficients/counter" \
+      build/$preset/starfocus calibrate --counter build/coefficients/counter \
+      --light-field build/coefficients/portrait --check build/coefficients/wires \
+      --output build/coefficients/$preset.json
+    grep '^R2' "$LOGS/coefficients-$preset.log"
+    numbers=$(sed -n '/"timing"/,/}/s/.*: *\([0-9][0-9]*\),*$/\1/p' build/coefficients/$preset.json |
+      paste -s -d ',' | sed 's/,/, /g')
+    sed -i "s/{\"$preset\", {[0-9, ]*}}/{\"$preset\", {$numbers}}/" lib/timing_defaults.h
+    grep -F "\"$preset\", {$numbers}" lib/timing_defaults.h ||
+      fail "lib/timing_defaults.h has no line for $preset"
+  done
+}
+
+# partitions: what block mode costs with the coefficients of every architecture, by the count.
+partitions() {
+  local preset name set
+  build_counter
+  for preset in aarch64 armv6; do
+    prepare_board $preset
+    cross_build $preset instruction_bench
+    for name in $($(emulator $preset) build/$preset/tests/instruction_bench list |
+      sed -n 's/\([^ ]*-block-[^ ]*\) .*/\1/p'); do
+      for set in $($(emulator $preset) build/$preset/tests/instruction_bench coefficients); do
+        printf '%s %s %s %s\n' $preset "$name" "$set" \
+          "$(instructions $preset "$name" simd "$set")"
+      done
+    done
+  done | awk '
+    NF != 4 { print "not counted: " $0; bad = 1; next }
+    { key = $1 " " $2; if (!(key in seen)) { seen[key] = ++rows; keys[rows] = key }
+      if (!($3 in known)) { known[$3] = ++columns; names[columns] = $3 }
+      count[key, $3] = $4 }
+    END {
+      printf "%-36s", "instructions with coefficients of"
+      for (c = 1; c <= columns; ++c) printf " %10s", names[c]
+      print ""
+      for (r = 1; r <= rows; ++r) {
+        split(keys[r], part, " ")
+        own = count[keys[r], part[1]]
+        printf "%-36s", "on " keys[r]
+        for (c = 1; c <= columns; ++c) {
+          if (names[c] == part[1]) printf " %10d", own
+          else printf " %+9.2f%%", (count[keys[r], names[c]] / own - 1) * 100
+        }
+        print ""
+      }
+      exit bad || !rows
+    }' || fail "the instructions could not be counted"
 }
 
 # cross ARCHITECTURE [build]: builds everything for a board and runs every test on an emulated one.
