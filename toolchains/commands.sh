@@ -7,7 +7,7 @@ board() {
     armhf) board_compiler=g++-arm-linux-gnueabihf board_sysroot=armhf ;;
     armv6) board_compiler=g++-arm-linux-gnueabi board_sysroot=armel ;;
     riscv64) board_compiler=g++-riscv64-linux-gnu board_sysroot=headers ;;
-    *) fail "usage: ./do cross aarch64|armhf|armv6|riscv64 [build]" ;;
+    *) fail "expected aarch64, armhf, armv6 or riscv64, found '$1'" ;;
   esac
 }
 
@@ -141,10 +141,11 @@ prepare_board() {
 
 BOARDS="aarch64 armhf armv6 riscv64"
 
-# coefficients: the built-in timing coefficients of all boards from instruction counts, into
-# lib/timing_defaults.h. Half an hour.
+# coefficients [ARCHITECTURE...]: the built-in timing coefficients of some boards or all, from
+# instruction counts, into lib/timing_defaults.h.
 coefficients() {
   local preset numbers scene
+  for preset in "$@"; do board "$preset"; done
   install_missing
   build starfocus
   for scene in portrait wires; do
@@ -152,7 +153,7 @@ coefficients() {
       scene "build/coefficients/$scene" --name $scene --size 640x480 --views 9
   done
   build_counter
-  for preset in $BOARDS; do
+  for preset in ${*:-$BOARDS}; do
     prepare_board $preset
     cross_build $preset starfocus
     head -c 8 /dev/zero >build/coefficients/counter
@@ -170,41 +171,48 @@ coefficients() {
   done
 }
 
-# partitions: what block mode costs with the coefficients of every architecture, by the count.
+# partitions [write]: what block mode costs with the coefficients of every architecture, by the count
+# (write: into toolchains/README.md).
 partitions() {
-  local preset name set
+  local preset name set counts=$LOGS/partitions.txt
+  case "${1:-}" in '' | write) ;; *) fail "usage: ./do partitions [write]" ;; esac
   build_counter
   for preset in aarch64 armv6; do
     prepare_board $preset
     cross_build $preset instruction_bench
+  done
+  for preset in aarch64 armv6; do
     for name in $($(emulator $preset) build/$preset/tests/instruction_bench list |
       sed -n 's/\([^ ]*-block-[^ ]*\) .*/\1/p'); do
       for set in $($(emulator $preset) build/$preset/tests/instruction_bench coefficients); do
-        printf '%s %s %s %s\n' $preset "$name" "$set" \
-          "$(instructions $preset "$name" simd "$set")"
+        printf '%s %s %s %s\n' $preset "$name" "$set" "$(instructions $preset "$name" simd "$set")"
       done
     done
-  done | awk '
-    NF != 4 { print "not counted: " $0; bad = 1; next }
-    { key = $1 " " $2; if (!(key in seen)) { seen[key] = ++rows; keys[rows] = key }
-      if (!($3 in known)) { known[$3] = ++columns; names[columns] = $3 }
-      count[key, $3] = $4 }
+  done >"$counts" 2>"$LOGS/partitions.log"
+  awk '
+    NF != 4 { bad = 1 }
+    {
+      row = "`" $2 "` on " $1
+      if (!(row in own)) rows[++n] = row
+      if (!($3 in known)) { known[$3] = 1; sets[++m] = $3 }
+      own[row] += $1 == $3 ? $4 : 0
+      count[row, $3] = $4
+    }
     END {
-      printf "%-36s", "instructions with coefficients of"
-      for (c = 1; c <= columns; ++c) printf " %10s", names[c]
-      print ""
-      for (r = 1; r <= rows; ++r) {
-        split(keys[r], part, " ")
-        own = count[keys[r], part[1]]
-        printf "%-36s", "on " keys[r]
-        for (c = 1; c <= columns; ++c) {
-          if (names[c] == part[1]) printf " %10d", own
-          else printf " %+9.2f%%", (count[keys[r], names[c]] / own - 1) * 100
-        }
-        print ""
+      if (bad || !n) exit 1
+      printf "| coefficients of"
+      for (k = 1; k <= m; ++k) printf " | %s", sets[k]
+      printf " |\n|---"
+      for (k = 1; k <= m; ++k) printf "|--:"
+      print "|"
+      for (i = 1; i <= n; ++i) {
+        printf "| %s", rows[i]
+        for (k = 1; k <= m; ++k) printf " | %+.2f %%", (count[rows[i], sets[k]] / own[rows[i]] - 1) * 100
+        print " |"
       }
-      exit bad || !rows
-    }' || fail "the instructions could not be counted"
+    }' "$counts" >"$LOGS/partitions.md" || fail "not everything was counted: see $counts"
+  cat "$LOGS/partitions.md"
+  [ "${1:-}" != write ] || into_readme partitions "$LOGS/partitions.md"
 }
 
 # cross ARCHITECTURE [build]: builds everything for a board and runs every test on an emulated one.
