@@ -30,17 +30,20 @@ cross_build() {
     cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}
 }
 
-# Whatever SIMD targets and vector lengths the emulator has must give the tracked checksums.
+# Whatever SIMD targets and vector lengths the emulator has must give the tracked checksums, and
+# every kernel the reference's results.
 golden_by_sve_length() {
-  cross_build aarch64-max golden_test
-  local bytes
+  cross_build aarch64-max golden_test kernels_test
+  local bytes name
   for bytes in 16 32 64; do
     printf 'SVE registers of %d bytes:\n' $bytes
-    qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
-      -E LD_LIBRARY_PATH=build/sysroot/arm64/usr/lib/aarch64-linux-gnu \
-      build/aarch64-max/tests/golden_test --no-intro=true >"$LOGS/golden-$bytes.log" 2>&1 ||
-      fail "checksums differ with SVE registers of $bytes bytes: see $LOGS/golden-$bytes.log"
-    grep '^golden:' "$LOGS/golden-$bytes.log"
+    for name in kernels golden; do
+      qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
+        -E LD_LIBRARY_PATH=build/sysroot/arm64/usr/lib/aarch64-linux-gnu \
+        build/aarch64-max/tests/${name}_test --no-intro=true >"$LOGS/$name-$bytes.log" 2>&1 ||
+        fail "${name}_test failed with SVE registers of $bytes bytes: see $LOGS/$name-$bytes.log"
+    done
+    grep -h '^SIMD targets:\|^golden:' "$LOGS/kernels-$bytes.log" "$LOGS/golden-$bytes.log"
   done
 }
 

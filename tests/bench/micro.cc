@@ -98,6 +98,11 @@ const Case kCases[] = {
      }},
 };
 
+// Whoever adds a kernel adds its case; accumulate has two.
+static_assert(sizeof(Kernels) ==
+                  sizeof(const char*) + (sizeof(kCases) / sizeof(kCases[0]) - 1) * sizeof(Body),
+              "a case for every kernel");
+
 void Register(const Kernels* kernels) {
   for (const Case& one : kCases) {
     const std::string name = std::string(one.name) + "/" + kernels->name;
