@@ -20,10 +20,11 @@ struct Case {
   test::Depth depth;
   sf_mode mode;
   double focus, aperture;
+  int width = 192, height = 128;
 };
 
-// Of 192 x 128 pixels; the name tells views, scene, mode and the largest blur radius in pixels.
-constexpr int kWidth = 192, kHeight = 128;
+// Of 192 x 128 pixels if not told otherwise; the name tells views, scene, mode and the largest blur
+// radius in pixels.
 constexpr Case kCases[] = {
     {"17-layers-frame-8", 17, test::Depth::kLayers, SF_MODE_FRAME, -4, 1},
     {"17-slanted-frame-8", 17, test::Depth::kSlanted, SF_MODE_FRAME, 4, 1},
@@ -31,6 +32,9 @@ constexpr Case kCases[] = {
     {"1-layers-frame-4", 1, test::Depth::kLayers, SF_MODE_FRAME, 0, 1},
     {"17-layers-block-8", 17, test::Depth::kLayers, SF_MODE_BLOCK, -4, 1},
     {"5-slanted-block-4", 5, test::Depth::kSlanted, SF_MODE_BLOCK, 0, 1},
+    // Large enough for partitions to differ.
+    {"9-room-block-7", 9, test::Depth::kRoom, SF_MODE_BLOCK, 3.5, 1, 384, 256},
+    {"5-room-block-4", 5, test::Depth::kRoom, SF_MODE_BLOCK, -1, 1, 384, 256},
     {"1-layers-blur-8", 1, test::Depth::kLayers, SF_MODE_BLUR, 4, 1},
     {"9-layers-benchmark-4", 9, test::Depth::kLayers, SF_MODE_BENCHMARK, 0, 1},
 };
@@ -53,13 +57,13 @@ const sf_timing* FindTiming(const char* name) {
 constexpr sf_timing kTiming = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
 
 int Run(const Case& one, bool reference, int runs, const sf_timing& timing) {
-  const test::Scene scene = test::IntegerScene(kWidth, kHeight, one.views, one.depth);
+  const test::Scene scene = test::IntegerScene(one.width, one.height, one.views, one.depth);
   sf_config config = test::ConfigFor(scene, 16);
   config.timing = timing;
   test::Engine engine(config);
   if (engine.status() != SF_OK) return 1;
   if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());
-  test::Output out(kWidth, kHeight);
+  test::Output out(one.width, one.height);
   const sf_params params = test::Params(one.focus, one.aperture, one.mode);
   for (int run = 0; run < runs; ++run) {
     if (test::Refocus(&engine, params, scene, &out) != SF_OK) return 1;
@@ -71,7 +75,7 @@ int Run(const Case& one, bool reference, int runs, const sf_timing& timing) {
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::strcmp(argv[1], "list") == 0) {
-    for (const Case& one : kCases) std::printf("%s %d\n", one.name, kWidth * kHeight);
+    for (const Case& one : kCases) std::printf("%s %d\n", one.name, one.width * one.height);
     return 0;
   }
   if (argc == 2 && std::strcmp(argv[1], "coefficients") == 0) {

@@ -199,7 +199,7 @@ std::string CountTable(const std::vector<Counts>& counts) {
          "(<code>./do bench --check</code> by callgrind, <code>./do count</code> by an emulator), "
          "not of this run. No board was at hand: what the emulated AArch64 executes stands in for "
          "energy, without what memory costs. Cases are views, scene, mode and largest blur "
-         "radius, 192×128 pixels.</p>" +
+         "radius, 192×128 pixels, rooms 384×256.</p>" +
          Table({"case", "x86-64 AVX2", "plain C++", "ratio", "AArch64 NEON", "plain C++", "ratio"},
                body);
 }
