@@ -35,10 +35,6 @@ struct TapTable {
 };
 constexpr TapTable kTaps;
 
-int32_t CellOf(const ViewGrid& grid, int64_t cell_move, const Run& run) {
-  return Abs(grid.Shift(cell_move, run.disparity));
-}
-
 // Copies pixels [begin, end) with the first and last repeated kMaxSpread times.
 void CopySurface(const uint8_t* rgb, int32_t begin, int32_t end, uint8_t* surface) {
   for (int32_t k = 0; k < kMaxSpread; ++k) std::memcpy(surface + 3 * k, rgb + 3 * begin, 3);
@@ -55,27 +51,22 @@ SpreadTaps SpreadTapsOf(int32_t cell) {
                       (cell + (1 << (kShiftBits - kCellBits - 1))) >> (kShiftBits - kCellBits))];
 }
 
-void SpreadLine(const simd::Kernels& kernels, const ViewGrid& grid, int64_t cell_move,
-                const Line& line, const Run* runs, int32_t count, uint8_t* surface, uint8_t* out) {
-  std::memcpy(out, line.rgb, 3 * static_cast<size_t>(line.length));
-  const auto edge_before = [&](int32_t x) {  // between pixels x - 1 and x
-    return x == 0 || Abs(line.disparity[x] - line.disparity[x - 1]) > kSurfaceStep;
-  };
-  int32_t end = line.length;
+void SpreadLine(const simd::Kernels& kernels, const Run* runs, int32_t count, int32_t length,
+                uint8_t* surface, uint8_t* rgb) {
+  int32_t end = length;
   for (int32_t first = 0; first < count;) {
     // Runs [first, last) make one surface [begin, end).
     int32_t last = first, widest = 0;
     do {
-      widest = Max(widest, CellOf(grid, cell_move, runs[last]));
-    } while (!edge_before(runs[last++].begin));
+      widest = Max(widest, runs[last++].cell);
+    } while (last < count && runs[last].surface_end == end);
     const int32_t begin = runs[last - 1].begin;
-    if (widest > kShiftOne) CopySurface(line.rgb, begin, end, surface);
+    if (widest > kShiftOne) CopySurface(rgb, begin, end, surface);
     for (int32_t run_end = end; first < last; run_end = runs[first++].begin) {
-      const int32_t cell = CellOf(grid, cell_move, runs[first]);
       const int32_t at = runs[first].begin;
-      if (cell <= kShiftOne) continue;
-      kernels.spread(surface + 3 * (kMaxSpread + at - begin), SpreadTapsOf(cell),
-                     3 * static_cast<size_t>(run_end - at), out + 3 * at);
+      if (runs[first].cell <= kShiftOne) continue;
+      kernels.spread(surface + 3 * (kMaxSpread + at - begin), SpreadTapsOf(runs[first].cell),
+                     3 * static_cast<size_t>(run_end - at), rgb + 3 * at);
     }
     end = begin;
   }
