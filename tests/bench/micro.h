@@ -4,10 +4,15 @@
 
 #include <string>
 
+#include "simd/kernels.h"
+
 namespace starfocus::bench {
 
-// Parts that have no kernels: the line scan and deblocking.
-void RegisterScalarParts();
+// What has no kernels.
+void RegisterDeblocking();
+
+// The line scan with the search for runs before it.
+void RegisterLineScan(const simd::Kernels* kernels);
 
 // Small pictures through the whole engine, by mode: "blur" is the ideal blur of one view.
 void RegisterWholePictures(const std::string& target);

@@ -33,23 +33,26 @@ int16_t DisparityAt(int x) { return int16_t((x / kSurface * 5 % 9 - 4) * 64 + x 
 
 // All views of one line, runs included, as type A lines are scanned. Bytes: disparities read once
 // a view, as the scan itself moves no pixels.
-void ScanLines(benchmark::State& state) {
+void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
   std::vector<uint8_t> rgb(3 * kPixels, 128);
-  std::vector<int16_t> disparity(kPixels);
+  std::vector<int16_t> disparity(kPixels + simd::kPadding);
   for (int x = 0; x < kPixels; ++x) disparity[size_t(x)] = DisparityAt(x);
   std::vector<Run> runs(kPixels);
+  std::vector<uint16_t> starts(RunMarkWords(kPixels, 1)), edges(starts.size());
+  std::vector<int16_t> middles(RunMiddles(kPixels, 1));
+  simd::RunMarks marks = {starts.data(), edges.data(), middles.data(), 0};
   Aperture aperture;
   aperture.n = kViewNumber;
   const ViewGrid grid = MakeViewGrid(aperture, 0, 1, 0, false, false);
-  const Line line = {rgb.data(), disparity.data(), kPixels};
+  const Line line = {rgb.data(), disparity.data(), 1, kPixels};
   for (auto _ : state) {
     Ignore ignore;
     for (const Direction direction : {Direction::kRightToLeft, Direction::kLeftToRight}) {
-      const int32_t count =
-          FindRuns(disparity.data(), kPixels, direction, grid.spread, runs.data());
+      MarkRuns(kernels, grid, {disparity.data(), 1, kPixels, 1}, direction, &marks);
+      const int32_t count = ReadRuns(marks, 0, kPixels, grid, grid.Move(1), runs.data());
       for (int i = 1; i <= kViewNumber; ++i) {
         const int64_t move = direction == Direction::kRightToLeft ? grid.Move(i) : -grid.Move(i);
-        const LineView view = {&grid, move, grid.Move(1), 0, kPixels};
+        const LineView view = {&grid, move, 0, kPixels};
         ScanLine(line, direction, runs.data(), count, view, &ignore);
       }
     }
@@ -117,9 +120,12 @@ void WholePicture(const std::string& mode, const std::string& target, benchmark:
 
 }  // namespace
 
-void RegisterScalarParts() {
-  benchmark::RegisterBenchmark("line_scan", ScanLines);
-  benchmark::RegisterBenchmark("deblock", Deblock);
+void RegisterDeblocking() { benchmark::RegisterBenchmark("deblock", Deblock); }
+
+void RegisterLineScan(const simd::Kernels* kernels) {
+  const std::string name = std::string("line_scan/") + kernels->name;
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [kernels](benchmark::State& state) { ScanLines(*kernels, state); });
 }
 
 void RegisterWholePictures(const std::string& target) {
