@@ -21,7 +21,7 @@ inline constexpr NamedTiming kBuiltInTimings[] = {
     {"aarch64", {44084252, 1700, 17599, 0, 2846, 41137, 41047, 12098}},
     {"armhf", {51991377, 550, 21541, 0, 3447, 50423, 56819, 14202}},
     {"armv6", {46445054, 0, 35253, 0, 8039, 82877, 45309, 9080}},
-    {"riscv64", {15200000, 6600, 2700, 2700, 0, 18600, 16400, 5600}},
+    {"riscv64", {38243803, 0, 60045, 20346, 22911, 118378, 15967, 11067}},
 };
 
 // The index of the architecture this is compiled for; unknown ones are taken for x86-64.
