@@ -200,6 +200,8 @@ std::string Growth(const Rows& rows, const char* study, const char* title, const
 }  // namespace
 
 std::string GrowthPlots(const Rows& rows) {
+  const auto swept = [](const Row& row) { return row.study == "radius" || row.study == "pixels"; };
+  if (std::none_of(rows.begin(), rows.end(), swept)) return "<p>Not measured.</p>";
   // A blur radius of 0 stands at 0.5 on the logarithmic axis.
   return Growth(rows, "radius", "Time against the largest blur radius (0 drawn at 0.5)",
                 "r_max, pixels", 4, [](const Row& row) { return std::max(0.5, row.r_max); }) +

@@ -56,7 +56,7 @@ Cells FieldCells(const Rows& rows, const std::string& field, double aperture) {
   }
   cells.push_back(Fixed(Seconds(frame) / seconds, 1));
   cells.push_back(Fixed(Seconds(blur) / seconds, 2));
-  if (aperture != 1) return cells.resize(15, "–"), cells;
+  if (aperture != 1) return cells.resize(17, "–"), cells;
   double before = Mean(frame, Ms);
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
     const double now = layer == 2 ? Mean(block, Ms) : WithLayers(rows, field, layer, Ms);
