@@ -8,16 +8,16 @@ namespace {
 using simd::kMaxSpread;
 using simd::SpreadTaps;
 
-constexpr int kCellBits = 3;  // cells of the table
-constexpr int32_t kLargestCell = (2 * kMaxSpread + 1) << kCellBits;
+constexpr int kCellBits = 3;                  // fractional bits of the table's cells
+constexpr int32_t kOneCell = 1 << kCellBits;  // a pixel
+constexpr int32_t kLargestCell = (2 * kMaxSpread + 1) * kOneCell;
 
 // With L between 2 k - 1 and 2 k + 1, (1 - m) box(2 k - 1) + m box(2 k + 1) has the variance
 // (L^2 - 1) / 12 for m = (L^2 - (2 k - 1)^2) / 8 k.
 constexpr SpreadTaps MakeTaps(int32_t cell) {
-  const int32_t one = 1 << kCellBits;
   int32_t k = 1;
-  while ((2 * k + 1) * one < cell) ++k;
-  const double length = static_cast<double>(cell) / one;
+  while ((2 * k + 1) * kOneCell < cell) ++k;
+  const double length = static_cast<double>(cell) / kOneCell;
   const double m = (length * length - (2 * k - 1) * (2 * k - 1)) / (8.0 * k);
   SpreadTaps taps = {};
   taps.reach = k;
@@ -30,14 +30,98 @@ constexpr SpreadTaps MakeTaps(int32_t cell) {
 struct TapTable {
   SpreadTaps of[kLargestCell + 1] = {};
   constexpr TapTable() {
-    for (int32_t cell = 1 << kCellBits; cell <= kLargestCell; ++cell) of[cell] = MakeTaps(cell);
+    for (int32_t cell = kOneCell; cell <= kLargestCell; ++cell) of[cell] = MakeTaps(cell);
   }
 };
 constexpr TapTable kTaps;
 
-int32_t CellOf(const ViewGrid& grid, int64_t cell_move, const Run& run) {
-  return Abs(grid.Shift(cell_move, run.disparity));
+// Of the taps for a cell of kShiftBits.
+int32_t IndexOf(int32_t cell) {
+  constexpr int kBits = kShiftBits - kCellBits;
+  return Min(kLargestCell, (cell + (1 << (kBits - 1))) >> kBits);
 }
+
+struct Range {
+  int16_t low, high;
+};
+
+// A loop that compilers turn into vectors.
+Range RangeOf(const int16_t* values, int32_t count) {
+  Range range = {values[0], values[0]};
+  for (int32_t k = 1; k < count; ++k) {
+    range.low = values[k] < range.low ? values[k] : range.low;
+    range.high = values[k] > range.high ? values[k] : range.high;
+  }
+  return range;
+}
+
+// The cells of a line's pixels, from their disparities alone: runs would depend on the direction
+// they are found in.
+class LineCells {
+ public:
+  LineCells(const ViewGrid& grid, int64_t cell_move, const Line& line)
+      : grid_(grid), cell_move_(cell_move), line_(line) {}
+
+  bool AnyWide() const {
+    const Range range = RangeOf(line_.disparity, line_.length);
+    return Max(Index(range.low), Index(range.high)) > kOneCell;
+  }
+  int32_t At(int32_t x) const { return Index(line_.disparity[x]); }
+
+  // Where the surface of pixel `begin` ends.
+  int32_t SurfaceEnd(int32_t begin) const {
+    const int16_t* d = line_.disparity;
+    int32_t x = begin + 1;
+    while (x < line_.length) {
+      if (x + kChunk <= line_.length) {
+        const Range range = RangeOf(d + x - 1, kChunk + 1);
+        if (range.high - range.low <= kSurfaceStep) {
+          x += kChunk;
+          continue;
+        }
+      }
+      const int32_t last = Min(line_.length, x + kChunk);
+      for (; x < last; ++x) {
+        if (Abs(d[x] - d[x - 1]) > kSurfaceStep) return x;
+      }
+    }
+    return x;
+  }
+
+  // Where the pixels from `begin` on, up to `end`, no longer have its cell.
+  int32_t CellEnd(int32_t begin, int32_t end) const {
+    const int32_t cell = At(begin);
+    int32_t x = begin + 1;
+    while (x < end) {
+      if (x + kChunk <= end && ChunkHas(x, cell)) {
+        x += kChunk;
+        continue;
+      }
+      const int32_t last = Min(end, x + kChunk);
+      for (; x < last; ++x) {
+        if (At(x) != cell) return x;
+      }
+    }
+    return x;
+  }
+
+ private:
+  static constexpr int32_t kChunk = 8;
+
+  int32_t Index(int32_t disparity) const {
+    return IndexOf(Abs(grid_.Shift(cell_move_, disparity)));
+  }
+  // On either side of the focus cells grow with the distance from it.
+  bool ChunkHas(int32_t x, int32_t cell) const {
+    const Range range = RangeOf(line_.disparity + x, kChunk);
+    const bool one_side = range.low >= grid_.focus || range.high <= grid_.focus;
+    return one_side && Index(range.low) == cell && Index(range.high) == cell;
+  }
+
+  const ViewGrid& grid_;
+  int64_t cell_move_;
+  const Line& line_;
+};
 
 // Copies pixels [begin, end) with the first and last repeated kMaxSpread times.
 void CopySurface(const uint8_t* rgb, int32_t begin, int32_t end, uint8_t* surface) {
@@ -50,34 +134,27 @@ void CopySurface(const uint8_t* rgb, int32_t begin, int32_t end, uint8_t* surfac
 
 }  // namespace
 
-SpreadTaps SpreadTapsOf(int32_t cell) {
-  return kTaps.of[Min(kLargestCell,
-                      (cell + (1 << (kShiftBits - kCellBits - 1))) >> (kShiftBits - kCellBits))];
-}
+SpreadTaps SpreadTapsOf(int32_t cell) { return kTaps.of[IndexOf(cell)]; }
 
 void SpreadLine(const simd::Kernels& kernels, const ViewGrid& grid, int64_t cell_move,
-                const Line& line, const Run* runs, int32_t count, uint8_t* surface, uint8_t* out) {
+                const Line& line, uint8_t* surface, uint8_t* out) {
   std::memcpy(out, line.rgb, 3 * static_cast<size_t>(line.length));
-  const auto edge_before = [&](int32_t x) {  // between pixels x - 1 and x
-    return x == 0 || Abs(line.disparity[x] - line.disparity[x - 1]) > kSurfaceStep;
-  };
-  int32_t end = line.length;
-  for (int32_t first = 0; first < count;) {
-    // Runs [first, last) make one surface [begin, end).
-    int32_t last = first, widest = 0;
-    do {
-      widest = Max(widest, CellOf(grid, cell_move, runs[last]));
-    } while (!edge_before(runs[last++].begin));
-    const int32_t begin = runs[last - 1].begin;
-    if (widest > kShiftOne) CopySurface(line.rgb, begin, end, surface);
-    for (int32_t run_end = end; first < last; run_end = runs[first++].begin) {
-      const int32_t cell = CellOf(grid, cell_move, runs[first]);
-      const int32_t at = runs[first].begin;
-      if (cell <= kShiftOne) continue;
-      kernels.spread(surface + 3 * (kMaxSpread + at - begin), SpreadTapsOf(cell),
-                     3 * static_cast<size_t>(run_end - at), out + 3 * at);
+  const LineCells cells(grid, cell_move, line);
+  if (!cells.AnyWide()) return;
+  for (int32_t begin = 0; begin < line.length;) {
+    const int32_t end = cells.SurfaceEnd(begin);
+    bool copied = false;
+    for (int32_t x = begin; x < end;) {
+      const int32_t cell_end = cells.CellEnd(x, end), cell = cells.At(x);
+      if (cell > kOneCell) {
+        if (!copied) CopySurface(line.rgb, begin, end, surface);
+        copied = true;
+        kernels.spread(surface + 3 * (kMaxSpread + x - begin), kTaps.of[cell],
+                       3 * static_cast<size_t>(cell_end - x), out + 3 * x);
+      }
+      x = cell_end;
     }
-    end = begin;
+    begin = end;
   }
 }
 

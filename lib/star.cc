@@ -109,8 +109,8 @@ class Star {
     for (const int sign : {1, -1}) {
       FindAllRuns(field, DirectionOf(sign));
       if (grid_.cells && sign > 0) SpreadRows(field);
-      // The centre view spreads over both axes like any other, once.
-      const int32_t first = grid_.cells && sign > 0 && !field.transposed ? 0 : 1;
+      // The centre view spreads over both axes like any other, half of it in either order.
+      const int32_t first = grid_.cells && sign > 0 ? 0 : 1;
       for (int32_t i = first; i <= grid_.n(); ++i) {
         const int32_t last = LastAcross(i);
         const Rows rows = RowsFor(field, last);
@@ -134,8 +134,8 @@ class Star {
       const size_t offset = field.Offset(0, row);
       uint8_t* rgb = field.rgb + 3 * offset;
       const Line line = {rgb, field.disparity + offset, field.width};
-      SpreadLine(*job_.kernels, grid_, scratch_->moves[1], line, scratch_->runs + offset,
-                 scratch_->run_counts[row], scratch_->surface_rgb, scratch_->spread_rgb);
+      SpreadLine(*job_.kernels, grid_, scratch_->moves[1], line, scratch_->surface_rgb,
+                 scratch_->spread_rgb);
       std::memcpy(rgb, scratch_->spread_rgb, 3 * static_cast<size_t>(field.width));
     }
   }
@@ -219,17 +219,19 @@ class Star {
       SpanList list = Accumulating(accumulators + 3 * static_cast<size_t>(x) * inner.height);
       for (const int across : {1, -1}) {
         if (across < 0 && last == 0) continue;
-        const bool scan = last > 0 || grid_.cells;
-        const int32_t runs = scan ? FindRuns(line.disparity, height, DirectionOf(across),
-                                             grid_.spread, scratch_->line_runs)
-                                  : 0;
+        const int32_t runs = last > 0 ? FindRuns(line.disparity, height, DirectionOf(across),
+                                                 grid_.spread, scratch_->line_runs)
+                                      : 0;
         if (across > 0) {
           if (grid_.cells) {
-            SpreadLine(*job_.kernels, grid_, scratch_->moves[1], line, scratch_->line_runs, runs,
-                       scratch_->surface_rgb, scratch_->spread_rgb);
+            SpreadLine(*job_.kernels, grid_, scratch_->moves[1], line, scratch_->surface_rgb,
+                       scratch_->spread_rgb);
             line.rgb = scratch_->spread_rgb;
           }
-          AddLine(line.rgb + 3 * top, inner.height, grid_.aperture.Weight(i, 0), 0, &list);
+          // The centre's weight is even: what is left of a power of two by orbits of four and
+          // eight.
+          const uint32_t weight = grid_.aperture.Weight(i, 0) >> (i == 0 ? 1 : 0);
+          AddLine(line.rgb + 3 * top, inner.height, weight, 0, &list);
         }
         for (int32_t j = 1; j <= last; ++j) {
           const LineView view = MakeView(j, top, top + inner.height);

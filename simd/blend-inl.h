@@ -15,25 +15,18 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE void BlendSpan(const Span& span, uint8_t* HWY_RESTRICT target) {
-  const hn::ScalableTag<uint16_t> d16;
-  const hn::RebindToSigned<decltype(d16)> di16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
-  const size_t lanes = hn::Lanes(d16);
-  const auto weight = hn::Set(d16, span.weight);
-  const auto neighbour_weight = hn::Set(d16, span.neighbour_weight);
+// sum / 256 of at most 65280, halves to even.
+template <class D16, class V16>
+HWY_INLINE V16 RoundToByte(D16 d16, V16 sum) {
   const auto below_half = hn::Set(d16, uint16_t{127}), one = hn::Set(d16, uint16_t{1});
-  const uint8_t* HWY_RESTRICT source = span.source;
-  const uint8_t* HWY_RESTRICT neighbour = source + span.neighbour_offset;
-  const auto value = [&](size_t n) HWY_ATTR {
-    const auto a = hn::Mul(hn::PromoteTo(d16, hn::LoadU(d8, source + n)), weight);
-    const auto b = hn::Mul(hn::PromoteTo(d16, hn::LoadU(d8, neighbour + n)), neighbour_weight);
-    const auto sum = hn::Add(a, b);
-    // Halves to even: <= 65280 + 128.
-    const auto rounding = hn::Add(hn::And(hn::ShiftRight<8>(sum), one), below_half);
-    return hn::DemoteTo(d8, hn::BitCast(di16, hn::ShiftRight<8>(hn::Add(sum, rounding))));
-  };
-  const size_t samples = span.samples;
+  const auto rounding = hn::Add(hn::And(hn::ShiftRight<8>(sum), one), below_half);
+  return hn::ShiftRight<8>(hn::Add(sum, rounding));
+}
+
+// target[n] = value(n) for n < samples, a vector of `lanes` values at a time.
+template <class D8, class Value>
+HWY_INLINE void StoreSamples(D8 d8, size_t lanes, size_t samples, uint8_t* HWY_RESTRICT target,
+                             const Value& value) {
   if (samples < lanes) {
     uint8_t last[HWY_MAX_BYTES];
     hn::StoreU(value(0), d8, last);
@@ -44,6 +37,21 @@ HWY_INLINE void BlendSpan(const Span& span, uint8_t* HWY_RESTRICT target) {
   for (; n + lanes <= samples; n += lanes) hn::StoreU(value(n), d8, target + n);
   // The last vector overlaps the one before it: the same values again.
   if (n != samples) hn::StoreU(value(samples - lanes), d8, target + samples - lanes);
+}
+
+HWY_INLINE void BlendSpan(const Span& span, uint8_t* HWY_RESTRICT target) {
+  const hn::ScalableTag<uint16_t> d16;
+  const hn::RebindToSigned<decltype(d16)> di16;
+  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  const auto weight = hn::Set(d16, span.weight);
+  const auto neighbour_weight = hn::Set(d16, span.neighbour_weight);
+  const uint8_t* HWY_RESTRICT source = span.source;
+  const uint8_t* HWY_RESTRICT neighbour = source + span.neighbour_offset;
+  StoreSamples(d8, hn::Lanes(d16), span.samples, target, [&](size_t n) HWY_ATTR {
+    const auto a = hn::Mul(hn::PromoteTo(d16, hn::LoadU(d8, source + n)), weight);
+    const auto b = hn::Mul(hn::PromoteTo(d16, hn::LoadU(d8, neighbour + n)), neighbour_weight);
+    return hn::DemoteTo(d8, hn::BitCast(di16, RoundToByte(d16, hn::Add(a, b))));
+  });
 }
 
 HWY_INLINE void BlendSpans(const Span* HWY_RESTRICT spans, size_t count,
@@ -64,20 +72,18 @@ HWY_INLINE void SpreadSamples(const uint8_t* HWY_RESTRICT in, const SpreadTaps& 
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
   const auto centre = hn::Set(d16, taps.centre), inner = hn::Set(d16, taps.inner),
-             outer = hn::Set(d16, taps.outer), half = hn::Set(d16, uint16_t{128});
+             outer = hn::Set(d16, taps.outer);
   const auto load = [&](const uint8_t* at)
                         HWY_ATTR { return hn::PromoteTo(d16, hn::LoadU(d8, at)); };
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  StoreSamples(d8, lanes, count, out, [&](size_t n) HWY_ATTR {
     const uint8_t* at = in + n;
-    auto sum = hn::Add(hn::Mul(load(at), centre), half);
+    auto sum = hn::Mul(load(at), centre);
     for (ptrdiff_t k = 1; k <= taps.reach; ++k) {
       const auto pair = hn::Add(load(at - 3 * k), load(at + 3 * k));
       sum = hn::Add(sum, hn::Mul(pair, k < taps.reach ? inner : outer));
     }
-    hn::StoreU(hn::DemoteTo(d8, hn::BitCast(di16, hn::ShiftRight<8>(sum))), d8, out + n);
-  }
-  ReferenceKernels().spread(in + n, taps, count - n, out + n);
+    return hn::DemoteTo(d8, hn::BitCast(di16, RoundToByte(d16, sum)));
+  });
 }
 
 HWY_INLINE bool ConvertDisparities(const float* HWY_RESTRICT disparity, size_t count, float low,

@@ -53,7 +53,8 @@ struct Kernels {
   // Sources don't overlap the line. Nothing outside the spans is written.
   void (*blend)(const Span* spans, size_t count, uint8_t* line);
 
-  // out[n] = (the taps over in[n + 3 k], |k| <= reach, + 128) >> 8. in and out don't overlap.
+  // out[n] = (the taps over in[n + 3 k], |k| <= reach) / 256, halves to even. in and out don't
+  // overlap.
   void (*spread)(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out);
 
   // out[n] = (accumulators[n] + 2^(shift - 1)) >> shift; shift in [1, 24]; results fit a byte.

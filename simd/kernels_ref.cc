@@ -45,7 +45,7 @@ void Spread(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* ou
       const uint32_t tap = k < taps.reach ? taps.inner : taps.outer;
       sum += tap * (uint32_t{at[-3 * k]} + at[3 * k]);
     }
-    out[n] = static_cast<uint8_t>((sum + 128) >> 8);
+    out[n] = RoundBlend(sum);
   }
 }
 

@@ -13,8 +13,6 @@ namespace {
 // Gray levels by which any pixel may jump when the lens changes by a step of its scale. Views are
 // few near focus, and each moves by whole pixels there.
 constexpr int kMostJump = 40;
-// Wide cells are spread over runs found from the right, which a mirrored line splits elsewhere.
-constexpr int kMostMirroredCells = 1;
 
 struct Symmetry {
   bool transpose, mirror_x, mirror_y;
@@ -105,8 +103,7 @@ Outcome Mirrors(test::Random* random) {
       }
     }
   }
-  const int most = setup.params.rule == SF_RULE_PAPER ? 0 : kMostMirroredCells;
-  if (outcome.error > most) {
+  if (outcome.error > 0) {
     return Fail(setup, "not symmetric (transposed " + std::to_string(symmetry.transpose) +
                            ", mirrored " + std::to_string(symmetry.mirror_x) + " " +
                            std::to_string(symmetry.mirror_y) + ") by " +
