@@ -380,6 +380,29 @@ TEST_CASE("cells: one pixel out of focus widens the borders of the blocks it rea
   }
 }
 
+TEST_CASE("cells: a silhouette counts for the cell behind it too") {
+  // A surface begins abruptly with radius 9 at column (row) 40 and slopes down to the right.
+  for (const bool transposed : {false, true}) {
+    Map map = EmptyMap(96, 96, 0, 1);
+    for (int along = 0; along < 96; ++along) {
+      for (int k = 0; k < 8; ++k) {
+        (transposed ? map.At(along, 40 + k) : map.At(40 + k, along)) =
+            Fixed(std::max(0.0, 9 - 1.5 * k));
+      }
+    }
+    map.Measure();
+    const Cells cells(map, 0, 96, 4);
+    // Blocks at 48, 32 and 16: reached from 8 pixels away, inside, and from 9.
+    for (const int column : {6, 4, 2}) {
+      const BlockStats stats = transposed ? starfocus::MeasureBlock(cells.grid, 4, column, 4)
+                                          : starfocus::MeasureBlock(cells.grid, column, 4, 4);
+      CAPTURE(transposed);
+      CAPTURE(column);
+      CHECK(stats.r_edge == 9 * kDisparityOne);
+    }
+  }
+}
+
 TEST_CASE("cells: the engine's largest border and sight cover what the analysis asks for") {
   test::Random random(12);
   for (const double r : {0.1, 1.0, 4.9, 13.3, 32.0, 60.0}) {
