@@ -296,9 +296,9 @@ TEST_CASE("block: all far out of focus goes to layer 2, as far as allowed") {
       const test::Scene scene = LayeredScene(size.first, size.second, 5, 2, 44);
       Setup s;
       s.focus = 20;
+      s.rule = SF_RULE_PAPER;  // wide cells keep silhouettes out of layer 2
       s.max_layer = max_layer;
       s.block = 128;
-      s.rule = SF_RULE_PAPER;  // cells keep layer 2 away from depth edges
       sf_report report = {};
       Whole(scene, s, &report);
       CAPTURE(Text(s, scene));
