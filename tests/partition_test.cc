@@ -133,8 +133,8 @@ int ViewsByPaper(double r_max) {
 int ViewsOf(const Plan& plan, double r_max, double r_edge) {
   const int paper = ViewsByPaper(r_max);
   if (!plan.rules.cells) return paper;
-  return std::min(paper,
-                  std::max(starfocus::ViewsByCells(r_max), starfocus::ViewsOfSilhouette(r_edge)));
+  return std::max(starfocus::ViewsByCells(r_max),
+                  std::min(paper, int(starfocus::ViewsOfSilhouette(r_edge))));
 }
 
 int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
