@@ -12,17 +12,18 @@ constexpr int kCellBits = 3;                  // fractional bits of the table's 
 constexpr int32_t kOneCell = 1 << kCellBits;  // a pixel
 constexpr int32_t kLargestCell = (2 * kMaxSpread + 1) * kOneCell;
 
-// With L between 2 k - 1 and 2 k + 1, (1 - m) box(2 k - 1) + m box(2 k + 1) has the variance
-// (L^2 - 1) / 12 for m = (L^2 - (2 k - 1)^2) / 8 k.
+// What a box of L pixels, 2 k - 1 < L <= 2 k + 1, covers of the pixels around it. Linear
+// interpolation makes it wider still by the variance of a quarter pixel or less; taps narrower by
+// that, so that the variance is the box's, would let views that lie whole pixels apart show as
+// stripes.
 constexpr SpreadTaps MakeTaps(int32_t cell) {
   int32_t k = 1;
   while ((2 * k + 1) * kOneCell < cell) ++k;
   const double length = static_cast<double>(cell) / kOneCell;
-  const double m = (length * length - (2 * k - 1) * (2 * k - 1)) / (8.0 * k);
   SpreadTaps taps = {};
   taps.reach = k;
-  taps.outer = static_cast<uint16_t>(256 * m / (2 * k + 1) + 0.5);
-  taps.inner = static_cast<uint16_t>(256 * ((1 - m) / (2 * k - 1) + m / (2 * k + 1)) + 0.5);
+  taps.outer = static_cast<uint16_t>(256 * (length - (2 * k - 1)) / (2 * length) + 0.5);
+  taps.inner = static_cast<uint16_t>(256 / length + 0.5);
   taps.centre = static_cast<uint16_t>(256 - 2 * taps.outer - 2 * (k - 1) * taps.inner);
   return taps;
 }

@@ -9,8 +9,8 @@
 
 namespace starfocus {
 
-// The taps that make linear interpolation a box of width `cell` (kShiftBits), in (1, 7] pixels: of
-// the same variance, a mixture of the two odd boxes around it. Wider cells get 7 pixels.
+// The taps of a box of width `cell` (kShiftBits), in (1, 7] pixels, to 1/8 pixel: what it covers of
+// each pixel around it. Wider cells get 7 pixels.
 simd::SpreadTaps SpreadTapsOf(int32_t cell);
 
 // Spreads the pixels of `line` by their own cells r / N, in steps of 1/8 pixel, into `out`, each
