@@ -10,76 +10,35 @@ constexpr int32_t kRadiusOne = 1 << kDisparityBits;
 // Pixels that blur of radius r (kDisparityBits) reaches, with half a pixel of rounding.
 int32_t ReachOf(int32_t r) { return (r + kRadiusOne / 2 + kRadiusOne - 1) >> kDisparityBits; }
 
-// Largest |d - d_t| of the columns and rows of a cell, and the smallest of all.
-struct CellDistances {
-  int32_t column[kCellSize] = {}, row[kCellSize] = {};
-  int32_t smallest = INT32_MAX, largest = 0;
-};
-
-CellDistances Measure(const Window& window, int32_t focus, int32_t x, int32_t y) {
-  CellDistances found;
-  const int32_t width = Min(kCellSize, window.width - x);
-  const int32_t height = Min(kCellSize, window.height - y);
-  for (int32_t row = 0; row < height; ++row) {
-    const int16_t* disparity = window.disparity.Row(y + row) + x;
-    for (int32_t column = 0; column < width; ++column) {
-      const int32_t distance = Abs(disparity[column] - focus);
-      found.column[column] = Max(found.column[column], distance);
-      found.row[row] = Max(found.row[row], distance);
-      found.smallest = Min(found.smallest, distance);
+// What the kernel finds, with the picture's edge repeated around it.
+simd::CellMeasure Measure(const simd::Kernels& kernels, const Window& window,
+                          const simd::CellLimits& limits, int32_t x, int32_t y) {
+  const int16_t* rows[kCellSize + 2];
+  int16_t copies[kCellSize + 2][kCellSize + 2];
+  const bool inside = x > 0 && y > 0 && x + kCellSize < window.width &&
+                      y + kCellSize < window.height;
+  for (int32_t row = 0; row < kCellSize + 2; ++row) {
+    const int16_t* from = window.disparity.Row(Clamp(y + row - 1, 0, window.height - 1));
+    rows[row] = from + x;
+    if (inside) continue;
+    for (int32_t column = 0; column < kCellSize + 2; ++column) {
+      copies[row][column] = from[Clamp(x + column - 1, 0, window.width - 1)];
     }
-    found.largest = Max(found.largest, found.row[row]);
+    rows[row] = copies[row] + 1;
   }
-  // The picture's edge repeats in what a cell has beyond it.
-  for (int32_t k = width; k < kCellSize; ++k) found.column[k] = found.column[width - 1];
-  for (int32_t k = height; k < kCellSize; ++k) found.row[k] = found.row[height - 1];
-  return found;
+  simd::CellMeasure measure;
+  kernels.measure_cell(rows, limits, &measure);
+  return measure;
 }
 
-// Largest |d - d_t| of the nearer side of the depth edges between a cell's pixels and all their
-// neighbours, those of the cells around it too: either may be the one that reaches a block. -1: no
-// edge.
-int32_t MeasureEdges(const Window& window, int32_t focus, int32_t x, int32_t y) {
-  int32_t largest = -1;
-  const int32_t left = Max(x - 1, 0), right = Min(x + kCellSize, window.width - 1);
-  const int32_t top = Max(y - 1, 0), bottom = Min(y + kCellSize, window.height - 1);
-  const auto compare = [&](int32_t a, int32_t b) {
-    if (Abs(a - b) > kSurfaceStep) largest = Max(largest, Abs(Max(a, b) - focus));
-  };
-  for (int32_t row = y; row < y + kCellSize && row < window.height; ++row) {
-    const int16_t* here = window.disparity.Row(row);
-    for (int32_t column = left; column < right; ++column) compare(here[column], here[column + 1]);
-  }
-  for (int32_t row = top; row < bottom; ++row) {
-    const int16_t* here = window.disparity.Row(row);
-    const int16_t* below = window.disparity.Row(row + 1);
-    for (int32_t column = x; column < x + kCellSize && column < window.width; ++column) {
-      compare(here[column], below[column]);
-    }
-  }
-  return largest;
+// Largest |d - focus| of disparities in [low, high].
+int32_t Farthest(int32_t low, int32_t high, int32_t focus) {
+  return Max(Abs(low - focus), Abs(high - focus));
 }
 
 // A run ends when its pixels drift apart by a quarter pixel (kRunSpread of view_grid.cc).
 constexpr int32_t kRunDrift = kRadiusOne / 4;
 constexpr int32_t kLargestGap = 8;
-
-// Steps in disparity, kDisparityBits, of a cell, each up to the limit from where on it counts no
-// more.
-struct Steps {
-  int32_t run_limit, gap_limit;
-  uint32_t slopes = 0, edges = 0, gaps = 0;
-
-  void Add(const int16_t* from, const int16_t* to, int32_t count) {
-    for (int32_t k = 0; k < count; ++k) {
-      const int32_t step = Abs(to[k] - from[k]);
-      const bool edge = step > kSurfaceStep;
-      slopes += static_cast<uint32_t>(edge ? 0 : Min(step, run_limit));
-      gaps += static_cast<uint32_t>(edge ? Min(step, gap_limit) : 0);
-      edges += edge ? 1 : 0;
-    }
-  }
-};
 
 // Disparity that moves by `distance` (kDisparityBits of a pixel) in the outermost view.
 int32_t DisparityOf(int32_t distance, int64_t step) {
@@ -87,21 +46,13 @@ int32_t DisparityOf(int32_t distance, int64_t step) {
   return static_cast<int32_t>(disparity < INT16_MAX ? disparity : INT16_MAX);
 }
 
-Content MeasureContent(const Window& window, int64_t step, int32_t x, int32_t y) {
-  Steps steps = {DisparityOf(kRunDrift, step), DisparityOf(kLargestGap * kRadiusOne, step)};
-  const int32_t width = Min(kCellSize, window.width - x);
-  const int32_t height = Min(kCellSize, window.height - y);
-  for (int32_t row = 0; row < height; ++row) {
-    const int16_t* disparity = window.disparity.Row(y + row) + x;
-    steps.Add(disparity, disparity + 1, width - 1);
-    if (row > 0) steps.Add(window.disparity.Row(y + row - 1) + x, disparity, width);
-  }
+Content MakeContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t step) {
   // One step in eight leads out of the cell, and is made up for.
   const auto scaled = [](int64_t sum, int64_t one) {
     return static_cast<uint32_t>(sum * kContentOne * kCellSize / (one * (kCellSize - 1)));
   };
-  return {scaled(steps.slopes, Max(1, steps.run_limit)), scaled(steps.edges, 1),
-          scaled(steps.gaps * step >> kStepBits, kRadiusOne)};
+  return {scaled(measure.slopes, Max(1, slope_limit)), scaled(measure.edges, 1),
+          scaled(measure.gaps * step >> kStepBits, kRadiusOne)};
 }
 
 // Reach beyond either end of a line of 8 columns or rows, and the depth inside.
@@ -154,18 +105,35 @@ void AddContent(const Content& part, Content* sum) {
 
 }  // namespace
 
-Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, int32_t row) {
-  const int32_t x = column * kCellSize, y = row * kCellSize;
-  const CellDistances found = Measure(window, scale.focus, x, y);
+Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
+                 int32_t column, int32_t row) {
+  const int32_t focus = scale.focus;
+  const int32_t near_focus = Clamp(focus, INT16_MIN, INT16_MAX);
+  const simd::CellLimits limits = {
+      static_cast<int16_t>(near_focus), kSurfaceStep,
+      static_cast<int16_t>(DisparityOf(kRunDrift, scale.step)),
+      static_cast<int16_t>(DisparityOf(kLargestGap * kRadiusOne, scale.step))};
+  const simd::CellMeasure found =
+      Measure(kernels, window, limits, column * kCellSize, row * kCellSize);
   Cell cell = {};
-  cell.r_min = static_cast<uint16_t>(scale.Radius(found.smallest));
-  cell.r_max = static_cast<uint16_t>(scale.RadiusAbove(found.largest));
-  const int32_t edge = MeasureEdges(window, scale.focus, x, y);
-  cell.r_edge = static_cast<uint16_t>(edge < 0 ? 0 : scale.RadiusAbove(edge));
+  int32_t largest = 0, distance_x[kCellSize], distance_y[kCellSize];
+  for (int32_t k = 0; k < kCellSize; ++k) {
+    distance_x[k] = Farthest(found.column_low[k], found.column_high[k], focus);
+    distance_y[k] = Farthest(found.row_low[k], found.row_high[k], focus);
+    largest = Max(largest, distance_x[k]);
+  }
+  // A focus beyond int16 lies beyond every disparity, all on one side of it.
+  cell.r_min =
+      static_cast<uint16_t>(scale.Radius(found.nearest + Abs(focus - near_focus)));
+  cell.r_max = static_cast<uint16_t>(scale.RadiusAbove(largest));
+  cell.r_edge = static_cast<uint16_t>(
+      found.edge_low > found.edge_high
+          ? 0
+          : scale.RadiusAbove(Farthest(found.edge_low, found.edge_high, focus)));
   for (int16_t& reach : cell.reach) reach = INT16_MIN;
-  MeasureSides(scale, found.column, kLeft, kRight, &cell);
-  MeasureSides(scale, found.row, kTop, kBottom, &cell);
-  const Content content = MeasureContent(window, scale.step, x, y);
+  MeasureSides(scale, distance_x, kLeft, kRight, &cell);
+  MeasureSides(scale, distance_y, kTop, kBottom, &cell);
+  const Content content = MakeContent(found, limits.slope_limit, scale.step);
   cell.slopes = static_cast<uint16_t>(content.slopes);
   cell.edges = static_cast<uint16_t>(content.edges);
   cell.gaps = static_cast<uint16_t>(content.gaps);

@@ -8,6 +8,7 @@
 
 #include "lib/field.h"
 #include "lib/window.h"
+#include "simd/kernels.h"
 
 namespace starfocus {
 
@@ -65,7 +66,8 @@ struct CellGrid {
 };
 
 // Measures the cell at (column, row) of the grid; the window is at layer 0.
-Cell MeasureCell(const Window& window, const BlurScale& scale, int32_t column, int32_t row);
+Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
+                 int32_t column, int32_t row);
 
 // Pixels that a block refocused at layer L renders beyond its sides, because upsampling reads
 // them, in pixels of the picture.

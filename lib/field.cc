@@ -31,8 +31,8 @@ void LoadField(const Window& window, const Rect& rect, const Border& border, Fie
   const int32_t last = Clamp(window.width - field->x, 0, field->width);  // exclusive
   for (int32_t row = 0; row < field->height; ++row) {
     const int32_t y = Clamp(field->y + row, 0, window.height - 1);
-    uint8_t* rgb = field->rgb + 3 * field->Offset(0, row);
-    int16_t* disparity = field->disparity + field->Offset(0, row);
+    uint8_t* rgb = field->Rgb(0, row);
+    int16_t* disparity = field->Disparity(0, row);
     const uint8_t* from = window.centre.Row(y);
     const int16_t* from_disparity =
         window.disparity.Row(Min(y << window.layer, window.picture_height - 1));
@@ -46,19 +46,20 @@ void LoadField(const Window& window, const Rect& rect, const Border& border, Fie
   }
 }
 
-void TransposeField(const Field& from, Field* to) {
+void TransposeField(const simd::Kernels& kernels, const Field& from, Field* to) {
   to->transposed = !from.transposed;
   to->width = from.height;
   to->height = from.width;
   to->x = from.y;
   to->y = from.x;
   to->inner = {from.inner.y, from.inner.x, from.inner.height, from.inner.width};
+  kernels.transpose(from.rgb, RgbStride(from.width), static_cast<size_t>(from.height),
+                    static_cast<size_t>(from.width), to->rgb, RgbStride(to->width));
   for (int32_t row = 0; row < to->height; ++row) {
-    uint8_t* rgb = to->rgb + 3 * to->Offset(0, row);
-    int16_t* disparity = to->disparity + to->Offset(0, row);
-    for (int32_t column = 0; column < to->width; ++column) {
-      std::memcpy(rgb + 3 * column, from.rgb + 3 * from.Offset(row, column), 3);
-      disparity[column] = from.disparity[from.Offset(row, column)];
+    int16_t* disparity = to->Disparity(0, row);
+    const int16_t* from_disparity = from.Disparity(row, 0);
+    for (int32_t column = 0; column < to->width; ++column, from_disparity += from.width) {
+      disparity[column] = *from_disparity;
     }
   }
 }
@@ -74,15 +75,17 @@ void LoadDiagonals(const Field& field, bool anti, Diagonals* diagonals) {
   diagonals->anti = anti;
   uint32_t offset = 0;
   const ptrdiff_t step = anti ? 1 - ptrdiff_t{field.width} : 1 + ptrdiff_t{field.width};
+  const auto stride = static_cast<ptrdiff_t>(RgbStride(field.width));
+  const ptrdiff_t rgb_step = anti ? 3 - stride : 3 + stride;
   for (int32_t index = 0; index < Diagonals::Count(field); ++index) {
     const DiagonalLine line = GetDiagonal(field, anti, index);
     diagonals->offsets[index] = offset;
-    const uint8_t* from = field.rgb + 3 * field.Offset(line.x, line.y);
-    const int16_t* from_disparity = field.disparity + field.Offset(line.x, line.y);
+    const uint8_t* from = field.Rgb(line.x, line.y);
+    const int16_t* from_disparity = field.Disparity(line.x, line.y);
     for (int32_t t = 0; t < line.length; ++t, ++offset) {
       std::memcpy(diagonals->rgb + 3 * size_t{offset}, from, 3);
       diagonals->disparity[offset] = *from_disparity;
-      from += 3 * step;
+      from += rgb_step;
       from_disparity += step;
     }
   }

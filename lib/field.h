@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lib/window.h"
+#include "simd/kernels.h"
 
 namespace starfocus {
 
@@ -19,6 +20,11 @@ struct Border {
   int32_t left, right, top, bottom;
 };
 
+// Bytes from row to row of pixels that rows are transposed into.
+constexpr size_t RgbStride(int32_t width) {
+  return 3 * static_cast<size_t>(width) + simd::kTransposePadding;
+}
+
 // A copy of the extended rectangle; pixels outside the picture repeat its edge. Positions are
 // oriented: in a transposed field x runs down the picture and y across it.
 struct Field {
@@ -26,11 +32,15 @@ struct Field {
   int32_t width = 0, height = 0;  // of the extended rectangle
   int32_t x = 0, y = 0;           // of its pixel (0, 0) in the picture
   Rect inner = {0, 0, 0, 0};      // the rectangle itself, in pixels of the field
-  uint8_t* rgb = nullptr;         // width * height pixels, rows packed
-  int16_t* disparity = nullptr;   // the same, kDisparityBits
+  uint8_t* rgb = nullptr;         // rows of RgbStride(width) bytes
+  int16_t* disparity = nullptr;   // rows of `width`, kDisparityBits
 
-  size_t Offset(int32_t column, int32_t row) const {
-    return static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column);
+  uint8_t* Rgb(int32_t column, int32_t row) const {
+    return rgb + static_cast<size_t>(row) * RgbStride(width) + 3 * static_cast<size_t>(column);
+  }
+  int16_t* Disparity(int32_t column, int32_t row) const {
+    return disparity + static_cast<size_t>(row) * static_cast<size_t>(width) +
+           static_cast<size_t>(column);
   }
 };
 
@@ -38,7 +48,7 @@ struct Field {
 void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field);
 
 // Rows become columns; to->rgb and ->disparity must be set and differ from `from`'s.
-void TransposeField(const Field& from, Field* to);
+void TransposeField(const simd::Kernels& kernels, const Field& from, Field* to);
 
 // The diagonal lines of a field: direction (1, 1), or (1, -1) when anti.
 struct Diagonals {

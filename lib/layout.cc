@@ -17,9 +17,10 @@ SpanMemory TakeSpans(size_t side, Carver* carver) {
 // E and R of StarScratch, and the largest N.
 StarScratch TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver) {
   StarScratch scratch;
-  const size_t area = extended * extended, stripe = rectangle * extended;
+  const size_t area = extended * extended;
+  const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
   for (int k = 0; k < 2; ++k) {
-    scratch.field_rgb[k] = carver->Take<uint8_t>(3 * area);
+    scratch.field_rgb[k] = carver->Take<uint8_t>(extended * rgb_stride);
     scratch.field_disparity[k] = carver->Take<int16_t>(area);
     scratch.accumulators[k] = carver->Take<uint32_t>(3 * rectangle * rectangle);
   }
@@ -27,15 +28,16 @@ StarScratch TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* ca
   scratch.diagonal_disparity = carver->Take<int16_t>(area);
   scratch.diagonal_offsets = carver->Take<uint32_t>(2 * extended);
   scratch.moves = carver->Take<int64_t>(max_n + 1);
+  scratch.marks.starts = carver->Take<uint16_t>(RunMarkWords(extended, extended));
+  scratch.marks.edges = carver->Take<uint16_t>(RunMarkWords(extended, extended));
+  scratch.marks.middles = carver->Take<int16_t>(RunMiddles(extended, extended));
   scratch.runs = carver->Take<Run>(area);
   scratch.run_counts = carver->Take<int32_t>(extended);
   scratch.line_runs = carver->Take<Run>(extended);
   scratch.strip_rgb = carver->Take<uint8_t>(3 * rectangle * kStripRows);
-  scratch.strip_disparity = carver->Take<int16_t>(rectangle * kStripRows);
-  scratch.columns_rgb = carver->Take<uint8_t>(3 * stripe);
-  scratch.columns_disparity = carver->Take<int16_t>(stripe);
+  scratch.view_disparity = carver->Take<int16_t>(rectangle * extended);
+  scratch.columns_rgb = carver->Take<uint8_t>(rectangle * rgb_stride);
   scratch.surface_rgb = carver->Take<uint8_t>(3 * (extended + 2 * simd::kMaxSpread));
-  scratch.spread_rgb = carver->Take<uint8_t>(3 * extended);
   scratch.line_accumulators = carver->Take<uint32_t>(3 * extended);
   scratch.spans = TakeSpans(extended, carver);
   return scratch;

@@ -15,6 +15,7 @@ namespace starfocus {
 struct Line {
   const uint8_t* rgb;
   const int16_t* disparity;
+  ptrdiff_t step;  // from one pixel's disparity to the next one's
   int32_t length;
 };
 
@@ -22,7 +23,6 @@ struct Line {
 struct LineView {
   const ViewGrid* grid;
   int64_t move;       // ViewGrid::Move of the view's distance along the line
-  int64_t cell;       // ViewGrid::Move(1): the width of the aperture cell
   int32_t out_begin;  // rendered pixels [out_begin, out_end), out_begin < out_end
   int32_t out_end;
 };
@@ -59,85 +59,109 @@ template <Direction kDirection, class Sink>
 class LineScan {
  public:
   LineScan(const Line& line, const Run* runs, int32_t count, const LineView& view, Sink* sink)
-      : line_(line), runs_(runs), count_(count), view_(view), sink_(sink) {
-    begin_ = kMirrored ? line.length - view.out_end : view.out_begin;
-    end_ = kMirrored ? line.length - view.out_begin : view.out_end;
-    last_pixel_ = line.length - 1;
-  }
+      : line_(line),
+        runs_(runs),
+        runs_end_(runs + count),
+        view_(view),
+        sink_(sink),
+        begin_(kMirrored ? line.length - view.out_end : view.out_begin),
+        end_(kMirrored ? line.length - view.out_begin : view.out_end) {}
 
-  void Scan() {
-    int32_t end = line_.length;
+  void Scan() const {
     // From the line's own end, not the wanted part's: what a gap borders on may lie beyond.
-    last_ = Max(end_, end - Whole(view_.grid->Shift(view_.move, runs_[0].disparity)));
-    for (int32_t index = 0; index < count_ && last_ > begin_; ++index) {
-      const int32_t begin = runs_[index].begin;
-      ScanRun(begin, end, runs_[index].disparity);
-      end = begin;
+    Filled filled = {Max(end_, line_.length - Whole(Shift(*runs_))), line_.length - 1};
+    int32_t run_end = line_.length;
+    for (const Run* run = runs_; run != runs_end_ && filled.from > begin_; ++run) {
+      const int32_t shift = Shift(*run), begin = run->begin, low = begin - Whole(shift);
+      if (low < filled.from) {
+        if (low < end_) AddRun(run, run_end, shift, filled);
+        filled = {low, begin};
+      }
+      run_end = begin;
     }
-    if (last_ > begin_) Hole(begin_, last_pixel_);
+    if (filled.from > begin_) Hole(begin_, filled.from, filled.pixel);
   }
 
  private:
   static constexpr bool kMirrored = kDirection == Direction::kLeftToRight;
 
+  // The lowest position filled so far, and the line position that filled it: whatever lands at or
+  // above it is hidden.
+  struct Filled {
+    int32_t from, pixel;
+  };
+
   int32_t Pixel(int32_t q) const { return kMirrored ? line_.length - 1 - q : q; }
-  int32_t Disparity(int32_t q) const { return line_.disparity[Pixel(q)]; }
+  int32_t Disparity(int32_t q) const { return line_.disparity[Pixel(q) * line_.step]; }
+  int32_t Shift(const Run& run) const { return view_.grid->Shift(view_.move, run.disparity); }
+  static int32_t Whole(int32_t shift) { return (shift + kShiftOne / 2) >> kShiftBits; }
+
+  // The run's positions up to `run_end` move together. Emits those that are not hidden, up to what
+  // is filled; positions beyond the run's own stretch it over source pixels beyond it.
+  void AddRun(const Run* run, int32_t run_end, int32_t shift, const Filled& filled) const {
+    const int32_t whole = Whole(shift);
+    int32_t end = filled.from;
+    if (run_end - whole < end) end = CloseGap(run_end - 1, whole, filled);
+    end = Min(end, end_);
+    const int32_t first = Max(run->begin - whole, begin_);
+    if (first >= end) return;
+    const int32_t offset = shift - whole * kShiftOne;
+    const int32_t weight = CellWeight(offset, Min(run->cell, kShiftOne));
+    if (weight == 0) {
+      Emit(first, end, whole, 1, 0);
+    } else if (end + whole > run->surface_end) {
+      const int32_t own = Max(first, run_end - whole);
+      AddBeyondSurface(own, end, whole, offset, weight);
+      if (first < own) AddBlended(*run, first, own, whole, offset, weight, run + 1 == runs_end_);
+    } else {
+      AddBlended(*run, first, end, whole, offset, weight, run + 1 == runs_end_);
+    }
+  }
+
+  // Positions [first, end) with their neighbours; a pixel beside a depth edge has none across it.
+  void AddBlended(const Run& run, int32_t first, int32_t end, int32_t whole, int32_t offset,
+                  int32_t weight, bool is_last) const {
+    if (offset > 0) {
+      const bool alone = end + whole == run.surface_end;
+      if (alone) Emit(end - 1, end, whole, 1, 0);
+      if (first < end - alone) Emit(first, end - alone, whole, 1, weight);
+    } else {
+      const bool alone =
+          first + whole == run.begin && (is_last || (&run)[1].surface_end == run.begin);
+      if (first + alone < end) Emit(first + alone, end, whole, -1, weight);
+      if (alone) Emit(first, first + 1, whole, -1, 0);
+    }
+  }
+
+  // A stretch over another surface: pixels one by one.
+  void AddBeyondSurface(int32_t own, int32_t end, int32_t whole, int32_t offset,
+                        int32_t weight) const {
+    const int32_t side = offset > 0 ? 1 : -1;
+    for (; end > own; --end) {
+      const int32_t q = end - 1 + whole;
+      Emit(end - 1, end, whole, side, SameSurface(side < 0 ? q - 1 : q) ? weight : 0);
+    }
+  }
 
   bool SameSurface(int32_t q) const {  // of positions q and q + 1
     return q >= 0 && q + 1 < line_.length && Abs(Disparity(q) - Disparity(q + 1)) <= kSurfaceStep;
   }
 
-  bool OneSurface(int32_t begin, int32_t end) const {  // of positions [begin, end)
-    for (int32_t q = begin; q + 1 < end; ++q) {
-      if (!SameSurface(q)) return false;
-    }
-    return true;
-  }
-
-  static int32_t Whole(int32_t shift) { return (shift + kShiftOne / 2) >> kShiftBits; }
-
-  // Positions [begin, end) move together; last_ is the lowest position filled so far, so whatever
-  // lands at or above it is hidden.
-  void ScanRun(int32_t begin, int32_t end, int32_t disparity) {
-    const int32_t shift = view_.grid->Shift(view_.move, disparity);
-    const int32_t whole = Whole(shift);
-    const int32_t low = begin - whole;
-    if (low >= last_) return;
-    if (low < end_) {
-      if (end - whole < last_) CloseGap(end - 1, whole);
-      SurfaceOfRun(Max(low, begin_), end - whole, disparity, shift);
-    }
-    last_ = low;
-    last_pixel_ = begin;
-  }
-
-  // Emits positions from `first` to what is filled; those from `own_end` on stretch the run over
-  // source pixels beyond it, one by one where they belong to several surfaces.
-  void SurfaceOfRun(int32_t first, int32_t own_end, int32_t disparity, int32_t shift) {
-    int32_t end = Min(last_, end_);
-    if (first >= end) return;
-    const int32_t whole = Whole(shift);
-    const int32_t offset = shift - whole * kShiftOne;
-    const int32_t width = Min(Abs(view_.grid->Shift(view_.cell, disparity)), kShiftOne);
-    const int32_t own = Max(first, own_end);
-    if (own < end && !OneSurface(own + whole - 1, end + whole)) {
-      for (; end > own; --end) Surface(end - 1, end, whole, offset, width);
-    }
-    if (first < end) Surface(first, end, whole, offset, width);
-  }
-
-  // Between this run's last pixel `q` and what is filled lies a gap: a stretched surface, which
-  // the run then covers, or a hole.
-  void CloseGap(int32_t q, int32_t whole) {
+  // Between a run's last pixel `q` and what is filled lies a gap: a stretched surface, which the
+  // run then covers, or a hole. Returns where the run ends.
+  int32_t CloseGap(int32_t q, int32_t whole, const Filled& filled) const {
     const int32_t gap = q + 1 - whole;
-    const bool nearer = Disparity(q) - Disparity(last_pixel_) > kSurfaceStep;
-    if (!nearer && last_ - gap <= kMaxStretch && last_ + whole <= line_.length) return;
-    Hole(Max(gap, begin_), Disparity(q) < Disparity(last_pixel_) ? q : last_pixel_);
-    last_ = gap;
+    const int32_t step = Disparity(q) - Disparity(filled.pixel);
+    const bool stretched = step <= kSurfaceStep && filled.from - gap <= kMaxStretch &&
+                           filled.from + whole <= line_.length;
+    if (stretched) return filled.from;
+    Hole(Max(gap, begin_), filled.from, step < 0 ? q : filled.pixel);
+    return gap;
   }
 
-  void Hole(int32_t begin, int32_t q) {
-    const int32_t end = Min(last_, end_);
+  // What goes on there is the surface of position q.
+  void Hole(int32_t begin, int32_t end, int32_t q) const {
+    end = Min(end, end_);
     if (begin >= end) return;
     if (kMirrored) {
       sink_->Hole(line_.length - end, line_.length - begin, Disparity(q), Pixel(q));
@@ -146,22 +170,7 @@ class LineScan {
     }
   }
 
-  // Emits [begin, end) of a surface at `whole` pixels and `offset` (kShiftBits) beyond; a pixel
-  // beside a depth edge has no neighbour across it.
-  void Surface(int32_t begin, int32_t end, int32_t whole, int32_t offset, int32_t width) {
-    const int32_t weight = CellWeight(offset, width);
-    const int32_t side = offset > 0 ? 1 : -1;
-    int32_t first = begin;
-    if (weight != 0 && side < 0 && !SameSurface(begin + whole - 1)) ++first;
-    if (weight != 0 && side > 0 && !SameSurface(end - 1 + whole)) {
-      Emit(end - 1, end, whole, side, 0);
-      --end;
-    }
-    if (first < end) Emit(first, end, whole, side, weight);
-    if (begin < first) Emit(begin, first, whole, side, 0);
-  }
-
-  void Emit(int32_t begin, int32_t end, int32_t whole, int32_t side, int32_t weight) {
+  void Emit(int32_t begin, int32_t end, int32_t whole, int32_t side, int32_t weight) const {
     if (kMirrored) {
       const int32_t first = line_.length - end;
       sink_->Surface(first, line_.length - begin, first - whole, -side, weight);
@@ -171,14 +180,12 @@ class LineScan {
   }
 
   const Line& line_;
-  const Run* runs_;
-  int32_t count_;
+  const Run* const runs_;
+  const Run* const runs_end_;
   const LineView& view_;
-  Sink* sink_;
-  int32_t begin_;  // wanted positions [begin_, end_)
-  int32_t end_;
-  int32_t last_;        // lowest position filled so far
-  int32_t last_pixel_;  // the line position that filled it
+  Sink* const sink_;
+  const int32_t begin_;  // wanted positions [begin_, end_)
+  const int32_t end_;
 };
 
 template <class Sink>

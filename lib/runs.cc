@@ -3,63 +3,56 @@
 #include "lib/fixed.h"
 
 namespace starfocus {
-
 namespace {
 
-constexpr int32_t kChunk = 8;
-
-struct Range {
-  int32_t low, high;
-};
-
-// Of kChunk values; a loop that compilers turn into vectors.
-Range RangeOf(const int16_t* values) {
-  int16_t low = values[0], high = values[0];
-  for (int32_t k = 1; k < kChunk; ++k) {
-    low = values[k] < low ? values[k] : low;
-    high = values[k] > high ? values[k] : high;
-  }
-  return {low, high};
+// Index of the lowest bit set; bits != 0.
+int32_t LowestBit(uint32_t bits) {
+#if defined(__GNUC__)
+  return __builtin_ctz(bits);
+#else
+  int32_t index = 0;
+  while ((bits >> index & 1) == 0) ++index;
+  return index;
+#endif
 }
 
 }  // namespace
 
-int32_t FindRuns(const int16_t* disparity, int32_t length, Direction direction, int32_t spread,
-                 Run* runs) {
+void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const LineBundle& bundle,
+              Direction direction, simd::RunMarks* marks) {
+  marks->stride = RunMarkStride(static_cast<size_t>(bundle.lines));
   const bool mirrored = direction == Direction::kLeftToRight;
-  const int16_t* next = mirrored ? disparity : disparity + length - 1;
-  const int32_t step = mirrored ? 1 : -1;
-  int32_t count = 0;
-  Range range = {*next, *next};
-  int32_t q = length - 1;
-  const auto add = [&](int32_t value) {
-    const int32_t low = Min(range.low, value), high = Max(range.high, value);
-    if (high - low > spread) {
-      runs[count++] = {static_cast<uint16_t>(q),
-                       static_cast<int16_t>((range.low + range.high) >> 1)};
-      range = {value, value};
-    } else {
-      range = {low, high};
-    }
+  const simd::RunLimits limits = {static_cast<int16_t>(grid.spread), kSurfaceStep};
+  kernels.find_runs(bundle.disparity + (mirrored ? 0 : (bundle.length - 1) * bundle.step),
+                    mirrored ? bundle.step : -bundle.step, static_cast<size_t>(bundle.length),
+                    static_cast<size_t>(bundle.lines), limits, *marks);
+}
+
+int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const ViewGrid& grid,
+                 int64_t cell_move, Run* runs) {
+  Run* run = runs;
+  int32_t surface_end = length;
+  // A run's middle stands at its last position in scan order.
+  const int16_t* const middles = marks.middles + static_cast<ptrdiff_t>(k);
+  const auto add = [&](int32_t begin) {
+    const int16_t disparity = middles[static_cast<size_t>(length - 1 - begin) * marks.stride];
+    run->begin = static_cast<uint16_t>(begin);
+    run->surface_end = static_cast<uint16_t>(surface_end);
+    run->disparity = disparity;
+    run->cell = static_cast<uint16_t>(Abs(grid.Shift(cell_move, disparity)));
+    ++run;
   };
-  while (q > 0) {
-    if (q >= kChunk) {
-      const Range chunk = RangeOf(mirrored ? next + 1 : next - kChunk);
-      const Range all = {Min(range.low, chunk.low), Max(range.high, chunk.high)};
-      if (all.high - all.low <= spread) {
-        range = all;
-        next += kChunk * step;
-        q -= kChunk;
-        continue;
-      }
-    }
-    for (int32_t k = Min(kChunk, q); k > 0; --k, --q) {
-      next += step;
-      add(*next);
+  size_t word = static_cast<size_t>(k);
+  for (int32_t begin = length; begin > 0; begin -= 16, word += marks.stride) {
+    // An edge starts a run: the spread of runs is at most the step of edges.
+    for (uint32_t starts = marks.starts[word]; starts != 0; starts &= starts - 1) {
+      const int32_t bit = LowestBit(starts);
+      add(begin - bit);
+      if ((marks.edges[word] >> bit & 1) != 0) surface_end = begin - bit;
     }
   }
-  runs[count++] = {0, static_cast<int16_t>((range.low + range.high) >> 1)};
-  return count;
+  add(0);
+  return static_cast<int32_t>(run - runs);
 }
 
 }  // namespace starfocus

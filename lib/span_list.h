@@ -21,21 +21,23 @@ class SpanList {
  public:
   // Spans are accumulated.
   SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint32_t* accumulators)
-      : kernels_(kernels), memory_(memory), accumulators_(accumulators), line_(nullptr) {}
+      : SpanList(kernels, memory, accumulators, nullptr) {}
   // Spans are blended into a line.
   SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint8_t* line)
-      : kernels_(kernels), memory_(memory), accumulators_(nullptr), line_(line) {}
+      : SpanList(kernels, memory, nullptr, line) {}
 
-  void Add(const simd::Span& span) {
-    if (count_ == memory_.span_capacity) Flush();
-    memory_.spans[count_++] = span;
+  // The next span, for the caller to fill in.
+  simd::Span* Next() {
+    if (count_ == capacity_) Flush();
+    return spans_ + count_++;
   }
+  void Add(const simd::Span& span) { *Next() = span; }
 
   // Room for the colours of one span of a hole, which the caller adds next; bytes <=
   // pixel_capacity.
   uint8_t* Pixels(size_t bytes) {
-    if (used_ + bytes > memory_.pixel_capacity || count_ == memory_.span_capacity) Flush();
-    uint8_t* pixels = memory_.pixels + used_;
+    if (used_ + bytes > pixel_capacity_ || count_ == capacity_) Flush();
+    uint8_t* pixels = pixels_ + used_;
     used_ += bytes;
     return pixels;
   }
@@ -43,9 +45,9 @@ class SpanList {
   void Flush() {
     if (count_ != 0) {
       if (accumulators_ != nullptr) {
-        kernels_.accumulate(memory_.spans, count_, accumulators_);
+        kernels_.accumulate(spans_, count_, accumulators_);
       } else {
-        kernels_.blend(memory_.spans, count_, line_);
+        kernels_.blend(spans_, count_, line_);
       }
     }
     count_ = 0;
@@ -53,10 +55,23 @@ class SpanList {
   }
 
  private:
+  SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint32_t* accumulators,
+           uint8_t* line)
+      : kernels_(kernels),
+        spans_(memory.spans),
+        capacity_(memory.span_capacity),
+        pixels_(memory.pixels),
+        pixel_capacity_(memory.pixel_capacity),
+        accumulators_(accumulators),
+        line_(line) {}
+
   const simd::Kernels& kernels_;
-  const SpanMemory& memory_;
-  uint32_t* accumulators_;
-  uint8_t* line_;
+  simd::Span* const spans_;
+  const size_t capacity_;
+  uint8_t* const pixels_;
+  const size_t pixel_capacity_;
+  uint32_t* const accumulators_;
+  uint8_t* const line_;
   size_t count_ = 0;
   size_t used_ = 0;
 };

@@ -42,88 +42,6 @@ int32_t IndexOf(int32_t cell) {
   return Min(kLargestCell, (cell + (1 << (kBits - 1))) >> kBits);
 }
 
-struct Range {
-  int16_t low, high;
-};
-
-// A loop that compilers turn into vectors.
-Range RangeOf(const int16_t* values, int32_t count) {
-  Range range = {values[0], values[0]};
-  for (int32_t k = 1; k < count; ++k) {
-    range.low = values[k] < range.low ? values[k] : range.low;
-    range.high = values[k] > range.high ? values[k] : range.high;
-  }
-  return range;
-}
-
-// The cells of a line's pixels, from their disparities alone: runs would depend on the direction
-// they are found in.
-class LineCells {
- public:
-  LineCells(const ViewGrid& grid, int64_t cell_move, const Line& line)
-      : grid_(grid), cell_move_(cell_move), line_(line) {}
-
-  bool AnyWide() const {
-    const Range range = RangeOf(line_.disparity, line_.length);
-    return Max(Index(range.low), Index(range.high)) > kOneCell;
-  }
-  int32_t At(int32_t x) const { return Index(line_.disparity[x]); }
-
-  // Where the surface of pixel `begin` ends.
-  int32_t SurfaceEnd(int32_t begin) const {
-    const int16_t* d = line_.disparity;
-    int32_t x = begin + 1;
-    while (x < line_.length) {
-      if (x + kChunk <= line_.length) {
-        const Range range = RangeOf(d + x - 1, kChunk + 1);
-        if (range.high - range.low <= kSurfaceStep) {
-          x += kChunk;
-          continue;
-        }
-      }
-      const int32_t last = Min(line_.length, x + kChunk);
-      for (; x < last; ++x) {
-        if (Abs(d[x] - d[x - 1]) > kSurfaceStep) return x;
-      }
-    }
-    return x;
-  }
-
-  // Where the pixels from `begin` on, up to `end`, no longer have its cell.
-  int32_t CellEnd(int32_t begin, int32_t end) const {
-    const int32_t cell = At(begin);
-    int32_t x = begin + 1;
-    while (x < end) {
-      if (x + kChunk <= end && ChunkHas(x, cell)) {
-        x += kChunk;
-        continue;
-      }
-      const int32_t last = Min(end, x + kChunk);
-      for (; x < last; ++x) {
-        if (At(x) != cell) return x;
-      }
-    }
-    return x;
-  }
-
- private:
-  static constexpr int32_t kChunk = 8;
-
-  int32_t Index(int32_t disparity) const {
-    return IndexOf(Abs(grid_.Shift(cell_move_, disparity)));
-  }
-  // On either side of the focus cells grow with the distance from it.
-  bool ChunkHas(int32_t x, int32_t cell) const {
-    const Range range = RangeOf(line_.disparity + x, kChunk);
-    const bool one_side = range.low >= grid_.focus || range.high <= grid_.focus;
-    return one_side && Index(range.low) == cell && Index(range.high) == cell;
-  }
-
-  const ViewGrid& grid_;
-  int64_t cell_move_;
-  const Line& line_;
-};
-
 // Copies pixels [begin, end) with the first and last repeated kMaxSpread times.
 void CopySurface(const uint8_t* rgb, int32_t begin, int32_t end, uint8_t* surface) {
   for (int32_t k = 0; k < kMaxSpread; ++k) std::memcpy(surface + 3 * k, rgb + 3 * begin, 3);
@@ -133,29 +51,76 @@ void CopySurface(const uint8_t* rgb, int32_t begin, int32_t end, uint8_t* surfac
   }
 }
 
+// Writes the pixels of one surface, stretch by stretch of one cell, from the line's end on.
+class SurfaceSpreader {
+ public:
+  SurfaceSpreader(const simd::Kernels& kernels, const uint8_t* rgb, uint8_t* surface, uint8_t* out)
+      : kernels_(kernels), rgb_(rgb), surface_(surface), out_(out) {}
+
+  void Begin(int32_t begin, int32_t end) {
+    begin_ = begin;
+    at_ = done_ = end_ = end;
+    cell_ = 0;
+    copied_ = false;
+  }
+  // Pixels from `begin` to the last ones added have this cell.
+  void Add(int32_t begin, int32_t cell) {
+    if (cell != cell_) {
+      Flush();
+      cell_ = cell;
+    }
+    at_ = begin;
+  }
+  // Done up to the last pixels added.
+  void Flush() {
+    if (cell_ > kOneCell && at_ < end_) {
+      if (!copied_) CopySurface(rgb_, begin_, end_, surface_);
+      copied_ = true;
+      kernels_.spread(surface_ + 3 * (kMaxSpread + at_ - begin_), kTaps.of[cell_],
+                      3 * static_cast<size_t>(done_ - at_), out_ + 3 * at_);
+    }
+    done_ = at_;
+  }
+
+ private:
+  const simd::Kernels& kernels_;
+  const uint8_t* rgb_;
+  uint8_t *surface_, *out_;
+  int32_t begin_ = 0, end_ = 0;  // of the surface
+  int32_t at_ = 0, done_ = 0;    // pixels [at_, done_) wait
+  int32_t cell_ = 0;
+  bool copied_ = false;
+};
+
 }  // namespace
 
 SpreadTaps SpreadTapsOf(int32_t cell) { return kTaps.of[IndexOf(cell)]; }
 
-void SpreadLine(const simd::Kernels& kernels, const ViewGrid& grid, int64_t cell_move,
-                const Line& line, uint8_t* surface, uint8_t* out) {
-  std::memcpy(out, line.rgb, 3 * static_cast<size_t>(line.length));
-  const LineCells cells(grid, cell_move, line);
-  if (!cells.AnyWide()) return;
-  for (int32_t begin = 0; begin < line.length;) {
-    const int32_t end = cells.SurfaceEnd(begin);
-    bool copied = false;
-    for (int32_t x = begin; x < end;) {
-      const int32_t cell_end = cells.CellEnd(x, end), cell = cells.At(x);
-      if (cell > kOneCell) {
-        if (!copied) CopySurface(line.rgb, begin, end, surface);
-        copied = true;
-        kernels.spread(surface + 3 * (kMaxSpread + x - begin), kTaps.of[cell],
-                       3 * static_cast<size_t>(cell_end - x), out + 3 * x);
-      }
-      x = cell_end;
+void SpreadLine(const simd::Kernels& kernels, const ViewGrid& grid, const Line& line,
+                const Run* runs, int32_t count, uint8_t* surface, uint8_t* out) {
+  const int64_t cell_move = grid.Move(1);
+  // Cells of a run's pixels are within this of its middle's.
+  const auto slack = static_cast<int32_t>(
+      RoundShift(cell_move * (grid.spread / 2 + 1), kStepBits + kDisparityBits - kShiftBits) + 2);
+  SurfaceSpreader spreader(kernels, line.rgb, surface, out);
+  for (int32_t k = 0, end = line.length; k < count; end = runs[k++].begin) {
+    const int32_t surface_end = runs[k].surface_end;
+    if (end == surface_end) {
+      int32_t last = k;
+      while (last + 1 < count && runs[last + 1].surface_end == surface_end) ++last;
+      spreader.Begin(runs[last].begin, end);
     }
-    begin = end;
+    const int32_t lowest = IndexOf(Max(0, runs[k].cell - slack));
+    if (lowest == IndexOf(runs[k].cell + slack) || IndexOf(runs[k].cell + slack) <= kOneCell) {
+      spreader.Add(runs[k].begin, lowest);
+    } else {
+      // Pixel by pixel: where runs end depends on the direction they are found in.
+      for (int32_t x = end - 1; x >= runs[k].begin; --x) {
+        const int32_t disparity = line.disparity[x * line.step];
+        spreader.Add(x, IndexOf(Abs(grid.Shift(cell_move, disparity))));
+      }
+    }
+    if (k + 1 == count || runs[k + 1].surface_end != surface_end) spreader.Flush();
   }
 }
 

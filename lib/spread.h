@@ -13,12 +13,13 @@ namespace starfocus {
 // each pixel around it. Wider cells get 7 pixels.
 simd::SpreadTaps SpreadTapsOf(int32_t cell);
 
-// Spreads the pixels of `line` by their own cells r / N, in steps of 1/8 pixel, into `out`, each
-// over its own surface only: beyond a depth edge the surface's last pixel is repeated. Where cells
-// are at most a pixel wide the line is copied. The mirrored line gives the mirrored result.
-// `cell_move` is ViewGrid::Move(1). surface: room for 3 * (length + 2 * kMaxSpread) bytes.
-void SpreadLine(const simd::Kernels& kernels, const ViewGrid& grid, int64_t cell_move,
-                const Line& line, uint8_t* surface, uint8_t* out);
+// Spreads the pixels of `line` by their own cells r / N, in steps of 1/8 pixel, each over its own
+// surface only: beyond a depth edge the surface's last pixel is repeated. Pixels whose cells are at
+// most a pixel wide stay. The mirrored line gives the mirrored result. `runs` are the line's, in
+// scan order kRightToLeft; out: line.rgb itself. surface: room for 3 * (length + 2 * kMaxSpread)
+// bytes.
+void SpreadLine(const simd::Kernels& kernels, const ViewGrid& grid, const Line& line,
+                const Run* runs, int32_t count, uint8_t* surface, uint8_t* out);
 
 }  // namespace starfocus
 

@@ -17,13 +17,26 @@ Direction DirectionOf(int sign) {
   return sign > 0 ? Direction::kRightToLeft : Direction::kLeftToRight;
 }
 
-// Holes of one line of a view.
+// The rectangle's job, its field and the rendered view (u * i, v * j) in the field's orientation,
+// and a line of it.
 struct LineHoles {
-  const HoleView& view;
+  const StarJob& job;
+  const Field& field;
+  const int64_t* moves;
+  int u, v;
+  int32_t i, j;
   HoleLine line;
 
   void Fill(int32_t begin, int32_t end, int32_t disparity, const uint8_t* colour,
             uint8_t* out) const {
+    const HoleView view = {job.window,
+                           job.grid,
+                           field.transposed,
+                           u,
+                           v,
+                           u == 0 ? 0 : moves[i],
+                           v == 0 ? 0 : moves[j],
+                           Max(i, j) <= job.grid->half_views};
     FillHole(view, line, begin, end, disparity, colour, out);
   }
 };
@@ -33,7 +46,7 @@ class Star {
  public:
   Star(const StarJob& job, StarScratch* scratch) : job_(job), grid_(*job.grid), scratch_(scratch) {}
 
-  void Run() {
+  void Refocus() {
     Field rows = MakeField(0);
     LoadField(*job_.window, job_.rect, job_.border, &rows);
     const size_t samples = 3 * static_cast<size_t>(job_.rect.width) * job_.rect.height;
@@ -43,13 +56,13 @@ class Star {
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
     std::memset(scratch_->accumulators[1], 0, samples * sizeof(uint32_t));
     Field columns = MakeField(1);
-    TransposeField(rows, &columns);
+    TransposeField(*job_.kernels, rows, &columns);
     if (!grid_.cells) {
       TypeB(rows, false);
       TypeB(rows, true);
     }
-    Triangles(rows, scratch_->accumulators[1]);
-    Triangles(columns, scratch_->accumulators[0]);
+    Triangles(rows, columns, scratch_->accumulators[1]);
+    Triangles(columns, rows, scratch_->accumulators[0]);
     AddTransposed();
   }
 
@@ -67,19 +80,7 @@ class Star {
   }
 
   LineView MakeView(int32_t i, int32_t out_begin, int32_t out_end) const {
-    return {&grid_, scratch_->moves[i], scratch_->moves[1], out_begin, out_end};
-  }
-
-  // The view (u * i, v * j) in the field's orientation.
-  HoleView MakeHoleView(const Field& field, int u, int v, int32_t i, int32_t j) const {
-    return {job_.window,
-            &grid_,
-            field.transposed,
-            u,
-            v,
-            u == 0 ? 0 : scratch_->moves[i],
-            v == 0 ? 0 : scratch_->moves[j],
-            Max(i, j) <= grid_.half_views};
+    return {&grid_, scratch_->moves[i], out_begin, out_end};
   }
 
   SpanList Accumulating(uint32_t* accumulators) const {
@@ -98,16 +99,17 @@ class Star {
     const Rect& inner = rows.inner;
     SpanList list = Accumulating(scratch_->accumulators[0]);
     for (int32_t row = 0; row < inner.height; ++row) {
-      AddLine(rows.rgb + 3 * rows.Offset(inner.x, inner.y + row), inner.width,
-              grid_.aperture.Weight(0, 0), 3u * static_cast<uint32_t>(row * inner.width), &list);
+      AddLine(rows.Rgb(inner.x, inner.y + row), inner.width, grid_.aperture.Weight(0, 0),
+              3u * static_cast<uint32_t>(row * inner.width), &list);
     }
     list.Flush();
   }
 
-  // The triangles on either side of the axis "along": types A and C.
-  void Triangles(const Field& field, uint32_t* accumulators) {
+  // The triangles on either side of the axis "along": types A and C. `other` is the same field in
+  // the other orientation.
+  void Triangles(const Field& field, const Field& other, uint32_t* accumulators) {
     for (const int sign : {1, -1}) {
-      FindAllRuns(field, DirectionOf(sign));
+      FindAllRuns(field, other, DirectionOf(sign));
       if (grid_.cells && sign > 0) SpreadRows(field);
       // The centre view spreads over both axes like any other, half of it in either order.
       const int32_t first = grid_.cells && sign > 0 ? 0 : 1;
@@ -120,23 +122,25 @@ class Star {
     }
   }
 
-  void FindAllRuns(const Field& field, Direction direction) {
+  void FindAllRuns(const Field& field, const Field& other, Direction direction) {
+    MarkRuns(*job_.kernels, grid_, {other.disparity, other.width, field.width, field.height},
+             direction, &scratch_->marks);
     for (int32_t row = 0; row < field.height; ++row) {
-      scratch_->run_counts[row] =
-          FindRuns(field.disparity + field.Offset(0, row), field.width, direction, grid_.spread,
-                   scratch_->runs + field.Offset(0, row));
+      scratch_->run_counts[row] = ReadRuns(scratch_->marks, row, field.width, grid_,
+                                           scratch_->moves[1], RunsOf(field, row));
     }
   }
 
-  // In place, through columns_rgb: the rows of the field are read by this pass alone.
+  Run* RunsOf(const Field& field, int32_t row) const {
+    return scratch_->runs + static_cast<size_t>(row) * static_cast<size_t>(field.width);
+  }
+
+  // In place: the rows of the field are read by this pass alone.
   void SpreadRows(const Field& field) {
     for (int32_t row = 0; row < field.height; ++row) {
-      const size_t offset = field.Offset(0, row);
-      uint8_t* rgb = field.rgb + 3 * offset;
-      const Line line = {rgb, field.disparity + offset, field.width};
-      SpreadLine(*job_.kernels, grid_, scratch_->moves[1], line, scratch_->surface_rgb,
-                 scratch_->spread_rgb);
-      std::memcpy(rgb, scratch_->spread_rgb, 3 * static_cast<size_t>(field.width));
+      const Line line = {field.Rgb(0, row), field.Disparity(0, row), 1, field.width};
+      SpreadLine(*job_.kernels, grid_, line, RunsOf(field, row), scratch_->run_counts[row],
+                 scratch_->surface_rgb, field.Rgb(0, row));
     }
   }
 
@@ -161,88 +165,87 @@ class Star {
     return {inner.y - reach(above), end + reach(field.height - end)};
   }
 
-  // Renders view (sign * i, 0) and its disparity, one line per column of the rectangle.
+  // Renders view (sign * i, 0), one line per column of the rectangle, and its disparity.
   void RenderTypeA(const Field& field, int sign, int32_t i, const Rows& rows) {
-    const Rect& inner = field.inner;
-    const LineView view = MakeView(i, inner.x, inner.x + inner.width);
-    const int32_t height = rows.end - rows.begin;
+    const int32_t width = field.inner.width, height = rows.end - rows.begin;
     for (int32_t row = 0; row < height; row += kStripRows) {
       const int32_t count = Min(kStripRows, height - row);
       SpanList list = Blending(scratch_->strip_rgb);
       for (int32_t k = 0; k < count; ++k) {
-        RenderRow(field, sign, i, rows.begin + row + k, k, view, &list);
+        const SpanTarget target = {field.inner.x, static_cast<uint32_t>(k * width), kBlendOne,
+                                   scratch_->view_disparity + (row + k) * width};
+        RenderRow(field, sign, i, rows.begin + row + k, target, &list);
       }
       list.Flush();
-      TransposeStrip(inner.width, height, row, count);
+      job_.kernels->transpose(scratch_->strip_rgb, 3 * static_cast<size_t>(width),
+                              static_cast<size_t>(count), static_cast<size_t>(width),
+                              scratch_->columns_rgb + 3 * row, RgbStride(height));
     }
   }
 
-  void RenderRow(const Field& field, int sign, int32_t i, int32_t row, int32_t strip_row,
-                 const LineView& view, SpanList* list) {
-    const size_t offset = field.Offset(0, row);
-    const Line line = {field.rgb + 3 * offset, field.disparity + offset, field.width};
-    const HoleView hole_view = MakeHoleView(field, sign, 0, i, 0);
-    const LineHoles holes = {hole_view, {field.x, field.y + row, 1, 0}};
-    const int32_t strip = strip_row * field.inner.width;
-    SpanSink<LineHoles> sink(line, view.out_begin - strip, kBlendOne, holes,
-                             scratch_->strip_disparity, list);
-    ScanLine(line, DirectionOf(sign), scratch_->runs + offset, scratch_->run_counts[row], view,
-             &sink);
-  }
-
-  // Rows [row, row + count) of the type A view, from the strip to columns of `height` pixels.
-  void TransposeStrip(int32_t width, int32_t height, int32_t row, int32_t count) {
-    for (int32_t x = 0; x < width; ++x) {
-      const size_t column = static_cast<size_t>(x) * height + row;
-      const uint8_t* from = scratch_->strip_rgb + 3 * x;
-      const int16_t* from_disparity = scratch_->strip_disparity + x;
-      uint8_t* to = scratch_->columns_rgb + 3 * column;
-      int16_t* to_disparity = scratch_->columns_disparity + column;
-      // Four bytes at once where the next pixel's are still to come.
-      for (int32_t k = 0; k < count; ++k) {
-        std::memcpy(to + 3 * k, from + 3 * k * width, k + 1 < count ? 4 : 3);
-        to_disparity[k] = from_disparity[k * width];
-      }
-    }
+  void RenderRow(const Field& field, int sign, int32_t i, int32_t row, const SpanTarget& target,
+                 SpanList* list) {
+    const Line line = {field.Rgb(0, row), field.Disparity(0, row), 1, field.width};
+    const LineHoles holes = {
+        job_, field, scratch_->moves, sign, 0, i, 0, {field.x, field.y + row, 1, 0}};
+    SpanSink<LineHoles> sink(line, target, holes, list);
+    const LineView view = MakeView(i, field.inner.x, field.inner.x + field.inner.width);
+    ScanLine(line, DirectionOf(sign), RunsOf(field, row), scratch_->run_counts[row], view, &sink);
   }
 
   // Adds the views (sign * i, j), |j| <= last, from the columns of the type A view.
   void AddColumns(const Field& field, int sign, int32_t i, int32_t last, const Rows& rows,
                   uint32_t* accumulators) {
-    const Rect& inner = field.inner;
-    const int32_t height = rows.end - rows.begin, top = inner.y - rows.begin;
-    for (int32_t x = 0; x < inner.width; ++x) {
-      const size_t column = static_cast<size_t>(x) * height;
-      Line line = {scratch_->columns_rgb + 3 * column, scratch_->columns_disparity + column,
-                   height};
-      const HoleLine hole_line = {field.x + inner.x + x, field.y + rows.begin, 0, 1};
-      SpanList list = Accumulating(accumulators + 3 * static_cast<size_t>(x) * inner.height);
-      for (const int across : {1, -1}) {
-        if (across < 0 && last == 0) continue;
-        const int32_t runs = last > 0 ? FindRuns(line.disparity, height, DirectionOf(across),
-                                                 grid_.spread, scratch_->line_runs)
-                                      : 0;
-        if (across > 0) {
-          if (grid_.cells) {
-            SpreadLine(*job_.kernels, grid_, scratch_->moves[1], line, scratch_->surface_rgb,
-                       scratch_->spread_rgb);
-            line.rgb = scratch_->spread_rgb;
-          }
-          // The centre's weight is even: what is left of a power of two by orbits of four and
-          // eight.
-          const uint32_t weight = grid_.aperture.Weight(i, 0) >> (i == 0 ? 1 : 0);
-          AddLine(line.rgb + 3 * top, inner.height, weight, 0, &list);
-        }
-        for (int32_t j = 1; j <= last; ++j) {
-          const LineView view = MakeView(j, top, top + inner.height);
-          const HoleView hole_view = MakeHoleView(field, sign, across, i, j);
-          const LineHoles holes = {hole_view, hole_line};
-          const uint32_t weight = grid_.aperture.Weight(i, j) >> (i == j ? 1 : 0);
-          SpanSink<LineHoles> sink(line, top, weight, holes, nullptr, &list);
-          ScanLine(line, DirectionOf(across), scratch_->line_runs, runs, view, &sink);
-        }
+    const int32_t width = field.inner.width, height = rows.end - rows.begin;
+    SpanList list = Accumulating(accumulators);
+    for (const int across : {1, -1}) {
+      if (across < 0 && last == 0) continue;
+      const bool scan = last > 0 || grid_.cells;
+      if (scan) {
+        MarkRuns(*job_.kernels, grid_, {scratch_->view_disparity, width, height, width},
+                 DirectionOf(across), &scratch_->marks);
       }
-      list.Flush();
+      for (int32_t x = 0; x < width; ++x) {
+        const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
+                                              scratch_->line_runs)
+                                   : 0;
+        uint8_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
+        const Line line = {rgb, scratch_->view_disparity + x, width, height};
+        if (across > 0) {
+          // Spread in place: spans of other columns may still wait, of this one none.
+          if (grid_.cells) {
+            SpreadLine(*job_.kernels, grid_, line, scratch_->line_runs, count,
+                       scratch_->surface_rgb, rgb);
+          }
+          // The centre's weight is even: what orbits of four and eight leave of a power of two.
+          AddLine(rgb + 3 * (field.inner.y - rows.begin), field.inner.height,
+                  grid_.aperture.Weight(i, 0) >> (i == 0 ? 1 : 0),
+                  3 * static_cast<uint32_t>(x * field.inner.height), &list);
+        }
+        const LineHoles holes = {job_,
+                                 field,
+                                 scratch_->moves,
+                                 sign,
+                                 across,
+                                 i,
+                                 0,
+                                 {field.x + field.inner.x + x, field.y + rows.begin, 0, 1}};
+        AddColumn(line, count, last, field.inner.y - rows.begin, field.inner.height, x, holes,
+                  &list);
+      }
+    }
+    list.Flush();
+  }
+
+  // Adds `height` pixels from `top` on of the views j = 1 .. last on one side of a column.
+  void AddColumn(const Line& line, int32_t runs, int32_t last, int32_t top, int32_t height,
+                 int32_t x, LineHoles holes, SpanList* list) {
+    for (int32_t& j = holes.j = 1; j <= last; ++j) {
+      const uint32_t weight = grid_.aperture.Weight(holes.i, j) >> (holes.i == j ? 1 : 0);
+      const SpanTarget target = {top, static_cast<uint32_t>(x * height), weight, nullptr};
+      SpanSink<LineHoles> sink(line, target, holes, list);
+      ScanLine(line, DirectionOf(holes.v), scratch_->line_runs, runs,
+               MakeView(j, top, top + height), &sink);
     }
   }
 
@@ -257,7 +260,7 @@ class Star {
 
   static Line GetLine(const Diagonals& diagonals, int32_t index, int32_t length) {
     const size_t offset = diagonals.offsets[index];
-    return {diagonals.rgb + 3 * offset, diagonals.disparity + offset, length};
+    return {diagonals.rgb + 3 * offset, diagonals.disparity + offset, 1, length};
   }
 
   // Adds the type B views on one diagonal of the aperture, inside the disc.
@@ -284,16 +287,18 @@ class Star {
     std::memset(sums, 0, 3 * static_cast<size_t>(end - begin) * sizeof(uint32_t));
     SpanList list = Accumulating(sums);
     for (const int sign : {1, -1}) {
+      MarkRuns(*job_.kernels, grid_, {line.disparity, 1, at.length, 1}, DirectionOf(sign),
+               &scratch_->marks);
       const int32_t runs =
-          FindRuns(line.disparity, at.length, DirectionOf(sign), grid_.spread, scratch_->line_runs);
+          ReadRuns(scratch_->marks, 0, at.length, grid_, scratch_->moves[1], scratch_->line_runs);
+      const int across = diagonals.anti ? -sign : sign;
+      const HoleLine hole_line = {field.x + at.x, field.y + at.y, 1, diagonals.anti ? -1 : 1};
       for (int32_t k = 1; k <= last; ++k) {
-        const LineView view = MakeView(k, begin, end);
-        const int across = diagonals.anti ? -sign : sign;
-        const HoleView hole_view = MakeHoleView(field, sign, across, k, k);
-        const LineHoles holes = {hole_view,
-                                 {field.x + at.x, field.y + at.y, 1, diagonals.anti ? -1 : 1}};
-        SpanSink<LineHoles> sink(line, begin, grid_.aperture.Weight(k, k), holes, nullptr, &list);
-        ScanLine(line, DirectionOf(sign), scratch_->line_runs, runs, view, &sink);
+        const LineHoles holes = {job_, field, scratch_->moves, sign, across, k, k, hole_line};
+        const SpanTarget target = {begin, 0, grid_.aperture.Weight(k, k), nullptr};
+        SpanSink<LineHoles> sink(line, target, holes, &list);
+        ScanLine(line, DirectionOf(sign), scratch_->line_runs, runs, MakeView(k, begin, end),
+                 &sink);
       }
     }
     list.Flush();
@@ -326,6 +331,6 @@ class Star {
 
 }  // namespace
 
-void RefocusRectangle(const StarJob& job, StarScratch* scratch) { Star(job, scratch).Run(); }
+void RefocusRectangle(const StarJob& job, StarScratch* scratch) { Star(job, scratch).Refocus(); }
 
 }  // namespace starfocus

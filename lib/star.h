@@ -14,27 +14,26 @@
 
 namespace starfocus {
 
-// Type A lines that are rendered before they are transposed together.
+// Type A lines that are rendered before they are transposed together; a multiple of four.
 inline constexpr int32_t kStripRows = 16;
 
 // Memory of one worker. E: largest side of an extended rectangle; R: of a rectangle. Every buffer
 // is followed by simd::kPadding bytes.
 struct StarScratch {
-  uint8_t* field_rgb[2];        // 3 E^2 each: rows and columns
+  uint8_t* field_rgb[2];        // E rows of RgbStride(E): rows and columns
   int16_t* field_disparity[2];  // E^2 each
   uint8_t* diagonal_rgb;        // 3 E^2
   int16_t* diagonal_disparity;  // E^2
   uint32_t* diagonal_offsets;   // 2 E
   int64_t* moves;               // N + 1: ViewGrid::Move of each view
+  simd::RunMarks marks;         // of E lines of E positions
   Run* runs;                    // E^2: of all lines of a field
   int32_t* run_counts;          // E
   Run* line_runs;               // E: of one line
   uint8_t* strip_rgb;           // 3 R kStripRows: type A lines before they are transposed
-  int16_t* strip_disparity;     // R kStripRows
-  uint8_t* columns_rgb;         // 3 R E: the type A view, one line per column
-  int16_t* columns_disparity;   // R E
+  int16_t* view_disparity;      // R E: of the type A view, one line per row
+  uint8_t* columns_rgb;         // R rows of RgbStride(E): the type A view, one line per column
   uint8_t* surface_rgb;         // 3 (E + 2 kMaxSpread): one surface of a line
-  uint8_t* spread_rgb;          // 3 E: a line spread by its cells
   uint32_t* accumulators[2];    // 3 R^2 each: in the orientation of either pass
   uint32_t* line_accumulators;  // 3 E
   SpanMemory spans;

@@ -63,7 +63,8 @@ void MeasureCells(const Stripe& stripe, int32_t index, Worker*) {
   const int32_t last = Min((index + 1) * per_block, engine.cells.columns);
   for (int32_t row = engine.cells.first_row; row < engine.cells.last_row; ++row) {
     for (int32_t column = index * per_block; column < last; ++column) {
-      *engine.cells.At(column, row) = MeasureCell(engine.windows[0], engine.scale, column, row);
+      *engine.cells.At(column, row) =
+          MeasureCell(*engine.kernels, engine.windows[0], engine.scale, column, row);
     }
   }
 }

@@ -7,7 +7,10 @@
 #include "hwy/highway.h"
 #include "simd/accumulate-inl.h"
 #include "simd/blend-inl.h"
+#include "simd/cells-inl.h"
 #include "simd/resample-inl.h"
+#include "simd/runs-inl.h"
+#include "simd/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -21,6 +24,20 @@ void Blend(const Span* spans, size_t count, uint8_t* line) { BlendSpans(spans, c
 
 void Spread(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out) {
   SpreadSamples(in, taps, count, out);
+}
+
+void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
+              const RunLimits& limits, const RunMarks& marks) {
+  FindRunsOfLines(disparity, step, length, lines, limits, marks);
+}
+
+void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMeasure* measure) {
+  MeasureDisparities(rows, limits, measure);
+}
+
+void Transpose(const uint8_t* in, size_t in_stride, size_t rows, size_t columns, uint8_t* out,
+               size_t out_stride) {
+  TransposePixels(in, in_stride, rows, columns, out, out_stride);
 }
 
 void Finish(const uint32_t* accumulators, size_t count, int shift, uint8_t* out) {
@@ -60,6 +77,9 @@ const Kernels* Table() {
                                       Accumulate,
                                       Blend,
                                       Spread,
+                                      FindRuns,
+                                      MeasureCell,
+                                      Transpose,
                                       Finish,
                                       ConvertDisparity,
                                       Widen,

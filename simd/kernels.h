@@ -42,6 +42,47 @@ struct SpreadTaps {
 };
 inline constexpr int32_t kMaxSpread = 3;
 
+// When a run of a line ends, kDisparityBits of lib/fixed.h or any other scale.
+struct RunLimits {
+  int16_t spread;  // a run's disparities differ by at most this, [0, edge]
+  int16_t edge;    // a step by more than this is a depth edge, < 32767
+};
+
+// What find_runs writes of lines side by side, `stride` apart in each row of marks; stride is a
+// multiple of kRunLanes and at least the number of lines. Bit q % 16 of starts[q / 16 * stride + k]
+// tells whether position q of line k starts a run, that of edges whether a depth edge lies before
+// it; both are 0 at q = 0. middles[q * stride + k]: the middle, rounded down, of the lowest and
+// highest disparity of the run up to q.
+struct RunMarks {
+  uint16_t* starts;
+  uint16_t* edges;
+  int16_t* middles;
+  size_t stride;
+};
+inline constexpr size_t kRunLanes = 16;
+
+// Bytes that transpose may write past the end of each row.
+inline constexpr size_t kTransposePadding = 13;
+
+// What measure_cell finds in 8x8 disparities and their neighbours.
+struct CellMeasure {
+  int16_t column_low[8], column_high[8];  // lowest and highest disparity of each column
+  int16_t row_low[8], row_high[8];        // and row
+  uint16_t nearest;                       // smallest |disparity - focus|
+  // Lowest and highest disparity of the nearer sides of depth edges between the cell's pixels and
+  // their neighbours to all sides; edge_low > edge_high: there is none.
+  int16_t edge_low, edge_high;
+  // Over steps from pixel to pixel inside the cell, along rows and columns: the sum of steps within
+  // a surface, each at most slope_limit; the number of depth edges; the sum of their steps, each
+  // at most gap_limit.
+  uint32_t slopes, edges, gaps;
+};
+struct CellLimits {
+  int16_t focus;  // for nearest
+  int16_t edge;   // a step by more than this is a depth edge, < 32767
+  int16_t slope_limit, gap_limit;
+};
+
 struct Kernels {
   const char* name;  // of the SIMD target
 
@@ -56,6 +97,22 @@ struct Kernels {
   // out[n] = (the taps over in[n + 3 k], |k| <= reach) / 256, halves to even. in and out don't
   // overlap.
   void (*spread)(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out);
+
+  // Splits lines 0 .. lines - 1 of `length` positions, greedily from position 0 on; position q of
+  // line k is disparity[q * step + k].
+  void (*find_runs)(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
+                    const RunLimits& limits, const RunMarks& marks);
+
+  // Measures the cell at rows[1] .. rows[8], columns 0 .. 7; rows[0] and rows[9] are the rows above
+  // and below, and columns -1 and 8 are read as well.
+  void (*measure_cell)(const int16_t* const rows[10], const CellLimits& limits,
+                       CellMeasure* measure);
+
+  // Pixel `column` of row `row` of `in` becomes pixel `row` of row `column` of `out`. Strides in
+  // bytes. Up to kTransposePadding bytes past the end of each row of `out` may be written, in order of the rows
+  // of `in`: a picture can be transposed in strips of a multiple of four rows.
+  void (*transpose)(const uint8_t* in, size_t in_stride, size_t rows, size_t columns, uint8_t* out,
+                    size_t out_stride);
 
   // out[n] = (accumulators[n] + 2^(shift - 1)) >> shift; shift in [1, 24]; results fit a byte.
   void (*finish)(const uint32_t* accumulators, size_t count, int shift, uint8_t* out);

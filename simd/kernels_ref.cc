@@ -1,5 +1,6 @@
 // What each kernel computes, in plain C++: the truth the SIMD targets are tested against.
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 #include "simd/kernels.h"
@@ -46,6 +47,86 @@ void Spread(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* ou
       sum += tap * (uint32_t{at[-3 * k]} + at[3 * k]);
     }
     out[n] = RoundBlend(sum);
+  }
+}
+
+void FindRunsOfLine(const int16_t* disparity, ptrdiff_t step, size_t length,
+                    const RunLimits& limits, const RunMarks& marks) {
+  int low = disparity[0], high = low, before = low;
+  for (size_t q = 0; q < length; ++q, disparity += step) {
+    const int here = *disparity;
+    low = here < low ? here : low;
+    high = here > high ? here : high;
+    const bool start = high - low > limits.spread;
+    if (start) low = high = here;
+    const bool edge = std::abs(here - before) > limits.edge;
+    before = here;
+    const size_t word = q / 16 * marks.stride;
+    if (q % 16 == 0) marks.starts[word] = marks.edges[word] = 0;
+    marks.starts[word] = static_cast<uint16_t>(marks.starts[word] | (start ? 1 << q % 16 : 0));
+    marks.edges[word] = static_cast<uint16_t>(marks.edges[word] | (edge ? 1 << q % 16 : 0));
+    marks.middles[q * marks.stride] = static_cast<int16_t>((low + high) >> 1);
+  }
+}
+
+void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
+              const RunLimits& limits, const RunMarks& marks) {
+  for (size_t k = 0; k < lines; ++k) {
+    FindRunsOfLine(disparity + k, step, length, limits,
+                   {marks.starts + k, marks.edges + k, marks.middles + k, marks.stride});
+  }
+}
+
+// Adds the step between neighbours; `inside` tells whether both are the cell's.
+void AddStep(int a, int b, bool inside, const CellLimits& limits, CellMeasure* measure) {
+  const int step = std::abs(a - b);
+  const int nearer = a > b ? a : b;
+  if (step > limits.edge) {
+    if (nearer < measure->edge_low) measure->edge_low = static_cast<int16_t>(nearer);
+    if (nearer > measure->edge_high) measure->edge_high = static_cast<int16_t>(nearer);
+    if (!inside) return;
+    ++measure->edges;
+    measure->gaps += static_cast<uint32_t>(step < limits.gap_limit ? step : limits.gap_limit);
+  } else if (inside) {
+    measure->slopes += static_cast<uint32_t>(step < limits.slope_limit ? step : limits.slope_limit);
+  }
+}
+
+void AddDisparity(int16_t disparity, int16_t* low, int16_t* high) {
+  if (disparity < *low) *low = disparity;
+  if (disparity > *high) *high = disparity;
+}
+
+void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMeasure* measure) {
+  for (int k = 0; k < 8; ++k) {
+    measure->column_low[k] = measure->column_high[k] = rows[1][k];
+    measure->row_low[k] = measure->row_high[k] = rows[1 + k][0];
+  }
+  measure->nearest = UINT16_MAX;
+  measure->edge_low = INT16_MAX;
+  measure->edge_high = INT16_MIN;
+  measure->slopes = measure->edges = measure->gaps = 0;
+  for (int y = 0; y < 8; ++y) {
+    const int16_t* row = rows[1 + y];
+    for (int x = 0; x < 8; ++x) {
+      AddDisparity(row[x], &measure->column_low[x], &measure->column_high[x]);
+      AddDisparity(row[x], &measure->row_low[y], &measure->row_high[y]);
+      const int distance = std::abs(row[x] - limits.focus);
+      if (distance < measure->nearest) measure->nearest = static_cast<uint16_t>(distance);
+      AddStep(row[x - 1], row[x], x > 0, limits, measure);
+      AddStep(rows[y][x], row[x], y > 0, limits, measure);
+    }
+    AddStep(row[7], row[8], false, limits, measure);
+  }
+  for (int x = 0; x < 8; ++x) AddStep(rows[8][x], rows[9][x], false, limits, measure);
+}
+
+void Transpose(const uint8_t* in, size_t in_stride, size_t rows, size_t columns, uint8_t* out,
+               size_t out_stride) {
+  for (size_t row = 0; row < rows; ++row) {
+    for (size_t column = 0; column < columns; ++column) {
+      std::memcpy(out + column * out_stride + 3 * row, in + row * in_stride + 3 * column, 3);
+    }
   }
 }
 
@@ -112,9 +193,9 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 }  // namespace
 
 const Kernels& ReferenceKernels() {
-  static constexpr Kernels kernels = {"reference", Accumulate,       Blend,  Spread,
-                                      Finish,      ConvertDisparity, Widen,  Narrow,
-                                      FinishLayer, FilterHalfBand,   Between};
+  static constexpr Kernels kernels = {
+      "reference", Accumulate, Blend, Spread, FindRuns, MeasureCell, Transpose, Finish,
+      ConvertDisparity, Widen, Narrow, FinishLayer, FilterHalfBand, Between};
   return kernels;
 }
 

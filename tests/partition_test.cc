@@ -63,7 +63,7 @@ struct Plan {
     grid.cells = cells.data();
     for (int row = 0; row < grid.rows; ++row) {
       for (int column = 0; column < grid.columns; ++column) {
-        *grid.At(column, row) = starfocus::MeasureCell(window, scale, column, row);
+        *grid.At(column, row) = starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
       }
     }
     around = starfocus::GetReach(2 * limit).cells;
@@ -357,7 +357,7 @@ TEST_CASE("partition: rules (12) and (9) on flat pictures, at and beside their t
       const BlurScale scale = {0, int64_t{1} << starfocus::kStepBits};
       for (int row = 0; row < plan.grid.rows; ++row) {
         for (int column = 0; column < plan.grid.columns; ++column) {
-          *plan.grid.At(column, row) = starfocus::MeasureCell(window, scale, column, row);
+          *plan.grid.At(column, row) = starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
         }
       }
       plan.around = starfocus::GetReach(r).cells;

@@ -92,7 +92,6 @@ struct Pixels {
   std::vector<uint8_t> rgb;
   std::vector<int16_t> disparity;
 
-  Line Get() const { return {rgb.data(), disparity.data(), int32_t(disparity.size())}; }
   Pixels Mirrored() const {
     Pixels mirrored = *this;
     std::reverse(mirrored.disparity.begin(), mirrored.disparity.end());
@@ -121,11 +120,22 @@ Pixels RandomPixels(int length, int limit, test::Random* random) {
   return line;
 }
 
-std::vector<uint8_t> Spread(const Kernels& kernels, const ViewGrid& grid, const Pixels& line) {
-  std::vector<uint8_t> surface(line.rgb.size() + 6 * kMaxSpread), out(line.rgb.size());
-  starfocus::SpreadLine(kernels, grid, grid.Move(1), line.Get(), surface.data(), out.data());
-  out.resize(3 * line.disparity.size());
-  return out;
+std::vector<uint8_t> Spread(const Kernels& kernels, const ViewGrid& grid, Pixels line) {
+  const auto length = int32_t(line.disparity.size());
+  line.disparity.resize(line.disparity.size() + kPadding / sizeof(int16_t));
+  std::vector<uint16_t> starts(starfocus::RunMarkWords(size_t(length), 1)), edges = starts;
+  std::vector<int16_t> middles(starfocus::RunMiddles(size_t(length), 1));
+  starfocus::simd::RunMarks marks = {starts.data(), edges.data(), middles.data(),
+                                     starfocus::RunMarkStride(1)};
+  starfocus::MarkRuns(kernels, grid, {line.disparity.data(), 1, length, 1},
+                      starfocus::Direction::kRightToLeft, &marks);
+  std::vector<starfocus::Run> runs(static_cast<size_t>(length));
+  const int32_t count = starfocus::ReadRuns(marks, 0, length, grid, grid.Move(1), runs.data());
+  std::vector<uint8_t> surface(line.rgb.size() + 6 * kMaxSpread);
+  const Line view = {line.rgb.data(), line.disparity.data(), 1, length};
+  starfocus::SpreadLine(kernels, grid, view, runs.data(), count, surface.data(), line.rgb.data());
+  line.rgb.resize(3 * size_t(length));
+  return line.rgb;
 }
 
 // Pixel by pixel from the definition.

@@ -1,0 +1,146 @@
+// Kernels::measure_cell. Included once per target.
+#if defined(STARFOCUS_SIMD_CELLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_CELLS_INL_H_
+#undef STARFOCUS_SIMD_CELLS_INL_H_
+#else
+#define STARFOCUS_SIMD_CELLS_INL_H_
+#endif
+
+#include "simd/compat-inl.h"
+#include "simd/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+HWY_INLINE void MeasureDisparities(const int16_t* const rows[10], const CellLimits& limits,
+                                   CellMeasure* measure) {
+  ReferenceKernels().measure_cell(rows, limits, measure);
+}
+
+#else
+
+// A row of a cell per vector.
+using CellTag = hn::FixedTag<int16_t, 8>;
+using CellRow = hn::Vec<CellTag>;
+using UnsignedTag = hn::RebindToUnsigned<CellTag>;
+using UnsignedRow = hn::Vec<UnsignedTag>;
+
+// |a - b|, which may need all 16 bits.
+HWY_INLINE UnsignedRow Distance(CellRow a, CellRow b) {
+  const UnsignedTag du16;
+  return hn::Sub(hn::BitCast(du16, hn::Max(a, b)), hn::BitCast(du16, hn::Min(a, b)));
+}
+
+// Each lane's lowest of eight vectors' lanes: lane k is that of vector k.
+template <class Take>
+HWY_INLINE CellRow ReduceRows(const CellRow (&rows)[8], const Take& take) {
+  const CellTag d16;
+  const hn::Repartition<int32_t, CellTag> d32;
+  const hn::Repartition<int64_t, CellTag> d64;
+  CellRow pairs[4];
+  for (int k = 0; k < 4; ++k) {
+    const auto a = rows[2 * k], b = rows[2 * k + 1];
+    pairs[k] = take(hn::InterleaveLower(d16, a, b), hn::InterleaveUpper(d16, a, b));
+  }
+  CellRow quads[2];
+  for (int k = 0; k < 2; ++k) {
+    const auto a = hn::BitCast(d32, pairs[2 * k]), b = hn::BitCast(d32, pairs[2 * k + 1]);
+    quads[k] = take(hn::BitCast(d16, hn::InterleaveLower(d32, a, b)),
+                    hn::BitCast(d16, hn::InterleaveUpper(d32, a, b)));
+  }
+  const auto a = hn::BitCast(d64, quads[0]), b = hn::BitCast(d64, quads[1]);
+  return take(hn::BitCast(d16, hn::InterleaveLower(d64, a, b)),
+              hn::BitCast(d16, hn::InterleaveUpper(d64, a, b)));
+}
+
+// Sums of steps, in 32-bit lanes where 16 bits may not hold them.
+struct Steps {
+  explicit Steps(const CellLimits& limits)
+      : edge(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.edge))),
+        slope_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.slope_limit))),
+        gap_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.gap_limit))) {}
+
+  // Steps between a and b count inside the cell where `inside` is set.
+  HWY_INLINE void Add(CellRow a, CellRow b, UnsignedRow inside) {
+    const CellTag d16;
+    const UnsignedTag du16;
+    const auto step = Distance(a, b);
+    const auto beyond = hn::Gt(step, edge);
+    const auto at_edge = hn::VecFromMask(du16, beyond);
+    const auto nearer = hn::Max(a, b);
+    const auto edge_mask = hn::MaskFromVec(hn::BitCast(d16, at_edge));
+    low = hn::Min(low, hn::IfThenElse(edge_mask, nearer, hn::Set(d16, int16_t{INT16_MAX})));
+    high = hn::Max(high, hn::IfThenElse(edge_mask, nearer, hn::Set(d16, int16_t{INT16_MIN})));
+    const auto counted = hn::And(at_edge, inside);
+    edges = hn::Sub(edges, counted);
+    slopes = hn::Add(slopes, hn::And(hn::AndNot(at_edge, inside), hn::Min(step, slope_limit)));
+    const auto gap = hn::And(counted, hn::Min(step, gap_limit));
+    const hn::Repartition<uint32_t, UnsignedTag> d32;
+    const auto wide = hn::BitCast(d32, gap);
+    gaps = hn::Add(gaps, hn::Add(hn::And(wide, hn::Set(d32, 0xFFFFu)), hn::ShiftRight<16>(wide)));
+  }
+
+  UnsignedRow edge, slope_limit, gap_limit;
+  CellRow low = hn::Set(CellTag(), int16_t{INT16_MAX});
+  CellRow high = hn::Set(CellTag(), int16_t{INT16_MIN});
+  UnsignedRow slopes = hn::Zero(UnsignedTag()), edges = hn::Zero(UnsignedTag());
+  hn::Vec<hn::Repartition<uint32_t, UnsignedTag>> gaps =
+      hn::Zero(hn::Repartition<uint32_t, UnsignedTag>());
+};
+
+HWY_INLINE uint32_t SumOf(UnsignedRow row) {
+  const hn::Repartition<uint32_t, UnsignedTag> d32;
+  const auto wide = hn::BitCast(d32, row);
+  const auto pairs = hn::Add(hn::And(wide, hn::Set(d32, 0xFFFFu)), hn::ShiftRight<16>(wide));
+  return hn::GetLane(hn::SumOfLanes(d32, pairs));
+}
+
+HWY_INLINE void MeasureDisparities(const int16_t* const rows[10], const CellLimits& limits,
+                                   CellMeasure* measure) {
+  const CellTag d16;
+  const UnsignedTag du16;
+  const auto min = [](CellRow a, CellRow b) HWY_ATTR { return hn::Min(a, b); };
+  const auto max = [](CellRow a, CellRow b) HWY_ATTR { return hn::Max(a, b); };
+  const auto all = hn::Set(du16, uint16_t{0xFFFF}), none = hn::Zero(du16);
+  // The step from column -1 to column 0 leads into the cell.
+  const auto all_but_first = hn::VecFromMask(
+      du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
+  const auto focus = hn::Set(d16, limits.focus);
+  Steps steps(limits);
+  CellRow here[8];
+  for (int k = 0; k < 8; ++k) here[k] = hn::LoadU(d16, rows[1 + k]);
+  auto low = here[0], high = here[0];
+  auto nearest = all;
+  steps.Add(hn::LoadU(d16, rows[0]), here[0], none);
+  steps.Add(hn::LoadU(d16, rows[9]), here[7], none);
+  for (int k = 0; k < 8; ++k) {
+    low = hn::Min(low, here[k]);
+    high = hn::Max(high, here[k]);
+    nearest = hn::Min(nearest, Distance(here[k], focus));
+    steps.Add(hn::LoadU(d16, rows[1 + k] - 1), here[k], all_but_first);
+    steps.Add(hn::LoadU(d16, rows[1 + k] + 1), here[k], none);
+    if (k > 0) steps.Add(here[k - 1], here[k], all);
+  }
+  hn::StoreU(low, d16, measure->column_low);
+  hn::StoreU(high, d16, measure->column_high);
+  hn::StoreU(ReduceRows(here, min), d16, measure->row_low);
+  hn::StoreU(ReduceRows(here, max), d16, measure->row_high);
+  measure->nearest = hn::GetLane(hn::MinOfLanes(du16, nearest));
+  measure->edge_low = hn::GetLane(hn::MinOfLanes(d16, steps.low));
+  measure->edge_high = hn::GetLane(hn::MaxOfLanes(d16, steps.high));
+  measure->slopes = SumOf(steps.slopes);
+  measure->edges = SumOf(steps.edges);
+  measure->gaps = hn::GetLane(
+      hn::SumOfLanes(hn::Repartition<uint32_t, UnsignedTag>(), steps.gaps));
+}
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,70 @@
+// Kernels::find_runs. Included once per target.
+#if defined(STARFOCUS_SIMD_RUNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_RUNS_INL_H_
+#undef STARFOCUS_SIMD_RUNS_INL_H_
+#else
+#define STARFOCUS_SIMD_RUNS_INL_H_
+#endif
+
+#include "simd/compat-inl.h"
+#include "simd/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+// As many lines side by side as a vector has lanes.
+template <class D16>
+HWY_INLINE void FindRunsOfVector(D16 d16, const int16_t* HWY_RESTRICT disparity, ptrdiff_t step,
+                                 size_t length, const RunLimits& limits, size_t stride,
+                                 uint16_t* HWY_RESTRICT starts, uint16_t* HWY_RESTRICT edges,
+                                 int16_t* HWY_RESTRICT middles) {
+  const hn::RebindToUnsigned<D16> du16;
+  const auto spread = hn::Set(d16, limits.spread), edge = hn::Set(d16, limits.edge);
+  const auto last_bit = hn::Set(du16, uint16_t{0x8000});
+  auto before = hn::LoadU(d16, disparity);
+  auto low = before, high = before;
+  auto start_bits = hn::Zero(du16), edge_bits = hn::Zero(du16);
+  for (size_t q = 0; q < length; ++q, disparity += step, middles += stride) {
+    const auto here = hn::LoadU(d16, disparity);
+    const auto wide_low = hn::Min(low, here), wide_high = hn::Max(high, here);
+    // Saturated: no range is too wide to tell.
+    const auto start = hn::Gt(hn::SaturatedSub(wide_high, wide_low), spread);
+    low = hn::IfThenElse(start, here, wide_low);
+    high = hn::IfThenElse(start, here, wide_high);
+    hn::StoreU(hn::Add(low, hn::ShiftRight<1>(hn::Sub(high, low))), d16, middles);
+    const auto rise = hn::SaturatedSub(hn::Max(before, here), hn::Min(before, here));
+    const auto at_edge = hn::Gt(rise, edge);
+    before = here;
+    const auto bit = [&](auto mask)
+                         HWY_ATTR { return hn::And(hn::BitCast(du16, hn::VecFromMask(d16, mask)), last_bit); };
+    start_bits = hn::Or(hn::ShiftRight<1>(start_bits), bit(start));
+    edge_bits = hn::Or(hn::ShiftRight<1>(edge_bits), bit(at_edge));
+    if (q % 16 == 15) {
+      hn::StoreU(start_bits, du16, starts);
+      hn::StoreU(edge_bits, du16, edges);
+      starts += stride;
+      edges += stride;
+    }
+  }
+  if (length % 16 != 0) {
+    const int missing = static_cast<int>(16 - length % 16);
+    hn::StoreU(hn::ShiftRightSame(start_bits, missing), du16, starts);
+    hn::StoreU(hn::ShiftRightSame(edge_bits, missing), du16, edges);
+  }
+}
+
+HWY_INLINE void FindRunsOfLines(const int16_t* disparity, ptrdiff_t step, size_t length,
+                                size_t lines, const RunLimits& limits, const RunMarks& marks) {
+  const hn::CappedTag<int16_t, kRunLanes> d16;
+  for (size_t line = 0; line < lines; line += hn::Lanes(d16)) {
+    FindRunsOfVector(d16, disparity + line, step, length, limits, marks.stride,
+                     marks.starts + line, marks.edges + line, marks.middles + line);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif
