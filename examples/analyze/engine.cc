@@ -50,7 +50,7 @@ std::string Measure(const Series& series, int sign, Table* table, Table* layers)
   const double least = series.layer == 0 ? 0 : 3.0 * series.layer;
   const int count = static_cast<int>((kLargest - least) / series.increment);
   std::printf("  layer %d, rule %s, r = %g to %d%s\n", series.layer, NameOf(series.rule),
-              sign * least, sign * kLargest,
+              least == 0 ? 0 : sign * least, sign * kLargest,
               series.r_max > 0 ? " in a picture whose r_max is 40" : "");
   Progress progress("the engine's kernels", count);
   std::vector<Stretch> stretches;
@@ -146,10 +146,10 @@ Figure AnalyseEngine(std::string* error) {
       Panel("layer 0, N from (9) at |r|", "engine", "-40:40") +
       Panel("layer 0, N by the rule for cells at |r|", "engine_cells", "-40:40") +
       Panel("layer 0, N = 32 by (9), as for r_max = 40", "engine_r40", "0:40") +
-      "set title 'layers, N by the rule for cells'\nset xrange [-40:40]\n"
-      "plot for [L=1:2] $layers_cells using (column(2) == L ? column(1) : NaN):6 with lines lt L "
+      "set title 'layers, N by the rule for cells'\nset xrange [0:40]\n"
+      "plot for [L=1:2] $layers_cells using (column(2) == L && $1 > 0 ? $1 : NaN):6 with lines lt L "
       "title sprintf('L = %d, theory (10)', L), "
-      "for [L=1:2] $layers_cells using (column(2) == L ? column(1) : NaN):5 with points pt 7 "
+      "for [L=1:2] $layers_cells using (column(2) == L ? abs($1) : NaN):5 with points pt 7 "
       "ps 0.2 lt L title sprintf('L = %d, measured', L)\nunset multiplot\n";
   return figure;
 }
