@@ -83,6 +83,8 @@ const BadConfig kBadConfigs[] = {
     {"timing a", [](sf_config* c) { c->timing.a = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
     {"timing b", [](sf_config* c) { c->timing.b = UINT32_MAX; }, SF_ERROR_TIMING},
     {"timing c", [](sf_config* c) { c->timing.c = 0x80000000u; }, SF_ERROR_TIMING},
+    {"timing span", [](sf_config* c) { c->timing.span = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
+    {"timing hole", [](sf_config* c) { c->timing.hole = UINT32_MAX; }, SF_ERROR_TIMING},
     {"timing upsample", [](sf_config* c) { c->timing.upsample = UINT32_MAX; }, SF_ERROR_TIMING},
 };
 
@@ -257,7 +259,7 @@ TEST_CASE("configuration: defaults and limits are legal") {
       for (const uint32_t timing : {0u, 1u, SF_MAX_TIMING}) {
         config.max_layer = max_layer;
         config.deblocking = deblocking;
-        config.timing = {timing, timing, timing, timing, timing, timing};
+        config.timing = {timing, timing, timing, timing, timing, timing, timing, timing};
         CHECK(sf_workspace_size(&config, &bytes) == SF_OK);
       }
     }

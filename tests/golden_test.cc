@@ -72,7 +72,7 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   sf_config config = test::ConfigFor(scene, 16);
   config.largest_block = one.block;
   // The partition depends on them, and each architecture has its own.
-  config.timing = {4000000, 12000, 1500, 1700, 2500, 9000};
+  config.timing = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::UseKernels(kernels, engine.get());

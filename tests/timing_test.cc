@@ -13,6 +13,7 @@ namespace {
 
 using starfocus::BlockWork;
 using starfocus::Border;
+using starfocus::Content;
 using starfocus::Rect;
 using starfocus::ViewCounts;
 
@@ -35,14 +36,17 @@ ViewCounts CountOneByOne(int n) {
 }
 
 // Summed view by view, as (13) has it.
-BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, uint64_t upsampled) {
+BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, uint64_t upsampled,
+                            const Content& content, int layer) {
   const auto width = uint64_t(rect.width), height = uint64_t(rect.height);
   const uint64_t wide = width + uint64_t(border.left) + uint64_t(border.right);
   const uint64_t high = height + uint64_t(border.top) + uint64_t(border.bottom);
-  BlockWork work = {wide * high, 0, 0, 0, upsampled};
+  BlockWork work = {wide * high, 0, 0, 0, upsampled, 0, 0};
+  uint64_t views = 0;
   for (int i = -n; i <= n; ++i) {
     for (int j = -n; j <= n; ++j) {
       if (i * i + j * j > n * n || (i == 0 && j == 0)) continue;
+      ++views;
       if (j == 0) {
         work.a += width * high;
       } else if (i == 0) {
@@ -54,6 +58,14 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, uint6
       }
     }
   }
+  // Of every two views one is scanned along rows, the other along columns. A layer has 1 / 2^L of
+  // the lines; a slope makes 1 / 2^L of the runs along each, a gap is 1 / 2^L as wide.
+  const int scale = 1 << layer;
+  const uint64_t runs = content.slopes / uint64_t(scale * scale) + content.edges / uint64_t(scale);
+  const uint64_t gaps = content.gaps / uint64_t(scale * scale);
+  const uint64_t one = starfocus::kContentOne;
+  work.span = views / 2 * (width + height) + views / 2 * runs / one;
+  work.hole = views / 2 * gaps / one;
   return work;
 }
 
@@ -76,43 +88,65 @@ TEST_CASE("timing: the work of a block, view by view") {
                            random.Int(0, 140)};
     const int n = random.Int(0, round < 250 ? 12 : 102);
     const uint64_t upsampled = random.Next();
-    const BlockWork expected = MeasureViewByView(rect, border, n, upsampled);
-    const BlockWork got = starfocus::MeasureWork(rect, border, starfocus::CountViews(n), upsampled);
+    const auto amount = [&] { return uint32_t(random.Int(0, 1 << 16)); };
+    const Content content = {amount(), amount(), amount()};
+    const int layer = random.Int(0, 2);
+    const BlockWork expected = MeasureViewByView(rect, border, n, upsampled, content, layer);
+    const BlockWork got =
+        starfocus::MeasureWork(rect, border, starfocus::CountViews(n), upsampled, content, layer);
     CAPTURE(n);
     CHECK(got.field == expected.field);
     CHECK(got.a == expected.a);
     CHECK(got.b == expected.b);
     CHECK(got.c == expected.c);
     CHECK(got.upsample == expected.upsample);
+    CHECK(got.span == expected.span);
+    CHECK(got.hole == expected.hole);
   }
 }
 
+constexpr uint32_t sf_timing::*kCoefficients[] = {
+    &sf_timing::field,    &sf_timing::a,    &sf_timing::b,    &sf_timing::c,
+    &sf_timing::upsample, &sf_timing::span, &sf_timing::hole, &sf_timing::block};
+constexpr uint64_t BlockWork::*kAmounts[] = {
+    &BlockWork::field,    &BlockWork::a,    &BlockWork::b,   &BlockWork::c,
+    &BlockWork::upsample, &BlockWork::span, &BlockWork::hole};
+static_assert(sizeof(sf_timing) == 8 * sizeof(uint32_t), "a coefficient is not tested");
+static_assert(sizeof(BlockWork) == 7 * sizeof(uint64_t), "an amount is not tested");
+
+sf_timing EqualTiming(uint32_t value) {
+  sf_timing timing = {};
+  for (const auto coefficient : kCoefficients) timing.*coefficient = value;
+  return timing;
+}
+
 TEST_CASE("timing: each coefficient counts its own work") {
-  const BlockWork work = {2, 3, 5, 7, 11};
-  CHECK(starfocus::PredictTime({0, 0, 0, 0, 0, 0}, work) == 0);
-  CHECK(starfocus::PredictTime({100, 0, 0, 0, 0, 0}, work) == 100);
-  CHECK(starfocus::PredictTime({0, 100, 0, 0, 0, 0}, work) == 200);
-  CHECK(starfocus::PredictTime({0, 0, 100, 0, 0, 0}, work) == 300);
-  CHECK(starfocus::PredictTime({0, 0, 0, 100, 0, 0}, work) == 500);
-  CHECK(starfocus::PredictTime({0, 0, 0, 0, 100, 0}, work) == 700);
-  CHECK(starfocus::PredictTime({0, 0, 0, 0, 0, 100}, work) == 1100);
+  BlockWork work = {};
+  uint64_t amount = 1;
+  for (const auto which : kAmounts) work.*which = ++amount;
+  CHECK(starfocus::PredictTime(EqualTiming(0), work) == 0);
+  for (int k = 0; k < 8; ++k) {
+    sf_timing timing = EqualTiming(0);
+    timing.*kCoefficients[k] = 100;
+    CHECK(starfocus::PredictTime(timing, work) == 100 * (k < 7 ? work.*kAmounts[k] : 1));
+  }
 }
 
 TEST_CASE("timing: linear in work and in coefficients") {
   test::Random random(4);
-  const auto coefficient = [&] { return uint32_t(random.Int(0, 1 << 24)); };
-  const auto amount = [&] { return uint64_t(random.Int(0, 1 << 20)); };
   for (int round = 0; round < 200; ++round) {
-    const sf_timing s = {coefficient(), coefficient(), coefficient(),
-                         coefficient(), coefficient(), coefficient()};
-    const sf_timing t = {coefficient(), coefficient(), coefficient(),
-                         coefficient(), coefficient(), coefficient()};
-    const sf_timing sum = {s.block + t.block, s.field + t.field, s.a + t.a,
-                           s.b + t.b,         s.c + t.c,         s.upsample + t.upsample};
-    const BlockWork v = {amount(), amount(), amount(), amount(), amount()};
-    const BlockWork w = {amount(), amount(), amount(), amount(), amount()};
-    const BlockWork both = {v.field + w.field, v.a + w.a, v.b + w.b, v.c + w.c,
-                            v.upsample + w.upsample};
+    sf_timing s = {}, t = {}, sum = {};
+    for (const auto which : kCoefficients) {
+      s.*which = uint32_t(random.Int(0, 1 << 24));
+      t.*which = uint32_t(random.Int(0, 1 << 24));
+      sum.*which = s.*which + t.*which;
+    }
+    BlockWork v = {}, w = {}, both = {};
+    for (const auto which : kAmounts) {
+      v.*which = uint64_t(random.Int(0, 1 << 20));
+      w.*which = uint64_t(random.Int(0, 1 << 20));
+      both.*which = v.*which + w.*which;
+    }
     CHECK(starfocus::PredictTime(sum, v) ==
           starfocus::PredictTime(s, v) + starfocus::PredictTime(t, v));
     CHECK(starfocus::PredictTime(s, both) + s.block ==
@@ -120,34 +154,35 @@ TEST_CASE("timing: linear in work and in coefficients") {
   }
 }
 
-TEST_CASE("timing: the largest block with the largest coefficients stays below 2^63") {
-  const sf_timing most = {SF_MAX_TIMING, SF_MAX_TIMING, SF_MAX_TIMING,
-                          SF_MAX_TIMING, SF_MAX_TIMING, SF_MAX_TIMING};
-  const BlockWork work = starfocus::MeasureWork({0, 0, 256, 256}, {140, 140, 140, 140},
-                                                starfocus::CountViews(102), 256 * 256);
-  const long double exact =
-      1e8L * (1 + static_cast<long double>(work.field) + static_cast<long double>(work.a) +
-              static_cast<long double>(work.b) + static_cast<long double>(work.c) +
-              static_cast<long double>(work.upsample));
-  CHECK(exact < 9.2e18L);
-  CHECK(static_cast<long double>(starfocus::PredictTime(most, work)) == exact);
-  // All blocks of 16 that it may be split into.
-  const BlockWork small =
-      starfocus::MeasureWork({0, 0, 16, 16}, {140, 140, 140, 140}, starfocus::CountViews(102), 256);
-  CHECK(256.0L * static_cast<long double>(starfocus::PredictTime(most, small)) < 1.8e19L);
+TEST_CASE("timing: a largest block with the largest coefficients, and all it splits into") {
+  const sf_timing most = EqualTiming(SF_MAX_TIMING);
+  const auto exact = [&](const BlockWork& work) {
+    long double sum = 1;
+    for (const auto which : kAmounts) sum += static_cast<long double>(work.*which);
+    return sum * SF_MAX_TIMING;
+  };
+  for (const int side : {16, 32, 64, 128, 256}) {
+    // Of content, more than there are pixels.
+    const auto pixels = uint32_t(side * side);
+    const Content content = {64 * pixels, 64 * pixels, 256 * pixels};
+    const BlockWork work = starfocus::MeasureWork({0, 0, side, side}, {140, 140, 140, 140},
+                                                  starfocus::CountViews(102), pixels, content, 0);
+    CAPTURE(side);
+    CHECK(exact(work) * (256 / side) * (256 / side) < 1.8e19L);
+    CHECK(static_cast<long double>(starfocus::PredictTime(most, work)) == exact(work));
+  }
 }
 
-TEST_CASE("timing: the defaults are legal, and only type C may cost nothing but its spans") {
+TEST_CASE("timing: the defaults are legal and are those of a configuration") {
   const sf_timing timing = starfocus::DefaultTiming();
-  for (const uint32_t value : {timing.block, timing.field, timing.a, timing.b, timing.upsample,
-                               timing.span, timing.hole}) {
-    CHECK(value > 0);
-    CHECK(value <= SF_MAX_TIMING);
-  }
   sf_config config;
   sf_config_init(&config);
-  CHECK(config.timing.a == timing.a);
-  CHECK(config.timing.upsample == timing.upsample);
+  for (const auto which : kCoefficients) {
+    CHECK(timing.*which <= SF_MAX_TIMING);
+    CHECK(config.timing.*which == timing.*which);
+    // Type C may cost nothing but its spans.
+    if (which != &sf_timing::c) CHECK(timing.*which > 0);
+  }
 }
 
 }  // namespace
