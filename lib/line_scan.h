@@ -49,11 +49,20 @@ inline int32_t CellWeight(int32_t offset, int32_t cell) {
   return static_cast<int32_t>(Checked(ranges::kCellWeight, (scaled + (1u << 15)) >> 16));
 }
 
+// The surface whose end covers a part of a hole's outermost pixel, on the side where the scan goes
+// on.
+struct Rim {
+  int32_t pixel;    // of the line; -1: none
+  int32_t covered;  // kShiftBits
+};
+
 // Scans `line` for one view. Calls, in pixels of the line (never mirrored),
 //   sink.Surface(begin, end, source, neighbour, weight): rendered pixel p is line pixel
 //     source + (p - begin), and its neighbour at +-1 with `weight` (kShiftBits);
-//   sink.Hole(begin, end, disparity, pixel): uncovered; what is behind continues with
-//     `disparity`, that of the visible line pixel `pixel`.
+//   sink.Mix(p, source, other, weight): rendered pixel p is line pixel `source`, but `weight`
+//     (kShiftBits) of it is covered by, or lets shine through, line pixel `other`;
+//   sink.Hole(begin, end, pixel, rim): uncovered; what is behind continues the surface of the
+//     visible line pixel `pixel`.
 // Every pixel of [out_begin, out_end) comes exactly once, in scan order.
 template <Direction kDirection, class Sink>
 class LineScan {
@@ -67,19 +76,24 @@ class LineScan {
         begin_(kMirrored ? line.length - view.out_end : view.out_begin),
         end_(kMirrored ? line.length - view.out_begin : view.out_end) {}
 
-  void Scan() const {
+  void Scan() {
     // From the line's own end, not the wanted part's: what a gap borders on may lie beyond.
-    Filled filled = {Max(end_, line_.length - Whole(Shift(*runs_))), line_.length - 1};
+    filled_ = {Max(end_, line_.length - Whole(Shift(*runs_))), line_.length - 1};
     int32_t run_end = line_.length;
-    for (const Run* run = runs_; run != runs_end_ && filled.from > begin_; ++run) {
+    for (const Run* run = runs_; run != runs_end_ && filled_.from > begin_; ++run) {
       const int32_t shift = Shift(*run), begin = run->begin, low = begin - Whole(shift);
-      if (low < filled.from) {
-        if (low < end_) AddRun(run, run_end, shift, filled);
-        filled = {low, begin};
+      if (low < filled_.from) {
+        if (low < end_) {
+          AddRun(run, run_end, shift);
+        } else {
+          edge_.run = nullptr;
+        }
+        filled_ = {low, begin};
       }
       run_end = begin;
     }
-    if (filled.from > begin_) Hole(begin_, filled.from, filled.pixel);
+    FlushEdge();
+    if (filled_.from > begin_) Hole(begin_, filled_.from, filled_.pixel, {-1, 0});
   }
 
  private:
@@ -88,7 +102,7 @@ class LineScan {
   // The lowest position filled so far, and the line position that filled it: whatever lands at or
   // above it is hidden.
   struct Filled {
-    int32_t from, pixel;
+    int32_t from = 0, pixel = 0;
   };
 
   int32_t Pixel(int32_t q) const { return kMirrored ? line_.length - 1 - q : q; }
@@ -96,16 +110,39 @@ class LineScan {
   int32_t Shift(const Run& run) const { return view_.grid->Shift(view_.move, run.disparity); }
   static int32_t Whole(int32_t shift) { return (shift + kShiftOne / 2) >> kShiftBits; }
 
+  // The lower end of a surface that may cover a farther one: the last run added. Between rendered
+  // pixels it covers a part of one only.
+  struct Edge {
+    const Run* run;   // null: there is none
+    int32_t offset;   // kShiftBits: < 0, of its last pixel that part is missing, and the pixel waits
+                      // to be mixed; > 0, so much it covers of the next pixel
+    int32_t whole;
+  };
+
   // The run's positions up to `run_end` move together. Emits those that are not hidden, up to what
   // is filled; positions beyond the run's own stretch it over source pixels beyond it.
-  void AddRun(const Run* run, int32_t run_end, int32_t shift, const Filled& filled) const {
+  void AddRun(const Run* run, int32_t run_end, int32_t shift) {
     const int32_t whole = Whole(shift);
-    int32_t end = filled.from;
-    if (run_end - whole < end) end = CloseGap(run_end - 1, whole, filled);
-    end = Min(end, end_);
-    const int32_t first = Max(run->begin - whole, begin_);
-    if (first >= end) return;
     const int32_t offset = shift - whole * kShiftOne;
+    int32_t end = filled_.from;
+    if (run_end - whole < end) {
+      FlushEdge();
+      end = CloseGap(run_end - 1, whole, offset);
+    } else if (edge_.run != nullptr) {
+      end = CoverEdge(*run, run_end, whole, end);
+    }
+    end = Min(end, end_);
+    int32_t first = Max(run->begin - whole, begin_);
+    const bool edge_below = run + 1 != runs_end_ && run[1].surface_end == run->begin;
+    edge_ = {edge_below ? run : nullptr, offset, whole};
+    if (edge_below && offset < 0 && first + whole == run->begin) {
+      if (first < end) {
+        ++first;
+      } else {
+        edge_.offset = 0;
+      }
+    }
+    if (first >= end) return;
     const int32_t weight = CellWeight(offset, Min(run->cell, kShiftOne));
     if (weight == 0) {
       Emit(first, end, whole, 1, 0);
@@ -116,6 +153,33 @@ class LineScan {
     } else {
       AddBlended(*run, first, end, whole, offset, weight, run + 1 == runs_end_);
     }
+  }
+
+  // Mixes the edge with `run` behind it, which goes on at `end`. Returns where the rest of it does.
+  int32_t CoverEdge(const Run& run, int32_t run_end, int32_t whole, int32_t end) {
+    const Edge edge = edge_;
+    if (edge.run->disparity - run.disparity <= kSurfaceStep) {
+      FlushEdge();
+      return end;
+    }
+    edge_.run = nullptr;
+    const int32_t at_edge = edge.run->begin;
+    if (edge.offset < 0) {
+      if (end >= begin_ && end < end_) Mix(end, at_edge, Min(end + whole, run_end - 1), -edge.offset);
+    } else if (edge.offset > 0 && end - 1 < end_ && end - 1 >= Max(begin_, run.begin - whole)) {
+      Mix(end - 1, end - 1 + whole, at_edge, edge.offset);
+      return end - 1;
+    }
+    return end;
+  }
+
+  // The edge covers nothing: its last pixel stays whole.
+  void FlushEdge() {
+    if (edge_.run != nullptr && edge_.offset < 0) {
+      const int32_t p = edge_.run->begin - edge_.whole;
+      if (p >= begin_ && p < end_) Emit(p, p + 1, edge_.whole, 1, 0);
+    }
+    edge_.run = nullptr;
   }
 
   // Positions [first, end) with their neighbours; a pixel beside a depth edge has none across it.
@@ -148,26 +212,38 @@ class LineScan {
   }
 
   // Between a run's last pixel `q` and what is filled lies a gap: a stretched surface, which the
-  // run then covers, or a hole. Returns where the run ends.
-  int32_t CloseGap(int32_t q, int32_t whole, const Filled& filled) const {
+  // run then covers, or a hole. Returns where the run ends. A nearer run ends between pixels: the
+  // one it covers in part belongs to the hole, whose rim it is.
+  int32_t CloseGap(int32_t q, int32_t whole, int32_t offset) const {
     const int32_t gap = q + 1 - whole;
-    const int32_t step = Disparity(q) - Disparity(filled.pixel);
-    const bool stretched = step <= kSurfaceStep && filled.from - gap <= kMaxStretch &&
-                           filled.from + whole <= line_.length;
-    if (stretched) return filled.from;
-    Hole(Max(gap, begin_), filled.from, step < 0 ? q : filled.pixel);
-    return gap;
+    const int32_t step = Disparity(q) - Disparity(filled_.pixel);
+    const bool stretched = step <= kSurfaceStep && filled_.from - gap <= kMaxStretch &&
+                           filled_.from + whole <= line_.length;
+    if (stretched) return filled_.from;
+    if (step <= kSurfaceStep) {
+      Hole(Max(gap, begin_), filled_.from, step < 0 ? q : filled_.pixel, {-1, 0});
+      return gap;
+    }
+    const int32_t begin = offset > 0 ? gap - 1 : gap;
+    const int32_t covered = offset > 0 ? kShiftOne - offset : -offset;
+    const bool wanted = begin >= begin_ && covered > 0;
+    Hole(Max(begin, begin_), filled_.from, filled_.pixel, {wanted ? Pixel(q) : -1, covered});
+    return begin;
   }
 
   // What goes on there is the surface of position q.
-  void Hole(int32_t begin, int32_t end, int32_t q) const {
+  void Hole(int32_t begin, int32_t end, int32_t q, const Rim& rim) const {
     end = Min(end, end_);
     if (begin >= end) return;
     if (kMirrored) {
-      sink_->Hole(line_.length - end, line_.length - begin, Disparity(q), Pixel(q));
+      sink_->Hole(line_.length - end, line_.length - begin, Pixel(q), rim);
     } else {
-      sink_->Hole(begin, end, Disparity(q), q);
+      sink_->Hole(begin, end, Pixel(q), rim);
     }
+  }
+
+  void Mix(int32_t p, int32_t q, int32_t other, int32_t weight) const {
+    sink_->Mix(kMirrored ? line_.length - 1 - p : p, Pixel(q), Pixel(other), weight);
   }
 
   void Emit(int32_t begin, int32_t end, int32_t whole, int32_t side, int32_t weight) const {
@@ -186,6 +262,8 @@ class LineScan {
   Sink* const sink_;
   const int32_t begin_;  // wanted positions [begin_, end_)
   const int32_t end_;
+  Filled filled_;
+  Edge edge_ = {nullptr, 0, 0};
 };
 
 template <class Sink>

@@ -99,19 +99,21 @@ class Partition {
   }
 
   int32_t Views(const BlockStats& stats, int32_t layer) const {
-    const double unit = kRadiusOne * (1 << layer);
-    const int32_t paper = ViewsByPaper(stats.r_max / unit);
-    if (!rules_.cells) return paper;
-    const int32_t edge = ViewsOfSilhouette(stats.r_edge / unit);
-    return Min(paper, Max(ViewsByCells(stats.r_max / unit), edge));
+    const double r_max = static_cast<double>(stats.r_max) / (kRadiusOne * (1 << layer));
+    return rules_.cells ? ViewsByCells(r_max) : ViewsByPaper(r_max);
+  }
+
+  int32_t Layer(const BlockStats& stats) const {
+    const double r_min = static_cast<double>(stats.r_min) / kRadiusOne;
+    if (!rules_.cells) return Min(LayerByPaper(r_min), rules_.max_layer);
+    // Layer 2 rounds a silhouette to four pixels of the picture: 0.4 to 0.9 dB against truth on the
+    // portrait.
+    return Min(LayerByCells(r_min), Min(rules_.max_layer, stats.r_edge > 0 ? 1 : 2));
   }
 
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
     const Rect& rect = block->rect;
-    int32_t layer = Min(LayerByPaper(stats.r_min / kRadiusOne), rules_.max_layer);
-    // Layer 2 rounds a silhouette to four pixels of the picture: 0.6 to 0.9 dB against truth on the
-    // portrait.
-    if (rules_.cells && stats.r_edge > 0) layer = Min(layer, 1);
+    const int32_t layer = Layer(stats);
     block->layer = layer;
     block->n = Min(Views(stats, layer), rules_.max_n);
     const int32_t margin = LayerMargin(layer);

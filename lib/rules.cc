@@ -14,14 +14,21 @@ int32_t Ceil(double value) {
   return value > whole ? whole + 1 : whole;
 }
 
-constexpr double kSilhouetteStep = 1.3;
-
 struct CellStep {
   double r_max;
   int32_t n;
 };
 constexpr CellStep kCellSteps[] = {{0.5, 0}, {11, 4},  {24, 6},   {32, 8},   {45, 10},
                                    {59, 12}, {81, 14}, {109, 16}, {120, 18}, {128, 20}};
+
+// With cells the rest of the error is smaller, and so must that of layers be: from 3 up they cost
+// 0.3 dB against truth on the portrait and on stereo maps, and save 8 % of the instructions.
+constexpr double kCellLayerRadius = 4.0;
+
+int32_t LayerFrom(double r_min, double radius) {
+  if (r_min >= 2 * radius) return 2;
+  return r_min >= radius ? 1 : 0;
+}
 
 }  // namespace
 
@@ -40,13 +47,10 @@ int32_t ViewsByCells(double r_max) {
   return n;
 }
 
-int32_t ViewsOfSilhouette(double r) { return Ceil(r / kSilhouetteStep); }
-
 int32_t ViewsOfBenchmark(double r_max) { return 2 * Ceil(r_max); }
 
-int32_t LayerByPaper(double r_min) {
-  if (r_min >= 2 * kLayerRadius) return 2;
-  return r_min >= kLayerRadius ? 1 : 0;
-}
+int32_t LayerByPaper(double r_min) { return LayerFrom(r_min, kLayerRadius); }
+
+int32_t LayerByCells(double r_min) { return LayerFrom(r_min, kCellLayerRadius); }
 
 }  // namespace starfocus

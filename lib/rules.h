@@ -17,15 +17,13 @@ int32_t ViewsByPaper(double r_max);
 //   N           0    4    6    8   10   12   14   16   18   20
 int32_t ViewsByCells(double r_max);
 
-// Views that silhouettes of a surface of blur radius r need: a hard edge must not jump by more than
-// two pixels from view to view.
-int32_t ViewsOfSilhouette(double r);
-
 // Views along the aperture radius of the benchmark: 2 * ceil(r_max).
 int32_t ViewsOfBenchmark(double r_max);
 
-// Subsampled layer by (12), up to 2, for the smallest blur radius of a block in pixels.
+// Subsampled layer, up to 2, for the smallest blur radius of a block in pixels: by (12), and the
+// more careful choice beside ViewsByCells.
 int32_t LayerByPaper(double r_min);
+int32_t LayerByCells(double r_min);
 
 }  // namespace starfocus
 

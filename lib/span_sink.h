@@ -37,13 +37,35 @@ class SpanSink {
                 sizeof(int16_t) * static_cast<size_t>(end - begin));
   }
 
-  void Hole(int32_t begin, int32_t end, int32_t disparity, int32_t pixel) {
+  void Mix(int32_t p, int32_t source, int32_t other, int32_t weight) {
+    const uint32_t other_weight =
+        (target_.weight * static_cast<uint32_t>(weight) + kShiftOne / 2) >> kShiftBits;
+    Add(p, p + 1, line_.rgb + 3 * static_cast<ptrdiff_t>(source), other_weight,
+        3 * (other - source));
+    if (target_.disparity != nullptr) {
+      target_.disparity[p - target_.out_begin] = line_.disparity[source];
+    }
+  }
+
+  void Hole(int32_t begin, int32_t end, int32_t pixel, const Rim& rim) {
     uint8_t* pixels = list_->Pixels(3 * static_cast<size_t>(end - begin));
+    const int16_t disparity = line_.disparity[pixel * line_.step];
     holes_.Fill(begin, end, disparity, line_.rgb + 3 * static_cast<ptrdiff_t>(pixel), pixels);
+    const int32_t rim_at = rim.pixel < pixel ? begin : end - 1;
+    if (rim.pixel >= 0) {
+      const uint8_t* colour = line_.rgb + 3 * static_cast<ptrdiff_t>(rim.pixel);
+      uint8_t* out = pixels + 3 * (rim_at - begin);
+      for (int c = 0; c < 3; ++c) {
+        out[c] = static_cast<uint8_t>(
+            (out[c] * (kShiftOne - rim.covered) + colour[c] * rim.covered + kShiftOne / 2) >>
+            kShiftBits);
+      }
+    }
     Add(begin, end, pixels, 0, 0);
     if (target_.disparity == nullptr) return;
-    for (int32_t p = begin; p < end; ++p) {
-      target_.disparity[p - target_.out_begin] = static_cast<int16_t>(disparity);
+    for (int32_t p = begin; p < end; ++p) target_.disparity[p - target_.out_begin] = disparity;
+    if (rim.pixel >= 0 && rim.covered > kShiftOne / 2) {
+      target_.disparity[rim_at - target_.out_begin] = line_.disparity[rim.pixel];
     }
   }
 

@@ -8,21 +8,22 @@ namespace {
 using simd::kMaxSpread;
 using simd::SpreadTaps;
 
-constexpr int kCellBits = 3;  // cells of the table
-constexpr int32_t kLargestCell = (2 * kMaxSpread + 1) << kCellBits;
+constexpr int kCellBits = 3;                  // fractional bits of the table's cells
+constexpr int32_t kOneCell = 1 << kCellBits;  // a pixel
+constexpr int32_t kLargestCell = (2 * kMaxSpread + 1) * kOneCell;
 
-// With L between 2 k - 1 and 2 k + 1, (1 - m) box(2 k - 1) + m box(2 k + 1) has the variance
-// (L^2 - 1) / 12 for m = (L^2 - (2 k - 1)^2) / 8 k.
+// What a box of L pixels, 2 k - 1 < L <= 2 k + 1, covers of the pixels around it. Linear
+// interpolation makes it wider still by the variance of a quarter pixel or less; taps narrower by
+// that, so that the variance is the box's, would let views that lie whole pixels apart show as
+// stripes.
 constexpr SpreadTaps MakeTaps(int32_t cell) {
-  const int32_t one = 1 << kCellBits;
   int32_t k = 1;
-  while ((2 * k + 1) * one < cell) ++k;
-  const double length = static_cast<double>(cell) / one;
-  const double m = (length * length - (2 * k - 1) * (2 * k - 1)) / (8.0 * k);
+  while ((2 * k + 1) * kOneCell < cell) ++k;
+  const double length = static_cast<double>(cell) / kOneCell;
   SpreadTaps taps = {};
   taps.reach = k;
-  taps.outer = static_cast<uint16_t>(256 * m / (2 * k + 1) + 0.5);
-  taps.inner = static_cast<uint16_t>(256 * ((1 - m) / (2 * k - 1) + m / (2 * k + 1)) + 0.5);
+  taps.outer = static_cast<uint16_t>(256 * (length - (2 * k - 1)) / (2 * length) + 0.5);
+  taps.inner = static_cast<uint16_t>(256 / length + 0.5);
   taps.centre = static_cast<uint16_t>(256 - 2 * taps.outer - 2 * (k - 1) * taps.inner);
   return taps;
 }
@@ -30,10 +31,16 @@ constexpr SpreadTaps MakeTaps(int32_t cell) {
 struct TapTable {
   SpreadTaps of[kLargestCell + 1] = {};
   constexpr TapTable() {
-    for (int32_t cell = 1 << kCellBits; cell <= kLargestCell; ++cell) of[cell] = MakeTaps(cell);
+    for (int32_t cell = kOneCell; cell <= kLargestCell; ++cell) of[cell] = MakeTaps(cell);
   }
 };
 constexpr TapTable kTaps;
+
+// Of the taps for a cell of kShiftBits.
+int32_t IndexOf(int32_t cell) {
+  constexpr int kBits = kShiftBits - kCellBits;
+  return Min(kLargestCell, (cell + (1 << (kBits - 1))) >> kBits);
+}
 
 // Copies pixels [begin, end) with the first and last repeated kMaxSpread times.
 void CopySurface(const uint8_t* rgb, int32_t begin, int32_t end, uint8_t* surface) {
@@ -44,31 +51,76 @@ void CopySurface(const uint8_t* rgb, int32_t begin, int32_t end, uint8_t* surfac
   }
 }
 
+// Writes the pixels of one surface, stretch by stretch of one cell, from the line's end on.
+class SurfaceSpreader {
+ public:
+  SurfaceSpreader(const simd::Kernels& kernels, const uint8_t* rgb, uint8_t* surface, uint8_t* out)
+      : kernels_(kernels), rgb_(rgb), surface_(surface), out_(out) {}
+
+  void Begin(int32_t begin, int32_t end) {
+    begin_ = begin;
+    at_ = done_ = end_ = end;
+    cell_ = 0;
+    copied_ = false;
+  }
+  // Pixels from `begin` to the last ones added have this cell.
+  void Add(int32_t begin, int32_t cell) {
+    if (cell != cell_) {
+      Flush();
+      cell_ = cell;
+    }
+    at_ = begin;
+  }
+  // Done up to the last pixels added.
+  void Flush() {
+    if (cell_ > kOneCell && at_ < end_) {
+      if (!copied_) CopySurface(rgb_, begin_, end_, surface_);
+      copied_ = true;
+      kernels_.spread(surface_ + 3 * (kMaxSpread + at_ - begin_), kTaps.of[cell_],
+                      3 * static_cast<size_t>(done_ - at_), out_ + 3 * at_);
+    }
+    done_ = at_;
+  }
+
+ private:
+  const simd::Kernels& kernels_;
+  const uint8_t* rgb_;
+  uint8_t *surface_, *out_;
+  int32_t begin_ = 0, end_ = 0;  // of the surface
+  int32_t at_ = 0, done_ = 0;    // pixels [at_, done_) wait
+  int32_t cell_ = 0;
+  bool copied_ = false;
+};
+
 }  // namespace
 
-SpreadTaps SpreadTapsOf(int32_t cell) {
-  return kTaps.of[Min(kLargestCell,
-                      (cell + (1 << (kShiftBits - kCellBits - 1))) >> (kShiftBits - kCellBits))];
-}
+SpreadTaps SpreadTapsOf(int32_t cell) { return kTaps.of[IndexOf(cell)]; }
 
-void SpreadLine(const simd::Kernels& kernels, const Run* runs, int32_t count, int32_t length,
-                uint8_t* surface, uint8_t* rgb) {
-  int32_t end = length;
-  for (int32_t first = 0; first < count;) {
-    // Runs [first, last) make one surface [begin, end).
-    int32_t last = first, widest = 0;
-    do {
-      widest = Max(widest, runs[last++].cell);
-    } while (last < count && runs[last].surface_end == end);
-    const int32_t begin = runs[last - 1].begin;
-    if (widest > kShiftOne) CopySurface(rgb, begin, end, surface);
-    for (int32_t run_end = end; first < last; run_end = runs[first++].begin) {
-      const int32_t at = runs[first].begin;
-      if (runs[first].cell <= kShiftOne) continue;
-      kernels.spread(surface + 3 * (kMaxSpread + at - begin), SpreadTapsOf(runs[first].cell),
-                     3 * static_cast<size_t>(run_end - at), rgb + 3 * at);
+void SpreadLine(const simd::Kernels& kernels, const ViewGrid& grid, const Line& line,
+                const Run* runs, int32_t count, uint8_t* surface, uint8_t* out) {
+  const int64_t cell_move = grid.Move(1);
+  // Cells of a run's pixels are within this of its middle's.
+  const auto slack = static_cast<int32_t>(
+      RoundShift(cell_move * (grid.spread / 2 + 1), kStepBits + kDisparityBits - kShiftBits) + 2);
+  SurfaceSpreader spreader(kernels, line.rgb, surface, out);
+  for (int32_t k = 0, end = line.length; k < count; end = runs[k++].begin) {
+    const int32_t surface_end = runs[k].surface_end;
+    if (end == surface_end) {
+      int32_t last = k;
+      while (last + 1 < count && runs[last + 1].surface_end == surface_end) ++last;
+      spreader.Begin(runs[last].begin, end);
     }
-    end = begin;
+    const int32_t lowest = IndexOf(Max(0, runs[k].cell - slack));
+    if (lowest == IndexOf(runs[k].cell + slack) || IndexOf(runs[k].cell + slack) <= kOneCell) {
+      spreader.Add(runs[k].begin, lowest);
+    } else {
+      // Pixel by pixel: where runs end depends on the direction they are found in.
+      for (int32_t x = end - 1; x >= runs[k].begin; --x) {
+        const int32_t disparity = line.disparity[x * line.step];
+        spreader.Add(x, IndexOf(Abs(grid.Shift(cell_move, disparity))));
+      }
+    }
+    if (k + 1 == count || runs[k + 1].surface_end != surface_end) spreader.Flush();
   }
 }
 

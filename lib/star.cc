@@ -99,8 +99,8 @@ class Star {
     const Rect& inner = rows.inner;
     SpanList list = Accumulating(scratch_->accumulators[0]);
     for (int32_t row = 0; row < inner.height; ++row) {
-      AddLine(rows.Rgb(inner.x, inner.y + row), inner.width,
-              grid_.aperture.Weight(0, 0), 3u * static_cast<uint32_t>(row * inner.width), &list);
+      AddLine(rows.Rgb(inner.x, inner.y + row), inner.width, grid_.aperture.Weight(0, 0),
+              3u * static_cast<uint32_t>(row * inner.width), &list);
     }
     list.Flush();
   }
@@ -111,8 +111,8 @@ class Star {
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
       if (grid_.cells && sign > 0) SpreadRows(field);
-      // The centre view spreads over both axes like any other, once.
-      const int32_t first = grid_.cells && sign > 0 && !field.transposed ? 0 : 1;
+      // The centre view spreads over both axes like any other, half of it in either order.
+      const int32_t first = grid_.cells && sign > 0 ? 0 : 1;
       for (int32_t i = first; i <= grid_.n(); ++i) {
         const int32_t last = LastAcross(i);
         const Rows rows = RowsFor(field, last);
@@ -138,7 +138,8 @@ class Star {
   // In place: the rows of the field are read by this pass alone.
   void SpreadRows(const Field& field) {
     for (int32_t row = 0; row < field.height; ++row) {
-      SpreadLine(*job_.kernels, RunsOf(field, row), scratch_->run_counts[row], field.width,
+      const Line line = {field.Rgb(0, row), field.Disparity(0, row), 1, field.width};
+      SpreadLine(*job_.kernels, grid_, line, RunsOf(field, row), scratch_->run_counts[row],
                  scratch_->surface_rgb, field.Rgb(0, row));
     }
   }
@@ -185,8 +186,8 @@ class Star {
   void RenderRow(const Field& field, int sign, int32_t i, int32_t row, const SpanTarget& target,
                  SpanList* list) {
     const Line line = {field.Rgb(0, row), field.Disparity(0, row), 1, field.width};
-    const LineHoles holes = {job_, field, scratch_->moves,                 sign,
-                             0,    i,     0, {field.x, field.y + row, 1, 0}};
+    const LineHoles holes = {
+        job_, field, scratch_->moves, sign, 0, i, 0, {field.x, field.y + row, 1, 0}};
     SpanSink<LineHoles> sink(line, target, holes, list);
     const LineView view = MakeView(i, field.inner.x, field.inner.x + field.inner.width);
     ScanLine(line, DirectionOf(sign), RunsOf(field, row), scratch_->run_counts[row], view, &sink);
@@ -205,24 +206,30 @@ class Star {
                  DirectionOf(across), &scratch_->marks);
       }
       for (int32_t x = 0; x < width; ++x) {
-        const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_,
-                                              scratch_->moves[1], scratch_->line_runs)
+        const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
+                                              scratch_->line_runs)
                                    : 0;
         uint8_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
+        const Line line = {rgb, scratch_->view_disparity + x, width, height};
         if (across > 0) {
           // Spread in place: spans of other columns may still wait, of this one none.
           if (grid_.cells) {
-            SpreadLine(*job_.kernels, scratch_->line_runs, count, height, scratch_->surface_rgb,
-                       rgb);
+            SpreadLine(*job_.kernels, grid_, line, scratch_->line_runs, count,
+                       scratch_->surface_rgb, rgb);
           }
+          // The centre's weight is even: what orbits of four and eight leave of a power of two.
           AddLine(rgb + 3 * (field.inner.y - rows.begin), field.inner.height,
-                  grid_.aperture.Weight(i, 0), 3 * static_cast<uint32_t>(x * field.inner.height),
-                  &list);
+                  grid_.aperture.Weight(i, 0) >> (i == 0 ? 1 : 0),
+                  3 * static_cast<uint32_t>(x * field.inner.height), &list);
         }
-        const Line line = {rgb, scratch_->view_disparity + x, width, height};
-        const LineHoles holes = {
-            job_, field, scratch_->moves,
-            sign, across, i, 0, {field.x + field.inner.x + x, field.y + rows.begin, 0, 1}};
+        const LineHoles holes = {job_,
+                                 field,
+                                 scratch_->moves,
+                                 sign,
+                                 across,
+                                 i,
+                                 0,
+                                 {field.x + field.inner.x + x, field.y + rows.begin, 0, 1}};
         AddColumn(line, count, last, field.inner.y - rows.begin, field.inner.height, x, holes,
                   &list);
       }
@@ -282,8 +289,8 @@ class Star {
     for (const int sign : {1, -1}) {
       MarkRuns(*job_.kernels, grid_, {line.disparity, 1, at.length, 1}, DirectionOf(sign),
                &scratch_->marks);
-      const int32_t runs = ReadRuns(scratch_->marks, 0, at.length, grid_, scratch_->moves[1],
-                                    scratch_->line_runs);
+      const int32_t runs =
+          ReadRuns(scratch_->marks, 0, at.length, grid_, scratch_->moves[1], scratch_->line_runs);
       const int across = diagonals.anti ? -sign : sign;
       const HoleLine hole_line = {field.x + at.x, field.y + at.y, 1, diagonals.anti ? -1 : 1};
       for (int32_t k = 1; k <= last; ++k) {

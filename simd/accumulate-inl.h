@@ -13,20 +13,23 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Adds value(n) to the accumulators of a span, a vector at a time; the last vector is masked, so
-// that its other lanes add zero.
+// Adds value(n, keep) to the accumulators of a span, a vector at a time. In the last vector `keep`
+// zeroes the pixels beyond the span before they are weighed: what lies there may never have been
+// written, and valgrind takes a pair of lanes multiplied together for one value.
 template <class D32, class Value>
 HWY_INLINE void AddSpan(D32 d32, uint32_t samples, uint32_t* HWY_RESTRICT target,
                         const Value& value) {
+  using V32 = hn::Vec<D32>;
   const size_t lanes = hn::Lanes(d32);
+  const auto keep_all = [](V32 pixels) HWY_ATTR { return pixels; };
   size_t n = 0;
   for (; n + lanes <= samples; n += lanes) {
-    hn::StoreU(hn::Add(hn::LoadU(d32, target + n), value(n)), d32, target + n);
+    hn::StoreU(hn::Add(hn::LoadU(d32, target + n), value(n, keep_all)), d32, target + n);
   }
   if (n == samples) return;
   const auto mask = hn::FirstN(d32, samples - n);
-  const auto sum = hn::Add(hn::LoadU(d32, target + n), hn::IfThenElseZero(mask, value(n)));
-  hn::StoreU(sum, d32, target + n);
+  const auto keep = [&](V32 pixels) HWY_ATTR { return hn::IfThenElseZero(mask, pixels); };
+  hn::StoreU(hn::Add(hn::LoadU(d32, target + n), value(n, keep)), d32, target + n);
 }
 
 HWY_INLINE void AccumulateSpans(const Span* HWY_RESTRICT spans, size_t count,
@@ -40,15 +43,15 @@ HWY_INLINE void AccumulateSpans(const Span* HWY_RESTRICT spans, size_t count,
     const auto weight = hn::Set(d32, span.weight);
     const auto neighbour_weight = hn::Set(d32, span.neighbour_weight);
     if (span.neighbour_weight == 0) {
-      AddSpan(d32, span.samples, target, [&](size_t n) HWY_ATTR {
-        const auto a = hn::PromoteTo(d32, hn::LoadU(d8, source + n));
+      AddSpan(d32, span.samples, target, [&](size_t n, const auto& keep) HWY_ATTR {
+        const auto a = keep(hn::PromoteTo(d32, hn::LoadU(d8, source + n)));
         return WeighPair(d32, a, hn::Zero(d32), weight, hn::Zero(d32));
       });
     } else {
       const uint8_t* HWY_RESTRICT neighbour = source + span.neighbour_offset;
-      AddSpan(d32, span.samples, target, [&](size_t n) HWY_ATTR {
-        const auto a = hn::PromoteTo(d32, hn::LoadU(d8, source + n));
-        const auto b = hn::PromoteTo(d32, hn::LoadU(d8, neighbour + n));
+      AddSpan(d32, span.samples, target, [&](size_t n, const auto& keep) HWY_ATTR {
+        const auto a = keep(hn::PromoteTo(d32, hn::LoadU(d8, source + n)));
+        const auto b = keep(hn::PromoteTo(d32, hn::LoadU(d8, neighbour + n)));
         return WeighPair(d32, a, b, weight, neighbour_weight);
       });
     }

@@ -83,6 +83,8 @@ const BadConfig kBadConfigs[] = {
     {"timing a", [](sf_config* c) { c->timing.a = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
     {"timing b", [](sf_config* c) { c->timing.b = UINT32_MAX; }, SF_ERROR_TIMING},
     {"timing c", [](sf_config* c) { c->timing.c = 0x80000000u; }, SF_ERROR_TIMING},
+    {"timing span", [](sf_config* c) { c->timing.span = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
+    {"timing hole", [](sf_config* c) { c->timing.hole = UINT32_MAX; }, SF_ERROR_TIMING},
     {"timing upsample", [](sf_config* c) { c->timing.upsample = UINT32_MAX; }, SF_ERROR_TIMING},
 };
 

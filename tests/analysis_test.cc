@@ -73,7 +73,13 @@ TEST_CASE("analysis: view-interpolation kernels tend to their limits") {
   CHECK(CellError(6, 40, kTheta) < 2e-6);
   CHECK(CellError(6, 80, kTheta) < CellError(6, 40, kTheta));
   CHECK(SquaredError(CellKernel(5, 5, kTheta), PaperKernel(5, 5, kTheta)) < 1e-25);
-  CHECK(SquaredError(StarKernel(4, 4, kTheta), CellKernel(4, 4, kTheta)) < 1e-12);
+  for (const Cells cells : {Cells::kNarrow, Cells::kWide}) {
+    CHECK(SquaredError(StarKernel(4, 4, kTheta, cells), CellKernel(4, 4, kTheta)) < 1e-12);
+    CHECK(StarKernel(11, 4, kTheta, cells).Sum() == doctest::Approx(1));
+  }
+  // Where views lie whole pixels apart, boxes on whole pixels are exact.
+  CHECK(SquaredError(StarKernel(8, 4, kTheta, Cells::kWide), CellKernel(8, 4, kTheta)) < 1e-12);
+  CHECK(SquaredError(StarKernel(12, 4, kTheta, Cells::kWide), CellKernel(12, 4, kTheta)) < 1e-12);
   for (const double width : {0.1, 0.5, 1.0, 2.5}) {
     double sum = 0;
     for (int n = -4; n <= 4; ++n) sum += Trapezoid(n + 0.3, width);

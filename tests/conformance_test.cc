@@ -1,4 +1,6 @@
 // The engine against the double-precision reference: at most one gray level apart anywhere.
+#include "tests/conformance.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,52 +14,10 @@
 #include "starfocus/starfocus.h"
 #include "tests/reference.h"
 #include "tests/test_scene.h"
-#ifdef STARFOCUS_PROGRAM
-#include "platform/light_field.h"
-#endif
 
 namespace {
 
-constexpr double kMeanLimit = 0.3;
-// Smaller pictures are judged by the mean over all of them: one level in one sample of a single
-// pixel is a third on average.
-constexpr size_t kEnoughSamples = 300;
-
-struct Distance {
-  int largest = 0;       // of bytes
-  double unrounded = 0;  // largest, engine's byte to the reference's value
-  double sum = 0;        // of bytes
-  double samples = 0;
-  double worst_mean = 0;  // of a picture with enough samples
-
-  double mean() const { return samples == 0 ? 0 : sum / samples; }
-
-  void Add(const Distance& other) {
-    largest = std::max(largest, other.largest);
-    unrounded = std::max(unrounded, other.unrounded);
-    if (other.samples >= kEnoughSamples) worst_mean = std::max(worst_mean, other.mean());
-    sum += other.sum;
-    samples += other.samples;
-  }
-
-  void Print(const char* name) const {
-    std::printf("%s: %.0f samples, largest difference %d (%.3f unrounded), mean %.4f, worst %.4f\n",
-                name, samples, largest, unrounded, mean(), worst_mean);
-  }
-};
-
-Distance Compare(const std::vector<uint8_t>& bytes, const std::vector<double>& exact) {
-  REQUIRE(bytes.size() == exact.size());
-  Distance distance;
-  for (size_t i = 0; i < bytes.size(); ++i) {
-    const int difference = std::abs(int(bytes[i]) - int(std::floor(exact[i] + 0.5)));
-    distance.largest = std::max(distance.largest, difference);
-    distance.unrounded = std::max(distance.unrounded, std::fabs(bytes[i] - exact[i]));
-    distance.sum += difference;
-  }
-  distance.samples = double(bytes.size());
-  return distance;
-}
+using namespace conformance;
 
 // Refocuses with both and checks their distance.
 Distance Check(const test::Scene& scene, const sf_params& params, int block, double theta) {
@@ -90,40 +50,6 @@ Distance Check(const test::Scene& scene, const sf_params& params, int block, dou
 Distance Check(const test::Scene& scene, const sf_params& params, int block = 32) {
   return Check(scene, params, block, 0.26 * 3.14159265358979323846);
 }
-
-enum class Depth { kConstant, kPiecewise, kSlanted, kNoisy };
-enum class Colours { kRandom, kExtreme, kSmooth };
-
-void SetDepth(Depth depth, test::Scene* scene, test::Random* random) {
-  const double low = scene->disparity_min, high = scene->disparity_max;
-  if (depth == Depth::kPiecewise) return test::RandomDisparity(scene, random);
-  if (depth == Depth::kNoisy) return test::NoisyDisparity(scene, random);
-  const double base = random->Real(low, high);
-  const double dx = depth == Depth::kConstant ? 0 : random->Real(-0.3, 0.3);
-  const double dy = depth == Depth::kConstant ? 0 : random->Real(-0.3, 0.3);
-  for (int y = 0; y < scene->height; ++y) {
-    for (int x = 0; x < scene->width; ++x) {
-      scene->Disparity(x, y) =
-          std::clamp(float(base + dx * x + dy * y), scene->disparity_min, scene->disparity_max);
-    }
-  }
-}
-
-void SetColours(Colours colours, test::Scene* scene, test::Random* random) {
-  for (auto& picture : scene->pictures) {
-    int level = random->Int(0, 255);
-    for (uint8_t& sample : picture) {
-      level = std::clamp(level + random->Int(-9, 9), 0, 255);
-      sample = colours == Colours::kRandom    ? random->Byte()
-               : colours == Colours::kExtreme ? uint8_t(random->Int(0, 1) * 255)
-                                              : uint8_t(level);
-    }
-  }
-}
-
-struct Range {
-  float low, high;
-};
 
 // The reference is slow, and an emulator needs twenty times as long.
 constexpr int kSizes[][2] = {
@@ -204,28 +130,6 @@ TEST_CASE("conformance: blocks of 64, widest and narrowest aperture") {
 }
 
 #ifdef STARFOCUS_PROGRAM
-// The rectangle at (x0, y0) of a data set.
-test::Scene Crop(const starfocus::LightField& field, int x0, int y0, int width, int height) {
-  float low = field.disparity.at(x0, y0), high = low;
-  test::Scene scene = test::EmptyScene(width, height, int(field.views.size()), low, high);
-  for (int y = 0; y < height; ++y) {
-    for (int view = 0; view < scene.views(); ++view) {
-      const starfocus::Image& picture = field.views[size_t(view)];
-      std::copy_n(picture.pixels.data() + size_t(y0 + y) * picture.stride() + size_t(3 * x0),
-                  3 * width, scene.Pixel(view, 0, y));
-    }
-    for (int x = 0; x < width; ++x) {
-      const float disparity = field.disparity.at(x0 + x, y0 + y);
-      scene.Disparity(x, y) = disparity;
-      low = std::min(low, disparity);
-      high = std::max(high, disparity);
-    }
-  }
-  scene.disparity_min = low;
-  scene.disparity_max = high;
-  return scene;
-}
-
 TEST_CASE("conformance: parts of the data set wires") {
   const std::string folder = test::DataSet("wires");
   if (folder.empty()) return;

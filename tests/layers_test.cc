@@ -275,8 +275,8 @@ Errors Compare(Source source) {
         const double sample = std::ldexp(double(got[i]), -kLayerBits);
         errors.samples[layer] =
             std::max(errors.samples[layer], std::abs(sample - expected.samples[i]));
-        errors.levels[layer] = std::max(
-            errors.levels[layer], std::abs(levels[i] - std::floor(expected.samples[i] + 0.5)));
+        errors.levels[layer] = std::max(errors.levels[layer],
+                                        std::abs(levels[i] - std::nearbyint(expected.samples[i])));
       }
     }
   }
@@ -337,9 +337,8 @@ TEST_CASE("layers: a layer holds the same picture as bytes and as samples") {
         for (int i = 0; i < 3 * plane->width; ++i) {
           const int sample = plane->samples.Row(y)[i];
           same = same && sample >= 0 && sample <= starfocus::simd::kLayerWhite;
-          // Halves to even.
-          const int odd = (sample >> kLayerBits) & 1;
-          same = same && plane->rgb.Row(y)[i] == (sample + 31 + odd) >> kLayerBits;
+          // nearbyint rounds halves to even.
+          same = same && plane->rgb.Row(y)[i] == std::nearbyint(std::ldexp(sample, -kLayerBits));
         }
       }
       CHECK(same);

@@ -75,8 +75,6 @@ struct Plan {
     rules.max_n = kMaxN;
     rules.cells = random->Int(0, 1) == 1;
     rules.timing = starfocus::DefaultTiming();
-    // Spans and holes depend on the cells; the tree's optimality does not depend on them.
-    rules.timing.span = rules.timing.hole = 0;
     rules.views = views.data();
   }
   Plan(const Plan&) = delete;
@@ -135,8 +133,8 @@ int ViewsByPaper(double r_max) {
 int ViewsOf(const Plan& plan, double r_max, double r_edge) {
   const int paper = ViewsByPaper(r_max);
   if (!plan.rules.cells) return paper;
-  return std::min(paper,
-                  std::max(starfocus::ViewsByCells(r_max), starfocus::ViewsOfSilhouette(r_edge)));
+  return std::max(starfocus::ViewsByCells(r_max),
+                  std::min(paper, int(starfocus::ViewsOfSilhouette(r_edge))));
 }
 
 int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
@@ -147,6 +145,7 @@ Block Planned(const Plan& plan, int x, int y, int side) {
   Block block = {};
   block.rect = {x, y, std::min(side, plan.rules.width - x), std::min(side, plan.rules.height - y)};
   block.layer = std::min(LayerOf(stats.r_min / kRadiusOne), plan.rules.max_layer);
+  // With wide cells a silhouette is never rounded to four pixels.
   if (plan.rules.cells && stats.r_edge > 0) block.layer = std::min(block.layer, 1);
   const int scale = 1 << block.layer;
   const double unit = kRadiusOne * scale;
@@ -164,8 +163,9 @@ Block Planned(const Plan& plan, int x, int y, int side) {
   const uint64_t upsampled =
       block.layer == 0 ? 0 : uint64_t(block.rect.width) * uint64_t(block.rect.height);
   block.cost = starfocus::PredictTime(
-      plan.rules.timing, starfocus::MeasureWork(block.rendered, block.border,
-                                                starfocus::CountViews(block.n), upsampled));
+      plan.rules.timing,
+      starfocus::MeasureWork(block.rendered, block.border, starfocus::CountViews(block.n),
+                             upsampled, stats.content, block.layer));
   return block;
 }
 
@@ -317,8 +317,8 @@ TEST_CASE("partition: random and degenerate coefficients") {
     const int side = 32 << random.Int(0, 1);
     Plan plan(random.Int(1, side), random.Int(1, side), side, 9, &random);
     sf_timing& timing = plan.rules.timing;
-    for (uint32_t* value :
-         {&timing.block, &timing.field, &timing.a, &timing.b, &timing.c, &timing.upsample}) {
+    for (uint32_t* value : {&timing.block, &timing.field, &timing.a, &timing.b, &timing.c,
+                            &timing.upsample, &timing.span, &timing.hole}) {
       const int kind = random.Int(0, 3);
       *value = kind == 0 ? 0 : kind == 1 ? SF_MAX_TIMING : uint32_t(random.Int(0, SF_MAX_TIMING));
     }
@@ -331,7 +331,8 @@ TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
   for (const uint32_t block : {0u, 1u, SF_MAX_TIMING}) {
     for (const int side : {32, 64, 128, 256}) {
       Plan plan(side - 5, side, side, 10, &random);
-      plan.rules.timing = {block, 0, 0, 0, 0, 0, 0, 0};
+      plan.rules.timing = {};
+      plan.rules.timing.block = block;
       const std::vector<Block> blocks = plan.Partition(0, 0);
       REQUIRE(blocks.size() == 1);
       CHECK(blocks[0].rect.width == side - 5);

@@ -27,6 +27,19 @@ struct Result {
 // block's extended rectangle, so that results depend on it.
 Result Refocus(const test::Scene& scene, const sf_params& params, double theta, int block);
 
+// A block of the block mode and what it is rendered from.
+struct Block {
+  int x, y, width, height;  // of the picture
+  int layer, n;
+  int rendered_x, rendered_y, rendered_width, rendered_height;  // at the layer, margins included
+  int left, right, top, bottom;                                 // border at the layer
+};
+
+// Block mode with a given partition of the picture, without deblocking; unrounded,
+// 3 * width * height. `cells`: views stand for cells wider than a pixel.
+std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,
+                                  bool cells, const std::vector<Block>& blocks);
+
 }  // namespace reference
 
 #endif  // STARFOCUS_TESTS_REFERENCE_H_

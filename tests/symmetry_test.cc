@@ -76,6 +76,7 @@ test::Scene Move(const Symmetry& s, const test::Scene& scene) {
 test::Output Refocused(const test::Scene& scene, const sf_params& params) {
   sf_config config = test::ConfigFor(scene);
   config.largest_block = 32;
+  config.max_layer = 0;  // layers keep every second pixel, from the left and the top
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);
@@ -138,6 +139,23 @@ TEST_CASE("symmetry: also in benchmark mode and on noisy disparity") {
   test::NoisyDisparity(&scene, &random);
   for (const Symmetry& s : kMirrors) Check(s, scene, test::Params(0.4, 1, SF_MODE_BENCHMARK));
   for (const Symmetry& s : kTurns) Check(s, scene, test::Params(0.4, 1, SF_MODE_BENCHMARK));
+}
+
+// Cells up to several pixels wide, over flat, slanted and noisy surfaces.
+TEST_CASE("symmetry: also with wide aperture cells") {
+  for (const int views : {17, 5, 1}) {
+    test::Scene scene = test::RandomScene(64, 32, views, -3, 8, 35);
+    test::Random random(36);
+    for (const bool noisy : {false, true}) {
+      if (noisy) test::NoisyDisparity(&scene, &random);
+      for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+        sf_params params = test::Params(-12.6, 1, mode);
+        params.rule = SF_RULE_CELLS;
+        for (const Symmetry& s : kMirrors) Check(s, scene, params);
+        for (const Symmetry& s : kTurns) Check(s, scene, params);
+      }
+    }
+  }
 }
 
 }  // namespace

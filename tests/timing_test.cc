@@ -14,6 +14,7 @@ namespace {
 
 using starfocus::BlockWork;
 using starfocus::Border;
+using starfocus::Content;
 using starfocus::Rect;
 using starfocus::ViewCounts;
 
@@ -36,16 +37,17 @@ ViewCounts CountOneByOne(int n) {
 }
 
 // Summed view by view, as (13) has it.
-BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, uint64_t upsampled) {
+BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, uint64_t upsampled,
+                            const Content& content, int layer) {
   const auto width = uint64_t(rect.width), height = uint64_t(rect.height);
   const uint64_t wide = width + uint64_t(border.left) + uint64_t(border.right);
   const uint64_t high = height + uint64_t(border.top) + uint64_t(border.bottom);
-  BlockWork work = {};
-  work.field = wide * high;
-  work.upsample = upsampled;
+  BlockWork work = {wide * high, 0, 0, 0, upsampled, 0, 0};
+  uint64_t views = 0;
   for (int i = -n; i <= n; ++i) {
     for (int j = -n; j <= n; ++j) {
       if (i * i + j * j > n * n || (i == 0 && j == 0)) continue;
+      ++views;
       if (j == 0) {
         work.a += width * high;
       } else if (i == 0) {
@@ -57,6 +59,14 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, uint6
       }
     }
   }
+  // Of every two views one is scanned along rows, the other along columns. A layer has 1 / 2^L of
+  // the lines; a slope makes 1 / 2^L of the runs along each, a gap is 1 / 2^L as wide.
+  const int scale = 1 << layer;
+  const uint64_t runs = content.slopes / uint64_t(scale * scale) + content.edges / uint64_t(scale);
+  const uint64_t gaps = content.gaps / uint64_t(scale * scale);
+  const uint64_t one = starfocus::kContentOne;
+  work.span = views / 2 * (width + height) + views / 2 * runs / one;
+  work.hole = views / 2 * gaps / one;
   return work;
 }
 
@@ -79,39 +89,47 @@ TEST_CASE("timing: the work of a block, view by view") {
                            random.Int(0, 140)};
     const int n = random.Int(0, round < 250 ? 12 : 102);
     const uint64_t upsampled = random.Next();
-    const BlockWork expected = MeasureViewByView(rect, border, n, upsampled);
-    const BlockWork got = starfocus::MeasureWork(rect, border, starfocus::CountViews(n), upsampled);
+    const auto amount = [&] { return uint32_t(random.Int(0, 1 << 16)); };
+    const Content content = {amount(), amount(), amount()};
+    const int layer = random.Int(0, 2);
+    const BlockWork expected = MeasureViewByView(rect, border, n, upsampled, content, layer);
+    const BlockWork got =
+        starfocus::MeasureWork(rect, border, starfocus::CountViews(n), upsampled, content, layer);
     CAPTURE(n);
     CHECK(got.field == expected.field);
     CHECK(got.a == expected.a);
     CHECK(got.b == expected.b);
     CHECK(got.c == expected.c);
     CHECK(got.upsample == expected.upsample);
+    CHECK(got.span == expected.span);
+    CHECK(got.hole == expected.hole);
   }
 }
 
-// The terms of PredictTime beside the one for each block.
-constexpr uint64_t BlockWork::*kWorks[] = {
+constexpr uint32_t sf_timing::*kCoefficients[] = {
+    &sf_timing::field,    &sf_timing::a,    &sf_timing::b,    &sf_timing::c,
+    &sf_timing::upsample, &sf_timing::span, &sf_timing::hole, &sf_timing::block};
+constexpr uint64_t BlockWork::*kAmounts[] = {
     &BlockWork::field,    &BlockWork::a,    &BlockWork::b,   &BlockWork::c,
     &BlockWork::upsample, &BlockWork::span, &BlockWork::hole};
-constexpr uint32_t sf_timing::*kCoefficients[] = {
-    &sf_timing::field,    &sf_timing::a,    &sf_timing::b,   &sf_timing::c,
-    &sf_timing::upsample, &sf_timing::span, &sf_timing::hole};
-constexpr size_t kTerms = sizeof(kWorks) / sizeof(kWorks[0]);
-static_assert(sizeof(sf_timing) == (1 + kTerms) * sizeof(uint32_t), "every coefficient");
-static_assert(sizeof(BlockWork) == kTerms * sizeof(uint64_t), "every kind of work");
+static_assert(sizeof(sf_timing) == 8 * sizeof(uint32_t), "a coefficient is not tested");
+static_assert(sizeof(BlockWork) == 7 * sizeof(uint64_t), "an amount is not tested");
+
+sf_timing EqualTiming(uint32_t value) {
+  sf_timing timing = {};
+  for (const auto coefficient : kCoefficients) timing.*coefficient = value;
+  return timing;
+}
 
 TEST_CASE("timing: each coefficient counts its own work") {
-  const BlockWork work = {2, 3, 5, 7, 11, 13, 17};
-  CHECK(starfocus::PredictTime(sf_timing{}, work) == 0);
-  sf_timing per_block = {};
-  per_block.block = 100;
-  CHECK(starfocus::PredictTime(per_block, work) == 100);
-  for (size_t k = 0; k < kTerms; ++k) {
-    CAPTURE(k);
-    sf_timing timing = {};
+  BlockWork work = {};
+  uint64_t amount = 1;
+  for (const auto which : kAmounts) work.*which = ++amount;
+  CHECK(starfocus::PredictTime(EqualTiming(0), work) == 0);
+  for (int k = 0; k < 8; ++k) {
+    sf_timing timing = EqualTiming(0);
     timing.*kCoefficients[k] = 100;
-    CHECK(starfocus::PredictTime(timing, work) == 100 * (work.*kWorks[k]));
+    CHECK(starfocus::PredictTime(timing, work) == 100 * (k < 7 ? work.*kAmounts[k] : 1));
   }
 }
 
@@ -119,17 +137,16 @@ TEST_CASE("timing: linear in work and in coefficients") {
   test::Random random(4);
   for (int round = 0; round < 200; ++round) {
     sf_timing s = {}, t = {}, sum = {};
+    for (const auto which : kCoefficients) {
+      s.*which = uint32_t(random.Int(0, 1 << 24));
+      t.*which = uint32_t(random.Int(0, 1 << 24));
+      sum.*which = s.*which + t.*which;
+    }
     BlockWork v = {}, w = {}, both = {};
-    s.block = uint32_t(random.Int(0, 1 << 24));
-    t.block = uint32_t(random.Int(0, 1 << 24));
-    sum.block = s.block + t.block;
-    for (size_t k = 0; k < kTerms; ++k) {
-      s.*kCoefficients[k] = uint32_t(random.Int(0, 1 << 24));
-      t.*kCoefficients[k] = uint32_t(random.Int(0, 1 << 24));
-      sum.*kCoefficients[k] = s.*kCoefficients[k] + t.*kCoefficients[k];
-      v.*kWorks[k] = uint64_t(random.Int(0, 1 << 20));
-      w.*kWorks[k] = uint64_t(random.Int(0, 1 << 20));
-      both.*kWorks[k] = v.*kWorks[k] + w.*kWorks[k];
+    for (const auto which : kAmounts) {
+      v.*which = uint64_t(random.Int(0, 1 << 20));
+      w.*which = uint64_t(random.Int(0, 1 << 20));
+      both.*which = v.*which + w.*which;
     }
     CHECK(starfocus::PredictTime(sum, v) ==
           starfocus::PredictTime(s, v) + starfocus::PredictTime(t, v));
@@ -138,27 +155,23 @@ TEST_CASE("timing: linear in work and in coefficients") {
   }
 }
 
-TEST_CASE("timing: the largest block with the largest coefficients stays below 2^63") {
-  sf_timing most = {};
-  most.block = SF_MAX_TIMING;
-  for (const auto coefficient : kCoefficients) most.*coefficient = SF_MAX_TIMING;
-  const auto exact = [](const BlockWork& work) {
-    long double units = 1;
-    for (const auto kind : kWorks) units += static_cast<long double>(work.*kind);
-    return 1e8L * units;
+TEST_CASE("timing: a largest block with the largest coefficients, and all it splits into") {
+  const sf_timing most = EqualTiming(SF_MAX_TIMING);
+  const auto exact = [&](const BlockWork& work) {
+    long double sum = 1;
+    for (const auto which : kAmounts) sum += static_cast<long double>(work.*which);
+    return sum * SF_MAX_TIMING;
   };
-  // At every pixel two steps, each a run of its own and beside a gap of 8 pixels.
-  const auto work_of = [](int side) {
-    const uint32_t steps = 2 * starfocus::kContentOne * uint32_t(side) * uint32_t(side);
-    return starfocus::MeasureWork({0, 0, side, side}, {140, 140, 140, 140},
-                                  starfocus::CountViews(102), uint64_t(side) * uint64_t(side),
-                                  {steps, steps, 8 * steps});
-  };
-  const BlockWork work = work_of(256);
-  CHECK(exact(work) < 9.2e18L);
-  CHECK(static_cast<long double>(starfocus::PredictTime(most, work)) == exact(work));
-  // All blocks of 16 that it may be split into.
-  CHECK(256 * exact(work_of(16)) < 1.8e19L);
+  for (const int side : {16, 32, 64, 128, 256}) {
+    // Of content, more than there are pixels.
+    const auto pixels = uint32_t(side * side);
+    const Content content = {64 * pixels, 64 * pixels, 256 * pixels};
+    const BlockWork work = starfocus::MeasureWork({0, 0, side, side}, {140, 140, 140, 140},
+                                                  starfocus::CountViews(102), pixels, content, 0);
+    CAPTURE(side);
+    CHECK(exact(work) * (256 / side) * (256 / side) < 1.8e19L);
+    CHECK(static_cast<long double>(starfocus::PredictTime(most, work)) == exact(work));
+  }
 }
 
 TEST_CASE("timing: the built-in coefficients are legal, and only some pixels cost nothing more") {
@@ -166,7 +179,6 @@ TEST_CASE("timing: the built-in coefficients are legal, and only some pixels cos
     CAPTURE(each.name);
     const sf_timing& timing = each.timing;
     CHECK(timing.block > 0);
-    CHECK(timing.block <= SF_MAX_TIMING);
     for (const auto coefficient : kCoefficients) CHECK(timing.*coefficient <= SF_MAX_TIMING);
     // A fit cannot always tell the types apart, B and C being rendered from A, nor the field, whose
     // pixels grow with those of type A.
@@ -178,7 +190,6 @@ TEST_CASE("timing: the built-in coefficients are legal, and only some pixels cos
   sf_config config;
   sf_config_init(&config);
   const sf_timing& own = starfocus::kBuiltInTimings[starfocus::kOwnTiming].timing;
-  CHECK(config.timing.block == own.block);
   for (const auto coefficient : kCoefficients) {
     CHECK(config.timing.*coefficient == own.*coefficient);
   }

@@ -101,8 +101,8 @@ BlockWork BlockBench::Work(const BlockTask& task) {
   Content content = {0, 0, 0};
   for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
     for (int x = rect.x; x < rect.x + rect.width; x += kCellSize) {
-      const Cell cell =
-          MeasureCell(engine_->windows[0], engine_->scale, x / kCellSize, y / kCellSize);
+      const Cell cell = MeasureCell(*engine_->kernels, engine_->windows[0], engine_->scale,
+                                    x / kCellSize, y / kCellSize);
       content.slopes += cell.slopes;
       content.edges += cell.edges;
       content.gaps += cell.gaps;

@@ -9,10 +9,10 @@
 
 namespace starfocus::analysis {
 
-// The rule is ViewsByCells of lib/rules.h. Up to half a pixel the ideal kernel (4) is the unit impulse,
-// so the centre view alone is exact. Beyond, for every r <= r_max, the SSE (8) is below 10^-3, and
-// below either that of the paper's kernel with (9)'s N at the same r or the worst over-sampling SSE
-// of that N, (9)'s own limit: CellStudy::Margin measures it.
+// The rule is ViewsByCells of lib/rules.h. Up to half a pixel the ideal kernel (4) is the unit
+// impulse, so the centre view alone is exact. Beyond, for every r <= r_max, the SSE (8) is below
+// 10^-3, and below either that of the paper's kernel with (9)'s N at the same r or the worst
+// over-sampling SSE of that N, (9)'s own limit: CellStudy::Margin measures it.
 
 // Least N whose cells are no worse at r than the paper's kernel with N from (9).
 int FewestCells(double r, double theta);

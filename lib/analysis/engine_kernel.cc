@@ -10,9 +10,13 @@
 namespace starfocus::analysis {
 namespace {
 
-// The whole picture is one block, so that one worker's accumulators hold all of it.
-constexpr int kBlock = 128;
+// The whole picture is one block, so that one worker's memory holds all of it.
+constexpr int kBlock = 256;
 constexpr uint8_t kWhite = 255;
+// The dark surface is a gray from which the filters' negative lobes can still go down.
+constexpr uint8_t kDark[SF_LAYERS] = {0, 64, 64};
+// Pixels that the filters reach beyond the blur.
+constexpr int kReach[SF_LAYERS] = {2, 10, 24};
 
 struct FreeAligned {
   void operator()(void* memory) const {
@@ -20,38 +24,85 @@ struct FreeAligned {
   }
 };
 
-// A square flat picture with one white pixel in its middle.
+// A square flat picture with one white pixel at (x, y).
 struct Impulse {
   int side;
   std::vector<uint8_t> rgb;
   std::vector<float> disparity;
 
-  Impulse(int radius, double d)
-      : side(2 * radius + 1), rgb(3 * Area(side)), disparity(Area(side), static_cast<float>(d)) {
-    for (size_t c = 0; c < 3; ++c) rgb[rgb.size() / 2 - 1 + c] = kWhite;
-  }
+  Impulse(int s, double d, uint8_t dark)
+      : side(s), rgb(3 * Area(s), dark), disparity(Area(s), static_cast<float>(d)) {}
   static size_t Area(int side) { return static_cast<size_t>(side) * static_cast<size_t>(side); }
+  void Set(int x, int y, uint8_t level) {
+    for (size_t c = 0; c < 3; ++c) rgb[3 * static_cast<size_t>(y * side + x) + c] = level;
+  }
 };
 
-sf_config ConfigOf(const Impulse& impulse, const EngineProbe& probe) {
+sf_config ConfigOf(int side, const EngineProbe& probe) {
   sf_config config;
   sf_config_init(&config);
-  config.width = config.height = impulse.side;
+  config.width = config.height = side;
   config.views = 1;  // a flat surface has no holes, so that no captured view is ever read
   config.disparity_min = static_cast<float>(probe.r < 0 ? -probe.r_max : 0);
   config.disparity_max = static_cast<float>(probe.r < 0 ? 0 : probe.r_max);
-  config.max_blur = SF_MAX_BLUR;
+  config.max_blur = std::fmax(probe.r_max, 1);
   config.largest_block = kBlock;
+  config.max_layer = probe.layer;
+  config.timing.block = SF_MAX_TIMING;  // one block is the cheapest
   return config;
 }
 
-Kernel ReadKernel(const EngineState& engine, int side) {
-  Kernel kernel(side / 2);
-  const uint32_t* sums = engine.workers[0].star.accumulators[0];
-  const double white = std::ldexp(double{kWhite}, engine.aperture.sum_bits);
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x)
-      kernel.at(x - side / 2, y - side / 2) = sums[3 * (y * side + x)] / white;
+// An engine in memory of its own.
+class Engine {
+ public:
+  explicit Engine(const sf_config& config) {
+    size_t bytes = 0;
+    status_ = sf_workspace_size(&config, &bytes);
+    if (status_ != SF_OK) return;
+    memory_.reset(::operator new (bytes, std::align_val_t{SF_ALIGNMENT}));
+    status_ = sf_init(&config, memory_.get(), bytes, &engine_);
+  }
+  sf_status status() const { return status_; }
+  const EngineState& state() const { return *reinterpret_cast<const EngineState*>(engine_); }
+
+  sf_status Refocus(const Impulse& impulse, const EngineProbe& probe) {
+    sf_params params;
+    sf_params_init(&params);
+    params.mode = probe.mode;
+    params.rule = probe.rule;
+    sf_light_field field = {};
+    const size_t side = static_cast<size_t>(impulse.side);
+    field.views[0] = {impulse.rgb.data(), 3 * side};
+    field.disparity = impulse.disparity.data();
+    field.disparity_stride = side * sizeof(float);
+    std::vector<uint8_t> out(impulse.rgb.size());
+    const sf_status status =
+        sf_refocus(engine_, &params, &field, out.data(), 3 * side, nullptr, nullptr, nullptr);
+    if (status != SF_OK) return status;
+    return state().plan.counts[0] == 1 ? SF_OK : SF_ERROR_BLOCK;
+  }
+
+ private:
+  std::unique_ptr<void, FreeAligned> memory_;
+  sf_engine* engine_ = nullptr;
+  sf_status status_ = SF_OK;
+};
+
+// The response to the white pixel at (x, y), `radius` around it.
+Kernel ReadKernel(const EngineState& engine, int x, int y, int radius, uint8_t dark) {
+  Kernel kernel(radius);
+  const Block& block = engine.plan.blocks[0];
+  const Worker& worker = engine.workers[0];
+  const Aperture& aperture =
+      engine.params.mode == SF_MODE_BLOCK ? engine.apertures[block.n] : engine.aperture;
+  const double one = std::ldexp(1.0, block.layer == 0 ? aperture.sum_bits : simd::kLayerBits);
+  for (int m = -radius; m <= radius; ++m) {
+    for (int n = -radius; n <= radius; ++n) {
+      const int at = 3 * ((y + m) * engine.config.width + x + n);
+      const double sample =
+          block.layer == 0 ? worker.star.accumulators[0][at] : worker.picture_samples[at];
+      kernel.at(n, m) = (sample / one - dark) / (kWhite - dark);
+    }
   }
   return kernel;
 }
@@ -59,31 +110,37 @@ Kernel ReadKernel(const EngineState& engine, int side) {
 }  // namespace
 
 sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
-  const int radius = static_cast<int>(std::ceil(std::fabs(probe.r))) + 2;
-  if (2 * radius + 1 > kBlock) return SF_ERROR_MAX_BLUR;
-  const Impulse impulse(radius, probe.r);
-  const sf_config config = ConfigOf(impulse, probe);
-  size_t bytes = 0;
-  sf_status status = sf_workspace_size(&config, &bytes);
-  if (status != SF_OK) return status;
-  const std::unique_ptr<void, FreeAligned> memory(
-      ::operator new (bytes, std::align_val_t{SF_ALIGNMENT}));
-  sf_engine* engine = nullptr;
-  status = sf_init(&config, memory.get(), bytes, &engine);
-  if (status != SF_OK) return status;
-  sf_params params;
-  sf_params_init(&params);
-  params.mode = SF_MODE_FRAME;
-  sf_light_field field = {};
-  const size_t side = static_cast<size_t>(impulse.side);
-  field.views[0] = {impulse.rgb.data(), 3 * side};
-  field.disparity = impulse.disparity.data();
-  field.disparity_stride = side * sizeof(float);
-  std::vector<uint8_t> out(impulse.rgb.size());
-  sf_report report;
-  status = sf_refocus(engine, &params, &field, out.data(), 3 * side, nullptr, nullptr, &report);
-  if (status != SF_OK) return status;
-  *result = {ReadKernel(*reinterpret_cast<EngineState*>(engine), impulse.side), report.n};
+  if (probe.layer < 0 || probe.layer >= SF_LAYERS) return SF_ERROR_LAYER;
+  const int radius = static_cast<int>(std::ceil(std::fabs(probe.r))) + kReach[probe.layer];
+  const int places = 1 << probe.layer;
+  const int middle = (radius + places - 1) / places * places, side = middle + places + radius;
+  if (side > kBlock) return SF_ERROR_MAX_BLUR;
+  const uint8_t dark = kDark[probe.layer];
+  Impulse impulse(side, probe.r, dark);
+  Engine engine(ConfigOf(side, probe));
+  if (engine.status() != SF_OK) return engine.status();
+  Kernel sum(radius);
+  double squares = 0;
+  // A flat picture transposed gives the transposed kernel: half of the places will do.
+  for (int a = 0; a < places; ++a) {
+    for (int b = 0; b <= a; ++b) {
+      impulse.Set(middle + a, middle + b, kWhite);
+      const sf_status status = engine.Refocus(impulse, probe);
+      if (status != SF_OK) return status;
+      impulse.Set(middle + a, middle + b, dark);
+      const Kernel kernel = ReadKernel(engine.state(), middle + a, middle + b, radius, dark);
+      squares += (a == b ? 1 : 2) * Energy(kernel);
+      for (int n = -radius; n <= radius; ++n) {
+        for (int m = -radius; m <= radius; ++m) {
+          sum.at(n, m) += kernel(n, m) + (a == b ? 0 : kernel(m, n));
+        }
+      }
+    }
+  }
+  sum.Scale(1.0 / (places * places));
+  const double aliasing = squares / (places * places) - Energy(sum);
+  const Block& block = engine.state().plan.blocks[0];
+  *result = {sum, aliasing, block.n, block.layer};
   return SF_OK;
 }
 

@@ -1,4 +1,4 @@
-// The kernel of the running engine: its answer to one white pixel on a flat black surface.
+// The kernel of the running engine: its answer to one white pixel on a flat surface.
 #ifndef STARFOCUS_LIB_ANALYSIS_ENGINE_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_ENGINE_KERNEL_H_
 
@@ -7,19 +7,25 @@
 
 namespace starfocus::analysis {
 
-// What to measure: frame-based refocusing through sf_refocus with u_t = 1.
+// What to measure, with u_t = 1.
 struct EngineProbe {
   double r;      // d - d_t of the surface in pixels, |r| <= 60; the sign tells the direction
-  double r_max;  // largest blur radius of the disparity range, >= |r|: the engine takes N from it
+  double r_max;  // largest blur radius of the disparity range, >= |r|: frame mode takes N from it
+  sf_mode mode;  // SF_MODE_FRAME or SF_MODE_BLOCK
+  sf_rule rule;  // SF_RULE_PAPER or SF_RULE_CELLS
+  int layer;     // the largest L that block mode may use, in [0, 2]
 };
 
 struct EngineKernel {
-  Kernel kernel;  // unit white: taps sum to 1
-  int n;          // N the engine chose
+  Kernel kernel;    // unit white: taps sum to 1; the mean over all places of the white pixel
+  double aliasing;  // of layers: how far it varies with that place, in mean square
+  int n;            // N the engine chose
+  int layer;        // L the engine chose
 };
 
-// Reads the 32-bit accumulators that sf_refocus leaves behind, because rounding to bytes hides all
-// taps below 1/510; *result is valid for SF_OK only.
+// At layer 0 reads the 32-bit accumulators that sf_refocus leaves behind, because rounding to bytes
+// hides all taps below 1/510; from a layer, samples to 1/64 gray level before they are rounded.
+// *result is valid for SF_OK only. SF_ERROR_BLOCK: the picture was split into blocks.
 sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result);
 
 }  // namespace starfocus::analysis

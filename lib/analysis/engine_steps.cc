@@ -4,43 +4,80 @@
 #include <cmath>
 
 #include "lib/analysis/aperture.h"
+#include "lib/analysis/half_band.h"
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/selection.h"
 #include "lib/analysis/star_kernel.h"
+#include "lib/analysis/subsampled.h"
 
 namespace starfocus::analysis {
 
+namespace {
+
+Kernel Through(Kernel kernel, int layer) {
+  for (int k = 0; k < layer; ++k) kernel = ThroughLayer(kernel, kBetaDown);
+  return kernel;
+}
+
+}  // namespace
+
+LayerTheory MakeLayerTheory(double r, int layer) {
+  if (layer == 0) return {0, 0};
+  const Kernel small = IdealKernel(r / (1 << layer), kDefaultTheta);
+  return {SquaredError(Through(small, layer), IdealKernel(r, kDefaultTheta)),
+          LayerAliasing(small, layer, kBetaDown)};
+}
+
 sf_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
-  EngineKernel measured = {Kernel(0), 0};
+  EngineKernel measured = {Kernel(0), 0, 0, 0};
   const sf_status status = MeasureEngineKernel(probe, &measured);
   if (status != SF_OK) return status;
-  const double r = std::fabs(probe.r), theta = kDefaultTheta;
-  const int n = measured.n;
-  const Kernel ideal = IdealKernel(r, theta), star = StarKernel(r, n, theta);
-  const auto error = [&](const Kernel& kernel) { return SquaredError(kernel, ideal); };
+  const double theta = kDefaultTheta;
+  const int n = measured.n, layer = measured.layer;
+  const double r = std::fabs(probe.r), small = r / (1 << layer);
+  const bool wide = probe.rule == SF_RULE_CELLS;
+  const Kernel ideal = IdealKernel(r, theta);
+  const Kernel star =
+      Through(StarKernel(small, n, theta, wide ? Cells::kWide : Cells::kNarrow), layer);
+  const auto error = [&](const Kernel& kernel) {
+    return SquaredError(Through(kernel, layer), ideal);
+  };
+  const Kernel both = n == 0 ? IdealKernel(0, theta)
+                             : ViewKernel(small, n, theta, std::clamp(small / n, 1e-6, 1.0));
   *step = {probe.r,
            n,
-           error(measured.kernel),
-           error(star),
-           error(CellKernel(r, n, theta)),
-           n == 0 ? error(star) : error(PaperKernel(r, n, theta)),
-           SquaredError(measured.kernel, star)};
+           layer,
+           wide,
+           SquaredError(measured.kernel, ideal),
+           SquaredError(star, ideal),
+           error(CellKernel(small, n, theta)),
+           error(n == 0 ? IdealKernel(0, theta) : PaperKernel(small, n, theta)),
+           error(both),
+           SquaredError(measured.kernel, star),
+           measured.aliasing};
   return SF_OK;
 }
 
 std::string Explain(const EngineStep& step) {
   if (step.engine <= kThreshold) return "";
-  if (step.apart > kExplained) return "unexplained: not the kernel the engine is meant to have";
-  const double r = std::fabs(step.r), width = std::min(r / step.n, 1.0);
+  if (step.apart > (step.layer == 0 ? kExplained : kExplainedOfLayer)) {
+    return "unexplained: not the kernel the engine is meant to have";
+  }
   // Of the causes, from the most to the least fundamental, the first that suffices.
-  if (step.cells > kThreshold)
+  const double r = std::fabs(step.r);
+  if (MakeLayerTheory(r, step.layer).error > kThreshold) {
+    return "the layers' filters: the ideal kernel through them exceeds it too";
+  }
+  if (step.cells > kThreshold) {
     return "too few views: exact aperture cells exceed it with this N too";
-  const Kernel both_axes = ViewKernel(r, step.n, kDefaultTheta, width);
-  if (SquaredError(both_axes, IdealKernel(r, kDefaultTheta)) > kThreshold) {
+  }
+  if (step.wide) return "wide cells are boxes on whole pixels, then interpolated";
+  if (step.both_axes > kThreshold) {
     return "cells one pixel wide where views lie r / N > 1 apart";
   }
-  return r > step.n ? "type B views spread along their diagonal only, cells one pixel wide"
-                    : "type B views spread along their diagonal only";
+  return r > step.n * (1 << step.layer)
+             ? "type B views spread along their diagonal only, cells one pixel wide"
+             : "type B views spread along their diagonal only";
 }
 
 }  // namespace starfocus::analysis

@@ -8,21 +8,35 @@
 
 namespace starfocus::analysis {
 
-// SSE (8) against the ideal kernel (4) at one r.
+// What theory says of blur radius r refocused at layer L: SSE against the ideal kernel (4) at r of
+// the ideal kernel at r / 2^L through the layers, (10), and its aliasing, (11). Both 0 at layer 0.
+struct LayerTheory {
+  double error;
+  double aliasing;
+};
+LayerTheory MakeLayerTheory(double r, int layer);
+
+// SSE (8) against the ideal kernel (4) at one r, all through the layers where L > 0.
 struct EngineStep {
-  double r;       // signed
-  int n;          // N the engine chose
-  double engine;  // of the measured kernel
-  double star;    // of StarKernel
-  double cells;   // of CellKernel
-  double paper;   // of PaperKernel
-  double apart;   // squared difference of the measured kernel and StarKernel
+  double r;          // signed
+  int n;             // N the engine chose
+  int layer;         // L the engine chose
+  bool wide;         // cells may be wider than a pixel
+  double engine;     // of the measured kernel
+  double star;       // of StarKernel
+  double cells;      // of CellKernel
+  double paper;      // of PaperKernel
+  double both_axes;  // of cells at most a pixel wide, every view spread along both axes
+  double apart;      // squared difference of the measured kernel and StarKernel
+  double aliasing;   // measured
 };
 
 sf_status MeasureStep(const EngineProbe& probe, EngineStep* step);
 
-// Measured kernel and StarKernel may be this far apart: bytes of type A lines are rounded.
+// Measured kernel and StarKernel may be this far apart: bytes of type A lines are rounded, taps of
+// wide cells have 8 bits, and what layers give is measured to 1/64 gray level only.
 inline constexpr double kExplained = 1e-5;
+inline constexpr double kExplainedOfLayer = 3e-5;
 
 // Why step.engine exceeds kThreshold; empty when it does not. Starts with "unexplained" when the
 // measured kernel is not the one the engine's description gives.

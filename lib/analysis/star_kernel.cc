@@ -12,36 +12,66 @@
 namespace starfocus::analysis {
 namespace {
 
-constexpr double kNarrowest = 1e-6;
+constexpr double kNarrowest = 1e-6, kWidest = 7;
+
+// A view's footprint on the line: one tap for cells up to a pixel, that of a box for wider ones,
+// each then spread by the interpolation of `width` <= 1.
+struct Footprint {
+  double width;
+  Kernel1 taps;
+};
+
+Footprint MakeFootprint(double cell, Cells cells) {
+  const double width = std::min(kWidest, std::round(8 * cell) / 8);
+  if (cells == Cells::kNarrow || width <= 1) {
+    Footprint narrow = {std::clamp(cell, kNarrowest, 1.0), Kernel1(0)};
+    narrow.taps.at(0) = 1;
+    return narrow;
+  }
+  Footprint wide = {1, Kernel1(static_cast<int>(std::ceil((width - 1) / 2)))};
+  for (int n = -wide.taps.radius(); n <= wide.taps.radius(); ++n) {
+    wide.taps.at(n) = Trapezoid(n, width);
+  }
+  return wide;
+}
 
 // Calls visit(p, share) for the pixels that a sample at `x` reaches.
 template <class Visit>
-void Spread(double x, double width, const Visit& visit) {
-  const int first = static_cast<int>(std::floor(x));
-  for (int p = first; p <= first + 1; ++p) visit(p, Trapezoid(p - x, width));
+void Spread(double x, const Footprint& footprint, const Visit& visit) {
+  const int first = static_cast<int>(std::floor(x)), reach = footprint.taps.radius();
+  for (int p = first - reach; p <= first + 1 + reach; ++p) {
+    double share = 0;
+    for (int k = -reach; k <= reach; ++k) {
+      share += footprint.taps(k) * Trapezoid(p - k - x, footprint.width);
+    }
+    visit(p, share);
+  }
 }
 
 }  // namespace
 
-Kernel StarKernel(double r, int n, double theta) {
+Kernel StarKernel(double r, int n, double theta, Cells cells) {
   if (n == 0) return IdealKernel(0, theta);
-  const double width = std::clamp(r / n, kNarrowest, 1.0);
-  Kernel kernel(static_cast<int>(std::ceil(r)) + 1);
+  const Footprint footprint = MakeFootprint(r / n, cells);
+  Kernel kernel(static_cast<int>(std::ceil(r)) + 1 + footprint.taps.radius());
   const auto place = [&](int i) { return std::round(i * r / n * kShiftOne) / kShiftOne; };
   for (int i = -n; i <= n; ++i) {
+    Kernel1 column(kernel.radius());
     for (int j = -n; j <= n; ++j) {
       if (i * i + j * j > n * n) continue;
       const double weight = Aperture(double(i * i + j * j) / (double(n) * n), theta);
-      const bool diagonal = i != 0 && std::abs(i) == std::abs(j);
-      Spread(place(i), width, [&](int x, double share) {
-        if (diagonal) {
-          kernel.at(x, i == j ? x : -x) += weight * share;
-          return;
-        }
-        Spread(place(j), width,
-               [&](int y, double part) { kernel.at(x, y) += weight * share * part; });
-      });
+      if (cells == Cells::kNarrow && i != 0 && std::abs(i) == std::abs(j)) {
+        Spread(place(i), footprint,
+               [&](int x, double share) { kernel.at(x, i == j ? x : -x) += weight * share; });
+      } else {
+        Spread(place(j), footprint, [&](int y, double share) { column.at(y) += weight * share; });
+      }
     }
+    Spread(place(i), footprint, [&](int x, double share) {
+      for (int y = -kernel.radius(); y <= kernel.radius(); ++y) {
+        kernel.at(x, y) += share * column(y);
+      }
+    });
   }
   kernel.Scale(1 / kernel.Sum());
   return kernel;

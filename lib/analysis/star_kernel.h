@@ -7,9 +7,14 @@
 
 namespace starfocus::analysis {
 
-// Aperture cells of width min(r / N, 1), type A and C views spread along both axes, type B views
-// (|i| = |j|) along their diagonal only; positions rounded to the engine's 1/256 pixel.
-Kernel StarKernel(double r, int n, double theta);
+// How views stand for their cells of the aperture: at most a pixel wide, the type B views
+// (|i| = |j|) spread along their diagonal only; or as wide as r / N, all views along both axes.
+enum class Cells { kNarrow, kWide };
+
+// The kernel of N views at blur radius r, positions rounded to the engine's 1/256 pixel. A wide
+// cell is r / N to 1/8 pixel, at most 7: linear interpolation after a mixture of the two odd boxes
+// around its width, of the cell's variance.
+Kernel StarKernel(double r, int n, double theta, Cells cells);
 
 }  // namespace starfocus::analysis
 

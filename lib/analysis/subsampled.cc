@@ -1,5 +1,6 @@
 #include "lib/analysis/subsampled.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/analysis/aperture.h"
@@ -63,6 +64,64 @@ Kernel Subsampled(const Kernel& half, double beta_down, Alias alias) {
                 AxisFilter(beta_down, alias == Alias::kY || alias == Alias::kBoth));
 }
 
+// An impulse at `place`, down to the layer: taps at n stand for the layer's pixel n.
+Kernel1 LayersDown(int place, int layer, double beta_down) {
+  Kernel1 line(0);
+  line.at(0) = 1;
+  int origin = place;  // of line(0) in the pixels of its layer
+  for (int k = 0; k < layer; ++k) {
+    const Kernel1 filtered = Convolve(line, HalfBand(beta_down));
+    Kernel1 kept(filtered.radius());  // room enough
+    for (int n = -filtered.radius(); n <= filtered.radius(); ++n) {
+      if ((n + origin) % 2 == 0) kept.at((n + origin) / 2) = filtered(n);
+    }
+    line = kept;
+    origin = 0;
+  }
+  return line;
+}
+
+Kernel1 LayersUp(int layer) {
+  Kernel1 filter(0);
+  filter.at(0) = 1;
+  Kernel1 up = HalfBand(kBetaUp);
+  up.Scale(2);
+  for (int k = 0; k < layer; ++k) {
+    Kernel1 spread(2 * filter.radius());
+    for (int n = -filter.radius(); n <= filter.radius(); ++n) spread.at(2 * n) = filter(n);
+    filter = Convolve(spread, up);
+  }
+  return filter;
+}
+
+// sum over s of f(n + s) f(n + t) along the places of a layer's pixels: what their upsampled
+// responses have in common.
+Kernel1 Correlation(const Kernel1& filter, int step) {
+  Kernel1 result(2 * filter.radius() / step);
+  for (int k = -result.radius(); k <= result.radius(); ++k) {
+    for (int n = -filter.radius(); n <= filter.radius(); ++n) {
+      result.at(k) += filter(n) * filter(n + k * step);
+    }
+  }
+  return result;
+}
+
+Kernel ConvolveAxes(const Kernel& kernel, const Kernel1& x, const Kernel1& y) {
+  const int inner = kernel.radius(), more = std::max(x.radius(), y.radius());
+  Kernel rows(inner + more), result(inner + more);
+  for (int n = -inner; n <= inner; ++n) {
+    for (int m = -inner; m <= inner; ++m) {
+      for (int k = -y.radius(); k <= y.radius(); ++k) rows.at(n, m + k) += kernel(n, m) * y(k);
+    }
+  }
+  for (int n = -inner; n <= inner; ++n) {
+    for (int m = -rows.radius(); m <= rows.radius(); ++m) {
+      for (int k = -x.radius(); k <= x.radius(); ++k) result.at(n + k, m) += rows(n, m) * x(k);
+    }
+  }
+  return result;
+}
+
 // The error (10) at theta and the beta that makes it least.
 double LeastError(double r, double theta, double* beta) {
   const Kernel ideal = IdealKernel(r, theta), half = IdealKernel(r / 2, theta);
@@ -81,6 +140,31 @@ Optimum MakeOptimum(double r, const Filters& filters) {
 
 Kernel SubsampledKernel(double r, const Filters& filters, Alias alias) {
   return Subsampled(IdealKernel(r / 2, filters.theta), filters.beta_down, alias);
+}
+
+Kernel ThroughLayer(const Kernel& half, double beta_down) {
+  return Subsampled(half, beta_down, Alias::kNone);
+}
+
+double LayerAliasing(const Kernel& kernel, int layer, double beta_down) {
+  const int places = 1 << layer;
+  const Kernel1 common = Correlation(LayersUp(layer), places);
+  double mean = 0;  // of the responses' squares
+  for (int a = 0; a < places; ++a) {
+    for (int b = 0; b < places; ++b) {
+      const Kernel blurred =
+          ConvolveAxes(kernel, LayersDown(a, layer, beta_down), LayersDown(b, layer, beta_down));
+      const Kernel seen = ConvolveAxes(blurred, common, common);
+      for (int n = -blurred.radius(); n <= blurred.radius(); ++n) {
+        for (int m = -blurred.radius(); m <= blurred.radius(); ++m) {
+          mean += blurred(n, m) * seen(n, m) / (places * places);
+        }
+      }
+    }
+  }
+  Kernel through = kernel;
+  for (int k = 0; k < layer; ++k) through = ThroughLayer(through, beta_down);
+  return mean - Energy(through);
 }
 
 Kernel1 SubsampledKernel1(double r, const Filters& filters, bool alias) {

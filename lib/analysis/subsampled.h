@@ -21,6 +21,14 @@ struct Filters {
 Kernel SubsampledKernel(double r, const Filters& filters, Alias alias);
 Kernel1 SubsampledKernel1(double r, const Filters& filters, bool alias);
 
+// What the picture sees of a blur `half` of the layer below: G_U(z) half(z^2) G_D(z).
+Kernel ThroughLayer(const Kernel& half, double beta_down);
+
+// The aliasing of a blur `kernel` of layer L in [0, 2] when L layers lead down to it and up again:
+// how far the response to an impulse varies with its place, in mean square over the 4^L places.
+// (11) for L = 1 and the ideal kernel.
+double LayerAliasing(const Kernel& kernel, int layer, double beta_down);
+
 // SSE of (10) and (11).
 double SubsampledError(double r, const Filters& filters);
 double AliasingError(double r, const Filters& filters);

@@ -21,11 +21,21 @@ constexpr int kPixels = 1024, kSurface = 32;  // of a line, of a surface in it
 constexpr int kSide = 256;                    // of the pictures
 constexpr int kViewNumber = 4;                // N
 
-// Takes what the scan finds, and keeps nothing.
+// Takes what the scan finds, and keeps nothing but its number.
 struct Ignore {
   int64_t pixels = 0;
-  void Surface(int32_t begin, int32_t end, int32_t, int32_t, int32_t) { pixels += end - begin; }
-  void Hole(int32_t begin, int32_t end, int32_t, int32_t) { pixels += end - begin; }
+  template <class... More>
+  void Surface(int32_t begin, int32_t end, More...) {
+    pixels += end - begin;
+  }
+  template <class... More>
+  void Hole(int32_t begin, int32_t end, More...) {
+    pixels += end - begin;
+  }
+  template <class... More>
+  void Mix(More...) {
+    ++pixels;
+  }
 };
 
 // Slanted surfaces with depth edges between them, +-4 pixels of blur.

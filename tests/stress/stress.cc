@@ -17,7 +17,7 @@ const std::vector<Family>& Families() {
       {"extremes", "gray levels off the inverse or the constant", 6, Extremes},
       {"noise", "gray levels off the inverse of the inverted picture", 6, Noise},
       {"energy", "gray levels of the mean", 2, Energy},
-      {"steps", "overshoot as a part of the step", 6, Steps},
+      {"steps", "overshoot beyond a level as a part of the step", 6, Steps},
       {"mirrors", "gray levels off the mirrored picture", 4, Mirrors},
       {"side-views", "gray levels (flat scenes read no side view)", 4, SideViews},
       {"continuity", "gray levels per step of 1/64 in focus, 1/256 in aperture", 6, Continuity},

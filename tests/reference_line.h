@@ -1,0 +1,272 @@
+// The reference's parts that know one line: the lens, which pixel a view shows where, and what wide
+// cells make of a line.
+#ifndef STARFOCUS_TESTS_REFERENCE_LINE_H_
+#define STARFOCUS_TESTS_REFERENCE_LINE_H_
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "tests/reference.h"
+
+namespace reference {
+
+using Colour = std::array<double, 3>;
+
+// Two neighbours belong to one surface when their disparities (1/64) differ by at most this.
+inline constexpr int kSurfaceStep = 96;
+// A wider gap is no stretched surface, in pixels.
+inline constexpr int kWidestStretch = 4;
+
+// Floor of value / 2^bits, plus a half: rounding half up.
+inline int64_t Rounded(int64_t value, int bits) {
+  const int64_t unit = int64_t{1} << bits, sum = value + unit / 2;
+  return sum >= 0 ? sum / unit : -((-sum + unit - 1) / unit);
+}
+
+inline int RoundedTo64(double value) { return static_cast<int>(std::floor(value * 64 + 0.5)); }
+
+// A view, rendered or captured, with its disparity (1/64) where it has one.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<Colour> colours;
+  std::vector<int> disparities;
+
+  Picture(int w, int h)
+      : width(w), height(h), colours(size_t(w) * size_t(h)), disparities(size_t(w) * size_t(h)) {}
+
+  size_t At(int x, int y) const { return size_t(y) * size_t(width) + size_t(x); }
+  bool Inside(int x, int y) const { return x >= 0 && x < width && y >= 0 && y < height; }
+};
+
+// The captured views by position in halves of a unit.
+using LightField = std::map<std::pair<int, int>, Picture>;
+
+// The lens: N views along its radius, and how far pixels move in them.
+struct Lens {
+  int n = 0;
+  double radius = 0;  // u_t
+  double theta = 0;
+  int focus = 0;       // d_t, 1/64
+  int64_t step = 0;    // u_t / 2^layer, 2^-24
+  int layer = 0;       // L
+  bool cells = false;  // views stand for cells wider than a pixel
+
+  // u of view k, 2^-24.
+  int64_t Move(int k) const { return (2 * k * step + n) / (2 * n); }
+  // Pixels that a disparity (1/64) moves by in view k, 1/256.
+  int Shift(int k, int disparity) const {
+    return int(Rounded(Move(k) * (disparity - focus), 24 + 6 - 8));
+  }
+  // Width of the aperture cell on the picture, r / N, at most a pixel.
+  double Cell(int disparity) const {
+    return std::min(1.0, radius / n * std::abs(disparity - focus) / (64.0 * (1 << layer)));
+  }
+  // Within a run, disparities (1/64) range over a quarter pixel of displacement at the aperture's
+  // rim, and never across the edge of a surface.
+  int Spread() const { return int(std::min<int64_t>(kSurfaceStep, (int64_t{16} << 24) / step)); }
+  // Views at most half a unit from the centre have a captured view at that distance.
+  bool Half(int k) const { return 2 * k * radius <= n; }
+  bool Contains(int i, int j) const { return i * i + j * j <= n * n; }
+  double Density(int i, int j) const {
+    return n == 0 ? 1 : ApertureDensity(double(i) / n, double(j) / n, theta);
+  }
+  // Largest j of the views (i, j) rendered from type A view i: below the diagonal or, with cells,
+  // on it too.
+  int LastAcross(int i) const {
+    int j = std::max(0, cells ? i : i - 1);
+    while (j > 0 && !Contains(i, j)) --j;
+    return j;
+  }
+};
+
+// --- One line: the pixels that a view of direction +1 along it shows. ---
+
+// Where a rendered pixel comes from: line pixel `source`, blended with its neighbour; or, in a
+// hole, the visible surface of line pixel `source` goes on behind what hides it.
+struct Owner {
+  bool hole = true;
+  int source = 0;
+  int neighbour = 0;
+  double neighbour_weight = 0;
+};
+
+struct LineRun {
+  int begin, end;
+  int disparity;  // the middle of its range
+};
+
+// From the end of the line that near surfaces move away from; a run is as long as its disparities
+// allow.
+inline std::vector<LineRun> Runs(const std::vector<int>& disparity, int spread) {
+  std::vector<LineRun> runs;
+  int end = int(disparity.size());
+  while (end > 0) {
+    int begin = end - 1, low = disparity[size_t(begin)], high = low;
+    while (begin > 0) {
+      const int next = disparity[size_t(begin - 1)];
+      if (std::max(high, next) - std::min(low, next) > spread) break;
+      low = std::min(low, next);
+      high = std::max(high, next);
+      --begin;
+    }
+    runs.push_back({begin, end, int(std::floor((low + high) / 2.0))});
+    end = begin;
+  }
+  return runs;
+}
+
+class LineScan {
+ public:
+  LineScan(const std::vector<int>& disparity, const Lens& lens, int k)
+      : disparity_(disparity), lens_(lens), k_(k), owners_(disparity.size()) {}
+
+  std::vector<Owner> Scan() {
+    const int length = int(disparity_.size());
+    const std::vector<LineRun> runs = Runs(disparity_, lens_.Spread());
+    filled_ = std::max(length, length - Whole(runs[0]));
+    visible_ = length - 1;
+    for (const LineRun& run : runs) {
+      const int whole = Whole(run);
+      if (run.begin - whole >= filled_) continue;  // hidden
+      if (run.end - whole < filled_) CloseGap(run, whole);
+      for (int p = run.begin - whole; p < filled_; ++p) SetSurface(p, run, whole);
+      filled_ = run.begin - whole;
+      visible_ = run.begin;
+    }
+    SetHole(0, visible_);
+    return owners_;
+  }
+
+ private:
+  int Whole(const LineRun& run) const { return int(Rounded(lens_.Shift(k_, run.disparity), 8)); }
+  bool Inside(int p) const { return p >= 0 && p < int(owners_.size()); }
+  int Disparity(int q) const { return disparity_[size_t(q)]; }
+
+  // The pixels between the run's end and what is filled: the run's surface, stretched, unless that
+  // ends there or is the nearer one: then what is behind the nearer of the two goes on.
+  void CloseGap(const LineRun& run, int whole) {
+    const int q = run.end - 1;
+    const int gap = filled_ - (run.end - whole);
+    const bool nearer = Disparity(q) - Disparity(visible_) > kSurfaceStep;
+    const bool inside = filled_ + whole <= int(disparity_.size());
+    if (!nearer && gap <= kWidestStretch && inside) return;
+    SetHole(run.end - whole, Disparity(q) < Disparity(visible_) ? q : visible_);
+  }
+
+  // Rendered pixels from `begin` to what is filled.
+  void SetHole(int begin, int source) {
+    for (int p = begin; p < filled_; ++p) {
+      if (Inside(p)) owners_[size_t(p)] = {true, source, source, 0};
+    }
+    filled_ = std::min(filled_, begin);
+  }
+
+  // The source lies t away from the rendered pixel's centre; its cell of width L gives the
+  // neighbour on that side clamp((|t| - 1/2) / L + 1/2, 0, 1). None across the edge of a surface.
+  void SetSurface(int p, const LineRun& run, int whole) {
+    if (!Inside(p)) return;
+    Owner owner = {false, p + whole, p + whole, 0};
+    const double t = lens_.Shift(k_, run.disparity) / 256.0 - whole;
+    const double cell = lens_.Cell(run.disparity);
+    const int neighbour = owner.source + (t > 0 ? 1 : -1);
+    if (cell > 0 && Inside(neighbour) &&
+        std::abs(Disparity(owner.source) - Disparity(neighbour)) <= kSurfaceStep) {
+      owner.neighbour = neighbour;
+      owner.neighbour_weight = std::clamp((std::fabs(t) - 0.5) / cell + 0.5, 0.0, 1.0);
+    }
+    owners_[size_t(p)] = owner;
+  }
+
+  const std::vector<int>& disparity_;
+  const Lens& lens_;
+  int k_;
+  std::vector<Owner> owners_;
+  int filled_ = 0;   // lowest rendered pixel shown so far
+  int visible_ = 0;  // the line pixel it shows
+};
+
+// --- One view from another, along the lines of direction (u, v). ---
+
+// `hole(x, y, disparity, colour)` gives the colour of pixel (x, y), behind which a surface of
+// `disparity` and `colour` goes on.
+template <class Hole>
+Picture RenderAlong(const Picture& from, int u, int v, const Lens& lens, int k, const Hole& hole) {
+  Picture to(from.width, from.height);
+  for (int y0 = 0; y0 < from.height; ++y0) {
+    for (int x0 = 0; x0 < from.width; ++x0) {
+      if (from.Inside(x0 - u, y0 - v)) continue;  // not the first pixel of a line
+      std::vector<size_t> line;
+      std::vector<int> disparity;
+      for (int x = x0, y = y0; from.Inside(x, y); x += u, y += v) {
+        line.push_back(from.At(x, y));
+        disparity.push_back(from.disparities[line.back()]);
+      }
+      const std::vector<Owner> owners = LineScan(disparity, lens, k).Scan();
+      for (size_t p = 0; p < line.size(); ++p) {
+        const Owner& owner = owners[p];
+        const size_t source = line[size_t(owner.source)];
+        to.disparities[line[p]] = from.disparities[source];
+        Colour& colour = to.colours[line[p]];
+        if (owner.hole) {
+          colour = hole(x0 + int(p) * u, y0 + int(p) * v, from.disparities[source],
+                        from.colours[source]);
+          continue;
+        }
+        const Colour &a = from.colours[source], &b = from.colours[line[size_t(owner.neighbour)]];
+        for (size_t c = 0; c < 3; ++c) colour[c] = a[c] + owner.neighbour_weight * (b[c] - a[c]);
+      }
+    }
+  }
+  return to;
+}
+
+// Each pixel of a line spread over the box of its own cell, to 1/8 pixel and at most 7, where that
+// is wider than a pixel; beyond the edge of a surface its last pixel goes on.
+inline Colour SpreadPixel(const Picture& from, const std::vector<size_t>& line, int x,
+                          const Lens& lens) {
+  const int disparity = from.disparities[line[size_t(x)]];
+  const int eighths = std::min(56, (std::abs(lens.Shift(1, disparity)) + 16) / 32);
+  if (eighths <= 8) return from.colours[line[size_t(x)]];
+  const double half = eighths / 16.0;
+  const auto one_surface = [&](int a, int b) {
+    return std::abs(from.disparities[line[size_t(a)]] - from.disparities[line[size_t(b)]]) <=
+           kSurfaceStep;
+  };
+  Colour sum = {0, 0, 0};
+  for (const int side : {-1, 1}) {
+    int at = x;
+    for (int k = 0; k - 0.5 < half; ++k) {
+      const int next = x + side * k;
+      const bool reached = k > 0 && at == next - side && next >= 0 && next < int(line.size());
+      if (reached && one_surface(at, next)) at = next;
+      // The middle pixel is met from both sides.
+      const double covered = (std::min(half, k + 0.5) - std::max(k - 0.5, 0.0)) / (2 * half);
+      for (size_t c = 0; c < 3; ++c) sum[c] += covered * from.colours[line[size_t(at)]][c];
+    }
+  }
+  return sum;
+}
+
+inline Picture SpreadAlong(const Picture& from, bool rows, const Lens& lens) {
+  Picture to = from;
+  for (int n = 0; n < (rows ? from.height : from.width); ++n) {
+    std::vector<size_t> line;
+    for (int k = 0; k < (rows ? from.width : from.height); ++k) {
+      line.push_back(rows ? from.At(k, n) : from.At(n, k));
+    }
+    for (size_t k = 0; k < line.size(); ++k) {
+      to.colours[line[k]] = SpreadPixel(from, line, int(k), lens);
+    }
+  }
+  return to;
+}
+
+}  // namespace reference
+
+#endif  // STARFOCUS_TESTS_REFERENCE_LINE_H_
