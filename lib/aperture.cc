@@ -67,9 +67,7 @@ Aperture MakeAperture(int32_t n, uint32_t fall_off, uint16_t* weights) {
     wanted += static_cast<uint64_t>(orbit) *
               Relative(static_cast<uint64_t>(i * i + j * j), n_square, fall_off);
     const auto target = static_cast<int64_t>((wanted << bits) / total);  // < 2^63
-    // Views on the diagonals are rendered from both axes, half the weight from either.
-    const int64_t even = i == j && i > 0 ? 2 : 1;
-    const int64_t weight = Max64(0, (target - given + orbit * even / 2) / (orbit * even)) * even;
+    const int64_t weight = Max64(0, (target - given + orbit / 2) / orbit);
     weights[i * (i + 1) / 2 + j] = static_cast<uint16_t>(Checked(ranges::kWeight, weight));
     given += weight * orbit;
   });

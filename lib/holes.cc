@@ -59,9 +59,16 @@ void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t
   }
   const Offset along = OffsetOf(view, view.u, view.move_u, disparity);
   const Offset across = OffsetOf(view, view.v, view.move_v, disparity);
-  const bool interpolate = view.u != 0 && view.v != 0 && view.window->views == 5;
+  const bool diagonal = view.u != 0 && view.v != 0;
+  // Of a view nearer to the axis across the lines than to theirs, that axis shows what is behind.
+  const bool on_axis = diagonal && view.move_u < view.move_v;
+  const bool interpolate = diagonal && view.window->views == 5;
   for (int32_t p = begin; p < end; ++p, out += 3) {
     const int32_t x = (line.x + line.dx * p) * kShiftOne, y = (line.y + line.dy * p) * kShiftOne;
+    if (on_axis) {
+      Read(view, 0, view.v, x + along.centre, y + across.captured, out);
+      continue;
+    }
     if (!interpolate) {
       Read(view, view.u, view.v, x + along.captured, y + across.captured, out);
       continue;
