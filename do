@@ -25,9 +25,13 @@ usage: ./do COMMAND
           --quick   small pictures, few of them: a minute or two
           --check   only compares instruction counts with tests/bench/baseline.txt
           --record  writes that file anew
+          --micro   only times kernels, the line scan and small pictures
   cross ARCH [build]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated
   boot    run the board program on an emulated board: its GPIO lines, buttons and screen
   count [record]  AArch64 instructions per pixel against tests/instruction_counts.txt
+  partitions [write]  what block mode costs on boards with another architecture's coefficients
+  coefficients [ARCH...]  those of boards from instruction counts, into lib/timing_defaults.h:
+          some ten minutes each
   size [write]   what boards need: code, stack and memory (write: into toolchains/README.md)
   golden  record tests/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file
@@ -224,6 +228,7 @@ bench_scene() {
 check_counts() {
   require valgrind
   build starfocus-bench-count
+  build instruction_bench
   tests/bench/count.sh $BUILD "$1"
 }
 
@@ -232,6 +237,12 @@ bench() {
   case "${1:-}" in
     --check) check_counts check; return ;;
     --record) check_counts record; return ;;
+    --micro)
+      require libbenchmark-dev
+      build starfocus-bench-micro
+      $BUILD/starfocus-bench-micro || fail "the micro bench failed"
+      return
+      ;;
     --quick)
       fields=build/bench/portrait-small
       options="--quantiles 0.1,0.5,0.9 --repetitions 3 --patience 0.5 --views 5,9 --max-layers 0,1 --rules
@@ -255,6 +266,7 @@ bench() {
     done
   fi
   $BUILD/starfocus-bench $fields $options --sweep build/bench/portrait-small \
+    --x86-counts tests/bench/baseline.txt --arm-counts tests/instruction_counts.txt \
     --revision "$(git rev-parse --short HEAD 2>/dev/null)" --csv build/bench/results.csv \
     --json build/bench/results.json --html build/bench/report.html || fail "the bench failed"
   echo "report: build/bench/report.html; rows: build/bench/results.csv and .json"
@@ -279,6 +291,8 @@ case "${1:-help}" in
   golden) golden ;;
   boot) boot ;;
   count) count_command "${2:-}" ;;
+  partitions) partitions "${2:-}" ;;
+  coefficients) shift && coefficients "$@" ;;
   size) size "${2:-}" ;;
   format) format ;;
   help | -h | --help) help ;;

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "options.h"
 #include "platform/file.h"
+#include "platform/instruction_counter.h"
 #include "platform/runner.h"
 #include "scene/render.h"
 #include "timing_file.h"
@@ -16,11 +17,11 @@ namespace starfocus {
 namespace {
 
 constexpr int kWidth = 1024, kHeight = 768, kViews = 9;  // of the scenes made here
-constexpr int kRepetitions = 5;
+constexpr int kRepetitions = 5;  // of times; a count repeats exactly
 constexpr double kLowestAgreement = 0.98;
 
 struct Options {
-  std::string out, folder, check;
+  std::string out, folder, check, counter;
 };
 
 std::string Trace(const std::string& name, SceneTimes* times) {
@@ -65,11 +66,15 @@ std::string OpenScenes(const Options& options, Scenes* scenes) {
 }
 
 // In turns, so that a slow spell of the machine meets all scenes and sizes alike.
-void Measure(const Scenes& scenes) {
+void Measure(const Scenes& scenes, const InstructionCounter* counter) {
   int64_t blocks = 0;
-  for (const auto& scene : scenes) blocks += scene->blocks();
-  Progress progress("measuring", blocks * kRepetitions);
-  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
+  for (const auto& scene : scenes) {
+    scene->CountWith(counter);
+    blocks += scene->blocks();
+  }
+  const int repetitions = counter != nullptr ? 1 : kRepetitions;
+  Progress progress("measuring", blocks * repetitions);
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
     for (const auto& scene : scenes) scene->Measure(&progress);
   }
 }
@@ -103,14 +108,20 @@ nlohmann::ordered_json Judge(const char* role, const SceneTimes& scene, const sf
 
 std::string Calibrate(const Options& options) {
   Scenes scenes;
+  InstructionCounter counter;
+  const bool counts = !options.counter.empty();
   std::string error = options.out.empty() ? "" : CheckOutputPath(options.out);
+  if (error.empty() && counts) error = counter.Open(options.counter);
   if (error.empty()) error = OpenScenes(options, &scenes);
   if (!error.empty()) return error;
-  Measure(scenes);
+  Measure(scenes, counts ? &counter : nullptr);
   const sf_timing timing = FitTiming(scenes[0]->Configurations());
   PrintCoefficients(timing);
   nlohmann::ordered_json json;
   json["simd_target"] = sf_simd_target();
+  json["measured"] =
+      counts ? "instructions, taken as " + std::to_string(kPicosecondsPerInstruction) + " ps each"
+             : "processor time";
   json["timing"] = TimingJson(timing);
   json["fit"] = Judge("fit", *scenes[0], timing);
   json["checks"] = nlohmann::ordered_json::array();
@@ -134,6 +145,9 @@ void AddCalibrateCommand(CLI::App* app, Action* action) {
                       "Folder to fit the model to; default: the scene portrait");
   command->add_option("--check", options->check,
                       "Folder to check the model on; default: the scenes wires and ramp");
+  command->add_option("--counter", options->counter,
+                      "On a board emulated by QEMU with tests/count_instructions.c, the file it "
+                      "counts instructions in: they are measured instead of time");
   command->callback([options, action] { *action = [options] { return Calibrate(*options); }; });
 }
 

@@ -81,12 +81,17 @@ class LineScan {
     filled_ = {Max(end_, line_.length - Whole(Shift(*runs_))), line_.length - 1};
     int32_t run_end = line_.length;
     for (const Run* run = runs_; run != runs_end_ && filled_.from > begin_; ++run) {
-      const int32_t shift = Shift(*run), begin = run->begin, low = begin - Whole(shift);
+      const int32_t shift = Shift(*run), begin = run->begin, whole = Whole(shift);
+      const int32_t low = begin - whole;
       if (low < filled_.from) {
-        if (low < end_) {
-          AddRun(run, run_end, shift);
-        } else {
+        if (low >= end_) {
           edge_.run = nullptr;
+        } else if (IsPlain(run, run_end, whole)) {
+          const int32_t offset = shift - whole * kShiftOne;
+          Emit(Max(low, begin_), Min(filled_.from, end_), whole, offset > 0 ? 1 : -1,
+               CellWeight(offset, Min(run->cell, kShiftOne)));
+        } else {
+          AddRun(run, run_end, shift);
         }
         filled_ = {low, begin};
       }
@@ -119,9 +124,18 @@ class LineScan {
     int32_t whole;
   };
 
+  // Whether what is visible of a run lies inside one surface, beside no gap: most runs do.
+  bool IsPlain(const Run* run, int32_t run_end, int32_t whole) const {
+    const int32_t begin = run->begin, end = Min(filled_.from, end_);
+    const bool inside = begin - whole < begin_ ||
+                        (run + 1 != runs_end_ && run[1].surface_end != begin);
+    return inside && run_end - whole >= filled_.from && edge_.run == nullptr &&
+           end + whole < run->surface_end;
+  }
+
   // The run's positions up to `run_end` move together. Emits those that are not hidden, up to what
   // is filled; positions beyond the run's own stretch it over source pixels beyond it.
-  void AddRun(const Run* run, int32_t run_end, int32_t shift) {
+  [[gnu::noinline]] void AddRun(const Run* run, int32_t run_end, int32_t shift) {
     const int32_t whole = Whole(shift);
     const int32_t offset = shift - whole * kShiftOne;
     int32_t end = filled_.from;

@@ -111,14 +111,27 @@ void SpreadLine(const simd::Kernels& kernels, const ViewGrid& grid, const Line& 
       spreader.Begin(runs[last].begin, end);
     }
     const int32_t lowest = IndexOf(Max(0, runs[k].cell - slack));
-    if (lowest == IndexOf(runs[k].cell + slack) || IndexOf(runs[k].cell + slack) <= kOneCell) {
+    const int32_t highest = IndexOf(runs[k].cell + slack);
+    if (lowest == highest || highest <= kOneCell) {
       spreader.Add(runs[k].begin, lowest);
     } else {
-      // Pixel by pixel: where runs end depends on the direction they are found in.
-      for (int32_t x = end - 1; x >= runs[k].begin; --x) {
-        const int32_t disparity = line.disparity[x * line.step];
-        spreader.Add(x, IndexOf(Abs(grid.Shift(cell_move, disparity))));
+      // Pixel by pixel: where runs end depends on the direction they are found in. Neighbours mostly
+      // have one disparity, or at least one cell.
+      int32_t before = line.disparity[(end - 1) * line.step];
+      const auto cell_of = [&](int32_t disparity) {
+        return IndexOf(Abs(grid.Shift(cell_move, disparity)));
+      };
+      int32_t cell = cell_of(before);
+      for (int32_t next = end - 1; --next >= runs[k].begin;) {
+        const int32_t disparity = line.disparity[next * line.step];
+        if (disparity == before) continue;
+        before = disparity;
+        const int32_t next_cell = cell_of(disparity);
+        if (next_cell == cell) continue;
+        spreader.Add(next + 1, cell);
+        cell = next_cell;
       }
+      spreader.Add(runs[k].begin, cell);
     }
     if (k + 1 == count || runs[k + 1].surface_end != surface_end) spreader.Flush();
   }

@@ -1,5 +1,7 @@
 #include "lib/timing.h"
 
+#include "lib/timing_defaults.h"
+
 namespace starfocus {
 
 ViewCounts CountViews(int32_t n) {
@@ -40,9 +42,6 @@ uint64_t PredictTime(const sf_timing& timing, const BlockWork& work) {
          timing.hole * work.hole;
 }
 
-sf_timing DefaultTiming() {
-  // block, field, a, b, c, upsample, span, hole
-  return {15200000, 6600, 2700, 2700, 0, 18600, 16400, 5600};
-}
+sf_timing DefaultTiming() { return kBuiltInTimings[kOwnTiming].timing; }
 
 }  // namespace starfocus

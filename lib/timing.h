@@ -34,7 +34,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& 
 // Picoseconds; exact in integers, so that a partition is the same on every machine.
 uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);
 
-// Coefficients measured for the architecture this is compiled for.
+// Coefficients of the architecture this is compiled for (timing_defaults.h).
 sf_timing DefaultTiming();
 
 }  // namespace starfocus

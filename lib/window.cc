@@ -63,11 +63,10 @@ void ReadCaptured(const Window& window, int index, int32_t x, int32_t y, uint8_t
 }
 
 int CapturedView(int u, int v, bool half) {
-  const int distance = half ? 1 : 2;
-  for (int index = half ? 9 : 1; index < kMaxViews; ++index) {
-    if (kPositions[index].u2 == u * distance && kPositions[index].v2 == v * distance) return index;
-  }
-  return 0;
+  // By u + 1 and v + 1, at full distance; those at half distance are in the same order.
+  constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};
+  const int index = kIndex[u + 1][v + 1];
+  return half && index != 0 ? index + 8 : index;
 }
 
 ViewPosition CapturedPosition(int index) { return kPositions[index]; }

@@ -1,12 +1,18 @@
 // Lists the kernel tables of the machine's SIMD targets. Kept out of the engine's library: it
 // changes Highway's process-wide choice while it looks.
-#include <hwy/targets.h>
+#include <hwy/highway.h>
 
 #include <cstring>
 
 #include "simd/kernels.h"
 
 namespace starfocus::simd {
+
+#ifdef HWY_COMPILE_ONLY_STATIC
+
+const Kernels* KernelsOfTarget(size_t index) { return index == 0 ? &BestKernels() : nullptr; }
+
+#else
 
 const Kernels* KernelsOfTarget(size_t index) {
   const Kernels* found = nullptr;
@@ -21,6 +27,8 @@ const Kernels* KernelsOfTarget(size_t index) {
   hwy::SetSupportedTargetsForTest(0);
   return found;
 }
+
+#endif
 
 const Kernels* FindKernels(const char* name) {
   const Kernels* kernels = nullptr;

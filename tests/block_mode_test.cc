@@ -2,7 +2,6 @@
 // and whatever computes; constants stay; what is in focus is copied; and it looks like the
 // benchmark.
 #include <doctest/doctest.h>
-#include <hwy/highway.h>
 
 #include <algorithm>
 #include <atomic>
@@ -18,6 +17,7 @@
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 #include "tests/deblock_reference.h"
+#include "tests/simd_targets.h"
 #include "tests/test_scene.h"
 
 namespace {
@@ -220,20 +220,9 @@ TEST_CASE("block: 1, 2 and 7 workers give the bytes of no runner at all") {
   }
 }
 
-std::vector<const starfocus::simd::Kernels*> AllTargets() {
-  std::vector<const starfocus::simd::Kernels*> all;
-  for (int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
-    hwy::SetSupportedTargetsForTest(rest & -rest);
-    all.push_back(&starfocus::simd::BestKernels());
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  return all;
-}
-
 TEST_CASE("block: every SIMD target gives the bytes of the plain kernels") {
   test::Random random(34);
-  const std::vector<const starfocus::simd::Kernels*> targets = AllTargets();
-  REQUIRE(!targets.empty());
+  const std::vector<const starfocus::simd::Kernels*> targets = test::SimdTargets();
   for (int round = 0; round < 12; ++round) {
     const test::Scene scene = LayeredScene(random.Int(1, 120), random.Int(1, 100),
                                            kViews[round % 4], 7, uint64_t(round) + 200);

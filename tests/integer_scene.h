@@ -7,7 +7,7 @@
 
 namespace test {
 
-enum class Depth { kLayers, kSlanted, kNoise };
+enum class Depth { kLayers, kSlanted, kNoise, kRoom };
 
 // A disparity every machine computes alike: multiples of 1/64, 1/160 and 1/7, one division each.
 inline float DisparityAt(Depth depth, int x, int y, Random* random) {
@@ -20,6 +20,12 @@ inline float DisparityAt(Depth depth, int x, int y, Random* random) {
       return static_cast<float>(3 * x - 2 * y) / 160.0f;
     case Depth::kNoise:
       return static_cast<float>(random->Int(-21, 21)) / 7.0f;
+    case Depth::kRoom: {  // a wall, a floor that comes nearer, a disc and a pole before both
+      const int dx = x - 120, dy = y - 90;
+      if (dx * dx + dy * dy < 56 * 56) return 3.5f;
+      if (x >= 290 && x < 302) return 1.25f;
+      return y < 150 ? -3.0f : static_cast<float>(y - 150) / 20.0f - 3.0f;
+    }
   }
   return 0;
 }

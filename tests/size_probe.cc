@@ -89,7 +89,7 @@ size_t StackUsed(void* (*run)(void*), Calls* calls) {
 void PrintStack() {
   size_t most = 0;
   for (const int views : {1, 5, 9, 17}) {
-    for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+    for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
       for (const int streaming : {0, 1}) {
         const test::Scene scene = test::RandomScene(150, 90, views, -4, 4, 3);
         Calls calls = {};

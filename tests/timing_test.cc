@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "lib/timing_defaults.h"
 #include "starfocus/starfocus.h"
 #include "tests/test_scene.h"
 
@@ -173,15 +174,24 @@ TEST_CASE("timing: a largest block with the largest coefficients, and all it spl
   }
 }
 
-TEST_CASE("timing: the defaults are legal and are those of a configuration") {
-  const sf_timing timing = starfocus::DefaultTiming();
+TEST_CASE("timing: the built-in coefficients are legal, and only some pixels cost nothing more") {
+  for (const starfocus::NamedTiming& each : starfocus::kBuiltInTimings) {
+    CAPTURE(each.name);
+    const sf_timing& timing = each.timing;
+    CHECK(timing.block > 0);
+    for (const auto coefficient : kCoefficients) CHECK(timing.*coefficient <= SF_MAX_TIMING);
+    // A fit cannot always tell the types apart, B and C being rendered from A, nor the field, whose
+    // pixels grow with those of type A.
+    CHECK(timing.a + timing.b + timing.c > 0);
+    for (const auto coefficient : {&sf_timing::upsample, &sf_timing::span, &sf_timing::hole}) {
+      CHECK(timing.*coefficient > 0);
+    }
+  }
   sf_config config;
   sf_config_init(&config);
-  for (const auto which : kCoefficients) {
-    CHECK(timing.*which <= SF_MAX_TIMING);
-    CHECK(config.timing.*which == timing.*which);
-    // Type C may cost nothing but its spans.
-    if (which != &sf_timing::c) CHECK(timing.*which > 0);
+  const sf_timing& own = starfocus::kBuiltInTimings[starfocus::kOwnTiming].timing;
+  for (const auto coefficient : kCoefficients) {
+    CHECK(config.timing.*coefficient == own.*coefficient);
   }
 }
 

@@ -7,7 +7,17 @@ board() {
     armhf) board_compiler=g++-arm-linux-gnueabihf board_sysroot=armhf ;;
     armv6) board_compiler=g++-arm-linux-gnueabi board_sysroot=armel ;;
     riscv64) board_compiler=g++-riscv64-linux-gnu board_sysroot=headers ;;
-    *) fail "usage: ./do cross aarch64|armhf|armv6|riscv64 [build]" ;;
+    *) fail "expected aarch64, armhf, armv6 or riscv64, found '$1'" ;;
+  esac
+}
+
+# emulator PRESET: the program that runs statically linked programs as on a board.
+emulator() {
+  case "$1" in
+    aarch64) echo qemu-aarch64 -cpu cortex-a53 ;;
+    armhf) echo qemu-arm -cpu cortex-a7 ;;
+    armv6) echo qemu-arm -cpu arm1176 ;;
+    riscv64) echo qemu-riscv64 -cpu rv64 ;;
   esac
 }
 
@@ -20,43 +30,76 @@ cross_build() {
     cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}
 }
 
-# Whatever SIMD targets and vector lengths the emulator has must give the tracked checksums.
+# Whatever SIMD targets and vector lengths the emulator has must give the tracked checksums, and
+# every kernel the reference's results.
 golden_by_sve_length() {
-  cross_build aarch64-max golden_test
-  local bytes
+  cross_build aarch64-max golden_test kernels_test
+  local bytes name
   for bytes in 16 32 64; do
     printf 'SVE registers of %d bytes:\n' $bytes
-    qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
-      -E LD_LIBRARY_PATH=build/sysroot/arm64/usr/lib/aarch64-linux-gnu \
-      build/aarch64-max/tests/golden_test --no-intro=true >"$LOGS/golden-$bytes.log" 2>&1 ||
-      fail "checksums differ with SVE registers of $bytes bytes: see $LOGS/golden-$bytes.log"
-    grep '^golden:' "$LOGS/golden-$bytes.log"
+    for name in kernels golden; do
+      qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
+        -E LD_LIBRARY_PATH=build/sysroot/arm64/usr/lib/aarch64-linux-gnu \
+        build/aarch64-max/tests/${name}_test --no-intro=true >"$LOGS/$name-$bytes.log" 2>&1 ||
+        fail "${name}_test failed with SVE registers of $bytes bytes: see $LOGS/$name-$bytes.log"
+    done
+    grep -h '^SIMD targets:\|^golden:' "$LOGS/kernels-$bytes.log" "$LOGS/golden-$bytes.log"
   done
 }
 
-# instructions CASE KERNELS: of one refocusing, on the emulated board.
+# into_readme NAME FILE: puts the file between the marks of that name in toolchains/README.md.
+into_readme() {
+  awk -v name="$1" -v tables="$2" '
+    $0 == "<!-- " name ": end -->" { skip = 0 }
+    !skip { print }
+    $0 == "<!-- " name ": begin -->" { skip = 1; while ((getline line < tables) > 0) print line }
+  ' toolchains/README.md >"$LOGS/README.md" && cp "$LOGS/README.md" toolchains/README.md
+}
+
+build_counter() {
+  mkdir -p "$LOGS"
+  step plugin "building the emulator's counter" \
+    cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/count_instructions.c
+}
+
+# instructions PRESET CASE KERNELS [COEFFICIENTS]: of one refocusing, on the emulated board.
 instructions() {
-  local runs
+  local runs preset=$1 name=$2 kernels=$3
+  shift 3
   for runs in 1 2; do
-    qemu-aarch64 -cpu cortex-a53 -d plugin \
+    $(emulator "$preset") -d plugin \
       -plugin "$LOGS/count.so,sym=starfocus,sym=sf_,sym=memcpy,sym=memset,sym=memmove" \
-      build/aarch64/tests/instruction_bench "$1" "$2" $runs 2>&1 | sed -n 's/^instructions: //p'
+      "build/$preset/tests/instruction_bench" "$name" "$kernels" $runs "$@" 2>&1 |
+      sed -n 's/^instructions: //p'
   done | awk 'NR == 1 { first = $1 } NR == 2 { print $1 - first }'
 }
 
 # Instructions per pixel with NEON and with the plain reference kernels. Fails when any is more than
-# 3 % above tests/instruction_counts.txt; `record` writes that file.
+# 3 % above tests/instruction_counts.txt, if that is of the same compiler; `record` writes that file
+# and toolchains/README.md.
 count() {
   local baseline=tests/instruction_counts.txt now=$LOGS/instruction_counts.txt name pixels kernels
-  step plugin "building the emulator's counter" \
-    cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/count_instructions.c
+  local compiler recorded
+  build_counter
+  compiler=$(aarch64-linux-gnu-g++ --version | head -n 1)
   qemu-aarch64 build/aarch64/tests/instruction_bench list | while read -r name pixels; do
     for kernels in simd reference; do
-      printf '%s %s %s %s\n' "$name" $kernels "$pixels" "$(instructions "$name" $kernels)"
+      printf '%s %s %s %s\n' "$name" $kernels "$pixels" "$(instructions aarch64 "$name" $kernels)"
     done
   done >"$now"
-  [ "${1:-}" != record ] || cp "$now" $baseline
-  awk '
+  if [ "${1:-}" = record ]; then
+    { printf 'compiler %s\n' "$compiler" && cat "$now"; } >$baseline
+    awk '
+      BEGIN { print "| instructions per pixel | NEON | scalar | ratio |\n|---|--:|--:|--:|" }
+      $2 == "simd" { simd = $4 }
+      $2 == "reference" {
+        printf "| %s | %.0f | %.0f | %.2f |\n", $1, simd / $3, $4 / $3, $4 / simd
+      }' $baseline >"$LOGS/count.md"
+    into_readme count "$LOGS/count.md"
+  fi
+  recorded=$(sed -n 's/^compiler //p' $baseline)
+  awk -v judge="$([ "$recorded" = "$compiler" ] && echo 1)" '
+    $1 == "compiler" { next }
     NR == FNR { expected[$1 " " $2] = $4; next }
     { count[$1 " " $2] = $4; if ($2 == "simd") { names[++n] = $1; pixels[$1] = $3 } }
     function change(key) { return (count[key] / expected[key] - 1) * 100 }
@@ -71,22 +114,108 @@ count() {
         printf "%-24s %10.1f %10.1f %7.2f  %+.2f %% %+.2f %%\n", names[i],
           count[simd] / pixels[names[i]], count[reference] / pixels[names[i]],
           count[reference] / count[simd], change(simd), change(reference)
-        if (change(simd) > 3 || change(reference) > 3) bad = 1
+        if (judge && (change(simd) > 3 || change(reference) > 3)) bad = 1
       }
       if (n == 0) bad = 1
       exit bad
     }' $baseline "$now" ||
     fail "more instructions than $baseline says; if that is meant: ./do count record"
+  [ "$recorded" = "$compiler" ] ||
+    echo "SKIPPED the comparison: $baseline is of $recorded, this is $compiler"
 }
 
 # count_command [record]
 count_command() {
-  local PACKAGES="g++ cmake ninja-build pkg-config g++-aarch64-linux-gnu qemu-user"
-  install_missing
-  step sysroot-aarch64 "fetching headers and libraries for aarch64" \
-    toolchains/sysroot.sh arm64 build/sysroot/arm64
+  case "${1:-}" in '' | record) ;; *) fail "usage: ./do count [record]" ;; esac
+  prepare_board aarch64
   cross_build aarch64 instruction_bench
   count "${1:-}"
+}
+
+# prepare_board PRESET: its compiler, emulator and sysroot.
+prepare_board() {
+  local PACKAGES="g++ cmake ninja-build pkg-config qemu-user" board_compiler board_sysroot
+  board "$1"
+  PACKAGES="$PACKAGES $board_compiler"
+  install_missing
+  step "sysroot-$1" "fetching headers and libraries for $1" \
+    toolchains/sysroot.sh $board_sysroot build/sysroot/$board_sysroot
+}
+
+BOARDS="aarch64 armhf armv6 riscv64"
+
+# coefficients [ARCHITECTURE...]: the built-in timing coefficients of some boards or all, from
+# instruction counts, into lib/timing_defaults.h.
+coefficients() {
+  local preset numbers scene
+  for preset in "$@"; do board "$preset"; done
+  install_missing
+  build starfocus
+  for scene in portrait wires; do
+    [ -f "build/coefficients/$scene/meta.txt" ] || program "made the light field $scene" \
+      scene "build/coefficients/$scene" --name $scene --size 640x480 --views 9
+  done
+  build_counter
+  for preset in ${*:-$BOARDS}; do
+    prepare_board $preset
+    cross_build $preset starfocus
+    head -c 8 /dev/zero >build/coefficients/counter
+    step "coefficients-$preset" "counting instructions of blocks on $preset" \
+      $(emulator $preset) -plugin "$LOGS/count.so,counter=build/coefficients/counter" \
+      build/$preset/starfocus calibrate --counter build/coefficients/counter \
+      --light-field build/coefficients/portrait --check build/coefficients/wires \
+      --output build/coefficients/$preset.json
+    grep '^R2' "$LOGS/coefficients-$preset.log"
+    numbers=$(sed -n '/"timing"/,/}/s/.*: *\([0-9][0-9]*\),*$/\1/p' build/coefficients/$preset.json |
+      paste -s -d ',' | sed 's/,/, /g')
+    sed -i "s/{\"$preset\", {[0-9, ]*}}/{\"$preset\", {$numbers}}/" lib/timing_defaults.h
+    grep -F "\"$preset\", {$numbers}" lib/timing_defaults.h ||
+      fail "lib/timing_defaults.h has no line for $preset"
+  done
+}
+
+# partitions [write]: what block mode costs with the coefficients of every architecture, by the count
+# (write: into toolchains/README.md).
+partitions() {
+  local preset name set counts=$LOGS/partitions.txt
+  case "${1:-}" in '' | write) ;; *) fail "usage: ./do partitions [write]" ;; esac
+  build_counter
+  for preset in aarch64 armv6; do
+    prepare_board $preset
+    cross_build $preset instruction_bench
+  done
+  for preset in aarch64 armv6; do
+    for name in $($(emulator $preset) build/$preset/tests/instruction_bench list |
+      sed -n 's/\([^ ]*-block-[^ ]*\) .*/\1/p'); do
+      for set in $($(emulator $preset) build/$preset/tests/instruction_bench coefficients); do
+        printf '%s %s %s %s\n' $preset "$name" "$set" "$(instructions $preset "$name" simd "$set")"
+      done
+    done
+  done >"$counts" 2>"$LOGS/partitions.log"
+  awk '
+    NF != 4 { bad = 1 }
+    {
+      row = "`" $2 "` on " $1
+      if (!(row in own)) rows[++n] = row
+      if (!($3 in known)) { known[$3] = 1; sets[++m] = $3 }
+      own[row] += $1 == $3 ? $4 : 0
+      count[row, $3] = $4
+    }
+    END {
+      if (bad || !n) exit 1
+      printf "| coefficients of"
+      for (k = 1; k <= m; ++k) printf " | %s", sets[k]
+      printf " |\n|---"
+      for (k = 1; k <= m; ++k) printf "|--:"
+      print "|"
+      for (i = 1; i <= n; ++i) {
+        printf "| %s", rows[i]
+        for (k = 1; k <= m; ++k) printf " | %+.2f %%", (count[rows[i], sets[k]] / own[rows[i]] - 1) * 100
+        print " |"
+      }
+    }' "$counts" >"$LOGS/partitions.md" || fail "not everything was counted: see $counts"
+  cat "$LOGS/partitions.md"
+  [ "${1:-}" != write ] || into_readme partitions "$LOGS/partitions.md"
 }
 
 # cross ARCHITECTURE [build]: builds everything for a board and runs every test on an emulated one.
@@ -173,11 +302,7 @@ size() {
   done
   size_tables >"$LOGS/size.md" || exit 1
   if [ "${1:-}" = write ]; then
-    awk -v tables="$LOGS/size.md" '
-      /<!-- size: end -->/ { skip = 0 }
-      !skip { print }
-      /<!-- size: begin -->/ { skip = 1; while ((getline line < tables) > 0) print line }
-    ' toolchains/README.md >"$LOGS/README.md" && cp "$LOGS/README.md" toolchains/README.md
+    into_readme size "$LOGS/size.md"
   else
     cat "$LOGS/size.md"
   fi

@@ -113,12 +113,17 @@ BlockWork BlockBench::Work(const BlockTask& task) {
                      block.layer);
 }
 
-double BlockBench::Time(const BlockTask& task) {
+uint64_t BlockBench::Now() const {
+  if (counter_ != nullptr) return counter_->Count() * kPicosecondsPerInstruction;
+  return 1000 * ThreadNanoseconds();
+}
+
+uint64_t BlockBench::Time(const BlockTask& task) {
   Focus(task);
   const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
-  const uint64_t start = ThreadNanoseconds();
+  const uint64_t start = Now();
   RefocusBlock(*engine_, task.block, out, engine_->workers);
-  return 1e-9 * static_cast<double>(ThreadNanoseconds() - start);
+  return Now() - start;
 }
 
 }  // namespace starfocus

@@ -39,7 +39,7 @@ void SceneTimes::Measure(Progress* progress) {
   for (std::vector<Timed>& group : groups_) {
     for (Timed& timed : group) {
       // Never zero, which no weight could be made of.
-      const double picoseconds = std::max(1.0, 1e12 * bench_.Time(timed.task));
+      const double picoseconds = std::max(1.0, double(bench_.Time(timed.task)));
       timed.measurement.picoseconds = std::min(timed.measurement.picoseconds, picoseconds);
       progress->Step();
     }

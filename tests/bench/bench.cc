@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "platform/file.h"
+#include "tests/bench/counts.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/output.h"
 #include "tests/bench/report.h"
@@ -16,7 +17,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> folders;
-  std::string csv, json, html, revision, sweep;
+  std::string csv, json, html, revision, sweep, x86_counts, arm_counts;
   Choice choice;
   Settings settings;
 };
@@ -62,6 +63,8 @@ std::string Run(Options options) {
   if (!options.html.empty()) {
     options.settings.folder = std::filesystem::absolute(options.html).parent_path().string();
   }
+  std::vector<Counts> counts;
+  if (error.empty()) error = ReadCounts(options.x86_counts, options.arm_counts, &counts);
   std::vector<Row> rows;
   for (size_t i = 0; i < options.folders.size() && error.empty(); ++i) {
     Field field;
@@ -75,7 +78,7 @@ std::string Run(Options options) {
   if (error.empty()) error = Save(options.json, ToJson(machine, rows));
   if (error.empty() && !options.html.empty()) {
     std::string page;
-    error = MakeReport({machine, rows, MissingTools()}, &page);
+    error = MakeReport({machine, rows, MissingTools(), counts}, &page);
     if (error.empty()) error = Save(options.html, page);
   }
   return error;
@@ -104,6 +107,8 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--sweep", options->sweep, "Light field of the sweeps of radii and sizes");
   app->add_option("--largest-radius", choice.largest_radius, "Of that sweep, pixels; 0: none");
   app->add_option("--largest-size", choice.largest_megapixels, "Megapixels; 0: none");
+  app->add_option("--x86-counts", options->x86_counts, "Instruction counts for the report");
+  app->add_option("--arm-counts", options->arm_counts, "The same of AArch64");
   app->add_option("--revision", options->revision, "Said beside the version");
 }
 

@@ -9,14 +9,14 @@ program=$build/starfocus-bench-count
 target=AVX2 # valgrind hides AVX-512
 allowed=3   # percent
 skip() {
-  echo "instruction counts not checked: $*"
+  echo "SKIPPED the comparison of instruction counts: $*"
   exit 0
 }
 
 [ "$(uname -m)" = x86_64 ] || skip "this is not x86-64"
 command -v valgrind >/dev/null || { echo "install the package valgrind first" >&2; exit 1; }
 compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
-compiler=$("$compiler" --version | head -n 1)
+compiler=$("$compiler" --version | sed -n '1s/^[^ ]* //p') # without the program's own name
 
 # count MODE: "MODE instructions-per-pixel"
 count() {
@@ -29,6 +29,16 @@ count() {
   awk -v m="$1" -v i="$instructions" -v p="$pixels" 'BEGIN { printf "%s %.1f\n", m, i / p }'
 }
 
+# count_case NAME PIXELS KERNELS: "NAME KERNELS instructions-per-pixel" of a case of
+# instruction_bench, which `./do count` counts on AArch64.
+count_case() {
+  local out=$build/callgrind.$1.$3 instructions
+  valgrind --tool=callgrind --callgrind-out-file="$out" --toggle-collect=sf_refocus \
+    "$build/tests/instruction_bench" "$1" "$3" 1 >"$out.log" 2>&1 || { cat "$out.log" >&2; exit 1; }
+  instructions=$(awk '/^(summary|totals):/ { print $2; exit }' "$out")
+  awk -v n="$1 $3" -v i="$instructions" -v p="$2" 'BEGIN { printf "%s %.1f\n", n, i / p }'
+}
+
 counts=
 for mode in block frame; do
   line=$(count $mode)
@@ -36,9 +46,16 @@ for mode in block frame; do
   counts=$counts$line$'\n'
 done
 
+while read -r name pixels; do
+  for kernels in simd reference; do
+    line=$(count_case "$name" "$pixels" $kernels)
+    counts=$counts$line$'\n'
+  done
+done < <("$build/tests/instruction_bench" list)
+
 if [ "$2" = record ]; then
   {
-    echo "# Instructions per pixel of sf_refocus on $target by mode; ./do bench --record writes this."
+    echo "# Instructions per pixel of sf_refocus on $target; ./do bench --record writes this."
     echo "compiler $compiler"
     printf '%s' "$counts"
   } >"$baseline"
@@ -48,12 +65,14 @@ fi
 
 recorded=$(sed -n 's/^compiler //p' "$baseline")
 worse=0
-while read -r mode now; do
-  before=$(awk -v m="$mode" '$1 == m { print $2 }' "$baseline")
+# What is counted is named by all words of a line but the last.
+while read -r line; do
+  mode=${line% *} now=${line##* }
+  before=$(sed -n "s/^$mode \([0-9.]*\)\$/\1/p" "$baseline")
   [ -n "$before" ] || { echo "$mode: no baseline, run ./do bench --record" >&2; exit 1; }
   awk -v m="$mode" -v n="$now" -v b="$before" -v a=$allowed 'BEGIN {
     printf "%s: %.1f instructions per pixel, baseline %.1f (%+.1f %%)\n", m, n, b, 100 * (n / b - 1)
-    exit n > b * (1 + a / 100) }' || worse=1
+    exit n <= 0 || n > b * (1 + a / 100) }' || worse=1
 done <<<"${counts%$'\n'}"
 if [ "$recorded" != "$compiler" ]; then
   skip "the baseline is of $recorded, this is $compiler"

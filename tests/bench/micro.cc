@@ -1,5 +1,7 @@
-// starfocus-bench-micro: every kernel on every SIMD target beside a memcpy of the same size, in
-// bytes read and written per second.
+// starfocus-bench-micro: every kernel on every SIMD target, and what surrounds them, beside a
+// memcpy of the same size, in bytes read and written per second.
+#include "tests/bench/micro.h"
+
 #include <benchmark/benchmark.h>
 
 #include <cstring>
@@ -12,6 +14,7 @@ namespace {
 
 using starfocus::simd::Kernels;
 using starfocus::simd::kPadding;
+using starfocus::simd::kRunLanes;
 using starfocus::simd::Span;
 
 constexpr size_t kSamples = 3 * 1024;  // of a line
@@ -24,6 +27,8 @@ struct Buffers {
   std::vector<int16_t> in, out;
   std::vector<float> disparity;
   std::vector<Span> spans;
+  std::vector<uint16_t> starts, edges;  // of runs
+  std::vector<int16_t> middles;
 
   explicit Buffers(bool pairs)
       : bytes(kSamples + 2 * kMargin + kPadding),
@@ -31,7 +36,10 @@ struct Buffers {
         sums(bytes.size()),
         in(bytes.size()),
         out(bytes.size()),
-        disparity(bytes.size(), 1.5f) {
+        disparity(bytes.size(), 1.5f),
+        starts(bytes.size()),
+        edges(bytes.size()),
+        middles(bytes.size()) {
     for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = uint8_t(i * 37);
     for (size_t i = 0; i < in.size(); ++i) in[i] = int16_t(i * 61 % 16320);
     for (size_t i = 0; i < kSamples; i += kSpan) {
@@ -42,7 +50,14 @@ struct Buffers {
   }
 };
 
+// A square of kSamples samples: lines side by side, and pixels to transpose.
+constexpr size_t kLines = 48, kLength = kSamples / kLines;
+static_assert(kLines % kRunLanes == 0);
+constexpr size_t kRows = 32, kColumns = kSamples / 3 / kRows;
+
 constexpr starfocus::simd::HalfBand kTaps = {8192, 4096, 0};
+// A box of 3.5 pixels.
+constexpr starfocus::simd::SpreadTaps kSpreadTaps = {2, 72, 72, 20};
 using Body = void (*)(const Kernels&, Buffers*);
 
 struct Case {
@@ -64,6 +79,31 @@ const Case kCases[] = {
     {"blend", true, 1 + 1,
      [](const Kernels& k, Buffers* b) {
        k.blend(b->spans.data(), b->spans.size(), b->line.data());
+     }},
+    {"spread", false, 1 + 1,
+     [](const Kernels& k, Buffers* b) {
+       k.spread(b->bytes.data() + kMargin, kSpreadTaps, kSamples, b->line.data());
+     }},
+    {"find_runs", false, 2 + 2,
+     [](const Kernels& k, Buffers* b) {
+       k.find_runs(b->in.data(), kLines, kLength, kLines, {2000, 12000},
+                   {b->starts.data(), b->edges.data(), b->middles.data(), kLines});
+     }},
+    // Cells of 64 pixels in rows of 8 cells; of all that is read, the cells alone count.
+    {"measure_cell", false, 2,
+     [](const Kernels& k, Buffers* b) {
+       constexpr size_t kStride = 64;
+       for (size_t cell = 0; cell < kSamples / 64; ++cell) {
+         const int16_t* rows[10];
+         for (size_t y = 0; y < 10; ++y) rows[y] = b->in.data() + 1 + y * kStride + cell % 7 * 8;
+         starfocus::simd::CellMeasure measure;
+         k.measure_cell(rows, {4000, 12000, 2000, 4000}, &measure);
+         benchmark::DoNotOptimize(measure);
+       }
+     }},
+    {"transpose", false, 1 + 1,
+     [](const Kernels& k, Buffers* b) {
+       k.transpose(b->bytes.data(), 3 * kColumns, kRows, kColumns, b->line.data(), 3 * kRows);
      }},
     {"finish", false, 4 + 1,
      [](const Kernels& k, Buffers* b) { k.finish(b->sums.data(), kSamples, 24, b->line.data()); }},
@@ -89,6 +129,11 @@ const Case kCases[] = {
        k.between(b->in.data() + kMargin, 3, kTaps, kSamples, 0, 16320, b->out.data());
      }},
 };
+
+// Whoever adds a kernel adds its case; accumulate has two.
+static_assert(sizeof(Kernels) ==
+                  sizeof(const char*) + (sizeof(kCases) / sizeof(kCases[0]) - 1) * sizeof(Body),
+              "a case for every kernel");
 
 void Register(const Kernels* kernels) {
   for (const Case& one : kCases) {
@@ -129,8 +174,12 @@ int main(int argc, char** argv) {
   const Kernels* kernels = nullptr;
   for (size_t i = 0; (kernels = starfocus::simd::KernelsOfTarget(i)) != nullptr; ++i) {
     Register(kernels);
+    starfocus::bench::RegisterLineScan(kernels);
+    starfocus::bench::RegisterWholePictures(kernels->name);
   }
   Register(&starfocus::simd::ReferenceKernels());
+  starfocus::bench::RegisterLineScan(&starfocus::simd::ReferenceKernels());
+  starfocus::bench::RegisterDeblocking();
   RegisterCopies();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -49,6 +49,7 @@ std::string MakeReport(const Findings& findings, std::string* page) {
   *page += "<h2>Layers of block mode</h2>\n" + LayerPlot(rows);
   *page += "<h2>Throughput</h2>\n" + TableTwo(rows);
   *page += "<h2>SIMD targets</h2>\n" + TargetTable(rows);
+  *page += "<h2>Instructions per pixel</h2>\n" + CountTable(findings.counts);
   *page += "</body></html>\n";
   return "";
 }

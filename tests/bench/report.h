@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/bench/counts.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/row.h"
 
@@ -14,6 +15,7 @@ struct Findings {
   Machine machine;
   std::vector<Row> rows;
   std::vector<std::string> missing;  // rivals that are not installed
+  std::vector<Counts> counts;
 };
 
 // Drawings need gnuplot; without one, the page says so in their place.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/bench/counts.h"
 #include "tests/bench/row.h"
 
 namespace starfocus::bench {
@@ -16,6 +17,7 @@ std::string TableTwo(const Rows& rows);
 std::string TableFour(const Rows& rows);
 std::string TruthTable(const Rows& rows);
 std::string TargetTable(const Rows& rows);
+std::string CountTable(const std::vector<Counts>& counts);
 
 std::string PlanePlots(const Rows& rows);
 std::string FocusPlots(const Rows& rows);

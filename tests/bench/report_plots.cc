@@ -17,7 +17,9 @@ struct Drawing {
   std::string title, x, y, settings, caption;
   int height = 430;
   const char* style = "linespoints";
+  double size = 0.7;  // of points
   std::vector<Curve> curves;
+  Curve front;  // a line behind them, when it has points
 };
 
 std::string Quote(const std::string& text) {
@@ -34,17 +36,27 @@ std::string Script(const Drawing& drawing) {
   script += "set title " + Quote(drawing.title) + " noenhanced\nset xlabel " + Quote(drawing.x) +
             " noenhanced\nset bmargin 6\nset ylabel " + Quote(drawing.y) +
             "\nset key outside bottom horizontal noenhanced\n";
-  script += drawing.settings + "plot ";
+  // gnuplot's yellow is hard to see on white.
+  script += drawing.settings + "set linetype 5 lc rgb '#a67c00'\nplot ";
   std::string data;
-  for (size_t i = 0; i < drawing.curves.size(); ++i) {
-    const Curve& curve = drawing.curves[i];
-    if (i > 0) script += ", ";
-    script += "'-' using 1:2 with " + std::string(drawing.style) + " lw 2 pt " +
-              std::to_string(5 + i % 9) + " ps 0.7 title " + Quote(curve.name);
+  const auto add = [&](const Curve& curve) {
     for (const auto& [x, y] : curve.points) {
       data += std::to_string(x) + " " + std::to_string(y) + "\n";
     }
     data += "e\n";
+  };
+  if (!drawing.front.points.empty()) {
+    script += "'-' using 1:2 with lines lw 2 lc rgb '#bbbbbb' title " + Quote(drawing.front.name);
+    if (!drawing.curves.empty()) script += ", ";
+    add(drawing.front);
+  }
+  for (size_t i = 0; i < drawing.curves.size(); ++i) {
+    const Curve& curve = drawing.curves[i];
+    if (i > 0) script += ", ";
+    script += "'-' using 1:2 with " + std::string(drawing.style) + " lw 2 pt " +
+              std::to_string(5 + i % 9) + " lc " + std::to_string(1 + i % 8) + " ps " +
+              Fixed(drawing.size, 1) + " title " + Quote(curve.name);
+    add(curve);
   }
   return script + "\n" + data;
 }
@@ -84,6 +96,7 @@ std::string Plane(const Rows& rows, const std::string& field, const char* agains
   drawing.y = "PSNR, dB";
   drawing.style = "points";
   drawing.height = 600;  // room for many names
+  drawing.size = 1;
   drawing.settings =
       "set logscale x\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
       "set bmargin 14\n";
@@ -103,7 +116,9 @@ std::string Plane(const Rows& rows, const std::string& field, const char* agains
     drawing.curves.push_back({name, {{points.back().time, points.back().quality}}});
   }
   drawing.caption = "Pareto front, from the fastest:";
+  drawing.front.name = "Pareto front";
   for (const size_t i : ParetoFront(points)) {
+    drawing.front.points.push_back({points[i].time, points[i].quality});
     drawing.caption += " <b>" + Escape(drawing.curves[i].name) + "</b> (" +
                        Fixed(points[i].time, 1) + " ms, " + Fixed(points[i].quality, 1) + " dB);";
   }
@@ -174,7 +189,7 @@ std::string Growth(const Rows& rows, const char* study, const char* title, const
       xs.push_back(place);
       ys.push_back(ms);
     }
-    curve.name += ", slope " + Fixed(LogSlope(xs, ys), 2);
+    curve.name += ", slope " + Fixed(xs.size() < 2 ? kNone : LogSlope(xs, ys), 2);
     drawing.caption += " " + curve.name + ";";
     drawing.curves.push_back(curve);
   }
@@ -185,6 +200,8 @@ std::string Growth(const Rows& rows, const char* study, const char* title, const
 }  // namespace
 
 std::string GrowthPlots(const Rows& rows) {
+  const auto swept = [](const Row& row) { return row.study == "radius" || row.study == "pixels"; };
+  if (std::none_of(rows.begin(), rows.end(), swept)) return "<p>Not measured.</p>";
   // A blur radius of 0 stands at 0.5 on the logarithmic axis.
   return Growth(rows, "radius", "Time against the largest blur radius (0 drawn at 0.5)",
                 "r_max, pixels", 4, [](const Row& row) { return std::max(0.5, row.r_max); }) +

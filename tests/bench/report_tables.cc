@@ -56,7 +56,7 @@ Cells FieldCells(const Rows& rows, const std::string& field, double aperture) {
   }
   cells.push_back(Fixed(Seconds(frame) / seconds, 1));
   cells.push_back(Fixed(Seconds(blur) / seconds, 2));
-  if (aperture != 1) return cells.resize(15, "–"), cells;
+  if (aperture != 1) return cells.resize(17, "–"), cells;
   double before = Mean(frame, Ms);
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
     const double now = layer == 2 ? Mean(block, Ms) : WithLayers(rows, field, layer, Ms);
@@ -185,6 +185,23 @@ std::string TargetTable(const Rows& rows) {
     }
   }
   return Table(head, body);
+}
+
+std::string CountTable(const std::vector<Counts>& counts) {
+  if (counts.empty()) return "<p>Not measured.</p>";
+  std::string body;
+  for (const Counts& each : counts) {
+    body += Line({Escape(each.name), Fixed(each.x86_simd, 0), Fixed(each.x86_plain, 0),
+                  Fixed(each.x86_plain / each.x86_simd, 2), Fixed(each.arm_simd, 0),
+                  Fixed(each.arm_plain, 0), Fixed(each.arm_plain / each.arm_simd, 2)});
+  }
+  return "<p>Counted inside the engine, repeating exactly; from the tracked baselines "
+         "(<code>./do bench --check</code> by callgrind, <code>./do count</code> by an emulator), "
+         "not of this run. No board was at hand: what the emulated AArch64 executes stands in for "
+         "energy, without what memory costs. Cases are views, scene, mode and largest blur "
+         "radius, 192×128 pixels, rooms 384×256.</p>" +
+         Table({"case", "x86-64 AVX2", "plain C++", "ratio", "AArch64 NEON", "plain C++", "ratio"},
+               body);
 }
 
 }  // namespace starfocus::bench

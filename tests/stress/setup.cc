@@ -6,7 +6,6 @@
 #include <new>
 #include <utility>
 
-#include "hwy/targets.h"
 #include "lib/engine.h"
 
 namespace starfocus::stress {
@@ -93,12 +92,9 @@ std::string Variant::Text() const {
 const std::vector<const simd::Kernels*>& AllKernels() {
   static const std::vector<const simd::Kernels*> all = [] {
     std::vector<const simd::Kernels*> found = {&simd::ReferenceKernels()};
-    for (int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
-      hwy::SetSupportedTargetsForTest(rest & -rest);
-      const simd::Kernels* kernels = &simd::BestKernels();
-      if (std::find(found.begin(), found.end(), kernels) == found.end()) found.push_back(kernels);
+    for (size_t i = 0; const simd::Kernels* kernels = simd::KernelsOfTarget(i); ++i) {
+      found.push_back(kernels);
     }
-    hwy::SetSupportedTargetsForTest(0);
     return found;
   }();
   return all;

@@ -102,8 +102,8 @@ SF_API uint32_t sf_abi_version(void);
 
 /** Run-time model of a block, the paper's (14) with terms for what surrounds the line scan, in
  *  picoseconds; only ratios matter. It decides the partition of SF_MODE_BLOCK and so its bytes.
- *  sf_config_init sets coefficients measured for the architecture; `starfocus calibrate` measures
- *  them on a machine. */
+ *  sf_config_init sets those of the architecture (of others than x86-64 from instruction counts);
+ *  `starfocus calibrate` measures them on a machine. */
 typedef struct sf_timing {
   uint32_t block;    /**< per block */
   uint32_t field;    /**< per pixel of the extended block at its layer: loading, rotating */

@@ -1,0 +1,42 @@
+// Built-in coefficients of the timing model, in picoseconds, by architecture.
+//
+// x86-64: measured by `starfocus calibrate` on a processor with AVX-512. All others: no board was at
+// hand. They come from the number of instructions that `starfocus calibrate --counter` counts on an
+// emulated board, each taken as 250 ps; what memory costs is not in them. `./do coefficients`
+// writes their lines anew. On a board of your own, calibrate and hand the result to the engine.
+#ifndef STARFOCUS_LIB_TIMING_DEFAULTS_H_
+#define STARFOCUS_LIB_TIMING_DEFAULTS_H_
+
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+struct NamedTiming {
+  const char* name;  // as in `./do cross`
+  sf_timing timing;  // block, field, a, b, c, upsample, span, hole
+};
+
+inline constexpr NamedTiming kBuiltInTimings[] = {
+    {"x86-64", {16057503, 0, 3074, 0, 0, 22957, 12624, 6514}},
+    {"aarch64", {44084252, 1700, 17599, 0, 2846, 41137, 41047, 12098}},
+    {"armhf", {51991377, 550, 21541, 0, 3447, 50423, 56819, 14202}},
+    {"armv6", {46445054, 0, 35253, 0, 8039, 82877, 45309, 9080}},
+    {"riscv64", {38243803, 0, 60045, 20346, 22911, 118378, 15967, 11067}},
+};
+
+// The index of the architecture this is compiled for; unknown ones are taken for x86-64.
+#if defined(__aarch64__)
+inline constexpr int kOwnTiming = 1;
+#elif defined(__arm__) && defined(__ARM_NEON)
+inline constexpr int kOwnTiming = 2;
+#elif defined(__arm__)
+inline constexpr int kOwnTiming = 3;
+#elif defined(__riscv)
+inline constexpr int kOwnTiming = 4;
+#else
+inline constexpr int kOwnTiming = 0;
+#endif
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_TIMING_DEFAULTS_H_

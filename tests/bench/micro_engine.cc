@@ -1,0 +1,150 @@
+// The parts of the engine between its kernels: line scan, deblocking and blur.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "lib/deblock.h"
+#include "lib/line_scan.h"
+#include "lib/runs.h"
+#include "tests/bench/micro.h"
+#include "tests/bench/timed_engine.h"
+
+namespace starfocus::bench {
+namespace {
+
+constexpr int kPixels = 1024, kSurface = 32;  // of a line, of a surface in it
+constexpr int kSide = 256;                    // of the pictures
+constexpr int kViewNumber = 4;                // N
+
+// Takes what the scan finds, and keeps nothing but its number.
+struct Ignore {
+  int64_t pixels = 0;
+  template <class... More>
+  void Surface(int32_t begin, int32_t end, More...) {
+    pixels += end - begin;
+  }
+  template <class... More>
+  void Hole(int32_t begin, int32_t end, More...) {
+    pixels += end - begin;
+  }
+  template <class... More>
+  void Mix(More...) {
+    ++pixels;
+  }
+};
+
+// Slanted surfaces with depth edges between them, +-4 pixels of blur.
+int16_t DisparityAt(int x) { return int16_t((x / kSurface * 5 % 9 - 4) * 64 + x % kSurface * 2); }
+
+// All views of one line, runs included, as type A lines are scanned. Bytes: disparities read once
+// a view, as the scan itself moves no pixels.
+void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
+  std::vector<uint8_t> rgb(3 * kPixels, 128);
+  std::vector<int16_t> disparity(kPixels + simd::kPadding);
+  for (int x = 0; x < kPixels; ++x) disparity[size_t(x)] = DisparityAt(x);
+  std::vector<Run> runs(kPixels);
+  std::vector<uint16_t> starts(RunMarkWords(kPixels, 1)), edges(starts.size());
+  std::vector<int16_t> middles(RunMiddles(kPixels, 1));
+  simd::RunMarks marks = {starts.data(), edges.data(), middles.data(), 0};
+  Aperture aperture;
+  aperture.n = kViewNumber;
+  const ViewGrid grid = MakeViewGrid(aperture, 0, 1, 0, false, false);
+  const Line line = {rgb.data(), disparity.data(), 1, kPixels};
+  for (auto _ : state) {
+    Ignore ignore;
+    for (const Direction direction : {Direction::kRightToLeft, Direction::kLeftToRight}) {
+      MarkRuns(kernels, grid, {disparity.data(), 1, kPixels, 1}, direction, &marks);
+      const int32_t count = ReadRuns(marks, 0, kPixels, grid, grid.Move(1), runs.data());
+      for (int i = 1; i <= kViewNumber; ++i) {
+        const int64_t move = direction == Direction::kRightToLeft ? grid.Move(i) : -grid.Move(i);
+        const LineView view = {&grid, move, 0, kPixels};
+        ScanLine(line, direction, runs.data(), count, view, &ignore);
+      }
+    }
+    benchmark::DoNotOptimize(ignore.pixels);
+  }
+  state.SetBytesProcessed(int64_t(state.iterations()) * 2 * kViewNumber * kPixels * 2);
+}
+
+// A chequerboard of layers, so that every boundary is worked on. Bytes: the picture read and
+// written twice.
+void Deblock(benchmark::State& state) {
+  constexpr int kUnits = kSide / 16;
+  std::vector<uint8_t> units(size_t(kUnits * (kUnits + 1))), picture(size_t(3 * kSide * kSide));
+  for (size_t i = 0; i < units.size(); ++i) {
+    units[i] = uint8_t((i % kUnits + i / kUnits) % SF_LAYERS);
+  }
+  for (size_t i = 0; i < picture.size(); ++i) picture[i] = uint8_t(i / 48 * 9);
+  LayerMap map;
+  map.units = units.data();
+  map.columns = kUnits;
+  map.rows = kUnits;
+  const DeblockJob job = {&map, {picture.data(), 3 * kSide, 0, 0}, kSide, kSide, 0, 35};
+  for (auto _ : state) {
+    DeblockRows(job, 0, kUnits);
+    DeblockColumns(job, 0, kSide);
+    benchmark::ClobberMemory();
+  }
+  state.SetBytesProcessed(int64_t(state.iterations()) * int64_t(4 * picture.size()));
+}
+
+Field MakeField() {
+  Field field;
+  field.name = "micro";
+  field.data.disparity.width = field.data.disparity.height = kSide;
+  Image view(kSide, kSide);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      field.data.disparity.values.push_back(float(DisparityAt((x + y) % kPixels)) / 64);
+      for (int c = 0; c < 3; ++c) view.row(y)[3 * x + c] = uint8_t(x * 37 + y * 91 + c * 50);
+    }
+  }
+  field.data.views.push_back(view);
+  field.low = -4;
+  field.high = 5;
+  return field;
+}
+
+// A whole picture through the engine. Bytes: view and map read, picture written.
+void WholePicture(const std::string& mode, const std::string& target, benchmark::State& state) {
+  static const Field field = MakeField();
+  Task task;
+  task.mode = mode;
+  task.views = 1;
+  task.target = target;
+  TimedEngine timed;
+  std::string error = Prepare(field, task, 0, 1, &timed);
+  timed.params.clock = nullptr;
+  Elapsed ignored;
+  for (auto _ : state) {
+    if (error.empty()) error = RunOnce(field, task, &timed, &ignored);
+  }
+  if (!error.empty()) state.SkipWithError(error.c_str());
+  state.SetBytesProcessed(int64_t(state.iterations()) * kSide * kSide * (3 + 4 + 3));
+}
+
+}  // namespace
+
+void RegisterDeblocking() { benchmark::RegisterBenchmark("deblock", Deblock); }
+
+void RegisterLineScan(const simd::Kernels* kernels) {
+  const std::string name = std::string("line_scan/") + kernels->name;
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [kernels](benchmark::State& state) { ScanLines(*kernels, state); });
+}
+
+void RegisterWholePictures(const std::string& target) {
+  for (const char* mode : {"blur", "frame", "block"}) {
+    const std::string name = std::string("refocus_") + mode + "/" + target;
+    benchmark::RegisterBenchmark(name.c_str(), [mode, target](benchmark::State& state) {
+      WholePicture(mode, target, state);
+    });
+  }
+}
+
+}  // namespace starfocus::bench
