@@ -132,6 +132,14 @@ TEST_CASE("constants: the layers of (12)") {
   CHECK_MESSAGE(LayerByPaper(6) == 2, "(12) moves: layer 2 begins above r = 6");
 }
 
+TEST_CASE("constants: the layers beside the rule for cells") {
+  const double below = std::nextafter(4.0, 0.0);
+  CHECK_MESSAGE(LayerByCells(below) == 0, "LayerByCells moves: layer 1 begins below r = 4");
+  CHECK_MESSAGE(LayerByCells(4) == 1, "LayerByCells moves: layer 1 begins above r = 4");
+  CHECK_MESSAGE(LayerByCells(2 * below) == 1, "LayerByCells moves: layer 2 begins below r = 8");
+  CHECK_MESSAGE(LayerByCells(8) == 2, "LayerByCells moves: layer 2 begins above r = 8");
+}
+
 TEST_CASE("constants: the filters go down and up as (10) and (11) have it") {
   for (const double r : {3.0, 4.5, 7.0}) {
     const Kernel half = IdealKernel(r / 2, kDefaultTheta);
@@ -145,7 +153,7 @@ TEST_CASE("constants: the filters go down and up as (10) and (11) have it") {
   CHECK(std::fabs(LayerAliasing(IdealKernel(2, kDefaultTheta), 0, kBetaDown)) < 1e-15);
 }
 
-// Radii in both directions; `least` is where (12) begins.
+// Radii in both directions; `least` is where the rule's layer begins.
 void CheckEngine(sf_rule rule, int layer, int least, int most) {
   for (int k = 8 * least; k <= 8 * most; k = k < 64 ? k + 1 : k + 13) {
     for (const int sign : {1, -1}) {
@@ -179,8 +187,9 @@ TEST_CASE("constants: the running engine has the kernel it is described by") {
   constexpr int kMost = STARFOCUS_EMULATED ? 20 : 40;
   for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_CELLS}) {
     CheckEngine(rule, 0, 0, kMost);
-    CheckEngine(rule, 1, 3, kMost);
-    CheckEngine(rule, 2, 6, kMost);
+    const int radius = rule == SF_RULE_PAPER ? 3 : 4;
+    CheckEngine(rule, 1, radius, kMost);
+    CheckEngine(rule, 2, 2 * radius, kMost);
   }
 }
 

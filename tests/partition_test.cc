@@ -1,5 +1,5 @@
-// The quadtree against all partitions there are, with rules (12) and (9) and the timing model
-// applied anew.
+// The quadtree against all partitions there are, with the rules for layers and views and the timing
+// model applied anew.
 #include "lib/partition.h"
 
 #include <doctest/doctest.h>
@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "lib/engine.h"
-#include "lib/rules.h"
 #include "tests/test_scene.h"
 
 namespace {
@@ -63,7 +62,8 @@ struct Plan {
     grid.cells = cells.data();
     for (int row = 0; row < grid.rows; ++row) {
       for (int column = 0; column < grid.columns; ++column) {
-        *grid.At(column, row) = starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
+        *grid.At(column, row) =
+            starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
       }
     }
     around = starfocus::GetReach(2 * limit).cells;
@@ -119,37 +119,47 @@ struct Plan {
   PartitionRules rules;
 };
 
-// (12).
-int LayerOf(double r_min) { return r_min / 2 >= 3 ? 2 : r_min >= 3 ? 1 : 0; }
+// Layers from `radius` and twice that on.
+int LayerFrom(double r_min, double radius) {
+  return r_min >= 2 * radius ? 2 : r_min >= radius ? 1 : 0;
+}
 
-// (9).
-int ViewsByPaper(double r_max) {
+// (12), or with wide aperture cells only where less can go wrong: later, and silhouettes are never
+// rounded to four pixels.
+int LayerOf(bool cells, double r_min, bool silhouette) {
+  if (!cells) return LayerFrom(r_min, 3);
+  return std::min(LayerFrom(r_min, 4), silhouette ? 1 : 2);
+}
+
+// (9), or what wide aperture cells need.
+int ViewsOf(bool cells, double r_max) {
+  if (cells) {
+    constexpr struct {
+      double r_max;
+      int n;
+    } kSteps[] = {{0.5, 0}, {11, 4}, {24, 6}, {32, 8}, {45, 10}};
+    for (const auto& step : kSteps) {
+      if (r_max <= step.r_max) return step.n;
+    }
+    REQUIRE(false);
+  }
   if (r_max < 4) return int(std::ceil(r_max));
   if (r_max < 4 / 0.787) return 4;
   return int(std::ceil(0.787 * r_max));
 }
 
-// With wide aperture cells, fewer but for silhouettes, and never more than (9).
-int ViewsOf(const Plan& plan, double r_max, double r_edge) {
-  const int paper = ViewsByPaper(r_max);
-  if (!plan.rules.cells) return paper;
-  return std::max(starfocus::ViewsByCells(r_max),
-                  std::min(paper, int(starfocus::ViewsOfSilhouette(r_edge))));
-}
-
 int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
 
-// A block with the parameters that the paper gives it.
+// A block with the parameters that the rules give it.
 Block Planned(const Plan& plan, int x, int y, int side) {
   const BlockStats stats = plan.Stats(x, y, side);
   Block block = {};
   block.rect = {x, y, std::min(side, plan.rules.width - x), std::min(side, plan.rules.height - y)};
-  block.layer = std::min(LayerOf(stats.r_min / kRadiusOne), plan.rules.max_layer);
-  // With wide cells a silhouette is never rounded to four pixels.
-  if (plan.rules.cells && stats.r_edge > 0) block.layer = std::min(block.layer, 1);
+  const bool cells = plan.rules.cells;
+  block.layer =
+      std::min(LayerOf(cells, stats.r_min / kRadiusOne, stats.r_edge > 0), plan.rules.max_layer);
   const int scale = 1 << block.layer;
-  const double unit = kRadiusOne * scale;
-  block.n = std::min(ViewsOf(plan, stats.r_max / unit, stats.r_edge / unit), plan.rules.max_n);
+  block.n = std::min(ViewsOf(cells, stats.r_max / (kRadiusOne * scale)), plan.rules.max_n);
   const int margin = kLayerMargin[block.layer] / scale;
   block.rendered = {x / scale - margin, y / scale - margin,
                     CeilQuotient(block.rect.width, scale) + 2 * margin,
@@ -294,7 +304,8 @@ TEST_CASE("partition: the least of all partitions, tiled once, by the rules") {
   for (int round = 0; round < 60; ++round) {
     const int side = 32 << random.Int(0, 3);
     const int width = random.Int(1, side + 40), height = random.Int(1, side + 40);
-    const Plan plan(width, height, side, random.Real(0.5, 14), &random);
+    Plan plan(width, height, side, random.Real(0.5, 14), &random);
+    if (round % 2 == 1) plan.rules.timing.block = 0;  // whatever a block costs here, splits more
     blocks += CheckPicture(plan);
     largest_blocks += size_t(((width - 1) / side + 1) * ((height - 1) / side + 1));
   }
@@ -342,11 +353,12 @@ TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
   }
 }
 
-TEST_CASE("partition: rules (12) and (9) on flat pictures, at and beside their thresholds") {
+TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds") {
   const int kMiddle = 128;
-  for (const double r : {0.0,      1 / 64.0, 0.5,  1.0,      2.0,     2.984375, 3.0, 3.015625, 3.5,
-                         3.984375, 4.0,      5.0,  5.078125, 5.09375, 5.984375, 6.0, 6.015625, 8.0,
-                         10.25,    11.0,     15.9, 16.0,     20.5,    24.0,     30.0}) {
+  for (const double r :
+       {0.0,   1 / 64.0, 0.5,       1.0,     2.0,      2.984375, 3.0,      3.015625,  3.5, 3.984375,
+        4.0,   5.0,      5.078125,  5.09375, 5.984375, 6.0,      6.015625, 7.984375,  8.0, 8.015625,
+        10.25, 11.0,     11.015625, 15.9,    16.0,     20.5,     24.0,     24.015625, 30.0}) {
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
       test::Random random(1);
       Plan plan(3 * kMiddle, 3 * kMiddle, 128, 1, &random);
@@ -357,19 +369,23 @@ TEST_CASE("partition: rules (12) and (9) on flat pictures, at and beside their t
       const BlurScale scale = {0, int64_t{1} << starfocus::kStepBits};
       for (int row = 0; row < plan.grid.rows; ++row) {
         for (int column = 0; column < plan.grid.columns; ++column) {
-          *plan.grid.At(column, row) = starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
+          *plan.grid.At(column, row) =
+              starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
         }
       }
       plan.around = starfocus::GetReach(r).cells;
       plan.rules.max_layer = max_layer;
-      plan.rules.cells = false;
       const double exact = std::floor(r * 64) / 64;
       CAPTURE(exact);
       CAPTURE(max_layer);
-      for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
-        const int layer = std::min(LayerOf(exact), max_layer);
-        CHECK(block.layer == layer);
-        CHECK(block.n == ViewsByPaper(exact / (1 << layer)));
+      for (const bool cells : {false, true}) {
+        CAPTURE(cells);
+        plan.rules.cells = cells;
+        for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
+          const int layer = std::min(LayerOf(cells, exact, false), max_layer);
+          CHECK(block.layer == layer);
+          CHECK(block.n == ViewsOf(cells, exact / (1 << layer)));
+        }
       }
     }
   }

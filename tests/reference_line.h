@@ -87,13 +87,17 @@ struct Lens {
 
 // --- One line: the pixels that a view of direction +1 along it shows. ---
 
-// Where a rendered pixel comes from: line pixel `source`, blended with its neighbour; or, in a
-// hole, the visible surface of line pixel `source` goes on behind what hides it.
+// Where a rendered pixel comes from: line pixel `source`, or in a hole what goes on of its surface
+// behind what hides it. `share` of the pixel shows line pixel `other` instead: a neighbour on the
+// same surface, or the surface on the other side of a depth edge.
 struct Owner {
   bool hole = true;
   int source = 0;
-  int neighbour = 0;
-  double neighbour_weight = 0;
+  int other = 0;
+  double share = 0;
+
+  // The line pixel whose disparity the rendered pixel has.
+  int Main() const { return share > 0.5 ? other : source; }
 };
 
 struct LineRun {
@@ -130,33 +134,72 @@ class LineScan {
     const int length = int(disparity_.size());
     const std::vector<LineRun> runs = Runs(disparity_, lens_.Spread());
     filled_ = std::max(length, length - Whole(runs[0]));
-    visible_ = length - 1;
+    const LineRun* nearer = nullptr;  // what is visible at `filled_`
     for (const LineRun& run : runs) {
       const int whole = Whole(run);
       if (run.begin - whole >= filled_) continue;  // hidden
-      if (run.end - whole < filled_) CloseGap(run, whole);
-      for (int p = run.begin - whole; p < filled_; ++p) SetSurface(p, run, whole);
-      filled_ = run.begin - whole;
-      visible_ = run.begin;
+      const bool gap = run.end - whole < filled_;
+      if (gap) CloseGap(run, nearer);
+      const int end = filled_;
+      for (; filled_ > run.begin - whole; --filled_) SetSurface(filled_ - 1, run);
+      if (!gap && nearer != nullptr) SoftenEnd(*nearer, run, end);
+      nearer = &run;
     }
-    SetHole(0, visible_);
+    SetHole(0, nearer->begin);
     return owners_;
   }
 
  private:
-  int Whole(const LineRun& run) const { return int(Rounded(lens_.Shift(k_, run.disparity), 8)); }
+  int Shift(const LineRun& run) const { return lens_.Shift(k_, run.disparity); }
+  int Whole(const LineRun& run) const { return int(Rounded(Shift(run), 8)); }
+  // What rounding to whole pixels leaves out: so much farther down, in pixels, does the run lie.
+  double Offset(const LineRun& run) const { return Shift(run) / 256.0 - Whole(run); }
   bool Inside(int p) const { return p >= 0 && p < int(owners_.size()); }
   int Disparity(int q) const { return disparity_[size_t(q)]; }
+  bool OneSurface(int q, int other) const {
+    return std::abs(Disparity(q) - Disparity(other)) <= kSurfaceStep;
+  }
 
-  // The pixels between the run's end and what is filled: the run's surface, stretched, unless that
-  // ends there or is the nearer one: then what is behind the nearer of the two goes on.
-  void CloseGap(const LineRun& run, int whole) {
-    const int q = run.end - 1;
-    const int gap = filled_ - (run.end - whole);
-    const bool nearer = Disparity(q) - Disparity(visible_) > kSurfaceStep;
-    const bool inside = filled_ + whole <= int(disparity_.size());
-    if (!nearer && gap <= kWidestStretch && inside) return;
-    SetHole(run.end - whole, Disparity(q) < Disparity(visible_) ? q : visible_);
+  // The pixels between the run's upper end and what is filled: the run's surface, stretched, unless
+  // that ends there or is the nearer one: then what is behind the nearer of the two goes on.
+  void CloseGap(const LineRun& run, const LineRun* above) {
+    const int q = run.end - 1, visible = above == nullptr ? q : above->begin;
+    const int begin = run.end - Whole(run), gap = filled_ - begin;
+    const int step = Disparity(q) - Disparity(visible);
+    const bool inside = filled_ + Whole(run) <= int(disparity_.size());
+    if (step <= kSurfaceStep && gap <= kWidestStretch && inside) return;
+    if (step <= kSurfaceStep) return SetHole(begin, step < 0 ? q : visible);
+    // The nearer surface ends between rendered pixels, inside one of the hole's.
+    const double offset = Offset(run);
+    const int rim = offset > 0 ? begin - 1 : begin;
+    SetHole(rim, visible);
+    if (offset != 0) SetOther(rim, q, offset > 0 ? 1 - offset : -offset);
+  }
+
+  // The lower end of a surface, whose last pixel is `end`, and a farther one that goes on there.
+  // Between rendered pixels the nearer one covers only a part of its last pixel, or some of the
+  // pixel below as well.
+  void SoftenEnd(const LineRun& nearer, const LineRun& farther, int end) {
+    const int q = nearer.begin;
+    if (q == 0 || OneSurface(q - 1, q)) return;
+    if (nearer.disparity - farther.disparity <= kSurfaceStep) return;
+    const double offset = Offset(nearer);
+    if (offset < 0 && IsWhole(end)) {
+      SetOther(end, std::min(end + Whole(farther), farther.end - 1), -offset);
+    } else if (offset > 0 && Inside(end - 1)) {
+      owners_[size_t(end - 1)] = {false, end - 1 + Whole(farther), q, offset};
+    }
+  }
+
+  // Not yet divided between two surfaces: a run of one pixel has both its ends there.
+  bool IsWhole(int p) const {
+    return Inside(p) && !owners_[size_t(p)].hole && owners_[size_t(p)].share == 0;
+  }
+
+  void SetOther(int p, int other, double share) {
+    if (!Inside(p)) return;
+    owners_[size_t(p)].other = other;
+    owners_[size_t(p)].share = share;
   }
 
   // Rendered pixels from `begin` to what is filled.
@@ -169,16 +212,14 @@ class LineScan {
 
   // The source lies t away from the rendered pixel's centre; its cell of width L gives the
   // neighbour on that side clamp((|t| - 1/2) / L + 1/2, 0, 1). None across the edge of a surface.
-  void SetSurface(int p, const LineRun& run, int whole) {
+  void SetSurface(int p, const LineRun& run) {
     if (!Inside(p)) return;
-    Owner owner = {false, p + whole, p + whole, 0};
-    const double t = lens_.Shift(k_, run.disparity) / 256.0 - whole;
-    const double cell = lens_.Cell(run.disparity);
+    Owner owner = {false, p + Whole(run), p + Whole(run), 0};
+    const double t = Offset(run), cell = lens_.Cell(run.disparity);
     const int neighbour = owner.source + (t > 0 ? 1 : -1);
-    if (cell > 0 && Inside(neighbour) &&
-        std::abs(Disparity(owner.source) - Disparity(neighbour)) <= kSurfaceStep) {
-      owner.neighbour = neighbour;
-      owner.neighbour_weight = std::clamp((std::fabs(t) - 0.5) / cell + 0.5, 0.0, 1.0);
+    if (cell > 0 && Inside(neighbour) && OneSurface(owner.source, neighbour)) {
+      owner.other = neighbour;
+      owner.share = std::clamp((std::fabs(t) - 0.5) / cell + 0.5, 0.0, 1.0);
     }
     owners_[size_t(p)] = owner;
   }
@@ -187,8 +228,7 @@ class LineScan {
   const Lens& lens_;
   int k_;
   std::vector<Owner> owners_;
-  int filled_ = 0;   // lowest rendered pixel shown so far
-  int visible_ = 0;  // the line pixel it shows
+  int filled_ = 0;  // lowest rendered pixel shown so far
 };
 
 // --- One view from another, along the lines of direction (u, v). ---
@@ -210,16 +250,16 @@ Picture RenderAlong(const Picture& from, int u, int v, const Lens& lens, int k, 
       const std::vector<Owner> owners = LineScan(disparity, lens, k).Scan();
       for (size_t p = 0; p < line.size(); ++p) {
         const Owner& owner = owners[p];
-        const size_t source = line[size_t(owner.source)];
-        to.disparities[line[p]] = from.disparities[source];
+        const size_t source = line[size_t(owner.source)], other = line[size_t(owner.other)];
+        to.disparities[line[p]] = from.disparities[line[size_t(owner.Main())]];
         Colour& colour = to.colours[line[p]];
+        colour = from.colours[source];
         if (owner.hole) {
-          colour = hole(x0 + int(p) * u, y0 + int(p) * v, from.disparities[source],
-                        from.colours[source]);
-          continue;
+          colour = hole(x0 + int(p) * u, y0 + int(p) * v, from.disparities[source], colour);
         }
-        const Colour &a = from.colours[source], &b = from.colours[line[size_t(owner.neighbour)]];
-        for (size_t c = 0; c < 3; ++c) colour[c] = a[c] + owner.neighbour_weight * (b[c] - a[c]);
+        for (size_t c = 0; c < 3; ++c) {
+          colour[c] += owner.share * (from.colours[other][c] - colour[c]);
+        }
       }
     }
   }

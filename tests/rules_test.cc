@@ -1,16 +1,20 @@
-// The selection rule (9) and the benchmark's at, just below and just above every step.
+// The selection rules for N and the layer at, just below and just above every step.
 #include "lib/rules.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 
 #include "starfocus/starfocus.h"
 
 namespace {
 
+using starfocus::LayerByCells;
+using starfocus::LayerByPaper;
+using starfocus::ViewsByCells;
 using starfocus::ViewsByPaper;
 using starfocus::ViewsOfBenchmark;
 
@@ -82,6 +86,35 @@ TEST_CASE("rules: the benchmark renders twice the ceiling of the radius") {
     CHECK(ViewsOfBenchmark(r) == 2 * r);
     CHECK(ViewsOfBenchmark(Above(r)) == 2 * r + 2);
   }
+}
+
+TEST_CASE("rules: the table of views that stand for their cells") {
+  constexpr struct {
+    double r_max;
+    int n;
+  } kTable[] = {{0.5, 0}, {11, 4},  {24, 6},   {32, 8},   {45, 10},
+                {59, 12}, {81, 14}, {109, 16}, {120, 18}, {128, 20}};
+  CHECK(ViewsByCells(0) == 0);
+  for (size_t k = 0; k < std::size(kTable); ++k) {
+    CAPTURE(kTable[k].r_max);
+    CHECK(ViewsByCells(Below(kTable[k].r_max)) == kTable[k].n);
+    CHECK(ViewsByCells(kTable[k].r_max) == kTable[k].n);
+    if (k + 1 < std::size(kTable)) CHECK(ViewsByCells(Above(kTable[k].r_max)) == kTable[k + 1].n);
+  }
+}
+
+TEST_CASE("rules: layers from radius 3 and 6 on by (12), from 4 and 8 on beside cells") {
+  const auto check = [](int32_t (*layer)(double), double radius) {
+    CAPTURE(radius);
+    CHECK(layer(0) == 0);
+    CHECK(layer(Below(radius)) == 0);
+    CHECK(layer(radius) == 1);
+    CHECK(layer(Below(2 * radius)) == 1);
+    CHECK(layer(2 * radius) == 2);
+    CHECK(layer(SF_MAX_BLUR) == 2);
+  };
+  check(LayerByPaper, 3);
+  check(LayerByCells, 4);
 }
 
 }  // namespace

@@ -45,9 +45,12 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
   }
 }
 
+// The least r that a layer is used at: (12), or LayerByCells.
+double LeastRadius(sf_rule rule, int layer) { return (rule == SF_RULE_PAPER ? 3.0 : 4.0) * layer; }
+
 // Measures one series in the direction of `sign`, from the least r that its layer is used at.
 std::string Measure(const Series& series, int sign, Table* table, Table* layers) {
-  const double least = series.layer == 0 ? 0 : 3.0 * series.layer;
+  const double least = LeastRadius(series.rule, series.layer);
   const int count = static_cast<int>((kLargest - least) / series.increment);
   std::printf("  layer %d, rule %s, r = %g to %d%s\n", series.layer, NameOf(series.rule),
               least == 0 ? 0 : sign * least, sign * kLargest,
@@ -147,7 +150,8 @@ Figure AnalyseEngine(std::string* error) {
       Panel("layer 0, N by the rule for cells at |r|", "engine_cells", "-40:40") +
       Panel("layer 0, N = 32 by (9), as for r_max = 40", "engine_r40", "0:40") +
       "set title 'layers, N by the rule for cells'\nset xrange [0:40]\n"
-      "plot for [L=1:2] $layers_cells using (column(2) == L && $1 > 0 ? $1 : NaN):6 with lines lt L "
+      "plot for [L=1:2] $layers_cells using (column(2) == L && $1 > 0 ? $1 : NaN):6 with lines lt "
+      "L "
       "title sprintf('L = %d, theory (10)', L), "
       "for [L=1:2] $layers_cells using (column(2) == L ? abs($1) : NaN):5 with points pt 7 "
       "ps 0.2 lt L title sprintf('L = %d, measured', L)\nunset multiplot\n";
