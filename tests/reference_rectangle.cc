@@ -80,13 +80,11 @@ class Views {
 
   // Adds view (i, j) of the whole rectangle to `sum`.
   void Add(int i, int j, double weight, Picture* sum) {
-    const int a = std::abs(i), b = std::abs(j);
-    if (!lens_.cells && (i == 0 && j == 0)) return AddInner(centre_, {0, 0, 0, 0}, weight, sum);
-    if (!lens_.cells && (a == b)) return AddInner(Diagonal(i, j), {0, 0, 0, 0}, weight, sum);
-    // With cells the views on the diagonals, the centre too, are made in either order.
-    const double part = a == b ? weight / 2 : weight;
-    if (a >= b) AddAcross(true, i, j, part, sum);
-    if (b >= a) AddAcross(false, i, j, part, sum);
+    if (lens_.n == 0) return AddInner(centre_, {0, 0, 0, 0}, weight, sum);
+    if (lens_.cells) return AddAcross(true, i, j, weight, sum);
+    if (i == 0 && j == 0) return AddInner(centre_, {0, 0, 0, 0}, weight, sum);
+    if (std::abs(i) == std::abs(j)) return AddInner(Diagonal(i, j), {0, 0, 0, 0}, weight, sum);
+    AddAcross(std::abs(i) > std::abs(j), i, j, weight, sum);
   }
 
  private:
@@ -160,6 +158,11 @@ class Views {
       return Sign(view) * (shift - (captured ? int(far) : 0)) / 256.0;
     };
     const double x_far = x + moved(i, true), y_far = y + moved(j, true);
+    // Cells' views are all rendered along rows first: those nearer to the other axis see what is
+    // behind as the view there does.
+    if (lens_.cells && u != 0 && std::abs(i) < std::abs(j)) {
+      return Read(field_, lens_.layer, 0, v * distance, x + moved(i, false), y_far);
+    }
     if (u == 0 || v == 0 || field_.size() != 5) {
       return Read(field_, lens_.layer, u * distance, v * distance, x_far, y_far);
     }
