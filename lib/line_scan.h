@@ -80,12 +80,14 @@ class LineScan {
     // From the line's own end, not the wanted part's: what a gap borders on may lie beyond.
     filled_ = {Max(end_, line_.length - Whole(Shift(*runs_))), line_.length - 1};
     int32_t run_end = line_.length;
-    for (const Run* run = runs_; run != runs_end_ && filled_.from > begin_; ++run) {
+    for (const Run* run = runs_; run != runs_end_; ++run) {
+      if (filled_.from <= begin_ && !AwaitsBehind()) break;
       const int32_t shift = Shift(*run), begin = run->begin, whole = Whole(shift);
       const int32_t low = begin - whole;
       if (low < filled_.from) {
         if (low >= end_) {
-          edge_.run = nullptr;
+          // Not wanted itself, it may still cover a part of the last pixel that is.
+          edge_ = {EndsAtEdge(run) ? run : nullptr, shift - whole * kShiftOne, whole};
         } else if (IsPlain(run, run_end, whole)) {
           const int32_t offset = shift - whole * kShiftOne;
           Emit(Max(low, begin_), Min(filled_.from, end_), whole, offset > 0 ? 1 : -1,
@@ -124,11 +126,20 @@ class LineScan {
     int32_t whole;
   };
 
+  // Whether another surface follows below.
+  bool EndsAtEdge(const Run* run) const {
+    return run + 1 != runs_end_ && run[1].surface_end == run->begin;
+  }
+
+  // Whether the last wanted pixel waits for what is behind it.
+  bool AwaitsBehind() const {
+    return filled_.from == begin_ && edge_.run != nullptr && edge_.offset < 0;
+  }
+
   // Whether what is visible of a run lies inside one surface, beside no gap: most runs do.
   bool IsPlain(const Run* run, int32_t run_end, int32_t whole) const {
     const int32_t begin = run->begin, end = Min(filled_.from, end_);
-    const bool inside = begin - whole < begin_ ||
-                        (run + 1 != runs_end_ && run[1].surface_end != begin);
+    const bool inside = begin - whole < begin_ || (run + 1 != runs_end_ && !EndsAtEdge(run));
     return inside && run_end - whole >= filled_.from && edge_.run == nullptr &&
            end + whole < run->surface_end;
   }
@@ -147,9 +158,8 @@ class LineScan {
     }
     end = Min(end, end_);
     int32_t first = Max(run->begin - whole, begin_);
-    const bool edge_below = run + 1 != runs_end_ && run[1].surface_end == run->begin;
-    edge_ = {edge_below ? run : nullptr, offset, whole};
-    if (edge_below && offset < 0 && first + whole == run->begin) {
+    edge_ = {EndsAtEdge(run) ? run : nullptr, offset, whole};
+    if (edge_.run != nullptr && offset < 0 && first + whole == run->begin) {
       if (first < end) {
         ++first;
       } else {

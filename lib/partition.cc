@@ -128,7 +128,7 @@ class Partition {
         layer == 0 ? 0 : static_cast<uint64_t>(rect.width) * static_cast<uint64_t>(rect.height);
     block->cost = PredictTime(rules_.timing,
                               MeasureWork(block->rendered, block->border, rules_.views[block->n],
-                                          upsampled, stats.content, layer));
+                                          rules_.cells, upsampled, stats.content, layer));
   }
 
   void EmitNode(int level, int32_t column, int32_t row, Block* blocks) {

@@ -52,8 +52,9 @@ void PlanWhole(const Stripe& stripe, int32_t column) {
   block.border = {border, border, border, border};
   block.layer = 0;
   block.n = engine.aperture.n;
-  block.cost = PredictTime(engine.config.timing, MeasureWork(block.rendered, block.border,
-                                                             CountViews(engine.aperture.n), 0));
+  block.cost = PredictTime(engine.config.timing,
+                           MeasureWork(block.rendered, block.border, CountViews(engine.aperture.n),
+                                       UsesCells(engine), 0));
   engine.plan.counts[column] = 1;
 }
 

@@ -13,26 +13,30 @@ ViewCounts CountViews(int32_t n) {
   return views;
 }
 
-BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views,
+BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views, bool cells,
                       uint64_t upsampled_pixels, const Content& content, int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
   const uint64_t extended_width = width + static_cast<uint64_t>(border.left + border.right);
   const uint64_t extended_height = height + static_cast<uint64_t>(border.top + border.bottom);
+  const uint64_t all = views.a + views.b + views.c;
   BlockWork work;
   work.field = extended_width * extended_height;
   // Half of the type A views lie on either axis; each is rendered over the border of the other.
-  work.a = views.a / 2 * (width * extended_height + extended_width * height);
-  work.b = views.b * width * height;
-  work.c = views.c * width * height;
+  // With cells those along rows, the centre too, carry all others, and type B is type C.
+  const uint64_t rows = views.a / 2 + (cells && all > 0 ? 1 : 0), columns = cells ? 0 : views.a / 2;
+  work.a = rows * width * extended_height + columns * extended_width * height;
+  work.b = cells ? 0 : views.b * width * height;
+  work.c = (cells ? all - views.a / 2 : views.c) * width * height;
   work.upsample = upsampled_pixels;
   // A layer has 1 / 2^L of the lines; along one of them a slope makes as many fewer runs and a gap
   // is as many times narrower, but an edge stays an edge.
   const uint64_t runs = (content.slopes >> 2 * layer) + (content.edges >> layer);
   const uint64_t gaps = content.gaps >> 2 * layer;
   // Half of the views are scanned along rows and half along columns, those of type B along both.
-  const uint64_t half = (views.a + views.b + views.c) / 2;
-  work.span = half * (width + height) + half * runs / kContentOne;
-  work.hole = half * gaps / kContentOne;
+  // With cells type A is scanned along rows and all else along columns.
+  work.span = cells ? rows * extended_height + (all - views.a / 2) * width : all * (width + height) / 2;
+  work.span += all * runs / (2 * kContentOne);
+  work.hole = all * gaps / (2 * kContentOne);
   return work;
 }
 

@@ -26,8 +26,8 @@ struct ViewCounts {
 ViewCounts CountViews(int32_t n);
 
 // The work of `rect` with `border`, both in pixels of the layer, and N views along the radius.
-// `content`: what the block holds at layer 0.
-BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views,
+// `cells`: by the rule of cells. `content`: what the block holds at layer 0.
+BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views, bool cells,
                       uint64_t upsampled_pixels, const Content& content = {0, 0, 0},
                       int32_t layer = 0);
 

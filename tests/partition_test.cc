@@ -175,7 +175,7 @@ Block Planned(const Plan& plan, int x, int y, int side) {
   block.cost = starfocus::PredictTime(
       plan.rules.timing,
       starfocus::MeasureWork(block.rendered, block.border, starfocus::CountViews(block.n),
-                             upsampled, stats.content, block.layer));
+                             plan.rules.cells, upsampled, stats.content, block.layer));
   return block;
 }
 

@@ -36,20 +36,28 @@ ViewCounts CountOneByOne(int n) {
   return views;
 }
 
-// Summed view by view, as (13) has it.
-BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, uint64_t upsampled,
-                            const Content& content, int layer) {
+// Summed view by view, as (13) has it. With cells the centre is of type A too, and all views away
+// from the rows' axis are scanned along columns.
+BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool cells,
+                            uint64_t upsampled, const Content& content, int layer) {
   const auto width = uint64_t(rect.width), height = uint64_t(rect.height);
   const uint64_t wide = width + uint64_t(border.left) + uint64_t(border.right);
   const uint64_t high = height + uint64_t(border.top) + uint64_t(border.bottom);
   BlockWork work = {wide * high, 0, 0, 0, upsampled, 0, 0};
-  uint64_t views = 0;
+  uint64_t views = 0, lines = 0;
   for (int i = -n; i <= n; ++i) {
     for (int j = -n; j <= n; ++j) {
-      if (i * i + j * j > n * n || (i == 0 && j == 0)) continue;
+      if (i * i + j * j > n * n) continue;
+      if (cells && n > 0) lines += j == 0 ? high : width;
+      if (i == 0 && j == 0) {
+        work.a += cells && n > 0 ? width * high : 0;
+        continue;
+      }
       ++views;
       if (j == 0) {
         work.a += width * high;
+      } else if (cells) {
+        work.c += width * height;
       } else if (i == 0) {
         work.a += wide * height;
       } else if (std::abs(i) == std::abs(j)) {
@@ -65,7 +73,7 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, uint6
   const uint64_t runs = content.slopes / uint64_t(scale * scale) + content.edges / uint64_t(scale);
   const uint64_t gaps = content.gaps / uint64_t(scale * scale);
   const uint64_t one = starfocus::kContentOne;
-  work.span = views / 2 * (width + height) + views / 2 * runs / one;
+  work.span = (cells ? lines : views / 2 * (width + height)) + views / 2 * runs / one;
   work.hole = views / 2 * gaps / one;
   return work;
 }
@@ -92,9 +100,10 @@ TEST_CASE("timing: the work of a block, view by view") {
     const auto amount = [&] { return uint32_t(random.Int(0, 1 << 16)); };
     const Content content = {amount(), amount(), amount()};
     const int layer = random.Int(0, 2);
-    const BlockWork expected = MeasureViewByView(rect, border, n, upsampled, content, layer);
+    const bool cells = random.Int(0, 1) == 1;
+    const BlockWork expected = MeasureViewByView(rect, border, n, cells, upsampled, content, layer);
     const BlockWork got =
-        starfocus::MeasureWork(rect, border, starfocus::CountViews(n), upsampled, content, layer);
+        starfocus::MeasureWork(rect, border, starfocus::CountViews(n), cells, upsampled, content, layer);
     CAPTURE(n);
     CHECK(got.field == expected.field);
     CHECK(got.a == expected.a);
@@ -167,7 +176,7 @@ TEST_CASE("timing: a largest block with the largest coefficients, and all it spl
     const auto pixels = uint32_t(side * side);
     const Content content = {64 * pixels, 64 * pixels, 256 * pixels};
     const BlockWork work = starfocus::MeasureWork({0, 0, side, side}, {140, 140, 140, 140},
-                                                  starfocus::CountViews(102), pixels, content, 0);
+                                                  starfocus::CountViews(102), false, pixels, content, 0);
     CAPTURE(side);
     CHECK(exact(work) * (256 / side) * (256 / side) < 1.8e19L);
     CHECK(static_cast<long double>(starfocus::PredictTime(most, work)) == exact(work));

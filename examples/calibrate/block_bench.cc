@@ -109,8 +109,8 @@ BlockWork BlockBench::Work(const BlockTask& task) {
     }
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
-  return MeasureWork(block.rendered, block.border, CountViews(block.n), upsampled, content,
-                     block.layer);
+  return MeasureWork(block.rendered, block.border, CountViews(block.n), true, upsampled,
+                     content, block.layer);
 }
 
 uint64_t BlockBench::Now() const {
