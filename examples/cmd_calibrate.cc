@@ -17,7 +17,7 @@ namespace starfocus {
 namespace {
 
 constexpr int kWidth = 1024, kHeight = 768, kViews = 9;  // of the scenes made here
-constexpr int kRepetitions = 5;  // of times; a count repeats exactly
+constexpr int kRepetitions = 5;                          // of times; a count repeats exactly
 constexpr double kLowestAgreement = 0.98;
 
 struct Options {

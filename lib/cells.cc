@@ -15,8 +15,8 @@ simd::CellMeasure Measure(const simd::Kernels& kernels, const Window& window,
                           const simd::CellLimits& limits, int32_t x, int32_t y) {
   const int16_t* rows[kCellSize + 2];
   int16_t copies[kCellSize + 2][kCellSize + 2];
-  const bool inside = x > 0 && y > 0 && x + kCellSize < window.width &&
-                      y + kCellSize < window.height;
+  const bool inside =
+      x > 0 && y > 0 && x + kCellSize < window.width && y + kCellSize < window.height;
   for (int32_t row = 0; row < kCellSize + 2; ++row) {
     const int16_t* from = window.disparity.Row(Clamp(y + row - 1, 0, window.height - 1));
     rows[row] = from + x;
@@ -46,13 +46,16 @@ int32_t DisparityOf(int32_t distance, int64_t step) {
   return static_cast<int32_t>(disparity < INT16_MAX ? disparity : INT16_MAX);
 }
 
-Content MakeContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t step) {
+void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t step, Cell* cell) {
   // One step in eight leads out of the cell, and is made up for.
   const auto scaled = [](int64_t sum, int64_t one) {
-    return static_cast<uint32_t>(sum * kContentOne * kCellSize / (one * (kCellSize - 1)));
+    return static_cast<uint16_t>(sum * kContentOne * kCellSize / (one * (kCellSize - 1)));
   };
-  return {scaled(measure.slopes, Max(1, slope_limit)), scaled(measure.edges, 1),
-          scaled(measure.gaps * step >> kStepBits, kRadiusOne)};
+  for (int along = 0; along < 2; ++along) {
+    cell->slopes[along] = scaled(measure.slopes[along], Max(1, slope_limit));
+    cell->edges[along] = scaled(measure.edges[along], 1);
+    cell->gaps[along] = scaled(measure.gaps[along] * step >> kStepBits, kRadiusOne);
+  }
 }
 
 // Reach beyond either end of a line of 8 columns or rows, and the depth inside.
@@ -97,13 +100,21 @@ void Widen(int32_t gap, int32_t inside, bool low, int32_t* low_border, int32_t* 
   *border = Max(*border, gap + inside);
 }
 
-void AddContent(const Content& part, Content* sum) {
-  sum->slopes += part.slopes;
-  sum->edges += part.edges;
-  sum->gaps += part.gaps;
+void AddContent(const Content (&part)[2], Content (*sum)[2]) {
+  for (int along = 0; along < 2; ++along) {
+    (*sum)[along].slopes += part[along].slopes;
+    (*sum)[along].edges += part[along].edges;
+    (*sum)[along].gaps += part[along].gaps;
+  }
 }
 
 }  // namespace
+
+void AddCell(const Cell& cell, Content (*sum)[2]) {
+  const Content part[2] = {{cell.slopes[0], cell.edges[0], cell.gaps[0]},
+                           {cell.slopes[1], cell.edges[1], cell.gaps[1]}};
+  AddContent(part, sum);
+}
 
 Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
                  int32_t column, int32_t row) {
@@ -123,8 +134,7 @@ Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurS
     largest = Max(largest, distance_x[k]);
   }
   // A focus beyond int16 lies beyond every disparity, all on one side of it.
-  cell.r_min =
-      static_cast<uint16_t>(scale.Radius(found.nearest + Abs(focus - near_focus)));
+  cell.r_min = static_cast<uint16_t>(scale.Radius(found.nearest + Abs(focus - near_focus)));
   cell.r_max = static_cast<uint16_t>(scale.RadiusAbove(largest));
   cell.r_edge = static_cast<uint16_t>(
       found.edge_low > found.edge_high
@@ -133,10 +143,7 @@ Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurS
   for (int16_t& reach : cell.reach) reach = INT16_MIN;
   MeasureSides(scale, distance_x, kLeft, kRight, &cell);
   MeasureSides(scale, distance_y, kTop, kBottom, &cell);
-  const Content content = MakeContent(found, limits.slope_limit, scale.step);
-  cell.slopes = static_cast<uint16_t>(content.slopes);
-  cell.edges = static_cast<uint16_t>(content.edges);
-  cell.gaps = static_cast<uint16_t>(content.gaps);
+  StoreContent(found, limits.slope_limit, scale.step, &cell);
   return cell;
 }
 
@@ -152,7 +159,7 @@ BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32
         stats.r_min = Min(stats.r_min, stored.r_min);
         stats.r_max = Max(stats.r_max, stored.r_max);
         stats.r_edge = Max(stats.r_edge, stored.r_edge);
-        if (!outside) AddContent({stored.slopes, stored.edges, stored.gaps}, &stats.content);
+        if (!outside) AddCell(stored, &stats.content);
         continue;
       }
       const Cell cell = outside ? OutsideCell(stored) : stored;

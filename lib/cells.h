@@ -14,7 +14,7 @@ namespace starfocus {
 
 inline constexpr int32_t kCellSize = 8;
 
-// What line scans meet in a cell or block at layer 0, along rows and columns together, in units of
+// What line scans meet in a cell or block at layer 0, along rows or along columns, in units of
 // 1 / kContentOne: every step from pixel to pixel counts.
 inline constexpr int32_t kContentOne = 16;
 struct Content {
@@ -31,7 +31,7 @@ struct Cell {
   // and how deep inside lie the pixels that do.
   int16_t reach[4];
   uint8_t inside[4];
-  uint16_t slopes, edges, gaps;  // Content
+  uint16_t slopes[2], edges[2], gaps[2];  // Content along rows and along columns
 };
 
 enum Side { kLeft, kRight, kTop, kBottom };
@@ -65,6 +65,9 @@ struct CellGrid {
   }
 };
 
+// Adds what line scans meet in a cell.
+void AddCell(const Cell& cell, Content (*sum)[2]);
+
 // Measures the cell at (column, row) of the grid; the window is at layer 0.
 Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
                  int32_t column, int32_t row);
@@ -78,7 +81,7 @@ inline constexpr int32_t kLayerMargin[3] = {0, 4, 12};
 struct BlockStats {
   int32_t r_min, r_max, r_edge;
   Border border[3];
-  Content content;  // of the pixels inside
+  Content content[2];  // of the pixels inside, along rows and along columns
 };
 
 // Stats of the 2x2 cells at (column, row), looking at cells up to `around` away, which must be

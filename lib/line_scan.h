@@ -120,9 +120,9 @@ class LineScan {
   // The lower end of a surface that may cover a farther one: the last run added. Between rendered
   // pixels it covers a part of one only.
   struct Edge {
-    const Run* run;   // null: there is none
-    int32_t offset;   // kShiftBits: < 0, of its last pixel that part is missing, and the pixel waits
-                      // to be mixed; > 0, so much it covers of the next pixel
+    const Run* run;  // null: there is none
+    int32_t offset;  // kShiftBits: < 0, of its last pixel that part is missing, and the pixel waits
+                     // to be mixed; > 0, so much it covers of the next pixel
     int32_t whole;
   };
 
@@ -189,7 +189,8 @@ class LineScan {
     edge_.run = nullptr;
     const int32_t at_edge = edge.run->begin;
     if (edge.offset < 0) {
-      if (end >= begin_ && end < end_) Mix(end, at_edge, Min(end + whole, run_end - 1), -edge.offset);
+      if (end >= begin_ && end < end_)
+        Mix(end, at_edge, Min(end + whole, run_end - 1), -edge.offset);
     } else if (edge.offset > 0 && end - 1 < end_ && end - 1 >= Max(begin_, run.begin - whole)) {
       Mix(end - 1, end - 1 + whole, at_edge, edge.offset);
       return end - 1;

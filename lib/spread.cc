@@ -115,8 +115,8 @@ void SpreadLine(const simd::Kernels& kernels, const ViewGrid& grid, const Line& 
     if (lowest == highest || highest <= kOneCell) {
       spreader.Add(runs[k].begin, lowest);
     } else {
-      // Pixel by pixel: where runs end depends on the direction they are found in. Neighbours mostly
-      // have one disparity, or at least one cell.
+      // Pixel by pixel: where runs end depends on the direction they are found in. Neighbours
+      // mostly have one disparity, or at least one cell.
       int32_t before = line.disparity[(end - 1) * line.step];
       const auto cell_of = [&](int32_t disparity) {
         return IndexOf(Abs(grid.Shift(cell_move, disparity)));

@@ -217,8 +217,8 @@ class Star {
                        scratch_->surface_rgb, rgb);
           }
           AddLine(rgb + 3 * (field.inner.y - rows.begin), field.inner.height,
-                  grid_.aperture.Weight(i, 0),
-                  3 * static_cast<uint32_t>(x * field.inner.height), &list);
+                  grid_.aperture.Weight(i, 0), 3 * static_cast<uint32_t>(x * field.inner.height),
+                  &list);
         }
         const LineHoles holes = {job_,
                                  field,

@@ -54,7 +54,7 @@ void PlanWhole(const Stripe& stripe, int32_t column) {
   block.n = engine.aperture.n;
   block.cost = PredictTime(engine.config.timing,
                            MeasureWork(block.rendered, block.border, CountViews(engine.aperture.n),
-                                       UsesCells(engine), 0));
+                                       UsesCells(engine), 0, {}, 0));
   engine.plan.counts[column] = 1;
 }
 

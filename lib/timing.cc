@@ -14,12 +14,12 @@ ViewCounts CountViews(int32_t n) {
 }
 
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views, bool cells,
-                      uint64_t upsampled_pixels, const Content& content, int32_t layer) {
+                      uint64_t upsampled_pixels, const Content (&content)[2], int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
   const uint64_t extended_width = width + static_cast<uint64_t>(border.left + border.right);
   const uint64_t extended_height = height + static_cast<uint64_t>(border.top + border.bottom);
   const uint64_t all = views.a + views.b + views.c;
-  BlockWork work;
+  BlockWork work = {};
   work.field = extended_width * extended_height;
   // Half of the type A views lie on either axis; each is rendered over the border of the other.
   // With cells those along rows, the centre too, carry all others, and type B is type C.
@@ -29,14 +29,17 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& 
   work.c = (cells ? all - views.a / 2 : views.c) * width * height;
   work.upsample = upsampled_pixels;
   // A layer has 1 / 2^L of the lines; along one of them a slope makes as many fewer runs and a gap
-  // is as many times narrower, but an edge stays an edge.
-  const uint64_t runs = (content.slopes >> 2 * layer) + (content.edges >> layer);
-  const uint64_t gaps = content.gaps >> 2 * layer;
-  // Half of the views are scanned along rows and half along columns, those of type B along both.
-  // With cells type A is scanned along rows and all else along columns.
-  work.span = cells ? rows * extended_height + (all - views.a / 2) * width : all * (width + height) / 2;
-  work.span += all * runs / (2 * kContentOne);
-  work.hole = all * gaps / (2 * kContentOne);
+  // is as many times narrower, but an edge stays an edge. Half of the views are scanned along rows
+  // and half along columns, those of type B along both. With cells type A is scanned along rows and
+  // all else along columns.
+  const uint64_t views_along[2] = {cells ? rows : all / 2, cells ? all - views.a / 2 : all / 2};
+  const uint64_t lines[2] = {cells ? extended_height : height, width};
+  for (int along = 0; along < 2; ++along) {
+    const Content& met = content[along];
+    const uint64_t runs = (met.slopes >> 2 * layer) + (met.edges >> layer);
+    work.span += views_along[along] * lines[along] + views_along[along] * runs / kContentOne;
+    work.hole += views_along[along] * (met.gaps >> 2 * layer) / kContentOne;
+  }
   return work;
 }
 

@@ -26,10 +26,10 @@ struct ViewCounts {
 ViewCounts CountViews(int32_t n);
 
 // The work of `rect` with `border`, both in pixels of the layer, and N views along the radius.
-// `cells`: by the rule of cells. `content`: what the block holds at layer 0.
+// `cells`: by the rule of cells. `content`: what the block holds at layer 0 along rows and along
+// columns.
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views, bool cells,
-                      uint64_t upsampled_pixels, const Content& content = {0, 0, 0},
-                      int32_t layer = 0);
+                      uint64_t upsampled_pixels, const Content (&content)[2], int32_t layer);
 
 // Picoseconds; exact in integers, so that a partition is the same on every machine.
 uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);

@@ -1,8 +1,8 @@
 // Built-in coefficients of the timing model, in picoseconds, by architecture.
 //
-// x86-64: measured by `starfocus calibrate` on a processor with AVX-512. All others: no board was at
-// hand. They come from the number of instructions that `starfocus calibrate --counter` counts on an
-// emulated board, each taken as 250 ps; what memory costs is not in them. `./do coefficients`
+// x86-64: measured by `starfocus calibrate` on a processor with AVX-512. All others: no board was
+// at hand. They come from the number of instructions that `starfocus calibrate --counter` counts on
+// an emulated board, each taken as 250 ps; what memory costs is not in them. `./do coefficients`
 // writes their lines anew. On a board of your own, calibrate and hand the result to the engine.
 #ifndef STARFOCUS_LIB_TIMING_DEFAULTS_H_
 #define STARFOCUS_LIB_TIMING_DEFAULTS_H_
@@ -17,7 +17,7 @@ struct NamedTiming {
 };
 
 inline constexpr NamedTiming kBuiltInTimings[] = {
-    {"x86-64", {16057503, 0, 3074, 0, 0, 22957, 12624, 6514}},
+    {"x86-64", {12413927, 0, 2775, 0, 227, 21279, 13325, 7673}},
     {"aarch64", {44084252, 1700, 17599, 0, 2846, 41137, 41047, 12098}},
     {"armhf", {51991377, 550, 21541, 0, 3447, 50423, 56819, 14202}},
     {"armv6", {46445054, 0, 35253, 0, 8039, 82877, 45309, 9080}},

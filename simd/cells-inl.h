@@ -56,6 +56,13 @@ HWY_INLINE CellRow ReduceRows(const CellRow (&rows)[8], const Take& take) {
               hn::BitCast(d16, hn::InterleaveUpper(d64, a, b)));
 }
 
+HWY_INLINE uint32_t SumOf(UnsignedRow row) {
+  const hn::Repartition<uint32_t, UnsignedTag> d32;
+  const auto wide = hn::BitCast(d32, row);
+  const auto pairs = hn::Add(hn::And(wide, hn::Set(d32, 0xFFFFu)), hn::ShiftRight<16>(wide));
+  return hn::GetLane(hn::SumOfLanes(d32, pairs));
+}
+
 // Sums of steps, in 32-bit lanes where 16 bits may not hold them.
 struct Steps {
   explicit Steps(const CellLimits& limits)
@@ -83,20 +90,20 @@ struct Steps {
     gaps = hn::Add(gaps, hn::Add(hn::And(wide, hn::Set(d32, 0xFFFFu)), hn::ShiftRight<16>(wide)));
   }
 
+  HWY_INLINE void Store(int along, CellMeasure* measure) const {
+    measure->slopes[along] = SumOf(slopes);
+    measure->edges[along] = SumOf(edges);
+    measure->gaps[along] =
+        hn::GetLane(hn::SumOfLanes(hn::Repartition<uint32_t, UnsignedTag>(), gaps));
+  }
+
   UnsignedRow edge, slope_limit, gap_limit;
   CellRow low = hn::Set(CellTag(), int16_t{INT16_MAX});
   CellRow high = hn::Set(CellTag(), int16_t{INT16_MIN});
   UnsignedRow slopes = hn::Zero(UnsignedTag()), edges = hn::Zero(UnsignedTag());
-  hn::Vec<hn::Repartition<uint32_t, UnsignedTag>> gaps =
+  hn::Vec<hn::Repartition<uint32_t, UnsignedTag> > gaps =
       hn::Zero(hn::Repartition<uint32_t, UnsignedTag>());
 };
-
-HWY_INLINE uint32_t SumOf(UnsignedRow row) {
-  const hn::Repartition<uint32_t, UnsignedTag> d32;
-  const auto wide = hn::BitCast(d32, row);
-  const auto pairs = hn::Add(hn::And(wide, hn::Set(d32, 0xFFFFu)), hn::ShiftRight<16>(wide));
-  return hn::GetLane(hn::SumOfLanes(d32, pairs));
-}
 
 HWY_INLINE void MeasureDisparities(const int16_t* const rows[10], const CellLimits& limits,
                                    CellMeasure* measure) {
@@ -106,35 +113,33 @@ HWY_INLINE void MeasureDisparities(const int16_t* const rows[10], const CellLimi
   const auto max = [](CellRow a, CellRow b) HWY_ATTR { return hn::Max(a, b); };
   const auto all = hn::Set(du16, uint16_t{0xFFFF}), none = hn::Zero(du16);
   // The step from column -1 to column 0 leads into the cell.
-  const auto all_but_first = hn::VecFromMask(
-      du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
+  const auto all_but_first = hn::VecFromMask(du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
   const auto focus = hn::Set(d16, limits.focus);
-  Steps steps(limits);
+  Steps along_rows(limits), along_columns(limits);
   CellRow here[8];
   for (int k = 0; k < 8; ++k) here[k] = hn::LoadU(d16, rows[1 + k]);
   auto low = here[0], high = here[0];
   auto nearest = all;
-  steps.Add(hn::LoadU(d16, rows[0]), here[0], none);
-  steps.Add(hn::LoadU(d16, rows[9]), here[7], none);
+  along_columns.Add(hn::LoadU(d16, rows[0]), here[0], none);
+  along_columns.Add(hn::LoadU(d16, rows[9]), here[7], none);
   for (int k = 0; k < 8; ++k) {
     low = hn::Min(low, here[k]);
     high = hn::Max(high, here[k]);
     nearest = hn::Min(nearest, Distance(here[k], focus));
-    steps.Add(hn::LoadU(d16, rows[1 + k] - 1), here[k], all_but_first);
-    steps.Add(hn::LoadU(d16, rows[1 + k] + 1), here[k], none);
-    if (k > 0) steps.Add(here[k - 1], here[k], all);
+    along_rows.Add(hn::LoadU(d16, rows[1 + k] - 1), here[k], all_but_first);
+    along_rows.Add(hn::LoadU(d16, rows[1 + k] + 1), here[k], none);
+    if (k > 0) along_columns.Add(here[k - 1], here[k], all);
   }
   hn::StoreU(low, d16, measure->column_low);
   hn::StoreU(high, d16, measure->column_high);
   hn::StoreU(ReduceRows(here, min), d16, measure->row_low);
   hn::StoreU(ReduceRows(here, max), d16, measure->row_high);
   measure->nearest = hn::GetLane(hn::MinOfLanes(du16, nearest));
-  measure->edge_low = hn::GetLane(hn::MinOfLanes(d16, steps.low));
-  measure->edge_high = hn::GetLane(hn::MaxOfLanes(d16, steps.high));
-  measure->slopes = SumOf(steps.slopes);
-  measure->edges = SumOf(steps.edges);
-  measure->gaps = hn::GetLane(
-      hn::SumOfLanes(hn::Repartition<uint32_t, UnsignedTag>(), steps.gaps));
+  measure->edge_low = hn::GetLane(hn::MinOfLanes(d16, hn::Min(along_rows.low, along_columns.low)));
+  measure->edge_high =
+      hn::GetLane(hn::MaxOfLanes(d16, hn::Max(along_rows.high, along_columns.high)));
+  along_rows.Store(0, measure);
+  along_columns.Store(1, measure);
 }
 
 #endif

@@ -72,10 +72,10 @@ struct CellMeasure {
   // Lowest and highest disparity of the nearer sides of depth edges between the cell's pixels and
   // their neighbours to all sides; edge_low > edge_high: there is none.
   int16_t edge_low, edge_high;
-  // Over steps from pixel to pixel inside the cell, along rows and columns: the sum of steps within
-  // a surface, each at most slope_limit; the number of depth edges; the sum of their steps, each
-  // at most gap_limit.
-  uint32_t slopes, edges, gaps;
+  // Over steps from pixel to pixel inside the cell, along rows and along columns: the sum of steps
+  // within a surface, each at most slope_limit; the number of depth edges; the sum of their steps,
+  // each at most gap_limit.
+  uint32_t slopes[2], edges[2], gaps[2];
 };
 struct CellLimits {
   int16_t focus;  // for nearest
@@ -109,8 +109,8 @@ struct Kernels {
                        CellMeasure* measure);
 
   // Pixel `column` of row `row` of `in` becomes pixel `row` of row `column` of `out`. Strides in
-  // bytes. Up to kTransposePadding bytes past the end of each row of `out` may be written, in order of the rows
-  // of `in`: a picture can be transposed in strips of a multiple of four rows.
+  // bytes. Up to kTransposePadding bytes past the end of each row of `out` may be written, in order
+  // of the rows of `in`: a picture can be transposed in strips of a multiple of four rows.
   void (*transpose)(const uint8_t* in, size_t in_stride, size_t rows, size_t columns, uint8_t* out,
                     size_t out_stride);
 

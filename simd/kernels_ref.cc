@@ -77,18 +77,21 @@ void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t li
   }
 }
 
-// Adds the step between neighbours; `inside` tells whether both are the cell's.
-void AddStep(int a, int b, bool inside, const CellLimits& limits, CellMeasure* measure) {
+// Adds the step between neighbours along rows (0) or columns (1); `inside` tells whether both are
+// the cell's.
+void AddStep(int a, int b, bool inside, int along, const CellLimits& limits, CellMeasure* measure) {
   const int step = std::abs(a - b);
   const int nearer = a > b ? a : b;
   if (step > limits.edge) {
     if (nearer < measure->edge_low) measure->edge_low = static_cast<int16_t>(nearer);
     if (nearer > measure->edge_high) measure->edge_high = static_cast<int16_t>(nearer);
     if (!inside) return;
-    ++measure->edges;
-    measure->gaps += static_cast<uint32_t>(step < limits.gap_limit ? step : limits.gap_limit);
+    ++measure->edges[along];
+    measure->gaps[along] +=
+        static_cast<uint32_t>(step < limits.gap_limit ? step : limits.gap_limit);
   } else if (inside) {
-    measure->slopes += static_cast<uint32_t>(step < limits.slope_limit ? step : limits.slope_limit);
+    const int counted = step < limits.slope_limit ? step : limits.slope_limit;
+    measure->slopes[along] += static_cast<uint32_t>(counted);
   }
 }
 
@@ -105,7 +108,9 @@ void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMe
   measure->nearest = UINT16_MAX;
   measure->edge_low = INT16_MAX;
   measure->edge_high = INT16_MIN;
-  measure->slopes = measure->edges = measure->gaps = 0;
+  for (int along = 0; along < 2; ++along) {
+    measure->slopes[along] = measure->edges[along] = measure->gaps[along] = 0;
+  }
   for (int y = 0; y < 8; ++y) {
     const int16_t* row = rows[1 + y];
     for (int x = 0; x < 8; ++x) {
@@ -113,12 +118,12 @@ void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMe
       AddDisparity(row[x], &measure->row_low[y], &measure->row_high[y]);
       const int distance = std::abs(row[x] - limits.focus);
       if (distance < measure->nearest) measure->nearest = static_cast<uint16_t>(distance);
-      AddStep(row[x - 1], row[x], x > 0, limits, measure);
-      AddStep(rows[y][x], row[x], y > 0, limits, measure);
+      AddStep(row[x - 1], row[x], x > 0, 0, limits, measure);
+      AddStep(rows[y][x], row[x], y > 0, 1, limits, measure);
     }
-    AddStep(row[7], row[8], false, limits, measure);
+    AddStep(row[7], row[8], false, 0, limits, measure);
   }
-  for (int x = 0; x < 8; ++x) AddStep(rows[8][x], rows[9][x], false, limits, measure);
+  for (int x = 0; x < 8; ++x) AddStep(rows[8][x], rows[9][x], false, 1, limits, measure);
 }
 
 void Transpose(const uint8_t* in, size_t in_stride, size_t rows, size_t columns, uint8_t* out,
@@ -194,8 +199,8 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 
 const Kernels& ReferenceKernels() {
   static constexpr Kernels kernels = {
-      "reference", Accumulate, Blend, Spread, FindRuns, MeasureCell, Transpose, Finish,
-      ConvertDisparity, Widen, Narrow, FinishLayer, FilterHalfBand, Between};
+      "reference", Accumulate,       Blend, Spread, FindRuns,    MeasureCell,    Transpose,
+      Finish,      ConvertDisparity, Widen, Narrow, FinishLayer, FilterHalfBand, Between};
   return kernels;
 }
 

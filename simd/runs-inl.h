@@ -36,8 +36,9 @@ HWY_INLINE void FindRunsOfVector(D16 d16, const int16_t* HWY_RESTRICT disparity,
     const auto rise = hn::SaturatedSub(hn::Max(before, here), hn::Min(before, here));
     const auto at_edge = hn::Gt(rise, edge);
     before = here;
-    const auto bit = [&](auto mask)
-                         HWY_ATTR { return hn::And(hn::BitCast(du16, hn::VecFromMask(d16, mask)), last_bit); };
+    const auto bit = [&](auto mask) HWY_ATTR {
+      return hn::And(hn::BitCast(du16, hn::VecFromMask(d16, mask)), last_bit);
+    };
     start_bits = hn::Or(hn::ShiftRight<1>(start_bits), bit(start));
     edge_bits = hn::Or(hn::ShiftRight<1>(edge_bits), bit(at_edge));
     if (q % 16 == 15) {
@@ -58,8 +59,8 @@ HWY_INLINE void FindRunsOfLines(const int16_t* disparity, ptrdiff_t step, size_t
                                 size_t lines, const RunLimits& limits, const RunMarks& marks) {
   const hn::CappedTag<int16_t, kRunLanes> d16;
   for (size_t line = 0; line < lines; line += hn::Lanes(d16)) {
-    FindRunsOfVector(d16, disparity + line, step, length, limits, marks.stride,
-                     marks.starts + line, marks.edges + line, marks.middles + line);
+    FindRunsOfVector(d16, disparity + line, step, length, limits, marks.stride, marks.starts + line,
+                     marks.edges + line, marks.middles + line);
   }
 }
 

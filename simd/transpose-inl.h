@@ -30,7 +30,7 @@ HWY_INLINE void TransposePixels(const uint8_t* HWY_RESTRICT in, size_t in_stride
   const hn::Repartition<uint64_t, decltype(d8)> d64;
   alignas(16) static constexpr uint8_t kWiden[16] = {0, 1, 2, 2, 3, 4,  5,  5,
                                                      6, 7, 8, 8, 9, 10, 11, 11};
-  alignas(16) static constexpr uint8_t kNarrow[16] = {0, 1,  2,  4,  5,  6,  8,  9,
+  alignas(16) static constexpr uint8_t kNarrow[16] = {0,  1,  2,  4,  5,  6,  8,  9,
                                                       10, 12, 13, 14, 15, 15, 15, 15};
   const auto widen = hn::Load(d8, kWiden), narrow = hn::Load(d8, kNarrow);
   const auto load = [&](const uint8_t* at) HWY_ATTR {

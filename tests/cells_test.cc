@@ -150,7 +150,8 @@ struct Cells {
     grid.cells = cells.data();
     for (int row = grid.first_row; row < grid.last_row; ++row) {
       for (int column = 0; column < grid.columns; ++column) {
-        *grid.At(column, row) = starfocus::MeasureCell(starfocus::simd::BestKernels(), window, map.scale, column, row);
+        *grid.At(column, row) =
+            starfocus::MeasureCell(starfocus::simd::BestKernels(), window, map.scale, column, row);
       }
     }
   }

@@ -350,8 +350,9 @@ bool Same(const CellMeasure& a, const CellMeasure& b) {
          std::equal(a.column_high, a.column_high + 8, b.column_high) &&
          std::equal(a.row_low, a.row_low + 8, b.row_low) &&
          std::equal(a.row_high, a.row_high + 8, b.row_high) && a.nearest == b.nearest &&
-         a.edge_low == b.edge_low && a.edge_high == b.edge_high && a.slopes == b.slopes &&
-         a.edges == b.edges && a.gaps == b.gaps;
+         a.edge_low == b.edge_low && a.edge_high == b.edge_high &&
+         std::equal(a.slopes, a.slopes + 2, b.slopes) &&
+         std::equal(a.edges, a.edges + 2, b.edges) && std::equal(a.gaps, a.gaps + 2, b.gaps);
 }
 
 void TestMeasureCell(const Kernels& kernels) {
@@ -396,13 +397,14 @@ CellMeasure Measured(const CellRows& rows, const CellLimits& limits) {
         const int step = std::abs(rows.At(x, y) - rows.At(to_x, to_y));
         const int nearer = std::max(rows.At(x, y), rows.At(to_x, to_y));
         if (step <= limits.edge) {
-          measure.slopes += both ? uint32_t(std::min<int>(step, limits.slope_limit)) : 0;
+          measure.slopes[right ? 0 : 1] +=
+              both ? uint32_t(std::min<int>(step, limits.slope_limit)) : 0;
           continue;
         }
         edge_low = std::min(edge_low, nearer);
         edge_high = std::max(edge_high, nearer);
-        measure.edges += both;
-        measure.gaps += both ? uint32_t(std::min<int>(step, limits.gap_limit)) : 0;
+        measure.edges[right ? 0 : 1] += both;
+        measure.gaps[right ? 0 : 1] += both ? uint32_t(std::min<int>(step, limits.gap_limit)) : 0;
       }
     }
   }
@@ -577,15 +579,19 @@ TEST_CASE("kernels: the definitions of runs, cells and transposing, by hand") {
   CHECK(measure.nearest == 3);
   CHECK(measure.edge_low == 97);
   CHECK(measure.edge_high == 500);
-  CHECK(measure.edges == 4);
-  CHECK(measure.gaps == 4 * 90);
-  CHECK(measure.slopes == 2 * 15);
+  for (int along = 0; along < 2; ++along) {
+    CHECK(measure.edges[along] == 2);
+    CHECK(measure.gaps[along] == 2 * 90);
+    CHECK(measure.slopes[along] == 15);
+  }
   values[1 + 5][0] = 0;
   values[1 + 3][1 + 4] = 96;
   ReferenceKernels().measure_cell(rows, {100, 96, 15, 90}, &measure);
   CHECK(measure.edge_low > measure.edge_high);
-  CHECK(measure.edges == 0);
-  CHECK(measure.slopes == 6 * 15);
+  for (int along = 0; along < 2; ++along) {
+    CHECK(measure.edges[along] == 0);
+    CHECK(measure.slopes[along] == 3 * 15);
+  }
 
   const uint8_t in[2][7] = {{1, 2, 3, 4, 5, 6, 99}, {7, 8, 9, 10, 11, 12, 99}};
   uint8_t out[2][6 + kTransposePadding] = {};

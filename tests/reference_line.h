@@ -76,8 +76,8 @@ struct Lens {
   double Density(int i, int j) const {
     return n == 0 ? 1 : ApertureDensity(double(i) / n, double(j) / n, theta);
   }
-  // Largest j of the views (i, j) rendered from type A view i: below the diagonal or, with cells, in
-  // the whole disc.
+  // Largest j of the views (i, j) rendered from type A view i: below the diagonal or, with cells,
+  // in the whole disc.
   int LastAcross(int i) const {
     int j = std::max(0, cells ? n : i - 1);
     while (j > 0 && !Contains(i, j)) --j;

@@ -39,7 +39,7 @@ ViewCounts CountOneByOne(int n) {
 // Summed view by view, as (13) has it. With cells the centre is of type A too, and all views away
 // from the rows' axis are scanned along columns.
 BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool cells,
-                            uint64_t upsampled, const Content& content, int layer) {
+                            uint64_t upsampled, const Content (&content)[2], int layer) {
   const auto width = uint64_t(rect.width), height = uint64_t(rect.height);
   const uint64_t wide = width + uint64_t(border.left) + uint64_t(border.right);
   const uint64_t high = height + uint64_t(border.top) + uint64_t(border.bottom);
@@ -67,14 +67,20 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool 
       }
     }
   }
-  // Of every two views one is scanned along rows, the other along columns. A layer has 1 / 2^L of
-  // the lines; a slope makes 1 / 2^L of the runs along each, a gap is 1 / 2^L as wide.
+  // Of every two views one is scanned along rows, the other along columns; with cells those on the
+  // rows' axis along rows, all others along columns. A layer has 1 / 2^L of the lines; a slope
+  // makes 1 / 2^L of the runs along each, a gap is 1 / 2^L as wide.
   const int scale = 1 << layer;
-  const uint64_t runs = content.slopes / uint64_t(scale * scale) + content.edges / uint64_t(scale);
-  const uint64_t gaps = content.gaps / uint64_t(scale * scale);
-  const uint64_t one = starfocus::kContentOne;
-  work.span = (cells ? lines : views / 2 * (width + height)) + views / 2 * runs / one;
-  work.hole = views / 2 * gaps / one;
+  const uint64_t on_axis = n == 0 ? 0 : 2 * uint64_t(n) + 1;
+  const uint64_t scans[2] = {cells ? on_axis : views / 2,
+                             cells ? views - uint64_t(2 * n) : views / 2};
+  work.span = cells ? lines : views / 2 * (width + height);
+  for (int along = 0; along < 2; ++along) {
+    const Content& met = content[along];
+    const uint64_t runs = met.slopes / uint64_t(scale * scale) + met.edges / uint64_t(scale);
+    work.span += scans[along] * runs / starfocus::kContentOne;
+    work.hole += scans[along] * (met.gaps / uint64_t(scale * scale)) / starfocus::kContentOne;
+  }
   return work;
 }
 
@@ -98,12 +104,12 @@ TEST_CASE("timing: the work of a block, view by view") {
     const int n = random.Int(0, round < 250 ? 12 : 102);
     const uint64_t upsampled = random.Next();
     const auto amount = [&] { return uint32_t(random.Int(0, 1 << 16)); };
-    const Content content = {amount(), amount(), amount()};
+    const Content content[2] = {{amount(), amount(), amount()}, {amount(), amount(), amount()}};
     const int layer = random.Int(0, 2);
     const bool cells = random.Int(0, 1) == 1;
     const BlockWork expected = MeasureViewByView(rect, border, n, cells, upsampled, content, layer);
-    const BlockWork got =
-        starfocus::MeasureWork(rect, border, starfocus::CountViews(n), cells, upsampled, content, layer);
+    const BlockWork got = starfocus::MeasureWork(rect, border, starfocus::CountViews(n), cells,
+                                                 upsampled, content, layer);
     CAPTURE(n);
     CHECK(got.field == expected.field);
     CHECK(got.a == expected.a);
@@ -174,9 +180,11 @@ TEST_CASE("timing: a largest block with the largest coefficients, and all it spl
   for (const int side : {16, 32, 64, 128, 256}) {
     // Of content, more than there are pixels.
     const auto pixels = uint32_t(side * side);
-    const Content content = {64 * pixels, 64 * pixels, 256 * pixels};
-    const BlockWork work = starfocus::MeasureWork({0, 0, side, side}, {140, 140, 140, 140},
-                                                  starfocus::CountViews(102), false, pixels, content, 0);
+    const Content along = {64 * pixels, 64 * pixels, 256 * pixels};
+    const Content content[2] = {along, along};
+    const BlockWork work =
+        starfocus::MeasureWork({0, 0, side, side}, {140, 140, 140, 140}, starfocus::CountViews(102),
+                               false, pixels, content, 0);
     CAPTURE(side);
     CHECK(exact(work) * (256 / side) * (256 / side) < 1.8e19L);
     CHECK(static_cast<long double>(starfocus::PredictTime(most, work)) == exact(work));

@@ -98,19 +98,17 @@ BlockWork BlockBench::Work(const BlockTask& task) {
   Focus(task);
   const Block& block = task.block;
   const Rect& rect = block.rect;
-  Content content = {0, 0, 0};
+  Content content[2] = {};
   for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
     for (int x = rect.x; x < rect.x + rect.width; x += kCellSize) {
       const Cell cell = MeasureCell(*engine_->kernels, engine_->windows[0], engine_->scale,
                                     x / kCellSize, y / kCellSize);
-      content.slopes += cell.slopes;
-      content.edges += cell.edges;
-      content.gaps += cell.gaps;
+      AddCell(cell, &content);
     }
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
-  return MeasureWork(block.rendered, block.border, CountViews(block.n), true, upsampled,
-                     content, block.layer);
+  return MeasureWork(block.rendered, block.border, CountViews(block.n), true, upsampled, content,
+                     block.layer);
 }
 
 uint64_t BlockBench::Now() const {

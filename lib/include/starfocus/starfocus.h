@@ -59,16 +59,16 @@ extern "C" {
 
 typedef enum sf_status {
   SF_OK = 0,
-  SF_ERROR_NULL = 1,                 /**< a pointer that must be given is null */
-  SF_ERROR_VERSION = 2,              /**< structure not initialised by its init function */
-  SF_ERROR_RESERVED = 3,             /**< a reserved field is not zero */
-  SF_ERROR_SIZE = 4,                 /**< width or height outside [1, SF_MAX_SIZE] */
-  SF_ERROR_VIEWS = 5,                /**< number of views is not 1, 5, 9 or 17 */
-  SF_ERROR_DISPARITY_RANGE = 6,      /**< configured disparity range not finite, reversed or too large */
-  SF_ERROR_MAX_BLUR = 7,             /**< max_blur outside (0, SF_MAX_BLUR] */
-  SF_ERROR_BLOCK = 8,                /**< largest_block is not 32, 64, 128 or 256 */
-  SF_ERROR_WORKERS = 9,              /**< max_workers outside [1, SF_MAX_WORKERS] */
-  SF_ERROR_THETA = 10,               /**< theta outside [SF_MIN_THETA, SF_MAX_THETA] */
+  SF_ERROR_NULL = 1,            /**< a pointer that must be given is null */
+  SF_ERROR_VERSION = 2,         /**< structure not initialised by its init function */
+  SF_ERROR_RESERVED = 3,        /**< a reserved field is not zero */
+  SF_ERROR_SIZE = 4,            /**< width or height outside [1, SF_MAX_SIZE] */
+  SF_ERROR_VIEWS = 5,           /**< number of views is not 1, 5, 9 or 17 */
+  SF_ERROR_DISPARITY_RANGE = 6, /**< configured disparity range not finite, reversed or too large */
+  SF_ERROR_MAX_BLUR = 7,        /**< max_blur outside (0, SF_MAX_BLUR] */
+  SF_ERROR_BLOCK = 8,           /**< largest_block is not 32, 64, 128 or 256 */
+  SF_ERROR_WORKERS = 9,         /**< max_workers outside [1, SF_MAX_WORKERS] */
+  SF_ERROR_THETA = 10,          /**< theta outside [SF_MIN_THETA, SF_MAX_THETA] */
   SF_ERROR_WORKSPACE_SMALL = 11,     /**< workspace smaller than sf_workspace_size says */
   SF_ERROR_WORKSPACE_ALIGNMENT = 12, /**< workspace not aligned to SF_ALIGNMENT */
   SF_ERROR_MODE = 13,                /**< unknown mode */
@@ -77,16 +77,16 @@ typedef enum sf_status {
   SF_ERROR_BLUR_TOO_LARGE = 16,      /**< aperture * |disparity - focus| would exceed max_blur */
   SF_ERROR_STRIDE = 17,              /**< stride smaller than a row, or misaligned for float */
   SF_ERROR_NOT_FINITE = 18,          /**< disparity map holds NaN or infinity */
-  SF_ERROR_DISPARITY = 19,           /**< disparity map holds a value outside the configured range */
-  SF_ERROR_STATE = 20,               /**< streaming call without sf_stream_begin or streaming = 1 */
-  SF_ERROR_COUNT = 21,               /**< row count negative, or more rows than the picture has */
-  SF_ERROR_RUNNER = 22,              /**< the runner reported failure; output is incomplete */
-  SF_ERROR_OVERLAP = 23,             /**< output overlaps an input or the workspace */
-  SF_ERROR_ALL_INVALID = 24,         /**< disparity map without a single finite value */
-  SF_ERROR_LAYER = 25,               /**< max_layer is not 0, 1 or 2 */
-  SF_ERROR_DEBLOCKING = 26,          /**< deblocking outside [0, 255] */
-  SF_ERROR_TIMING = 27,              /**< a timing coefficient beyond SF_MAX_TIMING */
-  SF_ERROR_RULE = 28                 /**< unknown rule */
+  SF_ERROR_DISPARITY = 19,   /**< disparity map holds a value outside the configured range */
+  SF_ERROR_STATE = 20,       /**< streaming call without sf_stream_begin or streaming = 1 */
+  SF_ERROR_COUNT = 21,       /**< row count negative, or more rows than the picture has */
+  SF_ERROR_RUNNER = 22,      /**< the runner reported failure; output is incomplete */
+  SF_ERROR_OVERLAP = 23,     /**< output overlaps an input or the workspace */
+  SF_ERROR_ALL_INVALID = 24, /**< disparity map without a single finite value */
+  SF_ERROR_LAYER = 25,       /**< max_layer is not 0, 1 or 2 */
+  SF_ERROR_DEBLOCKING = 26,  /**< deblocking outside [0, 255] */
+  SF_ERROR_TIMING = 27,      /**< a timing coefficient beyond SF_MAX_TIMING */
+  SF_ERROR_RULE = 28         /**< unknown rule */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -117,22 +117,22 @@ typedef struct sf_timing {
 
 /** What a workspace is made for. Call sf_config_init first: it zeroes and sets the defaults. */
 typedef struct sf_config {
-  uint32_t version;     /**< SF_ABI_VERSION, set by sf_config_init */
-  int32_t width;        /**< pixels, [1, SF_MAX_SIZE] */
-  int32_t height;       /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
-  int32_t views;        /**< captured views: 1, 5, 9 or 17 (see sf_view_position) */
-  float disparity_min;  /**< smallest disparity any map may hold; with disparity_max it bounds the
-                             blur, and so N of the frame modes, in every entry path */
-  float disparity_max;  /**< largest disparity any map may hold, >= disparity_min */
-  double max_blur;      /**< largest blur radius r = aperture * |d - focus| in pixels that will be
-                             asked for, (0, SF_MAX_BLUR]; default 32 */
+  uint32_t version;      /**< SF_ABI_VERSION, set by sf_config_init */
+  int32_t width;         /**< pixels, [1, SF_MAX_SIZE] */
+  int32_t height;        /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
+  int32_t views;         /**< captured views: 1, 5, 9 or 17 (see sf_view_position) */
+  float disparity_min;   /**< smallest disparity any map may hold; with disparity_max it bounds the
+                              blur, and so N of the frame modes, in every entry path */
+  float disparity_max;   /**< largest disparity any map may hold, >= disparity_min */
+  double max_blur;       /**< largest blur radius r = aperture * |d - focus| in pixels that will be
+                              asked for, (0, SF_MAX_BLUR]; default 32 */
   int32_t largest_block; /**< side of the largest refocusing block: 32, 64, 128, 256; default 64 */
-  int32_t max_workers;  /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
-  int32_t streaming;    /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
-  double theta;         /**< fall-off of the aperture (3) in radians; default 0.26 pi */
-  int32_t max_layer;    /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
-  int32_t deblocking;   /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
-  sf_timing timing;     /**< each coefficient <= SF_MAX_TIMING */
+  int32_t max_workers;   /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
+  int32_t streaming;  /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
+  double theta;       /**< fall-off of the aperture (3) in radians; default 0.26 pi */
+  int32_t max_layer;  /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
+  int32_t deblocking; /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
+  sf_timing timing;   /**< each coefficient <= SF_MAX_TIMING */
   uint32_t reserved[8]; /**< zero */
 } sf_config;
 
@@ -155,10 +155,10 @@ SF_API sf_status sf_init(const sf_config* config, void* workspace, size_t bytes,
                          sf_engine** engine);
 
 typedef enum sf_mode {
-  SF_MODE_FRAME = 0,    /**< one N for the whole picture, from (9) */
+  SF_MODE_FRAME = 0,     /**< one N for the whole picture, from (9) */
   SF_MODE_BENCHMARK = 1, /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark */
-  SF_MODE_BLOCK = 2, /**< blocks of variable size, each with its own N and layer (section V) */
-  SF_MODE_BLUR = 3   /**< depth-dependent blur of the centre view alone with the ideal kernel (4) */
+  SF_MODE_BLOCK = 2,     /**< blocks of variable size, each with its own N and layer (section V) */
+  SF_MODE_BLUR = 3 /**< depth-dependent blur of the centre view alone with the ideal kernel (4) */
 } sf_mode;
 
 /** How many views a blur radius needs. */
@@ -185,15 +185,15 @@ typedef uint64_t (*sf_clock)(void);
 
 /** What to render. Call sf_params_init first. */
 typedef struct sf_params {
-  uint32_t version;     /**< SF_ABI_VERSION, set by sf_params_init */
-  int32_t mode;         /**< sf_mode; default SF_MODE_BLOCK */
-  double focus;         /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS */
-  double aperture;      /**< aperture radius u_t, (0, 1]; default 1 */
-  int32_t rule;         /**< sf_rule; ignored by the other modes; default SF_RULE_DEFAULT */
-  sf_clock clock;       /**< fills the report's times; null: they stay 0 */
+  uint32_t version;          /**< SF_ABI_VERSION, set by sf_params_init */
+  int32_t mode;              /**< sf_mode; default SF_MODE_BLOCK */
+  double focus;              /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS */
+  double aperture;           /**< aperture radius u_t, (0, 1]; default 1 */
+  int32_t rule;              /**< sf_rule; ignored by the other modes; default SF_RULE_DEFAULT */
+  sf_clock clock;            /**< fills the report's times; null: they stay 0 */
   sf_block_visitor on_block; /**< null: nobody is told */
-  void* on_block_data;  /**< passed to on_block */
-  uint32_t reserved[8]; /**< zero */
+  void* on_block_data;       /**< passed to on_block */
+  uint32_t reserved[8];      /**< zero */
 } sf_params;
 
 SF_API void sf_params_init(sf_params* params);
@@ -230,9 +230,9 @@ typedef struct sf_layer_report {
 
 /** What a refocusing did. */
 typedef struct sf_report {
-  double r_max;             /**< largest blur radius the configured disparity range allows, pixels */
-  int32_t n;                /**< views along the aperture radius, N; the largest of any block */
-  int32_t rendered_views;   /**< views of i^2 + j^2 <= N^2 for that N */
+  double r_max;           /**< largest blur radius the configured disparity range allows, pixels */
+  int32_t n;              /**< views along the aperture radius, N; the largest of any block */
+  int32_t rendered_views; /**< views of i^2 + j^2 <= N^2 for that N */
   uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
 } sf_report;
@@ -271,7 +271,8 @@ SF_API sf_status sf_measure_disparity(const float* disparity, size_t stride, int
 
 /** Replaces every non-finite value, in place, by its nearest valid neighbour to the left or right
  *  (of one on either side, the farther surface: the smaller disparity); rows without a valid value
- *  are filled from the nearest valid rows above and below by the same rule. SF_ERROR_ALL_INVALID when no value is finite. */
+ *  are filled from the nearest valid rows above and below by the same rule. SF_ERROR_ALL_INVALID
+ * when no value is finite. */
 SF_API sf_status sf_fill_disparity(float* disparity, size_t stride, int32_t width, int32_t height);
 
 /** Name of the SIMD target the kernels run on here, e.g. "AVX2"; static storage. */
