@@ -30,18 +30,18 @@ bool operator==(const Found& a, const Found& b) {
 
 using Runs = std::vector<Found>;
 
-// A lens of radius 1 with n views, in focus at `focus`.
-ViewGrid MakeGrid(int n, double focus, int spread) {
+// A lens with n views, in focus at `focus`.
+ViewGrid MakeGrid(int n, double focus, int spread, double aperture = 1) {
   starfocus::Aperture views;
   views.n = n;
-  ViewGrid grid = starfocus::MakeViewGrid(views, focus, 1, 0, false, false);
+  ViewGrid grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false, false);
   grid.spread = spread;
   return grid;
 }
 
 Runs Find(const Depths& line, Direction direction, int spread) {
   Runs found;
-  for (const Run& run : test::FindRuns(line, MakeGrid(1, 0, spread), direction)) {
+  for (const Run& run : test::FindRuns(line, MakeGrid(1, 0, spread, 0.2), direction)) {
     found.push_back({run.begin, run.surface_end, run.disparity});
   }
   return found;
