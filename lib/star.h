@@ -1,5 +1,6 @@
 // The primitive: one rectangle of the picture refocused with a given N at one layer, by rendering
-// the views of the aperture as types A, B and C of eight triangles (paper, IV-B).
+// the views of the aperture: by the paper's rule as types A, B and C of eight triangles (IV-B); by
+// that of cells along rows first (A) and then along columns (C).
 #ifndef STARFOCUS_LIB_STAR_H_
 #define STARFOCUS_LIB_STAR_H_
 
