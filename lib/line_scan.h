@@ -173,9 +173,9 @@ class LineScan {
     } else if (end + whole > run->surface_end) {
       const int32_t own = Max(first, run_end - whole);
       AddBeyondSurface(own, end, whole, offset, weight);
-      if (first < own) AddBlended(*run, first, own, whole, offset, weight, run + 1 == runs_end_);
+      if (first < own) AddBlended(*run, first, own, whole, offset, weight);
     } else {
-      AddBlended(*run, first, end, whole, offset, weight, run + 1 == runs_end_);
+      AddBlended(*run, first, end, whole, offset, weight);
     }
   }
 
@@ -207,16 +207,16 @@ class LineScan {
     edge_.run = nullptr;
   }
 
-  // Positions [first, end) with their neighbours; a pixel beside a depth edge has none across it.
+  // Positions [first, end) with their neighbours; a pixel at the upper end of its surface or at the
+  // line's lower end has none there.
   void AddBlended(const Run& run, int32_t first, int32_t end, int32_t whole, int32_t offset,
-                  int32_t weight, bool is_last) const {
+                  int32_t weight) const {
     if (offset > 0) {
       const bool alone = end + whole == run.surface_end;
       if (alone) Emit(end - 1, end, whole, 1, 0);
       if (first < end - alone) Emit(first, end - alone, whole, 1, weight);
     } else {
-      const bool alone =
-          first + whole == run.begin && (is_last || (&run)[1].surface_end == run.begin);
+      const bool alone = first + whole == 0;
       if (first + alone < end) Emit(first + alone, end, whole, -1, weight);
       if (alone) Emit(first, first + 1, whole, -1, 0);
     }

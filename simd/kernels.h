@@ -20,7 +20,7 @@ struct Span {
   uint32_t samples;           // > 0
   uint16_t weight;            // [0, 32767]
   uint16_t neighbour_weight;  // [0, 32767]; 0: the neighbour is not read
-  int32_t neighbour_offset;   // samples: +3 or -3
+  int32_t neighbour_offset;   // samples: whole pixels, mostly +3 or -3
 };
 
 // Layer samples are int16 with 6 fractional bits: [0, kLayerWhite] when in range.
@@ -79,7 +79,7 @@ struct CellMeasure {
 };
 struct CellLimits {
   int16_t focus;  // for nearest
-  int16_t edge;   // a step by more than this is a depth edge, < 32767
+  int16_t edge;   // a step by more than this is a depth edge, <= 4369: 15 steps fit 16 bits
   int16_t slope_limit, gap_limit;
 };
 
