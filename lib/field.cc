@@ -46,15 +46,18 @@ void LoadField(const Window& window, const Rect& rect, const Border& border, Fie
   }
 }
 
-void TransposeField(const simd::Kernels& kernels, const Field& from, Field* to) {
+void TransposePixels(const simd::Kernels& kernels, const Field& from, Field* to) {
+  kernels.transpose(from.rgb, RgbStride(from.width), static_cast<size_t>(from.height),
+                    static_cast<size_t>(from.width), to->rgb, RgbStride(to->width));
+}
+
+void TransposeDisparity(const Field& from, Field* to) {
   to->transposed = !from.transposed;
   to->width = from.height;
   to->height = from.width;
   to->x = from.y;
   to->y = from.x;
   to->inner = {from.inner.y, from.inner.x, from.inner.height, from.inner.width};
-  kernels.transpose(from.rgb, RgbStride(from.width), static_cast<size_t>(from.height),
-                    static_cast<size_t>(from.width), to->rgb, RgbStride(to->width));
   for (int32_t row = 0; row < to->height; ++row) {
     int16_t* disparity = to->Disparity(0, row);
     const int16_t* from_disparity = from.Disparity(row, 0);

@@ -47,8 +47,9 @@ struct Field {
 // Copies `rect` and its border from the window into field->rgb and ->disparity.
 void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field);
 
-// Rows become columns; to->rgb and ->disparity must be set and differ from `from`'s.
-void TransposeField(const simd::Kernels& kernels, const Field& from, Field* to);
+// Rows become columns; to->disparity, or after it to->rgb, must be set and differ from `from`'s.
+void TransposeDisparity(const Field& from, Field* to);
+void TransposePixels(const simd::Kernels& kernels, const Field& from, Field* to);
 
 // The diagonal lines of a field: direction (1, 1), or (1, -1) when anti.
 struct Diagonals {

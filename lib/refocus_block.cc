@@ -1,5 +1,7 @@
 #include "lib/refocus_block.h"
 
+#include <cstring>
+
 namespace starfocus {
 namespace {
 
@@ -48,9 +50,22 @@ void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
   }
 }
 
+// The centre view alone: all is in focus.
+void CopyCentre(const EngineState& engine, const Rect& rect, const Plane<uint8_t>& out) {
+  for (int32_t row = 0; row < rect.height; ++row) {
+    std::memcpy(At(out, rect, row),
+                engine.windows[0].centre.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x),
+                3 * static_cast<size_t>(rect.width));
+  }
+}
+
 void RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
                   Worker* worker) {
   const Aperture& aperture = IsBlockMode(engine) ? engine.apertures[block.n] : engine.aperture;
+  if (aperture.n == 0) {
+    CopyCentre(engine, block.rect, out);
+    return;
+  }
   const ViewGrid grid = MakeViewGrid(aperture, engine.params.focus, engine.params.aperture,
                                      block.layer, engine.config.views == 17, UsesCells(engine));
   const StarJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,

@@ -49,21 +49,16 @@ class Star {
   void Refocus() {
     Field rows = MakeField(0);
     LoadField(*job_.window, job_.rect, job_.border, &rows);
-    const size_t samples = 3 * static_cast<size_t>(job_.rect.width) * job_.rect.height;
-    std::memset(scratch_->accumulators[0], 0, samples * sizeof(uint32_t));
-    if (!grid_.cells || grid_.n() == 0) AddCentre(rows);
-    if (grid_.n() == 0) return;
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
-    std::memset(scratch_->accumulators[1], 0, samples * sizeof(uint32_t));
+    Clear(1);
     Field columns = MakeField(1);
-    TransposeField(*job_.kernels, rows, &columns);
-    if (!grid_.cells) {
-      TypeB(rows, false);
-      TypeB(rows, true);
-    }
+    TransposeDisparity(rows, &columns);
     AddViews(rows, columns, scratch_->accumulators[1]);
-    if (!grid_.cells) AddViews(columns, rows, scratch_->accumulators[0]);
-    AddTransposed();
+    if (grid_.cells) {
+      Transpose();
+    } else {
+      AddByPaper(rows, &columns);
+    }
   }
 
  private:
@@ -71,6 +66,22 @@ class Star {
   struct Rows {
     int32_t begin, end;
   };
+
+  void Clear(int orientation) {
+    const size_t samples = 3 * static_cast<size_t>(job_.rect.width) * job_.rect.height;
+    std::memset(scratch_->accumulators[orientation], 0, samples * sizeof(uint32_t));
+  }
+
+  // All but the triangles along rows.
+  void AddByPaper(const Field& rows, Field* columns) {
+    TransposePixels(*job_.kernels, rows, columns);
+    Clear(0);
+    AddCentre(rows);
+    TypeB(rows, false);
+    TypeB(rows, true);
+    AddViews(*columns, rows, scratch_->accumulators[0]);
+    AddTransposed();
+  }
 
   Field MakeField(int orientation) const {
     Field field;
@@ -309,17 +320,25 @@ class Star {
     }
   }
 
-  // The pass over columns worked on the transposed rectangle.
-  void AddTransposed() {
+  // The pass over rows left its sums by columns: what type C was added to.
+  template <class Take>
+  void FromColumns(const Take& take) {
     const int32_t width = job_.rect.width, height = job_.rect.height;
     for (int32_t y = 0; y < height; ++y) {
       uint32_t* to = scratch_->accumulators[0] + 3 * static_cast<size_t>(y) * width;
-      for (int32_t x = 0; x < width; ++x) {
-        const uint32_t* from =
-            scratch_->accumulators[1] + 3 * (static_cast<size_t>(x) * height + y);
-        for (int c = 0; c < 3; ++c) to[3 * x + c] += from[c];
+      const uint32_t* from = scratch_->accumulators[1] + 3 * static_cast<size_t>(y);
+      for (int32_t x = 0; x < width; ++x, to += 3, from += 3 * static_cast<size_t>(height)) {
+        take(from, to);
       }
     }
+  }
+  void Transpose() {
+    FromColumns([](const uint32_t* from, uint32_t* to) { std::memcpy(to, from, 3 * sizeof(*to)); });
+  }
+  void AddTransposed() {
+    FromColumns([](const uint32_t* from, uint32_t* to) {
+      for (int c = 0; c < 3; ++c) to[c] += from[c];
+    });
   }
 
   const StarJob& job_;

@@ -49,7 +49,7 @@ struct StarJob {
 };
 
 // Sums the weighted views over job.rect into scratch->accumulators[0]: rows of 3 * width values
-// with grid.aperture.sum_bits fractional bits.
+// with grid.aperture.sum_bits fractional bits. N > 0.
 void RefocusRectangle(const StarJob& job, StarScratch* scratch);
 
 }  // namespace starfocus

@@ -64,6 +64,7 @@ class Engine {
   }
   sf_status status() const { return status_; }
   const EngineState& state() const { return *reinterpret_cast<const EngineState*>(engine_); }
+  const std::vector<uint8_t>& out() const { return out_; }
 
   sf_status Refocus(const Impulse& impulse, const EngineProbe& probe) {
     sf_params params;
@@ -75,21 +76,23 @@ class Engine {
     field.views[0] = {impulse.rgb.data(), 3 * side};
     field.disparity = impulse.disparity.data();
     field.disparity_stride = side * sizeof(float);
-    std::vector<uint8_t> out(impulse.rgb.size());
+    out_.resize(impulse.rgb.size());
     const sf_status status =
-        sf_refocus(engine_, &params, &field, out.data(), 3 * side, nullptr, nullptr, nullptr);
+        sf_refocus(engine_, &params, &field, out_.data(), 3 * side, nullptr, nullptr, nullptr);
     if (status != SF_OK) return status;
     return state().plan.counts[0] == 1 ? SF_OK : SF_ERROR_BLOCK;
   }
 
  private:
   std::unique_ptr<void, FreeAligned> memory_;
+  std::vector<uint8_t> out_;
   sf_engine* engine_ = nullptr;
   sf_status status_ = SF_OK;
 };
 
 // The response to the white pixel at (x, y), `radius` around it.
-Kernel ReadKernel(const EngineState& engine, int x, int y, int radius, uint8_t dark) {
+Kernel ReadKernel(const Engine& measured, int x, int y, int radius, uint8_t dark) {
+  const EngineState& engine = measured.state();
   Kernel kernel(radius);
   const Block& block = engine.plan.blocks[0];
   const Worker& worker = engine.workers[0];
@@ -101,7 +104,9 @@ Kernel ReadKernel(const EngineState& engine, int x, int y, int radius, uint8_t d
       const int at = 3 * ((y + m) * engine.config.width + x + n);
       const double sample =
           block.layer == 0 ? worker.star.accumulators[0][at] : worker.picture_samples[at];
-      kernel.at(n, m) = (sample / one - dark) / (kWhite - dark);
+      // The centre view alone is copied.
+      const double level = aperture.n == 0 ? measured.out()[static_cast<size_t>(at)] : sample / one;
+      kernel.at(n, m) = (level - dark) / (kWhite - dark);
     }
   }
   return kernel;
@@ -128,7 +133,7 @@ sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
       const sf_status status = engine.Refocus(impulse, probe);
       if (status != SF_OK) return status;
       impulse.Set(middle + a, middle + b, dark);
-      const Kernel kernel = ReadKernel(engine.state(), middle + a, middle + b, radius, dark);
+      const Kernel kernel = ReadKernel(engine, middle + a, middle + b, radius, dark);
       squares += (a == b ? 1 : 2) * Energy(kernel);
       for (int n = -radius; n <= radius; ++n) {
         for (int m = -radius; m <= radius; ++m) {
