@@ -215,7 +215,15 @@ class Star {
         MarkRuns(*job_.kernels, grid_, {scratch_->view_disparity, width, height, width},
                  DirectionOf(across), &scratch_->marks);
       }
-      for (int32_t x = 0; x < width; ++x) {
+      LineHoles holes = {job_,
+                         field,
+                         scratch_->moves,
+                         sign,
+                         across,
+                         i,
+                         0,
+                         {field.x + field.inner.x, field.y + rows.begin, 0, 1}};
+      for (int32_t x = 0; x < width; ++x, ++holes.line.x) {
         const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
                                               scratch_->line_runs)
                                    : 0;
@@ -231,15 +239,7 @@ class Star {
                   grid_.aperture.Weight(i, 0), 3 * static_cast<uint32_t>(x * field.inner.height),
                   &list);
         }
-        const LineHoles holes = {job_,
-                                 field,
-                                 scratch_->moves,
-                                 sign,
-                                 across,
-                                 i,
-                                 0,
-                                 {field.x + field.inner.x + x, field.y + rows.begin, 0, 1}};
-        AddColumn(line, count, last, field.inner.y - rows.begin, field.inner.height, x, holes,
+        AddColumn(line, count, last, field.inner.y - rows.begin, field.inner.height, x, &holes,
                   &list);
       }
     }
@@ -248,8 +248,10 @@ class Star {
 
   // Adds `height` pixels from `top` on of the views j = 1 .. last on one side of a column.
   void AddColumn(const Line& line, int32_t runs, int32_t last, int32_t top, int32_t height,
-                 int32_t x, LineHoles holes, SpanList* list) {
-    for (int32_t& j = holes.j = 1; j <= last; ++j) {
+                 int32_t x, LineHoles* view, SpanList* list) {
+    LineHoles& holes = *view;
+    for (int32_t j = 1; j <= last; ++j) {
+      holes.j = j;
       const uint32_t weight = grid_.aperture.Weight(holes.i, j);
       const SpanTarget target = {top, static_cast<uint32_t>(x * height), weight, nullptr};
       SpanSink<LineHoles> sink(line, target, holes, list);

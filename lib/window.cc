@@ -16,21 +16,21 @@ struct Endless {
   const Plane<const uint8_t>& view;
   int32_t right, bottom;  // last column and row
 
-  const uint8_t* operator()(int32_t x, int32_t y) const {
-    return view.Row(Clamp(y, 0, bottom)) + 3 * Clamp(x, 0, right);
-  }
+  const uint8_t* Row(int32_t y) const { return view.Row(Clamp(y, 0, bottom)); }
+  int32_t Column(int32_t x) const { return 3 * Clamp(x, 0, right); }  // bytes
 };
 
 void Interpolate(const Endless& pixel, int32_t x, int32_t y, uint8_t* rgb) {
   const int32_t column = x >> kShiftBits, row = y >> kShiftBits;
   const int32_t wx = x & (kShiftOne - 1), wy = y & (kShiftOne - 1);
-  const uint8_t *a = pixel(column, row), *b = pixel(column + 1, row);
-  const uint8_t *c = pixel(column, row + 1), *d = pixel(column + 1, row + 1);
+  const uint8_t *above = pixel.Row(row), *below = pixel.Row(row + 1);
+  const int32_t left = pixel.Column(column), right = pixel.Column(column + 1);
+  const uint8_t *a = above + left, *b = above + right, *c = below + left, *d = below + right;
   for (int k = 0; k < 3; ++k) {
-    const int32_t above = a[k] * (kShiftOne - wx) + b[k] * wx;
-    const int32_t below = c[k] * (kShiftOne - wx) + d[k] * wx;
+    const int32_t upper = a[k] * (kShiftOne - wx) + b[k] * wx;
+    const int32_t lower = c[k] * (kShiftOne - wx) + d[k] * wx;
     rgb[k] = static_cast<uint8_t>(RoundShift(
-        Checked(ranges::kHolePixel, above * (kShiftOne - wy) + below * wy), 2 * kShiftBits));
+        Checked(ranges::kHolePixel, upper * (kShiftOne - wy) + lower * wy), 2 * kShiftBits));
   }
 }
 
@@ -38,10 +38,13 @@ void Subsample(const Endless& pixel, int layer, int32_t x, int32_t y, uint8_t* r
   const int32_t reach = (1 << layer) - 1;
   int32_t sums[3] = {0, 0, 0};
   for (int32_t dy = -reach; dy <= reach; ++dy) {
+    const uint8_t* row = pixel.Row(y + dy);
+    int32_t along[3] = {0, 0, 0};
     for (int32_t dx = -reach; dx <= reach; ++dx) {
-      const uint8_t* from = pixel(x + dx, y + dy);
-      for (int k = 0; k < 3; ++k) sums[k] += Tap(layer, dx) * Tap(layer, dy) * from[k];
+      const uint8_t* from = row + pixel.Column(x + dx);
+      for (int k = 0; k < 3; ++k) along[k] += Tap(layer, dx) * from[k];
     }
+    for (int k = 0; k < 3; ++k) sums[k] += Tap(layer, dy) * along[k];
   }
   for (int k = 0; k < 3; ++k) rgb[k] = static_cast<uint8_t>(RoundShift(sums[k], 4 * layer));
 }
