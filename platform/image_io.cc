@@ -3,6 +3,7 @@
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
+#include <algorithm>
 #include <climits>
 #include <memory>
 
@@ -32,6 +33,24 @@ bool JpegHasEnd(const Bytes& bytes) {
   return false;
 }
 
+bool IsPng(const Bytes& bytes) {
+  return bytes.size() >= 8 && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N';
+}
+
+// stb_image allocates what a chunk says it holds before it looks for it. This walks the chunks to
+// the last one.
+bool PngHasEnd(const Bytes& bytes) {
+  for (size_t at = 8; at + 12 <= bytes.size();) {
+    const uint8_t* chunk = &bytes[at];
+    const size_t length = size_t(chunk[0]) << 24 | size_t(chunk[1]) << 16 |
+                          size_t(chunk[2]) << 8 | size_t(chunk[3]);
+    if (length > bytes.size() - at - 12) return false;
+    if (std::equal(chunk + 4, chunk + 8, "IEND")) return true;
+    at += 12 + length;
+  }
+  return false;
+}
+
 std::string DecodeStb(const std::string& path, const Bytes& bytes, Image* image) {
   int width = 0, height = 0, channels = 0;
   if (bytes.size() > INT_MAX) return Expected(path, "a file below 2 GiB", "a larger one");
@@ -42,6 +61,9 @@ std::string DecodeStb(const std::string& path, const Bytes& bytes, Image* image)
   if (width < 1 || height < 1 || width > kMaxPictureSize || height > kMaxPictureSize) {
     return Expected(path, "width and height from 1 to 65535",
                     std::to_string(width) + "x" + std::to_string(height));
+  }
+  if (IsPng(bytes) && !PngHasEnd(bytes)) {
+    return Expected(path, "an undamaged picture", "a truncated one");
   }
   std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 3), stbi_image_free);

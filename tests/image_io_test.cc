@@ -116,6 +116,17 @@ TEST_CASE("image_io: truncated PNG and JPEG are refused at every length") {
   }
 }
 
+TEST_CASE("image_io: a PNG chunk longer than its file is refused before it is read") {
+  TempFolder folder;
+  REQUIRE(WriteImage(folder.file("a.png"), Pattern(24, 18)) == "");
+  Bytes bytes;
+  REQUIRE(ReadFile(folder.file("a.png"), &bytes) == "");
+  Image image;
+  REQUIRE(ReadBytes(bytes, &image) == "");
+  bytes[33] = 0x67;  // the length of the chunk behind the header: 1.7 GB
+  CHECK(ReadBytes(bytes, &image).find("truncated") != std::string::npos);
+}
+
 TEST_CASE("image_io: outputs that cannot be written leave nothing") {
   TempFolder folder;
   const Image image = Pattern(3, 3);
