@@ -190,11 +190,12 @@ check() {
     $PROGRAM stress --seconds 30 --family identical
 }
 
-# fuzz_target NAME SECONDS: from the seeds and what earlier runs found.
+# fuzz_target NAME SECONDS: from the seeds and what earlier runs found. A clean checkout takes the
+# same way each time, so that a change which fails is to blame for it.
 fuzz_target() {
   local work=build/fuzz/work/$1
   mkdir -p "$work"
-  step "fuzz-$1" "fuzzing $1" build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -max_len=1024 \
+  step "fuzz-$1" "fuzzing $1" build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -seed=1 -max_len=1024 \
     -timeout=30 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1"
   printf '%s inputs\n' "$(sed -n 's/^stat::number_of_executed_units: *//p' "$LOGS/fuzz-$1.log")"
 }
