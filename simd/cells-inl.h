@@ -13,7 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
+// Vectors of unknown length can't be kept in arrays and structs.
+#if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 HWY_INLINE void MeasureDisparities(const int16_t* const rows[10], const CellLimits& limits,
                                    CellMeasure* measure) {
