@@ -42,8 +42,8 @@ bool IsPng(const Bytes& bytes) {
 bool PngHasEnd(const Bytes& bytes) {
   for (size_t at = 8; at + 12 <= bytes.size();) {
     const uint8_t* chunk = &bytes[at];
-    const size_t length = size_t(chunk[0]) << 24 | size_t(chunk[1]) << 16 |
-                          size_t(chunk[2]) << 8 | size_t(chunk[3]);
+    const size_t length =
+        size_t(chunk[0]) << 24 | size_t(chunk[1]) << 16 | size_t(chunk[2]) << 8 | size_t(chunk[3]);
     if (length > bytes.size() - at - 12) return false;
     if (std::equal(chunk + 4, chunk + 8, "IEND")) return true;
     at += 12 + length;

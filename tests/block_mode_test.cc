@@ -18,6 +18,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/deblock_reference.h"
 #include "tests/simd_targets.h"
+#include "tests/symmetry.h"
 #include "tests/test_scene.h"
 
 namespace {
@@ -461,31 +462,6 @@ TEST_CASE("block: an engine that is used again gives what a fresh one gives") {
   }
 }
 
-// Mirrors a scene of one view along x or y.
-test::Scene Mirrored(const test::Scene& scene, bool along_x) {
-  test::Scene moved = test::EmptyScene(scene.width, scene.height, scene.views(),
-                                       scene.disparity_min, scene.disparity_max);
-  for (int view = 0; view < scene.views(); ++view) {
-    double u = 0, v = 0;
-    sf_view_position(view, &u, &v);
-    (along_x ? u : v) *= -1;
-    int to = 0;
-    for (int other = 0; other < SF_MAX_VIEWS; ++other) {
-      double other_u = 0, other_v = 0;
-      sf_view_position(other, &other_u, &other_v);
-      if (other_u == u && other_v == v) to = other;
-    }
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x < scene.width; ++x) {
-        const int mx = along_x ? scene.width - 1 - x : x, my = along_x ? y : scene.height - 1 - y;
-        std::copy_n(scene.Pixel(view, x, y), 3, moved.Pixel(to, mx, my));
-        moved.Disparity(mx, my) = scene.Disparity(x, y);
-      }
-    }
-  }
-  return moved;
-}
-
 TEST_CASE("block: mirrored light fields of whole blocks give mirrored pictures at layer 0") {
   test::Random random(38);
   for (int round = 0; round < 24; ++round) {
@@ -498,22 +474,14 @@ TEST_CASE("block: mirrored light fields of whole blocks give mirrored pictures a
     Setup s = RandomSetup(&random, scene.disparity_max);
     s.block = block;
     s.max_layer = 0;
-    s.rule = SF_RULE_PAPER;
     const std::vector<uint8_t> plain = Whole(scene, s);
     for (const bool along_x : {true, false}) {
-      const std::vector<uint8_t> moved = Whole(Mirrored(scene, along_x), s);
-      int different = 0;
-      for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-          const int mx = along_x ? width - 1 - x : x, my = along_x ? y : height - 1 - y;
-          for (int c = 0; c < 3; ++c) {
-            different += plain[3 * size_t(y * width + x) + size_t(c)] !=
-                         moved[3 * size_t(my * width + mx) + size_t(c)];
-          }
-        }
-      }
+      const test::Symmetry mirror = {false, along_x, !along_x};
+      const std::vector<uint8_t> moved = Whole(test::Move(mirror, scene), s);
+      const test::Distance distance =
+          test::Compare(mirror, width, height, plain.data(), moved.data());
       CAPTURE(along_x);
-      CHECK_MESSAGE(different == 0, Text(s, scene));
+      CHECK_MESSAGE(distance.samples == 0, Text(s, scene));
     }
   }
 }

@@ -1,77 +1,43 @@
 // Mirroring, transposing or turning the light field does the same to the refocused picture, when
 // the picture is whole blocks: exactly, but for turns with wide aperture cells.
+#include "tests/symmetry.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <string>
-#include <utility>
+#include <vector>
 
 #include "starfocus/starfocus.h"
 #include "tests/test_scene.h"
 
 namespace {
 
-// One of the eight symmetries of the square: transposes first, then mirrors.
+using test::Distance;
+
 struct Symmetry {
-  std::string name;
-  bool transpose, mirror_x, mirror_y;
+  const char* name;
+  test::Symmetry move;
 };
 
-const Symmetry kMirrors[] = {{"mirror x", false, true, false},
-                             {"mirror y", false, false, true},
-                             {"turn 180", false, true, true}};
-const Symmetry kTurns[] = {{"transpose", true, false, false},
-                           {"turn 90", true, true, false},
-                           {"turn 270", true, false, true},
-                           {"anti-transpose", true, true, true}};
+const Symmetry kMirrors[] = {{"mirror x", {false, true, false}},
+                             {"mirror y", {false, false, true}},
+                             {"turn 180", {false, true, true}}};
+const Symmetry kTurns[] = {{"transpose", {true, false, false}},
+                           {"turn 90", {true, true, false}},
+                           {"turn 270", {true, false, true}},
+                           {"anti-transpose", {true, true, true}}};
 
-// Where pixel (x, y) of a width x height picture goes.
-std::pair<int, int> Move(const Symmetry& s, int width, int height, int x, int y) {
-  if (s.transpose) {
-    std::swap(x, y);
-    std::swap(width, height);
+TEST_CASE("symmetry: captured views change places") {
+  CHECK(test::MoveView(kMirrors[0].move, 1) == 2);
+  CHECK(test::MoveView(kMirrors[0].move, 3) == 3);
+  CHECK(test::MoveView(kMirrors[1].move, 3) == 4);
+  CHECK(test::MoveView(kTurns[0].move, 1) == 3);
+  for (const Symmetry& s : {kMirrors[2], kTurns[1], kTurns[3]}) {
+    std::vector<int> places;
+    for (int view = 0; view < SF_MAX_VIEWS; ++view) places.push_back(test::MoveView(s.move, view));
+    std::sort(places.begin(), places.end());
+    for (int view = 0; view < SF_MAX_VIEWS; ++view) CHECK(places[size_t(view)] == view);
   }
-  return {s.mirror_x ? width - 1 - x : x, s.mirror_y ? height - 1 - y : y};
-}
-
-// Index of the view that captured view `index` becomes.
-int MoveView(const Symmetry& s, int index) {
-  double u = 0, v = 0;
-  REQUIRE(sf_view_position(index, &u, &v) != 0);
-  if (s.transpose) std::swap(u, v);
-  if (s.mirror_x) u = -u;
-  if (s.mirror_y) v = -v;
-  for (int i = 0; i < SF_MAX_VIEWS; ++i) {
-    double other_u = 0, other_v = 0;
-    sf_view_position(i, &other_u, &other_v);
-    if (other_u == u && other_v == v) return i;
-  }
-  FAIL("no such view");
-  return 0;
-}
-
-test::Scene Move(const Symmetry& s, const test::Scene& scene) {
-  const int width = s.transpose ? scene.height : scene.width;
-  const int height = s.transpose ? scene.width : scene.height;
-  test::Scene moved =
-      test::EmptyScene(width, height, scene.views(), scene.disparity_min, scene.disparity_max);
-  for (int y = 0; y < scene.height; ++y) {
-    for (int x = 0; x < scene.width; ++x) {
-      const auto [mx, my] = Move(s, scene.width, scene.height, x, y);
-      moved.Disparity(mx, my) = scene.Disparity(x, y);
-    }
-  }
-  for (int view = 0; view < scene.views(); ++view) {
-    const int to = MoveView(s, view);
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x < scene.width; ++x) {
-        const auto [mx, my] = Move(s, scene.width, scene.height, x, y);
-        std::copy_n(scene.Pixel(view, x, y), 3, moved.Pixel(to, mx, my));
-      }
-    }
-  }
-  return moved;
 }
 
 test::Output Refocused(const test::Scene& scene, const sf_params& params) {
@@ -85,33 +51,11 @@ test::Output Refocused(const test::Scene& scene, const sf_params& params) {
   return out;
 }
 
-// Between the moved picture of one and another.
-struct Distance {
-  int samples = 0;  // that differ
-  int largest = 0;
-  double mean = 0;
-};
-
-Distance Compare(const Symmetry& s, const test::Output& plain, const test::Output& moved) {
-  Distance distance;
-  for (int y = 0; y < plain.height; ++y) {
-    for (int x = 0; x < plain.width; ++x) {
-      const auto [mx, my] = Move(s, plain.width, plain.height, x, y);
-      for (int c = 0; c < 3; ++c) {
-        const int difference = std::abs(plain.Pixel(x, y)[c] - moved.Pixel(mx, my)[c]);
-        distance.samples += difference != 0;
-        distance.largest = std::max(distance.largest, difference);
-        distance.mean += difference / (3.0 * plain.width * plain.height);
-      }
-    }
-  }
-  return distance;
-}
-
 Distance Measure(const Symmetry& s, const test::Scene& scene, const sf_params& params) {
   const test::Output plain = Refocused(scene, params);
   CHECK(plain.bytes != scene.pictures[0]);
-  return Compare(s, plain, Refocused(Move(s, scene), params));
+  const test::Output moved = Refocused(test::Move(s.move, scene), params);
+  return test::Compare(s.move, scene.width, scene.height, plain.bytes.data(), moved.bytes.data());
 }
 
 void Check(const Symmetry& s, const test::Scene& scene, const sf_params& params) {

@@ -39,6 +39,14 @@ class Random {
   uint64_t state_;
 };
 
+// Any bytes, or black and white ones.
+inline std::vector<uint8_t> RandomBytes(size_t size, Random* random) {
+  std::vector<uint8_t> bytes(size);
+  const bool extreme = random->Int(0, 1) == 0;
+  for (uint8_t& byte : bytes) byte = extreme ? uint8_t(255 * random->Int(0, 1)) : random->Byte();
+  return bytes;
+}
+
 // A light field in memory. Strides may exceed the rows.
 struct Scene {
   int width = 0;

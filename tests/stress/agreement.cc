@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 #include "tests/stress/families.h"
 #include "tests/stress/setup.h"
+#include "tests/symmetry.h"
 
 namespace starfocus::stress {
 namespace {
@@ -48,53 +48,6 @@ int MostJump(const Setup& setup, const sf_report& a, const sf_report& b) {
   return a.n != b.n && !UsesCells(params) ? std::max(most, kViewsJump) : most;
 }
 
-struct Symmetry {
-  bool transpose, mirror_x, mirror_y;
-};
-
-std::pair<int, int> Moved(const Symmetry& s, int width, int height, int x, int y) {
-  if (s.transpose) {
-    std::swap(x, y);
-    std::swap(width, height);
-  }
-  return {s.mirror_x ? width - 1 - x : x, s.mirror_y ? height - 1 - y : y};
-}
-
-// Index of the view that captured view `index` becomes.
-int MovedView(const Symmetry& s, int index) {
-  double u = 0, v = 0;
-  sf_view_position(index, &u, &v);
-  if (s.transpose) std::swap(u, v);
-  if (s.mirror_x) u = -u;
-  if (s.mirror_y) v = -v;
-  for (int i = 0; i < SF_MAX_VIEWS; ++i) {
-    double other_u = 0, other_v = 0;
-    sf_view_position(i, &other_u, &other_v);
-    if (other_u == u && other_v == v) return i;
-  }
-  return 0;
-}
-
-Setup Moved(const Symmetry& s, const Setup& setup) {
-  const test::Scene& from = setup.scene;
-  Setup moved = setup;
-  moved.scene = test::EmptyScene(s.transpose ? from.height : from.width,
-                                 s.transpose ? from.width : from.height, from.views(),
-                                 from.disparity_min, from.disparity_max);
-  moved.config.width = moved.scene.width;
-  moved.config.height = moved.scene.height;
-  for (int y = 0; y < from.height; ++y) {
-    for (int x = 0; x < from.width; ++x) {
-      const auto [mx, my] = Moved(s, from.width, from.height, x, y);
-      moved.scene.Disparity(mx, my) = from.Disparity(x, y);
-      for (int view = 0; view < from.views(); ++view) {
-        std::copy_n(from.Pixel(view, x, y), 3, moved.scene.Pixel(MovedView(s, view), mx, my));
-      }
-    }
-  }
-  return moved;
-}
-
 Outcome Fail(const Setup& setup, const std::string& what) {
   return {0, what + ": " + setup.Text()};
 }
@@ -120,24 +73,20 @@ Outcome Mirrors(test::Random* random) {
   setup.config.height = setup.scene.height;
   setup.config.largest_block = 32;
   setup.config.max_layer = 0;  // layers keep every second pixel, from the left and the top
-  Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1, random->Int(0, 1) == 1};
+  test::Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1, random->Int(0, 1) == 1};
   if (setup.params.mode != SF_MODE_BLUR && UsesCells(setup.params)) symmetry.transpose = false;
   std::string failure;
   const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random), &failure);
-  const Setup other = Moved(symmetry, setup);
+  Setup other = setup;
+  other.scene = test::Move(symmetry, setup.scene);
+  other.config.width = other.scene.width;
+  other.config.height = other.scene.height;
   const std::vector<uint8_t> moved = Refocused(other, RandomVariant(random), &failure);
   if (!failure.empty()) return Fail(setup, failure);
   Outcome outcome;
-  for (int y = 0; y < setup.scene.height; ++y) {
-    for (int x = 0; x < setup.scene.width; ++x) {
-      const auto [mx, my] = Moved(symmetry, setup.scene.width, setup.scene.height, x, y);
-      for (int c = 0; c < 3; ++c) {
-        const int a = plain[3 * size_t(y * setup.scene.width + x) + size_t(c)];
-        const int b = moved[3 * size_t(my * other.scene.width + mx) + size_t(c)];
-        outcome.error = std::max<double>(outcome.error, std::abs(a - b));
-      }
-    }
-  }
+  outcome.error = test::Compare(symmetry, setup.scene.width, setup.scene.height, plain.data(),
+                                moved.data())
+                      .largest;
   if (outcome.error > 0) {
     return Fail(setup, "not symmetric (transposed " + std::to_string(symmetry.transpose) +
                            ", mirrored " + std::to_string(symmetry.mirror_x) + " " +
