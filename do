@@ -19,7 +19,7 @@ usage: ./do COMMAND
   test    install what is missing, build and run every test
   check   the same tests under sanitizers with every fixed-point range checked, then a few cases
           under valgrind
-  fuzz [SECONDS]  run every fuzz target that long (60), new inputs kept in build/fuzz/work
+  fuzz [SECONDS]  run every fuzz target that long (60), new inputs kept in build/fuzz/inputs
   build   build Release into build/release (the program: build/release/starfocus)
   bench   time and error of every mode, with a report: build/bench/report.html
           --quick   small pictures, few of them: a minute or two
@@ -193,7 +193,7 @@ check() {
 # fuzz_target NAME SECONDS: from the seeds and what earlier runs found. A clean checkout takes the
 # same way each time, so that a change which fails is to blame for it.
 fuzz_target() {
-  local work=build/fuzz/work/$1
+  local work=build/fuzz/inputs/$1
   mkdir -p "$work"
   step "fuzz-$1" "fuzzing $1" build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -seed=1 -max_len=1024 \
     -timeout=30 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1"
