@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -125,6 +126,23 @@ TEST_CASE("image_io: a PNG chunk longer than its file is refused before it is re
   REQUIRE(ReadBytes(bytes, &image) == "");
   bytes[33] = 0x67;  // the length of the chunk behind the header: 1.7 GB
   CHECK(ReadBytes(bytes, &image).find("truncated") != std::string::npos);
+}
+
+TEST_CASE("image_io: a JPEG table of more codes than it has room for is refused") {
+  TempFolder folder;
+  REQUIRE(WriteImage(folder.file("a.jpg"), Pattern(24, 18)) == "");
+  Bytes bytes;
+  REQUIRE(ReadFile(folder.file("a.jpg"), &bytes) == "");
+  Image image;
+  REQUIRE(ReadBytes(bytes, &image) == "");
+  const uint8_t marker[] = {0xff, 0xc4};
+  const auto table = std::search(bytes.begin(), bytes.end(), marker, marker + 2);
+  REQUIRE(bytes.end() - table > 4 + 17);
+  std::fill_n(table + 4 + 1, 16, uint8_t{17});
+  CHECK(ReadBytes(bytes, &image).find("Huffman table of more than 256") != std::string::npos);
+  // stb_image takes several 0xff for one.
+  bytes.insert(table, 3, 0xff);
+  CHECK(ReadBytes(bytes, &image).find("Huffman table of more than 256") != std::string::npos);
 }
 
 TEST_CASE("image_io: outputs that cannot be written leave nothing") {

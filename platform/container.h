@@ -1,0 +1,20 @@
+// What a PNG or JPEG file says of its parts, checked before stb_image takes its word for it.
+#ifndef STARFOCUS_PLATFORM_CONTAINER_H_
+#define STARFOCUS_PLATFORM_CONTAINER_H_
+
+#include "platform/file.h"
+
+namespace starfocus {
+
+enum class Container {
+  kUnknown,    // neither PNG nor JPEG
+  kWhole,      // all parts are there, to the one that ends it
+  kTruncated,  // a part reaches beyond the end of the file, or the last one is missing
+  kBroken,     // a JPEG table of more codes than there are bytes to code
+};
+
+Container CheckContainer(const Bytes& bytes);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_CONTAINER_H_
