@@ -162,13 +162,15 @@ BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32
         if (!outside) AddCell(stored, &stats.content);
         continue;
       }
+      if (Max(gap_x, gap_y) >= ReachOf(stored.r_max) + kLayerMargin[2]) continue;
       const Cell cell = outside ? OutsideCell(stored) : stored;
       // Towards the block: a cell on its left reaches to the right.
       const Side side_x = x < column ? kRight : kLeft, side_y = y < row ? kBottom : kTop;
-      for (int layer = 0; layer < 3; ++layer) {
+      // What does not reach the wider margin of a layer reaches no narrower one.
+      for (int layer = 2; layer >= 0; --layer) {
         const int32_t margin = kLayerMargin[layer];
-        if (gap_x >= 0 && cell.reach[side_x] + margin <= gap_x) continue;
-        if (gap_y >= 0 && cell.reach[side_y] + margin <= gap_y) continue;
+        if (gap_x >= 0 && cell.reach[side_x] + margin <= gap_x) break;
+        if (gap_y >= 0 && cell.reach[side_y] + margin <= gap_y) break;
         if (layer == 0) {
           stats.r_max = Max(stats.r_max, cell.r_max);
           stats.r_edge = Max(stats.r_edge, cell.r_edge);

@@ -12,7 +12,7 @@
 // | reach of cells       | int16  | 1       | [-8, 131] px              | 250 x                     |
 // | cell width r / N     | int32  | 2^8     | [0, 1], clamped           | -                         |
 // | interpolation weight | int32  | 2^8     | [0, 1/2]                  | -                         |
-// | wide cell r / N      | int32  | 2^3     | (1, 7], clamped           | -                         |
+// | wide cell r / N      | int32  | 2^2     | (1, 7], clamped           | -                         |
 // | spread pixel         | uint16 | 2^8     | [0, 255], + 1/2           | 0.2 % below 2^16          |
 // | blended pixel        | uint16 | 2^8     | [0, 255], + 1/2           | 0.2 % below 2^16          |
 // | aperture weight      | uint16 | 2^k     | [0, 32767], sum 2^k       | signed 16-bit multiplies  |

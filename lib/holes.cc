@@ -23,12 +23,14 @@ Offset OffsetOf(const HoleView& view, int sign, int64_t move, int32_t disparity)
   return {static_cast<int32_t>(sign * shift), static_cast<int32_t>(sign * captured)};
 }
 
-// Reads captured view (u, v) at the oriented position (x, y) of the layer, kShiftBits.
-void Read(const HoleView& view, int u, int v, int32_t x, int32_t y, uint8_t* rgb) {
+// Reads captured view (u, v), all in the orientation of the lines.
+void Read(const HoleView& view, int u, int v, const CapturedLine& line, int32_t count,
+          uint8_t* rgb) {
   if (view.transposed) {
-    ReadCaptured(*view.window, CapturedView(v, u, view.half), y, x, rgb);
+    ReadCaptured(*view.window, CapturedView(v, u, view.half), {line.y, line.x, line.dy, line.dx},
+                 count, rgb);
   } else {
-    ReadCaptured(*view.window, CapturedView(u, v, view.half), x, y, rgb);
+    ReadCaptured(*view.window, CapturedView(u, v, view.half), line, count, rgb);
   }
 }
 
@@ -62,21 +64,25 @@ void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t
   const bool diagonal = view.u != 0 && view.v != 0;
   // Of a view nearer to the axis across the lines than to theirs, that axis shows what is behind.
   const bool on_axis = diagonal && view.move_u < view.move_v;
-  const bool interpolate = diagonal && view.window->views == 5;
-  for (int32_t p = begin; p < end; ++p, out += 3) {
-    const int32_t x = (line.x + line.dx * p) * kShiftOne, y = (line.y + line.dy * p) * kShiftOne;
-    if (on_axis) {
-      Read(view, 0, view.v, x + along.centre, y + across.captured, out);
-      continue;
+  const auto read = [&](int u, int v, int32_t p, int32_t count, uint8_t* rgb) {
+    const int32_t x = (line.x + line.dx * p) * kShiftOne + (u != 0 ? along.captured : along.centre);
+    const int32_t y =
+        (line.y + line.dy * p) * kShiftOne + (v != 0 ? across.captured : across.centre);
+    Read(view, u, v, {x, y, line.dx, line.dy}, count, rgb);
+  };
+  if (on_axis || !diagonal || view.window->views != 5) {
+    read(on_axis ? 0 : view.u, view.v, begin, end - begin, out);
+    return;
+  }
+  constexpr int32_t kAtOnce = 16;
+  uint8_t horizontal[3 * kAtOnce];
+  for (int32_t p = begin; p < end; p += kAtOnce) {
+    const int32_t count = Min(kAtOnce, end - p);
+    read(view.u, 0, p, count, horizontal);
+    read(0, view.v, p, count, out);
+    for (int32_t k = 0; k < count; ++k, out += 3) {
+      MixNeighbours(horizontal + 3 * k, out, colour, out);
     }
-    if (!interpolate) {
-      Read(view, view.u, view.v, x + along.captured, y + across.captured, out);
-      continue;
-    }
-    uint8_t horizontal[3], vertical[3];
-    Read(view, view.u, 0, x + along.captured, y + across.centre, horizontal);
-    Read(view, 0, view.v, x + along.centre, y + across.captured, vertical);
-    MixNeighbours(horizontal, vertical, colour, out);
   }
 }
 

@@ -8,7 +8,7 @@ namespace {
 using simd::kMaxSpread;
 using simd::SpreadTaps;
 
-constexpr int kCellBits = 3;                  // fractional bits of the table's cells
+constexpr int kCellBits = 2;                  // fractional bits of the table's cells
 constexpr int32_t kOneCell = 1 << kCellBits;  // a pixel
 constexpr int32_t kLargestCell = (2 * kMaxSpread + 1) * kOneCell;
 

@@ -9,11 +9,11 @@
 
 namespace starfocus {
 
-// The taps of a box of width `cell` (kShiftBits), in (1, 7] pixels, to 1/8 pixel: what it covers of
+// The taps of a box of width `cell` (kShiftBits), in (1, 7] pixels, to 1/4 pixel: what it covers of
 // each pixel around it. Wider cells get 7 pixels.
 simd::SpreadTaps SpreadTapsOf(int32_t cell);
 
-// Spreads the pixels of `line` by their own cells r / N, in steps of 1/8 pixel, each over its own
+// Spreads the pixels of `line` by their own cells r / N, in steps of 1/4 pixel, each over its own
 // surface only: beyond a depth edge the surface's last pixel is repeated. Pixels whose cells are at
 // most a pixel wide stay. The mirrored line gives the mirrored result. `runs` are the line's, in
 // scan order kRightToLeft; out: line.rgb itself. surface: room for 3 * (length + 2 * kMaxSpread)

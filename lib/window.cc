@@ -1,5 +1,7 @@
 #include "lib/window.h"
 
+#include <initializer_list>
+
 namespace starfocus {
 namespace {
 
@@ -20,17 +22,21 @@ struct Endless {
   int32_t Column(int32_t x) const { return 3 * Clamp(x, 0, right); }  // bytes
 };
 
-void Interpolate(const Endless& pixel, int32_t x, int32_t y, uint8_t* rgb) {
-  const int32_t column = x >> kShiftBits, row = y >> kShiftBits;
-  const int32_t wx = x & (kShiftOne - 1), wy = y & (kShiftOne - 1);
-  const uint8_t *above = pixel.Row(row), *below = pixel.Row(row + 1);
-  const int32_t left = pixel.Column(column), right = pixel.Column(column + 1);
-  const uint8_t *a = above + left, *b = above + right, *c = below + left, *d = below + right;
-  for (int k = 0; k < 3; ++k) {
-    const int32_t upper = a[k] * (kShiftOne - wx) + b[k] * wx;
-    const int32_t lower = c[k] * (kShiftOne - wx) + d[k] * wx;
-    rgb[k] = static_cast<uint8_t>(RoundShift(
-        Checked(ranges::kHolePixel, upper * (kShiftOne - wy) + lower * wy), 2 * kShiftBits));
+// Steps of (dx, dy) pixels keep the weights of the four pixels around a place.
+void Interpolate(const Endless& pixel, const CapturedLine& line, int32_t count, uint8_t* rgb) {
+  const int32_t wx = line.x & (kShiftOne - 1), wy = line.y & (kShiftOne - 1);
+  const int32_t upper_left = (kShiftOne - wx) * (kShiftOne - wy),
+                upper_right = wx * (kShiftOne - wy);
+  const int32_t lower_left = (kShiftOne - wx) * wy, lower_right = wx * wy;
+  int32_t column = line.x >> kShiftBits, row = line.y >> kShiftBits;
+  for (int32_t p = 0; p < count; ++p, column += line.dx, row += line.dy, rgb += 3) {
+    const uint8_t *above = pixel.Row(row), *below = pixel.Row(row + 1);
+    const int32_t left = pixel.Column(column), right = pixel.Column(column + 1);
+    for (int k = 0; k < 3; ++k) {
+      const int32_t sum = above[left + k] * upper_left + above[right + k] * upper_right +
+                          below[left + k] * lower_left + below[right + k] * lower_right;
+      rgb[k] = static_cast<uint8_t>(RoundShift(Checked(ranges::kHolePixel, sum), 2 * kShiftBits));
+    }
   }
 }
 
@@ -51,18 +57,25 @@ void Subsample(const Endless& pixel, int layer, int32_t x, int32_t y, uint8_t* r
 
 }  // namespace
 
-void ReadCaptured(const Window& window, int index, int32_t x, int32_t y, uint8_t* rgb) {
-  Checked(ranges::kHolePosition, x);
-  Checked(ranges::kHolePosition, y);
+void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
+                  uint8_t* rgb) {
+  for (const int32_t last : {0, count - 1}) {
+    Checked(ranges::kHolePosition, line.x + line.dx * last * kShiftOne);
+    Checked(ranges::kHolePosition, line.y + line.dy * last * kShiftOne);
+  }
   const Endless pixel = {window.view[index], window.picture_width - 1, window.picture_height - 1};
   if (window.layer == 0) {
-    Interpolate(pixel, x, y, rgb);
+    Interpolate(pixel, line, count, rgb);
     return;
   }
   // One rounding from 1 / kShiftOne of the layer's pixels to the picture's.
   const int bits = kShiftBits - window.layer;
-  Subsample(pixel, window.layer, static_cast<int32_t>(RoundShift(x, bits)),
-            static_cast<int32_t>(RoundShift(y, bits)), rgb);
+  const auto x = static_cast<int32_t>(RoundShift(line.x, bits));
+  const auto y = static_cast<int32_t>(RoundShift(line.y, bits));
+  for (int32_t p = 0; p < count; ++p, rgb += 3) {
+    const int32_t step = p << window.layer;
+    Subsample(pixel, window.layer, x + line.dx * step, y + line.dy * step, rgb);
+  }
 }
 
 int CapturedView(int u, int v, bool half) {

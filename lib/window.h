@@ -40,11 +40,18 @@ struct Window {
   Plane<const int16_t> disparity;        // of the pictures, kDisparityBits
 };
 
-// The colour at (x, y) of the layer, kShiftBits, in captured view `index`, 3 bytes; positions
+// Places one after the other in a captured view: the first at (x, y) of the layer, kShiftBits, each
+// (dx, dy) pixels of the layer after the one before.
+struct CapturedLine {
+  int32_t x, y, dx, dy;
+};
+
+// The colours at the first `count` places of a line in captured view `index`, 3 bytes each; places
 // outside the picture take the nearest pixel inside. Interpolated linearly at L = 0; at L > 0 a
 // binomial of 2^(L+1) - 1 taps per axis around the nearest pixel of the picture subsamples: what
 // shows in a hole of a defocused block is blurred by at least 3 pixels of the layer afterwards.
-void ReadCaptured(const Window& window, int index, int32_t x, int32_t y, uint8_t* rgb);
+void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
+                  uint8_t* rgb);
 
 // Index of the captured view in direction (u, v), each -1, 0 or 1 and not both 0, at full or half
 // distance.

@@ -266,14 +266,14 @@ Picture RenderAlong(const Picture& from, int u, int v, const Lens& lens, int k, 
   return to;
 }
 
-// Each pixel of a line spread over the box of its own cell, to 1/8 pixel and at most 7, where that
+// Each pixel of a line spread over the box of its own cell, to 1/4 pixel and at most 7, where that
 // is wider than a pixel; beyond the edge of a surface its last pixel goes on.
 inline Colour SpreadPixel(const Picture& from, const std::vector<size_t>& line, int x,
                           const Lens& lens) {
   const int disparity = from.disparities[line[size_t(x)]];
-  const int eighths = std::min(56, (std::abs(lens.Shift(1, disparity)) + 16) / 32);
-  if (eighths <= 8) return from.colours[line[size_t(x)]];
-  const double half = eighths / 16.0;
+  const int quarters = std::min(28, (std::abs(lens.Shift(1, disparity)) + 32) / 64);
+  if (quarters <= 4) return from.colours[line[size_t(x)]];
+  const double half = quarters / 8.0;
   const auto one_surface = [&](int a, int b) {
     return std::abs(from.disparities[line[size_t(a)]] - from.disparities[line[size_t(b)]]) <=
            kSurfaceStep;

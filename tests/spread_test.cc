@@ -37,8 +37,8 @@ TEST_CASE("spread: taps are what the cell covers of each pixel") {
     const SpreadTaps taps = SpreadTapsOf(cell);
     REQUIRE(taps.reach >= 1);
     REQUIRE(taps.reach <= kMaxSpread);
-    // The cell is taken to 1/8 pixel.
-    const double half = std::min(std::round(8.0 * cell / kShiftOne) / 8, 2.0 * kMaxSpread + 1) / 2;
+    // The cell is taken to 1/4 pixel.
+    const double half = std::min(std::round(4.0 * cell / kShiftOne) / 4, 2.0 * kMaxSpread + 1) / 2;
     CHECK(half <= taps.reach + 0.5);
     int sum = 0;
     for (int k = -taps.reach; k <= taps.reach; ++k) {
