@@ -19,12 +19,9 @@ struct Line {
   int32_t length;
 };
 
-// One view of a line and the part of it that is wanted.
-struct LineView {
-  const ViewGrid* grid;
-  int64_t move;       // ViewGrid::Move of the view's distance along the line
-  int32_t out_begin;  // rendered pixels [out_begin, out_end), out_begin < out_end
-  int32_t out_end;
+// The part of the views of a line that is wanted: rendered pixels [begin, end), begin < end.
+struct LinePart {
+  int32_t begin, end;
 };
 
 // A gap wider than this is no stretched surface, whatever the disparities say, in pixels.
@@ -56,27 +53,31 @@ struct Rim {
   int32_t covered;  // kShiftBits
 };
 
-// Scans `line` for one view. Calls, in pixels of the line (never mirrored),
+// Scans `line` for views, one after the other. Calls, in pixels of the line (never mirrored),
 //   sink.Surface(begin, end, source, neighbour, weight): rendered pixel p is line pixel
 //     source + (p - begin), and its neighbour at +-1 with `weight` (kShiftBits);
 //   sink.Mix(p, source, other, weight): rendered pixel p is line pixel `source`, but `weight`
 //     (kShiftBits) of it is covered by, or lets shine through, line pixel `other`;
 //   sink.Hole(begin, end, pixel, rim): uncovered; what is behind continues the surface of the
 //     visible line pixel `pixel`.
-// Every pixel of [out_begin, out_end) comes exactly once, in scan order.
+// Every wanted pixel comes exactly once, in scan order.
 template <Direction kDirection, class Sink>
 class LineScan {
  public:
-  LineScan(const Line& line, const Run* runs, int32_t count, const LineView& view, Sink* sink)
+  LineScan(const Line& line, const Run* runs, int32_t count, const ViewGrid& grid,
+           const LinePart& part, Sink* sink)
       : line_(line),
         runs_(runs),
         runs_end_(runs + count),
-        view_(view),
+        grid_(grid),
         sink_(sink),
-        begin_(kMirrored ? line.length - view.out_end : view.out_begin),
-        end_(kMirrored ? line.length - view.out_begin : view.out_end) {}
+        begin_(kMirrored ? line.length - part.end : part.begin),
+        end_(kMirrored ? line.length - part.begin : part.end) {}
 
-  void Scan() {
+  // move: ViewGrid::Move of the view's distance along the line.
+  void Scan(int64_t move) {
+    move_ = move;
+    edge_ = {nullptr, 0, 0};
     // From the line's own end, not the wanted part's: what a gap borders on may lie beyond.
     filled_ = {Max(end_, line_.length - Whole(Shift(*runs_))), line_.length - 1};
     int32_t run_end = line_.length;
@@ -114,7 +115,7 @@ class LineScan {
 
   int32_t Pixel(int32_t q) const { return kMirrored ? line_.length - 1 - q : q; }
   int32_t Disparity(int32_t q) const { return line_.disparity[Pixel(q) * line_.step]; }
-  int32_t Shift(const Run& run) const { return view_.grid->Shift(view_.move, run.disparity); }
+  int32_t Shift(const Run& run) const { return grid_.Shift(move_, run.disparity); }
   static int32_t Whole(int32_t shift) { return (shift + kShiftOne / 2) >> kShiftBits; }
 
   // The lower end of a surface that may cover a farther one: the last run added. Between rendered
@@ -283,21 +284,26 @@ class LineScan {
   const Line& line_;
   const Run* const runs_;
   const Run* const runs_end_;
-  const LineView& view_;
+  const ViewGrid& grid_;
   Sink* const sink_;
   const int32_t begin_;  // wanted positions [begin_, end_)
   const int32_t end_;
+  int64_t move_ = 0;
   Filled filled_;
   Edge edge_ = {nullptr, 0, 0};
 };
 
-template <class Sink>
+// Scans for views first .. last. next(k) makes the sink ready for view k and returns its move.
+template <class Sink, class Next>
 void ScanLine(const Line& line, Direction direction, const Run* runs, int32_t count,
-              const LineView& view, Sink* sink) {
+              const ViewGrid& grid, const LinePart& part, int32_t first, int32_t last, Sink* sink,
+              const Next& next) {
   if (direction == Direction::kRightToLeft) {
-    LineScan<Direction::kRightToLeft, Sink>(line, runs, count, view, sink).Scan();
+    LineScan<Direction::kRightToLeft, Sink> scan(line, runs, count, grid, part, sink);
+    for (int32_t k = first; k <= last; ++k) scan.Scan(next(k));
   } else {
-    LineScan<Direction::kLeftToRight, Sink>(line, runs, count, view, sink).Scan();
+    LineScan<Direction::kLeftToRight, Sink> scan(line, runs, count, grid, part, sink);
+    for (int32_t k = first; k <= last; ++k) scan.Scan(next(k));
   }
 }
 

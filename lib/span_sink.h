@@ -27,6 +27,9 @@ class SpanSink {
   SpanSink(const Line& line, const SpanTarget& target, const Holes& holes, SpanList* list)
       : line_(line), target_(target), holes_(holes), list_(list) {}
 
+  // Of the pixels that follow.
+  void SetWeight(uint32_t weight) { target_.weight = weight; }
+
   void Surface(int32_t begin, int32_t end, int32_t source, int32_t neighbour, int32_t weight) {
     const uint32_t neighbour_weight =
         (target_.weight * static_cast<uint32_t>(weight) + kShiftOne / 2) >> kShiftBits;
@@ -82,7 +85,7 @@ class SpanSink {
   }
 
   const Line& line_;
-  const SpanTarget target_;
+  SpanTarget target_;
   const Holes& holes_;
   SpanList* list_;
 };

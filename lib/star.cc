@@ -90,10 +90,6 @@ class Star {
     return field;
   }
 
-  LineView MakeView(int32_t i, int32_t out_begin, int32_t out_end) const {
-    return {&grid_, scratch_->moves[i], out_begin, out_end};
-  }
-
   SpanList Accumulating(uint32_t* accumulators) const {
     return SpanList(*job_.kernels, scratch_->spans, accumulators);
   }
@@ -199,8 +195,9 @@ class Star {
     const LineHoles holes = {
         job_, field, scratch_->moves, sign, 0, i, 0, {field.x, field.y + row, 1, 0}};
     SpanSink<LineHoles> sink(line, target, holes, list);
-    const LineView view = MakeView(i, field.inner.x, field.inner.x + field.inner.width);
-    ScanLine(line, DirectionOf(sign), RunsOf(field, row), scratch_->run_counts[row], view, &sink);
+    ScanLine(line, DirectionOf(sign), RunsOf(field, row), scratch_->run_counts[row], grid_,
+             {field.inner.x, field.inner.x + field.inner.width}, i, i, &sink,
+             [&](int32_t k) { return scratch_->moves[k]; });
   }
 
   // Adds the views (sign * i, j), |j| <= last, from the columns of the type A view.
@@ -250,14 +247,14 @@ class Star {
   void AddColumn(const Line& line, int32_t runs, int32_t last, int32_t top, int32_t height,
                  int32_t x, LineHoles* view, SpanList* list) {
     LineHoles& holes = *view;
-    for (int32_t j = 1; j <= last; ++j) {
-      holes.j = j;
-      const uint32_t weight = grid_.aperture.Weight(holes.i, j);
-      const SpanTarget target = {top, static_cast<uint32_t>(x * height), weight, nullptr};
-      SpanSink<LineHoles> sink(line, target, holes, list);
-      ScanLine(line, DirectionOf(holes.v), scratch_->line_runs, runs,
-               MakeView(j, top, top + height), &sink);
-    }
+    const SpanTarget target = {top, static_cast<uint32_t>(x * height), 0, nullptr};
+    SpanSink<LineHoles> sink(line, target, holes, list);
+    ScanLine(line, DirectionOf(holes.v), scratch_->line_runs, runs, grid_, {top, top + height}, 1,
+             last, &sink, [&](int32_t j) {
+               holes.j = j;
+               sink.SetWeight(grid_.aperture.Weight(holes.i, j));
+               return scratch_->moves[j];
+             });
   }
 
   Diagonals GetDiagonals(const Field& field, bool anti) {
@@ -304,13 +301,14 @@ class Star {
           ReadRuns(scratch_->marks, 0, at.length, grid_, scratch_->moves[1], scratch_->line_runs);
       const int across = diagonals.anti ? -sign : sign;
       const HoleLine hole_line = {field.x + at.x, field.y + at.y, 1, diagonals.anti ? -1 : 1};
-      for (int32_t k = 1; k <= last; ++k) {
-        const LineHoles holes = {job_, field, scratch_->moves, sign, across, k, k, hole_line};
-        const SpanTarget target = {begin, 0, grid_.aperture.Weight(k, k), nullptr};
-        SpanSink<LineHoles> sink(line, target, holes, &list);
-        ScanLine(line, DirectionOf(sign), scratch_->line_runs, runs, MakeView(k, begin, end),
-                 &sink);
-      }
+      LineHoles holes = {job_, field, scratch_->moves, sign, across, 0, 0, hole_line};
+      SpanSink<LineHoles> sink(line, {begin, 0, 0, nullptr}, holes, &list);
+      ScanLine(line, DirectionOf(sign), scratch_->line_runs, runs, grid_, {begin, end}, 1, last,
+               &sink, [&](int32_t k) {
+                 holes.i = holes.j = k;
+                 sink.SetWeight(grid_.aperture.Weight(k, k));
+                 return scratch_->moves[k];
+               });
     }
     list.Flush();
     const Rect& inner = field.inner;

@@ -60,11 +60,8 @@ void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
     for (const Direction direction : {Direction::kRightToLeft, Direction::kLeftToRight}) {
       MarkRuns(kernels, grid, {disparity.data(), 1, kPixels, 1}, direction, &marks);
       const int32_t count = ReadRuns(marks, 0, kPixels, grid, grid.Move(1), runs.data());
-      for (int i = 1; i <= kViewNumber; ++i) {
-        const int64_t move = direction == Direction::kRightToLeft ? grid.Move(i) : -grid.Move(i);
-        const LineView view = {&grid, move, 0, kPixels};
-        ScanLine(line, direction, runs.data(), count, view, &ignore);
-      }
+      ScanLine(line, direction, runs.data(), count, grid, {0, kPixels}, 1, kViewNumber, &ignore,
+               [&](int32_t i) { return grid.Move(i); });
     }
     benchmark::DoNotOptimize(ignore.pixels);
   }
