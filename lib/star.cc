@@ -53,7 +53,9 @@ class Star {
     Clear(1);
     Field columns = MakeField(1);
     TransposeDisparity(rows, &columns);
-    AddViews(rows, columns, scratch_->accumulators[1]);
+    const bool wide = grid_.cells && HasWideCells(rows);
+    if (wide) SpreadColumns(&rows, &columns);
+    AddViews(rows, columns, wide, scratch_->accumulators[1]);
     if (grid_.cells) {
       Transpose();
     } else {
@@ -79,7 +81,7 @@ class Star {
     AddCentre(rows);
     TypeB(rows, false);
     TypeB(rows, true);
-    AddViews(*columns, rows, scratch_->accumulators[0]);
+    AddViews(*columns, rows, false, scratch_->accumulators[0]);
     AddTransposed();
   }
 
@@ -116,10 +118,10 @@ class Star {
   // the paper's rule the triangles on either side of that axis. With cells the whole disc: half as
   // many type A lines for 0.1 dB against truth, as long as holes far from the axis are read from
   // captured views far from it (FillHole).
-  void AddViews(const Field& field, const Field& other, uint32_t* accumulators) {
+  void AddViews(const Field& field, const Field& other, bool spread, uint32_t* accumulators) {
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
-      if (grid_.cells && sign > 0) SpreadRows(field);
+      if (spread && sign > 0) SpreadRows(field);
       const int32_t first = grid_.cells && sign > 0 ? 0 : 1;
       for (int32_t i = first; i <= grid_.n(); ++i) {
         const int32_t last = LastAcross(i);
@@ -141,6 +143,33 @@ class Star {
 
   Run* RunsOf(const Field& field, int32_t row) const {
     return scratch_->runs + static_cast<size_t>(row) * static_cast<size_t>(field.width);
+  }
+
+  bool HasWideCells(const Field& field) const {
+    const int16_t* const disparity = field.disparity;
+    int16_t low = disparity[0], high = low;
+    for (int32_t k = 1; k < field.width * field.height; ++k) {
+      low = disparity[k] < low ? disparity[k] : low;
+      high = disparity[k] > high ? disparity[k] : high;
+    }
+    const auto cell = [&](int32_t d) { return Abs(grid_.Shift(scratch_->moves[1], d)); };
+    return Max(cell(low), cell(high)) > kShiftOne;
+  }
+
+  // Along both axes before any view is rendered: what a view then shows in holes is not spread
+  // across its lines, but spreading each type A view's columns gains nothing against truth.
+  void SpreadColumns(Field* rows, Field* columns) {
+    TransposePixels(*job_.kernels, *rows, columns);
+    MarkRuns(*job_.kernels, grid_, {rows->disparity, rows->width, rows->height, rows->width},
+             Direction::kRightToLeft, &scratch_->marks);
+    for (int32_t k = 0; k < rows->width; ++k) {
+      const int32_t count = ReadRuns(scratch_->marks, k, rows->height, grid_, scratch_->moves[1],
+                                     scratch_->line_runs);
+      const Line line = {columns->Rgb(0, k), columns->Disparity(0, k), 1, columns->width};
+      SpreadLine(*job_.kernels, grid_, line, scratch_->line_runs, count, scratch_->surface_rgb,
+                 columns->Rgb(0, k));
+    }
+    TransposePixels(*job_.kernels, *columns, rows);
   }
 
   // In place: the rows of the field are read by this pass alone.
@@ -166,7 +195,7 @@ class Star {
     const int32_t n = grid_.n(), above = inner.y, end = inner.y + inner.height;
     const auto reach = [&](int32_t border) {
       const int32_t splat = last == 0 ? 0 : (border * last + n - 1) / n + 1;
-      return Min(border, splat + (grid_.cells ? simd::kMaxSpread : 0));
+      return Min(border, splat);
     };
     return {inner.y - reach(above), end + reach(field.height - end)};
   }
@@ -207,7 +236,7 @@ class Star {
     SpanList list = Accumulating(accumulators);
     for (const int across : {1, -1}) {
       if (across < 0 && last == 0) continue;
-      const bool scan = last > 0 || grid_.cells;
+      const bool scan = last > 0;
       if (scan) {
         MarkRuns(*job_.kernels, grid_, {scratch_->view_disparity, width, height, width},
                  DirectionOf(across), &scratch_->marks);
@@ -227,11 +256,6 @@ class Star {
         uint8_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
         const Line line = {rgb, scratch_->view_disparity + x, width, height};
         if (across > 0) {
-          // Spread in place: spans of other columns may still wait, of this one none.
-          if (grid_.cells) {
-            SpreadLine(*job_.kernels, grid_, line, scratch_->line_runs, count,
-                       scratch_->surface_rgb, rgb);
-          }
           AddLine(rgb + 3 * (field.inner.y - rows.begin), field.inner.height,
                   grid_.aperture.Weight(i, 0), 3 * static_cast<uint32_t>(x * field.inner.height),
                   &list);

@@ -76,6 +76,7 @@ class Views {
         centre_.disparities[centre_.At(x, y)] = layer.disparities[from];
       }
     }
+    if (lens_.cells) centre_ = SpreadAlong(SpreadAlong(centre_, false, lens_), true, lens_);
   }
 
   // Adds view (i, j) of the whole rectangle to `sum`.
@@ -99,7 +100,7 @@ class Views {
   const Picture& Along(bool rows, int i) {
     const auto known = along_.find({rows, i});
     if (known != along_.end()) return known->second;
-    Picture view = lens_.cells ? SpreadAlong(centre_, rows, lens_) : centre_;
+    Picture view = centre_;
     if (i != 0) {
       const int u = rows ? Sign(i) : 0, v = rows ? 0 : Sign(i);
       view = RenderAlong(
@@ -117,12 +118,11 @@ class Views {
     const int last = lens_.LastAcross(std::abs(along));
     const auto cut = [&](int border) {
       const int splat = last == 0 ? 0 : (border * last + lens_.n - 1) / lens_.n + 1;
-      return border - std::min(border, splat + (lens_.cells ? 3 : 0));
+      return border - std::min(border, splat);
     };
     const Cut cuts = rows ? Cut{0, 0, cut(rect_.top), cut(rect_.bottom)}
                           : Cut{cut(rect_.left), cut(rect_.right), 0, 0};
     Picture view = Inside(Along(rows, along), cuts);
-    if (lens_.cells) view = SpreadAlong(view, !rows, lens_);
     if (across != 0) {
       const int u = rows ? 0 : Sign(across), v = rows ? Sign(across) : 0;
       view = RenderAlong(view, u, v, lens_, std::abs(across),
