@@ -45,6 +45,7 @@ std::string ReportText(const EngineTask& task, const EngineResult& result, doubl
   json["views"] = task.config.views;
   json["focus"] = task.params.focus;
   json["aperture"] = task.params.aperture;
+  json["n_scale"] = task.config.n_scale;
   json["r_max"] = result.report.r_max;
   json["N"] = result.report.n;
   json["rendered_views"] = result.report.rendered_views;

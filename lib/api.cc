@@ -85,6 +85,7 @@ void sf_config_init(sf_config* config) {
   config->max_layer = SF_LAYERS - 1;
   config->deblocking = 35;
   config->timing = starfocus::DefaultTiming();
+  config->n_scale = 1.0;
 }
 
 void sf_params_init(sf_params* params) {

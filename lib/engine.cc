@@ -82,8 +82,8 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
     engine->aperture =
         MakeAperture(ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
   } else {
-    engine->aperture =
-        engine->apertures[UsesCells(*engine) ? ViewsByCells(r_max) : ViewsByPaper(r_max)];
+    const int32_t n = UsesCells(*engine) ? ViewsByCells(r_max) : ViewsByPaper(r_max);
+    engine->aperture = engine->apertures[ScaleViews(n, config.n_scale)];
   }
   const ViewGrid grid =
       MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false, false);

@@ -83,6 +83,7 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
   rules.max_layer = engine.config.max_layer;
   rules.max_n = engine.max_n;
   rules.cells = UsesCells(engine);
+  rules.n_scale = engine.config.n_scale;
   rules.timing = engine.config.timing;
   rules.views = engine.view_counts;
   engine.plan.counts[column] =

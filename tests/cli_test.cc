@@ -125,6 +125,10 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1 --threads 0", "--threads"},
              {"refocus lf -o x.png --focus 1 --threads 65", "--threads"},
              {"refocus lf -o x.png --focus 1 --threads two", "--threads"},
+             {"refocus lf -o x.png --focus 1 --n-scale 0.49", "--n-scale"},
+             {"refocus lf -o x.png --focus 1 --n-scale 2.1", "--n-scale"},
+             {"refocus lf -o x.png --focus 1 --n-scale nan", "--n-scale"},
+             {"refocus lf -o x.png --focus 1 --n-scale two", "--n-scale"},
              {"refocus lf -o x.bmp --focus 1", ".bmp"},
              {"refocus lf -o x --focus 1", "extension"},
              {"refocus lf -o '' --focus 1", "extension"},
@@ -251,7 +255,7 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
   }
   const std::string report = Text(folder.file("report.json"));
   for (const char* field : {"mode", "width", "height", "views", "focus", "aperture", "r_max", "N",
-                            "rendered_views", "rendered_samples", "seconds_refocus",
+                            "n_scale", "rendered_views", "rendered_samples", "seconds_refocus",
                             "seconds_total", "workspace_bytes", "simd_target", "threads"}) {
     CHECK(report.find("\"" + std::string(field) + "\": ") != std::string::npos);
   }

@@ -86,7 +86,8 @@ typedef enum sf_status {
   SF_ERROR_LAYER = 25,       /**< max_layer is not 0, 1 or 2 */
   SF_ERROR_DEBLOCKING = 26,  /**< deblocking outside [0, 255] */
   SF_ERROR_TIMING = 27,      /**< a timing coefficient beyond SF_MAX_TIMING */
-  SF_ERROR_RULE = 28         /**< unknown rule */
+  SF_ERROR_RULE = 28,        /**< unknown rule */
+  SF_ERROR_N_SCALE = 29      /**< n_scale outside [SF_MIN_N_SCALE, SF_MAX_N_SCALE] */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -99,6 +100,8 @@ SF_API uint32_t sf_abi_version(void);
 #define SF_MAX_THETA 1.413716694115407   /**< 0.45 pi */
 #define SF_MAX_FOCUS 1.0e6
 #define SF_MAX_TIMING 100000000u
+#define SF_MIN_N_SCALE 0.5
+#define SF_MAX_N_SCALE 2.0
 
 /** Run-time model of a block, the paper's (14) with terms for what surrounds the line scan, in
  *  picoseconds; only ratios matter. It decides the partition of SF_MODE_BLOCK and so its bytes.
@@ -133,6 +136,9 @@ typedef struct sf_config {
   int32_t max_layer;  /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
   int32_t deblocking; /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
   sf_timing timing;   /**< each coefficient <= SF_MAX_TIMING */
+  double n_scale;     /**< time against error: multiplies the N of either rule in SF_MODE_BLOCK and
+                           SF_MODE_FRAME, rounded up, and so with its square the views;
+                           [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
   uint32_t reserved[8]; /**< zero */
 } sf_config;
 
