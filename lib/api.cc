@@ -86,6 +86,7 @@ void sf_config_init(sf_config* config) {
   config->deblocking = 35;
   config->timing = starfocus::DefaultTiming();
   config->n_scale = 1.0;
+  config->skips = 1;
 }
 
 void sf_params_init(sf_params* params) {

@@ -63,6 +63,9 @@ void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t
   // Of a view nearer to the axis across the lines than to theirs, that axis shows what is behind.
   const bool on_axis = diagonal && view.move_u < view.move_v;
   const bool interpolate = diagonal && view.window->views == 5;
+  if (view.window->side_colours != nullptr) {
+    *view.window->side_colours += static_cast<uint64_t>(end - begin) << (interpolate && !on_axis);
+  }
   for (int32_t p = begin; p < end; ++p, out += 3) {
     const int32_t x = (line.x + line.dx * p) * kShiftOne, y = (line.y + line.dy * p) * kShiftOne;
     if (on_axis) {

@@ -62,6 +62,8 @@ const char* sf_status_string(sf_status status) {
       return "unknown rule";
     case SF_ERROR_N_SCALE:
       return "n_scale is outside 0.5 to 2";
+    case SF_ERROR_SKIPS:
+      return "skips is not 0 or 1";
   }
   return "unknown status";
 }

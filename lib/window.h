@@ -38,6 +38,7 @@ struct Window {
   int32_t picture_height = 0;
   Plane<const uint8_t> view[kMaxViews];  // of the pictures
   Plane<const int16_t> disparity;        // of the pictures, kDisparityBits
+  uint64_t* side_colours = nullptr;      // counts those read of side views; null: nobody counts
 };
 
 // The colour at (x, y) of the layer, kShiftBits, in captured view `index`, 3 bytes; positions
@@ -45,6 +46,9 @@ struct Window {
 // binomial of 2^(L+1) - 1 taps per axis around the nearest pixel of the picture subsamples: what
 // shows in a hole of a defocused block is blurred by at least 3 pixels of the layer afterwards.
 void ReadCaptured(const Window& window, int index, int32_t x, int32_t y, uint8_t* rgb);
+
+// Bytes that one such colour is made of.
+int32_t CapturedBytes(const Window& window);
 
 // Index of the captured view in direction (u, v), each -1, 0 or 1 and not both 0, at full or half
 // distance.

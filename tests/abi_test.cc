@@ -92,6 +92,8 @@ const BadConfig kBadConfigs[] = {
     {"n_scale negative", [](sf_config* c) { c->n_scale = -1; }, SF_ERROR_N_SCALE},
     {"n_scale NaN", [](sf_config* c) { c->n_scale = kNan; }, SF_ERROR_N_SCALE},
     {"n_scale inf", [](sf_config* c) { c->n_scale = kInf; }, SF_ERROR_N_SCALE},
+    {"skips -1", [](sf_config* c) { c->skips = -1; }, SF_ERROR_SKIPS},
+    {"skips 2", [](sf_config* c) { c->skips = 2; }, SF_ERROR_SKIPS},
 };
 
 struct BadParams {
@@ -173,13 +175,13 @@ struct Fixture {
 
 TEST_CASE("statuses: every one has its own sentence") {
   std::set<std::string> seen;
-  for (int status = SF_OK; status <= SF_ERROR_N_SCALE; ++status) {
+  for (int status = SF_OK; status <= SF_ERROR_SKIPS; ++status) {
     const char* text = sf_status_string(static_cast<sf_status>(status));
     REQUIRE(text != nullptr);
     CHECK_MESSAGE(std::strlen(text) > 3, status);
     CHECK_MESSAGE(seen.insert(text).second, text);
   }
-  for (int status : {-1, SF_ERROR_N_SCALE + 1, 10000}) {
+  for (int status : {-1, SF_ERROR_SKIPS + 1, 10000}) {
     const char* text = sf_status_string(static_cast<sf_status>(status));
     REQUIRE(text != nullptr);
     CHECK(*text != '\0');
@@ -236,6 +238,7 @@ TEST_CASE("configuration: defaults and limits are legal") {
   CHECK(config.max_layer == 2);
   CHECK(config.deblocking == 35);
   CHECK(config.n_scale == 1);
+  CHECK(config.skips == 1);
   CHECK(config.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
   for (uint32_t reserved : config.reserved) CHECK(reserved == 0);
   sf_params params;

@@ -254,9 +254,26 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
     CHECK(outcome.err == "");
   }
   const std::string report = Text(folder.file("report.json"));
-  for (const char* field : {"mode", "width", "height", "views", "focus", "aperture", "r_max", "N",
-                            "n_scale", "rendered_views", "rendered_samples", "seconds_refocus",
-                            "seconds_total", "workspace_bytes", "simd_target", "threads"}) {
+  for (const char* field : {"mode",
+                            "width",
+                            "height",
+                            "views",
+                            "focus",
+                            "aperture",
+                            "r_max",
+                            "N",
+                            "n_scale",
+                            "rendered_views",
+                            "rendered_samples",
+                            "seconds_refocus",
+                            "copied_blocks",
+                            "filled_blocks",
+                            "layer_columns",
+                            "side_bytes_read",
+                            "seconds_total",
+                            "workspace_bytes",
+                            "simd_target",
+                            "threads"}) {
     CHECK(report.find("\"" + std::string(field) + "\": ") != std::string::npos);
   }
   CHECK(Call(folder, "compare whole.png stream.png").out == "PSNR inf, largest difference 0\n");

@@ -87,7 +87,8 @@ std::string Variant::Text() const {
   return std::string(kernels == nullptr ? "best" : kernels->name) + ", " + std::to_string(workers) +
          " workers" +
          (stream ? ", streamed " + std::to_string(push_rows) + "/" + std::to_string(pull_rows)
-                 : std::string(", whole"));
+                 : std::string(", whole")) +
+         (skips != 0 ? "" : ", nothing skipped");
 }
 
 const std::vector<const simd::Kernels*>& AllKernels() {
@@ -111,6 +112,7 @@ Variant RandomVariant(test::Random* random) {
   variant.poison = random->Int(-64, 255);
   variant.push_rows = random->Int(1, 40);
   variant.pull_rows = random->Int(1, 40);
+  variant.skips = random->Int(0, 1);
   return variant;
 }
 
@@ -226,6 +228,7 @@ std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::
   sf_config config = setup.config;
   config.streaming = variant.stream;
   config.max_workers = variant.workers;
+  config.skips = variant.skips;
   Workspace engine(config, variant.poison);
   sf_status status = engine.status();
   test::Output out(setup.scene.width, setup.scene.height, 5);
