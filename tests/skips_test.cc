@@ -214,6 +214,43 @@ TEST_CASE("skips: blocks of one colour are filled, but not where side views show
   }
 }
 
+TEST_CASE("skips: the steepest surface that counts as without holes has none") {
+  test::Random random(52);
+  for (int round = 0; round < 60; ++round) {
+    test::Scene scene = OneColourScene(kViews[1 + round % 3], 192, 0);
+    // A walk of eighths along either axis, now and then in one direction for long.
+    std::vector<float> across(size_t(scene.width)), down(size_t(scene.height));
+    for (std::vector<float>* walk : {&across, &down}) {
+      const int turn = random.Int(1, 40);
+      float step = 0.125f, at = 0;
+      for (float& value : *walk) {
+        if (random.Int(0, turn) == 0) step = -step;
+        at = std::clamp(at + step, -4.0f, 4.0f);
+        value = at;
+      }
+    }
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) {
+        scene.Disparity(x, y) = across[size_t(x)] + down[size_t(y)];
+      }
+    }
+    sf_config config = test::ConfigFor(scene, 26);
+    config.n_scale = random.Real(0.5, 2);
+    const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.1, 1);
+    sf_params params = test::Params(random.Real(-18, 18), aperture,
+                                    round % 2 == 0 ? SF_MODE_FRAME : SF_MODE_BLOCK);
+    params.rule = random.Int(0, 2);
+    const Picture picture = Refocus(scene, config, params, 1);
+    CAPTURE(round);
+    // Layers take every second or fourth disparity, whose steps are larger.
+    if (params.mode == SF_MODE_FRAME) CHECK(picture.report.skipped.filled_pixels == 192 * 64);
+    const Picture whole = Refocus(scene, config, params, 0);
+    const bool same = picture.rgb == whole.rgb;
+    CHECK(same);
+    if (params.mode == SF_MODE_FRAME) CHECK(whole.report.side_bytes == 0);
+  }
+}
+
 TEST_CASE("skips: one pixel of another colour within reach is enough") {
   test::Scene scene = OneColourScene(5, 192, 0);  // blur radius 3 at focus -1
   sf_config config = test::ConfigFor(scene, 12);
