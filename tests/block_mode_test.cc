@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <string>
 #include <thread>
 #include <utility>
@@ -149,6 +150,8 @@ void CheckStreamed(const test::Scene& scene, const Setup& s, test::Random* rando
     CHECK(same);
     CHECK(report.n == whole_report.n);
     CHECK(report.rendered_samples == whole_report.rendered_samples);
+    CHECK(std::memcmp(&report.skipped, &whole_report.skipped, sizeof(sf_skipped)) == 0);
+    CHECK(report.side_bytes == whole_report.side_bytes);
     for (int layer = 0; layer < SF_LAYERS; ++layer) {
       CHECK(report.layers[layer].blocks == whole_report.layers[layer].blocks);
       CHECK(report.layers[layer].pixels == whole_report.layers[layer].pixels);
