@@ -20,7 +20,7 @@ namespace {
 struct Options {
   std::string folder, out, report, map, timing;
   std::string focus, focus_at, aperture = "1", mode = "block", rule, views, threads = "1";
-  std::string largest_block = "64", max_layer = "2", deblocking = "35";
+  std::string largest_block = "64", max_layer = "2", deblocking = "35", n_scale = "1";
   bool stream = false, fill_invalid = false;
 };
 
@@ -33,6 +33,7 @@ struct Plan {
   int views = 0;  // 0: all there are
   int threads = 1;
   int largest_block = 0, max_layer = 0, deblocking = 0;
+  double n_scale = 1;
   sf_timing timing = {};
 };
 
@@ -107,6 +108,7 @@ std::string MakePlan(const Options& options, Plan* plan) {
   }
   if (error.empty()) error = ParseMode(options.mode, &plan->mode);
   if (error.empty()) error = ParseRule(options.rule, &plan->rule);
+  if (error.empty()) error = ParseScale("--n-scale", options.n_scale, &plan->n_scale);
   return error.empty() ? PlanBlocks(options, plan) : error;
 }
 
@@ -199,6 +201,7 @@ EngineTask MakeTask(const Options& options, const Plan& plan, const LightField& 
   task.config.max_layer = plan.max_layer;
   task.config.deblocking = plan.deblocking;
   task.config.timing = plan.timing;
+  task.config.n_scale = plan.n_scale;
   sf_params_init(&task.params);
   task.params.mode = plan.mode;
   task.params.rule = plan.rule;
@@ -267,6 +270,11 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   command->add_option("--rule", options->rule,
                       "paper or cells: how many views a blur needs (default: cells in block mode, "
                       "paper in frame mode)");
+  command
+      ->add_option("--n-scale", options->n_scale,
+                   "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "
+                   "closer to the benchmark")
+      ->capture_default_str();
   command->add_option("--max-layer", options->max_layer, "0, 1 or 2: may subsample by 2^L")
       ->capture_default_str();
   command

@@ -6,6 +6,7 @@
 
 #include "platform/file.h"
 #include "platform/light_field.h"
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
 namespace {
@@ -58,6 +59,12 @@ std::string ParsePair(const std::string& option, const std::string& text, char s
 std::string ParseAperture(const std::string& option, const std::string& text, double* value) {
   if (ReadNumber(text, value) && *value > 0 && *value <= 1) return "";
   return Expected(option, "an aperture above 0 and at most 1", Quoted(text));
+}
+
+std::string ParseScale(const std::string& option, const std::string& text, double* value) {
+  if (ReadNumber(text, value) && *value >= SF_MIN_N_SCALE && *value <= SF_MAX_N_SCALE) return "";
+  return Expected(option, "a factor from " + Short(SF_MIN_N_SCALE) + " to " + Short(SF_MAX_N_SCALE),
+                  Quoted(text));
 }
 
 std::string ParseViews(const std::string& option, const std::string& text, int* value) {

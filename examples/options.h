@@ -21,6 +21,9 @@ std::string ParsePair(const std::string& option, const std::string& text, char s
 // A radius above 0 and at most 1.
 std::string ParseAperture(const std::string& option, const std::string& text, double* value);
 
+// A factor from SF_MIN_N_SCALE to SF_MAX_N_SCALE.
+std::string ParseScale(const std::string& option, const std::string& text, double* value);
+
 // 17, 9, 5 or 1.
 std::string ParseViews(const std::string& option, const std::string& text, int* value);
 

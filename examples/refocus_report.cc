@@ -35,6 +35,22 @@ nlohmann::ordered_json LayersJson(const sf_report& report, bool predicted) {
   return layers;
 }
 
+// Side views are read where holes open; beside it what they have in all.
+nlohmann::ordered_json SkippedJson(const EngineTask& task, const sf_report& report) {
+  const sf_skipped& skipped = report.skipped;
+  nlohmann::ordered_json json;
+  json["copied_blocks"] = skipped.copied_blocks;
+  json["copied_pixels"] = skipped.copied_pixels;
+  json["filled_blocks"] = skipped.filled_blocks;
+  json["filled_pixels"] = skipped.filled_pixels;
+  json["layer_columns"] = skipped.layer_columns;
+  json["boundaries"] = skipped.boundaries;
+  json["side_bytes_read"] = report.side_bytes;
+  json["side_bytes"] = uint64_t{3} * uint64_t(task.config.views - 1) * uint64_t(task.config.width) *
+                       uint64_t(task.config.height);
+  return json;
+}
+
 }  // namespace
 
 std::string ReportText(const EngineTask& task, const EngineResult& result, double seconds_total) {
@@ -45,6 +61,7 @@ std::string ReportText(const EngineTask& task, const EngineResult& result, doubl
   json["views"] = task.config.views;
   json["focus"] = task.params.focus;
   json["aperture"] = task.params.aperture;
+  json["n_scale"] = task.config.n_scale;
   json["r_max"] = result.report.r_max;
   json["N"] = result.report.n;
   json["rendered_views"] = result.report.rendered_views;
@@ -53,6 +70,7 @@ std::string ReportText(const EngineTask& task, const EngineResult& result, doubl
   json["max_layer"] = task.config.max_layer;
   json["deblocking"] = task.config.deblocking;
   json["layers"] = LayersJson(result.report, task.params.mode == SF_MODE_BLOCK);
+  json["skipped"] = SkippedJson(task, result.report);
   json["seconds_refocus"] = result.seconds;
   json["seconds_total"] = seconds_total;
   json["workspace_bytes"] = result.workspace_bytes;

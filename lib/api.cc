@@ -85,6 +85,8 @@ void sf_config_init(sf_config* config) {
   config->max_layer = SF_LAYERS - 1;
   config->deblocking = 35;
   config->timing = starfocus::DefaultTiming();
+  config->n_scale = 1.0;
+  config->skips = 1;
 }
 
 void sf_params_init(sf_params* params) {

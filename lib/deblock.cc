@@ -1,5 +1,7 @@
 #include "lib/deblock.h"
 
+#include <cstring>
+
 #include "lib/partition.h"
 
 namespace starfocus {
@@ -39,6 +41,12 @@ void FilterBoundary(uint8_t* at, int32_t count, ptrdiff_t along, ptrdiff_t acros
 }
 
 }  // namespace
+
+bool LayerMap::IsUniform(bool above) const {
+  const uint8_t* first = &At(0, above ? -1 : 0);
+  const size_t count = static_cast<size_t>(columns) * static_cast<size_t>(rows + (above ? 1 : 0));
+  return std::memcmp(first, first + 1, count - 1) == 0;
+}
 
 void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end) {
   const LayerMap& map = *job.map;

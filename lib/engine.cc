@@ -82,8 +82,8 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
     engine->aperture =
         MakeAperture(ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
   } else {
-    engine->aperture =
-        engine->apertures[UsesCells(*engine) ? ViewsByCells(r_max) : ViewsByPaper(r_max)];
+    const int32_t n = UsesCells(*engine) ? ViewsByCells(r_max) : ViewsByPaper(r_max);
+    engine->aperture = engine->apertures[ScaleViews(n, config.n_scale)];
   }
   const ViewGrid grid =
       MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false, false);
@@ -100,6 +100,8 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   engine->report.r_max = r_max;
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
     for (sf_layer_report& layer : engine->workers[worker].layers) layer = sf_layer_report();
+    engine->workers[worker].skipped = sf_skipped();
+    engine->workers[worker].side_bytes = 0;
   }
   engine->disparity_rows = 0;
   return SF_OK;
@@ -135,6 +137,12 @@ sf_report GetReport(const EngineState& engine) {
       sum.measured_ns += part.measured_ns;
       report.rendered_samples += part.rendered_samples;
     }
+    const sf_skipped& skipped = engine.workers[worker].skipped;
+    report.skipped.copied_blocks += skipped.copied_blocks;
+    report.skipped.copied_pixels += skipped.copied_pixels;
+    report.skipped.filled_blocks += skipped.filled_blocks;
+    report.skipped.filled_pixels += skipped.filled_pixels;
+    report.side_bytes += engine.workers[worker].side_bytes;
   }
   return report;
 }

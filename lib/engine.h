@@ -48,6 +48,8 @@ struct Worker {
   int16_t* picture_samples;
   PartitionNode* nodes;
   sf_layer_report layers[SF_LAYERS];
+  sf_skipped skipped;
+  uint64_t side_bytes;
 };
 
 // The blocks of a stripe, largest block by largest block.

@@ -65,6 +65,9 @@ void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t
   // Of a view nearer to the axis across the lines than to theirs, that axis shows what is behind.
   const bool on_axis = diagonal && view.move_u < view.move_v;
   const auto read = [&](int u, int v, int32_t p, int32_t count, uint8_t* rgb) {
+    if (view.window->side_colours != nullptr) {
+      *view.window->side_colours += static_cast<uint64_t>(count);
+    }
     const int32_t x = (line.x + line.dx * p) * kShiftOne + (u != 0 ? along.captured : along.centre);
     const int32_t y =
         (line.y + line.dy * p) * kShiftOne + (v != 0 ? across.captured : across.centre);

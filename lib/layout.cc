@@ -14,6 +14,13 @@ SpanMemory TakeSpans(size_t side, Carver* carver) {
   return memory;
 }
 
+// The largest N of the block and frame modes.
+int32_t LargestN(const sf_config& config) {
+  // One more than (9) gives: radii are rounded up before it. For small blurs cells ask for more.
+  const int32_t n = Max(ViewsByPaper(config.max_blur), ViewsByCells(config.max_blur)) + 1;
+  return ScaleViews(n, config.n_scale);
+}
+
 // E and R of StarScratch, and the largest N.
 StarScratch TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver) {
   StarScratch scratch;
@@ -47,8 +54,9 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const auto side = static_cast<size_t>(config.largest_block);
   const Reach reach = GetReach(config.max_blur);
   Worker worker = {};
+  const int32_t max_n = Max(LargestN(config), ViewsOfBenchmark(config.max_blur));
   worker.star = TakeStar(side + 2 * static_cast<size_t>(reach.border), side,
-                         static_cast<size_t>(ViewsOfBenchmark(config.max_blur)), carver);
+                         static_cast<size_t>(max_n), carver);
   worker.resample.line = carver->Take<int16_t>(3 * (side + 16));
   worker.resample.filtered = carver->Take<int16_t>(3 * (side + 16));
   // A rendered rectangle is at most half a block and 4 pixels wide.
@@ -64,8 +72,7 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
 }
 
 void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
-  // One more than (9) gives: radii are rounded up before it. For small blurs cells ask for more.
-  engine->max_n = Max(ViewsByPaper(config.max_blur), ViewsByCells(config.max_blur)) + 1;
+  engine->max_n = LargestN(config);
   const auto count = static_cast<size_t>(engine->max_n) + 1;
   size_t weights = 0;
   for (int32_t n = 0; n <= engine->max_n; ++n) weights += ApertureSize(n);

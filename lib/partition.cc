@@ -100,7 +100,8 @@ class Partition {
 
   int32_t Views(const BlockStats& stats, int32_t layer) const {
     const double r_max = static_cast<double>(stats.r_max) / (kRadiusOne * (1 << layer));
-    return rules_.cells ? ViewsByCells(r_max) : ViewsByPaper(r_max);
+    const int32_t n = rules_.cells ? ViewsByCells(r_max) : ViewsByPaper(r_max);
+    return ScaleViews(n, rules_.n_scale);
   }
 
   int32_t Layer(const BlockStats& stats) const {

@@ -26,7 +26,8 @@ struct PartitionRules {
   int32_t largest_block;
   int32_t max_layer;
   int32_t max_n;
-  bool cells;  // ViewsByCells instead of (9)
+  bool cells;      // ViewsByCells instead of (9)
+  double n_scale;  // of their N
   sf_timing timing;
   const ViewCounts* views;  // by N, up to max_n
 };

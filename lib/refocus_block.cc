@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "lib/skips.h"
+
 namespace starfocus {
 namespace {
 
@@ -50,7 +52,6 @@ void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
   }
 }
 
-// The centre view alone: all is in focus.
 void CopyCentre(const EngineState& engine, const Rect& rect, const Plane<uint8_t>& out) {
   for (int32_t row = 0; row < rect.height; ++row) {
     std::memcpy(At(out, rect, row),
@@ -59,23 +60,63 @@ void CopyCentre(const EngineState& engine, const Rect& rect, const Plane<uint8_t
   }
 }
 
-void RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
-                  Worker* worker) {
-  const Aperture& aperture = IsBlockMode(engine) ? engine.apertures[block.n] : engine.aperture;
-  if (aperture.n == 0) {
-    CopyCentre(engine, block.rect, out);
-    return;
+void FillColour(const uint8_t* colour, const Rect& rect, const Plane<uint8_t>& out) {
+  uint8_t* first = At(out, rect, 0);
+  for (int32_t x = 0; x < rect.width; ++x) std::memcpy(first + 3 * x, colour, 3);
+  for (int32_t row = 1; row < rect.height; ++row) {
+    std::memcpy(At(out, rect, row), first, 3 * static_cast<size_t>(rect.width));
   }
-  const ViewGrid grid = MakeViewGrid(aperture, engine.params.focus, engine.params.aperture,
-                                     block.layer, engine.config.views == 17, UsesCells(engine));
+}
+
+const Aperture& ApertureOf(const EngineState& engine, const Block& block) {
+  return IsBlockMode(engine) ? engine.apertures[block.n] : engine.aperture;
+}
+
+// Renders the block's views and returns their number.
+int32_t Render(const EngineState& engine, const Block& block, StarJob job,
+               const Plane<uint8_t>& out, Worker* worker) {
+  uint64_t side_colours = 0;
+  Window counting = *job.window;
+  counting.side_colours = &side_colours;
+  job.window = &counting;
+  RefocusRectangle(job, &worker->star);
+  worker->side_bytes += side_colours * static_cast<uint64_t>(CapturedBytes(counting));
+  const int shift = job.grid->aperture.sum_bits;
+  if (block.layer == 0) {
+    FinishPicture(*engine.kernels, block, shift, out, *worker);
+  } else {
+    FinishLayer(*engine.kernels, block, shift, out, *worker);
+  }
+  return ApertureOf(engine, block).views;
+}
+
+// Returns how many views were rendered. A copied block has one, the centre view.
+int32_t RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+                     Worker* worker) {
+  const Aperture& aperture = ApertureOf(engine, block);
+  // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
+  const bool pinhole = aperture.n == 0;
+  ViewGrid grid = MakeViewGrid(pinhole ? engine.apertures[1] : aperture, engine.params.focus,
+                               engine.params.aperture, block.layer, engine.config.views == 17,
+                               UsesCells(engine));
+  if (pinhole) grid.step = 0;
   const StarJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
                        block.border};
-  RefocusRectangle(job, &worker->star);
-  if (block.layer == 0) {
-    FinishPicture(*engine.kernels, block, aperture.sum_bits, out, *worker);
-  } else {
-    FinishLayer(*engine.kernels, block, aperture.sum_bits, out, *worker);
+  if (engine.config.skips == 0) return Render(engine, block, job, out, worker);
+  const uint64_t pixels = Samples(block.rect) / 3;
+  if (pinhole || NothingMoves(job)) {
+    CopyCentre(engine, block.rect, out);
+    worker->skipped.copied_blocks += 1;
+    worker->skipped.copied_pixels += pixels;
+    return 1;
   }
+  if (const uint8_t* colour = OneColour(job)) {
+    FillColour(colour, block.rect, out);
+    worker->skipped.filled_blocks += 1;
+    worker->skipped.filled_pixels += pixels;
+    return 0;
+  }
+  return Render(engine, block, job, out, worker);
 }
 
 void BlurBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
@@ -93,16 +134,13 @@ void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uin
                   Worker* worker) {
   const sf_clock clock = engine.params.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
-  const bool blur = engine.params.mode == SF_MODE_BLUR;
-  if (blur) {
+  uint64_t views = 0;
+  if (engine.params.mode == SF_MODE_BLUR) {
     BlurBlock(engine, block, out, worker);
   } else {
-    RefocusViews(engine, block, out, worker);
+    views = static_cast<uint64_t>(RefocusViews(engine, block, out, worker));
   }
   sf_layer_report& report = worker->layers[block.layer];
-  const auto views = static_cast<uint64_t>(blur                  ? 0
-                                           : IsBlockMode(engine) ? engine.apertures[block.n].views
-                                                                 : engine.aperture.views);
   report.blocks += 1;
   report.pixels += Samples(block.rect) / 3;
   report.views += views;

@@ -47,6 +47,12 @@ int32_t ViewsByCells(double r_max) {
   return n;
 }
 
+int32_t ScaleViews(int32_t n, double scale) {
+  // 1.1 has no exact double: 10 views are to become 11, not 12.
+  constexpr double kSlack = 1e-6;
+  return n == 0 ? 0 : Ceil(n * scale - kSlack);
+}
+
 int32_t ViewsOfBenchmark(double r_max) { return 2 * Ceil(r_max); }
 
 int32_t LayerByPaper(double r_min) { return LayerFrom(r_min, kLayerRadius); }

@@ -17,6 +17,9 @@ int32_t ViewsByPaper(double r_max);
 //   N           0    4    6    8   10   12   14   16   18   20
 int32_t ViewsByCells(double r_max);
 
+// N of either rule times `scale` in [0.5, 2], rounded up; 0 and a scale of 1 change nothing.
+int32_t ScaleViews(int32_t n, double scale);
+
 // Views along the aperture radius of the benchmark: 2 * ceil(r_max).
 int32_t ViewsOfBenchmark(double r_max);
 

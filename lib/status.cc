@@ -60,6 +60,10 @@ const char* sf_status_string(sf_status status) {
       return "a timing coefficient exceeds SF_MAX_TIMING";
     case SF_ERROR_RULE:
       return "unknown rule";
+    case SF_ERROR_N_SCALE:
+      return "n_scale is outside 0.5 to 2";
+    case SF_ERROR_SKIPS:
+      return "skips is not 0 or 1";
   }
   return "unknown status";
 }

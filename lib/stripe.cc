@@ -83,6 +83,7 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
   rules.max_layer = engine.config.max_layer;
   rules.max_n = engine.max_n;
   rules.cells = UsesCells(engine);
+  rules.n_scale = engine.config.n_scale;
   rules.timing = engine.config.timing;
   rules.views = engine.view_counts;
   engine.plan.counts[column] =
@@ -125,7 +126,8 @@ void ReadPlan(const Stripe& stripe) {
   }
   map.rows = (stripe.height + kSmallestBlock - 1) / kSmallestBlock;
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
-    std::memset(engine.plan.needed[layer], 0, static_cast<size_t>(Columns(engine)));
+    const bool all = engine.config.skips == 0 && layer <= engine.config.max_layer;
+    std::memset(engine.plan.needed[layer], all, static_cast<size_t>(Columns(engine)));
   }
   for (int32_t column = 0; column < Columns(engine); ++column) {
     for (int32_t k = 0; k < engine.plan.counts[column]; ++k) {
@@ -221,22 +223,40 @@ sf_status PlanStripe(Stripe* stripe, const Runner& runner) {
   return status;
 }
 
+// Columns of largest blocks that are to be made of a layer; counts the others as skipped.
+int32_t CountNeeded(EngineState* engine, int layer) {
+  const int32_t columns = Columns(*engine);
+  int32_t needed = 0;
+  for (int32_t column = 0; column < columns; ++column) {
+    needed += engine->plan.needed[layer][column];
+  }
+  if (layer <= engine->config.max_layer) {
+    engine->report.skipped.layer_columns += static_cast<uint64_t>(columns - needed);
+  }
+  return needed;
+}
+
 sf_status MakeLayers(Stripe* stripe, const Runner& runner) {
-  const EngineState& engine = *stripe->engine;
-  const int32_t columns = Columns(engine);
+  EngineState* engine = stripe->engine;
+  const int32_t columns = Columns(*engine);
   PlaceLayers(*stripe);
-  const auto any = [&](int layer) {
-    return std::memchr(engine.plan.needed[layer], 1, static_cast<size_t>(Max(columns, 1))) !=
-           nullptr;
-  };
+  const int32_t first = CountNeeded(engine, 1), second = CountNeeded(engine, 2);
   sf_status status = SF_OK;
-  if (any(1)) status = RunJobs<Downsample<1>>(stripe, columns, runner);
-  if (status == SF_OK && any(2)) status = RunJobs<Downsample<2>>(stripe, columns, runner);
+  if (first > 0) status = RunJobs<Downsample<1>>(stripe, columns, runner);
+  if (status == SF_OK && second > 0) status = RunJobs<Downsample<2>>(stripe, columns, runner);
   return status;
 }
 
 sf_status Deblock(Stripe* stripe, const Runner& runner) {
-  const sf_status status = RunJobs<DeblockRowBoundaries>(stripe, Columns(*stripe->engine), runner);
+  EngineState& engine = *stripe->engine;
+  const LayerMap& map = engine.map;
+  if (engine.config.skips != 0 && map.IsUniform(stripe->y > 0)) {
+    const int32_t inside = map.rows * (map.columns - 1) + (map.rows - 1) * map.columns;
+    engine.report.skipped.boundaries +=
+        static_cast<uint64_t>(inside + (stripe->y > 0 ? map.columns : 0));
+    return SF_OK;
+  }
+  const sf_status status = RunJobs<DeblockRowBoundaries>(stripe, Columns(engine), runner);
   const int32_t rows = stripe->last_row - stripe->first_row;
   if (status != SF_OK || rows <= 0) return status;
   return RunJobs<DeblockColumnBoundaries>(stripe, (rows + kSmallestBlock - 1) / kSmallestBlock,

@@ -47,6 +47,10 @@ sf_status CheckConfig(const sf_config& config) {
                                      timing.upsample, timing.span, timing.hole}) {
     if (coefficient > SF_MAX_TIMING) return SF_ERROR_TIMING;
   }
+  if (!(config.n_scale >= SF_MIN_N_SCALE && config.n_scale <= SF_MAX_N_SCALE)) {
+    return SF_ERROR_N_SCALE;
+  }
+  if (config.skips != 0 && config.skips != 1) return SF_ERROR_SKIPS;
   return SF_OK;
 }
 

@@ -78,6 +78,11 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
   }
 }
 
+int32_t CapturedBytes(const Window& window) {
+  const int32_t taps = window.layer == 0 ? 2 : 2 * (1 << window.layer) - 1;
+  return 3 * taps * taps;
+}
+
 int CapturedView(int u, int v, bool half) {
   // By u + 1 and v + 1, at full distance; those at half distance are in the same order.
   constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};

@@ -38,6 +38,7 @@ struct Window {
   int32_t picture_height = 0;
   Plane<const uint8_t> view[kMaxViews];  // of the pictures
   Plane<const int16_t> disparity;        // of the pictures, kDisparityBits
+  uint64_t* side_colours = nullptr;      // counts those read of side views; null: nobody counts
 };
 
 // Places one after the other in a captured view: the first at (x, y) of the layer, kShiftBits, each
@@ -52,6 +53,9 @@ struct CapturedLine {
 // shows in a hole of a defocused block is blurred by at least 3 pixels of the layer afterwards.
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
                   uint8_t* rgb);
+
+// Bytes that one such colour is made of.
+int32_t CapturedBytes(const Window& window);
 
 // Index of the captured view in direction (u, v), each -1, 0 or 1 and not both 0, at full or half
 // distance.

@@ -86,6 +86,14 @@ const BadConfig kBadConfigs[] = {
     {"timing span", [](sf_config* c) { c->timing.span = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
     {"timing hole", [](sf_config* c) { c->timing.hole = UINT32_MAX; }, SF_ERROR_TIMING},
     {"timing upsample", [](sf_config* c) { c->timing.upsample = UINT32_MAX; }, SF_ERROR_TIMING},
+    {"n_scale 0", [](sf_config* c) { c->n_scale = 0; }, SF_ERROR_N_SCALE},
+    {"n_scale small", [](sf_config* c) { c->n_scale = 0.4999; }, SF_ERROR_N_SCALE},
+    {"n_scale large", [](sf_config* c) { c->n_scale = 2.0001; }, SF_ERROR_N_SCALE},
+    {"n_scale negative", [](sf_config* c) { c->n_scale = -1; }, SF_ERROR_N_SCALE},
+    {"n_scale NaN", [](sf_config* c) { c->n_scale = kNan; }, SF_ERROR_N_SCALE},
+    {"n_scale inf", [](sf_config* c) { c->n_scale = kInf; }, SF_ERROR_N_SCALE},
+    {"skips -1", [](sf_config* c) { c->skips = -1; }, SF_ERROR_SKIPS},
+    {"skips 2", [](sf_config* c) { c->skips = 2; }, SF_ERROR_SKIPS},
 };
 
 struct BadParams {
@@ -167,13 +175,13 @@ struct Fixture {
 
 TEST_CASE("statuses: every one has its own sentence") {
   std::set<std::string> seen;
-  for (int status = SF_OK; status <= SF_ERROR_RULE; ++status) {
+  for (int status = SF_OK; status <= SF_ERROR_SKIPS; ++status) {
     const char* text = sf_status_string(static_cast<sf_status>(status));
     REQUIRE(text != nullptr);
     CHECK_MESSAGE(std::strlen(text) > 3, status);
     CHECK_MESSAGE(seen.insert(text).second, text);
   }
-  for (int status : {-1, SF_ERROR_RULE + 1, 10000}) {
+  for (int status : {-1, SF_ERROR_SKIPS + 1, 10000}) {
     const char* text = sf_status_string(static_cast<sf_status>(status));
     REQUIRE(text != nullptr);
     CHECK(*text != '\0');
@@ -229,6 +237,8 @@ TEST_CASE("configuration: defaults and limits are legal") {
   CHECK(config.streaming == 0);
   CHECK(config.max_layer == 2);
   CHECK(config.deblocking == 35);
+  CHECK(config.n_scale == 1);
+  CHECK(config.skips == 1);
   CHECK(config.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
   for (uint32_t reserved : config.reserved) CHECK(reserved == 0);
   sf_params params;
@@ -253,6 +263,10 @@ TEST_CASE("configuration: defaults and limits are legal") {
     config.theta = theta;
     CHECK(sf_workspace_size(&config, &bytes) == SF_OK);
     CHECK(bytes > 0);
+  }
+  for (const double n_scale : {SF_MIN_N_SCALE, SF_MAX_N_SCALE}) {
+    config.n_scale = n_scale;
+    CHECK(sf_workspace_size(&config, &bytes) == SF_OK);
   }
   for (const int max_layer : {0, 1, 2}) {
     for (const int deblocking : {0, 1, 255}) {

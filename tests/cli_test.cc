@@ -125,6 +125,10 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1 --threads 0", "--threads"},
              {"refocus lf -o x.png --focus 1 --threads 65", "--threads"},
              {"refocus lf -o x.png --focus 1 --threads two", "--threads"},
+             {"refocus lf -o x.png --focus 1 --n-scale 0.49", "--n-scale"},
+             {"refocus lf -o x.png --focus 1 --n-scale 2.1", "--n-scale"},
+             {"refocus lf -o x.png --focus 1 --n-scale nan", "--n-scale"},
+             {"refocus lf -o x.png --focus 1 --n-scale two", "--n-scale"},
              {"refocus lf -o x.bmp --focus 1", ".bmp"},
              {"refocus lf -o x --focus 1", "extension"},
              {"refocus lf -o '' --focus 1", "extension"},
@@ -250,9 +254,26 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
     CHECK(outcome.err == "");
   }
   const std::string report = Text(folder.file("report.json"));
-  for (const char* field : {"mode", "width", "height", "views", "focus", "aperture", "r_max", "N",
-                            "rendered_views", "rendered_samples", "seconds_refocus",
-                            "seconds_total", "workspace_bytes", "simd_target", "threads"}) {
+  for (const char* field : {"mode",
+                            "width",
+                            "height",
+                            "views",
+                            "focus",
+                            "aperture",
+                            "r_max",
+                            "N",
+                            "n_scale",
+                            "rendered_views",
+                            "rendered_samples",
+                            "seconds_refocus",
+                            "copied_blocks",
+                            "filled_blocks",
+                            "layer_columns",
+                            "side_bytes_read",
+                            "seconds_total",
+                            "workspace_bytes",
+                            "simd_target",
+                            "threads"}) {
     CHECK(report.find("\"" + std::string(field) + "\": ") != std::string::npos);
   }
   CHECK(Call(folder, "compare whole.png stream.png").out == "PSNR inf, largest difference 0\n");

@@ -74,6 +74,7 @@ struct Plan {
     rules.max_layer = random->Int(0, 2);
     rules.max_n = kMaxN;
     rules.cells = random->Int(0, 1) == 1;
+    rules.n_scale = (2 + 2 * rules.max_layer + rules.cells) / 4.0;
     rules.timing = starfocus::DefaultTiming();
     rules.views = views.data();
   }
@@ -159,7 +160,8 @@ Block Planned(const Plan& plan, int x, int y, int side) {
   block.layer =
       std::min(LayerOf(cells, stats.r_min / kRadiusOne, stats.r_edge > 0), plan.rules.max_layer);
   const int scale = 1 << block.layer;
-  block.n = std::min(ViewsOf(cells, stats.r_max / (kRadiusOne * scale)), plan.rules.max_n);
+  const int views = ViewsOf(cells, stats.r_max / (kRadiusOne * scale));
+  block.n = std::min(int(std::ceil(views * plan.rules.n_scale)), plan.rules.max_n);
   const int margin = kLayerMargin[block.layer] / scale;
   block.rendered = {x / scale - margin, y / scale - margin,
                     CeilQuotient(block.rect.width, scale) + 2 * margin,
@@ -375,6 +377,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
       }
       plan.around = starfocus::GetReach(r).cells;
       plan.rules.max_layer = max_layer;
+      plan.rules.n_scale = 1;
       const double exact = std::floor(r * 64) / 64;
       CAPTURE(exact);
       CAPTURE(max_layer);

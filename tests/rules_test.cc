@@ -14,6 +14,7 @@ namespace {
 
 using starfocus::LayerByCells;
 using starfocus::LayerByPaper;
+using starfocus::ScaleViews;
 using starfocus::ViewsByCells;
 using starfocus::ViewsByPaper;
 using starfocus::ViewsOfBenchmark;
@@ -85,6 +86,20 @@ TEST_CASE("rules: the benchmark renders twice the ceiling of the radius") {
     CHECK(ViewsOfBenchmark(Below(r)) == 2 * r);
     CHECK(ViewsOfBenchmark(r) == 2 * r);
     CHECK(ViewsOfBenchmark(Above(r)) == 2 * r + 2);
+  }
+}
+
+TEST_CASE("rules: a scale multiplies N and rounds it up, and leaves 0 alone") {
+  for (int n = 0; n <= 102; ++n) {
+    CAPTURE(n);
+    CHECK(ScaleViews(n, 1) == n);
+    CHECK(ScaleViews(n, 0.5) == (n + 1) / 2);
+    CHECK(ScaleViews(n, 2) == 2 * n);
+    // In tenths, which no double is exactly.
+    for (int tenths = 5; tenths <= 20; ++tenths) {
+      CAPTURE(tenths);
+      CHECK(ScaleViews(n, tenths / 10.0) == (n * tenths + 9) / 10);
+    }
   }
 }
 

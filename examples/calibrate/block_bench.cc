@@ -18,6 +18,7 @@ sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& st
   config.disparity_max = stats.max;
   config.max_blur = SF_MAX_BLUR;
   config.largest_block = 256;  // the scratch then serves every smaller block
+  config.skips = 0;            // the model is one of rendering
   return config;
 }
 

@@ -49,6 +49,7 @@ sf_config ConfigOf(int side, const EngineProbe& probe) {
   config.largest_block = kBlock;
   config.max_layer = probe.layer;
   config.timing.block = SF_MAX_TIMING;  // one block is the cheapest
+  config.skips = 0;                     // what is rendered is looked at
   return config;
 }
 

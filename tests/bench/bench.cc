@@ -36,6 +36,10 @@ std::string Check(const Options& options) {
     const std::string error = path.empty() ? "" : CheckOutputPath(path);
     if (!error.empty()) return error;
   }
+  for (const double scale : options.choice.n_scales) {
+    if (scale >= SF_MIN_N_SCALE && scale <= SF_MAX_N_SCALE) continue;
+    return Expected("--n-scales", "factors from 0.5 to 2", std::to_string(scale));
+  }
   if (options.choice.quantiles.empty()) return Expected("--quantiles", "at least one", "none");
   return "";
 }
@@ -98,6 +102,8 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--views", choice.views, "Smaller star sets, in block mode")->delimiter(',');
   app->add_option("--max-layers", choice.max_layers, "0, 1, 2")->delimiter(',');
   app->add_option("--largest-blocks", choice.largest_blocks, "32, 64, 128, 256")->delimiter(',');
+  app->add_option("--n-scales", choice.n_scales, "Factors of N, in block and frame mode")
+      ->delimiter(',');
   app->add_flag("--rules", choice.rules, "Both rules for N, in block and frame mode");
   app->add_option("--targets", choice.targets, "SIMD targets, or all")->delimiter(',');
   app->add_option("--repetitions", settings.repetitions, "Of every task")

@@ -74,7 +74,10 @@ const Run* FindMode(const std::vector<Run>& runs, const char* mode, int views) {
   const Run* found = nullptr;
   for (const Run& run : runs) {
     const Task& task = run.entry->task;
-    if (task.mode != mode || !task.target.empty() || task.rule != SF_RULE_DEFAULT) continue;
+    if (task.mode != mode || !task.target.empty() || task.rule != SF_RULE_DEFAULT ||
+        task.n_scale != 1) {
+      continue;
+    }
     if (found == nullptr || task.views == views) found = &run;
   }
   return found;

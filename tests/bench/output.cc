@@ -32,6 +32,7 @@ Json Describe(const Machine& machine, const Row& row) {
   json["rule"] = row.task.rule == SF_RULE_DEFAULT ? "default"
                  : row.task.rule == SF_RULE_PAPER ? "paper"
                                                   : "cells";
+  json["n_scale"] = row.task.n_scale;
   json["aperture"] = row.aperture;
   json["focus"] = row.focus;
   json["quantile"] = Number(row.quantile);

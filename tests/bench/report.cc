@@ -42,6 +42,7 @@ std::string MakeReport(const Findings& findings, std::string* page) {
   *page = kHead + About(findings);
   *page += "<h2>Averages over the focus values</h2>\n" + TableFour(rows);
   *page += "<h2>Time and error</h2>\n" + PlanePlots(rows);
+  *page += "<h2>Scales of N</h2>\n" + ScaleTable(rows);
   *page += "<h2>Against ray-traced truth, with rivals</h2>\n" + TruthTable(rows);
   *page += "<h2>Along the focus (the paper's Figs. 22 and 23), aperture 1</h2>\n";
   *page += FocusPlots(rows);

@@ -50,6 +50,7 @@ std::string Method(const Row& row) {
   if (row.study == "options" && task.largest_block != 64) {
     name += ", blocks to " + std::to_string(task.largest_block);
   }
+  if (task.n_scale != 1) name += ", N × " + Fixed(task.n_scale, 2);
   if (task.rule == SF_RULE_PAPER) name += ", N by (9)";
   if (task.rule == SF_RULE_CELLS) name += ", N by cells";
   return name;

@@ -16,6 +16,7 @@ using Rows = std::vector<Row>;
 std::string TableTwo(const Rows& rows);
 std::string TableFour(const Rows& rows);
 std::string TruthTable(const Rows& rows);
+std::string ScaleTable(const Rows& rows);
 std::string TargetTable(const Rows& rows);
 std::string CountTable(const std::vector<Counts>& counts);
 

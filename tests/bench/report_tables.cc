@@ -36,7 +36,8 @@ double WithLayers(const Rows& rows, const std::string& field, int layer, const V
                      [&](const Row& row) {
                        return row.study == "options" && row.field == field &&
                               row.task.max_layer == layer && row.task.rule == SF_RULE_DEFAULT &&
-                              row.task.largest_block == 64 && std::isfinite(row.quantile);
+                              row.task.largest_block == 64 && row.task.n_scale == 1 &&
+                              std::isfinite(row.quantile);
                      }),
               value);
 }
@@ -104,6 +105,37 @@ std::string TableFour(const Rows& rows) {
          Table({"light field", "frame", "blur", "block", "9 views", "5 views", "s frame", "s blur",
                 "s block", "L 0", "L 1", "L 2", "times as fast as frame", "as blur", "blocks",
                 "+ L 1", "+ L 2"},
+               body);
+}
+
+std::string ScaleTable(const Rows& rows) {
+  // The plain mode's row is that of scale 1, and the measure of the others.
+  std::set<double> scales = {1};
+  for (const Row& row : rows) scales.insert(row.task.n_scale);
+  if (scales.size() == 1) return "<p>Not measured.</p>";
+  std::string body;
+  for (const std::string& field : FieldNames(rows)) {
+    for (const char* mode : {"block", "frame"}) {
+      const double whole = Mean(AtQuantiles(rows, field, mode, 1, 0), Ms);
+      for (const double scale : scales) {
+        const Rows some =
+            scale == 1 ? AtQuantiles(rows, field, mode, 1, 0) : Filter(rows, [&](const Row& row) {
+              return row.field == field && row.task.mode == mode && row.task.n_scale == scale &&
+                     std::isfinite(row.quantile);
+            });
+        const auto views = [](const Row& row) { return row.rendered_samples / (3 * row.pixels()); };
+        body += Line({Escape(field) + ", " + mode, Fixed(scale, 2), Fixed(Mean(some, views), 1),
+                      Fixed(Mean(some, Ms), 1), Fixed(whole / Mean(some, Ms), 2),
+                      Fixed(Mean(some, Psnr), 2),
+                      Fixed(Mean(some, [](const Row& row) { return row.benchmark.band; }), 2)});
+      }
+    }
+  }
+  return "<p>The rule's N times a factor, rounded up. Means over quantiles of the disparity map; "
+         "PSNR is against the benchmark, in dB, and in the band within r<sub>max</sub> of depth "
+         "edges.</p>" +
+         Table({"light field, mode", "scale", "samples rendered per sample", "ms",
+                "times as fast as scale 1", "PSNR", "PSNR in the band"},
                body);
 }
 

@@ -17,6 +17,7 @@ struct Task {
   int max_layer = SF_LAYERS - 1;
   int largest_block = 64;
   int rule = SF_RULE_DEFAULT;  // sf_rule
+  double n_scale = 1;          // of the rule's N
   std::string target;          // SIMD target; empty: the best one
 };
 

@@ -46,6 +46,12 @@ void AddOptions(const Field& field, const Choice& choice, Group* group) {
     group->entries.push_back(base);
     group->entries.back().task.largest_block = side;
   }
+  for (const char* mode : {"block", "frame"}) {
+    for (const double scale : choice.n_scales) {
+      group->entries.push_back(MakeEntry("options", mode, field.views()));
+      group->entries.back().task.n_scale = scale;
+    }
+  }
 }
 
 void AddTargets(const Field& field, const Choice& choice, Group* group) {

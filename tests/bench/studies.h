@@ -17,6 +17,7 @@ struct Choice {
   std::vector<int> views;       // star sets below the whole one, in block mode
   std::vector<int> max_layers;  // sweeps at every picture, in block mode
   std::vector<int> largest_blocks;
+  std::vector<double> n_scales;      // of N, in block and frame mode
   bool rules = false;                // both rules for N, in block and frame mode
   std::vector<std::string> targets;  // at the middle quantile; "all": every one
   double largest_radius = 0;         // of the sweep of blur radii; 0: none

@@ -41,6 +41,7 @@ std::string Prepare(const Field& field, const Task& task, double focus, double a
   config.max_blur = std::max(1.0, std::ceil(field.LargestBlur(focus, aperture)));
   config.max_layer = task.max_layer;
   config.largest_block = task.largest_block;
+  config.n_scale = task.n_scale;
   sf_status status = sf_workspace_size(&config, &timed->workspace_bytes);
   if (status == SF_OK) {
     timed->workspace.reset(::operator new (timed->workspace_bytes, std::align_val_t{SF_ALIGNMENT}));

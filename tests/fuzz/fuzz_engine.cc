@@ -39,6 +39,9 @@ sf_config MakeConfig(Input* input) {
   config.deblocking = input->Int(0, 255);
   config.timing.block = 1u << input->Int(0, 26);
   config.timing.c = static_cast<uint32_t>(input->Int(0, 100000));
+  // From what another field drew: recorded inputs keep their meaning.
+  config.skips = config.deblocking % 4 != 0;
+  config.n_scale = 0.5 + 0.25 * (config.deblocking % 7);
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
@@ -172,7 +175,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::unique_ptr<uint8_t[]> out(new uint8_t[Needed(stride, config.height, row)]);
   for (int round = 0; round < 2; ++round) {
     const sf_params params = MakeParams(config, &input);
-    const double n = (params.mode == SF_MODE_BENCHMARK ? 2 : 1) * config.max_blur;
+    const double scale = params.mode == SF_MODE_BENCHMARK ? 2 : config.n_scale;
+    const double n = scale * config.max_blur;
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;
     if (config.streaming != 0 && input.Int(0, 1) == 1) {
       Stream(engine, config, params, pictures, out.get(), stride, &input);

@@ -79,14 +79,16 @@ std::string Setup::Text() const {
          Number(config.disparity_max) + "], focus " + Number(params.focus) + ", aperture " +
          Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
          std::to_string(config.largest_block) + ", layers " + std::to_string(config.max_layer) +
-         ", deblocking " + std::to_string(config.deblocking) + ", theta " + Number(config.theta);
+         ", deblocking " + std::to_string(config.deblocking) + ", theta " + Number(config.theta) +
+         ", n_scale " + Number(config.n_scale);
 }
 
 std::string Variant::Text() const {
   return std::string(kernels == nullptr ? "best" : kernels->name) + ", " + std::to_string(workers) +
          " workers" +
          (stream ? ", streamed " + std::to_string(push_rows) + "/" + std::to_string(pull_rows)
-                 : std::string(", whole"));
+                 : std::string(", whole")) +
+         (skips != 0 ? "" : ", nothing skipped");
 }
 
 const std::vector<const simd::Kernels*>& AllKernels() {
@@ -110,6 +112,7 @@ Variant RandomVariant(test::Random* random) {
   variant.poison = random->Int(-64, 255);
   variant.push_rows = random->Int(1, 40);
   variant.pull_rows = random->Int(1, 40);
+  variant.skips = random->Int(0, 1);
   return variant;
 }
 
@@ -216,6 +219,7 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   SetDepth(static_cast<Depth>(random->Int(0, 4)), &setup.scene, random);
   SetColours(static_cast<Colours>(random->Int(0, 2)), &setup.scene, random);
   RandomLens(RandomRadius(bounds.radius, random), bounds.modes, &setup, random);
+  if (random->Int(0, 3) == 0) setup.config.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
   return setup;
 }
 
@@ -224,6 +228,7 @@ std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::
   sf_config config = setup.config;
   config.streaming = variant.stream;
   config.max_workers = variant.workers;
+  config.skips = variant.skips;
   Workspace engine(config, variant.poison);
   sf_status status = engine.status();
   test::Output out(setup.scene.width, setup.scene.height, 5);

@@ -39,6 +39,7 @@ struct Variant {
   bool stream = false;
   int push_rows = 1, pull_rows = 1;
   uint64_t order = 0;  // of the jobs; 0: no runner
+  int skips = 1;       // sf_config.skips
   int poison = -1;     // byte that fills the workspace before; -1: as the heap gave it
 
   std::string Text() const;

@@ -86,7 +86,9 @@ typedef enum sf_status {
   SF_ERROR_LAYER = 25,       /**< max_layer is not 0, 1 or 2 */
   SF_ERROR_DEBLOCKING = 26,  /**< deblocking outside [0, 255] */
   SF_ERROR_TIMING = 27,      /**< a timing coefficient beyond SF_MAX_TIMING */
-  SF_ERROR_RULE = 28         /**< unknown rule */
+  SF_ERROR_RULE = 28,        /**< unknown rule */
+  SF_ERROR_N_SCALE = 29,     /**< n_scale outside [SF_MIN_N_SCALE, SF_MAX_N_SCALE] */
+  SF_ERROR_SKIPS = 30        /**< skips is not 0 or 1 */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -99,6 +101,8 @@ SF_API uint32_t sf_abi_version(void);
 #define SF_MAX_THETA 1.413716694115407   /**< 0.45 pi */
 #define SF_MAX_FOCUS 1.0e6
 #define SF_MAX_TIMING 100000000u
+#define SF_MIN_N_SCALE 0.5
+#define SF_MAX_N_SCALE 2.0
 
 /** Run-time model of a block, the paper's (14) with terms for what surrounds the line scan, in
  *  picoseconds; only ratios matter. It decides the partition of SF_MODE_BLOCK and so its bytes.
@@ -133,6 +137,11 @@ typedef struct sf_config {
   int32_t max_layer;  /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
   int32_t deblocking; /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
   sf_timing timing;   /**< each coefficient <= SF_MAX_TIMING */
+  double n_scale;     /**< time against error: multiplies the N of either rule in SF_MODE_BLOCK and
+                           SF_MODE_FRAME, rounded up, and so with its square the views;
+                           [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
+  int32_t skips; /**< 1, the default: what sf_skipped counts is left out; 0: all is done, for the
+                      same bytes */
   uint32_t reserved[8]; /**< zero */
 } sf_config;
 
@@ -220,13 +229,23 @@ typedef int (*sf_runner)(void* runner_data, sf_job job, void* job_data, int32_t 
 
 /** What the blocks of one layer did. */
 typedef struct sf_layer_report {
-  uint64_t blocks;           /**< number of blocks */
-  uint64_t pixels;           /**< picture pixels they cover */
-  uint64_t views;            /**< rendered views, summed over the blocks */
+  uint64_t blocks; /**< number of blocks */
+  uint64_t pixels; /**< picture pixels they cover */
+  uint64_t views; /**< rendered views, summed over the blocks: 1 of a copied block, 0 of a filled */
   uint64_t rendered_samples; /**< R, G, B samples of those views inside their blocks */
   uint64_t predicted_ps;     /**< by the timing model, picoseconds */
   uint64_t measured_ns;      /**< by sf_params.clock, summed over workers; 0 without one */
 } sf_layer_report;
+
+/** Work that was left out because its result is known; all 0 with sf_config.skips = 0. */
+typedef struct sf_skipped {
+  uint64_t copied_blocks; /**< no rendered view moves a pixel: copied from the centre view */
+  uint64_t copied_pixels; /**< picture pixels they cover */
+  uint64_t filled_blocks; /**< one colour within reach, and no depth edge that side views fill */
+  uint64_t filled_pixels; /**< picture pixels they cover */
+  uint64_t layer_columns; /**< layers, columns of largest blocks and stripes that no block reads */
+  uint64_t boundaries;    /**< of 16 pixels, in stripes of one layer: nothing to deblock */
+} sf_skipped;
 
 /** What a refocusing did. */
 typedef struct sf_report {
@@ -235,6 +254,9 @@ typedef struct sf_report {
   int32_t rendered_views; /**< views of i^2 + j^2 <= N^2 for that N */
   uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
+  sf_skipped skipped;
+  uint64_t side_bytes; /**< read of the views beside the centre, every time: holes are filled from
+                            them, and nothing else */
 } sf_report;
 
 /** Refocuses whole pictures. The light field is only read, during the call; `out` (`out_stride`
