@@ -1,6 +1,7 @@
 #include "lib/engine.h"
 
 #include "lib/rules.h"
+#include "lib/validate.h"
 
 namespace starfocus {
 namespace {
@@ -21,6 +22,12 @@ double LargestBlur(const sf_config& config, const sf_params& params) {
 }
 
 }  // namespace
+
+Rect RegionOf(const sf_config& config, const sf_params& params) {
+  const sf_region& region = params.region;
+  if (IsWhole(region)) return {0, 0, config.width, config.height};
+  return {region.x, region.y, region.width, region.height};
+}
 
 Reach GetReach(double max_blur) {
   // A cell reaches at most r and half a pixel of rounding beyond itself, or a layer's margin more;
@@ -77,6 +84,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   const double r_max = LargestBlur(config, params);
   if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
   engine->params = params;
+  engine->region = RegionOf(config, params);
   engine->reach = GetReach(r_max);
   if (params.mode == SF_MODE_BENCHMARK) {
     engine->aperture =
@@ -102,23 +110,29 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
     for (sf_layer_report& layer : engine->workers[worker].layers) layer = sf_layer_report();
   }
   engine->disparity_rows = 0;
+  engine->map.rows = 0;
   return SF_OK;
 }
 
-sf_status PushDisparity(const float* row, EngineState* engine) {
-  const sf_config& config = engine->config;
+sf_status ConvertDisparity(const EngineState& engine, const float* row, int16_t* out) {
+  const sf_config& config = engine.config;
   const auto width = static_cast<size_t>(config.width);
-  int16_t* out = engine->disparity.Row(engine->disparity_rows);
-  if (!engine->kernels->convert_disparity(row, width, config.disparity_min, config.disparity_max,
-                                          out)) {
+  if (!engine.kernels->convert_disparity(row, width, config.disparity_min, config.disparity_max,
+                                         out)) {
     for (size_t x = 0; x < width; ++x) {
       if (!(row[x] - row[x] == 0.0f)) return SF_ERROR_NOT_FINITE;
     }
     return SF_ERROR_DISPARITY;
   }
   CheckAll(ranges::kDisparity, out, width);
-  ++engine->disparity_rows;
   return SF_OK;
+}
+
+sf_status PushDisparity(const float* row, EngineState* engine) {
+  const sf_status status =
+      ConvertDisparity(*engine, row, engine->disparity.Row(engine->disparity_rows));
+  if (status == SF_OK) ++engine->disparity_rows;
+  return status;
 }
 
 sf_report GetReport(const EngineState& engine) {

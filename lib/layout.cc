@@ -102,6 +102,8 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->cells.cells =
       carver->Take<Cell>(static_cast<size_t>(engine->cells.columns) *
                          static_cast<size_t>(side / kCellSize + 2 * reach.cells + 2));
+  engine->plan.wanted = carver->Take<uint8_t>(blocks);
+  engine->plan.measured = carver->Take<uint8_t>(blocks);
   engine->plan.blocks = carver->Take<Block>(blocks * static_cast<size_t>(MaxBlocks(side)));
   engine->plan.counts = carver->Take<int32_t>(blocks);
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
@@ -120,15 +122,14 @@ void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->disparity.rows = rows;
   engine->disparity.stride = width;
   engine->disparity.data = carver->Take<int16_t>(width * static_cast<size_t>(rows));
-  engine->stripe_out = nullptr;
+  engine->stripe_out =
+      carver->Take<uint8_t>(3 * width * static_cast<size_t>(config.largest_block + kDeblockRows));
   if (!streaming) return;
   for (int view = 0; view < config.views; ++view) {
     engine->rings[view].rows = rows;
     engine->rings[view].stride = 3 * width;
     engine->rings[view].data = carver->Take<uint8_t>(3 * width * static_cast<size_t>(rows));
   }
-  engine->stripe_out =
-      carver->Take<uint8_t>(3 * width * static_cast<size_t>(config.largest_block + kDeblockRows));
 }
 
 }  // namespace

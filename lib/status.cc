@@ -60,6 +60,8 @@ const char* sf_status_string(sf_status status) {
       return "a timing coefficient exceeds SF_MAX_TIMING";
     case SF_ERROR_RULE:
       return "unknown rule";
+    case SF_ERROR_REGION:
+      return "region is not inside the picture, or is given for streaming, which has none";
   }
   return "unknown status";
 }

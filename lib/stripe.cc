@@ -58,8 +58,37 @@ void PlanWhole(const Stripe& stripe, int32_t column) {
   engine.plan.counts[column] = 1;
 }
 
+// Whether what is asked for depends on pixels of `rect`.
+bool IsNeeded(const EngineState& engine, const Rect& rect) {
+  const Rect& region = engine.region;
+  const int32_t reach = IsDeblocking(engine) ? kDeblockReach : 0;
+  return rect.x - reach < region.x + region.width && region.x < rect.x + rect.width + reach &&
+         rect.y - reach < region.y + region.height && region.y < rect.y + rect.height + reach;
+}
+
+// Marks the columns that the stripe refocuses and those whose cells they need; whether there are
+// any.
+bool ChooseColumns(const Stripe& stripe) {
+  const EngineState& engine = *stripe.engine;
+  const int32_t side = BlockSide(engine), columns = Columns(engine);
+  std::memset(engine.plan.measured, 0, static_cast<size_t>(columns));
+  bool any = false;
+  for (int32_t column = 0; column < columns; ++column) {
+    const bool wanted = IsNeeded(engine, {column * side, stripe.y, side, stripe.height});
+    engine.plan.wanted[column] = wanted ? 1 : 0;
+    if (!wanted) continue;
+    any = true;
+    const int32_t around = engine.reach.cells * kCellSize;
+    const int32_t first = Max(0, column * side - around) / side;
+    const int32_t last = Min(columns, ((column + 1) * side + around - 1) / side + 1);
+    std::memset(engine.plan.measured + first, 1, static_cast<size_t>(last - first));
+  }
+  return any;
+}
+
 void MeasureCells(const Stripe& stripe, int32_t index, Worker*) {
   EngineState& engine = *stripe.engine;
+  if (engine.plan.measured[index] == 0) return;
   const int32_t per_block = BlockSide(engine) / kCellSize;
   const int32_t last = Min((index + 1) * per_block, engine.cells.columns);
   for (int32_t row = engine.cells.first_row; row < engine.cells.last_row; ++row) {
@@ -72,6 +101,8 @@ void MeasureCells(const Stripe& stripe, int32_t index, Worker*) {
 
 void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
   EngineState& engine = *stripe.engine;
+  engine.plan.counts[column] = 0;
+  if (engine.plan.wanted[column] == 0) return;
   if (!IsBlockMode(engine)) {
     PlanWhole(stripe, column);
     return;
@@ -116,33 +147,51 @@ void MapBlock(const EngineState& engine, const Stripe& stripe, const Block& bloc
   }
 }
 
-// What the plan means for the other phases; tells the caller of each block.
-void ReadPlan(const Stripe& stripe) {
-  EngineState& engine = *stripe.engine;
-  LayerMap& map = engine.map;
-  if (stripe.y > 0) {
-    std::memcpy(map.units, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
+// Units of the map that no block covers stay without a layer.
+void ClearMap(const Stripe& stripe) {
+  LayerMap& map = stripe.engine->map;
+  const auto columns = static_cast<size_t>(map.columns);
+  if (map.rows > 0) {
+    std::memcpy(map.units, &map.At(0, map.rows - 1), columns);
+  } else {
+    std::memset(map.units, kNoLayer, columns);
   }
   map.rows = (stripe.height + kSmallestBlock - 1) / kSmallestBlock;
+  std::memset(&map.At(0, 0), kNoLayer, columns * static_cast<size_t>(map.rows));
+}
+
+// Counts a block that will be refocused; tells the caller of it.
+void Announce(const Block& block, EngineState* engine) {
+  sf_report& report = engine->report;
+  if (block.n > report.n || report.rendered_views == 0) {
+    report.n = block.n;
+    report.rendered_views =
+        IsBlockMode(*engine) ? engine->apertures[block.n].views : engine->aperture.views;
+  }
+  if (engine->params.on_block == nullptr) return;
+  const sf_block told = {block.rect.x,      block.rect.y, block.rect.width,
+                         block.rect.height, block.layer,  block.n};
+  engine->params.on_block(engine->params.on_block_data, &told);
+}
+
+// What the plan means for the other phases; leaves out blocks that nothing asked for depends on.
+void ReadPlan(const Stripe& stripe) {
+  EngineState& engine = *stripe.engine;
+  ClearMap(stripe);
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     std::memset(engine.plan.needed[layer], 0, static_cast<size_t>(Columns(engine)));
   }
   for (int32_t column = 0; column < Columns(engine); ++column) {
+    Block* const blocks = BlocksOf(engine, column);
+    int32_t kept = 0;
     for (int32_t k = 0; k < engine.plan.counts[column]; ++k) {
-      const Block& block = BlocksOf(engine, column)[k];
+      if (!IsNeeded(engine, blocks[k].rect)) continue;
+      const Block& block = blocks[kept++] = blocks[k];
       MarkNeeded(engine, block);
       MapBlock(engine, stripe, block);
-      if (block.n > engine.report.n || engine.report.rendered_views == 0) {
-        engine.report.n = block.n;
-        engine.report.rendered_views =
-            IsBlockMode(engine) ? engine.apertures[block.n].views : engine.aperture.views;
-      }
-      if (engine.params.on_block != nullptr) {
-        const sf_block told = {block.rect.x,      block.rect.y, block.rect.width,
-                               block.rect.height, block.layer,  block.n};
-        engine.params.on_block(engine.params.on_block_data, &told);
-      }
+      Announce(block, &engine);
     }
+    engine.plan.counts[column] = kept;
   }
 }
 
@@ -258,14 +307,29 @@ sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& ou
                    out,
                    Max(0, y - kDeblockRows),
                    FinishedRows(*engine, y)};
+  if (!ChooseColumns(stripe)) {
+    engine->map.rows = 0;  // nothing for the next stripe to join
+    return SF_OK;
+  }
   sf_status status = PlanStripe(&stripe, runner);
   const bool layered = IsBlockMode(*engine) && engine->config.max_layer > 0;
   if (status == SF_OK && layered) status = MakeLayers(&stripe, runner);
   if (status == SF_OK) status = RunJobs<RefocusColumn>(&stripe, Columns(*engine), runner);
-  if (status == SF_OK && layered && engine->config.deblocking > 0) {
-    status = Deblock(&stripe, runner);
-  }
+  if (status == SF_OK && IsDeblocking(*engine)) status = Deblock(&stripe, runner);
   return status;
+}
+
+Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
+  return {engine.stripe_out, 3 * static_cast<size_t>(engine.config.width), 0, y - kDeblockRows};
+}
+
+sf_status RefocusIntoBuffer(EngineState* engine, int32_t y, const Runner& runner) {
+  const Plane<uint8_t> rows = BufferRows(*engine, y);
+  // The last rows of the stripe before may still change.
+  const Plane<uint8_t> before = BufferRows(*engine, y - BlockSide(*engine));
+  std::memmove(rows.Row(y - kDeblockRows), before.Row(y - kDeblockRows),
+               kDeblockRows * rows.stride);
+  return RefocusStripe(engine, y, rows, runner);
 }
 
 }  // namespace starfocus

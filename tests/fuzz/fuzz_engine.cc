@@ -60,7 +60,7 @@ sf_params MakeParams(const sf_config& config, Input* input) {
   if (radius > config.max_blur && !input->Rarely()) {
     params.aperture *= config.max_blur / radius * 0.999;
   }
-  if (input->Rarely()) params.reserved[input->Int(0, 7)] = input->Value<uint32_t>();
+  if (input->Rarely()) params.reserved[input->Int(0, 3)] = input->Value<uint32_t>();
   return params;
 }
 

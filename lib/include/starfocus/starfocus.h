@@ -86,7 +86,8 @@ typedef enum sf_status {
   SF_ERROR_LAYER = 25,       /**< max_layer is not 0, 1 or 2 */
   SF_ERROR_DEBLOCKING = 26,  /**< deblocking outside [0, 255] */
   SF_ERROR_TIMING = 27,      /**< a timing coefficient beyond SF_MAX_TIMING */
-  SF_ERROR_RULE = 28         /**< unknown rule */
+  SF_ERROR_RULE = 28,        /**< unknown rule */
+  SF_ERROR_REGION = 29       /**< region outside the picture, or a streaming call with a region */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -183,6 +184,12 @@ typedef void (*sf_block_visitor)(void* data, const sf_block* block);
 /** A clock in nanoseconds, from any start; called from the runner's threads. */
 typedef uint64_t (*sf_clock)(void);
 
+/** A rectangle of the picture, in pixels. */
+typedef struct sf_region {
+  int32_t x, y;          /**< its left and top pixel, >= 0 */
+  int32_t width, height; /**< >= 1, ending inside the picture; all four 0: the whole picture */
+} sf_region;
+
 /** What to render. Call sf_params_init first. */
 typedef struct sf_params {
   uint32_t version;          /**< SF_ABI_VERSION, set by sf_params_init */
@@ -193,7 +200,8 @@ typedef struct sf_params {
   sf_clock clock;            /**< fills the report's times; null: they stay 0 */
   sf_block_visitor on_block; /**< null: nobody is told */
   void* on_block_data;       /**< passed to on_block */
-  uint32_t reserved[8];      /**< zero */
+  sf_region region;          /**< what sf_refocus writes; streaming: all 0; default all 0 */
+  uint32_t reserved[4];      /**< zero */
 } sf_params;
 
 SF_API void sf_params_init(sf_params* params);
@@ -237,8 +245,11 @@ typedef struct sf_report {
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
 } sf_report;
 
-/** Refocuses whole pictures. The light field is only read, during the call; `out` (`out_stride`
- *  bytes from row to row, >= 3 * width) must overlap neither it nor the workspace.
+/** Refocuses whole pictures, or the params' region of them: `out` points to its first pixel, and the
+ *  bytes are those of the whole picture there. Of a region, only the blocks of the whole picture that
+ *  its pixels depend on are refocused, and only the disparity rows that these can read are checked.
+ *  The light field is only read, during the call; `out` (`out_stride` bytes from row to row, >= 3 *
+ *  the width of the picture or region) must overlap neither it nor the workspace.
  *  runner may be null: the jobs then run one after the other as worker 0. report may be null. */
 SF_API sf_status sf_refocus(sf_engine* engine, const sf_params* params,
                             const sf_light_field* light_field, uint8_t* out, size_t out_stride,
