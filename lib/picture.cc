@@ -66,12 +66,12 @@ sf_status CheckDisparity(const EngineState& engine, const sf_light_field& light_
   return SF_OK;
 }
 
-// Writes the finished rows of the stripe at row y from the engine's own rows.
-void WriteRows(const EngineState& engine, int32_t y, const Output& out) {
+// Writes rows of the region, up to row `end`, that the stripe at row y finished in the engine's own
+// rows.
+void WriteRows(const EngineState& engine, int32_t y, int32_t end, const Output& out) {
   const Plane<uint8_t> rows = BufferRows(engine, y);
   const Rect& region = out.region;
-  const int32_t last = Min(FinishedRows(engine, y), region.y + region.height);
-  for (int32_t row = Max(y - kDeblockRows, region.y); row < last; ++row) {
+  for (int32_t row = Max(y - kDeblockRows, region.y); row < end; ++row) {
     std::memcpy(out.data + static_cast<size_t>(row - region.y) * out.stride,
                 rows.Row(row) + 3 * static_cast<size_t>(region.x), out.RowBytes());
   }
@@ -95,11 +95,14 @@ sf_status RefocusPicture(EngineState* engine, const sf_light_field& light_field,
           PushDisparity(DisparityRow(light_field, engine->disparity_rows), engine);
       if (status != SF_OK) return status;
     }
-    const sf_status status =
-        whole ? RefocusStripe(engine, y, {out.data, out.stride, 0, 0}, runner)
-              : RefocusIntoBuffer(engine, y, runner);
+    const sf_status status = whole ? RefocusStripe(engine, y, {out.data, out.stride, 0, 0}, runner)
+                                   : RefocusIntoBuffer(engine, y, runner);
     if (status != SF_OK) return status;
-    if (!whole) WriteRows(*engine, y, out);
+    if (whole) continue;
+    // The stripe after the last one changes nothing of the region.
+    const int32_t end = out.region.y + out.region.height;
+    const bool last = y + side >= stripes.last;
+    WriteRows(*engine, y, last ? end : Min(FinishedRows(*engine, y), end), out);
   }
   return SF_OK;
 }
