@@ -19,7 +19,7 @@ namespace {
 
 struct Options {
   std::string folder, out, report, map, timing;
-  std::string focus, focus_at, aperture = "1", mode = "block", rule, views, threads = "1";
+  std::string focus, focus_at, region, aperture = "1", mode = "block", rule, views, threads = "1";
   std::string largest_block = "64", max_layer = "2", deblocking = "35";
   bool stream = false, fill_invalid = false;
 };
@@ -28,6 +28,7 @@ struct Plan {
   double focus = 0, aperture = 1;
   bool focus_at = false;
   int x = 0, y = 0;
+  sf_region region = {};  // all 0: the whole picture
   sf_mode mode = SF_MODE_BLOCK;
   sf_rule rule = SF_RULE_DEFAULT;
   int views = 0;  // 0: all there are
@@ -94,6 +95,11 @@ std::string PlanFocus(const Options& options, Plan* plan) {
   return ParseNumber("--focus", options.focus, &plan->focus);
 }
 
+std::string PlanRegion(const Options& options, Plan* plan) {
+  if (options.stream) return Expected("--region", "whole pictures in memory", "--stream");
+  return ParseRegion("--region", options.region, &plan->region);
+}
+
 // Everything that can be refused before a file is read.
 std::string MakePlan(const Options& options, Plan* plan) {
   std::string error = CheckOutputs(options);
@@ -105,6 +111,7 @@ std::string MakePlan(const Options& options, Plan* plan) {
   if (error.empty() && !options.views.empty()) {
     error = ParseViews("--views", options.views, &plan->views);
   }
+  if (error.empty() && !options.region.empty()) error = PlanRegion(options, plan);
   if (error.empty()) error = ParseMode(options.mode, &plan->mode);
   if (error.empty()) error = ParseRule(options.rule, &plan->rule);
   return error.empty() ? PlanBlocks(options, plan) : error;
@@ -168,6 +175,14 @@ std::string ChooseFocus(const FloatMap& map, Plan* plan) {
   return "";
 }
 
+std::string CheckRegion(const FloatMap& map, const Options& options, const sf_region& region) {
+  if (region.x + region.width <= map.width && region.y + region.height <= map.height) return "";
+  return Expected(
+      "--region",
+      "pixels of the picture, " + std::to_string(map.width) + "x" + std::to_string(map.height),
+      options.region);
+}
+
 // The largest blur radius, rounded up to whole pixels.
 std::string ChooseBlur(const Plan& plan, const sf_disparity_stats& stats, double* max_blur) {
   const double range =
@@ -204,6 +219,7 @@ EngineTask MakeTask(const Options& options, const Plan& plan, const LightField& 
   task.params.rule = plan.rule;
   task.params.focus = plan.focus;
   task.params.aperture = plan.aperture;
+  task.params.region = plan.region;
   if (!options.report.empty()) task.params.clock = ThreadNanoseconds;
   if (blocks != nullptr) {
     task.params.on_block = CollectBlock;
@@ -224,6 +240,7 @@ std::string Run(const Options& options) {
   if (error.empty()) error = Load(options, plan, &light_field);
   if (error.empty()) error = PrepareDisparity(options, &light_field.disparity, &stats);
   if (error.empty()) error = ChooseFocus(light_field.disparity, &plan);
+  if (error.empty()) error = CheckRegion(light_field.disparity, options, plan.region);
   if (error.empty()) error = ChooseBlur(plan, stats, &max_blur);
   if (!error.empty()) return error;
   std::vector<sf_block> blocks;
@@ -233,7 +250,8 @@ std::string Run(const Options& options) {
   error = RunEngine(options.folder, task, &result);
   if (error.empty()) error = WriteImage(options.out, result.picture);
   if (error.empty() && !options.map.empty()) {
-    error = WriteImage(options.map, DrawPartition(result.picture, blocks));
+    error = WriteImage(options.map,
+                       DrawPartition(result.picture, plan.region.x, plan.region.y, blocks));
   }
   if (error.empty() && !options.report.empty()) {
     const std::string text = ReportText(task, result, Seconds() - start);
@@ -253,6 +271,8 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
       ->required();
   command->add_option("--focus", options->focus, "Disparity in focus");
   command->add_option("--focus-at", options->focus_at, "X,Y: the disparity of that pixel");
+  command->add_option("--region", options->region,
+                      "X,Y,W,H: only that part of the picture, at its share of the time");
   command->add_option("--aperture", options->aperture, "Radius, above 0 up to 1")
       ->capture_default_str();
   command->add_option("--mode", options->mode, "block, frame, benchmark or blur")

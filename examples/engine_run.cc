@@ -85,7 +85,9 @@ std::string RunEngine(const std::string& where, EngineTask task, EngineResult* r
   sf_status status = MakeEngine(task.config, &workspace, &result->workspace_bytes, &engine);
   if (status == SF_OK) {
     Image& out = result->picture;
-    out = Image(task.config.width, task.config.height);
+    const sf_region& region = task.params.region;
+    out = region.width > 0 ? Image(region.width, region.height)
+                           : Image(task.config.width, task.config.height);
     const sf_light_field rows = Rows(*task.light_field, 0);
     const double start = Seconds();
     status = task.stream ? RunStream(engine, task, &runner, result)

@@ -42,6 +42,8 @@ std::string ReportText(const EngineTask& task, const EngineResult& result, doubl
   json["mode"] = kModeNames[task.params.mode];
   json["width"] = task.config.width;
   json["height"] = task.config.height;
+  const sf_region& region = task.params.region;
+  if (region.width > 0) json["region"] = {region.x, region.y, region.width, region.height};
   json["views"] = task.config.views;
   json["focus"] = task.params.focus;
   json["aperture"] = task.params.aperture;

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -125,6 +126,14 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1 --threads 0", "--threads"},
              {"refocus lf -o x.png --focus 1 --threads 65", "--threads"},
              {"refocus lf -o x.png --focus 1 --threads two", "--threads"},
+             {"refocus lf -o x.png --focus 1 --region 1,2,3", "--region"},
+             {"refocus lf -o x.png --focus 1 --region 1,2,3,4,5", "--region"},
+             {"refocus lf -o x.png --focus 1 --region 1,2,,4", "--region"},
+             {"refocus lf -o x.png --focus 1 --region 1,2,3,0", "--region"},
+             {"refocus lf -o x.png --focus 1 --region -1,2,3,4", "--region"},
+             {"refocus lf -o x.png --focus 1 --region 37,0,4,4", "40x30"},
+             {"refocus lf -o x.png --focus 1 --region 0,30,1,1", "40x30"},
+             {"refocus lf -o x.png --focus 1 --region 0,0,4,4 --stream", "--stream"},
              {"refocus lf -o x.bmp --focus 1", ".bmp"},
              {"refocus lf -o x --focus 1", "extension"},
              {"refocus lf -o '' --focus 1", "extension"},
@@ -269,6 +278,27 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
   CHECK(Call(folder, "--help").code == 0);
   CHECK(Call(folder, "refocus --help").code == 0);
   CHECK(Call(folder, "analyze --help").code == 0);
+}
+
+TEST_CASE("cli: a region is that part of the picture") {
+  TempFolder folder;
+  Prepare(folder);
+  REQUIRE(Call(folder, "refocus lf -o whole.png --focus 0.5 --map map.png").code == 0);
+  REQUIRE(Call(folder,
+               "refocus lf -o part.png --focus 0.5 --region 7,5,20,11 --map part_map.png "
+               "--report part.json")
+              .code == 0);
+  for (const std::string name : {"whole part", "map part_map"}) {
+    Image whole, part;
+    REQUIRE(ReadImage(folder.file(name.substr(0, name.find(' ')) + ".png"), &whole) == "");
+    REQUIRE(ReadImage(folder.file(name.substr(name.find(' ') + 1) + ".png"), &part) == "");
+    REQUIRE(part.width == 20);
+    REQUIRE(part.height == 11);
+    for (int y = 0; y < part.height; ++y) {
+      CHECK(std::equal(part.row(y), part.row(y) + part.stride(), whole.row(y + 5) + 3 * 7));
+    }
+  }
+  CHECK(Text(folder.file("part.json")).find("\"region\": [") != std::string::npos);
 }
 
 }  // namespace

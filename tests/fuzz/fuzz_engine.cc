@@ -60,6 +60,10 @@ sf_params MakeParams(const sf_config& config, Input* input) {
   if (radius > config.max_blur && !input->Rarely()) {
     params.aperture *= config.max_blur / radius * 0.999;
   }
+  if (input->Rarely()) {
+    params.region = {input->Int(0, config.width), input->Int(0, config.height),
+                     input->Int(0, config.width), input->Int(0, config.height)};
+  }
   if (input->Rarely()) params.reserved[input->Int(0, 3)] = input->Value<uint32_t>();
   return params;
 }
