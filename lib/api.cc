@@ -55,11 +55,9 @@ sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_eng
   *engine = nullptr;
   if (config == nullptr || workspace == nullptr) return SF_ERROR_NULL;
   size_t needed = 0;
-  const sf_status status = sf_workspace_size(config, &needed);
+  sf_status status = sf_workspace_size(config, &needed);
+  if (status == SF_OK) status = starfocus::CheckMemory(workspace);
   if (status != SF_OK) return status;
-  if (reinterpret_cast<uintptr_t>(workspace) % SF_ALIGNMENT != 0) {
-    return SF_ERROR_WORKSPACE_ALIGNMENT;
-  }
   if (bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
   new (workspace) EngineState();
   EngineState* made = nullptr;

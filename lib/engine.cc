@@ -111,6 +111,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   }
   engine->disparity_rows = 0;
   engine->map.rows = 0;
+  engine->prepared = false;
   return SF_OK;
 }
 

@@ -81,6 +81,7 @@ struct EngineState {
   BlurScale scale;
   Reach reach;
   sf_report report;
+  bool prepared;  // disparities and layers of the windows are those of a prepared light field
 
   Window windows[SF_LAYERS];
   LayerPlane layers[SF_LAYERS];  // of layers 1 and 2
@@ -96,6 +97,13 @@ struct EngineState {
 
   Worker* workers;  // config.max_workers
 };
+
+inline int32_t BlockSide(const EngineState& engine) { return engine.config.largest_block; }
+
+// Columns of largest blocks.
+inline int32_t Columns(const EngineState& engine) {
+  return (engine.config.width + BlockSide(engine) - 1) / BlockSide(engine);
+}
 
 inline bool IsBlockMode(const EngineState& engine) { return engine.params.mode == SF_MODE_BLOCK; }
 

@@ -3,6 +3,8 @@
 
 #include "lib/engine.h"
 #include "lib/layout.h"
+#include "lib/light_field.h"
+#include "lib/prepared.h"
 #include "lib/stripe.h"
 #include "lib/validate.h"
 #include "starfocus/starfocus.h"
@@ -18,29 +20,6 @@ struct Output {
 
   size_t RowBytes() const { return 3 * static_cast<size_t>(region.width); }
 };
-
-// Whether `out` overlaps the workspace or the light field.
-bool OutputOverlaps(const EngineState& engine, const sf_light_field& light_field,
-                    const Output& out) {
-  const sf_config& config = engine.config;
-  const Extent extent = ExtentOf(out.data, out.stride, out.region.height, out.RowBytes());
-  if (Overlaps(extent, Workspace(engine))) return true;
-  for (int view = 0; view < config.views; ++view) {
-    const sf_plane& plane = light_field.views[view];
-    if (Overlaps(extent, ExtentOf(plane.data, plane.stride, config.height,
-                                  3 * static_cast<size_t>(config.width)))) {
-      return true;
-    }
-  }
-  return Overlaps(extent,
-                  ExtentOf(light_field.disparity, light_field.disparity_stride, config.height,
-                           sizeof(float) * static_cast<size_t>(config.width)));
-}
-
-const float* DisparityRow(const sf_light_field& light_field, int32_t y) {
-  return light_field.disparity +
-         static_cast<size_t>(y) * (light_field.disparity_stride / sizeof(float));
-}
 
 // Rows of the stripes that the region needs; a stripe's first row is a multiple of the largest
 // block.
@@ -77,26 +56,28 @@ void WriteRows(const EngineState& engine, int32_t y, int32_t end, const Output& 
   }
 }
 
-sf_status RefocusPicture(EngineState* engine, const sf_light_field& light_field, const Output& out,
-                         const Runner& runner) {
-  const int32_t height = engine->config.height, side = engine->config.largest_block;
-  Plane<const uint8_t> views[kMaxViews];
-  for (int view = 0; view < engine->config.views; ++view) {
-    views[view] = {light_field.views[view].data, light_field.views[view].stride, 0, 0};
+// Converts the rows that the stripe at row y reads and no stripe before it.
+sf_status PushRows(const sf_light_field& light_field, int32_t y, EngineState* engine) {
+  const int32_t needed = Min(engine->config.height, y + BlockSide(*engine) + engine->reach.rows);
+  while (engine->disparity_rows < needed) {
+    const sf_status status =
+        PushDisparity(DisparityRow(light_field, engine->disparity_rows), engine);
+    if (status != SF_OK) return status;
   }
-  SetViews(views, engine);
+  return SF_OK;
+}
+
+sf_status RefocusStripes(EngineState* engine, const sf_light_field& light_field, const Output& out,
+                         const Runner& runner) {
+  const int32_t side = BlockSide(*engine);
   const RowRange stripes = StripeRows(*engine);
   const bool whole = IsWhole(engine->params.region);
   engine->disparity_rows = Max(0, stripes.first - engine->reach.rows);
   for (int32_t y = stripes.first; y < stripes.last; y += side) {
-    const int32_t needed = Min(height, y + side + engine->reach.rows);
-    while (engine->disparity_rows < needed) {
-      const sf_status status =
-          PushDisparity(DisparityRow(light_field, engine->disparity_rows), engine);
-      if (status != SF_OK) return status;
-    }
-    const sf_status status = whole ? RefocusStripe(engine, y, {out.data, out.stride, 0, 0}, runner)
-                                   : RefocusIntoBuffer(engine, y, runner);
+    sf_status status = engine->prepared ? SF_OK : PushRows(light_field, y, engine);
+    if (status != SF_OK) return status;
+    status = whole ? RefocusStripe(engine, y, {out.data, out.stride, 0, 0}, runner)
+                   : RefocusIntoBuffer(engine, y, runner);
     if (status != SF_OK) return status;
     if (whole) continue;
     // The stripe after the last one changes nothing of the region.
@@ -105,6 +86,54 @@ sf_status RefocusPicture(EngineState* engine, const sf_light_field& light_field,
     WriteRows(*engine, y, last ? end : Min(FinishedRows(*engine, y), end), out);
   }
   return SF_OK;
+}
+
+// A refocusing as the C ABI asks for it; one of light_field and prepared.
+struct Request {
+  const sf_params* params;
+  const sf_light_field* light_field;
+  const Prepared* prepared;
+  uint8_t* out;
+  size_t out_stride;
+  Runner runner;
+};
+
+sf_status CheckRequest(const Request& request, const EngineState& engine) {
+  const sf_config& config = engine.config;
+  sf_status status = CheckParams(*request.params);
+  if (status == SF_OK) status = CheckRegion(config, request.params->region);
+  if (status != SF_OK) return status;
+  if (request.prepared != nullptr && !Fits(*request.prepared, config)) return SF_ERROR_PREPARED;
+  status = CheckLightField(config, *request.light_field);
+  if (status != SF_OK) return status;
+  const Rect region = RegionOf(config, *request.params);
+  status = CheckOutput(region.width, region.height, request.out, request.out_stride);
+  if (status != SF_OK) return status;
+  const Extent out = ExtentOf(request.out, request.out_stride, region.height,
+                              3 * static_cast<size_t>(region.width));
+  const bool overlaps =
+      Overlaps(out, Workspace(engine)) || OverlapsLightField(out, config, *request.light_field) ||
+      (request.prepared != nullptr && Overlaps(out, PreparedMemory(*request.prepared)));
+  return overlaps ? SF_ERROR_OVERLAP : SF_OK;
+}
+
+sf_status Refocus(const Request& request, EngineState* engine, sf_report* report) {
+  sf_status status = CheckRequest(request, *engine);
+  if (status != SF_OK) return status;
+  engine->stream.active = false;
+  status = SetLens(*request.params, engine);
+  if (status != SF_OK) return status;
+  SetPictures(*request.light_field, engine);
+  if (request.prepared != nullptr) {
+    UsePrepared(*request.prepared, engine);
+  } else {
+    status = CheckDisparity(*engine, *request.light_field);
+    if (status != SF_OK) return status;
+  }
+  const Output out = {request.out, request.out_stride, engine->region};
+  status = RefocusStripes(engine, *request.light_field, out, request.runner);
+  if (status == SF_OK && report != nullptr) *report = GetReport(*engine);
+  return status;
 }
 
 }  // namespace
@@ -116,20 +145,15 @@ sf_status sf_refocus(sf_engine* engine, const sf_params* params, const sf_light_
                      uint8_t* out, size_t out_stride, sf_runner runner, void* runner_data,
                      sf_report* report) {
   if (engine == nullptr || params == nullptr || light_field == nullptr) return SF_ERROR_NULL;
-  EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  sf_status status = starfocus::CheckParams(*params);
-  if (status == SF_OK) status = starfocus::CheckRegion(e.config, params->region);
-  if (status == SF_OK) status = starfocus::CheckLightField(e.config, *light_field);
-  if (status != SF_OK) return status;
-  const starfocus::Output output = {out, out_stride, starfocus::RegionOf(e.config, *params)};
-  status = starfocus::CheckOutput(output.region.width, output.region.height, out, out_stride);
-  if (status != SF_OK) return status;
-  if (starfocus::OutputOverlaps(e, *light_field, output)) return SF_ERROR_OVERLAP;
-  e.stream.active = false;
-  status = starfocus::SetLens(*params, &e);
-  if (status == SF_OK) status = starfocus::CheckDisparity(e, *light_field);
-  if (status != SF_OK) return status;
-  status = starfocus::RefocusPicture(&e, *light_field, output, {runner, runner_data});
-  if (status == SF_OK && report != nullptr) *report = starfocus::GetReport(e);
-  return status;
+  return starfocus::Refocus({params, light_field, nullptr, out, out_stride, {runner, runner_data}},
+                            reinterpret_cast<EngineState*>(engine), report);
+}
+
+sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
+                              const sf_prepared* prepared, uint8_t* out, size_t out_stride,
+                              sf_runner runner, void* runner_data, sf_report* report) {
+  if (engine == nullptr || params == nullptr || prepared == nullptr) return SF_ERROR_NULL;
+  const auto* p = reinterpret_cast<const starfocus::Prepared*>(prepared);
+  return starfocus::Refocus({params, &p->light_field, p, out, out_stride, {runner, runner_data}},
+                            reinterpret_cast<EngineState*>(engine), report);
 }

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "lib/refocus_block.h"
+#include "lib/stripe_layers.h"
 
 namespace starfocus {
 namespace {
@@ -15,27 +16,6 @@ struct Stripe {
   int32_t first_row;  // of the rows that deblocking finishes
   int32_t last_row;
 };
-
-int32_t BlockSide(const EngineState& engine) { return engine.config.largest_block; }
-
-int32_t Columns(const EngineState& engine) {
-  return (engine.config.width + BlockSide(engine) - 1) / BlockSide(engine);
-}
-
-template <void (*kJob)(const Stripe&, int32_t, Worker*)>
-void Call(void* data, int32_t index, int32_t worker) {
-  const auto& stripe = *static_cast<const Stripe*>(data);
-  kJob(stripe, index, &stripe.engine->workers[worker]);
-}
-
-template <void (*kJob)(const Stripe&, int32_t, Worker*)>
-sf_status RunJobs(Stripe* stripe, int32_t count, const Runner& runner) {
-  if (runner.run != nullptr) {
-    return runner.run(runner.data, Call<kJob>, stripe, count) == 0 ? SF_OK : SF_ERROR_RUNNER;
-  }
-  for (int32_t index = 0; index < count; ++index) Call<kJob>(stripe, index, 0);
-  return SF_OK;
-}
 
 Block* BlocksOf(const EngineState& engine, int32_t column) {
   return engine.plan.blocks + static_cast<size_t>(column) * MaxBlocks(BlockSide(engine));
@@ -121,22 +101,6 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
                      worker->nodes, BlocksOf(engine, column));
 }
 
-// Marks the columns of largest blocks in which `block` reads layers 1 and 2.
-void MarkNeeded(const EngineState& engine, const Block& block) {
-  const int32_t scale = 1 << block.layer;
-  const int32_t left = (block.rendered.x - block.border.left) * scale;
-  const int32_t right = (block.rendered.x + block.rendered.width + block.border.right) * scale;
-  for (int layer = block.layer; layer > 0; --layer) {
-    // Layer 2 is made of layer 1 by a filter of 3 pixels' reach, 6 of the picture.
-    const int32_t reach = layer < block.layer ? 8 : 0;
-    const int32_t first = Max(0, (left - reach) / BlockSide(engine));
-    const int32_t last = Min(Columns(engine) - 1, (right + reach) / BlockSide(engine));
-    for (int32_t column = first; column <= last; ++column) {
-      engine.plan.needed[layer][column] = 1;
-    }
-  }
-}
-
 void MapBlock(const EngineState& engine, const Stripe& stripe, const Block& block) {
   const Rect& rect = block.rect;
   for (int32_t y = rect.y; y < rect.y + rect.height; y += kSmallestBlock) {
@@ -178,53 +142,18 @@ void Announce(const Block& block, EngineState* engine) {
 void ReadPlan(const Stripe& stripe) {
   EngineState& engine = *stripe.engine;
   ClearMap(stripe);
-  for (int layer = 1; layer < SF_LAYERS; ++layer) {
-    std::memset(engine.plan.needed[layer], 0, static_cast<size_t>(Columns(engine)));
-  }
+  ClearLayerColumns(engine);
   for (int32_t column = 0; column < Columns(engine); ++column) {
     Block* const blocks = BlocksOf(engine, column);
     int32_t kept = 0;
     for (int32_t k = 0; k < engine.plan.counts[column]; ++k) {
       if (!IsNeeded(engine, blocks[k].rect)) continue;
       const Block& block = blocks[kept++] = blocks[k];
-      MarkNeeded(engine, block);
+      MarkLayerColumns(engine, block);
       MapBlock(engine, stripe, block);
       Announce(block, &engine);
     }
     engine.plan.counts[column] = kept;
-  }
-}
-
-// Which rows of the layers the stripe may read.
-void PlaceLayers(const Stripe& stripe) {
-  EngineState& engine = *stripe.engine;
-  const int32_t around = (engine.reach.cells + 1) * kCellSize;
-  RowRange rows = {(stripe.y - around) >> 2, ((stripe.y + stripe.height + around) >> 2) + 1};
-  for (int layer = SF_LAYERS - 1; layer > 0; --layer) {
-    LayerPlane& plane = engine.layers[layer];
-    plane.rows = {Max(0, rows.first), Min(plane.height, rows.last)};
-    plane.rgb.first = plane.samples.first = plane.rows.first;
-    plane.half.first = 2 * plane.rows.first - 3;
-    rows = {2 * rows.first - 3, 2 * rows.last + 3};
-    Window& window = engine.windows[layer];
-    window.centre = {plane.rgb.data, plane.rgb.stride, 0, plane.rgb.first};
-  }
-}
-
-template <int kLayer>
-void Downsample(const Stripe& stripe, int32_t index, Worker* worker) {
-  EngineState& engine = *stripe.engine;
-  if (engine.plan.needed[kLayer][index] == 0) return;
-  LayerPlane* to = &engine.layers[kLayer];
-  const int32_t side = BlockSide(engine) >> kLayer;
-  const int32_t begin = index * side;
-  // The last column takes what a layer has beyond the picture.
-  const int32_t end = index + 1 == Columns(engine) ? to->width : begin + side;
-  if (kLayer == 1) {
-    DownsamplePicture(*engine.kernels, engine.windows[0].centre, engine.config.width,
-                      engine.config.height, begin, end, worker->resample, to);
-  } else {
-    DownsampleLayer(*engine.kernels, engine.layers[kLayer - 1], begin, end, worker->resample, to);
   }
 }
 
@@ -262,34 +191,21 @@ sf_status PlanStripe(Stripe* stripe, const Runner& runner) {
     cells.first_row = Max(0, stripe->y / kCellSize - engine.reach.cells);
     // A smallest block may hang over the picture's last row of cells.
     cells.last_row = Min(cells.rows, last + engine.reach.cells + 2);
-    status = RunJobs<MeasureCells>(stripe, columns, runner);
+    status = RunJobs<Stripe, MeasureCells>(stripe, columns, runner);
     if (status != SF_OK) return status;
   }
-  status = RunJobs<PlanBlocks>(stripe, columns, runner);
+  status = RunJobs<Stripe, PlanBlocks>(stripe, columns, runner);
   if (status == SF_OK) ReadPlan(*stripe);
   return status;
 }
 
-sf_status MakeLayers(Stripe* stripe, const Runner& runner) {
-  const EngineState& engine = *stripe->engine;
-  const int32_t columns = Columns(engine);
-  PlaceLayers(*stripe);
-  const auto any = [&](int layer) {
-    return std::memchr(engine.plan.needed[layer], 1, static_cast<size_t>(Max(columns, 1))) !=
-           nullptr;
-  };
-  sf_status status = SF_OK;
-  if (any(1)) status = RunJobs<Downsample<1>>(stripe, columns, runner);
-  if (status == SF_OK && any(2)) status = RunJobs<Downsample<2>>(stripe, columns, runner);
-  return status;
-}
-
 sf_status Deblock(Stripe* stripe, const Runner& runner) {
-  const sf_status status = RunJobs<DeblockRowBoundaries>(stripe, Columns(*stripe->engine), runner);
+  const sf_status status =
+      RunJobs<Stripe, DeblockRowBoundaries>(stripe, Columns(*stripe->engine), runner);
   const int32_t rows = stripe->last_row - stripe->first_row;
   if (status != SF_OK || rows <= 0) return status;
-  return RunJobs<DeblockColumnBoundaries>(stripe, (rows + kSmallestBlock - 1) / kSmallestBlock,
-                                          runner);
+  return RunJobs<Stripe, DeblockColumnBoundaries>(
+      stripe, (rows + kSmallestBlock - 1) / kSmallestBlock, runner);
 }
 
 }  // namespace
@@ -312,9 +228,12 @@ sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& ou
     return SF_OK;
   }
   sf_status status = PlanStripe(&stripe, runner);
-  const bool layered = IsBlockMode(*engine) && engine->config.max_layer > 0;
-  if (status == SF_OK && layered) status = MakeLayers(&stripe, runner);
-  if (status == SF_OK) status = RunJobs<RefocusColumn>(&stripe, Columns(*engine), runner);
+  if (status == SF_OK && IsBlockMode(*engine) && !engine->prepared) {
+    const int32_t around = (engine->reach.cells + 1) * kCellSize;
+    PlaceLayers({y - around, y + stripe.height + around}, engine);
+    status = FillLayers(engine, runner);
+  }
+  if (status == SF_OK) status = RunJobs<Stripe, RefocusColumn>(&stripe, Columns(*engine), runner);
   if (status == SF_OK && IsDeblocking(*engine)) status = Deblock(&stripe, runner);
   return status;
 }

@@ -5,15 +5,10 @@
 #include <cstdint>
 
 #include "lib/engine.h"
+#include "lib/jobs.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
-
-// Who runs the jobs; a null function: the calling thread.
-struct Runner {
-  sf_runner run;
-  void* data;
-};
 
 // Output rows that are final once the stripe that starts at row y is done.
 int32_t FinishedRows(const EngineState& engine, int32_t y);

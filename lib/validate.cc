@@ -60,6 +60,12 @@ sf_status CheckParams(const sf_params& params) {
   return SF_OK;
 }
 
+sf_status CheckMemory(const void* memory) {
+  if (memory == nullptr) return SF_ERROR_NULL;
+  return reinterpret_cast<uintptr_t>(memory) % SF_ALIGNMENT == 0 ? SF_OK
+                                                                 : SF_ERROR_WORKSPACE_ALIGNMENT;
+}
+
 sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height) {
   if (disparity == nullptr) return SF_ERROR_NULL;
   if (!ValidSize(width) || !ValidSize(height)) return SF_ERROR_SIZE;

@@ -12,6 +12,9 @@ namespace starfocus {
 sf_status CheckConfig(const sf_config& config);
 sf_status CheckParams(const sf_params& params);
 
+// Memory to lay something out in.
+sf_status CheckMemory(const void* memory);
+
 // A disparity map of its own.
 sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height);
 

@@ -69,8 +69,8 @@ typedef enum sf_status {
   SF_ERROR_BLOCK = 8,           /**< largest_block is not 32, 64, 128 or 256 */
   SF_ERROR_WORKERS = 9,         /**< max_workers outside [1, SF_MAX_WORKERS] */
   SF_ERROR_THETA = 10,          /**< theta outside [SF_MIN_THETA, SF_MAX_THETA] */
-  SF_ERROR_WORKSPACE_SMALL = 11,     /**< workspace smaller than sf_workspace_size says */
-  SF_ERROR_WORKSPACE_ALIGNMENT = 12, /**< workspace not aligned to SF_ALIGNMENT */
+  SF_ERROR_WORKSPACE_SMALL = 11,     /**< memory smaller than its size function says */
+  SF_ERROR_WORKSPACE_ALIGNMENT = 12, /**< memory not aligned to SF_ALIGNMENT */
   SF_ERROR_MODE = 13,                /**< unknown mode */
   SF_ERROR_FOCUS = 14,               /**< focus not finite or beyond +-SF_MAX_FOCUS */
   SF_ERROR_APERTURE = 15,            /**< aperture outside (0, 1] */
@@ -87,7 +87,8 @@ typedef enum sf_status {
   SF_ERROR_DEBLOCKING = 26,  /**< deblocking outside [0, 255] */
   SF_ERROR_TIMING = 27,      /**< a timing coefficient beyond SF_MAX_TIMING */
   SF_ERROR_RULE = 28,        /**< unknown rule */
-  SF_ERROR_REGION = 29       /**< region outside the picture, or a streaming call with a region */
+  SF_ERROR_REGION = 29,      /**< region outside the picture, or a streaming call with a region */
+  SF_ERROR_PREPARED = 30     /**< prepared light field of another configuration */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -245,15 +246,38 @@ typedef struct sf_report {
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
 } sf_report;
 
-/** Refocuses whole pictures, or the params' region of them: `out` points to its first pixel, and the
- *  bytes are those of the whole picture there. Of a region, only the blocks of the whole picture that
- *  its pixels depend on are refocused, and only the disparity rows that these can read are checked.
- *  The light field is only read, during the call; `out` (`out_stride` bytes from row to row, >= 3 *
- *  the width of the picture or region) must overlap neither it nor the workspace.
- *  runner may be null: the jobs then run one after the other as worker 0. report may be null. */
+/** Refocuses whole pictures, or the params' region of them: `out` points to its first pixel, and
+ * the bytes are those of the whole picture there. Of a region, only the blocks of the whole picture
+ * that its pixels depend on are refocused, and only the disparity rows that these can read are
+ * checked. The light field is only read, during the call; `out` (`out_stride` bytes from row to
+ * row, >= 3 * the width of the picture or region) must overlap neither it nor the workspace. runner
+ * may be null: the jobs then run one after the other as worker 0. report may be null. */
 SF_API sf_status sf_refocus(sf_engine* engine, const sf_params* params,
                             const sf_light_field* light_field, uint8_t* out, size_t out_stride,
                             sf_runner runner, void* runner_data, sf_report* report);
+
+/** What of a light field is the same for every lens; lives inside the caller's memory. */
+typedef struct sf_prepared sf_prepared;
+
+/** Bytes that a prepared light field of `config` takes, into *bytes: 2 per pixel of the picture for
+ *  disparities and about 0.94 for layers 1 and 2, as far as max_layer allows them. */
+SF_API sf_status sf_prepared_size(const sf_config* config, size_t* bytes);
+
+/** Checks and converts the disparities and subsamples the centre view, once for many refocusings,
+ * in `memory` (`bytes` long, aligned to SF_ALIGNMENT), which stays the caller's. The refocusings
+ * read the pictures of the light field again: what light_field points to must stay as it is until
+ * the last one, the structure itself need not. `memory` must overlap neither it nor the workspace.
+ *  runner as in sf_refocus. *prepared is null on error. */
+SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
+                            size_t bytes, sf_runner runner, void* runner_data,
+                            sf_prepared** prepared);
+
+/** As sf_refocus, with the same bytes, of a prepared light field; of this engine or of any of the
+ *  same size, views, disparity range and max_layer (else SF_ERROR_PREPARED). Several engines may
+ * use one at a time. */
+SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
+                                     const sf_prepared* prepared, uint8_t* out, size_t out_stride,
+                                     sf_runner runner, void* runner_data, sf_report* report);
 
 /** Starts (or restarts) a streamed refocusing; the engine must be configured with streaming = 1. */
 SF_API sf_status sf_stream_begin(sf_engine* engine, const sf_params* params);
