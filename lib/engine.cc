@@ -41,12 +41,12 @@ Reach GetReach(double max_blur) {
   return reach;
 }
 
-int32_t SideReach(const sf_config& config) {
+int32_t SideReach(const sf_config& config, double max_blur) {
   // A hole is read at most its disparity away from a place within the blur radius, by a filter of
   // 7 taps at most.
   const double disparity =
       MaxDouble(AbsDouble(config.disparity_min), AbsDouble(config.disparity_max));
-  return GetReach(config.max_blur).rows + CeilPixels(config.max_blur) + CeilPixels(disparity) + 8;
+  return GetReach(max_blur).rows + CeilPixels(max_blur) + CeilPixels(disparity) + 8;
 }
 
 void MakeTables(EngineState* engine) {
@@ -112,6 +112,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   engine->disparity_rows = 0;
   engine->map.rows = 0;
   engine->prepared = false;
+  engine->changes.active = false;
   return SF_OK;
 }
 

@@ -7,6 +7,7 @@
 
 #include "lib/blur.h"
 #include "lib/cells.h"
+#include "lib/changes.h"
 #include "lib/deblock.h"
 #include "lib/layers.h"
 #include "lib/partition.h"
@@ -26,8 +27,8 @@ struct Reach {
 };
 Reach GetReach(double max_blur);
 
-// Rows beyond a stripe that side views are read in.
-int32_t SideReach(const sf_config& config);
+// Rows beyond a stripe that side views are read in, for blur up to a radius.
+int32_t SideReach(const sf_config& config, double max_blur);
 
 // Progress of a streamed refocusing, in rows.
 struct Stream {
@@ -90,6 +91,7 @@ struct EngineState {
   CellGrid cells;
   StripePlan plan;
   LayerMap map;
+  Changes changes;
 
   Plane<uint8_t> rings[kMaxViews];  // with streaming
   uint8_t* stripe_out;              // kDeblockRows and a stripe, packed
@@ -117,6 +119,11 @@ inline bool UsesCells(const EngineState& engine) {
 // Whether blocks of different layers are joined.
 inline bool IsDeblocking(const EngineState& engine) {
   return IsBlockMode(engine) && engine.config.max_layer > 0 && engine.config.deblocking > 0;
+}
+
+// Pixels on either side of a boundary between blocks that joining them changes.
+inline int32_t JoinReach(const EngineState& engine) {
+  return IsDeblocking(engine) ? kDeblockReach : 0;
 }
 
 // Makes the tables of a fresh engine.

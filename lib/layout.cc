@@ -109,6 +109,10 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     engine->plan.needed[layer] = carver->Take<uint8_t>(blocks);
   }
+  Changes& changes = engine->changes;
+  changes.columns = static_cast<int32_t>(blocks);
+  changes.stripes = ChangeStripes(side, SideReach(config, config.max_blur));
+  changes.flags = carver->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
   engine->map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
   engine->map.units = carver->Take<uint8_t>(static_cast<size_t>(engine->map.columns) *
                                             static_cast<size_t>(side / kSmallestBlock + 1));
@@ -117,7 +121,8 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
 void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = config.streaming != 0;
-  const int32_t beyond = streaming ? SideReach(config) : GetReach(config.max_blur).rows;
+  const int32_t beyond =
+      streaming ? SideReach(config, config.max_blur) : GetReach(config.max_blur).rows;
   const int32_t rows = config.largest_block + 2 * beyond;
   engine->disparity.rows = rows;
   engine->disparity.stride = width;

@@ -12,8 +12,8 @@ namespace {
 
 // Input rows that the next stripe reads.
 int32_t NeededRows(const EngineState& engine) {
-  return Min(engine.config.height,
-             engine.stream.next + engine.config.largest_block + SideReach(engine.config));
+  return Min(engine.config.height, engine.stream.next + engine.config.largest_block +
+                                       SideReach(engine.config, engine.config.max_blur));
 }
 
 bool StripeWaiting(const EngineState& engine) {

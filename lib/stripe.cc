@@ -38,24 +38,35 @@ void PlanWhole(const Stripe& stripe, int32_t column) {
   engine.plan.counts[column] = 1;
 }
 
-// Whether what is asked for depends on pixels of `rect`.
-bool IsNeeded(const EngineState& engine, const Rect& rect) {
+// Whether the region depends on pixels of `rect`.
+bool IsInRegion(const EngineState& engine, const Rect& rect) {
   const Rect& region = engine.region;
-  const int32_t reach = IsDeblocking(engine) ? kDeblockReach : 0;
+  const int32_t reach = JoinReach(engine);
   return rect.x - reach < region.x + region.width && region.x < rect.x + rect.width + reach &&
          rect.y - reach < region.y + region.height && region.y < rect.y + rect.height + reach;
+}
+
+// Whether pixels that are not copied from the picture before depend on pixels of `rect`. Those are
+// what has changed and as far around it as joins reach, and joins reach there from as far again.
+bool IsNew(const EngineState& engine, const Rect& rect) {
+  const int32_t reach = 2 * JoinReach(engine);
+  return !engine.changes.active ||
+         HasChanged(engine.changes, {rect.x - reach, rect.y - reach, rect.width + 2 * reach,
+                                     rect.height + 2 * reach});
 }
 
 // Marks the columns that the stripe refocuses and those whose cells they need; whether there are
 // any.
 bool ChooseColumns(const Stripe& stripe) {
-  const EngineState& engine = *stripe.engine;
+  EngineState& engine = *stripe.engine;
   const int32_t side = BlockSide(engine), columns = Columns(engine);
   std::memset(engine.plan.measured, 0, static_cast<size_t>(columns));
   bool any = false;
   for (int32_t column = 0; column < columns; ++column) {
-    const bool wanted = IsNeeded(engine, {column * side, stripe.y, side, stripe.height});
+    const Rect block = {column * side, stripe.y, side, stripe.height};
+    const bool inside = IsInRegion(engine, block), wanted = inside && IsNew(engine, block);
     engine.plan.wanted[column] = wanted ? 1 : 0;
+    if (inside && !wanted) ++engine.report.reused_blocks;
     if (!wanted) continue;
     any = true;
     const int32_t around = engine.reach.cells * kCellSize;
@@ -147,7 +158,7 @@ void ReadPlan(const Stripe& stripe) {
     Block* const blocks = BlocksOf(engine, column);
     int32_t kept = 0;
     for (int32_t k = 0; k < engine.plan.counts[column]; ++k) {
-      if (!IsNeeded(engine, blocks[k].rect)) continue;
+      if (!IsInRegion(engine, blocks[k].rect) || !IsNew(engine, blocks[k].rect)) continue;
       const Block& block = blocks[kept++] = blocks[k];
       MarkLayerColumns(engine, block);
       MapBlock(engine, stripe, block);

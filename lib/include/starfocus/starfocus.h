@@ -244,6 +244,7 @@ typedef struct sf_report {
   int32_t rendered_views; /**< views of i^2 + j^2 <= N^2 for that N */
   uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
+  uint64_t reused_blocks; /**< sf_refocus_after: largest blocks of which nothing was refocused */
 } sf_report;
 
 /** Refocuses whole pictures, or the params' region of them: `out` points to its first pixel, and
@@ -278,6 +279,21 @@ SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field
 SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                                      const sf_prepared* prepared, uint8_t* out, size_t out_stride,
                                      sf_runner runner, void* runner_data, sf_report* report);
+
+/** A light field of the same configuration and what was made of it with the same params (but for
+ *  their clock and visitor). */
+typedef struct sf_previous {
+  sf_light_field light_field; /**< only compared */
+  const uint8_t* out; /**< the picture, or region, that sf_refocus or sf_refocus_after wrote */
+  size_t out_stride;  /**< bytes from row to row */
+} sf_previous;
+
+/** As sf_refocus, with the same bytes, of the frame after another: largest blocks that depend on no
+ *  pixel that changed are copied from its picture. `out` must overlap nothing of `previous`. */
+SF_API sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
+                                  const sf_light_field* light_field, const sf_previous* previous,
+                                  uint8_t* out, size_t out_stride, sf_runner runner,
+                                  void* runner_data, sf_report* report);
 
 /** Starts (or restarts) a streamed refocusing; the engine must be configured with streaming = 1. */
 SF_API sf_status sf_stream_begin(sf_engine* engine, const sf_params* params);
