@@ -86,6 +86,7 @@ void Prepare(const TempFolder& folder) {
   map.values[45] = 1e9f;
   REQUIRE(WritePfm(folder.file("huge/disparity.pfm"), map) == "");
   fs::resize_file(folder.file("short/disparity.pfm"), 100);
+  fs::create_directory(folder.file("taken_002.png"));
 }
 
 TEST_CASE("cli: refocus refuses bad input") {
@@ -134,6 +135,17 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1 --region 37,0,4,4", "40x30"},
              {"refocus lf -o x.png --focus 1 --region 0,30,1,1", "40x30"},
              {"refocus lf -o x.png --focus 1 --region 0,0,4,4 --stream", "--stream"},
+             {"refocus lf -o x.png --sweep 1:2", "--sweep"},
+             {"refocus lf -o x.png --sweep 1:2:1", "--sweep"},
+             {"refocus lf -o x.png --sweep 1:2:1001", "--sweep"},
+             {"refocus lf -o x.png --sweep 1:nan:3", "--sweep"},
+             {"refocus lf -o x.png --sweep 1:2:3:4", "--sweep"},
+             {"refocus lf -o x.png --sweep 0:900:3", "--sweep"},
+             {"refocus lf -o x.png --sweep 0:1:3 --focus 1", "--focus"},
+             {"refocus lf -o x.png --sweep 0:1:3 --stream", "--stream"},
+             {"refocus lf -o x.png --sweep 0:1:3 --map m.png", "--map"},
+             {"refocus lf -o none/x.png --sweep 0:1:3", "none"},
+             {"refocus lf -o taken.png --sweep 0:1:3", "taken_002.png"},
              {"refocus lf -o x.bmp --focus 1", ".bmp"},
              {"refocus lf -o x --focus 1", "extension"},
              {"refocus lf -o '' --focus 1", "extension"},
@@ -299,6 +311,26 @@ TEST_CASE("cli: a region is that part of the picture") {
     }
   }
   CHECK(Text(folder.file("part.json")).find("\"region\": [") != std::string::npos);
+}
+
+TEST_CASE("cli: a sweep is its pictures one by one") {
+  TempFolder folder;
+  Prepare(folder);
+  for (const std::string more : {"", " --mode frame --aperture 0.5", " --region 3,4,20,21"}) {
+    CAPTURE(more);
+    REQUIRE(Call(folder, "refocus lf -o s.png --sweep -1:2:4 --threads 2 --report s.json" + more)
+                .code == 0);
+    for (int i = 0; i < 4; ++i) {
+      const std::string focus = std::to_string(i - 1), name = "s_00" + std::to_string(i) + ".png";
+      REQUIRE(Call(folder, "refocus lf -o one.png --focus " + focus + more).code == 0);
+      CHECK(Text(folder.file(name)) == Text(folder.file("one.png")));
+    }
+    CHECK(!fs::exists(folder.file("s.png")));
+    CHECK(!fs::exists(folder.file("s_004.png")));
+    const std::string report = Text(folder.file("s.json"));
+    CHECK(report.find("\"s_003.png\"") != std::string::npos);
+    CHECK(report.find("\"prepared_bytes\": 0") == std::string::npos);
+  }
 }
 
 }  // namespace
