@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "platform/file.h"
 #include "platform/image_io.h"
@@ -87,6 +88,8 @@ void Prepare(const TempFolder& folder) {
   REQUIRE(WritePfm(folder.file("huge/disparity.pfm"), map) == "");
   fs::resize_file(folder.file("short/disparity.pfm"), 100);
   fs::create_directory(folder.file("taken_002.png"));
+  REQUIRE(Call(folder, "scene tiny --size 20x10 --views 5").code == 0);
+  REQUIRE(Call(folder, "scene single --size 40x30 --views 1").code == 0);
 }
 
 TEST_CASE("cli: refocus refuses bad input") {
@@ -195,6 +198,17 @@ TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
              {"info none", "none"},
              {"info missing", "view_-1.0_+0.0"},
              {"info short", "disparity.pfm"},
+             {"video lf", "--output"},
+             {"video lf -o out", "--focus"},
+             {"video lf -o text.png --focus 1", "text.png"},
+             {"video lf -o none/out --focus 1", "none"},
+             {"video lf -o out --focus 1 --report none/r.json", "none"},
+             {"video lf none -o out --focus 1", "none"},
+             {"video lf nan -o out --focus 1", "first at 5,1"},
+             {"video lf tiny -o out --focus 1", "40x30"},
+             {"video lf single -o out --focus 1", "5 views"},
+             {"video lf --focus 900 -o out", "128"},
+             {"video taken_002.png -o out --focus 1", "light-field folders"},
              {"sheet x.png", "IMG"},
              {"sheet x.tif small.png", ".tif"},
              {"sheet x.png none.png", "none.png"},
@@ -311,6 +325,47 @@ TEST_CASE("cli: a region is that part of the picture") {
     }
   }
   CHECK(Text(folder.file("part.json")).find("\"region\": [") != std::string::npos);
+}
+
+TEST_CASE("cli: a video is its frames one by one, but for the work") {
+  TempFolder folder;
+  REQUIRE(Call(folder, "scene lf --size 200x100 --views 5 --name wires").code == 0);
+  REQUIRE(fs::create_directory(folder.file("in")));
+  for (const char* name : {"in/1", "in/2", "in/3", "in/4"}) {
+    fs::copy(folder.file("lf"), folder.file(name));
+  }
+  // The third and fourth frame differ from the others in a corner.
+  Image view;
+  const std::string centre = folder.file("in/3/view_+0.0_+0.0.png");
+  REQUIRE(ReadImage(centre, &view) == "");
+  std::fill_n(view.row(2), 20, uint8_t{255});
+  REQUIRE(WriteImage(centre, view) == "");
+  fs::copy(centre, folder.file("in/4/view_+0.0_+0.0.png"), fs::copy_options::overwrite_existing);
+  const std::string lens = " --focus 3 --aperture 0.2 --largest-block 32";
+  REQUIRE(Call(folder, "video in -o out --report v.json" + lens).code == 0);
+  REQUIRE(Call(folder, "video in/1 in/3 -o two" + lens).code == 0);
+  for (const int frame : {0, 1, 2, 3}) {
+    const std::string name = std::to_string(frame + 1);
+    REQUIRE(Call(folder, "refocus in/" + name + " -o one.png" + lens).code == 0);
+    CHECK(Text(folder.file("out/frame_000" + std::to_string(frame) + ".png")) ==
+          Text(folder.file("one.png")));
+  }
+  CHECK(Text(folder.file("two/frame_0001.png")) == Text(folder.file("out/frame_0002.png")));
+  CHECK(Text(folder.file("two/frame_0000.png")) != Text(folder.file("two/frame_0001.png")));
+  // Blocks of the frames: none of the first, all, most, all.
+  const std::string report = Text(folder.file("v.json"));
+  std::vector<int> reused;
+  for (size_t at = report.find("\"reused_blocks\": "); at != std::string::npos;
+       at = report.find("\"reused_blocks\": ", at + 1)) {
+    reused.push_back(std::atoi(report.c_str() + at + 17));
+  }
+  REQUIRE(reused.size() == 5);
+  CHECK(reused[0] == 0);
+  CHECK(reused[1] == 28);
+  CHECK(reused[2] >= 10);
+  CHECK(reused[2] < 28);
+  CHECK(reused[3] == 28);
+  CHECK(reused[4] == reused[1] + reused[2] + reused[3]);
 }
 
 TEST_CASE("cli: a sweep is its pictures one by one") {
