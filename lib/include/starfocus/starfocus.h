@@ -11,7 +11,8 @@
  *      memory: it never allocates, owns nothing else and needs no destructor. Free the memory when
  *      no call is running.
  *   3. sf_refocus with whole pictures, or sf_stream_begin / sf_stream_push / sf_stream_pull with
- *      rows. Both give the same bytes.
+ *      rows. Both give the same bytes. For many pictures of one light field there is sf_prepare,
+ *      for a part of one sf_params.region, for frames of a video sf_refocus_after.
  *
  * Conventions: u grows to the right, v downwards; the outermost views lie at |u|, |v| = 1.
  * Disparity d is in pixels per unit u, larger is nearer: a point seen at (x, y) in the centre view
