@@ -10,27 +10,48 @@ namespace {
 // Pixels that are compared at once.
 constexpr int32_t kUnit = 16;
 
-// Flags the blocks that depend on pixels [x, x + kUnit) of row y.
-void Flag(const Changes& changes, int32_t x, int32_t y, int32_t reach) {
-  const int32_t side = changes.side;
-  const int32_t first = Max(0, x - reach) / side;
-  const int32_t last = Min(changes.width - 1, x + kUnit - 1 + reach) / side;
-  const int32_t last_stripe = Min(changes.height - 1, y + reach) / side;
-  for (int32_t stripe = Max(0, y - reach) / side; stripe <= last_stripe; ++stripe) {
-    std::memset(changes.Flags(stripe) + first, 1, static_cast<size_t>(last - first + 1));
-  }
+// Stripes that depend on row y.
+struct StripeRange {
+  int32_t first, last;
+};
+
+StripeRange StripesOf(const Changes& changes, int32_t y, int32_t reach) {
+  return {Max(0, y - reach) / changes.side, Min(changes.height - 1, y + reach) / changes.side};
 }
 
-// Compares row y of `pixel_bytes` a pixel.
+// Whether all blocks of the stripes are flagged already: where much changes, most rows need no
+// look.
+bool AllFlagged(const Changes& changes, const StripeRange& stripes) {
+  for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
+    if (std::memchr(changes.Flags(stripe), 0, static_cast<size_t>(changes.columns)) != nullptr) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Compares row y of `pixel_bytes` a pixel and flags the blocks that depend on what differs.
 void CompareRow(const Changes& changes, const void* a, const void* b, size_t pixel_bytes, int32_t y,
                 int32_t reach) {
   const auto* before = static_cast<const uint8_t*>(a);
   const auto* now = static_cast<const uint8_t*>(b);
-  if (std::memcmp(before, now, pixel_bytes * static_cast<size_t>(changes.width)) == 0) return;
+  const StripeRange stripes = StripesOf(changes, y, reach);
+  if (AllFlagged(changes, stripes) ||
+      std::memcmp(before, now, pixel_bytes * static_cast<size_t>(changes.width)) == 0) {
+    return;
+  }
+  int32_t flagged = -1;  // last column of this row's
   for (int32_t x = 0; x < changes.width; x += kUnit) {
+    const int32_t first = Max(0, x - reach) / changes.side;
+    const int32_t last = Min(changes.width - 1, x + kUnit - 1 + reach) / changes.side;
+    if (last == flagged) continue;
     const size_t offset = pixel_bytes * static_cast<size_t>(x);
     const size_t bytes = pixel_bytes * static_cast<size_t>(Min(kUnit, changes.width - x));
-    if (std::memcmp(before + offset, now + offset, bytes) != 0) Flag(changes, x, y, reach);
+    if (std::memcmp(before + offset, now + offset, bytes) == 0) continue;
+    flagged = last;
+    for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
+      std::memset(changes.Flags(stripe) + first, 1, static_cast<size_t>(last - first + 1));
+    }
   }
 }
 

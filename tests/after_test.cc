@@ -116,6 +116,40 @@ TEST_CASE("after: joins between blocks of different layers, beside a change") {
   }
 }
 
+TEST_CASE("after: a block that changes its layer changes its neighbours' joins") {
+  // Blocks that never split, of layer 0 for the sake of one pixel in focus far from the others.
+  test::Scene scene = test::LayeredScene(600, 600, 1, 6, 5);
+  std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);
+  scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;
+  sf_config config = test::ConfigFor(scene, 6);
+  config.largest_block = 256;
+  config.deblocking = 255;
+  config.timing = {};
+  config.timing.block = SF_MAX_TIMING;
+  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  params.rule = SF_RULE_PAPER;
+  test::Engine engine(config);
+  test::Output first(600, 600), second(600, 600), expected(600, 600);
+  sf_report report = {};
+  REQUIRE(test::Refocus(&engine, params, scene, &first) == SF_OK);
+  const test::Scene before = scene;
+  scene.Disparity(5, 5) = 0;
+  REQUIRE(After(&engine, params, scene, before, first, &second, &report) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
+  const bool same = second.bytes == expected.bytes;
+  CHECK(same);
+  CHECK(report.reused_blocks == 5);  // all but the corner's four
+  // The join is on the neighbours' side.
+  bool right = false, below = false;
+  for (int k = 20; k < 200; ++k) {
+    right = right || !std::equal(second.Pixel(256, k), second.Pixel(257, k), first.Pixel(256, k));
+    below =
+        below || !std::equal(second.Pixel(k, 256), second.Pixel(k + 1, 256), first.Pixel(k, 256));
+  }
+  CHECK(right);
+  CHECK(below);
+}
+
 TEST_CASE("after: what is far from a change is reused") {
   const test::Scene before = test::LayeredScene(640, 512, 5, 2, 6);
   const sf_config config = test::ConfigFor(before, 4);
