@@ -57,7 +57,7 @@ void CompareRow(const Changes& changes, const void* a, const void* b, size_t pix
 
 void CompareViews(const Changes& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
-  const sf_light_field &a = changes.before, &b = changes.now;
+  const sf_light_field &a = *changes.before, &b = *changes.now;
   CompareRow(changes, a.disparity + row * (a.disparity_stride / sizeof(float)),
              b.disparity + row * (b.disparity_stride / sizeof(float)), sizeof(float), y,
              changes.centre_reach);

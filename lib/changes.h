@@ -14,7 +14,7 @@ namespace starfocus {
 // beside it are known once all rows within their reach are compared.
 struct Changes {
   bool active = false;  // there is something to compare with
-  sf_light_field before, now;
+  const sf_light_field *before, *now;
   int32_t views;                     // that matter
   int32_t width, height, side;       // of the picture and its largest blocks
   int32_t columns;                   // of largest blocks

@@ -111,8 +111,8 @@ void UsePrevious(const Request& request, EngineState* engine) {
   const sf_config& config = engine->config;
   Changes& changes = engine->changes;
   changes.active = true;
-  changes.before = request.previous->light_field;
-  changes.now = *request.light_field;
+  changes.before = &request.previous->light_field;
+  changes.now = request.light_field;
   // Depth-dependent blur is that of the centre view.
   changes.views = request.params->mode == SF_MODE_BLUR ? 1 : config.views;
   changes.width = config.width;
