@@ -13,6 +13,7 @@ using Action = std::function<std::string()>;
 
 void AddSceneCommand(CLI::App* app, Action* action);
 void AddRefocusCommand(CLI::App* app, Action* action);
+void AddVideoCommand(CLI::App* app, Action* action);
 void AddCalibrateCommand(CLI::App* app, Action* action);
 void AddCompareCommand(CLI::App* app, Action* action);
 void AddInfoCommand(CLI::App* app, Action* action);

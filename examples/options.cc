@@ -1,5 +1,6 @@
 #include "options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -54,6 +55,22 @@ std::string ParsePair(const std::string& option, const std::string& text, char s
   }
   return Expected(option, std::string("two whole numbers with '") + separator + "' between them",
                   Quoted(text));
+}
+
+std::string ParseRegion(const std::string& option, const std::string& text, sf_region* region) {
+  int values[4] = {};
+  size_t begin = 0;
+  for (int i = 0; i < 4; ++i) {
+    const size_t end = i == 3 ? text.size() : std::min(text.find(',', begin), text.size());
+    const bool size = i >= 2;
+    if (begin > end || !ReadWhole(text.substr(begin, end - begin), &values[i]) ||
+        values[i] > kMaxPictureSize || (size && values[i] == 0)) {
+      return Expected(option, "X,Y,W,H in whole pixels, W and H not 0", Quoted(text));
+    }
+    begin = end + 1;
+  }
+  *region = {values[0], values[1], values[2], values[3]};
+  return "";
 }
 
 std::string ParseAperture(const std::string& option, const std::string& text, double* value) {

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "starfocus/starfocus.h"
+
 namespace starfocus {
 
 // A finite number, all of `text`.
@@ -17,6 +19,9 @@ std::string ParseWhole(const std::string& option, const std::string& text, int l
 // Two whole numbers from 0 to 65535 with `separator` between them.
 std::string ParsePair(const std::string& option, const std::string& text, char separator,
                       int* first, int* second);
+
+// X,Y,W,H: a rectangle of whole numbers, neither side 0.
+std::string ParseRegion(const std::string& option, const std::string& text, sf_region* region);
 
 // A radius above 0 and at most 1.
 std::string ParseAperture(const std::string& option, const std::string& text, double* value);

@@ -1,7 +1,5 @@
 #include "refocus_report.h"
 
-#include <nlohmann/json.hpp>
-
 namespace starfocus {
 namespace {
 
@@ -51,13 +49,23 @@ nlohmann::ordered_json SkippedJson(const EngineTask& task, const sf_report& repo
   return json;
 }
 
-}  // namespace
+// Largest blocks of the picture or region.
+uint64_t LargestBlocks(const sf_config& config, const sf_region& region) {
+  const auto count = [&](int first, int size) {
+    const int side = config.largest_block;
+    return static_cast<uint64_t>((first + size - 1) / side - first / side + 1);
+  };
+  if (region.width == 0) return count(0, config.width) * count(0, config.height);
+  return count(region.x, region.width) * count(region.y, region.height);
+}
 
-std::string ReportText(const EngineTask& task, const EngineResult& result, double seconds_total) {
+nlohmann::ordered_json ReportJson(const EngineTask& task, const EngineResult& result) {
   nlohmann::ordered_json json;
   json["mode"] = kModeNames[task.params.mode];
   json["width"] = task.config.width;
   json["height"] = task.config.height;
+  const sf_region& region = task.params.region;
+  if (region.width > 0) json["region"] = {region.x, region.y, region.width, region.height};
   json["views"] = task.config.views;
   json["focus"] = task.params.focus;
   json["aperture"] = task.params.aperture;
@@ -72,10 +80,40 @@ std::string ReportText(const EngineTask& task, const EngineResult& result, doubl
   json["layers"] = LayersJson(result.report, task.params.mode == SF_MODE_BLOCK);
   json["skipped"] = SkippedJson(task, result.report);
   json["seconds_refocus"] = result.seconds;
-  json["seconds_total"] = seconds_total;
   json["workspace_bytes"] = result.workspace_bytes;
   json["simd_target"] = sf_simd_target();
   json["threads"] = task.threads;
+  return json;
+}
+
+}  // namespace
+
+std::string ReportText(const EngineTask& task, const EngineResult& result, double seconds_total) {
+  nlohmann::ordered_json json = ReportJson(task, result);
+  json["seconds_total"] = seconds_total;
+  return json.dump(2) + "\n";
+}
+
+void SeriesReport::Add(const std::string& output, const EngineTask& task,
+                       const EngineResult& result) {
+  nlohmann::ordered_json json;
+  json["output"] = output;
+  json.update(ReportJson(task, result));
+  json["prepared_bytes"] = result.prepared_bytes;
+  const uint64_t blocks = LargestBlocks(task.config, task.params.region);
+  json["largest_blocks"] = blocks;
+  json["reused_blocks"] = result.report.reused_blocks;
+  largest_blocks_ += blocks;
+  reused_blocks_ += result.report.reused_blocks;
+  pictures_.push_back(json);
+}
+
+std::string SeriesReport::Text(double seconds_total) const {
+  nlohmann::ordered_json json;
+  json["pictures"] = pictures_;
+  json["largest_blocks"] = largest_blocks_;
+  json["reused_blocks"] = reused_blocks_;
+  json["seconds_total"] = seconds_total;
   return json.dump(2) + "\n";
 }
 

@@ -1,7 +1,9 @@
-// The figures of a refocusing, as JSON for `refocus --report`.
+// The figures of refocusings, as JSON for --report.
 #ifndef STARFOCUS_EXAMPLES_REFOCUS_REPORT_H_
 #define STARFOCUS_EXAMPLES_REFOCUS_REPORT_H_
 
+#include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "engine_run.h"
@@ -13,6 +15,17 @@ inline constexpr const char* kModeNames[] = {"frame", "benchmark", "block", "blu
 
 // The task must have been run with ThreadNanoseconds for a clock.
 std::string ReportText(const EngineTask& task, const EngineResult& result, double seconds_total);
+
+// Of several pictures, each with its name.
+class SeriesReport {
+ public:
+  void Add(const std::string& output, const EngineTask& task, const EngineResult& result);
+  std::string Text(double seconds_total) const;
+
+ private:
+  nlohmann::ordered_json pictures_ = nlohmann::ordered_json::array();
+  uint64_t reused_blocks_ = 0, largest_blocks_ = 0;
+};
 
 }  // namespace starfocus
 

@@ -28,6 +28,7 @@ int Run(int argc, char** argv) {
   starfocus::Action action;
   starfocus::AddSceneCommand(&app, &action);
   starfocus::AddRefocusCommand(&app, &action);
+  starfocus::AddVideoCommand(&app, &action);
   starfocus::AddCalibrateCommand(&app, &action);
   starfocus::AddCompareCommand(&app, &action);
   starfocus::AddInfoCommand(&app, &action);

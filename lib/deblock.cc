@@ -7,6 +7,11 @@
 namespace starfocus {
 namespace {
 
+// Whether units of these layers need joining.
+bool Meet(int32_t before, int32_t after) {
+  return before != after && before != kNoLayer && after != kNoLayer;
+}
+
 bool Close(const uint8_t* a, const uint8_t* b, int32_t beta) {
   return Abs(a[0] - b[0]) < beta && Abs(a[1] - b[1]) < beta && Abs(a[2] - b[2]) < beta;
 }
@@ -54,7 +59,7 @@ void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end) {
     const int32_t y = job.y + row * kSmallestBlock;
     for (int32_t column = begin; column < end; ++column) {
       const int32_t before = map.At(column, row - 1), after = map.At(column, row);
-      if (before == after) continue;
+      if (!Meet(before, after)) continue;
       const int32_t x = column * kSmallestBlock;
       FilterBoundary(job.out.Row(y) + 3 * x, Min(kSmallestBlock, job.width - x), 3,
                      static_cast<ptrdiff_t>(job.out.stride), before, after, kSmallestBlock,
@@ -69,7 +74,7 @@ void DeblockColumns(const DeblockJob& job, int32_t first, int32_t last) {
     const int32_t row = (y - job.y + kSmallestBlock) / kSmallestBlock - 1;
     for (int32_t column = 1; column < map.columns; ++column) {
       const int32_t before = map.At(column - 1, row), after = map.At(column, row);
-      if (before == after) continue;
+      if (!Meet(before, after)) continue;
       const int32_t x = column * kSmallestBlock;
       FilterBoundary(job.out.Row(y) + 3 * x, 1, 0, 3, before, after, kSmallestBlock,
                      Min(kSmallestBlock, job.width - x), job.beta);

@@ -1,6 +1,7 @@
 #include "lib/engine.h"
 
 #include "lib/rules.h"
+#include "lib/validate.h"
 
 namespace starfocus {
 namespace {
@@ -22,6 +23,12 @@ double LargestBlur(const sf_config& config, const sf_params& params) {
 
 }  // namespace
 
+Rect RegionOf(const sf_config& config, const sf_params& params) {
+  const sf_region& region = params.region;
+  if (IsWhole(region)) return {0, 0, config.width, config.height};
+  return {region.x, region.y, region.width, region.height};
+}
+
 Reach GetReach(double max_blur) {
   // A cell reaches at most r and half a pixel of rounding beyond itself, or a layer's margin more;
   // its pixels then lie less than a cell further away.
@@ -34,12 +41,12 @@ Reach GetReach(double max_blur) {
   return reach;
 }
 
-int32_t SideReach(const sf_config& config) {
+int32_t SideReach(const sf_config& config, double max_blur) {
   // A hole is read at most its disparity away from a place within the blur radius, by a filter of
   // 7 taps at most.
   const double disparity =
       MaxDouble(AbsDouble(config.disparity_min), AbsDouble(config.disparity_max));
-  return GetReach(config.max_blur).rows + CeilPixels(config.max_blur) + CeilPixels(disparity) + 8;
+  return GetReach(max_blur).rows + CeilPixels(max_blur) + CeilPixels(disparity) + 8;
 }
 
 void MakeTables(EngineState* engine) {
@@ -77,6 +84,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   const double r_max = LargestBlur(config, params);
   if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
   engine->params = params;
+  engine->region = RegionOf(config, params);
   engine->reach = GetReach(r_max);
   if (params.mode == SF_MODE_BENCHMARK) {
     engine->aperture =
@@ -104,23 +112,31 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
     engine->workers[worker].side_bytes = 0;
   }
   engine->disparity_rows = 0;
+  engine->map.rows = 0;
+  engine->prepared = false;
+  engine->changes.active = false;
   return SF_OK;
 }
 
-sf_status PushDisparity(const float* row, EngineState* engine) {
-  const sf_config& config = engine->config;
+sf_status ConvertDisparity(const EngineState& engine, const float* row, int16_t* out) {
+  const sf_config& config = engine.config;
   const auto width = static_cast<size_t>(config.width);
-  int16_t* out = engine->disparity.Row(engine->disparity_rows);
-  if (!engine->kernels->convert_disparity(row, width, config.disparity_min, config.disparity_max,
-                                          out)) {
+  if (!engine.kernels->convert_disparity(row, width, config.disparity_min, config.disparity_max,
+                                         out)) {
     for (size_t x = 0; x < width; ++x) {
       if (!(row[x] - row[x] == 0.0f)) return SF_ERROR_NOT_FINITE;
     }
     return SF_ERROR_DISPARITY;
   }
   CheckAll(ranges::kDisparity, out, width);
-  ++engine->disparity_rows;
   return SF_OK;
+}
+
+sf_status PushDisparity(const float* row, EngineState* engine) {
+  const sf_status status =
+      ConvertDisparity(*engine, row, engine->disparity.Row(engine->disparity_rows));
+  if (status == SF_OK) ++engine->disparity_rows;
+  return status;
 }
 
 sf_report GetReport(const EngineState& engine) {

@@ -7,6 +7,7 @@
 
 #include "lib/blur.h"
 #include "lib/cells.h"
+#include "lib/changes.h"
 #include "lib/deblock.h"
 #include "lib/layers.h"
 #include "lib/partition.h"
@@ -26,8 +27,8 @@ struct Reach {
 };
 Reach GetReach(double max_blur);
 
-// Rows beyond a stripe that side views are read in.
-int32_t SideReach(const sf_config& config);
+// Rows beyond a stripe that side views are read in, for blur up to a radius.
+int32_t SideReach(const sf_config& config, double max_blur);
 
 // Progress of a streamed refocusing, in rows.
 struct Stream {
@@ -54,6 +55,8 @@ struct Worker {
 
 // The blocks of a stripe, largest block by largest block.
 struct StripePlan {
+  uint8_t* wanted;             // per largest block: some of its pixels are needed
+  uint8_t* measured;           // per largest block: its cells are needed
   Block* blocks;               // MaxBlocks per largest block
   int32_t* counts;             // blocks used of each
   uint8_t* needed[SF_LAYERS];  // per largest block's column: its columns of layer 1, 2 are read
@@ -76,10 +79,12 @@ struct EngineState {
 
   // The lens of the refocusing under way.
   sf_params params;
+  Rect region;        // of params, the whole picture when they have none
   Aperture aperture;  // frame modes: of the one N
   BlurScale scale;
   Reach reach;
   sf_report report;
+  bool prepared;  // disparities and layers of the windows are those of a prepared light field
 
   Window windows[SF_LAYERS];
   LayerPlane layers[SF_LAYERS];  // of layers 1 and 2
@@ -88,13 +93,21 @@ struct EngineState {
   CellGrid cells;
   StripePlan plan;
   LayerMap map;
+  Changes changes;
 
   Plane<uint8_t> rings[kMaxViews];  // with streaming
-  uint8_t* stripe_out;              // with streaming: kDeblockRows and a stripe, packed
+  uint8_t* stripe_out;              // kDeblockRows and a stripe, packed
   Stream stream;
 
   Worker* workers;  // config.max_workers
 };
+
+inline int32_t BlockSide(const EngineState& engine) { return engine.config.largest_block; }
+
+// Columns of largest blocks.
+inline int32_t Columns(const EngineState& engine) {
+  return (engine.config.width + BlockSide(engine) - 1) / BlockSide(engine);
+}
 
 inline bool IsBlockMode(const EngineState& engine) { return engine.params.mode == SF_MODE_BLOCK; }
 
@@ -105,17 +118,33 @@ inline bool UsesCells(const EngineState& engine) {
   return engine.params.mode == SF_MODE_BLOCK && rule != SF_RULE_PAPER;
 }
 
+// Whether blocks of different layers are joined.
+inline bool IsDeblocking(const EngineState& engine) {
+  return IsBlockMode(engine) && engine.config.max_layer > 0 && engine.config.deblocking > 0;
+}
+
+// Pixels on either side of a boundary between blocks that joining them changes.
+inline int32_t JoinReach(const EngineState& engine) {
+  return IsDeblocking(engine) ? kDeblockReach : 0;
+}
+
 // Makes the tables of a fresh engine.
 void MakeTables(EngineState* engine);
 
 // Points the windows at whole pictures (ring_rows = 0) or line rings.
 void SetViews(const Plane<const uint8_t>* views, EngineState* engine);
 
+// The rectangle that params ask for.
+Rect RegionOf(const sf_config& config, const sf_params& params);
+
 // Sets up the lens for params; SF_ERROR_BLUR_TOO_LARGE or SF_OK. The other fields of params must
 // have been checked.
 sf_status SetLens(const sf_params& params, EngineState* engine);
 
-// Converts one disparity row, checking that it lies in the configured range.
+// Converts a disparity row to `out`, checking that it lies in the configured range.
+sf_status ConvertDisparity(const EngineState& engine, const float* row, int16_t* out);
+
+// Converts the next row into the engine's ring.
 sf_status PushDisparity(const float* row, EngineState* engine);
 
 // The report of what has been refocused.

@@ -109,11 +109,17 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->cells.cells =
       carver->Take<Cell>(static_cast<size_t>(engine->cells.columns) *
                          static_cast<size_t>(side / kCellSize + 2 * reach.cells + 2));
+  engine->plan.wanted = carver->Take<uint8_t>(blocks);
+  engine->plan.measured = carver->Take<uint8_t>(blocks);
   engine->plan.blocks = carver->Take<Block>(blocks * static_cast<size_t>(MaxBlocks(side)));
   engine->plan.counts = carver->Take<int32_t>(blocks);
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     engine->plan.needed[layer] = carver->Take<uint8_t>(blocks);
   }
+  Changes& changes = engine->changes;
+  changes.columns = static_cast<int32_t>(blocks);
+  changes.stripes = ChangeStripes(side, SideReach(config, config.max_blur));
+  changes.flags = carver->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
   engine->map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
   engine->map.units = carver->Take<uint8_t>(static_cast<size_t>(engine->map.columns) *
                                             static_cast<size_t>(side / kSmallestBlock + 1));
@@ -122,20 +128,20 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
 void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = config.streaming != 0;
-  const int32_t beyond = streaming ? SideReach(config) : GetReach(config.max_blur).rows;
+  const int32_t beyond =
+      streaming ? SideReach(config, config.max_blur) : GetReach(config.max_blur).rows;
   const int32_t rows = config.largest_block + 2 * beyond;
   engine->disparity.rows = rows;
   engine->disparity.stride = width;
   engine->disparity.data = carver->Take<int16_t>(width * static_cast<size_t>(rows));
-  engine->stripe_out = nullptr;
+  engine->stripe_out =
+      carver->Take<uint8_t>(3 * width * static_cast<size_t>(config.largest_block + kDeblockRows));
   if (!streaming) return;
   for (int view = 0; view < config.views; ++view) {
     engine->rings[view].rows = rows;
     engine->rings[view].stride = 3 * width;
     engine->rings[view].data = carver->Take<uint8_t>(3 * width * static_cast<size_t>(rows));
   }
-  engine->stripe_out =
-      carver->Take<uint8_t>(3 * width * static_cast<size_t>(config.largest_block + kDeblockRows));
 }
 
 }  // namespace

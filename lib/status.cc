@@ -25,9 +25,9 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_THETA:
       return "theta is outside 0.05 pi to 0.45 pi";
     case SF_ERROR_WORKSPACE_SMALL:
-      return "workspace is smaller than sf_workspace_size asks for";
+      return "memory is smaller than sf_workspace_size or sf_prepared_size asks for";
     case SF_ERROR_WORKSPACE_ALIGNMENT:
-      return "workspace is not aligned to SF_ALIGNMENT bytes";
+      return "memory is not aligned to SF_ALIGNMENT bytes";
     case SF_ERROR_MODE:
       return "unknown mode";
     case SF_ERROR_FOCUS:
@@ -64,6 +64,11 @@ const char* sf_status_string(sf_status status) {
       return "n_scale is outside 0.5 to 2";
     case SF_ERROR_SKIPS:
       return "skips is not 0 or 1";
+    case SF_ERROR_REGION:
+      return "region is not inside the picture, or is given for streaming, which has none";
+    case SF_ERROR_PREPARED:
+      return "prepared light field is of another size, number of views, disparity range or "
+             "max_layer";
   }
   return "unknown status";
 }

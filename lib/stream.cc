@@ -12,8 +12,8 @@ namespace {
 
 // Input rows that the next stripe reads.
 int32_t NeededRows(const EngineState& engine) {
-  return Min(engine.config.height,
-             engine.stream.next + engine.config.largest_block + SideReach(engine.config));
+  return Min(engine.config.height, engine.stream.next + engine.config.largest_block +
+                                       SideReach(engine.config, engine.config.max_blur));
 }
 
 bool StripeWaiting(const EngineState& engine) {
@@ -34,15 +34,10 @@ sf_status PushRow(const sf_light_field& light_field, int32_t row, EngineState* e
   return SF_OK;
 }
 
-// The rows of the stripe that starts at row y, and those before it that it may still change.
-Plane<uint8_t> StripeRows(const EngineState& engine, int32_t y) {
-  return {engine.stripe_out, 3 * static_cast<size_t>(engine.config.width), 0, y - kDeblockRows};
-}
-
 // Copies finished rows out of the stripe buffer.
 int32_t CopyRows(EngineState* engine, uint8_t* out, size_t out_stride, int32_t rows) {
   Stream& stream = engine->stream;
-  const Plane<uint8_t> from = StripeRows(*engine, stream.next - engine->config.largest_block);
+  const Plane<uint8_t> from = BufferRows(*engine, stream.next - engine->config.largest_block);
   int32_t copied = 0;
   for (; copied < rows && StripeWaiting(*engine); ++copied, ++stream.written) {
     std::memcpy(out + static_cast<size_t>(copied) * out_stride, from.Row(stream.written),
@@ -53,13 +48,7 @@ int32_t CopyRows(EngineState* engine, uint8_t* out, size_t out_stride, int32_t r
 
 sf_status RefocusNext(EngineState* engine, const Runner& runner) {
   Stream& stream = engine->stream;
-  const Plane<uint8_t> rows = StripeRows(*engine, stream.next);
-  if (stream.next > 0) {
-    const Plane<uint8_t> before = StripeRows(*engine, stream.next - engine->config.largest_block);
-    std::memmove(rows.Row(stream.next - kDeblockRows), before.Row(stream.next - kDeblockRows),
-                 kDeblockRows * rows.stride);
-  }
-  const sf_status status = RefocusStripe(engine, stream.next, rows, runner);
+  const sf_status status = RefocusIntoBuffer(engine, stream.next, runner);
   if (status != SF_OK) return status;
   stream.finished = FinishedRows(*engine, stream.next);
   stream.next += engine->config.largest_block;
@@ -77,6 +66,7 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   sf_status status = starfocus::CheckParams(*params);
   if (status != SF_OK) return status;
   if (e.config.streaming == 0) return SF_ERROR_STATE;
+  if (!starfocus::IsWhole(params->region)) return SF_ERROR_REGION;
   e.stream = starfocus::Stream();
   status = starfocus::SetLens(*params, &e);
   if (status != SF_OK) return status;
@@ -115,7 +105,7 @@ sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   if (!e.stream.active) return SF_ERROR_STATE;
   if (rows < 0) return SF_ERROR_COUNT;
-  sf_status status = starfocus::CheckOutput(e.config, out, out_stride);
+  sf_status status = starfocus::CheckOutput(e.config.width, e.config.height, out, out_stride);
   if (status != SF_OK) return status;
   const int32_t most = starfocus::Min(rows, e.config.height - e.stream.written);
   if (starfocus::Overlaps(

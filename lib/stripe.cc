@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "lib/refocus_block.h"
+#include "lib/stripe_layers.h"
 
 namespace starfocus {
 namespace {
@@ -15,27 +16,6 @@ struct Stripe {
   int32_t first_row;  // of the rows that deblocking finishes
   int32_t last_row;
 };
-
-int32_t BlockSide(const EngineState& engine) { return engine.config.largest_block; }
-
-int32_t Columns(const EngineState& engine) {
-  return (engine.config.width + BlockSide(engine) - 1) / BlockSide(engine);
-}
-
-template <void (*kJob)(const Stripe&, int32_t, Worker*)>
-void Call(void* data, int32_t index, int32_t worker) {
-  const auto& stripe = *static_cast<const Stripe*>(data);
-  kJob(stripe, index, &stripe.engine->workers[worker]);
-}
-
-template <void (*kJob)(const Stripe&, int32_t, Worker*)>
-sf_status RunJobs(Stripe* stripe, int32_t count, const Runner& runner) {
-  if (runner.run != nullptr) {
-    return runner.run(runner.data, Call<kJob>, stripe, count) == 0 ? SF_OK : SF_ERROR_RUNNER;
-  }
-  for (int32_t index = 0; index < count; ++index) Call<kJob>(stripe, index, 0);
-  return SF_OK;
-}
 
 Block* BlocksOf(const EngineState& engine, int32_t column) {
   return engine.plan.blocks + static_cast<size_t>(column) * MaxBlocks(BlockSide(engine));
@@ -58,8 +38,48 @@ void PlanWhole(const Stripe& stripe, int32_t column) {
   engine.plan.counts[column] = 1;
 }
 
+// Whether the region depends on pixels of `rect`.
+bool IsInRegion(const EngineState& engine, const Rect& rect) {
+  const Rect& region = engine.region;
+  const int32_t reach = JoinReach(engine);
+  return rect.x - reach < region.x + region.width && region.x < rect.x + rect.width + reach &&
+         rect.y - reach < region.y + region.height && region.y < rect.y + rect.height + reach;
+}
+
+// Whether pixels that are not copied from the picture before depend on pixels of `rect`. Those are
+// what has changed and as far around it as joins reach, and joins reach there from as far again.
+bool IsNew(const EngineState& engine, const Rect& rect) {
+  const int32_t reach = 2 * JoinReach(engine);
+  return !engine.changes.active ||
+         HasChanged(engine.changes, {rect.x - reach, rect.y - reach, rect.width + 2 * reach,
+                                     rect.height + 2 * reach});
+}
+
+// Marks the columns that the stripe refocuses and those whose cells they need; whether there are
+// any.
+bool ChooseColumns(const Stripe& stripe) {
+  EngineState& engine = *stripe.engine;
+  const int32_t side = BlockSide(engine), columns = Columns(engine);
+  std::memset(engine.plan.measured, 0, static_cast<size_t>(columns));
+  bool any = false;
+  for (int32_t column = 0; column < columns; ++column) {
+    const Rect block = {column * side, stripe.y, side, stripe.height};
+    const bool inside = IsInRegion(engine, block), wanted = inside && IsNew(engine, block);
+    engine.plan.wanted[column] = wanted ? 1 : 0;
+    if (inside && !wanted) ++engine.report.reused_blocks;
+    if (!wanted) continue;
+    any = true;
+    const int32_t around = engine.reach.cells * kCellSize;
+    const int32_t first = Max(0, column * side - around) / side;
+    const int32_t last = Min(columns, ((column + 1) * side + around - 1) / side + 1);
+    std::memset(engine.plan.measured + first, 1, static_cast<size_t>(last - first));
+  }
+  return any;
+}
+
 void MeasureCells(const Stripe& stripe, int32_t index, Worker*) {
   EngineState& engine = *stripe.engine;
+  if (engine.plan.measured[index] == 0) return;
   const int32_t per_block = BlockSide(engine) / kCellSize;
   const int32_t last = Min((index + 1) * per_block, engine.cells.columns);
   for (int32_t row = engine.cells.first_row; row < engine.cells.last_row; ++row) {
@@ -72,6 +92,8 @@ void MeasureCells(const Stripe& stripe, int32_t index, Worker*) {
 
 void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
   EngineState& engine = *stripe.engine;
+  engine.plan.counts[column] = 0;
+  if (engine.plan.wanted[column] == 0) return;
   if (!IsBlockMode(engine)) {
     PlanWhole(stripe, column);
     return;
@@ -91,22 +113,6 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
                      worker->nodes, BlocksOf(engine, column));
 }
 
-// Marks the columns of largest blocks in which `block` reads layers 1 and 2.
-void MarkNeeded(const EngineState& engine, const Block& block) {
-  const int32_t scale = 1 << block.layer;
-  const int32_t left = (block.rendered.x - block.border.left) * scale;
-  const int32_t right = (block.rendered.x + block.rendered.width + block.border.right) * scale;
-  for (int layer = block.layer; layer > 0; --layer) {
-    // Layer 2 is made of layer 1 by a filter of 3 pixels' reach, 6 of the picture.
-    const int32_t reach = layer < block.layer ? 8 : 0;
-    const int32_t first = Max(0, (left - reach) / BlockSide(engine));
-    const int32_t last = Min(Columns(engine) - 1, (right + reach) / BlockSide(engine));
-    for (int32_t column = first; column <= last; ++column) {
-      engine.plan.needed[layer][column] = 1;
-    }
-  }
-}
-
 void MapBlock(const EngineState& engine, const Stripe& stripe, const Block& block) {
   const Rect& rect = block.rect;
   for (int32_t y = rect.y; y < rect.y + rect.height; y += kSmallestBlock) {
@@ -117,67 +123,50 @@ void MapBlock(const EngineState& engine, const Stripe& stripe, const Block& bloc
   }
 }
 
-// What the plan means for the other phases; tells the caller of each block.
-void ReadPlan(const Stripe& stripe) {
-  EngineState& engine = *stripe.engine;
-  LayerMap& map = engine.map;
-  if (stripe.y > 0) {
-    std::memcpy(map.units, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
+// Units of the map that no block covers stay without a layer.
+void ClearMap(const Stripe& stripe) {
+  LayerMap& map = stripe.engine->map;
+  const auto columns = static_cast<size_t>(map.columns);
+  if (map.rows > 0) {
+    std::memcpy(map.units, &map.At(0, map.rows - 1), columns);
+  } else {
+    std::memset(map.units, kNoLayer, columns);
   }
   map.rows = (stripe.height + kSmallestBlock - 1) / kSmallestBlock;
-  for (int layer = 1; layer < SF_LAYERS; ++layer) {
-    const bool all = engine.config.skips == 0 && layer <= engine.config.max_layer;
-    std::memset(engine.plan.needed[layer], all, static_cast<size_t>(Columns(engine)));
+  std::memset(&map.At(0, 0), kNoLayer, columns * static_cast<size_t>(map.rows));
+}
+
+// Counts a block that will be refocused; tells the caller of it.
+void Announce(const Block& block, EngineState* engine) {
+  sf_report& report = engine->report;
+  if (block.n > report.n || report.rendered_views == 0) {
+    report.n = block.n;
+    report.rendered_views =
+        IsBlockMode(*engine) ? engine->apertures[block.n].views : engine->aperture.views;
   }
+  if (engine->params.on_block == nullptr) return;
+  const sf_block told = {block.rect.x,      block.rect.y, block.rect.width,
+                         block.rect.height, block.layer,  block.n};
+  engine->params.on_block(engine->params.on_block_data, &told);
+}
+
+// What the plan means for the other phases; leaves out blocks that nothing asked for depends on.
+void ReadPlan(const Stripe& stripe) {
+  EngineState& engine = *stripe.engine;
+  ClearMap(stripe);
+  ClearLayerColumns(engine);
+  if (engine.config.skips == 0) MarkLayerColumns(engine);
   for (int32_t column = 0; column < Columns(engine); ++column) {
+    Block* const blocks = BlocksOf(engine, column);
+    int32_t kept = 0;
     for (int32_t k = 0; k < engine.plan.counts[column]; ++k) {
-      const Block& block = BlocksOf(engine, column)[k];
-      MarkNeeded(engine, block);
+      if (!IsInRegion(engine, blocks[k].rect) || !IsNew(engine, blocks[k].rect)) continue;
+      const Block& block = blocks[kept++] = blocks[k];
+      MarkLayerColumns(engine, block);
       MapBlock(engine, stripe, block);
-      if (block.n > engine.report.n || engine.report.rendered_views == 0) {
-        engine.report.n = block.n;
-        engine.report.rendered_views =
-            IsBlockMode(engine) ? engine.apertures[block.n].views : engine.aperture.views;
-      }
-      if (engine.params.on_block != nullptr) {
-        const sf_block told = {block.rect.x,      block.rect.y, block.rect.width,
-                               block.rect.height, block.layer,  block.n};
-        engine.params.on_block(engine.params.on_block_data, &told);
-      }
+      Announce(block, &engine);
     }
-  }
-}
-
-// Which rows of the layers the stripe may read.
-void PlaceLayers(const Stripe& stripe) {
-  EngineState& engine = *stripe.engine;
-  const int32_t around = (engine.reach.cells + 1) * kCellSize;
-  RowRange rows = {(stripe.y - around) >> 2, ((stripe.y + stripe.height + around) >> 2) + 1};
-  for (int layer = SF_LAYERS - 1; layer > 0; --layer) {
-    LayerPlane& plane = engine.layers[layer];
-    plane.rows = {Max(0, rows.first), Min(plane.height, rows.last)};
-    plane.rgb.first = plane.samples.first = plane.rows.first;
-    plane.half.first = 2 * plane.rows.first - 3;
-    rows = {2 * rows.first - 3, 2 * rows.last + 3};
-    Window& window = engine.windows[layer];
-    window.centre = {plane.rgb.data, plane.rgb.stride, 0, plane.rgb.first};
-  }
-}
-
-template <int kLayer>
-void Downsample(const Stripe& stripe, int32_t index, Worker* worker) {
-  EngineState& engine = *stripe.engine;
-  if (engine.plan.needed[kLayer][index] == 0) return;
-  LayerPlane* to = &engine.layers[kLayer];
-  const int32_t side = BlockSide(engine) >> kLayer;
-  const int32_t begin = index * side;
-  // The last column takes what a layer has beyond the picture.
-  const int32_t end = index + 1 == Columns(engine) ? to->width : begin + side;
-  if (kLayer == 1) {
-    DownsamplePicture(*engine.kernels, engine.windows[0].centre, engine.config.width,
-                      engine.config.height, begin, end, worker->resample, to);
-  } else {
-    DownsampleLayer(*engine.kernels, engine.layers[kLayer - 1], begin, end, worker->resample, to);
+    engine.plan.counts[column] = kept;
   }
 }
 
@@ -215,36 +204,22 @@ sf_status PlanStripe(Stripe* stripe, const Runner& runner) {
     cells.first_row = Max(0, stripe->y / kCellSize - engine.reach.cells);
     // A smallest block may hang over the picture's last row of cells.
     cells.last_row = Min(cells.rows, last + engine.reach.cells + 2);
-    status = RunJobs<MeasureCells>(stripe, columns, runner);
+    status = RunJobs<Stripe, MeasureCells>(stripe, columns, runner);
     if (status != SF_OK) return status;
   }
-  status = RunJobs<PlanBlocks>(stripe, columns, runner);
+  status = RunJobs<Stripe, PlanBlocks>(stripe, columns, runner);
   if (status == SF_OK) ReadPlan(*stripe);
   return status;
 }
 
-// Columns of largest blocks that are to be made of a layer; counts the others as skipped.
-int32_t CountNeeded(EngineState* engine, int layer) {
+// Counts the columns of layers that no block needs.
+void CountSpared(EngineState* engine) {
   const int32_t columns = Columns(*engine);
-  int32_t needed = 0;
-  for (int32_t column = 0; column < columns; ++column) {
-    needed += engine->plan.needed[layer][column];
+  for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
+    for (int32_t column = 0; column < columns; ++column) {
+      engine->report.skipped.layer_columns += engine->plan.needed[layer][column] == 0;
+    }
   }
-  if (layer <= engine->config.max_layer) {
-    engine->report.skipped.layer_columns += static_cast<uint64_t>(columns - needed);
-  }
-  return needed;
-}
-
-sf_status MakeLayers(Stripe* stripe, const Runner& runner) {
-  EngineState* engine = stripe->engine;
-  const int32_t columns = Columns(*engine);
-  PlaceLayers(*stripe);
-  const int32_t first = CountNeeded(engine, 1), second = CountNeeded(engine, 2);
-  sf_status status = SF_OK;
-  if (first > 0) status = RunJobs<Downsample<1>>(stripe, columns, runner);
-  if (status == SF_OK && second > 0) status = RunJobs<Downsample<2>>(stripe, columns, runner);
-  return status;
 }
 
 sf_status Deblock(Stripe* stripe, const Runner& runner) {
@@ -256,11 +231,11 @@ sf_status Deblock(Stripe* stripe, const Runner& runner) {
         static_cast<uint64_t>(inside + (stripe->y > 0 ? map.columns : 0));
     return SF_OK;
   }
-  const sf_status status = RunJobs<DeblockRowBoundaries>(stripe, Columns(engine), runner);
+  const sf_status status = RunJobs<Stripe, DeblockRowBoundaries>(stripe, Columns(engine), runner);
   const int32_t rows = stripe->last_row - stripe->first_row;
   if (status != SF_OK || rows <= 0) return status;
-  return RunJobs<DeblockColumnBoundaries>(stripe, (rows + kSmallestBlock - 1) / kSmallestBlock,
-                                          runner);
+  return RunJobs<Stripe, DeblockColumnBoundaries>(
+      stripe, (rows + kSmallestBlock - 1) / kSmallestBlock, runner);
 }
 
 }  // namespace
@@ -278,14 +253,33 @@ sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& ou
                    out,
                    Max(0, y - kDeblockRows),
                    FinishedRows(*engine, y)};
-  sf_status status = PlanStripe(&stripe, runner);
-  const bool layered = IsBlockMode(*engine) && engine->config.max_layer > 0;
-  if (status == SF_OK && layered) status = MakeLayers(&stripe, runner);
-  if (status == SF_OK) status = RunJobs<RefocusColumn>(&stripe, Columns(*engine), runner);
-  if (status == SF_OK && layered && engine->config.deblocking > 0) {
-    status = Deblock(&stripe, runner);
+  if (!ChooseColumns(stripe)) {
+    engine->map.rows = 0;  // nothing for the next stripe to join
+    return SF_OK;
   }
+  sf_status status = PlanStripe(&stripe, runner);
+  if (status == SF_OK && IsBlockMode(*engine)) CountSpared(engine);
+  if (status == SF_OK && IsBlockMode(*engine) && !engine->prepared) {
+    const int32_t around = (engine->reach.cells + 1) * kCellSize;
+    PlaceLayers({y - around, y + stripe.height + around}, engine);
+    status = FillLayers(engine, runner);
+  }
+  if (status == SF_OK) status = RunJobs<Stripe, RefocusColumn>(&stripe, Columns(*engine), runner);
+  if (status == SF_OK && IsDeblocking(*engine)) status = Deblock(&stripe, runner);
   return status;
+}
+
+Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
+  return {engine.stripe_out, 3 * static_cast<size_t>(engine.config.width), 0, y - kDeblockRows};
+}
+
+sf_status RefocusIntoBuffer(EngineState* engine, int32_t y, const Runner& runner) {
+  const Plane<uint8_t> rows = BufferRows(*engine, y);
+  // The last rows of the stripe before may still change.
+  const Plane<uint8_t> before = BufferRows(*engine, y - BlockSide(*engine));
+  std::memmove(rows.Row(y - kDeblockRows), before.Row(y - kDeblockRows),
+               kDeblockRows * rows.stride);
+  return RefocusStripe(engine, y, rows, runner);
 }
 
 }  // namespace starfocus

@@ -5,24 +5,26 @@
 #include <cstdint>
 
 #include "lib/engine.h"
+#include "lib/jobs.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-// Who runs the jobs; a null function: the calling thread.
-struct Runner {
-  sf_runner run;
-  void* data;
-};
-
 // Output rows that are final once the stripe that starts at row y is done.
 int32_t FinishedRows(const EngineState& engine, int32_t y);
 
-// Refocuses the stripe that starts at row y, a multiple of the largest block. All rows within reach
-// are in the windows; `out` holds the stripe's rows and the kDeblockRows before it. SF_OK or
-// SF_ERROR_RUNNER.
+// Refocuses what the engine's region needs of the stripe that starts at row y, a multiple of the
+// largest block; stripes come one after the other. All rows within reach are in the windows; `out`
+// holds the stripe's rows and the kDeblockRows before it. SF_OK or SF_ERROR_RUNNER.
 sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& out,
                         const Runner& runner);
+
+// The engine's own rows for the stripe that starts at row y, and those before it that it may still
+// change.
+Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y);
+
+// RefocusStripe into BufferRows.
+sf_status RefocusIntoBuffer(EngineState* engine, int32_t y, const Runner& runner);
 
 }  // namespace starfocus
 

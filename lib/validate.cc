@@ -64,6 +64,12 @@ sf_status CheckParams(const sf_params& params) {
   return SF_OK;
 }
 
+sf_status CheckMemory(const void* memory) {
+  if (memory == nullptr) return SF_ERROR_NULL;
+  return reinterpret_cast<uintptr_t>(memory) % SF_ALIGNMENT == 0 ? SF_OK
+                                                                 : SF_ERROR_WORKSPACE_ALIGNMENT;
+}
+
 sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height) {
   if (disparity == nullptr) return SF_ERROR_NULL;
   if (!ValidSize(width) || !ValidSize(height)) return SF_ERROR_SIZE;
@@ -85,11 +91,17 @@ sf_status CheckLightField(const sf_config& config, const sf_light_field& light_f
   return CheckMap(light_field.disparity, light_field.disparity_stride, config.width, config.height);
 }
 
-sf_status CheckOutput(const sf_config& config, const uint8_t* out, size_t stride) {
+sf_status CheckRegion(const sf_config& config, const sf_region& region) {
+  if (IsWhole(region)) return SF_OK;
+  const bool inside = region.x >= 0 && region.y >= 0 && region.width >= 1 && region.height >= 1 &&
+                      region.width <= config.width - int64_t{region.x} &&
+                      region.height <= config.height - int64_t{region.y};
+  return inside ? SF_OK : SF_ERROR_REGION;
+}
+
+sf_status CheckOutput(int32_t width, int32_t rows, const uint8_t* out, size_t stride) {
   if (out == nullptr) return SF_ERROR_NULL;
-  return ValidStride(stride, 3 * static_cast<size_t>(config.width), config.height)
-             ? SF_OK
-             : SF_ERROR_STRIDE;
+  return ValidStride(stride, 3 * static_cast<size_t>(width), rows) ? SF_OK : SF_ERROR_STRIDE;
 }
 
 Extent ExtentOf(const void* data, size_t stride, int32_t rows, size_t row_bytes) {

@@ -18,6 +18,7 @@
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 #include "tests/deblock_reference.h"
+#include "tests/layered_scene.h"
 #include "tests/simd_targets.h"
 #include "tests/symmetry.h"
 #include "tests/test_scene.h"
@@ -77,41 +78,6 @@ std::vector<uint8_t> Whole(const test::Scene& scene, const Setup& s, sf_report* 
   return out.Tight();
 }
 
-// Flat areas large enough for layers 1 and 2, and edges: a slanted background and rectangles.
-test::Scene LayeredScene(int width, int height, int views, float limit, uint64_t seed) {
-  test::Random random(seed);
-  test::Scene scene = test::EmptyScene(width, height, views, -limit, limit, int(seed % 4));
-  // Pictures whose views agree roughly: a texture that moves with the view.
-  for (int view = 0; view < views; ++view) {
-    double u = 0, v = 0;
-    sf_view_position(view, &u, &v);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        for (int c = 0; c < 3; ++c) {
-          const double wave = std::sin(0.4 * (x + 2 * u) + c) + std::cos(0.3 * (y + 2 * v) - c);
-          scene.Pixel(view, x, y)[c] = uint8_t(127 + 50 * wave + random.Int(-20, 20));
-        }
-      }
-    }
-  }
-  const int pieces = random.Int(1, 5);
-  for (int piece = 0; piece <= pieces; ++piece) {
-    const int x0 = piece == 0 ? 0 : random.Int(0, width - 1);
-    const int y0 = piece == 0 ? 0 : random.Int(0, height - 1);
-    const int x1 = piece == 0 ? width : std::min(width, x0 + random.Int(1, width));
-    const int y1 = piece == 0 ? height : std::min(height, y0 + random.Int(1, height));
-    const double base = random.Real(-limit, limit),
-                 slant = random.Int(0, 1) * random.Real(-.05, .05);
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) {
-        const float d = float(base + slant * (x - x0 + y - y0));
-        scene.Disparity(x, y) = std::clamp(d, -limit, limit);
-      }
-    }
-  }
-  return scene;
-}
-
 Setup RandomSetup(test::Random* random, float limit) {
   Setup s;
   s.focus = random->Real(-1.3 * limit, 1.3 * limit);
@@ -169,7 +135,7 @@ TEST_CASE("block: rows give the bytes of whole pictures, at every kind of size")
   for (const auto& size : kSizes) {
     for (const int views : kViews) {
       if (size[0] * size[1] > 8000 && views != 17 && views != 1) continue;
-      const test::Scene scene = LayeredScene(size[0], size[1], views, 7, ++seed);
+      const test::Scene scene = test::LayeredScene(size[0], size[1], views, 7, ++seed);
       Setup s = RandomSetup(&random, 7);
       s.block = size[1] > 64 ? 32 << random.Int(0, 1) : s.block;
       CheckStreamed(scene, s, &random);
@@ -207,8 +173,8 @@ int RunThreads(void* workers, sf_job job, void* data, int32_t count) {
 TEST_CASE("block: 1, 2 and 7 workers give the bytes of no runner at all") {
   test::Random random(33);
   for (int round = 0; round < 12; ++round) {
-    const test::Scene scene = LayeredScene(random.Int(90, 240), random.Int(30, 140),
-                                           kViews[round % 4], 8, uint64_t(round) + 100);
+    const test::Scene scene = test::LayeredScene(random.Int(90, 240), random.Int(30, 140),
+                                                 kViews[round % 4], 8, uint64_t(round) + 100);
     Setup s = RandomSetup(&random, 8);
     s.block = 32 << random.Int(0, 1);
     s.mode = round % 4 == 3 ? SF_MODE_BLUR : SF_MODE_BLOCK;
@@ -230,8 +196,8 @@ TEST_CASE("block: every SIMD target gives the bytes of the plain kernels") {
   test::Random random(34);
   const std::vector<const starfocus::simd::Kernels*> targets = test::SimdTargets();
   for (int round = 0; round < 12; ++round) {
-    const test::Scene scene = LayeredScene(random.Int(1, 120), random.Int(1, 100),
-                                           kViews[round % 4], 7, uint64_t(round) + 200);
+    const test::Scene scene = test::LayeredScene(random.Int(1, 120), random.Int(1, 100),
+                                                 kViews[round % 4], 7, uint64_t(round) + 200);
     Setup s = RandomSetup(&random, 7);
     s.mode = round % 4 == 3 ? SF_MODE_BLUR : SF_MODE_BLOCK;
     CAPTURE(Text(s, scene));
@@ -249,8 +215,8 @@ TEST_CASE("block: constant pictures stay, bit for bit") {
   test::Random random(35);
   for (int round = 0; round < 256; ++round) {
     const float limit = random.Int(0, 2) == 0 ? 16.0f : 6.0f;
-    test::Scene scene = LayeredScene(random.Int(1, 100), random.Int(1, 80), kViews[round % 4],
-                                     limit, uint64_t(round) + 300);
+    test::Scene scene = test::LayeredScene(random.Int(1, 100), random.Int(1, 80), kViews[round % 4],
+                                           limit, uint64_t(round) + 300);
     if (round % 5 == 0) test::NoisyDisparity(&scene, &random);
     for (auto& picture : scene.pictures) {
       std::fill(picture.begin(), picture.end(), uint8_t(round));
@@ -289,7 +255,7 @@ TEST_CASE("block: all in focus copies the centre view, for every configuration")
 TEST_CASE("block: all far out of focus goes to layer 2, as far as allowed") {
   for (const auto& size : {std::pair<int, int>{1, 1}, {90, 1}, {1, 90}, {100, 61}, {256, 128}}) {
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
-      const test::Scene scene = LayeredScene(size.first, size.second, 5, 2, 44);
+      const test::Scene scene = test::LayeredScene(size.first, size.second, 5, 2, 44);
       Setup s;
       s.focus = 20;
       s.rule = SF_RULE_PAPER;  // wide cells keep silhouettes out of layer 2
@@ -317,7 +283,7 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
   test::Random random(36);
   for (int round = 0; round < 20; ++round) {
     const test::Scene scene =
-        LayeredScene(random.Int(1, 200), random.Int(1, 150), 5, 8, uint64_t(round) + 400);
+        test::LayeredScene(random.Int(1, 200), random.Int(1, 150), 5, 8, uint64_t(round) + 400);
     Setup s = RandomSetup(&random, 8);
     s.skips = 0;  // skipped blocks have fewer views than they are told with
     test::Engine engine(Config(s, scene));
@@ -416,8 +382,8 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
   test::Random random(39);
   int changed = 0;
   for (int round = 0; round < 40; ++round) {
-    const test::Scene scene = LayeredScene(random.Int(20, 200), random.Int(40, 200),
-                                           kViews[round % 4], 8, uint64_t(round) + 600);
+    const test::Scene scene = test::LayeredScene(random.Int(20, 200), random.Int(40, 200),
+                                                 kViews[round % 4], 8, uint64_t(round) + 600);
     Setup s = RandomSetup(&random, 8);
     s.block = 32 << random.Int(0, 1);
     s.max_layer = random.Int(0, 4) == 0 ? 1 : 2;
@@ -452,7 +418,7 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
 
 TEST_CASE("block: an engine that is used again gives what a fresh one gives") {
   test::Random random(37);
-  const test::Scene scene = LayeredScene(110, 75, 9, 7, 10);
+  const test::Scene scene = test::LayeredScene(110, 75, 9, 7, 10);
   Setup s;
   s.block = 64;
   test::Engine engine(Config(s, scene));
@@ -476,7 +442,7 @@ TEST_CASE("block: mirrored light fields of whole blocks give mirrored pictures a
     const int width = block * random.Int(1, 3), height = block * random.Int(1, 2);
     test::Scene scene =
         round % 2 == 0
-            ? LayeredScene(width, height, kViews[round % 4], 6, uint64_t(round) + 500)
+            ? test::LayeredScene(width, height, kViews[round % 4], 6, uint64_t(round) + 500)
             : test::RandomScene(width, height, kViews[round % 4], -3, 3, uint64_t(round));
     Setup s = RandomSetup(&random, scene.disparity_max);
     s.block = block;

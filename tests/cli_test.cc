@@ -2,10 +2,12 @@
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "platform/file.h"
 #include "platform/image_io.h"
@@ -85,6 +87,9 @@ void Prepare(const TempFolder& folder) {
   map.values[45] = 1e9f;
   REQUIRE(WritePfm(folder.file("huge/disparity.pfm"), map) == "");
   fs::resize_file(folder.file("short/disparity.pfm"), 100);
+  fs::create_directory(folder.file("taken_002.png"));
+  REQUIRE(Call(folder, "scene tiny --size 20x10 --views 5").code == 0);
+  REQUIRE(Call(folder, "scene single --size 40x30 --views 1").code == 0);
 }
 
 TEST_CASE("cli: refocus refuses bad input") {
@@ -129,6 +134,25 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1 --n-scale 2.1", "--n-scale"},
              {"refocus lf -o x.png --focus 1 --n-scale nan", "--n-scale"},
              {"refocus lf -o x.png --focus 1 --n-scale two", "--n-scale"},
+             {"refocus lf -o x.png --focus 1 --region 1,2,3", "--region"},
+             {"refocus lf -o x.png --focus 1 --region 1,2,3,4,5", "--region"},
+             {"refocus lf -o x.png --focus 1 --region 1,2,,4", "--region"},
+             {"refocus lf -o x.png --focus 1 --region 1,2,3,0", "--region"},
+             {"refocus lf -o x.png --focus 1 --region -1,2,3,4", "--region"},
+             {"refocus lf -o x.png --focus 1 --region 37,0,4,4", "40x30"},
+             {"refocus lf -o x.png --focus 1 --region 0,30,1,1", "40x30"},
+             {"refocus lf -o x.png --focus 1 --region 0,0,4,4 --stream", "--stream"},
+             {"refocus lf -o x.png --sweep 1:2", "--sweep"},
+             {"refocus lf -o x.png --sweep 1:2:1", "--sweep"},
+             {"refocus lf -o x.png --sweep 1:2:1001", "--sweep"},
+             {"refocus lf -o x.png --sweep 1:nan:3", "--sweep"},
+             {"refocus lf -o x.png --sweep 1:2:3:4", "--sweep"},
+             {"refocus lf -o x.png --sweep 0:900:3", "--sweep"},
+             {"refocus lf -o x.png --sweep 0:1:3 --focus 1", "--focus"},
+             {"refocus lf -o x.png --sweep 0:1:3 --stream", "--stream"},
+             {"refocus lf -o x.png --sweep 0:1:3 --map m.png", "--map"},
+             {"refocus lf -o none/x.png --sweep 0:1:3", "none"},
+             {"refocus lf -o taken.png --sweep 0:1:3", "taken_002.png"},
              {"refocus lf -o x.bmp --focus 1", ".bmp"},
              {"refocus lf -o x --focus 1", "extension"},
              {"refocus lf -o '' --focus 1", "extension"},
@@ -178,6 +202,17 @@ TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
              {"info none", "none"},
              {"info missing", "view_-1.0_+0.0"},
              {"info short", "disparity.pfm"},
+             {"video lf", "--output"},
+             {"video lf -o out", "--focus"},
+             {"video lf -o text.png --focus 1", "text.png"},
+             {"video lf -o none/out --focus 1", "none"},
+             {"video lf -o out --focus 1 --report none/r.json", "none"},
+             {"video lf none -o out --focus 1", "none"},
+             {"video lf nan -o out --focus 1", "first at 5,1"},
+             {"video lf tiny -o out --focus 1", "40x30"},
+             {"video lf single -o out --focus 1", "5 views"},
+             {"video lf --focus 900 -o out", "128"},
+             {"video taken_002.png -o out --focus 1", "light-field folders"},
              {"sheet x.png", "IMG"},
              {"sheet x.tif small.png", ".tif"},
              {"sheet x.png none.png", "none.png"},
@@ -290,6 +325,88 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
   CHECK(Call(folder, "--help").code == 0);
   CHECK(Call(folder, "refocus --help").code == 0);
   CHECK(Call(folder, "analyze --help").code == 0);
+}
+
+TEST_CASE("cli: a region is that part of the picture") {
+  TempFolder folder;
+  Prepare(folder);
+  REQUIRE(Call(folder, "refocus lf -o whole.png --focus 0.5 --map map.png").code == 0);
+  REQUIRE(Call(folder,
+               "refocus lf -o part.png --focus 0.5 --region 7,5,20,11 --map part_map.png "
+               "--report part.json")
+              .code == 0);
+  for (const std::string name : {"whole part", "map part_map"}) {
+    Image whole, part;
+    REQUIRE(ReadImage(folder.file(name.substr(0, name.find(' ')) + ".png"), &whole) == "");
+    REQUIRE(ReadImage(folder.file(name.substr(name.find(' ') + 1) + ".png"), &part) == "");
+    REQUIRE(part.width == 20);
+    REQUIRE(part.height == 11);
+    for (int y = 0; y < part.height; ++y) {
+      CHECK(std::equal(part.row(y), part.row(y) + part.stride(), whole.row(y + 5) + 3 * 7));
+    }
+  }
+  CHECK(Text(folder.file("part.json")).find("\"region\": [") != std::string::npos);
+}
+
+TEST_CASE("cli: a video is its frames one by one, but for the work") {
+  TempFolder folder;
+  REQUIRE(Call(folder, "scene lf --size 200x100 --views 5 --name wires").code == 0);
+  REQUIRE(fs::create_directory(folder.file("in")));
+  for (const char* name : {"in/1", "in/2", "in/3", "in/4"}) {
+    fs::copy(folder.file("lf"), folder.file(name));
+  }
+  // The third and fourth frame differ from the others in a corner.
+  Image view;
+  const std::string centre = folder.file("in/3/view_+0.0_+0.0.png");
+  REQUIRE(ReadImage(centre, &view) == "");
+  std::fill_n(view.row(2), 20, uint8_t{255});
+  REQUIRE(WriteImage(centre, view) == "");
+  fs::copy(centre, folder.file("in/4/view_+0.0_+0.0.png"), fs::copy_options::overwrite_existing);
+  const std::string lens = " --focus 3 --aperture 0.2 --largest-block 32";
+  REQUIRE(Call(folder, "video in -o out --report v.json" + lens).code == 0);
+  REQUIRE(Call(folder, "video in/1 in/3 -o two" + lens).code == 0);
+  for (const int frame : {0, 1, 2, 3}) {
+    const std::string name = std::to_string(frame + 1);
+    REQUIRE(Call(folder, "refocus in/" + name + " -o one.png" + lens).code == 0);
+    CHECK(Text(folder.file("out/frame_000" + std::to_string(frame) + ".png")) ==
+          Text(folder.file("one.png")));
+  }
+  CHECK(Text(folder.file("two/frame_0001.png")) == Text(folder.file("out/frame_0002.png")));
+  CHECK(Text(folder.file("two/frame_0000.png")) != Text(folder.file("two/frame_0001.png")));
+  // Blocks of the frames: none of the first, all, most, all.
+  const std::string report = Text(folder.file("v.json"));
+  std::vector<int> reused;
+  for (size_t at = report.find("\"reused_blocks\": "); at != std::string::npos;
+       at = report.find("\"reused_blocks\": ", at + 1)) {
+    reused.push_back(std::atoi(report.c_str() + at + 17));
+  }
+  REQUIRE(reused.size() == 5);
+  CHECK(reused[0] == 0);
+  CHECK(reused[1] == 28);
+  CHECK(reused[2] >= 10);
+  CHECK(reused[2] < 28);
+  CHECK(reused[3] == 28);
+  CHECK(reused[4] == reused[1] + reused[2] + reused[3]);
+}
+
+TEST_CASE("cli: a sweep is its pictures one by one") {
+  TempFolder folder;
+  Prepare(folder);
+  for (const std::string more : {"", " --mode frame --aperture 0.5", " --region 3,4,20,21"}) {
+    CAPTURE(more);
+    REQUIRE(Call(folder, "refocus lf -o s.png --sweep -1:2:4 --threads 2 --report s.json" + more)
+                .code == 0);
+    for (int i = 0; i < 4; ++i) {
+      const std::string focus = std::to_string(i - 1), name = "s_00" + std::to_string(i) + ".png";
+      REQUIRE(Call(folder, "refocus lf -o one.png --focus " + focus + more).code == 0);
+      CHECK(Text(folder.file(name)) == Text(folder.file("one.png")));
+    }
+    CHECK(!fs::exists(folder.file("s.png")));
+    CHECK(!fs::exists(folder.file("s_004.png")));
+    const std::string report = Text(folder.file("s.json"));
+    CHECK(report.find("\"s_003.png\"") != std::string::npos);
+    CHECK(report.find("\"prepared_bytes\": 0") == std::string::npos);
+  }
 }
 
 }  // namespace

@@ -203,6 +203,34 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
   for (const sf_layer_report& layer : report.layers) CHECK(layer.blocks > 0);
 }
 
+TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") {
+  const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
+  const sf_config config = test::ConfigFor(scene, 16);
+  test::Engine holder(config), memory(config);
+  size_t bytes = 0;
+  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+  REQUIRE(bytes <= memory.bytes());  // memory's is as good as any
+  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  params.region = {30, 20, 50, 50};
+  const sf_light_field field = scene.Field();
+  test::Output out(50, 50);
+
+  HeapWatch watch;
+  sf_prepared* prepared = nullptr;
+  const sf_status made = sf_prepare(holder.get(), &field, memory.workspace(), memory.bytes(),
+                                    nullptr, nullptr, &prepared);
+  const sf_status again = sf_refocus_prepared(holder.get(), &params, prepared, out.bytes.data(),
+                                              out.stride, nullptr, nullptr, nullptr);
+  const sf_status part = sf_refocus(holder.get(), &params, &field, out.bytes.data(), out.stride,
+                                    nullptr, nullptr, nullptr);
+  const int counted = watch.Stop();
+
+  CHECK(made == SF_OK);
+  CHECK(again == SF_OK);
+  CHECK(part == SF_OK);
+  CHECK(counted == 0);
+}
+
 TEST_CASE("no heap call in measuring and filling disparity maps") {
   test::Scene scene = test::RandomScene(40, 30, 1, -3, 3, 6);
   const float nan = std::numeric_limits<float>::quiet_NaN();

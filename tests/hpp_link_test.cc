@@ -29,6 +29,12 @@ bool Run() {
   starfocus::Params params;
   params.focus = 3;
   if (engine.Refocus(params, field, whole.data(), 3 * kSize) != SF_OK) return false;
+  std::vector<uint8_t> prepared(picture.size()), after(picture.size());
+  if (engine.Prepare(config, field) != SF_OK) return false;
+  if (engine.RefocusPrepared(params, prepared.data(), 3 * kSize) != SF_OK) return false;
+  const sf_previous previous = {field, whole.data(), 3 * kSize};
+  if (engine.RefocusAfter(params, field, previous, after.data(), 3 * kSize) != SF_OK) return false;
+  if (prepared != whole || after != whole) return false;
   if (engine.StreamBegin(params) != SF_OK) return false;
   int32_t consumed = 0, written = 0;
   if (engine.StreamPush(field, kSize, &consumed) != SF_OK || consumed != kSize) return false;

@@ -63,7 +63,11 @@ sf_params MakeParams(const sf_config& config, Input* input) {
   if (radius > config.max_blur && !input->Rarely()) {
     params.aperture *= config.max_blur / radius * 0.999;
   }
-  if (input->Rarely()) params.reserved[input->Int(0, 7)] = input->Value<uint32_t>();
+  if (input->Rarely()) {
+    params.region = {input->Int(0, config.width), input->Int(0, config.height),
+                     input->Int(0, config.width), input->Int(0, config.height)};
+  }
+  if (input->Rarely()) params.reserved[input->Int(0, 3)] = input->Value<uint32_t>();
   return params;
 }
 
@@ -156,6 +160,36 @@ void Stream(sf_engine* engine, const sf_config& config, const sf_params& params,
   }
 }
 
+// Refocuses whole pictures in one of the ways, the last frame being another or the same.
+void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params,
+             const Pictures& pictures, uint8_t* out, size_t stride, Input* input) {
+  sf_report report;
+  if (!input->Rarely()) {
+    sf_refocus(engine, &params, &pictures.field, out, stride, nullptr, nullptr, &report);
+    return;
+  }
+  if (input->Int(0, 1) == 0) {
+    const Pictures before = MakePictures(config, input);
+    const size_t bytes = Needed(stride, config.height, 3 * static_cast<size_t>(config.width));
+    const std::unique_ptr<uint8_t[]> picture(new uint8_t[bytes]());
+    const sf_previous previous = {input->Int(0, 1) == 0 ? before.field : pictures.field,
+                                  picture.get(), stride};
+    sf_refocus_after(engine, &params, &pictures.field, &previous, out, stride, nullptr, nullptr,
+                     &report);
+    return;
+  }
+  size_t bytes = 0;
+  if (sf_prepared_size(&config, &bytes) != SF_OK) std::abort();
+  void* memory = nullptr;
+  if (posix_memalign(&memory, SF_ALIGNMENT, bytes) != 0) return;
+  const std::unique_ptr<void, void (*)(void*)> owner(memory, std::free);
+  sf_prepared* prepared = nullptr;
+  const sf_status status =
+      sf_prepare(engine, &pictures.field, memory, bytes, nullptr, nullptr, &prepared);
+  if (status != SF_OK) return;
+  sf_refocus_prepared(engine, &params, prepared, out, stride, nullptr, nullptr, &report);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -181,8 +215,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (config.streaming != 0 && input.Int(0, 1) == 1) {
       Stream(engine, config, params, pictures, out.get(), stride, &input);
     } else {
-      sf_report report;
-      sf_refocus(engine, &params, &pictures.field, out.get(), stride, nullptr, nullptr, &report);
+      Refocus(engine, config, params, pictures, out.get(), stride, &input);
     }
   }
   return 0;

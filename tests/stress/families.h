@@ -22,6 +22,7 @@ Outcome Mirrors(test::Random* random);
 Outcome SideViews(test::Random* random);
 Outcome Continuity(test::Random* random);
 Outcome Identical(test::Random* random);
+Outcome Again(test::Random* random);
 
 }  // namespace starfocus::stress
 

@@ -11,7 +11,8 @@
  *      memory: it never allocates, owns nothing else and needs no destructor. Free the memory when
  *      no call is running.
  *   3. sf_refocus with whole pictures, or sf_stream_begin / sf_stream_push / sf_stream_pull with
- *      rows. Both give the same bytes.
+ *      rows. Both give the same bytes. For many pictures of one light field there is sf_prepare,
+ *      for a part of one sf_params.region, for frames of a video sf_refocus_after.
  *
  * Conventions: u grows to the right, v downwards; the outermost views lie at |u|, |v| = 1.
  * Disparity d is in pixels per unit u, larger is nearer: a point seen at (x, y) in the centre view
@@ -69,8 +70,8 @@ typedef enum sf_status {
   SF_ERROR_BLOCK = 8,           /**< largest_block is not 32, 64, 128 or 256 */
   SF_ERROR_WORKERS = 9,         /**< max_workers outside [1, SF_MAX_WORKERS] */
   SF_ERROR_THETA = 10,          /**< theta outside [SF_MIN_THETA, SF_MAX_THETA] */
-  SF_ERROR_WORKSPACE_SMALL = 11,     /**< workspace smaller than sf_workspace_size says */
-  SF_ERROR_WORKSPACE_ALIGNMENT = 12, /**< workspace not aligned to SF_ALIGNMENT */
+  SF_ERROR_WORKSPACE_SMALL = 11,     /**< memory smaller than its size function says */
+  SF_ERROR_WORKSPACE_ALIGNMENT = 12, /**< memory not aligned to SF_ALIGNMENT */
   SF_ERROR_MODE = 13,                /**< unknown mode */
   SF_ERROR_FOCUS = 14,               /**< focus not finite or beyond +-SF_MAX_FOCUS */
   SF_ERROR_APERTURE = 15,            /**< aperture outside (0, 1] */
@@ -88,7 +89,9 @@ typedef enum sf_status {
   SF_ERROR_TIMING = 27,      /**< a timing coefficient beyond SF_MAX_TIMING */
   SF_ERROR_RULE = 28,        /**< unknown rule */
   SF_ERROR_N_SCALE = 29,     /**< n_scale outside [SF_MIN_N_SCALE, SF_MAX_N_SCALE] */
-  SF_ERROR_SKIPS = 30        /**< skips is not 0 or 1 */
+  SF_ERROR_SKIPS = 30,       /**< skips is not 0 or 1 */
+  SF_ERROR_REGION = 31,      /**< region outside the picture, or a streaming call with a region */
+  SF_ERROR_PREPARED = 32     /**< prepared light field of another configuration */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -192,6 +195,12 @@ typedef void (*sf_block_visitor)(void* data, const sf_block* block);
 /** A clock in nanoseconds, from any start; called from the runner's threads. */
 typedef uint64_t (*sf_clock)(void);
 
+/** A rectangle of the picture, in pixels. */
+typedef struct sf_region {
+  int32_t x, y;          /**< its left and top pixel, >= 0 */
+  int32_t width, height; /**< >= 1, ending inside the picture; all four 0: the whole picture */
+} sf_region;
+
 /** What to render. Call sf_params_init first. */
 typedef struct sf_params {
   uint32_t version;          /**< SF_ABI_VERSION, set by sf_params_init */
@@ -202,7 +211,8 @@ typedef struct sf_params {
   sf_clock clock;            /**< fills the report's times; null: they stay 0 */
   sf_block_visitor on_block; /**< null: nobody is told */
   void* on_block_data;       /**< passed to on_block */
-  uint32_t reserved[8];      /**< zero */
+  sf_region region;          /**< what sf_refocus writes; streaming: all 0; default all 0 */
+  uint32_t reserved[4];      /**< zero */
 } sf_params;
 
 SF_API void sf_params_init(sf_params* params);
@@ -257,14 +267,56 @@ typedef struct sf_report {
   sf_skipped skipped;
   uint64_t side_bytes; /**< read of the views beside the centre, every time: holes are filled from
                             them, and nothing else */
+  uint64_t reused_blocks; /**< sf_refocus_after: largest blocks of which nothing was refocused */
 } sf_report;
 
-/** Refocuses whole pictures. The light field is only read, during the call; `out` (`out_stride`
- *  bytes from row to row, >= 3 * width) must overlap neither it nor the workspace.
- *  runner may be null: the jobs then run one after the other as worker 0. report may be null. */
+/** Refocuses whole pictures, or the params' region of them: `out` points to its first pixel, and
+ * the bytes are those of the whole picture there. Of a region, only the blocks of the whole picture
+ * that its pixels depend on are refocused, and only the disparity rows that these can read are
+ * checked. The light field is only read, during the call; `out` (`out_stride` bytes from row to
+ * row, >= 3 * the width of the picture or region) must overlap neither it nor the workspace. runner
+ * may be null: the jobs then run one after the other as worker 0. report may be null. */
 SF_API sf_status sf_refocus(sf_engine* engine, const sf_params* params,
                             const sf_light_field* light_field, uint8_t* out, size_t out_stride,
                             sf_runner runner, void* runner_data, sf_report* report);
+
+/** What of a light field is the same for every lens; lives inside the caller's memory. */
+typedef struct sf_prepared sf_prepared;
+
+/** Bytes that a prepared light field of `config` takes, into *bytes: 2 per pixel of the picture for
+ *  disparities and about 0.94 for layers 1 and 2, as far as max_layer allows them. */
+SF_API sf_status sf_prepared_size(const sf_config* config, size_t* bytes);
+
+/** Checks and converts the disparities and subsamples the centre view, once for many refocusings,
+ * in `memory` (`bytes` long, aligned to SF_ALIGNMENT), which stays the caller's. The refocusings
+ * read the pictures of the light field again: what light_field points to must stay as it is until
+ * the last one, the structure itself need not. `memory` must overlap neither it nor the workspace.
+ *  runner as in sf_refocus. *prepared is null on error. */
+SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
+                            size_t bytes, sf_runner runner, void* runner_data,
+                            sf_prepared** prepared);
+
+/** As sf_refocus, with the same bytes, of a prepared light field; of this engine or of any of the
+ *  same size, views, disparity range and max_layer (else SF_ERROR_PREPARED). Several engines may
+ * use one at a time. */
+SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
+                                     const sf_prepared* prepared, uint8_t* out, size_t out_stride,
+                                     sf_runner runner, void* runner_data, sf_report* report);
+
+/** A light field of the same configuration and what was made of it with the same params (but for
+ *  their clock and visitor). */
+typedef struct sf_previous {
+  sf_light_field light_field; /**< only compared */
+  const uint8_t* out; /**< the picture, or region, that sf_refocus or sf_refocus_after wrote */
+  size_t out_stride;  /**< bytes from row to row */
+} sf_previous;
+
+/** As sf_refocus, with the same bytes, of the frame after another: largest blocks that depend on no
+ *  pixel that changed are copied from its picture. `out` must overlap nothing of `previous`. */
+SF_API sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
+                                  const sf_light_field* light_field, const sf_previous* previous,
+                                  uint8_t* out, size_t out_stride, sf_runner runner,
+                                  void* runner_data, sf_report* report);
 
 /** Starts (or restarts) a streamed refocusing; the engine must be configured with streaming = 1. */
 SF_API sf_status sf_stream_begin(sf_engine* engine, const sf_params* params);

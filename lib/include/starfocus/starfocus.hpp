@@ -40,6 +40,33 @@ class Engine {
     return sf_refocus(engine_, &params, &light_field, out, out_stride, runner, runner_data, report);
   }
 
+  sf_status RefocusAfter(const sf_params& params, const sf_light_field& light_field,
+                         const sf_previous& previous, uint8_t* out, size_t out_stride,
+                         sf_runner runner = nullptr, void* runner_data = nullptr,
+                         sf_report* report = nullptr) {
+    return sf_refocus_after(engine_, &params, &light_field, &previous, out, out_stride, runner,
+                            runner_data, report);
+  }
+
+  // Allocates the memory of a prepared light field, in place of one prepared before, and prepares
+  // it. SF_ERROR_NULL when memory is short.
+  sf_status Prepare(const sf_config& config, const sf_light_field& light_field,
+                    sf_runner runner = nullptr, void* runner_data = nullptr) {
+    size_t bytes = 0;
+    const sf_status status = sf_prepared_size(&config, &bytes);
+    if (status != SF_OK) return status;
+    prepared_memory_.reset(::operator new(bytes, std::align_val_t(SF_ALIGNMENT), std::nothrow));
+    return sf_prepare(engine_, &light_field, prepared_memory_.get(), bytes, runner, runner_data,
+                      &prepared_);
+  }
+
+  sf_status RefocusPrepared(const sf_params& params, uint8_t* out, size_t out_stride,
+                            sf_runner runner = nullptr, void* runner_data = nullptr,
+                            sf_report* report = nullptr) {
+    return sf_refocus_prepared(engine_, &params, prepared_, out, out_stride, runner, runner_data,
+                               report);
+  }
+
   sf_status StreamBegin(const sf_params& params) { return sf_stream_begin(engine_, &params); }
 
   sf_status StreamPush(const sf_light_field& rows, int32_t count, int32_t* consumed) {
@@ -61,7 +88,8 @@ class Engine {
       ::operator delete(memory, std::align_val_t(SF_ALIGNMENT));
     }
   };
-  std::unique_ptr<void, Free> memory_;
+  std::unique_ptr<void, Free> memory_, prepared_memory_;
+  sf_prepared* prepared_ = nullptr;
   sf_engine* engine_ = nullptr;
   size_t bytes_ = 0;
 };

@@ -1,0 +1,87 @@
+#include "lib/stripe_layers.h"
+
+#include <cstring>
+
+namespace starfocus {
+namespace {
+
+struct LayerJob {
+  EngineState* engine;
+};
+
+template <int kLayer>
+void Downsample(const LayerJob& job, int32_t index, Worker* worker) {
+  EngineState& engine = *job.engine;
+  if (engine.plan.needed[kLayer][index] == 0) return;
+  LayerPlane* to = &engine.layers[kLayer];
+  const int32_t side = BlockSide(engine) >> kLayer;
+  const int32_t begin = index * side;
+  // The last column takes what a layer has beyond the picture.
+  const int32_t end = index + 1 == Columns(engine) ? to->width : begin + side;
+  if (kLayer == 1) {
+    DownsamplePicture(*engine.kernels, engine.windows[0].centre, engine.config.width,
+                      engine.config.height, begin, end, worker->resample, to);
+  } else {
+    DownsampleLayer(*engine.kernels, engine.layers[kLayer - 1], begin, end, worker->resample, to);
+  }
+}
+
+void SetColumns(const EngineState& engine, int layer, int value) {
+  std::memset(engine.plan.needed[layer], value, static_cast<size_t>(Columns(engine)));
+}
+
+bool AnyColumn(const EngineState& engine, int layer) {
+  return std::memchr(engine.plan.needed[layer], 1, static_cast<size_t>(Columns(engine))) != nullptr;
+}
+
+}  // namespace
+
+void ClearLayerColumns(const EngineState& engine) {
+  for (int layer = 1; layer < SF_LAYERS; ++layer) SetColumns(engine, layer, 0);
+}
+
+void MarkLayerColumns(const EngineState& engine) {
+  for (int layer = 1; layer <= engine.config.max_layer; ++layer) SetColumns(engine, layer, 1);
+}
+
+void MarkLayerColumns(const EngineState& engine, const Block& block) {
+  const int32_t scale = 1 << block.layer;
+  const int32_t left = (block.rendered.x - block.border.left) * scale;
+  const int32_t right = (block.rendered.x + block.rendered.width + block.border.right) * scale;
+  for (int layer = block.layer; layer > 0; --layer) {
+    // Layer 2 is made of layer 1 by a filter of 3 pixels' reach, 6 of the picture.
+    const int32_t reach = layer < block.layer ? 8 : 0;
+    const int32_t first = Max(0, (left - reach) / BlockSide(engine));
+    const int32_t last = Min(Columns(engine) - 1, (right + reach) / BlockSide(engine));
+    for (int32_t column = first; column <= last; ++column) {
+      engine.plan.needed[layer][column] = 1;
+    }
+  }
+}
+
+void PlaceLayers(const RowRange& of_picture, EngineState* engine) {
+  RowRange rows = {of_picture.first >> 2, (of_picture.last >> 2) + 1};
+  for (int layer = SF_LAYERS - 1; layer > 0; --layer) {
+    LayerPlane& plane = engine->layers[layer];
+    plane.rows = {Max(0, rows.first), Min(plane.height, rows.last)};
+    plane.rgb.first = plane.samples.first = plane.rows.first;
+    plane.half.first = 2 * plane.rows.first - 3;
+    rows = {2 * rows.first - 3, 2 * rows.last + 3};
+    engine->windows[layer].centre = {plane.rgb.data, plane.rgb.stride, 0, plane.rgb.first};
+  }
+}
+
+sf_status FillLayers(EngineState* engine, const Runner& runner) {
+  LayerJob job = {engine};
+  const int32_t columns = Columns(*engine);
+  sf_status status = SF_OK;
+  if (AnyColumn(*engine, 1)) {
+    status = RunJobs<LayerJob, Downsample<1>>(&job, columns, runner);
+  }
+  if (status == SF_OK && AnyColumn(*engine, 2)) {
+    status = RunJobs<LayerJob, Downsample<2>>(&job, columns, runner);
+  }
+  return status;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,25 @@
+// Layers 1 and 2 of the centre view around a stripe, as jobs for the runner.
+#ifndef STARFOCUS_LIB_STRIPE_LAYERS_H_
+#define STARFOCUS_LIB_STRIPE_LAYERS_H_
+
+#include "lib/engine.h"
+#include "lib/jobs.h"
+
+namespace starfocus {
+
+// The columns of largest blocks in which the layers are needed: none; all, of the layers that the
+// engine may use; those that `block` reads.
+void ClearLayerColumns(const EngineState& engine);
+void MarkLayerColumns(const EngineState& engine);
+void MarkLayerColumns(const EngineState& engine, const Block& block);
+
+// Makes room in the engine's layers and their windows for the rows that rows `of_picture` subsample
+// to.
+void PlaceLayers(const RowRange& of_picture, EngineState* engine);
+
+// Subsamples into the marked columns of placed layers. SF_OK or SF_ERROR_RUNNER.
+sf_status FillLayers(EngineState* engine, const Runner& runner);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_STRIPE_LAYERS_H_
