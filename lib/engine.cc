@@ -113,6 +113,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   }
   engine->disparity_rows = 0;
   engine->map.rows = 0;
+  engine->plan.all_measured = false;
   engine->prepared = false;
   engine->changes.active = false;
   return SF_OK;

@@ -57,6 +57,7 @@ struct Worker {
 struct StripePlan {
   uint8_t* wanted;             // per largest block: some of its pixels are needed
   uint8_t* measured;           // per largest block: its cells are needed
+  bool all_measured;           // for the stripe before: those of every column
   Block* blocks;               // MaxBlocks per largest block
   int32_t* counts;             // blocks used of each
   uint8_t* needed[SF_LAYERS];  // per largest block's column: its columns of layer 1, 2 are read

@@ -107,9 +107,7 @@ class Partition {
   int32_t Layer(const BlockStats& stats) const {
     const double r_min = static_cast<double>(stats.r_min) / kRadiusOne;
     if (!rules_.cells) return Min(LayerByPaper(r_min), rules_.max_layer);
-    // Layer 2 rounds a silhouette to four pixels of the picture: 0.4 to 0.9 dB against truth on the
-    // portrait.
-    return Min(LayerByCells(r_min), Min(rules_.max_layer, stats.r_edge > 0 ? 1 : 2));
+    return Min(LayerByCells(r_min, stats.r_edge > 0), rules_.max_layer);
   }
 
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {

@@ -21,8 +21,9 @@ struct CellStep {
 constexpr CellStep kCellSteps[] = {{0.5, 0}, {11, 4},  {24, 6},   {32, 8},   {45, 10},
                                    {59, 12}, {81, 14}, {109, 16}, {120, 18}, {128, 20}};
 
-// With cells the rest of the error is smaller, and so must that of layers be: from 3 up they cost
-// 0.3 dB against truth on the portrait and on stereo maps, and save 8 % of the instructions.
+// With cells the rest of the error is smaller, and so must that of layers be. Against truth on the
+// portrait layer 2 from 6 up costs 0.35 dB; layer 1 from 3 up costs nothing where there is no depth
+// edge, and saves up to 13 % of the instructions.
 constexpr double kCellLayerRadius = 4.0;
 
 int32_t LayerFrom(double r_min, double radius) {
@@ -57,6 +58,12 @@ int32_t ViewsOfBenchmark(double r_max) { return 2 * Ceil(r_max); }
 
 int32_t LayerByPaper(double r_min) { return LayerFrom(r_min, kLayerRadius); }
 
-int32_t LayerByCells(double r_min) { return LayerFrom(r_min, kCellLayerRadius); }
+int32_t LayerByCells(double r_min, bool depth_edges) {
+  const int32_t layer = LayerFrom(r_min, kCellLayerRadius);
+  // Layer 2 rounds a silhouette to four pixels of the picture: 0.4 to 0.9 dB against truth on the
+  // portrait.
+  if (depth_edges) return layer < 1 ? layer : 1;
+  return layer == 0 && r_min >= kLayerRadius ? 1 : layer;
+}
 
 }  // namespace starfocus

@@ -24,9 +24,9 @@ int32_t ScaleViews(int32_t n, double scale);
 int32_t ViewsOfBenchmark(double r_max);
 
 // Subsampled layer, up to 2, for the smallest blur radius of a block in pixels: by (12), and the
-// more careful choice beside ViewsByCells.
+// more careful choice beside ViewsByCells, for blocks that depth edges may splat into and others.
 int32_t LayerByPaper(double r_min);
-int32_t LayerByCells(double r_min);
+int32_t LayerByCells(double r_min, bool depth_edges);
 
 }  // namespace starfocus
 

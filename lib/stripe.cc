@@ -15,6 +15,7 @@ struct Stripe {
   Plane<uint8_t> out;
   int32_t first_row;  // of the rows that deblocking finishes
   int32_t last_row;
+  int32_t first_cells;  // row of the first cells that no stripe before it has measured
 };
 
 Block* BlocksOf(const EngineState& engine, int32_t column) {
@@ -82,7 +83,7 @@ void MeasureCells(const Stripe& stripe, int32_t index, Worker*) {
   if (engine.plan.measured[index] == 0) return;
   const int32_t per_block = BlockSide(engine) / kCellSize;
   const int32_t last = Min((index + 1) * per_block, engine.cells.columns);
-  for (int32_t row = engine.cells.first_row; row < engine.cells.last_row; ++row) {
+  for (int32_t row = stripe.first_cells; row < engine.cells.last_row; ++row) {
     for (int32_t column = index * per_block; column < last; ++column) {
       *engine.cells.At(column, row) =
           MeasureCell(*engine.kernels, engine.windows[0], engine.scale, column, row);
@@ -194,16 +195,34 @@ void DeblockColumnBoundaries(const Stripe& stripe, int32_t index, Worker*) {
   DeblockColumns(MakeDeblockJob(stripe), first, Min(first + kSmallestBlock, stripe.last_row));
 }
 
+// Makes room for the cells around the stripe; returns the first row that has to be measured. Those
+// above it are the stripe's before.
+int32_t PlaceCells(int32_t y, int32_t height, EngineState* engine) {
+  CellGrid& cells = engine->cells;
+  const int32_t first = Max(0, y / kCellSize - engine->reach.cells);
+  const int32_t last = (y + height - 1) / kCellSize;
+  const bool all =
+      std::memchr(engine->plan.measured, 0, static_cast<size_t>(Columns(*engine))) == nullptr;
+  int32_t known = first;
+  if (engine->plan.all_measured && all && cells.last_row > first) {
+    known = cells.last_row;
+    std::memmove(
+        cells.cells, cells.At(0, first),
+        static_cast<size_t>(known - first) * static_cast<size_t>(cells.columns) * sizeof(Cell));
+  }
+  engine->plan.all_measured = all;
+  cells.first_row = first;
+  // A smallest block may hang over the picture's last row of cells.
+  cells.last_row = Min(cells.rows, last + engine->reach.cells + 2);
+  return known;
+}
+
 sf_status PlanStripe(Stripe* stripe, const Runner& runner) {
   EngineState& engine = *stripe->engine;
   const int32_t columns = Columns(engine);
   sf_status status = SF_OK;
   if (IsBlockMode(engine)) {
-    CellGrid& cells = engine.cells;
-    const int32_t last = (stripe->y + stripe->height - 1) / kCellSize;
-    cells.first_row = Max(0, stripe->y / kCellSize - engine.reach.cells);
-    // A smallest block may hang over the picture's last row of cells.
-    cells.last_row = Min(cells.rows, last + engine.reach.cells + 2);
+    stripe->first_cells = PlaceCells(stripe->y, stripe->height, &engine);
     status = RunJobs<Stripe, MeasureCells>(stripe, columns, runner);
     if (status != SF_OK) return status;
   }
@@ -252,9 +271,11 @@ sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& ou
                    Min(BlockSide(*engine), engine->config.height - y),
                    out,
                    Max(0, y - kDeblockRows),
-                   FinishedRows(*engine, y)};
+                   FinishedRows(*engine, y),
+                   0};
   if (!ChooseColumns(stripe)) {
     engine->map.rows = 0;  // nothing for the next stripe to join
+    engine->plan.all_measured = false;
     return SF_OK;
   }
   sf_status status = PlanStripe(&stripe, runner);

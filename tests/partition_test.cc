@@ -125,11 +125,12 @@ int LayerFrom(double r_min, double radius) {
   return r_min >= 2 * radius ? 2 : r_min >= radius ? 1 : 0;
 }
 
-// (12), or with wide aperture cells only where less can go wrong: later, and silhouettes are never
-// rounded to four pixels.
+// (12), or with wide aperture cells only where less can go wrong: layer 2 later, layer 1 later
+// beside silhouettes, which are never rounded to four pixels.
 int LayerOf(bool cells, double r_min, bool silhouette) {
   if (!cells) return LayerFrom(r_min, 3);
-  return std::min(LayerFrom(r_min, 4), silhouette ? 1 : 2);
+  if (silhouette) return r_min < 4 ? 0 : 1;
+  return r_min < 3 ? 0 : r_min < 8 ? 1 : 2;
 }
 
 // (9), or what wide aperture cells need.

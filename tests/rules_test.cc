@@ -118,18 +118,26 @@ TEST_CASE("rules: the table of views that stand for their cells") {
   }
 }
 
-TEST_CASE("rules: layers from radius 3 and 6 on by (12), from 4 and 8 on beside cells") {
-  const auto check = [](int32_t (*layer)(double), double radius) {
-    CAPTURE(radius);
-    CHECK(layer(0) == 0);
-    CHECK(layer(Below(radius)) == 0);
-    CHECK(layer(radius) == 1);
-    CHECK(layer(Below(2 * radius)) == 1);
-    CHECK(layer(2 * radius) == 2);
-    CHECK(layer(SF_MAX_BLUR) == 2);
-  };
-  check(LayerByPaper, 3);
-  check(LayerByCells, 4);
+TEST_CASE("rules: layers from radius 3 and 6 on by (12)") {
+  CHECK(LayerByPaper(0) == 0);
+  CHECK(LayerByPaper(Below(3)) == 0);
+  CHECK(LayerByPaper(3) == 1);
+  CHECK(LayerByPaper(Below(6)) == 1);
+  CHECK(LayerByPaper(6) == 2);
+  CHECK(LayerByPaper(SF_MAX_BLUR) == 2);
+}
+
+TEST_CASE("rules: layers from radius 3 and 8 on with cells, layer 1 from 4 on beside depth edges") {
+  CHECK(LayerByCells(0, false) == 0);
+  CHECK(LayerByCells(Below(3), false) == 0);
+  CHECK(LayerByCells(3, false) == 1);
+  CHECK(LayerByCells(Below(8), false) == 1);
+  CHECK(LayerByCells(8, false) == 2);
+  CHECK(LayerByCells(SF_MAX_BLUR, false) == 2);
+  CHECK(LayerByCells(0, true) == 0);
+  CHECK(LayerByCells(Below(4), true) == 0);
+  CHECK(LayerByCells(4, true) == 1);
+  CHECK(LayerByCells(SF_MAX_BLUR, true) == 1);
 }
 
 }  // namespace

@@ -45,8 +45,10 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
   }
 }
 
-// The least r that a layer is used at: (12), or LayerByCells.
-double LeastRadius(sf_rule rule, int layer) { return (rule == SF_RULE_PAPER ? 3.0 : 4.0) * layer; }
+// The least r that a layer is used at: (12), or LayerByCells without depth edges.
+double LeastRadius(sf_rule rule, int layer) {
+  return layer == 2 && rule == SF_RULE_CELLS ? 8.0 : 3.0 * layer;
+}
 
 // Measures one series in the direction of `sign`, from the least r that its layer is used at.
 std::string Measure(const Series& series, int sign, Table* table, Table* layers) {
