@@ -62,10 +62,12 @@ struct LayerRect {
 struct UpsampleScratch {
   int16_t* line;     // 3 * width of in
   int16_t* between;  // 3 * width of in
+  int16_t* even;     // 3 * width of in
 };
 
 // Doubles `in` into `out`, whose pixel (0, 0) is in's pixel (first, first), clamped to the range
-// of samples. in reaches at least one pixel before and two after what out covers.
+// of samples. in reaches at least one pixel before and two after what out covers; a sample past the
+// end of out may be written.
 void UpsampleByTwo(const simd::Kernels& kernels, const LayerRect& in, int32_t first,
                    const UpsampleScratch& scratch, const LayerRect& out);
 

@@ -63,6 +63,7 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const size_t half = side / 2 + 8;
   worker.upsample.line = carver->Take<int16_t>(3 * half);
   worker.upsample.between = carver->Take<int16_t>(3 * half);
+  worker.upsample.even = carver->Take<int16_t>(3 * half);
   worker.layer_samples = carver->Take<int16_t>(3 * half * half);
   worker.middle_samples = carver->Take<int16_t>(3 * half * half);
   worker.picture_samples = carver->Take<int16_t>(3 * side * side);

@@ -184,9 +184,9 @@ struct Padded {
 // Samples of width x height, doubled from a padded layer.
 std::vector<int16_t> UpByTwo(const Padded& in, int margin, int width, int height,
                              const starfocus::simd::Kernels& kernels) {
-  std::vector<int16_t> line(3 * size_t(in.rect.width) + kPadding), between = line;
+  std::vector<int16_t> line(3 * size_t(in.rect.width) + kPadding), between = line, even = line;
   std::vector<int16_t> out(3 * size_t(width) * size_t(height) + kPadding);
-  UpsampleByTwo(kernels, in.rect, margin, {line.data(), between.data()},
+  UpsampleByTwo(kernels, in.rect, margin, {line.data(), between.data(), even.data()},
                 {out.data(), width, height});
   return out;
 }
