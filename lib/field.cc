@@ -38,9 +38,14 @@ void LoadField(const Window& window, const Rect& rect, const Border& border, Fie
         window.disparity.Row(Min(y << window.layer, window.picture_height - 1));
     std::memcpy(rgb + 3 * first, from + 3 * (field->x + first),
                 3 * static_cast<size_t>(last - first));
-    for (int32_t column = first; column < last; ++column) {
-      const int32_t x = (field->x + column) << window.layer;
-      disparity[column] = from_disparity[Min(x, window.picture_width - 1)];
+    if (window.layer == 0) {
+      std::memcpy(disparity + first, from_disparity + field->x + first,
+                  sizeof(*disparity) * static_cast<size_t>(last - first));
+    } else {
+      for (int32_t column = first; column < last; ++column) {
+        const int32_t x = (field->x + column) << window.layer;
+        disparity[column] = from_disparity[Min(x, window.picture_width - 1)];
+      }
     }
     RepeatEdges(first, last, field->width, rgb, disparity);
   }
