@@ -25,6 +25,7 @@
 // | hole's position      | int32  | 2^8     | +-66300 px                | 126 x                     |
 // | hole, layer 0        | int32  | 2^16    | [0, 255]                  | 128 x                     |
 // | hole, layer L        | int32  | 2^(4L)  | [0, 255], L <= 2          | 2^15 x                    |
+// | share of a mixture   | int32  | 2^10    | [0, 4/5], four of a pixel | 2.4 x in the sum of four  |
 // clang-format on
 //
 // Rounding: Round* rounds half up; a plain shift truncates towards minus infinity.
@@ -40,6 +41,7 @@ inline constexpr int kDisparityBits = 6;
 inline constexpr int kStepBits = 24;
 inline constexpr int kShiftBits = 8;
 inline constexpr int32_t kShiftOne = 1 << kShiftBits;
+inline constexpr int kShareBits = 10;
 inline constexpr int kMaxWeightBits = 24;
 inline constexpr int32_t kMaxWeight = 32767;
 
@@ -68,6 +70,7 @@ inline constexpr FixedRange kUpsampledAlongY = {"upsampled along y", -43 * 64, 2
 inline constexpr FixedRange kLayerSample = {"layer sample", 0, 255 * 64};
 inline constexpr FixedRange kHolePosition = {"position of a hole", -66300 * kPixel, 66300 * kPixel};
 inline constexpr FixedRange kHolePixel = {"hole at layer 0", 0, 255 * kPixel* kPixel};
+inline constexpr FixedRange kUnmixed = {"unmixed pixel", 0, 255};
 inline constexpr FixedRange kRemainder = {"weight left after all orbits", 0, 0};
 }  // namespace ranges
 

@@ -7,6 +7,7 @@
 #include "lib/line_scan.h"
 #include "lib/span_sink.h"
 #include "lib/spread.h"
+#include "lib/unmix.h"
 
 namespace starfocus {
 namespace {
@@ -49,6 +50,7 @@ class Star {
   void Refocus() {
     Field rows = MakeField(0);
     LoadField(*job_.window, job_.rect, job_.border, &rows);
+    UnmixEdges(*job_.window, grid_, &rows);
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
     Clear(1);
     Field columns = MakeField(1);

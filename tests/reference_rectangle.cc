@@ -40,6 +40,20 @@ double Difference(const Colour& a, const Colour& b) {
   return std::fabs(a[0] - b[0]) + std::fabs(a[1] - b[1]) + std::fabs(a[2] - b[2]);
 }
 
+// Where `mixed` lies from `far` to `near`; 0 when they are too similar, it is too far away from the
+// line between them, or beyond 4/5 of the way.
+double ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
+  double along = 0, contrast = 0, distance = 0;
+  for (size_t c = 0; c < 3; ++c) {
+    along += (mixed[c] - far[c]) * (near[c] - far[c]);
+    contrast += (near[c] - far[c]) * (near[c] - far[c]);
+    distance += (mixed[c] - far[c]) * (mixed[c] - far[c]);
+  }
+  if (contrast < 64 || along <= 0 || 5 * along > 4 * contrast) return 0;
+  const double beside = distance * contrast - along * along;
+  return 16 * beside > contrast * (432 + contrast) ? 0 : along / contrast;
+}
+
 int Sign(int value) { return (value > 0) - (value < 0); }
 
 // What is left of a picture's extended rectangle after cutting lines off.
@@ -76,6 +90,7 @@ class Views {
         centre_.disparities[centre_.At(x, y)] = layer.disparities[from];
       }
     }
+    if (lens_.n > 0 && lens_.layer == 0 && field_.size() > 1) Unmix(layer);
     if (lens_.cells) centre_ = SpreadAlong(SpreadAlong(centre_, false, lens_), true, lens_);
   }
 
@@ -89,6 +104,53 @@ class Views {
   }
 
  private:
+  // The near part of sharp pixels beside a more defocused surface gives way to what the captured
+  // view that looks behind that surface shows of theirs. The outermost pixels reach nothing.
+  void Unmix(const Picture& picture) {
+    const auto at = [&](int x, int y) {
+      return picture.At(std::clamp(x_ + x, 0, picture.width - 1),
+                        std::clamp(y_ + y, 0, picture.height - 1));
+    };
+    for (int y = 1; y + 1 < centre_.height; ++y) {
+      for (int x = 1; x + 1 < centre_.width; ++x) {
+        const Colour mixed = picture.colours[at(x, y)];
+        Colour sum = {0, 0, 0};
+        double shares = 0;
+        for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+          const int disparity = picture.disparities[at(x, y)];
+          const int near = picture.disparities[at(x + dx, y + dy)];
+          if (near - disparity <= kSurfaceStep) continue;
+          const double strength = Strength(near, disparity);
+          if (strength <= 0) continue;
+          const double distance = field_.size() == 17 ? 0.5 : 1;
+          Colour far = ReadPicture(field_, int(-dx * 2 * distance), int(-dy * 2 * distance),
+                                   x + x_ + dx * distance * disparity / 64.0,
+                                   y + y_ + dy * distance * disparity / 64.0);
+          for (double& value : far) value = std::floor(value + 0.5);  // as captured colours are
+          const int beyond = picture.disparities[at(x + 2 * dx, y + 2 * dy)];
+          const int pure = std::abs(beyond - near) <= kSurfaceStep ? 2 : 1;
+          const double share =
+              ShareOf(picture.colours[at(x + pure * dx, y + pure * dy)], far, mixed);
+          const double amount = std::min(1.0, 2 * share) * strength;
+          for (size_t c = 0; c < 3; ++c) sum[c] += share * amount * (far[c] - mixed[c]);
+          shares += share;
+        }
+        if (shares == 0) continue;
+        for (size_t c = 0; c < 3; ++c) {
+          centre_.colours[centre_.At(x, y)][c] = mixed[c] + sum[c] / shares;
+        }
+      }
+    }
+  }
+
+  // From 0 to 1 as the near surface's blur exceeds the far one's by a pixel, and back to 0 as the
+  // latter goes from 2 to 3.
+  double Strength(int near, int far) const {
+    const double r_near = std::abs(lens_.Shift(lens_.n, near)) / 256.0;
+    const double r_far = std::abs(lens_.Shift(lens_.n, far)) / 256.0;
+    return std::min({1.0, r_near - r_far, 3 - r_far});
+  }
+
   Picture Diagonal(int i, int j) {
     return RenderAlong(centre_, Sign(i), Sign(j), lens_, std::abs(i),
                        [&](int x, int y, int disparity, const Colour& colour) {

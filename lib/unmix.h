@@ -1,0 +1,21 @@
+// Boundary pixels: on the far side of a depth edge a captured pixel is a mixture of both surfaces.
+#ifndef STARFOCUS_LIB_UNMIX_H_
+#define STARFOCUS_LIB_UNMIX_H_
+
+#include "lib/field.h"
+#include "lib/view_grid.h"
+#include "lib/window.h"
+
+namespace starfocus {
+
+// Takes the nearer surface out of the field's pixels beside it, where that surface is the more
+// defocused one and they are sharp: its part of them would stay sharp and outline an object that
+// has vanished. What the far surface looks like there is read from the captured view beside the
+// centre in which the nearer one has moved out of the way; a pixel that is no mixture of the two
+// colours stays as it is. The field is as LoadField left it; only its outermost pixels, which splat
+// into no rectangle, are not looked at. Layer 0 only: what is subsampled is blurred enough.
+void UnmixEdges(const Window& window, const ViewGrid& grid, Field* field);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_UNMIX_H_
