@@ -95,11 +95,8 @@ std::string Plane(const Rows& rows, const std::string& field, const char* agains
   drawing.x = "ms per picture";
   drawing.y = "PSNR, dB";
   drawing.style = "points";
-  drawing.height = 600;  // room for many names
   drawing.size = 1;
-  drawing.settings =
-      "set logscale x\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
-      "set bmargin 14\n";
+  drawing.settings = "set logscale x\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n";
   const Rows kept = Filter(rows, [&](const Row& row) {
     return row.field == field && row.aperture == 1 && std::isfinite(quality(row)) &&
            (row.study == "main" || row.study == "views" || row.study == "options" ||
@@ -115,6 +112,10 @@ std::string Plane(const Rows& rows, const std::string& field, const char* agains
     points.push_back({Mean(same, Ms), Mean(same, quality)});
     drawing.curves.push_back({name, {{points.back().time, points.back().quality}}});
   }
+  // Below the axis the names, two in a line, and that of the front.
+  const int lines = static_cast<int>(drawing.curves.size()) / 2 + 1;
+  drawing.height = 350 + 20 * lines;
+  drawing.settings += "set bmargin " + std::to_string(lines + 5) + "\n";
   drawing.caption = "Pareto front, from the fastest:";
   drawing.front.name = "Pareto front";
   for (const size_t i : ParetoFront(points)) {

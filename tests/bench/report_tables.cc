@@ -174,12 +174,15 @@ std::string TableTwo(const Rows& rows) {
 
 std::string TruthTable(const Rows& rows) {
   std::string body;
+  std::set<std::string> seen;  // a truth's focus may be a quantile too, a scale of N be 1
   for (const Row& row : rows) {
-    if (!std::isfinite(row.truth.psnr)) continue;
-    body += Line({Escape(row.field) + " " + std::to_string(row.width) + "×" +
-                      std::to_string(row.height) + ", d<sub>t</sub> " + Fixed(row.focus, 1) +
-                      ", r<sub>max</sub> " + Fixed(row.r_max, 1),
-                  Escape(Method(row)), Fixed(row.ms, 1), Fixed(100 * row.spread, 0) + " %",
+    if (!std::isfinite(row.truth.psnr) || row.study == "targets") continue;
+    const std::string picture = Escape(row.field) + " " + std::to_string(row.width) + "×" +
+                                std::to_string(row.height) + ", d<sub>t</sub> " +
+                                Fixed(row.focus, 1) + ", u<sub>t</sub> " + Fixed(row.aperture, 1) +
+                                ", r<sub>max</sub> " + Fixed(row.r_max, 1);
+    if (!seen.insert(picture + Method(row)).second) continue;
+    body += Line({picture, Escape(Method(row)), Fixed(row.ms, 1), Fixed(100 * row.spread, 0) + " %",
                   Fixed(row.truth.psnr, 2), Fixed(row.truth.band, 2), Fixed(row.truth.worst, 1),
                   Fixed(row.truth.ssim, 4)});
   }
