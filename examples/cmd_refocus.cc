@@ -39,6 +39,20 @@ std::string Numbered(const std::string& path, size_t index) {
       .string();
 }
 
+// Whether `path`, if any, is none of `others`.
+std::string CheckApart(const char* option, const std::string& path,
+                       const std::vector<std::string>& others) {
+  const auto name = [](const std::string& file) {
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored);
+  };
+  for (const std::string& other : others) {
+    if (path.empty() || other.empty() || name(path) != name(other)) continue;
+    return Expected(option, "a file of its own", path + ", which is a picture's");
+  }
+  return "";
+}
+
 std::string CheckOutputs(const Options& options, const LensPlan& plan) {
   std::string error = CheckImageOutput(options.out);
   for (size_t i = 0; i < plan.foci.size() && !options.sweep.empty() && error.empty(); ++i) {
@@ -46,10 +60,14 @@ std::string CheckOutputs(const Options& options, const LensPlan& plan) {
   }
   if (error.empty() && !options.report.empty()) error = CheckOutputPath(options.report);
   if (error.empty() && !options.map.empty()) error = CheckImageOutput(options.map);
-  if (error.empty() && options.map == options.out) {
-    error = Expected("--map", "another file than --output", "'" + options.map + "' for both");
+  if (!error.empty()) return error;
+  std::vector<std::string> pictures = {options.out};
+  for (size_t i = 0; i < plan.foci.size() && !options.sweep.empty(); ++i) {
+    pictures.push_back(Numbered(options.out, i));
   }
-  return error;
+  error = CheckApart("--map", options.map, pictures);
+  pictures.push_back(options.map);
+  return error.empty() ? CheckApart("--report", options.report, pictures) : error;
 }
 
 // D0:D1:N.

@@ -102,8 +102,16 @@ class Unmixer {
   void ReadBehind(int32_t x, int32_t y, int dx, int dy, int32_t disparity, uint8_t* far) const {
     if (window_.side_colours != nullptr) ++*window_.side_colours;
     const int32_t moved = disparity * (1 << (kShiftBits - kDisparityBits - (half_ ? 1 : 0)));
-    ReadCaptured(window_, CapturedView(-dx, -dy, half_),
-                 {x * kShiftOne + dx * moved, y * kShiftOne + dy * moved, 1, 0}, 1, far);
+    int32_t sums[3];
+    InterpolateCaptured(window_, CapturedView(-dx, -dy, half_), x * kShiftOne + dx * moved,
+                        y * kShiftOne + dy * moved, sums);
+    // Halves towards the pixel, so that an inverted picture is decided on alike.
+    constexpr int32_t kHalf = 1 << (2 * kShiftBits - 1);
+    const uint8_t* mixed = Colour(x, y);
+    for (int c = 0; c < 3; ++c) {
+      const bool up = (mixed[c] << (2 * kShiftBits)) > sums[c];
+      far[c] = static_cast<uint8_t>((sums[c] + kHalf - (up ? 0 : 1)) >> (2 * kShiftBits));
+    }
   }
 
   const Window& window_;

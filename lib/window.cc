@@ -22,20 +22,22 @@ struct Endless {
   int32_t Column(int32_t x) const { return 3 * Clamp(x, 0, right); }  // bytes
 };
 
-// Steps of (dx, dy) pixels keep the weights of the four pixels around a place.
-void Interpolate(const Endless& pixel, const CapturedLine& line, int32_t count, uint8_t* rgb) {
+// Calls take(k, sum) for the samples of `count` places, sum having 2 * kShiftBits. Steps of (dx,
+// dy) pixels keep the weights of the four pixels around a place.
+template <class Take>
+void Interpolate(const Endless& pixel, const CapturedLine& line, int32_t count, const Take& take) {
   const int32_t wx = line.x & (kShiftOne - 1), wy = line.y & (kShiftOne - 1);
-  const int32_t upper_left = (kShiftOne - wx) * (kShiftOne - wy),
-                upper_right = wx * (kShiftOne - wy);
+  const int32_t upper_left = (kShiftOne - wx) * (kShiftOne - wy);
+  const int32_t upper_right = wx * (kShiftOne - wy);
   const int32_t lower_left = (kShiftOne - wx) * wy, lower_right = wx * wy;
   int32_t column = line.x >> kShiftBits, row = line.y >> kShiftBits;
-  for (int32_t p = 0; p < count; ++p, column += line.dx, row += line.dy, rgb += 3) {
+  for (int32_t p = 0; p < count; ++p, column += line.dx, row += line.dy) {
     const uint8_t *above = pixel.Row(row), *below = pixel.Row(row + 1);
     const int32_t left = pixel.Column(column), right = pixel.Column(column + 1);
     for (int k = 0; k < 3; ++k) {
       const int32_t sum = above[left + k] * upper_left + above[right + k] * upper_right +
                           below[left + k] * lower_left + below[right + k] * lower_right;
-      rgb[k] = static_cast<uint8_t>(RoundShift(Checked(ranges::kHolePixel, sum), 2 * kShiftBits));
+      take(3 * p + k, Checked(ranges::kHolePixel, sum));
     }
   }
 }
@@ -65,7 +67,9 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
   }
   const Endless pixel = {window.view[index], window.picture_width - 1, window.picture_height - 1};
   if (window.layer == 0) {
-    Interpolate(pixel, line, count, rgb);
+    Interpolate(pixel, line, count, [&](int32_t k, int32_t sum) {
+      rgb[k] = static_cast<uint8_t>(RoundShift(sum, 2 * kShiftBits));
+    });
     return;
   }
   // One rounding from 1 / kShiftOne of the layer's pixels to the picture's.
@@ -76,6 +80,12 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
     const int32_t step = p << window.layer;
     Subsample(pixel, window.layer, x + line.dx * step, y + line.dy * step, rgb);
   }
+}
+
+void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {
+  const Endless pixel = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+  Interpolate(pixel, {Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y), 0, 0},
+              1, [&](int32_t k, int32_t sum) { rgb[k] = sum; });
 }
 
 int32_t CapturedBytes(const Window& window) {

@@ -126,7 +126,10 @@ class Views {
           Colour far = ReadPicture(field_, int(-dx * 2 * distance), int(-dy * 2 * distance),
                                    x + x_ + dx * distance * disparity / 64.0,
                                    y + y_ + dy * distance * disparity / 64.0);
-          for (double& value : far) value = std::floor(value + 0.5);  // as captured colours are
+          // Whole levels, as captured colours are; halves towards the pixel.
+          for (size_t c = 0; c < 3; ++c) {
+            far[c] = mixed[c] > far[c] ? std::floor(far[c] + 0.5) : std::ceil(far[c] - 0.5);
+          }
           const int beyond = picture.disparities[at(x + 2 * dx, y + 2 * dy)];
           const int pure = std::abs(beyond - near) <= kSurfaceStep ? 2 : 1;
           const double share =

@@ -15,15 +15,13 @@ constexpr double kMostEnergy = 0.05;
 // a few times on the way to a layer and back.
 constexpr int kMostInversion = 2;
 // The resampling filters have negative lobes: overshoot as a part of the step. Down and up again by
-// two layers without any blur between it would be 0.144; the blur averages most of it away, but not
-// that of apertures steeper than the default, which are nearly a pinhole. By the cells' rule there
-// is more blur at every layer, from radius 4 and 8 on instead of 3 and 6.
+// two layers without any blur between it would be 0.144; the blur, from radius 3 on by either rule,
+// averages most of it away, but not that of apertures steeper than the default, which are nearly a
+// pinhole.
 double MostOvershoot(const Setup& setup) {
   sf_config config;
   sf_config_init(&config);
-  const bool cells = setup.params.rule != SF_RULE_PAPER;
-  if (setup.config.theta <= config.theta) return cells ? 0.02 : 0.03;
-  return cells ? 0.1 : 0.144;
+  return setup.config.theta <= config.theta ? 0.03 : 0.144;
 }
 
 Outcome Fail(const Setup& setup, const std::string& what) {
