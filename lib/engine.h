@@ -124,9 +124,11 @@ inline bool IsDeblocking(const EngineState& engine) {
   return IsBlockMode(engine) && engine.config.max_layer > 0 && engine.config.deblocking > 0;
 }
 
-// Pixels on either side of a boundary between blocks that joining them changes.
+// Pixels around a block that joining it to others may change, and the rows above a stripe that are
+// finished with it.
 inline int32_t JoinReach(const EngineState& engine) {
-  return IsDeblocking(engine) ? kDeblockReach : 0;
+  static_assert(kDeblockRows >= kDeblockReach, "rows wait for every join that changes them");
+  return IsDeblocking(engine) ? kDeblockRows : 0;
 }
 
 // Makes the tables of a fresh engine.
