@@ -74,6 +74,7 @@ void CheckRegions(const test::Scene& scene, const sf_config& config, const sf_pa
     if (at < w && at < h) {
       regions.push_back({at, at, 1, 1});
       regions.push_back({at - 1, at - 3, 1, 1});
+      regions.push_back({0, at - 8, w, 5});  // its last row is finished by the next stripe
       regions.push_back({at + 2, at - 1, w - at - 2 > 0 ? w - at - 2 : 1, 1});
       if (at + 2 >= w) regions.pop_back();
     }
