@@ -72,8 +72,8 @@ void Downsample(const Kernels& kernels, int32_t width, int32_t height, int32_t b
   HalveRows(kernels, begin, end, to);
 }
 
-// Pixels of `even` and `odd` in turn, `width` in all. Copies a fourth sample of each, which the next
-// pixel overwrites: one move instead of two.
+// Pixels of `even` and `odd` in turn, `width` in all. Copies a fourth sample of each, which the
+// next pixel overwrites: one move instead of two.
 void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t* out) {
   for (int32_t x = 0; x + 1 < width; x += 2, even += 3, odd += 3, out += 6) {
     std::memcpy(out, even, 4 * sizeof(*out));

@@ -73,7 +73,8 @@ Outcome Mirrors(test::Random* random) {
   setup.config.height = setup.scene.height;
   setup.config.largest_block = 32;
   setup.config.max_layer = 0;  // layers keep every second pixel, from the left and the top
-  test::Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1, random->Int(0, 1) == 1};
+  test::Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1,
+                             random->Int(0, 1) == 1};
   if (setup.params.mode != SF_MODE_BLUR && UsesCells(setup.params)) symmetry.transpose = false;
   std::string failure;
   const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random), &failure);
@@ -84,9 +85,9 @@ Outcome Mirrors(test::Random* random) {
   const std::vector<uint8_t> moved = Refocused(other, RandomVariant(random), &failure);
   if (!failure.empty()) return Fail(setup, failure);
   Outcome outcome;
-  outcome.error = test::Compare(symmetry, setup.scene.width, setup.scene.height, plain.data(),
-                                moved.data())
-                      .largest;
+  outcome.error =
+      test::Compare(symmetry, setup.scene.width, setup.scene.height, plain.data(), moved.data())
+          .largest;
   if (outcome.error > 0) {
     return Fail(setup, "not symmetric (transposed " + std::to_string(symmetry.transpose) +
                            ", mirrored " + std::to_string(symmetry.mirror_x) + " " +

@@ -265,8 +265,8 @@ typedef struct sf_report {
   uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
   sf_skipped skipped;
-  uint64_t side_bytes; /**< read of the views beside the centre, counted every time: in holes and
-                            beside depth edges only */
+  uint64_t side_bytes;    /**< read of the views beside the centre, counted every time: in holes and
+                               beside depth edges only */
   uint64_t reused_blocks; /**< sf_refocus_after: largest blocks of which nothing was refocused */
 } sf_report;
 
