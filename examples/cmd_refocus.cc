@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "engine_run.h"
 #include "options.h"
+#include "outputs.h"
 #include "partition_map.h"
 #include "platform/clock.h"
 #include "platform/image_io.h"
@@ -39,35 +40,22 @@ std::string Numbered(const std::string& path, size_t index) {
       .string();
 }
 
-// Whether `path`, if any, is none of `others`.
-std::string CheckApart(const char* option, const std::string& path,
-                       const std::vector<std::string>& others) {
-  const auto name = [](const std::string& file) {
-    std::error_code ignored;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored);
-  };
-  for (const std::string& other : others) {
-    if (path.empty() || other.empty() || name(path) != name(other)) continue;
-    return Expected(option, "a file of its own", path + ", which is a picture's");
-  }
-  return "";
-}
-
 std::string CheckOutputs(const Options& options, const LensPlan& plan) {
-  std::string error = CheckImageOutput(options.out);
-  for (size_t i = 0; i < plan.foci.size() && !options.sweep.empty() && error.empty(); ++i) {
-    error = CheckImageOutput(Numbered(options.out, i));
-  }
-  if (error.empty() && !options.report.empty()) error = CheckOutputPath(options.report);
-  if (error.empty() && !options.map.empty()) error = CheckImageOutput(options.map);
-  if (!error.empty()) return error;
-  std::vector<std::string> pictures = {options.out};
+  std::vector<Output> outputs;
+  if (options.sweep.empty()) outputs.push_back({"--output", options.out});
   for (size_t i = 0; i < plan.foci.size() && !options.sweep.empty(); ++i) {
-    pictures.push_back(Numbered(options.out, i));
+    outputs.push_back({"--output", Numbered(options.out, i)});
   }
-  error = CheckApart("--map", options.map, pictures);
-  pictures.push_back(options.map);
-  return error.empty() ? CheckApart("--report", options.report, pictures) : error;
+  if (!options.map.empty()) outputs.push_back({"--map", options.map});
+  std::string error = CheckImageOutput(options.out);
+  for (size_t i = 0; i < outputs.size() && error.empty(); ++i) {
+    error = CheckImageOutput(outputs[i].path);
+  }
+  if (!options.report.empty()) {
+    if (error.empty()) error = CheckOutputPath(options.report);
+    outputs.push_back({"--report", options.report});
+  }
+  return error.empty() ? CheckApart(outputs, {options.folder}) : error;
 }
 
 // D0:D1:N.

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "engine_run.h"
+#include "outputs.h"
 #include "platform/clock.h"
 #include "platform/image_io.h"
 #include "refocus_plan.h"
@@ -40,7 +41,8 @@ std::string FramePath(const std::string& folder, size_t index) {
   return (fs::path(folder) / name).string();
 }
 
-// The folders given, or those in the only one when it is no light field itself.
+// The folders given, or those in the only one when it is no light field itself, but for hidden ones
+// and that of the output.
 std::string FindFrames(const Options& options, Video* video) {
   std::vector<std::string>& folders = video->folders;
   folders = options.folders;
@@ -50,7 +52,9 @@ std::string FindFrames(const Options& options, Video* video) {
       !fs::exists(DisparityPath(only), error)) {
     folders.clear();
     for (const auto& entry : fs::directory_iterator(only, error)) {
-      if (entry.is_directory(error)) folders.push_back(entry.path().string());
+      const bool hidden = entry.path().filename().string()[0] == '.';
+      const bool own = fs::equivalent(entry.path(), options.out, error);  // of an earlier run
+      if (entry.is_directory(error) && !hidden && !own) folders.push_back(entry.path().string());
     }
     std::sort(folders.begin(), folders.end());
     if (folders.empty()) return Expected(options.folders[0], "light-field folders", "none");
@@ -60,12 +64,12 @@ std::string FindFrames(const Options& options, Video* video) {
                   std::to_string(folders.size()));
 }
 
-std::string CheckOutputs(const Options& options, size_t frames) {
+std::string CheckOutputs(const Options& options, const Video& video) {
   std::error_code failure;
   std::string error;
   if (options.out.empty()) return Expected("--output", "a folder", "an empty name");
   if (fs::is_directory(options.out, failure)) {
-    for (size_t i = 0; i < frames && error.empty(); ++i) {
+    for (size_t i = 0; i < video.folders.size() && error.empty(); ++i) {
       error = CheckImageOutput(FramePath(options.out, i));
     }
   } else if (fs::exists(options.out, failure)) {
@@ -73,8 +77,16 @@ std::string CheckOutputs(const Options& options, size_t frames) {
   } else {
     error = CheckOutputPath(options.out);
   }
-  if (error.empty() && !options.report.empty()) error = CheckOutputPath(options.report);
-  return error;
+  if (!error.empty()) return error;
+  std::vector<Output> outputs = {{"--output", options.out}};
+  for (size_t i = 0; i < video.folders.size(); ++i) {
+    outputs.push_back({"--output", FramePath(options.out, i)});
+  }
+  if (!options.report.empty()) {
+    error = CheckOutputPath(options.report);
+    outputs.push_back({"--report", options.report});
+  }
+  return error.empty() ? CheckApart(outputs, video.folders) : error;
 }
 
 std::string CheckSize(const std::string& folder, const FloatMap& map, const Video& video) {
@@ -152,7 +164,7 @@ std::string Run(const Options& options) {
   std::string error = PlanFocus(options.lens, &plan);
   if (error.empty()) error = PlanLens(options.lens, &plan);
   if (error.empty()) error = FindFrames(options, &video);
-  if (error.empty()) error = CheckOutputs(options, video.folders.size());
+  if (error.empty()) error = CheckOutputs(options, video);
   if (error.empty()) error = Scan(options, &plan, &video);
   if (!error.empty()) return error;
   std::error_code failure;

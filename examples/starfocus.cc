@@ -19,12 +19,22 @@ int FailParse(const CLI::ParseError& error) {
   return Fail(starfocus::Expected("command line", "what `starfocus --help` lists", error.what()));
 }
 
+// CLI11 takes an empty value for none at all where the default is empty too.
+std::string FindEmptyValue(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (value.empty()) return starfocus::Expected(option->get_name(), "a value", "''");
+    }
+  }
+  return "";
+}
+
 int Run(int argc, char** argv) {
   CLI::App app(
       "Refocuses a photograph after it was taken: from a star-shaped light field and its "
       "disparity map.",
       "starfocus");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // none is said below: here it would hide what stands in its place
   starfocus::Action action;
   starfocus::AddSceneCommand(&app, &action);
   starfocus::AddRefocusCommand(&app, &action);
@@ -40,7 +50,9 @@ int Run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error) : FailParse(error);
   }
-  const std::string error = action();
+  if (app.get_subcommands().empty()) return Fail("command line: expected a subcommand, found none");
+  std::string error = FindEmptyValue(*app.get_subcommands()[0]);
+  if (error.empty()) error = action();
   return error.empty() ? 0 : Fail(error);
 }
 

@@ -14,13 +14,36 @@ bool StartsWith(const Bytes& bytes, const uint8_t (&signature)[kSize]) {
   return bytes.size() >= kSize && std::equal(signature, signature + kSize, bytes.begin());
 }
 
-// stb_image allocates what a chunk says it holds before it looks for it.
+uint32_t Read32(const uint8_t* bytes) {
+  return uint32_t(bytes[0]) << 24 | uint32_t(bytes[1]) << 16 | uint32_t(bytes[2]) << 8 | bytes[3];
+}
+
+// The CRC of a PNG chunk (PNG specification, annex D): x^32 + x^26 + ... + 1, reflected.
+struct CrcTable {
+  uint32_t of[256] = {};
+  constexpr CrcTable() {
+    for (uint32_t n = 0; n < 256; ++n) {
+      of[n] = n;
+      for (int bit = 0; bit < 8; ++bit) of[n] = of[n] >> 1 ^ (of[n] % 2 == 0 ? 0 : 0xedb88320u);
+    }
+  }
+};
+constexpr CrcTable kCrc;
+
+uint32_t Crc(const uint8_t* bytes, size_t size) {
+  uint32_t crc = 0xffffffffu;
+  for (size_t n = 0; n < size; ++n) crc = kCrc.of[(crc ^ bytes[n]) & 0xff] ^ crc >> 8;
+  return ~crc;
+}
+
+// stb_image allocates what a chunk says it holds before it looks for it, and never looks at its
+// checksum.
 Container CheckPng(const Bytes& bytes) {
   for (size_t at = sizeof(kPngSignature); at + 12 <= bytes.size();) {
     const uint8_t* chunk = &bytes[at];
-    const size_t length =
-        size_t(chunk[0]) << 24 | size_t(chunk[1]) << 16 | size_t(chunk[2]) << 8 | size_t(chunk[3]);
+    const size_t length = Read32(chunk);
     if (length > bytes.size() - at - 12) return Container::kTruncated;
+    if (Crc(chunk + 4, length + 4) != Read32(chunk + 8 + length)) return Container::kBroken;
     if (std::equal(chunk + 4, chunk + 8, "IEND")) return Container::kWhole;
     at += 12 + length;
   }

@@ -10,7 +10,7 @@ enum class Container {
   kUnknown,    // neither PNG nor JPEG
   kWhole,      // all parts are there, to the one that ends it
   kTruncated,  // a part reaches beyond the end of the file, or the last one is missing
-  kBroken,     // a JPEG table of more codes than there are bytes to code
+  kBroken,     // a PNG chunk does not have its checksum, or a JPEG table more codes than bytes
 };
 
 Container CheckContainer(const Bytes& bytes);

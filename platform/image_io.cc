@@ -22,7 +22,7 @@ std::string DecodeStb(const std::string& path, const Bytes& bytes, Image* image)
     return Expected(path, "an undamaged picture", "a truncated one");
   }
   if (container == Container::kBroken) {
-    return Expected(path, "an undamaged picture", "a Huffman table of more than 256 codes");
+    return Expected(path, "an undamaged picture", "a broken one (checksum or code table)");
   }
   const int size = static_cast<int>(bytes.size());
   if (container == Container::kUnknown ||

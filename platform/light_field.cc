@@ -20,9 +20,12 @@ std::string SizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
+constexpr char kDisparityName[] = "disparity.pfm";
+constexpr const char* kViewExtensions[] = {".png", ".ppm", ".jpg"};
+
 // The file of view `index`, empty when there is none.
 std::string FindView(const std::string& folder, int index) {
-  for (const char* extension : {".png", ".ppm", ".jpg"}) {
+  for (const char* extension : kViewExtensions) {
     const std::string path = Join(folder, ViewName(index) + extension);
     std::error_code error;
     if (fs::exists(path, error)) return path;
@@ -93,7 +96,16 @@ std::string ViewName(int index) {
   return name;
 }
 
-std::string DisparityPath(const std::string& folder) { return Join(folder, "disparity.pfm"); }
+std::string DisparityPath(const std::string& folder) { return Join(folder, kDisparityName); }
+
+bool IsLightFieldFile(const std::string& name) {
+  for (int index = 0; index < SF_MAX_VIEWS; ++index) {
+    for (const char* extension : kViewExtensions) {
+      if (name == ViewName(index) + extension) return true;
+    }
+  }
+  return name == kDisparityName;
+}
 
 std::string CountViews(const std::string& folder, int* views) {
   const std::string error = CheckFolder(folder);

@@ -29,6 +29,9 @@ std::string ViewName(int index);
 
 std::string DisparityPath(const std::string& folder);
 
+// Whether the file of that name, in a folder, is taken for a part of its light field.
+bool IsLightFieldFile(const std::string& name);
+
 // The largest complete star set in `folder`. A set that is only partly there is an error that
 // names a missing file.
 std::string CountViews(const std::string& folder, int* views);

@@ -99,7 +99,7 @@ TEST_CASE("cli: refocus refuses bad input") {
     const char* arguments;
     const char* mention;
   } bad[] = {{"", "subcommand"},
-             {"frobnicate", "subcommand"},
+             {"frobnicate", "frobnicate"},
              {"refocus", "DIR"},
              {"refocus lf --focus 1", "--output"},
              {"refocus lf -o x.png", "--focus"},
@@ -145,6 +145,10 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1 --report ./x.png", "--report"},
              {"refocus lf -o x.png --focus 1 --map ./x.png", "--map"},
              {"refocus lf -o x.png --sweep 0:1:3 --report x_001.png", "--report"},
+             {"refocus lf -o lf/view_+0.0_+1.0.png --focus 1", "light field"},
+             {"refocus lf -o ./lf/../lf/view_+1.0_+1.0.jpg --focus 1", "light field"},
+             {"refocus lf -o x.png --focus 1 --report lf/disparity.pfm", "light field"},
+             {"refocus lf -o x.png --focus 1 --map lf/view_-1.0_+0.0.png", "light field"},
              {"refocus lf -o x.png --sweep 1:2", "--sweep"},
              {"refocus lf -o x.png --sweep 1:2:1", "--sweep"},
              {"refocus lf -o x.png --sweep 1:2:1001", "--sweep"},
@@ -158,7 +162,11 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o taken.png --sweep 0:1:3", "taken_002.png"},
              {"refocus lf -o x.bmp --focus 1", ".bmp"},
              {"refocus lf -o x --focus 1", "extension"},
-             {"refocus lf -o '' --focus 1", "extension"},
+             {"refocus lf -o '' --focus 1", "--output"},
+             {"refocus '' -o x.png --focus 1", "DIR"},
+             {"refocus lf -o x.png --focus 1 --region ''", "--region"},
+             {"refocus lf -o x.png --focus 1 --rule ''", "--rule"},
+             {"refocus lf -o x.png --focus 1 --report ''", "--report"},
              {"refocus lf -o none/x.png --focus 1", "none"},
              {"refocus lf -o x.png --focus 1 --report none/r.json", "none"},
              {"refocus lf -o x.png --focus 1 --report lf", "folder"},
@@ -210,6 +218,9 @@ TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
              {"video lf -o text.png --focus 1", "text.png"},
              {"video lf -o none/out --focus 1", "none"},
              {"video lf -o out --focus 1 --report none/r.json", "none"},
+             {"video lf -o out --focus 1 --report lf/disparity.pfm", "light field"},
+             {"video lf -o out --focus 1 --report out", "--report"},
+             {"video lf -o lf --focus 1 --report lf/frame_0000.png", "--report"},
              {"video lf none -o out --focus 1", "none"},
              {"video lf nan -o out --focus 1", "first at 5,1"},
              {"video lf tiny -o out --focus 1", "40x30"},
@@ -368,6 +379,11 @@ TEST_CASE("cli: a video is its frames one by one, but for the work") {
   const std::string lens = " --focus 3 --aperture 0.2 --largest-block 32";
   REQUIRE(Call(folder, "video in -o out --report v.json" + lens).code == 0);
   REQUIRE(Call(folder, "video in/1 in/3 -o two" + lens).code == 0);
+  // Neither a hidden folder nor its own output is a frame.
+  REQUIRE(fs::create_directory(folder.file("in/.cache")));
+  REQUIRE(fs::create_directory(folder.file("in/out")));
+  REQUIRE(Call(folder, "video in -o in/out" + lens).code == 0);
+  CHECK(Text(folder.file("in/out/frame_0003.png")) == Text(folder.file("out/frame_0003.png")));
   for (const int frame : {0, 1, 2, 3}) {
     const std::string name = std::to_string(frame + 1);
     REQUIRE(Call(folder, "refocus in/" + name + " -o one.png" + lens).code == 0);
