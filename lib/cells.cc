@@ -100,6 +100,55 @@ void Widen(int32_t gap, int32_t inside, bool low, int32_t* low_border, int32_t* 
   *border = Max(*border, gap + inside);
 }
 
+// What lies within reach of each of 2x2 cells.
+class Surroundings {
+ public:
+  Surroundings(const CellGrid& grid, int32_t column, int32_t row) {
+    for (int32_t k = 0; k < 4; ++k) {
+      Around& around = around_[k];
+      around.column = column + (k & 1);
+      around.row = row + (k >> 1);
+      const Cell& cell =
+          *grid.At(Min(around.column, grid.columns - 1), Min(around.row, grid.rows - 1));
+      around.reach = ReachOf(cell.r_max);
+      reach_ = Max(reach_, around.reach);
+    }
+  }
+
+  // The cell at (column, row), `gap` pixels away from all four; negative: one of them.
+  void Add(const Cell& cell, int32_t column, int32_t row, int32_t gap) {
+    const int32_t reach = ReachOf(cell.r_max);
+    if (gap >= Max(reach_, reach)) return;
+    for (Around& around : around_) {
+      const int32_t cells = Max(Abs(column - around.column), Abs(row - around.row));
+      if ((cells - 1) * kCellSize >= Max(around.reach, reach)) continue;
+      around.low = Min(around.low, cell.low);
+      around.high = Max(around.high, cell.high);
+      around.edge = around.edge || cell.r_edge != 0;
+    }
+  }
+
+  uint32_t Smooth(const BlurScale& scale) const {
+    uint32_t smooth = 0;
+    for (int32_t k = 0; k < 4; ++k) {
+      const Around& around = around_[k];
+      const int64_t range = scale.step * (around.high - around.low);
+      if (!around.edge && range <= int64_t{kSmoothRange} << kStepBits) smooth |= 1u << k;
+    }
+    return smooth;
+  }
+
+ private:
+  struct Around {
+    int32_t column, row;  // of the cell itself
+    int32_t reach;        // of its blur, pixels
+    int32_t low = INT32_MAX, high = INT32_MIN;
+    bool edge = false;
+  };
+  Around around_[4];
+  int32_t reach_ = 0;
+};
+
 void AddContent(const Content (&part)[2], Content (*sum)[2]) {
   for (int along = 0; along < 2; ++along) {
     (*sum)[along].slopes += part[along].slopes;
@@ -127,11 +176,15 @@ Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurS
   const simd::CellMeasure found =
       Measure(kernels, window, limits, column * kCellSize, row * kCellSize);
   Cell cell = {};
+  cell.low = INT16_MAX;
+  cell.high = INT16_MIN;
   int32_t largest = 0, distance_x[kCellSize], distance_y[kCellSize];
   for (int32_t k = 0; k < kCellSize; ++k) {
     distance_x[k] = Farthest(found.column_low[k], found.column_high[k], focus);
     distance_y[k] = Farthest(found.row_low[k], found.row_high[k], focus);
     largest = Max(largest, distance_x[k]);
+    if (found.column_low[k] < cell.low) cell.low = found.column_low[k];
+    if (found.column_high[k] > cell.high) cell.high = found.column_high[k];
   }
   // A focus beyond int16 lies beyond every disparity, all on one side of it.
   cell.r_min = static_cast<uint16_t>(scale.Radius(found.nearest + Abs(focus - near_focus)));
@@ -184,6 +237,18 @@ BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32
     }
   }
   return stats;
+}
+
+uint32_t FindSmooth(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row,
+                    int32_t around) {
+  Surroundings surroundings(grid, column, row);
+  for (int32_t y = row - around; y <= row + 1 + around; ++y) {
+    for (int32_t x = column - around; x <= column + 1 + around; ++x) {
+      const Cell& cell = *grid.At(Clamp(x, 0, grid.columns - 1), Clamp(y, 0, grid.rows - 1));
+      surroundings.Add(cell, x, y, Max(GapOf(x, column), GapOf(y, row)));
+    }
+  }
+  return surroundings.Smooth(scale);
 }
 
 BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {

@@ -26,6 +26,7 @@ struct Content {
 // Blur radii carry kDisparityBits fractional bits: 128 px are 8192.
 struct Cell {
   uint16_t r_min, r_max;  // rounded down, up
+  int16_t low, high;      // disparities, kDisparityBits
   uint16_t r_edge;        // of the nearer surface at any depth edge here, 0: none
   // How many pixels beyond its left, right, top and bottom edge the cell splats (<= 0: not at all),
   // and how deep inside lie the pixels that do.
@@ -65,6 +66,20 @@ struct CellGrid {
   }
 };
 
+// Cells of a stripe that are gathered instead of refocused by views, where they belong to a block at
+// layer 0.
+struct GatherMap {
+  uint8_t* cells = nullptr;
+  int32_t columns = 0;
+  int32_t first_row = 0;  // of the cells of the picture
+
+  // The cell that holds pixel (x, y) of the picture.
+  uint8_t& At(int32_t x, int32_t y) const {
+    return cells[static_cast<size_t>(y / kCellSize - first_row) * static_cast<size_t>(columns) +
+                 static_cast<size_t>(x / kCellSize)];
+  }
+};
+
 // Adds what line scans meet in a cell.
 void AddCell(const Cell& cell, Content (*sum)[2]);
 
@@ -75,6 +90,11 @@ Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurS
 // Pixels that a block refocused at layer L renders beyond its sides, because upsampling reads
 // them, in pixels of the picture.
 inline constexpr int32_t kLayerMargin[3] = {0, 4, 12};
+
+// A cell is smooth when it can be gathered (lib/gather.h): one surface is all that lies within reach
+// of its pixels or reaches them, and the blur there, nearer than the focus counted as negative,
+// differs by at most this, kDisparityBits.
+inline constexpr int32_t kSmoothRange = (3 << kDisparityBits) / 2;
 
 // What a block knows: radii of the pixels inside and (but for r_min) of those that splat into it,
 // and for each layer the border beyond which no pixel splats into the block and its margin.
@@ -87,6 +107,11 @@ struct BlockStats {
 // Stats of the 2x2 cells at (column, row), looking at cells up to `around` away, which must be
 // within the grid's stored rows or outside the picture.
 BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32_t around);
+
+// Which of those 2x2 cells are smooth: bit k for the cell (k % 2, k / 2). `scale` is what they were
+// measured with.
+uint32_t FindSmooth(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row,
+                    int32_t around);
 
 // Stats of the block of twice the side `side` made of children in z-order. Children outside the
 // picture are null.

@@ -1,5 +1,6 @@
 #include "lib/engine.h"
 
+#include "lib/gather.h"
 #include "lib/rules.h"
 #include "lib/validate.h"
 
@@ -96,8 +97,9 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   const ViewGrid grid =
       MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false, false);
   engine->scale = {grid.focus, grid.step};
-  if (params.mode == SF_MODE_BLUR) {
-    const int32_t steps = BlurStepCount(r_max);
+  const bool gathers = IsBlockMode(*engine) && UsesCells(*engine);
+  if (params.mode == SF_MODE_BLUR || gathers) {
+    const int32_t steps = BlurStepCount(gathers && r_max > kMaxGather ? kMaxGather : r_max);
     if (steps > engine->blur_steps) {
       MakeBlurKernels(engine->blur_steps, steps, engine->fall_off, engine->blur_weights,
                       engine->blur_kernels);
@@ -110,6 +112,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
     for (sf_layer_report& layer : engine->workers[worker].layers) layer = sf_layer_report();
     engine->workers[worker].skipped = sf_skipped();
     engine->workers[worker].side_bytes = 0;
+    engine->workers[worker].gathered_pixels = 0;
   }
   engine->disparity_rows = 0;
   engine->map.rows = 0;
@@ -160,6 +163,7 @@ sf_report GetReport(const EngineState& engine) {
     report.skipped.filled_blocks += skipped.filled_blocks;
     report.skipped.filled_pixels += skipped.filled_pixels;
     report.side_bytes += engine.workers[worker].side_bytes;
+    report.gathered_pixels += engine.workers[worker].gathered_pixels;
   }
   return report;
 }

@@ -51,6 +51,7 @@ struct Worker {
   sf_layer_report layers[SF_LAYERS];
   sf_skipped skipped;
   uint64_t side_bytes;
+  uint64_t gathered_pixels;
 };
 
 // The blocks of a stripe, largest block by largest block.
@@ -60,6 +61,7 @@ struct StripePlan {
   bool all_measured;           // for the stripe before: those of every column
   Block* blocks;               // MaxBlocks per largest block
   int32_t* counts;             // blocks used of each
+  GatherMap gathered;          // block mode
   uint8_t* needed[SF_LAYERS];  // per largest block's column: its columns of layer 1, 2 are read
 };
 

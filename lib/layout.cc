@@ -114,6 +114,9 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->plan.measured = carver->Take<uint8_t>(blocks);
   engine->plan.blocks = carver->Take<Block>(blocks * static_cast<size_t>(MaxBlocks(side)));
   engine->plan.counts = carver->Take<int32_t>(blocks);
+  engine->plan.gathered.columns = static_cast<int32_t>(blocks) * side / kCellSize;
+  engine->plan.gathered.cells = carver->Take<uint8_t>(
+      static_cast<size_t>(engine->plan.gathered.columns * (side / kCellSize)));
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     engine->plan.needed[layer] = carver->Take<uint8_t>(blocks);
   }

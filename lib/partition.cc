@@ -1,6 +1,8 @@
 #include "lib/partition.h"
 
+#include "lib/gather.h"
 #include "lib/rules.h"
+#include <cstdlib>
 
 namespace starfocus {
 namespace {
@@ -21,8 +23,11 @@ int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
 
 class Partition {
  public:
-  Partition(const PartitionRules& rules, PartitionNode* nodes)
-      : rules_(rules), nodes_(nodes), side_(rules.largest_block / kSmallestBlock) {
+  Partition(const PartitionRules& rules, PartitionNode* nodes, const GatherMap& gathered)
+      : rules_(rules),
+        nodes_(nodes),
+        gathered_(gathered),
+        side_(rules.largest_block / kSmallestBlock) {
     while ((1 << levels_) < side_) ++levels_;
   }
 
@@ -60,28 +65,67 @@ class Partition {
   }
 
   void MeasureNode(int level, int32_t column, int32_t row, const CellGrid& cells, int32_t around) {
-    BlockStats& stats = Node(level, column, row).stats;
+    PartitionNode& node = Node(level, column, row);
+    node.cells = node.gathered = 0;
+    node.gather = 0;
     if (level == 0) {
-      const int32_t cell_x = x_ / kCellSize + 2 * column, cell_y = y_ / kCellSize + 2 * row;
-      stats = MeasureBlock(cells, cell_x, cell_y, around);
+      MeasureUnit(column, row, cells, around, &node);
       return;
     }
     const BlockStats* children[4];
     for (int child = 0; child < 4; ++child) {
       const int32_t cx = 2 * column + (child & 1), cy = 2 * row + (child >> 1);
-      children[child] = Inside(level - 1, cx, cy) ? &Node(level - 1, cx, cy).stats : nullptr;
+      const bool inside = Inside(level - 1, cx, cy);
+      children[child] = inside ? &Node(level - 1, cx, cy).stats : nullptr;
+      if (!inside) continue;
+      node.cells += Node(level - 1, cx, cy).cells;
+      node.gathered += Node(level - 1, cx, cy).gathered;
+      node.gather += Node(level - 1, cx, cy).gather;
     }
-    stats = MergeBlocks(children, NodeSide(level - 1));
+    node.stats = MergeBlocks(children, NodeSide(level - 1));
+  }
+
+  void MeasureUnit(int32_t column, int32_t row, const CellGrid& cells, int32_t around,
+                   PartitionNode* node) {
+    const int32_t cell_x = x_ / kCellSize + 2 * column, cell_y = y_ / kCellSize + 2 * row;
+    node->stats = MeasureBlock(cells, cell_x, cell_y, around);
+    const uint32_t smooth =
+        rules_.cells ? FindSmooth(cells, rules_.scale, cell_x, cell_y, around) : 0;
+    for (int32_t k = 0; k < 4; ++k) {
+      const int32_t x = cell_x + (k & 1), y = cell_y + (k >> 1);
+      if (x >= cells.columns || y >= cells.rows) continue;
+      const int32_t r_max = cells.At(x, y)->r_max;
+      const bool gathered =
+          (smooth >> k & 1) != 0 && r_max <= kMaxGather << kDisparityBits;
+      gathered_.At(x * kCellSize, y * kCellSize) = gathered ? 1 : 0;
+      ++node->cells;
+      if (!gathered) continue;
+      ++node->gathered;
+      node->gather += PredictGather(rules_.timing, kCellSize * kCellSize, r_max);
+    }
+  }
+
+  Rect RectOf(int level, int32_t column, int32_t row) const {
+    const int32_t side = NodeSide(level);
+    const int32_t x = x_ + column * side, y = y_ + row * side;
+    return {x, y, Min(side, rules_.width - x), Min(side, rules_.height - y)};
   }
 
   // The node as one block, and whether splitting it is cheaper.
   void Plan(int level, int32_t column, int32_t row) {
     PartitionNode& node = Node(level, column, row);
     Block& block = node.block;
-    const int32_t side = NodeSide(level);
-    const int32_t x = x_ + column * side, y = y_ + row * side;
-    block.rect = {x, y, Min(side, rules_.width - x), Min(side, rules_.height - y)};
-    ChooseParameters(node.stats, side, &block);
+    block.rect = RectOf(level, column, row);
+    ChooseParameters(node.stats, NodeSide(level), &block);
+    const bool views = block.n > 0, whole = node.gathered == node.cells;
+    if (views && node.gathered > 0 &&
+        (block.layer == 0 || whole)) {
+      const auto cells = static_cast<uint64_t>(node.cells);
+      const auto others = static_cast<uint64_t>(node.cells - node.gathered);
+      block.cost = node.gather + block.cost * others / cells;
+      block.layer = 0;
+      block.gathers = true;
+    }
     uint64_t best = block.cost;
     if (level > 0) best = Smaller(best, ChildrenCost(level, column, row));
     node.best = best;
@@ -113,6 +157,7 @@ class Partition {
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
     const Rect& rect = block->rect;
     const int32_t layer = Layer(stats);
+    block->gathers = false;
     block->layer = layer;
     block->n = Min(Views(stats, layer), rules_.max_n);
     const int32_t margin = LayerMargin(layer);
@@ -130,11 +175,59 @@ class Partition {
                                           rules_.cells, upsampled, stats.content, layer));
   }
 
+  // Leaves to views the least rectangle around the cells that are not gathered.
+  void Shrink(Block* block) const {
+    const Rect& rect = block->rect;
+    int32_t left = rect.x + rect.width, top = rect.y + rect.height, right = 0, bottom = 0;
+    for (int32_t y = rect.y; y < rect.y + rect.height; y += kCellSize) {
+      for (int32_t x = rect.x; x < rect.x + rect.width; x += kCellSize) {
+        if (gathered_.At(x, y) != 0) continue;
+        left = Min(left, x);
+        right = Max(right, x + kCellSize);
+        top = Min(top, y);
+        bottom = Max(bottom, y + kCellSize);
+      }
+    }
+    right = Min(right, rules_.width);
+    bottom = Min(bottom, rules_.height);
+    block->n = 0;
+    block->rendered = {};
+    block->border = {};
+    if (left >= right) return;
+    block->rendered = {left, top, right - left, bottom - top};
+    MeasureRendered(block);
+  }
+
+  // N and the border, by the units that hold those cells.
+  void MeasureRendered(Block* block) const {
+    const Rect& rect = block->rendered;
+    const int32_t right = rect.x + rect.width, bottom = rect.y + rect.height;
+    BlockStats all = {};
+    Border& border = all.border[0];
+    for (int32_t y = rect.y & -kSmallestBlock; y < bottom; y += kSmallestBlock) {
+      for (int32_t x = rect.x & -kSmallestBlock; x < right; x += kSmallestBlock) {
+        const PartitionNode& node = Node(0, (x - x_) / kSmallestBlock, (y - y_) / kSmallestBlock);
+        if (node.gathered == node.cells) continue;
+        const Border& part = node.stats.border[0];
+        all.r_max = Max(all.r_max, node.stats.r_max);
+        border.left = Max(border.left, part.left - (x - rect.x));
+        border.right = Max(border.right, x + kSmallestBlock + part.right - right);
+        border.top = Max(border.top, part.top - (y - rect.y));
+        border.bottom = Max(border.bottom, y + kSmallestBlock + part.bottom - bottom);
+      }
+    }
+    block->n = Min(Views(all, 0), rules_.max_n);
+    block->border = {LayerBorder(border.left, 0, 0), LayerBorder(border.right, 0, 0),
+                     LayerBorder(border.top, 0, 0), LayerBorder(border.bottom, 0, 0)};
+  }
+
   void EmitNode(int level, int32_t column, int32_t row, Block* blocks) {
     if (!Inside(level, column, row)) return;
     const PartitionNode& node = Node(level, column, row);
     if (node.best == node.block.cost) {
-      blocks[count_++] = node.block;
+      Block& block = blocks[count_++];
+      block = node.block;
+      if (block.gathers) Shrink(&block);
       return;
     }
     for (int child = 0; child < 4; ++child) {
@@ -144,6 +237,7 @@ class Partition {
 
   const PartitionRules& rules_;
   PartitionNode* nodes_;
+  const GatherMap& gathered_;
   int32_t side_;  // in smallest blocks
   int levels_ = 0;
   int32_t x_ = 0, y_ = 0;
@@ -153,8 +247,8 @@ class Partition {
 }  // namespace
 
 int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
-                       int32_t around, PartitionNode* nodes, Block* blocks) {
-  Partition partition(rules, nodes);
+                       int32_t around, PartitionNode* nodes, Block* blocks, const GatherMap& gathered) {
+  Partition partition(rules, nodes, gathered);
   partition.Measure(cells, x, y, around);
   return partition.Emit(blocks);
 }

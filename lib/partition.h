@@ -14,10 +14,13 @@ inline constexpr int32_t kSmallestBlock = 16;
 // A block to refocus: a rectangle of the picture with its parameters.
 struct Block {
   Rect rect;      // in pixels of the picture, clipped to it
-  Rect rendered;  // at the layer, with the margin that upsampling reads
+  // Of views, at the layer: with the margin that upsampling reads; at layer 0 around the cells that
+  // are not gathered, and empty when all are.
+  Rect rendered;
   Border border;  // of `rendered`, at the layer
   int32_t layer;  // L
   int32_t n;      // N
+  bool gathers;   // the cells of the map
   uint64_t cost;  // predicted, picoseconds
 };
 
@@ -28,6 +31,7 @@ struct PartitionRules {
   int32_t max_n;
   bool cells;      // ViewsByCells instead of (9)
   double n_scale;  // of their N
+  BlurScale scale;
   sf_timing timing;
   const ViewCounts* views;  // by N, up to max_n
 };
@@ -37,6 +41,8 @@ struct PartitionNode {
   BlockStats stats;
   Block block;
   uint64_t best;
+  int32_t cells, gathered;  // inside the picture, and those of them that could be
+  uint64_t gather;          // predicted time of that
 };
 
 // Blocks a largest block can split into.
@@ -53,9 +59,10 @@ constexpr int32_t PartitionNodes(int32_t largest_block) {
 
 // Splits the largest block at (x, y), multiples of largest_block, into the blocks of least
 // predicted time. `around`: how many cells away a pixel may splat from. nodes[PartitionNodes] is
-// scratch. Writes at most MaxBlocks blocks in z-order; returns their number.
+// scratch. Writes at most MaxBlocks blocks in z-order, and what of `gathered` belongs to the largest
+// block; returns the number of blocks.
 int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
-                       int32_t around, PartitionNode* nodes, Block* blocks);
+                       int32_t around, PartitionNode* nodes, Block* blocks, const GatherMap& gathered);
 
 }  // namespace starfocus
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "lib/gather.h"
 #include "lib/skips.h"
 
 namespace starfocus {
@@ -15,13 +16,13 @@ uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
   return out.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x);
 }
 
-void FinishPicture(const simd::Kernels& kernels, const Block& block, int shift,
+void FinishPicture(const simd::Kernels& kernels, const Rect& rect, int shift,
                    const Plane<uint8_t>& out, const Worker& worker) {
-  const size_t samples = 3 * static_cast<size_t>(block.rect.width);
-  CheckSums(worker.star.accumulators[0], Samples(block.rect), shift);
-  for (int32_t row = 0; row < block.rect.height; ++row) {
+  const size_t samples = 3 * static_cast<size_t>(rect.width);
+  CheckSums(worker.star.accumulators[0], Samples(rect), shift);
+  for (int32_t row = 0; row < rect.height; ++row) {
     kernels.finish(worker.star.accumulators[0] + static_cast<size_t>(row) * samples, samples, shift,
-                   At(out, block.rect, row));
+                   At(out, rect, row));
   }
 }
 
@@ -83,12 +84,25 @@ int32_t Render(const EngineState& engine, const Block& block, StarJob job,
   worker->side_bytes += side_colours * static_cast<uint64_t>(CapturedBytes(counting));
   const int shift = job.grid->aperture.sum_bits;
   if (block.layer == 0) {
-    FinishPicture(*engine.kernels, block, shift, out, *worker);
+    FinishPicture(*engine.kernels, job.rect, shift, out, *worker);
   } else {
     FinishLayer(*engine.kernels, block, shift, out, *worker);
   }
   return ApertureOf(engine, block).views;
 }
+
+void GatherCells(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+                 Worker* worker) {
+  Field field;
+  field.rgb = worker->star.field_rgb[0];
+  field.disparity = worker->star.field_disparity[0];
+  const GatherJob job = {&engine.windows[0], &engine.cells, &engine.plan.gathered, engine.scale,
+                         engine.blur_kernels, engine.kernels, block.rect};
+  worker->gathered_pixels += GatherRectangle(job, &field, At(out, block.rect, 0), out.stride);
+}
+
+// What views give of a block: at layer 0 they need not be rendered for all of it.
+const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
 
 // Returns how many views were rendered. A copied block has one, the centre view.
 int32_t RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
@@ -101,17 +115,18 @@ int32_t RefocusViews(const EngineState& engine, const Block& block, const Plane<
                                UsesCells(engine));
   if (pinhole) grid.step = 0;
   const StarJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
-                       block.border};
+                       block.border, block.gathers ? &engine.plan.gathered : nullptr};
   if (engine.config.skips == 0) return Render(engine, block, job, out, worker);
-  const uint64_t pixels = Samples(block.rect) / 3;
+  const Rect& rect = ViewsRect(block);
+  const uint64_t pixels = Samples(rect) / 3;
   if (pinhole || NothingMoves(job)) {
-    CopyCentre(engine, block.rect, out);
+    CopyCentre(engine, rect, out);
     worker->skipped.copied_blocks += 1;
     worker->skipped.copied_pixels += pixels;
     return 1;
   }
   if (const uint8_t* colour = OneColour(job)) {
-    FillColour(colour, block.rect, out);
+    FillColour(colour, rect, out);
     worker->skipped.filled_blocks += 1;
     worker->skipped.filled_pixels += pixels;
     return 0;
@@ -138,14 +153,19 @@ void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uin
   if (engine.params.mode == SF_MODE_BLUR) {
     BlurBlock(engine, block, out, worker);
   } else {
-    views = static_cast<uint64_t>(RefocusViews(engine, block, out, worker));
+    if (block.rendered.width > 0) {
+      views = static_cast<uint64_t>(RefocusViews(engine, block, out, worker));
+    }
+    // After views, which know nothing of cells.
+    if (block.gathers) GatherCells(engine, block, out, worker);
   }
   sf_layer_report& report = worker->layers[block.layer];
   report.blocks += 1;
   report.pixels += Samples(block.rect) / 3;
   report.views += views;
-  const uint64_t area = Samples({0, 0, (block.rect.width + (1 << block.layer) - 1) >> block.layer,
-                                 (block.rect.height + (1 << block.layer) - 1) >> block.layer});
+  const Rect& rect = ViewsRect(block);
+  const uint64_t area = Samples({0, 0, (rect.width + (1 << block.layer) - 1) >> block.layer,
+                                 (rect.height + (1 << block.layer) - 1) >> block.layer});
   report.rendered_samples += views * area;
   report.predicted_ps += block.cost;
   if (clock != nullptr) report.measured_ns += clock() - start;

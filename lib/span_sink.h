@@ -36,8 +36,8 @@ class SpanSink {
     Add(begin, end, line_.rgb + 3 * static_cast<ptrdiff_t>(source), neighbour_weight,
         3 * neighbour);
     if (target_.disparity == nullptr) return;
-    std::memcpy(target_.disparity + (begin - target_.out_begin), line_.disparity + source,
-                sizeof(int16_t) * static_cast<size_t>(end - begin));
+    CopyDisparities(line_.disparity + source, end - begin,
+                    target_.disparity + (begin - target_.out_begin));
   }
 
   void Mix(int32_t p, int32_t source, int32_t other, int32_t weight) {
@@ -73,6 +73,18 @@ class SpanSink {
   }
 
  private:
+  // Mostly short: a call of memcpy takes as long as several of these moves.
+  static void CopyDisparities(const int16_t* from, int32_t count, int16_t* to) {
+    constexpr int32_t kAtOnce = 4;
+    constexpr size_t kBytes = kAtOnce * sizeof(int16_t);
+    if (count < kAtOnce) {
+      for (int32_t k = 0; k < count; ++k) to[k] = from[k];
+      return;
+    }
+    for (int32_t k = 0; k + kAtOnce < count; k += kAtOnce) std::memcpy(to + k, from + k, kBytes);
+    std::memcpy(to + count - kAtOnce, from + count - kAtOnce, kBytes);
+  }
+
   void Add(int32_t begin, int32_t end, const uint8_t* source, uint32_t neighbour_weight,
            int32_t neighbour_offset) {
     simd::Span* span = list_->Next();

@@ -257,26 +257,40 @@ class Star {
                                    : 0;
         uint8_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
         const Line line = {rgb, scratch_->view_disparity + x, width, height};
-        if (across > 0) {
-          AddLine(rgb + 3 * (field.inner.y - rows.begin), field.inner.height,
-                  grid_.aperture.Weight(i, 0), 3 * static_cast<uint32_t>(x * field.inner.height),
-                  &list);
-        }
-        AddColumn(line, count, last, field.inner.y - rows.begin, field.inner.height, x, &holes,
-                  &list);
+        const int32_t top = field.inner.y - rows.begin;
+        ForEachPart(field, x, [&](int32_t begin, int32_t end) {
+          const auto first = static_cast<uint32_t>(x * field.inner.height + begin);
+          if (across > 0) {
+            AddLine(rgb + 3 * (top + begin), end - begin, grid_.aperture.Weight(i, 0), 3 * first,
+                    &list);
+          }
+          if (scan) AddColumn(line, count, last, {top + begin, top + end}, first, &holes, &list);
+        });
       }
     }
     list.Flush();
   }
 
-  // Adds `height` pixels from `top` on of the views j = 1 .. last on one side of a column.
-  void AddColumn(const Line& line, int32_t runs, int32_t last, int32_t top, int32_t height,
-                 int32_t x, LineHoles* view, SpanList* list) {
+  // Calls visit(begin, end) for stretches of the rectangle's column x that are not gathered.
+  template <class Visit>
+  void ForEachPart(const Field& field, int32_t x, const Visit& visit) const {
+    if (job_.gathered == nullptr) return visit(0, field.inner.height);
+    const Rect& rect = job_.rect;  // only with cells, whose field is that of rows
+    for (int32_t y = 0; y < rect.height; y += kCellSize) {
+      const int32_t begin = y;
+      while (y < rect.height && job_.gathered->At(rect.x + x, rect.y + y) == 0) y += kCellSize;
+      if (y > begin) visit(begin, Min(y, rect.height));
+    }
+  }
+
+  // Adds the pixels of a part of the views j = 1 .. last on one side of a column.
+  void AddColumn(const Line& line, int32_t runs, int32_t last, const LinePart& part,
+                 uint32_t pixel, LineHoles* view, SpanList* list) {
     LineHoles& holes = *view;
-    const SpanTarget target = {top, static_cast<uint32_t>(x * height), 0, nullptr};
+    const SpanTarget target = {part.begin, pixel, 0, nullptr};
     SpanSink<LineHoles> sink(line, target, holes, list);
-    ScanLine(line, DirectionOf(holes.v), scratch_->line_runs, runs, grid_, {top, top + height}, 1,
-             last, &sink, [&](int32_t j) {
+    ScanLine(line, DirectionOf(holes.v), scratch_->line_runs, runs, grid_, part, 1, last, &sink,
+             [&](int32_t j) {
                holes.j = j;
                sink.SetWeight(grid_.aperture.Weight(holes.i, j));
                return scratch_->moves[j];

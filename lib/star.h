@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "lib/cells.h"
 #include "lib/field.h"
 #include "lib/runs.h"
 #include "lib/span_list.h"
@@ -46,6 +47,7 @@ struct StarJob {
   const simd::Kernels* kernels;
   Rect rect;
   Border border;
+  const GatherMap* gathered;  // what need not be rendered; null: all is
 };
 
 // Sums the weighted views over job.rect into scratch->accumulators[0]: rows of 3 * width values

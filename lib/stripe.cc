@@ -33,6 +33,7 @@ void PlanWhole(const Stripe& stripe, int32_t column) {
   block.border = {border, border, border, border};
   block.layer = 0;
   block.n = engine.aperture.n;
+  block.gathers = false;
   block.cost = PredictTime(engine.config.timing,
                            MeasureWork(block.rendered, block.border, CountViews(engine.aperture.n),
                                        UsesCells(engine), 0, {}, 0));
@@ -107,11 +108,12 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
   rules.max_n = engine.max_n;
   rules.cells = UsesCells(engine);
   rules.n_scale = engine.config.n_scale;
+  rules.scale = engine.scale;
   rules.timing = engine.config.timing;
   rules.views = engine.view_counts;
   engine.plan.counts[column] =
       PartitionBlock(rules, engine.cells, column * BlockSide(engine), stripe.y, engine.reach.cells,
-                     worker->nodes, BlocksOf(engine, column));
+                     worker->nodes, BlocksOf(engine, column), engine.plan.gathered);
 }
 
 void MapBlock(const EngineState& engine, const Stripe& stripe, const Block& block) {
@@ -222,6 +224,7 @@ sf_status PlanStripe(Stripe* stripe, const Runner& runner) {
   const int32_t columns = Columns(engine);
   sf_status status = SF_OK;
   if (IsBlockMode(engine)) {
+    engine.plan.gathered.first_row = stripe->y / kCellSize;
     stripe->first_cells = PlaceCells(stripe->y, stripe->height, &engine);
     status = RunJobs<Stripe, MeasureCells>(stripe, columns, runner);
     if (status != SF_OK) return status;

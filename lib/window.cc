@@ -11,7 +11,15 @@ constexpr ViewPosition kPositions[kMaxViews] = {
 };
 
 // Triangular taps 1 2 1 and 1 2 3 4 3 2 1 of layers 1 and 2; each sums to 4^L.
-int32_t Tap(int layer, int32_t k) { return (1 << layer) - Abs(k); }
+constexpr int32_t Tap(int layer, int32_t k) { return (1 << layer) - Abs(k); }
+
+// A view of which nothing outside is read.
+struct Inside {
+  const Plane<const uint8_t>& view;
+
+  const uint8_t* Row(int32_t y) const { return view.Row(y); }
+  static int32_t Column(int32_t x) { return 3 * x; }  // bytes
+};
 
 // A view whose edges go on for ever.
 struct Endless {
@@ -24,16 +32,16 @@ struct Endless {
 
 // Calls take(k, sum) for the samples of `count` places, sum having 2 * kShiftBits. Steps of (dx,
 // dy) pixels keep the weights of the four pixels around a place.
-template <class Take>
-void Interpolate(const Endless& pixel, const CapturedLine& line, int32_t count, const Take& take) {
+template <class Pixels, class Take>
+void Interpolate(const Pixels& pixels, const CapturedLine& line, int32_t count, const Take& take) {
   const int32_t wx = line.x & (kShiftOne - 1), wy = line.y & (kShiftOne - 1);
   const int32_t upper_left = (kShiftOne - wx) * (kShiftOne - wy);
   const int32_t upper_right = wx * (kShiftOne - wy);
   const int32_t lower_left = (kShiftOne - wx) * wy, lower_right = wx * wy;
   int32_t column = line.x >> kShiftBits, row = line.y >> kShiftBits;
   for (int32_t p = 0; p < count; ++p, column += line.dx, row += line.dy) {
-    const uint8_t *above = pixel.Row(row), *below = pixel.Row(row + 1);
-    const int32_t left = pixel.Column(column), right = pixel.Column(column + 1);
+    const uint8_t *above = pixels.Row(row), *below = pixels.Row(row + 1);
+    const int32_t left = pixels.Column(column), right = pixels.Column(column + 1);
     for (int k = 0; k < 3; ++k) {
       const int32_t sum = above[left + k] * upper_left + above[right + k] * upper_right +
                           below[left + k] * lower_left + below[right + k] * lower_right;
@@ -42,19 +50,42 @@ void Interpolate(const Endless& pixel, const CapturedLine& line, int32_t count, 
   }
 }
 
-void Subsample(const Endless& pixel, int layer, int32_t x, int32_t y, uint8_t* rgb) {
-  const int32_t reach = (1 << layer) - 1;
+template <int kLayer, class Pixels>
+void Subsample(const Pixels& pixels, int32_t x, int32_t y, uint8_t* rgb) {
+  constexpr int32_t kReach = (1 << kLayer) - 1;
   int32_t sums[3] = {0, 0, 0};
-  for (int32_t dy = -reach; dy <= reach; ++dy) {
-    const uint8_t* row = pixel.Row(y + dy);
+  for (int32_t dy = -kReach; dy <= kReach; ++dy) {
+    const uint8_t* row = pixels.Row(y + dy);
     int32_t along[3] = {0, 0, 0};
-    for (int32_t dx = -reach; dx <= reach; ++dx) {
-      const uint8_t* from = row + pixel.Column(x + dx);
-      for (int k = 0; k < 3; ++k) along[k] += Tap(layer, dx) * from[k];
+    for (int32_t dx = -kReach; dx <= kReach; ++dx) {
+      const uint8_t* from = row + pixels.Column(x + dx);
+      for (int k = 0; k < 3; ++k) along[k] += Tap(kLayer, dx) * from[k];
     }
-    for (int k = 0; k < 3; ++k) sums[k] += Tap(layer, dy) * along[k];
+    for (int k = 0; k < 3; ++k) sums[k] += Tap(kLayer, dy) * along[k];
   }
-  for (int k = 0; k < 3; ++k) rgb[k] = static_cast<uint8_t>(RoundShift(sums[k], 4 * layer));
+  for (int k = 0; k < 3; ++k) rgb[k] = static_cast<uint8_t>(RoundShift(sums[k], 4 * kLayer));
+}
+
+template <int kLayer, class Pixels>
+void SubsampleLine(const Pixels& pixels, const CapturedLine& line, int32_t count, uint8_t* rgb) {
+  for (int32_t p = 0; p < count; ++p, rgb += 3) {
+    Subsample<kLayer>(pixels, line.x + line.dx * p, line.y + line.dy * p, rgb);
+  }
+}
+
+// `line` is one of places at layer 0, else of whole pixels of the picture.
+template <class Pixels>
+void ReadLine(const Pixels& pixels, int layer, const CapturedLine& line, int32_t count,
+              uint8_t* rgb) {
+  if (layer == 2) {
+    SubsampleLine<2>(pixels, line, count, rgb);
+  } else if (layer == 1) {
+    SubsampleLine<1>(pixels, line, count, rgb);
+  } else {
+    Interpolate(pixels, line, count, [&](int32_t k, int32_t sum) {
+      rgb[k] = static_cast<uint8_t>(RoundShift(sum, 2 * kShiftBits));
+    });
+  }
 }
 
 }  // namespace
@@ -65,20 +96,23 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
     Checked(ranges::kHolePosition, line.x + line.dx * last * kShiftOne);
     Checked(ranges::kHolePosition, line.y + line.dy * last * kShiftOne);
   }
-  const Endless pixel = {window.view[index], window.picture_width - 1, window.picture_height - 1};
-  if (window.layer == 0) {
-    Interpolate(pixel, line, count, [&](int32_t k, int32_t sum) {
-      rgb[k] = static_cast<uint8_t>(RoundShift(sum, 2 * kShiftBits));
-    });
-    return;
-  }
-  // One rounding from 1 / kShiftOne of the layer's pixels to the picture's.
-  const int bits = kShiftBits - window.layer;
-  const auto x = static_cast<int32_t>(RoundShift(line.x, bits));
-  const auto y = static_cast<int32_t>(RoundShift(line.y, bits));
-  for (int32_t p = 0; p < count; ++p, rgb += 3) {
-    const int32_t step = p << window.layer;
-    Subsample(pixel, window.layer, x + line.dx * step, y + line.dy * step, rgb);
+  // At a layer one rounding from 1 / kShiftOne of its pixels to the picture's.
+  const int layer = window.layer, bits = kShiftBits - layer;
+  const CapturedLine whole = {static_cast<int32_t>(RoundShift(line.x, bits)),
+                              static_cast<int32_t>(RoundShift(line.y, bits)), line.dx << layer,
+                              line.dy << layer};
+  const CapturedLine& from = layer == 0 ? line : whole;
+  // Rows and columns that are read at the first and the last place.
+  const int32_t x = layer == 0 ? line.x >> kShiftBits : whole.x;
+  const int32_t y = layer == 0 ? line.y >> kShiftBits : whole.y;
+  const int32_t end_x = x + from.dx * (count - 1), end_y = y + from.dy * (count - 1);
+  const int32_t reach = layer == 0 ? 1 : (1 << layer) - 1;
+  const int32_t right = window.picture_width - 1, bottom = window.picture_height - 1;
+  if (Min(x, end_x) >= reach && Max(x, end_x) <= right - reach && Min(y, end_y) >= reach &&
+      Max(y, end_y) <= bottom - reach) {
+    ReadLine(Inside{window.view[index]}, layer, from, count, rgb);
+  } else {
+    ReadLine(Endless{window.view[index], right, bottom}, layer, from, count, rgb);
   }
 }
 

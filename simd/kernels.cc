@@ -8,6 +8,7 @@
 #include "simd/accumulate-inl.h"
 #include "simd/blend-inl.h"
 #include "simd/cells-inl.h"
+#include "simd/disc-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/transpose-inl.h"
@@ -24,6 +25,11 @@ void Blend(const Span* spans, size_t count, uint8_t* line) { BlendSpans(spans, c
 
 void Spread(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out) {
   SpreadSamples(in, taps, count, out);
+}
+
+void FilterDisc(const uint8_t* in, size_t in_stride, const Disc& disc, size_t rows, size_t count,
+                uint8_t* out, size_t out_stride) {
+  DiscSamples(in, in_stride, disc, rows, count, out, out_stride);
 }
 
 void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
@@ -77,6 +83,7 @@ const Kernels* Table() {
                                       Accumulate,
                                       Blend,
                                       Spread,
+                                      FilterDisc,
                                       FindRuns,
                                       MeasureCell,
                                       Transpose,

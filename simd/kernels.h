@@ -42,6 +42,15 @@ struct SpreadTaps {
 };
 inline constexpr int32_t kMaxSpread = 3;
 
+// A kernel over pixels, symmetric about both axes and diagonals: its octant 0 <= m <= n <= size at
+// n (n + 1) / 2 + m. Weights sum to 2^bits.
+struct Disc {
+  int32_t size;  // [0, kMaxDisc]
+  int bits;      // [1, 24]
+  const uint16_t* weights;  // [0, 32767]
+};
+inline constexpr int32_t kMaxDisc = 13;
+
 // When a run of a line ends, kDisparityBits of lib/fixed.h or any other scale.
 struct RunLimits {
   int16_t spread;  // a run's disparities differ by at most this, [0, edge]
@@ -97,6 +106,11 @@ struct Kernels {
   // out[n] = (the taps over in[n + 3 k], |k| <= reach) / 256, halves to even. in and out don't
   // overlap.
   void (*spread)(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out);
+
+  // out[y][n] = (the disc's sum over in[y][n]) / 2^bits, halves up, for y < rows and n < count.
+  // Strides in bytes. in and out don't overlap.
+  void (*disc)(const uint8_t* in, size_t in_stride, const Disc& disc, size_t rows, size_t count,
+               uint8_t* out, size_t out_stride);
 
   // Splits lines 0 .. lines - 1 of `length` positions, greedily from position 0 on; position q of
   // line k is disparity[q * step + k].

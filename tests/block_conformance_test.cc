@@ -2,6 +2,7 @@
 // gray level apart anywhere, on every SIMD target.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,26 @@ constexpr int kStars[] = {1, 5, 9, 17};
 constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted, Depth::kNoisy};
 constexpr sf_rule kRules[] = {SF_RULE_PAPER, SF_RULE_CELLS};
 
-// Pixels that blocks of each layer cover.
+// Pixels that blocks of each layer cover, and those gathered.
 struct Covered {
   int64_t pixels[SF_LAYERS] = {};
+  int64_t gathered = 0;
 };
+
+std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState& engine,
+                                                   const starfocus::Block& block) {
+  std::vector<reference::GatheredCell> cells;
+  if (!block.gathers) return cells;
+  constexpr int kSide = starfocus::kCellSize;
+  const int right = block.rect.x + block.rect.width, bottom = block.rect.y + block.rect.height;
+  for (int y = block.rect.y; y < bottom; y += kSide) {
+    for (int x = block.rect.x; x < right; x += kSide) {
+      if (engine.plan.gathered.At(x, y) == 0) continue;
+      cells.push_back({x, y, std::min(kSide, right - x), std::min(kSide, bottom - y)});
+    }
+  }
+  return cells;
+}
 
 // The partition of a picture of a single stripe.
 std::vector<reference::Block> Partition(const starfocus::EngineState& engine, Covered* covered) {
@@ -41,7 +58,10 @@ std::vector<reference::Block> Partition(const starfocus::EngineState& engine, Co
           engine.plan.blocks[size_t(column) * size_t(starfocus::MaxBlocks(side)) + size_t(k)];
       blocks.push_back({b.rect.x, b.rect.y, b.rect.width, b.rect.height, b.layer, b.n, b.rendered.x,
                         b.rendered.y, b.rendered.width, b.rendered.height, b.border.left,
-                        b.border.right, b.border.top, b.border.bottom});
+                        b.border.right, b.border.top, b.border.bottom, GatheredCells(engine, b)});
+      for (const reference::GatheredCell& cell : blocks.back().gathered) {
+        covered->gathered += cell.width * cell.height;
+      }
       covered->pixels[b.layer] += b.rect.width * b.rect.height;
     }
   }
@@ -101,6 +121,7 @@ Distance CheckAll(const test::Scene& scene, double focus, double aperture, Cover
       const Distance one = Check(scene, params, Config(scene, max_layer), &here);
       all.Add(one);
       for (int layer = 0; layer < SF_LAYERS; ++layer) covered->pixels[layer] += here.pixels[layer];
+      covered->gathered += here.gathered;
     }
   }
   return all;
@@ -113,6 +134,7 @@ void Tell(const char* name, const Distance& all, const Covered& covered) {
               static_cast<long long>(covered.pixels[2]));
   CHECK(all.mean() < kMeanLimit);
   for (const int64_t pixels : covered.pixels) CHECK(pixels > 0);
+  std::printf("  gathered: %lld\n", static_cast<long long>(covered.gathered));
 }
 
 TEST_CASE("block conformance: random scenes, every star set, both rules, all layers") {

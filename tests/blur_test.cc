@@ -13,80 +13,25 @@
 
 #include "lib/aperture.h"
 #include "starfocus/starfocus.h"
+#include "tests/reference_blur.h"
 #include "tests/test_scene.h"
 
 namespace {
 
-constexpr int kOne = 1 << starfocus::kDisparityBits;
-
-// The nearest radius, in 1 / kOne pixels, of the ladder that blur.h describes: steps of 1/8 pixel
-// up to 4 pixels, of 1/32 of each octave's beginning beyond.
-double NearestRadius(int radius) {
-  double unit = kOne / 8.0;
-  for (double octave = 4 * kOne; radius >= octave; octave *= 2) unit = octave / 32;
-  return std::floor(radius / unit + 0.5) * unit / kOne;
-}
-
-// Integral of (3) over [x0, x1] x [y0, y1] of the unit disc's plane, by lines of y and the midpoint
-// rule along them, which ends on the disc's rim exactly.
-double Integral(double x0, double x1, double y0, double y1, double cot_square) {
-  constexpr int kLines = 96, kPoints = 24;
-  double sum = 0;
-  for (int line = 0; line < kLines; ++line) {
-    const double y = y0 + (line + 0.5) / kLines * (y1 - y0);
-    if (std::abs(y) >= 1) continue;
-    const double rim = std::sqrt(1 - y * y), from = std::max(x0, -rim), to = std::min(x1, rim);
-    if (from >= to) continue;
-    for (int point = 0; point < kPoints; ++point) {
-      const double x = from + (point + 0.5) / kPoints * (to - from);
-      const double ratio = cot_square / (x * x + y * y + cot_square);
-      sum += ratio * ratio * (to - from) / kPoints;
-    }
-  }
-  return sum * (y1 - y0) / kLines;
-}
-
-// (4), summing to 1.
-struct Kernel {
-  int size = 0;
-  std::vector<double> weights;  // (2 size + 1)^2
-  double At(int n, int m) const {
-    return weights[size_t(m + size) * size_t(2 * size + 1) + size_t(n + size)];
-  }
-};
-
-Kernel MakeKernel(double r, double theta) {
-  Kernel kernel;
-  if (r == 0) {
-    kernel.weights = {1};
-    return kernel;
-  }
-  const double cot_square = 1 / (std::tan(theta) * std::tan(theta));
-  kernel.size = int(std::ceil(r + 0.5));
-  double sum = 0;
-  for (int m = -kernel.size; m <= kernel.size; ++m) {
-    for (int n = -kernel.size; n <= kernel.size; ++n) {
-      const double weight =
-          Integral((n - 0.5) / r, (n + 0.5) / r, (m - 0.5) / r, (m + 0.5) / r, cot_square);
-      kernel.weights.push_back(weight);
-      sum += weight;
-    }
-  }
-  for (double& weight : kernel.weights) weight /= sum;
-  return kernel;
-}
+using reference::kOne;
+static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
 
 // The blurred picture, unrounded.
 std::vector<double> Reference(const test::Scene& scene, const sf_params& params, double theta) {
-  std::map<double, Kernel> kernels;
+  std::map<double, reference::BlurKernel> kernels;
   std::vector<double> out;
   const int focus = int(std::floor(params.focus * kOne + 0.5));
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
       const int distance = std::abs(int(std::floor(scene.Disparity(x, y) * kOne + 0.5f)) - focus);
-      const double r = NearestRadius(int(std::floor(params.aperture * distance)));
-      if (kernels.count(r) == 0) kernels[r] = MakeKernel(r, theta);
-      const Kernel& kernel = kernels[r];
+      const double r = reference::NearestRadius(int(std::floor(params.aperture * distance)));
+      if (kernels.count(r) == 0) kernels[r] = reference::MakeBlurKernel(r, theta);
+      const reference::BlurKernel& kernel = kernels[r];
       double sums[3] = {0, 0, 0};
       for (int m = -kernel.size; m <= kernel.size; ++m) {
         for (int n = -kernel.size; n <= kernel.size; ++n) {

@@ -56,6 +56,7 @@ struct Plan {
     window.disparity = {disparity.data(), size_t(width), 0, 0};
     const double focus = random->Real(-limit, limit);
     const BlurScale scale = {int32_t(focus * kRadiusOne), int64_t{1} << starfocus::kStepBits};
+    rules.scale = scale;
     grid.columns = (width + kCellSize - 1) / kCellSize;
     grid.rows = grid.last_row = (height + kCellSize - 1) / kCellSize;
     cells.resize(size_t(grid.columns) * size_t(grid.rows));
@@ -67,6 +68,8 @@ struct Plan {
       }
     }
     around = starfocus::GetReach(2 * limit).cells;
+    flags.assign(cells.size(), test::kPoison);
+    gathered = {flags.data(), grid.columns, 0};
     for (int n = 0; n <= kMaxN; ++n) views[size_t(n)] = starfocus::CountViews(n);
     rules.width = width;
     rules.height = height;
@@ -86,11 +89,21 @@ struct Plan {
                 nodes.size() * sizeof(PartitionNode));
     std::vector<Block> blocks(size_t(starfocus::MaxBlocks(rules.largest_block)));
     const int count =
-        starfocus::PartitionBlock(rules, grid, x, y, around, nodes.data(), blocks.data());
+        starfocus::PartitionBlock(rules, grid, x, y, around, nodes.data(), blocks.data(),
+                                  gathered);
     REQUIRE(count >= 1);
     REQUIRE(count <= int(blocks.size()));
     blocks.resize(size_t(count));
     return blocks;
+  }
+
+  // Whether the cell at pixel (x, y) is one that need not be refocused by views.
+  bool MayGather(int x, int y) const {
+    const int column = x / kCellSize, row = y / kCellSize;
+    const uint32_t smooth =
+        starfocus::FindSmooth(grid, rules.scale, column & ~1, row & ~1, around);
+    const bool is_smooth = (smooth >> (column % 2 + 2 * (row % 2)) & 1) != 0;
+    return rules.cells && is_smooth && grid.At(column, row)->r_max <= 12 * int(kRadiusOne);
   }
 
   bool Inside(int x, int y) const { return x < rules.width && y < rules.height; }
@@ -114,6 +127,8 @@ struct Plan {
 
   std::vector<int16_t> disparity;
   std::vector<Cell> cells;
+  std::vector<uint8_t> flags;  // of gathered
+  starfocus::GatherMap gathered;
   std::vector<ViewCounts> views;
   CellGrid grid;
   int around = 0;
@@ -152,6 +167,67 @@ int ViewsOf(bool cells, double r_max) {
 
 int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
 
+// Leaves to views what holds the cells that may not be gathered: their rectangle, and N and border
+// of the units of 16 that they lie in.
+void PlanRest(const Plan& plan, Block* block) {
+  const Rect rect = block->rect;
+  int left = INT32_MAX, top = INT32_MAX, right = 0, bottom = 0, r_max = 0;
+  const auto for_each = [&](const auto& visit) {
+    for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
+      for (int x = rect.x; x < rect.x + rect.width; x += kCellSize) {
+        if (!plan.MayGather(x, y)) visit(x, y);
+      }
+    }
+  };
+  for_each([&](int x, int y) {
+    left = std::min(left, x);
+    top = std::min(top, y);
+    right = std::max(right, std::min(x + kCellSize, plan.rules.width));
+    bottom = std::max(bottom, std::min(y + kCellSize, plan.rules.height));
+  });
+  block->n = 0;
+  block->rendered = {};
+  block->border = {};
+  if (right == 0) return;
+  block->rendered = {left, top, right - left, bottom - top};
+  Border border = {0, 0, 0, 0};
+  for_each([&](int x, int y) {
+    const int unit_x = x / kSmallestBlock * kSmallestBlock;
+    const int unit_y = y / kSmallestBlock * kSmallestBlock;
+    const BlockStats stats = plan.Stats(unit_x, unit_y, kSmallestBlock);
+    const Border& part = stats.border[0];
+    r_max = std::max(r_max, stats.r_max);
+    border.left = std::max(border.left, left - (unit_x - part.left));
+    border.top = std::max(border.top, top - (unit_y - part.top));
+    border.right = std::max(border.right, unit_x + kSmallestBlock + part.right - right);
+    border.bottom = std::max(border.bottom, unit_y + kSmallestBlock + part.bottom - bottom);
+  });
+  block->n = std::min(int(std::ceil(ViewsOf(true, r_max / kRadiusOne) * plan.rules.n_scale)),
+                      plan.rules.max_n);
+  block->border = {border.left + 1, border.right + 1, border.top + 1, border.bottom + 1};
+}
+
+// Gathers what may be: at layer 0, and where that is the whole block.
+void PlanGathering(const Plan& plan, Block* block) {
+  uint64_t cells = 0, others = 0, gather = 0;
+  for (int y = block->rect.y; y < block->rect.y + block->rect.height; y += kCellSize) {
+    for (int x = block->rect.x; x < block->rect.x + block->rect.width; x += kCellSize) {
+      ++cells;
+      if (plan.MayGather(x, y)) {
+        gather += starfocus::PredictGather(plan.rules.timing, kCellSize * kCellSize,
+                                           plan.grid.At(x / kCellSize, y / kCellSize)->r_max);
+      } else {
+        ++others;
+      }
+    }
+  }
+  if (others == cells || (others > 0 && block->layer > 0)) return;
+  block->layer = 0;
+  block->gathers = true;
+  block->cost = gather + block->cost * others / cells;
+  PlanRest(plan, block);
+}
+
 // A block with the parameters that the rules give it.
 Block Planned(const Plan& plan, int x, int y, int side) {
   const BlockStats stats = plan.Stats(x, y, side);
@@ -179,6 +255,7 @@ Block Planned(const Plan& plan, int x, int y, int side) {
       plan.rules.timing,
       starfocus::MeasureWork(block.rendered, block.border, starfocus::CountViews(block.n),
                              plan.rules.cells, upsampled, stats.content, block.layer));
+  if (block.n > 0) PlanGathering(plan, &block);
   return block;
 }
 
@@ -261,6 +338,12 @@ void CheckBlocks(const Plan& plan, int x, int y, const std::vector<Block>& block
     CHECK(Same(block.border, planned.border));
     CHECK(block.layer == planned.layer);
     CHECK(block.n == planned.n);
+    CHECK(block.gathers == planned.gathers);
+    for (int row = rect.y; row < rect.y + rect.height && block.gathers; row += kCellSize) {
+      for (int column = rect.x; column < rect.x + rect.width; column += kCellSize) {
+        CHECK((plan.gathered.At(column, row) != 0) == plan.MayGather(column, row));
+      }
+    }
   }
   bool once = true;
   for (int row = 0; row < side; ++row) {
@@ -346,6 +429,7 @@ TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
     for (const int side : {32, 64, 128, 256}) {
       Plan plan(side - 5, side, side, 10, &random);
       plan.rules.timing = {};
+      plan.rules.cells = false;  // what is gathered is not the block's
       plan.rules.timing.block = block;
       const std::vector<Block> blocks = plan.Partition(0, 0);
       REQUIRE(blocks.size() == 1);
@@ -370,6 +454,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
       std::fill(plan.disparity.begin(), plan.disparity.end(), int16_t(std::floor(r * 64)));
       window.disparity = {plan.disparity.data(), size_t(3 * kMiddle), 0, 0};
       const BlurScale scale = {0, int64_t{1} << starfocus::kStepBits};
+      plan.rules.scale = scale;
       for (int row = 0; row < plan.grid.rows; ++row) {
         for (int column = 0; column < plan.grid.columns; ++column) {
           *plan.grid.At(column, row) =
@@ -386,6 +471,14 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
         CAPTURE(cells);
         plan.rules.cells = cells;
         for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
+          const bool gathered = cells && exact > 0.5 && exact <= 12;
+          CHECK(block.gathers == gathered);
+          if (gathered) {
+            CHECK(block.layer == 0);
+            CHECK(block.n == 0);
+            CHECK(block.rendered.width == 0);
+            continue;
+          }
           const int layer = std::min(LayerOf(cells, exact, false), max_layer);
           CHECK(block.layer == layer);
           CHECK(block.n == ViewsOf(cells, exact / (1 << layer)));

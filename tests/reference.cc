@@ -1,5 +1,6 @@
 #include "tests/reference.h"
 
+#include "tests/reference_blur.h"
 #include "tests/reference_rectangle.h"
 
 namespace reference {
@@ -204,6 +205,41 @@ Result Refocus(const test::Scene& scene, const sf_params& params, double theta, 
   return result;
 }
 
+namespace {
+
+// Every pixel of the cell from the whole picture, whose edge goes on for ever.
+Picture Gather(const Picture& picture, const GatheredCell& cell, const Lens& lens) {
+  int low = INT32_MAX, high = INT32_MIN;
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const int disparity = picture.disparities[picture.At(
+          std::min(cell.x + x, picture.width - 1), std::min(cell.y + y, picture.height - 1))];
+      low = std::min(low, disparity);
+      high = std::max(high, disparity);
+    }
+  }
+  const int distance = std::abs((low + high) / 2 - lens.focus);
+  const BlurKernel kernel =
+      MakeBlurKernel(NearestRadius(int(std::floor(lens.radius * distance))), lens.theta);
+  Picture to(cell.width, cell.height);
+  for (int y = 0; y < cell.height; ++y) {
+    for (int x = 0; x < cell.width; ++x) {
+      Colour& sum = to.colours[to.At(x, y)];
+      for (int m = -kernel.size; m <= kernel.size; ++m) {
+        for (int n = -kernel.size; n <= kernel.size; ++n) {
+          const Colour& from = picture.colours[picture.At(
+              std::clamp(cell.x + x + n, 0, picture.width - 1),
+              std::clamp(cell.y + y + m, 0, picture.height - 1))];
+          for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * from[c];
+        }
+      }
+    }
+  }
+  return to;
+}
+
+}  // namespace
+
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,
                                   bool cells, const std::vector<Block>& blocks) {
   const LightField field = Load(scene);
@@ -215,8 +251,15 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
         block.right,      block.top,        block.bottom};
-    const Picture rendered = RefocusRectangle(field, layers[size_t(block.layer)], lens, rectangle);
-    Put(Finished(block, rendered), block.x, block.y, scene.width, &result);
+    if (rectangle.width > 0) {
+      const Picture rendered =
+          RefocusRectangle(field, layers[size_t(block.layer)], lens, rectangle);
+      Put(Finished(block, rendered), block.layer == 0 ? rectangle.x : block.x,
+          block.layer == 0 ? rectangle.y : block.y, scene.width, &result);
+    }
+    for (const GatheredCell& cell : block.gathered) {
+      Put(Gather(layers[0], cell, lens), cell.x, cell.y, scene.width, &result);
+    }
   }
   return result.rgb;
 }

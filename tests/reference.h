@@ -28,11 +28,17 @@ struct Result {
 Result Refocus(const test::Scene& scene, const sf_params& params, double theta, int block);
 
 // A block of the block mode and what it is rendered from.
+// A cell of the picture that is gathered: blurred by the ideal kernel of its middle disparity.
+struct GatheredCell {
+  int x, y, width, height;
+};
+
 struct Block {
   int x, y, width, height;  // of the picture
   int layer, n;
   int rendered_x, rendered_y, rendered_width, rendered_height;  // at the layer, margins included
   int left, right, top, bottom;                                 // border at the layer
+  std::vector<GatheredCell> gathered;                           // after the views
 };
 
 // Block mode with a given partition of the picture, without deblocking; unrounded,

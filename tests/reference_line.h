@@ -68,8 +68,10 @@ struct Lens {
     return std::min(1.0, radius / n * std::abs(disparity - focus) / (64.0 * (1 << layer)));
   }
   // Within a run, disparities (1/64) range over a quarter pixel of displacement at the aperture's
-  // rim, and never across the edge of a surface.
-  int Spread() const { return int(std::min<int64_t>(kSurfaceStep, (int64_t{16} << 24) / step)); }
+  // rim, half a pixel with cells, and never across the edge of a surface.
+  int Spread() const {
+    return int(std::min<int64_t>(kSurfaceStep, (int64_t{cells ? 32 : 16} << 24) / step));
+  }
   // Views at most half a unit from the centre have a captured view at that distance.
   bool Half(int k) const { return 2 * k * radius <= n; }
   bool Contains(int i, int j) const { return i * i + j * j <= n * n; }

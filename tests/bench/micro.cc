@@ -58,6 +58,10 @@ constexpr size_t kRows = 32, kColumns = kSamples / 3 / kRows;
 constexpr starfocus::simd::HalfBand kTaps = {8192, 4096, 0};
 // A box of 3.5 pixels.
 constexpr starfocus::simd::SpreadTaps kSpreadTaps = {2, 72, 72, 20};
+// Radius 3.2 or so: weights need not sum to anything for their time.
+constexpr uint16_t kDiscWeights[15] = {900, 900, 900, 880, 880, 860, 700, 690, 600,
+                                       300, 100, 90,  40,  0,   0};
+constexpr starfocus::simd::Disc kDisc = {4, 16, kDiscWeights};
 using Body = void (*)(const Kernels&, Buffers*);
 
 struct Case {
@@ -83,6 +87,14 @@ const Case kCases[] = {
     {"spread", false, 1 + 1,
      [](const Kernels& k, Buffers* b) {
        k.spread(b->bytes.data() + kMargin, kSpreadTaps, kSamples, b->line.data());
+     }},
+    // Over the same lines, so that each stays in the cache for those around it.
+    {"disc", false, 1 + 1,
+     [](const Kernels& k, Buffers* b) {
+       for (size_t n = 0; n < kSamples; n += kSpan) {
+         k.disc(b->bytes.data() + kMargin + kSpan * 4, kSpan, kDisc, 1, kSpan, b->line.data(),
+                kSpan);
+       }
      }},
     {"find_runs", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {

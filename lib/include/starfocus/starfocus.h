@@ -186,7 +186,7 @@ typedef struct sf_block {
   int32_t width;  /**< pixels; less than the side at the right edge of the picture */
   int32_t height; /**< pixels; less than the side at the bottom edge of the picture */
   int32_t layer;  /**< L: rendered at 1 / 2^L of the size */
-  int32_t n;      /**< N */
+  int32_t n;      /**< N; 0: no views but the centre */
 } sf_block;
 
 /** Told of each block from the thread of the call, before the block is refocused. */
@@ -267,6 +267,8 @@ typedef struct sf_report {
   sf_skipped skipped;
   uint64_t side_bytes;    /**< read of the views beside the centre, counted every time: in holes and
                                beside depth edges only */
+  uint64_t gathered_pixels; /**< SF_MODE_BLOCK by the rule of cells: blurred as a whole, since one
+                                 surface is all that lies within reach; no view is rendered there */
   uint64_t reused_blocks; /**< sf_refocus_after: largest blocks of which nothing was refocused */
 } sf_report;
 

@@ -1,0 +1,175 @@
+// Kernels::disc. Included once per target.
+#if defined(STARFOCUS_SIMD_DISC_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_DISC_INL_H_
+#undef STARFOCUS_SIMD_DISC_INL_H_
+#else
+#define STARFOCUS_SIMD_DISC_INL_H_
+#endif
+
+#include <cstring>
+
+#include "simd/compat-inl.h"
+#include "simd/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+// A quarter of the disc in pairs of columns, row by row.
+struct DiscPairs {
+  struct Pair {
+    uint16_t first, second;
+  };
+  Pair pairs[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
+  int32_t counts[kMaxDisc + 1];  // of each row
+
+  explicit DiscPairs(const Disc& disc) {
+    Pair* pair = pairs;
+    for (int32_t y = 0; y <= disc.size; ++y) {
+      const auto weight = [&](int32_t x) -> uint16_t {
+        const int32_t high = x > y ? x : y, low = x > y ? y : x;
+        return x > disc.size ? uint16_t{0} : disc.weights[high * (high + 1) / 2 + low];
+      };
+      counts[y] = 0;
+      for (int32_t x = 0; x <= disc.size; x += 2) {
+        const Pair next = {weight(x), weight(x + 1)};
+        if (next.first == 0 && next.second == 0) break;
+        *pair++ = next;
+        ++counts[y];
+      }
+    }
+  }
+};
+
+inline constexpr size_t kDiscChunk = 192;  // samples filtered together
+inline constexpr size_t kDiscMargin = 3 * kMaxDisc;
+
+// Samples of rows y and -y added, from `margin` before the chunk to as many behind it.
+HWY_INLINE void AddRows(const uint8_t* above, const uint8_t* below, size_t count,
+                        uint16_t* HWY_RESTRICT sums) {
+  const hn::ScalableTag<uint16_t> d16;
+  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
+    auto sum = hn::PromoteTo(d16, hn::LoadU(d8, above + n));
+    if (above != below) sum = hn::Add(sum, hn::PromoteTo(d16, hn::LoadU(d8, below + n)));
+    hn::StoreU(sum, d16, sums + n);
+  }
+}
+
+// Adds a row of the disc, and the one below the middle, whose samples are added to it.
+#if STARFOCUS_HAVE_PAIR_MULTIPLY
+
+// Sums of 32 bits in the order in which pairs of 16 bits are interleaved: that of FinishDisc.
+HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
+                           const uint16_t* HWY_RESTRICT sums, size_t count,
+                           uint32_t* HWY_RESTRICT accumulators) {
+  const hn::ScalableTag<uint16_t> d16;
+  const hn::RebindToSigned<decltype(d16)> di16;
+  const hn::Repartition<uint32_t, decltype(d16)> d32;
+  const hn::RebindToSigned<decltype(d32)> di32;
+  const size_t lanes = hn::Lanes(d16);
+  for (size_t n = 0; n < count; n += lanes) {
+    const uint16_t* at = sums + n;
+    auto low = hn::BitCast(di32, hn::LoadU(d32, accumulators + n));
+    auto high = hn::BitCast(di32, hn::LoadU(d32, accumulators + n + lanes / 2));
+    auto unused = hn::Zero(di32);
+    for (ptrdiff_t k = 0; k < pair_count; ++k) {
+      const ptrdiff_t x = 6 * k;
+      auto first = hn::LoadU(d16, at + x);
+      if (k > 0) first = hn::Add(first, hn::LoadU(d16, at - x));
+      const auto second = hn::Add(hn::LoadU(d16, at + x + 3), hn::LoadU(d16, at - x - 3));
+      const auto weights = hn::BitCast(di16, hn::Set(d32, pairs[k].first | uint32_t{pairs[k].second} << 16));
+      low = hn::ReorderWidenMulAccumulate(
+          di32, hn::BitCast(di16, hn::InterleaveLower(d16, first, second)), weights, low, unused);
+      high = hn::ReorderWidenMulAccumulate(
+          di32, hn::BitCast(di16, hn::InterleaveUpper(d16, first, second)), weights, high, unused);
+    }
+    hn::StoreU(hn::BitCast(d32, low), d32, accumulators + n);
+    hn::StoreU(hn::BitCast(d32, high), d32, accumulators + n + lanes / 2);
+  }
+}
+
+HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t count, int bits,
+                           uint8_t* HWY_RESTRICT out) {
+  const hn::ScalableTag<uint32_t> d32;
+  const hn::RebindToSigned<decltype(d32)> di32;
+  const hn::Repartition<int16_t, decltype(d32)> d16;
+  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  const size_t lanes = hn::Lanes(d16);
+  const auto half = hn::Set(d32, uint32_t{1} << (bits - 1));
+  const auto value = [&](const uint32_t* sums) HWY_ATTR {
+    return hn::BitCast(di32, hn::ShiftRightSame(hn::Add(hn::LoadU(d32, sums), half), bits));
+  };
+  for (size_t n = 0; n < count; n += lanes) {
+    const auto bytes = hn::DemoteTo(d8, hn::ReorderDemote2To(d16, value(accumulators + n), value(accumulators + n + lanes / 2)));
+    if (n + lanes <= count) {
+      hn::StoreU(bytes, d8, out + n);
+    } else {
+      uint8_t last[HWY_MAX_BYTES];
+      hn::StoreU(bytes, d8, last);
+      std::memcpy(out + n, last, count - n);
+    }
+  }
+}
+
+#else
+
+HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
+                           const uint16_t* HWY_RESTRICT sums, size_t count,
+                           uint32_t* HWY_RESTRICT accumulators) {
+  const hn::ScalableTag<uint32_t> d32;
+  const hn::Rebind<uint16_t, decltype(d32)> d16;
+  const size_t lanes = hn::Lanes(d32);
+  for (size_t n = 0; n < count; n += lanes) {
+    const auto both = [&](const uint16_t* at, ptrdiff_t x) HWY_ATTR {
+      return hn::PromoteTo(d32, hn::Add(hn::LoadU(d16, at - x), hn::LoadU(d16, at + x)));
+    };
+    const uint16_t* at = sums + n;
+    auto sum = hn::LoadU(d32, accumulators + n);
+    sum = hn::Add(sum, WeighPair(d32, hn::PromoteTo(d32, hn::LoadU(d16, at)), both(at, 3),
+                                 hn::Set(d32, pairs[0].first), hn::Set(d32, pairs[0].second)));
+    for (ptrdiff_t k = 1; k < pair_count; ++k) {
+      sum = hn::Add(sum, WeighPair(d32, both(at, 6 * k), both(at, 6 * k + 3),
+                                   hn::Set(d32, pairs[k].first), hn::Set(d32, pairs[k].second)));
+    }
+    hn::StoreU(sum, d32, accumulators + n);
+  }
+}
+
+HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t count, int bits,
+                           uint8_t* HWY_RESTRICT out) {
+  FinishSamples(accumulators, count, bits, out);
+}
+
+#endif
+
+HWY_INLINE void DiscSamples(const uint8_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
+                            size_t rows, size_t count, uint8_t* HWY_RESTRICT out,
+                            size_t out_stride) {
+  constexpr size_t kSpare = HWY_MAX_BYTES;
+  const DiscPairs quarter(disc);
+  const size_t margin = 3 * static_cast<size_t>(disc.size);
+  uint16_t sums[kDiscChunk + 2 * kDiscMargin + kSpare];
+  uint32_t accumulators[kDiscChunk + kSpare];
+  for (size_t begin = 0; begin < count; begin += kDiscChunk) {
+    const size_t chunk = count - begin < kDiscChunk ? count - begin : kDiscChunk;
+    for (size_t row = 0; row < rows; ++row) {
+      const uint8_t* middle = in + row * in_stride + begin;
+      const DiscPairs::Pair* pairs = quarter.pairs;
+      std::memset(accumulators, 0, sizeof(accumulators));
+      for (int32_t y = 0; y <= disc.size && quarter.counts[y] > 0; ++y) {
+        const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
+        AddRows(middle - offset - margin, middle + offset - margin, chunk + 2 * margin, sums);
+        AddDiscRow(pairs, quarter.counts[y], sums + margin, chunk, accumulators);
+        pairs += quarter.counts[y];
+      }
+      FinishDisc(accumulators, chunk, disc.bits, out + row * out_stride + begin);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif
