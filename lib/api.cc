@@ -25,6 +25,7 @@ void sf_config_init(sf_config* config) {
   config->timing = starfocus::DefaultTiming();
   config->n_scale = 1.0;
   config->skips = 1;
+  config->gather = 1;
 }
 
 void sf_params_init(sf_params* params) {

@@ -66,8 +66,8 @@ struct CellGrid {
   }
 };
 
-// Cells of a stripe that are gathered instead of refocused by views, where they belong to a block at
-// layer 0.
+// Cells of a stripe that are gathered instead of refocused by views, where they belong to a block
+// at layer 0.
 struct GatherMap {
   uint8_t* cells = nullptr;
   int32_t columns = 0;
@@ -91,9 +91,9 @@ Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurS
 // them, in pixels of the picture.
 inline constexpr int32_t kLayerMargin[3] = {0, 4, 12};
 
-// A cell is smooth when it can be gathered (lib/gather.h): one surface is all that lies within reach
-// of its pixels or reaches them, and the blur there, nearer than the focus counted as negative,
-// differs by at most this, kDisparityBits.
+// A cell is smooth when it can be gathered (lib/gather.h): one surface is all that lies within
+// reach of its pixels or reaches them, and the blur there, nearer than the focus counted as
+// negative, differs by at most this, kDisparityBits.
 inline constexpr int32_t kSmoothRange = (3 << kDisparityBits) / 2;
 
 // What a block knows: radii of the pixels inside and (but for r_min) of those that splat into it,

@@ -97,7 +97,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   const ViewGrid grid =
       MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false, false);
   engine->scale = {grid.focus, grid.step};
-  const bool gathers = IsBlockMode(*engine) && UsesCells(*engine);
+  const bool gathers = IsBlockMode(*engine) && UsesCells(*engine) && config.gather != 0;
   if (params.mode == SF_MODE_BLUR || gathers) {
     const int32_t steps = BlurStepCount(gathers && r_max > kMaxGather ? kMaxGather : r_max);
     if (steps > engine->blur_steps) {

@@ -1,8 +1,9 @@
 #include "lib/partition.h"
 
+#include <cstdlib>
+
 #include "lib/gather.h"
 #include "lib/rules.h"
-#include <cstdlib>
 
 namespace starfocus {
 namespace {
@@ -90,13 +91,12 @@ class Partition {
     const int32_t cell_x = x_ / kCellSize + 2 * column, cell_y = y_ / kCellSize + 2 * row;
     node->stats = MeasureBlock(cells, cell_x, cell_y, around);
     const uint32_t smooth =
-        rules_.cells ? FindSmooth(cells, rules_.scale, cell_x, cell_y, around) : 0;
+        rules_.gathers ? FindSmooth(cells, rules_.scale, cell_x, cell_y, around) : 0;
     for (int32_t k = 0; k < 4; ++k) {
       const int32_t x = cell_x + (k & 1), y = cell_y + (k >> 1);
       if (x >= cells.columns || y >= cells.rows) continue;
       const int32_t r_max = cells.At(x, y)->r_max;
-      const bool gathered =
-          (smooth >> k & 1) != 0 && r_max <= kMaxGather << kDisparityBits;
+      const bool gathered = (smooth >> k & 1) != 0 && r_max <= kMaxGather << kDisparityBits;
       gathered_.At(x * kCellSize, y * kCellSize) = gathered ? 1 : 0;
       ++node->cells;
       if (!gathered) continue;
@@ -118,8 +118,7 @@ class Partition {
     block.rect = RectOf(level, column, row);
     ChooseParameters(node.stats, NodeSide(level), &block);
     const bool views = block.n > 0, whole = node.gathered == node.cells;
-    if (views && node.gathered > 0 &&
-        (block.layer == 0 || whole)) {
+    if (views && node.gathered > 0 && (block.layer == 0 || whole)) {
       const auto cells = static_cast<uint64_t>(node.cells);
       const auto others = static_cast<uint64_t>(node.cells - node.gathered);
       block.cost = node.gather + block.cost * others / cells;
@@ -247,7 +246,8 @@ class Partition {
 }  // namespace
 
 int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
-                       int32_t around, PartitionNode* nodes, Block* blocks, const GatherMap& gathered) {
+                       int32_t around, PartitionNode* nodes, Block* blocks,
+                       const GatherMap& gathered) {
   Partition partition(rules, nodes, gathered);
   partition.Measure(cells, x, y, around);
   return partition.Emit(blocks);

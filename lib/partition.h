@@ -13,7 +13,7 @@ inline constexpr int32_t kSmallestBlock = 16;
 
 // A block to refocus: a rectangle of the picture with its parameters.
 struct Block {
-  Rect rect;      // in pixels of the picture, clipped to it
+  Rect rect;  // in pixels of the picture, clipped to it
   // Of views, at the layer: with the margin that upsampling reads; at layer 0 around the cells that
   // are not gathered, and empty when all are.
   Rect rendered;
@@ -31,6 +31,7 @@ struct PartitionRules {
   int32_t max_n;
   bool cells;      // ViewsByCells instead of (9)
   double n_scale;  // of their N
+  bool gathers;    // smooth cells, with cells
   BlurScale scale;
   sf_timing timing;
   const ViewCounts* views;  // by N, up to max_n
@@ -59,10 +60,11 @@ constexpr int32_t PartitionNodes(int32_t largest_block) {
 
 // Splits the largest block at (x, y), multiples of largest_block, into the blocks of least
 // predicted time. `around`: how many cells away a pixel may splat from. nodes[PartitionNodes] is
-// scratch. Writes at most MaxBlocks blocks in z-order, and what of `gathered` belongs to the largest
-// block; returns the number of blocks.
+// scratch. Writes at most MaxBlocks blocks in z-order, and what of `gathered` belongs to the
+// largest block; returns the number of blocks.
 int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
-                       int32_t around, PartitionNode* nodes, Block* blocks, const GatherMap& gathered);
+                       int32_t around, PartitionNode* nodes, Block* blocks,
+                       const GatherMap& gathered);
 
 }  // namespace starfocus
 

@@ -96,8 +96,9 @@ void GatherCells(const EngineState& engine, const Block& block, const Plane<uint
   Field field;
   field.rgb = worker->star.field_rgb[0];
   field.disparity = worker->star.field_disparity[0];
-  const GatherJob job = {&engine.windows[0], &engine.cells, &engine.plan.gathered, engine.scale,
-                         engine.blur_kernels, engine.kernels, block.rect};
+  const GatherJob job = {&engine.windows[0], &engine.cells,       &engine.plan.gathered,
+                         engine.scale,       engine.blur_kernels, engine.kernels,
+                         block.rect};
   worker->gathered_pixels += GatherRectangle(job, &field, At(out, block.rect, 0), out.stride);
 }
 
@@ -114,8 +115,12 @@ int32_t RefocusViews(const EngineState& engine, const Block& block, const Plane<
                                engine.params.aperture, block.layer, engine.config.views == 17,
                                UsesCells(engine));
   if (pinhole) grid.step = 0;
-  const StarJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
-                       block.border, block.gathers ? &engine.plan.gathered : nullptr};
+  const StarJob job = {&engine.windows[block.layer],
+                       &grid,
+                       engine.kernels,
+                       block.rendered,
+                       block.border,
+                       block.gathers ? &engine.plan.gathered : nullptr};
   if (engine.config.skips == 0) return Render(engine, block, job, out, worker);
   const Rect& rect = ViewsRect(block);
   const uint64_t pixels = Samples(rect) / 3;
@@ -149,9 +154,10 @@ void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uin
                   Worker* worker) {
   const sf_clock clock = engine.params.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
-  uint64_t views = 0;
+  uint64_t views = 1;  // the centre
   if (engine.params.mode == SF_MODE_BLUR) {
     BlurBlock(engine, block, out, worker);
+    views = 0;
   } else {
     if (block.rendered.width > 0) {
       views = static_cast<uint64_t>(RefocusViews(engine, block, out, worker));

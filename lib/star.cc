@@ -284,8 +284,8 @@ class Star {
   }
 
   // Adds the pixels of a part of the views j = 1 .. last on one side of a column.
-  void AddColumn(const Line& line, int32_t runs, int32_t last, const LinePart& part,
-                 uint32_t pixel, LineHoles* view, SpanList* list) {
+  void AddColumn(const Line& line, int32_t runs, int32_t last, const LinePart& part, uint32_t pixel,
+                 LineHoles* view, SpanList* list) {
     LineHoles& holes = *view;
     const SpanTarget target = {part.begin, pixel, 0, nullptr};
     SpanSink<LineHoles> sink(line, target, holes, list);

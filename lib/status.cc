@@ -69,6 +69,8 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_PREPARED:
       return "prepared light field is of another size, number of views, disparity range or "
              "max_layer";
+    case SF_ERROR_GATHER:
+      return "gather is not 0 or 1";
   }
   return "unknown status";
 }

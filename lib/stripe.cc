@@ -108,6 +108,7 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
   rules.max_n = engine.max_n;
   rules.cells = UsesCells(engine);
   rules.n_scale = engine.config.n_scale;
+  rules.gathers = UsesCells(engine) && engine.config.gather != 0;
   rules.scale = engine.scale;
   rules.timing = engine.config.timing;
   rules.views = engine.view_counts;

@@ -35,7 +35,8 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& 
 uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);
 
 // The same for gathering `pixels` of the picture, which is as much a filter of the picture as
-// upsampling, so that this has no coefficient of its own; for pixels that are blurred by `radius` (kDisparityBits) at most.
+// upsampling, so that this has no coefficient of its own; for pixels that are blurred by `radius`
+// (kDisparityBits) at most.
 uint64_t PredictGather(const sf_timing& timing, uint64_t pixels, int32_t radius);
 
 // Coefficients of the architecture this is compiled for (timing_defaults.h).

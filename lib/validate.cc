@@ -51,6 +51,7 @@ sf_status CheckConfig(const sf_config& config) {
     return SF_ERROR_N_SCALE;
   }
   if (config.skips != 0 && config.skips != 1) return SF_ERROR_SKIPS;
+  if (config.gather != 0 && config.gather != 1) return SF_ERROR_GATHER;
   return SF_OK;
 }
 

@@ -32,7 +32,8 @@ ViewGrid MakeViewGrid(const Aperture& aperture, double focus, double aperture_ra
   }
   // spread * u_t / 2^layer is that, but a depth edge always ends a run.
   const int64_t spread =
-      (int64_t{cells ? kCellRunSpread : kRunSpread} << (kStepBits + kDisparityBits - kShiftBits)) / grid.step;
+      (int64_t{cells ? kCellRunSpread : kRunSpread} << (kStepBits + kDisparityBits - kShiftBits)) /
+      grid.step;
   grid.spread = static_cast<int32_t>(spread < kSurfaceStep ? spread : kSurfaceStep);
   return grid;
 }

@@ -30,13 +30,10 @@ struct DiscPairs {
         const int32_t high = x > y ? x : y, low = x > y ? y : x;
         return x > disc.size ? uint16_t{0} : disc.weights[high * (high + 1) / 2 + low];
       };
-      counts[y] = 0;
-      for (int32_t x = 0; x <= disc.size; x += 2) {
-        const Pair next = {weight(x), weight(x + 1)};
-        if (next.first == 0 && next.second == 0) break;
-        *pair++ = next;
-        ++counts[y];
-      }
+      int32_t last = disc.size;
+      while (last >= 0 && weight(last) == 0) --last;
+      counts[y] = last / 2 + (last >= 0);
+      for (int32_t x = 0; x <= last; x += 2) *pair++ = {weight(x), weight(x + 1)};
     }
   }
 };
@@ -78,7 +75,8 @@ HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
       auto first = hn::LoadU(d16, at + x);
       if (k > 0) first = hn::Add(first, hn::LoadU(d16, at - x));
       const auto second = hn::Add(hn::LoadU(d16, at + x + 3), hn::LoadU(d16, at - x - 3));
-      const auto weights = hn::BitCast(di16, hn::Set(d32, pairs[k].first | uint32_t{pairs[k].second} << 16));
+      const auto weights =
+          hn::BitCast(di16, hn::Set(d32, pairs[k].first | uint32_t{pairs[k].second} << 16));
       low = hn::ReorderWidenMulAccumulate(
           di32, hn::BitCast(di16, hn::InterleaveLower(d16, first, second)), weights, low, unused);
       high = hn::ReorderWidenMulAccumulate(
@@ -101,7 +99,8 @@ HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t cou
     return hn::BitCast(di32, hn::ShiftRightSame(hn::Add(hn::LoadU(d32, sums), half), bits));
   };
   for (size_t n = 0; n < count; n += lanes) {
-    const auto bytes = hn::DemoteTo(d8, hn::ReorderDemote2To(d16, value(accumulators + n), value(accumulators + n + lanes / 2)));
+    const auto bytes = hn::DemoteTo(d8, hn::ReorderDemote2To(d16, value(accumulators + n),
+                                                             value(accumulators + n + lanes / 2)));
     if (n + lanes <= count) {
       hn::StoreU(bytes, d8, out + n);
     } else {
@@ -157,7 +156,8 @@ HWY_INLINE void DiscSamples(const uint8_t* HWY_RESTRICT in, size_t in_stride, co
       const uint8_t* middle = in + row * in_stride + begin;
       const DiscPairs::Pair* pairs = quarter.pairs;
       std::memset(accumulators, 0, sizeof(accumulators));
-      for (int32_t y = 0; y <= disc.size && quarter.counts[y] > 0; ++y) {
+      for (int32_t y = 0; y <= disc.size; ++y) {
+        if (quarter.counts[y] == 0) continue;
         const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
         AddRows(middle - offset - margin, middle + offset - margin, chunk + 2 * margin, sums);
         AddDiscRow(pairs, quarter.counts[y], sums + margin, chunk, accumulators);

@@ -43,10 +43,10 @@ struct SpreadTaps {
 inline constexpr int32_t kMaxSpread = 3;
 
 // A kernel over pixels, symmetric about both axes and diagonals: its octant 0 <= m <= n <= size at
-// n (n + 1) / 2 + m. Weights sum to 2^bits.
+// n (n + 1) / 2 + m. All weights together sum to 2^bits at most.
 struct Disc {
-  int32_t size;  // [0, kMaxDisc]
-  int bits;      // [1, 24]
+  int32_t size;             // [0, kMaxDisc]
+  int bits;                 // [1, 24]
   const uint16_t* weights;  // [0, 32767]
 };
 inline constexpr int32_t kMaxDisc = 13;

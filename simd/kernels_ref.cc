@@ -217,9 +217,10 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 }  // namespace
 
 const Kernels& ReferenceKernels() {
-  static constexpr Kernels kernels = {
-      "reference", Accumulate,       Blend, Spread, FilterDisc, FindRuns,    MeasureCell,    Transpose,
-      Finish,      ConvertDisparity, Widen, Narrow, FinishLayer, FilterHalfBand, Between};
+  static constexpr Kernels kernels = {"reference", Accumulate,       Blend,       Spread,
+                                      FilterDisc,  FindRuns,         MeasureCell, Transpose,
+                                      Finish,      ConvertDisparity, Widen,       Narrow,
+                                      FinishLayer, FilterHalfBand,   Between};
   return kernels;
 }
 

@@ -29,7 +29,7 @@ const BadConfig kBadConfigs[] = {
     {"version 0", [](sf_config* c) { c->version = 0; }, SF_ERROR_VERSION},
     {"version too new", [](sf_config* c) { c->version = SF_ABI_VERSION + 1; }, SF_ERROR_VERSION},
     {"reserved first", [](sf_config* c) { c->reserved[0] = 1; }, SF_ERROR_RESERVED},
-    {"reserved last", [](sf_config* c) { c->reserved[7] = 1; }, SF_ERROR_RESERVED},
+    {"reserved last", [](sf_config* c) { c->reserved[6] = 1; }, SF_ERROR_RESERVED},
     {"width 0", [](sf_config* c) { c->width = 0; }, SF_ERROR_SIZE},
     {"width -1", [](sf_config* c) { c->width = -1; }, SF_ERROR_SIZE},
     {"width too large", [](sf_config* c) { c->width = SF_MAX_SIZE + 1; }, SF_ERROR_SIZE},
@@ -94,6 +94,8 @@ const BadConfig kBadConfigs[] = {
     {"n_scale inf", [](sf_config* c) { c->n_scale = kInf; }, SF_ERROR_N_SCALE},
     {"skips -1", [](sf_config* c) { c->skips = -1; }, SF_ERROR_SKIPS},
     {"skips 2", [](sf_config* c) { c->skips = 2; }, SF_ERROR_SKIPS},
+    {"gather -1", [](sf_config* c) { c->gather = -1; }, SF_ERROR_GATHER},
+    {"gather 2", [](sf_config* c) { c->gather = 2; }, SF_ERROR_GATHER},
 };
 
 struct BadParams {
@@ -239,6 +241,7 @@ TEST_CASE("configuration: defaults and limits are legal") {
   CHECK(config.deblocking == 35);
   CHECK(config.n_scale == 1);
   CHECK(config.skips == 1);
+  CHECK(config.gather == 1);
   CHECK(config.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
   for (uint32_t reserved : config.reserved) CHECK(reserved == 0);
   sf_params params;
@@ -408,6 +411,7 @@ TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
 TEST_CASE("refocus: a runner's failure is reported, in whichever phase of a stripe it comes") {
   // Out of focus, so that all phases of block mode run.
   Fixture f;
+  f.config.gather = 0;
   test::Engine engine(f.config);
   REQUIRE(engine.status() == SF_OK);
   struct Failing {

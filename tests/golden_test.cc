@@ -66,12 +66,19 @@ std::vector<Case> Cases() {
   return cases;
 }
 
-// Adds what each layer covered to `layers`.
+// What each layer covered, and what was gathered.
+struct Covered {
+  uint64_t layers[SF_LAYERS] = {};
+  uint64_t gathered = 0;
+};
+
+// Adds to `covered`.
 std::string Refocus(const Case& one, const test::Scene& scene,
-                    const starfocus::simd::Kernels* kernels, uint64_t* layers) {
+                    const starfocus::simd::Kernels* kernels, Covered* covered) {
   sf_config config = test::ConfigFor(scene, 16);
   config.largest_block = one.block;
   // The partition depends on them, and each architecture has its own.
+  config.gather = one.views != 9;  // views have their share, layers 1 and 2 with them
   config.timing = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
@@ -82,7 +89,10 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   if (one.block == 32) params.rule = SF_RULE_PAPER;
   sf_report report = {};
   REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
-  for (int layer = 0; layer < SF_LAYERS; ++layer) layers[layer] += report.layers[layer].pixels;
+  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    covered->layers[layer] += report.layers[layer].pixels;
+  }
+  covered->gathered += report.gathered_pixels;
   char text[20];
   std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(Hash(out.bytes)));
   return text;
@@ -117,15 +127,15 @@ TEST_CASE("golden: the same pictures on every machine and SIMD target") {
   Golden golden;
   if (!record) golden = ReadGolden();
   std::map<std::string, int> wrong;
-  uint64_t layers[SF_LAYERS] = {};
+  Covered covered;
   for (const Case& one : cases) {
     const test::Scene scene = test::IntegerScene(one.width, one.height, one.views, one.depth);
     // What is recorded is the reference's: the last table.
-    if (record) golden[one.name] = Refocus(one, scene, tables.back(), layers);
+    if (record) golden[one.name] = Refocus(one, scene, tables.back(), &covered);
     for (const starfocus::simd::Kernels* kernels : tables) {
       CAPTURE(one.name);
       CAPTURE(kernels->name);
-      const std::string hash = Refocus(one, scene, kernels, layers);
+      const std::string hash = Refocus(one, scene, kernels, &covered);
       CHECK(hash == golden[one.name]);
       wrong[kernels->name] += hash != golden[one.name];
     }
@@ -134,7 +144,8 @@ TEST_CASE("golden: the same pictures on every machine and SIMD target") {
     std::printf("golden: %s: %zu of %zu checksums equal\n", kernels->name,
                 cases.size() - static_cast<size_t>(wrong[kernels->name]), cases.size());
   }
-  for (const uint64_t pixels : layers) CHECK(pixels > 0);
+  for (const uint64_t pixels : covered.layers) CHECK(pixels > 0);
+  CHECK(covered.gathered > 0);
   if (record) WriteGolden(cases, golden);
   CHECK(golden.size() == cases.size());
 }

@@ -176,6 +176,7 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
   sf_config config = test::ConfigFor(scene, 16);
   config.largest_block = 32;
   config.streaming = 1;
+  config.gather = 0;            // all three layers
   test::Engine holder(config);  // only its memory is used
   REQUIRE(holder.status() == SF_OK);
   sf_params params = test::Params(0, 1, SF_MODE_BLOCK);

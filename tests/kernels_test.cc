@@ -117,6 +117,58 @@ void TestFinish(const Kernels& kernels) {
   }
 }
 
+// Any kernel: weights of all sizes, rings of zeros outside, as large a sum as may be.
+struct RandomDisc {
+  explicit RandomDisc(int size, test::Random* random) : weights(91 + 14) {
+    const int used = random->Int(0, 1) == 0 ? size : random->Int(0, size);
+    const int most = random->Int(0, 1) == 0 ? 32767 : random->Int(1, 32767);
+    int64_t sum = 0;
+    for (int y = -size; y <= size; ++y) {
+      for (int x = -size; x <= size; ++x) {
+        const int high = std::max(std::abs(x), std::abs(y));
+        const int low = std::min(std::abs(x), std::abs(y));
+        uint16_t& weight = weights[size_t(high * (high + 1) / 2 + low)];
+        if (x >= y && y >= 0) {
+          weight = uint16_t(high > used || random->Int(0, 5) == 0 ? 0 : random->Int(0, most));
+        }
+      }
+    }
+    for (int y = -size; y <= size; ++y) {
+      for (int x = -size; x <= size; ++x) {
+        const int high = std::max(std::abs(x), std::abs(y));
+        const int low = std::min(std::abs(x), std::abs(y));
+        sum += weights[size_t(high * (high + 1) / 2 + low)];
+      }
+    }
+    int bits = 1;
+    while (int64_t{1} << bits < sum) ++bits;
+    disc = {size, bits, weights.data()};
+  }
+
+  std::vector<uint16_t> weights;
+  starfocus::simd::Disc disc = {};
+};
+
+void TestDisc(const Kernels& kernels) {
+  test::Random random(5);
+  constexpr size_t kRows = 3, kMargin = starfocus::simd::kMaxDisc;
+  for (int round = 0; round < (STARFOCUS_EMULATED ? 60 : 300); ++round) {
+    // Of the largest size not all weights fit 2^24.
+    const RandomDisc disc(random.Int(0, 10), &random);
+    const size_t count = size_t(random.Int(1, round % 4 == 0 ? 400 : 60));
+    const size_t stride = count + 6 * kMargin + size_t(random.Int(0, 4));
+    std::vector<uint8_t> in(stride * (kRows + 2 * kMargin) + kPadding);
+    for (uint8_t& byte : in) byte = random.Int(0, 2) == 0 ? 255 : uint8_t(random.Next());
+    const uint8_t* first = in.data() + kMargin * stride + 3 * kMargin;
+    std::vector<uint8_t> expected(kRows * (count + 7), test::kPoison), got = expected;
+    ReferenceKernels().disc(first, stride, disc.disc, kRows, count, expected.data(), count + 7);
+    kernels.disc(first, stride, disc.disc, kRows, count, got.data(), count + 7);
+    CAPTURE(disc.disc.size);
+    CAPTURE(count);
+    CHECK(got == expected);
+  }
+}
+
 std::vector<float> RandomDisparities(int count, float low, float high, test::Random* random) {
   std::vector<float> disparity(static_cast<size_t>(count));
   for (float& d : disparity) {
@@ -178,6 +230,7 @@ TEST_CASE("kernels: the same results on every target") {
     TestBlend(*kernels);
     TestFinish(*kernels);
     TestConvert(*kernels);
+    TestDisc(*kernels);
   }
 }
 
@@ -202,6 +255,13 @@ TEST_CASE("kernels: the definitions, by hand") {
   CHECK(int(out[0]) == 255);
   CHECK(int(out[1]) == 8);
   CHECK(int(out[2]) == 7);
+  const uint8_t rows[3][9] = {
+      {1, 0, 0, 2, 0, 0, 3, 0, 0}, {4, 0, 0, 50, 0, 0, 6, 0, 0}, {7, 0, 0, 8, 0, 0, 9, 0, 0}};
+  const uint16_t ring[3] = {4, 2, 1};  // the centre, beside it, at the corners: 16 in all
+  uint8_t disc[2] = {0, 77};
+  ReferenceKernels().disc(&rows[1][3], 9, {1, 4, ring}, 1, 1, disc, 9);
+  CHECK(int(disc[0]) == (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9 + 8) / 16);
+  CHECK(int(disc[1]) == 77);
   const float disparity[4] = {0.0078125f, -0.0078125f, -500, 500};
   int16_t converted[4];
   CHECK(ReferenceKernels().convert_disparity(disparity, 4, -500, 500, converted));

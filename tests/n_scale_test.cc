@@ -25,6 +25,7 @@ Picture Refocus(const test::Scene& scene, const sf_params& params, double n_scal
                 double max_blur = 32) {
   sf_config config = test::ConfigFor(scene, max_blur);
   config.n_scale = n_scale;
+  config.gather = 0;  // N is all that differs
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);
@@ -53,6 +54,7 @@ TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
           sf_config config = test::ConfigFor(scene);
           config.n_scale = scale;
           config.max_layer = 0;
+          config.gather = 0;  // which takes no views at all
           test::Engine engine(config);
           REQUIRE(engine.status() == SF_OK);
           test::Output out(scene.width, scene.height);

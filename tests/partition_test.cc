@@ -77,6 +77,7 @@ struct Plan {
     rules.max_layer = random->Int(0, 2);
     rules.max_n = kMaxN;
     rules.cells = random->Int(0, 1) == 1;
+    rules.gathers = rules.cells;
     rules.n_scale = (2 + 2 * rules.max_layer + rules.cells) / 4.0;
     rules.timing = starfocus::DefaultTiming();
     rules.views = views.data();
@@ -89,8 +90,7 @@ struct Plan {
                 nodes.size() * sizeof(PartitionNode));
     std::vector<Block> blocks(size_t(starfocus::MaxBlocks(rules.largest_block)));
     const int count =
-        starfocus::PartitionBlock(rules, grid, x, y, around, nodes.data(), blocks.data(),
-                                  gathered);
+        starfocus::PartitionBlock(rules, grid, x, y, around, nodes.data(), blocks.data(), gathered);
     REQUIRE(count >= 1);
     REQUIRE(count <= int(blocks.size()));
     blocks.resize(size_t(count));
@@ -100,10 +100,9 @@ struct Plan {
   // Whether the cell at pixel (x, y) is one that need not be refocused by views.
   bool MayGather(int x, int y) const {
     const int column = x / kCellSize, row = y / kCellSize;
-    const uint32_t smooth =
-        starfocus::FindSmooth(grid, rules.scale, column & ~1, row & ~1, around);
+    const uint32_t smooth = starfocus::FindSmooth(grid, rules.scale, column & ~1, row & ~1, around);
     const bool is_smooth = (smooth >> (column % 2 + 2 * (row % 2)) & 1) != 0;
-    return rules.cells && is_smooth && grid.At(column, row)->r_max <= 12 * int(kRadiusOne);
+    return rules.gathers && is_smooth && grid.At(column, row)->r_max <= 12 * int(kRadiusOne);
   }
 
   bool Inside(int x, int y) const { return x < rules.width && y < rules.height; }
@@ -429,7 +428,7 @@ TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
     for (const int side : {32, 64, 128, 256}) {
       Plan plan(side - 5, side, side, 10, &random);
       plan.rules.timing = {};
-      plan.rules.cells = false;  // what is gathered is not the block's
+      plan.rules.gathers = false;  // what is gathered is not the block's
       plan.rules.timing.block = block;
       const std::vector<Block> blocks = plan.Partition(0, 0);
       REQUIRE(blocks.size() == 1);
@@ -469,7 +468,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
       CAPTURE(max_layer);
       for (const bool cells : {false, true}) {
         CAPTURE(cells);
-        plan.rules.cells = cells;
+        plan.rules.cells = plan.rules.gathers = cells;
         for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
           const bool gathered = cells && exact > 0.5 && exact <= 12;
           CHECK(block.gathers == gathered);

@@ -227,9 +227,9 @@ Picture Gather(const Picture& picture, const GatheredCell& cell, const Lens& len
       Colour& sum = to.colours[to.At(x, y)];
       for (int m = -kernel.size; m <= kernel.size; ++m) {
         for (int n = -kernel.size; n <= kernel.size; ++n) {
-          const Colour& from = picture.colours[picture.At(
-              std::clamp(cell.x + x + n, 0, picture.width - 1),
-              std::clamp(cell.y + y + m, 0, picture.height - 1))];
+          const Colour& from =
+              picture.colours[picture.At(std::clamp(cell.x + x + n, 0, picture.width - 1),
+                                         std::clamp(cell.y + y + m, 0, picture.height - 1))];
           for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * from[c];
         }
       }

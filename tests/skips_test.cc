@@ -99,6 +99,7 @@ TEST_CASE("skips: the same bytes as with all the work done, in every mode") {
     config.largest_block = kBlocks[random.Int(0, 3)];
     config.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     if (random.Int(0, 3) == 0) config.n_scale = random.Real(0.5, 2);
+    config.gather = random.Int(0, 1);
     const sf_mode mode = kModes[round % 3 == 0 ? round / 3 % 2 : 2];
     const double focus = random.Int(0, 1) == 0 ? 0 : random.Real(-2 * limit, 2 * limit);
     double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.02, 1);
@@ -194,6 +195,7 @@ TEST_CASE("skips: blocks of one colour are filled, but not where side views show
     const test::Scene scene = OneColourScene(one.views, 90, one.step);
     sf_config config = test::ConfigFor(scene, 12);
     config.timing.block = SF_MAX_TIMING;  // whole blocks
+    config.gather = 0;
     CAPTURE(one.views);
     CAPTURE(one.step);
     for (const sf_mode mode : kModes) {
@@ -255,7 +257,8 @@ TEST_CASE("skips: one pixel of another colour within reach is enough") {
   test::Scene scene = OneColourScene(5, 192, 0);  // blur radius 3 at focus -1
   sf_config config = test::ConfigFor(scene, 12);
   config.timing.block = SF_MAX_TIMING;  // whole blocks
-  config.max_layer = 0;                 // layer 1 rounds a step of one level away
+  config.gather = 0;
+  config.max_layer = 0;  // layer 1 rounds a step of one level away
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
     const sf_params params = test::Params(-1, 1, mode);
     for (const int x : {62, 66}) {

@@ -47,6 +47,7 @@ sf_config ConfigOf(int side, const EngineProbe& probe) {
   config.disparity_max = static_cast<float>(probe.r < 0 ? 0 : probe.r_max);
   config.max_blur = std::fmax(probe.r_max, 1);
   config.largest_block = kBlock;
+  config.gather = 0;  // the kernel of views is asked for
   config.max_layer = probe.layer;
   config.timing.block = SF_MAX_TIMING;  // one block is the cheapest
   config.skips = 0;                     // what is rendered is looked at

@@ -59,8 +59,8 @@ constexpr starfocus::simd::HalfBand kTaps = {8192, 4096, 0};
 // A box of 3.5 pixels.
 constexpr starfocus::simd::SpreadTaps kSpreadTaps = {2, 72, 72, 20};
 // Radius 3.2 or so: weights need not sum to anything for their time.
-constexpr uint16_t kDiscWeights[15] = {900, 900, 900, 880, 880, 860, 700, 690, 600,
-                                       300, 100, 90,  40,  0,   0};
+constexpr uint16_t kDiscWeights[15] = {900, 900, 900, 880, 880, 860, 700, 690,
+                                       600, 300, 100, 90,  40,  0,   0};
 constexpr starfocus::simd::Disc kDisc = {4, 16, kDiscWeights};
 using Body = void (*)(const Kernels&, Buffers*);
 

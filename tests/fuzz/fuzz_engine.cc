@@ -41,6 +41,7 @@ sf_config MakeConfig(Input* input) {
   config.timing.c = static_cast<uint32_t>(input->Int(0, 100000));
   // From what another field drew: recorded inputs keep their meaning.
   config.skips = config.deblocking % 4 != 0;
+  config.gather = config.deblocking % 3 != 0;
   config.n_scale = 0.5 + 0.25 * (config.deblocking % 7);
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);

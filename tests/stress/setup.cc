@@ -80,7 +80,7 @@ std::string Setup::Text() const {
          Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
          std::to_string(config.largest_block) + ", layers " + std::to_string(config.max_layer) +
          ", deblocking " + std::to_string(config.deblocking) + ", theta " + Number(config.theta) +
-         ", n_scale " + Number(config.n_scale);
+         ", n_scale " + Number(config.n_scale) + (config.gather != 0 ? "" : ", nothing gathered");
 }
 
 std::string Variant::Text() const {
@@ -219,6 +219,7 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   SetDepth(static_cast<Depth>(random->Int(0, 4)), &setup.scene, random);
   SetColours(static_cast<Colours>(random->Int(0, 2)), &setup.scene, random);
   RandomLens(RandomRadius(bounds.radius, random), bounds.modes, &setup, random);
+  if (random->Int(0, 3) == 0) setup.config.gather = 0;
   if (random->Int(0, 3) == 0) setup.config.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
   return setup;
 }

@@ -91,7 +91,8 @@ typedef enum sf_status {
   SF_ERROR_N_SCALE = 29,     /**< n_scale outside [SF_MIN_N_SCALE, SF_MAX_N_SCALE] */
   SF_ERROR_SKIPS = 30,       /**< skips is not 0 or 1 */
   SF_ERROR_REGION = 31,      /**< region outside the picture, or a streaming call with a region */
-  SF_ERROR_PREPARED = 32     /**< prepared light field of another configuration */
+  SF_ERROR_PREPARED = 32,    /**< prepared light field of another configuration */
+  SF_ERROR_GATHER = 33       /**< gather is not 0 or 1 */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -143,9 +144,12 @@ typedef struct sf_config {
   double n_scale;     /**< time against error: multiplies the N of either rule in SF_MODE_BLOCK and
                            SF_MODE_FRAME, rounded up, and so with its square the views;
                            [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
-  int32_t skips; /**< 1, the default: what sf_skipped counts is left out; 0: all is done, for the
-                      same bytes */
-  uint32_t reserved[8]; /**< zero */
+  int32_t skips;  /**< 1, the default: what sf_skipped counts is left out; 0: all is done, for the
+                       same bytes */
+  int32_t gather; /**< 1, the default: SF_MODE_BLOCK by the rule of cells blurs the centre view as a
+                       whole (4) where one surface is all that lies within reach; 0: it renders
+                     views there too */
+  uint32_t reserved[7]; /**< zero */
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);
@@ -265,11 +269,11 @@ typedef struct sf_report {
   uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
   sf_skipped skipped;
-  uint64_t side_bytes;    /**< read of the views beside the centre, counted every time: in holes and
-                               beside depth edges only */
+  uint64_t side_bytes; /**< read of the views beside the centre, counted every time: in holes and
+                            beside depth edges only */
   uint64_t gathered_pixels; /**< SF_MODE_BLOCK by the rule of cells: blurred as a whole, since one
                                  surface is all that lies within reach; no view is rendered there */
-  uint64_t reused_blocks; /**< sf_refocus_after: largest blocks of which nothing was refocused */
+  uint64_t reused_blocks;   /**< sf_refocus_after: largest blocks of which nothing was refocused */
 } sf_report;
 
 /** Refocuses whole pictures, or the params' region of them: `out` points to its first pixel, and
