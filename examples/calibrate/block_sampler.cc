@@ -163,7 +163,7 @@ std::vector<BlockGroup> BlockSampler::Sample(int count) {
       BlockGroup& group = groups[size_t(RandomBelow(static_cast<int>(groups.size())))];
       const size_t wanted = size_t(group.kind.layer == 0 ? count : 4 * count);
       if (group.tasks.size() >= wanted) continue;
-      BlockTask task;
+      BlockTask task = {};
       if (Draw(pass, group.kind, &task)) group.tasks.push_back(task);
     }
   }
