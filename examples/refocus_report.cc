@@ -43,6 +43,7 @@ nlohmann::ordered_json SkippedJson(const EngineTask& task, const sf_report& repo
   json["filled_pixels"] = skipped.filled_pixels;
   json["layer_columns"] = skipped.layer_columns;
   json["boundaries"] = skipped.boundaries;
+  json["gathered_pixels"] = report.gathered_pixels;
   json["side_bytes_read"] = report.side_bytes;
   json["side_bytes"] = uint64_t{3} * uint64_t(task.config.views - 1) * uint64_t(task.config.width) *
                        uint64_t(task.config.height);

@@ -14,6 +14,7 @@
 // | interpolation weight | int32  | 2^8     | [0, 1/2]                  | -                         |
 // | wide cell r / N      | int32  | 2^2     | (1, 7], clamped           | -                         |
 // | spread pixel         | uint16 | 2^8     | [0, 255], + 1/2           | 0.2 % below 2^16          |
+// | two disc rows, +-x   | uint16 | 1       | [0, 1020], four pixels    | 64 x; signed multiplies   |
 // | blended pixel        | uint16 | 2^8     | [0, 255], + 1/2           | 0.2 % below 2^16          |
 // | aperture weight      | uint16 | 2^k     | [0, 32767], sum 2^k       | signed 16-bit multiplies  |
 // | blur kernel weight   | uint16 | 2^k     | [0, 32767], sum 2^k       | signed 16-bit multiplies  |

@@ -318,6 +318,7 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
                             "copied_blocks",
                             "filled_blocks",
                             "layer_columns",
+                            "gathered_pixels",
                             "side_bytes_read",
                             "seconds_total",
                             "workspace_bytes",

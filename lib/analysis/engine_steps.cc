@@ -60,7 +60,7 @@ sf_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
 
 std::string Explain(const EngineStep& step) {
   if (step.engine <= kThreshold) return "";
-  if (step.apart > (step.layer == 0 ? kExplained : kExplainedOfLayer)) {
+  if (step.apart > kExplained[step.layer]) {
     return "unexplained: not the kernel the engine is meant to have";
   }
   // Of the causes, from the most to the least fundamental, the first that suffices.
