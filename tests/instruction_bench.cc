@@ -21,6 +21,7 @@ struct Case {
   sf_mode mode;
   double focus, aperture;
   int width = 192, height = 128;
+  sf_rule rule = SF_RULE_DEFAULT;
 };
 
 // Of 192 x 128 pixels if not told otherwise; the name tells views, scene, mode and the largest blur
@@ -35,6 +36,7 @@ constexpr Case kCases[] = {
     // Large enough for partitions to differ.
     {"9-room-block-7", 9, test::Depth::kRoom, SF_MODE_BLOCK, 3.5, 1, 384, 256},
     {"5-room-block-4", 5, test::Depth::kRoom, SF_MODE_BLOCK, -1, 1, 384, 256},
+    {"9-room-block-paper-7", 9, test::Depth::kRoom, SF_MODE_BLOCK, 3.5, 1, 384, 256, SF_RULE_PAPER},
     {"1-layers-blur-8", 1, test::Depth::kLayers, SF_MODE_BLUR, 4, 1},
     {"9-layers-benchmark-4", 9, test::Depth::kLayers, SF_MODE_BENCHMARK, 0, 1},
 };
@@ -64,7 +66,8 @@ int Run(const Case& one, bool reference, int runs, const sf_timing& timing) {
   if (engine.status() != SF_OK) return 1;
   if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());
   test::Output out(one.width, one.height);
-  const sf_params params = test::Params(one.focus, one.aperture, one.mode);
+  sf_params params = test::Params(one.focus, one.aperture, one.mode);
+  params.rule = one.rule;
   for (int run = 0; run < runs; ++run) {
     if (test::Refocus(&engine, params, scene, &out) != SF_OK) return 1;
   }
