@@ -99,8 +99,8 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
   // At a layer one rounding from 1 / kShiftOne of its pixels to the picture's.
   const int layer = window.layer, bits = kShiftBits - layer;
   const CapturedLine whole = {static_cast<int32_t>(RoundShift(line.x, bits)),
-                              static_cast<int32_t>(RoundShift(line.y, bits)), line.dx << layer,
-                              line.dy << layer};
+                              static_cast<int32_t>(RoundShift(line.y, bits)),
+                              line.dx * (1 << layer), line.dy * (1 << layer)};
   const CapturedLine& from = layer == 0 ? line : whole;
   // Rows and columns that are read at the first and the last place.
   const int32_t x = layer == 0 ? line.x >> kShiftBits : whole.x;

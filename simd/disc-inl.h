@@ -148,7 +148,9 @@ HWY_INLINE void DiscSamples(const uint8_t* HWY_RESTRICT in, size_t in_stride, co
   constexpr size_t kSpare = HWY_MAX_BYTES;
   const DiscPairs quarter(disc);
   const size_t margin = 3 * static_cast<size_t>(disc.size);
-  uint16_t sums[kDiscChunk + 2 * kDiscMargin + kSpare];
+  // The second column of a pair may lie a pixel beyond the disc, without weight.
+  uint16_t padded[3 + kDiscChunk + 2 * kDiscMargin + 3 + kSpare] = {};
+  uint16_t* const sums = padded + 3;
   uint32_t accumulators[kDiscChunk + kSpare];
   for (size_t begin = 0; begin < count; begin += kDiscChunk) {
     const size_t chunk = count - begin < kDiscChunk ? count - begin : kDiscChunk;
@@ -160,6 +162,7 @@ HWY_INLINE void DiscSamples(const uint8_t* HWY_RESTRICT in, size_t in_stride, co
         if (quarter.counts[y] == 0) continue;
         const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
         AddRows(middle - offset - margin, middle + offset - margin, chunk + 2 * margin, sums);
+        std::memset(sums + chunk + 2 * margin, 0, 3 * sizeof(*sums));
         AddDiscRow(pairs, quarter.counts[y], sums + margin, chunk, accumulators);
         pairs += quarter.counts[y];
       }
