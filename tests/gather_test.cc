@@ -13,6 +13,7 @@
 #include "lib/engine.h"
 #include "starfocus/starfocus.h"
 #include "tests/layered_scene.h"
+#include "tests/refocused.h"
 #include "tests/test_scene.h"
 
 namespace {
@@ -20,23 +21,10 @@ namespace {
 using starfocus::Cell;
 using starfocus::kCellSize;
 using starfocus::kDisparityBits;
+using test::Refocused;
+using test::RefocusScene;
 
 constexpr int kOne = 1 << kDisparityBits;
-
-struct Picture {
-  std::vector<uint8_t> rgb;
-  sf_report report = {};
-};
-
-Picture Refocus(const test::Scene& scene, const sf_config& config, const sf_params& params) {
-  test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
-  test::Output out(scene.width, scene.height);
-  Picture picture;
-  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &picture.report) == SF_OK);
-  picture.rgb = out.Tight();
-  return picture;
-}
 
 // Cells of a random map: pieces, slopes, noise.
 struct Cells {
@@ -130,8 +118,9 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode, up to the lar
       test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 62);
       sf_config config = test::ConfigFor(scene, 16);
       config.largest_block = block;
-      const Picture gathered = Refocus(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));
-      const Picture blurred = Refocus(scene, config, test::Params(radius, 1, SF_MODE_BLUR));
+      const Refocused gathered =
+          RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));
+      const Refocused blurred = RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLUR));
       CAPTURE(radius);
       const bool same = gathered.rgb == blurred.rgb;
       CHECK(same);
@@ -139,7 +128,7 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode, up to the lar
       CHECK(gathered.report.n == 0);
       CHECK(gathered.report.rendered_samples == 0);
       config.gather = 0;
-      const Picture views = Refocus(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));
+      const Refocused views = RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));
       CHECK(views.report.gathered_pixels == 0);
       CHECK(views.report.n > 0);
     }
@@ -153,7 +142,7 @@ TEST_CASE(
   const auto gathered = [&](double focus, sf_mode mode, sf_rule rule) {
     sf_params params = test::Params(focus, 1, mode);
     params.rule = rule;
-    return Refocus(scene, config, params).report.gathered_pixels;
+    return RefocusScene(scene, config, params).report.gathered_pixels;
   };
   CHECK(gathered(12.1, SF_MODE_BLOCK, SF_RULE_CELLS) == 0);
   CHECK(gathered(12, SF_MODE_BLOCK, SF_RULE_DEFAULT) == 70 * 45);
@@ -173,10 +162,10 @@ TEST_CASE("gather: beside depth edges views go on, and nothing gets worse agains
   for (const uint64_t seed : {64, 65, 66}) {
     const test::Scene scene = test::LayeredScene(180, 130, 9, 6, seed);
     sf_config config = test::ConfigFor(scene, 16);
-    const Picture benchmark = Refocus(scene, config, test::Params(1, 1, SF_MODE_BENCHMARK));
-    const Picture gathered = Refocus(scene, config, test::Params(1, 1, SF_MODE_BLOCK));
+    const Refocused benchmark = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BENCHMARK));
+    const Refocused gathered = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BLOCK));
     config.gather = 0;
-    const Picture views = Refocus(scene, config, test::Params(1, 1, SF_MODE_BLOCK));
+    const Refocused views = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BLOCK));
     CHECK(gathered.report.gathered_pixels > 0);
     CHECK(gathered.report.gathered_pixels < 180 * 130);
     CHECK(gathered.rgb != views.rgb);

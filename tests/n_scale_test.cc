@@ -10,29 +10,21 @@
 #include "lib/rules.h"
 #include "starfocus/starfocus.h"
 #include "tests/integer_scene.h"
+#include "tests/refocused.h"
 #include "tests/test_scene.h"
 
 namespace {
 
+using test::Refocused;
+
 constexpr double kScales[] = {0.5, 0.7, 1, 1.4, 2};
 
-struct Picture {
-  std::vector<uint8_t> rgb;
-  sf_report report = {};
-};
-
-Picture Refocus(const test::Scene& scene, const sf_params& params, double n_scale,
-                double max_blur = 32) {
+Refocused Refocus(const test::Scene& scene, const sf_params& params, double n_scale,
+                  double max_blur = 32) {
   sf_config config = test::ConfigFor(scene, max_blur);
   config.n_scale = n_scale;
   config.gather = 0;  // N is all that differs
-  test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
-  test::Output out(scene.width, scene.height);
-  Picture picture;
-  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &picture.report) == SF_OK);
-  picture.rgb = out.Tight();
-  return picture;
+  return test::RefocusScene(scene, config, params);
 }
 
 test::Scene FlatScene(uint64_t seed) { return test::RandomScene(40, 36, 5, 0, 0, seed); }
@@ -76,9 +68,9 @@ TEST_CASE("n_scale: benchmark and blur mode do not change") {
   const test::Scene scene = test::IntegerScene(70, 50, 5, test::Depth::kLayers);
   for (const sf_mode mode : {SF_MODE_BENCHMARK, SF_MODE_BLUR}) {
     const sf_params params = test::Params(1, 0.5, mode);
-    const Picture plain = Refocus(scene, params, 1);
+    const Refocused plain = Refocus(scene, params, 1);
     for (const double scale : kScales) {
-      const Picture scaled = Refocus(scene, params, scale);
+      const Refocused scaled = Refocus(scene, params, scale);
       const bool same = scaled.rgb == plain.rgb;
       CHECK(same);
       if (mode == SF_MODE_BENCHMARK) CHECK(scaled.report.n == plain.report.n);
@@ -112,7 +104,7 @@ TEST_CASE("n_scale: more views, and nearer to the benchmark") {
     uint64_t samples = 0;
     std::vector<double> psnr;
     for (const double scale : kScales) {
-      const Picture picture = Refocus(scene, params, scale);
+      const Refocused picture = Refocus(scene, params, scale);
       CAPTURE(mode);
       CAPTURE(scale);
       CHECK(picture.report.rendered_samples > samples);

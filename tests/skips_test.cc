@@ -12,28 +12,20 @@
 
 #include "lib/aperture.h"
 #include "starfocus/starfocus.h"
+#include "tests/refocused.h"
 #include "tests/test_scene.h"
 
 namespace {
+
+using test::Refocused;
 
 constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr sf_mode kModes[] = {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK};
 
-struct Picture {
-  std::vector<uint8_t> rgb;
-  sf_report report = {};
-};
-
-Picture Refocus(const test::Scene& scene, sf_config config, const sf_params& params, int skips) {
+Refocused Refocus(const test::Scene& scene, sf_config config, const sf_params& params, int skips) {
   config.skips = skips;
-  test::Engine engine(config);
-  REQUIRE(engine.status() == SF_OK);
-  test::Output out(scene.width, scene.height);
-  Picture picture;
-  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &picture.report) == SF_OK);
-  picture.rgb = out.Tight();
-  return picture;
+  return test::RefocusScene(scene, config, params);
 }
 
 void Add(const sf_skipped& part, sf_skipped* sum) {
@@ -106,8 +98,8 @@ TEST_CASE("skips: the same bytes as with all the work done, in every mode") {
     if (mode == SF_MODE_BENCHMARK) aperture /= limit;
     sf_params params = test::Params(focus, aperture, mode);
     params.rule = random.Int(0, 2);
-    const Picture skipped = Refocus(scene, config, params, 1);
-    const Picture whole = Refocus(scene, config, params, 0);
+    const Refocused skipped = Refocus(scene, config, params, 1);
+    const Refocused whole = Refocus(scene, config, params, 0);
     CAPTURE(round);
     CAPTURE(mode);
     const bool same = skipped.rgb == whole.rgb;
@@ -145,7 +137,7 @@ TEST_CASE("skips: in frame modes a block in focus is copied, but for what splats
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
     test::Scene scene = ColumnScene(256, 64, 250, 8);
     const sf_config config = test::ConfigFor(scene, 8);
-    const Picture picture = Refocus(scene, config, test::Params(0, 1, mode), 1);
+    const Refocused picture = Refocus(scene, config, test::Params(0, 1, mode), 1);
     CHECK(picture.report.skipped.copied_blocks == 3);
     CHECK(picture.report.skipped.copied_pixels == 3 * 64 * 64);
     CHECK(picture.report.layers[0].views == 3 + uint64_t(picture.report.rendered_views));
@@ -161,7 +153,7 @@ TEST_CASE("skips: with N by (9) shifts of up to a third of a pixel move nothing,
     sf_params params = test::Params(1 - radius, 1, SF_MODE_BLOCK);
     params.rule = SF_RULE_PAPER;
     const sf_config config = test::ConfigFor(scene, 8);
-    const Picture skipped = Refocus(scene, config, params, 1);
+    const Refocused skipped = Refocus(scene, config, params, 1);
     const bool copied = skipped.report.skipped.copied_pixels == 64 * 64;
     const bool centre = Refocus(scene, config, params, 0).rgb == scene.pictures[0];
     CAPTURE(radius);
@@ -200,7 +192,7 @@ TEST_CASE("skips: blocks of one colour are filled, but not where side views show
     CAPTURE(one.step);
     for (const sf_mode mode : kModes) {
       const sf_params params = test::Params(-1, 1, mode);
-      const Picture picture = Refocus(scene, config, params, 1);
+      const Refocused picture = Refocus(scene, config, params, 1);
       CAPTURE(mode);
       if (mode != SF_MODE_BLOCK) CHECK(picture.report.skipped.filled_blocks == one.filled);
       CHECK(picture.report.skipped.filled_pixels >= 64 * 64);
@@ -242,11 +234,11 @@ TEST_CASE("skips: the steepest surface that counts as without holes has none") {
     sf_params params = test::Params(random.Real(-18, 18), aperture,
                                     round % 2 == 0 ? SF_MODE_FRAME : SF_MODE_BLOCK);
     params.rule = random.Int(0, 2);
-    const Picture picture = Refocus(scene, config, params, 1);
+    const Refocused picture = Refocus(scene, config, params, 1);
     CAPTURE(round);
     // Layers take every second or fourth disparity, whose steps are larger.
     if (params.mode == SF_MODE_FRAME) CHECK(picture.report.skipped.filled_pixels == 192 * 64);
-    const Picture whole = Refocus(scene, config, params, 0);
+    const Refocused whole = Refocus(scene, config, params, 0);
     const bool same = picture.rgb == whole.rgb;
     CHECK(same);
     if (params.mode == SF_MODE_FRAME) CHECK(whole.report.side_bytes == 0);
