@@ -13,6 +13,7 @@
 #include "lib/engine.h"
 #include "starfocus/starfocus.h"
 #include "tests/layered_scene.h"
+#include "tests/measured_cells.h"
 #include "tests/refocused.h"
 #include "tests/test_scene.h"
 
@@ -45,20 +46,7 @@ struct Cells {
         }
       }
     }
-    starfocus::Window window;
-    window.width = window.picture_width = width;
-    window.height = window.picture_height = height;
-    window.disparity = {disparity.data(), size_t(width), 0, 0};
-    grid.columns = (width + kCellSize - 1) / kCellSize;
-    grid.rows = grid.last_row = (height + kCellSize - 1) / kCellSize;
-    cells.resize(size_t(grid.columns) * size_t(grid.rows));
-    grid.cells = cells.data();
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        *grid.At(column, row) =
-            starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
-      }
-    }
+    grid = test::MeasureCells(disparity, width, height, scale, &cells);
   }
   Cells(const Cells&) = delete;
 

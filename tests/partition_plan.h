@@ -13,6 +13,7 @@
 
 #include "lib/engine.h"
 #include "lib/partition.h"
+#include "tests/measured_cells.h"
 #include "tests/test_scene.h"
 
 namespace test {
@@ -30,7 +31,6 @@ using starfocus::PartitionNode;
 using starfocus::PartitionRules;
 using starfocus::Rect;
 using starfocus::ViewCounts;
-using starfocus::Window;
 
 constexpr int kMaxN = 110;
 constexpr double kRadiusOne = 1 << starfocus::kDisparityBits;
@@ -52,23 +52,10 @@ struct Plan {
         }
       }
     }
-    Window window;
-    window.width = window.picture_width = width;
-    window.height = window.picture_height = height;
-    window.disparity = {disparity.data(), size_t(width), 0, 0};
     const double focus = random->Real(-limit, limit);
     const BlurScale scale = {int32_t(focus * kRadiusOne), int64_t{1} << starfocus::kStepBits};
     rules.scale = scale;
-    grid.columns = (width + kCellSize - 1) / kCellSize;
-    grid.rows = grid.last_row = (height + kCellSize - 1) / kCellSize;
-    cells.resize(size_t(grid.columns) * size_t(grid.rows));
-    grid.cells = cells.data();
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        *grid.At(column, row) =
-            starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
-      }
-    }
+    grid = MeasureCells(disparity, width, height, scale, &cells);
     around = starfocus::GetReach(2 * limit).cells;
     flags.assign(cells.size(), kPoison);
     gathered = {flags.data(), grid.columns, 0};

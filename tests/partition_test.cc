@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lib/engine.h"
+#include "tests/measured_cells.h"
 #include "tests/partition_plan.h"
 #include "tests/test_scene.h"
 
@@ -21,7 +22,6 @@ using starfocus::Border;
 using starfocus::kCellSize;
 using starfocus::kSmallestBlock;
 using starfocus::Rect;
-using starfocus::Window;
 using test::AllCosts;
 using test::LayerOf;
 using test::LeastCost;
@@ -187,18 +187,10 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
       test::Random random(1);
       Plan plan(3 * kMiddle, 3 * kMiddle, 128, 1, &random);
-      Window window;
-      window.width = window.picture_width = window.height = window.picture_height = 3 * kMiddle;
       std::fill(plan.disparity.begin(), plan.disparity.end(), int16_t(std::floor(r * 64)));
-      window.disparity = {plan.disparity.data(), size_t(3 * kMiddle), 0, 0};
       const BlurScale scale = {0, int64_t{1} << starfocus::kStepBits};
       plan.rules.scale = scale;
-      for (int row = 0; row < plan.grid.rows; ++row) {
-        for (int column = 0; column < plan.grid.columns; ++column) {
-          *plan.grid.At(column, row) =
-              starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
-        }
-      }
+      plan.grid = test::MeasureCells(plan.disparity, 3 * kMiddle, 3 * kMiddle, scale, &plan.cells);
       plan.around = starfocus::GetReach(r).cells;
       plan.rules.max_layer = max_layer;
       plan.rules.n_scale = 1;

@@ -1,0 +1,38 @@
+// The cells of a whole disparity map in memory, measured as the engine measures them.
+#ifndef STARFOCUS_TESTS_MEASURED_CELLS_H_
+#define STARFOCUS_TESTS_MEASURED_CELLS_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lib/cells.h"
+#include "simd/kernels.h"
+
+namespace test {
+
+// `disparity`: width x height, kDisparityBits, rows packed. The grid's cells lie in `cells`.
+inline starfocus::CellGrid MeasureCells(const std::vector<int16_t>& disparity, int width,
+                                        int height, const starfocus::BlurScale& scale,
+                                        std::vector<starfocus::Cell>* cells) {
+  starfocus::Window window;
+  window.width = window.picture_width = width;
+  window.height = window.picture_height = height;
+  window.disparity = {disparity.data(), size_t(width), 0, 0};
+  starfocus::CellGrid grid;
+  grid.columns = (width + starfocus::kCellSize - 1) / starfocus::kCellSize;
+  grid.rows = grid.last_row = (height + starfocus::kCellSize - 1) / starfocus::kCellSize;
+  cells->resize(size_t(grid.columns) * size_t(grid.rows));
+  grid.cells = cells->data();
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      *grid.At(column, row) =
+          starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
+    }
+  }
+  return grid;
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_MEASURED_CELLS_H_
