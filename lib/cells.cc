@@ -36,7 +36,8 @@ int32_t Farthest(int32_t low, int32_t high, int32_t focus) {
   return Max(Abs(low - focus), Abs(high - focus));
 }
 
-// A run ends when its pixels drift apart by a quarter pixel (kRunSpread of view_grid.cc).
+// By the paper's rule a run ends when its pixels drift apart by a quarter pixel (kRunSpread of
+// view_grid.cc). With cells by half a pixel (kCellRunSpread): up to twice their runs are counted.
 constexpr int32_t kRunDrift = kRadiusOne / 4;
 constexpr int32_t kLargestGap = 8;
 

@@ -1,6 +1,6 @@
-// Blocks of one surface: every pixel gathered from the centre view with the ideal kernel (4) of the
-// blur around it. Where disparity hardly changes as far as the blur reaches, that is what all views
-// of the aperture together show.
+// 8x8 cells of one surface: every pixel gathered from the centre view with the ideal kernel (4) of
+// the blur around it. Where disparity hardly changes as far as the blur reaches, that is what all
+// views of the aperture together show.
 #ifndef STARFOCUS_LIB_GATHER_H_
 #define STARFOCUS_LIB_GATHER_H_
 

@@ -51,7 +51,7 @@ uint64_t PredictTime(const sf_timing& timing, const BlockWork& work) {
 }
 
 uint64_t PredictGather(const sf_timing& timing, uint64_t pixels, int32_t radius) {
-  // Measured on x86: 16 taps' time for any radius, and a tap costs a 64th of an upsampled pixel.
+  // An estimate: 16 taps' time for any radius, and a tap costs a 64th of an upsampled pixel.
   return timing.upsample * pixels * static_cast<uint64_t>(GatherTaps(radius) + 16) / 64;
 }
 
