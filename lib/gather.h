@@ -15,6 +15,8 @@ namespace starfocus {
 
 // Largest blur radius that is gathered, pixels: the kernels' taps grow with its square.
 inline constexpr int32_t kMaxGather = 12;
+static_assert(kMaxGather + 1 <= simd::kMaxDisc,
+              "a kernel's edge lies in the pixel beyond its radius");
 
 // Quarter-plane taps of the kernel for blur radius r (kDisparityBits).
 int32_t GatherTaps(int32_t radius);
