@@ -252,9 +252,7 @@ class Star {
                          0,
                          {field.x + field.inner.x, field.y + rows.begin, 0, 1}};
       for (int32_t x = 0; x < width; ++x, ++holes.line.x) {
-        const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
-                                              scratch_->line_runs)
-                                   : 0;
+        int32_t count = 0;  // of runs, none read yet: a column that is all gathered needs none
         uint8_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
         const Line line = {rgb, scratch_->view_disparity + x, width, height};
         const int32_t top = field.inner.y - rows.begin;
@@ -264,7 +262,12 @@ class Star {
             AddLine(rgb + 3 * (top + begin), end - begin, grid_.aperture.Weight(i, 0), 3 * first,
                     &list);
           }
-          if (scan) AddColumn(line, count, last, {top + begin, top + end}, first, &holes, &list);
+          if (!scan) return;
+          if (count == 0) {
+            count = ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
+                             scratch_->line_runs);
+          }
+          AddColumn(line, count, last, {top + begin, top + end}, first, &holes, &list);
         });
       }
     }
