@@ -11,6 +11,7 @@
 #include "lib/deblock.h"
 #include "lib/layers.h"
 #include "lib/partition.h"
+#include "lib/stack.h"
 #include "lib/star.h"
 #include "lib/view_grid.h"
 #include "lib/window.h"
@@ -42,6 +43,7 @@ struct Stream {
 // Memory of one worker and what it counted.
 struct Worker {
   StarScratch star;
+  StackScratch stack;
   ResampleScratch resample;
   UpsampleScratch upsample;
   int16_t* layer_samples;   // a rendered rectangle

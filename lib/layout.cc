@@ -50,6 +50,37 @@ StarScratch TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* ca
   return scratch;
 }
 
+// E and R of StackScratch, and the largest N; `reach`: pixels beyond a rectangle of slices.
+StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t max_n,
+                       Carver* carver) {
+  StackScratch scratch;
+  Surfaces& surfaces = scratch.surfaces;
+  const size_t area = extended * SurfaceStride(extended);
+  for (int k = 0; k < simd::kSurfaces; ++k) {
+    surfaces.disparity[k] = carver->Take<int16_t>(area);
+    surfaces.rgb[k] = carver->Take<uint8_t>(3 * area);
+  }
+  for (uint8_t*& edges : surfaces.edges) edges = carver->Take<uint8_t>(area);
+  surfaces.hiding = carver->Take<uint8_t>(extended);
+  surfaces.moved = carver->Take<int16_t>(SurfaceStride(extended));
+  surfaces.behind = carver->Take<int16_t>(SurfaceStride(extended));
+  scratch.bins = carver->Take<uint8_t>(kSliceBins);
+  scratch.least_blur = carver->Take<int32_t>(extended);
+  const size_t rows = rectangle + 2 * reach, plane = SurfaceStride(rectangle);
+  scratch.cover_rows = static_cast<int32_t>(rows) + 1;
+  scratch.covers = carver->Take<simd::SliceCover>(kMaxSlices * (rows + 1));
+  scratch.plane_samples = kLargeSlices * SliceSize(rectangle, rectangle, reach);
+  scratch.planes = carver->Take<int16_t>(scratch.plane_samples);
+  scratch.filtered = carver->Take<int16_t>(SliceSize(rectangle, rectangle, reach));
+  scratch.shifted = carver->Take<int16_t>(kMaxSlices * 4 * plane * rows);
+  scratch.offsets = carver->Take<SliceOffset>(kMaxSlices * (2 * max_n + 1));
+  scratch.shifts = carver->Take<simd::SliceShift>(kMaxSlices * (2 * max_n + 1));
+  scratch.weights = carver->Take<int16_t>(2 * max_n + 1);
+  scratch.parts = carver->Take<StackPart>(StackParts(rectangle));
+  scratch.sums = carver->Take<uint32_t>(4 * plane * rectangle);
+  return scratch;
+}
+
 Worker TakeWorker(const sf_config& config, Carver* carver) {
   const auto side = static_cast<size_t>(config.largest_block);
   const Reach reach = GetReach(config.max_blur);
@@ -57,6 +88,9 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const int32_t max_n = Max(LargestN(config), ViewsOfBenchmark(config.max_blur));
   worker.star = TakeStar(side + 2 * static_cast<size_t>(reach.border), side,
                          static_cast<size_t>(max_n), carver);
+  const auto rim = static_cast<size_t>(reach.border - kCellSize - 2);
+  worker.stack = TakeStack(side + 2 * static_cast<size_t>(reach.border), side, rim + kSliceMargin,
+                           static_cast<size_t>(LargestN(config)), carver);
   worker.resample.line = carver->Take<int16_t>(3 * (side + 16));
   worker.resample.filtered = carver->Take<int16_t>(3 * (side + 16));
   // A rendered rectangle is at most half a block and 4 pixels wide.

@@ -80,7 +80,14 @@ int32_t Render(const EngineState& engine, const Block& block, StarJob job,
   Window counting = *job.window;
   counting.side_colours = &side_colours;
   job.window = &counting;
-  RefocusRectangle(job, &worker->star);
+  if (job.grid->cells) {
+    Field field;
+    field.rgb = worker->star.field_rgb[0];
+    field.disparity = worker->star.field_disparity[0];
+    RefocusStack(job, &field, &worker->stack, worker->star.accumulators[0]);
+  } else {
+    RefocusRectangle(job, &worker->star);
+  }
   worker->side_bytes += side_colours * static_cast<uint64_t>(CapturedBytes(counting));
   const int shift = job.grid->aperture.sum_bits;
   if (block.layer == 0) {

@@ -11,6 +11,7 @@
 #include "simd/disc-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
+#include "simd/slices-inl.h"
 #include "simd/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,6 +31,34 @@ void Spread(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* ou
 void FilterDisc(const uint8_t* in, size_t in_stride, const Disc& disc, size_t rows, size_t count,
                 uint8_t* out, size_t out_stride) {
   DiscSamples(in, in_stride, disc, rows, count, out, out_stride);
+}
+
+void Split(const uint8_t* rgb, size_t count, size_t plane, uint8_t* out) {
+  SplitPixels(rgb, count, plane, out);
+}
+
+void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits, size_t count,
+               int16_t* moved, int16_t* behind, uint8_t* distance) {
+  FindEdgesOfRow(near, far, limits, count, moved, behind, distance);
+}
+
+SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
+                       size_t plane, int16_t* out) {
+  return SelectPixels(row, low, high, count, plane, out);
+}
+
+void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,
+                 int16_t* out) {
+  SpreadSamplesOfSlice(in, step, taps, count, out);
+}
+
+void ShiftSlice(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count, size_t plane,
+                int16_t* out) {
+  ShiftPlanes(in, fraction, rows, count, plane, out);
+}
+
+void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums) {
+  CompositeViews(views, rows, plane, sums);
 }
 
 void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
@@ -84,6 +113,12 @@ const Kernels* Table() {
                                       Blend,
                                       Spread,
                                       FilterDisc,
+                                      Split,
+                                      FindEdges,
+                                      SelectSlice,
+                                      SpreadSlice,
+                                      ShiftSlice,
+                                      Composite,
                                       FindRuns,
                                       MeasureCell,
                                       Transpose,

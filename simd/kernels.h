@@ -51,6 +51,67 @@ struct Disc {
 };
 inline constexpr int32_t kMaxDisc = 13;
 
+// Slices: samples of 7 fractional bits, weighted by how much of the pixel the slice covers, which
+// kSliceOne is all of. Rows hold four planes side by side, `plane` samples apart: R, G, B and
+// coverage. What kernels write of a row is a multiple of kSliceLanes samples, and as much is read.
+inline constexpr int kSliceBits = 7;
+inline constexpr int16_t kSliceOne = 32767;
+inline constexpr size_t kSliceLanes = 16;
+
+// A row of the surfaces at each pixel, from the visible one on: disparities, and colours in three
+// planes. Where there are fewer, the disparity of the others is below any slice.
+inline constexpr int kSurfaces = 3;
+struct SurfaceRow {
+  const int16_t* disparity[kSurfaces];
+  const uint8_t* rgb[kSurfaces];
+  size_t plane;  // bytes
+};
+
+// As SpreadTaps with 15 fractional bits; inner and outer are twice the tap: they weigh the mean of
+// the samples on both sides.
+struct SliceTaps {
+  int32_t reach;  // [1, kMaxSpread]
+  int16_t centre, inner, outer;
+};
+
+struct SlicePlanes {
+  const int16_t* samples;
+  size_t plane;
+};
+
+// Of each kSliceLanes samples of a row, up to 32 times: whether a slice covers some, or all of them.
+struct SliceCover {
+  uint32_t some, all;
+};
+
+// A slice in one view: its first row, what it covers there, and how far the view lies on the way to
+// the next row, 15 bits.
+struct SliceShift {
+  const int16_t* samples;
+  const SliceCover* cover;
+  int16_t fraction;
+};
+
+// Views above each other. shifts[view * slices + k] is slice k in a view; those of `shown`, the
+// nearest first, are seen: chunks[k] are the bits of `some` that tell where. A row counts only
+// where it or the next is covered there. `column`, `row`: of what is composited.
+struct SliceViews {
+  const int16_t* weights;  // [0, 2^14), 65535 at most together
+  const SliceShift* shifts;
+  size_t count, slices;
+  const uint8_t* shown;
+  const uint32_t* chunks;
+  size_t shown_count;
+  size_t column, row;
+};
+
+// Depth edges that hide what lies behind: steps of more than `step`, seen up to a pixel per
+// 2^unit_bits of depth away.
+struct EdgeLimits {
+  int16_t step;
+  int unit_bits;  // [6, 8]
+};
+
 // When a run of a line ends, kDisparityBits of lib/fixed.h or any other scale.
 struct RunLimits {
   int16_t spread;  // a run's disparities differ by at most this, [0, edge]
@@ -111,6 +172,38 @@ struct Kernels {
   // Strides in bytes. in and out don't overlap.
   void (*disc)(const uint8_t* in, size_t in_stride, const Disc& disc, size_t rows, size_t count,
                uint8_t* out, size_t out_stride);
+
+  // out[c * plane + n] = rgb[3 n + c].
+  void (*split)(const uint8_t* rgb, size_t count, size_t plane, uint8_t* out);
+
+  // Goes on by one row from far to near: moved[n] and behind[n] tell how many units of disparity
+  // the next edge below the far row lies away, and the disparity beyond it; they are updated to the
+  // near row. distance[n]: in pixels, where the near pixel hides that, else 0. moved starts as
+  // INT16_MAX.
+  void (*find_edges)(const int16_t* near, const int16_t* far, const EdgeLimits& limits,
+                     size_t count, int16_t* moved, int16_t* behind, uint8_t* distance);
+
+  // Of the first surface whose disparity is within [low, high], at each pixel n < count: its colour
+  // and kSliceOne; zeros where there is none. count <= 32 kSliceLanes.
+  SliceCover (*select_slice)(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
+                             size_t plane, int16_t* out);
+
+  // out[n] = the taps over in[n + k step], |k| <= reach, saturated: each of them times its sample or
+  // the mean of two (halves up), rounded halves up.
+  void (*spread_slice)(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,
+                       int16_t* out);
+
+  // Moves all planes of rows by a fraction of a sample, 15 bits: out[n] = in[n] + fraction
+  // (in[n + 1] - in[n]), halves up. `plane`: of the output.
+  void (*shift_slice)(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count,
+                      size_t plane, int16_t* out);
+
+  // Adds kSliceLanes samples of the views in each row. A slice takes of the view's light what it
+  // covers, and gives as much of its colours; of the last light it gives the share that is left, as
+  // if slices beside each other covered different parts of a pixel. Samples between two rows as by
+  // shift_slice; products (15 bits) are rounded halves up. `plane`: of slices and sums; no sum
+  // exceeds 2^32 - 1.
+  void (*composite)(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums);
 
   // Splits lines 0 .. lines - 1 of `length` positions, greedily from position 0 on; position q of
   // line k is disparity[q * step + k].

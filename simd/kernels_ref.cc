@@ -88,6 +88,133 @@ void FindRunsOfLine(const int16_t* disparity, ptrdiff_t step, size_t length,
   }
 }
 
+// What is written and read of a row.
+size_t SliceSamples(size_t count) { return (count + kSliceLanes - 1) / kSliceLanes * kSliceLanes; }
+
+void Split(const uint8_t* rgb, size_t count, size_t plane, uint8_t* out) {
+  for (size_t n = 0; n < count; ++n) {
+    for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
+  }
+}
+
+int16_t Saturated(int32_t value) {
+  return static_cast<int16_t>(value < INT16_MIN ? INT16_MIN : value > INT16_MAX ? INT16_MAX : value);
+}
+
+void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits, size_t count,
+               int16_t* moved, int16_t* behind, uint8_t* distance) {
+  for (size_t n = 0; n < SliceSamples(count); ++n) {
+    if (Saturated(near[n] - far[n]) > limits.step) {
+      moved[n] = 0;
+      behind[n] = far[n];
+    } else {
+      moved[n] = Saturated(moved[n] + (1 << limits.unit_bits));
+    }
+    const int16_t depth = Saturated(near[n] - behind[n]);
+    const int pixels = (moved[n] >> limits.unit_bits) + 1;
+    const bool hides = depth > limits.step && moved[n] <= depth;
+    distance[n] = static_cast<uint8_t>(hides ? (pixels < 255 ? pixels : 255) : 0);
+  }
+}
+
+SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
+                       size_t plane, int16_t* out) {
+  SliceCover cover = {0, 0};
+  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes) {
+    const uint32_t bit = uint32_t{1} << (chunk / kSliceLanes);
+    cover.all |= bit;
+    for (size_t n = chunk; n < chunk + kSliceLanes; ++n) {
+      int surface = 0;
+      while (surface < kSurfaces &&
+             (row.disparity[surface][n] < low || row.disparity[surface][n] > high)) {
+        ++surface;
+      }
+      const bool found = surface < kSurfaces;
+      for (size_t c = 0; c < 3; ++c) {
+        out[c * plane + n] =
+            found ? static_cast<int16_t>(row.rgb[surface][c * row.plane + n] << kSliceBits)
+                  : int16_t{0};
+      }
+      out[3 * plane + n] = found ? kSliceOne : int16_t{0};
+      if (n >= count) continue;
+      if (found) cover.some |= bit;
+      if (!found) cover.all &= ~bit;
+    }
+  }
+  return cover;
+}
+
+// The product of two numbers of 15 fractional bits, halves up.
+int16_t Product15(int32_t a, int32_t b) { return static_cast<int16_t>((a * b + (1 << 14)) >> 15); }
+
+void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,
+                 int16_t* out) {
+  for (size_t n = 0; n < SliceSamples(count); ++n) {
+    int32_t sum = Product15(in[n], taps.centre);
+    for (int32_t k = 1; k <= taps.reach; ++k) {
+      const int16_t* at = in + n;
+      const int32_t mean = (at[-k * step] + at[k * step] + 1) >> 1;
+      sum += Product15(mean, k < taps.reach ? taps.inner : taps.outer);
+      if (sum > INT16_MAX) sum = INT16_MAX;
+    }
+    out[n] = static_cast<int16_t>(sum);
+  }
+}
+
+int16_t Between15(int16_t from, int16_t to, int16_t fraction) {
+  return static_cast<int16_t>(from + Product15(to - from, fraction));
+}
+
+void ShiftSlice(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count, size_t plane,
+                int16_t* out) {
+  for (size_t line = 0; line < 4 * rows; ++line) {
+    const int16_t* from = in.samples + line * in.plane;
+    for (size_t n = 0; n < SliceSamples(count); ++n) {
+      out[line * plane + n] = Between15(from[n], from[n + 1], fraction);
+    }
+  }
+}
+
+// light / covered, both of kSliceOne, as a series: 1 - excess (1 + open + open^2), where the slice
+// leaves `open`. Exact where it leaves nothing or the excess is small; at most 4 * light.
+int16_t SliceShare(int16_t covered, int16_t light) {
+  const int32_t excess = covered - light, open = kSliceOne - covered;
+  const int16_t first = Product15(excess, open), second = Product15(first, open);
+  const int32_t share = kSliceOne - Saturated(excess + first + second);
+  return static_cast<int16_t>(share < 4 * light ? share : Saturated(4 * light));
+}
+
+void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums) {
+  const size_t row_size = 4 * plane;
+  for (size_t y = 0; y < rows; ++y, sums += row_size) {
+    const size_t row = views.row + y;
+    for (size_t n = 0; n < kSliceLanes; ++n) {
+      for (size_t view = 0; view < views.count; ++view) {
+        const int16_t weight = views.weights[view];
+        int16_t light = kSliceOne;
+        for (size_t k = 0; k < views.shown_count; ++k) {
+          const SliceShift& shift = views.shifts[view * views.slices + views.shown[k]];
+          const SliceCover* cover = shift.cover + row;
+          if (((cover[0].some | cover[1].some) & views.chunks[k]) == 0) continue;
+          const int16_t* from = shift.samples + row * row_size + views.column + n;
+          const auto value = [&](size_t c) {
+            return Between15(from[c * plane], from[c * plane + row_size], shift.fraction);
+          };
+          const int16_t covered = value(3);
+          const int16_t taken = covered < light ? covered : light;
+          for (size_t c = 0; c < 3; ++c) {
+            const int16_t lit =
+                covered > light ? Product15(value(c), SliceShare(covered, light)) : value(c);
+            sums[n + c * plane] += static_cast<uint32_t>(Product15(weight, lit));
+          }
+          sums[n + 3 * plane] += static_cast<uint32_t>(Product15(weight, taken));
+          light = static_cast<int16_t>(light - taken);
+        }
+      }
+    }
+  }
+}
+
 void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
               const RunLimits& limits, const RunMarks& marks) {
   for (size_t k = 0; k < lines; ++k) {
@@ -218,7 +345,7 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 
 const Kernels& ReferenceKernels() {
   static constexpr Kernels kernels = {"reference", Accumulate,       Blend,       Spread,
-                                      FilterDisc,  FindRuns,         MeasureCell, Transpose,
+                                      FilterDisc,  Split, FindEdges, SelectSlice, SpreadSlice, ShiftSlice, Composite, FindRuns,         MeasureCell, Transpose,
                                       Finish,      ConvertDisparity, Widen,       Narrow,
                                       FinishLayer, FilterHalfBand,   Between};
   return kernels;

@@ -1,0 +1,147 @@
+#include "lib/placed_slice.h"
+
+#include <cstring>
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kFractionOne = 1 << 15;
+
+// What a box of `cell` pixels (kShiftBits), more than one, covers of the pixels around it.
+simd::SliceTaps TapsOf(int32_t cell) {
+  constexpr int32_t kLargest = (2 * simd::kMaxSpread + 1) * kShiftOne;
+  const int32_t length = Min(cell, kLargest);
+  simd::SliceTaps taps;
+  taps.reach = 1;
+  while ((2 * taps.reach + 1) * kShiftOne < length) ++taps.reach;
+  const int32_t whole = (2 * taps.reach - 1) * kShiftOne;
+  const int32_t inner = taps.reach == 1 ? 0 : 2 * kFractionOne * kShiftOne / length;
+  const int32_t outer = kFractionOne / kShiftOne * (length - whole) * kShiftOne / length;
+  const int32_t centre = kFractionOne - (taps.reach - 1) * inner - outer;
+  taps.inner = static_cast<int16_t>(inner);
+  taps.outer = static_cast<int16_t>(outer);
+  taps.centre = static_cast<int16_t>(Min(centre, kFractionOne - 1));
+  return taps;
+}
+
+// `shift` in kShiftBits as whole pixels and a fraction. A cell narrower than a pixel covers less of
+// the pixels on either side of it than interpolation.
+SliceOffset OffsetOf(int32_t shift, int32_t cell) {
+  const int32_t whole = shift >> kShiftBits, rest = shift & (kShiftOne - 1);
+  int32_t fraction = rest * (kFractionOne / kShiftOne);
+  if (rest != 0 && cell < kShiftOne) {
+    const int32_t from_middle = (rest - kShiftOne / 2) * kFractionOne;
+    fraction = Clamp(from_middle / Max(cell, 1) + kFractionOne / 2, 0, kFractionOne);
+  }
+  if (fraction == kFractionOne) return {whole + 1, 0};
+  return {whole, static_cast<int16_t>(fraction)};
+}
+
+// Beyond the surfaces' left and right end their outermost pixels go on.
+simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surfaces,
+                           const Slice& slice, int32_t x, int32_t y, int32_t width, size_t plane,
+                           int16_t* row) {
+  const int32_t first = Max(0, -x), last = Min(width, surfaces.width - x);
+  const size_t at = surfaces.At(x + first, y);
+  simd::SurfaceRow from;
+  from.plane = surfaces.plane;
+  for (int k = 0; k < simd::kSurfaces; ++k) {
+    from.disparity[k] = surfaces.disparity[k] + at;
+    from.rgb[k] = surfaces.rgb[k] + at;
+  }
+  const simd::SliceCover cover =
+      kernels.select_slice(from, slice.low, slice.overlap, static_cast<size_t>(last - first), plane,
+                           row + first);
+  if (last - first == width) return cover;
+  for (int c = 0; c < 4; ++c, row += plane) {
+    for (int32_t k = 0; k < first; ++k) row[k] = row[first];
+    for (int32_t k = last; k < width; ++k) row[k] = row[last - 1];
+  }
+  return {~uint32_t{0}, 0};  // nobody looks closer at the few such rows
+}
+
+// Covers of what is spread by `reach` pixels.
+void SpreadCover(int32_t reach, const PlacedSlice& placed) {
+  constexpr int32_t kMost = simd::kMaxSpread;
+  simd::SliceCover before[kMost] = {};  // of the rows above, unspread
+  for (int32_t row = 0; row < placed.rows; ++row) {
+    const simd::SliceCover here = placed.cover[row];
+    uint32_t some = here.some;
+    for (int32_t k = 1; k <= reach; ++k) {
+      some |= before[k - 1].some;
+      if (row + k < placed.rows) some |= placed.cover[row + k].some;
+    }
+    for (int32_t k = kMost - 1; k > 0; --k) before[k] = before[k - 1];
+    before[0] = here;
+    placed.cover[row].some = some | some << 1 | some >> 1;
+  }
+}
+
+void Spread(const simd::Kernels& kernels, int16_t* filtered, const PlacedSlice& placed) {
+  const simd::SliceTaps taps = TapsOf(placed.cell);
+  const size_t row_size = 4 * placed.plane;
+  const auto at = [&](int32_t row) { return static_cast<size_t>(row) * row_size; };
+  filtered += simd::kSliceLanes;
+  for (int32_t row = 0; row < placed.rows; ++row) {
+    if (placed.cover[row].some != 0) {
+      kernels.spread_slice(placed.samples + at(row), 1, taps, row_size, filtered + at(row));
+    } else {
+      std::memset(filtered + at(row), 0, row_size * sizeof(*filtered));
+    }
+  }
+  SpreadCover(taps.reach, placed);
+  for (int32_t row = taps.reach; row < placed.rows - taps.reach; ++row) {
+    if (placed.cover[row].some == 0) continue;
+    kernels.spread_slice(filtered + at(row), static_cast<ptrdiff_t>(row_size), taps, row_size,
+                         placed.samples + at(row));
+  }
+}
+
+}  // namespace
+
+void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, PlacedSlice* placed) {
+  const int32_t rim = Abs(grid.Shift(grid.Move(grid.n()), disparity));
+  placed->cell = Abs(grid.Shift(grid.Move(1), disparity));
+  placed->reach = SliceReach(rim);
+  placed->rows = rect.height + 2 * placed->reach;
+  placed->plane = SlicePlane(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
+  for (int32_t i = 0; i <= grid.n(); ++i) {
+    const int32_t shift = grid.Shift(grid.Move(i), disparity);
+    placed->offsets[i] = OffsetOf(shift, placed->cell);
+    placed->offsets[-i] = OffsetOf(-shift, placed->cell);
+  }
+}
+
+void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Slice& slice,
+               const Rect& rect, int16_t* filtered, const PlacedSlice& placed) {
+  const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
+  const int32_t width = rect.width + 2 * placed.reach;
+  for (int32_t row = 0; row < placed.rows; ++row) {
+    placed.cover[row] =
+        SelectRow(kernels, surfaces, slice, x, Clamp(y + row, 0, surfaces.height - 1), width,
+                  placed.plane, placed.samples + static_cast<size_t>(row) * 4 * placed.plane);
+  }
+  if (placed.cell > kShiftOne) Spread(kernels, filtered, placed);
+}
+
+void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
+                int32_t width, size_t plane, int16_t* shifted) {
+  const auto some = [&](int32_t row) {
+    return row >= 0 && row < placed.rows && placed.cover[row].some != 0;
+  };
+  for (int32_t row = 0; row < placed.rows; ++row) {
+    int16_t* out = shifted + static_cast<size_t>(row) * 4 * plane;
+    int32_t end = row;
+    while (some(end)) ++end;
+    if (end > row) {
+      const int16_t* from = placed.samples + static_cast<size_t>(row) * 4 * placed.plane;
+      kernels.shift_slice({from + placed.reach + offset.whole, placed.plane}, offset.fraction,
+                          static_cast<size_t>(end - row), static_cast<size_t>(width), plane, out);
+      row = end - 1;
+    } else if (some(row - 1) || some(row + 1)) {
+      std::memset(out, 0, 4 * plane * sizeof(*out));
+    }
+  }
+}
+
+}  // namespace starfocus

@@ -1,0 +1,65 @@
+// A slice of a rectangle in memory: its pixels and those around it that some view shows, spread by
+// the aperture's cell, and where each view shows it.
+#ifndef STARFOCUS_LIB_PLACED_SLICE_H_
+#define STARFOCUS_LIB_PLACED_SLICE_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/field.h"
+#include "lib/slices.h"
+#include "lib/surfaces.h"
+#include "lib/view_grid.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+// Where a view shows a slice: moved by whole pixels and a fraction of one, 15 bits.
+struct SliceOffset {
+  int32_t whole;
+  int16_t fraction;
+};
+
+// Pixels beyond its blur radius (rounded up) that a slice is made of: filters, interpolation.
+inline constexpr int32_t kSliceMargin = simd::kMaxSpread + 1;
+
+// Pixels beyond the rectangle that a slice blurred by `rim` (kShiftBits) is made of.
+constexpr int32_t SliceReach(int32_t rim) {
+  return ((rim + kShiftOne - 1) >> kShiftBits) + kSliceMargin;
+}
+
+struct PlacedSlice {
+  int32_t reach = 0;                  // pixels beyond the rectangle
+  int32_t rows = 0;                   // the rectangle's, and reach above and below it
+  size_t plane = 0;                   // samples from plane to plane; four to the next row
+  int32_t cell = 0;                   // width r / N of its aperture cell, kShiftBits
+  int16_t* samples = nullptr;         // of the first row
+  simd::SliceCover* cover = nullptr;  // of each row
+  SliceOffset* offsets = nullptr;     // of view 0: from -N to N
+};
+
+// Samples between the planes of a slice that reaches `reach` pixels beyond a rectangle.
+constexpr size_t SlicePlane(size_t width, size_t reach) {
+  return SurfaceStride(SurfaceStride(width) + 2 * reach) + simd::kSliceLanes;
+}
+// Samples of it, with what filters read before and behind it.
+constexpr size_t SliceSize(size_t width, size_t height, size_t reach) {
+  return 4 * (height + 2 * reach) * SlicePlane(width, reach) + 2 * simd::kSliceLanes;
+}
+
+// Geometry and offsets of a slice that moves as `disparity`; cover and offsets must be set.
+void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, PlacedSlice* placed);
+
+// Copies the slice's pixels around `rect` (in pixels of the surfaces, whose outermost pixels go on
+// beyond them) and spreads them; `filtered` has room for as many samples.
+void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Slice& slice,
+               const Rect& rect, int16_t* filtered, const PlacedSlice& placed);
+
+// Writes what a view moved by `offset` along rows shows of the rectangle's columns: rows of four
+// planes, `plane` samples apart. Rows that are empty, and not beside others, are left as they are.
+void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
+                int32_t width, size_t plane, int16_t* shifted);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_PLACED_SLICE_H_

@@ -1,0 +1,51 @@
+// Slices: the parts of a scene within ranges of disparity so small that each moves as one from view
+// to view.
+#ifndef STARFOCUS_LIB_SLICES_H_
+#define STARFOCUS_LIB_SLICES_H_
+
+#include <cstdint>
+
+#include "lib/field.h"
+#include "lib/surfaces.h"
+#include "lib/view_grid.h"
+
+namespace starfocus {
+
+// Beyond this many, slices get coarser.
+inline constexpr int32_t kMaxSlices = 16;
+
+// And beyond the memory of this many slices of the largest reach.
+inline constexpr size_t kLargeSlices = 6;
+
+// Pixels of the layer that a slice's disparities may lie apart at the aperture's rim, kShiftBits;
+// where they are more blurred than kSliceSharp, an eighth of what is beyond it.
+inline constexpr int32_t kSliceRange = kShiftOne / 2;
+inline constexpr int32_t kSliceSharp = 4 * kShiftOne;
+
+// Disparities of the bins that slices are made of: an eighth of kSliceRange or less, and no more
+// than this many within the largest blur.
+inline constexpr int32_t kSliceBins = 2 * 129 * 32 + 2;
+
+// Disparities [low, high] (kDisparityBits), which move as `disparity` does; up to `overlap`, which
+// is a little nearer, they are part of the next slice too, so that no gap opens between both.
+struct Slice {
+  int16_t low, high, overlap, disparity;
+};
+
+struct SliceJob {
+  const Surfaces* surfaces;
+  const ViewGrid* grid;
+  Rect rect;            // in pixels of the surfaces
+  uint8_t* bins;        // kSliceBins
+  int32_t* least_blur;  // largest side of surfaces: scratch
+  size_t samples;       // of all slices together
+};
+
+// The slices, the nearest first, that hold all pixels of the surfaces that may splat into a
+// rectangle.
+// Writes and returns at most kMaxSlices.
+int32_t FindSlices(const SliceJob& job, Slice* slices);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_SLICES_H_

@@ -1,0 +1,225 @@
+#include "lib/stack.h"
+
+#include <cstring>
+
+#include "lib/unmix.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+
+class Stack {
+ public:
+  Stack(const StarJob& job, Field* field, StackScratch* scratch, uint32_t* accumulators)
+      : job_(job),
+        grid_(*job.grid),
+        field_(*field),
+        scratch_(*scratch),
+        accumulators_(accumulators) {}
+
+  uint64_t Refocus() {
+    LoadField(*job_.window, job_.rect, job_.border, &field_);
+    UnmixEdges(*job_.window, grid_, &field_);
+    FindSurfaces(*job_.kernels, *job_.window, field_, &scratch_.surfaces);
+    FindScale();
+    plane_ = SurfaceStride(static_cast<size_t>(job_.rect.width));
+    PlaceSlices();
+    const uint64_t pixels = FindParts();
+    const size_t samples = 4 * plane_ * static_cast<size_t>(job_.rect.height);
+    std::memset(scratch_.sums, 0, samples * sizeof(*scratch_.sums));
+    for (int32_t i = -grid_.n(); i <= grid_.n(); ++i) AddColumn(i);
+    Finish();
+    return pixels;
+  }
+
+ private:
+  uint32_t Weight(int32_t i, int32_t j) const { return grid_.aperture.Weight(i, j); }
+
+  // Largest j of the views (i, j).
+  int32_t LastAcross(int32_t i) const {
+    const int32_t n = grid_.n();
+    int32_t j = n;
+    while (i * i + j * j > n * n) --j;
+    return j;
+  }
+
+  // Weights are scaled so that those of a column fit 16 bits together, and each of them 14.
+  void FindScale() {
+    uint32_t largest = 0;
+    for (int32_t i = 0; i <= grid_.n(); ++i) {
+      uint32_t sum = Weight(i, 0), most = sum;
+      for (int32_t j = 1; j <= LastAcross(i); ++j) {
+        sum += 2 * Weight(i, j);
+        most = Weight(i, j) > most ? Weight(i, j) : most;
+      }
+      sum = 4 * most > sum ? 4 * most : sum;
+      largest = sum > largest ? sum : largest;
+    }
+    weight_scale_ = (uint64_t{1} << 32) / (largest + 1);
+  }
+
+  void PlaceSlices() {
+    const Rect& inner = field_.inner;
+    const SliceJob job = {&scratch_.surfaces, &grid_, inner, scratch_.bins, scratch_.least_blur,
+                          scratch_.plane_samples};
+    Slice slices[kMaxSlices];
+    count_ = FindSlices(job, slices);
+    int16_t *samples = scratch_.planes, *shifted = scratch_.shifted;
+    const int32_t views = 2 * grid_.n() + 1;
+    for (int32_t k = 0; k < count_; ++k) {
+      PlacedSlice& placed = placed_[k];
+      placed.cover = scratch_.covers + k * scratch_.cover_rows;
+      placed.offsets = scratch_.offsets + k * views + grid_.n();
+      placed.samples = samples + kChunk;
+      PlaceSlice(grid_, slices[k].disparity, inner, &placed);
+      FillSlice(*job_.kernels, scratch_.surfaces, slices[k], inner, scratch_.filtered, placed);
+      samples += SliceSize(static_cast<size_t>(inner.width), static_cast<size_t>(inner.height),
+                           static_cast<size_t>(placed.reach));
+      shifted_[k] = shifted;
+      shifted += 4 * plane_ * static_cast<size_t>(placed.rows);
+    }
+  }
+
+  static bool Same(const SliceOffset& a, const SliceOffset& b) {
+    return a.whole == b.whole && a.fraction == b.fraction;
+  }
+
+  bool IsGathered(const StackPart& part) const {
+    if (job_.gathered == nullptr) return false;
+    const int32_t right = Min(job_.rect.x + part.x + kChunk, job_.rect.x + job_.rect.width);
+    for (int32_t y = part.y; y < part.y + part.rows; y += kCellSize) {
+      for (int32_t x = job_.rect.x + part.x; x < right; x += kCellSize) {
+        if (job_.gathered->At(x, job_.rect.y + y) == 0) return false;
+      }
+    }
+    return true;
+  }
+
+  // What each part of the rectangle sees of the slices. Returns their pixels.
+  uint64_t FindParts() {
+    static_assert(kPartRows == kCellSize && kChunk % kCellSize == 0, "parts are whole cells");
+    parts_ = 0;
+    uint64_t pixels = 0;
+    for (int32_t y = 0; y < job_.rect.height; y += kPartRows) {
+      for (int32_t x = 0; x < job_.rect.width; x += kChunk) {
+        StackPart& part = scratch_.parts[parts_];
+        part = {x, y, Min(kPartRows, job_.rect.height - y), 0, {}};
+        if (IsGathered(part)) continue;
+        ++parts_;
+        for (int32_t k = 0; k < count_; ++k) {
+          const simd::SliceCover cover = CoverOf(placed_[k], part);
+          if (cover.some != 0) part.shown[part.count++] = static_cast<uint8_t>(k);
+          if (cover.all != 0) break;
+        }
+        pixels += static_cast<uint64_t>(part.count) *
+                  static_cast<uint64_t>(part.rows * Min(kChunk, job_.rect.width - x));
+      }
+    }
+    return pixels;
+  }
+
+  // Chunks of a slice's rows that a view shows in a part, `offset` pixels from its place.
+  static uint32_t Chunks(const StackPart& part, int32_t first, int32_t last) {
+    first += part.x;
+    last += part.x + kChunk - 1;
+    return static_cast<uint32_t>((uint64_t{2} << last / kChunk) - (uint64_t{1} << first / kChunk));
+  }
+
+  // Whether some, or all, of the slice's pixels that a part may see in any view are covered.
+  static simd::SliceCover CoverOf(const PlacedSlice& placed, const StackPart& part) {
+    const uint32_t chunks = Chunks(part, 0, 2 * placed.reach);
+    simd::SliceCover cover = {0, chunks};
+    for (int32_t row = part.y; row < part.y + part.rows + 2 * placed.reach; ++row) {
+      cover.some |= placed.cover[row].some;
+      cover.all &= placed.cover[row].all;
+    }
+    return {cover.some & chunks, cover.all == chunks ? 1u : 0u};
+  }
+
+  // Views (i, j) of all j.
+  void AddColumn(int32_t i) {
+    for (int32_t k = 0; k < count_; ++k) {
+      const PlacedSlice& placed = placed_[k];
+      if (i > -grid_.n() && Same(placed.offsets[i], placed.offsets[i - 1])) continue;
+      ShiftSlice(*job_.kernels, placed, placed.offsets[i], job_.rect.width, plane_, shifted_[k]);
+    }
+    const int32_t last = LastAcross(Abs(i));
+    simd::SliceShift* shift = scratch_.shifts;
+    for (int32_t j = -last; j <= last; ++j) {
+      scratch_.weights[j + last] = static_cast<int16_t>((Weight(i, j) * weight_scale_) >> 16);
+      for (int32_t k = 0; k < count_; ++k) {
+        const SliceOffset& offset = placed_[k].offsets[j];
+        const int32_t row = placed_[k].reach + offset.whole;
+        *shift++ = {shifted_[k] + static_cast<size_t>(row) * 4 * plane_, placed_[k].cover + row,
+                    offset.fraction};
+      }
+    }
+    for (int32_t k = 0; k < parts_; ++k) AddPart(i, scratch_.parts[k]);
+  }
+
+  void AddPart(int32_t i, const StackPart& part) {
+    uint32_t chunks[kMaxSlices];
+    for (int32_t k = 0; k < part.count; ++k) {
+      const PlacedSlice& placed = placed_[part.shown[k]];
+      const int32_t first = placed.reach + placed.offsets[i].whole;
+      chunks[k] = Chunks(part, first, first + 1);
+    }
+    const auto views = static_cast<size_t>(2 * LastAcross(Abs(i)) + 1);
+    const simd::SliceViews job = {scratch_.weights,
+                                  scratch_.shifts,
+                                  views,
+                                  static_cast<size_t>(count_),
+                                  part.shown,
+                                  chunks,
+                                  static_cast<size_t>(part.count),
+                                  static_cast<size_t>(part.x),
+                                  static_cast<size_t>(part.y)};
+    const size_t at = static_cast<size_t>(part.y) * 4 * plane_ + static_cast<size_t>(part.x);
+    job_.kernels->composite(job, static_cast<size_t>(part.rows), plane_, scratch_.sums + at);
+  }
+
+  // Colours over coverage: what no slice covers is as what covers the rest.
+  void Finish() {
+    constexpr int kInverseBits = 48;
+    const int bits = grid_.aperture.sum_bits, shift = kInverseBits - 8 - bits;
+    const uint64_t white = uint64_t{255} << bits, half = uint64_t{1} << (shift - 1);
+    uint32_t covered = 0;
+    uint64_t inverse = 0;
+    uint32_t* out = accumulators_;
+    for (int32_t y = 0; y < job_.rect.height; ++y) {
+      const uint32_t* sums = scratch_.sums + static_cast<size_t>(y) * 4 * plane_;
+      for (int32_t x = 0; x < job_.rect.width; ++x, ++sums, out += 3) {
+        if (sums[3 * plane_] != covered) {
+          covered = sums[3 * plane_];
+          inverse = covered == 0 ? 0 : (uint64_t{1} << kInverseBits) / covered;
+        }
+        for (size_t c = 0; c < 3; ++c) {
+          const uint64_t value = (sums[c * plane_] * inverse + half) >> shift;
+          out[c] = static_cast<uint32_t>(value < white ? value : white);
+        }
+      }
+    }
+  }
+
+  const StarJob& job_;
+  const ViewGrid& grid_;
+  Field& field_;
+  StackScratch& scratch_;
+  uint32_t* accumulators_;
+  size_t plane_ = 0;  // samples from plane to plane of shifted slices and of the sums
+  PlacedSlice placed_[kMaxSlices];
+  int16_t* shifted_[kMaxSlices];  // of the column of views under way
+  int32_t count_ = 0;
+  int32_t parts_ = 0;
+  uint64_t weight_scale_ = 0;  // 16 bits
+};
+
+}  // namespace
+
+uint64_t RefocusStack(const StarJob& job, Field* field, StackScratch* scratch,
+                      uint32_t* accumulators) {
+  return Stack(job, field, scratch, accumulators).Refocus();
+}
+
+}  // namespace starfocus

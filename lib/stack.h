@@ -1,0 +1,52 @@
+// The primitive of cells: one rectangle of the picture refocused as a stack of slices, which each
+// view of the aperture shows moved against each other, the nearer in front of the farther.
+#ifndef STARFOCUS_LIB_STACK_H_
+#define STARFOCUS_LIB_STACK_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/placed_slice.h"
+#include "lib/star.h"
+
+namespace starfocus {
+
+// Parts of a rectangle, this high and kSliceLanes wide, that see slices of their own.
+inline constexpr int32_t kPartRows = 8;
+struct StackPart {
+  int32_t x, y, rows;  // in the rectangle
+  int32_t count;       // slices seen
+  uint8_t shown[kMaxSlices];
+};
+
+// Memory of one worker. E and R: largest side of an extended rectangle and of a rectangle; N.
+struct StackScratch {
+  Surfaces surfaces;          // E^2 each
+  uint8_t* bins;              // kSliceBins
+  int32_t* least_blur;        // E
+  simd::SliceCover* covers;   // kMaxSlices E
+  int32_t cover_rows;         // E
+  int16_t* planes;            // of all slices
+  size_t plane_samples;       // that fit
+  int16_t* filtered;          // SliceSize(R, R, E - R)
+  int16_t* shifted;           // kMaxSlices 4 E R
+  SliceOffset* offsets;       // kMaxSlices (2 N + 1)
+  simd::SliceShift* shifts;   // kMaxSlices (2 N + 1)
+  int16_t* weights;           // 2 N + 1
+  StackPart* parts;           // of a rectangle
+  uint32_t* sums;             // 4 R^2
+};
+
+// Parts of the largest rectangle.
+constexpr size_t StackParts(size_t side) {
+  return (side + kPartRows - 1) / kPartRows * (SurfaceStride(side) / simd::kSliceLanes);
+}
+
+// As RefocusRectangle, by slices. `field`: for the extended rectangle, with memory set. Returns the
+// pixels rendered in each view, over all slices.
+uint64_t RefocusStack(const StarJob& job, Field* field, StackScratch* scratch,
+                      uint32_t* accumulators);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_STACK_H_

@@ -1,0 +1,238 @@
+#include "lib/surfaces.h"
+
+#include <cstring>
+#include <initializer_list>
+
+#include "lib/fixed.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int8_t kSides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+
+// What one side shows behind a pixel.
+struct Candidate {
+  int32_t rank = INT32_MAX;  // the nearer edge first, and those that a captured view sees
+  int32_t distance = 0;      // to the edge's far side
+  int16_t disparity = kNoSurface;
+  bool seen = false, half = false;
+
+  bool Before(const Candidate& other) const {
+    return rank != other.rank ? rank < other.rank : disparity > other.disparity;
+  }
+};
+constexpr int32_t kUnseen = 256;  // added to the rank
+
+class SurfaceFinder {
+ public:
+  SurfaceFinder(const simd::Kernels& kernels, const Window& window, const Field& field,
+                Surfaces* surfaces)
+      : kernels_(kernels),
+        window_(window),
+        field_(field),
+        surfaces_(*surfaces),
+        unit_(int32_t{1} << (kDisparityBits + window.layer)) {}
+
+  void Find() {
+    const int32_t height = surfaces_.height;
+    FindRange();
+    for (int32_t y = 0; y < height; ++y) FindEdgesOfRow(y);
+    StartColumns(height - 1, 2);
+    for (int32_t y = height - 2; y >= 0; --y) FindEdgesOfColumns(y, y + 1, 2);
+    StartColumns(0, 3);
+    for (int32_t y = 1; y < height; ++y) FindEdgesOfColumns(y, y - 1, 3);
+    for (int32_t y = 0; y < height; ++y) FindRow(y);
+  }
+
+ private:
+  int16_t Disparity(int32_t x, int32_t y) const {
+    return surfaces_.disparity[0][surfaces_.At(x, y)];
+  }
+
+  void FindRange() {
+    int16_t low = Disparity(0, 0), high = low;
+    for (int32_t y = 0; y < surfaces_.height; ++y) {
+      const int16_t* row = surfaces_.disparity[0] + surfaces_.At(0, y);
+      for (int32_t x = 0; x < surfaces_.width; ++x) {
+        low = row[x] < low ? row[x] : low;
+        high = row[x] > high ? row[x] : high;
+      }
+    }
+    highest_ = high;
+  }
+
+  uint8_t* Edges(int side, int32_t y) const { return surfaces_.edges[side] + surfaces_.At(0, y); }
+  const int16_t* Row(int32_t y) const { return surfaces_.disparity[0] + surfaces_.At(0, y); }
+
+  // As find_edges, along a row.
+  struct Walk {
+    int32_t moved = INT16_MAX, behind = 0;
+
+    uint8_t Next(int32_t near, int32_t far, int32_t unit) {
+      moved += unit;
+      if (near - far > kHidingStep) {
+        moved = 0;
+        behind = far;
+      }
+      const int32_t depth = near - behind;
+      if (depth <= kHidingStep || moved > depth) return 0;
+      return static_cast<uint8_t>(Min(moved / unit + 1, 255));
+    }
+  };
+
+  void FindEdgesOfRow(int32_t y) {
+    const int16_t* row = Row(y);
+    uint8_t *right = Edges(0, y), *left = Edges(1, y);
+    const int32_t last = surfaces_.width - 1;
+    right[last] = left[0] = 0;
+    Walk to_right, to_left;
+    for (int32_t x = last - 1; x >= 0; --x) right[x] = to_right.Next(row[x], row[x + 1], unit_);
+    for (int32_t x = 1; x <= last; ++x) left[x] = to_left.Next(row[x], row[x - 1], unit_);
+  }
+
+  void StartColumns(int32_t y, int side) {
+    std::memset(Edges(side, y), 0, static_cast<size_t>(surfaces_.width));
+    for (int32_t x = 0; x < surfaces_.stride; ++x) {
+      surfaces_.moved[x] = INT16_MAX;
+      surfaces_.behind[x] = 0;
+    }
+  }
+
+  void FindEdgesOfColumns(int32_t y, int32_t beside, int side) {
+    const simd::EdgeLimits limits = {kHidingStep, kDisparityBits + window_.layer};
+    kernels_.find_edges(Row(y), Row(beside), limits, static_cast<size_t>(surfaces_.width),
+                        surfaces_.moved, surfaces_.behind, Edges(side, y));
+  }
+
+  void FindRow(int32_t y) {
+    const size_t at = surfaces_.At(0, y);
+    for (int behind = 1; behind < simd::kSurfaces; ++behind) {
+      int16_t* disparity = surfaces_.disparity[behind] + at;
+      for (int32_t x = 0; x < surfaces_.stride; ++x) disparity[x] = kNoSurface;
+    }
+    surfaces_.hiding[y] = 0;
+    const uint8_t* const* edges = surfaces_.edges;
+    for (int32_t x = 0; x < surfaces_.width; ++x) {
+      const size_t k = at + static_cast<size_t>(x);
+      if ((edges[0][k] | edges[1][k] | edges[2][k] | edges[3][k]) != 0) FindPixel(x, y);
+    }
+  }
+
+  void FindPixel(int32_t x, int32_t y) {
+    Candidate candidates[4];
+    for (int side = 0; side < 4; ++side) candidates[side] = LookBehind(x, y, side);
+    int32_t above = INT32_MAX;  // disparities farther than this make another surface
+    for (int behind = 1; behind < simd::kSurfaces; ++behind) {
+      const Candidate* best = nullptr;
+      for (const Candidate& candidate : candidates) {
+        if (candidate.rank == INT32_MAX) continue;
+        if (above != INT32_MAX && Abs(candidate.disparity - above) <= unit_) continue;
+        if (best == nullptr || candidate.Before(*best)) best = &candidate;
+      }
+      if (best == nullptr) return;
+      above = best->disparity;
+      SetSurface(x, y, behind, *best, candidates);
+    }
+  }
+
+  Candidate LookBehind(int32_t x, int32_t y, int side) const {
+    Candidate candidate;
+    const int32_t distance = Edges(side, y)[x];
+    if (distance == 0) return candidate;
+    candidate.distance = distance;
+    candidate.disparity =
+        Disparity(x + kSides[side][0] * distance, y + kSides[side][1] * distance);
+    candidate.rank = distance + kUnseen;
+    for (const bool half : {false, true}) {
+      if (window_.views == 1 || (half && window_.views != 17)) break;
+      if (IsCovered(x, y, side, candidate.disparity, half)) continue;
+      candidate.seen = true;
+      candidate.half = half;
+      candidate.rank = distance;
+      break;
+    }
+    return candidate;
+  }
+
+  // Whether some pixel of the line lies before the place behind (x, y) in the captured view towards
+  // the side.
+  bool IsCovered(int32_t x, int32_t y, int side, int32_t disparity, bool half) const {
+    const int32_t unit = half ? 2 * unit_ : unit_;
+    const int32_t room = side == 0   ? surfaces_.width - 1 - x
+                         : side == 1 ? x
+                         : side == 2 ? surfaces_.height - 1 - y
+                                     : y;
+    const int32_t last = Min(room, (highest_ - disparity) / unit + 1);
+    const ptrdiff_t step =
+        kSides[side][0] + kSides[side][1] * static_cast<ptrdiff_t>(surfaces_.stride);
+    const int16_t* at = surfaces_.disparity[0] + surfaces_.At(x, y);
+    for (int32_t u = 0, moved = 0; u <= last; ++u, moved += unit, at += step) {
+      const int32_t nearer = *at - disparity;
+      if (2 * nearer > unit && 4 * Abs(nearer - moved) < 3 * unit) return true;
+    }
+    return false;
+  }
+
+  void SetSurface(int32_t x, int32_t y, int behind, const Candidate& best,
+                  const Candidate* candidates) {
+    int32_t sums[3] = {0, 0, 0}, count = 0;
+    for (int side = 0; side < 4; ++side) {
+      const Candidate& candidate = candidates[side];
+      if (candidate.rank != best.rank || candidate.disparity != best.disparity) continue;
+      uint8_t rgb[3];
+      Read(x, y, side, candidate, rgb);
+      for (int c = 0; c < 3; ++c) sums[c] += rgb[c];
+      ++count;
+    }
+    const size_t at = surfaces_.At(x, y);
+    surfaces_.disparity[behind][at] = best.disparity;
+    surfaces_.hiding[y] = 1;
+    for (size_t c = 0; c < 3; ++c) {
+      surfaces_.rgb[behind][c * surfaces_.plane + at] =
+          static_cast<uint8_t>((sums[c] + count / 2) / count);
+    }
+  }
+
+  void Read(int32_t x, int32_t y, int side, const Candidate& candidate, uint8_t* rgb) const {
+    const int dx = kSides[side][0], dy = kSides[side][1];
+    if (!candidate.seen) {
+      std::memcpy(rgb, field_.Rgb(x + dx * candidate.distance, y + dy * candidate.distance), 3);
+      return;
+    }
+    if (window_.side_colours != nullptr) ++*window_.side_colours;
+    const int64_t full = int64_t{candidate.disparity} * (1 << (kShiftBits - kDisparityBits));
+    const auto moved =
+        static_cast<int32_t>(RoundShift(full * 2, 1 + window_.layer + (candidate.half ? 1 : 0)));
+    const CapturedLine place = {(field_.x + x) * kShiftOne - dx * moved,
+                                (field_.y + y) * kShiftOne - dy * moved, 1, 0};
+    ReadCaptured(window_, CapturedView(dx, dy, candidate.half), place, 1, rgb);
+  }
+
+  const simd::Kernels& kernels_;
+  const Window& window_;
+  const Field& field_;
+  Surfaces& surfaces_;
+  const int32_t unit_;         // disparity that a pixel of the layer is at distance 1
+  int32_t highest_ = 0;  // disparity
+};
+
+}  // namespace
+
+void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Field& field,
+                  Surfaces* surfaces) {
+  surfaces->width = field.width;
+  surfaces->height = field.height;
+  surfaces->stride = static_cast<int32_t>(SurfaceStride(static_cast<size_t>(field.width)));
+  surfaces->plane =
+      static_cast<size_t>(surfaces->stride) * static_cast<size_t>(surfaces->height);
+  for (int32_t y = 0; y < field.height; ++y) {
+    const size_t at = surfaces->At(0, y);
+    std::memcpy(surfaces->disparity[0] + at, field.Disparity(0, y),
+                static_cast<size_t>(field.width) * sizeof(int16_t));
+    kernels.split(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
+                  surfaces->rgb[0] + at);
+  }
+  SurfaceFinder(kernels, window, field, surfaces).Find();
+}
+
+}  // namespace starfocus

@@ -1,0 +1,53 @@
+// The surfaces of a field, one behind the other: what the centre view sees, and behind it at depth
+// edges what captured views see there.
+#ifndef STARFOCUS_LIB_SURFACES_H_
+#define STARFOCUS_LIB_SURFACES_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/field.h"
+#include "lib/window.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+// Neighbouring pixels whose disparities differ by more than this may hide something, kDisparityBits.
+inline constexpr int32_t kHidingStep = (3 << kDisparityBits) / 4;
+
+// No surface: the disparity where there are fewer than kSurfaces.
+inline constexpr int16_t kNoSurface = INT16_MIN;
+
+// Surface 0 is the field itself. Rows of `stride` pixels; colours in three planes, `plane` apart.
+struct Surfaces {
+  int32_t width = 0, height = 0, stride = 0;
+  size_t plane = 0;
+  int16_t* disparity[simd::kSurfaces] = {};  // kDisparityBits
+  uint8_t* rgb[simd::kSurfaces] = {};
+  // Pixels to the far side of the depth edge to the right, left, bottom and top that a pixel hides;
+  // 0: it hides none.
+  uint8_t* edges[4] = {};
+  int16_t *moved = nullptr, *behind = nullptr;  // of find_edges: a row
+  uint8_t* hiding = nullptr;  // of each row: whether there is more than surface 0
+
+  size_t At(int32_t x, int32_t y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(stride) + static_cast<size_t>(x);
+  }
+};
+
+constexpr size_t SurfaceStride(size_t width) {
+  return (width + simd::kSliceLanes - 1) / simd::kSliceLanes * simd::kSliceLanes;
+}
+
+// Finds them for a field, whose arrays of surface 0 are shared (its disparities) or split (its
+// colours). Behind a pixel lies what its row and its column show behind the next depth edge on
+// either side, as far as a view at distance 1 can look there: at most two surfaces, the nearest
+// edge's first. Their colours are read from the captured view on the axis in which nothing covers
+// them, at full or half distance; without one the background goes on. With a distance tied to all
+// sides the colours are the mean. The memory of `surfaces` must be set.
+void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Field& field,
+                  Surfaces* surfaces);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_SURFACES_H_

@@ -1,0 +1,232 @@
+// Kernels::split, find_edges, select_slice, spread_slice, shift_slice and composite. Included once per target.
+#if defined(STARFOCUS_SIMD_SLICES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_SLICES_INL_H_
+#undef STARFOCUS_SIMD_SLICES_INL_H_
+#else
+#define STARFOCUS_SIMD_SLICES_INL_H_
+#endif
+
+#include "simd/compat-inl.h"
+#include "simd/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+// Wider vectors would hold more than a narrow tile.
+using SliceTag = hn::CappedTag<int16_t, kSliceLanes>;
+
+HWY_INLINE void SplitPixels(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t plane,
+                            uint8_t* HWY_RESTRICT out) {
+  const hn::CappedTag<uint8_t, kSliceLanes> d8;
+  const size_t lanes = hn::Lanes(d8);
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    hn::Vec<decltype(d8)> r, g, b;
+    hn::LoadInterleaved3(d8, rgb + 3 * n, r, g, b);
+    hn::StoreU(r, d8, out + n);
+    hn::StoreU(g, d8, out + plane + n);
+    hn::StoreU(b, d8, out + 2 * plane + n);
+  }
+  for (; n < count; ++n) {
+    for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
+  }
+}
+
+HWY_INLINE void FindEdgesOfRow(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,
+                               const EdgeLimits& limits, size_t count,
+                               int16_t* HWY_RESTRICT moved, int16_t* HWY_RESTRICT behind,
+                               uint8_t* HWY_RESTRICT distance) {
+  const SliceTag d16;
+  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  const size_t lanes = hn::Lanes(d16);
+  const auto step = hn::Set(d16, limits.step);
+  const auto unit = hn::Set(d16, static_cast<int16_t>(1 << limits.unit_bits));
+  const auto one = hn::Set(d16, int16_t{1});
+  for (size_t n = 0; n < count; n += lanes) {
+    const auto here = hn::LoadU(d16, near + n), next = hn::LoadU(d16, far + n);
+    const auto edge = hn::Gt(hn::SaturatedSub(here, next), step);
+    const auto far_away = hn::SaturatedAdd(hn::LoadU(d16, moved + n), unit);
+    const auto moves = hn::IfThenZeroElse(edge, far_away);
+    const auto surface = hn::IfThenElse(edge, next, hn::LoadU(d16, behind + n));
+    hn::StoreU(moves, d16, moved + n);
+    hn::StoreU(surface, d16, behind + n);
+    const auto depth = hn::SaturatedSub(here, surface);
+    const auto hides = hn::AndNot(hn::Gt(moves, depth), hn::Gt(depth, step));
+    const auto pixels = hn::Add(hn::ShiftRightSame(moves, limits.unit_bits), one);
+    hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(hides, pixels)), d8, distance + n);
+  }
+}
+
+HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
+                                   size_t plane, int16_t* HWY_RESTRICT out) {
+  const SliceTag d16;
+  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  const size_t lanes = hn::Lanes(d16);
+  const auto vlow = hn::Set(d16, low), vhigh = hn::Set(d16, high);
+  const auto one = hn::Set(d16, kSliceOne);
+  const auto colour = [&](const uint8_t* at) HWY_ATTR {
+    return hn::ShiftLeft<kSliceBits>(hn::PromoteTo(d16, hn::LoadU(d8, at)));
+  };
+  const auto inside = [&](const int16_t* at) HWY_ATTR {
+    const auto disparity = hn::LoadU(d16, at);
+    return hn::Not(hn::Or(hn::Lt(disparity, vlow), hn::Gt(disparity, vhigh)));
+  };
+  SliceCover cover = {0, 0};
+  uint32_t bit = 1;
+  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, bit <<= 1) {
+    bool some = false, all = true;
+    for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
+      const auto front = inside(row.disparity[0] + n);
+      const auto first = inside(row.disparity[1] + n);
+      const auto second = inside(row.disparity[2] + n);
+      const auto any = hn::Or(hn::Or(front, first), second);
+      const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
+      some = some || !hn::AllFalse(d16, hn::And(any, counted));
+      all = all && hn::AllFalse(d16, hn::AndNot(any, counted));
+      int16_t* to = out + n;
+      for (size_t c = 0; c < 3; ++c) {
+        const size_t at = c * row.plane + n;
+        const auto behind = hn::IfThenElse(first, colour(row.rgb[1] + at), colour(row.rgb[2] + at));
+        const auto value = hn::IfThenElse(front, colour(row.rgb[0] + at), behind);
+        hn::StoreU(hn::IfThenElseZero(any, value), d16, to + c * plane);
+      }
+      hn::StoreU(hn::IfThenElseZero(any, one), d16, to + 3 * plane);
+    }
+    if (some) cover.some |= bit;
+    if (all) cover.all |= bit;
+  }
+  return cover;
+}
+
+HWY_INLINE void SpreadSamplesOfSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t step,
+                                     const SliceTaps& taps, size_t count,
+                                     int16_t* HWY_RESTRICT out) {
+  const SliceTag d16;
+  const hn::RebindToUnsigned<decltype(d16)> du16;
+  const size_t lanes = hn::Lanes(d16);
+  const auto centre = hn::Set(d16, taps.centre), inner = hn::Set(d16, taps.inner),
+             outer = hn::Set(d16, taps.outer);
+  for (size_t n = 0; n < count; n += lanes) {
+    const auto mean = [&](ptrdiff_t offset) HWY_ATTR {
+      return hn::BitCast(
+          d16, hn::AverageRound(hn::BitCast(du16, hn::LoadU(d16, in + n - offset)),
+                                hn::BitCast(du16, hn::LoadU(d16, in + n + offset))));
+    };
+    auto sum = hn::MulFixedPoint15(hn::LoadU(d16, in + n), centre);
+    for (int32_t k = 1; k < taps.reach; ++k) {
+      sum = hn::SaturatedAdd(sum, hn::MulFixedPoint15(mean(k * step), inner));
+    }
+    sum = hn::SaturatedAdd(sum, hn::MulFixedPoint15(mean(taps.reach * step), outer));
+    hn::StoreU(sum, d16, out + n);
+  }
+}
+
+HWY_INLINE void ShiftPlanes(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count,
+                            size_t plane, int16_t* HWY_RESTRICT out) {
+  const SliceTag d16;
+  const size_t lanes = hn::Lanes(d16);
+  const auto weight = hn::Set(d16, fraction);
+  const int16_t* HWY_RESTRICT from = in.samples;
+  // Planes lie side by side: a row of four is as good as four rows of one.
+  for (size_t line = 0; line < 4 * rows; ++line, from += in.plane, out += plane) {
+    for (size_t n = 0; n < count; n += lanes) {
+      const auto value = hn::LoadU(d16, from + n);
+      const auto step = hn::Sub(hn::LoadU(d16, from + n + 1), value);
+      hn::StoreU(hn::Add(value, hn::MulFixedPoint15(step, weight)), d16, out + n);
+    }
+  }
+}
+
+// Adds 16 bits to sums of 32.
+HWY_INLINE void AddSums(hn::Vec<SliceTag> value, uint32_t* HWY_RESTRICT sums) {
+  const hn::RebindToUnsigned<SliceTag> d16;
+  const hn::CappedTag<uint32_t, kSliceLanes> d32;
+  const hn::Rebind<uint16_t, decltype(d32)> part;
+  uint16_t bits[kSliceLanes];
+  hn::StoreU(hn::BitCast(d16, value), d16, bits);
+  for (size_t n = 0; n < hn::Lanes(d16); n += hn::Lanes(d32)) {
+    const auto more = hn::PromoteTo(d32, hn::LoadU(part, bits + n));
+    hn::StoreU(hn::Add(hn::LoadU(d32, sums + n), more), d32, sums + n);
+  }
+}
+
+// light / covered, where that is less than one: SliceShare.
+HWY_INLINE hn::Vec<SliceTag> ShareOfLight(hn::Vec<SliceTag> covered, hn::Vec<SliceTag> light,
+                                          hn::Vec<SliceTag> excess) {
+  const SliceTag d16;
+  const auto one = hn::Set(d16, kSliceOne);
+  const auto open = hn::Sub(one, covered);
+  const auto first = hn::MulFixedPoint15(excess, open);
+  const auto second = hn::MulFixedPoint15(first, open);
+  const auto taken = hn::SaturatedAdd(hn::SaturatedAdd(excess, first), second);
+  const auto twice = hn::SaturatedAdd(light, light);
+  return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
+}
+
+HWY_INLINE void CompositeViews(const SliceViews& views, size_t rows, size_t plane,
+                               uint32_t* HWY_RESTRICT sums) {
+  const SliceTag d16;
+  const size_t lanes = hn::Lanes(d16), row_size = 4 * plane;
+  for (size_t y = 0; y < rows; ++y, sums += row_size) {
+    for (size_t n = 0; n < kSliceLanes; n += lanes) {
+      const auto zero = hn::Zero(d16), one = hn::Set(d16, kSliceOne);
+      auto r = zero, g = zero, b = zero, a = zero;
+      const size_t row = views.row + y, offset = row * row_size + views.column + n;
+      const SliceShift* shifts = views.shifts;
+      for (size_t view = 0; view < views.count; ++view, shifts += views.slices) {
+        const auto weight = hn::Set(d16, views.weights[view]);
+        auto light = one;
+        for (size_t k = 0; k < views.shown_count; ++k) {
+          const SliceShift& shift = shifts[views.shown[k]];
+          const SliceCover* cover = shift.cover + row;
+          if (((cover[0].some | cover[1].some) & views.chunks[k]) == 0) continue;
+          const int16_t* at = shift.samples + offset;
+          const auto fraction = hn::Set(d16, shift.fraction);
+          const auto load = [&](size_t c) HWY_ATTR {
+            const auto value = hn::LoadU(d16, at + c);
+            if (shift.fraction == 0) return value;
+            const auto step = hn::Sub(hn::LoadU(d16, at + c + row_size), value);
+            return hn::Add(value, hn::MulFixedPoint15(step, fraction));
+          };
+          const auto covered = load(3 * plane);
+          if (hn::AllTrue(d16, hn::Eq(covered, zero))) continue;
+          const auto excess = hn::Max(hn::Sub(covered, light), zero);
+          if (hn::AllTrue(d16, hn::Lt(excess, hn::Set(d16, int16_t{32})))) {
+            r = hn::Add(r, hn::MulFixedPoint15(weight, load(0)));
+            g = hn::Add(g, hn::MulFixedPoint15(weight, load(plane)));
+            b = hn::Add(b, hn::MulFixedPoint15(weight, load(2 * plane)));
+            a = hn::Add(a, hn::MulFixedPoint15(weight, covered));
+            light = hn::Sub(light, hn::Sub(covered, excess));
+            if (hn::AllTrue(d16, hn::Eq(light, zero))) break;
+            continue;
+          }
+          const auto over = hn::Gt(covered, light);
+          const auto share = ShareOfLight(covered, light, excess);
+          const auto lit = [&](size_t c) HWY_ATTR {
+            const auto value = load(c);
+            const auto part = hn::MulFixedPoint15(value, share);
+            return hn::MulFixedPoint15(weight, hn::IfThenElse(over, part, value));
+          };
+          r = hn::Add(r, lit(0));
+          g = hn::Add(g, lit(plane));
+          b = hn::Add(b, lit(2 * plane));
+          const auto taken = hn::Sub(covered, excess);
+          a = hn::Add(a, hn::MulFixedPoint15(weight, taken));
+          light = hn::Sub(light, taken);
+          if (hn::AllTrue(d16, hn::Eq(light, zero))) break;
+        }
+      }
+      AddSums(r, sums + n);
+      AddSums(g, sums + plane + n);
+      AddSums(b, sums + 2 * plane + n);
+      AddSums(a, sums + 3 * plane + n);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif
