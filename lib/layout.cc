@@ -69,6 +69,7 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
   const size_t rows = rectangle + 2 * reach, plane = SurfaceStride(rectangle);
   scratch.cover_rows = static_cast<int32_t>(rows) + 1;
   scratch.covers = carver->Take<simd::SliceCover>(kMaxSlices * (rows + 1));
+  scratch.shifted_some = carver->Take<uint32_t>(kMaxSlices * (rows + 1));
   scratch.plane_samples = kLargeSlices * SliceSize(rectangle, rectangle, reach);
   scratch.planes = carver->Take<int16_t>(scratch.plane_samples);
   scratch.filtered = carver->Take<int16_t>(SliceSize(rectangle, rectangle, reach));

@@ -125,22 +125,24 @@ void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Sli
 }
 
 void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
-                int32_t width, size_t plane, int16_t* shifted) {
+                int32_t width, size_t plane, const ShiftedSlice& shifted) {
   const auto some = [&](int32_t row) {
     return row >= 0 && row < placed.rows && placed.cover[row].some != 0;
   };
   for (int32_t row = 0; row < placed.rows; ++row) {
-    int16_t* out = shifted + static_cast<size_t>(row) * 4 * plane;
+    int16_t* out = shifted.samples + static_cast<size_t>(row) * 4 * plane;
     int32_t end = row;
     while (some(end)) ++end;
     if (end > row) {
       const int16_t* from = placed.samples + static_cast<size_t>(row) * 4 * placed.plane;
       kernels.shift_slice({from + placed.reach + offset.whole, placed.plane}, offset.fraction,
-                          static_cast<size_t>(end - row), static_cast<size_t>(width), plane, out);
+                          static_cast<size_t>(end - row), static_cast<size_t>(width), plane, out,
+                          shifted.some + row);
       row = end - 1;
-    } else if (some(row - 1) || some(row + 1)) {
-      std::memset(out, 0, 4 * plane * sizeof(*out));
+      continue;
     }
+    shifted.some[row] = 0;
+    if (some(row - 1) || some(row + 1)) std::memset(out, 0, 4 * plane * sizeof(*out));
   }
 }
 

@@ -55,10 +55,17 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Place
 void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Slice& slice,
                const Rect& rect, int16_t* filtered, const PlacedSlice& placed);
 
-// Writes what a view moved by `offset` along rows shows of the rectangle's columns: rows of four
-// planes, `plane` samples apart. Rows that are empty, and not beside others, are left as they are.
+// Rows of a slice as a column of views shows it, over the rectangle's columns: four planes each,
+// `plane` samples apart, and what is covered.
+struct ShiftedSlice {
+  int16_t* samples;
+  uint32_t* some;
+};
+
+// Writes the rows that are moved by `offset`. Those that are empty and not beside others stay as
+// they are, but are told to be empty.
 void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
-                int32_t width, size_t plane, int16_t* shifted);
+                int32_t width, size_t plane, const ShiftedSlice& shifted);
 
 }  // namespace starfocus
 

@@ -76,7 +76,7 @@ class Stack {
       FillSlice(*job_.kernels, scratch_.surfaces, slices[k], inner, scratch_.filtered, placed);
       samples += SliceSize(static_cast<size_t>(inner.width), static_cast<size_t>(inner.height),
                            static_cast<size_t>(placed.reach));
-      shifted_[k] = shifted;
+      shifted_[k] = {shifted, scratch_.shifted_some + k * scratch_.cover_rows};
       shifted += 4 * plane_ * static_cast<size_t>(placed.rows);
     }
   }
@@ -119,16 +119,12 @@ class Stack {
     return pixels;
   }
 
-  // Chunks of a slice's rows that a view shows in a part, `offset` pixels from its place.
-  static uint32_t Chunks(const StackPart& part, int32_t first, int32_t last) {
-    first += part.x;
-    last += part.x + kChunk - 1;
-    return static_cast<uint32_t>((uint64_t{2} << last / kChunk) - (uint64_t{1} << first / kChunk));
-  }
-
   // Whether some, or all, of the slice's pixels that a part may see in any view are covered.
   static simd::SliceCover CoverOf(const PlacedSlice& placed, const StackPart& part) {
-    const uint32_t chunks = Chunks(part, 0, 2 * placed.reach);
+    const int32_t first = part.x / kChunk;
+    const int32_t last = (part.x + kChunk - 1 + 2 * placed.reach) / kChunk;
+    const auto chunks =
+        static_cast<uint32_t>((uint64_t{2} << last) - (uint64_t{1} << first));
     simd::SliceCover cover = {0, chunks};
     for (int32_t row = part.y; row < part.y + part.rows + 2 * placed.reach; ++row) {
       cover.some |= placed.cover[row].some;
@@ -151,27 +147,20 @@ class Stack {
       for (int32_t k = 0; k < count_; ++k) {
         const SliceOffset& offset = placed_[k].offsets[j];
         const int32_t row = placed_[k].reach + offset.whole;
-        *shift++ = {shifted_[k] + static_cast<size_t>(row) * 4 * plane_, placed_[k].cover + row,
-                    offset.fraction};
+        *shift++ = {shifted_[k].samples + static_cast<size_t>(row) * 4 * plane_,
+                    shifted_[k].some + row, offset.fraction};
       }
     }
     for (int32_t k = 0; k < parts_; ++k) AddPart(i, scratch_.parts[k]);
   }
 
   void AddPart(int32_t i, const StackPart& part) {
-    uint32_t chunks[kMaxSlices];
-    for (int32_t k = 0; k < part.count; ++k) {
-      const PlacedSlice& placed = placed_[part.shown[k]];
-      const int32_t first = placed.reach + placed.offsets[i].whole;
-      chunks[k] = Chunks(part, first, first + 1);
-    }
     const auto views = static_cast<size_t>(2 * LastAcross(Abs(i)) + 1);
     const simd::SliceViews job = {scratch_.weights,
                                   scratch_.shifts,
                                   views,
                                   static_cast<size_t>(count_),
                                   part.shown,
-                                  chunks,
                                   static_cast<size_t>(part.count),
                                   static_cast<size_t>(part.x),
                                   static_cast<size_t>(part.y)};
@@ -209,7 +198,7 @@ class Stack {
   uint32_t* accumulators_;
   size_t plane_ = 0;  // samples from plane to plane of shifted slices and of the sums
   PlacedSlice placed_[kMaxSlices];
-  int16_t* shifted_[kMaxSlices];  // of the column of views under way
+  ShiftedSlice shifted_[kMaxSlices];  // of the column of views under way
   int32_t count_ = 0;
   int32_t parts_ = 0;
   uint64_t weight_scale_ = 0;  // 16 bits

@@ -53,8 +53,8 @@ void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_
 }
 
 void ShiftSlice(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count, size_t plane,
-                int16_t* out) {
-  ShiftPlanes(in, fraction, rows, count, plane, out);
+                int16_t* out, uint32_t* some) {
+  ShiftPlanes(in, fraction, rows, count, plane, out, some);
 }
 
 void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums) {

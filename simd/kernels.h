@@ -84,25 +84,23 @@ struct SliceCover {
   uint32_t some, all;
 };
 
-// A slice in one view: its first row, what it covers there, and how far the view lies on the way to
-// the next row, 15 bits.
+// A slice in one view: its first row, `some` of SliceCover from there on, and how far the view lies
+// on the way to the next row, 15 bits.
 struct SliceShift {
   const int16_t* samples;
-  const SliceCover* cover;
+  const uint32_t* some;
   int16_t fraction;
 };
 
 // Views above each other. shifts[view * slices + k] is slice k in a view; those of `shown`, the
-// nearest first, are seen: chunks[k] are the bits of `some` that tell where. A row counts only
-// where it or the next is covered there. `column`, `row`: of what is composited.
+// nearest first, are seen. Samples of a row count only where it or the next is covered.
 struct SliceViews {
   const int16_t* weights;  // [0, 2^14), 65535 at most together
   const SliceShift* shifts;
   size_t count, slices;
   const uint8_t* shown;
-  const uint32_t* chunks;
   size_t shown_count;
-  size_t column, row;
+  size_t column, row;  // of what is composited; whole kSliceLanes
 };
 
 // Depth edges that hide what lies behind: steps of more than `step`, seen up to a pixel per
@@ -194,9 +192,10 @@ struct Kernels {
                        int16_t* out);
 
   // Moves all planes of rows by a fraction of a sample, 15 bits: out[n] = in[n] + fraction
-  // (in[n + 1] - in[n]), halves up. `plane`: of the output.
+  // (in[n + 1] - in[n]), halves up. `plane`: of the output. some[row]: what is covered, as in
+  // SliceCover, samples beyond `count` included.
   void (*shift_slice)(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count,
-                      size_t plane, int16_t* out);
+                      size_t plane, int16_t* out, uint32_t* some);
 
   // Adds kSliceLanes samples of the views in each row. A slice takes of the view's light what it
   // covers, and gives as much of its colours; of the last light it gives the share that is left, as

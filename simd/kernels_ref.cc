@@ -166,11 +166,16 @@ int16_t Between15(int16_t from, int16_t to, int16_t fraction) {
 }
 
 void ShiftSlice(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count, size_t plane,
-                int16_t* out) {
-  for (size_t line = 0; line < 4 * rows; ++line) {
-    const int16_t* from = in.samples + line * in.plane;
-    for (size_t n = 0; n < SliceSamples(count); ++n) {
-      out[line * plane + n] = Between15(from[n], from[n + 1], fraction);
+                int16_t* out, uint32_t* some) {
+  for (size_t row = 0; row < rows; ++row) {
+    some[row] = 0;
+    for (size_t c = 0; c < 4; ++c) {
+      const int16_t* from = in.samples + (4 * row + c) * in.plane;
+      int16_t* to = out + (4 * row + c) * plane;
+      for (size_t n = 0; n < SliceSamples(count); ++n) {
+        to[n] = Between15(from[n], from[n + 1], fraction);
+        if (c == 3 && to[n] != 0) some[row] |= uint32_t{1} << (n / kSliceLanes);
+      }
     }
   }
 }
@@ -186,6 +191,7 @@ int16_t SliceShare(int16_t covered, int16_t light) {
 
 void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums) {
   const size_t row_size = 4 * plane;
+  const uint32_t chunk = uint32_t{1} << (views.column / kSliceLanes);
   for (size_t y = 0; y < rows; ++y, sums += row_size) {
     const size_t row = views.row + y;
     for (size_t n = 0; n < kSliceLanes; ++n) {
@@ -194,8 +200,7 @@ void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sum
         int16_t light = kSliceOne;
         for (size_t k = 0; k < views.shown_count; ++k) {
           const SliceShift& shift = views.shifts[view * views.slices + views.shown[k]];
-          const SliceCover* cover = shift.cover + row;
-          if (((cover[0].some | cover[1].some) & views.chunks[k]) == 0) continue;
+          if (((shift.some[row] | shift.some[row + 1]) & chunk) == 0) continue;
           const int16_t* from = shift.samples + row * row_size + views.column + n;
           const auto value = [&](size_t c) {
             return Between15(from[c * plane], from[c * plane + row_size], shift.fraction);

@@ -123,18 +123,30 @@ HWY_INLINE void SpreadSamplesOfSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t s
 }
 
 HWY_INLINE void ShiftPlanes(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count,
-                            size_t plane, int16_t* HWY_RESTRICT out) {
+                            size_t plane, int16_t* HWY_RESTRICT out, uint32_t* HWY_RESTRICT some) {
   const SliceTag d16;
   const size_t lanes = hn::Lanes(d16);
-  const auto weight = hn::Set(d16, fraction);
+  const auto weight = hn::Set(d16, fraction), zero = hn::Zero(d16);
   const int16_t* HWY_RESTRICT from = in.samples;
-  // Planes lie side by side: a row of four is as good as four rows of one.
-  for (size_t line = 0; line < 4 * rows; ++line, from += in.plane, out += plane) {
-    for (size_t n = 0; n < count; n += lanes) {
-      const auto value = hn::LoadU(d16, from + n);
-      const auto step = hn::Sub(hn::LoadU(d16, from + n + 1), value);
-      hn::StoreU(hn::Add(value, hn::MulFixedPoint15(step, weight)), d16, out + n);
+  const auto shift = [&](size_t n) HWY_ATTR {
+    const auto value = hn::LoadU(d16, from + n);
+    const auto step = hn::Sub(hn::LoadU(d16, from + n + 1), value);
+    const auto between = hn::Add(value, hn::MulFixedPoint15(step, weight));
+    hn::StoreU(between, d16, out + n);
+    return between;
+  };
+  for (size_t row = 0; row < rows; ++row) {
+    for (size_t c = 0; c < 3; ++c, from += in.plane, out += plane) {
+      for (size_t n = 0; n < count; n += lanes) shift(n);
     }
+    uint32_t chunks = 0;
+    for (size_t n = 0; n < count; n += lanes) {
+      const bool none = hn::AllTrue(d16, hn::Eq(shift(n), zero));
+      chunks |= static_cast<uint32_t>(none ? 0 : 1) << (n / kSliceLanes);
+    }
+    some[row] = chunks;
+    from += in.plane;
+    out += plane;
   }
 }
 
@@ -173,14 +185,14 @@ HWY_INLINE void CompositeViews(const SliceViews& views, size_t rows, size_t plan
       const auto zero = hn::Zero(d16), one = hn::Set(d16, kSliceOne);
       auto r = zero, g = zero, b = zero, a = zero;
       const size_t row = views.row + y, offset = row * row_size + views.column + n;
+      const uint32_t chunk = uint32_t{1} << (views.column / kSliceLanes);
       const SliceShift* shifts = views.shifts;
       for (size_t view = 0; view < views.count; ++view, shifts += views.slices) {
         const auto weight = hn::Set(d16, views.weights[view]);
         auto light = one;
         for (size_t k = 0; k < views.shown_count; ++k) {
           const SliceShift& shift = shifts[views.shown[k]];
-          const SliceCover* cover = shift.cover + row;
-          if (((cover[0].some | cover[1].some) & views.chunks[k]) == 0) continue;
+          if (((shift.some[row] | shift.some[row + 1]) & chunk) == 0) continue;
           const int16_t* at = shift.samples + offset;
           const auto fraction = hn::Set(d16, shift.fraction);
           const auto load = [&](size_t c) HWY_ATTR {
@@ -192,12 +204,12 @@ HWY_INLINE void CompositeViews(const SliceViews& views, size_t rows, size_t plan
           const auto covered = load(3 * plane);
           if (hn::AllTrue(d16, hn::Eq(covered, zero))) continue;
           const auto excess = hn::Max(hn::Sub(covered, light), zero);
-          if (hn::AllTrue(d16, hn::Lt(excess, hn::Set(d16, int16_t{32})))) {
+          if (hn::AllTrue(d16, hn::Eq(excess, zero))) {
             r = hn::Add(r, hn::MulFixedPoint15(weight, load(0)));
             g = hn::Add(g, hn::MulFixedPoint15(weight, load(plane)));
             b = hn::Add(b, hn::MulFixedPoint15(weight, load(2 * plane)));
             a = hn::Add(a, hn::MulFixedPoint15(weight, covered));
-            light = hn::Sub(light, hn::Sub(covered, excess));
+            light = hn::Sub(light, covered);
             if (hn::AllTrue(d16, hn::Eq(light, zero))) break;
             continue;
           }
