@@ -55,18 +55,18 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
                        Carver* carver) {
   StackScratch scratch;
   Surfaces& surfaces = scratch.surfaces;
-  const size_t area = extended * SurfaceStride(extended);
+  const size_t area = extended * simd::SliceSamples(extended);
   for (int k = 0; k < simd::kSurfaces; ++k) {
     surfaces.disparity[k] = carver->Take<int16_t>(area);
     surfaces.rgb[k] = carver->Take<uint8_t>(3 * area);
   }
   for (uint8_t*& edges : surfaces.edges) edges = carver->Take<uint8_t>(area);
   surfaces.hiding = carver->Take<uint8_t>(extended);
-  surfaces.moved = carver->Take<int16_t>(SurfaceStride(extended));
-  surfaces.behind = carver->Take<int16_t>(SurfaceStride(extended));
+  surfaces.moved = carver->Take<int16_t>(simd::SliceSamples(extended));
+  surfaces.behind = carver->Take<int16_t>(simd::SliceSamples(extended));
   scratch.bins = carver->Take<uint8_t>(kSliceBins);
   scratch.least_blur = carver->Take<int32_t>(extended);
-  const size_t rows = rectangle + 2 * reach, plane = SurfaceStride(rectangle);
+  const size_t rows = rectangle + 2 * reach, plane = simd::SliceSamples(rectangle);
   scratch.cover_rows = static_cast<int32_t>(rows) + 1;
   scratch.covers = carver->Take<simd::SliceCover>(kMaxSlices * (rows + 1));
   scratch.shifted_some = carver->Take<uint32_t>(kMaxSlices * (rows + 1));

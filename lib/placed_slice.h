@@ -40,7 +40,7 @@ struct PlacedSlice {
 
 // Samples between the planes of a slice that reaches `reach` pixels beyond a rectangle.
 constexpr size_t SlicePlane(size_t width, size_t reach) {
-  return SurfaceStride(SurfaceStride(width) + 2 * reach) + simd::kSliceLanes;
+  return simd::SliceSamples(simd::SliceSamples(width) + 2 * reach) + simd::kSliceLanes;
 }
 // Samples of it, with what filters read before and behind it.
 constexpr size_t SliceSize(size_t width, size_t height, size_t reach) {

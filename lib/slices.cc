@@ -7,7 +7,6 @@
 namespace starfocus {
 namespace {
 
-constexpr int kBinsOfRange = 8;
 constexpr int kOverlapParts = 6;  // of a slice's range
 
 class SliceFinder {
@@ -17,7 +16,6 @@ class SliceFinder {
     const int64_t step = grid_.step > 0 ? grid_.step : 1;
     constexpr int kBits = kStepBits + kDisparityBits - kShiftBits;
     range_ = static_cast<int32_t>(Limited((int64_t{kSliceRange} << kBits) / step));
-    while (2 * kBinsOfRange << bin_bits_ <= range_) ++bin_bits_;
     for (int32_t d = 0; d < Max(surfaces_.width, surfaces_.height); ++d) {
       job_.least_blur[d] = static_cast<int32_t>(
           Limited((int64_t{Max(d - 1, 0)} << (kStepBits + kDisparityBits)) / step));
@@ -50,6 +48,7 @@ class SliceFinder {
       }
     }
     base_ = low;
+    while ((high - low) >> bin_bits_ >= kSliceBins) ++bin_bits_;
     bins_ = ((high - low) >> bin_bits_) + 1;
   }
 

@@ -22,9 +22,8 @@ inline constexpr size_t kLargeSlices = 6;
 inline constexpr int32_t kSliceRange = kShiftOne / 2;
 inline constexpr int32_t kSliceSharp = 4 * kShiftOne;
 
-// Disparities of the bins that slices are made of: an eighth of kSliceRange or less, and no more
-// than this many within the largest blur.
-inline constexpr int32_t kSliceBins = 2 * 129 * 32 + 2;
+// Ranges of disparity that are told apart: single ones up to a blur of 64 pixels at full aperture.
+inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
 
 // Disparities [low, high] (kDisparityBits), which move as `disparity` does; up to `overlap`, which
 // is a little nearer, they are part of the next slice too, so that no gap opens between both.

@@ -7,6 +7,14 @@
 namespace starfocus {
 namespace {
 
+constexpr int kInverseBits = 48;
+
+// Of all views' light, what slices must cover of a pixel.
+constexpr uint32_t kLeastShare = 32;
+
+// Weights of a column of views fit 16 bits together, with room for the rounding of each slice.
+constexpr uint32_t kColumnSum = 64000;
+
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 
 class Stack {
@@ -23,7 +31,7 @@ class Stack {
     UnmixEdges(*job_.window, grid_, &field_);
     FindSurfaces(*job_.kernels, *job_.window, field_, &scratch_.surfaces);
     FindScale();
-    plane_ = SurfaceStride(static_cast<size_t>(job_.rect.width));
+    plane_ = simd::SliceSamples(static_cast<size_t>(job_.rect.width));
     PlaceSlices();
     const uint64_t pixels = FindParts();
     const size_t samples = 4 * plane_ * static_cast<size_t>(job_.rect.height);
@@ -44,7 +52,8 @@ class Stack {
     return j;
   }
 
-  // Weights are scaled so that those of a column fit 16 bits together, and each of them 14.
+  // Weights are scaled so that those of a column are at most kColumnSum together, and each of them
+  // a quarter of it.
   void FindScale() {
     uint32_t largest = 0;
     for (int32_t i = 0; i <= grid_.n(); ++i) {
@@ -56,7 +65,9 @@ class Stack {
       sum = 4 * most > sum ? 4 * most : sum;
       largest = sum > largest ? sum : largest;
     }
-    weight_scale_ = (uint64_t{1} << 32) / (largest + 1);
+    weight_scale_ = (uint64_t{kColumnSum} << 16) / largest;
+    least_covered_ = static_cast<uint32_t>(
+        ((weight_scale_ << grid_.aperture.sum_bits) >> 16) / kLeastShare);
   }
 
   void PlaceSlices() {
@@ -168,26 +179,33 @@ class Stack {
     job_.kernels->composite(job, static_cast<size_t>(part.rows), plane_, scratch_.sums + at);
   }
 
-  // Colours over coverage: what no slice covers is as what covers the rest.
+  // Colours over coverage: what no slice covers is as what covers the rest. A pixel that hardly any
+  // view shows is that of the centre view.
   void Finish() {
-    constexpr int kInverseBits = 48;
-    const int bits = grid_.aperture.sum_bits, shift = kInverseBits - 8 - bits;
-    const uint64_t white = uint64_t{255} << bits, half = uint64_t{1} << (shift - 1);
     uint32_t covered = 0;
     uint64_t inverse = 0;
-    uint32_t* out = accumulators_;
     for (int32_t y = 0; y < job_.rect.height; ++y) {
       const uint32_t* sums = scratch_.sums + static_cast<size_t>(y) * 4 * plane_;
-      for (int32_t x = 0; x < job_.rect.width; ++x, ++sums, out += 3) {
+      const uint8_t* rgb = field_.Rgb(field_.inner.x, field_.inner.y + y);
+      uint32_t* out = accumulators_ + 3 * static_cast<size_t>(y) * job_.rect.width;
+      for (int32_t x = 0; x < job_.rect.width; ++x, ++sums, rgb += 3, out += 3) {
         if (sums[3 * plane_] != covered) {
           covered = sums[3 * plane_];
-          inverse = covered == 0 ? 0 : (uint64_t{1} << kInverseBits) / covered;
+          inverse = covered < least_covered_ ? 0 : (uint64_t{1} << kInverseBits) / covered;
         }
-        for (size_t c = 0; c < 3; ++c) {
-          const uint64_t value = (sums[c * plane_] * inverse + half) >> shift;
-          out[c] = static_cast<uint32_t>(value < white ? value : white);
-        }
+        FinishPixel(sums, inverse, rgb, out);
       }
+    }
+  }
+
+  void FinishPixel(const uint32_t* sums, uint64_t inverse, const uint8_t* rgb,
+                   uint32_t* out) const {
+    const int bits = grid_.aperture.sum_bits, shift = kInverseBits - 8 - bits;
+    const uint64_t white = uint64_t{255} << bits, half = uint64_t{1} << (shift - 1);
+    for (size_t c = 0; c < 3; ++c) {
+      const uint64_t value = (sums[c * plane_] * inverse + half) >> shift;
+      out[c] = inverse == 0 ? uint32_t{rgb[c]} << bits
+                            : static_cast<uint32_t>(value < white ? value : white);
     }
   }
 
@@ -202,6 +220,7 @@ class Stack {
   int32_t count_ = 0;
   int32_t parts_ = 0;
   uint64_t weight_scale_ = 0;  // 16 bits
+  uint32_t least_covered_ = 0;
 };
 
 }  // namespace

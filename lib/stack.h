@@ -40,7 +40,7 @@ struct StackScratch {
 
 // Parts of the largest rectangle.
 constexpr size_t StackParts(size_t side) {
-  return (side + kPartRows - 1) / kPartRows * (SurfaceStride(side) / simd::kSliceLanes);
+  return (side + kPartRows - 1) / kPartRows * (simd::SliceSamples(side) / simd::kSliceLanes);
 }
 
 // As RefocusRectangle, by slices. `field`: for the extended rectangle, with memory set. Returns the

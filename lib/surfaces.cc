@@ -222,7 +222,7 @@ void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Fiel
                   Surfaces* surfaces) {
   surfaces->width = field.width;
   surfaces->height = field.height;
-  surfaces->stride = static_cast<int32_t>(SurfaceStride(static_cast<size_t>(field.width)));
+  surfaces->stride = static_cast<int32_t>(simd::SliceSamples(static_cast<size_t>(field.width)));
   surfaces->plane =
       static_cast<size_t>(surfaces->stride) * static_cast<size_t>(surfaces->height);
   for (int32_t y = 0; y < field.height; ++y) {

@@ -35,10 +35,6 @@ struct Surfaces {
   }
 };
 
-constexpr size_t SurfaceStride(size_t width) {
-  return (width + simd::kSliceLanes - 1) / simd::kSliceLanes * simd::kSliceLanes;
-}
-
 // Finds them for a field, whose arrays of surface 0 are shared (its disparities) or split (its
 // colours). Behind a pixel lies what its row and its column show behind the next depth edge on
 // either side, as far as a view at distance 1 can look there: at most two surfaces, the nearest

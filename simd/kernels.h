@@ -57,6 +57,9 @@ inline constexpr int32_t kMaxDisc = 13;
 inline constexpr int kSliceBits = 7;
 inline constexpr int16_t kSliceOne = 32767;
 inline constexpr size_t kSliceLanes = 16;
+constexpr size_t SliceSamples(size_t count) {
+  return (count + kSliceLanes - 1) / kSliceLanes * kSliceLanes;
+}
 
 // A row of the surfaces at each pixel, from the visible one on: disparities, and colours in three
 // planes. Where there are fewer, the disparity of the others is below any slice.
@@ -95,7 +98,7 @@ struct SliceShift {
 // Views above each other. shifts[view * slices + k] is slice k in a view; those of `shown`, the
 // nearest first, are seen. Samples of a row count only where it or the next is covered.
 struct SliceViews {
-  const int16_t* weights;  // [0, 2^14), 65535 at most together
+  const int16_t* weights;  // [0, 2^14), 65024 at most together
   const SliceShift* shifts;
   size_t count, slices;
   const uint8_t* shown;

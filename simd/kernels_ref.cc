@@ -88,9 +88,6 @@ void FindRunsOfLine(const int16_t* disparity, ptrdiff_t step, size_t length,
   }
 }
 
-// What is written and read of a row.
-size_t SliceSamples(size_t count) { return (count + kSliceLanes - 1) / kSliceLanes * kSliceLanes; }
-
 void Split(const uint8_t* rgb, size_t count, size_t plane, uint8_t* out) {
   for (size_t n = 0; n < count; ++n) {
     for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
@@ -206,14 +203,12 @@ void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sum
             return Between15(from[c * plane], from[c * plane + row_size], shift.fraction);
           };
           const int16_t covered = value(3);
-          const int16_t taken = covered < light ? covered : light;
-          for (size_t c = 0; c < 3; ++c) {
+          for (size_t c = 0; c < 4; ++c) {
             const int16_t lit =
                 covered > light ? Product15(value(c), SliceShare(covered, light)) : value(c);
             sums[n + c * plane] += static_cast<uint32_t>(Product15(weight, lit));
           }
-          sums[n + 3 * plane] += static_cast<uint32_t>(Product15(weight, taken));
-          light = static_cast<int16_t>(light - taken);
+          light = static_cast<int16_t>(covered > light ? 0 : light - covered);
         }
       }
     }

@@ -43,7 +43,7 @@ HWY_INLINE void FindEdgesOfRow(const int16_t* HWY_RESTRICT near, const int16_t* 
   const auto step = hn::Set(d16, limits.step);
   const auto unit = hn::Set(d16, static_cast<int16_t>(1 << limits.unit_bits));
   const auto one = hn::Set(d16, int16_t{1});
-  for (size_t n = 0; n < count; n += lanes) {
+  for (size_t n = 0; n < SliceSamples(count); n += lanes) {
     const auto here = hn::LoadU(d16, near + n), next = hn::LoadU(d16, far + n);
     const auto edge = hn::Gt(hn::SaturatedSub(here, next), step);
     const auto far_away = hn::SaturatedAdd(hn::LoadU(d16, moved + n), unit);
@@ -104,10 +104,10 @@ HWY_INLINE void SpreadSamplesOfSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t s
                                      int16_t* HWY_RESTRICT out) {
   const SliceTag d16;
   const hn::RebindToUnsigned<decltype(d16)> du16;
-  const size_t lanes = hn::Lanes(d16);
+  const size_t lanes = hn::Lanes(d16), whole = SliceSamples(count);
   const auto centre = hn::Set(d16, taps.centre), inner = hn::Set(d16, taps.inner),
              outer = hn::Set(d16, taps.outer);
-  for (size_t n = 0; n < count; n += lanes) {
+  for (size_t n = 0; n < whole; n += lanes) {
     const auto mean = [&](ptrdiff_t offset) HWY_ATTR {
       return hn::BitCast(
           d16, hn::AverageRound(hn::BitCast(du16, hn::LoadU(d16, in + n - offset)),
@@ -125,7 +125,7 @@ HWY_INLINE void SpreadSamplesOfSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t s
 HWY_INLINE void ShiftPlanes(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count,
                             size_t plane, int16_t* HWY_RESTRICT out, uint32_t* HWY_RESTRICT some) {
   const SliceTag d16;
-  const size_t lanes = hn::Lanes(d16);
+  const size_t lanes = hn::Lanes(d16), whole = SliceSamples(count);
   const auto weight = hn::Set(d16, fraction), zero = hn::Zero(d16);
   const int16_t* HWY_RESTRICT from = in.samples;
   const auto shift = [&](size_t n) HWY_ATTR {
@@ -137,10 +137,10 @@ HWY_INLINE void ShiftPlanes(const SlicePlanes& in, int16_t fraction, size_t rows
   };
   for (size_t row = 0; row < rows; ++row) {
     for (size_t c = 0; c < 3; ++c, from += in.plane, out += plane) {
-      for (size_t n = 0; n < count; n += lanes) shift(n);
+      for (size_t n = 0; n < whole; n += lanes) shift(n);
     }
     uint32_t chunks = 0;
-    for (size_t n = 0; n < count; n += lanes) {
+    for (size_t n = 0; n < whole; n += lanes) {
       const bool none = hn::AllTrue(d16, hn::Eq(shift(n), zero));
       chunks |= static_cast<uint32_t>(none ? 0 : 1) << (n / kSliceLanes);
     }
@@ -215,17 +215,15 @@ HWY_INLINE void CompositeViews(const SliceViews& views, size_t rows, size_t plan
           }
           const auto over = hn::Gt(covered, light);
           const auto share = ShareOfLight(covered, light, excess);
-          const auto lit = [&](size_t c) HWY_ATTR {
-            const auto value = load(c);
+          const auto lit = [&](auto value) HWY_ATTR {
             const auto part = hn::MulFixedPoint15(value, share);
             return hn::MulFixedPoint15(weight, hn::IfThenElse(over, part, value));
           };
-          r = hn::Add(r, lit(0));
-          g = hn::Add(g, lit(plane));
-          b = hn::Add(b, lit(2 * plane));
-          const auto taken = hn::Sub(covered, excess);
-          a = hn::Add(a, hn::MulFixedPoint15(weight, taken));
-          light = hn::Sub(light, taken);
+          r = hn::Add(r, lit(load(0)));
+          g = hn::Add(g, lit(load(plane)));
+          b = hn::Add(b, lit(load(2 * plane)));
+          a = hn::Add(a, lit(covered));
+          light = hn::Sub(light, hn::Sub(covered, excess));
           if (hn::AllTrue(d16, hn::Eq(light, zero))) break;
         }
       }

@@ -1,0 +1,221 @@
+// The kernels of slices on every SIMD target of this machine against the plain C++ that defines
+// them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "simd/kernels.h"
+#include "tests/simd_targets.h"
+#include "tests/test_scene.h"
+
+namespace {
+
+using starfocus::simd::Kernels;
+using starfocus::simd::kPadding;
+using starfocus::simd::kSliceLanes;
+using starfocus::simd::kSliceOne;
+using starfocus::simd::ReferenceKernels;
+using starfocus::simd::SliceCover;
+using starfocus::simd::SliceShift;
+
+// Samples that kernels write and read of a row.
+size_t Whole(size_t count) { return starfocus::simd::SliceSamples(count); }
+
+void TestSplit(const Kernels& kernels) {
+  test::Random random(1);
+  for (size_t count = 1; count <= 70; ++count) {
+    const std::vector<uint8_t> rgb = test::RandomBytes(3 * count + kPadding, &random);
+    const size_t plane = count + size_t(random.Int(0, 9));
+    std::vector<uint8_t> expected(3 * plane, 7), got = expected;
+    ReferenceKernels().split(rgb.data(), count, plane, expected.data());
+    kernels.split(rgb.data(), count, plane, got.data());
+    CAPTURE(count);
+    CHECK(got == expected);
+    CHECK(expected[2 * plane + count - 1] == rgb[3 * count - 1]);
+  }
+}
+
+// Disparities with runs and edges, also at the ends of the range.
+std::vector<int16_t> Disparities(size_t count, test::Random* random) {
+  std::vector<int16_t> row(count);
+  int value = random->Int(-2000, 2000);
+  for (int16_t& disparity : row) {
+    if (random->Int(0, 5) == 0) value += random->Int(-200, 200);
+    disparity = int16_t(random->Int(0, 60) == 0 ? random->Int(-32000, 32000) : value);
+  }
+  return row;
+}
+
+void TestFindEdges(const Kernels& kernels) {
+  test::Random random(2);
+  for (size_t count = 1; count <= 50; ++count) {
+    const starfocus::simd::EdgeLimits limits = {48, random.Int(6, 8)};
+    const size_t whole = Whole(count);
+    std::vector<int16_t> moved(whole, INT16_MAX), behind(whole, 0), far = Disparities(whole, &random);
+    std::vector<int16_t> got_moved = moved, got_behind = behind;
+    int hidden = 0;
+    for (int row = 0; row < 20; ++row) {
+      std::vector<int16_t> near = far;
+      for (int16_t& d : near) {
+        if (random.Int(0, 3) == 0) d = int16_t(std::clamp(d + random.Int(-300, 600), -32000, 32000));
+      }
+      std::vector<uint8_t> expected(whole), got(whole);
+      ReferenceKernels().find_edges(near.data(), far.data(), limits, count, moved.data(),
+                                    behind.data(), expected.data());
+      kernels.find_edges(near.data(), far.data(), limits, count, got_moved.data(),
+                         got_behind.data(), got.data());
+      CAPTURE(count);
+      CHECK(got == expected);
+      CHECK(got_moved == moved);
+      CHECK(got_behind == behind);
+      for (const uint8_t distance : expected) hidden += distance > 0;
+      far = near;
+    }
+    CHECK(hidden > 0);
+  }
+}
+
+void TestSelect(const Kernels& kernels) {
+  test::Random random(3);
+  for (size_t count = 1; count <= 100; ++count) {
+    const size_t whole = Whole(count), plane = whole + size_t(random.Int(0, 20));
+    std::vector<int16_t> disparity[3];
+    std::vector<uint8_t> rgb[3];
+    starfocus::simd::SurfaceRow row;
+    row.plane = plane;
+    for (int k = 0; k < 3; ++k) {
+      disparity[k] = Disparities(whole, &random);
+      for (int16_t& d : disparity[k]) {
+        if (k > 0 && random.Int(0, 1) == 0) d = INT16_MIN;
+      }
+      rgb[k] = test::RandomBytes(3 * plane + kPadding, &random);
+      row.disparity[k] = disparity[k].data();
+      row.rgb[k] = rgb[k].data();
+    }
+    const int middle = disparity[0][count / 2], range = random.Int(0, 400);
+    const auto low = int16_t(middle - range), high = int16_t(middle + range);
+    std::vector<int16_t> expected(4 * plane + whole), got = expected;
+    const SliceCover a =
+        ReferenceKernels().select_slice(row, low, high, count, plane, expected.data());
+    const SliceCover b = kernels.select_slice(row, low, high, count, plane, got.data());
+    CAPTURE(count);
+    CHECK(got == expected);
+    CHECK(a.some == b.some);
+    CHECK(a.all == b.all);
+    CHECK(a.some != 0);
+  }
+}
+
+// Colours and coverage of slices: colours at most as large as the coverage.
+std::vector<int16_t> Planes(size_t rows, size_t plane, int share, test::Random* random) {
+  std::vector<int16_t> samples(4 * rows * plane + 2 * kSliceLanes);
+  for (size_t row = 0; row < rows; ++row) {
+    int cover = 0;
+    for (size_t n = 0; n < plane; ++n) {
+      if (random->Int(0, 4) == 0) {
+        cover = random->Int(0, 99) >= share ? 0
+                : random->Int(0, 1) == 0    ? kSliceOne
+                                            : random->Int(0, kSliceOne);
+      }
+      int16_t* at = samples.data() + 4 * row * plane + n;
+      for (size_t c = 0; c < 3; ++c) at[c * plane] = int16_t(cover * random->Int(0, 255) / 256);
+      at[3 * plane] = int16_t(cover);
+    }
+  }
+  return samples;
+}
+
+void TestSpread(const Kernels& kernels) {
+  test::Random random(4);
+  for (size_t count = 16; count <= 160; count += 16) {
+    for (int reach = 1; reach <= 3; ++reach) {
+      const std::vector<int16_t> in = Planes(20, 48, 60, &random);
+      starfocus::simd::SliceTaps taps = {reach, 0, 0, 0};
+      taps.inner = int16_t(reach == 1 ? 0 : random.Int(0, 32767 / reach));
+      taps.outer = int16_t(random.Int(0, taps.inner == 0 ? 20000 : taps.inner));
+      taps.centre = int16_t(std::min(32767, 32768 - (reach - 1) * taps.inner - taps.outer));
+      for (const ptrdiff_t step : {ptrdiff_t{1}, ptrdiff_t{4 * 48}}) {
+        std::vector<int16_t> expected(count), got(count);
+        const int16_t* at = in.data() + 4 * 48 * 8;
+        ReferenceKernels().spread_slice(at, step, taps, count, expected.data());
+        kernels.spread_slice(at, step, taps, count, got.data());
+        CHECK(got == expected);
+      }
+    }
+  }
+}
+
+void TestShift(const Kernels& kernels) {
+  test::Random random(5);
+  for (size_t count = 1; count <= 70; ++count) {
+    const size_t rows = size_t(random.Int(1, 9)), plane = Whole(count), in_plane = plane + 32;
+    const std::vector<int16_t> in = Planes(rows, in_plane, 20, &random);
+    const auto fraction = int16_t(random.Int(0, 2) == 0 ? 0 : random.Int(1, 32767));
+    std::vector<int16_t> expected(4 * rows * plane), got = expected;
+    std::vector<uint32_t> some(rows, 9), got_some(rows, 8);
+    const starfocus::simd::SlicePlanes from = {in.data() + random.Int(0, 16), in_plane};
+    ReferenceKernels().shift_slice(from, fraction, rows, count, plane, expected.data(),
+                                   some.data());
+    kernels.shift_slice(from, fraction, rows, count, plane, got.data(), got_some.data());
+    CAPTURE(count);
+    CHECK(got == expected);
+    CHECK(got_some == some);
+  }
+}
+
+void TestComposite(const Kernels& kernels) {
+  test::Random random(6);
+  for (int round = 0; round < 200; ++round) {
+    const size_t rows = size_t(random.Int(1, 8)), plane = 16 * size_t(random.Int(1, 4));
+    const size_t slices = size_t(random.Int(1, 6)), views = size_t(random.Int(1, 9));
+    const size_t height = rows + 12;
+    std::vector<std::vector<int16_t>> samples;
+    std::vector<std::vector<uint32_t>> some;
+    for (size_t k = 0; k < slices; ++k) {
+      samples.push_back(Planes(height, plane, random.Int(5, 100), &random));
+      some.emplace_back(height);
+      for (size_t n = 0; n < height * plane; ++n) {
+        const size_t row = n / plane, column = n % plane;
+        const bool covered = samples[k][4 * row * plane + 3 * plane + column] != 0;
+        some[k][row] |= uint32_t(covered) << (column / kSliceLanes);
+      }
+    }
+    std::vector<int16_t> weights(views);
+    for (int16_t& weight : weights) weight = int16_t(random.Int(0, 65535 / int(views) / 4));
+    std::vector<SliceShift> shifts;
+    for (size_t n = 0; n < views * slices; ++n) {
+      const size_t row = size_t(random.Int(0, 8));
+      const auto fraction = int16_t(random.Int(0, 2) == 0 ? 0 : random.Int(1, 32767));
+      shifts.push_back({samples[n % slices].data() + 4 * row * plane,
+                        some[n % slices].data() + row, fraction});
+    }
+    std::vector<uint8_t> shown;
+    for (size_t k = 0; k < slices; ++k) {
+      if (random.Int(0, 4) > 0) shown.push_back(uint8_t(k));
+    }
+    const size_t column = 16 * size_t(random.Int(0, int(plane / 16) - 1));
+    const starfocus::simd::SliceViews job = {weights.data(), shifts.data(), views, slices,
+                                             shown.data(), shown.size(), column, 1};
+    std::vector<uint32_t> expected(4 * rows * plane, 5), got = expected;
+    ReferenceKernels().composite(job, rows, plane, expected.data() + column);
+    kernels.composite(job, rows, plane, got.data() + column);
+    CAPTURE(round);
+    CHECK(got == expected);
+  }
+}
+
+TEST_CASE("slice kernels: every target gives the bits of the plain ones") {
+  for (const Kernels* kernels : test::SimdTargets()) {
+    CAPTURE(kernels->name);
+    TestSplit(*kernels);
+    TestFindEdges(*kernels);
+    TestSelect(*kernels);
+    TestSpread(*kernels);
+    TestShift(*kernels);
+    TestComposite(*kernels);
+  }
+}
+
+}  // namespace
