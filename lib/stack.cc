@@ -9,11 +9,13 @@ namespace {
 
 constexpr int kInverseBits = 48;
 
-// Of all views' light, what slices must cover of a pixel.
-constexpr uint32_t kLeastShare = 32;
+// A pixel of which slices cover less than this part of all views' light is not made of them: what
+// rounding adds would show.
+constexpr uint32_t kLeastShare = 4;
 
-// Weights of a column of views fit 16 bits together, with room for the rounding of each slice.
-constexpr uint32_t kColumnSum = 64000;
+// What weights of a column of views are together: in 16 bits with room for a ninth more, which the
+// share of the last light may be too large by, and for the rounding of each slice.
+constexpr uint32_t kColumnSum = 58000;
 
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 

@@ -31,7 +31,8 @@ class SurfaceFinder {
         window_(window),
         field_(field),
         surfaces_(*surfaces),
-        unit_(int32_t{1} << (kDisparityBits + window.layer)) {}
+        unit_(int32_t{1} << (kDisparityBits + window.layer)),
+        step_(unit_ * 3 / 4) {}
 
   void Find() {
     const int32_t height = surfaces_.height;
@@ -68,14 +69,14 @@ class SurfaceFinder {
   struct Walk {
     int32_t moved = INT16_MAX, behind = 0;
 
-    uint8_t Next(int32_t near, int32_t far, int32_t unit) {
+    uint8_t Next(int32_t near, int32_t far, int32_t unit, int32_t step) {
       moved += unit;
-      if (near - far > kHidingStep) {
+      if (near - far > step) {
         moved = 0;
         behind = far;
       }
       const int32_t depth = near - behind;
-      if (depth <= kHidingStep || moved > depth) return 0;
+      if (depth <= step || moved > depth) return 0;
       return static_cast<uint8_t>(Min(moved / unit + 1, 255));
     }
   };
@@ -86,8 +87,8 @@ class SurfaceFinder {
     const int32_t last = surfaces_.width - 1;
     right[last] = left[0] = 0;
     Walk to_right, to_left;
-    for (int32_t x = last - 1; x >= 0; --x) right[x] = to_right.Next(row[x], row[x + 1], unit_);
-    for (int32_t x = 1; x <= last; ++x) left[x] = to_left.Next(row[x], row[x - 1], unit_);
+    for (int32_t x = last - 1; x >= 0; --x) right[x] = to_right.Next(row[x], row[x + 1], unit_, step_);
+    for (int32_t x = 1; x <= last; ++x) left[x] = to_left.Next(row[x], row[x - 1], unit_, step_);
   }
 
   void StartColumns(int32_t y, int side) {
@@ -99,7 +100,7 @@ class SurfaceFinder {
   }
 
   void FindEdgesOfColumns(int32_t y, int32_t beside, int side) {
-    const simd::EdgeLimits limits = {kHidingStep, kDisparityBits + window_.layer};
+    const simd::EdgeLimits limits = {static_cast<int16_t>(step_), kDisparityBits + window_.layer};
     kernels_.find_edges(Row(y), Row(beside), limits, static_cast<size_t>(surfaces_.width),
                         surfaces_.moved, surfaces_.behind, Edges(side, y));
   }
@@ -213,6 +214,7 @@ class SurfaceFinder {
   const Field& field_;
   Surfaces& surfaces_;
   const int32_t unit_;         // disparity that a pixel of the layer is at distance 1
+  const int32_t step_;   // a larger one from pixel to pixel may hide something
   int32_t highest_ = 0;  // disparity
 };
 

@@ -12,9 +12,6 @@
 
 namespace starfocus {
 
-// Neighbouring pixels whose disparities differ by more than this may hide something, kDisparityBits.
-inline constexpr int32_t kHidingStep = (3 << kDisparityBits) / 4;
-
 // No surface: the disparity where there are fewer than kSurfaces.
 inline constexpr int16_t kNoSurface = INT16_MIN;
 

@@ -98,7 +98,7 @@ struct SliceShift {
 // Views above each other. shifts[view * slices + k] is slice k in a view; those of `shown`, the
 // nearest first, are seen. Samples of a row count only where it or the next is covered.
 struct SliceViews {
-  const int16_t* weights;  // [0, 2^14), 65024 at most together
+  const int16_t* weights;  // [0, 2^14), 58000 at most together
   const SliceShift* shifts;
   size_t count, slices;
   const uint8_t* shown;
@@ -201,8 +201,9 @@ struct Kernels {
                       size_t plane, int16_t* out, uint32_t* some);
 
   // Adds kSliceLanes samples of the views in each row. A slice takes of the view's light what it
-  // covers, and gives as much of its colours; of the last light it gives the share that is left, as
-  // if slices beside each other covered different parts of a pixel. Samples between two rows as by
+  // covers, and gives as much of its colours; of the last light it gives the share that is left (up
+  // to a ninth of the weight too much), as if slices beside each other covered different parts of a
+  // pixel. Samples between two rows as by
   // shift_slice; products (15 bits) are rounded halves up. `plane`: of slices and sums; no sum
   // exceeds 2^32 - 1.
   void (*composite)(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums);

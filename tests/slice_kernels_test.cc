@@ -183,7 +183,7 @@ void TestComposite(const Kernels& kernels) {
       }
     }
     std::vector<int16_t> weights(views);
-    for (int16_t& weight : weights) weight = int16_t(random.Int(0, 65535 / int(views) / 4));
+    for (int16_t& weight : weights) weight = int16_t(random.Int(0, std::min(16383, 58000 / int(views))));
     std::vector<SliceShift> shifts;
     for (size_t n = 0; n < views * slices; ++n) {
       const size_t row = size_t(random.Int(0, 8));
