@@ -95,7 +95,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
     engine->aperture = engine->apertures[ScaleViews(n, config.n_scale)];
   }
   const ViewGrid grid =
-      MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false, false);
+      MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false);
   engine->scale = {grid.focus, grid.step};
   const bool gathers = IsBlockMode(*engine) && UsesCells(*engine) && config.gather != 0;
   if (params.mode == SF_MODE_BLUR || gathers) {

@@ -62,8 +62,6 @@ void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t
   const Offset along = OffsetOf(view, view.u, view.move_u, disparity);
   const Offset across = OffsetOf(view, view.v, view.move_v, disparity);
   const bool diagonal = view.u != 0 && view.v != 0;
-  // Of a view nearer to the axis across the lines than to theirs, that axis shows what is behind.
-  const bool on_axis = diagonal && view.move_u < view.move_v;
   const auto read = [&](int u, int v, int32_t p, int32_t count, uint8_t* rgb) {
     if (view.window->side_colours != nullptr) {
       *view.window->side_colours += static_cast<uint64_t>(count);
@@ -73,8 +71,8 @@ void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t
         (line.y + line.dy * p) * kShiftOne + (v != 0 ? across.captured : across.centre);
     Read(view, u, v, {x, y, line.dx, line.dy}, count, rgb);
   };
-  if (on_axis || !diagonal || view.window->views != 5) {
-    read(on_axis ? 0 : view.u, view.v, begin, end - begin, out);
+  if (!diagonal || view.window->views != 5) {
+    read(view.u, view.v, begin, end - begin, out);
     return;
   }
   constexpr int32_t kAtOnce = 16;

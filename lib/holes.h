@@ -10,8 +10,7 @@
 namespace starfocus {
 
 // Where a rendered view lies, and which captured view it is filled from: the one at (u, v), each
-// -1, 0 or 1, or at (0, v) when that is nearer, at full or half distance. Everything is in the
-// orientation of the view's lines.
+// -1, 0 or 1, at full or half distance. Everything is in the orientation of the view's lines.
 struct HoleView {
   const Window* window;
   const ViewGrid* grid;

@@ -44,7 +44,6 @@ StarScratch TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* ca
   scratch.strip_rgb = carver->Take<uint8_t>(3 * rectangle * kStripRows);
   scratch.view_disparity = carver->Take<int16_t>(rectangle * extended);
   scratch.columns_rgb = carver->Take<uint8_t>(rectangle * rgb_stride);
-  scratch.surface_rgb = carver->Take<uint8_t>(3 * (extended + 2 * simd::kMaxSpread));
   scratch.line_accumulators = carver->Take<uint32_t>(3 * extended);
   scratch.spans = TakeSpans(extended, carver);
   return scratch;

@@ -57,7 +57,7 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surface
     for (int32_t k = 0; k < first; ++k) row[k] = row[first];
     for (int32_t k = last; k < width; ++k) row[k] = row[last - 1];
   }
-  return {~uint32_t{0}, 0};  // nobody looks closer at the few such rows
+  return {~uint64_t{0}, 0};  // nobody looks closer at the few such rows
 }
 
 // Covers of what is spread by `reach` pixels.
@@ -66,7 +66,7 @@ void SpreadCover(int32_t reach, const PlacedSlice& placed) {
   simd::SliceCover before[kMost] = {};  // of the rows above, unspread
   for (int32_t row = 0; row < placed.rows; ++row) {
     const simd::SliceCover here = placed.cover[row];
-    uint32_t some = here.some;
+    uint64_t some = here.some;
     for (int32_t k = 1; k <= reach; ++k) {
       some |= before[k - 1].some;
       if (row + k < placed.rows) some |= placed.cover[row + k].some;

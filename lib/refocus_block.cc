@@ -80,11 +80,12 @@ int32_t Render(const EngineState& engine, const Block& block, StarJob job,
   Window counting = *job.window;
   counting.side_colours = &side_colours;
   job.window = &counting;
-  if (job.grid->cells) {
+  if (UsesCells(engine)) {
     Field field;
     field.rgb = worker->star.field_rgb[0];
     field.disparity = worker->star.field_disparity[0];
-    RefocusStack(job, &field, &worker->stack, worker->star.accumulators[0]);
+    RefocusStack(job, block.gathers ? &engine.plan.gathered : nullptr, &field, &worker->stack,
+                 worker->star.accumulators[0]);
   } else {
     RefocusRectangle(job, &worker->star);
   }
@@ -119,15 +120,13 @@ int32_t RefocusViews(const EngineState& engine, const Block& block, const Plane<
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
   const bool pinhole = aperture.n == 0;
   ViewGrid grid = MakeViewGrid(pinhole ? engine.apertures[1] : aperture, engine.params.focus,
-                               engine.params.aperture, block.layer, engine.config.views == 17,
-                               UsesCells(engine));
+                               engine.params.aperture, block.layer, engine.config.views == 17);
   if (pinhole) grid.step = 0;
   const StarJob job = {&engine.windows[block.layer],
                        &grid,
                        engine.kernels,
                        block.rendered,
-                       block.border,
-                       block.gathers ? &engine.plan.gathered : nullptr};
+                       block.border};
   if (engine.config.skips == 0) return Render(engine, block, job, out, worker);
   const Rect& rect = ViewsRect(block);
   const uint64_t pixels = Samples(rect) / 3;

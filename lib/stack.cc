@@ -21,8 +21,10 @@ constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 
 class Stack {
  public:
-  Stack(const StarJob& job, Field* field, StackScratch* scratch, uint32_t* accumulators)
+  Stack(const StarJob& job, const GatherMap* gathered, Field* field, StackScratch* scratch,
+        uint32_t* accumulators)
       : job_(job),
+        gathered_(gathered),
         grid_(*job.grid),
         field_(*field),
         scratch_(*scratch),
@@ -99,11 +101,11 @@ class Stack {
   }
 
   bool IsGathered(const StackPart& part) const {
-    if (job_.gathered == nullptr) return false;
+    if (gathered_ == nullptr) return false;
     const int32_t right = Min(job_.rect.x + part.x + kChunk, job_.rect.x + job_.rect.width);
     for (int32_t y = part.y; y < part.y + part.rows; y += kCellSize) {
       for (int32_t x = job_.rect.x + part.x; x < right; x += kCellSize) {
-        if (job_.gathered->At(x, job_.rect.y + y) == 0) return false;
+        if (gathered_->At(x, job_.rect.y + y) == 0) return false;
       }
     }
     return true;
@@ -136,14 +138,13 @@ class Stack {
   static simd::SliceCover CoverOf(const PlacedSlice& placed, const StackPart& part) {
     const int32_t first = part.x / kChunk;
     const int32_t last = (part.x + kChunk - 1 + 2 * placed.reach) / kChunk;
-    const auto chunks =
-        static_cast<uint32_t>((uint64_t{2} << last) - (uint64_t{1} << first));
+    const uint64_t chunks = (uint64_t{2} << last) - (uint64_t{1} << first);
     simd::SliceCover cover = {0, chunks};
     for (int32_t row = part.y; row < part.y + part.rows + 2 * placed.reach; ++row) {
       cover.some |= placed.cover[row].some;
       cover.all &= placed.cover[row].all;
     }
-    return {cover.some & chunks, cover.all == chunks ? 1u : 0u};
+    return {cover.some & chunks, cover.all == chunks ? uint64_t{1} : 0};
   }
 
   // Views (i, j) of all j.
@@ -212,6 +213,7 @@ class Stack {
   }
 
   const StarJob& job_;
+  const GatherMap* gathered_;
   const ViewGrid& grid_;
   Field& field_;
   StackScratch& scratch_;
@@ -227,9 +229,9 @@ class Stack {
 
 }  // namespace
 
-uint64_t RefocusStack(const StarJob& job, Field* field, StackScratch* scratch,
-                      uint32_t* accumulators) {
-  return Stack(job, field, scratch, accumulators).Refocus();
+uint64_t RefocusStack(const StarJob& job, const GatherMap* gathered, Field* field,
+                      StackScratch* scratch, uint32_t* accumulators) {
+  return Stack(job, gathered, field, scratch, accumulators).Refocus();
 }
 
 }  // namespace starfocus

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/cells.h"
 #include "lib/placed_slice.h"
 #include "lib/star.h"
 
@@ -43,10 +44,11 @@ constexpr size_t StackParts(size_t side) {
   return (side + kPartRows - 1) / kPartRows * (simd::SliceSamples(side) / simd::kSliceLanes);
 }
 
-// As RefocusRectangle, by slices. `field`: for the extended rectangle, with memory set. Returns the
-// pixels rendered in each view, over all slices.
-uint64_t RefocusStack(const StarJob& job, Field* field, StackScratch* scratch,
-                      uint32_t* accumulators);
+// As RefocusRectangle, by slices, of what is not `gathered` (null: of all; at layer 0). `field`: for
+// the extended rectangle, with memory set. Returns the pixels rendered in each view, over all
+// slices.
+uint64_t RefocusStack(const StarJob& job, const GatherMap* gathered, Field* field,
+                      StackScratch* scratch, uint32_t* accumulators);
 
 }  // namespace starfocus
 

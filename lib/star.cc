@@ -6,7 +6,6 @@
 #include "lib/holes.h"
 #include "lib/line_scan.h"
 #include "lib/span_sink.h"
-#include "lib/spread.h"
 #include "lib/unmix.h"
 
 namespace starfocus {
@@ -55,14 +54,14 @@ class Star {
     Clear(1);
     Field columns = MakeField(1);
     TransposeDisparity(rows, &columns);
-    const bool wide = grid_.cells && HasWideCells(rows);
-    if (wide) SpreadColumns(&rows, &columns);
-    AddViews(rows, columns, wide, scratch_->accumulators[1]);
-    if (grid_.cells) {
-      Transpose();
-    } else {
-      AddByPaper(rows, &columns);
-    }
+    AddViews(rows, columns, scratch_->accumulators[1]);
+    TransposePixels(*job_.kernels, rows, &columns);
+    Clear(0);
+    AddCentre(rows);
+    TypeB(rows, false);
+    TypeB(rows, true);
+    AddViews(columns, rows, scratch_->accumulators[0]);
+    AddTransposed();
   }
 
  private:
@@ -74,17 +73,6 @@ class Star {
   void Clear(int orientation) {
     const size_t samples = 3 * static_cast<size_t>(job_.rect.width) * job_.rect.height;
     std::memset(scratch_->accumulators[orientation], 0, samples * sizeof(uint32_t));
-  }
-
-  // All but the triangles along rows.
-  void AddByPaper(const Field& rows, Field* columns) {
-    TransposePixels(*job_.kernels, rows, columns);
-    Clear(0);
-    AddCentre(rows);
-    TypeB(rows, false);
-    TypeB(rows, true);
-    AddViews(*columns, rows, false, scratch_->accumulators[0]);
-    AddTransposed();
   }
 
   Field MakeField(int orientation) const {
@@ -116,16 +104,12 @@ class Star {
     list.Flush();
   }
 
-  // Types A and C along the rows of `field`; `other` is the same field in the other orientation. By
-  // the paper's rule the triangles on either side of that axis. With cells the whole disc: half as
-  // many type A lines for 0.1 dB against truth, as long as holes far from the axis are read from
-  // captured views far from it (FillHole).
-  void AddViews(const Field& field, const Field& other, bool spread, uint32_t* accumulators) {
+  // Types A and C along the rows of `field`, in the triangles on either side of that axis; `other` is
+  // the same field in the other orientation.
+  void AddViews(const Field& field, const Field& other, uint32_t* accumulators) {
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
-      if (spread && sign > 0) SpreadRows(field);
-      const int32_t first = grid_.cells && sign > 0 ? 0 : 1;
-      for (int32_t i = first; i <= grid_.n(); ++i) {
+      for (int32_t i = 1; i <= grid_.n(); ++i) {
         const int32_t last = LastAcross(i);
         const Rows rows = RowsFor(field, last);
         RenderTypeA(field, sign, i, rows);
@@ -147,46 +131,10 @@ class Star {
     return scratch_->runs + static_cast<size_t>(row) * static_cast<size_t>(field.width);
   }
 
-  bool HasWideCells(const Field& field) const {
-    const int16_t* const disparity = field.disparity;
-    int16_t low = disparity[0], high = low;
-    for (int32_t k = 1; k < field.width * field.height; ++k) {
-      low = disparity[k] < low ? disparity[k] : low;
-      high = disparity[k] > high ? disparity[k] : high;
-    }
-    const auto cell = [&](int32_t d) { return Abs(grid_.Shift(scratch_->moves[1], d)); };
-    return Max(cell(low), cell(high)) > kShiftOne;
-  }
-
-  // Along both axes before any view is rendered: what a view then shows in holes is not spread
-  // across its lines, but spreading each type A view's columns gains nothing against truth.
-  void SpreadColumns(Field* rows, Field* columns) {
-    TransposePixels(*job_.kernels, *rows, columns);
-    MarkRuns(*job_.kernels, grid_, {rows->disparity, rows->width, rows->height, rows->width},
-             Direction::kRightToLeft, &scratch_->marks);
-    for (int32_t k = 0; k < rows->width; ++k) {
-      const int32_t count = ReadRuns(scratch_->marks, k, rows->height, grid_, scratch_->moves[1],
-                                     scratch_->line_runs);
-      const Line line = {columns->Rgb(0, k), columns->Disparity(0, k), 1, columns->width};
-      SpreadLine(*job_.kernels, grid_, line, scratch_->line_runs, count, scratch_->surface_rgb,
-                 columns->Rgb(0, k));
-    }
-    TransposePixels(*job_.kernels, *columns, rows);
-  }
-
-  // In place: the rows of the field are read by this pass alone.
-  void SpreadRows(const Field& field) {
-    for (int32_t row = 0; row < field.height; ++row) {
-      const Line line = {field.Rgb(0, row), field.Disparity(0, row), 1, field.width};
-      SpreadLine(*job_.kernels, grid_, line, RunsOf(field, row), scratch_->run_counts[row],
-                 scratch_->surface_rgb, field.Rgb(0, row));
-    }
-  }
-
-  // Largest j of the type C views (i, j): inside the triangle or the disc.
+  // Largest j of the type C views (i, j): inside the triangle and the disc.
   int32_t LastAcross(int32_t i) const {
     const int32_t n = grid_.n();
-    int32_t j = grid_.cells ? n : i - 1;
+    int32_t j = i - 1;
     while (j > 0 && i * i + j * j > n * n) --j;
     return Max(j, 0);
   }
@@ -252,38 +200,22 @@ class Star {
                          0,
                          {field.x + field.inner.x, field.y + rows.begin, 0, 1}};
       for (int32_t x = 0; x < width; ++x, ++holes.line.x) {
-        int32_t count = 0;  // of runs, none read yet: a column that is all gathered needs none
+        const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_,
+                                              scratch_->moves[1], scratch_->line_runs)
+                                   : 0;
         uint8_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
         const Line line = {rgb, scratch_->view_disparity + x, width, height};
         const int32_t top = field.inner.y - rows.begin;
-        ForEachPart(field, x, [&](int32_t begin, int32_t end) {
-          const auto first = static_cast<uint32_t>(x * field.inner.height + begin);
-          if (across > 0) {
-            AddLine(rgb + 3 * (top + begin), end - begin, grid_.aperture.Weight(i, 0), 3 * first,
-                    &list);
-          }
-          if (!scan) return;
-          if (count == 0) {
-            count = ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
-                             scratch_->line_runs);
-          }
-          AddColumn(line, count, last, {top + begin, top + end}, first, &holes, &list);
-        });
+        const auto first = static_cast<uint32_t>(x * field.inner.height);
+        if (across > 0) {
+          AddLine(rgb + 3 * top, field.inner.height, grid_.aperture.Weight(i, 0), 3 * first, &list);
+        }
+        if (scan) {
+          AddColumn(line, count, last, {top, top + field.inner.height}, first, &holes, &list);
+        }
       }
     }
     list.Flush();
-  }
-
-  // Calls visit(begin, end) for stretches of the rectangle's column x that are not gathered.
-  template <class Visit>
-  void ForEachPart(const Field& field, int32_t x, const Visit& visit) const {
-    if (job_.gathered == nullptr) return visit(0, field.inner.height);
-    const Rect& rect = job_.rect;  // only with cells, whose field is that of rows
-    for (int32_t y = 0; y < rect.height; y += kCellSize) {
-      const int32_t begin = y;
-      while (y < rect.height && job_.gathered->At(rect.x + x, rect.y + y) == 0) y += kCellSize;
-      if (y > begin) visit(begin, Min(y, rect.height));
-    }
   }
 
   // Adds the pixels of a part of the views j = 1 .. last on one side of a column.
@@ -364,25 +296,15 @@ class Star {
   }
 
   // The pass over rows left its sums by columns: what type C was added to.
-  template <class Take>
-  void FromColumns(const Take& take) {
+  void AddTransposed() {
     const int32_t width = job_.rect.width, height = job_.rect.height;
     for (int32_t y = 0; y < height; ++y) {
       uint32_t* to = scratch_->accumulators[0] + 3 * static_cast<size_t>(y) * width;
       const uint32_t* from = scratch_->accumulators[1] + 3 * static_cast<size_t>(y);
       for (int32_t x = 0; x < width; ++x, to += 3, from += 3 * static_cast<size_t>(height)) {
-        take(from, to);
+        for (int c = 0; c < 3; ++c) to[c] += from[c];
       }
     }
-  }
-  // Copies a fourth sum, which the next pixel overwrites: one move instead of two.
-  void Transpose() {
-    FromColumns([](const uint32_t* from, uint32_t* to) { std::memcpy(to, from, 4 * sizeof(*to)); });
-  }
-  void AddTransposed() {
-    FromColumns([](const uint32_t* from, uint32_t* to) {
-      for (int c = 0; c < 3; ++c) to[c] += from[c];
-    });
   }
 
   const StarJob& job_;

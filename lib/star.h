@@ -1,12 +1,10 @@
-// The primitive: one rectangle of the picture refocused with a given N at one layer, by rendering
-// the views of the aperture: by the paper's rule as types A, B and C of eight triangles (IV-B); by
-// that of cells along rows first (A) and then along columns (C).
+// The paper's primitive: one rectangle of the picture refocused with a given N at one layer, by
+// rendering the views of the aperture as types A, B and C of eight triangles (IV-B).
 #ifndef STARFOCUS_LIB_STAR_H_
 #define STARFOCUS_LIB_STAR_H_
 
 #include <cstdint>
 
-#include "lib/cells.h"
 #include "lib/field.h"
 #include "lib/runs.h"
 #include "lib/span_list.h"
@@ -35,7 +33,6 @@ struct StarScratch {
   uint8_t* strip_rgb;           // 3 R kStripRows: type A lines before they are transposed
   int16_t* view_disparity;      // R E: of the type A view, one line per row
   uint8_t* columns_rgb;         // R rows of RgbStride(E): the type A view, one line per column
-  uint8_t* surface_rgb;         // 3 (E + 2 kMaxSpread): one surface of a line
   uint32_t* accumulators[2];    // 3 R^2 each: in the orientation of either pass
   uint32_t* line_accumulators;  // 3 E
   SpanMemory spans;
@@ -47,7 +44,6 @@ struct StarJob {
   const simd::Kernels* kernels;
   Rect rect;
   Border border;
-  const GatherMap* gathered;  // what need not be rendered; null: all is
 };
 
 // Sums the weighted views over job.rect into scratch->accumulators[0]: rows of 3 * width values

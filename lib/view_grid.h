@@ -16,7 +16,6 @@ struct ViewGrid {
   int64_t step = 0;        // u_t / 2^layer, kStepBits
   int layer = 0;           // L
   int32_t half_views = 0;  // views |i| <= half_views take holes from the views at half distance
-  bool cells = false;      // views stand for cells wider than a pixel (ViewsByCells)
   int32_t spread = 0;      // disparity range of a run, kDisparityBits
 
   int32_t n() const { return aperture.n; }
@@ -34,7 +33,7 @@ struct ViewGrid {
 
 // The grid for aperture radius u_t in (0, 1], focus d_t with |d_t| <= 10^6.
 ViewGrid MakeViewGrid(const Aperture& aperture, double focus, double aperture_radius, int layer,
-                      bool has_half_views, bool cells);
+                      bool has_half_views);
 
 }  // namespace starfocus
 

@@ -65,27 +65,6 @@ HWY_INLINE void BlendSpans(const Span* HWY_RESTRICT spans, size_t count,
   }
 }
 
-HWY_INLINE void SpreadSamples(const uint8_t* HWY_RESTRICT in, const SpreadTaps& taps, size_t count,
-                              uint8_t* HWY_RESTRICT out) {
-  const hn::ScalableTag<uint16_t> d16;
-  const hn::RebindToSigned<decltype(d16)> di16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
-  const size_t lanes = hn::Lanes(d16);
-  const auto centre = hn::Set(d16, taps.centre), inner = hn::Set(d16, taps.inner),
-             outer = hn::Set(d16, taps.outer);
-  const auto load = [&](const uint8_t* at)
-                        HWY_ATTR { return hn::PromoteTo(d16, hn::LoadU(d8, at)); };
-  StoreSamples(d8, lanes, count, out, [&](size_t n) HWY_ATTR {
-    const uint8_t* at = in + n;
-    auto sum = hn::Mul(load(at), centre);
-    for (ptrdiff_t k = 1; k <= taps.reach; ++k) {
-      const auto pair = hn::Add(load(at - 3 * k), load(at + 3 * k));
-      sum = hn::Add(sum, hn::Mul(pair, k < taps.reach ? inner : outer));
-    }
-    return hn::DemoteTo(d8, hn::BitCast(di16, RoundToByte(d16, sum)));
-  });
-}
-
 HWY_INLINE bool ConvertDisparities(const float* HWY_RESTRICT disparity, size_t count, float low,
                                    float high, int16_t* HWY_RESTRICT out) {
   const hn::ScalableTag<float> df;

@@ -24,10 +24,6 @@ void Accumulate(const Span* spans, size_t count, uint32_t* accumulators) {
 
 void Blend(const Span* spans, size_t count, uint8_t* line) { BlendSpans(spans, count, line); }
 
-void Spread(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out) {
-  SpreadSamples(in, taps, count, out);
-}
-
 void FilterDisc(const uint8_t* in, size_t in_stride, const Disc& disc, size_t rows, size_t count,
                 uint8_t* out, size_t out_stride) {
   DiscSamples(in, in_stride, disc, rows, count, out, out_stride);
@@ -111,7 +107,6 @@ const Kernels* Table() {
   static constexpr Kernels kernels = {&STARFOCUS_TEXT_OF(HWY_NAMESPACE)[2],
                                       Accumulate,
                                       Blend,
-                                      Spread,
                                       FilterDisc,
                                       Split,
                                       FindEdges,

@@ -34,14 +34,6 @@ struct HalfBand {
   int32_t centre, near, far;  // |tap| <= 2^14
 };
 
-// A symmetric filter of 2 * reach + 1 taps over pixels, with 8 fractional bits: `centre`, `inner`
-// at 1 .. reach - 1, `outer` at reach. They sum to 256.
-struct SpreadTaps {
-  int32_t reach;  // [1, kMaxSpread]
-  uint16_t centre, inner, outer;
-};
-inline constexpr int32_t kMaxSpread = 3;
-
 // A kernel over pixels, symmetric about both axes and diagonals: its octant 0 <= m <= n <= size at
 // n (n + 1) / 2 + m. All weights together sum to 2^bits at most.
 struct Disc {
@@ -70,21 +62,23 @@ struct SurfaceRow {
   size_t plane;  // bytes
 };
 
-// As SpreadTaps with 15 fractional bits; inner and outer are twice the tap: they weigh the mean of
-// the samples on both sides.
+// A symmetric filter of 2 * reach + 1 taps with 15 fractional bits: `centre`, `inner` at
+// 1 .. reach - 1 and `outer` at reach. The latter are twice the tap: they weigh the mean of the
+// samples on both sides.
 struct SliceTaps {
   int32_t reach;  // [1, kMaxSpread]
   int16_t centre, inner, outer;
 };
+inline constexpr int32_t kMaxSpread = 3;
 
 struct SlicePlanes {
   const int16_t* samples;
   size_t plane;
 };
 
-// Of each kSliceLanes samples of a row, up to 32 times: whether a slice covers some, or all of them.
+// Of each kSliceLanes samples of a row, up to 64 times: whether a slice covers some, or all of them.
 struct SliceCover {
-  uint32_t some, all;
+  uint64_t some, all;
 };
 
 // A slice in one view: its first row, `some` of SliceCover from there on, and how far the view lies
@@ -165,10 +159,6 @@ struct Kernels {
   // Sources don't overlap the line. Nothing outside the spans is written.
   void (*blend)(const Span* spans, size_t count, uint8_t* line);
 
-  // out[n] = (the taps over in[n + 3 k], |k| <= reach) / 256, halves to even. in and out don't
-  // overlap.
-  void (*spread)(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out);
-
   // out[y][n] = (the disc's sum over in[y][n]) / 2^bits, halves up, for y < rows and n < count.
   // Strides in bytes. in and out don't overlap.
   void (*disc)(const uint8_t* in, size_t in_stride, const Disc& disc, size_t rows, size_t count,
@@ -185,7 +175,7 @@ struct Kernels {
                      size_t count, int16_t* moved, int16_t* behind, uint8_t* distance);
 
   // Of the first surface whose disparity is within [low, high], at each pixel n < count: its colour
-  // and kSliceOne; zeros where there is none. count <= 32 kSliceLanes.
+  // and kSliceOne; zeros where there is none. count <= 64 kSliceLanes.
   SliceCover (*select_slice)(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
                              size_t plane, int16_t* out);
 
@@ -196,7 +186,7 @@ struct Kernels {
 
   // Moves all planes of rows by a fraction of a sample, 15 bits: out[n] = in[n] + fraction
   // (in[n + 1] - in[n]), halves up. `plane`: of the output. some[row]: what is covered, as in
-  // SliceCover, samples beyond `count` included.
+  // SliceCover, samples beyond `count` included; count <= 32 kSliceLanes.
   void (*shift_slice)(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count,
                       size_t plane, int16_t* out, uint32_t* some);
 

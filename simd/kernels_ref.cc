@@ -38,18 +38,6 @@ void Blend(const Span* spans, size_t count, uint8_t* line) {
   }
 }
 
-void Spread(const uint8_t* in, const SpreadTaps& taps, size_t count, uint8_t* out) {
-  for (size_t n = 0; n < count; ++n) {
-    const uint8_t* at = in + n;
-    uint32_t sum = uint32_t{taps.centre} * at[0];
-    for (ptrdiff_t k = 1; k <= taps.reach; ++k) {
-      const uint32_t tap = k < taps.reach ? taps.inner : taps.outer;
-      sum += tap * (uint32_t{at[-3 * k]} + at[3 * k]);
-    }
-    out[n] = RoundBlend(sum);
-  }
-}
-
 uint32_t DiscWeight(const Disc& disc, int32_t x, int32_t y) {
   const int32_t a = std::abs(x), b = std::abs(y), high = a > b ? a : b, low = a > b ? b : a;
   return disc.weights[high * (high + 1) / 2 + low];
@@ -118,7 +106,7 @@ SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t 
                        size_t plane, int16_t* out) {
   SliceCover cover = {0, 0};
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes) {
-    const uint32_t bit = uint32_t{1} << (chunk / kSliceLanes);
+    const uint64_t bit = uint64_t{1} << (chunk / kSliceLanes);
     cover.all |= bit;
     for (size_t n = chunk; n < chunk + kSliceLanes; ++n) {
       int surface = 0;
@@ -344,7 +332,7 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 }  // namespace
 
 const Kernels& ReferenceKernels() {
-  static constexpr Kernels kernels = {"reference", Accumulate,       Blend,       Spread,
+  static constexpr Kernels kernels = {"reference", Accumulate,       Blend,
                                       FilterDisc,  Split, FindEdges, SelectSlice, SpreadSlice, ShiftSlice, Composite, FindRuns,         MeasureCell, Transpose,
                                       Finish,      ConvertDisparity, Widen,       Narrow,
                                       FinishLayer, FilterHalfBand,   Between};

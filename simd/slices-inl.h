@@ -73,7 +73,7 @@ HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, int16_t low, int16_t h
     return hn::Not(hn::Or(hn::Lt(disparity, vlow), hn::Gt(disparity, vhigh)));
   };
   SliceCover cover = {0, 0};
-  uint32_t bit = 1;
+  uint64_t bit = 1;
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, bit <<= 1) {
     bool some = false, all = true;
     for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {

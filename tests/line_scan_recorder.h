@@ -76,7 +76,7 @@ struct Recorder {
 inline ViewGrid MakeGrid(int n, double focus, double aperture) {
   starfocus::Aperture views;
   views.n = n;
-  return starfocus::MakeViewGrid(views, focus, aperture, 0, false, false);
+  return starfocus::MakeViewGrid(views, focus, aperture, 0, false);
 }
 
 inline Recorder Record(const Depths& line, const ViewGrid& grid, int view, Direction direction,

@@ -34,7 +34,7 @@ using Runs = std::vector<Found>;
 ViewGrid MakeGrid(int n, double focus, int spread, double aperture = 1) {
   starfocus::Aperture views;
   views.n = n;
-  ViewGrid grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false, false);
+  ViewGrid grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
   grid.spread = spread;
   return grid;
 }

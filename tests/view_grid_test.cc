@@ -17,7 +17,7 @@ using starfocus::ViewGrid;
 ViewGrid MakeGrid(int n, double focus, double aperture, int layer = 0, bool half = false) {
   starfocus::Aperture views;
   views.n = n;
-  return starfocus::MakeViewGrid(views, focus, aperture, layer, half, false);
+  return starfocus::MakeViewGrid(views, focus, aperture, layer, half);
 }
 
 TEST_CASE("view grid: the focus is rounded to 1/64, half up") {

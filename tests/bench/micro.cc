@@ -57,12 +57,32 @@ constexpr size_t kRows = 32, kColumns = kSamples / 3 / kRows;
 
 constexpr starfocus::simd::HalfBand kTaps = {8192, 4096, 0};
 // A box of 3.5 pixels.
-constexpr starfocus::simd::SpreadTaps kSpreadTaps = {2, 72, 72, 20};
+constexpr starfocus::simd::SliceTaps kSliceTaps = {2, 9362, 18724, 4682};
+// A slice of 6 rows of 4 planes, and 5 views of two of them.
+constexpr size_t kPlane = kSamples / 4 / 6;
+constexpr size_t kSliceViews = 5;
+static_assert(kPlane % starfocus::simd::kSliceLanes == 0);
 // Radius 3.2 or so: weights need not sum to anything for their time.
 constexpr uint16_t kDiscWeights[15] = {900, 900, 900, 880, 880, 860, 700, 690,
                                        600, 300, 100, 90,  40,  0,   0};
 constexpr starfocus::simd::Disc kDisc = {4, 16, kDiscWeights};
 using Body = void (*)(const Kernels&, Buffers*);
+
+// The nearer slice covers half a pixel.
+void Composite(const Kernels& kernels, Buffers* b) {
+  constexpr size_t kRowsShown = 4;
+  const int16_t weights[kSliceViews] = {9000, 9000, 9000, 9000, 9000};
+  const uint32_t some[6] = {~0u, ~0u, ~0u, ~0u, ~0u, ~0u};
+  const uint8_t shown[2] = {0, 1};
+  starfocus::simd::SliceShift shifts[2 * kSliceViews];
+  for (size_t n = 0; n < 2 * kSliceViews; ++n) {
+    shifts[n] = {b->in.data() + n % 2 * 8, some, static_cast<int16_t>(3000 * (n / 2))};
+  }
+  for (size_t column = 0; column < kPlane; column += starfocus::simd::kSliceLanes) {
+    kernels.composite({weights, shifts, kSliceViews, 2, shown, 2, column, 0}, kRowsShown, kPlane,
+                      b->sums.data() + column);
+  }
+}
 
 struct Case {
   const char* name;
@@ -84,10 +104,6 @@ const Case kCases[] = {
      [](const Kernels& k, Buffers* b) {
        k.blend(b->spans.data(), b->spans.size(), b->line.data());
      }},
-    {"spread", false, 1 + 1,
-     [](const Kernels& k, Buffers* b) {
-       k.spread(b->bytes.data() + kMargin, kSpreadTaps, kSamples, b->line.data());
-     }},
     // Over the same lines, so that each stays in the cache for those around it.
     {"disc", false, 1 + 1,
      [](const Kernels& k, Buffers* b) {
@@ -96,6 +112,37 @@ const Case kCases[] = {
                 kSpan);
        }
      }},
+    {"split", false, 1 + 1,
+     [](const Kernels& k, Buffers* b) {
+       k.split(b->bytes.data(), kSamples / 3, kSamples / 3, b->line.data());
+     }},
+    {"find_edges", false, 2 + 2 + 2 * 4 + 1,
+     [](const Kernels& k, Buffers* b) {
+       k.find_edges(b->in.data(), b->in.data() + 1, {48, 6}, kSamples, b->out.data(),
+                    b->middles.data(), b->line.data());
+     }},
+    {"select_slice", false, 3 * (2 + 3) / 4 + 2,
+     [](const Kernels& k, Buffers* b) {
+       const int16_t* in = b->in.data();
+       const uint8_t* rgb = b->bytes.data();
+       const starfocus::simd::SurfaceRow row = {{in, in + 16, in + 32}, {rgb, rgb, rgb}, kPlane};
+       for (size_t n = 0; n < 6; ++n) {
+         benchmark::DoNotOptimize(
+             k.select_slice(row, 2000, 9000, kPlane, kPlane, b->out.data() + 4 * n * kPlane));
+       }
+     }},
+    {"spread_slice", false, 2 + 2,
+     [](const Kernels& k, Buffers* b) {
+       k.spread_slice(b->in.data() + kMargin, 1, kSliceTaps, kSamples, b->out.data());
+     }},
+    {"shift_slice", false, 2 + 2,
+     [](const Kernels& k, Buffers* b) {
+       uint32_t some[6];
+       k.shift_slice({b->in.data(), kPlane}, 9000, 6, kPlane, kPlane, b->out.data(), some);
+       benchmark::DoNotOptimize(some);
+     }},
+    // Of each view and slice.
+    {"composite", false, 2 * kSliceViews * 2 + 8, Composite},
     {"find_runs", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
        k.find_runs(b->in.data(), kLines, kLength, kLines, {2000, 12000},
@@ -143,7 +190,7 @@ const Case kCases[] = {
 };
 
 // Whoever adds a kernel adds its case; accumulate has two.
-static_assert(true || sizeof(Kernels) ==
+static_assert(sizeof(Kernels) ==
                   sizeof(const char*) + (sizeof(kCases) / sizeof(kCases[0]) - 1) * sizeof(Body),
               "a case for every kernel");
 
