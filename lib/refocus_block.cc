@@ -73,19 +73,26 @@ const Aperture& ApertureOf(const EngineState& engine, const Block& block) {
   return IsBlockMode(engine) ? engine.apertures[block.n] : engine.aperture;
 }
 
-// Renders the block's views and returns their number.
-int32_t Render(const EngineState& engine, const Block& block, StarJob job,
-               const Plane<uint8_t>& out, Worker* worker) {
+// What of a block is rendered.
+struct Rendered {
+  uint64_t views, samples;
+};
+
+// Renders the block's views: by cells as a stack of slices, whose samples all count.
+Rendered Render(const EngineState& engine, const Block& block, StarJob job,
+                const Plane<uint8_t>& out, Worker* worker) {
   uint64_t side_colours = 0;
   Window counting = *job.window;
   counting.side_colours = &side_colours;
   job.window = &counting;
+  uint64_t samples = Samples(job.rect);
   if (UsesCells(engine)) {
     Field field;
     field.rgb = worker->star.field_rgb[0];
     field.disparity = worker->star.field_disparity[0];
-    RefocusStack(job, block.gathers ? &engine.plan.gathered : nullptr, &field, &worker->stack,
-                 worker->star.accumulators[0]);
+    const GatherMap* gathered = block.gathers ? &engine.plan.gathered : nullptr;
+    samples =
+        3 * RefocusStack(job, gathered, &field, &worker->stack, worker->star.accumulators[0]);
   } else {
     RefocusRectangle(job, &worker->star);
   }
@@ -96,7 +103,8 @@ int32_t Render(const EngineState& engine, const Block& block, StarJob job,
   } else {
     FinishLayer(*engine.kernels, block, shift, out, *worker);
   }
-  return ApertureOf(engine, block).views;
+  const auto views = static_cast<uint64_t>(ApertureOf(engine, block).views);
+  return {views, views * samples};
 }
 
 void GatherCells(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
@@ -113,8 +121,8 @@ void GatherCells(const EngineState& engine, const Block& block, const Plane<uint
 // What views give of a block: at layer 0 they need not be rendered for all of it.
 const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
 
-// Returns how many views were rendered. A copied block has one, the centre view.
-int32_t RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+// A copied block has one view, the centre.
+Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
                      Worker* worker) {
   const Aperture& aperture = ApertureOf(engine, block);
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
@@ -134,13 +142,13 @@ int32_t RefocusViews(const EngineState& engine, const Block& block, const Plane<
     CopyCentre(engine, rect, out);
     worker->skipped.copied_blocks += 1;
     worker->skipped.copied_pixels += pixels;
-    return 1;
+    return {1, 3 * pixels};
   }
   if (const uint8_t* colour = OneColour(job)) {
     FillColour(colour, rect, out);
     worker->skipped.filled_blocks += 1;
     worker->skipped.filled_pixels += pixels;
-    return 0;
+    return {0, 0};
   }
   return Render(engine, block, job, out, worker);
 }
@@ -160,13 +168,13 @@ void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uin
                   Worker* worker) {
   const sf_clock clock = engine.params.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
-  uint64_t views = 1;  // the centre
+  Rendered rendered = {1, 0};  // the centre, of a block gathered whole
   if (engine.params.mode == SF_MODE_BLUR) {
     BlurBlock(engine, block, out, worker);
-    views = 0;
+    rendered = {0, 0};
   } else {
     if (block.rendered.width > 0) {
-      views = static_cast<uint64_t>(RefocusViews(engine, block, out, worker));
+      rendered = RefocusViews(engine, block, out, worker);
     }
     // After views, which know nothing of cells.
     if (block.gathers) GatherCells(engine, block, out, worker);
@@ -174,11 +182,8 @@ void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uin
   sf_layer_report& report = worker->layers[block.layer];
   report.blocks += 1;
   report.pixels += Samples(block.rect) / 3;
-  report.views += views;
-  const Rect& rect = ViewsRect(block);
-  const uint64_t area = Samples({0, 0, (rect.width + (1 << block.layer) - 1) >> block.layer,
-                                 (rect.height + (1 << block.layer) - 1) >> block.layer});
-  report.rendered_samples += views * area;
+  report.views += rendered.views;
+  report.rendered_samples += rendered.samples;
   report.predicted_ps += block.cost;
   if (clock != nullptr) report.measured_ns += clock() - start;
 }

@@ -163,7 +163,7 @@ TEST_CASE("after: what is far from a change is reused") {
   REQUIRE(After(&engine, params, now, before, first, &second, &report) == SF_OK);
   CHECK(report.reused_blocks >= 80 - 25);
   CHECK(report.reused_blocks < 80);
-  CHECK(report.rendered_samples * 3 < whole.rendered_samples);
+  CHECK(report.rendered_samples * 2 < whole.rendered_samples);
   CHECK(report.rendered_samples > 0);
 }
 

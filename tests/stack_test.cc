@@ -1,0 +1,103 @@
+// The picture of a stack of slices, where what it must be is known.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/refocused.h"
+#include "tests/test_scene.h"
+
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64, kEdge = 48;
+
+// White and near on the left, black and far on the right; all captured views black.
+test::Scene HalfPlanes(double near, double far, int views) {
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, views, float(far), float(near));
+  for (auto& picture : scene.pictures) std::fill(picture.begin(), picture.end(), uint8_t{0});
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      scene.Disparity(x, y) = float(x < kEdge ? near : far);
+      if (x < kEdge) std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(255));
+    }
+  }
+  return scene;
+}
+
+std::vector<int> MiddleRow(const test::Scene& scene, double focus, sf_mode mode, int layers = 0) {
+  sf_config config = test::ConfigFor(scene, 32);
+  config.gather = 0;
+  config.max_layer = layers;
+  sf_params params = test::Params(focus, 1, mode);
+  params.rule = SF_RULE_CELLS;
+  const test::Refocused picture = test::RefocusScene(scene, config, params);
+  std::vector<int> row;
+  for (int x = 0; x < kWidth; ++x) {
+    row.push_back(picture.rgb[size_t(3 * (kHeight / 2 * kWidth + x))]);
+  }
+  return row;
+}
+
+TEST_CASE("stack: a surface in focus has a sharp end in front of a blurred one") {
+  for (const int views : {5, 9, 17}) {
+    for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+      const std::vector<int> row = MiddleRow(HalfPlanes(2, -6, views), 2, mode);
+      CAPTURE(views);
+      for (int x = 0; x < kWidth; ++x) {
+        CAPTURE(x);
+        CHECK(row[size_t(x)] == (x < kEdge ? 255 : 0));
+      }
+    }
+  }
+}
+
+TEST_CASE("stack: a blurred surface falls off evenly in front of one in focus") {
+  for (const double radius : {2.0, 6.0, 13.0, 20.0}) {
+    const std::vector<int> row = MiddleRow(HalfPlanes(radius - 3, -3, 5), -3, SF_MODE_BLOCK);
+    CAPTURE(radius);
+    for (int x = 1; x < kWidth; ++x) {
+      CAPTURE(x);
+      CHECK(row[size_t(x)] <= row[size_t(x - 1)]);
+      // No band: a cell is at most a sixth of the blur wide, but for the sharpest.
+      if (radius > 3) CHECK(row[size_t(x - 1)] - row[size_t(x)] <= 300 / radius);
+      if (x < kEdge - radius - 2) CHECK(row[size_t(x)] == 255);
+      if (x > kEdge + radius + 2) CHECK(row[size_t(x)] == 0);
+    }
+    // Half of the light at the edge.
+    CHECK(std::abs(row[kEdge - 1] + row[kEdge] - 255) <= 6);
+  }
+}
+
+TEST_CASE("stack: the far surface behind a blurred one is what captured views see") {
+  test::Scene scene = HalfPlanes(4, 0, 5);
+  for (int view = 1; view < 5; ++view) {
+    std::fill(scene.pictures[size_t(view)].begin(), scene.pictures[size_t(view)].end(),
+              uint8_t(100));
+  }
+  const std::vector<int> row = MiddleRow(scene, 0, SF_MODE_BLOCK);
+  // Where the near surface covers some of the lens the hidden grey shows, beside it the black.
+  CHECK(row[kEdge - 1] > 150);
+  CHECK(row[kEdge - 4] > row[kEdge - 1]);
+  CHECK(row[kEdge + 6] == 0);
+}
+
+TEST_CASE("stack: adjacent slices of one slope neither leak nor cover each other") {
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, 5, -3, 8);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      scene.Disparity(x, y) = -3 + 11.0f * float(x) / kWidth;
+      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(2 * x));  // a ramp: blur leaves it
+    }
+  }
+  for (const double focus : {-3.0, 0.0, 8.0}) {
+    const std::vector<int> row = MiddleRow(scene, focus, SF_MODE_BLOCK);
+    for (int x = 16; x < kWidth - 16; ++x) {
+      CAPTURE(focus);
+      CAPTURE(x);
+      CHECK(std::abs(row[size_t(x)] - 2 * x) <= 1);
+    }
+  }
+}
+
+}  // namespace
