@@ -22,7 +22,7 @@ struct Footprint {
 };
 
 Footprint MakeFootprint(double cell, Cells cells) {
-  const double width = std::min(kWidest, std::round(4 * cell) / 4);
+  const double width = std::min(kWidest, std::round(kShiftOne * cell) / kShiftOne);
   if (cells == Cells::kNarrow || width <= 1) {
     Footprint narrow = {std::clamp(cell, kNarrowest, 1.0), Kernel1(0)};
     narrow.taps.at(0) = 1;

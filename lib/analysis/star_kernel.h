@@ -1,5 +1,5 @@
-// What the engine's kernel should be, from its description: aperture cells as the star renders
-// them.
+// What the engine's kernel should be, from its description: aperture cells as the star and the
+// stack render them.
 #ifndef STARFOCUS_LIB_ANALYSIS_STAR_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_STAR_KERNEL_H_
 
@@ -11,9 +11,8 @@ namespace starfocus::analysis {
 // (|i| = |j|) spread along their diagonal only; or as wide as r / N, all views along both axes.
 enum class Cells { kNarrow, kWide };
 
-// The kernel of N views at blur radius r, positions rounded to the engine's 1/256 pixel. A wide
-// cell is r / N to 1/8 pixel, at most 7: linear interpolation after a mixture of the two odd boxes
-// around its width, of the cell's variance.
+// The kernel of N views at blur radius r, positions and cells rounded to the engine's 1/256 pixel. A
+// wide cell, at most 7 pixels, is linear interpolation after a box of its width on whole pixels.
 Kernel StarKernel(double r, int n, double theta, Cells cells);
 
 }  // namespace starfocus::analysis
