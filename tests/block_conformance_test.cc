@@ -77,9 +77,10 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   state.kernels = &starfocus::simd::ReferenceKernels();
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   const std::vector<reference::Block> blocks = Partition(state, covered);
+  const bool cells = params.rule == SF_RULE_CELLS;
+  const size_t slice_samples = cells ? state.workers[0].stack.plane_samples : 0;
   const Distance distance = Compare(
-      out.Tight(),
-      reference::RefocusBlocks(scene, params, config.theta, params.rule == SF_RULE_CELLS, blocks));
+      out.Tight(), reference::RefocusBlocks(scene, params, config.theta, slice_samples, blocks));
   for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
     test::Output other(scene.width, scene.height);
     state.kernels = kernels;
@@ -100,8 +101,8 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   return distance;
 }
 
-sf_config Config(const test::Scene& scene, int max_layer) {
-  sf_config config = test::ConfigFor(scene, 24);
+sf_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
+  sf_config config = test::ConfigFor(scene, max_blur);
   config.theta = kTheta;
   config.max_layer = max_layer;
   config.deblocking = 0;  // a decision by thresholds; deblock_test has it
@@ -179,6 +180,34 @@ TEST_CASE("block conformance: largest cells, smallest and single blocks") {
     }
   }
   Tell("cells and partitions", all, covered);
+}
+
+TEST_CASE("block conformance: more slices than fit, widest cells") {
+  struct Lens {
+    float low, high;
+    double focus, max_blur;
+  };
+  // Surfaces blurred on both sides of the focus, in more slices than there are and in more than
+  // memory has room for; and an aperture whose cells are almost as wide as they are spread.
+  constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
+  test::Random random(53);
+  Distance all;
+  Covered covered;
+  for (const Lens& lens : kLenses) {
+    for (const Depth depth : {Depth::kPiecewise, Depth::kNoisy}) {
+      for (const int views : {1, 17}) {
+        test::Scene scene = test::EmptyScene(64, 48, views, lens.low, lens.high);
+        SetDepth(depth, &scene, &random);
+        SetColours(Colours::kRandom, &scene, &random);
+        for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
+          sf_params params = test::Params(lens.focus, 1, SF_MODE_BLOCK);
+          params.rule = SF_RULE_CELLS;
+          all.Add(Check(scene, params, Config(scene, max_layer, lens.max_blur), &covered));
+        }
+      }
+    }
+  }
+  all.Print("many slices and wide cells");
 }
 
 #ifdef STARFOCUS_PROGRAM

@@ -2,6 +2,7 @@
 
 #include "tests/reference_blur.h"
 #include "tests/reference_rectangle.h"
+#include "tests/reference_stack.h"
 
 namespace reference {
 namespace {
@@ -24,7 +25,7 @@ LightField Load(const test::Scene& scene) {
   return field;
 }
 
-Lens MakeLens(const sf_params& params, double theta, int n, int layer, bool cells) {
+Lens MakeLens(const sf_params& params, double theta, int n, int layer) {
   Lens lens;
   lens.n = n;
   lens.radius = params.aperture;
@@ -33,7 +34,6 @@ Lens MakeLens(const sf_params& params, double theta, int n, int layer, bool cell
   const auto step = int64_t(params.aperture * (1 << 24));
   lens.step = std::max<int64_t>(1, Rounded(2 * step, 1 + layer));
   lens.layer = layer;
-  lens.cells = cells;
   return lens;
 }
 
@@ -182,7 +182,7 @@ Result Refocus(const test::Scene& scene, const sf_params& params, double theta, 
   const double r_max = params.aperture * std::max(std::fabs(scene.disparity_min - params.focus),
                                                   std::fabs(scene.disparity_max - params.focus));
   const int n = ViewsAlongRadius(r_max, params.mode), border = int(std::ceil(r_max)) + 2;
-  const Lens lens = MakeLens(params, theta, n, 0, false);
+  const Lens lens = MakeLens(params, theta, n, 0);
   Result result;
   result.n = n;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
@@ -241,19 +241,21 @@ Picture Gather(const Picture& picture, const GatheredCell& cell, const Lens& len
 }  // namespace
 
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,
-                                  bool cells, const std::vector<Block>& blocks) {
+                                  size_t slice_samples, const std::vector<Block>& blocks) {
   const LightField field = Load(scene);
   const std::vector<Picture> layers = MakeLayers(field.at({0, 0}));
   Result result;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   for (const Block& block : blocks) {
-    const Lens lens = MakeLens(params, theta, block.n, block.layer, cells);
+    const Lens lens = MakeLens(params, theta, block.n, block.layer);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
         block.right,      block.top,        block.bottom};
     if (rectangle.width > 0) {
-      const Picture rendered =
-          RefocusRectangle(field, layers[size_t(block.layer)], lens, rectangle);
+      const Picture& layer = layers[size_t(block.layer)];
+      const Picture rendered = slice_samples > 0 && lens.n > 0
+                                   ? RefocusStack(field, layer, lens, rectangle, slice_samples)
+                                   : RefocusRectangle(field, layer, lens, rectangle);
       Put(Finished(block, rendered), block.layer == 0 ? rectangle.x : block.x,
           block.layer == 0 ? rectangle.y : block.y, scene.width, &result);
     }

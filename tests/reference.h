@@ -27,12 +27,12 @@ struct Result {
 // block's extended rectangle, so that results depend on it.
 Result Refocus(const test::Scene& scene, const sf_params& params, double theta, int block);
 
-// A block of the block mode and what it is rendered from.
 // A cell of the picture that is gathered: blurred by the ideal kernel of its middle disparity.
 struct GatheredCell {
   int x, y, width, height;
 };
 
+// A block of the block mode and what it is rendered from.
 struct Block {
   int x, y, width, height;  // of the picture
   int layer, n;
@@ -42,9 +42,10 @@ struct Block {
 };
 
 // Block mode with a given partition of the picture, without deblocking; unrounded,
-// 3 * width * height. `cells`: views stand for cells wider than a pixel.
+// 3 * width * height. `slice_samples`: by the rule of cells, in slices of at most that many samples
+// together; 0: by the paper's rule.
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,
-                                  bool cells, const std::vector<Block>& blocks);
+                                  size_t slice_samples, const std::vector<Block>& blocks);
 
 }  // namespace reference
 

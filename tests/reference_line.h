@@ -1,5 +1,4 @@
-// The reference's parts that know one line: the lens, which pixel a view shows where, and what wide
-// cells make of a line.
+// The reference's parts that know one line: the lens, and which pixel a view shows where.
 #ifndef STARFOCUS_TESTS_REFERENCE_LINE_H_
 #define STARFOCUS_TESTS_REFERENCE_LINE_H_
 
@@ -52,10 +51,9 @@ struct Lens {
   int n = 0;
   double radius = 0;  // u_t
   double theta = 0;
-  int focus = 0;       // d_t, 1/64
-  int64_t step = 0;    // u_t / 2^layer, 2^-24
-  int layer = 0;       // L
-  bool cells = false;  // views stand for cells wider than a pixel
+  int focus = 0;     // d_t, 1/64
+  int64_t step = 0;  // u_t / 2^layer, 2^-24
+  int layer = 0;     // L
 
   // u of view k, 2^-24.
   int64_t Move(int k) const { return (2 * k * step + n) / (2 * n); }
@@ -68,20 +66,17 @@ struct Lens {
     return std::min(1.0, radius / n * std::abs(disparity - focus) / (64.0 * (1 << layer)));
   }
   // Within a run, disparities (1/64) range over a quarter pixel of displacement at the aperture's
-  // rim, half a pixel with cells, and never across the edge of a surface.
-  int Spread() const {
-    return int(std::min<int64_t>(kSurfaceStep, (int64_t{cells ? 32 : 16} << 24) / step));
-  }
+  // rim, and never across the edge of a surface.
+  int Spread() const { return int(std::min<int64_t>(kSurfaceStep, (int64_t{16} << 24) / step)); }
   // Views at most half a unit from the centre have a captured view at that distance.
   bool Half(int k) const { return 2 * k * radius <= n; }
   bool Contains(int i, int j) const { return i * i + j * j <= n * n; }
   double Density(int i, int j) const {
     return n == 0 ? 1 : ApertureDensity(double(i) / n, double(j) / n, theta);
   }
-  // Largest j of the views (i, j) rendered from type A view i: below the diagonal or, with cells,
-  // in the whole disc.
+  // Largest j of the views (i, j) rendered from type A view i: below the diagonal.
   int LastAcross(int i) const {
-    int j = std::max(0, cells ? n : i - 1);
+    int j = std::max(0, i - 1);
     while (j > 0 && !Contains(i, j)) --j;
     return j;
   }
@@ -263,47 +258,6 @@ Picture RenderAlong(const Picture& from, int u, int v, const Lens& lens, int k, 
           colour[c] += owner.share * (from.colours[other][c] - colour[c]);
         }
       }
-    }
-  }
-  return to;
-}
-
-// Each pixel of a line spread over the box of its own cell, to 1/4 pixel and at most 7, where that
-// is wider than a pixel; beyond the edge of a surface its last pixel goes on.
-inline Colour SpreadPixel(const Picture& from, const std::vector<size_t>& line, int x,
-                          const Lens& lens) {
-  const int disparity = from.disparities[line[size_t(x)]];
-  const int quarters = std::min(28, (std::abs(lens.Shift(1, disparity)) + 32) / 64);
-  if (quarters <= 4) return from.colours[line[size_t(x)]];
-  const double half = quarters / 8.0;
-  const auto one_surface = [&](int a, int b) {
-    return std::abs(from.disparities[line[size_t(a)]] - from.disparities[line[size_t(b)]]) <=
-           kSurfaceStep;
-  };
-  Colour sum = {0, 0, 0};
-  for (const int side : {-1, 1}) {
-    int at = x;
-    for (int k = 0; k - 0.5 < half; ++k) {
-      const int next = x + side * k;
-      const bool reached = k > 0 && at == next - side && next >= 0 && next < int(line.size());
-      if (reached && one_surface(at, next)) at = next;
-      // The middle pixel is met from both sides.
-      const double covered = (std::min(half, k + 0.5) - std::max(k - 0.5, 0.0)) / (2 * half);
-      for (size_t c = 0; c < 3; ++c) sum[c] += covered * from.colours[line[size_t(at)]][c];
-    }
-  }
-  return sum;
-}
-
-inline Picture SpreadAlong(const Picture& from, bool rows, const Lens& lens) {
-  Picture to = from;
-  for (int n = 0; n < (rows ? from.height : from.width); ++n) {
-    std::vector<size_t> line;
-    for (int k = 0; k < (rows ? from.width : from.height); ++k) {
-      line.push_back(rows ? from.At(k, n) : from.At(n, k));
-    }
-    for (size_t k = 0; k < line.size(); ++k) {
-      to.colours[line[k]] = SpreadPixel(from, line, int(k), lens);
     }
   }
   return to;

@@ -3,55 +3,8 @@
 namespace reference {
 namespace {
 
-// Interpolated linearly; beyond the picture its edge goes on.
-Colour ReadPicture(const LightField& field, int u2, int v2, double x, double y) {
-  const Picture& picture = field.at({u2, v2});
-  const int left = int(std::floor(x)), top = int(std::floor(y));
-  Colour colour = {0, 0, 0};
-  for (int row = top; row <= top + 1; ++row) {
-    for (int column = left; column <= left + 1; ++column) {
-      const double weight = (1 - std::fabs(x - column)) * (1 - std::fabs(y - row));
-      const Colour& pixel = picture.colours[picture.At(std::clamp(column, 0, picture.width - 1),
-                                                       std::clamp(row, 0, picture.height - 1))];
-      for (size_t c = 0; c < 3; ++c) colour[c] += weight * pixel[c];
-    }
-  }
-  return colour;
-}
-
-// At a layer the picture's pixel nearest to (x, y), weighed with those around it by 1 2 1 or
-// 1 2 3 4 3 2 1 along either axis.
-Colour Read(const LightField& field, int layer, int u2, int v2, double x, double y) {
-  if (layer == 0) return ReadPicture(field, u2, v2, x, y);
-  const auto nearest = [&](double at) { return int(Rounded(std::lround(at * 256), 8 - layer)); };
-  const int reach = (1 << layer) - 1, column = nearest(x), row = nearest(y);
-  Colour colour = {0, 0, 0};
-  for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) {
-      const double weight = double((1 << layer) - std::abs(dx)) * ((1 << layer) - std::abs(dy));
-      const Colour pixel = ReadPicture(field, u2, v2, column + dx, row + dy);
-      for (size_t c = 0; c < 3; ++c) colour[c] += weight / (1 << 4 * layer) * pixel[c];
-    }
-  }
-  return colour;
-}
-
 double Difference(const Colour& a, const Colour& b) {
   return std::fabs(a[0] - b[0]) + std::fabs(a[1] - b[1]) + std::fabs(a[2] - b[2]);
-}
-
-// Where `mixed` lies from `far` to `near`; 0 when they are too similar, it is too far away from the
-// line between them, or beyond 4/5 of the way.
-double ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
-  double along = 0, contrast = 0, distance = 0;
-  for (size_t c = 0; c < 3; ++c) {
-    along += (mixed[c] - far[c]) * (near[c] - far[c]);
-    contrast += (near[c] - far[c]) * (near[c] - far[c]);
-    distance += (mixed[c] - far[c]) * (mixed[c] - far[c]);
-  }
-  if (contrast < 64 || along <= 0 || 5 * along > 4 * contrast) return 0;
-  const double beside = distance * contrast - along * along;
-  return 16 * beside > contrast * (432 + contrast) ? 0 : along / contrast;
 }
 
 int Sign(int value) { return (value > 0) - (value < 0); }
@@ -81,79 +34,16 @@ class Views {
         rect_(rect),
         x_(rect.x - rect.left),
         y_(rect.y - rect.top),
-        centre_(rect.left + rect.width + rect.right, rect.top + rect.height + rect.bottom) {
-    for (int y = 0; y < centre_.height; ++y) {
-      for (int x = 0; x < centre_.width; ++x) {
-        const size_t from = layer.At(std::clamp(x_ + x, 0, layer.width - 1),
-                                     std::clamp(y_ + y, 0, layer.height - 1));
-        centre_.colours[centre_.At(x, y)] = layer.colours[from];
-        centre_.disparities[centre_.At(x, y)] = layer.disparities[from];
-      }
-    }
-    if (lens_.n > 0 && lens_.layer == 0 && field_.size() > 1) Unmix(layer);
-    if (lens_.cells) centre_ = SpreadAlong(SpreadAlong(centre_, false, lens_), true, lens_);
-  }
+        centre_(ExtendedRectangle(field, layer, lens, rect)) {}
 
   // Adds view (i, j) of the whole rectangle to `sum`.
   void Add(int i, int j, double weight, Picture* sum) {
-    if (lens_.n == 0) return AddInner(centre_, {0, 0, 0, 0}, weight, sum);
-    if (lens_.cells) return AddAcross(true, i, j, weight, sum);
     if (i == 0 && j == 0) return AddInner(centre_, {0, 0, 0, 0}, weight, sum);
     if (std::abs(i) == std::abs(j)) return AddInner(Diagonal(i, j), {0, 0, 0, 0}, weight, sum);
     AddAcross(std::abs(i) > std::abs(j), i, j, weight, sum);
   }
 
  private:
-  // The near part of sharp pixels beside a more defocused surface gives way to what the captured
-  // view that looks behind that surface shows of theirs. The outermost pixels reach nothing.
-  void Unmix(const Picture& picture) {
-    const auto at = [&](int x, int y) {
-      return picture.At(std::clamp(x_ + x, 0, picture.width - 1),
-                        std::clamp(y_ + y, 0, picture.height - 1));
-    };
-    for (int y = 1; y + 1 < centre_.height; ++y) {
-      for (int x = 1; x + 1 < centre_.width; ++x) {
-        const Colour mixed = picture.colours[at(x, y)];
-        Colour sum = {0, 0, 0};
-        double shares = 0;
-        for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-          const int disparity = picture.disparities[at(x, y)];
-          const int near = picture.disparities[at(x + dx, y + dy)];
-          if (near - disparity <= kSurfaceStep) continue;
-          const double strength = Strength(near, disparity);
-          if (strength <= 0) continue;
-          const double distance = field_.size() == 17 ? 0.5 : 1;
-          Colour far = ReadPicture(field_, int(-dx * 2 * distance), int(-dy * 2 * distance),
-                                   x + x_ + dx * distance * disparity / 64.0,
-                                   y + y_ + dy * distance * disparity / 64.0);
-          // Whole levels, as captured colours are; halves towards the pixel.
-          for (size_t c = 0; c < 3; ++c) {
-            far[c] = mixed[c] > far[c] ? std::floor(far[c] + 0.5) : std::ceil(far[c] - 0.5);
-          }
-          const int beyond = picture.disparities[at(x + 2 * dx, y + 2 * dy)];
-          const int pure = std::abs(beyond - near) <= kSurfaceStep ? 2 : 1;
-          const double share =
-              ShareOf(picture.colours[at(x + pure * dx, y + pure * dy)], far, mixed);
-          const double amount = std::min(1.0, 2 * share) * strength;
-          for (size_t c = 0; c < 3; ++c) sum[c] += share * amount * (far[c] - mixed[c]);
-          shares += share;
-        }
-        if (shares == 0) continue;
-        for (size_t c = 0; c < 3; ++c) {
-          centre_.colours[centre_.At(x, y)][c] = mixed[c] + sum[c] / shares;
-        }
-      }
-    }
-  }
-
-  // From 0 to 1 as the near surface's blur exceeds the far one's by a pixel, and back to 0 as the
-  // latter goes from 2 to 3.
-  double Strength(int near, int far) const {
-    const double r_near = std::abs(lens_.Shift(lens_.n, near)) / 256.0;
-    const double r_far = std::abs(lens_.Shift(lens_.n, far)) / 256.0;
-    return std::min({1.0, r_near - r_far, 3 - r_far});
-  }
-
   Picture Diagonal(int i, int j) {
     return RenderAlong(centre_, Sign(i), Sign(j), lens_, std::abs(i),
                        [&](int x, int y, int disparity, const Colour& colour) {
@@ -223,11 +113,6 @@ class Views {
       return Sign(view) * (shift - (captured ? int(far) : 0)) / 256.0;
     };
     const double x_far = x + moved(i, true), y_far = y + moved(j, true);
-    // Cells' views are all rendered along rows first: those nearer to the other axis see what is
-    // behind as the view there does.
-    if (lens_.cells && u != 0 && std::abs(i) < std::abs(j)) {
-      return Read(field_, lens_.layer, 0, v * distance, x + moved(i, false), y_far);
-    }
     if (u == 0 || v == 0 || field_.size() != 5) {
       return Read(field_, lens_.layer, u * distance, v * distance, x_far, y_far);
     }

@@ -1,0 +1,121 @@
+#include "tests/reference_field.h"
+
+namespace reference {
+namespace {
+
+// Interpolated linearly; beyond the picture its edge goes on.
+Colour ReadPicture(const LightField& field, int u2, int v2, double x, double y) {
+  const Picture& picture = field.at({u2, v2});
+  const int left = int(std::floor(x)), top = int(std::floor(y));
+  Colour colour = {0, 0, 0};
+  for (int row = top; row <= top + 1; ++row) {
+    for (int column = left; column <= left + 1; ++column) {
+      const double weight = (1 - std::fabs(x - column)) * (1 - std::fabs(y - row));
+      const Colour& pixel = picture.colours[picture.At(std::clamp(column, 0, picture.width - 1),
+                                                       std::clamp(row, 0, picture.height - 1))];
+      for (size_t c = 0; c < 3; ++c) colour[c] += weight * pixel[c];
+    }
+  }
+  return colour;
+}
+
+// Where `mixed` lies from `far` to `near`; 0 when they are too similar, it is too far away from the
+// line between them, or beyond 4/5 of the way.
+double ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
+  double along = 0, contrast = 0, distance = 0;
+  for (size_t c = 0; c < 3; ++c) {
+    along += (mixed[c] - far[c]) * (near[c] - far[c]);
+    contrast += (near[c] - far[c]) * (near[c] - far[c]);
+    distance += (mixed[c] - far[c]) * (mixed[c] - far[c]);
+  }
+  if (contrast < 64 || along <= 0 || 5 * along > 4 * contrast) return 0;
+  const double beside = distance * contrast - along * along;
+  return 16 * beside > contrast * (432 + contrast) ? 0 : along / contrast;
+}
+
+// From 0 to 1 as the near surface's blur exceeds the far one's by a pixel, and back to 0 as the
+// latter goes from 2 to 3.
+double Strength(const Lens& lens, int near, int far) {
+  const double r_near = std::abs(lens.Shift(lens.n, near)) / 256.0;
+  const double r_far = std::abs(lens.Shift(lens.n, far)) / 256.0;
+  return std::min({1.0, r_near - r_far, 3 - r_far});
+}
+
+// The near part of sharp pixels beside a more defocused surface gives way to what the captured
+// view that looks behind that surface shows of theirs. The outermost pixels reach nothing.
+void Unmix(const LightField& field, const Picture& picture, const Lens& lens, int x0, int y0,
+           Picture* centre) {
+  const auto at = [&](int x, int y) {
+    return picture.At(std::clamp(x0 + x, 0, picture.width - 1),
+                      std::clamp(y0 + y, 0, picture.height - 1));
+  };
+  for (int y = 1; y + 1 < centre->height; ++y) {
+    for (int x = 1; x + 1 < centre->width; ++x) {
+      const Colour mixed = picture.colours[at(x, y)];
+      Colour sum = {0, 0, 0};
+      double shares = 0;
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        const int disparity = picture.disparities[at(x, y)];
+        const int near = picture.disparities[at(x + dx, y + dy)];
+        if (near - disparity <= kSurfaceStep) continue;
+        const double strength = Strength(lens, near, disparity);
+        if (strength <= 0) continue;
+        const double distance = field.size() == 17 ? 0.5 : 1;
+        Colour far = ReadPicture(field, int(-dx * 2 * distance), int(-dy * 2 * distance),
+                                 x + x0 + dx * distance * disparity / 64.0,
+                                 y + y0 + dy * distance * disparity / 64.0);
+        // Whole levels, as captured colours are; halves towards the pixel.
+        for (size_t c = 0; c < 3; ++c) {
+          far[c] = mixed[c] > far[c] ? std::floor(far[c] + 0.5) : std::ceil(far[c] - 0.5);
+        }
+        const int beyond = picture.disparities[at(x + 2 * dx, y + 2 * dy)];
+        const int pure = std::abs(beyond - near) <= kSurfaceStep ? 2 : 1;
+        const double share = ShareOf(picture.colours[at(x + pure * dx, y + pure * dy)], far, mixed);
+        const double amount = std::min(1.0, 2 * share) * strength;
+        for (size_t c = 0; c < 3; ++c) sum[c] += share * amount * (far[c] - mixed[c]);
+        shares += share;
+      }
+      if (shares == 0) continue;
+      for (size_t c = 0; c < 3; ++c) {
+        centre->colours[centre->At(x, y)][c] = mixed[c] + sum[c] / shares;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+// Interpolated at layer 0; at others the picture's pixel nearest to (x, y), weighed with those
+// around it by 1 2 1 or 1 2 3 4 3 2 1 along either axis.
+Colour Read(const LightField& field, int layer, int u2, int v2, double x, double y) {
+  if (layer == 0) return ReadPicture(field, u2, v2, x, y);
+  const auto nearest = [&](double at) { return int(Rounded(std::lround(at * 256), 8 - layer)); };
+  const int reach = (1 << layer) - 1, column = nearest(x), row = nearest(y);
+  Colour colour = {0, 0, 0};
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const double weight = double((1 << layer) - std::abs(dx)) * ((1 << layer) - std::abs(dy));
+      const Colour pixel = ReadPicture(field, u2, v2, column + dx, row + dy);
+      for (size_t c = 0; c < 3; ++c) colour[c] += weight / (1 << 4 * layer) * pixel[c];
+    }
+  }
+  return colour;
+}
+
+Picture ExtendedRectangle(const LightField& field, const Picture& layer, const Lens& lens,
+                          const Rectangle& rect) {
+  const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
+  Picture centre(rect.left + rect.width + rect.right, rect.top + rect.height + rect.bottom);
+  for (int y = 0; y < centre.height; ++y) {
+    for (int x = 0; x < centre.width; ++x) {
+      const size_t from =
+          layer.At(std::clamp(x0 + x, 0, layer.width - 1), std::clamp(y0 + y, 0, layer.height - 1));
+      centre.colours[centre.At(x, y)] = layer.colours[from];
+      centre.disparities[centre.At(x, y)] = layer.disparities[from];
+    }
+  }
+  if (lens.n > 0 && lens.layer == 0 && field.size() > 1) Unmix(field, layer, lens, x0, y0, &centre);
+  return centre;
+}
+
+}  // namespace reference
