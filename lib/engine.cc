@@ -94,8 +94,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
     const int32_t n = UsesCells(*engine) ? ViewsByCells(r_max) : ViewsByPaper(r_max);
     engine->aperture = engine->apertures[ScaleViews(n, config.n_scale)];
   }
-  const ViewGrid grid =
-      MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false);
+  const ViewGrid grid = MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false);
   engine->scale = {grid.focus, grid.step};
   const bool gathers = IsBlockMode(*engine) && UsesCells(*engine) && config.gather != 0;
   if (params.mode == SF_MODE_BLUR || gathers) {

@@ -91,8 +91,7 @@ Rendered Render(const EngineState& engine, const Block& block, StarJob job,
     field.rgb = worker->star.field_rgb[0];
     field.disparity = worker->star.field_disparity[0];
     const GatherMap* gathered = block.gathers ? &engine.plan.gathered : nullptr;
-    samples =
-        3 * RefocusStack(job, gathered, &field, &worker->stack, worker->star.accumulators[0]);
+    samples = 3 * RefocusStack(job, gathered, &field, &worker->stack, worker->star.accumulators[0]);
   } else {
     RefocusRectangle(job, &worker->star);
   }
@@ -123,17 +122,14 @@ const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rend
 
 // A copied block has one view, the centre.
 Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
-                     Worker* worker) {
+                      Worker* worker) {
   const Aperture& aperture = ApertureOf(engine, block);
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
   const bool pinhole = aperture.n == 0;
   ViewGrid grid = MakeViewGrid(pinhole ? engine.apertures[1] : aperture, engine.params.focus,
                                engine.params.aperture, block.layer, engine.config.views == 17);
   if (pinhole) grid.step = 0;
-  const StarJob job = {&engine.windows[block.layer],
-                       &grid,
-                       engine.kernels,
-                       block.rendered,
+  const StarJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
                        block.border};
   if (engine.config.skips == 0) return Render(engine, block, job, out, worker);
   const Rect& rect = ViewsRect(block);

@@ -25,6 +25,7 @@ constexpr CellStep kCellSteps[] = {{0.5, 0}, {11, 4},  {24, 6},   {32, 8},   {45
 // portrait layer 2 from 6 up costs 0.35 dB; layer 1 from 3 up costs nothing where there is no depth
 // edge, and saves up to 13 % of the instructions.
 constexpr double kCellLayerRadius = 4.0;
+constexpr double kEdgeLayerRadius = 5.0;
 
 int32_t LayerFrom(double r_min, double radius) {
   if (r_min >= 2 * radius) return 2;
@@ -61,8 +62,8 @@ int32_t LayerByPaper(double r_min) { return LayerFrom(r_min, kLayerRadius); }
 int32_t LayerByCells(double r_min, bool depth_edges) {
   const int32_t layer = LayerFrom(r_min, kCellLayerRadius);
   // Layer 2 rounds a silhouette to four pixels of the picture: 0.4 to 0.9 dB against truth on the
-  // portrait.
-  if (depth_edges) return layer < 1 ? layer : 1;
+  // portrait; layer 1 below kEdgeLayerRadius costs 0.6 dB on the wires, and saves 3 % elsewhere.
+  if (depth_edges) return r_min >= kEdgeLayerRadius ? 1 : 0;
   return layer == 0 && r_min >= kLayerRadius ? 1 : layer;
 }
 

@@ -75,8 +75,7 @@ class SliceFinder {
 
   // Bins that a slice with this farthest or nearest bin may span.
   int32_t Span(int32_t bin, int coarser) const {
-    const int32_t blur =
-        Abs(grid_.Shift(grid_.step, base_ + (bin << bin_bits_)));
+    const int32_t blur = Abs(grid_.Shift(grid_.step, base_ + (bin << bin_bits_)));
     const int64_t range = Max(kSliceRange, (blur - kSliceSharp) / 8);
     const int64_t bins = (range * range_ / kSliceRange) >> bin_bits_;
     return static_cast<int32_t>(Limited(bins << coarser));

@@ -70,13 +70,13 @@ class Stack {
       largest = sum > largest ? sum : largest;
     }
     weight_scale_ = (uint64_t{kColumnSum} << 16) / largest;
-    least_covered_ = static_cast<uint32_t>(
-        ((weight_scale_ << grid_.aperture.sum_bits) >> 16) / kLeastShare);
+    least_covered_ =
+        static_cast<uint32_t>(((weight_scale_ << grid_.aperture.sum_bits) >> 16) / kLeastShare);
   }
 
   void PlaceSlices() {
     const Rect& inner = field_.inner;
-    const SliceJob job = {&scratch_.surfaces, &grid_, inner, scratch_.bins, scratch_.least_blur,
+    const SliceJob job = {&scratch_.surfaces,    &grid_, inner, scratch_.bins, scratch_.least_blur,
                           scratch_.plane_samples};
     Slice slices[kMaxSlices];
     count_ = FindSlices(job, slices);

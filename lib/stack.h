@@ -22,21 +22,21 @@ struct StackPart {
 
 // Memory of one worker. E and R: largest side of an extended rectangle and of a rectangle; N.
 struct StackScratch {
-  Surfaces surfaces;          // E^2 each
-  uint8_t* bins;              // kSliceBins
-  int32_t* least_blur;        // E
-  simd::SliceCover* covers;   // kMaxSlices E
-  int32_t cover_rows;         // E
-  int16_t* planes;            // of all slices
-  size_t plane_samples;       // that fit
-  int16_t* filtered;          // SliceSize(R, R, E - R)
-  int16_t* shifted;           // kMaxSlices 4 E R
-  uint32_t* shifted_some;     // kMaxSlices E
-  SliceOffset* offsets;       // kMaxSlices (2 N + 1)
-  simd::SliceShift* shifts;   // kMaxSlices (2 N + 1)
-  int16_t* weights;           // 2 N + 1
-  StackPart* parts;           // of a rectangle
-  uint32_t* sums;             // 4 R^2
+  Surfaces surfaces;         // E^2 each
+  uint8_t* bins;             // kSliceBins
+  int32_t* least_blur;       // E
+  simd::SliceCover* covers;  // kMaxSlices E
+  int32_t cover_rows;        // E
+  int16_t* planes;           // of all slices
+  size_t plane_samples;      // that fit
+  int16_t* filtered;         // SliceSize(R, R, E - R)
+  int16_t* shifted;          // kMaxSlices 4 E R
+  uint32_t* shifted_some;    // kMaxSlices E
+  SliceOffset* offsets;      // kMaxSlices (2 N + 1)
+  simd::SliceShift* shifts;  // kMaxSlices (2 N + 1)
+  int16_t* weights;          // 2 N + 1
+  StackPart* parts;          // of a rectangle
+  uint32_t* sums;            // 4 R^2
 };
 
 // Parts of the largest rectangle.
@@ -44,8 +44,8 @@ constexpr size_t StackParts(size_t side) {
   return (side + kPartRows - 1) / kPartRows * (simd::SliceSamples(side) / simd::kSliceLanes);
 }
 
-// As RefocusRectangle, by slices, of what is not `gathered` (null: of all; at layer 0). `field`: for
-// the extended rectangle, with memory set. Returns the pixels rendered in each view, over all
+// As RefocusRectangle, by slices, of what is not `gathered` (null: of all; at layer 0). `field`:
+// for the extended rectangle, with memory set. Returns the pixels rendered in each view, over all
 // slices.
 uint64_t RefocusStack(const StarJob& job, const GatherMap* gathered, Field* field,
                       StackScratch* scratch, uint32_t* accumulators);

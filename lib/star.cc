@@ -104,8 +104,8 @@ class Star {
     list.Flush();
   }
 
-  // Types A and C along the rows of `field`, in the triangles on either side of that axis; `other` is
-  // the same field in the other orientation.
+  // Types A and C along the rows of `field`, in the triangles on either side of that axis; `other`
+  // is the same field in the other orientation.
   void AddViews(const Field& field, const Field& other, uint32_t* accumulators) {
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
@@ -200,8 +200,8 @@ class Star {
                          0,
                          {field.x + field.inner.x, field.y + rows.begin, 0, 1}};
       for (int32_t x = 0; x < width; ++x, ++holes.line.x) {
-        const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_,
-                                              scratch_->moves[1], scratch_->line_runs)
+        const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
+                                              scratch_->line_runs)
                                    : 0;
         uint8_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
         const Line line = {rgb, scratch_->view_disparity + x, width, height};

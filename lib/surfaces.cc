@@ -69,15 +69,15 @@ class SurfaceFinder {
   struct Walk {
     int32_t moved = INT16_MAX, behind = 0;
 
-    uint8_t Next(int32_t near, int32_t far, int32_t unit, int32_t step) {
-      moved += unit;
+    uint8_t Next(int32_t near, int32_t far, int32_t unit, int32_t step, int32_t farthest) {
+      moved = Min(moved + unit, INT16_MAX);
       if (near - far > step) {
         moved = 0;
         behind = far;
       }
       const int32_t depth = near - behind;
-      if (depth <= step || moved > depth) return 0;
-      return static_cast<uint8_t>(Min(moved / unit + 1, 255));
+      if (depth <= step || moved > Min(depth, farthest)) return 0;
+      return static_cast<uint8_t>(moved / unit + 1);
     }
   };
 
@@ -86,9 +86,14 @@ class SurfaceFinder {
     uint8_t *right = Edges(0, y), *left = Edges(1, y);
     const int32_t last = surfaces_.width - 1;
     right[last] = left[0] = 0;
+    const int32_t farthest = simd::FarthestEdge(kDisparityBits + window_.layer);
     Walk to_right, to_left;
-    for (int32_t x = last - 1; x >= 0; --x) right[x] = to_right.Next(row[x], row[x + 1], unit_, step_);
-    for (int32_t x = 1; x <= last; ++x) left[x] = to_left.Next(row[x], row[x - 1], unit_, step_);
+    for (int32_t x = last - 1; x >= 0; --x) {
+      right[x] = to_right.Next(row[x], row[x + 1], unit_, step_, farthest);
+    }
+    for (int32_t x = 1; x <= last; ++x) {
+      left[x] = to_left.Next(row[x], row[x - 1], unit_, step_, farthest);
+    }
   }
 
   void StartColumns(int32_t y, int side) {
@@ -141,8 +146,7 @@ class SurfaceFinder {
     const int32_t distance = Edges(side, y)[x];
     if (distance == 0) return candidate;
     candidate.distance = distance;
-    candidate.disparity =
-        Disparity(x + kSides[side][0] * distance, y + kSides[side][1] * distance);
+    candidate.disparity = Disparity(x + kSides[side][0] * distance, y + kSides[side][1] * distance);
     candidate.rank = distance + kUnseen;
     for (const bool half : {false, true}) {
       if (window_.views == 1 || (half && window_.views != 17)) break;
@@ -213,7 +217,7 @@ class SurfaceFinder {
   const Window& window_;
   const Field& field_;
   Surfaces& surfaces_;
-  const int32_t unit_;         // disparity that a pixel of the layer is at distance 1
+  const int32_t unit_;   // disparity that a pixel of the layer is at distance 1
   const int32_t step_;   // a larger one from pixel to pixel may hide something
   int32_t highest_ = 0;  // disparity
 };
@@ -225,8 +229,7 @@ void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Fiel
   surfaces->width = field.width;
   surfaces->height = field.height;
   surfaces->stride = static_cast<int32_t>(simd::SliceSamples(static_cast<size_t>(field.width)));
-  surfaces->plane =
-      static_cast<size_t>(surfaces->stride) * static_cast<size_t>(surfaces->height);
+  surfaces->plane = static_cast<size_t>(surfaces->stride) * static_cast<size_t>(surfaces->height);
   for (int32_t y = 0; y < field.height; ++y) {
     const size_t at = surfaces->At(0, y);
     std::memcpy(surfaces->disparity[0] + at, field.Disparity(0, y),

@@ -25,7 +25,7 @@ struct Surfaces {
   // 0: it hides none.
   uint8_t* edges[4] = {};
   int16_t *moved = nullptr, *behind = nullptr;  // of find_edges: a row
-  uint8_t* hiding = nullptr;  // of each row: whether there is more than surface 0
+  uint8_t* hiding = nullptr;                    // of each row: whether there is more than surface 0
 
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(stride) + static_cast<size_t>(x);
@@ -36,8 +36,8 @@ struct Surfaces {
 // colours). Behind a pixel lies what its row and its column show behind the next depth edge on
 // either side, as far as a view at distance 1 can look there: at most two surfaces, the nearest
 // edge's first. Their colours are read from the captured view on the axis in which nothing covers
-// them, at full or half distance; without one the background goes on. With a distance tied to all
-// sides the colours are the mean. The memory of `surfaces` must be set.
+// them, at full or half distance; without one the background goes on. Sides with the
+// same distance and disparity give their mean. The memory of `surfaces` must be set.
 void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Field& field,
                   Surfaces* surfaces);
 

@@ -38,8 +38,8 @@ void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits
   FindEdgesOfRow(near, far, limits, count, moved, behind, distance);
 }
 
-SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
-                       size_t plane, int16_t* out) {
+SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t count, size_t plane,
+                       int16_t* out) {
   return SelectPixels(row, low, high, count, plane, out);
 }
 

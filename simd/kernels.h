@@ -76,7 +76,8 @@ struct SlicePlanes {
   size_t plane;
 };
 
-// Of each kSliceLanes samples of a row, up to 64 times: whether a slice covers some, or all of them.
+// Of each kSliceLanes samples of a row, up to 64 times: whether a slice covers some, or all of
+// them.
 struct SliceCover {
   uint64_t some, all;
 };
@@ -106,6 +107,13 @@ struct EdgeLimits {
   int16_t step;
   int unit_bits;  // [6, 8]
 };
+
+// How far away the pixel beside an edge may lie, in units of disparity: the edge's far side is one
+// pixel more, 255 at most, and distances that 16 bits do not hold are none.
+constexpr int16_t FarthestEdge(int unit_bits) {
+  const int32_t units = int32_t{254} << unit_bits;
+  return static_cast<int16_t>(units < INT16_MAX ? units : INT16_MAX - 1);
+}
 
 // When a run of a line ends, kDisparityBits of lib/fixed.h or any other scale.
 struct RunLimits {
@@ -179,8 +187,8 @@ struct Kernels {
   SliceCover (*select_slice)(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
                              size_t plane, int16_t* out);
 
-  // out[n] = the taps over in[n + k step], |k| <= reach, saturated: each of them times its sample or
-  // the mean of two (halves up), rounded halves up.
+  // out[n] = the taps over in[n + k step], |k| <= reach, saturated: each of them times its sample
+  // or the mean of two (halves up), rounded halves up.
   void (*spread_slice)(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,
                        int16_t* out);
 

@@ -83,7 +83,9 @@ void Split(const uint8_t* rgb, size_t count, size_t plane, uint8_t* out) {
 }
 
 int16_t Saturated(int32_t value) {
-  return static_cast<int16_t>(value < INT16_MIN ? INT16_MIN : value > INT16_MAX ? INT16_MAX : value);
+  return static_cast<int16_t>(value < INT16_MIN   ? INT16_MIN
+                              : value > INT16_MAX ? INT16_MAX
+                                                  : value);
 }
 
 void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits, size_t count,
@@ -96,14 +98,14 @@ void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits
       moved[n] = Saturated(moved[n] + (1 << limits.unit_bits));
     }
     const int16_t depth = Saturated(near[n] - behind[n]);
-    const int pixels = (moved[n] >> limits.unit_bits) + 1;
-    const bool hides = depth > limits.step && moved[n] <= depth;
-    distance[n] = static_cast<uint8_t>(hides ? (pixels < 255 ? pixels : 255) : 0);
+    const bool hides =
+        depth > limits.step && moved[n] <= depth && moved[n] <= FarthestEdge(limits.unit_bits);
+    distance[n] = static_cast<uint8_t>(hides ? (moved[n] >> limits.unit_bits) + 1 : 0);
   }
 }
 
-SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
-                       size_t plane, int16_t* out) {
+SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t count, size_t plane,
+                       int16_t* out) {
   SliceCover cover = {0, 0};
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes) {
     const uint64_t bit = uint64_t{1} << (chunk / kSliceLanes);
@@ -332,10 +334,10 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 }  // namespace
 
 const Kernels& ReferenceKernels() {
-  static constexpr Kernels kernels = {"reference", Accumulate,       Blend,
-                                      FilterDisc,  Split, FindEdges, SelectSlice, SpreadSlice, ShiftSlice, Composite, FindRuns,         MeasureCell, Transpose,
-                                      Finish,      ConvertDisparity, Widen,       Narrow,
-                                      FinishLayer, FilterHalfBand,   Between};
+  static constexpr Kernels kernels = {
+      "reference",      Accumulate, Blend,     FilterDisc,  Split,          FindEdges, SelectSlice,
+      SpreadSlice,      ShiftSlice, Composite, FindRuns,    MeasureCell,    Transpose, Finish,
+      ConvertDisparity, Widen,      Narrow,    FinishLayer, FilterHalfBand, Between};
   return kernels;
 }
 

@@ -1,4 +1,5 @@
-// Kernels::split, find_edges, select_slice, spread_slice, shift_slice and composite. Included once per target.
+// The kernels of slices: split, find_edges, select_slice, spread_slice, shift_slice, composite.
+// Included once per target.
 #if defined(STARFOCUS_SIMD_SLICES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_SLICES_INL_H_
 #undef STARFOCUS_SIMD_SLICES_INL_H_
@@ -34,14 +35,14 @@ HWY_INLINE void SplitPixels(const uint8_t* HWY_RESTRICT rgb, size_t count, size_
 }
 
 HWY_INLINE void FindEdgesOfRow(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,
-                               const EdgeLimits& limits, size_t count,
-                               int16_t* HWY_RESTRICT moved, int16_t* HWY_RESTRICT behind,
-                               uint8_t* HWY_RESTRICT distance) {
+                               const EdgeLimits& limits, size_t count, int16_t* HWY_RESTRICT moved,
+                               int16_t* HWY_RESTRICT behind, uint8_t* HWY_RESTRICT distance) {
   const SliceTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
   const auto step = hn::Set(d16, limits.step);
   const auto unit = hn::Set(d16, static_cast<int16_t>(1 << limits.unit_bits));
+  const auto farthest = hn::Set(d16, FarthestEdge(limits.unit_bits));
   const auto one = hn::Set(d16, int16_t{1});
   for (size_t n = 0; n < SliceSamples(count); n += lanes) {
     const auto here = hn::LoadU(d16, near + n), next = hn::LoadU(d16, far + n);
@@ -52,7 +53,8 @@ HWY_INLINE void FindEdgesOfRow(const int16_t* HWY_RESTRICT near, const int16_t* 
     hn::StoreU(moves, d16, moved + n);
     hn::StoreU(surface, d16, behind + n);
     const auto depth = hn::SaturatedSub(here, surface);
-    const auto hides = hn::AndNot(hn::Gt(moves, depth), hn::Gt(depth, step));
+    const auto beyond = hn::Gt(moves, hn::Min(depth, farthest));
+    const auto hides = hn::AndNot(beyond, hn::Gt(depth, step));
     const auto pixels = hn::Add(hn::ShiftRightSame(moves, limits.unit_bits), one);
     hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(hides, pixels)), d8, distance + n);
   }
@@ -109,9 +111,8 @@ HWY_INLINE void SpreadSamplesOfSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t s
              outer = hn::Set(d16, taps.outer);
   for (size_t n = 0; n < whole; n += lanes) {
     const auto mean = [&](ptrdiff_t offset) HWY_ATTR {
-      return hn::BitCast(
-          d16, hn::AverageRound(hn::BitCast(du16, hn::LoadU(d16, in + n - offset)),
-                                hn::BitCast(du16, hn::LoadU(d16, in + n + offset))));
+      return hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, hn::LoadU(d16, in + n - offset)),
+                                               hn::BitCast(du16, hn::LoadU(d16, in + n + offset))));
     };
     auto sum = hn::MulFixedPoint15(hn::LoadU(d16, in + n), centre);
     for (int32_t k = 1; k < taps.reach; ++k) {

@@ -131,7 +131,7 @@ inline int LayerFrom(double r_min, double radius) {
 // beside silhouettes, which are never rounded to four pixels.
 inline int LayerOf(bool cells, double r_min, bool silhouette) {
   if (!cells) return LayerFrom(r_min, 3);
-  if (silhouette) return r_min < 4 ? 0 : 1;
+  if (silhouette) return r_min < 5 ? 0 : 1;
   return r_min < 3 ? 0 : r_min < 8 ? 1 : 2;
 }
 

@@ -135,8 +135,8 @@ TEST_CASE("rules: layers from radius 3 and 8 on with cells, layer 1 from 4 on be
   CHECK(LayerByCells(8, false) == 2);
   CHECK(LayerByCells(SF_MAX_BLUR, false) == 2);
   CHECK(LayerByCells(0, true) == 0);
-  CHECK(LayerByCells(Below(4), true) == 0);
-  CHECK(LayerByCells(4, true) == 1);
+  CHECK(LayerByCells(Below(5), true) == 0);
+  CHECK(LayerByCells(5, true) == 1);
   CHECK(LayerByCells(SF_MAX_BLUR, true) == 1);
 }
 

@@ -53,13 +53,15 @@ void TestFindEdges(const Kernels& kernels) {
   for (size_t count = 1; count <= 50; ++count) {
     const starfocus::simd::EdgeLimits limits = {48, random.Int(6, 8)};
     const size_t whole = Whole(count);
-    std::vector<int16_t> moved(whole, INT16_MAX), behind(whole, 0), far = Disparities(whole, &random);
+    std::vector<int16_t> moved(whole, INT16_MAX), behind(whole, 0),
+        far = Disparities(whole, &random);
     std::vector<int16_t> got_moved = moved, got_behind = behind;
     int hidden = 0;
     for (int row = 0; row < 20; ++row) {
       std::vector<int16_t> near = far;
       for (int16_t& d : near) {
-        if (random.Int(0, 3) == 0) d = int16_t(std::clamp(d + random.Int(-300, 600), -32000, 32000));
+        if (random.Int(0, 3) == 0)
+          d = int16_t(std::clamp(d + random.Int(-300, 600), -32000, 32000));
       }
       std::vector<uint8_t> expected(whole), got(whole);
       ReferenceKernels().find_edges(near.data(), far.data(), limits, count, moved.data(),
@@ -183,21 +185,22 @@ void TestComposite(const Kernels& kernels) {
       }
     }
     std::vector<int16_t> weights(views);
-    for (int16_t& weight : weights) weight = int16_t(random.Int(0, std::min(16383, 58000 / int(views))));
+    for (int16_t& weight : weights)
+      weight = int16_t(random.Int(0, std::min(16383, 58000 / int(views))));
     std::vector<SliceShift> shifts;
     for (size_t n = 0; n < views * slices; ++n) {
       const size_t row = size_t(random.Int(0, 8));
       const auto fraction = int16_t(random.Int(0, 2) == 0 ? 0 : random.Int(1, 32767));
-      shifts.push_back({samples[n % slices].data() + 4 * row * plane,
-                        some[n % slices].data() + row, fraction});
+      shifts.push_back(
+          {samples[n % slices].data() + 4 * row * plane, some[n % slices].data() + row, fraction});
     }
     std::vector<uint8_t> shown;
     for (size_t k = 0; k < slices; ++k) {
       if (random.Int(0, 4) > 0) shown.push_back(uint8_t(k));
     }
     const size_t column = 16 * size_t(random.Int(0, int(plane / 16) - 1));
-    const starfocus::simd::SliceViews job = {weights.data(), shifts.data(), views, slices,
-                                             shown.data(), shown.size(), column, 1};
+    const starfocus::simd::SliceViews job = {weights.data(), shifts.data(), views,  slices,
+                                             shown.data(),   shown.size(),  column, 1};
     std::vector<uint32_t> expected(4 * rows * plane, 5), got = expected;
     ReferenceKernels().composite(job, rows, plane, expected.data() + column);
     kernels.composite(job, rows, plane, got.data() + column);

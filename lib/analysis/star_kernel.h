@@ -11,8 +11,8 @@ namespace starfocus::analysis {
 // (|i| = |j|) spread along their diagonal only; or as wide as r / N, all views along both axes.
 enum class Cells { kNarrow, kWide };
 
-// The kernel of N views at blur radius r, positions and cells rounded to the engine's 1/256 pixel. A
-// wide cell, at most 7 pixels, is linear interpolation after a box of its width on whole pixels.
+// The kernel of N views at blur radius r, positions and cells rounded to the engine's 1/256 pixel.
+// A wide cell, at most 7 pixels, is linear interpolation after a box of its width on whole pixels.
 Kernel StarKernel(double r, int n, double theta, Cells cells);
 
 }  // namespace starfocus::analysis
