@@ -37,7 +37,7 @@ int32_t Farthest(int32_t low, int32_t high, int32_t focus) {
 }
 
 // By the paper's rule a run ends when its pixels drift apart by a quarter pixel (kRunSpread of
-// view_grid.cc). With cells by half a pixel (kCellRunSpread): up to twice their runs are counted.
+// view_grid.cc). Slices range over more: coefficients tell what a step costs by either rule.
 constexpr int32_t kRunDrift = kRadiusOne / 4;
 constexpr int32_t kLargestGap = 8;
 

@@ -37,7 +37,8 @@ SliceOffset OffsetOf(int32_t shift, int32_t cell) {
   return {whole, static_cast<int16_t>(fraction)};
 }
 
-// Beyond the surfaces' left and right end their outermost pixels go on.
+// Beyond the surfaces' left and right end their outermost pixels go on; behind the row's end there
+// is nothing.
 simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surfaces,
                            const Slice& slice, int32_t x, int32_t y, int32_t width, size_t plane,
                            int16_t* row) {
@@ -51,11 +52,12 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surface
   }
   const simd::SliceCover cover = kernels.select_slice(
       from, slice.low, slice.overlap, static_cast<size_t>(last - first), plane, row + first);
-  if (last - first == width) return cover;
   for (int c = 0; c < 4; ++c, row += plane) {
     for (int32_t k = 0; k < first; ++k) row[k] = row[first];
     for (int32_t k = last; k < width; ++k) row[k] = row[last - 1];
+    std::memset(row + width, 0, (plane - static_cast<size_t>(width)) * sizeof(*row));
   }
+  if (last - first == width) return cover;
   return {~uint64_t{0}, 0};  // nobody looks closer at the few such rows
 }
 

@@ -23,7 +23,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& 
   BlockWork work = {};
   work.field = extended_width * extended_height;
   // Half of the type A views lie on either axis; each is rendered over the border of the other.
-  // With cells those along rows, the centre too, carry all others, and type B is type C.
+  // With cells A is to move slices along rows, for each column of views, and C to composite all.
   const uint64_t rows = views.a / 2 + (cells && all > 0 ? 1 : 0), columns = cells ? 0 : views.a / 2;
   work.a = rows * width * extended_height + columns * extended_width * height;
   work.b = cells ? 0 : views.b * width * height;
@@ -31,8 +31,8 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& 
   work.upsample = upsampled_pixels;
   // A layer has 1 / 2^L of the lines; along one of them a slope makes as many fewer runs and a gap
   // is as many times narrower, but an edge stays an edge. Half of the views are scanned along rows
-  // and half along columns, those of type B along both. With cells type A is scanned along rows and
-  // all else along columns.
+  // and half along columns, those of type B along both. With cells steps make slices, each of which
+  // is moved as A and composited as C.
   const uint64_t views_along[2] = {cells ? rows : all / 2, cells ? all - views.a / 2 : all / 2};
   const uint64_t lines[2] = {cells ? extended_height : height, width};
   for (int along = 0; along < 2; ++along) {
