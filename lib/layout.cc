@@ -54,7 +54,7 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
                        Carver* carver) {
   StackScratch scratch;
   Surfaces& surfaces = scratch.surfaces;
-  const size_t area = extended * simd::SliceSamples(extended);
+  const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
     surfaces.disparity[k] = carver->Take<int16_t>(area);
     surfaces.rgb[k] = carver->Take<uint8_t>(3 * area);

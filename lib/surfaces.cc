@@ -10,6 +10,11 @@ namespace {
 
 constexpr int8_t kSides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
+// No surface: also behind a row's end, since kernels look at whole vectors.
+void Clear(int16_t* disparity, int32_t count) {
+  for (int32_t k = 0; k < count; ++k) disparity[k] = kNoSurface;
+}
+
 // What one side shows behind a pixel.
 struct Candidate {
   int32_t rank = INT32_MAX;  // the nearer edge first, and those that a captured view sees
@@ -113,8 +118,7 @@ class SurfaceFinder {
   void FindRow(int32_t y) {
     const size_t at = surfaces_.At(0, y);
     for (int behind = 1; behind < simd::kSurfaces; ++behind) {
-      int16_t* disparity = surfaces_.disparity[behind] + at;
-      for (int32_t x = 0; x < surfaces_.stride; ++x) disparity[x] = kNoSurface;
+      Clear(surfaces_.disparity[behind] + at, surfaces_.stride);
     }
     surfaces_.hiding[y] = 0;
     const uint8_t* const* edges = surfaces_.edges;
@@ -234,8 +238,12 @@ void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Fiel
     const size_t at = surfaces->At(0, y);
     std::memcpy(surfaces->disparity[0] + at, field.Disparity(0, y),
                 static_cast<size_t>(field.width) * sizeof(int16_t));
+    Clear(surfaces->disparity[0] + at + field.width, surfaces->stride - field.width);
     kernels.split(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
                   surfaces->rgb[0] + at);
+  }
+  for (int16_t* disparity : surfaces->disparity) {
+    Clear(disparity + surfaces->plane, static_cast<int32_t>(simd::kSliceLanes));
   }
   SurfaceFinder(kernels, window, field, surfaces).Find();
 }

@@ -15,7 +15,8 @@ namespace starfocus {
 // No surface: the disparity where there are fewer than kSurfaces.
 inline constexpr int16_t kNoSurface = INT16_MIN;
 
-// Surface 0 is the field itself. Rows of `stride` pixels; colours in three planes, `plane` apart.
+// Surface 0 is the field itself. Rows of `stride` pixels, then kSliceLanes more; colours in three
+// planes, `plane` apart.
 struct Surfaces {
   int32_t width = 0, height = 0, stride = 0;
   size_t plane = 0;

@@ -16,7 +16,7 @@ using starfocus::Surfaces;
 
 constexpr int kSize = 40;
 constexpr int kStride = 48;  // SliceSamples
-constexpr int kArea = kStride * kSize;
+constexpr int kArea = kStride * kSize + 16;
 
 // A disparity map in pixels per unit, the centre view in one grey level, captured views that say
 // where they are read: R holds x, G holds y and B the view.
