@@ -40,9 +40,22 @@ uint32_t ApertureFallOff(double theta) {
   return static_cast<uint32_t>(65536.0 / (tangent * tangent) + 0.5);
 }
 
+double CellExtent(int32_t n) {
+  // The mean of x^2 is 1 / 4 over a disc, 1 / 12 over a cell.
+  int64_t views = 0, squares = 0;
+  ForEachOrbit(n, [&](int32_t i, int32_t j) {
+    views += Orbit(i, j);
+    squares += int64_t{Orbit(i, j)} * (i * i + j * j);
+  });
+  const auto wanted = static_cast<double>(3 * views * n * n);
+  const double extent = std::sqrt(wanted / static_cast<double>(6 * squares + views));
+  return n == 0 || extent > 1 ? 1 : extent;
+}
+
 Aperture MakeAperture(int32_t n, uint32_t fall_off, uint16_t* weights) {
   Aperture aperture;
   aperture.n = n;
+  aperture.extent = CellExtent(n);
   aperture.weights = weights;
   const uint64_t n_square = n == 0 ? 1 : static_cast<uint64_t>(n) * static_cast<uint64_t>(n);
   uint64_t total = 0;

@@ -16,6 +16,7 @@ struct Aperture {
   int32_t n = 0;
   int sum_bits = 1;
   int32_t views = 1;
+  double extent = 1;                  // of the outermost views of cells, see CellExtent
   const uint16_t* weights = nullptr;  // of 0 <= j <= i <= n at index i (i + 1) / 2 + j
 
   // Any i, j in [-n, n]; zero outside the disc.
@@ -26,6 +27,11 @@ struct Aperture {
     return weights[high * (high + 1) / 2 + low];
   }
 };
+
+// How far out on a lens of radius 1 views of N along it must lie, for their cells (squares of 1 /
+// N) together to blur as much as the lens does, in the mean square: less than 1 where more of the
+// cells lies beyond the disc than misses inside it (N = 5: 0.975). At most 1.
+double CellExtent(int32_t n);
 
 // Number of weights an Aperture of n stores.
 constexpr size_t ApertureSize(int32_t n) {

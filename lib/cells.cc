@@ -133,8 +133,11 @@ class Surroundings {
     uint32_t smooth = 0;
     for (int32_t k = 0; k < 4; ++k) {
       const Around& around = around_[k];
+      const int32_t blur = Max(Abs(around.low - scale.focus), Abs(around.high - scale.focus));
+      const int32_t radius = Min(scale.Radius(blur), kSmoothRange);
+      const int64_t limit = Max(radius, kSharpSmoothRange);
       const int64_t range = scale.step * (around.high - around.low);
-      if (!around.edge && range <= int64_t{kSmoothRange} << kStepBits) smooth |= 1u << k;
+      if (!around.edge && range <= limit << kStepBits) smooth |= 1u << k;
     }
     return smooth;
   }

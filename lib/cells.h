@@ -93,8 +93,10 @@ inline constexpr int32_t kLayerMargin[3] = {0, 4, 12};
 
 // A cell is smooth when it can be gathered (lib/gather.h): one surface is all that lies within
 // reach of its pixels or reaches them, and the blur there, nearer than the focus counted as
-// negative, differs by at most this, kDisparityBits.
+// negative, differs by at most this, kDisparityBits, and by no more than the largest blur or
+// kSharpSmoothRange: all would be as sharp as the middle.
 inline constexpr int32_t kSmoothRange = (3 << kDisparityBits) / 2;
+inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
 
 // What a block knows: radii of the pixels inside and (but for r_min) of those that splat into it,
 // and for each layer the border beyond which no pixel splats into the block and its margin.

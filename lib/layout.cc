@@ -60,6 +60,7 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
     surfaces.rgb[k] = carver->Take<uint8_t>(3 * area);
   }
   for (uint8_t*& edges : surfaces.edges) edges = carver->Take<uint8_t>(area);
+  surfaces.share = carver->Take<uint8_t>(area);
   surfaces.hiding = carver->Take<uint8_t>(extended);
   surfaces.moved = carver->Take<int16_t>(simd::SliceSamples(extended));
   surfaces.behind = carver->Take<int16_t>(simd::SliceSamples(extended));

@@ -24,17 +24,18 @@ simd::SliceTaps TapsOf(int32_t cell) {
   return taps;
 }
 
-// `shift` in kShiftBits as whole pixels and a fraction. A cell narrower than a pixel covers less of
-// the pixels on either side of it than interpolation.
+// `shift` in kShiftBits as whole pixels and a fraction. Inside the slice a cell narrower than a
+// pixel covers less of the pixels on either side of it than interpolation; its ends move evenly.
 SliceOffset OffsetOf(int32_t shift, int32_t cell) {
   const int32_t whole = shift >> kShiftBits, rest = shift & (kShiftOne - 1);
-  int32_t fraction = rest * (kFractionOne / kShiftOne);
-  if (rest != 0 && cell < kShiftOne) {
-    const int32_t from_middle = (rest - kShiftOne / 2) * kFractionOne;
-    fraction = Clamp(from_middle / Max(cell, 1) + kFractionOne / 2, 0, kFractionOne);
-  }
-  if (fraction == kFractionOne) return {whole + 1, 0};
-  return {whole, static_cast<int16_t>(fraction)};
+  const auto before = [](int32_t fraction) {
+    return static_cast<int16_t>(fraction - kFractionOne);
+  };
+  const int16_t edge = before(rest * (kFractionOne / kShiftOne));
+  if (rest == 0 || cell >= kShiftOne) return {whole, {edge, edge}};
+  const int32_t from_middle = (rest - kShiftOne / 2) * kFractionOne;
+  const int32_t inside = from_middle / Max(cell, 1) + kFractionOne / 2;
+  return {whole, {before(Clamp(inside, 0, kFractionOne)), edge}};
 }
 
 // Beyond the surfaces' left and right end their outermost pixels go on; behind the row's end there
@@ -46,6 +47,7 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surface
   const size_t at = surfaces.At(x + first, y);
   simd::SurfaceRow from;
   from.plane = surfaces.plane;
+  from.share = surfaces.share + at;
   for (int k = 0; k < simd::kSurfaces; ++k) {
     from.disparity[k] = surfaces.disparity[k] + at;
     from.rgb[k] = surfaces.rgb[k] + at;

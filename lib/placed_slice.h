@@ -14,10 +14,10 @@
 
 namespace starfocus {
 
-// Where a view shows a slice: moved by whole pixels and a fraction of one, 15 bits.
+// Where a view shows a slice: moved by whole pixels and a fraction of one.
 struct SliceOffset {
   int32_t whole;
-  int16_t fraction;
+  simd::SliceFraction fraction;
 };
 
 // Pixels beyond its blur radius (rounded up) that a slice is made of: filters, interpolation.

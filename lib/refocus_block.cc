@@ -126,8 +126,10 @@ Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane
   const Aperture& aperture = ApertureOf(engine, block);
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
   const bool pinhole = aperture.n == 0;
-  ViewGrid grid = MakeViewGrid(pinhole ? engine.apertures[1] : aperture, engine.params.focus,
-                               engine.params.aperture, block.layer, engine.config.views == 17);
+  const Aperture& rendered = pinhole ? engine.apertures[1] : aperture;
+  const double extent = UsesCells(engine) ? rendered.extent : 1;
+  ViewGrid grid = MakeViewGrid(rendered, engine.params.focus, engine.params.aperture * extent,
+                               block.layer, engine.config.views == 17);
   if (pinhole) grid.step = 0;
   const StarJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
                        block.border};

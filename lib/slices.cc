@@ -39,17 +39,10 @@ class SliceFinder {
   }
 
   void FindBase() {
-    int32_t low = INT32_MAX, high = INT32_MIN;
-    for (int32_t y = 0; y < surfaces_.height; ++y) {
-      const int16_t* row = surfaces_.disparity[0] + surfaces_.At(0, y);
-      for (int32_t x = 0; x < surfaces_.width; ++x) {
-        low = Min(low, row[x]);
-        high = Max(high, row[x]);
-      }
-    }
-    base_ = low;
-    while ((high - low) >> bin_bits_ >= kSliceBins) ++bin_bits_;
-    bins_ = ((high - low) >> bin_bits_) + 1;
+    const int32_t range = surfaces_.high - surfaces_.low;
+    base_ = surfaces_.low;
+    while (range >> bin_bits_ >= kSliceBins) ++bin_bits_;
+    bins_ = (range >> bin_bits_) + 1;
   }
 
   // Marks the bins of a row's pixels that may splat into the rect.
@@ -73,7 +66,7 @@ class SliceFinder {
     }
   }
 
-  // Bins that a slice with this farthest or nearest bin may span.
+  // Bins that a slice with this nearest bin may span.
   int32_t Span(int32_t bin, int coarser) const {
     const int32_t blur = Abs(grid_.Shift(grid_.step, base_ + (bin << bin_bits_)));
     const int64_t range = Max(kSliceRange, (blur - kSliceSharp) / 8);

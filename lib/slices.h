@@ -25,8 +25,9 @@ inline constexpr int32_t kSliceSharp = 4 * kShiftOne;
 // Ranges of disparity that are told apart: single ones up to a blur of 64 pixels at full aperture.
 inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
 
-// Disparities [low, high] (kDisparityBits), which move as `disparity` does; up to `overlap`, which
-// is a little nearer, they are part of the next slice too, so that no gap opens between both.
+// Disparities [low, high] (kDisparityBits), which move as `disparity` does. Those up to `overlap`,
+// a little nearer, are part of this slice as well as of the nearer one, so that no gap opens
+// between both.
 struct Slice {
   int16_t low, high, overlap, disparity;
 };
@@ -40,9 +41,8 @@ struct SliceJob {
   size_t samples;       // of all slices together
 };
 
-// The slices, the nearest first, that hold all pixels of the surfaces that may splat into a
-// rectangle.
-// Writes and returns at most kMaxSlices.
+// Finds the slices, the nearest first, that hold all pixels of the surfaces that may splat into a
+// rectangle. Returns how many, at most kMaxSlices.
 int32_t FindSlices(const SliceJob& job, Slice* slices);
 
 }  // namespace starfocus

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "lib/unmix.h"
+#include "lib/matte.h"
 
 namespace starfocus {
 namespace {
@@ -32,8 +32,8 @@ class Stack {
 
   uint64_t Refocus() {
     LoadField(*job_.window, job_.rect, job_.border, &field_);
-    UnmixEdges(*job_.window, grid_, &field_);
     FindSurfaces(*job_.kernels, *job_.window, field_, &scratch_.surfaces);
+    FindMatte(*job_.window, grid_, field_, &scratch_.surfaces);
     FindScale();
     plane_ = simd::SliceSamples(static_cast<size_t>(job_.rect.width));
     PlaceSlices();
@@ -97,7 +97,7 @@ class Stack {
   }
 
   static bool Same(const SliceOffset& a, const SliceOffset& b) {
-    return a.whole == b.whole && a.fraction == b.fraction;
+    return a.whole == b.whole && a.fraction.edge == b.fraction.edge;
   }
 
   bool IsGathered(const StackPart& part) const {

@@ -8,8 +8,6 @@
 namespace starfocus {
 namespace {
 
-constexpr int8_t kSides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-
 // No surface: also behind a row's end, since kernels look at whole vectors.
 void Clear(int16_t* disparity, int32_t count) {
   for (int32_t k = 0; k < count; ++k) disparity[k] = kNoSurface;
@@ -37,7 +35,7 @@ class SurfaceFinder {
         field_(field),
         surfaces_(*surfaces),
         unit_(int32_t{1} << (kDisparityBits + window.layer)),
-        step_(unit_ * 3 / 4) {}
+        step_(kDepthEdge << window.layer) {}
 
   void Find() {
     const int32_t height = surfaces_.height;
@@ -64,7 +62,8 @@ class SurfaceFinder {
         high = row[x] > high ? row[x] : high;
       }
     }
-    highest_ = high;
+    surfaces_.low = low;
+    surfaces_.high = high;
   }
 
   uint8_t* Edges(int side, int32_t y) const { return surfaces_.edges[side] + surfaces_.At(0, y); }
@@ -171,7 +170,7 @@ class SurfaceFinder {
                          : side == 1 ? x
                          : side == 2 ? surfaces_.height - 1 - y
                                      : y;
-    const int32_t last = Min(room, (highest_ - disparity) / unit + 1);
+    const int32_t last = Min(room, (surfaces_.high - disparity) / unit + 1);
     const ptrdiff_t step =
         kSides[side][0] + kSides[side][1] * static_cast<ptrdiff_t>(surfaces_.stride);
     const int16_t* at = surfaces_.disparity[0] + surfaces_.At(x, y);
@@ -221,9 +220,8 @@ class SurfaceFinder {
   const Window& window_;
   const Field& field_;
   Surfaces& surfaces_;
-  const int32_t unit_;   // disparity that a pixel of the layer is at distance 1
-  const int32_t step_;   // a larger one from pixel to pixel may hide something
-  int32_t highest_ = 0;  // disparity
+  const int32_t unit_;  // disparity that a pixel of the layer is at distance 1
+  const int32_t step_;  // a larger one from pixel to pixel may hide something
 };
 
 }  // namespace
@@ -245,6 +243,7 @@ void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Fiel
   for (int16_t* disparity : surfaces->disparity) {
     Clear(disparity + surfaces->plane, static_cast<int32_t>(simd::kSliceLanes));
   }
+  std::memset(surfaces->share, simd::kSliceWhole, surfaces->plane + simd::kSliceLanes);
   SurfaceFinder(kernels, window, field, surfaces).Find();
 }
 

@@ -15,13 +15,18 @@ namespace starfocus {
 // No surface: the disparity where there are fewer than kSurfaces.
 inline constexpr int16_t kNoSurface = INT16_MIN;
 
-// Surface 0 is the field itself. Rows of `stride` pixels, then kSliceLanes more; colours in three
-// planes, `plane` apart.
+// A larger step of disparity from pixel to pixel, at layer 0, may hide something: kDisparityBits.
+inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
+
+// Surface 0 is the field itself, the nearest one. Rows of `stride` pixels, then kSliceLanes more;
+// colours in three planes, `plane` apart.
 struct Surfaces {
   int32_t width = 0, height = 0, stride = 0;
   size_t plane = 0;
   int16_t* disparity[simd::kSurfaces] = {};  // kDisparityBits
   uint8_t* rgb[simd::kSurfaces] = {};
+  uint8_t* share = nullptr;   // of the pixel that surface 0 covers, kSliceBits
+  int16_t low = 0, high = 0;  // disparities of the field
   // Pixels to the far side of the depth edge to the right, left, bottom and top that a pixel hides;
   // 0: it hides none.
   uint8_t* edges[4] = {};
@@ -33,12 +38,12 @@ struct Surfaces {
   }
 };
 
-// Finds them for a field, whose arrays of surface 0 are shared (its disparities) or split (its
-// colours). Behind a pixel lies what its row and its column show behind the next depth edge on
-// either side, as far as a view at distance 1 can look there: at most two surfaces, the nearest
-// edge's first. Their colours are read from the captured view on the axis in which nothing covers
-// them, at full or half distance; without one the background goes on. Sides with the
-// same distance and disparity give their mean. The memory of `surfaces` must be set.
+// Finds them for a field, which surface 0 is a copy of and covers all of. Behind a pixel lies what
+// its row and its column show behind the next depth edge on either side, as far as a view at
+// distance 1 can look there: at most two surfaces, the nearest edge's first. Their colours are read
+// from the captured view on the axis in which nothing covers them, at full or half distance;
+// without one the background goes on. Sides with the same distance and disparity give their mean.
+// The memory of `surfaces` must be set.
 void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Field& field,
                   Surfaces* surfaces);
 

@@ -1,4 +1,4 @@
-// Boundary pixels: on the far side of a depth edge a captured pixel is a mixture of both surfaces.
+// Boundary pixels (lib/mixture.h) of line scans.
 #ifndef STARFOCUS_LIB_UNMIX_H_
 #define STARFOCUS_LIB_UNMIX_H_
 

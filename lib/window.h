@@ -60,6 +60,9 @@ void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, 
 // Bytes that one such colour is made of.
 int32_t CapturedBytes(const Window& window);
 
+// The sides of a pixel.
+inline constexpr int8_t kSides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+
 // Index of the captured view in direction (u, v), each -1, 0 or 1 and not both 0, at full or half
 // distance.
 int CapturedView(int u, int v, bool half);

@@ -48,8 +48,8 @@ void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_
   SpreadSamplesOfSlice(in, step, taps, count, out);
 }
 
-void ShiftSlice(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count, size_t plane,
-                int16_t* out, uint32_t* some) {
+void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t count,
+                size_t plane, int16_t* out, uint32_t* some) {
   ShiftPlanes(in, fraction, rows, count, plane, out, some);
 }
 

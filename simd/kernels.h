@@ -47,19 +47,22 @@ inline constexpr int32_t kMaxDisc = 13;
 // kSliceOne is all of. Rows hold four planes side by side, `plane` samples apart: R, G, B and
 // coverage. What kernels write of a row is a multiple of kSliceLanes samples, and as much is read.
 inline constexpr int kSliceBits = 7;
+inline constexpr int16_t kSliceWhole = 1 << kSliceBits;  // a whole pixel's share
 inline constexpr int16_t kSliceOne = 32767;
 inline constexpr size_t kSliceLanes = 16;
 constexpr size_t SliceSamples(size_t count) {
   return (count + kSliceLanes - 1) / kSliceLanes * kSliceLanes;
 }
 
-// A row of the surfaces at each pixel, from the visible one on: disparities, and colours in three
-// planes. Where there are fewer, the disparity of the others is below any slice.
+// A row of the surfaces at each pixel, the nearest first: disparities, colours in three planes, and
+// how much of the pixel the first one covers (kSliceBits), the others being behind it. Where there
+// are fewer, the disparity of the others is below any slice.
 inline constexpr int kSurfaces = 3;
 struct SurfaceRow {
   const int16_t* disparity[kSurfaces];
   const uint8_t* rgb[kSurfaces];
-  size_t plane;  // bytes
+  const uint8_t* share;  // [1, kSliceWhole]
+  size_t plane;          // bytes
 };
 
 // A symmetric filter of 2 * reach + 1 taps with 15 fractional bits: `centre`, `inner` at
@@ -82,12 +85,19 @@ struct SliceCover {
   uint64_t some, all;
 };
 
+// How far before the next pixel of a slice a view lies, in [-1, 0], 15 bits: between two that are
+// covered alike, and where the slice ends. At kSliceStart it is at the pixel itself.
+struct SliceFraction {
+  int16_t inside, edge;
+};
+inline constexpr int16_t kSliceStart = -32768;
+
 // A slice in one view: its first row, `some` of SliceCover from there on, and how far the view lies
-// on the way to the next row, 15 bits.
+// on the way to the next row.
 struct SliceShift {
   const int16_t* samples;
   const uint32_t* some;
-  int16_t fraction;
+  SliceFraction fraction;
 };
 
 // Views above each other. shifts[view * slices + k] is slice k in a view; those of `shown`, the
@@ -182,8 +192,9 @@ struct Kernels {
   void (*find_edges)(const int16_t* near, const int16_t* far, const EdgeLimits& limits,
                      size_t count, int16_t* moved, int16_t* behind, uint8_t* distance);
 
-  // Of the first surface whose disparity is within [low, high], at each pixel n < count: its colour
-  // and kSliceOne; zeros where there is none. count <= 64 kSliceLanes.
+  // Of the surfaces whose disparities are within [low, high], at each pixel n < count: the colour
+  // of the first one times its share, plus that of the next one times the rest, and what both
+  // cover; zeros where there is none. count <= 64 kSliceLanes.
   SliceCover (*select_slice)(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
                              size_t plane, int16_t* out);
 
@@ -192,18 +203,18 @@ struct Kernels {
   void (*spread_slice)(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,
                        int16_t* out);
 
-  // Moves all planes of rows by a fraction of a sample, 15 bits: out[n] = in[n] + fraction
-  // (in[n + 1] - in[n]), halves up. `plane`: of the output. some[row]: what is covered, as in
-  // SliceCover, samples beyond `count` included; count <= 32 kSliceLanes.
-  void (*shift_slice)(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count,
-                      size_t plane, int16_t* out, uint32_t* some);
+  // Moves all planes of rows by a fraction of a sample: out[n] = in[n + 1] + fraction (in[n + 1] -
+  // in[n]), halves up, by fraction.inside where both are covered alike. `plane`: of the output.
+  // some[row]: what is covered, as in SliceCover, samples beyond `count` included; count <= 32
+  // kSliceLanes.
+  void (*shift_slice)(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
+                      size_t count, size_t plane, int16_t* out, uint32_t* some);
 
   // Adds kSliceLanes samples of the views in each row. A slice takes of the view's light what it
   // covers, and gives as much of its colours; of the last light it gives the share that is left (up
   // to a ninth of the weight too much), as if slices beside each other covered different parts of a
-  // pixel. Samples between two rows as by
-  // shift_slice; products (15 bits) are rounded halves up. `plane`: of slices and sums; no sum
-  // exceeds 2^32 - 1.
+  // pixel. Samples between two rows as by shift_slice; products (15 bits) are rounded halves up.
+  // `plane`: of slices and sums; no sum exceeds 2^32 - 1.
   void (*composite)(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums);
 
   // Splits lines 0 .. lines - 1 of `length` positions, greedily from position 0 on; position q of

@@ -111,21 +111,23 @@ SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t 
     const uint64_t bit = uint64_t{1} << (chunk / kSliceLanes);
     cover.all |= bit;
     for (size_t n = chunk; n < chunk + kSliceLanes; ++n) {
-      int surface = 0;
-      while (surface < kSurfaces &&
-             (row.disparity[surface][n] < low || row.disparity[surface][n] > high)) {
-        ++surface;
-      }
-      const bool found = surface < kSurfaces;
+      const auto inside = [&](int surface) {
+        return row.disparity[surface][n] >= low && row.disparity[surface][n] <= high;
+      };
+      int next = 1;
+      while (next < kSurfaces && !inside(next)) ++next;
+      const int front = inside(0) ? row.share[n] : 0;
+      const int behind = next < kSurfaces ? kSliceWhole - front : 0;
+      const bool found = front + behind > 0, all = front + behind == kSliceWhole;
       for (size_t c = 0; c < 3; ++c) {
-        out[c * plane + n] =
-            found ? static_cast<int16_t>(row.rgb[surface][c * row.plane + n] << kSliceBits)
-                  : int16_t{0};
+        const size_t at = c * row.plane + n;
+        const int value = front * row.rgb[0][at] + (behind > 0 ? behind * row.rgb[next][at] : 0);
+        out[c * plane + n] = static_cast<int16_t>(value);
       }
-      out[3 * plane + n] = found ? kSliceOne : int16_t{0};
+      out[3 * plane + n] = static_cast<int16_t>(((front + behind) << 8) - (all ? 1 : 0));
       if (n >= count) continue;
       if (found) cover.some |= bit;
-      if (!found) cover.all &= ~bit;
+      if (!all) cover.all &= ~bit;
     }
   }
   return cover;
@@ -149,18 +151,26 @@ void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_
 }
 
 int16_t Between15(int16_t from, int16_t to, int16_t fraction) {
-  return static_cast<int16_t>(from + Product15(to - from, fraction));
+  return static_cast<int16_t>(to + Product15(to - from, fraction));
 }
 
-void ShiftSlice(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count, size_t plane,
-                int16_t* out, uint32_t* some) {
+// Sample n of a plane, and `next` samples on, of which `covered` is the coverage.
+int16_t Between15(const int16_t* at, const int16_t* covered, size_t next,
+                  const SliceFraction& fraction) {
+  const bool alike = covered[0] == covered[next];
+  return Between15(at[0], at[next], alike ? fraction.inside : fraction.edge);
+}
+
+void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t count,
+                size_t plane, int16_t* out, uint32_t* some) {
   for (size_t row = 0; row < rows; ++row) {
+    const int16_t* covered = in.samples + (4 * row + 3) * in.plane;
     some[row] = 0;
     for (size_t c = 0; c < 4; ++c) {
       const int16_t* from = in.samples + (4 * row + c) * in.plane;
       int16_t* to = out + (4 * row + c) * plane;
       for (size_t n = 0; n < SliceSamples(count); ++n) {
-        to[n] = Between15(from[n], from[n + 1], fraction);
+        to[n] = Between15(from + n, covered + n, 1, fraction);
         if (c == 3 && to[n] != 0) some[row] |= uint32_t{1} << (n / kSliceLanes);
       }
     }
@@ -190,7 +200,7 @@ void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sum
           if (((shift.some[row] | shift.some[row + 1]) & chunk) == 0) continue;
           const int16_t* from = shift.samples + row * row_size + views.column + n;
           const auto value = [&](size_t c) {
-            return Between15(from[c * plane], from[c * plane + row_size], shift.fraction);
+            return Between15(from + c * plane, from + 3 * plane, row_size, shift.fraction);
           };
           const int16_t covered = value(3);
           for (size_t c = 0; c < 4; ++c) {

@@ -66,10 +66,9 @@ HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, int16_t low, int16_t h
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
   const auto vlow = hn::Set(d16, low), vhigh = hn::Set(d16, high);
-  const auto one = hn::Set(d16, kSliceOne);
-  const auto colour = [&](const uint8_t* at) HWY_ATTR {
-    return hn::ShiftLeft<kSliceBits>(hn::PromoteTo(d16, hn::LoadU(d8, at)));
-  };
+  const auto pixel = hn::Set(d16, kSliceWhole);
+  const auto byte = [&](const uint8_t* at)
+                        HWY_ATTR { return hn::PromoteTo(d16, hn::LoadU(d8, at)); };
   const auto inside = [&](const int16_t* at) HWY_ATTR {
     const auto disparity = hn::LoadU(d16, at);
     return hn::Not(hn::Or(hn::Lt(disparity, vlow), hn::Gt(disparity, vhigh)));
@@ -79,21 +78,25 @@ HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, int16_t low, int16_t h
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, bit <<= 1) {
     bool some = false, all = true;
     for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
-      const auto front = inside(row.disparity[0] + n);
-      const auto first = inside(row.disparity[1] + n);
-      const auto second = inside(row.disparity[2] + n);
-      const auto any = hn::Or(hn::Or(front, first), second);
+      const auto next = inside(row.disparity[1] + n), last = inside(row.disparity[2] + n);
+      const auto front = hn::IfThenElseZero(inside(row.disparity[0] + n), byte(row.share + n));
+      const auto behind = hn::IfThenElseZero(hn::Or(next, last), hn::Sub(pixel, front));
+      const auto together = hn::Add(front, behind);
       const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
-      some = some || !hn::AllFalse(d16, hn::And(any, counted));
-      all = all && hn::AllFalse(d16, hn::AndNot(any, counted));
+      const auto found = hn::Ne(together, hn::Zero(d16));
+      some = some || !hn::AllFalse(d16, hn::And(found, counted));
+      all = all && hn::AllFalse(d16, hn::And(hn::Ne(together, pixel), counted));
       int16_t* to = out + n;
       for (size_t c = 0; c < 3; ++c) {
         const size_t at = c * row.plane + n;
-        const auto behind = hn::IfThenElse(first, colour(row.rgb[1] + at), colour(row.rgb[2] + at));
-        const auto value = hn::IfThenElse(front, colour(row.rgb[0] + at), behind);
-        hn::StoreU(hn::IfThenElseZero(any, value), d16, to + c * plane);
+        const auto hidden = hn::IfThenElse(next, byte(row.rgb[1] + at), byte(row.rgb[2] + at));
+        const auto value = hn::Add(hn::Mul(byte(row.rgb[0] + at), front), hn::Mul(hidden, behind));
+        hn::StoreU(value, d16, to + c * plane);
       }
-      hn::StoreU(hn::IfThenElseZero(any, one), d16, to + 3 * plane);
+      // 2^8 of them are kSliceOne, and one more of the whole pixel.
+      const auto covered =
+          hn::Sub(hn::ShiftLeft<8>(together), hn::ShiftRight<kSliceBits>(together));
+      hn::StoreU(covered, d16, to + 3 * plane);
     }
     if (some) cover.some |= bit;
     if (all) cover.all |= bit;
@@ -123,31 +126,32 @@ HWY_INLINE void SpreadSamplesOfSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t s
   }
 }
 
-HWY_INLINE void ShiftPlanes(const SlicePlanes& in, int16_t fraction, size_t rows, size_t count,
-                            size_t plane, int16_t* HWY_RESTRICT out, uint32_t* HWY_RESTRICT some) {
+HWY_INLINE void ShiftPlanes(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
+                            size_t count, size_t plane, int16_t* HWY_RESTRICT out,
+                            uint32_t* HWY_RESTRICT some) {
   const SliceTag d16;
   const size_t lanes = hn::Lanes(d16), whole = SliceSamples(count);
-  const auto weight = hn::Set(d16, fraction), zero = hn::Zero(d16);
+  const auto inside = hn::Set(d16, fraction.inside), edge = hn::Set(d16, fraction.edge);
   const int16_t* HWY_RESTRICT from = in.samples;
-  const auto shift = [&](size_t n) HWY_ATTR {
-    const auto value = hn::LoadU(d16, from + n);
-    const auto step = hn::Sub(hn::LoadU(d16, from + n + 1), value);
-    const auto between = hn::Add(value, hn::MulFixedPoint15(step, weight));
-    hn::StoreU(between, d16, out + n);
-    return between;
-  };
-  for (size_t row = 0; row < rows; ++row) {
-    for (size_t c = 0; c < 3; ++c, from += in.plane, out += plane) {
-      for (size_t n = 0; n < whole; n += lanes) shift(n);
-    }
+  for (size_t row = 0; row < rows; ++row, from += 4 * in.plane, out += 4 * plane) {
     uint32_t chunks = 0;
     for (size_t n = 0; n < whole; n += lanes) {
-      const bool none = hn::AllTrue(d16, hn::Eq(shift(n), zero));
+      const auto covered = hn::LoadU(d16, from + 3 * in.plane + n);
+      const auto next = hn::LoadU(d16, from + 3 * in.plane + n + 1);
+      const auto weight = hn::IfThenElse(hn::Eq(covered, next), inside, edge);
+      const auto between = [&](auto value, auto other) HWY_ATTR {
+        return hn::Add(other, hn::MulFixedPoint15(hn::Sub(other, value), weight));
+      };
+      for (size_t c = 0; c < 3; ++c) {
+        const int16_t* at = from + c * in.plane + n;
+        hn::StoreU(between(hn::LoadU(d16, at), hn::LoadU(d16, at + 1)), d16, out + c * plane + n);
+      }
+      const auto shown = between(covered, next);
+      hn::StoreU(shown, d16, out + 3 * plane + n);
+      const bool none = hn::AllTrue(d16, hn::Eq(shown, hn::Zero(d16)));
       chunks |= static_cast<uint32_t>(none ? 0 : 1) << (n / kSliceLanes);
     }
     some[row] = chunks;
-    from += in.plane;
-    out += plane;
   }
 }
 
@@ -195,14 +199,22 @@ HWY_INLINE void CompositeViews(const SliceViews& views, size_t rows, size_t plan
           const SliceShift& shift = shifts[views.shown[k]];
           if (((shift.some[row] | shift.some[row + 1]) & chunk) == 0) continue;
           const int16_t* at = shift.samples + offset;
-          const auto fraction = hn::Set(d16, shift.fraction);
+          const bool moved = shift.fraction.edge != kSliceStart;
+          auto covered = hn::LoadU(d16, at + 3 * plane);
+          auto fraction = zero;
+          const auto between = [&](auto value, auto next) HWY_ATTR {
+            return hn::Add(next, hn::MulFixedPoint15(hn::Sub(next, value), fraction));
+          };
+          if (moved) {
+            const auto next = hn::LoadU(d16, at + 3 * plane + row_size);
+            fraction = hn::IfThenElse(hn::Eq(covered, next), hn::Set(d16, shift.fraction.inside),
+                                      hn::Set(d16, shift.fraction.edge));
+            covered = between(covered, next);
+          }
           const auto load = [&](size_t c) HWY_ATTR {
             const auto value = hn::LoadU(d16, at + c);
-            if (shift.fraction == 0) return value;
-            const auto step = hn::Sub(hn::LoadU(d16, at + c + row_size), value);
-            return hn::Add(value, hn::MulFixedPoint15(step, fraction));
+            return moved ? between(value, hn::LoadU(d16, at + c + row_size)) : value;
           };
-          const auto covered = load(3 * plane);
           if (hn::AllTrue(d16, hn::Eq(covered, zero))) continue;
           const auto excess = hn::Max(hn::Sub(covered, light), zero);
           if (hn::AllTrue(d16, hn::Eq(excess, zero))) {

@@ -77,9 +77,10 @@ TEST_CASE("analysis: view-interpolation kernels tend to their limits") {
     CHECK(SquaredError(StarKernel(4, 4, kTheta, cells), CellKernel(4, 4, kTheta)) < 1e-12);
     CHECK(StarKernel(11, 4, kTheta, cells).Sum() == doctest::Approx(1));
   }
-  // Where views lie whole pixels apart, boxes on whole pixels are exact.
-  CHECK(SquaredError(StarKernel(8, 4, kTheta, Cells::kWide), CellKernel(8, 4, kTheta)) < 1e-12);
-  CHECK(SquaredError(StarKernel(12, 4, kTheta, Cells::kWide), CellKernel(12, 4, kTheta)) < 1e-12);
+  // Where views lie whole pixels apart, but for the 10^-4 that four are drawn in by, boxes on whole
+  // pixels are exact.
+  CHECK(SquaredError(StarKernel(8, 4, kTheta, Cells::kWide), CellKernel(8, 4, kTheta)) < 1e-9);
+  CHECK(SquaredError(StarKernel(12, 4, kTheta, Cells::kWide), CellKernel(12, 4, kTheta)) < 1e-9);
   for (const double width : {0.1, 0.5, 1.0, 2.5}) {
     double sum = 0;
     for (int n = -4; n <= 4; ++n) sum += Trapezoid(n + 0.3, width);

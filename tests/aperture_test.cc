@@ -149,4 +149,23 @@ TEST_CASE("aperture: the largest N of the configuration") {
   }
 }
 
+TEST_CASE("aperture: cells drawn in by their extent blur as much as the lens, or less") {
+  CHECK(starfocus::CellExtent(0) == 1);
+  CHECK(starfocus::CellExtent(2) == doctest::Approx(0.92836));
+  for (int n = 1; n <= 40; ++n) {
+    const double extent = starfocus::CellExtent(n);
+    double views = 0, squares = 0;  // of the points of all cells, along x
+    ForEachView(n, [&](int i, int, bool inside) {
+      if (!inside) return;
+      views += 1;
+      squares += (i * i + 1.0 / 12) * extent * extent / (n * n);
+    });
+    CAPTURE(n);
+    CHECK(squares / views <= doctest::Approx(0.25));
+    if (extent < 1) CHECK(squares / views == doctest::Approx(0.25));
+    CHECK(extent > 0.7);
+    CHECK(Sampled(n, 0.26 * kPi).aperture.extent == extent);
+  }
+}
+
 }  // namespace

@@ -168,11 +168,11 @@ TEST_CASE("block conformance: largest cells, smallest and single blocks") {
       test::Scene scene = test::EmptyScene(64, 48, 5, 0, 4);
       SetDepth(depth, &scene, &random);
       SetColours(Colours::kRandom, &scene, &random);
-      for (const double focus : {-19.5, -7.0, -2.0}) {
+      for (const double focus : {-25.0, -7.0, -2.0}) {
         for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
           sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
           params.rule = SF_RULE_CELLS;
-          sf_config config = Config(scene, max_layer);
+          sf_config config = Config(scene, max_layer, 32);
           config.timing.block = block_cost;
           all.Add(Check(scene, params, config, &covered));
         }

@@ -68,7 +68,11 @@ struct Cells {
         high = std::max(high, int{cell.high});
       }
     }
-    return double(high - low) / kOne * double(scale.step) / (1 << starfocus::kStepBits) <= 1.5;
+    const double radius = double(scale.step) / (1 << starfocus::kStepBits);
+    const double blur =
+        radius * std::max(std::abs(low - scale.focus), std::abs(high - scale.focus));
+    const double limit = std::clamp(std::floor(blur) / kOne, 0.5, 1.5);
+    return double(high - low) / kOne * radius <= limit;
   }
 
   std::vector<int16_t> disparity;

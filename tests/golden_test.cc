@@ -43,7 +43,7 @@ std::vector<Case> Cases() {
   constexpr Lens kLenses[] = {{SF_MODE_FRAME, -2.03125, 1}, {SF_MODE_FRAME, 3.75, 0.625},
                               {SF_MODE_FRAME, 9.3, 0.9},    {SF_MODE_BENCHMARK, 0.25, 0.75},
                               {SF_MODE_BLOCK, -3.5, 1},     {SF_MODE_BLOCK, 1.125, 0.8},
-                              {SF_MODE_BLUR, 2.5, 1}};
+                              {SF_MODE_BLUR, 2.5, 1},       {SF_MODE_BLOCK, -27.5, 1}};
   std::vector<Case> cases;
   int number = 0;
   for (const int views : {1, 5, 9, 17}) {
@@ -75,7 +75,7 @@ struct Covered {
 // Adds to `covered`.
 std::string Refocus(const Case& one, const test::Scene& scene,
                     const starfocus::simd::Kernels* kernels, Covered* covered) {
-  sf_config config = test::ConfigFor(scene, 16);
+  sf_config config = test::ConfigFor(scene, 40);
   config.largest_block = one.block;
   // The partition depends on them, and each architecture has its own.
   config.gather = one.views != 9;  // views have their share, layers 1 and 2 with them

@@ -167,13 +167,13 @@ TEST_CASE("no heap call in size query, init, refocusing and streaming") {
 
 TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and clock") {
   // In focus on the left, far out of focus on the right.
-  test::Scene scene = test::RandomScene(160, 96, 5, -1, 9, 8);
+  test::Scene scene = test::RandomScene(160, 96, 5, -1, 26, 8);
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
-      scene.Disparity(x, y) = x < 48 ? 0.0f : x < 96 ? 4.0f : 9.0f;
+      scene.Disparity(x, y) = x < 48 ? 0.0f : x < 80 ? 6.0f : 26.0f;
     }
   }
-  sf_config config = test::ConfigFor(scene, 16);
+  sf_config config = test::ConfigFor(scene, 28);
   config.largest_block = 32;
   config.streaming = 1;
   config.gather = 0;            // all three layers

@@ -127,12 +127,11 @@ inline int LayerFrom(double r_min, double radius) {
   return r_min >= 2 * radius ? 2 : r_min >= radius ? 1 : 0;
 }
 
-// (12), or with wide aperture cells only where less can go wrong: layer 2 later, layer 1 later
-// beside silhouettes, which are never rounded to four pixels.
+// (12), or with wide aperture cells only where less can go wrong: both layers later, and
+// silhouettes never rounded to four pixels.
 inline int LayerOf(bool cells, double r_min, bool silhouette) {
   if (!cells) return LayerFrom(r_min, 3);
-  if (silhouette) return r_min < 5 ? 0 : 1;
-  return r_min < 3 ? 0 : r_min < 8 ? 1 : 2;
+  return r_min < 5 ? 0 : r_min < 24 || silhouette ? 1 : 2;
 }
 
 // (9), or what wide aperture cells need.

@@ -25,13 +25,27 @@ LightField Load(const test::Scene& scene) {
   return field;
 }
 
-Lens MakeLens(const sf_params& params, double theta, int n, int layer) {
+// Of cells (squares of 1 / n around the views) as wide that they blur as much as the lens, in the
+// mean square, but no wider than the lens.
+double ExtentOfCells(int n) {
+  double views = 0, squares = 0;
+  for (int j = -n; j <= n; ++j) {
+    for (int i = -n; i <= n; ++i) {
+      if (i * i + j * j > n * n) continue;
+      views += 1;
+      squares += i * i + 1.0 / 12;
+    }
+  }
+  return std::min(1.0, std::sqrt(n * n / 4.0 / (squares / views)));
+}
+
+Lens MakeLens(const sf_params& params, double theta, int n, int layer, double extent = 1) {
   Lens lens;
   lens.n = n;
   lens.radius = params.aperture;
   lens.theta = theta;
   lens.focus = RoundedTo64(params.focus);
-  const auto step = int64_t(params.aperture * (1 << 24));
+  const auto step = int64_t(params.aperture * extent * (1 << 24));
   lens.step = std::max<int64_t>(1, Rounded(2 * step, 1 + layer));
   lens.layer = layer;
   return lens;
@@ -247,15 +261,16 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
   Result result;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   for (const Block& block : blocks) {
-    const Lens lens = MakeLens(params, theta, block.n, block.layer);
+    const bool by_cells = slice_samples > 0 && block.n > 0;
+    const Lens lens =
+        MakeLens(params, theta, block.n, block.layer, by_cells ? ExtentOfCells(block.n) : 1);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
         block.right,      block.top,        block.bottom};
     if (rectangle.width > 0) {
       const Picture& layer = layers[size_t(block.layer)];
-      const Picture rendered = slice_samples > 0 && lens.n > 0
-                                   ? RefocusStack(field, layer, lens, rectangle, slice_samples)
-                                   : RefocusRectangle(field, layer, lens, rectangle);
+      const Picture rendered = by_cells ? RefocusStack(field, layer, lens, rectangle, slice_samples)
+                                        : RefocusRectangle(field, layer, lens, rectangle);
       Put(Finished(block, rendered), block.layer == 0 ? rectangle.x : block.x,
           block.layer == 0 ? rectangle.y : block.y, scene.width, &result);
     }

@@ -41,39 +41,50 @@ double Strength(const Lens& lens, int near, int far) {
   return std::min({1.0, r_near - r_far, 3 - r_far});
 }
 
-// The near part of sharp pixels beside a more defocused surface gives way to what the captured
-// view that looks behind that surface shows of theirs. The outermost pixels reach nothing.
-void Unmix(const LightField& field, const Picture& picture, const Lens& lens, int x0, int y0,
-           Picture* centre) {
-  const auto at = [&](int x, int y) {
-    return picture.At(std::clamp(x0 + x, 0, picture.width - 1),
-                      std::clamp(y0 + y, 0, picture.height - 1));
+}  // namespace
+
+Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step) {
+  const Picture& picture = field.at({0, 0});
+  const auto at = [&](int k) {
+    return picture.At(std::clamp(x + k * side.x, 0, picture.width - 1),
+                      std::clamp(y + k * side.y, 0, picture.height - 1));
   };
+  const int disparity = picture.disparities[at(0)], near = picture.disparities[at(1)];
+  const Colour& mixed = picture.colours[at(0)];
+  const double distance = field.size() == 17 ? 0.5 : 1;
+  Mixed result;
+  result.far = ReadPicture(field, int(-side.x * 2 * distance), int(-side.y * 2 * distance),
+                           x + side.x * distance * disparity / 64.0,
+                           y + side.y * distance * disparity / 64.0);
+  // Whole levels, as captured colours are; halves towards the pixel.
+  for (size_t c = 0; c < 3; ++c) {
+    double& far = result.far[c];
+    far = mixed[c] > far ? std::floor(far + 0.5) : std::ceil(far - 0.5);
+  }
+  result.near = picture.colours[at(std::abs(picture.disparities[at(2)] - near) <= step ? 2 : 1)];
+  result.share = ShareOf(result.near, result.far, mixed);
+  return result;
+}
+
+void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre) {
+  if (lens.n == 0 || lens.layer != 0 || field.size() == 1) return;
+  const Picture before = *centre;
   for (int y = 1; y + 1 < centre->height; ++y) {
     for (int x = 1; x + 1 < centre->width; ++x) {
-      const Colour mixed = picture.colours[at(x, y)];
+      const Colour& mixed = before.colours[centre->At(x, y)];
+      const int disparity = centre->disparities[centre->At(x, y)];
       Colour sum = {0, 0, 0};
       double shares = 0;
-      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-        const int disparity = picture.disparities[at(x, y)];
-        const int near = picture.disparities[at(x + dx, y + dy)];
+      for (const Direction& side : kDirections) {
+        const int near = centre->disparities[centre->At(x + side.x, y + side.y)];
         if (near - disparity <= kSurfaceStep) continue;
         const double strength = Strength(lens, near, disparity);
         if (strength <= 0) continue;
-        const double distance = field.size() == 17 ? 0.5 : 1;
-        Colour far = ReadPicture(field, int(-dx * 2 * distance), int(-dy * 2 * distance),
-                                 x + x0 + dx * distance * disparity / 64.0,
-                                 y + y0 + dy * distance * disparity / 64.0);
-        // Whole levels, as captured colours are; halves towards the pixel.
-        for (size_t c = 0; c < 3; ++c) {
-          far[c] = mixed[c] > far[c] ? std::floor(far[c] + 0.5) : std::ceil(far[c] - 0.5);
-        }
-        const int beyond = picture.disparities[at(x + 2 * dx, y + 2 * dy)];
-        const int pure = std::abs(beyond - near) <= kSurfaceStep ? 2 : 1;
-        const double share = ShareOf(picture.colours[at(x + pure * dx, y + pure * dy)], far, mixed);
-        const double amount = std::min(1.0, 2 * share) * strength;
-        for (size_t c = 0; c < 3; ++c) sum[c] += share * amount * (far[c] - mixed[c]);
-        shares += share;
+        const Mixed mixture =
+            MixtureAt(field, rect.x - rect.left + x, rect.y - rect.top + y, side, kSurfaceStep);
+        const double weight = mixture.share * std::min(1.0, 2 * mixture.share) * strength;
+        for (size_t c = 0; c < 3; ++c) sum[c] += weight * (mixture.far[c] - mixed[c]);
+        shares += mixture.share;
       }
       if (shares == 0) continue;
       for (size_t c = 0; c < 3; ++c) {
@@ -82,8 +93,6 @@ void Unmix(const LightField& field, const Picture& picture, const Lens& lens, in
     }
   }
 }
-
-}  // namespace
 
 // Interpolated at layer 0; at others the picture's pixel nearest to (x, y), weighed with those
 // around it by 1 2 1 or 1 2 3 4 3 2 1 along either axis.
@@ -102,8 +111,7 @@ Colour Read(const LightField& field, int layer, int u2, int v2, double x, double
   return colour;
 }
 
-Picture ExtendedRectangle(const LightField& field, const Picture& layer, const Lens& lens,
-                          const Rectangle& rect) {
+Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
   const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
   Picture centre(rect.left + rect.width + rect.right, rect.top + rect.height + rect.bottom);
   for (int y = 0; y < centre.height; ++y) {
@@ -114,7 +122,6 @@ Picture ExtendedRectangle(const LightField& field, const Picture& layer, const L
       centre.disparities[centre.At(x, y)] = layer.disparities[from];
     }
   }
-  if (lens.n > 0 && lens.layer == 0 && field.size() > 1) Unmix(field, layer, lens, x0, y0, &centre);
   return centre;
 }
 

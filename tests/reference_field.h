@@ -12,10 +12,27 @@ struct Rectangle {
   int left, right, top, bottom;
 };
 
-// A rectangle with its border, from the centre view at the lens's layer, whose edge goes on beyond
-// it; sharp pixels beside a more defocused surface are free of it.
-Picture ExtendedRectangle(const LightField& field, const Picture& layer, const Lens& lens,
-                          const Rectangle& rect);
+struct Direction {
+  int x, y;
+};
+constexpr Direction kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+
+// A rectangle with its border, from the centre view at some layer, whose edge goes on beyond it.
+Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect);
+
+// What a pixel (x, y) of the centre view is a mixture of that lies beside a depth edge, a step of
+// more than `step` (1/64) up to the side: how much of it shows the near surface (0: it is no
+// mixture), and the colours of both. The far one is what the captured view that looks behind the
+// near surface shows of the pixel.
+struct Mixed {
+  double share;
+  Colour near, far;
+};
+Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step);
+
+// At layer 0: in the rectangle's sharp pixels beside a more defocused surface that surface's part
+// gives way to the far colour. The outermost pixels reach nothing.
+void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre);
 
 // The colour at (x, y) of the layer in the captured view at (u2, v2), in halves of a unit.
 Colour Read(const LightField& field, int layer, int u2, int v2, double x, double y);

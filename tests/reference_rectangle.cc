@@ -34,7 +34,9 @@ class Views {
         rect_(rect),
         x_(rect.x - rect.left),
         y_(rect.y - rect.top),
-        centre_(ExtendedRectangle(field, layer, lens, rect)) {}
+        centre_(ExtendedRectangle(layer, rect)) {
+    Unmix(field, lens, rect, &centre_);
+  }
 
   // Adds view (i, j) of the whole rectangle to `sum`.
   void Add(int i, int j, double weight, Picture* sum) {

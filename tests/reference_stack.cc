@@ -13,6 +13,7 @@ namespace {
 struct Surface {
   int disparity;  // 1/64
   Colour colour;
+  double share = 1;  // of the pixel; what is behind it has the rest
 };
 
 // The surfaces at each pixel, the nearest first.
@@ -26,11 +27,6 @@ struct SurfaceMap {
                   size_t(std::clamp(x, 0, width - 1))];
   }
 };
-
-struct Direction {
-  int x, y;
-};
-constexpr Direction kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
 // What the far side of the depth edge in one direction shows behind a pixel.
 struct Background {
@@ -77,6 +73,48 @@ class SurfaceFinder {
 
   std::vector<Surface> SurfacesOf(int x, int y) const {
     std::vector<Surface> surfaces = {{Disparity(x, y), extended_.colours[extended_.At(x, y)]}};
+    AddHidden(x, y, &surfaces);
+    Part(x, y, &surfaces);
+    return surfaces;
+  }
+
+  // On the far side of a depth edge the pixel is parted into the near surface and the far one, by
+  // the mean over the edges beside it, where some view shows them moved against each other.
+  void Part(int x, int y, std::vector<Surface>* surfaces) const {
+    const bool outermost =
+        x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1;
+    if (lens_.layer != 0 || field_.size() == 1 || outermost) return;
+    Surface near = {INT16_MIN, {0, 0, 0}, 0}, far = {Disparity(x, y), {0, 0, 0}};
+    double shares = 0;
+    for (const Direction& side : kDirections) {
+      const int disparity = Disparity(x + side.x, y + side.y);
+      if (!IsEdge(disparity, far.disparity)) continue;
+      const int moved = lens_.Shift(lens_.n, disparity) - lens_.Shift(lens_.n, far.disparity);
+      if (std::abs(moved) <= 64) continue;
+      const Mixed mixed = MixtureAt(field_, x0_ + x, y0_ + y, side, unit_ * 3 / 4);
+      if (mixed.share == 0) continue;
+      for (size_t c = 0; c < 3; ++c) {
+        near.colour[c] += mixed.share * mixed.near[c];
+        far.colour[c] += mixed.share * mixed.far[c];
+      }
+      near.share = std::max(near.share, mixed.share);
+      near.disparity = std::max(near.disparity, disparity);
+      shares += mixed.share;
+    }
+    near.share = std::floor(near.share * 128 + 0.5) / 128;  // as the engine keeps it
+    if (near.share == 0) return;
+    for (size_t c = 0; c < 3; ++c) {
+      near.colour[c] /= shares;
+      far.colour[c] /= shares;
+    }
+    surfaces->front() = far;
+    surfaces->insert(surfaces->begin(), near);
+    if (surfaces->size() > starfocus::simd::kSurfaces) surfaces->pop_back();
+  }
+
+  // Behind the visible surface.
+  void AddHidden(int x, int y, std::vector<Surface>* hidden) const {
+    std::vector<Surface>& surfaces = *hidden;
     std::vector<Background> backgrounds;
     for (const Direction& towards : kDirections) LookBehind(x, y, towards, &backgrounds);
     while (!backgrounds.empty() && surfaces.size() < starfocus::simd::kSurfaces) {
@@ -91,7 +129,6 @@ class SurfaceFinder {
       backgrounds.erase(std::remove_if(backgrounds.begin(), backgrounds.end(), same),
                         backgrounds.end());
     }
-    return surfaces;
   }
 
   // The nearest depth edge in that direction counts, where the pixel hides the edge's far side from
@@ -179,8 +216,10 @@ class RangeFinder {
     int high = INT32_MIN;
     low_ = INT32_MAX;
     for (const auto& surfaces : map.pixels) {
-      low_ = std::min(low_, surfaces[0].disparity);
-      high = std::max(high, surfaces[0].disparity);
+      for (const Surface& surface : surfaces) {
+        low_ = std::min(low_, surface.disparity);
+        high = std::max(high, surface.disparity);
+      }
     }
     while ((high - low_) / bin_ >= starfocus::kSliceBins) bin_ *= 2;
     for (int y = 0; y < map.height; ++y) {
@@ -261,12 +300,6 @@ class RangeFinder {
 // Three colours times coverage, and the coverage.
 using Light = std::array<double, 4>;
 
-Light Between(const Light& from, const Light& to, double fraction) {
-  Light light;
-  for (size_t c = 0; c < 4; ++c) light[c] = from[c] + fraction * (to[c] - from[c]);
-  return light;
-}
-
 // Of a rectangle whose pixel (0, 0) is the refocused one's, reaching beyond it.
 struct Plane {
   int left, top, width, height;  // left, top: pixels beyond the rectangle
@@ -311,9 +344,10 @@ Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
     for (int x = -reach; x < rect.width + reach; ++x) {
       for (const Surface& surface : map.At(x + rect.left, y + rect.top)) {
         if (surface.disparity < range.low || surface.disparity > range.overlap) continue;
-        const Colour& colour = surface.colour;
-        plane.At(x, y) = {colour[0], colour[1], colour[2], 1};
-        break;
+        Light& light = plane.At(x, y);
+        const double part = (1 - light[3]) * surface.share;
+        for (size_t c = 0; c < 3; ++c) light[c] += part * surface.colour[c];
+        light[3] += part;
       }
     }
   }
@@ -322,21 +356,27 @@ Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
   return box > 1 ? Spread(Spread(plane, box, 1, 0), box, 0, 1) : plane;
 }
 
-// How far a view is from whole pixels.
+// How far a view is from whole pixels: where both pixels are covered alike, and elsewhere.
 struct Offset {
   int whole;
-  double fraction;
+  double inside, edge;
+
+  Light Between(const Light& from, const Light& to) const {
+    Light light;
+    const double fraction = std::abs(from[3] - to[3]) < 1e-9 ? inside : edge;
+    for (size_t c = 0; c < 4; ++c) light[c] = from[c] + fraction * (to[c] - from[c]);
+    return light;
+  }
 };
 
 // Of view k along an axis. Where the aperture's cell is narrower than a pixel it covers less of the
 // pixels on either side of it than interpolation.
 Offset OffsetOf(const Lens& lens, int k, int disparity) {
   const int shift = (k < 0 ? -1 : 1) * (k == 0 ? 0 : lens.Shift(std::abs(k), disparity));
-  const double moved = shift / 256.0, whole = std::floor(moved);
+  const double moved = shift / 256.0, whole = std::floor(moved), edge = moved - whole;
   const double cell = std::max(1, std::abs(lens.Shift(1, disparity))) / 256.0;
-  double fraction = moved - whole;
-  if (fraction != 0 && cell < 1) fraction = std::clamp((fraction - 0.5) / cell + 0.5, 0.0, 1.0);
-  return {int(whole), fraction};
+  if (edge == 0 || cell >= 1) return {int(whole), edge, edge};
+  return {int(whole), std::clamp((edge - 0.5) / cell + 0.5, 0.0, 1.0), edge};
 }
 
 // As views of one column show a plane: moved along x, over the rectangle's columns.
@@ -344,8 +384,7 @@ Plane MovedAlongX(const Plane& from, const Offset& offset, int width) {
   Plane to(0, from.top, width, from.height);
   for (int y = -from.top; y < from.height - from.top; ++y) {
     for (int x = 0; x < width; ++x) {
-      to.At(x, y) =
-          Between(from.At(x + offset.whole, y), from.At(x + offset.whole + 1, y), offset.fraction);
+      to.At(x, y) = offset.Between(from.At(x + offset.whole, y), from.At(x + offset.whole + 1, y));
     }
   }
   return to;
@@ -392,8 +431,8 @@ class Stack {
         double light = 1;
         for (size_t k = 0; k < column.size() && light > 0; ++k) {
           const int row = y + offsets[k].whole;
-          Take(Between(column[k].At(x, row), column[k].At(x, row + 1), offsets[k].fraction), weight,
-               &light, &sum_.At(x, y));
+          Take(offsets[k].Between(column[k].At(x, row), column[k].At(x, row + 1)), weight, &light,
+               &sum_.At(x, y));
         }
       }
     }
@@ -418,7 +457,7 @@ class Stack {
 
 Picture RefocusStack(const LightField& field, const Picture& centre, const Lens& lens,
                      const Rectangle& rectangle, size_t slice_samples) {
-  const Picture extended = ExtendedRectangle(field, centre, lens, rectangle);
+  const Picture extended = ExtendedRectangle(centre, rectangle);
   const SurfaceMap map = SurfaceFinder(field, extended, lens, rectangle.x - rectangle.left,
                                        rectangle.y - rectangle.top)
                              .Find();

@@ -263,12 +263,12 @@ TEST_CASE("skips: one pixel of another colour within reach is enough") {
 
 TEST_CASE("skips: layers that no block reads and joins that there are not") {
   const test::Scene scene = OneColourScene(5, 192, 0);
-  sf_config config = test::ConfigFor(scene, 26);
+  sf_config config = test::ConfigFor(scene, 40);
   sf_params params = test::Params(2.25, 1, SF_MODE_BLOCK);  // blur radius 0.25
   const sf_skipped focused = Refocus(scene, config, params, 1).report.skipped;
   CHECK(focused.layer_columns == 2 * 3);
   CHECK(focused.boundaries == 4 * 11 + 3 * 12);
-  params.focus = 18;  // 16: all at layer 2, which layer 1 is made for
+  params.focus = 27;  // 25: all at layer 2, which layer 1 is made for
   const sf_skipped far = Refocus(scene, config, params, 1).report.skipped;
   CHECK(far.layer_columns == 0);
   CHECK(far.boundaries == 4 * 11 + 3 * 12);

@@ -16,8 +16,10 @@ using starfocus::simd::Kernels;
 using starfocus::simd::kPadding;
 using starfocus::simd::kSliceLanes;
 using starfocus::simd::kSliceOne;
+using starfocus::simd::kSliceStart;
 using starfocus::simd::ReferenceKernels;
 using starfocus::simd::SliceCover;
+using starfocus::simd::SliceFraction;
 using starfocus::simd::SliceShift;
 
 // Samples that kernels write and read of a row.
@@ -96,6 +98,9 @@ void TestSelect(const Kernels& kernels) {
       row.disparity[k] = disparity[k].data();
       row.rgb[k] = rgb[k].data();
     }
+    std::vector<uint8_t> share(whole);
+    for (uint8_t& part : share) part = uint8_t(random.Int(0, 1) == 0 ? 128 : random.Int(1, 128));
+    row.share = share.data();
     const int middle = disparity[0][count / 2], range = random.Int(0, 400);
     const auto low = int16_t(middle - range), high = int16_t(middle + range);
     std::vector<int16_t> expected(4 * plane + whole), got = expected;
@@ -108,6 +113,13 @@ void TestSelect(const Kernels& kernels) {
     CHECK(a.all == b.all);
     CHECK(a.some != 0);
   }
+}
+
+// Where views lie: on whole samples, between them alike at edges and inside, or not.
+SliceFraction Fraction(test::Random* random) {
+  const auto edge = int16_t(random->Int(0, 2) == 0 ? kSliceStart : random->Int(-32767, 0));
+  const int inside = random->Int(0, 1) == 0 ? edge : random->Int(-32768, 0);
+  return {edge == kSliceStart ? edge : int16_t(inside), edge};
 }
 
 // Colours and coverage of slices: colours at most as large as the coverage.
@@ -154,7 +166,7 @@ void TestShift(const Kernels& kernels) {
   for (size_t count = 1; count <= 70; ++count) {
     const size_t rows = size_t(random.Int(1, 9)), plane = Whole(count), in_plane = plane + 32;
     const std::vector<int16_t> in = Planes(rows, in_plane, 20, &random);
-    const auto fraction = int16_t(random.Int(0, 2) == 0 ? 0 : random.Int(1, 32767));
+    const SliceFraction fraction = Fraction(&random);
     std::vector<int16_t> expected(4 * rows * plane), got = expected;
     std::vector<uint32_t> some(rows, 9), got_some(rows, 8);
     const starfocus::simd::SlicePlanes from = {in.data() + random.Int(0, 16), in_plane};
@@ -190,7 +202,7 @@ void TestComposite(const Kernels& kernels) {
     std::vector<SliceShift> shifts;
     for (size_t n = 0; n < views * slices; ++n) {
       const size_t row = size_t(random.Int(0, 8));
-      const auto fraction = int16_t(random.Int(0, 2) == 0 ? 0 : random.Int(1, 32767));
+      const SliceFraction fraction = Fraction(&random);
       shifts.push_back(
           {samples[n % slices].data() + 4 * row * plane, some[n % slices].data() + row, fraction});
     }

@@ -44,6 +44,9 @@ struct Scene {
     starfocus::Aperture views;
     views.n = 4;
     const auto grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
+    const auto range = std::minmax_element(planes[0].begin(), planes[0].end());
+    surfaces.low = *range.first;
+    surfaces.high = *range.second;
     std::vector<Slice> slices(kMaxSlices);
     const int count = starfocus::FindSlices(
         {&surfaces, &grid, {24, 24, 16, 16}, bins.data(), least.data(), memory}, slices.data());

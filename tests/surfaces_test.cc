@@ -25,7 +25,7 @@ struct Scene {
   std::vector<uint8_t> centre = std::vector<uint8_t>(3 * kSize * kSize);
   std::vector<uint8_t> side[SF_MAX_VIEWS];
   std::vector<int16_t> planes[3], rows[2];
-  std::vector<uint8_t> colours[3], edges[4], hiding = std::vector<uint8_t>(kSize), rgb;
+  std::vector<uint8_t> colours[3], edges[4], hiding = std::vector<uint8_t>(kSize), share, rgb;
   starfocus::Window window;
   Surfaces surfaces;
   uint64_t read = 0;
@@ -70,6 +70,8 @@ struct Scene {
       surfaces.edges[k] = edges[k].data();
     }
     for (std::vector<int16_t>& row : rows) row.assign(kStride, 0);
+    share.assign(kArea, 0);
+    surfaces.share = share.data();
     surfaces.moved = rows[0].data();
     surfaces.behind = rows[1].data();
     surfaces.hiding = hiding.data();
@@ -115,6 +117,9 @@ TEST_CASE("surfaces: behind a near square lies what captured views see beside it
     CHECK(scene.Behind(5, 5) == -1000);
     CHECK(scene.Behind(13, 20, 2) == -1000);
     CHECK(scene.read > 0);
+    CHECK(scene.share[scene.surfaces.At(12, 20)] == starfocus::simd::kSliceWhole);
+    CHECK(scene.surfaces.low == 64);
+    CHECK(scene.surfaces.high == 5 * 64);
   }
 }
 

@@ -47,7 +47,8 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
 
 // The least r that a layer is used at: (12), or LayerByCells without depth edges.
 double LeastRadius(sf_rule rule, int layer) {
-  return layer == 2 && rule == SF_RULE_CELLS ? 8.0 : 3.0 * layer;
+  if (rule == SF_RULE_PAPER) return 3.0 * layer;
+  return layer == 2 ? 24.0 : 5.0 * layer;
 }
 
 // Measures one series in the direction of `sign`, from the least r that its layer is used at.

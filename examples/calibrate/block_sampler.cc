@@ -10,7 +10,7 @@ namespace starfocus {
 namespace {
 
 // The paper's range of sizes; those from 16 on that are powers of two are also timed at layers.
-constexpr int kSides[] = {8, 16, 24, 32, 48, 64, 96, 128, 160, 184};
+constexpr int kBlockSides[] = {8, 16, 24, 32, 48, 64, 96, 128, 160, 184};
 constexpr int kLayerSides[] = {16, 32, 64, 128, 256};
 constexpr int kViewNumbers[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16};
 constexpr int kMostViews = 16;
@@ -152,7 +152,7 @@ bool BlockSampler::Draw(int pass, const BlockKind& kind, BlockTask* task) {
 
 std::vector<BlockGroup> BlockSampler::Sample(int count) {
   std::vector<BlockGroup> groups;
-  for (int side : kSides) {
+  for (int side : kBlockSides) {
     for (int n : kViewNumbers) groups.push_back({{side, 0, n}, {}});
   }
   for (int side : kLayerSides) {

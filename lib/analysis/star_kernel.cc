@@ -7,6 +7,7 @@
 #include "lib/analysis/aperture.h"
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/view_kernel.h"
+#include "lib/aperture.h"
 #include "lib/fixed.h"
 
 namespace starfocus::analysis {
@@ -50,8 +51,9 @@ void Spread(double x, const Footprint& footprint, const Visit& visit) {
 
 }  // namespace
 
-Kernel StarKernel(double r, int n, double theta, Cells cells) {
+Kernel StarKernel(double radius, int n, double theta, Cells cells) {
   if (n == 0) return IdealKernel(0, theta);
+  const double r = cells == Cells::kNarrow ? radius : radius * CellExtent(n);
   const Footprint footprint = MakeFootprint(r / n, cells);
   Kernel kernel(static_cast<int>(std::ceil(r)) + 1 + footprint.taps.radius());
   const auto place = [&](int i) { return std::round(i * r / n * kShiftOne) / kShiftOne; };

@@ -12,7 +12,8 @@ namespace starfocus::analysis {
 enum class Cells { kNarrow, kWide };
 
 // The kernel of N views at blur radius r, positions and cells rounded to the engine's 1/256 pixel.
-// A wide cell, at most 7 pixels, is linear interpolation after a box of its width on whole pixels.
+// A wide cell, at most 7 pixels, is linear interpolation after a box of its width on whole pixels,
+// and its views are drawn in to CellExtent(n).
 Kernel StarKernel(double r, int n, double theta, Cells cells);
 
 }  // namespace starfocus::analysis

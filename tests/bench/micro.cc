@@ -76,7 +76,8 @@ void Composite(const Kernels& kernels, Buffers* b) {
   const uint8_t shown[2] = {0, 1};
   starfocus::simd::SliceShift shifts[2 * kSliceViews];
   for (size_t n = 0; n < 2 * kSliceViews; ++n) {
-    shifts[n] = {b->in.data() + n % 2 * 8, some, static_cast<int16_t>(3000 * (n / 2))};
+    const auto back = static_cast<int16_t>(-3000 * static_cast<int>(n / 2));
+    shifts[n] = {b->in.data() + n % 2 * 8, some, {back, back}};
   }
   for (size_t column = 0; column < kPlane; column += starfocus::simd::kSliceLanes) {
     kernels.composite({weights, shifts, kSliceViews, 2, shown, 2, column, 0}, kRowsShown, kPlane,
@@ -121,11 +122,12 @@ const Case kCases[] = {
        k.find_edges(b->in.data(), b->in.data() + 1, {48, 6}, kSamples, b->out.data(),
                     b->middles.data(), b->line.data());
      }},
-    {"select_slice", false, 3 * (2 + 3) / 4 + 2,
+    {"select_slice", false, 3 * (2 + 3) / 4 + 1 + 2,
      [](const Kernels& k, Buffers* b) {
        const int16_t* in = b->in.data();
        const uint8_t* rgb = b->bytes.data();
-       const starfocus::simd::SurfaceRow row = {{in, in + 16, in + 32}, {rgb, rgb, rgb}, kPlane};
+       const starfocus::simd::SurfaceRow row = {
+           {in, in + 16, in + 32}, {rgb, rgb, rgb}, rgb, kPlane};
        for (size_t n = 0; n < 6; ++n) {
          benchmark::DoNotOptimize(
              k.select_slice(row, 2000, 9000, kPlane, kPlane, b->out.data() + 4 * n * kPlane));
@@ -138,7 +140,8 @@ const Case kCases[] = {
     {"shift_slice", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
        uint32_t some[6];
-       k.shift_slice({b->in.data(), kPlane}, 9000, 6, kPlane, kPlane, b->out.data(), some);
+       k.shift_slice({b->in.data(), kPlane}, {-9000, -9000}, 6, kPlane, kPlane, b->out.data(),
+                     some);
        benchmark::DoNotOptimize(some);
      }},
     // Of each view and slice.

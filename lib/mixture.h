@@ -1,0 +1,71 @@
+// Boundary pixels: on the far side of a depth edge a captured pixel is a mixture of both surfaces.
+#ifndef STARFOCUS_LIB_MIXTURE_H_
+#define STARFOCUS_LIB_MIXTURE_H_
+
+#include <cstdint>
+
+#include "lib/field.h"
+#include "lib/fixed.h"
+#include "lib/window.h"
+
+namespace starfocus {
+
+// The centre view at layer 0; beyond its edges it repeats them.
+struct CentreView {
+  const Window& window;
+
+  int32_t Disparity(int32_t x, int32_t y) const {
+    return window.disparity.Row(
+        Clamp(y, 0, window.picture_height - 1))[Clamp(x, 0, window.picture_width - 1)];
+  }
+  const uint8_t* Colour(int32_t x, int32_t y) const {
+    return window.centre.Row(Clamp(y, 0, window.height - 1)) +
+           3 * static_cast<ptrdiff_t>(Clamp(x, 0, window.width - 1));
+  }
+};
+
+// A pixel and the depth edge beside it: a step of more than `step` up to `near`, kDisparityBits.
+struct BoundaryPixel {
+  int32_t x, y;
+  const int8_t* side;  // of kSides
+  int32_t disparity, near, step;
+};
+
+// What it is made of: how much of it is the nearer surface (kShareBits), and the colours of both. A
+// share of 0: it is no mixture of them.
+struct Mixture {
+  int32_t share;
+  const uint8_t* near;
+  uint8_t far[3];
+};
+
+// The near colour is that of the pixel behind the edge, or one pixel on where the surface goes on;
+// the far one is read from the captured view beside the centre in which the nearer surface has
+// moved out of the way. The window has such views.
+Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
+
+// Whether some of kAtOnce pixels from `at` on is farther away, by more than `step`, than one beside
+// it, above or below it. `width`: from row to row.
+inline constexpr int32_t kAtOnce = 16;
+bool AnyBesideEdge(const int16_t* at, ptrdiff_t width, int16_t step);
+bool BesideEdge(const int16_t* at, ptrdiff_t width, int16_t step);
+
+// Calls visit(column, row) for those pixels of a field, but for its outermost ones.
+template <class Visit>
+void ForEachBesideEdge(const Field& field, int16_t step, const Visit& visit) {
+  for (int32_t row = 1; row + 1 < field.height; ++row) {
+    const int16_t* disparity = field.Disparity(0, row);
+    for (int32_t from = 1; from + 1 < field.width; from += kAtOnce) {
+      const int32_t end = Min(from + kAtOnce, field.width - 1);
+      const int32_t tested = end - kAtOnce;  // the last ones reach back
+      if (tested > 0 && !AnyBesideEdge(disparity + tested, field.width, step)) continue;
+      for (int32_t column = from; column < end; ++column) {
+        if (BesideEdge(disparity + column, field.width, step)) visit(column, row);
+      }
+    }
+  }
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_MIXTURE_H_
