@@ -26,6 +26,26 @@ struct Candidate {
 };
 constexpr int32_t kUnseen = 256;  // added to the rank
 
+// Whether there is a step of more than `step` between some of kAtOnce + 1 pixels. Most have none.
+// Compilers make vectors of the loop on its own only.
+constexpr int32_t kAtOnce = 16;
+[[gnu::noinline]] bool AnyEdge(const int16_t* row, int16_t step) {
+  int16_t any = 0;
+  for (int32_t k = 0; k < kAtOnce; ++k) {
+    const auto up = static_cast<int16_t>(row[k] + step);
+    const auto down = static_cast<int16_t>(row[k + 1] + step);
+    any |= static_cast<int16_t>(row[k + 1] > up || row[k] > down ? -1 : 0);
+  }
+  return any != 0;
+}
+
+constexpr int32_t kBytes = 8;
+uint64_t Bytes(const uint8_t* at) {
+  uint64_t bytes;
+  std::memcpy(&bytes, at, kBytes);
+  return bytes;
+}
+
 class SurfaceFinder {
  public:
   SurfaceFinder(const simd::Kernels& kernels, const Window& window, const Field& field,
@@ -69,39 +89,40 @@ class SurfaceFinder {
   uint8_t* Edges(int side, int32_t y) const { return surfaces_.edges[side] + surfaces_.At(0, y); }
   const int16_t* Row(int32_t y) const { return surfaces_.disparity[0] + surfaces_.At(0, y); }
 
-  // As find_edges, along a row.
-  struct Walk {
-    int32_t moved = INT16_MAX, behind = 0;
-
-    uint8_t Next(int32_t near, int32_t far, int32_t unit, int32_t step, int32_t farthest) {
-      moved = Min(moved + unit, INT16_MAX);
-      if (near - far > step) {
-        moved = 0;
-        behind = far;
-      }
-      const int32_t depth = near - behind;
-      if (depth <= step || moved > Min(depth, farthest)) return 0;
-      return static_cast<uint8_t>(moved / unit + 1);
-    }
-  };
-
+  // As find_edges along a row, but from edge to edge: there are few.
   void FindEdgesOfRow(int32_t y) {
+    const auto stride = static_cast<size_t>(surfaces_.stride);
+    std::memset(Edges(0, y), 0, stride);
+    std::memset(Edges(1, y), 0, stride);
     const int16_t* row = Row(y);
-    uint8_t *right = Edges(0, y), *left = Edges(1, y);
-    const int32_t last = surfaces_.width - 1;
-    right[last] = left[0] = 0;
-    const int32_t farthest = simd::FarthestEdge(kDisparityBits + window_.layer);
-    Walk to_right, to_left;
-    for (int32_t x = last - 1; x >= 0; --x) {
-      right[x] = to_right.Next(row[x], row[x + 1], unit_, step_, farthest);
+    const int32_t steps = surfaces_.width - 1;
+    for (int32_t from = 0; from < steps; from += kAtOnce) {
+      const int32_t end = Min(from + kAtOnce, steps), tested = Max(end - kAtOnce, 0);
+      if (steps >= kAtOnce && !AnyEdge(row + tested, static_cast<int16_t>(step_))) continue;
+      for (int32_t x = from; x < end; ++x) {
+        if (row[x] - row[x + 1] > step_) FollowEdge(row + x, -1, x + 1, Edges(0, y) + x);
+        if (row[x + 1] - row[x] > step_) FollowEdge(row + x + 1, 1, steps - x, Edges(1, y) + x + 1);
+      }
     }
-    for (int32_t x = 1; x <= last; ++x) {
-      left[x] = to_left.Next(row[x], row[x - 1], unit_, step_, farthest);
+  }
+
+  // Writes the distances of the edge's near pixel, at `near`, and of up to `count` in all that
+  // follow, away from the edge, as far as the next one.
+  void FollowEdge(const int16_t* near, int direction, int32_t count, uint8_t* distance) const {
+    const int32_t far = near[-direction];
+    const int32_t farthest =
+        Min(simd::FarthestEdge(kDisparityBits + window_.layer), surfaces_.high - far);
+    for (int32_t k = 1, moved = 0; k <= count && moved <= farthest; ++k, moved += unit_) {
+      const int32_t depth = *near - far;
+      if (depth > step_ && moved <= depth) *distance = static_cast<uint8_t>(k);
+      if (k < count && near[direction] - *near > step_) return;
+      near += direction;
+      distance += direction;
     }
   }
 
   void StartColumns(int32_t y, int side) {
-    std::memset(Edges(side, y), 0, static_cast<size_t>(surfaces_.width));
+    std::memset(Edges(side, y), 0, static_cast<size_t>(surfaces_.stride));
     for (int32_t x = 0; x < surfaces_.stride; ++x) {
       surfaces_.moved[x] = INT16_MAX;
       surfaces_.behind[x] = 0;
@@ -121,13 +142,20 @@ class SurfaceFinder {
     }
     surfaces_.hiding[y] = 0;
     const uint8_t* const* edges = surfaces_.edges;
-    for (int32_t x = 0; x < surfaces_.width; ++x) {
-      const size_t k = at + static_cast<size_t>(x);
-      if ((edges[0][k] | edges[1][k] | edges[2][k] | edges[3][k]) != 0) FindPixel(x, y);
+    for (int32_t from = 0; from < surfaces_.width; from += kBytes) {
+      const size_t k = at + static_cast<size_t>(from);
+      if ((Bytes(edges[0] + k) | Bytes(edges[1] + k) | Bytes(edges[2] + k) | Bytes(edges[3] + k)) ==
+          0) {
+        continue;
+      }
+      for (int32_t x = from; x < Min(from + kBytes, surfaces_.width); ++x) FindPixel(x, y);
     }
   }
 
   void FindPixel(int32_t x, int32_t y) {
+    const size_t at = surfaces_.At(x, y);
+    const uint8_t* const* edges = surfaces_.edges;
+    if ((edges[0][at] | edges[1][at] | edges[2][at] | edges[3][at]) == 0) return;
     Candidate candidates[4];
     for (int side = 0; side < 4; ++side) candidates[side] = LookBehind(x, y, side);
     int32_t above = INT32_MAX;  // disparities farther than this make another surface

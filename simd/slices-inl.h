@@ -138,6 +138,10 @@ HWY_INLINE void ShiftPlanes(const SlicePlanes& in, const SliceFraction& fraction
     for (size_t n = 0; n < whole; n += lanes) {
       const auto covered = hn::LoadU(d16, from + 3 * in.plane + n);
       const auto next = hn::LoadU(d16, from + 3 * in.plane + n + 1);
+      if (hn::AllTrue(d16, hn::Eq(hn::Or(covered, next), hn::Zero(d16)))) {
+        for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, out + c * plane + n);
+        continue;
+      }
       const auto weight = hn::IfThenElse(hn::Eq(covered, next), inside, edge);
       const auto between = [&](auto value, auto other) HWY_ATTR {
         return hn::Add(other, hn::MulFixedPoint15(hn::Sub(other, value), weight));
