@@ -145,7 +145,9 @@ void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const S
       continue;
     }
     shifted.some[row] = 0;
-    if (some(row - 1) || some(row + 1)) std::memset(out, 0, 4 * plane * sizeof(*out));
+    if (some(row - 2) || some(row - 1) || some(row + 1) || some(row + 2)) {
+      std::memset(out, 0, 4 * plane * sizeof(*out));
+    }
   }
 }
 

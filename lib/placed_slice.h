@@ -62,8 +62,8 @@ struct ShiftedSlice {
   uint32_t* some;
 };
 
-// Writes the rows that are moved by `offset`. Those that are empty and not beside others stay as
-// they are, but are told to be empty.
+// Writes the rows that are moved by `offset`. Those that are empty, as the two above and below
+// them, stay as they are, but are told to be empty.
 void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
                 int32_t width, size_t plane, const ShiftedSlice& shifted);
 

@@ -101,7 +101,8 @@ struct SliceShift {
 };
 
 // Views above each other. shifts[view * slices + k] is slice k in a view; those of `shown`, the
-// nearest first, are seen. Samples of a row count only where it or the next is covered.
+// nearest first, are seen. Where a row is empty and one of the two above or below it is not, it
+// holds zeros; elsewhere anything.
 struct SliceViews {
   const int16_t* weights;  // [0, 2^14), 58000 at most together
   const SliceShift* shifts;
@@ -214,7 +215,7 @@ struct Kernels {
   // covers, and gives as much of its colours; of the last light it gives the share that is left (up
   // to a ninth of the weight too much), as if slices beside each other covered different parts of a
   // pixel. Samples between two rows as by shift_slice; products (15 bits) are rounded halves up.
-  // `plane`: of slices and sums; no sum exceeds 2^32 - 1.
+  // `plane`: of slices and sums; no sum exceeds 2^32 - 1. Two rows beyond the last are read.
   void (*composite)(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums);
 
   // Splits lines 0 .. lines - 1 of `length` positions, greedily from position 0 on; position q of

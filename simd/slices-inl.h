@@ -185,69 +185,94 @@ HWY_INLINE hn::Vec<SliceTag> ShareOfLight(hn::Vec<SliceTag> covered, hn::Vec<Sli
   return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
 }
 
+using SliceVec = hn::Vec<SliceTag>;
+
+// A slice's colours and coverage in a row of a view: `excess` is what it covers of the light more
+// than is left, which it gives nothing for.
+HWY_INLINE void TakeLight(SliceVec weight, SliceVec red, SliceVec green, SliceVec blue,
+                          SliceVec covered, SliceVec excess, SliceVec& light, SliceVec& r,
+                          SliceVec& g, SliceVec& b, SliceVec& a) {
+  const SliceTag d16;
+  const auto taken = hn::Sub(covered, excess);
+  if (!hn::AllTrue(d16, hn::Eq(excess, hn::Zero(d16)))) {
+    const auto over = hn::Gt(covered, light);
+    const auto share = ShareOfLight(covered, light, excess);
+    const auto lit = [&](SliceVec value) HWY_ATTR {
+      return hn::IfThenElse(over, hn::MulFixedPoint15(value, share), value);
+    };
+    red = lit(red);
+    green = lit(green);
+    blue = lit(blue);
+    covered = lit(covered);
+  }
+  light = hn::Sub(light, taken);
+  r = hn::Add(r, hn::MulFixedPoint15(weight, red));
+  g = hn::Add(g, hn::MulFixedPoint15(weight, green));
+  b = hn::Add(b, hn::MulFixedPoint15(weight, blue));
+  a = hn::Add(a, hn::MulFixedPoint15(weight, covered));
+}
+
+// Two rows at once: what lies between them is read for both.
+HWY_INLINE void CompositeRows(const SliceViews& views, size_t row, size_t n, size_t plane,
+                              bool second, uint32_t* HWY_RESTRICT sums) {
+  const SliceTag d16;
+  const size_t row_size = 4 * plane, offset = row * row_size + views.column + n;
+  const uint32_t chunk = uint32_t{1} << (views.column / kSliceLanes);
+  const auto zero = hn::Zero(d16), one = hn::Set(d16, kSliceOne);
+  auto r0 = zero, g0 = zero, b0 = zero, a0 = zero, r1 = zero, g1 = zero, b1 = zero, a1 = zero;
+  const SliceShift* shifts = views.shifts;
+  for (size_t view = 0; view < views.count; ++view, shifts += views.slices) {
+    const auto weight = hn::Set(d16, views.weights[view]);
+    auto light0 = one, light1 = one;
+    for (size_t k = 0; k < views.shown_count; ++k) {
+      const SliceShift& shift = shifts[views.shown[k]];
+      const uint32_t* some = shift.some + row;
+      if (((some[0] | some[1] | some[2]) & chunk) == 0) continue;
+      const int16_t* at = shift.samples + offset;
+      const auto inside = hn::Set(d16, shift.fraction.inside);
+      const auto edge = hn::Set(d16, shift.fraction.edge);
+      const auto load = [&](size_t c) HWY_ATTR { return hn::LoadU(d16, at + c); };
+      const auto between = [&](SliceVec value, SliceVec next, SliceVec fraction) HWY_ATTR {
+        return hn::Add(next, hn::MulFixedPoint15(hn::Sub(next, value), fraction));
+      };
+      const size_t cover = 3 * plane;
+      const auto above = load(cover), middle = load(cover + row_size);
+      const auto below = load(cover + 2 * row_size);
+      const auto fraction0 = hn::IfThenElse(hn::Eq(above, middle), inside, edge);
+      const auto fraction1 = hn::IfThenElse(hn::Eq(middle, below), inside, edge);
+      const auto covered0 = between(above, middle, fraction0);
+      const auto covered1 = between(middle, below, fraction1);
+      if (hn::AllTrue(d16, hn::Eq(hn::Or(covered0, covered1), zero))) continue;
+      const auto red = load(row_size), green = load(plane + row_size);
+      const auto blue = load(2 * plane + row_size);
+      const auto excess0 = hn::Max(hn::Sub(covered0, light0), zero);
+      TakeLight(weight, between(load(0), red, fraction0), between(load(plane), green, fraction0),
+                between(load(2 * plane), blue, fraction0), covered0, excess0, light0, r0, g0, b0,
+                a0);
+      const auto excess1 = hn::Max(hn::Sub(covered1, light1), zero);
+      TakeLight(weight, between(red, load(2 * row_size), fraction1),
+                between(green, load(plane + 2 * row_size), fraction1),
+                between(blue, load(2 * plane + 2 * row_size), fraction1), covered1, excess1, light1,
+                r1, g1, b1, a1);
+      if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
+    }
+  }
+  const auto add = [&](SliceVec r, SliceVec g, SliceVec b, SliceVec a, uint32_t* to) HWY_ATTR {
+    AddSums(r, to);
+    AddSums(g, to + plane);
+    AddSums(b, to + 2 * plane);
+    AddSums(a, to + 3 * plane);
+  };
+  add(r0, g0, b0, a0, sums + n);
+  if (second) add(r1, g1, b1, a1, sums + row_size + n);
+}
+
 HWY_INLINE void CompositeViews(const SliceViews& views, size_t rows, size_t plane,
                                uint32_t* HWY_RESTRICT sums) {
-  const SliceTag d16;
-  const size_t lanes = hn::Lanes(d16), row_size = 4 * plane;
-  for (size_t y = 0; y < rows; ++y, sums += row_size) {
+  const size_t lanes = hn::Lanes(SliceTag());
+  for (size_t y = 0; y < rows; y += 2, sums += 8 * plane) {
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
-      const auto zero = hn::Zero(d16), one = hn::Set(d16, kSliceOne);
-      auto r = zero, g = zero, b = zero, a = zero;
-      const size_t row = views.row + y, offset = row * row_size + views.column + n;
-      const uint32_t chunk = uint32_t{1} << (views.column / kSliceLanes);
-      const SliceShift* shifts = views.shifts;
-      for (size_t view = 0; view < views.count; ++view, shifts += views.slices) {
-        const auto weight = hn::Set(d16, views.weights[view]);
-        auto light = one;
-        for (size_t k = 0; k < views.shown_count; ++k) {
-          const SliceShift& shift = shifts[views.shown[k]];
-          if (((shift.some[row] | shift.some[row + 1]) & chunk) == 0) continue;
-          const int16_t* at = shift.samples + offset;
-          const bool moved = shift.fraction.edge != kSliceStart;
-          auto covered = hn::LoadU(d16, at + 3 * plane);
-          auto fraction = zero;
-          const auto between = [&](auto value, auto next) HWY_ATTR {
-            return hn::Add(next, hn::MulFixedPoint15(hn::Sub(next, value), fraction));
-          };
-          if (moved) {
-            const auto next = hn::LoadU(d16, at + 3 * plane + row_size);
-            fraction = hn::IfThenElse(hn::Eq(covered, next), hn::Set(d16, shift.fraction.inside),
-                                      hn::Set(d16, shift.fraction.edge));
-            covered = between(covered, next);
-          }
-          const auto load = [&](size_t c) HWY_ATTR {
-            const auto value = hn::LoadU(d16, at + c);
-            return moved ? between(value, hn::LoadU(d16, at + c + row_size)) : value;
-          };
-          if (hn::AllTrue(d16, hn::Eq(covered, zero))) continue;
-          const auto excess = hn::Max(hn::Sub(covered, light), zero);
-          if (hn::AllTrue(d16, hn::Eq(excess, zero))) {
-            r = hn::Add(r, hn::MulFixedPoint15(weight, load(0)));
-            g = hn::Add(g, hn::MulFixedPoint15(weight, load(plane)));
-            b = hn::Add(b, hn::MulFixedPoint15(weight, load(2 * plane)));
-            a = hn::Add(a, hn::MulFixedPoint15(weight, covered));
-            light = hn::Sub(light, covered);
-            if (hn::AllTrue(d16, hn::Eq(light, zero))) break;
-            continue;
-          }
-          const auto over = hn::Gt(covered, light);
-          const auto share = ShareOfLight(covered, light, excess);
-          const auto lit = [&](auto value) HWY_ATTR {
-            const auto part = hn::MulFixedPoint15(value, share);
-            return hn::MulFixedPoint15(weight, hn::IfThenElse(over, part, value));
-          };
-          r = hn::Add(r, lit(load(0)));
-          g = hn::Add(g, lit(load(plane)));
-          b = hn::Add(b, lit(load(2 * plane)));
-          a = hn::Add(a, lit(covered));
-          light = hn::Sub(light, hn::Sub(covered, excess));
-          if (hn::AllTrue(d16, hn::Eq(light, zero))) break;
-        }
-      }
-      AddSums(r, sums + n);
-      AddSums(g, sums + plane + n);
-      AddSums(b, sums + 2 * plane + n);
-      AddSums(a, sums + 3 * plane + n);
+      CompositeRows(views, views.row + y, n, plane, y + 1 < rows, sums);
     }
   }
 }
