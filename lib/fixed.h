@@ -17,7 +17,7 @@
 // | wide cell r / N      | int32  | 2^8     | (1, 7], clamped           | -                         |
 // | weight of a view     | int16  | varies  | [0, 14500]                | 13 % below 2^14           |
 // | sums of a column     | uint16 | 2^8     | weights: 58000; 1/9 more  | 1 % below 2^16            |
-// | sums of slices       | uint32 | 2^8     | 58000 a column, N <= 41   | 1600 x                    |
+// | sums of slices       | uint32 | 2^8     | 58000 a column, N <= 41   | 800 x                     |
 // | two disc rows, +-x   | uint16 | 1       | [0, 1020], four pixels    | 64 x; signed multiplies   |
 // | blended pixel        | uint16 | 2^8     | [0, 255], + 1/2           | 0.2 % below 2^16          |
 // | aperture weight      | uint16 | 2^k     | [0, 32767], sum 2^k       | signed 16-bit multiplies  |

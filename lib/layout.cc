@@ -21,16 +21,25 @@ int32_t LargestN(const sf_config& config) {
   return ScaleViews(n, config.n_scale);
 }
 
-// E and R of StarScratch, and the largest N.
-StarScratch TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver) {
-  StarScratch scratch;
+// The largest N by cells.
+int32_t LargestCellN(const sf_config& config) {
+  return ScaleViews(ViewsByCells(config.max_blur + 1), config.n_scale);
+}
+
+// A field and its accumulators; E and R of StarScratch.
+void TakeField(size_t extended, size_t rectangle, int k, Carver* carver, StarScratch* scratch) {
+  const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
+  scratch->field_rgb[k] = carver->Take<uint8_t>(extended * rgb_stride);
+  scratch->field_disparity[k] = carver->Take<int16_t>(extended * extended);
+  scratch->accumulators[k] = carver->Take<uint32_t>(3 * rectangle * rectangle);
+}
+
+// All but the first field; E and R, and the largest N.
+void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver, StarScratch* star) {
+  StarScratch& scratch = *star;
   const size_t area = extended * extended;
   const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
-  for (int k = 0; k < 2; ++k) {
-    scratch.field_rgb[k] = carver->Take<uint8_t>(extended * rgb_stride);
-    scratch.field_disparity[k] = carver->Take<int16_t>(area);
-    scratch.accumulators[k] = carver->Take<uint32_t>(3 * rectangle * rectangle);
-  }
+  TakeField(extended, rectangle, 1, carver, star);
   scratch.diagonal_rgb = carver->Take<uint8_t>(3 * area);
   scratch.diagonal_disparity = carver->Take<int16_t>(area);
   scratch.diagonal_offsets = carver->Take<uint32_t>(2 * extended);
@@ -46,7 +55,6 @@ StarScratch TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* ca
   scratch.columns_rgb = carver->Take<uint8_t>(rectangle * rgb_stride);
   scratch.line_accumulators = carver->Take<uint32_t>(3 * extended);
   scratch.spans = TakeSpans(extended, carver);
-  return scratch;
 }
 
 // E and R of StackScratch, and the largest N; `reach`: pixels beyond a rectangle of slices.
@@ -73,7 +81,9 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
   scratch.plane_samples = kLargeSlices * SliceSize(rectangle, rectangle, reach);
   scratch.planes = carver->Take<int16_t>(scratch.plane_samples);
   scratch.filtered = carver->Take<int16_t>(SliceSize(rectangle, rectangle, reach));
-  scratch.shifted = carver->Take<int16_t>(kMaxSlices * 4 * plane * rows);
+  // Of a slice that reaches as little as any, rows are wider than the rectangle by two chunks.
+  scratch.shifted =
+      carver->Take<int16_t>(scratch.plane_samples * plane / (plane + 2 * simd::kSliceLanes));
   scratch.offsets = carver->Take<SliceOffset>(kMaxSlices * (2 * max_n + 1));
   scratch.shifts = carver->Take<simd::SliceShift>(kMaxSlices * (2 * max_n + 1));
   scratch.weights = carver->Take<int16_t>(2 * max_n + 1);
@@ -86,12 +96,17 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const auto side = static_cast<size_t>(config.largest_block);
   const Reach reach = GetReach(config.max_blur);
   Worker worker = {};
+  const size_t extended = side + 2 * static_cast<size_t>(reach.border);
   const int32_t max_n = Max(LargestN(config), ViewsOfBenchmark(config.max_blur));
-  worker.star = TakeStar(side + 2 * static_cast<size_t>(reach.border), side,
-                         static_cast<size_t>(max_n), carver);
+  TakeField(extended, side, 0, carver, &worker.star);
+  // A picture is refocused by one rule: views are line scans or slices.
+  const size_t views = carver->Mark();
+  TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.star);
+  carver->Reuse(views);
   const auto rim = static_cast<size_t>(reach.border - kCellSize - 2);
-  worker.stack = TakeStack(side + 2 * static_cast<size_t>(reach.border), side, rim + kSliceMargin,
-                           static_cast<size_t>(LargestN(config)), carver);
+  worker.stack = TakeStack(extended, side, rim + kSliceMargin,
+                           static_cast<size_t>(LargestCellN(config)), carver);
+  carver->GoOn();
   worker.resample.line = carver->Take<int16_t>(3 * (side + 16));
   worker.resample.filtered = carver->Take<int16_t>(3 * (side + 16));
   // A rendered rectangle is at most half a block and 4 pixels wide.

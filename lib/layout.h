@@ -24,11 +24,20 @@ class Carver {
     return piece;
   }
 
-  size_t used() const { return used_; }
+  size_t used() const { return used_ > most_ ? used_ : most_; }
+
+  // What is taken from here on shares memory with what was taken since `mark` was.
+  size_t Mark() const { return used_; }
+  void Reuse(size_t mark) {
+    most_ = used();
+    used_ = mark;
+  }
+  // And behind all of it.
+  void GoOn() { used_ = used(); }
 
  private:
   uint8_t* base_;
-  size_t used_ = 0;
+  size_t used_ = 0, most_ = 0;
 };
 
 // Lays out an engine for a valid configuration at `base` (aligned to SF_ALIGNMENT), or counts when

@@ -30,7 +30,7 @@ struct StackScratch {
   int16_t* planes;           // of all slices
   size_t plane_samples;      // that fit
   int16_t* filtered;         // SliceSize(R, R, E - R)
-  int16_t* shifted;          // kMaxSlices 4 E R
+  int16_t* shifted;          // of all slices
   uint32_t* shifted_some;    // kMaxSlices E
   SliceOffset* offsets;      // kMaxSlices (2 N + 1)
   simd::SliceShift* shifts;  // kMaxSlices (2 N + 1)

@@ -247,7 +247,8 @@ typedef struct sf_layer_report {
   uint64_t pixels; /**< picture pixels they cover */
   uint64_t views;  /**< rendered views, summed over the blocks: 1 of a block copied or gathered
                         whole, 0 of one filled */
-  uint64_t rendered_samples; /**< R, G, B samples of those views inside their blocks */
+  uint64_t rendered_samples; /**< R, G, B samples of those views inside their blocks; by cells, of
+                                  every slice that a part of the block sees */
   uint64_t predicted_ps;     /**< by the timing model, picoseconds */
   uint64_t measured_ns;      /**< by sf_params.clock, summed over workers; 0 without one */
 } sf_layer_report;
