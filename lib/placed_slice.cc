@@ -52,8 +52,9 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surface
     from.disparity[k] = surfaces.disparity[k] + at;
     from.rgb[k] = surfaces.rgb[k] + at;
   }
-  const simd::SliceCover cover = kernels.select_slice(
-      from, slice.low, slice.overlap, static_cast<size_t>(last - first), plane, row + first);
+  const simd::SliceCover cover =
+      kernels.select_slice(from, {slice.low, slice.high, slice.overlap},
+                           static_cast<size_t>(last - first), plane, row + first);
   for (int c = 0; c < 4; ++c, row += plane) {
     for (int32_t k = 0; k < first; ++k) row[k] = row[first];
     for (int32_t k = last; k < width; ++k) row[k] = row[last - 1];

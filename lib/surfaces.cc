@@ -156,6 +156,9 @@ class SurfaceFinder {
     const size_t at = surfaces_.At(x, y);
     const uint8_t* const* edges = surfaces_.edges;
     if ((edges[0][at] | edges[1][at] | edges[2][at] | edges[3][at]) == 0) return;
+    const bool end =
+        edges[0][at] == 1 || edges[1][at] == 1 || edges[2][at] == 1 || edges[3][at] == 1;
+    if (end) surfaces_.share[at] = simd::kSliceEnd;
     Candidate candidates[4];
     for (int side = 0; side < 4; ++side) candidates[side] = LookBehind(x, y, side);
     int32_t above = INT32_MAX;  // disparities farther than this make another surface

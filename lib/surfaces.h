@@ -25,7 +25,7 @@ struct Surfaces {
   size_t plane = 0;
   int16_t* disparity[simd::kSurfaces] = {};  // kDisparityBits
   uint8_t* rgb[simd::kSurfaces] = {};
-  uint8_t* share = nullptr;   // of the pixel that surface 0 covers, kSliceBits
+  uint8_t* share = nullptr;   // of the pixel that surface 0 covers, kSliceBits, or kSliceEnd
   int16_t low = 0, high = 0;  // disparities of the field
   // Pixels to the far side of the depth edge to the right, left, bottom and top that a pixel hides;
   // 0: it hides none.

@@ -38,9 +38,9 @@ void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits
   FindEdgesOfRow(near, far, limits, count, moved, behind, distance);
 }
 
-SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t count, size_t plane,
+SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out) {
-  return SelectPixels(row, low, high, count, plane, out);
+  return SelectPixels(row, range, count, plane, out);
 }
 
 void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,

@@ -47,7 +47,8 @@ inline constexpr int32_t kMaxDisc = 13;
 // kSliceOne is all of. Rows hold four planes side by side, `plane` samples apart: R, G, B and
 // coverage. What kernels write of a row is a multiple of kSliceLanes samples, and as much is read.
 inline constexpr int kSliceBits = 7;
-inline constexpr int16_t kSliceWhole = 1 << kSliceBits;  // a whole pixel's share
+inline constexpr int16_t kSliceWhole = 1 << kSliceBits;  // a whole pixel's share,
+inline constexpr uint8_t kSliceEnd = 255;                // also of a pixel where a surface ends
 inline constexpr int16_t kSliceOne = 32767;
 inline constexpr size_t kSliceLanes = 16;
 constexpr size_t SliceSamples(size_t count) {
@@ -61,8 +62,14 @@ inline constexpr int kSurfaces = 3;
 struct SurfaceRow {
   const int16_t* disparity[kSurfaces];
   const uint8_t* rgb[kSurfaces];
-  const uint8_t* share;  // [1, kSliceWhole]
+  const uint8_t* share;  // [1, kSliceWhole] or kSliceEnd
   size_t plane;          // bytes
+};
+
+// Disparities [low, high], and up to `overlap` >= high but for the first surface where it ends or
+// covers a part of the pixel only: in two slices it would cover twice as much.
+struct SliceRange {
+  int16_t low, high, overlap;
 };
 
 // A symmetric filter of 2 * reach + 1 taps with 15 fractional bits: `centre`, `inner` at
@@ -193,10 +200,10 @@ struct Kernels {
   void (*find_edges)(const int16_t* near, const int16_t* far, const EdgeLimits& limits,
                      size_t count, int16_t* moved, int16_t* behind, uint8_t* distance);
 
-  // Of the surfaces whose disparities are within [low, high], at each pixel n < count: the colour
-  // of the first one times its share, plus that of the next one times the rest, and what both
-  // cover; zeros where there is none. count <= 64 kSliceLanes.
-  SliceCover (*select_slice)(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
+  // Of the surfaces within the range, at each pixel n < count: the colour of the first one times
+  // its share, plus that of the next one times the rest, and what both cover; zeros where there is
+  // none. count <= 64 kSliceLanes.
+  SliceCover (*select_slice)(const SurfaceRow& row, const SliceRange& range, size_t count,
                              size_t plane, int16_t* out);
 
   // out[n] = the taps over in[n + k step], |k| <= reach, saturated: each of them times its sample

@@ -104,7 +104,7 @@ void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits
   }
 }
 
-SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t count, size_t plane,
+SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out) {
   SliceCover cover = {0, 0};
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes) {
@@ -112,11 +112,14 @@ SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, size_t 
     cover.all |= bit;
     for (size_t n = chunk; n < chunk + kSliceLanes; ++n) {
       const auto inside = [&](int surface) {
-        return row.disparity[surface][n] >= low && row.disparity[surface][n] <= high;
+        const bool end = surface == 0 && row.share[n] != kSliceWhole;
+        return row.disparity[surface][n] >= range.low &&
+               row.disparity[surface][n] <= (end ? range.high : range.overlap);
       };
       int next = 1;
       while (next < kSurfaces && !inside(next)) ++next;
-      const int front = inside(0) ? row.share[n] : 0;
+      const int share = row.share[n] < kSliceWhole ? row.share[n] : kSliceWhole;
+      const int front = inside(0) ? share : 0;
       const int behind = next < kSurfaces ? kSliceWhole - front : 0;
       const bool found = front + behind > 0, all = front + behind == kSliceWhole;
       for (size_t c = 0; c < 3; ++c) {

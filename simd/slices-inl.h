@@ -60,18 +60,19 @@ HWY_INLINE void FindEdgesOfRow(const int16_t* HWY_RESTRICT near, const int16_t* 
   }
 }
 
-HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, int16_t low, int16_t high, size_t count,
+HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, const SliceRange& range, size_t count,
                                    size_t plane, int16_t* HWY_RESTRICT out) {
   const SliceTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
-  const auto vlow = hn::Set(d16, low), vhigh = hn::Set(d16, high);
+  const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
+  const auto overlap = hn::Set(d16, range.overlap);
   const auto pixel = hn::Set(d16, kSliceWhole);
   const auto byte = [&](const uint8_t* at)
                         HWY_ATTR { return hn::PromoteTo(d16, hn::LoadU(d8, at)); };
   const auto inside = [&](const int16_t* at) HWY_ATTR {
     const auto disparity = hn::LoadU(d16, at);
-    return hn::Not(hn::Or(hn::Lt(disparity, vlow), hn::Gt(disparity, vhigh)));
+    return hn::Not(hn::Or(hn::Lt(disparity, low), hn::Gt(disparity, overlap)));
   };
   SliceCover cover = {0, 0};
   uint64_t bit = 1;
@@ -79,7 +80,11 @@ HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, int16_t low, int16_t h
     bool some = false, all = true;
     for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
       const auto next = inside(row.disparity[1] + n), last = inside(row.disparity[2] + n);
-      const auto front = hn::IfThenElseZero(inside(row.disparity[0] + n), byte(row.share + n));
+      const auto share = byte(row.share + n);
+      const auto twice =
+          hn::And(hn::Ne(share, pixel), hn::Gt(hn::LoadU(d16, row.disparity[0] + n), high));
+      const auto first = hn::AndNot(twice, inside(row.disparity[0] + n));
+      const auto front = hn::IfThenElseZero(first, hn::Min(share, pixel));
       const auto behind = hn::IfThenElseZero(hn::Or(next, last), hn::Sub(pixel, front));
       const auto together = hn::Add(front, behind);
       const auto counted = hn::FirstN(d16, n < count ? count - n : 0);

@@ -13,7 +13,8 @@ namespace {
 struct Surface {
   int disparity;  // 1/64
   Colour colour;
-  double share = 1;  // of the pixel; what is behind it has the rest
+  double share = 1;   // of the pixel; what is behind it has the rest
+  bool ends = false;  // beside a depth edge
 };
 
 // The surfaces at each pixel, the nearest first.
@@ -73,6 +74,10 @@ class SurfaceFinder {
 
   std::vector<Surface> SurfacesOf(int x, int y) const {
     std::vector<Surface> surfaces = {{Disparity(x, y), extended_.colours[extended_.At(x, y)]}};
+    for (const Direction& side : kDirections) {
+      if (!extended_.Inside(x + side.x, y + side.y)) continue;
+      surfaces[0].ends |= IsEdge(surfaces[0].disparity, Disparity(x + side.x, y + side.y));
+    }
     AddHidden(x, y, &surfaces);
     Part(x, y, &surfaces);
     return surfaces;
@@ -343,7 +348,9 @@ Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
   for (int y = -reach; y < rect.height + reach; ++y) {
     for (int x = -reach; x < rect.width + reach; ++x) {
       for (const Surface& surface : map.At(x + rect.left, y + rect.top)) {
-        if (surface.disparity < range.low || surface.disparity > range.overlap) continue;
+        // In two slices the end of a surface would cover twice as much.
+        const int high = surface.share < 1 || surface.ends ? range.high : range.overlap;
+        if (surface.disparity < range.low || surface.disparity > high) continue;
         Light& light = plane.At(x, y);
         const double part = (1 - light[3]) * surface.share;
         for (size_t c = 0; c < 3; ++c) light[c] += part * surface.colour[c];

@@ -99,14 +99,18 @@ void TestSelect(const Kernels& kernels) {
       row.rgb[k] = rgb[k].data();
     }
     std::vector<uint8_t> share(whole);
-    for (uint8_t& part : share) part = uint8_t(random.Int(0, 1) == 0 ? 128 : random.Int(1, 128));
+    for (uint8_t& part : share) {
+      const int kind = random.Int(0, 3);
+      part = uint8_t(kind < 2 ? 128 : kind == 2 ? starfocus::simd::kSliceEnd : random.Int(1, 127));
+    }
     row.share = share.data();
     const int middle = disparity[0][count / 2], range = random.Int(0, 400);
-    const auto low = int16_t(middle - range), high = int16_t(middle + range);
+    const starfocus::simd::SliceRange inside = {
+        int16_t(middle - range), int16_t(middle + range / 2), int16_t(middle + range)};
     std::vector<int16_t> expected(4 * plane + whole), got = expected;
     const SliceCover a =
-        ReferenceKernels().select_slice(row, low, high, count, plane, expected.data());
-    const SliceCover b = kernels.select_slice(row, low, high, count, plane, got.data());
+        ReferenceKernels().select_slice(row, inside, count, plane, expected.data());
+    const SliceCover b = kernels.select_slice(row, inside, count, plane, got.data());
     CAPTURE(count);
     CHECK(got == expected);
     CHECK(a.some == b.some);

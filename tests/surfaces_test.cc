@@ -117,7 +117,9 @@ TEST_CASE("surfaces: behind a near square lies what captured views see beside it
     CHECK(scene.Behind(5, 5) == -1000);
     CHECK(scene.Behind(13, 20, 2) == -1000);
     CHECK(scene.read > 0);
-    CHECK(scene.share[scene.surfaces.At(12, 20)] == starfocus::simd::kSliceWhole);
+    CHECK(scene.share[scene.surfaces.At(12, 20)] == starfocus::simd::kSliceEnd);
+    CHECK(scene.share[scene.surfaces.At(13, 20)] == starfocus::simd::kSliceWhole);
+    CHECK(scene.share[scene.surfaces.At(11, 20)] == starfocus::simd::kSliceWhole);
     CHECK(scene.surfaces.low == 64);
     CHECK(scene.surfaces.high == 5 * 64);
   }

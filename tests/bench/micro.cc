@@ -129,8 +129,8 @@ const Case kCases[] = {
        const starfocus::simd::SurfaceRow row = {
            {in, in + 16, in + 32}, {rgb, rgb, rgb}, rgb, kPlane};
        for (size_t n = 0; n < 6; ++n) {
-         benchmark::DoNotOptimize(
-             k.select_slice(row, 2000, 9000, kPlane, kPlane, b->out.data() + 4 * n * kPlane));
+         benchmark::DoNotOptimize(k.select_slice(row, {2000, 8000, 9000}, kPlane, kPlane,
+                                                 b->out.data() + 4 * n * kPlane));
        }
      }},
     {"spread_slice", false, 2 + 2,
