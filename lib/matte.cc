@@ -5,7 +5,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kLeastMove = kShiftOne / 4;
+constexpr int32_t kLeastMove = kShiftOne;
 
 class MatteFinder {
  public:

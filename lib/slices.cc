@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int kOverlapParts = 6;  // of a slice's range
+constexpr int kOverlapParts = 10;  // of a slice's range
 
 class SliceFinder {
  public:

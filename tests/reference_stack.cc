@@ -95,7 +95,7 @@ class SurfaceFinder {
       const int disparity = Disparity(x + side.x, y + side.y);
       if (!IsEdge(disparity, far.disparity)) continue;
       const int moved = lens_.Shift(lens_.n, disparity) - lens_.Shift(lens_.n, far.disparity);
-      if (std::abs(moved) <= 64) continue;
+      if (std::abs(moved) <= 256) continue;
       const Mixed mixed = MixtureAt(field_, x0_ + x, y0_ + y, side, unit_ * 3 / 4);
       if (mixed.share == 0) continue;
       for (size_t c = 0; c < 3; ++c) {
@@ -275,7 +275,7 @@ class RangeFinder {
       for (; next != occupied_.rend() && *next > *nearest - span; ++next) farthest = next;
       const int low = low_ + *farthest * bin_;
       const int high = std::min(low_ + (*nearest + 1) * bin_ - 1, int{INT16_MAX});
-      const int64_t overlap = std::min<int64_t>(high + span * bin_ / 6, INT16_MAX);
+      const int64_t overlap = std::min<int64_t>(high + span * bin_ / 10, INT16_MAX);
       ranges.push_back({low, high, int(overlap)});
       nearest = next;
     }
