@@ -125,6 +125,7 @@ class Surroundings {
       if ((cells - 1) * kCellSize >= Max(around.reach, reach)) continue;
       around.low = Min(around.low, cell.low);
       around.high = Max(around.high, cell.high);
+      around.widest = Max(around.widest, cell.high - cell.low);
       around.edge = around.edge || cell.r_edge != 0;
     }
   }
@@ -133,11 +134,13 @@ class Surroundings {
     uint32_t smooth = 0;
     for (int32_t k = 0; k < 4; ++k) {
       const Around& around = around_[k];
+      const int32_t range = around.high - around.low;
       const int32_t blur = Max(Abs(around.low - scale.focus), Abs(around.high - scale.focus));
-      const int32_t radius = Min(scale.Radius(blur), kSmoothRange);
-      const int64_t limit = Max(radius, kSharpSmoothRange);
-      const int64_t range = scale.step * (around.high - around.low);
-      if (!around.edge && range <= limit << kStepBits) smooth |= 1u << k;
+      // A slope goes on from cell to cell.
+      const bool step = 2 * around.widest > range;
+      const int32_t limit = step ? Max(scale.Radius(blur), kSharpSmoothRange) : kSmoothRange;
+      const int64_t most = int64_t{Min(limit, kSmoothRange)} << kStepBits;
+      if (!around.edge && scale.step * range <= most) smooth |= 1u << k;
     }
     return smooth;
   }
@@ -147,6 +150,7 @@ class Surroundings {
     int32_t column, row;  // of the cell itself
     int32_t reach;        // of its blur, pixels
     int32_t low = INT32_MAX, high = INT32_MIN;
+    int32_t widest = 0;  // range of a cell
     bool edge = false;
   };
   Around around_[4];

@@ -57,13 +57,14 @@ struct Cells {
 
   // Over all cells of the picture.
   bool IsSmooth(int column, int row) const {
-    int low = INT32_MAX, high = INT32_MIN;
+    int low = INT32_MAX, high = INT32_MIN, widest = 0;
     for (int y = 0; y < grid.rows; ++y) {
       for (int x = 0; x < grid.columns; ++x) {
         const Cell& cell = *grid.At(x, y);
         const int between = std::max(std::abs(x - column), std::abs(y - row)) - 1;
         if (between * kCellSize >= std::max(Reach(cell), Reach(*grid.At(column, row)))) continue;
         if (cell.r_edge > 0) return false;
+        widest = std::max(widest, cell.high - cell.low);
         low = std::min(low, int{cell.low});
         high = std::max(high, int{cell.high});
       }
@@ -71,7 +72,8 @@ struct Cells {
     const double radius = double(scale.step) / (1 << starfocus::kStepBits);
     const double blur =
         radius * std::max(std::abs(low - scale.focus), std::abs(high - scale.focus));
-    const double limit = std::clamp(std::floor(blur) / kOne, 0.5, 1.5);
+    const bool step = 2 * widest > high - low;
+    const double limit = step ? std::clamp(std::floor(blur) / kOne, 0.5, 1.5) : 1.5;
     return double(high - low) / kOne * radius <= limit;
   }
 
