@@ -89,4 +89,22 @@ TEST_CASE("matte: what is no mixture, or nothing looks behind, is blurred as it 
   CHECK(alone[kEdge - 4] > kFar);
 }
 
+TEST_CASE("matte: where slices of a slope overlap, its end still covers a quarter") {
+  test::Scene scene = Mixed(0, -8, 5);
+  scene.disparity_min = -8;
+  scene.disparity_max = 1;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = kEdge; x < kWidth; ++x) scene.Disparity(x, y) = float(-0.6 + 1.2 * y / kHeight);
+  }
+  sf_config config = test::ConfigFor(scene, 32);
+  config.gather = 0;
+  config.max_layer = 0;
+  const test::Refocused picture =
+      test::RefocusScene(scene, config, test::Params(0, 1, SF_MODE_BLOCK));
+  for (int y = 2; y < kHeight - 2; ++y) {
+    CAPTURE(y);
+    CHECK(std::abs(picture.rgb[size_t(3 * (y * kWidth + kEdge - 1))] - 90) <= 16);
+  }
+}
+
 }  // namespace

@@ -100,4 +100,27 @@ TEST_CASE("stack: adjacent slices of one slope neither leak nor cover each other
   }
 }
 
+TEST_CASE("stack: where slices of a slope overlap, its end covers no more than elsewhere") {
+  test::Scene scene = HalfPlanes(7, 0, 5);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kEdge; ++x) scene.Disparity(x, y) = 3 + float(y) / kHeight;
+  }
+  sf_config config = test::ConfigFor(scene, 32);
+  config.gather = 0;
+  config.max_layer = 0;
+  const test::Refocused picture =
+      test::RefocusScene(scene, config, test::Params(0, 1, SF_MODE_BLOCK));
+  double least = kWidth, most = 0;
+  for (int y = 8; y < kHeight - 8; ++y) {
+    double light = 0;
+    for (int x = 0; x < kWidth; ++x) light += picture.rgb[size_t(3 * (y * kWidth + x))] / 255.0;
+    least = std::min(least, light);
+    most = std::max(most, light);
+  }
+  CAPTURE(least);
+  CAPTURE(most);
+  CHECK(std::abs(least - kEdge) < 0.06);
+  CHECK(std::abs(most - kEdge) < 0.06);
+}
+
 }  // namespace
