@@ -94,7 +94,10 @@ HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, const SliceRange& rang
       int16_t* to = out + n;
       for (size_t c = 0; c < 3; ++c) {
         const size_t at = c * row.plane + n;
-        const auto hidden = hn::IfThenElse(next, byte(row.rgb[1] + at), byte(row.rgb[2] + at));
+        // Where there is no surface its colours were never written; valgrind follows masks, but not
+        // products with zero.
+        const auto deepest = hn::IfThenElseZero(last, byte(row.rgb[2] + at));
+        const auto hidden = hn::IfThenElse(next, byte(row.rgb[1] + at), deepest);
         const auto value = hn::Add(hn::Mul(byte(row.rgb[0] + at), front), hn::Mul(hidden, behind));
         hn::StoreU(value, d16, to + c * plane);
       }
