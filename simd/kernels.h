@@ -47,8 +47,11 @@ inline constexpr int32_t kMaxDisc = 13;
 // kSliceOne is all of. Rows hold four planes side by side, `plane` samples apart: R, G, B and
 // coverage. What kernels write of a row is a multiple of kSliceLanes samples, and as much is read.
 inline constexpr int kSliceBits = 7;
-inline constexpr int16_t kSliceWhole = 1 << kSliceBits;  // a whole pixel's share,
-inline constexpr uint8_t kSliceEnd = 255;                // also of a pixel where a surface ends
+
+// Shares of a pixel that a surface covers: all of it, and all of it where the surface ends beside.
+inline constexpr int16_t kSliceWhole = 1 << kSliceBits;
+inline constexpr uint8_t kSliceEnd = 255;
+
 inline constexpr int16_t kSliceOne = 32767;
 inline constexpr size_t kSliceLanes = 16;
 constexpr size_t SliceSamples(size_t count) {
