@@ -138,7 +138,7 @@ class Surroundings {
       const int32_t blur = Max(Abs(around.low - scale.focus), Abs(around.high - scale.focus));
       // A slope goes on from cell to cell.
       const bool step = 2 * around.widest > range;
-      const int32_t limit = step ? Max(scale.Radius(blur), kSharpSmoothRange) : kSmoothRange;
+      const int32_t limit = step ? Max(scale.Radius(blur) / 2, kSharpSmoothRange) : kSmoothRange;
       const int64_t most = int64_t{Min(limit, kSmoothRange)} << kStepBits;
       if (!around.edge && scale.step * range <= most) smooth |= 1u << k;
     }

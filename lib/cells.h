@@ -94,8 +94,8 @@ inline constexpr int32_t kLayerMargin[3] = {0, 4, 12};
 // A cell is smooth when it can be gathered (lib/gather.h): one surface is all that lies within
 // reach of its pixels or reaches them, and the blur there, nearer than the focus counted as
 // negative, differs by at most this, kDisparityBits. Where most of that is within one cell, it is
-// a step: then by no more than the largest blur or kSharpSmoothRange, since the kernel of the
-// middle may be sharp where both sides are not.
+// a step: then by no more than half the largest blur or kSharpSmoothRange, since the kernel of
+// the middle may be sharp where one side is not.
 inline constexpr int32_t kSmoothRange = (3 << kDisparityBits) / 2;
 inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
 

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "lib/beyond.h"
+
 namespace starfocus {
 
 namespace {
@@ -49,6 +51,7 @@ void LoadField(const Window& window, const Rect& rect, const Border& border, Fie
     }
     RepeatEdges(first, last, field->width, rgb, disparity);
   }
+  LookBeyond(window, field);
 }
 
 void TransposePixels(const simd::Kernels& kernels, const Field& from, Field* to) {

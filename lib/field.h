@@ -25,7 +25,8 @@ constexpr size_t RgbStride(int32_t width) {
   return 3 * static_cast<size_t>(width) + simd::kTransposePadding;
 }
 
-// A copy of the extended rectangle; pixels outside the picture repeat its edge. Positions are
+// A copy of the extended rectangle; pixels outside the picture repeat its edge, or show what side
+// views see there (lib/beyond.h). Positions are
 // oriented: in a transposed field x runs down the picture and y across it.
 struct Field {
   bool transposed = false;

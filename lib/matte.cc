@@ -83,7 +83,7 @@ class MatteFinder {
 void FindMatte(const Window& window, const ViewGrid& grid, const Field& field, Surfaces* surfaces) {
   if (window.layer != 0 || window.views == 1) return;
   MatteFinder finder(window, grid, field, surfaces);
-  ForEachBesideEdge(field, kDepthEdge,
+  ForEachBesideEdge(window, field, kDepthEdge,
                     [&](int32_t column, int32_t row) { finder.FindPixel(column, row); });
 }
 

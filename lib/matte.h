@@ -12,8 +12,9 @@ namespace starfocus {
 // Parts what the centre view mixes on the far side of depth edges: there the nearer surface covers
 // its share of the pixel, and behind it lies the far one in its own colour. Only where views show
 // the two moved against each other by more than a pixel, only at layer 0 (what is subsampled is
-// blurred enough), and not the field's outermost pixels, which splat into no rectangle. `surfaces`
-// as FindSurfaces left them; of four surfaces the farthest is dropped.
+// blurred enough), and neither what lies beyond the picture nor the field's outermost pixels, which
+// splat into no rectangle. `surfaces` as FindSurfaces left them; of four surfaces the farthest is
+// dropped.
 void FindMatte(const Window& window, const ViewGrid& grid, const Field& field, Surfaces* surfaces);
 
 }  // namespace starfocus

@@ -50,13 +50,16 @@ inline constexpr int32_t kAtOnce = 16;
 bool AnyBesideEdge(const int16_t* at, ptrdiff_t width, int16_t step);
 bool BesideEdge(const int16_t* at, ptrdiff_t width, int16_t step);
 
-// Calls visit(column, row) for those pixels of a field, but for its outermost ones.
+// Calls visit(column, row) for those pixels of a field at layer 0 that lie in the picture, but for
+// the field's outermost ones.
 template <class Visit>
-void ForEachBesideEdge(const Field& field, int16_t step, const Visit& visit) {
-  for (int32_t row = 1; row + 1 < field.height; ++row) {
+void ForEachBesideEdge(const Window& window, const Field& field, int16_t step, const Visit& visit) {
+  const int32_t left = Max(1, -field.x), right = Min(field.width - 1, window.width - field.x);
+  const int32_t top = Max(1, -field.y), bottom = Min(field.height - 1, window.height - field.y);
+  for (int32_t row = top; row < bottom; ++row) {
     const int16_t* disparity = field.Disparity(0, row);
-    for (int32_t from = 1; from + 1 < field.width; from += kAtOnce) {
-      const int32_t end = Min(from + kAtOnce, field.width - 1);
+    for (int32_t from = left; from < right; from += kAtOnce) {
+      const int32_t end = Min(from + kAtOnce, right);
       const int32_t tested = end - kAtOnce;  // the last ones reach back
       if (tested > 0 && !AnyBesideEdge(disparity + tested, field.width, step)) continue;
       for (int32_t column = from; column < end; ++column) {

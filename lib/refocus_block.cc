@@ -73,6 +73,24 @@ const Aperture& ApertureOf(const EngineState& engine, const Block& block) {
   return IsBlockMode(engine) ? engine.apertures[block.n] : engine.aperture;
 }
 
+// A window that counts for a worker what is read of its side views.
+class Counting {
+ public:
+  Counting(const Window& window, Worker* worker) : window_(window), worker_(*worker) {
+    window_.side_colours = &colours_;
+  }
+  ~Counting() { worker_.side_bytes += colours_ * static_cast<uint64_t>(CapturedBytes(window_)); }
+  Counting(const Counting&) = delete;
+  Counting& operator=(const Counting&) = delete;
+
+  const Window& window() const { return window_; }
+
+ private:
+  Window window_;
+  Worker& worker_;
+  uint64_t colours_ = 0;
+};
+
 // What of a block is rendered.
 struct Rendered {
   uint64_t views, samples;
@@ -81,10 +99,8 @@ struct Rendered {
 // Renders the block's views: by cells as a stack of slices, whose samples all count.
 Rendered Render(const EngineState& engine, const Block& block, StarJob job,
                 const Plane<uint8_t>& out, Worker* worker) {
-  uint64_t side_colours = 0;
-  Window counting = *job.window;
-  counting.side_colours = &side_colours;
-  job.window = &counting;
+  const Counting counting(*job.window, worker);
+  job.window = &counting.window();
   uint64_t samples = Samples(job.rect);
   if (UsesCells(engine)) {
     Field field;
@@ -95,7 +111,6 @@ Rendered Render(const EngineState& engine, const Block& block, StarJob job,
   } else {
     RefocusRectangle(job, &worker->star);
   }
-  worker->side_bytes += side_colours * static_cast<uint64_t>(CapturedBytes(counting));
   const int shift = job.grid->aperture.sum_bits;
   if (block.layer == 0) {
     FinishPicture(*engine.kernels, job.rect, shift, out, *worker);
@@ -111,7 +126,8 @@ void GatherCells(const EngineState& engine, const Block& block, const Plane<uint
   Field field;
   field.rgb = worker->star.field_rgb[0];
   field.disparity = worker->star.field_disparity[0];
-  const GatherJob job = {&engine.windows[0], &engine.cells,       &engine.plan.gathered,
+  const Counting counting(engine.windows[0], worker);
+  const GatherJob job = {&counting.window(), &engine.cells,       &engine.plan.gathered,
                          engine.scale,       engine.blur_kernels, engine.kernels,
                          block.rect};
   worker->gathered_pixels += GatherRectangle(job, &field, At(out, block.rect, 0), out.stride);

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "lib/beyond.h"
+
 namespace starfocus {
 namespace {
 
@@ -20,14 +22,18 @@ struct Part {
   int32_t left, right, top, bottom;  // exclusive at the right and the bottom
 };
 
-Part PartOf(const StarJob& job) {
-  const Window& window = *job.window;
+Rect Extended(const StarJob& job) {
   const Rect& rect = job.rect;
   const Border& border = job.border;
-  return {Clamp(rect.x - border.left, 0, window.width - 1),
-          Clamp(rect.x + rect.width + border.right, 1, window.width),
-          Clamp(rect.y - border.top, 0, window.height - 1),
-          Clamp(rect.y + rect.height + border.bottom, 1, window.height)};
+  return {rect.x - border.left, rect.y - border.top, border.left + rect.width + border.right,
+          border.top + rect.height + border.bottom};
+}
+
+Part PartOf(const StarJob& job) {
+  const Window& window = *job.window;
+  const Rect rect = Extended(job);
+  return {Clamp(rect.x, 0, window.width - 1), Clamp(rect.x + rect.width, 1, window.width),
+          Clamp(rect.y, 0, window.height - 1), Clamp(rect.y + rect.height, 1, window.height)};
 }
 
 // Disparities of a row of the layer, every 2^L-th of the picture's.
@@ -89,7 +95,8 @@ const uint8_t* OneColour(const StarJob& job) {
     if (std::memcmp(row, row + 3, bytes - 3) != 0) return nullptr;
   }
   // The centre view alone fills holes with what lies around them.
-  return window.views == 1 || IsGentle(window, part) ? colour : nullptr;
+  if (window.views == 1) return colour;
+  return IsGentle(window, part) && ShowsBeyond(window, Extended(job), colour) ? colour : nullptr;
 }
 
 }  // namespace starfocus

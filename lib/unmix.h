@@ -12,8 +12,9 @@ namespace starfocus {
 // defocused one and they are sharp: its part of them would stay sharp and outline an object that
 // has vanished. What the far surface looks like there is read from the captured view beside the
 // centre in which the nearer one has moved out of the way; a pixel that is no mixture of the two
-// colours stays as it is. The field is as LoadField left it; only its outermost pixels, which splat
-// into no rectangle, are not looked at. Layer 0 only: what is subsampled is blurred enough.
+// colours stays as it is. The field is as LoadField left it; only what lies beyond the picture
+// and its outermost pixels, which splat into no rectangle, are not looked at. Layer 0 only: what is
+// subsampled is blurred enough.
 void UnmixEdges(const Window& window, const ViewGrid& grid, Field* field);
 
 }  // namespace starfocus

@@ -73,7 +73,7 @@ struct Cells {
     const double blur =
         radius * std::max(std::abs(low - scale.focus), std::abs(high - scale.focus));
     const bool step = 2 * widest > high - low;
-    const double limit = step ? std::clamp(std::floor(blur) / kOne, 0.5, 1.5) : 1.5;
+    const double limit = step ? std::clamp(std::floor(std::floor(blur) / 2) / kOne, 0.5, 1.5) : 1.5;
     return double(high - low) / kOne * radius <= limit;
   }
 

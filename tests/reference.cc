@@ -221,8 +221,9 @@ Result Refocus(const test::Scene& scene, const sf_params& params, double theta, 
 
 namespace {
 
-// Every pixel of the cell from the whole picture, whose edge goes on for ever.
-Picture Gather(const Picture& picture, const GatheredCell& cell, const Lens& lens) {
+// Every pixel of the cell, from what lies around it.
+Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& lens) {
+  const Picture& picture = field.at({0, 0});
   int low = INT32_MAX, high = INT32_MIN;
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 8; ++x) {
@@ -235,6 +236,10 @@ Picture Gather(const Picture& picture, const GatheredCell& cell, const Lens& len
   const int distance = std::abs((low + high) / 2 - lens.focus);
   const BlurKernel kernel =
       MakeBlurKernel(NearestRadius(int(std::floor(lens.radius * distance))), lens.theta);
+  const Rectangle rectangle = {cell.x,      cell.y,      cell.width,  cell.height,
+                               kernel.size, kernel.size, kernel.size, kernel.size};
+  Picture extended = ExtendedRectangle(picture, rectangle);
+  LookBeyond(field, picture, 0, rectangle, &extended);
   Picture to(cell.width, cell.height);
   for (int y = 0; y < cell.height; ++y) {
     for (int x = 0; x < cell.width; ++x) {
@@ -242,8 +247,7 @@ Picture Gather(const Picture& picture, const GatheredCell& cell, const Lens& len
       for (int m = -kernel.size; m <= kernel.size; ++m) {
         for (int n = -kernel.size; n <= kernel.size; ++n) {
           const Colour& from =
-              picture.colours[picture.At(std::clamp(cell.x + x + n, 0, picture.width - 1),
-                                         std::clamp(cell.y + y + m, 0, picture.height - 1))];
+              extended.colours[extended.At(x + n + kernel.size, y + m + kernel.size)];
           for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * from[c];
         }
       }
@@ -275,7 +279,7 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
           block.layer == 0 ? rectangle.y : block.y, scene.width, &result);
     }
     for (const GatheredCell& cell : block.gathered) {
-      Put(Gather(layers[0], cell, lens), cell.x, cell.y, scene.width, &result);
+      Put(Gather(field, cell, lens), cell.x, cell.y, scene.width, &result);
     }
   }
   return result.rgb;

@@ -73,6 +73,7 @@ void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Pic
     for (int x = 1; x + 1 < centre->width; ++x) {
       const Colour& mixed = before.colours[centre->At(x, y)];
       const int disparity = centre->disparities[centre->At(x, y)];
+      if (!field.at({0, 0}).Inside(rect.x - rect.left + x, rect.y - rect.top + y)) continue;
       Colour sum = {0, 0, 0};
       double shares = 0;
       for (const Direction& side : kDirections) {
@@ -123,6 +124,54 @@ Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
     }
   }
   return centre;
+}
+
+namespace {
+
+// How many pixels beyond the edge at (x, y) of the layer the captured view shows, `disparity` being
+// the edge's: whole ones, none from the first on that lies under something nearer.
+int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction& out,
+               int disparity) {
+  const double unit = 64 << layer;
+  int seen = int(std::abs(disparity) / unit + 1.0 / 512);
+  if (disparity >= 0) return seen;
+  for (int m = 0; m < 32 >> layer; ++m) {
+    const int column = (x - m * out.x) * (1 << layer), row = (y - m * out.y) * (1 << layer);
+    if (!picture.Inside(column, row)) break;
+    const double nearer = (picture.disparities[picture.At(column, row)] - disparity) / unit;
+    if (nearer <= 0.5 || nearer <= m) continue;
+    for (int k = 1; k <= seen; ++k) {
+      if (std::fabs(nearer - m - k) < 0.75) seen = k - 1;
+    }
+  }
+  return seen;
+}
+
+}  // namespace
+
+void LookBeyond(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
+                Picture* extended) {
+  if (field.size() == 1) return;
+  const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
+  const int right = ((picture.width - 1) >> layer), bottom = ((picture.height - 1) >> layer);
+  for (int row = 0; row < extended->height; ++row) {
+    for (int column = 0; column < extended->width; ++column) {
+      const int x = x0 + column, y = y0 + row;
+      const Direction out = {(x > right) - (x < 0), (y > bottom) - (y < 0)};
+      if ((out.x == 0) == (out.y == 0)) continue;  // inside, or beyond a corner
+      const int edge_x = std::clamp(x, 0, right), edge_y = std::clamp(y, 0, bottom);
+      const int disparity =
+          picture.disparities[picture.At(edge_x * (1 << layer), edge_y * (1 << layer))];
+      const int seen = SeenBeyond(picture, layer, edge_x, edge_y, out, disparity);
+      const int k = std::min(seen, std::abs(x - edge_x) + std::abs(y - edge_y));
+      if (seen == 0) continue;
+      const double moved = std::abs(double(Rounded(int64_t{8} * disparity, 1 + layer)) / 256);
+      const int sign = disparity < 0 ? -2 : 2;
+      extended->colours[extended->At(column, row)] =
+          Read(field, layer, sign * out.x, sign * out.y, edge_x + out.x * (k - moved),
+               edge_y + out.y * (k - moved));
+    }
+  }
 }
 
 }  // namespace reference

@@ -89,6 +89,7 @@ class SurfaceFinder {
     const bool outermost =
         x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1;
     if (lens_.layer != 0 || field_.size() == 1 || outermost) return;
+    if (!field_.at({0, 0}).Inside(x0_ + x, y0_ + y)) return;
     Surface near = {INT16_MIN, {0, 0, 0}, 0}, far = {Disparity(x, y), {0, 0, 0}};
     double shares = 0;
     for (const Direction& side : kDirections) {
@@ -464,7 +465,8 @@ class Stack {
 
 Picture RefocusStack(const LightField& field, const Picture& centre, const Lens& lens,
                      const Rectangle& rectangle, size_t slice_samples) {
-  const Picture extended = ExtendedRectangle(centre, rectangle);
+  Picture extended = ExtendedRectangle(centre, rectangle);
+  LookBeyond(field, field.at({0, 0}), lens.layer, rectangle, &extended);
   const SurfaceMap map = SurfaceFinder(field, extended, lens, rectangle.x - rectangle.left,
                                        rectangle.y - rectangle.top)
                              .Find();

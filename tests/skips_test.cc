@@ -162,11 +162,17 @@ TEST_CASE("skips: with N by (9) shifts of up to a third of a pixel move nothing,
   }
 }
 
-// One colour in the centre view, another in the side views, and an edge or a slope.
+// One colour in the centre view, another in the side views but where they look beyond the picture,
+// and an edge or a slope.
 test::Scene OneColourScene(int views, int edge, float step) {
   test::Scene scene = test::EmptyScene(192, 64, views, -8, 8);
   for (size_t view = 0; view < scene.pictures.size(); ++view) {
-    std::fill(scene.pictures[view].begin(), scene.pictures[view].end(), view == 0 ? 40 : 200);
+    std::fill(scene.pictures[view].begin(), scene.pictures[view].end(), uint8_t{40});
+    for (int y = 9; y < scene.height - 9 && view > 0; ++y) {
+      for (int x = 9; x < scene.width - 9; ++x) {
+        std::fill_n(scene.Pixel(int(view), x, y), 3, uint8_t{200});
+      }
+    }
   }
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
@@ -175,6 +181,10 @@ test::Scene OneColourScene(int views, int edge, float step) {
     }
   }
   return scene;
+}
+
+bool HasOtherColour(const Refocused& picture) {
+  return std::any_of(picture.rgb.begin(), picture.rgb.end(), [](uint8_t b) { return b != 40; });
 }
 
 TEST_CASE("skips: blocks of one colour are filled, but not where side views show another") {
@@ -199,11 +209,8 @@ TEST_CASE("skips: blocks of one colour are filled, but not where side views show
       const bool same = picture.rgb == Refocus(scene, config, params, 0).rgb;
       CHECK(same);
       const bool side = one.views > 1 && one.step == 6;
-      CHECK((picture.report.side_bytes > 0) == side);
-      if (side) {
-        CHECK(
-            std::any_of(picture.rgb.begin(), picture.rgb.end(), [](uint8_t b) { return b != 40; }));
-      }
+      if (side) CHECK(picture.report.side_bytes > 0);
+      CHECK(HasOtherColour(picture) == side);
     }
   }
 }
@@ -241,7 +248,7 @@ TEST_CASE("skips: the steepest surface that counts as without holes has none") {
     const Refocused whole = Refocus(scene, config, params, 0);
     const bool same = picture.rgb == whole.rgb;
     CHECK(same);
-    if (params.mode == SF_MODE_FRAME) CHECK(whole.report.side_bytes == 0);
+    if (params.mode == SF_MODE_FRAME) CHECK(!HasOtherColour(whole));
   }
 }
 
@@ -258,6 +265,25 @@ TEST_CASE("skips: one pixel of another colour within reach is enough") {
       spotted.Pixel(0, x, 30)[1] = 41;
       CHECK(Refocus(spotted, config, params, 1).report.skipped.filled_pixels == 64 * 64);
     }
+  }
+}
+
+TEST_CASE("skips: another colour that side views see beyond the picture is enough") {
+  const test::Scene scene = OneColourScene(5, 192, 0);
+  sf_config config = test::ConfigFor(scene, 12);
+  config.gather = 0;
+  const auto filled = [&](const test::Scene& shown, sf_mode mode) {
+    const sf_params params = test::Params(-1, 1, mode);
+    const Refocused picture = Refocus(shown, config, params, 1);
+    const bool same = picture.rgb == Refocus(shown, config, params, 0).rgb;
+    CHECK(same);
+    return picture.report.skipped.filled_pixels;
+  };
+  test::Scene spotted = scene;
+  spotted.Pixel(2, 1, 30)[2] = 41;  // seen a pixel beyond the left edge
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
+    CHECK(filled(scene, mode) == 192 * 64);
+    CHECK(filled(spotted, mode) < 192 * 64);
   }
 }
 

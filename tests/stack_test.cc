@@ -12,11 +12,14 @@ namespace {
 
 constexpr int kWidth = 96, kHeight = 64, kEdge = 48;
 
-// White and near on the left, black and far on the right; all captured views black.
+// White and near on the left, black and far on the right; all captured views black but where they
+// look beyond the left edge.
 test::Scene HalfPlanes(double near, double far, int views) {
   test::Scene scene = test::EmptyScene(kWidth, kHeight, views, float(far), float(near));
   for (auto& picture : scene.pictures) std::fill(picture.begin(), picture.end(), uint8_t{0});
   for (int y = 0; y < kHeight; ++y) {
+    for (int view = 1; view < views; ++view)
+      std::fill_n(scene.Pixel(view, 0, y), 3 * 20, uint8_t(255));
     for (int x = 0; x < kWidth; ++x) {
       scene.Disparity(x, y) = float(x < kEdge ? near : far);
       if (x < kEdge) std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(255));
