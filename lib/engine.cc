@@ -87,7 +87,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   engine->params = params;
   engine->region = RegionOf(config, params);
   engine->reach = GetReach(r_max);
-  if (params.mode == SF_MODE_BENCHMARK) {
+  if (IsBenchmark(*engine)) {
     engine->aperture =
         MakeAperture(ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
   } else {

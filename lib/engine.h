@@ -116,11 +116,15 @@ inline int32_t Columns(const EngineState& engine) {
 
 inline bool IsBlockMode(const EngineState& engine) { return engine.params.mode == SF_MODE_BLOCK; }
 
-// Whether views stand for cells wider than a pixel.
+inline bool IsBenchmark(const EngineState& engine) {
+  return engine.params.mode == SF_MODE_BENCHMARK;
+}
+
+// Whether views stand for cells, and show slices.
 inline bool UsesCells(const EngineState& engine) {
   const int32_t rule = engine.params.rule;
   if (engine.params.mode == SF_MODE_FRAME) return rule == SF_RULE_CELLS;
-  return engine.params.mode == SF_MODE_BLOCK && rule != SF_RULE_PAPER;
+  return (IsBlockMode(engine) || IsBenchmark(engine)) && rule != SF_RULE_PAPER;
 }
 
 // Whether blocks of different layers are joined.

@@ -21,9 +21,10 @@ int32_t LargestN(const sf_config& config) {
   return ScaleViews(n, config.n_scale);
 }
 
-// The largest N by cells.
-int32_t LargestCellN(const sf_config& config) {
-  return ScaleViews(ViewsByCells(config.max_blur + 1), config.n_scale);
+// The largest N of slices.
+int32_t LargestSliceN(const sf_config& config) {
+  return Max(ScaleViews(ViewsByCells(config.max_blur + 1), config.n_scale),
+             ViewsOfBenchmark(config.max_blur));
 }
 
 // A field and its accumulators; E and R of StarScratch.
@@ -85,8 +86,9 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
   scratch.shifted =
       carver->Take<int16_t>(scratch.plane_samples * plane / (plane + 2 * simd::kSliceLanes));
   scratch.offsets = carver->Take<SliceOffset>(kMaxSlices * (2 * max_n + 1));
-  scratch.shifts = carver->Take<simd::SliceShift>(kMaxSlices * (2 * max_n + 1));
-  scratch.weights = carver->Take<int16_t>(2 * max_n + 1);
+  const size_t group = Min(2 * max_n + 1, size_t{kGroupViews});
+  scratch.shifts = carver->Take<simd::SliceShift>(kMaxSlices * group);
+  scratch.weights = carver->Take<int16_t>(group);
   scratch.parts = carver->Take<StackPart>(StackParts(rectangle));
   scratch.sums = carver->Take<uint32_t>(4 * plane * rectangle);
   return scratch;
@@ -105,7 +107,7 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   carver->Reuse(views);
   const auto rim = static_cast<size_t>(reach.border - kCellSize - 2);
   worker.stack = TakeStack(extended, side, rim + kSliceMargin,
-                           static_cast<size_t>(LargestCellN(config)), carver);
+                           static_cast<size_t>(LargestSliceN(config)), carver);
   carver->GoOn();
   worker.resample.line = carver->Take<int16_t>(3 * (side + 16));
   worker.resample.filtered = carver->Take<int16_t>(3 * (side + 16));

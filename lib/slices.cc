@@ -15,7 +15,7 @@ class SliceFinder {
       : job_(job), surfaces_(*job.surfaces), grid_(*job.grid) {
     const int64_t step = grid_.step > 0 ? grid_.step : 1;
     constexpr int kBits = kStepBits + kDisparityBits - kShiftBits;
-    range_ = static_cast<int32_t>(Limited((int64_t{kSliceRange} << kBits) / step));
+    range_ = static_cast<int32_t>(Limited((int64_t{job.rule.range} << kBits) / step));
     for (int32_t d = 0; d < Max(surfaces_.width, surfaces_.height); ++d) {
       job_.least_blur[d] = static_cast<int32_t>(
           Limited((int64_t{Max(d - 1, 0)} << (kStepBits + kDisparityBits)) / step));
@@ -69,8 +69,8 @@ class SliceFinder {
   // Bins that a slice with this nearest bin may span.
   int32_t Span(int32_t bin, int coarser) const {
     const int32_t blur = Abs(grid_.Shift(grid_.step, base_ + (bin << bin_bits_)));
-    const int64_t range = Max(kSliceRange, (blur - kSliceSharp) / 8);
-    const int64_t bins = (range * range_ / kSliceRange) >> bin_bits_;
+    const int64_t wider = Max(kSliceSharp, blur - kSliceSharp);
+    const int64_t bins = (wider * range_ / kSliceSharp) >> bin_bits_;
     return static_cast<int32_t>(Limited(bins << coarser));
   }
 
@@ -86,7 +86,7 @@ class SliceFinder {
     size_t samples = 0;
     for (int32_t bin = bins_ - 1; bin >= 0; --bin) {
       if (job_.bins[bin] == 0) continue;
-      if (count == kMaxSlices) return 0;
+      if (count == job_.rule.most) return 0;
       const int32_t span = Span(bin, coarser), top = bin;
       int32_t bottom = bin;
       for (; bin > Max(top - span, -1); --bin) {
@@ -110,7 +110,7 @@ class SliceFinder {
   const SliceJob& job_;
   const Surfaces& surfaces_;
   const ViewGrid& grid_;
-  int32_t range_;         // kSliceRange as a disparity
+  int32_t range_;         // of the rule, as a disparity
   int32_t bin_bits_ = 0;  // disparities of a bin
   int32_t base_ = 0, bins_ = 0;
 };

@@ -11,16 +11,20 @@
 
 namespace starfocus {
 
-// Beyond this many, slices get coarser.
-inline constexpr int32_t kMaxSlices = 16;
-
-// And beyond the memory of this many slices of the largest reach.
-inline constexpr size_t kLargeSlices = 6;
-
-// Pixels of the layer that a slice's disparities may lie apart at the aperture's rim, kShiftBits;
-// where they are more blurred than kSliceSharp, an eighth of what is beyond it.
-inline constexpr int32_t kSliceRange = kShiftOne / 2;
+// How finely a scene is cut.
+struct SliceRule {
+  int32_t most;  // beyond this many, slices get coarser
+  // Pixels of the layer that a slice's disparities may lie apart at the aperture's rim, kShiftBits;
+  // where they are more blurred than twice kSliceSharp, as much more as what is beyond it.
+  int32_t range;
+};
 inline constexpr int32_t kSliceSharp = 4 * kShiftOne;
+inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
+inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // of the benchmark mode
+inline constexpr int32_t kMaxSlices = 32;
+
+// Slices get coarser beyond the memory of this many of the largest reach, too.
+inline constexpr size_t kLargeSlices = 6;
 
 // Ranges of disparity that are told apart: single ones up to a blur of 64 pixels at full aperture.
 inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
@@ -35,6 +39,7 @@ struct Slice {
 struct SliceJob {
   const Surfaces* surfaces;
   const ViewGrid* grid;
+  SliceRule rule;
   Rect rect;            // in pixels of the surfaces
   uint8_t* bins;        // kSliceBins
   int32_t* least_blur;  // largest side of surfaces: scratch
@@ -42,7 +47,7 @@ struct SliceJob {
 };
 
 // Finds the slices, the nearest first, that hold all pixels of the surfaces that may splat into a
-// rectangle. Returns how many, at most kMaxSlices.
+// rectangle. Returns how many, at most job.rule.most.
 int32_t FindSlices(const SliceJob& job, Slice* slices);
 
 }  // namespace starfocus

@@ -13,17 +13,18 @@ constexpr int kInverseBits = 48;
 // rounding adds would show.
 constexpr uint32_t kLeastShare = 4;
 
-// What weights of a column of views are together: in 16 bits with room for a ninth more, which the
+// What weights of a group of views are together: in 16 bits with room for a ninth more, which the
 // share of the last light may be too large by, and for the rounding of each slice.
-constexpr uint32_t kColumnSum = 58000;
+constexpr uint32_t kGroupSum = 58000;
 
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 
 class Stack {
  public:
-  Stack(const StarJob& job, const GatherMap* gathered, Field* field, StackScratch* scratch,
-        uint32_t* accumulators)
+  Stack(const StarJob& job, const SliceRule& rule, const GatherMap* gathered, Field* field,
+        StackScratch* scratch, uint32_t* accumulators)
       : job_(job),
+        rule_(rule),
         gathered_(gathered),
         grid_(*job.grid),
         field_(*field),
@@ -56,28 +57,32 @@ class Stack {
     return j;
   }
 
-  // Weights are scaled so that those of a column are at most kColumnSum together, and each of them
-  // a quarter of it.
+  // Weights are scaled so that those of a group are at most kGroupSum together, and each of them a
+  // quarter of it.
   void FindScale() {
     uint32_t largest = 0;
     for (int32_t i = 0; i <= grid_.n(); ++i) {
-      uint32_t sum = Weight(i, 0), most = sum;
-      for (int32_t j = 1; j <= LastAcross(i); ++j) {
-        sum += 2 * Weight(i, j);
-        most = Weight(i, j) > most ? Weight(i, j) : most;
+      const int32_t last = LastAcross(i);
+      for (int32_t first = -last; first <= last; first += kGroupViews) {
+        uint32_t sum = 0, most = 0;
+        for (int32_t j = first; j <= Min(first + kGroupViews - 1, last); ++j) {
+          sum += Weight(i, j);
+          most = Weight(i, j) > most ? Weight(i, j) : most;
+        }
+        sum = 4 * most > sum ? 4 * most : sum;
+        largest = sum > largest ? sum : largest;
       }
-      sum = 4 * most > sum ? 4 * most : sum;
-      largest = sum > largest ? sum : largest;
     }
-    weight_scale_ = (uint64_t{kColumnSum} << 16) / largest;
+    weight_scale_ = (uint64_t{kGroupSum} << 16) / largest;
     least_covered_ =
         static_cast<uint32_t>(((weight_scale_ << grid_.aperture.sum_bits) >> 16) / kLeastShare);
   }
 
   void PlaceSlices() {
     const Rect& inner = field_.inner;
-    const SliceJob job = {&scratch_.surfaces,    &grid_, inner, scratch_.bins, scratch_.least_blur,
-                          scratch_.plane_samples};
+    const SliceJob job = {
+        &scratch_.surfaces,    &grid_, rule_, inner, scratch_.bins, scratch_.least_blur,
+        scratch_.plane_samples};
     Slice slices[kMaxSlices];
     count_ = FindSlices(job, slices);
     int16_t *samples = scratch_.planes, *shifted = scratch_.shifted;
@@ -155,9 +160,16 @@ class Stack {
       ShiftSlice(*job_.kernels, placed, placed.offsets[i], job_.rect.width, plane_, shifted_[k]);
     }
     const int32_t last = LastAcross(Abs(i));
+    for (int32_t first = -last; first <= last; first += kGroupViews) {
+      AddGroup(i, first, Min(first + kGroupViews - 1, last));
+    }
+  }
+
+  // Views (i, first) to (i, last).
+  void AddGroup(int32_t i, int32_t first, int32_t last) {
     simd::SliceShift* shift = scratch_.shifts;
-    for (int32_t j = -last; j <= last; ++j) {
-      scratch_.weights[j + last] = static_cast<int16_t>((Weight(i, j) * weight_scale_) >> 16);
+    for (int32_t j = first; j <= last; ++j) {
+      scratch_.weights[j - first] = static_cast<int16_t>((Weight(i, j) * weight_scale_) >> 16);
       for (int32_t k = 0; k < count_; ++k) {
         const SliceOffset& offset = placed_[k].offsets[j];
         const int32_t row = placed_[k].reach + offset.whole;
@@ -165,11 +177,11 @@ class Stack {
                     shifted_[k].some + row, offset.fraction};
       }
     }
-    for (int32_t k = 0; k < parts_; ++k) AddPart(i, scratch_.parts[k]);
+    const auto views = static_cast<size_t>(last + 1 - first);
+    for (int32_t k = 0; k < parts_; ++k) AddPart(views, scratch_.parts[k]);
   }
 
-  void AddPart(int32_t i, const StackPart& part) {
-    const auto views = static_cast<size_t>(2 * LastAcross(Abs(i)) + 1);
+  void AddPart(size_t views, const StackPart& part) {
     const simd::SliceViews job = {scratch_.weights,
                                   scratch_.shifts,
                                   views,
@@ -213,6 +225,7 @@ class Stack {
   }
 
   const StarJob& job_;
+  const SliceRule rule_;
   const GatherMap* gathered_;
   const ViewGrid& grid_;
   Field& field_;
@@ -229,9 +242,9 @@ class Stack {
 
 }  // namespace
 
-uint64_t RefocusStack(const StarJob& job, const GatherMap* gathered, Field* field,
-                      StackScratch* scratch, uint32_t* accumulators) {
-  return Stack(job, gathered, field, scratch, accumulators).Refocus();
+uint64_t RefocusStack(const StarJob& job, const SliceRule& rule, const GatherMap* gathered,
+                      Field* field, StackScratch* scratch, uint32_t* accumulators) {
+  return Stack(job, rule, gathered, field, scratch, accumulators).Refocus();
 }
 
 }  // namespace starfocus

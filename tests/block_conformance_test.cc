@@ -159,6 +159,27 @@ TEST_CASE("block conformance: random scenes, every star set, both rules, all lay
   Tell("random scenes in blocks", all, covered);
 }
 
+TEST_CASE("block conformance: the benchmark's slices") {
+  test::Random random(54);
+  Distance all;
+  Covered covered;
+  for (const int views : kStars) {
+    for (const Depth depth : kDepths) {
+      const float low = float(random.Real(-3, 2));
+      test::Scene scene = test::EmptyScene(random.Int(40, 64), random.Int(33, 48), views, low,
+                                           low + float(random.Real(0.5, 4)));
+      SetDepth(depth, &scene, &random);
+      SetColours(Colours(random.Int(0, 2)), &scene, &random);
+      sf_params params = test::Params(low - random.Real(-1, 2), 1, SF_MODE_BENCHMARK);
+      params.rule = SF_RULE_CELLS;
+      all.Add(Check(scene, params, Config(scene, 2), &covered));
+    }
+  }
+  all.Print("the benchmark in slices");
+  CHECK(all.mean() < kMeanLimit);
+  CHECK(covered.pixels[1] + covered.pixels[2] + covered.gathered == 0);
+}
+
 TEST_CASE("block conformance: largest cells, smallest and single blocks") {
   test::Random random(52);
   Distance all;

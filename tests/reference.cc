@@ -262,6 +262,8 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
                                   size_t slice_samples, const std::vector<Block>& blocks) {
   const LightField field = Load(scene);
   const std::vector<Picture> layers = MakeLayers(field.at({0, 0}));
+  const bool benchmark = params.mode == SF_MODE_BENCHMARK;
+  const Slicing slicing = {slice_samples, size_t(benchmark ? 32 : 16), benchmark ? 0.125 : 0.375};
   Result result;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   for (const Block& block : blocks) {
@@ -273,7 +275,7 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
         block.right,      block.top,        block.bottom};
     if (rectangle.width > 0) {
       const Picture& layer = layers[size_t(block.layer)];
-      const Picture rendered = by_cells ? RefocusStack(field, layer, lens, rectangle, slice_samples)
+      const Picture rendered = by_cells ? RefocusStack(field, layer, lens, rectangle, slicing)
                                         : RefocusRectangle(field, layer, lens, rectangle);
       Put(Finished(block, rendered), block.layer == 0 ? rectangle.x : block.x,
           block.layer == 0 ? rectangle.y : block.y, scene.width, &result);

@@ -41,7 +41,8 @@ struct Block {
   std::vector<GatheredCell> gathered;                           // after the views
 };
 
-// Block mode with a given partition of the picture, without deblocking; unrounded,
+// Block mode, or the benchmark's blocks, with a given partition of the picture and without
+// deblocking; unrounded,
 // 3 * width * height. `slice_samples`: by the rule of cells, in slices of at most that many samples
 // together; 0: by the paper's rule.
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,

@@ -217,8 +217,9 @@ struct Range {
 
 class RangeFinder {
  public:
-  RangeFinder(const SurfaceMap& map, const Lens& lens, const Rectangle& rect, size_t slice_samples)
-      : lens_(lens), rect_(rect), slice_samples_(slice_samples) {
+  RangeFinder(const SurfaceMap& map, const Lens& lens, const Rectangle& rect,
+              const Slicing& slicing)
+      : lens_(lens), rect_(rect), slicing_(slicing) {
     int high = INT32_MIN;
     low_ = INT32_MAX;
     for (const auto& surfaces : map.pixels) {
@@ -241,7 +242,7 @@ class RangeFinder {
   std::vector<Range> Find() const {
     for (int64_t coarser = 1;; coarser *= 2) {
       const std::vector<Range> ranges = Cut(coarser);
-      if (ranges.size() <= starfocus::kMaxSlices && Samples(ranges) <= slice_samples_) {
+      if (ranges.size() <= slicing_.most && Samples(ranges) <= slicing_.samples) {
         return ranges;
       }
     }
@@ -261,11 +262,12 @@ class RangeFinder {
 
   // How many bins a slice may span whose nearest one is `bin`.
   int64_t Span(int bin, int64_t coarser) const {
-    constexpr int64_t kSharpRange = starfocus::kSliceRange;
-    const int64_t whole = std::min(kMost, (kSharpRange << (kUnitBits - 8)) / lens_.step);
+    constexpr int64_t kSharp = 4 * 256;  // a blur of 4 pixels
+    const auto range = int64_t(256 * slicing_.range);
+    const int64_t whole = std::min(kMost, (range << (kUnitBits - 8)) / lens_.step);
     const auto rim = Rounded(lens_.step * (low_ + bin * bin_ - lens_.focus), kUnitBits - 8);
-    const int64_t range = std::max(kSharpRange, (std::abs(rim) - starfocus::kSliceSharp) / 8);
-    return std::min(kMost, range * whole / kSharpRange / bin_ * coarser);
+    const int64_t wider = std::max(kSharp, std::abs(rim) - kSharp);
+    return std::min(kMost, wider * whole / kSharp / bin_ * coarser);
   }
 
   std::vector<Range> Cut(int64_t coarser) const {
@@ -295,7 +297,7 @@ class RangeFinder {
 
   const Lens& lens_;
   const Rectangle& rect_;
-  const size_t slice_samples_;
+  const Slicing slicing_;
   int low_ = 0;  // disparity of bin 0
   int bin_ = 1;  // disparities of a bin
   std::set<int> occupied_;
@@ -464,13 +466,13 @@ class Stack {
 }  // namespace
 
 Picture RefocusStack(const LightField& field, const Picture& centre, const Lens& lens,
-                     const Rectangle& rectangle, size_t slice_samples) {
+                     const Rectangle& rectangle, const Slicing& slicing) {
   Picture extended = ExtendedRectangle(centre, rectangle);
   LookBeyond(field, field.at({0, 0}), lens.layer, rectangle, &extended);
   const SurfaceMap map = SurfaceFinder(field, extended, lens, rectangle.x - rectangle.left,
                                        rectangle.y - rectangle.top)
                              .Find();
-  const std::vector<Range> ranges = RangeFinder(map, lens, rectangle, slice_samples).Find();
+  const std::vector<Range> ranges = RangeFinder(map, lens, rectangle, slicing).Find();
   Stack stack(map, ranges, lens, rectangle);
   const Plane& sum = stack.AddViews();
   double total = 0;

@@ -9,10 +9,17 @@
 
 namespace reference {
 
-// As RefocusRectangle. `slice_samples`: the memory of all slices together, beyond which they get
-// coarser.
+// What slices are cut by: the memory of all together and their number, beyond which they get
+// coarser, and the pixels that they may lie apart at the rim where they are sharp.
+struct Slicing {
+  size_t samples;
+  size_t most;
+  double range;
+};
+
+// As RefocusRectangle.
 Picture RefocusStack(const LightField& field, const Picture& centre, const Lens& lens,
-                     const Rectangle& rectangle, size_t slice_samples);
+                     const Rectangle& rectangle, const Slicing& slicing);
 
 }  // namespace reference
 

@@ -13,6 +13,7 @@ namespace {
 
 using starfocus::kMaxSlices;
 using starfocus::Slice;
+using starfocus::SliceRule;
 
 constexpr int kSize = 64;
 constexpr size_t kMemory = size_t{1} << 24;
@@ -40,7 +41,8 @@ struct Scene {
   }
 
   // Of the middle 16 x 16 pixels.
-  std::vector<Slice> Cut(double focus, double aperture = 1, size_t memory = kMemory) {
+  std::vector<Slice> Cut(double focus, double aperture = 1, size_t memory = kMemory,
+                         const SliceRule& rule = starfocus::kSlices) {
     starfocus::Aperture views;
     views.n = 4;
     const auto grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
@@ -49,9 +51,10 @@ struct Scene {
     surfaces.high = *range.second;
     std::vector<Slice> slices(kMaxSlices);
     const int count = starfocus::FindSlices(
-        {&surfaces, &grid, {24, 24, 16, 16}, bins.data(), least.data(), memory}, slices.data());
+        {&surfaces, &grid, rule, {24, 24, 16, 16}, bins.data(), least.data(), memory},
+        slices.data());
     REQUIRE(count > 0);
-    REQUIRE(count <= kMaxSlices);
+    REQUIRE(count <= rule.most);
     slices.resize(size_t(count));
     for (size_t k = 0; k < slices.size(); ++k) {
       CHECK(slices[k].low <= slices[k].disparity);
@@ -98,20 +101,23 @@ TEST_CASE("slices: what cannot splat into the rectangle is left out") {
   CHECK(scene.Cut(0, 0.5).size() == 1);
 }
 
-TEST_CASE("slices: half a pixel at the rim, an eighth of a wide blur, and all disparities") {
+TEST_CASE("slices: three eighths of a pixel at the rim, more of a wide blur, and all disparities") {
   Scene scene;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) scene.At(x, y) = int16_t(4 * (x - 32));  // -2 to 2 pixels
   }
   std::vector<bool> held(4 * 64);
   for (const Slice& slice : scene.Cut(0)) {
-    CHECK(slice.high - slice.low < 32);
+    CHECK(slice.high - slice.low < 24);
     for (int d = slice.low; d <= slice.high; ++d) held[size_t(d + 128)] = true;
   }
   for (int x = 24; x < 40; ++x) CHECK(held[size_t(scene.At(x, 30) + 128)]);
-  const std::vector<Slice> blurred = scene.Cut(-20);
-  for (const Slice& slice : blurred) CHECK(slice.high - slice.low <= 144);
+  const std::vector<Slice> blurred = scene.Cut(-40);
+  for (const Slice& slice : blurred) CHECK(slice.high - slice.low <= 24 * (42 - 4) / 4);
   CHECK(blurred.size() < scene.Cut(0).size());
+  for (const Slice& slice : scene.Cut(0, 1, kMemory, starfocus::kFineSlices)) {
+    CHECK(slice.high - slice.low < 8);
+  }
 }
 
 TEST_CASE("slices: coarser where there are too many, or too large ones") {

@@ -98,7 +98,10 @@ TEST_CASE("symmetry: also in benchmark mode and on noisy disparity") {
   test::Random random(34);
   test::NoisyDisparity(&scene, &random);
   for (const Symmetry& s : kMirrors) Check(s, scene, test::Params(0.4, 1, SF_MODE_BENCHMARK));
-  for (const Symmetry& s : kTurns) Check(s, scene, test::Params(0.4, 1, SF_MODE_BENCHMARK));
+  sf_params lines = test::Params(0.4, 1, SF_MODE_BENCHMARK);
+  lines.rule = SF_RULE_PAPER;
+  for (const Symmetry& s : kMirrors) Check(s, scene, lines);
+  for (const Symmetry& s : kTurns) Check(s, scene, lines);
 }
 
 // Cells up to several pixels wide, over flat, slanted and noisy surfaces.

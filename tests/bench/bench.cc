@@ -105,7 +105,8 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--n-scales", choice.n_scales, "Factors of N, in block and frame mode")
       ->delimiter(',');
   app->add_flag("--rules", choice.rules, "Both rules for N, in block and frame mode");
-  app->add_option("--targets", choice.targets, "SIMD targets, or all")->delimiter(',');
+  app->add_option("--targets", choice.targets, "SIMD targets, reference (plain C++), or all")
+      ->delimiter(',');
   app->add_option("--repetitions", settings.repetitions, "Of every task")
       ->check(CLI::Range(1, 1000));
   app->add_option("--patience", settings.patience, "Seconds per task before repetitions are cut");

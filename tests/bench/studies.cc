@@ -62,9 +62,10 @@ void AddTargets(const Field& field, const Choice& choice, Group* group) {
     for (size_t i = 0; (kernels = simd::KernelsOfTarget(i)) != nullptr; ++i) {
       names.push_back(kernels->name);
     }
+    names.push_back(simd::ReferenceKernels().name);  // the scalar code that defines them
   }
   for (const std::string& name : names) {
-    for (const char* mode : {"block", "frame", "blur"}) {
+    for (const char* mode : {"block", "frame", "benchmark", "blur"}) {
       group->entries.push_back(MakeEntry("targets", mode, field.views()));
       group->entries.back().task.target = name;
     }
@@ -123,7 +124,7 @@ namespace {
 std::string MeasureSweep(const Field& field, const char* study, double focus,
                          const Settings& settings, std::vector<Row>* rows) {
   Group group = {&field, 1, focus, kNone, {}};
-  for (const char* mode : {"block", "frame", "blur"}) {
+  for (const char* mode : {"block", "frame", "benchmark", "blur"}) {
     group.entries.push_back(MakeEntry(study, mode, field.views()));
   }
   return MeasureGroup(group, settings, rows);

@@ -16,7 +16,8 @@ uint64_t Nanoseconds() { return static_cast<uint64_t>(CpuSeconds() * 1e9); }
 // A run-time engine takes the best target; the bench may want another.
 std::string UseTarget(const std::string& name, sf_engine* engine) {
   if (name.empty()) return "";
-  const simd::Kernels* kernels = simd::FindKernels(name.c_str());
+  const simd::Kernels& plain = simd::ReferenceKernels();
+  const simd::Kernels* kernels = name == plain.name ? &plain : simd::FindKernels(name.c_str());
   if (kernels == nullptr) return Expected("target", "a SIMD target of this machine", name);
   reinterpret_cast<EngineState*>(engine)->kernels = kernels;
   return "";

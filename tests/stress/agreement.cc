@@ -32,8 +32,8 @@ int LayerOf(const sf_report& report) {
 
 // Whether views stand for wide aperture cells; not told of blur mode, whose kernels are others.
 bool UsesCells(const sf_params& params) {
-  return params.mode != SF_MODE_BENCHMARK && params.rule != SF_RULE_PAPER &&
-         (params.mode == SF_MODE_BLOCK || params.rule == SF_RULE_CELLS);
+  return params.rule != SF_RULE_PAPER &&
+         (params.mode != SF_MODE_FRAME || params.rule == SF_RULE_CELLS);
 }
 
 int MostJump(const Setup& setup, const sf_report& a, const sf_report& b) {

@@ -172,16 +172,18 @@ SF_API sf_status sf_init(const sf_config* config, void* workspace, size_t bytes,
 
 typedef enum sf_mode {
   SF_MODE_FRAME = 0,     /**< one N for the whole picture, from (9) */
-  SF_MODE_BENCHMARK = 1, /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark */
+  SF_MODE_BENCHMARK = 1, /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark, by
+                            the rule of cells of fine slices instead of lines */
   SF_MODE_BLOCK = 2,     /**< blocks of variable size, each with its own N and layer (section V) */
   SF_MODE_BLUR = 3 /**< depth-dependent blur of the centre view alone with the ideal kernel (4) */
 } sf_mode;
 
 /** How many views a blur radius needs. */
 typedef enum sf_rule {
-  SF_RULE_DEFAULT = 0, /**< SF_RULE_CELLS for SF_MODE_BLOCK, SF_RULE_PAPER for SF_MODE_FRAME */
-  SF_RULE_PAPER = 1,   /**< (9): views at most a pixel or so apart */
-  SF_RULE_CELLS = 2    /**< each view stands for its cell of the aperture, however wide */
+  SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME, SF_RULE_CELLS for the others */
+  SF_RULE_PAPER = 1,   /**< (9): views at most a pixel or so apart, rendered line by line (IV) */
+  SF_RULE_CELLS = 2    /**< each view stands for its cell of the aperture, however wide, and shows
+                            slices of the scene */
 } sf_rule;
 
 /** A block of SF_MODE_BLOCK as it was refocused. */
