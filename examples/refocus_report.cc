@@ -50,6 +50,26 @@ nlohmann::ordered_json SkippedJson(const EngineTask& task, const sf_report& repo
   return json;
 }
 
+// Bytes of the pictures read and written, against each read once: a pixel of the centre view, its
+// disparity if that was not prepared, and a pixel written. Side views need none where no hole
+// opens.
+nlohmann::ordered_json TrafficJson(const EngineTask& task, const sf_report& report) {
+  const sf_region& region = task.params.region;
+  const uint64_t pixels = region.width > 0
+                              ? uint64_t(region.width) * uint64_t(region.height)
+                              : uint64_t(task.config.width) * uint64_t(task.config.height);
+  const uint64_t output = 3 * pixels;
+  const uint64_t all = report.centre_bytes + report.disparity_bytes + report.side_bytes + output;
+  nlohmann::ordered_json json;
+  json["centre_bytes"] = report.centre_bytes;
+  json["disparity_bytes"] = report.disparity_bytes;
+  json["side_bytes"] = report.side_bytes;
+  json["output_bytes"] = output;
+  json["bytes_per_pixel"] = double(all) / double(pixels);
+  json["least_bytes_per_pixel"] = report.disparity_bytes > 0 ? 3 + 4 + 3 : 3 + 3;
+  return json;
+}
+
 // Largest blocks of the picture or region.
 uint64_t LargestBlocks(const sf_config& config, const sf_region& region) {
   const auto count = [&](int first, int size) {
@@ -80,6 +100,7 @@ nlohmann::ordered_json ReportJson(const EngineTask& task, const EngineResult& re
   json["deblocking"] = task.config.deblocking;
   json["layers"] = LayersJson(result.report, task.params.mode == SF_MODE_BLOCK);
   json["skipped"] = SkippedJson(task, result.report);
+  json["traffic"] = TrafficJson(task, result.report);
   json["seconds_refocus"] = result.seconds;
   json["workspace_bytes"] = result.workspace_bytes;
   json["simd_target"] = sf_simd_target();

@@ -94,7 +94,7 @@ class Beyond {
   }
 
   void Read(const Edge& edge, int32_t moved, int32_t seen) {
-    if (window_.side_colours != nullptr) *window_.side_colours += static_cast<uint64_t>(seen);
+    if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(seen);
     const int dx = edge.out[0], dy = edge.out[1], sign = moved < 0 ? -1 : 1;
     constexpr int32_t kAtOnce = 16;
     uint8_t rgb[3 * kAtOnce];

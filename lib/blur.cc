@@ -93,6 +93,10 @@ void MakeKernel(int32_t step, double fall_off, uint16_t* weights, BlurKernel* ke
 void LoadPixels(const BlurJob& job, uint8_t* rgb) {
   const int32_t width = job.rect.width + 2 * job.border;
   const Window& window = *job.window;
+  if (window.reads != nullptr) {
+    window.reads->centre_pixels +=
+        static_cast<uint64_t>(width) * static_cast<uint64_t>(job.rect.height + 2 * job.border);
+  }
   for (int32_t row = 0; row < job.rect.height + 2 * job.border; ++row) {
     const uint8_t* from =
         window.centre.Row(Clamp(job.rect.y - job.border + row, 0, window.height - 1));

@@ -110,6 +110,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
     for (sf_layer_report& layer : engine->workers[worker].layers) layer = sf_layer_report();
     engine->workers[worker].skipped = sf_skipped();
+    engine->workers[worker].centre_bytes = 0;
     engine->workers[worker].side_bytes = 0;
     engine->workers[worker].gathered_pixels = 0;
   }
@@ -139,6 +140,7 @@ sf_status PushDisparity(const float* row, EngineState* engine) {
   const sf_status status =
       ConvertDisparity(*engine, row, engine->disparity.Row(engine->disparity_rows));
   if (status == SF_OK) ++engine->disparity_rows;
+  engine->report.disparity_bytes += sizeof(float) * static_cast<uint64_t>(engine->config.width);
   return status;
 }
 
@@ -161,6 +163,7 @@ sf_report GetReport(const EngineState& engine) {
     report.skipped.copied_pixels += skipped.copied_pixels;
     report.skipped.filled_blocks += skipped.filled_blocks;
     report.skipped.filled_pixels += skipped.filled_pixels;
+    report.centre_bytes += engine.workers[worker].centre_bytes;
     report.side_bytes += engine.workers[worker].side_bytes;
     report.gathered_pixels += engine.workers[worker].gathered_pixels;
   }

@@ -52,6 +52,7 @@ struct Worker {
   PartitionNode* nodes;
   sf_layer_report layers[SF_LAYERS];
   sf_skipped skipped;
+  uint64_t centre_bytes;
   uint64_t side_bytes;
   uint64_t gathered_pixels;
 };

@@ -32,7 +32,7 @@ int32_t ShareOf(const uint8_t* near, const uint8_t* far, const uint8_t* mixed) {
 // The point of the far surface in the captured view away from the nearer one, which lies farther
 // towards that there.
 void ReadFar(const Window& window, const BoundaryPixel& pixel, const uint8_t* mixed, uint8_t* far) {
-  if (window.side_colours != nullptr) ++*window.side_colours;
+  if (window.reads != nullptr) ++window.reads->side_colours;
   const int dx = pixel.side[0], dy = pixel.side[1];
   const bool half = window.views == 17;
   const int32_t moved = pixel.disparity * (1 << (kShiftBits - kDisparityBits - (half ? 1 : 0)));

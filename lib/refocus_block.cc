@@ -73,13 +73,16 @@ const Aperture& ApertureOf(const EngineState& engine, const Block& block) {
   return IsBlockMode(engine) ? engine.apertures[block.n] : engine.aperture;
 }
 
-// A window that counts for a worker what is read of its side views.
+// A window that counts for a worker what is read of its views.
 class Counting {
  public:
   Counting(const Window& window, Worker* worker) : window_(window), worker_(*worker) {
-    window_.side_colours = &colours_;
+    window_.reads = &reads_;
   }
-  ~Counting() { worker_.side_bytes += colours_ * static_cast<uint64_t>(CapturedBytes(window_)); }
+  ~Counting() {
+    worker_.centre_bytes += 3 * reads_.centre_pixels;
+    worker_.side_bytes += reads_.side_colours * static_cast<uint64_t>(CapturedBytes(window_));
+  }
   Counting(const Counting&) = delete;
   Counting& operator=(const Counting&) = delete;
 
@@ -88,7 +91,7 @@ class Counting {
  private:
   Window window_;
   Worker& worker_;
-  uint64_t colours_ = 0;
+  Reads reads_;
 };
 
 // What of a block is rendered.
@@ -157,6 +160,7 @@ Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane
   // Slices have ends, which move a little even then.
   if (pinhole || (!UsesCells(engine) && NothingMoves(job))) {
     CopyCentre(engine, rect, out);
+    worker->centre_bytes += 3 * pixels;
     worker->skipped.copied_blocks += 1;
     worker->skipped.copied_pixels += pixels;
     return {1, 3 * pixels};
@@ -172,7 +176,8 @@ Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane
 
 void BlurBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
                Worker* worker) {
-  const BlurJob job = {&engine.windows[0], engine.scale, engine.blur_kernels,
+  const Counting counting(engine.windows[0], worker);
+  const BlurJob job = {&counting.window(), engine.scale, engine.blur_kernels,
                        engine.kernels,     block.rect,   block.border.left};
   const BlurScratch scratch = {worker->star.field_rgb[0], worker->star.accumulators[0],
                                worker->star.spans};

@@ -19,6 +19,8 @@ void Downsample(const LayerJob& job, int32_t index, Worker* worker) {
   // The last column takes what a layer has beyond the picture.
   const int32_t end = index + 1 == Columns(engine) ? to->width : begin + side;
   if (kLayer == 1) {
+    const int32_t rows = to->rows.last - to->rows.first;
+    worker->centre_bytes += 3 * static_cast<uint64_t>((2 * (end - begin) + 5) * (2 * rows + 5));
     DownsamplePicture(*engine.kernels, engine.windows[0].centre, engine.config.width,
                       engine.config.height, begin, end, worker->resample, to);
   } else {

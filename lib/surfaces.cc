@@ -238,7 +238,7 @@ class SurfaceFinder {
       std::memcpy(rgb, field_.Rgb(x + dx * candidate.distance, y + dy * candidate.distance), 3);
       return;
     }
-    if (window_.side_colours != nullptr) ++*window_.side_colours;
+    if (window_.reads != nullptr) ++window_.reads->side_colours;
     const int64_t full = int64_t{candidate.disparity} * (1 << (kShiftBits - kDisparityBits));
     const auto moved =
         static_cast<int32_t>(RoundShift(full * 2, 1 + window_.layer + (candidate.half ? 1 : 0)));

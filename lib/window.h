@@ -26,6 +26,12 @@ struct Plane {
 
 inline constexpr int kMaxViews = 17;
 
+// What was read of the caller's pictures, counted every time.
+struct Reads {
+  uint64_t centre_pixels = 0;  // of the centre view itself, not of its layers
+  uint64_t side_colours = 0;   // of side views; CapturedBytes each
+};
+
 // A light field at one layer: pixel (x, y) of the layer stands at (x << L, y << L) in the pictures.
 // Only the centre view is subsampled as a whole; of the others a few pixels are read, in holes.
 struct Window {
@@ -38,7 +44,7 @@ struct Window {
   int32_t picture_height = 0;
   Plane<const uint8_t> view[kMaxViews];  // of the pictures
   Plane<const int16_t> disparity;        // of the pictures, kDisparityBits
-  uint64_t* side_colours = nullptr;      // counts those read of side views; null: nobody counts
+  Reads* reads = nullptr;                // null: nobody counts
 };
 
 // Places one after the other in a captured view: the first at (x, y) of the layer, kShiftBits, each

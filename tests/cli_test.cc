@@ -320,6 +320,8 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
                             "layer_columns",
                             "gathered_pixels",
                             "side_bytes_read",
+                            "bytes_per_pixel",
+                            "least_bytes_per_pixel",
                             "seconds_total",
                             "workspace_bytes",
                             "simd_target",

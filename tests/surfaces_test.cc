@@ -28,7 +28,7 @@ struct Scene {
   std::vector<uint8_t> colours[3], edges[4], hiding = std::vector<uint8_t>(kSize), share, rgb;
   starfocus::Window window;
   Surfaces surfaces;
-  uint64_t read = 0;
+  starfocus::Reads reads;
 
   explicit Scene(int views) {
     for (int view = 1; view < views; ++view) {
@@ -43,7 +43,7 @@ struct Scene {
     }
     window.width = window.picture_width = window.height = window.picture_height = kSize;
     window.views = views;
-    window.side_colours = &read;
+    window.reads = &reads;
   }
 
   void Set(int x, int y, double pixels, int grey) {
@@ -116,7 +116,7 @@ TEST_CASE("surfaces: behind a near square lies what captured views see beside it
     CHECK(scene.Colour(20, 26, 1) == 25);
     CHECK(scene.Behind(5, 5) == -1000);
     CHECK(scene.Behind(13, 20, 2) == -1000);
-    CHECK(scene.read > 0);
+    CHECK(scene.reads.side_colours > 0);
     CHECK(scene.share[scene.surfaces.At(12, 20)] == starfocus::simd::kSliceEnd);
     CHECK(scene.share[scene.surfaces.At(13, 20)] == starfocus::simd::kSliceWhole);
     CHECK(scene.share[scene.surfaces.At(11, 20)] == starfocus::simd::kSliceWhole);
@@ -132,7 +132,7 @@ TEST_CASE("surfaces: without a captured view the background goes on") {
   scene.Find();
   CHECK(scene.Behind(20, 20) == 1);
   CHECK(scene.Colour(20, 20, 1) == 10);
-  CHECK(scene.read == 0);
+  CHECK(scene.reads.side_colours == 0);
 }
 
 TEST_CASE("surfaces: what another surface covers in the captured view is not read there") {
@@ -157,7 +157,7 @@ TEST_CASE("surfaces: tied sides give the mean") {
   CHECK(scene.Behind(20, 20) == 0);
   CHECK(scene.Colour(20, 20, 0) == 20);
   CHECK(scene.Colour(20, 20, 2) == 2);  // of views 1 and 2, halves up
-  CHECK(scene.read == 2 * kSize);
+  CHECK(scene.reads.side_colours == 2 * kSize);
 }
 
 TEST_CASE("surfaces: two of them behind a third") {

@@ -273,8 +273,11 @@ typedef struct sf_report {
   uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
   sf_skipped skipped;
-  uint64_t side_bytes; /**< read of the views beside the centre, counted every time: in holes and
-                            beside depth edges only */
+  uint64_t centre_bytes; /**< read of the centre view, counted every time: by blocks with what lies
+                              around them, and for layers 1 and 2 */
+  uint64_t disparity_bytes; /**< read of the disparity map: none of a prepared light field */
+  uint64_t side_bytes;      /**< read of the views beside the centre, counted every time: in holes,
+                                 beside depth edges and beyond the edges of the picture only */
   uint64_t gathered_pixels; /**< SF_MODE_BLOCK by the rule of cells: blurred as a whole, since one
                                  surface is all that lies within reach; no view is rendered there */
   uint64_t reused_blocks;   /**< sf_refocus_after: largest blocks of which nothing was refocused */
