@@ -78,8 +78,8 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
   command->add_option("--largest-block", options->largest_block, "32, 64, 128 or 256")
       ->capture_default_str();
   command->add_option("--rule", options->rule,
-                      "paper or cells: how many views a blur needs (default: cells in block mode, "
-                      "paper in frame mode)");
+                      "paper or cells: how many views a blur needs, and whether they are rendered "
+                      "line by line or show slices (default: paper in frame mode, else cells)");
   command
       ->add_option("--n-scale", options->n_scale,
                    "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "

@@ -61,10 +61,10 @@ nlohmann::ordered_json TrafficJson(const EngineTask& task, const sf_report& repo
   const uint64_t output = 3 * pixels;
   const uint64_t all = report.centre_bytes + report.disparity_bytes + report.side_bytes + output;
   nlohmann::ordered_json json;
-  json["centre_bytes"] = report.centre_bytes;
-  json["disparity_bytes"] = report.disparity_bytes;
-  json["side_bytes"] = report.side_bytes;
-  json["output_bytes"] = output;
+  json["centre_bytes_read"] = report.centre_bytes;
+  json["disparity_bytes_read"] = report.disparity_bytes;
+  json["side_bytes_read"] = report.side_bytes;
+  json["bytes_written"] = output;
   json["bytes_per_pixel"] = double(all) / double(pixels);
   json["least_bytes_per_pixel"] = report.disparity_bytes > 0 ? 3 + 4 + 3 : 3 + 3;
   return json;

@@ -34,7 +34,7 @@ struct Edge {
 };
 
 // Calls take.Colours(edge, k, count, rgb) for the pixels k ... k + count - 1 beyond an edge that
-// the captured view shows, at a few at a time, and then take.All(edge, last k).
+// the captured view shows, a few at a time, and then take.All(edge, last k).
 template <class Take>
 class Beyond {
  public:
@@ -44,6 +44,8 @@ class Beyond {
   void Look() {
     const int32_t width = rect_.width, height = rect_.height;
     const Part part(window_, rect_);
+    const bool inside = part.right - part.left == width && part.bottom - part.top == height;
+    if (inside) return;  // most are
     for (int32_t row = part.top; row < part.bottom; ++row) {
       LookOver({part.right - 1, row, kSides[0], width - part.right});
       LookOver({part.left, row, kSides[1], part.left});

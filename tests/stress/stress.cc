@@ -19,7 +19,7 @@ const std::vector<Family>& Families() {
       {"energy", "gray levels of the mean", 2, Energy},
       {"steps", "overshoot beyond a level as a part of the step", 6, Steps},
       {"mirrors", "gray levels off the mirrored picture", 4, Mirrors},
-      {"side-views", "gray levels (flat scenes read no side view)", 4, SideViews},
+      {"side-views", "gray levels (flat scenes at disparity 0 read no side view)", 4, SideViews},
       {"continuity", "gray levels per step of 1/64 in focus, 1/256 in aperture", 6, Continuity},
       {"identical", "gray levels between workers, streaming, SIMD targets", 6, Identical},
       {"again", "gray levels of regions, prepared light fields and frames after others", 3, Again},

@@ -172,8 +172,8 @@ SF_API sf_status sf_init(const sf_config* config, void* workspace, size_t bytes,
 
 typedef enum sf_mode {
   SF_MODE_FRAME = 0,     /**< one N for the whole picture, from (9) */
-  SF_MODE_BENCHMARK = 1, /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark, by
-                            the rule of cells of fine slices instead of lines */
+  SF_MODE_BENCHMARK = 1, /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark; the
+                            rule says whether views show fine slices or are rendered line by line */
   SF_MODE_BLOCK = 2,     /**< blocks of variable size, each with its own N and layer (section V) */
   SF_MODE_BLUR = 3 /**< depth-dependent blur of the centre view alone with the ideal kernel (4) */
 } sf_mode;
@@ -274,7 +274,7 @@ typedef struct sf_report {
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
   sf_skipped skipped;
   uint64_t centre_bytes; /**< read of the centre view, counted every time: by blocks with what lies
-                              around them, and for layers 1 and 2 */
+                              around them, and for layers 1 and 2; not what skips look at */
   uint64_t disparity_bytes; /**< read of the disparity map: none of a prepared light field */
   uint64_t side_bytes;      /**< read of the views beside the centre, counted every time: in holes,
                                  beside depth edges and beyond the edges of the picture only */
