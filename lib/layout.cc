@@ -75,22 +75,21 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
   surfaces.behind = carver->Take<int16_t>(simd::SliceSamples(extended));
   scratch.bins = carver->Take<uint8_t>(kSliceBins);
   scratch.least_blur = carver->Take<int32_t>(extended);
-  const size_t rows = rectangle + 2 * reach, plane = simd::SliceSamples(rectangle);
+  const size_t rows = rectangle + 2 * reach;
   scratch.cover_rows = static_cast<int32_t>(rows) + 1;
   scratch.covers = carver->Take<simd::SliceCover>(kMaxSlices * (rows + 1));
-  scratch.shifted_some = carver->Take<uint32_t>(kMaxSlices * (rows + 1));
   scratch.plane_samples = kLargeSlices * SliceSize(rectangle, rectangle, reach);
   scratch.planes = carver->Take<int16_t>(scratch.plane_samples);
   scratch.filtered = carver->Take<int16_t>(SliceSize(rectangle, rectangle, reach));
-  // Of a slice that reaches as little as any, rows are wider than the rectangle by two chunks.
-  scratch.shifted =
-      carver->Take<int16_t>(scratch.plane_samples * plane / (plane + 2 * simd::kSliceLanes));
+  scratch.tile_rows = kLargeTiles * ShiftedRows(rectangle, reach);
+  scratch.tile = carver->Take<int16_t>(4 * simd::kSliceLanes * scratch.tile_rows);
+  scratch.tile_some = carver->Take<uint8_t>(scratch.tile_rows);
   scratch.offsets = carver->Take<SliceOffset>(kMaxSlices * (2 * max_n + 1));
   const size_t group = Min(2 * max_n + 1, size_t{kGroupViews});
   scratch.shifts = carver->Take<simd::SliceShift>(kMaxSlices * group);
   scratch.weights = carver->Take<int16_t>(group);
   scratch.parts = carver->Take<StackPart>(StackParts(rectangle));
-  scratch.sums = carver->Take<uint32_t>(4 * plane * rectangle);
+  scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rectangle);
   return scratch;
 }
 

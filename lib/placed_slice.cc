@@ -128,28 +128,37 @@ void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Sli
   if (placed.cell > kShiftOne) Spread(kernels, filtered, placed);
 }
 
-void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
-                int32_t width, size_t plane, const ShiftedSlice& shifted) {
-  const auto some = [&](int32_t row) {
-    return row >= 0 && row < placed.rows && placed.cover[row].some != 0;
+void PlaceTile(const PlacedSlice& placed, int32_t x, int32_t top, int32_t bottom,
+               ShiftedSlice* shifted) {
+  const uint64_t chunks = ChunksOf(placed, x);
+  const int32_t last_row = bottom + 2 * placed.reach;
+  const auto empty = [&](int32_t row) { return (placed.cover[row].some & chunks) == 0; };
+  int32_t first = top, end = last_row;
+  while (first < end && empty(first)) ++first;
+  while (end > first && empty(end - 1)) --end;
+  shifted->first = first;
+  shifted->end = end;
+  shifted->plane = (static_cast<size_t>(placed.rows) + simd::kRowsAhead) * simd::kSliceLanes;
+  const auto clear = [&](int32_t from, int32_t to) {
+    const size_t at = static_cast<size_t>(from), rows = static_cast<size_t>(to - from);
+    std::memset(shifted->some + at, 0, rows);
+    for (size_t c = 0; c < 4; ++c) {
+      std::memset(shifted->samples + c * shifted->plane + at * simd::kSliceLanes, 0,
+                  rows * simd::kSliceLanes * sizeof(*shifted->samples));
+    }
   };
-  for (int32_t row = 0; row < placed.rows; ++row) {
-    int16_t* out = shifted.samples + static_cast<size_t>(row) * 4 * plane;
-    int32_t end = row;
-    while (some(end)) ++end;
-    if (end > row) {
-      const int16_t* from = placed.samples + static_cast<size_t>(row) * 4 * placed.plane;
-      kernels.shift_slice({from + placed.reach + offset.whole, placed.plane}, offset.fraction,
-                          static_cast<size_t>(end - row), static_cast<size_t>(width), plane, out,
-                          shifted.some + row);
-      row = end - 1;
-      continue;
-    }
-    shifted.some[row] = 0;
-    if (some(row - 2) || some(row - 1) || some(row + 1) || some(row + 2)) {
-      std::memset(out, 0, 4 * plane * sizeof(*out));
-    }
-  }
+  clear(top, first);
+  clear(end, last_row + static_cast<int32_t>(simd::kRowsAhead));
+}
+
+void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
+                int32_t x, const ShiftedSlice& shifted) {
+  if (shifted.first == shifted.end) return;
+  const auto row = static_cast<size_t>(shifted.first);
+  const int16_t* from = placed.samples + row * 4 * placed.plane;
+  kernels.shift_slice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction,
+                      static_cast<size_t>(shifted.end - shifted.first), shifted.plane,
+                      shifted.samples + row * simd::kSliceLanes, shifted.some + row);
 }
 
 }  // namespace starfocus

@@ -47,6 +47,11 @@ constexpr size_t SliceSize(size_t width, size_t height, size_t reach) {
   return 4 * (height + 2 * reach) * SlicePlane(width, reach) + 2 * simd::kSliceLanes;
 }
 
+// Rows of it in a tile, with those that are read beyond the last.
+constexpr size_t ShiftedRows(size_t height, size_t reach) {
+  return height + 2 * reach + simd::kRowsAhead;
+}
+
 // Geometry and offsets of a slice that moves as `disparity`; cover and offsets must be set.
 void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, PlacedSlice* placed);
 
@@ -55,17 +60,30 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Place
 void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Slice& slice,
                const Rect& rect, int16_t* filtered, const PlacedSlice& placed);
 
-// Rows of a slice as a column of views shows it, over the rectangle's columns: four planes each,
-// `plane` samples apart, and what is covered.
+// Rows of a slice in a tile, kSliceLanes columns of the rectangle, as a column of views shows them:
+// four planes, `plane` samples apart, and whether there is anything in each row.
 struct ShiftedSlice {
-  int16_t* samples;
-  uint32_t* some;
+  int16_t* samples = nullptr;
+  uint8_t* some = nullptr;
+  size_t plane = 0;
+  int32_t first = 0, end = 0;  // rows outside of these are empty in all views
 };
 
-// Writes the rows that are moved by `offset`. Those that are empty, as the two above and below
-// them, stay as they are, but are told to be empty.
+// Chunks of a row (bits of SliceCover) that some view shows in the tile at column `x`.
+constexpr uint64_t ChunksOf(const PlacedSlice& placed, int32_t x) {
+  constexpr auto kChunk = static_cast<int32_t>(simd::kSliceLanes);
+  const int32_t first = x / kChunk, last = (x + kChunk - 1 + 2 * placed.reach) / kChunk;
+  return (uint64_t{2} << last) - (uint64_t{1} << first);
+}
+
+// Finds the rows of the tile at column `x` of the rectangle that views show in its rows [top,
+// bottom), and writes the others that are read for these. samples and some must be set.
+void PlaceTile(const PlacedSlice& placed, int32_t x, int32_t top, int32_t bottom,
+               ShiftedSlice* shifted);
+
+// Writes the rows that are moved by `offset`.
 void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
-                int32_t width, size_t plane, const ShiftedSlice& shifted);
+                int32_t x, const ShiftedSlice& shifted);
 
 }  // namespace starfocus
 

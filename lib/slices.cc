@@ -74,16 +74,15 @@ class SliceFinder {
     return static_cast<int32_t>(Limited(bins << coarser));
   }
 
-  size_t Samples(int16_t disparity) const {
-    const int32_t rim = Abs(grid_.Shift(grid_.Move(grid_.n()), disparity));
-    return SliceSize(static_cast<size_t>(job_.rect.width), static_cast<size_t>(job_.rect.height),
-                     static_cast<size_t>(SliceReach(rim)));
+  // Pixels beyond the rectangle.
+  int32_t Reach(int16_t disparity) const {
+    return SliceReach(Abs(grid_.Shift(grid_.Move(grid_.n()), disparity)));
   }
 
   // 0: too many, or too large.
   int32_t Cut(int coarser, Slice* slices) const {
     int32_t count = 0;
-    size_t samples = 0;
+    size_t samples = 0, rows = 0;
     for (int32_t bin = bins_ - 1; bin >= 0; --bin) {
       if (job_.bins[bin] == 0) continue;
       if (count == job_.rule.most) return 0;
@@ -101,8 +100,11 @@ class SliceFinder {
       slice.overlap =
           static_cast<int16_t>(Min(high + (span << bin_bits_) / kOverlapParts, INT16_MAX));
       slice.disparity = static_cast<int16_t>(low + (slice.high - low) / 2);
-      samples += Samples(slice.disparity);
-      if (samples > job_.samples) return 0;
+      const auto reach = static_cast<size_t>(Reach(slice.disparity));
+      const auto height = static_cast<size_t>(job_.rect.height);
+      samples += SliceSize(static_cast<size_t>(job_.rect.width), height, reach);
+      rows += ShiftedRows(height, reach);
+      if (samples > job_.samples || rows > job_.tile_rows) return 0;
     }
     return count;
   }

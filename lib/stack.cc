@@ -17,7 +17,7 @@ constexpr uint32_t kLeastShare = 4;
 // share of the last light may be too large by, and for the rounding of each slice.
 constexpr uint32_t kGroupSum = 58000;
 
-constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns of a tile
 
 class Stack {
  public:
@@ -36,13 +36,19 @@ class Stack {
     FindSurfaces(*job_.kernels, *job_.window, field_, &scratch_.surfaces);
     FindMatte(*job_.window, grid_, field_, &scratch_.surfaces);
     FindScale();
-    plane_ = simd::SliceSamples(static_cast<size_t>(job_.rect.width));
     PlaceSlices();
     const uint64_t pixels = FindParts();
-    const size_t samples = 4 * plane_ * static_cast<size_t>(job_.rect.height);
-    std::memset(scratch_.sums, 0, samples * sizeof(*scratch_.sums));
-    for (int32_t i = -grid_.n(); i <= grid_.n(); ++i) AddColumn(i);
-    Finish();
+    const size_t samples = kPixelSums * static_cast<size_t>(kChunk * job_.rect.height);
+    const StackPart *part = scratch_.parts, *last = part + parts_;
+    for (int32_t x = 0; x < job_.rect.width; x += kChunk) {
+      std::memset(scratch_.sums, 0, samples * sizeof(*scratch_.sums));
+      tile_.x = x;
+      tile_.first = part;
+      while (part < last && part->x == x) ++part;
+      tile_.end = part;
+      if (tile_.first < tile_.end) AddTile();
+      FinishTile();
+    }
     return pixels;
   }
 
@@ -80,12 +86,13 @@ class Stack {
 
   void PlaceSlices() {
     const Rect& inner = field_.inner;
-    const SliceJob job = {
-        &scratch_.surfaces,    &grid_, rule_, inner, scratch_.bins, scratch_.least_blur,
-        scratch_.plane_samples};
+    const SliceJob job = {&scratch_.surfaces,     &grid_,
+                          rule_,                  inner,
+                          scratch_.bins,          scratch_.least_blur,
+                          scratch_.plane_samples, scratch_.tile_rows};
     Slice slices[kMaxSlices];
     count_ = FindSlices(job, slices);
-    int16_t *samples = scratch_.planes, *shifted = scratch_.shifted;
+    int16_t* samples = scratch_.planes;
     const int32_t views = 2 * grid_.n() + 1;
     for (int32_t k = 0; k < count_; ++k) {
       PlacedSlice& placed = placed_[k];
@@ -96,8 +103,6 @@ class Stack {
       FillSlice(*job_.kernels, scratch_.surfaces, slices[k], inner, scratch_.filtered, placed);
       samples += SliceSize(static_cast<size_t>(inner.width), static_cast<size_t>(inner.height),
                            static_cast<size_t>(placed.reach));
-      shifted_[k] = {shifted, scratch_.shifted_some + k * scratch_.cover_rows};
-      shifted += 4 * plane_ * static_cast<size_t>(placed.rows);
     }
   }
 
@@ -121,8 +126,8 @@ class Stack {
     static_assert(kPartRows == kCellSize && kChunk % kCellSize == 0, "parts are whole cells");
     parts_ = 0;
     uint64_t pixels = 0;
-    for (int32_t y = 0; y < job_.rect.height; y += kPartRows) {
-      for (int32_t x = 0; x < job_.rect.width; x += kChunk) {
+    for (int32_t x = 0; x < job_.rect.width; x += kChunk) {
+      for (int32_t y = 0; y < job_.rect.height; y += kPartRows) {
         StackPart& part = scratch_.parts[parts_];
         part = {x, y, Min(kPartRows, job_.rect.height - y), 0, {}};
         if (IsGathered(part)) continue;
@@ -141,9 +146,7 @@ class Stack {
 
   // Whether some, or all, of the slice's pixels that a part may see in any view are covered.
   static simd::SliceCover CoverOf(const PlacedSlice& placed, const StackPart& part) {
-    const int32_t first = part.x / kChunk;
-    const int32_t last = (part.x + kChunk - 1 + 2 * placed.reach) / kChunk;
-    const uint64_t chunks = (uint64_t{2} << last) - (uint64_t{1} << first);
+    const uint64_t chunks = ChunksOf(placed, part.x);
     simd::SliceCover cover = {0, chunks};
     for (int32_t row = part.y; row < part.y + part.rows + 2 * placed.reach; ++row) {
       cover.some |= placed.cover[row].some;
@@ -152,12 +155,34 @@ class Stack {
     return {cover.some & chunks, cover.all == chunks ? uint64_t{1} : 0};
   }
 
+  // What of the slices is seen in the tile, and all views of it.
+  void AddTile() {
+    uint32_t seen = 0;
+    for (const StackPart* part = tile_.first; part < tile_.end; ++part) {
+      for (int32_t k = 0; k < part->count; ++k) seen |= uint32_t{1} << part->shown[k];
+    }
+    const StackPart& bottom = tile_.end[-1];
+    int16_t* samples = scratch_.tile;
+    uint8_t* some = scratch_.tile_some;
+    tile_.count = 0;
+    for (int32_t k = 0; k < count_; ++k) {
+      if ((seen >> k & 1) == 0) continue;
+      tile_.slices[tile_.count++] = k;
+      shifted_[k].samples = samples;
+      shifted_[k].some = some;
+      PlaceTile(placed_[k], tile_.x, tile_.first->y, bottom.y + bottom.rows, &shifted_[k]);
+      samples += 4 * shifted_[k].plane;
+      some += shifted_[k].plane / kChunk;
+    }
+    for (int32_t i = -grid_.n(); i <= grid_.n(); ++i) AddColumn(i);
+  }
+
   // Views (i, j) of all j.
   void AddColumn(int32_t i) {
-    for (int32_t k = 0; k < count_; ++k) {
-      const PlacedSlice& placed = placed_[k];
+    for (int32_t n = 0; n < tile_.count; ++n) {
+      const PlacedSlice& placed = placed_[tile_.slices[n]];
       if (i > -grid_.n() && Same(placed.offsets[i], placed.offsets[i - 1])) continue;
-      ShiftSlice(*job_.kernels, placed, placed.offsets[i], job_.rect.width, plane_, shifted_[k]);
+      ShiftSlice(*job_.kernels, placed, placed.offsets[i], tile_.x, shifted_[tile_.slices[n]]);
     }
     const int32_t last = LastAcross(Abs(i));
     for (int32_t first = -last; first <= last; first += kGroupViews) {
@@ -167,18 +192,19 @@ class Stack {
 
   // Views (i, first) to (i, last).
   void AddGroup(int32_t i, int32_t first, int32_t last) {
-    simd::SliceShift* shift = scratch_.shifts;
-    for (int32_t j = first; j <= last; ++j) {
+    simd::SliceShift* shifts = scratch_.shifts;
+    for (int32_t j = first; j <= last; ++j, shifts += count_) {
       scratch_.weights[j - first] = static_cast<int16_t>((Weight(i, j) * weight_scale_) >> 16);
-      for (int32_t k = 0; k < count_; ++k) {
+      for (int32_t n = 0; n < tile_.count; ++n) {
+        const int32_t k = tile_.slices[n];
         const SliceOffset& offset = placed_[k].offsets[j];
         const int32_t row = placed_[k].reach + offset.whole;
-        *shift++ = {shifted_[k].samples + static_cast<size_t>(row) * 4 * plane_,
-                    shifted_[k].some + row, offset.fraction};
+        shifts[k] = {shifted_[k].samples + row * kChunk, shifted_[k].some + row,
+                     shifted_[k].plane, offset.fraction};
       }
     }
     const auto views = static_cast<size_t>(last + 1 - first);
-    for (int32_t k = 0; k < parts_; ++k) AddPart(views, scratch_.parts[k]);
+    for (const StackPart* part = tile_.first; part < tile_.end; ++part) AddPart(views, *part);
   }
 
   void AddPart(size_t views, const StackPart& part) {
@@ -188,24 +214,25 @@ class Stack {
                                   static_cast<size_t>(count_),
                                   part.shown,
                                   static_cast<size_t>(part.count),
-                                  static_cast<size_t>(part.x),
                                   static_cast<size_t>(part.y)};
-    const size_t at = static_cast<size_t>(part.y) * 4 * plane_ + static_cast<size_t>(part.x);
-    job_.kernels->composite(job, static_cast<size_t>(part.rows), plane_, scratch_.sums + at);
+    job_.kernels->composite(job, static_cast<size_t>(part.rows),
+                            scratch_.sums + kPixelSums * static_cast<size_t>(part.y * kChunk));
   }
 
   // Colours over coverage: what no slice covers is as what covers the rest. A pixel that hardly any
   // view shows is that of the centre view.
-  void Finish() {
+  void FinishTile() {
+    const int32_t columns = Min(kChunk, job_.rect.width - tile_.x);
     uint32_t covered = 0;
     uint64_t inverse = 0;
     for (int32_t y = 0; y < job_.rect.height; ++y) {
-      const uint32_t* sums = scratch_.sums + static_cast<size_t>(y) * 4 * plane_;
-      const uint8_t* rgb = field_.Rgb(field_.inner.x, field_.inner.y + y);
-      uint32_t* out = accumulators_ + 3 * static_cast<size_t>(y) * job_.rect.width;
-      for (int32_t x = 0; x < job_.rect.width; ++x, ++sums, rgb += 3, out += 3) {
-        if (sums[3 * plane_] != covered) {
-          covered = sums[3 * plane_];
+      const uint32_t* sums = scratch_.sums + kPixelSums * static_cast<size_t>(y * kChunk);
+      const uint8_t* rgb = field_.Rgb(field_.inner.x + tile_.x, field_.inner.y + y);
+      uint32_t* out =
+          accumulators_ + 3 * (static_cast<size_t>(y) * job_.rect.width + tile_.x);
+      for (int32_t x = 0; x < columns; ++x, ++sums, rgb += 3, out += 3) {
+        if (sums[3 * kChunk] != covered) {
+          covered = sums[3 * kChunk];
           inverse = covered < least_covered_ ? 0 : (uint64_t{1} << kInverseBits) / covered;
         }
         FinishPixel(sums, inverse, rgb, out);
@@ -218,7 +245,7 @@ class Stack {
     const int bits = grid_.aperture.sum_bits, shift = kInverseBits - 8 - bits;
     const uint64_t white = uint64_t{255} << bits, half = uint64_t{1} << (shift - 1);
     for (size_t c = 0; c < 3; ++c) {
-      const uint64_t value = (sums[c * plane_] * inverse + half) >> shift;
+      const uint64_t value = (sums[c * kChunk] * inverse + half) >> shift;
       out[c] = inverse == 0 ? uint32_t{rgb[c]} << bits
                             : static_cast<uint32_t>(value < white ? value : white);
     }
@@ -231,9 +258,14 @@ class Stack {
   Field& field_;
   StackScratch& scratch_;
   uint32_t* accumulators_;
-  size_t plane_ = 0;  // samples from plane to plane of shifted slices and of the sums
   PlacedSlice placed_[kMaxSlices];
-  ShiftedSlice shifted_[kMaxSlices];  // of the column of views under way
+  ShiftedSlice shifted_[kMaxSlices];  // of the tile and the column of views under way
+  struct Tile {
+    int32_t x;  // in the rectangle
+    const StackPart *first, *end;
+    int32_t slices[kMaxSlices];  // that are seen
+    int32_t count;
+  } tile_;
   int32_t count_ = 0;
   int32_t parts_ = 0;
   uint64_t weight_scale_ = 0;  // 16 bits

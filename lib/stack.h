@@ -20,6 +20,9 @@ struct StackPart {
   uint8_t shown[kMaxSlices];
 };
 
+// Of the light of a pixel: R, G, B and what is covered.
+inline constexpr size_t kPixelSums = 4;
+
 // Views of a column that are summed in 16 bits: all of those that cells need.
 inline constexpr int32_t kGroupViews = 81;
 
@@ -34,13 +37,14 @@ struct StackScratch {
   int16_t* planes;           // of all slices
   size_t plane_samples;      // that fit
   int16_t* filtered;         // SliceSize(R, R, E - R)
-  int16_t* shifted;          // of all slices
-  uint32_t* shifted_some;    // kMaxSlices E
+  int16_t* tile;             // of all slices
+  uint8_t* tile_some;        // of each row of it
+  size_t tile_rows;          // that fit
   SliceOffset* offsets;      // kMaxSlices (2 N + 1)
   simd::SliceShift* shifts;  // kMaxSlices G
   int16_t* weights;          // G
   StackPart* parts;          // of a rectangle
-  uint32_t* sums;            // 4 R^2
+  uint32_t* sums;            // kPixelSums of the pixels of a tile
 };
 
 // Parts of the largest rectangle.

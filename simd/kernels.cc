@@ -12,6 +12,7 @@
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
+#include "simd/tiles-inl.h"
 #include "simd/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -48,13 +49,13 @@ void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_
   SpreadSamplesOfSlice(in, step, taps, count, out);
 }
 
-void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t count,
-                size_t plane, int16_t* out, uint32_t* some) {
-  ShiftPlanes(in, fraction, rows, count, plane, out, some);
+void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
+                int16_t* out, uint8_t* some) {
+  ShiftPlanes(in, fraction, rows, plane, out, some);
 }
 
-void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums) {
-  CompositeViews(views, rows, plane, sums);
+void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
+  CompositeViews(views, rows, sums);
 }
 
 void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,

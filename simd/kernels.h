@@ -102,25 +102,28 @@ struct SliceFraction {
 };
 inline constexpr int16_t kSliceStart = -32768;
 
-// A slice in one view: its first row, `some` of SliceCover from there on, and how far the view lies
-// on the way to the next row.
+// A slice in one view of a tile, kSliceLanes columns of pixels whose rows follow each other in each
+// of four planes, `plane` samples apart: its first row, whether each row from there on is more than
+// zeros, and how far the view lies on the way to the next row.
 struct SliceShift {
   const int16_t* samples;
-  const uint32_t* some;
+  const uint8_t* some;
+  size_t plane;
   SliceFraction fraction;
 };
 
-// Views above each other. shifts[view * slices + k] is slice k in a view; those of `shown`, the
-// nearest first, are seen. Where a row is empty and one of the two above or below it is not, it
-// holds zeros; elsewhere anything.
+// Views of a tile above each other. shifts[view * slices + k] is slice k in a view; those of
+// `shown`, the nearest first, are seen.
 struct SliceViews {
   const int16_t* weights;  // [0, 2^14), 58000 at most together
   const SliceShift* shifts;
   size_t count, slices;
   const uint8_t* shown;
   size_t shown_count;
-  size_t column, row;  // of what is composited; whole kSliceLanes
+  size_t row;  // the first of what is composited
 };
+// Rows of a tile that composite may read beyond the last one it adds.
+inline constexpr size_t kRowsAhead = 4;
 
 // Depth edges that hide what lies behind: steps of more than `step`, seen up to a pixel per
 // 2^unit_bits of depth away.
@@ -214,19 +217,18 @@ struct Kernels {
   void (*spread_slice)(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,
                        int16_t* out);
 
-  // Moves all planes of rows by a fraction of a sample: out[n] = in[n + 1] + fraction (in[n + 1] -
-  // in[n]), halves up, by fraction.inside where both are covered alike. `plane`: of the output.
-  // some[row]: what is covered, as in SliceCover, samples beyond `count` included; count <= 32
-  // kSliceLanes.
+  // Moves rows by a fraction of a sample into a tile: out[n] = in[n + 1] + fraction (in[n + 1] -
+  // in[n]), halves up, by fraction.inside where both are covered alike. `plane`: of the tile.
+  // some[row]: whether anything is covered, 1 or 0.
   void (*shift_slice)(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                      size_t count, size_t plane, int16_t* out, uint32_t* some);
+                      size_t plane, int16_t* out, uint8_t* some);
 
-  // Adds kSliceLanes samples of the views in each row. A slice takes of the view's light what it
-  // covers, and gives as much of its colours; of the last light it gives the share that is left (up
-  // to a ninth of the weight too much), as if slices beside each other covered different parts of a
-  // pixel. Samples between two rows as by shift_slice; products (15 bits) are rounded halves up.
-  // `plane`: of slices and sums; no sum exceeds 2^32 - 1. Two rows beyond the last are read.
-  void (*composite)(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums);
+  // Adds the views of a tile to sums[(4 row + plane) kSliceLanes + n]. A slice takes of the view's
+  // light what it covers, and gives as much of its colours; of the last light it gives the share
+  // that is left (up to a ninth of the weight too much), as if slices beside each other covered
+  // different parts of a pixel. Samples between two rows as by shift_slice; products (15 bits) are
+  // rounded halves up. No sum exceeds 2^32 - 1.
+  void (*composite)(const SliceViews& views, size_t rows, uint32_t* sums);
 
   // Splits lines 0 .. lines - 1 of `length` positions, greedily from position 0 on; position q of
   // line k is disparity[q * step + k].

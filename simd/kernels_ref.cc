@@ -164,17 +164,17 @@ int16_t Between15(const int16_t* at, const int16_t* covered, size_t next,
   return Between15(at[0], at[next], alike ? fraction.inside : fraction.edge);
 }
 
-void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t count,
-                size_t plane, int16_t* out, uint32_t* some) {
+void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
+                int16_t* out, uint8_t* some) {
   for (size_t row = 0; row < rows; ++row) {
     const int16_t* covered = in.samples + (4 * row + 3) * in.plane;
     some[row] = 0;
     for (size_t c = 0; c < 4; ++c) {
       const int16_t* from = in.samples + (4 * row + c) * in.plane;
-      int16_t* to = out + (4 * row + c) * plane;
-      for (size_t n = 0; n < SliceSamples(count); ++n) {
+      int16_t* to = out + c * plane + row * kSliceLanes;
+      for (size_t n = 0; n < kSliceLanes; ++n) {
         to[n] = Between15(from + n, covered + n, 1, fraction);
-        if (c == 3 && to[n] != 0) some[row] |= uint32_t{1} << (n / kSliceLanes);
+        if (c == 3 && to[n] != 0) some[row] = 1;
       }
     }
   }
@@ -189,10 +189,8 @@ int16_t SliceShare(int16_t covered, int16_t light) {
   return static_cast<int16_t>(share < 4 * light ? share : Saturated(4 * light));
 }
 
-void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums) {
-  const size_t row_size = 4 * plane;
-  const uint32_t chunk = uint32_t{1} << (views.column / kSliceLanes);
-  for (size_t y = 0; y < rows; ++y, sums += row_size) {
+void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
+  for (size_t y = 0; y < rows; ++y, sums += 4 * kSliceLanes) {
     const size_t row = views.row + y;
     for (size_t n = 0; n < kSliceLanes; ++n) {
       for (size_t view = 0; view < views.count; ++view) {
@@ -200,16 +198,17 @@ void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sum
         int16_t light = kSliceOne;
         for (size_t k = 0; k < views.shown_count; ++k) {
           const SliceShift& shift = views.shifts[view * views.slices + views.shown[k]];
-          if (((shift.some[row] | shift.some[row + 1]) & chunk) == 0) continue;
-          const int16_t* from = shift.samples + row * row_size + views.column + n;
+          if ((shift.some[row] | shift.some[row + 1]) == 0) continue;
+          const int16_t* from = shift.samples + row * kSliceLanes + n;
           const auto value = [&](size_t c) {
-            return Between15(from + c * plane, from + 3 * plane, row_size, shift.fraction);
+            return Between15(from + c * shift.plane, from + 3 * shift.plane, kSliceLanes,
+                             shift.fraction);
           };
           const int16_t covered = value(3);
           for (size_t c = 0; c < 4; ++c) {
             const int16_t lit =
                 covered > light ? Product15(value(c), SliceShare(covered, light)) : value(c);
-            sums[n + c * plane] += static_cast<uint32_t>(Product15(weight, lit));
+            sums[n + c * kSliceLanes] += static_cast<uint32_t>(Product15(weight, lit));
           }
           light = static_cast<int16_t>(covered > light ? 0 : light - covered);
         }

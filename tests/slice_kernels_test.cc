@@ -167,38 +167,53 @@ void TestSpread(const Kernels& kernels) {
 
 void TestShift(const Kernels& kernels) {
   test::Random random(5);
-  for (size_t count = 1; count <= 70; ++count) {
-    const size_t rows = size_t(random.Int(1, 9)), plane = Whole(count), in_plane = plane + 32;
-    const std::vector<int16_t> in = Planes(rows, in_plane, 20, &random);
+  for (int round = 0; round < 70; ++round) {
+    const size_t rows = size_t(random.Int(1, 9)), in_plane = 16 * size_t(random.Int(1, 4)) + 32;
+    std::vector<int16_t> in = Planes(rows, in_plane, 20, &random);
+    const size_t empty = size_t(random.Int(0, int(rows) - 1)), plane = kSliceLanes * (rows + 4);
+    std::fill_n(in.begin() + ptrdiff_t(4 * empty * in_plane), 4 * in_plane, int16_t{0});
     const SliceFraction fraction = Fraction(&random);
-    std::vector<int16_t> expected(4 * rows * plane), got = expected;
-    std::vector<uint32_t> some(rows, 9), got_some(rows, 8);
+    std::vector<int16_t> expected(4 * plane), got = expected;
+    std::vector<uint8_t> some(rows + 1, 9), got_some = some;
     const starfocus::simd::SlicePlanes from = {in.data() + random.Int(0, 16), in_plane};
-    ReferenceKernels().shift_slice(from, fraction, rows, count, plane, expected.data(),
-                                   some.data());
-    kernels.shift_slice(from, fraction, rows, count, plane, got.data(), got_some.data());
-    CAPTURE(count);
+    ReferenceKernels().shift_slice(from, fraction, rows, plane, expected.data(), some.data());
+    kernels.shift_slice(from, fraction, rows, plane, got.data(), got_some.data());
+    CAPTURE(round);
     CHECK(got == expected);
     CHECK(got_some == some);
+    CHECK(some[rows] == 9);
   }
+}
+
+// A slice in a tile: planes of rows of kSliceLanes samples, some rows empty.
+struct TileSlice {
+  std::vector<int16_t> samples;
+  std::vector<uint8_t> some;
+};
+
+TileSlice MakeTileSlice(size_t rows, test::Random* random) {
+  const size_t plane = rows * kSliceLanes;
+  const std::vector<int16_t> in = Planes(rows, kSliceLanes, random->Int(5, 100), random);
+  TileSlice slice = {std::vector<int16_t>(4 * plane), std::vector<uint8_t>(rows)};
+  for (size_t row = 0; row < rows; ++row) {
+    if (random->Int(0, 3) == 0) continue;
+    for (size_t n = 0; n < 4 * kSliceLanes; ++n) {
+      const int16_t sample = in[4 * row * kSliceLanes + n];
+      slice.samples[n / kSliceLanes * plane + row * kSliceLanes + n % kSliceLanes] = sample;
+      if (n >= 3 * kSliceLanes && sample != 0) slice.some[row] = 1;
+    }
+  }
+  return slice;
 }
 
 void TestComposite(const Kernels& kernels) {
   test::Random random(6);
   for (int round = 0; round < 200; ++round) {
-    const size_t rows = size_t(random.Int(1, 8)), plane = 16 * size_t(random.Int(1, 4));
+    const size_t rows = size_t(random.Int(1, 9));
     const size_t slices = size_t(random.Int(1, 6)), views = size_t(random.Int(1, 9));
-    const size_t height = rows + 12;
-    std::vector<std::vector<int16_t>> samples;
-    std::vector<std::vector<uint32_t>> some;
+    std::vector<TileSlice> tiles;
     for (size_t k = 0; k < slices; ++k) {
-      samples.push_back(Planes(height, plane, random.Int(5, 100), &random));
-      some.emplace_back(height);
-      for (size_t n = 0; n < height * plane; ++n) {
-        const size_t row = n / plane, column = n % plane;
-        const bool covered = samples[k][4 * row * plane + 3 * plane + column] != 0;
-        some[k][row] |= uint32_t(covered) << (column / kSliceLanes);
-      }
+      tiles.push_back(MakeTileSlice(rows + 9 + starfocus::simd::kRowsAhead, &random));
     }
     std::vector<int16_t> weights(views);
     for (int16_t& weight : weights)
@@ -206,22 +221,22 @@ void TestComposite(const Kernels& kernels) {
     std::vector<SliceShift> shifts;
     for (size_t n = 0; n < views * slices; ++n) {
       const size_t row = size_t(random.Int(0, 8));
-      const SliceFraction fraction = Fraction(&random);
-      shifts.push_back(
-          {samples[n % slices].data() + 4 * row * plane, some[n % slices].data() + row, fraction});
+      const TileSlice& tile = tiles[n % slices];
+      shifts.push_back({tile.samples.data() + row * kSliceLanes, tile.some.data() + row,
+                        tile.samples.size() / 4, Fraction(&random)});
     }
     std::vector<uint8_t> shown;
     for (size_t k = 0; k < slices; ++k) {
       if (random.Int(0, 4) > 0) shown.push_back(uint8_t(k));
     }
-    const size_t column = 16 * size_t(random.Int(0, int(plane / 16) - 1));
-    const starfocus::simd::SliceViews job = {weights.data(), shifts.data(), views,  slices,
-                                             shown.data(),   shown.size(),  column, 1};
-    std::vector<uint32_t> expected(4 * rows * plane, 5), got = expected;
-    ReferenceKernels().composite(job, rows, plane, expected.data() + column);
-    kernels.composite(job, rows, plane, got.data() + column);
+    const starfocus::simd::SliceViews job = {weights.data(), shifts.data(), views, slices,
+                                             shown.data(),   shown.size(),  1};
+    std::vector<uint32_t> expected(4 * (rows + 1) * kSliceLanes, 5), got = expected;
+    ReferenceKernels().composite(job, rows, expected.data());
+    kernels.composite(job, rows, got.data());
     CAPTURE(round);
     CHECK(got == expected);
+    CHECK(expected.back() == 5);
   }
 }
 

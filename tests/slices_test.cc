@@ -16,7 +16,7 @@ using starfocus::Slice;
 using starfocus::SliceRule;
 
 constexpr int kSize = 64;
-constexpr size_t kMemory = size_t{1} << 24;
+constexpr size_t kMemory = size_t{1} << 24, kRows = 1 << 12;
 
 // Maps of one surface, or of one behind another, as FindSurfaces leaves them.
 struct Scene {
@@ -42,7 +42,7 @@ struct Scene {
 
   // Of the middle 16 x 16 pixels.
   std::vector<Slice> Cut(double focus, double aperture = 1, size_t memory = kMemory,
-                         const SliceRule& rule = starfocus::kSlices) {
+                         const SliceRule& rule = starfocus::kSlices, size_t rows = kRows) {
     starfocus::Aperture views;
     views.n = 4;
     const auto grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
@@ -51,7 +51,7 @@ struct Scene {
     surfaces.high = *range.second;
     std::vector<Slice> slices(kMaxSlices);
     const int count = starfocus::FindSlices(
-        {&surfaces, &grid, rule, {24, 24, 16, 16}, bins.data(), least.data(), memory},
+        {&surfaces, &grid, rule, {24, 24, 16, 16}, bins.data(), least.data(), memory, rows},
         slices.data());
     REQUIRE(count > 0);
     REQUIRE(count <= rule.most);
@@ -127,6 +127,7 @@ TEST_CASE("slices: coarser where there are too many, or too large ones") {
   const size_t all = scene.Cut(0).size();
   CHECK(all > 4);
   CHECK(scene.Cut(0, 1, kMemory / 256).size() < all);
+  CHECK(scene.Cut(0, 1, kMemory, starfocus::kSlices, kRows / 16).size() < all);
 }
 
 }  // namespace

@@ -58,8 +58,9 @@ constexpr size_t kRows = 32, kColumns = kSamples / 3 / kRows;
 constexpr starfocus::simd::HalfBand kTaps = {8192, 4096, 0};
 // A box of 3.5 pixels.
 constexpr starfocus::simd::SliceTaps kSliceTaps = {2, 9362, 18724, 4682};
-// A slice of 6 rows of 4 planes, and 5 views of two of them.
+// A slice of 6 rows of 4 planes; tiles of as many samples, and 5 views of two of them.
 constexpr size_t kPlane = kSamples / 4 / 6;
+constexpr size_t kTileRows = kSamples / 4 / starfocus::simd::kSliceLanes;
 constexpr size_t kSliceViews = 5;
 static_assert(kPlane % starfocus::simd::kSliceLanes == 0);
 // Radius 3.2 or so: weights need not sum to anything for their time.
@@ -70,19 +71,16 @@ using Body = void (*)(const Kernels&, Buffers*);
 
 // The nearer slice covers half a pixel.
 void Composite(const Kernels& kernels, Buffers* b) {
-  constexpr size_t kRowsShown = 4;
   const int16_t weights[kSliceViews] = {9000, 9000, 9000, 9000, 9000};
-  const uint32_t some[6] = {~0u, ~0u, ~0u, ~0u, ~0u, ~0u};
+  uint8_t some[kTileRows + starfocus::simd::kRowsAhead];
+  std::memset(some, 1, sizeof(some));
   const uint8_t shown[2] = {0, 1};
   starfocus::simd::SliceShift shifts[2 * kSliceViews];
   for (size_t n = 0; n < 2 * kSliceViews; ++n) {
     const auto back = static_cast<int16_t>(-3000 * static_cast<int>(n / 2));
-    shifts[n] = {b->in.data() + n % 2 * 8, some, {back, back}};
+    shifts[n] = {b->in.data() + n % 2 * 8, some, kSamples / 4, {back, back}};
   }
-  for (size_t column = 0; column < kPlane; column += starfocus::simd::kSliceLanes) {
-    kernels.composite({weights, shifts, kSliceViews, 2, shown, 2, column, 0}, kRowsShown, kPlane,
-                      b->sums.data() + column);
-  }
+  kernels.composite({weights, shifts, kSliceViews, 2, shown, 2, 0}, kTileRows, b->sums.data());
 }
 
 struct Case {
@@ -139,9 +137,9 @@ const Case kCases[] = {
      }},
     {"shift_slice", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
-       uint32_t some[6];
-       k.shift_slice({b->in.data(), kPlane}, {-9000, -9000}, 6, kPlane, kPlane, b->out.data(),
-                     some);
+       uint8_t some[kTileRows];
+       k.shift_slice({b->in.data(), starfocus::simd::kSliceLanes}, {-9000, -9000}, kTileRows,
+                     kSamples / 4, b->out.data(), some);
        benchmark::DoNotOptimize(some);
      }},
     // Of each view and slice.

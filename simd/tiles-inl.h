@@ -1,0 +1,230 @@
+// The kernels of tiles of slices: shift_slice, composite. Included once per target.
+#if defined(STARFOCUS_SIMD_TILES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_TILES_INL_H_
+#undef STARFOCUS_SIMD_TILES_INL_H_
+#else
+#define STARFOCUS_SIMD_TILES_INL_H_
+#endif
+
+#include "simd/compat-inl.h"
+#include "simd/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+// Rows of a tile follow each other: the widest vectors hold two of them.
+using RowTag = hn::CappedTag<int16_t, kSliceLanes>;
+#undef STARFOCUS_WIDE_TILES
+#if HWY_TARGET != HWY_SCALAR && HWY_MAX_BYTES >= 64
+#define STARFOCUS_WIDE_TILES 1
+using TileTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
+#else
+#define STARFOCUS_WIDE_TILES 0
+using TileTag = RowTag;
+#endif
+
+// Rows of a tile that a vector holds, or a part of one row.
+template <class D>
+HWY_INLINE size_t RowsOf(D d) {
+  return hn::Lanes(d) > kSliceLanes ? hn::Lanes(d) / kSliceLanes : 1;
+}
+
+// Samples of a row, or of two rows `stride` apart.
+template <class D>
+HWY_INLINE hn::Vec<D> LoadRows(D d, const int16_t* HWY_RESTRICT at, size_t stride) {
+#if STARFOCUS_WIDE_TILES
+  if (hn::Lanes(d) > kSliceLanes) {
+    const hn::Half<D> row;
+    return hn::Combine(d, hn::LoadU(row, at + stride), hn::LoadU(row, at));
+  }
+#endif
+  (void)stride;
+  return hn::LoadU(d, at);
+}
+
+// Marks the rows that a vector is of and that have samples other than zero.
+template <class D>
+HWY_INLINE void MarkRows(D d, hn::Vec<D> samples, uint8_t* HWY_RESTRICT some) {
+  const auto filled = hn::Ne(samples, hn::Zero(d));
+#if STARFOCUS_WIDE_TILES
+  if (hn::Lanes(d) > kSliceLanes) {
+    uint8_t bits[8];  // as many may be written
+    hn::StoreMaskBits(d, filled, bits);
+    for (size_t k = 0; k < 2; ++k) some[k] = (bits[2 * k] | bits[2 * k + 1]) != 0 ? 1 : 0;
+    return;
+  }
+#endif
+  if (!hn::AllFalse(d, filled)) some[0] = 1;
+}
+
+// Returns how many of the rows are moved: as many as fill vectors.
+template <class D>
+HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
+                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
+  const size_t lanes = hn::Lanes(d), step = RowsOf(d), stride = 4 * in.plane;
+  const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
+  size_t row = 0;
+  for (; row + step <= rows; row += step, out += step * kSliceLanes) {
+    some[row] = 0;
+    for (size_t n = 0; n < kSliceLanes; n += lanes) {
+      const int16_t* HWY_RESTRICT from = in.samples + row * stride + n;
+      const auto covered = LoadRows(d, from + 3 * in.plane, stride);
+      const auto next = LoadRows(d, from + 3 * in.plane + 1, stride);
+      const auto weight = hn::IfThenElse(hn::Eq(covered, next), inside, edge);
+      const auto between = [&](auto value, auto other) HWY_ATTR {
+        return hn::Add(other, hn::MulFixedPoint15(hn::Sub(other, value), weight));
+      };
+      for (size_t c = 0; c < 3; ++c) {
+        const int16_t* at = from + c * in.plane;
+        hn::StoreU(between(LoadRows(d, at, stride), LoadRows(d, at + 1, stride)), d,
+                   out + c * plane + n);
+      }
+      const auto shown = between(covered, next);
+      hn::StoreU(shown, d, out + 3 * plane + n);
+      MarkRows(d, shown, some + row);
+    }
+  }
+  return row;
+}
+
+HWY_INLINE void ShiftPlanes(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
+                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
+  const size_t done = ShiftRows(TileTag(), in, fraction, rows, plane, out, some);
+  if (done == rows) return;
+  const SlicePlanes rest = {in.samples + done * 4 * in.plane, in.plane};
+  ShiftRows(RowTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes, some + done);
+}
+
+using SliceVec = hn::Vec<TileTag>;
+
+// Adds 16 bits to sums of 32, of as many rows as there are.
+HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums) {
+  const TileTag d;
+  const hn::RebindToUnsigned<TileTag> d16;
+  const hn::CappedTag<uint32_t, kSliceLanes> d32;
+  const hn::Rebind<uint16_t, decltype(d32)> part;
+  const size_t each = hn::Lanes(d) / RowsOf(d);
+  uint16_t bits[2 * kSliceLanes];
+  hn::StoreU(hn::BitCast(d16, value), d16, bits);
+  const size_t most = RowsOf(d) < rows ? RowsOf(d) : rows;
+  for (size_t row = 0; row < most; ++row, sums += 4 * kSliceLanes) {
+    for (size_t n = 0; n < each; n += hn::Lanes(d32)) {
+      const auto more = hn::PromoteTo(d32, hn::LoadU(part, bits + row * kSliceLanes + n));
+      hn::StoreU(hn::Add(hn::LoadU(d32, sums + n), more), d32, sums + n);
+    }
+  }
+}
+
+// light / covered, where that is less than one: SliceShare.
+HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light,
+                                          SliceVec excess) {
+  const TileTag d16;
+  const auto one = hn::Set(d16, kSliceOne);
+  const auto open = hn::Sub(one, covered);
+  const auto first = hn::MulFixedPoint15(excess, open);
+  const auto second = hn::MulFixedPoint15(first, open);
+  const auto taken = hn::SaturatedAdd(hn::SaturatedAdd(excess, first), second);
+  const auto twice = hn::SaturatedAdd(light, light);
+  return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
+}
+
+// A slice's colours and coverage in a row of a view: `excess` is what it covers of the light more
+// than is left, which it gives nothing for.
+HWY_INLINE void TakeLight(SliceVec weight, SliceVec red, SliceVec green, SliceVec blue,
+                          SliceVec covered, SliceVec excess, SliceVec& light, SliceVec& r,
+                          SliceVec& g, SliceVec& b, SliceVec& a) {
+  const TileTag d16;
+  const auto taken = hn::Sub(covered, excess);
+  if (!hn::AllTrue(d16, hn::Eq(excess, hn::Zero(d16)))) {
+    const auto over = hn::Gt(covered, light);
+    const auto share = ShareOfLight(covered, light, excess);
+    const auto lit = [&](SliceVec value) HWY_ATTR {
+      return hn::IfThenElse(over, hn::MulFixedPoint15(value, share), value);
+    };
+    red = lit(red);
+    green = lit(green);
+    blue = lit(blue);
+    covered = lit(covered);
+  }
+  light = hn::Sub(light, taken);
+  r = hn::Add(r, hn::MulFixedPoint15(weight, red));
+  g = hn::Add(g, hn::MulFixedPoint15(weight, green));
+  b = hn::Add(b, hn::MulFixedPoint15(weight, blue));
+  a = hn::Add(a, hn::MulFixedPoint15(weight, covered));
+}
+
+// A vector of rows of a tile, and what follows it: what lies between them is read for both.
+HWY_INLINE void CompositeRows(const SliceViews& views, size_t row, size_t n, size_t rows,
+                              uint32_t* HWY_RESTRICT sums) {
+  const TileTag d16;
+  const size_t step = RowsOf(d16), offset = row * kSliceLanes + n, second = step * kSliceLanes;
+  const auto zero = hn::Zero(d16), one = hn::Set(d16, kSliceOne);
+  auto r0 = zero, g0 = zero, b0 = zero, a0 = zero, r1 = zero, g1 = zero, b1 = zero, a1 = zero;
+  const SliceShift* shifts = views.shifts;
+  for (size_t view = 0; view < views.count; ++view, shifts += views.slices) {
+    const auto weight = hn::Set(d16, views.weights[view]);
+    auto light0 = one, light1 = one;
+    for (size_t k = 0; k < views.shown_count; ++k) {
+      const SliceShift& shift = shifts[views.shown[k]];
+      const uint8_t* some = shift.some + row;
+      int any = some[0] | some[1] | some[2];
+      if (step > 1) any |= some[3] | some[4];
+      if (any == 0) continue;
+      const auto inside = hn::Set(d16, shift.fraction.inside);
+      const auto edge = hn::Set(d16, shift.fraction.edge);
+      const auto between = [&](SliceVec value, SliceVec next, SliceVec fraction) HWY_ATTR {
+        return hn::Add(next, hn::MulFixedPoint15(hn::Sub(next, value), fraction));
+      };
+      const int16_t* at = shift.samples + offset;
+      const int16_t* cover = at + 3 * shift.plane;
+      // Where a vector is one row, or less of it, these are three rows.
+      const auto load = [&](const int16_t* from) HWY_ATTR { return hn::LoadU(d16, from); };
+      const auto above0 = load(cover), below0 = load(cover + kSliceLanes);
+      const auto above1 = load(cover + second), below1 = load(cover + second + kSliceLanes);
+      const auto fraction0 = hn::IfThenElse(hn::Eq(above0, below0), inside, edge);
+      const auto fraction1 = hn::IfThenElse(hn::Eq(above1, below1), inside, edge);
+      const auto covered0 = between(above0, below0, fraction0);
+      const auto covered1 = between(above1, below1, fraction1);
+      if (hn::AllTrue(d16, hn::Eq(hn::Or(covered0, covered1), zero))) continue;
+      const auto first = [&](size_t c) HWY_ATTR {
+        const int16_t* from = at + c * shift.plane;
+        return between(load(from), load(from + kSliceLanes), fraction0);
+      };
+      const auto last = [&](size_t c) HWY_ATTR {
+        const int16_t* from = at + c * shift.plane + second;
+        return between(load(from), load(from + kSliceLanes), fraction1);
+      };
+      const auto excess0 = hn::Max(hn::Sub(covered0, light0), zero);
+      TakeLight(weight, first(0), first(1), first(2), covered0, excess0, light0, r0, g0, b0, a0);
+      const auto excess1 = hn::Max(hn::Sub(covered1, light1), zero);
+      TakeLight(weight, last(0), last(1), last(2), covered1, excess1, light1, r1, g1, b1, a1);
+      if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
+    }
+  }
+  const auto add = [&](SliceVec r, SliceVec g, SliceVec b, SliceVec a, size_t more,
+                       uint32_t* to) HWY_ATTR {
+    AddSums(r, more, to);
+    AddSums(g, more, to + kSliceLanes);
+    AddSums(b, more, to + 2 * kSliceLanes);
+    AddSums(a, more, to + 3 * kSliceLanes);
+  };
+  add(r0, g0, b0, a0, rows, sums + n);
+  if (rows > step) add(r1, g1, b1, a1, rows - step, sums + 4 * second + n);
+}
+
+HWY_INLINE void CompositeViews(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRICT sums) {
+  const TileTag d;
+  const size_t step = 2 * RowsOf(d);
+  for (size_t y = 0; y < rows; y += step, sums += 4 * step * kSliceLanes) {
+    for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d)) {
+      CompositeRows(views, views.row + y, n, rows - y, sums);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif
