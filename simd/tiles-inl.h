@@ -66,11 +66,15 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
   const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
   size_t row = 0;
   for (; row + step <= rows; row += step, out += step * kSliceLanes) {
-    some[row] = 0;
+    for (size_t k = 0; k < step; ++k) some[row + k] = 0;
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
       const int16_t* HWY_RESTRICT from = in.samples + row * stride + n;
       const auto covered = LoadRows(d, from + 3 * in.plane, stride);
       const auto next = LoadRows(d, from + 3 * in.plane + 1, stride);
+      if (hn::AllTrue(d, hn::Eq(hn::Or(covered, next), hn::Zero(d)))) {
+        for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d), d, out + c * plane + n);
+        continue;
+      }
       const auto weight = hn::IfThenElse(hn::Eq(covered, next), inside, edge);
       const auto between = [&](auto value, auto other) HWY_ATTR {
         return hn::Add(other, hn::MulFixedPoint15(hn::Sub(other, value), weight));
