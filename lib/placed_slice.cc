@@ -7,7 +7,10 @@ namespace {
 
 constexpr int32_t kFractionOne = 1 << 15;
 
-// What a box of `cell` pixels (kShiftBits), more than one, covers of the pixels around it.
+// Wider cells are spread before slices are moved: what interpolation adds is little then.
+constexpr int32_t kBoxCell = 2 * kShiftOne;
+
+// What a box of `cell` pixels (kShiftBits), more than two, covers of the pixels around it.
 simd::SliceTaps TapsOf(int32_t cell) {
   constexpr int32_t kLargest = (2 * simd::kMaxSpread + 1) * kShiftOne;
   const int32_t length = Min(cell, kLargest);
@@ -24,18 +27,37 @@ simd::SliceTaps TapsOf(int32_t cell) {
   return taps;
 }
 
+// A cell of one to two pixels at `shift` (both kShiftBits) covers three of them, or two. Spread
+// beforehand and interpolated, cells beside each other would cover some pixels too much and others
+// too little.
+SliceOffset BoxOffset(int32_t shift, int32_t cell) {
+  // In half units, and from the first pixel's left end on.
+  const int32_t start = 2 * shift - cell + kShiftOne, whole = start >> (kShiftBits + 1);
+  const int32_t left = 2 * kShiftOne - (start - (whole << (kShiftBits + 1)));
+  const int32_t right = 2 * cell - left - 2 * kShiftOne;  // of the third pixel
+  const auto part = [&](int32_t covered) {
+    return static_cast<int16_t>(-(kFractionOne / 2 * covered / cell));
+  };
+  if (right > 0) return {whole, {part(left), part(left), part(right)}};
+  // Of two pixels the parts are one together, whichever of them comes first.
+  const int32_t more = left - (2 * cell - left);
+  const auto first = static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / cell));
+  return {whole, {first, first, 0}};
+}
+
 // `shift` in kShiftBits as whole pixels and a fraction. Inside the slice a cell narrower than a
 // pixel covers less of the pixels on either side of it than interpolation; its ends move evenly.
 SliceOffset OffsetOf(int32_t shift, int32_t cell) {
+  if (cell > kShiftOne && cell <= kBoxCell) return BoxOffset(shift, cell);
   const int32_t whole = shift >> kShiftBits, rest = shift & (kShiftOne - 1);
   const auto before = [](int32_t fraction) {
     return static_cast<int16_t>(fraction - kFractionOne);
   };
   const int16_t edge = before(rest * (kFractionOne / kShiftOne));
-  if (rest == 0 || cell >= kShiftOne) return {whole, {edge, edge}};
+  if (rest == 0 || cell >= kShiftOne) return {whole, {edge, edge, 0}};
   const int32_t from_middle = (rest - kShiftOne / 2) * kFractionOne;
   const int32_t inside = from_middle / Max(cell, 1) + kFractionOne / 2;
-  return {whole, {before(Clamp(inside, 0, kFractionOne)), edge}};
+  return {whole, {before(Clamp(inside, 0, kFractionOne)), edge, 0}};
 }
 
 // Beyond the surfaces' left and right end their outermost pixels go on; behind the row's end there
@@ -125,7 +147,7 @@ void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Sli
         SelectRow(kernels, surfaces, slice, x, Clamp(y + row, 0, surfaces.height - 1), width,
                   placed.plane, placed.samples + static_cast<size_t>(row) * 4 * placed.plane);
   }
-  if (placed.cell > kShiftOne) Spread(kernels, filtered, placed);
+  if (placed.cell > kBoxCell) Spread(kernels, filtered, placed);
 }
 
 void PlaceTile(const PlacedSlice& placed, int32_t x, int32_t top, int32_t bottom,

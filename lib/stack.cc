@@ -107,7 +107,8 @@ class Stack {
   }
 
   static bool Same(const SliceOffset& a, const SliceOffset& b) {
-    return a.whole == b.whole && a.fraction.edge == b.fraction.edge;
+    return a.whole == b.whole && a.fraction.edge == b.fraction.edge &&
+           a.fraction.third == b.fraction.third;
   }
 
   bool IsGathered(const StackPart& part) const {

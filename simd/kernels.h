@@ -95,10 +95,12 @@ struct SliceCover {
   uint64_t some, all;
 };
 
-// How far before the next pixel of a slice a view lies, in [-1, 0], 15 bits: between two that are
-// covered alike, and where the slice ends. At kSliceStart it is at the pixel itself.
+// What a view sees of up to three pixels of a slice, one after the other: of the first one `inside`
+// where it is covered as the second, else `edge`, and `third` of the third one, all in [-1, 0] with
+// 15 bits and negative, since 16 hold -1; the rest is the second pixel. With a third one inside and
+// edge are the same.
 struct SliceFraction {
-  int16_t inside, edge;
+  int16_t inside, edge, third;
 };
 inline constexpr int16_t kSliceStart = -32768;
 
@@ -123,7 +125,7 @@ struct SliceViews {
   size_t row;  // the first of what is composited
 };
 // Rows of a tile that composite may read beyond the last one it adds.
-inline constexpr size_t kRowsAhead = 4;
+inline constexpr size_t kRowsAhead = 5;
 
 // Depth edges that hide what lies behind: steps of more than `step`, seen up to a pixel per
 // 2^unit_bits of depth away.
@@ -217,8 +219,9 @@ struct Kernels {
   void (*spread_slice)(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,
                        int16_t* out);
 
-  // Moves rows by a fraction of a sample into a tile: out[n] = in[n + 1] + fraction (in[n + 1] -
-  // in[n]), halves up, by fraction.inside where both are covered alike. `plane`: of the tile.
+  // Moves rows by a fraction of a sample into a tile: out[n] = in[n + 1] + first (in[n + 1] - in[n])
+  // + third (in[n + 1] - in[n + 2]), each halves up; first and third of the fraction. `plane`: of
+  // the tile.
   // some[row]: whether anything is covered, 1 or 0.
   void (*shift_slice)(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                       size_t plane, int16_t* out, uint8_t* some);

@@ -157,11 +157,13 @@ int16_t Between15(int16_t from, int16_t to, int16_t fraction) {
   return static_cast<int16_t>(to + Product15(to - from, fraction));
 }
 
-// Sample n of a plane, and `next` samples on, of which `covered` is the coverage.
+// Sample n of a plane and the next ones, `next` samples on, of which `covered` is the coverage.
 int16_t Between15(const int16_t* at, const int16_t* covered, size_t next,
                   const SliceFraction& fraction) {
   const bool alike = covered[0] == covered[next];
-  return Between15(at[0], at[next], alike ? fraction.inside : fraction.edge);
+  const int16_t value = Between15(at[0], at[next], alike ? fraction.inside : fraction.edge);
+  if (fraction.third == 0) return value;
+  return static_cast<int16_t>(value + Product15(at[next] - at[2 * next], fraction.third));
 }
 
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
@@ -198,7 +200,7 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
         int16_t light = kSliceOne;
         for (size_t k = 0; k < views.shown_count; ++k) {
           const SliceShift& shift = views.shifts[view * views.slices + views.shown[k]];
-          if ((shift.some[row] | shift.some[row + 1]) == 0) continue;
+          if ((shift.some[row] | shift.some[row + 1] | shift.some[row + 2]) == 0) continue;
           const int16_t* from = shift.samples + row * kSliceLanes + n;
           const auto value = [&](size_t c) {
             return Between15(from + c * shift.plane, from + 3 * shift.plane, kSliceLanes,

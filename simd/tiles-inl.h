@@ -59,32 +59,36 @@ HWY_INLINE void MarkRows(D d, hn::Vec<D> samples, uint8_t* HWY_RESTRICT some) {
 }
 
 // Returns how many of the rows are moved: as many as fill vectors.
-template <class D>
+template <bool kThree, class D>
 HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                             size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
   const size_t lanes = hn::Lanes(d), step = RowsOf(d), stride = 4 * in.plane;
   const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
+  const auto third = hn::Set(d, fraction.third);
   size_t row = 0;
   for (; row + step <= rows; row += step, out += step * kSliceLanes) {
     for (size_t k = 0; k < step; ++k) some[row + k] = 0;
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
       const int16_t* HWY_RESTRICT from = in.samples + row * stride + n;
-      const auto covered = LoadRows(d, from + 3 * in.plane, stride);
-      const auto next = LoadRows(d, from + 3 * in.plane + 1, stride);
-      if (hn::AllTrue(d, hn::Eq(hn::Or(covered, next), hn::Zero(d)))) {
+      const auto load = [&](size_t c, size_t next) HWY_ATTR {
+        return LoadRows(d, from + c * in.plane + next, stride);
+      };
+      const auto covered = load(3, 0), next = load(3, 1);
+      auto any = hn::Or(covered, next);
+      if (kThree) any = hn::Or(any, load(3, 2));
+      if (hn::AllTrue(d, hn::Eq(any, hn::Zero(d)))) {
         for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d), d, out + c * plane + n);
         continue;
       }
-      const auto weight = hn::IfThenElse(hn::Eq(covered, next), inside, edge);
-      const auto between = [&](auto value, auto other) HWY_ATTR {
-        return hn::Add(other, hn::MulFixedPoint15(hn::Sub(other, value), weight));
+      const auto first = kThree ? edge : hn::IfThenElse(hn::Eq(covered, next), inside, edge);
+      const auto between = [&](size_t c) HWY_ATTR {
+        const auto middle = load(c, 1);
+        const auto value = hn::Add(middle, hn::MulFixedPoint15(hn::Sub(middle, load(c, 0)), first));
+        if (!kThree) return value;
+        return hn::Add(value, hn::MulFixedPoint15(hn::Sub(middle, load(c, 2)), third));
       };
-      for (size_t c = 0; c < 3; ++c) {
-        const int16_t* at = from + c * in.plane;
-        hn::StoreU(between(LoadRows(d, at, stride), LoadRows(d, at + 1, stride)), d,
-                   out + c * plane + n);
-      }
-      const auto shown = between(covered, next);
+      for (size_t c = 0; c < 3; ++c) hn::StoreU(between(c), d, out + c * plane + n);
+      const auto shown = between(3);
       hn::StoreU(shown, d, out + 3 * plane + n);
       MarkRows(d, shown, some + row);
     }
@@ -92,12 +96,23 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
   return row;
 }
 
-HWY_INLINE void ShiftPlanes(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
-  const size_t done = ShiftRows(TileTag(), in, fraction, rows, plane, out, some);
+template <bool kThree>
+HWY_INLINE void ShiftAllRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
+                             size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
+  const size_t done = ShiftRows<kThree>(TileTag(), in, fraction, rows, plane, out, some);
   if (done == rows) return;
   const SlicePlanes rest = {in.samples + done * 4 * in.plane, in.plane};
-  ShiftRows(RowTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes, some + done);
+  ShiftRows<kThree>(RowTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes,
+                    some + done);
+}
+
+HWY_INLINE void ShiftPlanes(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
+                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
+  if (fraction.third == 0) {
+    ShiftAllRows<false>(in, fraction, rows, plane, out, some);
+  } else {
+    ShiftAllRows<true>(in, fraction, rows, plane, out, some);
+  }
 }
 
 using SliceVec = hn::Vec<TileTag>;
@@ -158,11 +173,38 @@ HWY_INLINE void TakeLight(SliceVec weight, SliceVec red, SliceVec green, SliceVe
   a = hn::Add(a, hn::MulFixedPoint15(weight, covered));
 }
 
-// A vector of rows of a tile, and what follows it: what lies between them is read for both.
+// What a slice gives to a vector of rows of a view, of which `at` is the first sample.
+template <bool kThree>
+HWY_INLINE void TakeRows(const SliceShift& shift, const int16_t* HWY_RESTRICT at, SliceVec weight,
+                         SliceVec& light, SliceVec& r, SliceVec& g, SliceVec& b, SliceVec& a) {
+  const TileTag d16;
+  const auto load = [&](const int16_t* from) HWY_ATTR { return hn::LoadU(d16, from); };
+  const int16_t* HWY_RESTRICT cover = at + 3 * shift.plane;
+  auto first = hn::Set(d16, shift.fraction.edge);
+  const auto third = hn::Set(d16, shift.fraction.third);
+  if (!kThree) {
+    const auto inside = hn::Set(d16, shift.fraction.inside);
+    first = hn::IfThenElse(hn::Eq(load(cover), load(cover + kSliceLanes)), inside, first);
+  }
+  const auto between = [&](const int16_t* from) HWY_ATTR {
+    const auto middle = load(from + kSliceLanes);
+    const auto value = hn::Add(middle, hn::MulFixedPoint15(hn::Sub(middle, load(from)), first));
+    if (!kThree) return value;
+    const auto below = hn::Sub(middle, load(from + 2 * kSliceLanes));
+    return hn::Add(value, hn::MulFixedPoint15(below, third));
+  };
+  const auto covered = between(cover);
+  if (hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
+  const auto excess = hn::Max(hn::Sub(covered, light), hn::Zero(d16));
+  TakeLight(weight, between(at), between(at + shift.plane), between(at + 2 * shift.plane), covered,
+            excess, light, r, g, b, a);
+}
+
+// Two vectors of rows of a tile.
 HWY_INLINE void CompositeRows(const SliceViews& views, size_t row, size_t n, size_t rows,
                               uint32_t* HWY_RESTRICT sums) {
   const TileTag d16;
-  const size_t step = RowsOf(d16), offset = row * kSliceLanes + n, second = step * kSliceLanes;
+  const size_t step = RowsOf(d16), second = step * kSliceLanes;
   const auto zero = hn::Zero(d16), one = hn::Set(d16, kSliceOne);
   auto r0 = zero, g0 = zero, b0 = zero, a0 = zero, r1 = zero, g1 = zero, b1 = zero, a1 = zero;
   const SliceShift* shifts = views.shifts;
@@ -172,37 +214,17 @@ HWY_INLINE void CompositeRows(const SliceViews& views, size_t row, size_t n, siz
     for (size_t k = 0; k < views.shown_count; ++k) {
       const SliceShift& shift = shifts[views.shown[k]];
       const uint8_t* some = shift.some + row;
-      int any = some[0] | some[1] | some[2];
-      if (step > 1) any |= some[3] | some[4];
+      int any = some[0] | some[1] | some[2] | some[3];
+      if (step > 1) any |= some[4] | some[5];
       if (any == 0) continue;
-      const auto inside = hn::Set(d16, shift.fraction.inside);
-      const auto edge = hn::Set(d16, shift.fraction.edge);
-      const auto between = [&](SliceVec value, SliceVec next, SliceVec fraction) HWY_ATTR {
-        return hn::Add(next, hn::MulFixedPoint15(hn::Sub(next, value), fraction));
-      };
-      const int16_t* at = shift.samples + offset;
-      const int16_t* cover = at + 3 * shift.plane;
-      // Where a vector is one row, or less of it, these are three rows.
-      const auto load = [&](const int16_t* from) HWY_ATTR { return hn::LoadU(d16, from); };
-      const auto above0 = load(cover), below0 = load(cover + kSliceLanes);
-      const auto above1 = load(cover + second), below1 = load(cover + second + kSliceLanes);
-      const auto fraction0 = hn::IfThenElse(hn::Eq(above0, below0), inside, edge);
-      const auto fraction1 = hn::IfThenElse(hn::Eq(above1, below1), inside, edge);
-      const auto covered0 = between(above0, below0, fraction0);
-      const auto covered1 = between(above1, below1, fraction1);
-      if (hn::AllTrue(d16, hn::Eq(hn::Or(covered0, covered1), zero))) continue;
-      const auto first = [&](size_t c) HWY_ATTR {
-        const int16_t* from = at + c * shift.plane;
-        return between(load(from), load(from + kSliceLanes), fraction0);
-      };
-      const auto last = [&](size_t c) HWY_ATTR {
-        const int16_t* from = at + c * shift.plane + second;
-        return between(load(from), load(from + kSliceLanes), fraction1);
-      };
-      const auto excess0 = hn::Max(hn::Sub(covered0, light0), zero);
-      TakeLight(weight, first(0), first(1), first(2), covered0, excess0, light0, r0, g0, b0, a0);
-      const auto excess1 = hn::Max(hn::Sub(covered1, light1), zero);
-      TakeLight(weight, last(0), last(1), last(2), covered1, excess1, light1, r1, g1, b1, a1);
+      const int16_t* at = shift.samples + row * kSliceLanes + n;
+      if (shift.fraction.third == 0) {
+        TakeRows<false>(shift, at, weight, light0, r0, g0, b0, a0);
+        TakeRows<false>(shift, at + second, weight, light1, r1, g1, b1, a1);
+      } else {
+        TakeRows<true>(shift, at, weight, light0, r0, g0, b0, a0);
+        TakeRows<true>(shift, at + second, weight, light1, r1, g1, b1, a1);
+      }
       if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
     }
   }
