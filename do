@@ -247,11 +247,11 @@ bench() {
     --quick)
       fields=build/bench/portrait-small
       options="--quantiles 0.1,0.5,0.9 --repetitions 3 --patience 0.5 --views 5,9 --max-layers 0,1 --rules
-        --n-scales 0.5,0.7,1,1.4,2 --targets all --largest-radius 16 --largest-size 1" ;;
+        --n-scales 0.5,0.7,1,1.4,2 --targets all --workers 2 --largest-radius 16 --largest-size 1" ;;
     '')
       fields="build/bench/portrait build/bench/ramp"
       options="--quantiles 0.1,0.3,0.5,0.7,0.9 --apertures 1,0.5,0.25 --views 5,9 --max-layers 0,1 --rules
-        --n-scales 0.5,0.7,1,1.4,2 --largest-blocks 32,128,256 --targets all --largest-radius 64 --largest-size 16" ;;
+        --n-scales 0.5,0.7,1,1.4,2 --largest-blocks 32,128,256 --targets all --workers 2 --largest-radius 64 --largest-size 16" ;;
     *) help >&2; exit 1 ;;
   esac
   require gnuplot-nox

@@ -2,6 +2,7 @@
 #ifndef STARFOCUS_PLATFORM_RUNNER_H_
 #define STARFOCUS_PLATFORM_RUNNER_H_
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -12,6 +13,8 @@
 
 namespace starfocus {
 
+// A batch follows the one before within microseconds, less than it takes to wake a thread, so who
+// has nothing to do looks again for a while, giving way to other threads, before it sleeps.
 class ThreadRunner {
  public:
   // `workers` in [1, SF_MAX_WORKERS]; the calling thread is worker 0, so workers - 1 threads are
@@ -32,19 +35,27 @@ class ThreadRunner {
     sf_job job;
     void* data;
     int32_t count;
-    int32_t next;
-    int32_t done;
   };
 
   void Serve(int32_t worker);
-  void Work(std::unique_lock<std::mutex>* lock, int32_t worker);
+  void Work(int32_t worker);
+  bool IsCalled() const { return left_ > 0 || stop_; }
+  bool IsDone() const { return undone_ == 0; }
 
-  std::mutex turn_;   // held for a whole batch
-  std::mutex mutex_;  // guards everything below
+  std::mutex turn_;  // held for a whole batch
+  Batch batch_ = {nullptr, nullptr, 0};
+  // Jobs of the batch that nobody has taken. Whoever takes one may read batch_ until that job
+  // counts as done.
+  std::atomic<int32_t> left_{0};
+  std::atomic<int32_t> undone_{0};
+  std::atomic<bool> stop_{false};
+
+  // Who sleeps says so before the last look at the above; who changes that looks here afterwards.
+  std::atomic<int32_t> idle_{0};      // threads at wake_
+  std::atomic<bool> waiting_{false};  // the caller, at finished_
+  std::mutex sleep_;                  // of both
   std::condition_variable wake_;
   std::condition_variable finished_;
-  Batch batch_ = {nullptr, nullptr, 0, 0, 0};
-  bool stop_ = false;
   std::vector<std::thread> threads_;
 };
 

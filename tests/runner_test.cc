@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <chrono>
+#include <ctime>
 #include <thread>
 #include <vector>
 
@@ -46,16 +48,69 @@ TEST_CASE("runner: every index once, workers in range and never shared") {
   }
 }
 
-TEST_CASE("runner: jobs of one batch do run at the same time") {
-  ThreadRunner runner(3);
+// Every worker waits for all the others, so that it hangs where one sleeps on.
+struct Meeting {
+  int workers;
   std::atomic<int> met{0};
-  const auto meet = [](void* data, int32_t, int32_t) {
-    auto* count = static_cast<std::atomic<int>*>(data);
-    ++*count;
-    while (*count < 3) std::this_thread::yield();
+
+  static void Job(void* data, int32_t, int32_t) {
+    auto* self = static_cast<Meeting*>(data);
+    ++self->met;
+    while (self->met < self->workers) std::this_thread::yield();
+  }
+};
+
+TEST_CASE("runner: jobs of one batch do run at the same time") {
+  for (int workers : {2, 3, 64}) {
+    ThreadRunner runner(workers);
+    Meeting meeting{workers};
+    CHECK(ThreadRunner::Run(&runner, Meeting::Job, &meeting, workers) == 0);
+    CHECK(meeting.met == workers);
+  }
+}
+
+TEST_CASE("runner: threads wake for a batch whenever it comes") {
+  ThreadRunner runner(3);
+  // Before, while and after they fall asleep.
+  for (int pause : {0, 50, 90, 100, 110, 150, 1000}) {
+    for (int repeat = 0; repeat < 100; ++repeat) {
+      Meeting meeting{3};
+      CHECK(ThreadRunner::Run(&runner, Meeting::Job, &meeting, 3) == 0);
+      std::this_thread::sleep_for(std::chrono::microseconds(pause));
+    }
+  }
+}
+
+TEST_CASE("runner: the caller waits for the last job, however long it takes") {
+  ThreadRunner runner(2);
+  struct Slow {
+    std::chrono::microseconds time;
+    std::atomic<int> met{0}, done{0};
   };
-  CHECK(ThreadRunner::Run(&runner, meet, &met, 3) == 0);
-  CHECK(met == 3);
+  const auto job = [](void* data, int32_t, int32_t worker) {
+    auto* slow = static_cast<Slow*>(data);
+    ++slow->met;
+    while (slow->met < 2) std::this_thread::yield();
+    if (worker != 0) std::this_thread::sleep_for(slow->time);
+    ++slow->done;
+  };
+  for (int time : {0, 50, 90, 100, 110, 150, 1000}) {
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      Slow slow{std::chrono::microseconds(time)};
+      CHECK(ThreadRunner::Run(&runner, job, &slow, 2) == 0);
+      CHECK(slow.done == 2);
+    }
+  }
+}
+
+TEST_CASE("runner: idle threads sleep") {
+  ThreadRunner runner(4);
+  Meeting meeting{4};
+  REQUIRE(ThreadRunner::Run(&runner, Meeting::Job, &meeting, 4) == 0);
+  const std::clock_t start = std::clock();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  // Of the whole process; awake they would take that time of every core.
+  CHECK(double(std::clock() - start) / CLOCKS_PER_SEC < 0.05);
 }
 
 TEST_CASE("runner: calls from several threads take turns") {

@@ -107,6 +107,9 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_flag("--rules", choice.rules, "Both rules for N, in block and frame mode");
   app->add_option("--targets", choice.targets, "SIMD targets, reference (plain C++), or all")
       ->delimiter(',');
+  app->add_option("--workers", choice.workers, "Numbers of them beside one, at the middle quantile")
+      ->delimiter(',')
+      ->check(CLI::Range(2, SF_MAX_WORKERS));
   app->add_option("--repetitions", settings.repetitions, "Of every task")
       ->check(CLI::Range(1, 1000));
   app->add_option("--patience", settings.patience, "Seconds per task before repetitions are cut");

@@ -75,7 +75,7 @@ const Run* FindMode(const std::vector<Run>& runs, const char* mode, int views) {
   for (const Run& run : runs) {
     const Task& task = run.entry->task;
     if (task.mode != mode || !task.target.empty() || task.rule != SF_RULE_DEFAULT ||
-        task.n_scale != 1) {
+        task.n_scale != 1 || task.workers != 1) {
       continue;
     }
     if (found == nullptr || task.views == views) found = &run;
@@ -139,6 +139,7 @@ Row MakeRow(const Group& group, const std::vector<Run>& runs, const Run& run) {
   const double median = Median(run.seconds);
   row.ms = 1e3 * median;
   row.wall_ms = 1e3 * Median(run.walls);
+  row.least_wall_ms = 1e3 * *std::min_element(run.walls.begin(), run.walls.end());
   row.spread = Spread(run.seconds);
   row.runs = int(run.seconds.size());
   const Run* frame = FindMode(runs, "frame", row.task.views);

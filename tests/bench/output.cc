@@ -33,6 +33,7 @@ Json Describe(const Machine& machine, const Row& row) {
                  : row.task.rule == SF_RULE_PAPER ? "paper"
                                                   : "cells";
   json["n_scale"] = row.task.n_scale;
+  json["workers"] = row.task.workers;
   json["aperture"] = row.aperture;
   json["focus"] = row.focus;
   json["quantile"] = Number(row.quantile);
@@ -43,6 +44,7 @@ Json Describe(const Machine& machine, const Row& row) {
   AddQuality("truth", row.truth, &json);
   json["ms"] = row.ms;
   json["wall_ms"] = Number(row.wall_ms);
+  json["least_wall_ms"] = Number(row.least_wall_ms);
   json["spread"] = row.spread;
   json["runs"] = row.runs;
   json["ns_per_pixel"] = row.ns_per_pixel();

@@ -18,6 +18,7 @@ std::string TableFour(const Rows& rows);
 std::string TruthTable(const Rows& rows);
 std::string ScaleTable(const Rows& rows);
 std::string TargetTable(const Rows& rows);
+std::string WorkerTable(const Rows& rows);
 std::string CountTable(const std::vector<Counts>& counts);
 
 std::string PlanePlots(const Rows& rows);

@@ -222,6 +222,24 @@ std::string TargetTable(const Rows& rows) {
   return Table(head, body);
 }
 
+std::string WorkerTable(const Rows& rows) {
+  const Rows some = Filter(rows, [](const Row& row) { return row.study == "workers"; });
+  if (some.empty()) return "<p>Not measured.</p>";
+  std::string body;
+  double one = kNone, least_one = kNone;
+  for (const Row& row : some) {
+    if (row.task.workers == 1) one = row.wall_ms, least_one = row.least_wall_ms;
+    body += Line({Escape(row.field) + ", " + row.task.mode, std::to_string(row.task.workers),
+                  Fixed(row.wall_ms, 1), Fixed(one / row.wall_ms, 2), Fixed(row.least_wall_ms, 1),
+                  Fixed(least_one / row.least_wall_ms, 2)});
+  }
+  return "<p>By the wall clock inside <code>sf_refocus</code>, which also counts what the machine "
+         "does for others meanwhile: the least of a busy machine says more than the median.</p>" +
+         Table({"light field, mode", "workers", "ms", "times as fast as one", "least ms",
+                "times as fast as one"},
+               body);
+}
+
 std::string CountTable(const std::vector<Counts>& counts) {
   if (counts.empty()) return "<p>Not measured.</p>";
   std::string body;

@@ -19,6 +19,7 @@ struct Task {
   int rule = SF_RULE_DEFAULT;  // sf_rule
   double n_scale = 1;          // of the rule's N
   std::string target;          // SIMD target; empty: the best one
+  int workers = 1;
 };
 
 inline constexpr double kNone = NAN;  // not measured
@@ -31,7 +32,7 @@ struct Quality {
 };
 
 struct Row {
-  std::string study;  // what it was measured for: main, options, targets, radius, pixels, rivals
+  std::string study;  // what it was measured for: main, options, targets, workers, ...
   std::string field;
   int width = 0, height = 0;
   Task task;
@@ -40,8 +41,9 @@ struct Row {
   double r_max = kNone;
   int n = 0;
   double rendered_views = 0, rendered_samples = 0;
-  Quality benchmark, truth;   // against the benchmark mode and ray tracing
-  double wall_ms = kNone;     // median by the wall clock
+  Quality benchmark, truth;  // against the benchmark mode and ray tracing
+  double wall_ms = kNone;    // median by the wall clock
+  double least_wall_ms = kNone;
   double ms = 0, spread = 0;  // of processor time: median and relative median deviation
   int runs = 0;
   double ratio_frame = kNone, ratio_blur = kNone;  // time of those in the same run / this time

@@ -72,6 +72,19 @@ void AddTargets(const Field& field, const Choice& choice, Group* group) {
   }
 }
 
+// One worker is the measure of the others.
+void AddWorkers(const Field& field, const Choice& choice, Group* group) {
+  if (choice.workers.empty()) return;
+  std::vector<int> numbers = choice.workers;
+  numbers.insert(numbers.begin(), 1);
+  for (const char* mode : {"block", "frame", "benchmark", "blur"}) {
+    for (const int workers : numbers) {
+      group->entries.push_back(MakeEntry("workers", mode, field.views()));
+      group->entries.back().task.workers = workers;
+    }
+  }
+}
+
 void AddRivals(const Field& field, Group* group) {
   for (const int views : {5, 9, 17}) {
     if (views > field.views()) continue;
@@ -101,6 +114,7 @@ std::string MeasureField(const Field& field, const Choice& choice, const Setting
       if (aperture == 1) AddOptions(field, choice, &group);
       const bool middle = quantile == choice.quantiles[choice.quantiles.size() / 2];
       if (aperture == 1 && middle) AddTargets(field, choice, &group);
+      if (aperture == 1 && middle) AddWorkers(field, choice, &group);
       groups.push_back(group);
     }
   }

@@ -20,6 +20,7 @@ struct Choice {
   std::vector<double> n_scales;      // of N, in block and frame mode
   bool rules = false;                // both rules for N, in block and frame mode
   std::vector<std::string> targets;  // at the middle quantile; "all": every one
+  std::vector<int> workers;          // beside one, at the middle quantile
   double largest_radius = 0;         // of the sweep of blur radii; 0: none
   double largest_megapixels = 0;     // of the sweep of sizes; 0: none
 };

@@ -43,6 +43,8 @@ std::string Prepare(const Field& field, const Task& task, double focus, double a
   config.max_layer = task.max_layer;
   config.largest_block = task.largest_block;
   config.n_scale = task.n_scale;
+  config.max_workers = task.workers;
+  if (task.workers > 1) timed->pool = std::make_unique<ThreadRunner>(task.workers);
   sf_status status = sf_workspace_size(&config, &timed->workspace_bytes);
   if (status == SF_OK) {
     timed->workspace.reset(::operator new (timed->workspace_bytes, std::align_val_t{SF_ALIGNMENT}));
@@ -65,8 +67,9 @@ std::string RunOnce(const Field& field, const Task& task, TimedEngine* timed, El
   const sf_light_field rows = Rows(field.data, task.views);
   Image& out = timed->picture;
   const Stopwatch stopwatch;
+  const sf_runner runner = timed->pool == nullptr ? nullptr : ThreadRunner::Run;
   const sf_status status = sf_refocus(timed->engine, &timed->params, &rows, out.pixels.data(),
-                                      out.stride(), nullptr, nullptr, &timed->report);
+                                      out.stride(), runner, timed->pool.get(), &timed->report);
   *elapsed = stopwatch.Get();
   if (status == SF_OK) return "";
   return Expected(field.name, "a light field that the engine refocuses", sf_status_string(status));

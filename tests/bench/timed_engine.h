@@ -6,6 +6,7 @@
 #include <new>
 #include <string>
 
+#include "platform/runner.h"
 #include "tests/bench/field.h"
 #include "tests/bench/row.h"
 #include "tests/bench/stopwatch.h"
@@ -22,6 +23,7 @@ struct TimedEngine {
   std::unique_ptr<void, FreeAligned> workspace;
   size_t workspace_bytes = 0;
   sf_engine* engine = nullptr;
+  std::unique_ptr<ThreadRunner> pool;  // null for one worker
   sf_params params;
   sf_report report = {};
   Image picture;
