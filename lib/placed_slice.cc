@@ -8,9 +8,9 @@ namespace {
 constexpr int32_t kFractionOne = 1 << 15;
 
 // Wider cells are spread before slices are moved: what interpolation adds is little then.
-constexpr int32_t kBoxCell = 2 * kShiftOne;
+constexpr int32_t kBoxCell = 3 * kShiftOne;
 
-// What a box of `cell` pixels (kShiftBits), more than two, covers of the pixels around it.
+// What a box of `cell` pixels (kShiftBits), more than three, covers of the pixels around it.
 simd::SliceTaps TapsOf(int32_t cell) {
   constexpr int32_t kLargest = (2 * simd::kMaxSpread + 1) * kShiftOne;
   const int32_t length = Min(cell, kLargest);
@@ -27,22 +27,27 @@ simd::SliceTaps TapsOf(int32_t cell) {
   return taps;
 }
 
-// A cell of one to two pixels at `shift` (both kShiftBits) covers three of them, or two. Spread
-// beforehand and interpolated, cells beside each other would cover some pixels too much and others
-// too little.
+// What a cell of one to three pixels at `shift` (both kShiftBits) covers of two to four of them.
+// Spread beforehand and interpolated, cells beside each other would cover some pixels too much and
+// others too little. Mirrored shifts give mirrored parts, which is why trimmed ones are of halves.
 SliceOffset BoxOffset(int32_t shift, int32_t cell) {
-  // In half units, and from the first pixel's left end on.
+  // In half units, from the first pixel's left end on.
+  constexpr int32_t kHalves = 2 * kShiftOne;
   const int32_t start = 2 * shift - cell + kShiftOne, whole = start >> (kShiftBits + 1);
-  const int32_t left = 2 * kShiftOne - (start - (whole << (kShiftBits + 1)));
-  const int32_t right = 2 * cell - left - 2 * kShiftOne;  // of the third pixel
+  const int32_t left = kHalves - (start & (kHalves - 1)), rest = 2 * cell - left;
   const auto part = [&](int32_t covered) {
     return static_cast<int16_t>(-(kFractionOne / 2 * covered / cell));
   };
-  if (right > 0) return {whole, {part(left), part(left), part(right)}};
-  // Of two pixels the parts are one together, whichever of them comes first.
-  const int32_t more = left - (2 * cell - left);
-  const auto first = static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / cell));
-  return {whole, {first, first, 0}};
+  // Of two surfaces side by side, how much the one is that covers `more` than the other.
+  const auto share = [&](int32_t more) {
+    return static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / cell));
+  };
+  if (rest <= kHalves) return {whole, {share(left - rest), share(left - rest), 0, 0}};
+  if (rest <= 2 * kHalves) {
+    return {whole, {part(left), part(left), part(rest - kHalves), 0}};
+  }
+  const int32_t right = rest - 2 * kHalves;
+  return {whole, {part(left), part(left), share(right - left), part(right)}};
 }
 
 // `shift` in kShiftBits as whole pixels and a fraction. Inside the slice a cell narrower than a
@@ -54,10 +59,10 @@ SliceOffset OffsetOf(int32_t shift, int32_t cell) {
     return static_cast<int16_t>(fraction - kFractionOne);
   };
   const int16_t edge = before(rest * (kFractionOne / kShiftOne));
-  if (rest == 0 || cell >= kShiftOne) return {whole, {edge, edge, 0}};
+  if (rest == 0 || cell >= kShiftOne) return {whole, {edge, edge, 0, 0}};
   const int32_t from_middle = (rest - kShiftOne / 2) * kFractionOne;
   const int32_t inside = from_middle / Max(cell, 1) + kFractionOne / 2;
-  return {whole, {before(Clamp(inside, 0, kFractionOne)), edge, 0}};
+  return {whole, {before(Clamp(inside, 0, kFractionOne)), edge, 0, 0}};
 }
 
 // Beyond the surfaces' left and right end their outermost pixels go on; behind the row's end there

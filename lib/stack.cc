@@ -108,7 +108,7 @@ class Stack {
 
   static bool Same(const SliceOffset& a, const SliceOffset& b) {
     return a.whole == b.whole && a.fraction.edge == b.fraction.edge &&
-           a.fraction.third == b.fraction.third;
+           a.fraction.third == b.fraction.third && a.fraction.fourth == b.fraction.fourth;
   }
 
   bool IsGathered(const StackPart& part) const {

@@ -95,12 +95,12 @@ struct SliceCover {
   uint64_t some, all;
 };
 
-// What a view sees of up to three pixels of a slice, one after the other: of the first one `inside`
-// where it is covered as the second, else `edge`, and `third` of the third one, all in [-1, 0] with
-// 15 bits and negative, since 16 hold -1; the rest is the second pixel. With a third one inside and
-// edge are the same.
+// What a view sees of up to four pixels p of a slice, one after the other: p[1] + first (p[1] - p[0])
+// + third (p[1] - p[2]) + fourth (p[2] - p[3]), where first is `inside` if p[0] is covered as p[1],
+// else `edge`. All in [-1, 0] with 15 bits: 16 hold -1, but not 1. With a third one inside and edge
+// are the same; without it there is no fourth.
 struct SliceFraction {
-  int16_t inside, edge, third;
+  int16_t inside, edge, third, fourth;
 };
 inline constexpr int16_t kSliceStart = -32768;
 
@@ -125,7 +125,7 @@ struct SliceViews {
   size_t row;  // the first of what is composited
 };
 // Rows of a tile that composite may read beyond the last one it adds.
-inline constexpr size_t kRowsAhead = 5;
+inline constexpr size_t kRowsAhead = 6;
 
 // Depth edges that hide what lies behind: steps of more than `step`, seen up to a pixel per
 // 2^unit_bits of depth away.
@@ -219,9 +219,8 @@ struct Kernels {
   void (*spread_slice)(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,
                        int16_t* out);
 
-  // Moves rows by a fraction of a sample into a tile: out[n] = in[n + 1] + first (in[n + 1] - in[n])
-  // + third (in[n + 1] - in[n + 2]), each halves up; first and third of the fraction. `plane`: of
-  // the tile.
+  // Moves rows by a fraction of a sample into a tile: out[n] is what is seen of in[n] and what
+  // follows it, each product rounded halves up. `plane`: of the tile.
   // some[row]: whether anything is covered, 1 or 0.
   void (*shift_slice)(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                       size_t plane, int16_t* out, uint8_t* some);

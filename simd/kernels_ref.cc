@@ -161,9 +161,10 @@ int16_t Between15(int16_t from, int16_t to, int16_t fraction) {
 int16_t Between15(const int16_t* at, const int16_t* covered, size_t next,
                   const SliceFraction& fraction) {
   const bool alike = covered[0] == covered[next];
-  const int16_t value = Between15(at[0], at[next], alike ? fraction.inside : fraction.edge);
-  if (fraction.third == 0) return value;
-  return static_cast<int16_t>(value + Product15(at[next] - at[2 * next], fraction.third));
+  int value = Between15(at[0], at[next], alike ? fraction.inside : fraction.edge);
+  if (fraction.third != 0) value += Product15(at[next] - at[2 * next], fraction.third);
+  if (fraction.fourth != 0) value += Product15(at[2 * next] - at[3 * next], fraction.fourth);
+  return static_cast<int16_t>(value);
 }
 
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
@@ -200,7 +201,8 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
         int16_t light = kSliceOne;
         for (size_t k = 0; k < views.shown_count; ++k) {
           const SliceShift& shift = views.shifts[view * views.slices + views.shown[k]];
-          if ((shift.some[row] | shift.some[row + 1] | shift.some[row + 2]) == 0) continue;
+          const uint8_t* some = shift.some + row;
+          if ((some[0] | some[1] | some[2] | some[3]) == 0) continue;
           const int16_t* from = shift.samples + row * kSliceLanes + n;
           const auto value = [&](size_t c) {
             return Between15(from + c * shift.plane, from + 3 * shift.plane, kSliceLanes,

@@ -59,12 +59,12 @@ HWY_INLINE void MarkRows(D d, hn::Vec<D> samples, uint8_t* HWY_RESTRICT some) {
 }
 
 // Returns how many of the rows are moved: as many as fill vectors.
-template <bool kThree, class D>
+template <int kTaps, class D>
 HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                             size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
   const size_t lanes = hn::Lanes(d), step = RowsOf(d), stride = 4 * in.plane;
   const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
-  const auto third = hn::Set(d, fraction.third);
+  const auto third = hn::Set(d, fraction.third), fourth = hn::Set(d, fraction.fourth);
   size_t row = 0;
   for (; row + step <= rows; row += step, out += step * kSliceLanes) {
     for (size_t k = 0; k < step; ++k) some[row + k] = 0;
@@ -75,17 +75,21 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
       };
       const auto covered = load(3, 0), next = load(3, 1);
       auto any = hn::Or(covered, next);
-      if (kThree) any = hn::Or(any, load(3, 2));
+      if (kTaps > 2) any = hn::Or(any, load(3, 2));
+      if (kTaps > 3) any = hn::Or(any, load(3, 3));
       if (hn::AllTrue(d, hn::Eq(any, hn::Zero(d)))) {
         for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d), d, out + c * plane + n);
         continue;
       }
-      const auto first = kThree ? edge : hn::IfThenElse(hn::Eq(covered, next), inside, edge);
+      const auto first = kTaps > 2 ? edge : hn::IfThenElse(hn::Eq(covered, next), inside, edge);
       const auto between = [&](size_t c) HWY_ATTR {
         const auto middle = load(c, 1);
-        const auto value = hn::Add(middle, hn::MulFixedPoint15(hn::Sub(middle, load(c, 0)), first));
-        if (!kThree) return value;
-        return hn::Add(value, hn::MulFixedPoint15(hn::Sub(middle, load(c, 2)), third));
+        auto value = hn::Add(middle, hn::MulFixedPoint15(hn::Sub(middle, load(c, 0)), first));
+        if (kTaps == 2) return value;
+        const auto after = load(c, 2);
+        value = hn::Add(value, hn::MulFixedPoint15(hn::Sub(middle, after), third));
+        if (kTaps == 3) return value;
+        return hn::Add(value, hn::MulFixedPoint15(hn::Sub(after, load(c, 3)), fourth));
       };
       for (size_t c = 0; c < 3; ++c) hn::StoreU(between(c), d, out + c * plane + n);
       const auto shown = between(3);
@@ -96,22 +100,24 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
   return row;
 }
 
-template <bool kThree>
+template <int kTaps>
 HWY_INLINE void ShiftAllRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                              size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
-  const size_t done = ShiftRows<kThree>(TileTag(), in, fraction, rows, plane, out, some);
+  const size_t done = ShiftRows<kTaps>(TileTag(), in, fraction, rows, plane, out, some);
   if (done == rows) return;
   const SlicePlanes rest = {in.samples + done * 4 * in.plane, in.plane};
-  ShiftRows<kThree>(RowTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes,
+  ShiftRows<kTaps>(RowTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes,
                     some + done);
 }
 
 HWY_INLINE void ShiftPlanes(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                             size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
   if (fraction.third == 0) {
-    ShiftAllRows<false>(in, fraction, rows, plane, out, some);
+    ShiftAllRows<2>(in, fraction, rows, plane, out, some);
+  } else if (fraction.fourth == 0) {
+    ShiftAllRows<3>(in, fraction, rows, plane, out, some);
   } else {
-    ShiftAllRows<true>(in, fraction, rows, plane, out, some);
+    ShiftAllRows<4>(in, fraction, rows, plane, out, some);
   }
 }
 
@@ -173,8 +179,9 @@ HWY_INLINE void TakeLight(SliceVec weight, SliceVec red, SliceVec green, SliceVe
   a = hn::Add(a, hn::MulFixedPoint15(weight, covered));
 }
 
-// What a slice gives to a vector of rows of a view, of which `at` is the first sample.
-template <bool kThree>
+// What a slice gives to a vector of rows of a view, of which `at` is the first sample; each row of
+// the view sees kTaps rows, 2 to 4.
+template <int kTaps>
 HWY_INLINE void TakeRows(const SliceShift& shift, const int16_t* HWY_RESTRICT at, SliceVec weight,
                          SliceVec& light, SliceVec& r, SliceVec& g, SliceVec& b, SliceVec& a) {
   const TileTag d16;
@@ -182,16 +189,20 @@ HWY_INLINE void TakeRows(const SliceShift& shift, const int16_t* HWY_RESTRICT at
   const int16_t* HWY_RESTRICT cover = at + 3 * shift.plane;
   auto first = hn::Set(d16, shift.fraction.edge);
   const auto third = hn::Set(d16, shift.fraction.third);
-  if (!kThree) {
+  const auto fourth = hn::Set(d16, shift.fraction.fourth);
+  if (kTaps == 2) {
     const auto inside = hn::Set(d16, shift.fraction.inside);
     first = hn::IfThenElse(hn::Eq(load(cover), load(cover + kSliceLanes)), inside, first);
   }
   const auto between = [&](const int16_t* from) HWY_ATTR {
     const auto middle = load(from + kSliceLanes);
-    const auto value = hn::Add(middle, hn::MulFixedPoint15(hn::Sub(middle, load(from)), first));
-    if (!kThree) return value;
-    const auto below = hn::Sub(middle, load(from + 2 * kSliceLanes));
-    return hn::Add(value, hn::MulFixedPoint15(below, third));
+    auto value = hn::Add(middle, hn::MulFixedPoint15(hn::Sub(middle, load(from)), first));
+    if (kTaps == 2) return value;
+    const auto below = load(from + 2 * kSliceLanes);
+    value = hn::Add(value, hn::MulFixedPoint15(hn::Sub(middle, below), third));
+    if (kTaps == 3) return value;
+    const auto last = hn::Sub(below, load(from + 3 * kSliceLanes));
+    return hn::Add(value, hn::MulFixedPoint15(last, fourth));
   };
   const auto covered = between(cover);
   if (hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
@@ -214,16 +225,19 @@ HWY_INLINE void CompositeRows(const SliceViews& views, size_t row, size_t n, siz
     for (size_t k = 0; k < views.shown_count; ++k) {
       const SliceShift& shift = shifts[views.shown[k]];
       const uint8_t* some = shift.some + row;
-      int any = some[0] | some[1] | some[2] | some[3];
-      if (step > 1) any |= some[4] | some[5];
+      int any = some[0] | some[1] | some[2] | some[3] | some[4];
+      if (step > 1) any |= some[5] | some[6];
       if (any == 0) continue;
       const int16_t* at = shift.samples + row * kSliceLanes + n;
       if (shift.fraction.third == 0) {
-        TakeRows<false>(shift, at, weight, light0, r0, g0, b0, a0);
-        TakeRows<false>(shift, at + second, weight, light1, r1, g1, b1, a1);
+        TakeRows<2>(shift, at, weight, light0, r0, g0, b0, a0);
+        TakeRows<2>(shift, at + second, weight, light1, r1, g1, b1, a1);
+      } else if (shift.fraction.fourth == 0) {
+        TakeRows<3>(shift, at, weight, light0, r0, g0, b0, a0);
+        TakeRows<3>(shift, at + second, weight, light1, r1, g1, b1, a1);
       } else {
-        TakeRows<true>(shift, at, weight, light0, r0, g0, b0, a0);
-        TakeRows<true>(shift, at + second, weight, light1, r1, g1, b1, a1);
+        TakeRows<4>(shift, at, weight, light0, r0, g0, b0, a0);
+        TakeRows<4>(shift, at + second, weight, light1, r1, g1, b1, a1);
       }
       if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
     }
