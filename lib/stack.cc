@@ -7,8 +7,6 @@
 namespace starfocus {
 namespace {
 
-constexpr int kInverseBits = 48;
-
 // A pixel of which slices cover less than this part of all views' light is not made of them: what
 // rounding adds would show.
 constexpr uint32_t kLeastShare = 4;
@@ -194,33 +192,16 @@ class Stack {
     job_.kernels->composite(job, static_cast<size_t>(part.rows), plane_, scratch_.sums + at);
   }
 
-  // Colours over coverage: what no slice covers is as what covers the rest. A pixel that hardly any
-  // view shows is that of the centre view.
+  // What no slice covers is as what covers the rest. A pixel that hardly any view shows is that of
+  // the centre view.
   void Finish() {
-    uint32_t covered = 0;
-    uint64_t inverse = 0;
+    const simd::StackFinish finish = {least_covered_, grid_.aperture.sum_bits};
+    const auto width = static_cast<size_t>(job_.rect.width);
     for (int32_t y = 0; y < job_.rect.height; ++y) {
-      const uint32_t* sums = scratch_.sums + static_cast<size_t>(y) * 4 * plane_;
-      const uint8_t* rgb = field_.Rgb(field_.inner.x, field_.inner.y + y);
-      uint32_t* out = accumulators_ + 3 * static_cast<size_t>(y) * job_.rect.width;
-      for (int32_t x = 0; x < job_.rect.width; ++x, ++sums, rgb += 3, out += 3) {
-        if (sums[3 * plane_] != covered) {
-          covered = sums[3 * plane_];
-          inverse = covered < least_covered_ ? 0 : (uint64_t{1} << kInverseBits) / covered;
-        }
-        FinishPixel(sums, inverse, rgb, out);
-      }
-    }
-  }
-
-  void FinishPixel(const uint32_t* sums, uint64_t inverse, const uint8_t* rgb,
-                   uint32_t* out) const {
-    const int bits = grid_.aperture.sum_bits, shift = kInverseBits - 8 - bits;
-    const uint64_t white = uint64_t{255} << bits, half = uint64_t{1} << (shift - 1);
-    for (size_t c = 0; c < 3; ++c) {
-      const uint64_t value = (sums[c * plane_] * inverse + half) >> shift;
-      out[c] = inverse == 0 ? uint32_t{rgb[c]} << bits
-                            : static_cast<uint32_t>(value < white ? value : white);
+      const auto row = static_cast<size_t>(y);
+      job_.kernels->finish_stack(scratch_.sums + 4 * plane_ * row, plane_,
+                                 field_.Rgb(field_.inner.x, field_.inner.y + y), finish, width,
+                                 accumulators_ + 3 * width * row);
     }
   }
 

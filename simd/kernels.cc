@@ -9,6 +9,7 @@
 #include "simd/blend-inl.h"
 #include "simd/cells-inl.h"
 #include "simd/disc-inl.h"
+#include "simd/finish_stack-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
@@ -55,6 +56,11 @@ void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t row
 
 void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums) {
   CompositeViews(views, rows, plane, sums);
+}
+
+void FinishStack(const uint32_t* sums, size_t plane, const uint8_t* rgb, const StackFinish& finish,
+                 size_t count, uint32_t* out) {
+  FinishPixelsOfStack(sums, plane, rgb, finish, count, out);
 }
 
 void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
@@ -114,6 +120,7 @@ const Kernels* Table() {
                                       SpreadSlice,
                                       ShiftSlice,
                                       Composite,
+                                      FinishStack,
                                       FindRuns,
                                       MeasureCell,
                                       Transpose,

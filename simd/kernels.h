@@ -122,6 +122,14 @@ struct SliceViews {
   size_t column, row;  // of what is composited; whole kSliceLanes
 };
 
+// From sums of slices to accumulators of weights that sum to 2^bits: pixels covered less than
+// `least` take the centre view's colour.
+struct StackFinish {
+  uint32_t least;  // > 0
+  int bits;        // [1, 24]
+};
+inline constexpr int kInverseBits = 48;
+
 // Depth edges that hide what lies behind: steps of more than `step`, seen up to a pixel per
 // 2^unit_bits of depth away.
 struct EdgeLimits {
@@ -227,6 +235,12 @@ struct Kernels {
   // pixel. Samples between two rows as by shift_slice; products (15 bits) are rounded halves up.
   // `plane`: of slices and sums; no sum exceeds 2^32 - 1. Two rows beyond the last are read.
   void (*composite)(const SliceViews& views, size_t rows, size_t plane, uint32_t* sums);
+
+  // Colours over coverage: out[3 n + c] = sums[c * plane + n] * (2^kInverseBits / covered) in units
+  // of 2^-bits, halves up and 255 at most, where covered = sums[3 * plane + n] >= least; the
+  // division truncates. rgb[3 n + c] << bits elsewhere. Whole kSliceLanes are read.
+  void (*finish_stack)(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                       const StackFinish& finish, size_t count, uint32_t* out);
 
   // Splits lines 0 .. lines - 1 of `length` positions, greedily from position 0 on; position q of
   // line k is disparity[q * step + k].

@@ -218,6 +218,22 @@ void Composite(const SliceViews& views, size_t rows, size_t plane, uint32_t* sum
   }
 }
 
+void FinishStack(const uint32_t* sums, size_t plane, const uint8_t* rgb, const StackFinish& finish,
+                 size_t count, uint32_t* out) {
+  const int shift = kInverseBits - 8 - finish.bits;
+  const uint64_t white = uint64_t{255} << finish.bits, half = uint64_t{1} << (shift - 1);
+  for (size_t n = 0; n < count; ++n) {
+    const uint32_t covered = sums[3 * plane + n];
+    const bool missing = covered < finish.least;
+    const uint64_t inverse = missing ? 0 : (uint64_t{1} << kInverseBits) / covered;
+    for (size_t c = 0; c < 3; ++c) {
+      const uint64_t value = (sums[c * plane + n] * inverse + half) >> shift;
+      out[3 * n + c] = missing ? uint32_t{rgb[3 * n + c]} << finish.bits
+                               : static_cast<uint32_t>(value < white ? value : white);
+    }
+  }
+}
+
 void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
               const RunLimits& limits, const RunMarks& marks) {
   for (size_t k = 0; k < lines; ++k) {
@@ -348,9 +364,10 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 
 const Kernels& ReferenceKernels() {
   static constexpr Kernels kernels = {
-      "reference",      Accumulate, Blend,     FilterDisc,  Split,          FindEdges, SelectSlice,
-      SpreadSlice,      ShiftSlice, Composite, FindRuns,    MeasureCell,    Transpose, Finish,
-      ConvertDisparity, Widen,      Narrow,    FinishLayer, FilterHalfBand, Between};
+      "reference", Accumulate,     Blend,      FilterDisc,       Split,       FindEdges,
+      SelectSlice, SpreadSlice,    ShiftSlice, Composite,        FinishStack, FindRuns,
+      MeasureCell, Transpose,      Finish,     ConvertDisparity, Widen,       Narrow,
+      FinishLayer, FilterHalfBand, Between};
   return kernels;
 }
 

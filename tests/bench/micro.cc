@@ -33,7 +33,7 @@ struct Buffers {
   explicit Buffers(bool pairs)
       : bytes(kSamples + 2 * kMargin + kPadding),
         line(bytes.size()),
-        sums(bytes.size()),
+        sums(bytes.size(), 1 << 20),
         in(bytes.size()),
         out(bytes.size()),
         disparity(bytes.size(), 1.5f),
@@ -61,6 +61,8 @@ constexpr starfocus::simd::SliceTaps kSliceTaps = {2, 9362, 18724, 4682};
 // A slice of 6 rows of 4 planes, and 5 views of two of them.
 constexpr size_t kPlane = kSamples / 4 / 6;
 constexpr size_t kSliceViews = 5;
+constexpr size_t kStackPlane = 256;
+static_assert(7 * kStackPlane <= kSamples);
 static_assert(kPlane % starfocus::simd::kSliceLanes == 0);
 // Radius 3.2 or so: weights need not sum to anything for their time.
 constexpr uint16_t kDiscWeights[15] = {900, 900, 900, 880, 880, 860, 700, 690,
@@ -146,6 +148,14 @@ const Case kCases[] = {
      }},
     // Of each view and slice.
     {"composite", false, 2 * kSliceViews * 2 + 8, Composite},
+    // Again and again, to as many samples as the others.
+    {"finish_stack", false, 4 * 4 / 3 + 4,
+     [](const Kernels& k, Buffers* b) {
+       for (size_t n = 0; n < kSamples; n += 3 * kStackPlane) {
+         k.finish_stack(b->sums.data(), kStackPlane, b->bytes.data(), {1000, 16}, kStackPlane,
+                        b->sums.data() + 4 * kStackPlane);
+       }
+     }},
     {"find_runs", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
        k.find_runs(b->in.data(), kLines, kLength, kLines, {2000, 12000},
