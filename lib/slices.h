@@ -37,6 +37,7 @@ struct Slice {
 };
 
 struct SliceJob {
+  const simd::Kernels* kernels;
   const Surfaces* surfaces;
   const ViewGrid* grid;
   SliceRule rule;

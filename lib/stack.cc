@@ -79,8 +79,8 @@ class Stack {
   void PlaceSlices() {
     const Rect& inner = field_.inner;
     const SliceJob job = {
-        &scratch_.surfaces,    &grid_, rule_, inner, scratch_.bins, scratch_.least_blur,
-        scratch_.plane_samples};
+        job_.kernels,        &scratch_.surfaces,    &grid_, rule_, inner, scratch_.bins,
+        scratch_.least_blur, scratch_.plane_samples};
     Slice slices[kMaxSlices];
     count_ = FindSlices(job, slices);
     int16_t *samples = scratch_.planes, *shifted = scratch_.shifted;

@@ -10,6 +10,7 @@
 #include "simd/cells-inl.h"
 #include "simd/disc-inl.h"
 #include "simd/finish_stack-inl.h"
+#include "simd/ranges-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
@@ -37,6 +38,11 @@ void Split(const uint8_t* rgb, size_t count, size_t plane, uint8_t* out) {
 void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits, size_t count,
                int16_t* moved, int16_t* behind, uint8_t* distance) {
   FindEdgesOfRow(near, far, limits, count, moved, behind, distance);
+}
+
+void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t count,
+                DisparityRange* ranges) {
+  FindRangesOfRows(disparity, stride, rows, count, ranges);
 }
 
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
@@ -116,6 +122,7 @@ const Kernels* Table() {
                                       FilterDisc,
                                       Split,
                                       FindEdges,
+                                      FindRanges,
                                       SelectSlice,
                                       SpreadSlice,
                                       ShiftSlice,

@@ -122,6 +122,11 @@ struct SliceViews {
   size_t column, row;  // of what is composited; whole kSliceLanes
 };
 
+// Lowest and highest disparity of several; low > high: there is none.
+struct DisparityRange {
+  int16_t low, high;
+};
+
 // From sums of slices to accumulators of weights that sum to 2^bits: pixels covered less than
 // `least` take the centre view's colour.
 struct StackFinish {
@@ -210,6 +215,11 @@ struct Kernels {
   // INT16_MAX.
   void (*find_edges)(const int16_t* near, const int16_t* far, const EdgeLimits& limits,
                      size_t count, int16_t* moved, int16_t* behind, uint8_t* distance);
+
+  // Ranges of each kSliceLanes columns of rows, of those that are not INT16_MIN (no surface).
+  // Whole kSliceLanes are read.
+  void (*find_ranges)(const int16_t* disparity, size_t stride, size_t rows, size_t count,
+                      DisparityRange* ranges);
 
   // Of the surfaces within the range, at each pixel n < count: the colour of the first one times
   // its share, plus that of the next one times the rest, and what both cover; zeros where there is

@@ -104,6 +104,25 @@ void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits
   }
 }
 
+void AddDisparity(int16_t disparity, int16_t* low, int16_t* high) {
+  if (disparity < *low) *low = disparity;
+  if (disparity > *high) *high = disparity;
+}
+
+void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t count,
+                DisparityRange* ranges) {
+  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes) {
+    DisparityRange range = {INT16_MAX, INT16_MIN};
+    for (size_t row = 0; row < rows; ++row) {
+      for (size_t n = chunk; n < count && n < chunk + kSliceLanes; ++n) {
+        const int16_t value = disparity[row * stride + n];
+        if (value != INT16_MIN) AddDisparity(value, &range.low, &range.high);
+      }
+    }
+    ranges[chunk / kSliceLanes] = range;
+  }
+}
+
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out) {
   SliceCover cover = {0, 0};
@@ -260,11 +279,6 @@ void AddStep(int a, int b, bool inside, int along, const CellLimits& limits, Cel
   }
 }
 
-void AddDisparity(int16_t disparity, int16_t* low, int16_t* high) {
-  if (disparity < *low) *low = disparity;
-  if (disparity > *high) *high = disparity;
-}
-
 void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMeasure* measure) {
   for (int k = 0; k < 8; ++k) {
     measure->column_low[k] = measure->column_high[k] = rows[1][k];
@@ -364,10 +378,11 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 
 const Kernels& ReferenceKernels() {
   static constexpr Kernels kernels = {
-      "reference", Accumulate,     Blend,      FilterDisc,       Split,       FindEdges,
-      SelectSlice, SpreadSlice,    ShiftSlice, Composite,        FinishStack, FindRuns,
-      MeasureCell, Transpose,      Finish,     ConvertDisparity, Widen,       Narrow,
-      FinishLayer, FilterHalfBand, Between};
+      "reference",    Accumulate,       Blend,       FilterDisc,  Split,
+      FindEdges,      FindRanges,       SelectSlice, SpreadSlice, ShiftSlice,
+      Composite,      FinishStack,      FindRuns,    MeasureCell, Transpose,
+      Finish,         ConvertDisparity, Widen,       Narrow,      FinishLayer,
+      FilterHalfBand, Between};
   return kernels;
 }
 

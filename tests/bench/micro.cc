@@ -124,6 +124,14 @@ const Case kCases[] = {
        k.find_edges(b->in.data(), b->in.data() + 1, {48, 6}, kSamples, b->out.data(),
                     b->middles.data(), b->line.data());
      }},
+    {"find_ranges", false, 2,
+     [](const Kernels& k, Buffers* b) {
+       starfocus::simd::DisparityRange ranges[kPlane / starfocus::simd::kSliceLanes];
+       for (size_t n = 0; n < kSamples; n += 8 * kPlane) {
+         k.find_ranges(b->in.data() + n, kPlane, 8, kPlane, ranges);
+         benchmark::DoNotOptimize(ranges);
+       }
+     }},
     {"select_slice", false, 3 * (2 + 3) / 4 + 1 + 2,
      [](const Kernels& k, Buffers* b) {
        const int16_t* in = b->in.data();
