@@ -128,9 +128,9 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
   rules.scale = engine.scale;
   rules.timing = engine.config.timing;
   rules.views = engine.view_counts;
-  engine.plan.counts[column] =
-      PartitionBlock(rules, engine.cells, column * BlockSide(engine), stripe.y, engine.reach.cells,
-                     worker->nodes, BlocksOf(engine, column), engine.plan.gathered);
+  engine.plan.counts[column] = PartitionBlock(
+      *engine.kernels, rules, engine.cells, column * BlockSide(engine), stripe.y,
+      engine.reach.cells, worker->partition, BlocksOf(engine, column), engine.plan.gathered);
 }
 
 void MapBlock(const EngineState& engine, const Stripe& stripe, const Block& block) {

@@ -14,6 +14,7 @@
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
+#include "simd/surroundings-inl.h"
 #include "simd/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -78,6 +79,16 @@ void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMe
   MeasureDisparities(rows, limits, measure);
 }
 
+void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
+                BlockReach* reach) {
+  ReachOneBlock(planes, around, margins, reach);
+}
+
+void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
+                   const CellRanges& ranges) {
+  SurroundRow(planes, around, count, ranges);
+}
+
 void Transpose(const uint8_t* in, size_t in_stride, size_t rows, size_t columns, uint8_t* out,
                size_t out_stride) {
   TransposePixels(in, in_stride, rows, columns, out, out_stride);
@@ -130,6 +141,8 @@ const Kernels* Table() {
                                       FinishStack,
                                       FindRuns,
                                       MeasureCell,
+                                      ReachBlock,
+                                      SurroundCells,
                                       Transpose,
                                       Finish,
                                       ConvertDisparity,

@@ -190,6 +190,45 @@ struct CellLimits {
   int16_t slope_limit, gap_limit;
 };
 
+// Cells of a picture in planes of int16, `plane` apart, with rows `stride` apart.
+enum CellPlane {
+  kReachLeft,  // pixels beyond a side that the cell splats, and how deep inside those lie
+  kReachRight,
+  kReachTop,
+  kReachBottom,
+  kInsideLeft,
+  kInsideRight,
+  kInsideTop,
+  kInsideBottom,
+  kReachPlane,   // pixels that its blur reaches at most: of any side
+  kRadiusPlane,  // largest blur radius, and that at depth edges: 0 where there is none
+  kEdgePlane,
+  kLowPlane,  // disparities
+  kHighPlane,
+  kCellPlanes
+};
+struct CellPlanes {
+  const int16_t* cells;  // plane 0
+  size_t plane, stride;
+};
+inline constexpr int16_t kCellPixels = 8;
+
+// What reaches a block of 2 x 2 cells: the largest radii of those cells and what splats into them;
+// and on the sides kReachLeft, ... how far beyond it pixels lie that splat into it or the margin of
+// each layer around it.
+struct BlockReach {
+  int16_t radius, edge;
+  int16_t border[3][4];
+};
+
+// What lies around a cell: its range of disparities, the largest range of one of its cells, and the
+// largest blur radius at depth edges.
+struct CellRanges {
+  int16_t *low, *high;
+  uint16_t* widest;
+  int16_t* edge;
+};
+
 struct Kernels {
   const char* name;  // of the SIMD target
 
@@ -261,6 +300,17 @@ struct Kernels {
   // and below, and columns -1 and 8 are read as well.
   void (*measure_cell)(const int16_t* const rows[10], const CellLimits& limits,
                        CellMeasure* measure);
+
+  // What reaches the block whose first cell is at planes.cells, from as many as `around` cells
+  // away. `margins`: of the layers, ascending from 0; in margins pixels count by whole cells.
+  void (*reach_block)(const CellPlanes& planes, int32_t around, const int16_t margins[3],
+                      BlockReach* reach);
+
+  // What lies around each of `count` cells of a row from planes.cells on: cells d <= around away
+  // (in columns or rows, the larger) that it, or that themselves, reach (d - 1) kCellPixels and
+  // more far. Whole kSliceLanes are read and written.
+  void (*surround_cells)(const CellPlanes& planes, int32_t around, size_t count,
+                         const CellRanges& ranges);
 
   // Pixel `column` of row `row` of `in` becomes pixel `row` of row `column` of `out`. Strides in
   // bytes. Up to kTransposePadding bytes past the end of each row of `out` may be written, in order

@@ -21,6 +21,11 @@ constexpr size_t kSamples = 3 * 1024;  // of a line
 constexpr size_t kSpan = 96;           // samples: surfaces of 32 pixels
 constexpr size_t kMargin = 64;
 
+// Cells of all planes side by side: 6 rows with 2 cells around 2 of them.
+constexpr int32_t kAround = 2;
+constexpr size_t kCellStride = 36, kCellRows = 6;
+static_assert(kCellStride * kCellRows * starfocus::simd::kCellPlanes <= kSamples);
+
 struct Buffers {
   std::vector<uint8_t> bytes, line;
   std::vector<uint32_t> sums;
@@ -47,6 +52,10 @@ struct Buffers {
       spans.push_back({bytes.data() + kMargin + i, uint32_t(i), uint32_t(kSpan),
                        uint16_t(256 - neighbour), neighbour, 3});
     }
+  }
+
+  starfocus::simd::CellPlanes Cells() const {
+    return {in.data() + kAround * (kCellStride + 1), kCellStride * kCellRows, kCellStride};
   }
 };
 
@@ -179,6 +188,25 @@ const Case kCases[] = {
          starfocus::simd::CellMeasure measure;
          k.measure_cell(rows, {4000, 12000, 2000, 4000}, &measure);
          benchmark::DoNotOptimize(measure);
+       }
+     }},
+    // Of each cell's planes; whatever they hold.
+    {"reach_block", false, 2 * starfocus::simd::kCellPlanes / 4,
+     [](const Kernels& k, Buffers* b) {
+       constexpr int16_t kMargins[3] = {0, 4, 12};
+       for (size_t block = 0; block < kSamples / 4; ++block) {
+         starfocus::simd::BlockReach reach;
+         k.reach_block(b->Cells(), kAround, kMargins, &reach);
+         benchmark::DoNotOptimize(reach);
+       }
+     }},
+    {"surround_cells", false, 2 * 4 + 2 * 4,
+     [](const Kernels& k, Buffers* b) {
+       for (size_t n = 0; n < kSamples; n += 32) {
+         int16_t ranges[3][32];
+         uint16_t widest[32];
+         k.surround_cells(b->Cells(), kAround, 32, {ranges[0], ranges[1], widest, ranges[2]});
+         benchmark::DoNotOptimize(ranges);
        }
      }},
     {"transpose", false, 1 + 1,
