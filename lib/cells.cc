@@ -5,27 +5,6 @@ namespace {
 
 constexpr int32_t kRadiusOne = 1 << kDisparityBits;
 
-// What the kernel finds, with the picture's edge repeated around it.
-simd::CellMeasure Measure(const simd::Kernels& kernels, const Window& window,
-                          const simd::CellLimits& limits, int32_t x, int32_t y) {
-  const int16_t* rows[kCellSize + 2];
-  int16_t copies[kCellSize + 2][kCellSize + 2];
-  const bool inside =
-      x > 0 && y > 0 && x + kCellSize < window.width && y + kCellSize < window.height;
-  for (int32_t row = 0; row < kCellSize + 2; ++row) {
-    const int16_t* from = window.disparity.Row(Clamp(y + row - 1, 0, window.height - 1));
-    rows[row] = from + x;
-    if (inside) continue;
-    for (int32_t column = 0; column < kCellSize + 2; ++column) {
-      copies[row][column] = from[Clamp(x + column - 1, 0, window.width - 1)];
-    }
-    rows[row] = copies[row] + 1;
-  }
-  simd::CellMeasure measure;
-  kernels.measure_cell(rows, limits, &measure);
-  return measure;
-}
-
 // Largest |d - focus| of disparities in [low, high].
 int32_t Farthest(int32_t low, int32_t high, int32_t focus) {
   return Max(Abs(low - focus), Abs(high - focus));
@@ -44,21 +23,32 @@ int32_t DisparityOf(int32_t distance, int64_t step) {
 
 void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t step, Cell* cell) {
   // One step in eight leads out of the cell, and is made up for.
-  const auto scaled = [](int64_t sum, int64_t one) {
+  const auto scaled = [](uint32_t sum, uint32_t one) {
     return static_cast<uint16_t>(sum * kContentOne * kCellSize / (one * (kCellSize - 1)));
   };
+  const auto slope = static_cast<uint32_t>(Max(1, slope_limit));
   for (int along = 0; along < 2; ++along) {
-    cell->slopes[along] = scaled(measure.slopes[along], Max(1, slope_limit));
+    cell->slopes[along] = scaled(measure.slopes[along], slope);
     cell->edges[along] = scaled(measure.edges[along], 1);
-    cell->gaps[along] = scaled(measure.gaps[along] * step >> kStepBits, kRadiusOne);
+    const int64_t gaps = measure.gaps[along] * step >> kStepBits;
+    cell->gaps[along] = scaled(static_cast<uint32_t>(gaps), kRadiusOne);
   }
 }
 
-// Reach beyond either end of a line of 8 columns or rows, and the depth inside.
-void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], Side low, Side high,
-                  Cell* cell) {
+// Of pixels that all reach as far.
+void StoreSides(int32_t reach, Cell* cell) {
+  for (int side = 0; side < 4; ++side) {
+    cell->reach[side] = static_cast<int16_t>(Checked(ranges::kReach, reach));
+    cell->inside[side] = static_cast<uint8_t>(Min(reach, kCellSize));
+  }
+}
+
+// Reach beyond either end of a line of 8 columns or rows of disparities, and the depth inside.
+void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
+                  const int16_t (&highs)[kCellSize], Side low, Side high, Cell* cell) {
   for (int32_t k = 0; k < kCellSize; ++k) {
-    const int32_t reach = ReachOf(scale.RadiusAbove(distance[k]));
+    const int32_t distance = Farthest(lows[k], highs[k], scale.focus);
+    const int32_t reach = ReachOf(scale.RadiusAbove(distance));
     const int32_t beyond_low = reach - k, beyond_high = reach - (kCellSize - 1 - k);
     cell->reach[low] =
         static_cast<int16_t>(Max(cell->reach[low], Checked(ranges::kReach, beyond_low)));
@@ -70,6 +60,81 @@ void MeasureSides(const BlurScale& scale, const int32_t (&distance)[kCellSize], 
     }
   }
 }
+
+// Cells of one row.
+class CellRow {
+ public:
+  CellRow(const simd::Kernels& kernels, const Window& window, const BlurScale& scale, int32_t row)
+      : kernels_(kernels),
+        window_(window),
+        scale_(scale),
+        near_focus_(Clamp(scale.focus, INT16_MIN, INT16_MAX)),
+        limits_{static_cast<int16_t>(near_focus_), kSurfaceStep,
+                static_cast<int16_t>(DisparityOf(kRunDrift, scale.step)),
+                static_cast<int16_t>(DisparityOf(kLargestGap * kRadiusOne, scale.step))} {
+    for (int32_t k = 0; k < kRows; ++k) {
+      rows_[k] = window.disparity.Row(Clamp(row * kCellSize + k - 1, 0, window.height - 1));
+    }
+  }
+
+  Cell Measure(int32_t column) const {
+    const simd::CellMeasure found = Find(column * kCellSize);
+    Cell cell = {};
+    cell.low = found.column_low[0];
+    cell.high = found.column_high[0];
+    for (int32_t k = 1; k < kCellSize; ++k) {
+      cell.low = found.column_low[k] < cell.low ? found.column_low[k] : cell.low;
+      cell.high = found.column_high[k] > cell.high ? found.column_high[k] : cell.high;
+    }
+    // A focus beyond int16 lies beyond every disparity, all on one side of it.
+    const int32_t nearest = found.nearest + Abs(scale_.focus - near_focus_);
+    const int32_t farthest = Farthest(cell.low, cell.high, scale_.focus);
+    cell.r_min = static_cast<uint16_t>(scale_.Radius(nearest));
+    cell.r_max = static_cast<uint16_t>(scale_.RadiusAbove(farthest));
+    if (found.edge_low <= found.edge_high) {
+      cell.r_edge = static_cast<uint16_t>(
+          scale_.RadiusAbove(Farthest(found.edge_low, found.edge_high, scale_.focus)));
+    }
+    const int32_t reach = ReachOf(cell.r_max);
+    if (reach == ReachOf(scale_.RadiusAbove(nearest))) {
+      StoreSides(reach, &cell);
+    } else {
+      for (int16_t& side : cell.reach) side = INT16_MIN;
+      MeasureSides(scale_, found.column_low, found.column_high, kLeft, kRight, &cell);
+      MeasureSides(scale_, found.row_low, found.row_high, kTop, kBottom, &cell);
+    }
+    StoreContent(found, limits_.slope_limit, scale_.step, &cell);
+    return cell;
+  }
+
+ private:
+  static constexpr int32_t kRows = kCellSize + 2;
+
+  // What the kernel finds at column x of the picture, whose edge is repeated around it.
+  simd::CellMeasure Find(int32_t x) const {
+    const int16_t* rows[kRows];
+    int16_t copies[kRows][kRows];
+    const bool inside = x > 0 && x + kCellSize < window_.width;
+    for (int32_t k = 0; k < kRows; ++k) {
+      rows[k] = rows_[k] + x;
+      if (inside) continue;
+      for (int32_t column = 0; column < kRows; ++column) {
+        copies[k][column] = rows_[k][Clamp(x + column - 1, 0, window_.width - 1)];
+      }
+      rows[k] = copies[k] + 1;
+    }
+    simd::CellMeasure measure;
+    kernels_.measure_cell(rows, limits_, &measure);
+    return measure;
+  }
+
+  const simd::Kernels& kernels_;
+  const Window& window_;
+  const BlurScale& scale_;
+  const int32_t near_focus_;
+  const simd::CellLimits limits_;
+  const int16_t* rows_[kRows];  // with those above and below the cells
+};
 
 void AddContent(const Content (&part)[2], Content (*sum)[2]) {
   for (int along = 0; along < 2; ++along) {
@@ -87,39 +152,10 @@ void AddCell(const Cell& cell, Content (*sum)[2]) {
   AddContent(part, sum);
 }
 
-Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
-                 int32_t column, int32_t row) {
-  const int32_t focus = scale.focus;
-  const int32_t near_focus = Clamp(focus, INT16_MIN, INT16_MAX);
-  const simd::CellLimits limits = {
-      static_cast<int16_t>(near_focus), kSurfaceStep,
-      static_cast<int16_t>(DisparityOf(kRunDrift, scale.step)),
-      static_cast<int16_t>(DisparityOf(kLargestGap * kRadiusOne, scale.step))};
-  const simd::CellMeasure found =
-      Measure(kernels, window, limits, column * kCellSize, row * kCellSize);
-  Cell cell = {};
-  cell.low = INT16_MAX;
-  cell.high = INT16_MIN;
-  int32_t largest = 0, distance_x[kCellSize], distance_y[kCellSize];
-  for (int32_t k = 0; k < kCellSize; ++k) {
-    distance_x[k] = Farthest(found.column_low[k], found.column_high[k], focus);
-    distance_y[k] = Farthest(found.row_low[k], found.row_high[k], focus);
-    largest = Max(largest, distance_x[k]);
-    if (found.column_low[k] < cell.low) cell.low = found.column_low[k];
-    if (found.column_high[k] > cell.high) cell.high = found.column_high[k];
-  }
-  // A focus beyond int16 lies beyond every disparity, all on one side of it.
-  cell.r_min = static_cast<uint16_t>(scale.Radius(found.nearest + Abs(focus - near_focus)));
-  cell.r_max = static_cast<uint16_t>(scale.RadiusAbove(largest));
-  cell.r_edge = static_cast<uint16_t>(
-      found.edge_low > found.edge_high
-          ? 0
-          : scale.RadiusAbove(Farthest(found.edge_low, found.edge_high, focus)));
-  for (int16_t& reach : cell.reach) reach = INT16_MIN;
-  MeasureSides(scale, distance_x, kLeft, kRight, &cell);
-  MeasureSides(scale, distance_y, kTop, kBottom, &cell);
-  StoreContent(found, limits.slope_limit, scale.step, &cell);
-  return cell;
+void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
+                  int32_t row, int32_t first, int32_t last, Cell* cells) {
+  const CellRow cell_row(kernels, window, scale, row);
+  for (int32_t column = first; column < last; ++column) *cells++ = cell_row.Measure(column);
 }
 
 BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {

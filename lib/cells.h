@@ -88,9 +88,9 @@ struct GatherMap {
 // Adds what line scans meet in a cell.
 void AddCell(const Cell& cell, Content (*sum)[2]);
 
-// Measures the cell at (column, row) of the grid; the window is at layer 0.
-Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
-                 int32_t column, int32_t row);
+// Measures the cells at columns [first, last) of a row of the grid; the window is at layer 0.
+void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
+                  int32_t row, int32_t first, int32_t last, Cell* cells);
 
 // Pixels that a block refocused at layer L renders beyond its sides, because upsampling reads
 // them, in pixels of the picture.

@@ -150,10 +150,8 @@ struct Cells {
     cells.resize(size_t(grid.last_row - grid.first_row) * size_t(grid.columns));
     grid.cells = cells.data();
     for (int row = grid.first_row; row < grid.last_row; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        *grid.At(column, row) =
-            starfocus::MeasureCell(starfocus::simd::BestKernels(), window, map.scale, column, row);
-      }
+      starfocus::MeasureCells(starfocus::simd::BestKernels(), window, map.scale, row, 0,
+                              grid.columns, grid.At(0, row));
     }
   }
   CellGrid grid;

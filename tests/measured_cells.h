@@ -26,10 +26,8 @@ inline starfocus::CellGrid MeasureCells(const std::vector<int16_t>& disparity, i
   cells->resize(size_t(grid.columns) * size_t(grid.rows));
   grid.cells = cells->data();
   for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      *grid.At(column, row) =
-          starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
-    }
+    starfocus::MeasureCells(starfocus::simd::BestKernels(), window, scale, row, 0, grid.columns,
+                            grid.At(0, row));
   }
   return grid;
 }
