@@ -1,5 +1,5 @@
-// Variable-size block analysis (paper, V-A): what 8x8 cells know of the blur, and the borders it
-// gives to blocks.
+// Variable-size block analysis (paper, V-A): what 8x8 cells know of the blur, and blocks made of
+// them.
 #ifndef STARFOCUS_LIB_CELLS_H_
 #define STARFOCUS_LIB_CELLS_H_
 
@@ -52,6 +52,11 @@ struct BlurScale {
   }
 };
 
+// Pixels that blur of radius r (kDisparityBits) reaches, with half a pixel of rounding.
+constexpr int32_t ReachOf(int32_t r) {
+  return (r + (3 << kDisparityBits) / 2 - 1) >> kDisparityBits;
+}
+
 // A grid of cells over rows of the picture, all columns. Positions outside the picture, and only
 // those, take the nearest cell, whose edge the picture repeats.
 struct CellGrid {
@@ -83,21 +88,13 @@ struct GatherMap {
 // Adds what line scans meet in a cell.
 void AddCell(const Cell& cell, Content (*sum)[2]);
 
-// Measures the cell at (column, row) of the grid; the window is at layer 0.
-Cell MeasureCell(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
-                 int32_t column, int32_t row);
+// Measures the cells at columns [first, last) of a row of the grid; the window is at layer 0.
+void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
+                  int32_t row, int32_t first, int32_t last, Cell* cells);
 
 // Pixels that a block refocused at layer L renders beyond its sides, because upsampling reads
 // them, in pixels of the picture.
-inline constexpr int32_t kLayerMargin[3] = {0, 4, 12};
-
-// A cell is smooth when it can be gathered (lib/gather.h): one surface is all that lies within
-// reach of its pixels or reaches them, and the blur there, nearer than the focus counted as
-// negative, differs by at most this, kDisparityBits. Where most of that is within one cell, it is
-// a step: then by no more than half the largest blur or kSharpSmoothRange, since the kernel of
-// the middle may be sharp where one side is not.
-inline constexpr int32_t kSmoothRange = (3 << kDisparityBits) / 2;
-inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
+inline constexpr int16_t kLayerMargin[3] = {0, 4, 12};
 
 // What a block knows: radii of the pixels inside and (but for r_min) of those that splat into it,
 // and for each layer the border beyond which no pixel splats into the block and its margin.
@@ -106,15 +103,6 @@ struct BlockStats {
   Border border[3];
   Content content[2];  // of the pixels inside, along rows and along columns
 };
-
-// Stats of the 2x2 cells at (column, row), looking at cells up to `around` away, which must be
-// within the grid's stored rows or outside the picture.
-BlockStats MeasureBlock(const CellGrid& grid, int32_t column, int32_t row, int32_t around);
-
-// Which of those 2x2 cells are smooth: bit k for the cell (k % 2, k / 2). `scale` is what they were
-// measured with.
-uint32_t FindSmooth(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row,
-                    int32_t around);
 
 // Stats of the block of twice the side `side` made of children in z-order. Children outside the
 // picture are null.

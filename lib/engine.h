@@ -49,7 +49,7 @@ struct Worker {
   int16_t* layer_samples;   // a rendered rectangle
   int16_t* middle_samples;  // at layer 1, on the way up from layer 2
   int16_t* picture_samples;
-  PartitionNode* nodes;
+  PartitionScratch partition;
   sf_layer_report layers[SF_LAYERS];
   sf_skipped skipped;
   uint64_t centre_bytes;

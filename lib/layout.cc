@@ -118,8 +118,10 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   worker.layer_samples = carver->Take<int16_t>(3 * half * half);
   worker.middle_samples = carver->Take<int16_t>(3 * half * half);
   worker.picture_samples = carver->Take<int16_t>(3 * side * side);
-  worker.nodes =
+  worker.partition.nodes =
       carver->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
+  worker.partition.cells = carver->Take<int16_t>(
+      SurroundingSamples(config.largest_block / kCellSize, GetReach(config.max_blur).cells));
   return worker;
 }
 

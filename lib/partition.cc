@@ -24,9 +24,11 @@ int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
 
 class Partition {
  public:
-  Partition(const PartitionRules& rules, PartitionNode* nodes, const GatherMap& gathered)
-      : rules_(rules),
-        nodes_(nodes),
+  Partition(const simd::Kernels& kernels, const PartitionRules& rules,
+            const PartitionScratch& scratch, const GatherMap& gathered)
+      : kernels_(kernels),
+        rules_(rules),
+        scratch_(scratch),
         gathered_(gathered),
         side_(rules.largest_block / kSmallestBlock) {
     while ((1 << levels_) < side_) ++levels_;
@@ -35,12 +37,17 @@ class Partition {
   void Measure(const CellGrid& cells, int32_t x, int32_t y, int32_t around) {
     x_ = x;
     y_ = y;
+    // Whole smallest blocks, which may hang over the picture's edges.
+    const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(rules_.width - x),
+                         CellsWithin(rules_.height - y)};
+    const Surroundings surroundings = LoadSurroundings(cells, inside, around, scratch_.cells);
+    FindGathered(cells, surroundings);
     for (int level = 0; level <= levels_; ++level) {
       const int32_t count = side_ >> level;
       for (int32_t row = 0; row < count; ++row) {
         for (int32_t column = 0; column < count; ++column) {
           if (!Inside(level, column, row)) continue;
-          MeasureNode(level, column, row, cells, around);
+          MeasureNode(level, column, row, cells, surroundings);
           Plan(level, column, row);
         }
       }
@@ -58,19 +65,20 @@ class Partition {
   PartitionNode& Node(int level, int32_t column, int32_t row) const {
     int32_t index = row * (side_ >> level) + column;
     for (int below = 0; below < level; ++below) index += (side_ >> below) * (side_ >> below);
-    return nodes_[index];
+    return scratch_.nodes[index];
   }
   bool Inside(int level, int32_t column, int32_t row) const {
     return x_ + column * NodeSide(level) < rules_.width &&
            y_ + row * NodeSide(level) < rules_.height;
   }
 
-  void MeasureNode(int level, int32_t column, int32_t row, const CellGrid& cells, int32_t around) {
+  void MeasureNode(int level, int32_t column, int32_t row, const CellGrid& cells,
+                   const Surroundings& surroundings) {
     PartitionNode& node = Node(level, column, row);
     node.cells = node.gathered = 0;
     node.gather = 0;
     if (level == 0) {
-      MeasureUnit(column, row, cells, around, &node);
+      MeasureUnit(column, row, cells, surroundings, &node);
       return;
     }
     const BlockStats* children[4];
@@ -86,22 +94,36 @@ class Partition {
     node.stats = MergeBlocks(children, NodeSide(level - 1));
   }
 
-  void MeasureUnit(int32_t column, int32_t row, const CellGrid& cells, int32_t around,
-                   PartitionNode* node) {
+  // Cells of the smallest blocks that are needed for this many pixels of the picture.
+  int32_t CellsWithin(int32_t pixels) const {
+    constexpr int32_t kCells = kSmallestBlock / kCellSize;
+    return kCells * Min(side_, (pixels + kSmallestBlock - 1) / kSmallestBlock);
+  }
+
+  void FindGathered(const CellGrid& cells, const Surroundings& inside) {
+    const int32_t right = Min(inside.column + inside.columns, cells.columns);
+    const int32_t bottom = Min(inside.row + inside.rows, cells.rows);
+    bool smooth[kMaxRowCells] = {};
+    for (int32_t y = inside.row; y < bottom; ++y) {
+      if (rules_.gathers) FindSmooth(kernels_, inside, rules_.scale, y, smooth);
+      for (int32_t x = inside.column; x < right; ++x) {
+        const bool small = cells.At(x, y)->r_max <= kMaxGather << kDisparityBits;
+        gathered_.At(x * kCellSize, y * kCellSize) = small && smooth[x - inside.column] ? 1 : 0;
+      }
+    }
+  }
+
+  void MeasureUnit(int32_t column, int32_t row, const CellGrid& cells,
+                   const Surroundings& surroundings, PartitionNode* node) {
     const int32_t cell_x = x_ / kCellSize + 2 * column, cell_y = y_ / kCellSize + 2 * row;
-    node->stats = MeasureBlock(cells, cell_x, cell_y, around);
-    const uint32_t smooth =
-        rules_.gathers ? FindSmooth(cells, rules_.scale, cell_x, cell_y, around) : 0;
-    for (int32_t k = 0; k < 4; ++k) {
-      const int32_t x = cell_x + (k & 1), y = cell_y + (k >> 1);
-      if (x >= cells.columns || y >= cells.rows) continue;
-      const int32_t r_max = cells.At(x, y)->r_max;
-      const bool gathered = (smooth >> k & 1) != 0 && r_max <= kMaxGather << kDisparityBits;
-      gathered_.At(x * kCellSize, y * kCellSize) = gathered ? 1 : 0;
-      ++node->cells;
-      if (!gathered) continue;
-      ++node->gathered;
-      node->gather += PredictGather(rules_.timing, kCellSize * kCellSize, r_max);
+    node->stats = MeasureBlock(kernels_, cells, surroundings, cell_x, cell_y);
+    for (int32_t y = cell_y; y < Min(cell_y + 2, cells.rows); ++y) {
+      for (int32_t x = cell_x; x < Min(cell_x + 2, cells.columns); ++x) {
+        ++node->cells;
+        if (gathered_.At(x * kCellSize, y * kCellSize) == 0) continue;
+        ++node->gathered;
+        node->gather += PredictGather(rules_.timing, kCellSize * kCellSize, cells.At(x, y)->r_max);
+      }
     }
   }
 
@@ -234,8 +256,9 @@ class Partition {
     }
   }
 
+  const simd::Kernels& kernels_;
   const PartitionRules& rules_;
-  PartitionNode* nodes_;
+  const PartitionScratch& scratch_;
   const GatherMap& gathered_;
   int32_t side_;  // in smallest blocks
   int levels_ = 0;
@@ -245,10 +268,10 @@ class Partition {
 
 }  // namespace
 
-int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
-                       int32_t around, PartitionNode* nodes, Block* blocks,
-                       const GatherMap& gathered) {
-  Partition partition(rules, nodes, gathered);
+int32_t PartitionBlock(const simd::Kernels& kernels, const PartitionRules& rules,
+                       const CellGrid& cells, int32_t x, int32_t y, int32_t around,
+                       const PartitionScratch& scratch, Block* blocks, const GatherMap& gathered) {
+  Partition partition(kernels, rules, scratch, gathered);
   partition.Measure(cells, x, y, around);
   return partition.Emit(blocks);
 }

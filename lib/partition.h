@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "lib/cells.h"
+#include "lib/surroundings.h"
 #include "lib/timing.h"
 
 namespace starfocus {
@@ -58,13 +59,19 @@ constexpr int32_t PartitionNodes(int32_t largest_block) {
   return nodes;
 }
 
+// Memory for a largest block: PartitionNodes of it, SurroundingSamples of its cells.
+struct PartitionScratch {
+  PartitionNode* nodes;
+  int16_t* cells;
+};
+
 // Splits the largest block at (x, y), multiples of largest_block, into the blocks of least
-// predicted time. `around`: how many cells away a pixel may splat from. nodes[PartitionNodes] is
-// scratch. Writes at most MaxBlocks blocks in z-order, and what of `gathered` belongs to the
-// largest block; returns the number of blocks.
-int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
-                       int32_t around, PartitionNode* nodes, Block* blocks,
-                       const GatherMap& gathered);
+// predicted time. `around`: how many cells away a pixel may splat from. Writes at most MaxBlocks
+// blocks in z-order, and what of `gathered` belongs to the largest block; returns the number of
+// blocks.
+int32_t PartitionBlock(const simd::Kernels& kernels, const PartitionRules& rules,
+                       const CellGrid& cells, int32_t x, int32_t y, int32_t around,
+                       const PartitionScratch& scratch, Block* blocks, const GatherMap& gathered);
 
 }  // namespace starfocus
 

@@ -9,6 +9,11 @@ namespace {
 
 constexpr int kOverlapParts = 10;  // of a slice's range
 
+// Pixels whose bins are looked at together: rows, columns, and columns of the largest surfaces.
+constexpr int32_t kMarkedRows = 8;
+constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+constexpr int32_t kMaxChunks = 64;
+
 class SliceFinder {
  public:
   explicit SliceFinder(const SliceJob& job)
@@ -25,7 +30,7 @@ class SliceFinder {
   int32_t Find(Slice* slices) {
     FindBase();
     std::memset(job_.bins, 0, static_cast<size_t>(bins_));
-    for (int32_t y = 0; y < surfaces_.height; ++y) Mark(y);
+    for (int surface = 0; surface < simd::kSurfaces; ++surface) Mark(surface);
     for (int coarser = 0;; ++coarser) {
       const int32_t count = Cut(coarser, slices);
       if (count > 0) return count;
@@ -45,25 +50,62 @@ class SliceFinder {
     bins_ = (range >> bin_bits_) + 1;
   }
 
-  // Marks the bins of a row's pixels that may splat into the rect.
-  void Mark(int32_t y) {
-    const Rect& rect = job_.rect;
-    const int32_t right = rect.x + rect.width - 1, bottom = rect.y + rect.height - 1;
-    const int32_t dy = Max(Max(rect.y - y, y - bottom), 0);
-    for (int surface = 0; surface < simd::kSurfaces; ++surface) {
-      const int16_t* row = surfaces_.disparity[surface] + surfaces_.At(0, y);
-      if (surface > 0 && surfaces_.hiding[y] == 0) return;
-      const auto mark = [&](int32_t x, int32_t distance) {
-        const int32_t disparity = row[x];
-        if (surface > 0 && disparity == kNoSurface) return;
-        uint8_t& bin = job_.bins[(disparity - base_) >> bin_bits_];
-        if (bin != 0) return;
-        if (Abs(disparity - grid_.focus) >= job_.least_blur[distance]) bin = 1;
-      };
-      for (int32_t x = 0; x < rect.x; ++x) mark(x, Max(rect.x - x, dy));
-      for (int32_t x = rect.x; x <= right; ++x) mark(x, dy);
-      for (int32_t x = right + 1; x < surfaces_.width; ++x) mark(x, Max(x - right, dy));
+  // Marks the bins of a surface's pixels that may splat into the rect, a few rows at a time. Rows
+  // that hide nothing have no surface but the first.
+  void Mark(int surface) {
+    const auto has = [&](int32_t y) { return surface == 0 || surfaces_.hiding[y] != 0; };
+    for (int32_t y = 0, end; y < surfaces_.height; y = end) {
+      end = y + 1;
+      if (!has(y)) continue;
+      while (end < Min(y + kMarkedRows, surfaces_.height) && has(end)) ++end;
+      MarkRows(surface, y, end);
     }
+  }
+
+  void MarkRows(int surface, int32_t y, int32_t end) {
+    simd::DisparityRange ranges[kMaxChunks];
+    job_.kernels->find_ranges(surfaces_.disparity[surface] + surfaces_.At(0, y),
+                              static_cast<size_t>(surfaces_.stride), static_cast<size_t>(end - y),
+                              static_cast<size_t>(surfaces_.width), ranges);
+    for (int32_t x = 0; x < surfaces_.width; x += kChunk) {
+      const Rect pixels = {x, y, Min(kChunk, surfaces_.width - x), end - y};
+      if (!IsDone(pixels, ranges[x / kChunk])) MarkPixels(surface, pixels);
+    }
+  }
+
+  // Whether no bin is left to mark for pixels of a range: most fall into bins that are marked, or
+  // are too sharp to reach the rect.
+  bool IsDone(const Rect& pixels, const simd::DisparityRange& range) const {
+    if (range.low > range.high) return true;
+    const int32_t farthest = Max(Abs(range.low - grid_.focus), Abs(range.high - grid_.focus));
+    if (farthest < job_.least_blur[Beyond(pixels)]) return true;
+    const int32_t first = BinOf(range.low), last = BinOf(range.high);
+    return std::memchr(job_.bins + first, 0, static_cast<size_t>(last + 1 - first)) == nullptr;
+  }
+
+  void MarkPixels(int surface, const Rect& pixels) {
+    for (int32_t y = pixels.y; y < pixels.y + pixels.height; ++y) {
+      const int16_t* disparity = surfaces_.disparity[surface] + surfaces_.At(0, y);
+      for (int32_t x = pixels.x; x < pixels.x + pixels.width; ++x) {
+        if (surface > 0 && disparity[x] == kNoSurface) continue;
+        uint8_t& bin = job_.bins[BinOf(disparity[x])];
+        if (bin != 0) continue;
+        const int32_t least = job_.least_blur[Beyond({x, y, 1, 1})];
+        if (Abs(disparity[x] - grid_.focus) >= least) bin = 1;
+      }
+    }
+  }
+
+  int32_t BinOf(int32_t disparity) const { return (disparity - base_) >> bin_bits_; }
+
+  // How far the nearest of the pixels lies beyond the rect.
+  int32_t Beyond(const Rect& pixels) const {
+    const Rect& rect = job_.rect;
+    const int32_t x =
+        Max(rect.x - (pixels.x + pixels.width - 1), pixels.x - (rect.x + rect.width - 1));
+    const int32_t y =
+        Max(rect.y - (pixels.y + pixels.height - 1), pixels.y - (rect.y + rect.height - 1));
+    return Max(Max(x, y), 0);
   }
 
   // Bins that a slice with this nearest bin may span.

@@ -38,6 +38,7 @@ struct Slice {
 };
 
 struct SliceJob {
+  const simd::Kernels* kernels;
   const Surfaces* surfaces;
   const ViewGrid* grid;
   SliceRule rule;

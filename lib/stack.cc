@@ -7,8 +7,6 @@
 namespace starfocus {
 namespace {
 
-constexpr int kInverseBits = 48;
-
 // A pixel of which slices cover less than this part of all views' light is not made of them: what
 // rounding adds would show.
 constexpr uint32_t kLeastShare = 4;
@@ -86,10 +84,9 @@ class Stack {
 
   void PlaceSlices() {
     const Rect& inner = field_.inner;
-    const SliceJob job = {&scratch_.surfaces,     &grid_,
-                          rule_,                  inner,
-                          scratch_.bins,          scratch_.least_blur,
-                          scratch_.plane_samples, scratch_.tile_rows};
+    const SliceJob job = {job_.kernels,        &scratch_.surfaces,     &grid_,
+                          rule_,               inner,                  scratch_.bins,
+                          scratch_.least_blur, scratch_.plane_samples, scratch_.tile_rows};
     Slice slices[kMaxSlices];
     count_ = FindSlices(job, slices);
     int16_t* samples = scratch_.planes;
@@ -220,35 +217,17 @@ class Stack {
                             scratch_.sums + kPixelSums * static_cast<size_t>(part.y * kChunk));
   }
 
-  // Colours over coverage: what no slice covers is as what covers the rest. A pixel that hardly any
-  // view shows is that of the centre view.
+  // What no slice covers is as what covers the rest. A pixel that hardly any view shows is that of
+  // the centre view.
   void FinishTile() {
-    const int32_t columns = Min(kChunk, job_.rect.width - tile_.x);
-    uint32_t covered = 0;
-    uint64_t inverse = 0;
+    const simd::StackFinish finish = {least_covered_, grid_.aperture.sum_bits};
+    const auto columns = static_cast<size_t>(Min(kChunk, job_.rect.width - tile_.x));
     for (int32_t y = 0; y < job_.rect.height; ++y) {
-      const uint32_t* sums = scratch_.sums + kPixelSums * static_cast<size_t>(y * kChunk);
-      const uint8_t* rgb = field_.Rgb(field_.inner.x + tile_.x, field_.inner.y + y);
-      uint32_t* out =
-          accumulators_ + 3 * (static_cast<size_t>(y) * job_.rect.width + tile_.x);
-      for (int32_t x = 0; x < columns; ++x, ++sums, rgb += 3, out += 3) {
-        if (sums[3 * kChunk] != covered) {
-          covered = sums[3 * kChunk];
-          inverse = covered < least_covered_ ? 0 : (uint64_t{1} << kInverseBits) / covered;
-        }
-        FinishPixel(sums, inverse, rgb, out);
-      }
-    }
-  }
-
-  void FinishPixel(const uint32_t* sums, uint64_t inverse, const uint8_t* rgb,
-                   uint32_t* out) const {
-    const int bits = grid_.aperture.sum_bits, shift = kInverseBits - 8 - bits;
-    const uint64_t white = uint64_t{255} << bits, half = uint64_t{1} << (shift - 1);
-    for (size_t c = 0; c < 3; ++c) {
-      const uint64_t value = (sums[c * kChunk] * inverse + half) >> shift;
-      out[c] = inverse == 0 ? uint32_t{rgb[c]} << bits
-                            : static_cast<uint32_t>(value < white ? value : white);
+      const auto at = static_cast<size_t>(y * job_.rect.width + tile_.x);
+      job_.kernels->finish_stack(scratch_.sums + kPixelSums * static_cast<size_t>(y * kChunk),
+                                 simd::kSliceLanes,
+                                 field_.Rgb(field_.inner.x + tile_.x, field_.inner.y + y), finish,
+                                 columns, accumulators_ + 3 * at);
     }
   }
 

@@ -95,16 +95,14 @@ bool ChooseColumns(const Stripe& stripe) {
   return any;
 }
 
-void MeasureCells(const Stripe& stripe, int32_t index, Worker*) {
+void MeasureColumn(const Stripe& stripe, int32_t index, Worker*) {
   EngineState& engine = *stripe.engine;
   if (engine.plan.measured[index] == 0) return;
-  const int32_t per_block = BlockSide(engine) / kCellSize;
-  const int32_t last = Min((index + 1) * per_block, engine.cells.columns);
+  const int32_t per_block = BlockSide(engine) / kCellSize, first = index * per_block;
+  const int32_t last = Min(first + per_block, engine.cells.columns);
   for (int32_t row = stripe.first_cells; row < engine.cells.last_row; ++row) {
-    for (int32_t column = index * per_block; column < last; ++column) {
-      *engine.cells.At(column, row) =
-          MeasureCell(*engine.kernels, engine.windows[0], engine.scale, column, row);
-    }
+    MeasureCells(*engine.kernels, engine.windows[0], engine.scale, row, first, last,
+                 engine.cells.At(first, row));
   }
 }
 
@@ -128,9 +126,9 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
   rules.scale = engine.scale;
   rules.timing = engine.config.timing;
   rules.views = engine.view_counts;
-  engine.plan.counts[column] =
-      PartitionBlock(rules, engine.cells, column * BlockSide(engine), stripe.y, engine.reach.cells,
-                     worker->nodes, BlocksOf(engine, column), engine.plan.gathered);
+  engine.plan.counts[column] = PartitionBlock(
+      *engine.kernels, rules, engine.cells, column * BlockSide(engine), stripe.y,
+      engine.reach.cells, worker->partition, BlocksOf(engine, column), engine.plan.gathered);
 }
 
 void MapBlock(const EngineState& engine, const Stripe& stripe, const Block& block) {
@@ -243,7 +241,7 @@ sf_status PlanStripe(Stripe* stripe, const Runner& runner) {
   if (IsBlockMode(engine)) {
     engine.plan.gathered.first_row = stripe->y / kCellSize;
     stripe->first_cells = PlaceCells(stripe->y, stripe->height, &engine);
-    status = RunJobs<Stripe, MeasureCells>(stripe, columns, runner);
+    status = RunJobs<Stripe, MeasureColumn>(stripe, columns, runner);
     if (status != SF_OK) return status;
   }
   status = RunJobs<Stripe, PlanBlocks>(stripe, columns, runner);

@@ -106,41 +106,82 @@ struct Steps {
       hn::Zero(hn::Repartition<uint32_t, UnsignedTag>());
 };
 
+// Measures the steps of a cell without depth edges, as most are; false: there is one.
+HWY_INLINE bool MeasureSlopes(const int16_t* const rows[10], const CellRow (&here)[8],
+                              UnsignedRow all_but_first, const CellLimits& limits,
+                              CellMeasure* measure) {
+  const CellTag d16;
+  const UnsignedTag du16;
+  const auto limit = hn::Set(du16, static_cast<uint16_t>(limits.slope_limit));
+  auto along_rows = hn::Zero(du16), along_columns = along_rows;
+  auto largest = hn::Max(Distance(hn::LoadU(d16, rows[0]), here[0]),
+                         Distance(hn::LoadU(d16, rows[9]), here[7]));
+  for (int k = 0; k < 8; ++k) {
+    const auto left = Distance(hn::LoadU(d16, rows[1 + k] - 1), here[k]);
+    const auto right = Distance(hn::LoadU(d16, rows[1 + k] + 1), here[k]);
+    largest = hn::Max(largest, hn::Max(left, right));
+    along_rows = hn::Add(along_rows, hn::And(all_but_first, hn::Min(left, limit)));
+    if (k == 0) continue;
+    const auto down = Distance(here[k - 1], here[k]);
+    largest = hn::Max(largest, down);
+    along_columns = hn::Add(along_columns, hn::Min(down, limit));
+  }
+  const auto edge = hn::Set(du16, static_cast<uint16_t>(limits.edge));
+  if (!hn::AllFalse(du16, hn::Gt(largest, edge))) return false;
+  measure->slopes[0] = SumOf(along_rows);
+  measure->slopes[1] = SumOf(along_columns);
+  for (int along = 0; along < 2; ++along) measure->edges[along] = measure->gaps[along] = 0;
+  measure->edge_low = INT16_MAX;
+  measure->edge_high = INT16_MIN;
+  return true;
+}
+
+HWY_INLINE void MeasureSteps(const int16_t* const rows[10], const CellRow (&here)[8],
+                             UnsignedRow all_but_first, const CellLimits& limits,
+                             CellMeasure* measure) {
+  const CellTag d16;
+  const UnsignedTag du16;
+  const auto all = hn::Set(du16, uint16_t{0xFFFF}), none = hn::Zero(du16);
+  Steps along_rows(limits), along_columns(limits);
+  along_columns.Add(hn::LoadU(d16, rows[0]), here[0], none);
+  along_columns.Add(hn::LoadU(d16, rows[9]), here[7], none);
+  for (int k = 0; k < 8; ++k) {
+    along_rows.Add(hn::LoadU(d16, rows[1 + k] - 1), here[k], all_but_first);
+    along_rows.Add(hn::LoadU(d16, rows[1 + k] + 1), here[k], none);
+    if (k > 0) along_columns.Add(here[k - 1], here[k], all);
+  }
+  measure->edge_low = hn::GetLane(hn::MinOfLanes(d16, hn::Min(along_rows.low, along_columns.low)));
+  measure->edge_high =
+      hn::GetLane(hn::MaxOfLanes(d16, hn::Max(along_rows.high, along_columns.high)));
+  along_rows.Store(0, measure);
+  along_columns.Store(1, measure);
+}
+
 HWY_INLINE void MeasureDisparities(const int16_t* const rows[10], const CellLimits& limits,
                                    CellMeasure* measure) {
   const CellTag d16;
   const UnsignedTag du16;
   const auto min = [](CellRow a, CellRow b) HWY_ATTR { return hn::Min(a, b); };
   const auto max = [](CellRow a, CellRow b) HWY_ATTR { return hn::Max(a, b); };
-  const auto all = hn::Set(du16, uint16_t{0xFFFF}), none = hn::Zero(du16);
   // The step from column -1 to column 0 leads into the cell.
   const auto all_but_first = hn::VecFromMask(du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
   const auto focus = hn::Set(d16, limits.focus);
-  Steps along_rows(limits), along_columns(limits);
   CellRow here[8];
   for (int k = 0; k < 8; ++k) here[k] = hn::LoadU(d16, rows[1 + k]);
   auto low = here[0], high = here[0];
-  auto nearest = all;
-  along_columns.Add(hn::LoadU(d16, rows[0]), here[0], none);
-  along_columns.Add(hn::LoadU(d16, rows[9]), here[7], none);
+  auto nearest = hn::Set(du16, uint16_t{0xFFFF});
   for (int k = 0; k < 8; ++k) {
     low = hn::Min(low, here[k]);
     high = hn::Max(high, here[k]);
     nearest = hn::Min(nearest, Distance(here[k], focus));
-    along_rows.Add(hn::LoadU(d16, rows[1 + k] - 1), here[k], all_but_first);
-    along_rows.Add(hn::LoadU(d16, rows[1 + k] + 1), here[k], none);
-    if (k > 0) along_columns.Add(here[k - 1], here[k], all);
   }
   hn::StoreU(low, d16, measure->column_low);
   hn::StoreU(high, d16, measure->column_high);
   hn::StoreU(ReduceRows(here, min), d16, measure->row_low);
   hn::StoreU(ReduceRows(here, max), d16, measure->row_high);
   measure->nearest = hn::GetLane(hn::MinOfLanes(du16, nearest));
-  measure->edge_low = hn::GetLane(hn::MinOfLanes(d16, hn::Min(along_rows.low, along_columns.low)));
-  measure->edge_high =
-      hn::GetLane(hn::MaxOfLanes(d16, hn::Max(along_rows.high, along_columns.high)));
-  along_rows.Store(0, measure);
-  along_columns.Store(1, measure);
+  if (MeasureSlopes(rows, here, all_but_first, limits, measure)) return;
+  MeasureSteps(rows, here, all_but_first, limits, measure);
 }
 
 #endif

@@ -9,9 +9,12 @@
 #include "simd/blend-inl.h"
 #include "simd/cells-inl.h"
 #include "simd/disc-inl.h"
+#include "simd/finish_stack-inl.h"
+#include "simd/ranges-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
+#include "simd/surroundings-inl.h"
 #include "simd/tiles-inl.h"
 #include "simd/transpose-inl.h"
 
@@ -39,6 +42,11 @@ void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits
   FindEdgesOfRow(near, far, limits, count, moved, behind, distance);
 }
 
+void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t count,
+                DisparityRange* ranges) {
+  FindRangesOfRows(disparity, stride, rows, count, ranges);
+}
+
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out) {
   return SelectPixels(row, range, count, plane, out);
@@ -58,6 +66,11 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
   CompositeViews(views, rows, sums);
 }
 
+void FinishStack(const uint32_t* sums, size_t plane, const uint8_t* rgb, const StackFinish& finish,
+                 size_t count, uint32_t* out) {
+  FinishPixelsOfStack(sums, plane, rgb, finish, count, out);
+}
+
 void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
               const RunLimits& limits, const RunMarks& marks) {
   FindRunsOfLines(disparity, step, length, lines, limits, marks);
@@ -65,6 +78,16 @@ void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t li
 
 void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMeasure* measure) {
   MeasureDisparities(rows, limits, measure);
+}
+
+void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
+                BlockReach* reach) {
+  ReachOneBlock(planes, around, margins, reach);
+}
+
+void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
+                   const CellRanges& ranges) {
+  SurroundRow(planes, around, count, ranges);
 }
 
 void Transpose(const uint8_t* in, size_t in_stride, size_t rows, size_t columns, uint8_t* out,
@@ -111,12 +134,16 @@ const Kernels* Table() {
                                       FilterDisc,
                                       Split,
                                       FindEdges,
+                                      FindRanges,
                                       SelectSlice,
                                       SpreadSlice,
                                       ShiftSlice,
                                       Composite,
+                                      FinishStack,
                                       FindRuns,
                                       MeasureCell,
+                                      ReachBlock,
+                                      SurroundCells,
                                       Transpose,
                                       Finish,
                                       ConvertDisparity,

@@ -127,6 +127,19 @@ struct SliceViews {
 // Rows of a tile that composite may read beyond the last one it adds.
 inline constexpr size_t kRowsAhead = 6;
 
+// Lowest and highest disparity of several; low > high: there is none.
+struct DisparityRange {
+  int16_t low, high;
+};
+
+// From sums of slices to accumulators of weights that sum to 2^bits: pixels covered less than
+// `least` take the centre view's colour.
+struct StackFinish {
+  uint32_t least;  // > 0
+  int bits;        // [1, 24]
+};
+inline constexpr int kInverseBits = 48;
+
 // Depth edges that hide what lies behind: steps of more than `step`, seen up to a pixel per
 // 2^unit_bits of depth away.
 struct EdgeLimits {
@@ -182,6 +195,45 @@ struct CellLimits {
   int16_t slope_limit, gap_limit;
 };
 
+// Cells of a picture in planes of int16, `plane` apart, with rows `stride` apart.
+enum CellPlane {
+  kReachLeft,  // pixels beyond a side that the cell splats, and how deep inside those lie
+  kReachRight,
+  kReachTop,
+  kReachBottom,
+  kInsideLeft,
+  kInsideRight,
+  kInsideTop,
+  kInsideBottom,
+  kReachPlane,   // pixels that its blur reaches at most: of any side
+  kRadiusPlane,  // largest blur radius, and that at depth edges: 0 where there is none
+  kEdgePlane,
+  kLowPlane,  // disparities
+  kHighPlane,
+  kCellPlanes
+};
+struct CellPlanes {
+  const int16_t* cells;  // plane 0
+  size_t plane, stride;
+};
+inline constexpr int16_t kCellPixels = 8;
+
+// What reaches a block of 2 x 2 cells: the largest radii of those cells and what splats into them;
+// and on the sides kReachLeft, ... how far beyond it pixels lie that splat into it or the margin of
+// each layer around it.
+struct BlockReach {
+  int16_t radius, edge;
+  int16_t border[3][4];
+};
+
+// What lies around a cell: its range of disparities, the largest range of one of its cells, and the
+// largest blur radius at depth edges.
+struct CellRanges {
+  int16_t *low, *high;
+  uint16_t* widest;
+  int16_t* edge;
+};
+
 struct Kernels {
   const char* name;  // of the SIMD target
 
@@ -208,6 +260,11 @@ struct Kernels {
   void (*find_edges)(const int16_t* near, const int16_t* far, const EdgeLimits& limits,
                      size_t count, int16_t* moved, int16_t* behind, uint8_t* distance);
 
+  // Ranges of each kSliceLanes columns of rows, of those that are not INT16_MIN (no surface).
+  // Whole kSliceLanes are read.
+  void (*find_ranges)(const int16_t* disparity, size_t stride, size_t rows, size_t count,
+                      DisparityRange* ranges);
+
   // Of the surfaces within the range, at each pixel n < count: the colour of the first one times
   // its share, plus that of the next one times the rest, and what both cover; zeros where there is
   // none. count <= 64 kSliceLanes.
@@ -232,6 +289,12 @@ struct Kernels {
   // rounded halves up. No sum exceeds 2^32 - 1.
   void (*composite)(const SliceViews& views, size_t rows, uint32_t* sums);
 
+  // Colours over coverage: out[3 n + c] = sums[c * plane + n] * (2^kInverseBits / covered) in units
+  // of 2^-bits, halves up and 255 at most, where covered = sums[3 * plane + n] >= least; the
+  // division truncates. rgb[3 n + c] << bits elsewhere. Whole kSliceLanes are read.
+  void (*finish_stack)(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                       const StackFinish& finish, size_t count, uint32_t* out);
+
   // Splits lines 0 .. lines - 1 of `length` positions, greedily from position 0 on; position q of
   // line k is disparity[q * step + k].
   void (*find_runs)(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
@@ -241,6 +304,17 @@ struct Kernels {
   // and below, and columns -1 and 8 are read as well.
   void (*measure_cell)(const int16_t* const rows[10], const CellLimits& limits,
                        CellMeasure* measure);
+
+  // What reaches the block whose first cell is at planes.cells, from as many as `around` cells
+  // away. `margins`: of the layers, ascending from 0; in margins pixels count by whole cells.
+  void (*reach_block)(const CellPlanes& planes, int32_t around, const int16_t margins[3],
+                      BlockReach* reach);
+
+  // What lies around each of `count` cells of a row from planes.cells on: cells d <= around away
+  // (in columns or rows, the larger) that it, or that themselves, reach (d - 1) kCellPixels and
+  // more far. Whole kSliceLanes are read and written.
+  void (*surround_cells)(const CellPlanes& planes, int32_t around, size_t count,
+                         const CellRanges& ranges);
 
   // Pixel `column` of row `row` of `in` becomes pixel `row` of row `column` of `out`. Strides in
   // bytes. Up to kTransposePadding bytes past the end of each row of `out` may be written, in order

@@ -104,6 +104,25 @@ void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits
   }
 }
 
+void AddDisparity(int16_t disparity, int16_t* low, int16_t* high) {
+  if (disparity < *low) *low = disparity;
+  if (disparity > *high) *high = disparity;
+}
+
+void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t count,
+                DisparityRange* ranges) {
+  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes) {
+    DisparityRange range = {INT16_MAX, INT16_MIN};
+    for (size_t row = 0; row < rows; ++row) {
+      for (size_t n = chunk; n < count && n < chunk + kSliceLanes; ++n) {
+        const int16_t value = disparity[row * stride + n];
+        if (value != INT16_MIN) AddDisparity(value, &range.low, &range.high);
+      }
+    }
+    ranges[chunk / kSliceLanes] = range;
+  }
+}
+
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out) {
   SliceCover cover = {0, 0};
@@ -221,6 +240,22 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
   }
 }
 
+void FinishStack(const uint32_t* sums, size_t plane, const uint8_t* rgb, const StackFinish& finish,
+                 size_t count, uint32_t* out) {
+  const int shift = kInverseBits - 8 - finish.bits;
+  const uint64_t white = uint64_t{255} << finish.bits, half = uint64_t{1} << (shift - 1);
+  for (size_t n = 0; n < count; ++n) {
+    const uint32_t covered = sums[3 * plane + n];
+    const bool missing = covered < finish.least;
+    const uint64_t inverse = missing ? 0 : (uint64_t{1} << kInverseBits) / covered;
+    for (size_t c = 0; c < 3; ++c) {
+      const uint64_t value = (sums[c * plane + n] * inverse + half) >> shift;
+      out[3 * n + c] = missing ? uint32_t{rgb[3 * n + c]} << finish.bits
+                               : static_cast<uint32_t>(value < white ? value : white);
+    }
+  }
+}
+
 void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
               const RunLimits& limits, const RunMarks& marks) {
   for (size_t k = 0; k < lines; ++k) {
@@ -247,11 +282,6 @@ void AddStep(int a, int b, bool inside, int along, const CellLimits& limits, Cel
   }
 }
 
-void AddDisparity(int16_t disparity, int16_t* low, int16_t* high) {
-  if (disparity < *low) *low = disparity;
-  if (disparity > *high) *high = disparity;
-}
-
 void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMeasure* measure) {
   for (int k = 0; k < 8; ++k) {
     measure->column_low[k] = measure->column_high[k] = rows[1][k];
@@ -276,6 +306,79 @@ void MeasureCell(const int16_t* const rows[10], const CellLimits& limits, CellMe
     AddStep(row[7], row[8], false, 0, limits, measure);
   }
   for (int x = 0; x < 8; ++x) AddStep(rows[8][x], rows[9][x], false, 1, limits, measure);
+}
+
+// Pixels between a block of cells `around` and `around` + 1 and the cell k; negative: one of them.
+int GapTo(int k, int around) {
+  const int before = around - 1 - k, behind = k - around - 2;
+  return kCellPixels * (before > behind ? before : behind);
+}
+
+void AddReach(int value, int16_t* largest) {
+  if (value > *largest) *largest = static_cast<int16_t>(value);
+}
+
+void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
+                BlockReach* reach) {
+  *reach = {};
+  const int side = 2 * around + 2;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const int16_t* cell =
+          planes.cells + (y - around) * static_cast<ptrdiff_t>(planes.stride) + x - around;
+      const auto value = [&](int plane) -> int {
+        return cell[static_cast<size_t>(plane) * planes.plane];
+      };
+      const int gap_x = GapTo(x, around), gap_y = GapTo(y, around);
+      // Towards the block: a cell on its left reaches to the right.
+      const int from_x = x < around ? kReachRight : kReachLeft;
+      const int from_y = y < around ? kReachBottom : kReachTop;
+      for (int layer = 0; layer < 3; ++layer) {
+        if (gap_x >= 0 && value(from_x) + margins[layer] <= gap_x) continue;
+        if (gap_y >= 0 && value(from_y) + margins[layer] <= gap_y) continue;
+        if (layer == 0) {
+          AddReach(value(kRadiusPlane), &reach->radius);
+          AddReach(value(kEdgePlane), &reach->edge);
+        }
+        const auto inside = [&](int from) -> int {
+          return layer == 0 ? value(from + kInsideLeft - kReachLeft) : kCellPixels;
+        };
+        int16_t(&border)[4] = reach->border[layer];
+        if (gap_x >= 0) {
+          AddReach(gap_x + inside(from_x), &border[x < around ? kReachLeft : kReachRight]);
+        }
+        if (gap_y >= 0) {
+          AddReach(gap_y + inside(from_y), &border[y < around ? kReachTop : kReachBottom]);
+        }
+      }
+    }
+  }
+}
+
+void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
+                   const CellRanges& ranges) {
+  for (size_t n = 0; n < SliceSamples(count); ++n) {
+    const int16_t* cell = planes.cells + n;
+    int16_t low = INT16_MAX, high = INT16_MIN, edge = 0;
+    int widest = 0;
+    for (int y = -around; y <= around; ++y) {
+      for (int x = -around; x <= around; ++x) {
+        const int16_t* at = cell + y * static_cast<ptrdiff_t>(planes.stride) + x;
+        const int away = std::abs(x) > std::abs(y) ? std::abs(x) : std::abs(y);
+        const int own = cell[kReachPlane * planes.plane], other = at[kReachPlane * planes.plane];
+        if ((away - 1) * kCellPixels >= (own > other ? own : other)) continue;
+        const int16_t first = at[kLowPlane * planes.plane], last = at[kHighPlane * planes.plane];
+        low = first < low ? first : low;
+        high = last > high ? last : high;
+        widest = last - first > widest ? last - first : widest;
+        AddReach(at[kEdgePlane * planes.plane], &edge);
+      }
+    }
+    ranges.low[n] = low;
+    ranges.high[n] = high;
+    ranges.widest[n] = static_cast<uint16_t>(widest);
+    ranges.edge[n] = edge;
+  }
 }
 
 void Transpose(const uint8_t* in, size_t in_stride, size_t rows, size_t columns, uint8_t* out,
@@ -351,9 +454,10 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 
 const Kernels& ReferenceKernels() {
   static constexpr Kernels kernels = {
-      "reference",      Accumulate, Blend,     FilterDisc,  Split,          FindEdges, SelectSlice,
-      SpreadSlice,      ShiftSlice, Composite, FindRuns,    MeasureCell,    Transpose, Finish,
-      ConvertDisparity, Widen,      Narrow,    FinishLayer, FilterHalfBand, Between};
+      "reference",      Accumulate,  Blend,       FilterDisc,    Split,          FindEdges,
+      FindRanges,       SelectSlice, SpreadSlice, ShiftSlice,    Composite,      FinishStack,
+      FindRuns,         MeasureCell, ReachBlock,  SurroundCells, Transpose,      Finish,
+      ConvertDisparity, Widen,       Narrow,      FinishLayer,   FilterHalfBand, Between};
   return kernels;
 }
 

@@ -89,16 +89,11 @@ TEST_CASE("gather: smooth cells are those of the definition") {
   for (int round = 0; round < 60; ++round) {
     const Cells cells(random.Int(1, 120), random.Int(1, 100), &random);
     const int around = starfocus::GetReach(12).cells;
-    for (int row = 0; row < cells.grid.rows; row += 2) {
-      for (int column = 0; column < cells.grid.columns; column += 2) {
-        const uint32_t found = starfocus::FindSmooth(cells.grid, cells.scale, column, row, around);
-        for (int k = 0; k < 4; ++k) {
-          const int x = column + k % 2, y = row + k / 2;
-          if (x >= cells.grid.columns || y >= cells.grid.rows) continue;
-          const bool expected = cells.IsSmooth(x, y);
-          CHECK(((found >> k & 1) != 0) == expected);
-          (expected ? smooth : rough) += 1;
-        }
+    for (int row = 0; row < cells.grid.rows; ++row) {
+      for (int column = 0; column < cells.grid.columns; ++column) {
+        const bool expected = cells.IsSmooth(column, row);
+        CHECK(test::IsSmooth(cells.grid, cells.scale, column, row, around) == expected);
+        (expected ? smooth : rough) += 1;
       }
     }
   }

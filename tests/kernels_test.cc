@@ -117,6 +117,35 @@ void TestFinish(const Kernels& kernels) {
   }
 }
 
+void TestFinishStack(const Kernels& kernels) {
+  test::Random random(6);
+  for (size_t count = 1; count <= 70; ++count) {
+    const starfocus::simd::StackFinish finish = {uint32_t(random.Int(1, 90000)), random.Int(1, 24)};
+    const size_t plane = starfocus::simd::SliceSamples(count) + size_t(random.Int(0, 5));
+    const std::vector<uint8_t> rgb = test::RandomBytes(3 * count + kPadding, &random);
+    const uint32_t all = 4 * finish.least + uint32_t(random.Int(0, 5));
+    std::vector<uint32_t> sums(4 * plane);
+    uint32_t covered = 0;
+    for (size_t n = 0; n < plane; ++n) {
+      const int kind = random.Int(0, 19);
+      if (kind < 2) covered = all;
+      if (kind == 2) covered = 0;
+      if (kind == 3) covered = uint32_t(random.Int(0, int(all)));
+      if (kind == 4) covered = finish.least - uint32_t(random.Int(0, 1));
+      sums[3 * plane + n] = covered;
+      for (size_t c = 0; c < 3; ++c) {
+        const int colour = kind == 5 ? 256 : kind == 6 ? 255 : random.Int(0, 255);
+        sums[c * plane + n] = uint32_t(uint64_t{covered} * uint64_t(colour) / 256);
+      }
+    }
+    std::vector<uint32_t> expected(3 * count + 50, 0x5A5A5A5A), got = expected;
+    ReferenceKernels().finish_stack(sums.data(), plane, rgb.data(), finish, count, expected.data());
+    kernels.finish_stack(sums.data(), plane, rgb.data(), finish, count, got.data());
+    CAPTURE(count);
+    CHECK(got == expected);
+  }
+}
+
 // Any kernel: weights of all sizes, rings of zeros outside, as large a sum as may be.
 struct RandomDisc {
   explicit RandomDisc(int size, test::Random* random) : weights(91 + 14) {
@@ -229,6 +258,7 @@ TEST_CASE("kernels: the same results on every target") {
     TestAccumulate(*kernels);
     TestBlend(*kernels);
     TestFinish(*kernels);
+    TestFinishStack(*kernels);
     TestConvert(*kernels);
     TestDisc(*kernels);
   }
@@ -255,6 +285,17 @@ TEST_CASE("kernels: the definitions, by hand") {
   CHECK(int(out[0]) == 255);
   CHECK(int(out[1]) == 8);
   CHECK(int(out[2]) == 7);
+  const uint32_t stack[4 * 16] = {3 << 16, 3 << 16};  // red of two pixels, planes of 16
+  std::vector<uint32_t> covered(stack, stack + 4 * 16);
+  covered[3 * 16] = 12 << 16;
+  covered[3 * 16 + 1] = 99;
+  const uint8_t centre[6] = {9, 9, 9, 5, 6, 7};
+  uint32_t accumulators[6];
+  ReferenceKernels().finish_stack(covered.data(), 16, centre, {100, 16}, 2, accumulators);
+  CHECK(accumulators[0] == 64 << 16);
+  CHECK(accumulators[1] == 0);
+  CHECK(accumulators[3] == 5 << 16);
+  CHECK(accumulators[5] == 7 << 16);
   const uint8_t rows[3][9] = {
       {1, 0, 0, 2, 0, 0, 3, 0, 0}, {4, 0, 0, 50, 0, 0, 6, 0, 0}, {7, 0, 0, 8, 0, 0, 9, 0, 0}};
   const uint16_t ring[3] = {4, 2, 1};  // the centre, beside it, at the corners: 16 in all

@@ -284,6 +284,41 @@ TEST_CASE("line kernels: cells by their definition") {
   }
 }
 
+// --- find_ranges ---
+
+void TestFindRanges(const Kernels& kernels) {
+  test::Random random(9);
+  for (size_t count = 1; count <= 70; ++count) {
+    const size_t rows = size_t(random.Int(1, 9)), stride = count + size_t(random.Int(0, 5));
+    const int most = random.Int(0, 2) == 0 ? 32767 : 90, absent = random.Int(0, 3);
+    std::vector<int16_t> in(rows * stride + starfocus::simd::kSliceLanes);
+    for (int16_t& d : in)
+      d = int16_t(random.Int(0, 3) < absent ? INT16_MIN : random.Int(-most, most));
+    std::vector<starfocus::simd::DisparityRange> expected(6, {5, 5}), got = expected;
+    ReferenceKernels().find_ranges(in.data(), stride, rows, count, expected.data());
+    kernels.find_ranges(in.data(), stride, rows, count, got.data());
+    CAPTURE(count);
+    for (size_t k = 0; k < got.size(); ++k) {
+      CHECK(got[k].low == expected[k].low);
+      CHECK(got[k].high == expected[k].high);
+    }
+  }
+}
+
+TEST_CASE("line kernels: ranges, by hand") {
+  int16_t in[2 * 20] = {};
+  for (int16_t& d : in) d = INT16_MIN;
+  starfocus::simd::DisparityRange ranges[2];
+  ReferenceKernels().find_ranges(in, 20, 2, 17, ranges);
+  CHECK(ranges[0].low > ranges[0].high);
+  in[3] = 8, in[20 + 15] = -32767, in[16] = 32767, in[17] = 0;
+  ReferenceKernels().find_ranges(in, 20, 2, 17, ranges);
+  CHECK(ranges[0].low == -32767);
+  CHECK(ranges[0].high == 8);
+  CHECK(ranges[1].low == 32767);
+  CHECK(ranges[1].high == 32767);
+}
+
 // --- transpose ---
 
 struct Pixels {
@@ -348,6 +383,7 @@ TEST_CASE("line kernels: the same results on every target") {
     CAPTURE(kernels->name);
     TestFindRuns(*kernels);
     TestMeasureCell(*kernels);
+    TestFindRanges(*kernels);
     TestTranspose(*kernels);
   }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/cells.h"
+#include "lib/surroundings.h"
 #include "simd/kernels.h"
 
 namespace test {
@@ -25,12 +26,38 @@ inline starfocus::CellGrid MeasureCells(const std::vector<int16_t>& disparity, i
   cells->resize(size_t(grid.columns) * size_t(grid.rows));
   grid.cells = cells->data();
   for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      *grid.At(column, row) =
-          starfocus::MeasureCell(starfocus::simd::BestKernels(), window, scale, column, row);
-    }
+    starfocus::MeasureCells(starfocus::simd::BestKernels(), window, scale, row, 0, grid.columns,
+                            grid.At(0, row));
   }
   return grid;
+}
+
+// The surroundings of a block of 2 x 2 cells, in memory of their own.
+class BlockSurroundings {
+ public:
+  BlockSurroundings(const starfocus::CellGrid& grid, int column, int row, int around)
+      : samples_(starfocus::SurroundingSamples(2, around), int16_t{0x5A5A}),
+        surroundings_(
+            starfocus::LoadSurroundings(grid, {column, row, 2, 2}, around, samples_.data())) {}
+  const starfocus::Surroundings& operator*() const { return surroundings_; }
+
+ private:
+  std::vector<int16_t> samples_;
+  starfocus::Surroundings surroundings_;
+};
+
+inline starfocus::BlockStats MeasureBlock(const starfocus::CellGrid& grid, int column, int row,
+                                          int around) {
+  return starfocus::MeasureBlock(starfocus::simd::BestKernels(), grid,
+                                 *BlockSurroundings(grid, column, row, around), column, row);
+}
+
+inline bool IsSmooth(const starfocus::CellGrid& grid, const starfocus::BlurScale& scale, int column,
+                     int row, int around) {
+  bool smooth[starfocus::kMaxRowCells];
+  starfocus::FindSmooth(starfocus::simd::BestKernels(),
+                        *BlockSurroundings(grid, column, row, around), scale, row, smooth);
+  return smooth[0];
 }
 
 }  // namespace test

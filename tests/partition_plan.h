@@ -77,8 +77,11 @@ struct Plan {
     std::vector<PartitionNode> nodes(size_t(starfocus::PartitionNodes(rules.largest_block)));
     std::memset(static_cast<void*>(nodes.data()), kPoison, nodes.size() * sizeof(PartitionNode));
     std::vector<Block> blocks(size_t(starfocus::MaxBlocks(rules.largest_block)));
+    std::vector<int16_t> samples(
+        starfocus::SurroundingSamples(rules.largest_block / kCellSize, around), kPoison);
     const int count =
-        starfocus::PartitionBlock(rules, grid, x, y, around, nodes.data(), blocks.data(), gathered);
+        starfocus::PartitionBlock(starfocus::simd::BestKernels(), rules, grid, x, y, around,
+                                  {nodes.data(), samples.data()}, blocks.data(), gathered);
     REQUIRE(count >= 1);
     REQUIRE(count <= int(blocks.size()));
     blocks.resize(size_t(count));
@@ -88,9 +91,8 @@ struct Plan {
   // Whether the cell at pixel (x, y) is one that need not be refocused by views.
   bool MayGather(int x, int y) const {
     const int column = x / kCellSize, row = y / kCellSize;
-    const uint32_t smooth = starfocus::FindSmooth(grid, rules.scale, column & ~1, row & ~1, around);
-    const bool is_smooth = (smooth >> (column % 2 + 2 * (row % 2)) & 1) != 0;
-    return rules.gathers && is_smooth && grid.At(column, row)->r_max <= 12 * int(kRadiusOne);
+    return rules.gathers && test::IsSmooth(grid, rules.scale, column, row, around) &&
+           grid.At(column, row)->r_max <= 12 * int(kRadiusOne);
   }
 
   bool Inside(int x, int y) const { return x < rules.width && y < rules.height; }
@@ -98,7 +100,7 @@ struct Plan {
   // The statistics of any block, from its blocks of 16.
   BlockStats Stats(int x, int y, int side) const {
     if (side == kSmallestBlock) {
-      return starfocus::MeasureBlock(grid, x / kCellSize, y / kCellSize, around);
+      return test::MeasureBlock(grid, x / kCellSize, y / kCellSize, around);
     }
     BlockStats stats[4];
     const BlockStats* children[4];

@@ -325,6 +325,9 @@ struct Plane {
   }
 };
 
+// A wider cell of the aperture, in pixels, is spread before its slice is moved.
+constexpr double kWidestBox = 3;
+
 // Spread by a box along x or y. What lies beyond the plane is empty: no view shows what it changes.
 Plane Spread(const Plane& from, double box, int dx, int dy) {
   Plane to = from;
@@ -363,30 +366,49 @@ Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
   }
   const double cell = std::abs(lens.Shift(1, range.Disparity())) / 256.0;
   const double box = std::min(cell, 2.0 * starfocus::simd::kMaxSpread + 1);
-  return box > 1 ? Spread(Spread(plane, box, 1, 0), box, 0, 1) : plane;
+  return box > kWidestBox ? Spread(Spread(plane, box, 1, 0), box, 0, 1) : plane;
 }
 
-// How far a view is from whole pixels: where both pixels are covered alike, and elsewhere.
+// What a view sees of pixels one after the other, from `first` on.
 struct Offset {
-  int whole;
-  double inside, edge;
+  int first;
+  std::vector<double> parts;
+  double inside;  // of the second of two pixels that are covered alike, instead of parts[1]
 
-  Light Between(const Light& from, const Light& to) const {
-    Light light;
-    const double fraction = std::abs(from[3] - to[3]) < 1e-9 ? inside : edge;
-    for (size_t c = 0; c < 4; ++c) light[c] = from[c] + fraction * (to[c] - from[c]);
-    return light;
+  template <class At>
+  Light See(const At& at) const {
+    Light seen = {};
+    for (size_t k = 0; k < parts.size(); ++k) {
+      const Light light = at(first + int(k));
+      for (size_t c = 0; c < 4; ++c) seen[c] += parts[k] * light[c];
+    }
+    if (parts.size() != 2) return seen;
+    const Light from = at(first), to = at(first + 1);
+    if (std::abs(from[3] - to[3]) >= 1e-9) return seen;
+    for (size_t c = 0; c < 4; ++c) seen[c] = from[c] + inside * (to[c] - from[c]);
+    return seen;
   }
 };
 
-// Of view k along an axis. Where the aperture's cell is narrower than a pixel it covers less of the
-// pixels on either side of it than interpolation.
+// Of view k along an axis. An aperture's cell of one to three pixels covers what it does of pixels;
+// a narrower one less of the pixels on either side of it than interpolation.
 Offset OffsetOf(const Lens& lens, int k, int disparity) {
   const int shift = (k < 0 ? -1 : 1) * (k == 0 ? 0 : lens.Shift(std::abs(k), disparity));
-  const double moved = shift / 256.0, whole = std::floor(moved), edge = moved - whole;
+  const double moved = shift / 256.0;
   const double cell = std::max(1, std::abs(lens.Shift(1, disparity))) / 256.0;
-  if (edge == 0 || cell >= 1) return {int(whole), edge, edge};
-  return {int(whole), std::clamp((edge - 0.5) / cell + 0.5, 0.0, 1.0), edge};
+  if (cell > 1 && cell <= kWidestBox) {
+    const double left = moved - cell / 2 + 0.5, right = moved + cell / 2 + 0.5;
+    Offset box = {int(std::floor(left)), {}, 0};
+    for (int x = box.first; x < right; ++x) {
+      box.parts.push_back((std::min(right, x + 1.0) - std::max(left, double(x))) / cell);
+    }
+    if (box.parts.size() == 2) box.inside = box.parts[1];
+    return box;
+  }
+  const double whole = std::floor(moved), edge = moved - whole;
+  if (edge == 0) return {int(whole), {1}, 0};
+  const double inside = cell >= 1 ? edge : std::clamp((edge - 0.5) / cell + 0.5, 0.0, 1.0);
+  return {int(whole), {1 - edge, edge}, inside};
 }
 
 // As views of one column show a plane: moved along x, over the rectangle's columns.
@@ -394,7 +416,7 @@ Plane MovedAlongX(const Plane& from, const Offset& offset, int width) {
   Plane to(0, from.top, width, from.height);
   for (int y = -from.top; y < from.height - from.top; ++y) {
     for (int x = 0; x < width; ++x) {
-      to.At(x, y) = offset.Between(from.At(x + offset.whole, y), from.At(x + offset.whole + 1, y));
+      to.At(x, y) = offset.See([&](int k) { return from.At(x + k, y); });
     }
   }
   return to;
@@ -440,9 +462,8 @@ class Stack {
       for (int x = 0; x < rect_.width; ++x) {
         double light = 1;
         for (size_t k = 0; k < column.size() && light > 0; ++k) {
-          const int row = y + offsets[k].whole;
-          Take(offsets[k].Between(column[k].At(x, row), column[k].At(x, row + 1)), weight, &light,
-               &sum_.At(x, y));
+          const auto at = [&](int row) { return column[k].At(x, y + row); };
+          Take(offsets[k].See(at), weight, &light, &sum_.At(x, y));
         }
       }
     }

@@ -119,11 +119,16 @@ void TestSelect(const Kernels& kernels) {
   }
 }
 
-// Where views lie: on whole samples, between them alike at edges and inside, or not.
+// Where views lie: on whole samples, between two alike at edges and inside or not, or on three or
+// four of them.
 SliceFraction Fraction(test::Random* random) {
-  const auto edge = int16_t(random->Int(0, 2) == 0 ? kSliceStart : random->Int(-32767, 0));
-  const int inside = random->Int(0, 1) == 0 ? edge : random->Int(-32768, 0);
-  return {edge == kSliceStart ? edge : int16_t(inside), edge};
+  const int taps = random->Int(1, 5), first = random->Int(0, 32767);
+  if (taps == 1) return {kSliceStart, kSliceStart, 0, 0};
+  const auto edge = int16_t(-first);
+  if (taps == 2) return {edge, edge, 0, 0};
+  if (taps == 3) return {int16_t(random->Int(-32768, 0)), edge, 0, 0};
+  const int third = random->Int(1, 32768 - first);
+  return {edge, edge, int16_t(-third), int16_t(taps == 4 ? 0 : -random->Int(0, third))};
 }
 
 // Colours and coverage of slices: colours at most as large as the coverage.

@@ -29,7 +29,8 @@ struct Scene {
   Scene() {
     surfaces.width = surfaces.height = surfaces.stride = kSize;
     for (int k = 0; k < 3; ++k) {
-      planes[k].assign(kSize * kSize, k == 0 ? int16_t{0} : starfocus::kNoSurface);
+      planes[k].assign(kSize * kSize + starfocus::simd::kSliceLanes,
+                       k == 0 ? int16_t{0} : starfocus::kNoSurface);
       surfaces.disparity[k] = planes[k].data();
     }
     surfaces.hiding = hiding.data();
@@ -50,9 +51,16 @@ struct Scene {
     surfaces.low = *range.first;
     surfaces.high = *range.second;
     std::vector<Slice> slices(kMaxSlices);
-    const int count = starfocus::FindSlices(
-        {&surfaces, &grid, rule, {24, 24, 16, 16}, bins.data(), least.data(), memory, rows},
-        slices.data());
+    const int count = starfocus::FindSlices({&starfocus::simd::BestKernels(),
+                                             &surfaces,
+                                             &grid,
+                                             rule,
+                                             {24, 24, 16, 16},
+                                             bins.data(),
+                                             least.data(),
+                                             memory,
+                                              rows},
+                                            slices.data());
     REQUIRE(count > 0);
     REQUIRE(count <= rule.most);
     slices.resize(size_t(count));

@@ -100,12 +100,12 @@ BlockWork BlockBench::Work(const BlockTask& task) {
   const Block& block = task.block;
   const Rect& rect = block.rect;
   Content content[2] = {};
+  std::vector<Cell> cells(size_t((rect.width + kCellSize - 1) / kCellSize));
+  const int first = rect.x / kCellSize;
   for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
-    for (int x = rect.x; x < rect.x + rect.width; x += kCellSize) {
-      const Cell cell = MeasureCell(*engine_->kernels, engine_->windows[0], engine_->scale,
-                                    x / kCellSize, y / kCellSize);
-      AddCell(cell, &content);
-    }
+    MeasureCells(*engine_->kernels, engine_->windows[0], engine_->scale, y / kCellSize, first,
+                 first + int(cells.size()), cells.data());
+    for (const Cell& cell : cells) AddCell(cell, &content);
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
   return MeasureWork(block.rendered, block.border, CountViews(block.n), true, upsampled, content,

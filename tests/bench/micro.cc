@@ -21,6 +21,11 @@ constexpr size_t kSamples = 3 * 1024;  // of a line
 constexpr size_t kSpan = 96;           // samples: surfaces of 32 pixels
 constexpr size_t kMargin = 64;
 
+// Cells of all planes side by side: 6 rows with 2 cells around 2 of them.
+constexpr int32_t kAround = 2;
+constexpr size_t kCellStride = 36, kCellRows = 6;
+static_assert(kCellStride * kCellRows * starfocus::simd::kCellPlanes <= kSamples);
+
 struct Buffers {
   std::vector<uint8_t> bytes, line;
   std::vector<uint32_t> sums;
@@ -33,7 +38,7 @@ struct Buffers {
   explicit Buffers(bool pairs)
       : bytes(kSamples + 2 * kMargin + kPadding),
         line(bytes.size()),
-        sums(bytes.size()),
+        sums(bytes.size(), 1 << 20),
         in(bytes.size()),
         out(bytes.size()),
         disparity(bytes.size(), 1.5f),
@@ -47,6 +52,10 @@ struct Buffers {
       spans.push_back({bytes.data() + kMargin + i, uint32_t(i), uint32_t(kSpan),
                        uint16_t(256 - neighbour), neighbour, 3});
     }
+  }
+
+  starfocus::simd::CellPlanes Cells() const {
+    return {in.data() + kAround * (kCellStride + 1), kCellStride * kCellRows, kCellStride};
   }
 };
 
@@ -62,6 +71,8 @@ constexpr starfocus::simd::SliceTaps kSliceTaps = {2, 9362, 18724, 4682};
 constexpr size_t kPlane = kSamples / 4 / 6;
 constexpr size_t kTileRows = kSamples / 4 / starfocus::simd::kSliceLanes;
 constexpr size_t kSliceViews = 5;
+constexpr size_t kStackPlane = 256;
+static_assert(7 * kStackPlane <= kSamples);
 static_assert(kPlane % starfocus::simd::kSliceLanes == 0);
 // Radius 3.2 or so: weights need not sum to anything for their time.
 constexpr uint16_t kDiscWeights[15] = {900, 900, 900, 880, 880, 860, 700, 690,
@@ -78,7 +89,7 @@ void Composite(const Kernels& kernels, Buffers* b) {
   starfocus::simd::SliceShift shifts[2 * kSliceViews];
   for (size_t n = 0; n < 2 * kSliceViews; ++n) {
     const auto back = static_cast<int16_t>(-3000 * static_cast<int>(n / 2));
-    shifts[n] = {b->in.data() + n % 2 * 8, some, kSamples / 4, {back, back}};
+    shifts[n] = {b->in.data() + n % 2 * 8, some, kSamples / 4, {back, back, 0, 0}};
   }
   kernels.composite({weights, shifts, kSliceViews, 2, shown, 2, 0}, kTileRows, b->sums.data());
 }
@@ -120,6 +131,14 @@ const Case kCases[] = {
        k.find_edges(b->in.data(), b->in.data() + 1, {48, 6}, kSamples, b->out.data(),
                     b->middles.data(), b->line.data());
      }},
+    {"find_ranges", false, 2,
+     [](const Kernels& k, Buffers* b) {
+       starfocus::simd::DisparityRange ranges[kPlane / starfocus::simd::kSliceLanes];
+       for (size_t n = 0; n < kSamples; n += 8 * kPlane) {
+         k.find_ranges(b->in.data() + n, kPlane, 8, kPlane, ranges);
+         benchmark::DoNotOptimize(ranges);
+       }
+     }},
     {"select_slice", false, 3 * (2 + 3) / 4 + 1 + 2,
      [](const Kernels& k, Buffers* b) {
        const int16_t* in = b->in.data();
@@ -138,12 +157,20 @@ const Case kCases[] = {
     {"shift_slice", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
        uint8_t some[kTileRows];
-       k.shift_slice({b->in.data(), starfocus::simd::kSliceLanes}, {-9000, -9000}, kTileRows,
+       k.shift_slice({b->in.data(), starfocus::simd::kSliceLanes}, {-9000, -9000, 0, 0}, kTileRows,
                      kSamples / 4, b->out.data(), some);
        benchmark::DoNotOptimize(some);
      }},
     // Of each view and slice.
     {"composite", false, 2 * kSliceViews * 2 + 8, Composite},
+    // Again and again, to as many samples as the others.
+    {"finish_stack", false, 4 * 4 / 3 + 4,
+     [](const Kernels& k, Buffers* b) {
+       for (size_t n = 0; n < kSamples; n += 3 * kStackPlane) {
+         k.finish_stack(b->sums.data(), kStackPlane, b->bytes.data(), {1000, 16}, kStackPlane,
+                        b->sums.data() + 4 * kStackPlane);
+       }
+     }},
     {"find_runs", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
        k.find_runs(b->in.data(), kLines, kLength, kLines, {2000, 12000},
@@ -159,6 +186,25 @@ const Case kCases[] = {
          starfocus::simd::CellMeasure measure;
          k.measure_cell(rows, {4000, 12000, 2000, 4000}, &measure);
          benchmark::DoNotOptimize(measure);
+       }
+     }},
+    // Of each cell's planes; whatever they hold.
+    {"reach_block", false, 2 * starfocus::simd::kCellPlanes / 4,
+     [](const Kernels& k, Buffers* b) {
+       constexpr int16_t kMargins[3] = {0, 4, 12};
+       for (size_t block = 0; block < kSamples / 4; ++block) {
+         starfocus::simd::BlockReach reach;
+         k.reach_block(b->Cells(), kAround, kMargins, &reach);
+         benchmark::DoNotOptimize(reach);
+       }
+     }},
+    {"surround_cells", false, 2 * 4 + 2 * 4,
+     [](const Kernels& k, Buffers* b) {
+       for (size_t n = 0; n < kSamples; n += 32) {
+         int16_t ranges[3][32];
+         uint16_t widest[32];
+         k.surround_cells(b->Cells(), kAround, 32, {ranges[0], ranges[1], widest, ranges[2]});
+         benchmark::DoNotOptimize(ranges);
        }
      }},
     {"transpose", false, 1 + 1,

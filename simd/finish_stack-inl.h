@@ -1,0 +1,138 @@
+// Kernels::finish_stack. Included once per target.
+#if defined(STARFOCUS_SIMD_FINISH_STACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_FINISH_STACK_INL_H_
+#undef STARFOCUS_SIMD_FINISH_STACK_INL_H_
+#else
+#define STARFOCUS_SIMD_FINISH_STACK_INL_H_
+#endif
+
+#include <cstring>
+
+#include "simd/compat-inl.h"
+#include "simd/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+HWY_INLINE void FinishPixelsOfStack(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                                    const StackFinish& finish, size_t count, uint32_t* out) {
+  ReferenceKernels().finish_stack(sums, plane, rgb, finish, count, out);
+}
+
+#else
+
+using StackTag = hn::CappedTag<uint32_t, kSliceLanes>;
+using StackVec = hn::Vec<StackTag>;
+
+// Inverses of coverages in two halves. Most pixels beside each other are covered alike: there is no
+// division in SIMD, so that one is only made where the coverage changes.
+class Inverses {
+ public:
+  explicit Inverses(uint32_t least) : least_(least) {}
+
+  HWY_INLINE void Load(StackVec covered) {
+    const StackTag d32;
+    const bool alike = hn::AllTrue(d32, hn::Eq(covered, hn::Set(d32, covered_)));
+    if (alike && alike_) return;
+    alike_ = alike;
+    HWY_ALIGN uint32_t lanes[kSliceLanes];
+    hn::StoreU(covered, d32, lanes);
+    for (size_t k = 0; k < hn::Lanes(d32); ++k) {
+      if (lanes[k] != covered_) {
+        covered_ = lanes[k];
+        inverse_ = covered_ < least_ ? 0 : (uint64_t{1} << kInverseBits) / covered_;
+      }
+      low[k] = static_cast<uint32_t>(inverse_);
+      high[k] = static_cast<uint32_t>(inverse_ >> 32);
+    }
+  }
+
+  HWY_ALIGN uint32_t low[kSliceLanes] = {};
+  HWY_ALIGN uint32_t high[kSliceLanes] = {};
+
+ private:
+  const uint32_t least_;
+  bool alike_ = true;
+  uint32_t covered_ = 0;
+  uint64_t inverse_ = 0;
+};
+
+// min((sum * inverse + half) >> shift, white), of every other lane.
+template <class D64, class V64 = hn::Vec<D64> >
+HWY_INLINE V64 DivideEven(D64 d64, StackVec sum, StackVec low, StackVec high, V64 half, int shift,
+                          hn::Vec<hn::RebindToSigned<D64> > white) {
+  const hn::RebindToSigned<D64> di64;
+  const auto product = hn::Add(hn::MulEven(sum, low), hn::ShiftLeft<32>(hn::MulEven(sum, high)));
+  const auto value = hn::ShiftRightSame(hn::Add(product, half), shift);
+  return hn::BitCast(d64, hn::Min(hn::BitCast(di64, value), white));
+}
+
+HWY_INLINE void CopyMissing(const uint8_t* rgb, int bits, uint32_t* out) {
+  const StackTag d32;
+  const hn::Rebind<uint8_t, StackTag> d8;
+  const size_t lanes = hn::Lanes(d32);
+  for (size_t n = 0; n < 3 * lanes; n += lanes) {
+    const auto value = hn::PromoteTo(d32, hn::LoadU(d8, rgb + n));
+    hn::StoreU(hn::ShiftLeftSame(value, bits), d32, out + n);
+  }
+}
+
+// A vector of pixels.
+HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                            const StackFinish& finish, Inverses& inverses, uint32_t* out) {
+  const StackTag d32;
+  const hn::Repartition<uint64_t, StackTag> d64;
+  const hn::RebindToSigned<decltype(d64)> di64;
+  const auto covered = hn::LoadU(d32, sums + 3 * plane);
+  const auto missing = hn::Lt(covered, hn::Set(d32, finish.least));
+  if (hn::AllTrue(d32, missing)) {
+    CopyMissing(rgb, finish.bits, out);
+    return;
+  }
+  inverses.Load(covered);
+  const int shift = kInverseBits - 8 - finish.bits;
+  const auto half = hn::Set(d64, uint64_t{1} << (shift - 1));
+  const auto white = hn::Set(di64, int64_t{255} << finish.bits);
+  const auto low = hn::Load(d32, inverses.low), high = hn::Load(d32, inverses.high);
+  const auto odd = [&](StackVec v) HWY_ATTR {
+    return hn::BitCast(d32, hn::ShiftRight<32>(hn::BitCast(d64, v)));
+  };
+  const auto odd_low = odd(low), odd_high = odd(high);
+  const auto divide = [&](size_t c) HWY_ATTR {
+    const auto sum = hn::LoadU(d32, sums + c * plane);
+    const auto even = DivideEven(d64, sum, low, high, half, shift, white);
+    const auto next = DivideEven(d64, odd(sum), odd_low, odd_high, half, shift, white);
+    return hn::BitCast(d32, hn::Or(even, hn::ShiftLeft<32>(next)));
+  };
+  hn::StoreInterleaved3(divide(0), divide(1), divide(2), d32, out);
+  if (hn::AllFalse(d32, missing)) return;
+  for (size_t n = 0; n < hn::Lanes(d32); ++n) {
+    if (sums[3 * plane + n] >= finish.least) continue;
+    for (size_t c = 0; c < 3; ++c) out[3 * n + c] = uint32_t{rgb[3 * n + c]} << finish.bits;
+  }
+}
+
+HWY_INLINE void FinishPixelsOfStack(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                                    const StackFinish& finish, size_t count, uint32_t* out) {
+  const size_t lanes = hn::Lanes(StackTag());
+  Inverses inverses(finish.least);
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    FinishGroup(sums + n, plane, rgb + 3 * n, finish, inverses, out + 3 * n);
+  }
+  if (n == count) return;
+  uint32_t rest[3 * kSliceLanes];
+  FinishGroup(sums + n, plane, rgb + 3 * n, finish, inverses, rest);
+  std::memcpy(out + 3 * n, rest, 3 * (count - n) * sizeof(*out));
+}
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,49 @@
+// Kernels::find_ranges. Included once per target.
+#if defined(STARFOCUS_SIMD_RANGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_RANGES_INL_H_
+#undef STARFOCUS_SIMD_RANGES_INL_H_
+#else
+#define STARFOCUS_SIMD_RANGES_INL_H_
+#endif
+
+#include "simd/compat-inl.h"
+#include "simd/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+// Of `count` columns, kSliceLanes at most.
+HWY_INLINE DisparityRange RangeOfColumns(const int16_t* HWY_RESTRICT disparity, size_t stride,
+                                         size_t rows, size_t count) {
+  const hn::CappedTag<int16_t, kSliceLanes> d16;
+  const auto none = hn::Set(d16, int16_t{INT16_MIN}), one = hn::Set(d16, int16_t{1});
+  // One less than the lowest: where there is no surface that wraps round to the largest.
+  auto below = hn::Set(d16, int16_t{INT16_MAX}), high = none;
+  for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
+    const auto counted = hn::FirstN(d16, count - n);
+    const int16_t* at = disparity + n;
+    for (size_t row = 0; row < rows; ++row, at += stride) {
+      const auto value = hn::IfThenElse(counted, hn::LoadU(d16, at), none);
+      below = hn::Min(below, hn::Sub(value, one));
+      high = hn::Max(high, value);
+    }
+  }
+  const int16_t least = hn::GetLane(hn::MinOfLanes(d16, below));
+  return {static_cast<int16_t>(least < INT16_MAX ? least + 1 : least),
+          hn::GetLane(hn::MaxOfLanes(d16, high))};
+}
+
+HWY_INLINE void FindRangesOfRows(const int16_t* disparity, size_t stride, size_t rows, size_t count,
+                                 DisparityRange* ranges) {
+  for (size_t n = 0; n < count; n += kSliceLanes) {
+    *ranges++ = RangeOfColumns(disparity + n, stride, rows,
+                               count - n < kSliceLanes ? count - n : kSliceLanes);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif
