@@ -80,10 +80,11 @@ class MatteFinder {
 
 }  // namespace
 
-void FindMatte(const Window& window, const ViewGrid& grid, const Field& field, Surfaces* surfaces) {
+void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
+               const Field& field, Surfaces* surfaces) {
   if (window.layer != 0 || window.views == 1) return;
   MatteFinder finder(window, grid, field, surfaces);
-  ForEachBesideEdge(window, field, kDepthEdge,
+  ForEachBesideEdge(kernels, window, field, kDepthEdge,
                     [&](int32_t column, int32_t row) { finder.FindPixel(column, row); });
 }
 

@@ -34,7 +34,7 @@ class Stack {
   uint64_t Refocus() {
     LoadField(*job_.window, job_.rect, job_.border, &field_);
     FindSurfaces(*job_.kernels, *job_.window, field_, &scratch_.surfaces);
-    FindMatte(*job_.window, grid_, field_, &scratch_.surfaces);
+    FindMatte(*job_.kernels, *job_.window, grid_, field_, &scratch_.surfaces);
     FindScale();
     plane_ = simd::SliceSamples(static_cast<size_t>(job_.rect.width));
     PlaceSlices();

@@ -50,6 +50,20 @@ void Interpolate(const Pixels& pixels, const CapturedLine& line, int32_t count, 
   }
 }
 
+// The same of one place on a row or a column of pixels.
+template <class Pixels, class Take>
+void InterpolateOnAxis(const Pixels& pixels, int32_t x, int32_t y, const Take& take) {
+  const int32_t wx = x & (kShiftOne - 1), weight = wx + (y & (kShiftOne - 1));
+  const int32_t column = x >> kShiftBits, row = y >> kShiftBits;
+  const uint8_t* here = pixels.Row(row) + pixels.Column(column);
+  const uint8_t* next = wx != 0 ? pixels.Row(row) + pixels.Column(column + 1)
+                                : pixels.Row(row + 1) + pixels.Column(column);
+  for (int k = 0; k < 3; ++k) {
+    const int32_t sum = here[k] * kShiftOne + (next[k] - here[k]) * weight;
+    take(k, Checked(ranges::kHolePixel, sum * kShiftOne));
+  }
+}
+
 template <int kLayer, class Pixels>
 void Subsample(const Pixels& pixels, int32_t x, int32_t y, uint8_t* rgb) {
   constexpr int32_t kReach = (1 << kLayer) - 1;
@@ -116,10 +130,22 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
   }
 }
 
+void ReadCapturedPixel(const Window& window, int index, int32_t x, int32_t y, uint8_t* rgb) {
+  const int32_t right = window.picture_width - 1, bottom = window.picture_height - 1;
+  const bool inside = x >= 0 && x >> kShiftBits < right && y >= 0 && y >> kShiftBits < bottom;
+  if (window.layer != 0 || !inside) {
+    ReadCaptured(window, index, {x, y, 0, 0}, 1, rgb);
+    return;
+  }
+  InterpolateOnAxis(Inside{window.view[index]}, x, y, [&](int32_t k, int32_t sum) {
+    rgb[k] = static_cast<uint8_t>(RoundShift(sum, 2 * kShiftBits));
+  });
+}
+
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {
-  const Endless pixel = {window.view[index], window.picture_width - 1, window.picture_height - 1};
-  Interpolate(pixel, {Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y), 0, 0},
-              1, [&](int32_t k, int32_t sum) { rgb[k] = sum; });
+  const Endless pixels = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+  InterpolateOnAxis(pixels, Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y),
+                    [&](int32_t k, int32_t sum) { rgb[k] = sum; });
 }
 
 int32_t CapturedBytes(const Window& window) {

@@ -12,6 +12,7 @@
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
+#include "simd/surfaces-inl.h"
 #include "simd/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -36,6 +37,19 @@ void Split(const uint8_t* rgb, size_t count, size_t plane, uint8_t* out) {
 void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits, size_t count,
                int16_t* moved, int16_t* behind, uint8_t* distance) {
   FindEdgesOfRow(near, far, limits, count, moved, behind, distance);
+}
+
+void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps) {
+  FindStepsOfRow(row, count, step, steps);
+}
+
+void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t step,
+                 uint16_t* beside) {
+  FindBesideSteps(row, stride, count, step, beside);
+}
+
+uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
+  return LookBehindRow(row, hidden);
 }
 
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
@@ -110,6 +124,9 @@ const Kernels* Table() {
                                       FilterDisc,
                                       Split,
                                       FindEdges,
+                                      FindSteps,
+                                      BesideSteps,
+                                      LookBehind,
                                       SelectSlice,
                                       SpreadSlice,
                                       ShiftSlice,

@@ -60,7 +60,7 @@ struct Scene {
     aperture.n = 4;
     window.layer = layer;
     const ViewGrid grid = starfocus::MakeViewGrid(aperture, 0, 1, 0, false);
-    starfocus::UnmixEdges(window, grid, &field);
+    starfocus::UnmixEdges(starfocus::simd::BestKernels(), window, grid, &field);
     std::vector<int> greys;
     for (int x = 0; x < kSize; ++x) greys.push_back(*field.Rgb(x, kSize / 2));
     return greys;
