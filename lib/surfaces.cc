@@ -1,7 +1,6 @@
 #include "lib/surfaces.h"
 
 #include <cstring>
-#include <initializer_list>
 
 #include "lib/fixed.h"
 
@@ -24,13 +23,7 @@ class SurfaceFinder {
         field_(field),
         surfaces_(*surfaces),
         unit_(int32_t{1} << (kDisparityBits + window.layer)),
-        step_(kDepthEdge << window.layer) {
-    for (int side = 0; side < 4; ++side) {
-      for (const bool half : {false, true}) {
-        views_[half ? 1 : 0][side] = CapturedView(kSides[side][0], kSides[side][1], half);
-      }
-    }
-  }
+        step_(kDepthEdge << window.layer) {}
 
   void Find() {
     const int32_t height = surfaces_.height;
@@ -127,58 +120,78 @@ class SurfaceFinder {
     const simd::HiddenRow hidden = {{surfaces_.disparity[1] + at, surfaces_.disparity[2] + at},
                                     {surfaces_.sources[0], surfaces_.sources[1]},
                                     surfaces_.share + at};
-    uint64_t chunks = kernels_.look_behind(row, hidden);
+    const uint64_t chunks = kernels_.look_behind(row, hidden);
     surfaces_.hiding[y] = chunks != 0;
-    for (int32_t from = 0; chunks != 0; chunks >>= 1, from += kChunk) {
-      if ((chunks & 1) == 0) continue;
-      for (int32_t x = from; x < Min(from + kChunk, surfaces_.width); ++x) SetColours(x, y);
+    for (int behind = 1; behind < simd::kSurfaces; ++behind) {
+      int32_t from = 0;
+      for (uint64_t rest = chunks; rest != 0; rest >>= 1, from += kChunk) {
+        if ((rest & 1) != 0) SetColours(from, Min(from + kChunk, surfaces_.width), y, behind);
+      }
     }
   }
 
-  void SetColours(int32_t x, int32_t y) {
-    for (int behind = 1; behind < simd::kSurfaces; ++behind) {
-      const uint32_t source = surfaces_.sources[behind - 1][x];
-      if (source == 0) return;
-      const uint32_t sides = source & 15;
-      uint8_t shown[3];
-      if ((sides & (sides - 1)) == 0) {
-        Read(x, y, LowestBit(sides), behind, source, shown);
-      } else {
-        ReadMean(x, y, behind, source, shown);
+  // Of the pixels first ... end - 1 of a row. Behind one edge many are read one after the other.
+  void SetColours(int32_t first, int32_t end, int32_t y, int behind) {
+    const uint16_t* sources = surfaces_.sources[behind - 1];
+    const int16_t* disparity = surfaces_.disparity[behind] + surfaces_.At(0, y);
+    uint8_t* const rgb = surfaces_.rgb[behind] + surfaces_.At(0, y);
+    for (int32_t x = first; x < end;) {
+      const uint32_t source = sources[x];
+      if (source == 0) {
+        ++x;
+        continue;
       }
-      uint8_t* rgb = surfaces_.rgb[behind] + surfaces_.At(x, y);
-      for (size_t c = 0; c < 3; ++c) rgb[c * surfaces_.plane] = shown[c];
+      int32_t count = 1;
+      uint8_t shown[3 * kChunk];
+      const uint32_t sides = source & 15;
+      if ((sides & (sides - 1)) == 0 && source >> simd::kSourceDistance == 0) {
+        while (x + count < end && sources[x + count] == source &&
+               disparity[x + count] == disparity[x]) {
+          ++count;
+        }
+        Read({x, y, LowestBit(sides), count}, disparity[x], source, shown);
+      } else {
+        ReadMean(x, y, disparity[x], source, shown);
+      }
+      for (const uint8_t* from = shown; count > 0; --count, ++x, from += 3) {
+        for (size_t c = 0; c < 3; ++c) rgb[c * surfaces_.plane + static_cast<size_t>(x)] = from[c];
+      }
     }
   }
 
   // The mean of all sides.
-  void ReadMean(int32_t x, int32_t y, int behind, uint32_t source, uint8_t* rgb) const {
+  void ReadMean(int32_t x, int32_t y, int16_t disparity, uint32_t source, uint8_t* rgb) const {
     int32_t sums[3] = {0, 0, 0}, count = 0;
     ForEachBit(source & 15, [&](int32_t side) {
       uint8_t shown[3];
-      Read(x, y, side, behind, source, shown);
+      Read({x, y, side, 1}, disparity, source, shown);
       for (int c = 0; c < 3; ++c) sums[c] += shown[c];
       ++count;
     });
     for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>((sums[c] + count / 2) / count);
   }
 
-  // `source` as look_behind gives it.
-  void Read(int32_t x, int32_t y, int32_t side, int behind, uint32_t source, uint8_t* rgb) const {
-    const int dx = kSides[side][0], dy = kSides[side][1];
+  // Pixels of a row, one after the other, of which the same side shows what is behind.
+  struct Stretch {
+    int32_t x, y, side, count;
+  };
+
+  // `source` as look_behind gives it; of one pixel where no view shows it.
+  void Read(const Stretch& at, int16_t disparity, uint32_t source, uint8_t* rgb) const {
+    const int dx = kSides[at.side][0], dy = kSides[at.side][1];
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
     if (distance != 0) {
-      std::memcpy(rgb, field_.Rgb(x + dx * distance, y + dy * distance), 3);
+      std::memcpy(rgb, field_.Rgb(at.x + dx * distance, at.y + dy * distance), 3);
       return;
     }
-    if (window_.reads != nullptr) ++window_.reads->side_colours;
-    const bool half = (source >> (simd::kSourceHalf + side) & 1) != 0;
-    const int64_t full = int64_t{surfaces_.disparity[behind][surfaces_.At(x, y)]} *
-                         (1 << (kShiftBits - kDisparityBits));
+    if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(at.count);
+    const bool half = (source >> (simd::kSourceHalf + at.side) & 1) != 0;
+    const int64_t full = int64_t{disparity} * (1 << (kShiftBits - kDisparityBits));
     const auto moved =
         static_cast<int32_t>(RoundShift(full * 2, 1 + window_.layer + (half ? 1 : 0)));
-    ReadCapturedPixel(window_, views_[half ? 1 : 0][side], (field_.x + x) * kShiftOne - dx * moved,
-                      (field_.y + y) * kShiftOne - dy * moved, rgb);
+    const CapturedLine line = {(field_.x + at.x) * kShiftOne - dx * moved,
+                               (field_.y + at.y) * kShiftOne - dy * moved, 1, 0};
+    ReadCaptured(window_, CapturedView(dx, dy, half), line, at.count, rgb);
   }
 
   const simd::Kernels& kernels_;
@@ -187,7 +200,6 @@ class SurfaceFinder {
   Surfaces& surfaces_;
   const int32_t unit_;  // disparity that a pixel of the layer is at distance 1
   const int32_t step_;  // a larger one from pixel to pixel may hide something
-  int views_[2][4];     // towards the sides, at full and at half distance
 };
 
 }  // namespace

@@ -68,33 +68,41 @@ HWY_INLINE uint32_t BitsOf(D d, hn::Mask<D> mask) {
   return uint32_t{bytes[0]} | uint32_t{bytes[1]} << 8;
 }
 
-// What the four sides show behind a chunk of pixels. In memory, since some vectors have no size.
+// What the four sides show behind a chunk of pixels, if bit k of `some` is set for side k. In
+// memory, since some vectors have no size.
 struct ChunkSides {
+  uint32_t some;
   int16_t rank[4][kSliceLanes], disparity[4][kSliceLanes], half[4][kSliceLanes];
 };
 constexpr int16_t kNoRank = INT16_MAX;
 
 // Lanes of pixels before which something lies in the view that moves by a pixel per `unit`; the
 // pixels that may, one after the other towards the side, are `step` apart. Up to `room` of them are
-// in the field, and none after `last` comes so far.
+// in the field, of all lanes at least `sure`, and none after `last` comes so far.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, V disparity, V room,
-                                   int16_t unit, int32_t last) {
+                                   int32_t sure, int16_t unit, int32_t last) {
   const auto reach = static_cast<int16_t>(3 * unit / 4 - 1);
   const auto nearer = hn::Add(disparity, hn::Set(d16, static_cast<int16_t>(unit / 2)));
   // Whether the place is within `reach` of the pixel is one comparison of the distance and `reach`,
   // as an unsigned number; what is not nearer is told by the other.
   auto start = hn::Sub(hn::Sub(disparity, hn::Set(d16, reach)), hn::Set(d16, INT16_MIN));
   const auto end = hn::Set(d16, static_cast<int16_t>(INT16_MIN + 2 * reach + 1));
-  const auto next = hn::Set(d16, unit), one = hn::Set(d16, int16_t{1});
-  auto covered = hn::Zero(d16), left = hn::Add(room, one);
-  for (int32_t u = 0; u <= last; ++u, at += step) {
+  const auto next = hn::Set(d16, unit);
+  auto covered = hn::Zero(d16);
+  int32_t u = 0;
+  const auto covers = [&]() HWY_ATTR {
     const auto here = hn::LoadU(d16, at);
     const auto near = hn::And(hn::Gt(here, nearer), hn::Lt(hn::Sub(here, start), end));
-    const auto inside = hn::Gt(left, hn::Zero(d16));
-    covered = hn::Or(covered, hn::VecFromMask(d16, hn::And(near, inside)));
     start = hn::Add(start, next);
-    left = hn::Sub(left, one);
+    at += step;
+    ++u;
+    return near;
+  };
+  while (u <= last && u <= sure) covered = hn::Or(covered, hn::VecFromMask(d16, covers()));
+  while (u <= last) {
+    const auto outside = hn::Gt(hn::Set(d16, static_cast<int16_t>(u)), room);
+    covered = hn::Or(covered, hn::VecFromMask(d16, hn::AndNot(outside, covers())));
   }
   return hn::MaskFromVec(covered);
 }
@@ -106,14 +114,15 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, Chun
   const ptrdiff_t along = side < 2 ? 1 : row.stride, step = side % 2 == 0 ? along : -along;
   const int32_t unit = 1 << row.unit_bits, vertical = side == 2 ? row.below : row.above;
   int16_t* const behind = sides->disparity[side];
-  for (size_t k = 0; k < kSliceLanes; ++k) {
-    const size_t n = chunk + k;
-    behind[k] = row.disparity[static_cast<ptrdiff_t>(n) + step * row.edges[side][n]];
+  const int16_t* const pixels = row.disparity + chunk;
+  const uint8_t* const distances = row.edges[side] + chunk;
+  for (ptrdiff_t k = 0; k < static_cast<ptrdiff_t>(kSliceLanes); ++k) {
+    behind[k] = pixels[k + step * distances[k]];
   }
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
     const auto column = static_cast<int32_t>(chunk + k);
-    const int16_t* at = row.disparity + column;
-    const auto distance = hn::PromoteTo(d16, hn::LoadU(d8, row.edges[side] + column));
+    const int16_t* at = pixels + k;
+    const auto distance = hn::PromoteTo(d16, hn::LoadU(d8, distances + k));
     const auto hides = hn::Gt(distance, hn::Zero(d16));
     const auto disparity = hn::LoadU(d16, behind + k);
     const auto columns = hn::Iota(d16, static_cast<int16_t>(column));
@@ -124,6 +133,8 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, Chun
     const auto high = hn::Set(d16, row.high);
     const int32_t low = hn::GetLane(hn::MinOfLanes(d16, hn::IfThenElse(hides, disparity, high)));
     const int32_t depth = row.high - low;
+    const int32_t end = row.width - static_cast<int32_t>(hn::Lanes(d16)) - column;
+    const int32_t sure = side == 0 ? end : side == 1 ? column : vertical;
     const int32_t most = side == 0   ? row.width - 1 - column
                          : side == 1 ? column + static_cast<int32_t>(kSliceLanes) - 1
                                      : vertical;
@@ -131,10 +142,10 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, Chun
                           HWY_ATTR { return depth / units + 1 < most ? depth / units + 1 : most; };
     auto unseen = hides, half = hn::Lt(distance, hn::Zero(d16));
     if (row.side_views) {
-      unseen = hn::And(hides, FindCovered(d16, at, step, disparity, room,
+      unseen = hn::And(hides, FindCovered(d16, at, step, disparity, room, sure,
                                           static_cast<int16_t>(unit), last(unit)));
       if (row.half_views && !hn::AllFalse(d16, unseen)) {
-        const auto covered = FindCovered(d16, at, step, disparity, room,
+        const auto covered = FindCovered(d16, at, step, disparity, room, sure,
                                          static_cast<int16_t>(2 * unit), last(2 * unit));
         half = hn::AndNot(covered, unseen);
         unseen = hn::And(covered, unseen);
@@ -152,6 +163,7 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V disparity) {
   auto source = hn::Zero(d16);
   for (int side = 0; side < 4; ++side) {
+    if ((sides.some >> side & 1) == 0) continue;
     const auto same = hn::And(hn::Eq(hn::LoadU(d16, sides.rank[side] + k), best),
                               hn::Eq(hn::LoadU(d16, sides.disparity[side] + k), disparity));
     const auto bit = hn::Set(d16, static_cast<int16_t>(1 << side));
@@ -165,7 +177,7 @@ HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V dispar
   return hn::IfThenElseZero(some, hn::Or(source, distance));
 }
 
-// Returns whether there is any.
+// The nearest and the next of them. Returns whether there is any.
 HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t chunk,
                                const HiddenRow& hidden) {
   const SurfaceTag d16;
@@ -178,6 +190,7 @@ HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t ch
     for (int surface = 0; surface < kSurfaces - 1; ++surface) {
       auto best = none, disparity = nothing;
       for (int side = 0; side < 4; ++side) {
+        if ((sides.some >> side & 1) == 0) continue;
         const auto far = hn::LoadU(d16, sides.disparity[side] + k);
         const auto step = hn::SaturatedSub(hn::Max(far, above), hn::Min(far, above));
         const auto other = surface == 0 ? hn::Eq(far, far) : hn::Gt(step, unit);
@@ -197,21 +210,26 @@ HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t ch
   return any;
 }
 
-// Which sides of a chunk hide something, bit by bit; tells where surfaces end.
+// Which sides of a chunk hide something, bit by bit; tells where surfaces end. Most hide nothing.
 HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t chunk, uint8_t* HWY_RESTRICT share) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
-  const auto one = hn::Set(d8, uint8_t{1});
+  const auto one = hn::Set(d8, uint8_t{1}), none = hn::Zero(d8);
+  const auto whole = hn::Set(d8, static_cast<uint8_t>(kSliceWhole));
   uint32_t sides = 0;
   for (size_t n = chunk; n < chunk + kSliceLanes; n += hn::Lanes(d8)) {
-    auto end = hn::Zero(d8);
-    for (int side = 0; side < 4; ++side) {
-      const auto distance = hn::LoadU(d8, row.edges[side] + n);
-      end = hn::Or(end, hn::VecFromMask(d8, hn::Eq(distance, one)));
-      if (!hn::AllTrue(d8, hn::Eq(distance, hn::Zero(d8)))) sides |= 1u << side;
+    const auto right = hn::LoadU(d8, row.edges[0] + n), left = hn::LoadU(d8, row.edges[1] + n);
+    const auto bottom = hn::LoadU(d8, row.edges[2] + n), top = hn::LoadU(d8, row.edges[3] + n);
+    if (hn::AllTrue(d8, hn::Eq(hn::Or(hn::Or(right, left), hn::Or(bottom, top)), none))) {
+      hn::StoreU(whole, d8, share + n);
+      continue;
     }
-    const auto whole = hn::Set(d8, static_cast<uint8_t>(kSliceWhole));
-    const auto ends = hn::Set(d8, kSliceEnd);
-    hn::StoreU(hn::IfThenElse(hn::MaskFromVec(end), ends, whole), d8, share + n);
+    const auto along = hn::Or(hn::Eq(right, one), hn::Eq(left, one));
+    const auto across = hn::Or(hn::Eq(bottom, one), hn::Eq(top, one));
+    hn::StoreU(hn::IfThenElse(hn::Or(along, across), hn::Set(d8, kSliceEnd), whole), d8, share + n);
+    if (!hn::AllTrue(d8, hn::Eq(right, none))) sides |= 1;
+    if (!hn::AllTrue(d8, hn::Eq(left, none))) sides |= 2;
+    if (!hn::AllTrue(d8, hn::Eq(bottom, none))) sides |= 4;
+    if (!hn::AllTrue(d8, hn::Eq(top, none))) sides |= 8;
   }
   return sides;
 }
@@ -220,26 +238,18 @@ HWY_INLINE uint64_t LookBehindRow(const DepthRow& row, const HiddenRow& hidden) 
   const SurfaceTag d16;
   ChunkSides sides;
   uint64_t chunks = 0, bit = 1;
+  const auto nothing = hn::Set(d16, kNoSurface);
   const auto width = static_cast<size_t>(row.width);
   for (size_t chunk = 0; chunk < width; chunk += kSliceLanes, bit <<= 1) {
-    const uint32_t some = MarkEnds(row, chunk, hidden.share);
-    const auto fill = [&](int16_t value, int16_t* at) HWY_ATTR {
-      for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
-        hn::StoreU(hn::Set(d16, value), d16, at + k);
+    sides.some = MarkEnds(row, chunk, hidden.share);
+    if (sides.some == 0) {
+      for (size_t n = chunk; n < chunk + kSliceLanes; n += hn::Lanes(d16)) {
+        for (int16_t* disparity : hidden.disparity) hn::StoreU(nothing, d16, disparity + n);
       }
-    };
-    if (some == 0) {
-      for (int16_t* disparity : hidden.disparity) fill(kNoSurface, disparity + chunk);
       continue;
     }
     for (int side = 0; side < 4; ++side) {
-      if ((some >> side & 1) != 0) {
-        LookBehindSide(row, side, chunk, &sides);
-      } else {
-        fill(kNoRank, sides.rank[side]);
-        fill(kNoSurface, sides.disparity[side]);
-        fill(0, sides.half[side]);
-      }
+      if ((sides.some >> side & 1) != 0) LookBehindSide(row, side, chunk, &sides);
     }
     if (ChooseSurfaces(sides, row.unit_bits, chunk, hidden)) chunks |= bit;
   }
