@@ -133,10 +133,11 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, Chun
     const auto high = hn::Set(d16, row.high);
     const int32_t low = hn::GetLane(hn::MinOfLanes(d16, hn::IfThenElse(hides, disparity, high)));
     const int32_t depth = row.high - low;
-    const int32_t end = row.width - static_cast<int32_t>(hn::Lanes(d16)) - column;
+    const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
+    const int32_t end = row.width - lanes - column;
     const int32_t sure = side == 0 ? end : side == 1 ? column : vertical;
     const int32_t most = side == 0   ? row.width - 1 - column
-                         : side == 1 ? column + static_cast<int32_t>(kSliceLanes) - 1
+                         : side == 1 ? column + lanes - 1
                                      : vertical;
     const auto last = [&](int32_t units)
                           HWY_ATTR { return depth / units + 1 < most ? depth / units + 1 : most; };
@@ -256,24 +257,26 @@ HWY_INLINE uint64_t LookBehindRow(const DepthRow& row, const HiddenRow& hidden) 
   return chunks;
 }
 
+// Lanes beyond `count` are masked before anything depends on them: what lies there may never have
+// been written.
 HWY_INLINE void FindStepsOfRow(const int16_t* HWY_RESTRICT row, size_t count, int16_t step,
                                StepBits* HWY_RESTRICT steps) {
   const SurfaceTag d16;
   const auto least = hn::Set(d16, step);
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, ++steps) {
     uint32_t falls = 0, rises = 0;
-    for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
-      const auto here = hn::LoadU(d16, row + chunk + k);
-      const auto next = hn::LoadU(d16, row + chunk + k + 1);
-      const auto fall = hn::Gt(hn::SaturatedSub(here, next), least);
-      const auto rise = hn::Gt(hn::SaturatedSub(next, here), least);
+    const size_t end = count - chunk < kSliceLanes ? count - chunk : kSliceLanes;
+    for (size_t k = 0; k < end; k += hn::Lanes(d16)) {
+      const int16_t* at = row + chunk + k;
+      const auto here = hn::LoadU(d16, at), next = hn::LoadU(d16, at + 1);
+      const auto counted = hn::FirstN(d16, end - k);
+      const auto fall = hn::And(hn::Gt(hn::SaturatedSub(here, next), least), counted);
+      const auto rise = hn::And(hn::Gt(hn::SaturatedSub(next, here), least), counted);
       if (hn::AllFalse(d16, hn::Or(fall, rise))) continue;
       falls |= BitsOf(d16, fall) << k;
       rises |= BitsOf(d16, rise) << k;
     }
-    const size_t rest = count - chunk;
-    const uint32_t counted = rest < kSliceLanes ? (uint32_t{1} << rest) - 1 : 0xffff;
-    *steps = {static_cast<uint16_t>(falls & counted), static_cast<uint16_t>(rises & counted)};
+    *steps = {static_cast<uint16_t>(falls), static_cast<uint16_t>(rises)};
   }
 }
 
@@ -283,17 +286,16 @@ HWY_INLINE void FindBesideSteps(const int16_t* HWY_RESTRICT row, ptrdiff_t strid
   const auto least = hn::Set(d16, step);
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, ++beside) {
     uint32_t bits = 0;
-    for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
+    const size_t end = count - chunk < kSliceLanes ? count - chunk : kSliceLanes;
+    for (size_t k = 0; k < end; k += hn::Lanes(d16)) {
       const int16_t* at = row + chunk + k;
       const auto sides = hn::Max(hn::LoadU(d16, at - 1), hn::LoadU(d16, at + 1));
       const auto ends = hn::Max(hn::LoadU(d16, at - stride), hn::LoadU(d16, at + stride));
       const auto nearer = hn::SaturatedSub(hn::Max(sides, ends), hn::LoadU(d16, at));
-      const auto edge = hn::Gt(nearer, least);
+      const auto edge = hn::And(hn::Gt(nearer, least), hn::FirstN(d16, end - k));
       if (!hn::AllFalse(d16, edge)) bits |= BitsOf(d16, edge) << k;
     }
-    const size_t rest = count - chunk;
-    const uint32_t counted = rest < kSliceLanes ? (uint32_t{1} << rest) - 1 : 0xffff;
-    *beside = static_cast<uint16_t>(bits & counted);
+    *beside = static_cast<uint16_t>(bits);
   }
 }
 

@@ -85,7 +85,7 @@ struct Scene {
     surfaces.behind = rows[1].data();
     surfaces.hiding = hiding.data();
     rgb.assign(starfocus::RgbStride(kSize) * kSize, 0);
-    std::vector<int16_t> copy(kSize * kSize);
+    std::vector<int16_t> copy(kSize * kSize + starfocus::simd::kPadding);
     starfocus::Field field;
     field.rgb = rgb.data();
     field.disparity = copy.data();

@@ -53,7 +53,7 @@ struct Scene {
 
   // The grey levels of the middle row.
   std::vector<int> Unmixed(int layer = 0) {
-    std::vector<int16_t> copy(disparity.size());
+    std::vector<int16_t> copy(disparity.size() + starfocus::simd::kPadding);
     field.disparity = copy.data();
     starfocus::LoadField(window, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
     starfocus::Aperture aperture;
