@@ -122,6 +122,23 @@ constexpr int32_t Clamp(int32_t value, int32_t low, int32_t high) {
   return value < low ? low : value > high ? high : value;
 }
 
+// Index of the lowest bit set; bits != 0.
+inline int32_t LowestBit(uint32_t bits) {
+#if defined(__GNUC__)
+  return __builtin_ctz(bits);
+#else
+  int32_t index = 0;
+  while ((bits >> index & 1) == 0) ++index;
+  return index;
+#endif
+}
+
+// Calls visit(index) for every bit set, from the lowest on.
+template <class Visit>
+void ForEachBit(uint32_t bits, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(LowestBit(bits));
+}
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_FIXED_H_

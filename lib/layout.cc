@@ -73,6 +73,10 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
   surfaces.hiding = carver->Take<uint8_t>(extended);
   surfaces.moved = carver->Take<int16_t>(simd::SliceSamples(extended));
   surfaces.behind = carver->Take<int16_t>(simd::SliceSamples(extended));
+  surfaces.steps = carver->Take<simd::StepBits>(simd::SliceSamples(extended) / simd::kSliceLanes);
+  for (uint16_t*& sources : surfaces.sources) {
+    sources = carver->Take<uint16_t>(simd::SliceSamples(extended));
+  }
   scratch.bins = carver->Take<uint8_t>(kSliceBins);
   scratch.least_blur = carver->Take<int32_t>(extended);
   const size_t rows = rectangle + 2 * reach;

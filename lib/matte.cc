@@ -20,10 +20,10 @@ class MatteFinder {
 
   void FindPixel(int32_t column, int32_t row) {
     const int32_t x = field_.x + column, y = field_.y + row;
-    const int32_t disparity = centre_.Disparity(x, y);
+    const int32_t disparity = *field_.Disparity(column, row);
     Parts parts;
     for (const auto& side : kSides) {
-      const int32_t near = centre_.Disparity(x + side[0], y + side[1]);
+      const int32_t near = *field_.Disparity(column + side[0], row + side[1]);
       if (near - disparity <= kDepthEdge || !Moves(near, disparity)) continue;
       parts.Add(FindMixture(centre_, {x, y, side, disparity, near, kDepthEdge}), near);
     }
@@ -80,10 +80,11 @@ class MatteFinder {
 
 }  // namespace
 
-void FindMatte(const Window& window, const ViewGrid& grid, const Field& field, Surfaces* surfaces) {
+void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
+               const Field& field, Surfaces* surfaces) {
   if (window.layer != 0 || window.views == 1) return;
   MatteFinder finder(window, grid, field, surfaces);
-  ForEachBesideEdge(window, field, kDepthEdge,
+  ForEachBesideEdge(kernels, window, field, kDepthEdge,
                     [&](int32_t column, int32_t row) { finder.FindPixel(column, row); });
 }
 

@@ -15,7 +15,8 @@ namespace starfocus {
 // blurred enough), and neither what lies beyond the picture nor the field's outermost pixels, which
 // splat into no rectangle. `surfaces` as FindSurfaces left them; of four surfaces the farthest is
 // dropped.
-void FindMatte(const Window& window, const ViewGrid& grid, const Field& field, Surfaces* surfaces);
+void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
+               const Field& field, Surfaces* surfaces);
 
 }  // namespace starfocus
 

@@ -47,28 +47,7 @@ void ReadFar(const Window& window, const BoundaryPixel& pixel, const uint8_t* mi
   }
 }
 
-// Not Max: of 16 bits, as vectors hold them.
-int16_t Nearer(int16_t a, int16_t b) { return a > b ? a : b; }
-
-// All bits set where the pixel is beside an edge; no bit elsewhere.
-int16_t EdgeBits(const int16_t* at, ptrdiff_t width, int16_t step) {
-  const int16_t nearest = Nearer(Nearer(at[-1], at[1]), Nearer(at[-width], at[width]));
-  const auto limit = static_cast<int16_t>(at[0] + step);
-  return static_cast<int16_t>(nearest > limit ? -1 : 0);
-}
-
 }  // namespace
-
-bool BesideEdge(const int16_t* at, ptrdiff_t width, int16_t step) {
-  return EdgeBits(at, width, step) != 0;
-}
-
-// Most are not. Compilers make vectors of the loop on its own only.
-[[gnu::noinline]] bool AnyBesideEdge(const int16_t* at, ptrdiff_t width, int16_t step) {
-  int16_t any = 0;
-  for (int32_t k = 0; k < kAtOnce; ++k) any |= EdgeBits(at + k, width, step);
-  return any != 0;
-}
 
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const int32_t x = pixel.x, y = pixel.y;

@@ -7,6 +7,7 @@
 #include "lib/field.h"
 #include "lib/fixed.h"
 #include "lib/window.h"
+#include "simd/kernels.h"
 
 namespace starfocus {
 
@@ -44,26 +45,23 @@ struct Mixture {
 // moved out of the way. The window has such views.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
-// Whether some of kAtOnce pixels from `at` on is farther away, by more than `step`, than one beside
-// it, above or below it. `width`: from row to row.
-inline constexpr int32_t kAtOnce = 16;
-bool AnyBesideEdge(const int16_t* at, ptrdiff_t width, int16_t step);
-bool BesideEdge(const int16_t* at, ptrdiff_t width, int16_t step);
-
-// Calls visit(column, row) for those pixels of a field at layer 0 that lie in the picture, but for
-// the field's outermost ones.
+// Calls visit(column, row) for those pixels of a field at layer 0 that are farther away, by more
+// than `step`, than one beside, above or below them; of those in the picture, but for the field's
+// outermost ones.
 template <class Visit>
-void ForEachBesideEdge(const Window& window, const Field& field, int16_t step, const Visit& visit) {
+void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const Field& field,
+                       int16_t step, const Visit& visit) {
+  constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes), kAtOnce = 16 * kChunk;
   const int32_t left = Max(1, -field.x), right = Min(field.width - 1, window.width - field.x);
   const int32_t top = Max(1, -field.y), bottom = Min(field.height - 1, window.height - field.y);
+  uint16_t beside[kAtOnce / kChunk];
   for (int32_t row = top; row < bottom; ++row) {
-    const int16_t* disparity = field.Disparity(0, row);
     for (int32_t from = left; from < right; from += kAtOnce) {
-      const int32_t end = Min(from + kAtOnce, right);
-      const int32_t tested = end - kAtOnce;  // the last ones reach back
-      if (tested > 0 && !AnyBesideEdge(disparity + tested, field.width, step)) continue;
-      for (int32_t column = from; column < end; ++column) {
-        if (BesideEdge(disparity + column, field.width, step)) visit(column, row);
+      const int32_t count = Min(kAtOnce, right - from);
+      kernels.beside_steps(field.Disparity(from, row), field.width, static_cast<size_t>(count),
+                           step, beside);
+      for (int32_t k = 0; k < count; k += kChunk) {
+        ForEachBit(beside[k / kChunk], [&](int32_t bit) { visit(from + k + bit, row); });
       }
     }
   }

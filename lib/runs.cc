@@ -3,21 +3,6 @@
 #include "lib/fixed.h"
 
 namespace starfocus {
-namespace {
-
-// Index of the lowest bit set; bits != 0.
-int32_t LowestBit(uint32_t bits) {
-#if defined(__GNUC__)
-  return __builtin_ctz(bits);
-#else
-  int32_t index = 0;
-  while ((bits >> index & 1) == 0) ++index;
-  return index;
-#endif
-}
-
-}  // namespace
-
 void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const LineBundle& bundle,
               Direction direction, simd::RunMarks* marks) {
   marks->stride = RunMarkStride(static_cast<size_t>(bundle.lines));

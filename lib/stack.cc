@@ -32,7 +32,7 @@ class Stack {
   uint64_t Refocus() {
     LoadField(*job_.window, job_.rect, job_.border, &field_);
     FindSurfaces(*job_.kernels, *job_.window, field_, &scratch_.surfaces);
-    FindMatte(*job_.window, grid_, field_, &scratch_.surfaces);
+    FindMatte(*job_.kernels, *job_.window, grid_, field_, &scratch_.surfaces);
     FindScale();
     PlaceSlices();
     const uint64_t pixels = FindParts();

@@ -49,7 +49,7 @@ class Star {
   void Refocus() {
     Field rows = MakeField(0);
     LoadField(*job_.window, job_.rect, job_.border, &rows);
-    UnmixEdges(*job_.window, grid_, &rows);
+    UnmixEdges(*job_.kernels, *job_.window, grid_, &rows);
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
     Clear(1);
     Field columns = MakeField(1);

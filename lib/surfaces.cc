@@ -1,7 +1,6 @@
 #include "lib/surfaces.h"
 
 #include <cstring>
-#include <initializer_list>
 
 #include "lib/fixed.h"
 
@@ -13,38 +12,7 @@ void Clear(int16_t* disparity, int32_t count) {
   for (int32_t k = 0; k < count; ++k) disparity[k] = kNoSurface;
 }
 
-// What one side shows behind a pixel.
-struct Candidate {
-  int32_t rank = INT32_MAX;  // the nearer edge first, and those that a captured view sees
-  int32_t distance = 0;      // to the edge's far side
-  int16_t disparity = kNoSurface;
-  bool seen = false, half = false;
-
-  bool Before(const Candidate& other) const {
-    return rank != other.rank ? rank < other.rank : disparity > other.disparity;
-  }
-};
-constexpr int32_t kUnseen = 256;  // added to the rank
-
-// Whether there is a step of more than `step` between some of kAtOnce + 1 pixels. Most have none.
-// Compilers make vectors of the loop on its own only.
-constexpr int32_t kAtOnce = 16;
-[[gnu::noinline]] bool AnyEdge(const int16_t* row, int16_t step) {
-  int16_t any = 0;
-  for (int32_t k = 0; k < kAtOnce; ++k) {
-    const auto up = static_cast<int16_t>(row[k] + step);
-    const auto down = static_cast<int16_t>(row[k + 1] + step);
-    any |= static_cast<int16_t>(row[k + 1] > up || row[k] > down ? -1 : 0);
-  }
-  return any != 0;
-}
-
-constexpr int32_t kBytes = 8;
-uint64_t Bytes(const uint8_t* at) {
-  uint64_t bytes;
-  std::memcpy(&bytes, at, kBytes);
-  return bytes;
-}
+constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 
 class SurfaceFinder {
  public:
@@ -69,14 +37,10 @@ class SurfaceFinder {
   }
 
  private:
-  int16_t Disparity(int32_t x, int32_t y) const {
-    return surfaces_.disparity[0][surfaces_.At(x, y)];
-  }
-
   void FindRange() {
-    int16_t low = Disparity(0, 0), high = low;
+    int16_t low = *Row(0), high = low;
     for (int32_t y = 0; y < surfaces_.height; ++y) {
-      const int16_t* row = surfaces_.disparity[0] + surfaces_.At(0, y);
+      const int16_t* row = Row(y);
       for (int32_t x = 0; x < surfaces_.width; ++x) {
         low = row[x] < low ? row[x] : low;
         high = row[x] > high ? row[x] : high;
@@ -96,13 +60,18 @@ class SurfaceFinder {
     std::memset(Edges(1, y), 0, stride);
     const int16_t* row = Row(y);
     const int32_t steps = surfaces_.width - 1;
-    for (int32_t from = 0; from < steps; from += kAtOnce) {
-      const int32_t end = Min(from + kAtOnce, steps), tested = Max(end - kAtOnce, 0);
-      if (steps >= kAtOnce && !AnyEdge(row + tested, static_cast<int16_t>(step_))) continue;
-      for (int32_t x = from; x < end; ++x) {
-        if (row[x] - row[x + 1] > step_) FollowEdge(row + x, -1, x + 1, Edges(0, y) + x);
-        if (row[x + 1] - row[x] > step_) FollowEdge(row + x + 1, 1, steps - x, Edges(1, y) + x + 1);
-      }
+    kernels_.find_steps(row, static_cast<size_t>(steps), static_cast<int16_t>(step_),
+                        surfaces_.steps);
+    for (int32_t from = 0; from < steps; from += kChunk) {
+      const simd::StepBits& bits = surfaces_.steps[from / kChunk];
+      ForEachBit(bits.falls, [&](int32_t k) {
+        const int32_t x = from + k;
+        FollowEdge(row + x, -1, x + 1, Edges(0, y) + x);
+      });
+      ForEachBit(bits.rises, [&](int32_t k) {
+        const int32_t x = from + k + 1;
+        FollowEdge(row + x, 1, steps + 1 - x, Edges(1, y) + x);
+      });
     }
   }
 
@@ -137,114 +106,92 @@ class SurfaceFinder {
 
   void FindRow(int32_t y) {
     const size_t at = surfaces_.At(0, y);
+    simd::DepthRow row = {};
+    row.disparity = Row(y);
+    row.stride = surfaces_.stride;
+    row.width = surfaces_.width;
+    row.above = y;
+    row.below = surfaces_.height - 1 - y;
+    row.high = surfaces_.high;
+    row.unit_bits = kDisparityBits + window_.layer;
+    row.side_views = window_.views > 1;
+    row.half_views = window_.views == 17;
+    for (int side = 0; side < 4; ++side) row.edges[side] = Edges(side, y);
+    const simd::HiddenRow hidden = {{surfaces_.disparity[1] + at, surfaces_.disparity[2] + at},
+                                    {surfaces_.sources[0], surfaces_.sources[1]},
+                                    surfaces_.share + at};
+    const uint64_t chunks = kernels_.look_behind(row, hidden);
+    surfaces_.hiding[y] = chunks != 0;
     for (int behind = 1; behind < simd::kSurfaces; ++behind) {
-      Clear(surfaces_.disparity[behind] + at, surfaces_.stride);
+      int32_t from = 0;
+      for (uint64_t rest = chunks; rest != 0; rest >>= 1, from += kChunk) {
+        if ((rest & 1) != 0) SetColours(from, Min(from + kChunk, surfaces_.width), y, behind);
+      }
     }
-    surfaces_.hiding[y] = 0;
-    const uint8_t* const* edges = surfaces_.edges;
-    for (int32_t from = 0; from < surfaces_.width; from += kBytes) {
-      const size_t k = at + static_cast<size_t>(from);
-      if ((Bytes(edges[0] + k) | Bytes(edges[1] + k) | Bytes(edges[2] + k) | Bytes(edges[3] + k)) ==
-          0) {
+  }
+
+  // Of the pixels first ... end - 1 of a row. Behind one edge many are read one after the other.
+  void SetColours(int32_t first, int32_t end, int32_t y, int behind) {
+    const uint16_t* sources = surfaces_.sources[behind - 1];
+    const int16_t* disparity = surfaces_.disparity[behind] + surfaces_.At(0, y);
+    uint8_t* const rgb = surfaces_.rgb[behind] + surfaces_.At(0, y);
+    for (int32_t x = first; x < end;) {
+      const uint32_t source = sources[x];
+      if (source == 0) {
+        ++x;
         continue;
       }
-      for (int32_t x = from; x < Min(from + kBytes, surfaces_.width); ++x) FindPixel(x, y);
-    }
-  }
-
-  void FindPixel(int32_t x, int32_t y) {
-    const size_t at = surfaces_.At(x, y);
-    const uint8_t* const* edges = surfaces_.edges;
-    if ((edges[0][at] | edges[1][at] | edges[2][at] | edges[3][at]) == 0) return;
-    const bool end =
-        edges[0][at] == 1 || edges[1][at] == 1 || edges[2][at] == 1 || edges[3][at] == 1;
-    if (end) surfaces_.share[at] = simd::kSliceEnd;
-    Candidate candidates[4];
-    for (int side = 0; side < 4; ++side) candidates[side] = LookBehind(x, y, side);
-    int32_t above = INT32_MAX;  // disparities farther than this make another surface
-    for (int behind = 1; behind < simd::kSurfaces; ++behind) {
-      const Candidate* best = nullptr;
-      for (const Candidate& candidate : candidates) {
-        if (candidate.rank == INT32_MAX) continue;
-        if (above != INT32_MAX && Abs(candidate.disparity - above) <= unit_) continue;
-        if (best == nullptr || candidate.Before(*best)) best = &candidate;
+      int32_t count = 1;
+      uint8_t shown[3 * kChunk];
+      const uint32_t sides = source & 15;
+      if ((sides & (sides - 1)) == 0 && source >> simd::kSourceDistance == 0) {
+        while (x + count < end && sources[x + count] == source &&
+               disparity[x + count] == disparity[x]) {
+          ++count;
+        }
+        Read({x, y, LowestBit(sides), count}, disparity[x], source, shown);
+      } else {
+        ReadMean(x, y, disparity[x], source, shown);
       }
-      if (best == nullptr) return;
-      above = best->disparity;
-      SetSurface(x, y, behind, *best, candidates);
+      for (const uint8_t* from = shown; count > 0; --count, ++x, from += 3) {
+        for (size_t c = 0; c < 3; ++c) rgb[c * surfaces_.plane + static_cast<size_t>(x)] = from[c];
+      }
     }
   }
 
-  Candidate LookBehind(int32_t x, int32_t y, int side) const {
-    Candidate candidate;
-    const int32_t distance = Edges(side, y)[x];
-    if (distance == 0) return candidate;
-    candidate.distance = distance;
-    candidate.disparity = Disparity(x + kSides[side][0] * distance, y + kSides[side][1] * distance);
-    candidate.rank = distance + kUnseen;
-    for (const bool half : {false, true}) {
-      if (window_.views == 1 || (half && window_.views != 17)) break;
-      if (IsCovered(x, y, side, candidate.disparity, half)) continue;
-      candidate.seen = true;
-      candidate.half = half;
-      candidate.rank = distance;
-      break;
-    }
-    return candidate;
-  }
-
-  // Whether some pixel of the line lies before the place behind (x, y) in the captured view towards
-  // the side.
-  bool IsCovered(int32_t x, int32_t y, int side, int32_t disparity, bool half) const {
-    const int32_t unit = half ? 2 * unit_ : unit_;
-    const int32_t room = side == 0   ? surfaces_.width - 1 - x
-                         : side == 1 ? x
-                         : side == 2 ? surfaces_.height - 1 - y
-                                     : y;
-    const int32_t last = Min(room, (surfaces_.high - disparity) / unit + 1);
-    const ptrdiff_t step =
-        kSides[side][0] + kSides[side][1] * static_cast<ptrdiff_t>(surfaces_.stride);
-    const int16_t* at = surfaces_.disparity[0] + surfaces_.At(x, y);
-    for (int32_t u = 0, moved = 0; u <= last; ++u, moved += unit, at += step) {
-      const int32_t nearer = *at - disparity;
-      if (2 * nearer > unit && 4 * Abs(nearer - moved) < 3 * unit) return true;
-    }
-    return false;
-  }
-
-  void SetSurface(int32_t x, int32_t y, int behind, const Candidate& best,
-                  const Candidate* candidates) {
+  // The mean of all sides.
+  void ReadMean(int32_t x, int32_t y, int16_t disparity, uint32_t source, uint8_t* rgb) const {
     int32_t sums[3] = {0, 0, 0}, count = 0;
-    for (int side = 0; side < 4; ++side) {
-      const Candidate& candidate = candidates[side];
-      if (candidate.rank != best.rank || candidate.disparity != best.disparity) continue;
-      uint8_t rgb[3];
-      Read(x, y, side, candidate, rgb);
-      for (int c = 0; c < 3; ++c) sums[c] += rgb[c];
+    ForEachBit(source & 15, [&](int32_t side) {
+      uint8_t shown[3];
+      Read({x, y, side, 1}, disparity, source, shown);
+      for (int c = 0; c < 3; ++c) sums[c] += shown[c];
       ++count;
-    }
-    const size_t at = surfaces_.At(x, y);
-    surfaces_.disparity[behind][at] = best.disparity;
-    surfaces_.hiding[y] = 1;
-    for (size_t c = 0; c < 3; ++c) {
-      surfaces_.rgb[behind][c * surfaces_.plane + at] =
-          static_cast<uint8_t>((sums[c] + count / 2) / count);
-    }
+    });
+    for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>((sums[c] + count / 2) / count);
   }
 
-  void Read(int32_t x, int32_t y, int side, const Candidate& candidate, uint8_t* rgb) const {
-    const int dx = kSides[side][0], dy = kSides[side][1];
-    if (!candidate.seen) {
-      std::memcpy(rgb, field_.Rgb(x + dx * candidate.distance, y + dy * candidate.distance), 3);
+  // Pixels of a row, one after the other, of which the same side shows what is behind.
+  struct Stretch {
+    int32_t x, y, side, count;
+  };
+
+  // `source` as look_behind gives it; of one pixel where no view shows it.
+  void Read(const Stretch& at, int16_t disparity, uint32_t source, uint8_t* rgb) const {
+    const int dx = kSides[at.side][0], dy = kSides[at.side][1];
+    const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
+    if (distance != 0) {
+      std::memcpy(rgb, field_.Rgb(at.x + dx * distance, at.y + dy * distance), 3);
       return;
     }
-    if (window_.reads != nullptr) ++window_.reads->side_colours;
-    const int64_t full = int64_t{candidate.disparity} * (1 << (kShiftBits - kDisparityBits));
+    if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(at.count);
+    const bool half = (source >> (simd::kSourceHalf + at.side) & 1) != 0;
+    const int64_t full = int64_t{disparity} * (1 << (kShiftBits - kDisparityBits));
     const auto moved =
-        static_cast<int32_t>(RoundShift(full * 2, 1 + window_.layer + (candidate.half ? 1 : 0)));
-    const CapturedLine place = {(field_.x + x) * kShiftOne - dx * moved,
-                                (field_.y + y) * kShiftOne - dy * moved, 1, 0};
-    ReadCaptured(window_, CapturedView(dx, dy, candidate.half), place, 1, rgb);
+        static_cast<int32_t>(RoundShift(full * 2, 1 + window_.layer + (half ? 1 : 0)));
+    const CapturedLine line = {(field_.x + at.x) * kShiftOne - dx * moved,
+                               (field_.y + at.y) * kShiftOne - dy * moved, 1, 0};
+    ReadCaptured(window_, CapturedView(dx, dy, half), line, at.count, rgb);
   }
 
   const simd::Kernels& kernels_;
@@ -274,7 +221,7 @@ void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Fiel
   for (int16_t* disparity : surfaces->disparity) {
     Clear(disparity + surfaces->plane, static_cast<int32_t>(simd::kSliceLanes));
   }
-  std::memset(surfaces->share, simd::kSliceWhole, surfaces->plane + simd::kSliceLanes);
+  std::memset(surfaces->share + surfaces->plane, simd::kSliceWhole, simd::kSliceLanes);
   SurfaceFinder(kernels, window, field, surfaces).Find();
 }
 

@@ -12,8 +12,7 @@
 
 namespace starfocus {
 
-// No surface: the disparity where there are fewer than kSurfaces.
-inline constexpr int16_t kNoSurface = INT16_MIN;
+using simd::kNoSurface;
 
 // A larger step of disparity from pixel to pixel, at layer 0, may hide something: kDisparityBits.
 inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
@@ -31,6 +30,8 @@ struct Surfaces {
   // 0: it hides none.
   uint8_t* edges[4] = {};
   int16_t *moved = nullptr, *behind = nullptr;  // of find_edges: a row
+  simd::StepBits* steps = nullptr;              // of find_steps: a row
+  uint16_t* sources[simd::kSurfaces - 1] = {};  // of look_behind: a row
   uint8_t* hiding = nullptr;                    // of each row: whether there is more than surface 0
 
   size_t At(int32_t x, int32_t y) const {

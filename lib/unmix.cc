@@ -63,10 +63,11 @@ class Unmixer {
 
 }  // namespace
 
-void UnmixEdges(const Window& window, const ViewGrid& grid, Field* field) {
+void UnmixEdges(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
+                Field* field) {
   if (window.layer != 0 || window.views == 1) return;
   const Unmixer unmixer(window, grid);
-  ForEachBesideEdge(window, *field, kSurfaceStep, [&](int32_t column, int32_t row) {
+  ForEachBesideEdge(kernels, window, *field, kSurfaceStep, [&](int32_t column, int32_t row) {
     unmixer.Unmix(field->x + column, field->y + row, field->Rgb(column, row));
   });
 }

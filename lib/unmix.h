@@ -15,7 +15,8 @@ namespace starfocus {
 // colours stays as it is. The field is as LoadField left it; only what lies beyond the picture
 // and its outermost pixels, which splat into no rectangle, are not looked at. Layer 0 only: what is
 // subsampled is blurred enough.
-void UnmixEdges(const Window& window, const ViewGrid& grid, Field* field);
+void UnmixEdges(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
+                Field* field);
 
 }  // namespace starfocus
 

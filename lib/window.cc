@@ -50,6 +50,24 @@ void Interpolate(const Pixels& pixels, const CapturedLine& line, int32_t count, 
   }
 }
 
+// The same of places on rows or columns of pixels: all but those of diagonals.
+template <class Pixels, class Take>
+void InterpolateOnAxis(const Pixels& pixels, const CapturedLine& line, int32_t count,
+                       const Take& take) {
+  const int32_t wx = line.x & (kShiftOne - 1), weight = wx + (line.y & (kShiftOne - 1));
+  int32_t column = line.x >> kShiftBits, row = line.y >> kShiftBits;
+  for (int32_t p = 0; p < count; ++p, column += line.dx, row += line.dy) {
+    const uint8_t* above = pixels.Row(row);
+    const uint8_t* here = above + pixels.Column(column);
+    const uint8_t* next =
+        wx != 0 ? above + pixels.Column(column + 1) : pixels.Row(row + 1) + pixels.Column(column);
+    for (int k = 0; k < 3; ++k) {
+      const int32_t sum = here[k] * kShiftOne + (next[k] - here[k]) * weight;
+      take(3 * p + k, Checked(ranges::kHolePixel, sum * kShiftOne));
+    }
+  }
+}
+
 template <int kLayer, class Pixels>
 void Subsample(const Pixels& pixels, int32_t x, int32_t y, uint8_t* rgb) {
   constexpr int32_t kReach = (1 << kLayer) - 1;
@@ -79,13 +97,28 @@ void ReadLine(const Pixels& pixels, int layer, const CapturedLine& line, int32_t
               uint8_t* rgb) {
   if (layer == 2) {
     SubsampleLine<2>(pixels, line, count, rgb);
-  } else if (layer == 1) {
-    SubsampleLine<1>(pixels, line, count, rgb);
-  } else {
-    Interpolate(pixels, line, count, [&](int32_t k, int32_t sum) {
-      rgb[k] = static_cast<uint8_t>(RoundShift(sum, 2 * kShiftBits));
-    });
+    return;
   }
+  if (layer == 1) {
+    SubsampleLine<1>(pixels, line, count, rgb);
+    return;
+  }
+  const auto take = [&](int32_t k, int32_t sum) {
+    rgb[k] = static_cast<uint8_t>((sum + (1 << (2 * kShiftBits - 1))) >> (2 * kShiftBits));
+  };
+  if (line.x % kShiftOne == 0 || line.y % kShiftOne == 0) {
+    InterpolateOnAxis(pixels, line, count, take);
+  } else {
+    Interpolate(pixels, line, count, take);
+  }
+}
+
+// At a layer one rounding from 1 / kShiftOne of its pixels to the picture's.
+CapturedLine OfPicture(const CapturedLine& line, int layer) {
+  const int bits = kShiftBits - layer;
+  return {static_cast<int32_t>(RoundShift(line.x, bits)),
+          static_cast<int32_t>(RoundShift(line.y, bits)), line.dx * (1 << layer),
+          line.dy * (1 << layer)};
 }
 
 }  // namespace
@@ -96,15 +129,11 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
     Checked(ranges::kHolePosition, line.x + line.dx * last * kShiftOne);
     Checked(ranges::kHolePosition, line.y + line.dy * last * kShiftOne);
   }
-  // At a layer one rounding from 1 / kShiftOne of its pixels to the picture's.
-  const int layer = window.layer, bits = kShiftBits - layer;
-  const CapturedLine whole = {static_cast<int32_t>(RoundShift(line.x, bits)),
-                              static_cast<int32_t>(RoundShift(line.y, bits)),
-                              line.dx * (1 << layer), line.dy * (1 << layer)};
-  const CapturedLine& from = layer == 0 ? line : whole;
+  const int layer = window.layer;
+  const CapturedLine from = layer == 0 ? line : OfPicture(line, layer);
   // Rows and columns that are read at the first and the last place.
-  const int32_t x = layer == 0 ? line.x >> kShiftBits : whole.x;
-  const int32_t y = layer == 0 ? line.y >> kShiftBits : whole.y;
+  const int32_t x = layer == 0 ? line.x >> kShiftBits : from.x;
+  const int32_t y = layer == 0 ? line.y >> kShiftBits : from.y;
   const int32_t end_x = x + from.dx * (count - 1), end_y = y + from.dy * (count - 1);
   const int32_t reach = layer == 0 ? 1 : (1 << layer) - 1;
   const int32_t right = window.picture_width - 1, bottom = window.picture_height - 1;
@@ -117,9 +146,10 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
 }
 
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {
-  const Endless pixel = {window.view[index], window.picture_width - 1, window.picture_height - 1};
-  Interpolate(pixel, {Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y), 0, 0},
-              1, [&](int32_t k, int32_t sum) { rgb[k] = sum; });
+  const Endless pixels = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+  InterpolateOnAxis(pixels,
+                    {Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y), 0, 0}, 1,
+                    [&](int32_t k, int32_t sum) { rgb[k] = sum; });
 }
 
 int32_t CapturedBytes(const Window& window) {
@@ -128,7 +158,8 @@ int32_t CapturedBytes(const Window& window) {
 }
 
 int CapturedView(int u, int v, bool half) {
-  // By u + 1 and v + 1, at full distance; those at half distance are in the same order.
+  // By u + 1 and v + 1, at full distance; those at half distance are in the
+  // same order.
   constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};
   const int index = kIndex[u + 1][v + 1];
   return half && index != 0 ? index + 8 : index;

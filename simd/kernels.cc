@@ -14,6 +14,7 @@
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
+#include "simd/surfaces-inl.h"
 #include "simd/surroundings-inl.h"
 #include "simd/tiles-inl.h"
 #include "simd/transpose-inl.h"
@@ -45,6 +46,19 @@ void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits
 void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t count,
                 DisparityRange* ranges) {
   FindRangesOfRows(disparity, stride, rows, count, ranges);
+}
+
+void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps) {
+  FindStepsOfRow(row, count, step, steps);
+}
+
+void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t step,
+                 uint16_t* beside) {
+  FindBesideSteps(row, stride, count, step, beside);
+}
+
+uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
+  return LookBehindRow(row, hidden);
 }
 
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
@@ -135,6 +149,9 @@ const Kernels* Table() {
                                       Split,
                                       FindEdges,
                                       FindRanges,
+                                      FindSteps,
+                                      BesideSteps,
+                                      LookBehind,
                                       SelectSlice,
                                       SpreadSlice,
                                       ShiftSlice,

@@ -154,6 +154,43 @@ constexpr int16_t FarthestEdge(int unit_bits) {
   return static_cast<int16_t>(units < INT16_MAX ? units : INT16_MAX - 1);
 }
 
+// Between pixels of a row: bit k of falls tells whether pixel k lies nearer than the next one by
+// more than a step, bit k of rises whether the next one does.
+struct StepBits {
+  uint16_t falls, rises;
+};
+
+// A row of a field, behind whose depth edges surfaces are looked for. Rows lie `stride` apart, with
+// no disparity above `high`; kSliceLanes more samples are read before the row and behind it.
+struct DepthRow {
+  const int16_t* disparity;
+  ptrdiff_t stride;
+  int32_t width, above, below;  // pixels of the row; rows above and below it
+  int16_t high;
+  int unit_bits;                // of EdgeLimits
+  bool side_views, half_views;  // whether there are any, and such at half distance
+  const uint8_t* edges[4];      // distances to the right, left, bottom and top, as by find_edges
+};
+
+// No surface: the disparity where there are fewer than kSurfaces.
+inline constexpr int16_t kNoSurface = INT16_MIN;
+
+// Where the colour of a hidden surface is found: bit k, whether side k shows it (it is the mean of
+// those), bit kSourceHalf + k whether only the view at half distance does, and above
+// kSourceDistance the distance of the pixel that is repeated when no view does, else 0. 0: there is
+// no surface.
+inline constexpr int kSourceHalf = 4, kSourceDistance = 8;
+inline constexpr int16_t kUnseen =
+    256;  // added to the distance of what no view shows, for an order
+
+// What look_behind writes of a row: the surfaces behind the first one, and what the first one
+// covers (SurfaceRow).
+struct HiddenRow {
+  int16_t* disparity[kSurfaces - 1];
+  uint16_t* source[kSurfaces - 1];
+  uint8_t* share;
+};
+
 // When a run of a line ends, kDisparityBits of lib/fixed.h or any other scale.
 struct RunLimits {
   int16_t spread;  // a run's disparities differ by at most this, [0, edge]
@@ -264,6 +301,23 @@ struct Kernels {
   // Whole kSliceLanes are read.
   void (*find_ranges)(const int16_t* disparity, size_t stride, size_t rows, size_t count,
                       DisparityRange* ranges);
+
+  // Steps of more than `step` after each pixel n < count of a row, by kSliceLanes of them; pixel
+  // `count` is read.
+  void (*find_steps)(const int16_t* row, size_t count, int16_t step, StepBits* steps);
+
+  // Bit k of beside[c]: whether a pixel next to pixel c kSliceLanes + k < count, in its row or its
+  // column, is nearer by more than `step`.
+  void (*beside_steps)(const int16_t* row, ptrdiff_t stride, size_t count, int16_t step,
+                       uint16_t* beside);
+
+  // Behind a pixel lies what is beyond its edges: of all sides the surface of least distance, the
+  // nearer one of two as far away, and then the same of what lies more than a pixel per unit from
+  // that. Sides that a side view shows come before all others: where no pixel towards the side lies
+  // nearer, by half a pixel per unit, and moves in the view to within 3/4 of a pixel of the place
+  // behind. Shares are kSliceEnd beside an edge, else kSliceWhole. Returns of which kSliceLanes of
+  // the row something is hidden; only there sources are written. width <= 64 kSliceLanes.
+  uint64_t (*look_behind)(const DepthRow& row, const HiddenRow& hidden);
 
   // Of the surfaces within the range, at each pixel n < count: the colour of the first one times
   // its share, plus that of the next one times the rest, and what both cover; zeros where there is

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
 
 #include "simd/kernels.h"
 
@@ -121,6 +122,104 @@ void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t cou
     }
     ranges[chunk / kSliceLanes] = range;
   }
+}
+
+void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps) {
+  for (size_t n = 0; n < count; ++n) {
+    StepBits& bits = steps[n / kSliceLanes];
+    if (n % kSliceLanes == 0) bits = {0, 0};
+    const int fall = row[n] - row[n + 1], bit = 1 << n % kSliceLanes;
+    bits.falls = static_cast<uint16_t>(bits.falls | (fall > step ? bit : 0));
+    bits.rises = static_cast<uint16_t>(bits.rises | (-fall > step ? bit : 0));
+  }
+}
+
+void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t step,
+                 uint16_t* beside) {
+  for (size_t n = 0; n < count; ++n) {
+    uint16_t& bits = beside[n / kSliceLanes];
+    if (n % kSliceLanes == 0) bits = 0;
+    bool nearer = false;
+    for (const ptrdiff_t next : {ptrdiff_t{1}, ptrdiff_t{-1}, stride, -stride}) {
+      nearer = nearer || row[static_cast<ptrdiff_t>(n) + next] - row[n] > step;
+    }
+    bits = static_cast<uint16_t>(bits | (nearer ? 1 << n % kSliceLanes : 0));
+  }
+}
+
+// What one side shows behind a pixel.
+struct HiddenSide {
+  int rank;  // the nearer edge first, and those that a side view shows
+  int16_t disparity;
+  bool half;
+};
+constexpr int kNoRank = INT16_MAX;
+
+// Whether something lies before the place behind a pixel in the view that moves by a pixel per
+// `unit`; the `room` pixels towards the side are `step` apart.
+bool IsCovered(const int16_t* at, ptrdiff_t step, int32_t room, int16_t disparity, int32_t unit) {
+  for (int32_t u = 0; u <= room; ++u, at += step) {
+    const int32_t nearer = *at - disparity;
+    if (2 * nearer > unit && 4 * std::abs(nearer - u * unit) < 3 * unit) return true;
+  }
+  return false;
+}
+
+HiddenSide LookBehindSide(const DepthRow& row, int32_t x, int side) {
+  const int32_t distance = row.edges[side][x], unit = 1 << row.unit_bits;
+  if (distance == 0) return {kNoRank, kNoSurface, false};
+  const ptrdiff_t along = side < 2 ? 1 : row.stride, step = side % 2 == 0 ? along : -along;
+  const int32_t rooms[4] = {row.width - 1 - x, x, row.below, row.above};
+  const int16_t* at = row.disparity + x;
+  const int16_t disparity = at[step * distance];
+  for (const bool half : {false, true}) {
+    if (!row.side_views || (half && !row.half_views)) break;
+    if (!IsCovered(at, step, rooms[side], disparity, half ? 2 * unit : unit)) {
+      return {distance, disparity, half};
+    }
+  }
+  return {distance + kUnseen, disparity, false};
+}
+
+// Writes pixel x of surface `behind` + 1, farther than `above` or nearer. Returns its disparity.
+int16_t ChooseSurface(const HiddenSide* sides, int32_t x, int behind, int32_t unit, int16_t above,
+                      const HiddenRow& hidden) {
+  const HiddenSide* best = nullptr;
+  for (const HiddenSide* side = sides; side < sides + 4; ++side) {
+    if (side->rank == kNoRank) continue;
+    if (behind > 0 && std::abs(side->disparity - above) <= unit) continue;
+    const bool before = best == nullptr || side->rank < best->rank ||
+                        (side->rank == best->rank && side->disparity > best->disparity);
+    if (before) best = side;
+  }
+  int source = 0;
+  for (int k = 0; best != nullptr && k < 4; ++k) {
+    if (sides[k].rank != best->rank || sides[k].disparity != best->disparity) continue;
+    source |= 1 << k | (sides[k].half ? 1 << (kSourceHalf + k) : 0);
+    if (best->rank > kUnseen) source |= (best->rank - kUnseen) << kSourceDistance;
+  }
+  hidden.source[behind][x] = static_cast<uint16_t>(source);
+  return hidden.disparity[behind][x] = best == nullptr ? kNoSurface : best->disparity;
+}
+
+uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
+  uint64_t chunks = 0;
+  for (int32_t x = 0; x < static_cast<int32_t>(SliceSamples(static_cast<size_t>(row.width))); ++x) {
+    HiddenSide sides[4];
+    bool end = false;
+    for (int side = 0; side < 4; ++side) {
+      sides[side] = LookBehindSide(row, x, side);
+      end = end || row.edges[side][x] == 1;
+    }
+    hidden.share[x] = end ? kSliceEnd : static_cast<uint8_t>(kSliceWhole);
+    int16_t above = kNoSurface;
+    for (int behind = 0; behind < kSurfaces - 1; ++behind) {
+      above = ChooseSurface(sides, x, behind, 1 << row.unit_bits, above, hidden);
+      if (above == kNoSurface) continue;
+      chunks |= uint64_t{1} << (static_cast<size_t>(x) / kSliceLanes);
+    }
+  }
+  return chunks;
 }
 
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
@@ -454,10 +553,11 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 
 const Kernels& ReferenceKernels() {
   static constexpr Kernels kernels = {
-      "reference",      Accumulate,  Blend,       FilterDisc,    Split,          FindEdges,
-      FindRanges,       SelectSlice, SpreadSlice, ShiftSlice,    Composite,      FinishStack,
-      FindRuns,         MeasureCell, ReachBlock,  SurroundCells, Transpose,      Finish,
-      ConvertDisparity, Widen,       Narrow,      FinishLayer,   FilterHalfBand, Between};
+      "reference",      Accumulate, Blend,         FilterDisc,  Split,       FindEdges,
+      FindRanges,       FindSteps,  BesideSteps,   LookBehind,  SelectSlice, SpreadSlice,
+      ShiftSlice,       Composite,  FinishStack,   FindRuns,    MeasureCell, ReachBlock,
+      SurroundCells,    Transpose,  Finish,        ConvertDisparity, Widen,  Narrow,
+      FinishLayer,      FilterHalfBand, Between};
   return kernels;
 }
 

@@ -1,5 +1,4 @@
-// The kernels of slices: split, find_edges, select_slice, spread_slice.
-// Included once per target.
+// The kernels of slices: select_slice, spread_slice. Included once per target.
 #if defined(STARFOCUS_SIMD_SLICES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_SLICES_INL_H_
 #undef STARFOCUS_SIMD_SLICES_INL_H_
@@ -16,49 +15,6 @@ namespace HWY_NAMESPACE {
 
 // Wider vectors would hold more than a narrow tile.
 using SliceTag = hn::CappedTag<int16_t, kSliceLanes>;
-
-HWY_INLINE void SplitPixels(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t plane,
-                            uint8_t* HWY_RESTRICT out) {
-  const hn::CappedTag<uint8_t, kSliceLanes> d8;
-  const size_t lanes = hn::Lanes(d8);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
-    hn::Vec<decltype(d8)> r, g, b;
-    hn::LoadInterleaved3(d8, rgb + 3 * n, r, g, b);
-    hn::StoreU(r, d8, out + n);
-    hn::StoreU(g, d8, out + plane + n);
-    hn::StoreU(b, d8, out + 2 * plane + n);
-  }
-  for (; n < count; ++n) {
-    for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
-  }
-}
-
-HWY_INLINE void FindEdgesOfRow(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,
-                               const EdgeLimits& limits, size_t count, int16_t* HWY_RESTRICT moved,
-                               int16_t* HWY_RESTRICT behind, uint8_t* HWY_RESTRICT distance) {
-  const SliceTag d16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
-  const size_t lanes = hn::Lanes(d16);
-  const auto step = hn::Set(d16, limits.step);
-  const auto unit = hn::Set(d16, static_cast<int16_t>(1 << limits.unit_bits));
-  const auto farthest = hn::Set(d16, FarthestEdge(limits.unit_bits));
-  const auto one = hn::Set(d16, int16_t{1});
-  for (size_t n = 0; n < SliceSamples(count); n += lanes) {
-    const auto here = hn::LoadU(d16, near + n), next = hn::LoadU(d16, far + n);
-    const auto edge = hn::Gt(hn::SaturatedSub(here, next), step);
-    const auto far_away = hn::SaturatedAdd(hn::LoadU(d16, moved + n), unit);
-    const auto moves = hn::IfThenZeroElse(edge, far_away);
-    const auto surface = hn::IfThenElse(edge, next, hn::LoadU(d16, behind + n));
-    hn::StoreU(moves, d16, moved + n);
-    hn::StoreU(surface, d16, behind + n);
-    const auto depth = hn::SaturatedSub(here, surface);
-    const auto beyond = hn::Gt(moves, hn::Min(depth, farthest));
-    const auto hides = hn::AndNot(beyond, hn::Gt(depth, step));
-    const auto pixels = hn::Add(hn::ShiftRightSame(moves, limits.unit_bits), one);
-    hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(hides, pixels)), d8, distance + n);
-  }
-}
 
 HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, const SliceRange& range, size_t count,
                                    size_t plane, int16_t* HWY_RESTRICT out) {

@@ -25,20 +25,6 @@ using starfocus::simd::SliceShift;
 // Samples that kernels write and read of a row.
 size_t Whole(size_t count) { return starfocus::simd::SliceSamples(count); }
 
-void TestSplit(const Kernels& kernels) {
-  test::Random random(1);
-  for (size_t count = 1; count <= 70; ++count) {
-    const std::vector<uint8_t> rgb = test::RandomBytes(3 * count + kPadding, &random);
-    const size_t plane = count + size_t(random.Int(0, 9));
-    std::vector<uint8_t> expected(3 * plane, 7), got = expected;
-    ReferenceKernels().split(rgb.data(), count, plane, expected.data());
-    kernels.split(rgb.data(), count, plane, got.data());
-    CAPTURE(count);
-    CHECK(got == expected);
-    CHECK(expected[2 * plane + count - 1] == rgb[3 * count - 1]);
-  }
-}
-
 // Disparities with runs and edges, also at the ends of the range.
 std::vector<int16_t> Disparities(size_t count, test::Random* random) {
   std::vector<int16_t> row(count);
@@ -48,37 +34,6 @@ std::vector<int16_t> Disparities(size_t count, test::Random* random) {
     disparity = int16_t(random->Int(0, 60) == 0 ? random->Int(-32000, 32000) : value);
   }
   return row;
-}
-
-void TestFindEdges(const Kernels& kernels) {
-  test::Random random(2);
-  for (size_t count = 1; count <= 50; ++count) {
-    const starfocus::simd::EdgeLimits limits = {48, random.Int(6, 8)};
-    const size_t whole = Whole(count);
-    std::vector<int16_t> moved(whole, INT16_MAX), behind(whole, 0),
-        far = Disparities(whole, &random);
-    std::vector<int16_t> got_moved = moved, got_behind = behind;
-    int hidden = 0;
-    for (int row = 0; row < 20; ++row) {
-      std::vector<int16_t> near = far;
-      for (int16_t& d : near) {
-        if (random.Int(0, 3) == 0)
-          d = int16_t(std::clamp(d + random.Int(-300, 600), -32000, 32000));
-      }
-      std::vector<uint8_t> expected(whole), got(whole);
-      ReferenceKernels().find_edges(near.data(), far.data(), limits, count, moved.data(),
-                                    behind.data(), expected.data());
-      kernels.find_edges(near.data(), far.data(), limits, count, got_moved.data(),
-                         got_behind.data(), got.data());
-      CAPTURE(count);
-      CHECK(got == expected);
-      CHECK(got_moved == moved);
-      CHECK(got_behind == behind);
-      for (const uint8_t distance : expected) hidden += distance > 0;
-      far = near;
-    }
-    CHECK(hidden > 0);
-  }
 }
 
 void TestSelect(const Kernels& kernels) {
@@ -248,8 +203,6 @@ void TestComposite(const Kernels& kernels) {
 TEST_CASE("slice kernels: every target gives the bits of the plain ones") {
   for (const Kernels* kernels : test::SimdTargets()) {
     CAPTURE(kernels->name);
-    TestSplit(*kernels);
-    TestFindEdges(*kernels);
     TestSelect(*kernels);
     TestSpread(*kernels);
     TestShift(*kernels);

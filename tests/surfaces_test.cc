@@ -16,6 +16,7 @@ using starfocus::Surfaces;
 
 constexpr int kSize = 40;
 constexpr int kStride = 48;  // SliceSamples
+constexpr int kChunk = int(starfocus::simd::kSliceLanes);
 constexpr int kArea = kStride * kSize + 16;
 
 // A disparity map in pixels per unit, the centre view in one grey level, captured views that say
@@ -25,6 +26,8 @@ struct Scene {
   std::vector<uint8_t> centre = std::vector<uint8_t>(3 * kSize * kSize);
   std::vector<uint8_t> side[SF_MAX_VIEWS];
   std::vector<int16_t> planes[3], rows[2];
+  std::vector<uint16_t> sources[2];
+  std::vector<starfocus::simd::StepBits> steps;
   std::vector<uint8_t> colours[3], edges[4], hiding = std::vector<uint8_t>(kSize), share, rgb;
   starfocus::Window window;
   Surfaces surfaces;
@@ -60,9 +63,9 @@ struct Scene {
     window.centre = {centre.data(), 3 * kSize, 0, 0};
     window.disparity = {disparity.data(), kSize, 0, 0};
     for (int k = 0; k < 3; ++k) {
-      planes[k].assign(kArea, 0);
+      planes[k].assign(kArea + 2 * kChunk, 0);
       colours[k].assign(3 * kArea, 0);
-      surfaces.disparity[k] = planes[k].data();
+      surfaces.disparity[k] = planes[k].data() + kChunk;
       surfaces.rgb[k] = colours[k].data();
     }
     for (int k = 0; k < 4; ++k) {
@@ -70,13 +73,19 @@ struct Scene {
       surfaces.edges[k] = edges[k].data();
     }
     for (std::vector<int16_t>& row : rows) row.assign(kStride, 0);
+    for (int k = 0; k < 2; ++k) {
+      sources[k].assign(kStride, 0);
+      surfaces.sources[k] = sources[k].data();
+    }
+    steps.resize(kStride / kChunk);
+    surfaces.steps = steps.data();
     share.assign(kArea, 0);
     surfaces.share = share.data();
     surfaces.moved = rows[0].data();
     surfaces.behind = rows[1].data();
     surfaces.hiding = hiding.data();
     rgb.assign(starfocus::RgbStride(kSize) * kSize, 0);
-    std::vector<int16_t> copy(kSize * kSize);
+    std::vector<int16_t> copy(kSize * kSize + starfocus::simd::kPadding);
     starfocus::Field field;
     field.rgb = rgb.data();
     field.disparity = copy.data();

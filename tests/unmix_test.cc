@@ -53,14 +53,14 @@ struct Scene {
 
   // The grey levels of the middle row.
   std::vector<int> Unmixed(int layer = 0) {
-    std::vector<int16_t> copy(disparity.size());
+    std::vector<int16_t> copy(disparity.size() + starfocus::simd::kPadding);
     field.disparity = copy.data();
     starfocus::LoadField(window, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
     starfocus::Aperture aperture;
     aperture.n = 4;
     window.layer = layer;
     const ViewGrid grid = starfocus::MakeViewGrid(aperture, 0, 1, 0, false);
-    starfocus::UnmixEdges(window, grid, &field);
+    starfocus::UnmixEdges(starfocus::simd::BestKernels(), window, grid, &field);
     std::vector<int> greys;
     for (int x = 0; x < kSize; ++x) greys.push_back(*field.Rgb(x, kSize / 2));
     return greys;

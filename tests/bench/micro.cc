@@ -34,6 +34,8 @@ struct Buffers {
   std::vector<Span> spans;
   std::vector<uint16_t> starts, edges;  // of runs
   std::vector<int16_t> middles;
+  std::vector<starfocus::simd::StepBits> steps;
+  std::vector<uint8_t> distances;  // to depth edges: none
 
   explicit Buffers(bool pairs)
       : bytes(kSamples + 2 * kMargin + kPadding),
@@ -44,7 +46,9 @@ struct Buffers {
         disparity(bytes.size(), 1.5f),
         starts(bytes.size()),
         edges(bytes.size()),
-        middles(bytes.size()) {
+        middles(bytes.size()),
+        steps(bytes.size()),
+        distances(bytes.size()) {
     for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = uint8_t(i * 37);
     for (size_t i = 0; i < in.size(); ++i) in[i] = int16_t(i * 61 % 16320);
     for (size_t i = 0; i < kSamples; i += kSpan) {
@@ -94,6 +98,32 @@ void Composite(const Kernels& kernels, Buffers* b) {
   kernels.composite({weights, shifts, kSliceViews, 2, shown, 2, 0}, kTileRows, b->sums.data());
 }
 
+// Of 128 pixels, a quarter lie 15 units before the others and hide them at their left, for views at
+// half distance to look at as well.
+void LookBehind(const Kernels& kernels, Buffers* b) {
+  using starfocus::simd::kSliceLanes;
+  int16_t disparity[kPlane + 2 * kSliceLanes] = {};
+  uint8_t left[kPlane] = {};
+  for (size_t n = kSliceLanes; n < kPlane; ++n) {
+    if (n % 16 >= 4) continue;
+    left[n] = uint8_t(n % 16 + 1);
+    disparity[kSliceLanes + n] = 15 << 6;
+  }
+  const uint8_t* none = b->distances.data();
+  starfocus::simd::DepthRow row = {};
+  row.disparity = disparity + kSliceLanes;
+  row.width = kPlane;
+  row.high = 15 << 6;
+  row.unit_bits = 6;
+  row.side_views = row.half_views = true;
+  for (int side = 0; side < 4; ++side) row.edges[side] = side == 1 ? left : none;
+  const starfocus::simd::HiddenRow hidden = {
+      {b->out.data(), b->out.data() + kPlane}, {b->starts.data(), b->edges.data()}, b->line.data()};
+  for (size_t n = 0; n < kSamples / kPlane; ++n) {
+    benchmark::DoNotOptimize(kernels.look_behind(row, hidden));
+  }
+}
+
 struct Case {
   const char* name;
   bool pairs;
@@ -139,6 +169,15 @@ const Case kCases[] = {
          benchmark::DoNotOptimize(ranges);
        }
      }},
+    {"find_steps", false, 2,
+     [](const Kernels& k, Buffers* b) {
+       k.find_steps(b->in.data(), kSamples, 20000, b->steps.data());
+     }},
+    {"beside_steps", false, 2,
+     [](const Kernels& k, Buffers* b) {
+       k.beside_steps(b->in.data() + kMargin, 8, kSamples, 20000, b->starts.data());
+     }},
+    {"look_behind", false, 2 + 4 + 2 * 2 + 1, LookBehind},
     {"select_slice", false, 3 * (2 + 3) / 4 + 1 + 2,
      [](const Kernels& k, Buffers* b) {
        const int16_t* in = b->in.data();

@@ -1,0 +1,306 @@
+// The kernels of surfaces: split, find_steps, find_edges, look_behind, beside_steps. Included once
+// per target.
+#if defined(STARFOCUS_SIMD_SURFACES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_SURFACES_INL_H_
+#undef STARFOCUS_SIMD_SURFACES_INL_H_
+#else
+#define STARFOCUS_SIMD_SURFACES_INL_H_
+#endif
+
+#include "simd/compat-inl.h"
+#include "simd/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+// A chunk of kSliceLanes at most, so that bits of a mask are those of a chunk.
+using SurfaceTag = hn::CappedTag<int16_t, kSliceLanes>;
+
+HWY_INLINE void SplitPixels(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t plane,
+                            uint8_t* HWY_RESTRICT out) {
+  const hn::CappedTag<uint8_t, kSliceLanes> d8;
+  const size_t lanes = hn::Lanes(d8);
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    hn::Vec<decltype(d8)> r, g, b;
+    hn::LoadInterleaved3(d8, rgb + 3 * n, r, g, b);
+    hn::StoreU(r, d8, out + n);
+    hn::StoreU(g, d8, out + plane + n);
+    hn::StoreU(b, d8, out + 2 * plane + n);
+  }
+  for (; n < count; ++n) {
+    for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
+  }
+}
+
+HWY_INLINE void FindEdgesOfRow(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,
+                               const EdgeLimits& limits, size_t count, int16_t* HWY_RESTRICT moved,
+                               int16_t* HWY_RESTRICT behind, uint8_t* HWY_RESTRICT distance) {
+  const SurfaceTag d16;
+  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  const size_t lanes = hn::Lanes(d16);
+  const auto step = hn::Set(d16, limits.step);
+  const auto unit = hn::Set(d16, static_cast<int16_t>(1 << limits.unit_bits));
+  const auto farthest = hn::Set(d16, FarthestEdge(limits.unit_bits));
+  const auto one = hn::Set(d16, int16_t{1});
+  for (size_t n = 0; n < SliceSamples(count); n += lanes) {
+    const auto here = hn::LoadU(d16, near + n), next = hn::LoadU(d16, far + n);
+    const auto edge = hn::Gt(hn::SaturatedSub(here, next), step);
+    const auto far_away = hn::SaturatedAdd(hn::LoadU(d16, moved + n), unit);
+    const auto moves = hn::IfThenZeroElse(edge, far_away);
+    const auto surface = hn::IfThenElse(edge, next, hn::LoadU(d16, behind + n));
+    hn::StoreU(moves, d16, moved + n);
+    hn::StoreU(surface, d16, behind + n);
+    const auto depth = hn::SaturatedSub(here, surface);
+    const auto beyond = hn::Gt(moves, hn::Min(depth, farthest));
+    const auto hides = hn::AndNot(beyond, hn::Gt(depth, step));
+    const auto pixels = hn::Add(hn::ShiftRightSame(moves, limits.unit_bits), one);
+    hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(hides, pixels)), d8, distance + n);
+  }
+}
+
+// Bit k: lane k.
+template <class D>
+HWY_INLINE uint32_t BitsOf(D d, hn::Mask<D> mask) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return uint32_t{bytes[0]} | uint32_t{bytes[1]} << 8;
+}
+
+// What the four sides show behind a chunk of pixels, if bit k of `some` is set for side k. In
+// memory, since some vectors have no size.
+struct ChunkSides {
+  uint32_t some;
+  int16_t rank[4][kSliceLanes], disparity[4][kSliceLanes], half[4][kSliceLanes];
+};
+constexpr int16_t kNoRank = INT16_MAX;
+
+// Lanes of pixels before which something lies in the view that moves by a pixel per `unit`; the
+// pixels that may, one after the other towards the side, are `step` apart. Up to `room` of them are
+// in the field, of all lanes at least `sure`, and none after `last` comes so far.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, V disparity, V room,
+                                   int32_t sure, int16_t unit, int32_t last) {
+  const auto reach = static_cast<int16_t>(3 * unit / 4 - 1);
+  const auto nearer = hn::Add(disparity, hn::Set(d16, static_cast<int16_t>(unit / 2)));
+  // Whether the place is within `reach` of the pixel is one comparison of the distance and `reach`,
+  // as an unsigned number; what is not nearer is told by the other.
+  auto start = hn::Sub(hn::Sub(disparity, hn::Set(d16, reach)), hn::Set(d16, INT16_MIN));
+  const auto end = hn::Set(d16, static_cast<int16_t>(INT16_MIN + 2 * reach + 1));
+  const auto next = hn::Set(d16, unit);
+  auto covered = hn::Zero(d16);
+  int32_t u = 0;
+  const auto covers = [&]() HWY_ATTR {
+    const auto here = hn::LoadU(d16, at);
+    const auto near = hn::And(hn::Gt(here, nearer), hn::Lt(hn::Sub(here, start), end));
+    start = hn::Add(start, next);
+    at += step;
+    ++u;
+    return near;
+  };
+  while (u <= last && u <= sure) covered = hn::Or(covered, hn::VecFromMask(d16, covers()));
+  while (u <= last) {
+    const auto outside = hn::Gt(hn::Set(d16, static_cast<int16_t>(u)), room);
+    covered = hn::Or(covered, hn::VecFromMask(d16, hn::AndNot(outside, covers())));
+  }
+  return hn::MaskFromVec(covered);
+}
+
+// The sides of kSides of lib/window.h.
+HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, ChunkSides* sides) {
+  const SurfaceTag d16;
+  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  const ptrdiff_t along = side < 2 ? 1 : row.stride, step = side % 2 == 0 ? along : -along;
+  const int32_t unit = 1 << row.unit_bits, vertical = side == 2 ? row.below : row.above;
+  int16_t* const behind = sides->disparity[side];
+  const int16_t* const pixels = row.disparity + chunk;
+  const uint8_t* const distances = row.edges[side] + chunk;
+  for (ptrdiff_t k = 0; k < static_cast<ptrdiff_t>(kSliceLanes); ++k) {
+    behind[k] = pixels[k + step * distances[k]];
+  }
+  for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
+    const auto column = static_cast<int32_t>(chunk + k);
+    const int16_t* at = pixels + k;
+    const auto distance = hn::PromoteTo(d16, hn::LoadU(d8, distances + k));
+    const auto hides = hn::Gt(distance, hn::Zero(d16));
+    const auto disparity = hn::LoadU(d16, behind + k);
+    const auto columns = hn::Iota(d16, static_cast<int16_t>(column));
+    const auto width = hn::Set(d16, static_cast<int16_t>(row.width - 1));
+    const auto room = side == 0   ? hn::Sub(width, columns)
+                      : side == 1 ? columns
+                                  : hn::Set(d16, static_cast<int16_t>(vertical));
+    const auto high = hn::Set(d16, row.high);
+    const int32_t low = hn::GetLane(hn::MinOfLanes(d16, hn::IfThenElse(hides, disparity, high)));
+    const int32_t depth = row.high - low;
+    const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
+    const int32_t end = row.width - lanes - column;
+    const int32_t sure = side == 0 ? end : side == 1 ? column : vertical;
+    const int32_t most = side == 0   ? row.width - 1 - column
+                         : side == 1 ? column + lanes - 1
+                                     : vertical;
+    const auto last = [&](int32_t units)
+                          HWY_ATTR { return depth / units + 1 < most ? depth / units + 1 : most; };
+    auto unseen = hides, half = hn::Lt(distance, hn::Zero(d16));
+    if (row.side_views) {
+      unseen = hn::And(hides, FindCovered(d16, at, step, disparity, room, sure,
+                                          static_cast<int16_t>(unit), last(unit)));
+      if (row.half_views && !hn::AllFalse(d16, unseen)) {
+        const auto covered = FindCovered(d16, at, step, disparity, room, sure,
+                                         static_cast<int16_t>(2 * unit), last(2 * unit));
+        half = hn::AndNot(covered, unseen);
+        unseen = hn::And(covered, unseen);
+      }
+    }
+    const auto far = hn::IfThenElseZero(unseen, hn::Set(d16, kUnseen));
+    const auto rank = hn::IfThenElse(hides, hn::Add(distance, far), hn::Set(d16, kNoRank));
+    hn::StoreU(rank, d16, sides->rank[side] + k);
+    hn::StoreU(hn::VecFromMask(d16, half), d16, sides->half[side] + k);
+  }
+}
+
+// The nearest surface of rank `best`, `disparity`, and where its colour is.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V disparity) {
+  auto source = hn::Zero(d16);
+  for (int side = 0; side < 4; ++side) {
+    if ((sides.some >> side & 1) == 0) continue;
+    const auto same = hn::And(hn::Eq(hn::LoadU(d16, sides.rank[side] + k), best),
+                              hn::Eq(hn::LoadU(d16, sides.disparity[side] + k), disparity));
+    const auto bit = hn::Set(d16, static_cast<int16_t>(1 << side));
+    const auto half_bit = hn::Set(d16, static_cast<int16_t>(1 << (side + kSourceHalf)));
+    const auto bits = hn::Or(bit, hn::And(half_bit, hn::LoadU(d16, sides.half[side] + k)));
+    source = hn::Or(source, hn::IfThenElseZero(same, bits));
+  }
+  const auto unseen = hn::Gt(best, hn::Set(d16, int16_t{kUnseen}));
+  const auto distance = hn::IfThenElseZero(unseen, hn::ShiftLeft<kSourceDistance>(best));
+  const auto some = hn::Lt(best, hn::Set(d16, kNoRank));
+  return hn::IfThenElseZero(some, hn::Or(source, distance));
+}
+
+// The nearest and the next of them. Returns whether there is any.
+HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t chunk,
+                               const HiddenRow& hidden) {
+  const SurfaceTag d16;
+  const hn::RebindToUnsigned<SurfaceTag> du16;
+  const auto unit = hn::Set(d16, static_cast<int16_t>(1 << unit_bits));
+  const auto none = hn::Set(d16, kNoRank), nothing = hn::Set(d16, kNoSurface);
+  bool any = false;
+  for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
+    auto above = nothing;
+    for (int surface = 0; surface < kSurfaces - 1; ++surface) {
+      auto best = none, disparity = nothing;
+      for (int side = 0; side < 4; ++side) {
+        if ((sides.some >> side & 1) == 0) continue;
+        const auto far = hn::LoadU(d16, sides.disparity[side] + k);
+        const auto step = hn::SaturatedSub(hn::Max(far, above), hn::Min(far, above));
+        const auto other = surface == 0 ? hn::Eq(far, far) : hn::Gt(step, unit);
+        const auto rank = hn::IfThenElse(other, hn::LoadU(d16, sides.rank[side] + k), none);
+        const auto same = hn::Eq(rank, best);
+        const auto nearest = hn::IfThenElse(same, hn::Max(disparity, far), disparity);
+        disparity = hn::IfThenElse(hn::Lt(rank, best), far, nearest);
+        best = hn::Min(best, rank);
+      }
+      above = hn::IfThenElse(hn::Lt(best, none), disparity, nothing);
+      any = any || !hn::AllFalse(d16, hn::Lt(best, none));
+      hn::StoreU(above, d16, hidden.disparity[surface] + chunk + k);
+      const auto source = SourceOf(d16, sides, k, best, above);
+      hn::StoreU(hn::BitCast(du16, source), du16, hidden.source[surface] + chunk + k);
+    }
+  }
+  return any;
+}
+
+// Which sides of a chunk hide something, bit by bit; tells where surfaces end. Most hide nothing.
+HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t chunk, uint8_t* HWY_RESTRICT share) {
+  const hn::CappedTag<uint8_t, kSliceLanes> d8;
+  const auto one = hn::Set(d8, uint8_t{1}), none = hn::Zero(d8);
+  const auto whole = hn::Set(d8, static_cast<uint8_t>(kSliceWhole));
+  uint32_t sides = 0;
+  for (size_t n = chunk; n < chunk + kSliceLanes; n += hn::Lanes(d8)) {
+    const auto right = hn::LoadU(d8, row.edges[0] + n), left = hn::LoadU(d8, row.edges[1] + n);
+    const auto bottom = hn::LoadU(d8, row.edges[2] + n), top = hn::LoadU(d8, row.edges[3] + n);
+    if (hn::AllTrue(d8, hn::Eq(hn::Or(hn::Or(right, left), hn::Or(bottom, top)), none))) {
+      hn::StoreU(whole, d8, share + n);
+      continue;
+    }
+    const auto along = hn::Or(hn::Eq(right, one), hn::Eq(left, one));
+    const auto across = hn::Or(hn::Eq(bottom, one), hn::Eq(top, one));
+    hn::StoreU(hn::IfThenElse(hn::Or(along, across), hn::Set(d8, kSliceEnd), whole), d8, share + n);
+    if (!hn::AllTrue(d8, hn::Eq(right, none))) sides |= 1;
+    if (!hn::AllTrue(d8, hn::Eq(left, none))) sides |= 2;
+    if (!hn::AllTrue(d8, hn::Eq(bottom, none))) sides |= 4;
+    if (!hn::AllTrue(d8, hn::Eq(top, none))) sides |= 8;
+  }
+  return sides;
+}
+
+HWY_INLINE uint64_t LookBehindRow(const DepthRow& row, const HiddenRow& hidden) {
+  const SurfaceTag d16;
+  ChunkSides sides;
+  uint64_t chunks = 0, bit = 1;
+  const auto nothing = hn::Set(d16, kNoSurface);
+  const auto width = static_cast<size_t>(row.width);
+  for (size_t chunk = 0; chunk < width; chunk += kSliceLanes, bit <<= 1) {
+    sides.some = MarkEnds(row, chunk, hidden.share);
+    if (sides.some == 0) {
+      for (size_t n = chunk; n < chunk + kSliceLanes; n += hn::Lanes(d16)) {
+        for (int16_t* disparity : hidden.disparity) hn::StoreU(nothing, d16, disparity + n);
+      }
+      continue;
+    }
+    for (int side = 0; side < 4; ++side) {
+      if ((sides.some >> side & 1) != 0) LookBehindSide(row, side, chunk, &sides);
+    }
+    if (ChooseSurfaces(sides, row.unit_bits, chunk, hidden)) chunks |= bit;
+  }
+  return chunks;
+}
+
+// Lanes beyond `count` are masked before anything depends on them: what lies there may never have
+// been written.
+HWY_INLINE void FindStepsOfRow(const int16_t* HWY_RESTRICT row, size_t count, int16_t step,
+                               StepBits* HWY_RESTRICT steps) {
+  const SurfaceTag d16;
+  const auto least = hn::Set(d16, step);
+  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, ++steps) {
+    uint32_t falls = 0, rises = 0;
+    const size_t end = count - chunk < kSliceLanes ? count - chunk : kSliceLanes;
+    for (size_t k = 0; k < end; k += hn::Lanes(d16)) {
+      const int16_t* at = row + chunk + k;
+      const auto here = hn::LoadU(d16, at), next = hn::LoadU(d16, at + 1);
+      const auto counted = hn::FirstN(d16, end - k);
+      const auto fall = hn::And(hn::Gt(hn::SaturatedSub(here, next), least), counted);
+      const auto rise = hn::And(hn::Gt(hn::SaturatedSub(next, here), least), counted);
+      if (hn::AllFalse(d16, hn::Or(fall, rise))) continue;
+      falls |= BitsOf(d16, fall) << k;
+      rises |= BitsOf(d16, rise) << k;
+    }
+    *steps = {static_cast<uint16_t>(falls), static_cast<uint16_t>(rises)};
+  }
+}
+
+HWY_INLINE void FindBesideSteps(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_t count,
+                                int16_t step, uint16_t* HWY_RESTRICT beside) {
+  const SurfaceTag d16;
+  const auto least = hn::Set(d16, step);
+  for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, ++beside) {
+    uint32_t bits = 0;
+    const size_t end = count - chunk < kSliceLanes ? count - chunk : kSliceLanes;
+    for (size_t k = 0; k < end; k += hn::Lanes(d16)) {
+      const int16_t* at = row + chunk + k;
+      const auto sides = hn::Max(hn::LoadU(d16, at - 1), hn::LoadU(d16, at + 1));
+      const auto ends = hn::Max(hn::LoadU(d16, at - stride), hn::LoadU(d16, at + stride));
+      const auto nearer = hn::SaturatedSub(hn::Max(sides, ends), hn::LoadU(d16, at));
+      const auto edge = hn::And(hn::Gt(nearer, least), hn::FirstN(d16, end - k));
+      if (!hn::AllFalse(d16, edge)) bits |= BitsOf(d16, edge) << k;
+    }
+    *beside = static_cast<uint16_t>(bits);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif
