@@ -412,6 +412,7 @@ TEST_CASE("refocus: a runner's failure is reported, in whichever phase of a stri
   // Out of focus, so that all phases of block mode run.
   Fixture f;
   f.config.gather = 0;
+  f.config.max_blur = 12;
   test::Engine engine(f.config);
   REQUIRE(engine.status() == SF_OK);
   struct Failing {
@@ -425,7 +426,7 @@ TEST_CASE("refocus: a runner's failure is reported, in whichever phase of a stri
   };
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
     CAPTURE(mode);
-    f.params = test::Params(5.75, 1, mode);
+    f.params = test::Params(9.75, 1, mode);
     const auto run = [&](Failing* failing) {
       return sf_refocus(engine.get(), &f.params, &f.field, f.out.bytes.data(), f.out.stride,
                         Failing::Run, failing, nullptr);

@@ -133,9 +133,9 @@ TEST_CASE("constants: the layers of (12)") {
 }
 
 TEST_CASE("constants: the layers beside the rule for cells") {
-  const double below = std::nextafter(5.0, 0.0);
-  CHECK_MESSAGE(LayerByCells(below, false) == 0, "LayerByCells: layer 1 begins below r = 5");
-  CHECK_MESSAGE(LayerByCells(5, false) == 1, "LayerByCells: layer 1 begins above r = 5");
+  const double below = std::nextafter(7.0, 0.0);
+  CHECK_MESSAGE(LayerByCells(below, false) == 0, "LayerByCells: layer 1 begins below r = 7");
+  CHECK_MESSAGE(LayerByCells(7, false) == 1, "LayerByCells: layer 1 begins above r = 7");
   const double second = std::nextafter(24.0, 0.0);
   CHECK_MESSAGE(LayerByCells(second, false) == 1, "LayerByCells: layer 2 begins below r = 24");
   CHECK_MESSAGE(LayerByCells(24, false) == 2, "LayerByCells: layer 2 begins above r = 24");
@@ -188,7 +188,7 @@ TEST_CASE("constants: the running engine has the kernel it is described by") {
   constexpr int kMost = STARFOCUS_EMULATED ? 25 : 40;
   for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_CELLS}) {
     CheckEngine(rule, 0, 0, kMost);
-    CheckEngine(rule, 1, rule == SF_RULE_PAPER ? 3 : 5, kMost);
+    CheckEngine(rule, 1, rule == SF_RULE_PAPER ? 3 : 7, kMost);
     CheckEngine(rule, 2, rule == SF_RULE_PAPER ? 6 : 24, kMost);
   }
 }

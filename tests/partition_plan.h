@@ -133,7 +133,7 @@ inline int LayerFrom(double r_min, double radius) {
 // silhouettes never rounded to four pixels.
 inline int LayerOf(bool cells, double r_min, bool silhouette) {
   if (!cells) return LayerFrom(r_min, 3);
-  return r_min < 5 ? 0 : r_min < 24 || silhouette ? 1 : 2;
+  return r_min < 7 ? 0 : r_min < 24 || silhouette ? 1 : 2;
 }
 
 // (9), or what wide aperture cells need.

@@ -127,16 +127,16 @@ TEST_CASE("rules: layers from radius 3 and 6 on by (12)") {
   CHECK(LayerByPaper(SF_MAX_BLUR) == 2);
 }
 
-TEST_CASE("rules: layers from radius 5 and 24 on with cells, no layer 2 beside depth edges") {
+TEST_CASE("rules: layers from radius 7 and 24 on with cells, no layer 2 beside depth edges") {
   CHECK(LayerByCells(0, false) == 0);
-  CHECK(LayerByCells(Below(5), false) == 0);
-  CHECK(LayerByCells(5, false) == 1);
+  CHECK(LayerByCells(Below(7), false) == 0);
+  CHECK(LayerByCells(7, false) == 1);
   CHECK(LayerByCells(Below(24), false) == 1);
   CHECK(LayerByCells(24, false) == 2);
   CHECK(LayerByCells(SF_MAX_BLUR, false) == 2);
   CHECK(LayerByCells(0, true) == 0);
-  CHECK(LayerByCells(Below(5), true) == 0);
-  CHECK(LayerByCells(5, true) == 1);
+  CHECK(LayerByCells(Below(7), true) == 0);
+  CHECK(LayerByCells(7, true) == 1);
   CHECK(LayerByCells(SF_MAX_BLUR, true) == 1);
 }
 

@@ -48,7 +48,7 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
 // The least r that a layer is used at: (12), or LayerByCells without depth edges.
 double LeastRadius(sf_rule rule, int layer) {
   if (rule == SF_RULE_PAPER) return 3.0 * layer;
-  return layer == 2 ? 24.0 : 5.0 * layer;
+  return layer == 0 ? 0.0 : layer == 1 ? 7.0 : 24.0;
 }
 
 // Measures one series in the direction of `sign`, from the least r that its layer is used at.

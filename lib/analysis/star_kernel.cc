@@ -13,10 +13,10 @@
 namespace starfocus::analysis {
 namespace {
 
-constexpr double kNarrowest = 1e-6, kWidest = 7;
+constexpr double kNarrowest = 1e-6, kWidest = 7, kWidestBox = 3;
 
-// A view's footprint on the line: one tap for cells up to a pixel, that of a box for wider ones,
-// each then spread by the interpolation of `width` <= 1.
+// A view's footprint on the line: one tap, or those of a box on whole pixels for cells wider than
+// kWidestBox, each then spread by a box of `width`; up to a pixel that is the interpolation.
 struct Footprint {
   double width;
   Kernel1 taps;
@@ -28,6 +28,11 @@ Footprint MakeFootprint(double cell, Cells cells) {
     Footprint narrow = {std::clamp(cell, kNarrowest, 1.0), Kernel1(0)};
     narrow.taps.at(0) = 1;
     return narrow;
+  }
+  if (width <= kWidestBox) {
+    Footprint box = {width, Kernel1(static_cast<int>(std::ceil((width - 1) / 2)))};
+    box.taps.at(0) = 1;
+    return box;
   }
   Footprint wide = {1, Kernel1(static_cast<int>(std::ceil((width - 1) / 2)))};
   for (int n = -wide.taps.radius(); n <= wide.taps.radius(); ++n) {
