@@ -168,7 +168,7 @@ void PlaceTile(const PlacedSlice& placed, int32_t x, int32_t top, int32_t bottom
   shifted->plane = (static_cast<size_t>(placed.rows) + simd::kRowsAhead) * simd::kSliceLanes;
   const auto clear = [&](int32_t from, int32_t to) {
     const size_t at = static_cast<size_t>(from), rows = static_cast<size_t>(to - from);
-    std::memset(shifted->some + at, 0, rows);
+    std::memset(shifted->near + at, 0, rows);
     for (size_t c = 0; c < 4; ++c) {
       std::memset(shifted->samples + c * shifted->plane + at * simd::kSliceLanes, 0,
                   rows * simd::kSliceLanes * sizeof(*shifted->samples));
@@ -182,10 +182,12 @@ void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const S
                 int32_t x, const ShiftedSlice& shifted) {
   if (shifted.first == shifted.end) return;
   const auto row = static_cast<size_t>(shifted.first);
+  const auto rows = static_cast<size_t>(shifted.end - shifted.first);
+  uint8_t* near = shifted.near + row;
+  std::memset(near - simd::kRowsAhead, 0, rows + simd::kRowsAhead);
   const int16_t* from = placed.samples + row * 4 * placed.plane;
-  kernels.shift_slice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction,
-                      static_cast<size_t>(shifted.end - shifted.first), shifted.plane,
-                      shifted.samples + row * simd::kSliceLanes, shifted.some + row);
+  kernels.shift_slice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction, rows,
+                      shifted.plane, shifted.samples + row * simd::kSliceLanes, near);
 }
 
 }  // namespace starfocus

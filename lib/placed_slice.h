@@ -61,10 +61,11 @@ void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Sli
                const Rect& rect, int16_t* filtered, const PlacedSlice& placed);
 
 // Rows of a slice in a tile, kSliceLanes columns of the rectangle, as a column of views shows them:
-// four planes, `plane` samples apart, and whether there is anything in each row.
+// four planes, `plane` samples apart, and whether there is anything in each row or one of the
+// kRowsAhead next ones; as many lie before the first.
 struct ShiftedSlice {
   int16_t* samples = nullptr;
-  uint8_t* some = nullptr;
+  uint8_t* near = nullptr;
   size_t plane = 0;
   int32_t first = 0, end = 0;  // rows outside of these are empty in all views
 };
@@ -77,7 +78,7 @@ constexpr uint64_t ChunksOf(const PlacedSlice& placed, int32_t x) {
 }
 
 // Finds the rows of the tile at column `x` of the rectangle that views show in its rows [top,
-// bottom), and writes the others that are read for these. samples and some must be set.
+// bottom), and writes the others that are read for these. The memory must be set.
 void PlaceTile(const PlacedSlice& placed, int32_t x, int32_t top, int32_t bottom,
                ShiftedSlice* shifted);
 

@@ -161,16 +161,16 @@ class Stack {
     }
     const StackPart& bottom = tile_.end[-1];
     int16_t* samples = scratch_.tile;
-    uint8_t* some = scratch_.tile_some;
+    uint8_t* near = scratch_.tile_near;
     tile_.count = 0;
     for (int32_t k = 0; k < count_; ++k) {
       if ((seen >> k & 1) == 0) continue;
       tile_.slices[tile_.count++] = k;
       shifted_[k].samples = samples;
-      shifted_[k].some = some;
+      shifted_[k].near = near + simd::kRowsAhead;
       PlaceTile(placed_[k], tile_.x, tile_.first->y, bottom.y + bottom.rows, &shifted_[k]);
       samples += 4 * shifted_[k].plane;
-      some += shifted_[k].plane / kChunk;
+      near += shifted_[k].plane / kChunk + simd::kRowsAhead;
     }
     for (int32_t i = -grid_.n(); i <= grid_.n(); ++i) AddColumn(i);
   }
@@ -197,7 +197,7 @@ class Stack {
         const int32_t k = tile_.slices[n];
         const SliceOffset& offset = placed_[k].offsets[j];
         const int32_t row = placed_[k].reach + offset.whole;
-        shifts[k] = {shifted_[k].samples + row * kChunk, shifted_[k].some + row,
+        shifts[k] = {shifted_[k].samples + row * kChunk, shifted_[k].near + row,
                      shifted_[k].plane, offset.fraction};
       }
     }

@@ -72,8 +72,8 @@ void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_
 }
 
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
-                int16_t* out, uint8_t* some) {
-  ShiftPlanes(in, fraction, rows, plane, out, some);
+                int16_t* out, uint8_t* near) {
+  ShiftPlanes(in, fraction, rows, plane, out, near);
 }
 
 void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {

@@ -104,12 +104,15 @@ struct SliceFraction {
 };
 inline constexpr int16_t kSliceStart = -32768;
 
+// Rows of a tile that composite may read beyond the last one it adds.
+inline constexpr size_t kRowsAhead = 6;
+
 // A slice in one view of a tile, kSliceLanes columns of pixels whose rows follow each other in each
-// of four planes, `plane` samples apart: its first row, whether each row from there on is more than
-// zeros, and how far the view lies on the way to the next row.
+// of four planes, `plane` samples apart: its first row, whether each row from there on or one of the
+// next kRowsAhead is more than zeros, and what the view sees of a row and the next ones.
 struct SliceShift {
   const int16_t* samples;
-  const uint8_t* some;
+  const uint8_t* near;
   size_t plane;
   SliceFraction fraction;
 };
@@ -124,8 +127,6 @@ struct SliceViews {
   size_t shown_count;
   size_t row;  // the first of what is composited
 };
-// Rows of a tile that composite may read beyond the last one it adds.
-inline constexpr size_t kRowsAhead = 6;
 
 // Lowest and highest disparity of several; low > high: there is none.
 struct DisparityRange {
@@ -331,10 +332,10 @@ struct Kernels {
                        int16_t* out);
 
   // Moves rows by a fraction of a sample into a tile: out[n] is what is seen of in[n] and what
-  // follows it, each product rounded halves up. `plane`: of the tile.
-  // some[row]: whether anything is covered, 1 or 0.
+  // follows it, each product rounded halves up. `plane`: of the tile. Where anything of a row is
+  // covered, near[row - kRowsAhead] to near[row] become 1; the others stay as they are.
   void (*shift_slice)(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                      size_t plane, int16_t* out, uint8_t* some);
+                      size_t plane, int16_t* out, uint8_t* near);
 
   // Adds the views of a tile to sums[(4 row + plane) kSliceLanes + n]. A slice takes of the view's
   // light what it covers, and gives as much of its colours; of the last light it gives the share

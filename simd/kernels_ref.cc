@@ -286,16 +286,15 @@ int16_t Between15(const int16_t* at, const int16_t* covered, size_t next,
 }
 
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
-                int16_t* out, uint8_t* some) {
+                int16_t* out, uint8_t* near) {
   for (size_t row = 0; row < rows; ++row) {
     const int16_t* covered = in.samples + (4 * row + 3) * in.plane;
-    some[row] = 0;
     for (size_t c = 0; c < 4; ++c) {
       const int16_t* from = in.samples + (4 * row + c) * in.plane;
       int16_t* to = out + c * plane + row * kSliceLanes;
       for (size_t n = 0; n < kSliceLanes; ++n) {
         to[n] = Between15(from + n, covered + n, 1, fraction);
-        if (c == 3 && to[n] != 0) some[row] = 1;
+        if (c == 3 && to[n] != 0) std::memset(near + row - kRowsAhead, 1, kRowsAhead + 1);
       }
     }
   }
@@ -319,8 +318,7 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
         int16_t light = kSliceOne;
         for (size_t k = 0; k < views.shown_count; ++k) {
           const SliceShift& shift = views.shifts[view * views.slices + views.shown[k]];
-          const uint8_t* some = shift.some + row;
-          if ((some[0] | some[1] | some[2] | some[3]) == 0) continue;
+          if (shift.near[row] == 0) continue;
           const int16_t* from = shift.samples + row * kSliceLanes + n;
           const auto value = [&](size_t c) {
             return Between15(from + c * shift.plane, from + 3 * shift.plane, kSliceLanes,

@@ -6,6 +6,8 @@
 #define STARFOCUS_SIMD_TILES_INL_H_
 #endif
 
+#include <cstring>
+
 #include "simd/compat-inl.h"
 #include "simd/kernels.h"
 
@@ -43,31 +45,40 @@ HWY_INLINE hn::Vec<D> LoadRows(D d, const int16_t* HWY_RESTRICT at, size_t strid
   return hn::LoadU(d, at);
 }
 
-// Marks the rows that a vector is of and that have samples other than zero.
+// Marks the rows near one that has samples other than zero.
+HWY_INLINE void MarkNear(uint8_t* HWY_RESTRICT near) {
+  static_assert(kRowsAhead == 6, "two words are seven rows");
+  const uint32_t marks = 0x01010101;
+  std::memcpy(near - 6, &marks, sizeof(marks));
+  std::memcpy(near - 3, &marks, sizeof(marks));
+}
+
+// Marks those near the rows that a vector is of.
 template <class D>
-HWY_INLINE void MarkRows(D d, hn::Vec<D> samples, uint8_t* HWY_RESTRICT some) {
+HWY_INLINE void MarkRows(D d, hn::Vec<D> samples, uint8_t* HWY_RESTRICT near) {
   const auto filled = hn::Ne(samples, hn::Zero(d));
 #if STARFOCUS_WIDE_TILES
   if (hn::Lanes(d) > kSliceLanes) {
     uint8_t bits[8];  // as many may be written
     hn::StoreMaskBits(d, filled, bits);
-    for (size_t k = 0; k < 2; ++k) some[k] = (bits[2 * k] | bits[2 * k + 1]) != 0 ? 1 : 0;
+    for (size_t k = 0; k < 2; ++k) {
+      if ((bits[2 * k] | bits[2 * k + 1]) != 0) MarkNear(near + k);
+    }
     return;
   }
 #endif
-  if (!hn::AllFalse(d, filled)) some[0] = 1;
+  if (!hn::AllFalse(d, filled)) MarkNear(near);
 }
 
 // Returns how many of the rows are moved: as many as fill vectors.
 template <int kTaps, class D>
 HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
+                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near) {
   const size_t lanes = hn::Lanes(d), step = RowsOf(d), stride = 4 * in.plane;
   const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
   const auto third = hn::Set(d, fraction.third), fourth = hn::Set(d, fraction.fourth);
   size_t row = 0;
   for (; row + step <= rows; row += step, out += step * kSliceLanes) {
-    for (size_t k = 0; k < step; ++k) some[row + k] = 0;
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
       const int16_t* HWY_RESTRICT from = in.samples + row * stride + n;
       const auto load = [&](size_t c, size_t next) HWY_ATTR {
@@ -94,7 +105,7 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
       for (size_t c = 0; c < 3; ++c) hn::StoreU(between(c), d, out + c * plane + n);
       const auto shown = between(3);
       hn::StoreU(shown, d, out + 3 * plane + n);
-      MarkRows(d, shown, some + row);
+      MarkRows(d, shown, near + row);
     }
   }
   return row;
@@ -102,22 +113,22 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
 
 template <int kTaps>
 HWY_INLINE void ShiftAllRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                             size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
-  const size_t done = ShiftRows<kTaps>(TileTag(), in, fraction, rows, plane, out, some);
+                             size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near) {
+  const size_t done = ShiftRows<kTaps>(TileTag(), in, fraction, rows, plane, out, near);
   if (done == rows) return;
   const SlicePlanes rest = {in.samples + done * 4 * in.plane, in.plane};
   ShiftRows<kTaps>(RowTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes,
-                    some + done);
+                    near + done);
 }
 
 HWY_INLINE void ShiftPlanes(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT some) {
+                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near) {
   if (fraction.third == 0) {
-    ShiftAllRows<2>(in, fraction, rows, plane, out, some);
+    ShiftAllRows<2>(in, fraction, rows, plane, out, near);
   } else if (fraction.fourth == 0) {
-    ShiftAllRows<3>(in, fraction, rows, plane, out, some);
+    ShiftAllRows<3>(in, fraction, rows, plane, out, near);
   } else {
-    ShiftAllRows<4>(in, fraction, rows, plane, out, some);
+    ShiftAllRows<4>(in, fraction, rows, plane, out, near);
   }
 }
 
@@ -224,10 +235,7 @@ HWY_INLINE void CompositeRows(const SliceViews& views, size_t row, size_t n, siz
     auto light0 = one, light1 = one;
     for (size_t k = 0; k < views.shown_count; ++k) {
       const SliceShift& shift = shifts[views.shown[k]];
-      const uint8_t* some = shift.some + row;
-      int any = some[0] | some[1] | some[2] | some[3] | some[4];
-      if (step > 1) any |= some[5] | some[6];
-      if (any == 0) continue;
+      if (shift.near[row] == 0) continue;
       const int16_t* at = shift.samples + row * kSliceLanes + n;
       if (shift.fraction.third == 0) {
         TakeRows<2>(shift, at, weight, light0, r0, g0, b0, a0);

@@ -134,21 +134,23 @@ void TestShift(const Kernels& kernels) {
     std::fill_n(in.begin() + ptrdiff_t(4 * empty * in_plane), 4 * in_plane, int16_t{0});
     const SliceFraction fraction = Fraction(&random);
     std::vector<int16_t> expected(4 * plane), got = expected;
-    std::vector<uint8_t> some(rows + 1, 9), got_some = some;
+    std::vector<uint8_t> near(rows + starfocus::simd::kRowsAhead + 1, 9), got_near = near;
     const starfocus::simd::SlicePlanes from = {in.data() + random.Int(0, 16), in_plane};
-    ReferenceKernels().shift_slice(from, fraction, rows, plane, expected.data(), some.data());
-    kernels.shift_slice(from, fraction, rows, plane, got.data(), got_some.data());
+    ReferenceKernels().shift_slice(from, fraction, rows, plane, expected.data(),
+                                   near.data() + starfocus::simd::kRowsAhead);
+    kernels.shift_slice(from, fraction, rows, plane, got.data(),
+                        got_near.data() + starfocus::simd::kRowsAhead);
     CAPTURE(round);
     CHECK(got == expected);
-    CHECK(got_some == some);
-    CHECK(some[rows] == 9);
+    CHECK(got_near == near);
+    CHECK(near.back() == 9);
   }
 }
 
 // A slice in a tile: planes of rows of kSliceLanes samples, some rows empty.
 struct TileSlice {
   std::vector<int16_t> samples;
-  std::vector<uint8_t> some;
+  std::vector<uint8_t> near;
 };
 
 TileSlice MakeTileSlice(size_t rows, test::Random* random) {
@@ -160,7 +162,9 @@ TileSlice MakeTileSlice(size_t rows, test::Random* random) {
     for (size_t n = 0; n < 4 * kSliceLanes; ++n) {
       const int16_t sample = in[4 * row * kSliceLanes + n];
       slice.samples[n / kSliceLanes * plane + row * kSliceLanes + n % kSliceLanes] = sample;
-      if (n >= 3 * kSliceLanes && sample != 0) slice.some[row] = 1;
+      if (sample == 0) continue;
+      const size_t first = row - std::min(row, starfocus::simd::kRowsAhead);
+      for (size_t k = first; k <= row; ++k) slice.near[k] = 1;
     }
   }
   return slice;
@@ -182,7 +186,7 @@ void TestComposite(const Kernels& kernels) {
     for (size_t n = 0; n < views * slices; ++n) {
       const size_t row = size_t(random.Int(0, 8));
       const TileSlice& tile = tiles[n % slices];
-      shifts.push_back({tile.samples.data() + row * kSliceLanes, tile.some.data() + row,
+      shifts.push_back({tile.samples.data() + row * kSliceLanes, tile.near.data() + row,
                         tile.samples.size() / 4, Fraction(&random)});
     }
     std::vector<uint8_t> shown;
