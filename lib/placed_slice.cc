@@ -82,12 +82,13 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surface
   const simd::SliceCover cover =
       kernels.select_slice(from, {slice.low, slice.high, slice.overlap},
                            static_cast<size_t>(last - first), plane, row + first);
+  const auto tail = (plane - static_cast<size_t>(width)) * sizeof(*row);
+  for (size_t c = 0; c < 4; ++c) std::memset(row + c * plane + width, 0, tail);
+  if (last - first == width) return cover;
   for (int c = 0; c < 4; ++c, row += plane) {
     for (int32_t k = 0; k < first; ++k) row[k] = row[first];
     for (int32_t k = last; k < width; ++k) row[k] = row[last - 1];
-    std::memset(row + width, 0, (plane - static_cast<size_t>(width)) * sizeof(*row));
   }
-  if (last - first == width) return cover;
   return {~uint64_t{0}, 0};  // nobody looks closer at the few such rows
 }
 

@@ -35,11 +35,18 @@ HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, const SliceRange& rang
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, bit <<= 1) {
     bool some = false, all = true;
     for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
-      const auto next = inside(row.disparity[1] + n), last = inside(row.disparity[2] + n);
+      const auto nearest = inside(row.disparity[0] + n), next = inside(row.disparity[1] + n);
+      const auto last = inside(row.disparity[2] + n);
+      int16_t* to = out + n;
+      if (hn::AllFalse(d16, hn::Or(nearest, hn::Or(next, last)))) {  // most
+        for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, to + c * plane);
+        all = all && n >= count;
+        continue;
+      }
       const auto share = byte(row.share + n);
       const auto twice =
           hn::And(hn::Ne(share, pixel), hn::Gt(hn::LoadU(d16, row.disparity[0] + n), high));
-      const auto first = hn::AndNot(twice, inside(row.disparity[0] + n));
+      const auto first = hn::AndNot(twice, nearest);
       const auto front = hn::IfThenElseZero(first, hn::Min(share, pixel));
       const auto behind = hn::IfThenElseZero(hn::Or(next, last), hn::Sub(pixel, front));
       const auto together = hn::Add(front, behind);
@@ -47,7 +54,6 @@ HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, const SliceRange& rang
       const auto found = hn::Ne(together, hn::Zero(d16));
       some = some || !hn::AllFalse(d16, hn::And(found, counted));
       all = all && hn::AllFalse(d16, hn::And(hn::Ne(together, pixel), counted));
-      int16_t* to = out + n;
       for (size_t c = 0; c < 3; ++c) {
         const size_t at = c * row.plane + n;
         // Where there is no surface its colours were never written; valgrind follows masks, but not
