@@ -25,7 +25,8 @@ inline constexpr int32_t kMaxSlices = 32;
 
 // Slices get coarser beyond the memory of this many of the largest reach, too.
 inline constexpr size_t kLargeSlices = 6;
-inline constexpr size_t kLargeTiles = 12;  // a tile's rows: few slices of a wide rectangle are as many
+inline constexpr size_t kLargeTiles =
+    12;  // a tile's rows: few slices of a wide rectangle are as many
 
 // Ranges of disparity that are told apart: single ones up to a blur of 64 pixels at full aperture.
 inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;

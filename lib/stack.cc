@@ -84,9 +84,15 @@ class Stack {
 
   void PlaceSlices() {
     const Rect& inner = field_.inner;
-    const SliceJob job = {job_.kernels,        &scratch_.surfaces,     &grid_,
-                          rule_,               inner,                  scratch_.bins,
-                          scratch_.least_blur, scratch_.plane_samples, scratch_.tile_rows};
+    const SliceJob job = {job_.kernels,
+                          &scratch_.surfaces,
+                          &grid_,
+                          rule_,
+                          inner,
+                          scratch_.bins,
+                          scratch_.least_blur,
+                          scratch_.plane_samples,
+                          scratch_.tile_rows};
     Slice slices[kMaxSlices];
     count_ = FindSlices(job, slices);
     int16_t* samples = scratch_.planes;
@@ -197,8 +203,8 @@ class Stack {
         const int32_t k = tile_.slices[n];
         const SliceOffset& offset = placed_[k].offsets[j];
         const int32_t row = placed_[k].reach + offset.whole;
-        shifts[k] = {shifted_[k].samples + row * kChunk, shifted_[k].near + row,
-                     shifted_[k].plane, offset.fraction};
+        shifts[k] = {shifted_[k].samples + row * kChunk, shifted_[k].near + row, shifted_[k].plane,
+                     offset.fraction};
       }
     }
     const auto views = static_cast<size_t>(last + 1 - first);

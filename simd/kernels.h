@@ -95,7 +95,8 @@ struct SliceCover {
   uint64_t some, all;
 };
 
-// What a view sees of up to four pixels p of a slice, one after the other: p[1] + first (p[1] - p[0])
+// What a view sees of up to four pixels p of a slice, one after the other: p[1] + first (p[1] -
+// p[0])
 // + third (p[1] - p[2]) + fourth (p[2] - p[3]), where first is `inside` if p[0] is covered as p[1],
 // else `edge`. All in [-1, 0] with 15 bits: 16 hold -1, but not 1. With a third one inside and edge
 // are the same; without it there is no fourth.
@@ -108,8 +109,8 @@ inline constexpr int16_t kSliceStart = -32768;
 inline constexpr size_t kRowsAhead = 6;
 
 // A slice in one view of a tile, kSliceLanes columns of pixels whose rows follow each other in each
-// of four planes, `plane` samples apart: its first row, whether each row from there on or one of the
-// next kRowsAhead is more than zeros, and what the view sees of a row and the next ones.
+// of four planes, `plane` samples apart: its first row, whether each row from there on or one of
+// the next kRowsAhead is more than zeros, and what the view sees of a row and the next ones.
 struct SliceShift {
   const int16_t* samples;
   const uint8_t* near;

@@ -81,9 +81,8 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
   for (; row + step <= rows; row += step, out += step * kSliceLanes) {
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
       const int16_t* HWY_RESTRICT from = in.samples + row * stride + n;
-      const auto load = [&](size_t c, size_t next) HWY_ATTR {
-        return LoadRows(d, from + c * in.plane + next, stride);
-      };
+      const auto load = [&](size_t c, size_t next)
+                            HWY_ATTR { return LoadRows(d, from + c * in.plane + next, stride); };
       const auto covered = load(3, 0), next = load(3, 1);
       auto any = hn::Or(covered, next);
       if (kTaps > 2) any = hn::Or(any, load(3, 2));
@@ -118,7 +117,7 @@ HWY_INLINE void ShiftAllRows(const SlicePlanes& in, const SliceFraction& fractio
   if (done == rows) return;
   const SlicePlanes rest = {in.samples + done * 4 * in.plane, in.plane};
   ShiftRows<kTaps>(RowTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes,
-                    near + done);
+                   near + done);
 }
 
 HWY_INLINE void ShiftPlanes(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
@@ -153,8 +152,7 @@ HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums
 }
 
 // light / covered, where that is less than one: SliceShare.
-HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light,
-                                          SliceVec excess) {
+HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec excess) {
   const TileTag d16;
   const auto one = hn::Set(d16, kSliceOne);
   const auto open = hn::Sub(one, covered);
@@ -250,13 +248,13 @@ HWY_INLINE void CompositeRows(const SliceViews& views, size_t row, size_t n, siz
       if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
     }
   }
-  const auto add = [&](SliceVec r, SliceVec g, SliceVec b, SliceVec a, size_t more,
-                       uint32_t* to) HWY_ATTR {
-    AddSums(r, more, to);
-    AddSums(g, more, to + kSliceLanes);
-    AddSums(b, more, to + 2 * kSliceLanes);
-    AddSums(a, more, to + 3 * kSliceLanes);
-  };
+  const auto add = [&](SliceVec r, SliceVec g, SliceVec b, SliceVec a, size_t more, uint32_t* to)
+                       HWY_ATTR {
+                         AddSums(r, more, to);
+                         AddSums(g, more, to + kSliceLanes);
+                         AddSums(b, more, to + 2 * kSliceLanes);
+                         AddSums(a, more, to + 3 * kSliceLanes);
+                       };
   add(r0, g0, b0, a0, rows, sums + n);
   if (rows > step) add(r1, g1, b1, a1, rows - step, sums + 4 * second + n);
 }

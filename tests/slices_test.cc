@@ -59,7 +59,7 @@ struct Scene {
                                              bins.data(),
                                              least.data(),
                                              memory,
-                                              rows},
+                                             rows},
                                             slices.data());
     REQUIRE(count > 0);
     REQUIRE(count <= rule.most);
