@@ -23,7 +23,7 @@ constexpr CellStep kCellSteps[] = {{0.5, 0}, {11, 4},  {24, 6},   {32, 8},   {45
 
 // With cells the rest of the error is smaller, and so must that of layers be: against truth on the
 // portrait layer 2 from 8 or 16 up costs 0.2 to 0.35 dB and saves 4 % of the instructions, layer 1
-// beside depth edges below 5 0.6 dB on the wires. Layer 2 rounds silhouettes to four pixels.
+// from 5 up 0.1 to 0.2 dB and saves up to 19 %. Layer 2 rounds silhouettes to four pixels.
 constexpr double kCellLayerRadius = 7.0;
 constexpr double kCellCoarseRadius = 24.0;
 

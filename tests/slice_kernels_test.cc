@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simd/kernels.h"
+#include "tests/disparity_row.h"
 #include "tests/simd_targets.h"
 #include "tests/test_scene.h"
 
@@ -25,17 +26,6 @@ using starfocus::simd::SliceShift;
 // Samples that kernels write and read of a row.
 size_t Whole(size_t count) { return starfocus::simd::SliceSamples(count); }
 
-// Disparities with runs and edges, also at the ends of the range.
-std::vector<int16_t> Disparities(size_t count, test::Random* random) {
-  std::vector<int16_t> row(count);
-  int value = random->Int(-2000, 2000);
-  for (int16_t& disparity : row) {
-    if (random->Int(0, 5) == 0) value += random->Int(-200, 200);
-    disparity = int16_t(random->Int(0, 60) == 0 ? random->Int(-32000, 32000) : value);
-  }
-  return row;
-}
-
 void TestSelect(const Kernels& kernels) {
   test::Random random(3);
   for (size_t count = 1; count <= 100; ++count) {
@@ -45,7 +35,7 @@ void TestSelect(const Kernels& kernels) {
     starfocus::simd::SurfaceRow row;
     row.plane = plane;
     for (int k = 0; k < 3; ++k) {
-      disparity[k] = Disparities(whole, &random);
+      disparity[k] = test::DisparityRow(whole, &random);
       for (int16_t& d : disparity[k]) {
         if (k > 0 && random.Int(0, 1) == 0) d = INT16_MIN;
       }

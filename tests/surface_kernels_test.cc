@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simd/kernels.h"
+#include "tests/disparity_row.h"
 #include "tests/simd_targets.h"
 #include "tests/test_scene.h"
 
@@ -37,24 +38,13 @@ void TestSplit(const Kernels& kernels) {
   }
 }
 
-// Disparities with runs and edges, also at the ends of the range.
-std::vector<int16_t> Disparities(size_t count, test::Random* random) {
-  std::vector<int16_t> row(count);
-  int value = random->Int(-2000, 2000);
-  for (int16_t& disparity : row) {
-    if (random->Int(0, 5) == 0) value += random->Int(-200, 200);
-    disparity = int16_t(random->Int(0, 60) == 0 ? random->Int(-32000, 32000) : value);
-  }
-  return row;
-}
-
 void TestFindEdges(const Kernels& kernels) {
   test::Random random(2);
   for (size_t count = 1; count <= 50; ++count) {
     const starfocus::simd::EdgeLimits limits = {48, random.Int(6, 8)};
     const size_t whole = Whole(count);
     std::vector<int16_t> moved(whole, INT16_MAX), behind(whole, 0),
-        far = Disparities(whole, &random);
+        far = test::DisparityRow(whole, &random);
     std::vector<int16_t> got_moved = moved, got_behind = behind;
     int hidden = 0;
     for (int row = 0; row < 20; ++row) {
@@ -83,7 +73,7 @@ void TestSteps(const Kernels& kernels) {
   test::Random random(3);
   for (size_t count = 1; count <= 70; ++count) {
     const size_t stride = count + size_t(random.Int(2, 9));
-    const std::vector<int16_t> rows = Disparities(3 * stride + kPadding, &random);
+    const std::vector<int16_t> rows = test::DisparityRow(3 * stride + kPadding, &random);
     const int16_t* row = rows.data() + stride + 1;
     const size_t chunks = Whole(count) / kSliceLanes;
     std::vector<StepBits> expected(chunks), got(chunks);
