@@ -15,6 +15,8 @@
 // | colour of a slice    | int16  | 2^7     | [0, 255], times coverage  | 0.4 % below 2^15          |
 // | coverage of a slice  | int16  | 2^15    | [0, 1]; 1 is 32767        | saturates                 |
 // | wide cell r / N      | int32  | 2^8     | (1, 7], clamped           | -                         |
+// | parts of a wide cell | int16  | 2^15    | [-1, 0], one together     | none: 16 bits hold -1     |
+// | sum / coverage       | uint64 | 2^48    | 2^32 sums, 2^32 inverses  | none: colours <= coverage |
 // | weight of a view     | int16  | varies  | [0, 14500]                | 13 % below 2^14           |
 // | sums of a column     | uint16 | 2^8     | weights: 58000; 1/9 more  | 1 % below 2^16            |
 // | sums of slices       | uint32 | 2^8     | 58000 a column, N <= 41   | 800 x                     |

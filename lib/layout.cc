@@ -87,8 +87,7 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
   scratch.filtered = carver->Take<int16_t>(SliceSize(rectangle, rectangle, reach));
   scratch.tile_rows = kLargeTiles * ShiftedRows(rectangle, reach);
   scratch.tile = carver->Take<int16_t>(4 * simd::kSliceLanes * scratch.tile_rows);
-  scratch.tile_near =
-      carver->Take<uint8_t>(scratch.tile_rows + size_t{kMaxSlices} * simd::kRowsAhead);
+  scratch.tile_near = carver->Take<uint8_t>(scratch.tile_rows + simd::kRowsAhead);
   scratch.offsets = carver->Take<SliceOffset>(kMaxSlices * (2 * max_n + 1));
   const size_t group = Min(2 * max_n + 1, size_t{kGroupViews});
   scratch.shifts = carver->Take<simd::SliceShift>(kMaxSlices * group);

@@ -7,23 +7,20 @@ namespace {
 
 constexpr int32_t kFractionOne = 1 << 15;
 
-// Wider cells are spread before slices are moved: what interpolation adds is little then.
-constexpr int32_t kBoxCell = 3 * kShiftOne;
-
-// What a box of `cell` pixels (kShiftBits), more than three, covers of the pixels around it.
+// What a box of `cell` pixels (kShiftBits), more than kBoxCell, covers of the pixels around it.
 simd::SliceTaps TapsOf(int32_t cell) {
   constexpr int32_t kLargest = (2 * simd::kMaxSpread + 1) * kShiftOne;
   const int32_t length = Min(cell, kLargest);
   simd::SliceTaps taps;
-  taps.reach = 1;
+  taps.reach = 2;
   while ((2 * taps.reach + 1) * kShiftOne < length) ++taps.reach;
   const int32_t whole = (2 * taps.reach - 1) * kShiftOne;
-  const int32_t inner = taps.reach == 1 ? 0 : 2 * kFractionOne * kShiftOne / length;
+  const int32_t inner = 2 * kFractionOne * kShiftOne / length;
   const int32_t outer = kFractionOne / kShiftOne * (length - whole) * kShiftOne / length;
   const int32_t centre = kFractionOne - (taps.reach - 1) * inner - outer;
   taps.inner = static_cast<int16_t>(inner);
   taps.outer = static_cast<int16_t>(outer);
-  taps.centre = static_cast<int16_t>(Min(centre, kFractionOne - 1));
+  taps.centre = static_cast<int16_t>(centre);
   return taps;
 }
 
@@ -175,6 +172,7 @@ void PlaceTile(const PlacedSlice& placed, int32_t x, int32_t top, int32_t bottom
                   rows * simd::kSliceLanes * sizeof(*shifted->samples));
     }
   };
+  // Rows that nothing moves to: composite reads those behind the last, too.
   clear(top, first);
   clear(end, last_row + static_cast<int32_t>(simd::kRowsAhead));
 }
@@ -185,6 +183,7 @@ void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const S
   const auto row = static_cast<size_t>(shifted.first);
   const auto rows = static_cast<size_t>(shifted.end - shifted.first);
   uint8_t* near = shifted.near + row;
+  // The marks of the column of views before.
   std::memset(near - simd::kRowsAhead, 0, rows + simd::kRowsAhead);
   const int16_t* from = placed.samples + row * 4 * placed.plane;
   kernels.shift_slice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction, rows,

@@ -1,5 +1,5 @@
 // A slice of a rectangle in memory: its pixels and those around it that some view shows, spread by
-// the aperture's cell, and where each view shows it.
+// the aperture's cell where that is wide, and where each view shows it.
 #ifndef STARFOCUS_LIB_PLACED_SLICE_H_
 #define STARFOCUS_LIB_PLACED_SLICE_H_
 
@@ -20,7 +20,12 @@ struct SliceOffset {
   simd::SliceFraction fraction;
 };
 
-// Pixels beyond its blur radius (rounded up) that a slice is made of: filters, interpolation.
+// Cells up to this wide, three pixels, are boxes of their width on up to four pixels; what
+// interpolation adds to wider ones, spread before they are moved, is little. kShiftBits.
+inline constexpr int32_t kBoxCell = 3 * kShiftOne;
+
+// Pixels beyond its blur radius (rounded up) that a slice is made of: filters, boxes,
+// interpolation.
 inline constexpr int32_t kSliceMargin = simd::kMaxSpread + 1;
 
 // Pixels beyond the rectangle that a slice blurred by `rim` (kShiftBits) is made of.
@@ -56,7 +61,7 @@ constexpr size_t ShiftedRows(size_t height, size_t reach) {
 void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, PlacedSlice* placed);
 
 // Copies the slice's pixels around `rect` (in pixels of the surfaces, whose outermost pixels go on
-// beyond them) and spreads them; `filtered` has room for as many samples.
+// beyond them) and spreads them for wide cells; `filtered` has room for as many samples.
 void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Slice& slice,
                const Rect& rect, int16_t* filtered, const PlacedSlice& placed);
 

@@ -23,10 +23,10 @@ inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
 inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // of the benchmark mode
 inline constexpr int32_t kMaxSlices = 32;
 
-// Slices get coarser beyond the memory of this many of the largest reach, too.
+// Slices get coarser beyond the memory of this many of the largest reach, too, and their tiles
+// beyond the rows of this many: of a narrow rectangle more slices fit than of a wide one.
 inline constexpr size_t kLargeSlices = 6;
-inline constexpr size_t kLargeTiles =
-    12;  // a tile's rows: few slices of a wide rectangle are as many
+inline constexpr size_t kLargeTiles = 12;
 
 // Ranges of disparity that are told apart: single ones up to a blur of 64 pixels at full aperture.
 inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;

@@ -109,9 +109,9 @@ class Stack {
     }
   }
 
+  // Of one slice, whose cell makes the rest of the fraction.
   static bool Same(const SliceOffset& a, const SliceOffset& b) {
-    return a.whole == b.whole && a.fraction.edge == b.fraction.edge &&
-           a.fraction.third == b.fraction.third && a.fraction.fourth == b.fraction.fourth;
+    return a.whole == b.whole && a.fraction.edge == b.fraction.edge;
   }
 
   bool IsGathered(const StackPart& part) const {
@@ -167,16 +167,16 @@ class Stack {
     }
     const StackPart& bottom = tile_.end[-1];
     int16_t* samples = scratch_.tile;
-    uint8_t* near = scratch_.tile_near;
+    uint8_t* near = scratch_.tile_near + simd::kRowsAhead;
     tile_.count = 0;
     for (int32_t k = 0; k < count_; ++k) {
       if ((seen >> k & 1) == 0) continue;
       tile_.slices[tile_.count++] = k;
       shifted_[k].samples = samples;
-      shifted_[k].near = near + simd::kRowsAhead;
+      shifted_[k].near = near;
       PlaceTile(placed_[k], tile_.x, tile_.first->y, bottom.y + bottom.rows, &shifted_[k]);
       samples += 4 * shifted_[k].plane;
-      near += shifted_[k].plane / kChunk + simd::kRowsAhead;
+      near += shifted_[k].plane / kChunk;
     }
     for (int32_t i = -grid_.n(); i <= grid_.n(); ++i) AddColumn(i);
   }

@@ -38,7 +38,7 @@ struct StackScratch {
   size_t plane_samples;      // that fit
   int16_t* filtered;         // SliceSize(R, R, E - R)
   int16_t* tile;             // of all slices
-  uint8_t* tile_near;        // of each row of it
+  uint8_t* tile_near;        // of each row of it, and kRowsAhead before
   size_t tile_rows;          // that fit
   SliceOffset* offsets;      // kMaxSlices (2 N + 1)
   simd::SliceShift* shifts;  // kMaxSlices G

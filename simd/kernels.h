@@ -103,7 +103,6 @@ struct SliceCover {
 struct SliceFraction {
   int16_t inside, edge, third, fourth;
 };
-inline constexpr int16_t kSliceStart = -32768;
 
 // Rows of a tile that composite may read beyond the last one it adds.
 inline constexpr size_t kRowsAhead = 6;
@@ -341,7 +340,7 @@ struct Kernels {
   // Adds the views of a tile to sums[(4 row + plane) kSliceLanes + n]. A slice takes of the view's
   // light what it covers, and gives as much of its colours; of the last light it gives the share
   // that is left (up to a ninth of the weight too much), as if slices beside each other covered
-  // different parts of a pixel. Samples between two rows as by shift_slice; products (15 bits) are
+  // different parts of a pixel. What is seen of rows as by shift_slice; products (15 bits) are
   // rounded halves up. No sum exceeds 2^32 - 1.
   void (*composite)(const SliceViews& views, size_t rows, uint32_t* sums);
 

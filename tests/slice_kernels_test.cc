@@ -17,7 +17,6 @@ using starfocus::simd::Kernels;
 using starfocus::simd::kPadding;
 using starfocus::simd::kSliceLanes;
 using starfocus::simd::kSliceOne;
-using starfocus::simd::kSliceStart;
 using starfocus::simd::ReferenceKernels;
 using starfocus::simd::SliceCover;
 using starfocus::simd::SliceFraction;
@@ -68,7 +67,7 @@ void TestSelect(const Kernels& kernels) {
 // four of them.
 SliceFraction Fraction(test::Random* random) {
   const int taps = random->Int(1, 5), first = random->Int(0, 32767);
-  if (taps == 1) return {kSliceStart, kSliceStart, 0, 0};
+  if (taps == 1) return {INT16_MIN, INT16_MIN, 0, 0};
   const auto edge = int16_t(-first);
   if (taps == 2) return {edge, edge, 0, 0};
   if (taps == 3) return {int16_t(random->Int(-32768, 0)), edge, 0, 0};

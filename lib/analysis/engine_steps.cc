@@ -71,7 +71,7 @@ std::string Explain(const EngineStep& step) {
   if (step.cells > kThreshold) {
     return "too few views: exact aperture cells exceed it with this N too";
   }
-  if (step.wide) return "wide cells are boxes on whole pixels, then interpolated";
+  if (step.wide) return "wide cells are boxes, above 3 pixels on whole ones and then interpolated";
   if (step.both_axes > kThreshold) {
     return "cells one pixel wide where views lie r / N > 1 apart";
   }

@@ -9,14 +9,15 @@
 #include "lib/analysis/view_kernel.h"
 #include "lib/aperture.h"
 #include "lib/fixed.h"
+#include "lib/placed_slice.h"
 
 namespace starfocus::analysis {
 namespace {
 
-constexpr double kNarrowest = 1e-6, kWidest = 7, kWidestBox = 3;
+constexpr double kNarrowest = 1e-6, kWidest = 7;
 
 // A view's footprint on the line: one tap, or those of a box on whole pixels for cells wider than
-// kWidestBox, each then spread by a box of `width`; up to a pixel that is the interpolation.
+// kBoxCell, each then spread by a box of `width`; up to a pixel that is the interpolation.
 struct Footprint {
   double width;
   Kernel1 taps;
@@ -29,7 +30,7 @@ Footprint MakeFootprint(double cell, Cells cells) {
     narrow.taps.at(0) = 1;
     return narrow;
   }
-  if (width <= kWidestBox) {
+  if (width * kShiftOne <= kBoxCell) {
     Footprint box = {width, Kernel1(static_cast<int>(std::ceil((width - 1) / 2)))};
     box.taps.at(0) = 1;
     return box;

@@ -107,7 +107,8 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_flag("--rules", choice.rules, "Both rules for N, in block and frame mode");
   app->add_option("--targets", choice.targets, "SIMD targets, reference (plain C++), or all")
       ->delimiter(',');
-  app->add_option("--workers", choice.workers, "Numbers of them beside one, at the middle quantile")
+  app->add_option("--workers", choice.workers,
+                  "Numbers of threads beside one, at the middle quantile")
       ->delimiter(',')
       ->check(CLI::Range(2, SF_MAX_WORKERS));
   app->add_option("--repetitions", settings.repetitions, "Of every task")
