@@ -214,6 +214,7 @@ HWY_INLINE void TakeRows(const SliceShift& shift, const int16_t* HWY_RESTRICT at
     return hn::Add(value, hn::MulFixedPoint15(last, fourth));
   };
   const auto covered = between(cover);
+  // Colours are at most roundings there: times a weight below a half they are nothing, too.
   if (hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
   const auto excess = hn::Max(hn::Sub(covered, light), hn::Zero(d16));
   TakeLight(weight, between(at), between(at + shift.plane), between(at + 2 * shift.plane), covered,
