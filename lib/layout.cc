@@ -90,7 +90,7 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
   scratch.tile_near = carver->Take<uint8_t>(scratch.tile_rows + simd::kRowsAhead);
   scratch.offsets = carver->Take<SliceOffset>(kMaxSlices * (2 * max_n + 1));
   const size_t group = Min(2 * max_n + 1, size_t{kGroupViews});
-  scratch.shifts = carver->Take<simd::SliceShift>(kMaxSlices * group);
+  scratch.shifts = carver->Take<simd::SliceShift>(kMaxSlices * (2 * max_n + 1));
   scratch.weights = carver->Take<int16_t>(group);
   scratch.parts = carver->Take<StackPart>(StackParts(rectangle));
   scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rectangle);

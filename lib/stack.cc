@@ -178,7 +178,22 @@ class Stack {
       samples += 4 * shifted_[k].plane;
       near += shifted_[k].plane / kChunk;
     }
+    FindShifts();
     for (int32_t i = -grid_.n(); i <= grid_.n(); ++i) AddColumn(i);
+  }
+
+  // Where views (., j) show the tile's slices.
+  void FindShifts() {
+    simd::SliceShift* shifts = scratch_.shifts;
+    for (int32_t j = -grid_.n(); j <= grid_.n(); ++j, shifts += count_) {
+      for (int32_t n = 0; n < tile_.count; ++n) {
+        const int32_t k = tile_.slices[n];
+        const SliceOffset& offset = placed_[k].offsets[j];
+        const int32_t row = placed_[k].reach + offset.whole;
+        shifts[k] = {shifted_[k].samples + row * kChunk, shifted_[k].near + row, shifted_[k].plane,
+                     offset.fraction};
+      }
+    }
   }
 
   // Views (i, j) of all j.
@@ -196,24 +211,19 @@ class Stack {
 
   // Views (i, first) to (i, last).
   void AddGroup(int32_t i, int32_t first, int32_t last) {
-    simd::SliceShift* shifts = scratch_.shifts;
-    for (int32_t j = first; j <= last; ++j, shifts += count_) {
+    for (int32_t j = first; j <= last; ++j) {
       scratch_.weights[j - first] = static_cast<int16_t>((Weight(i, j) * weight_scale_) >> 16);
-      for (int32_t n = 0; n < tile_.count; ++n) {
-        const int32_t k = tile_.slices[n];
-        const SliceOffset& offset = placed_[k].offsets[j];
-        const int32_t row = placed_[k].reach + offset.whole;
-        shifts[k] = {shifted_[k].samples + row * kChunk, shifted_[k].near + row, shifted_[k].plane,
-                     offset.fraction};
-      }
     }
+    const simd::SliceShift* shifts = scratch_.shifts + (first + grid_.n()) * count_;
     const auto views = static_cast<size_t>(last + 1 - first);
-    for (const StackPart* part = tile_.first; part < tile_.end; ++part) AddPart(views, *part);
+    for (const StackPart* part = tile_.first; part < tile_.end; ++part) {
+      AddPart(shifts, views, *part);
+    }
   }
 
-  void AddPart(size_t views, const StackPart& part) {
+  void AddPart(const simd::SliceShift* shifts, size_t views, const StackPart& part) {
     const simd::SliceViews job = {scratch_.weights,
-                                  scratch_.shifts,
+                                  shifts,
                                   views,
                                   static_cast<size_t>(count_),
                                   part.shown,

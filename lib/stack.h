@@ -41,7 +41,7 @@ struct StackScratch {
   uint8_t* tile_near;        // of each row of it, and kRowsAhead before
   size_t tile_rows;          // that fit
   SliceOffset* offsets;      // kMaxSlices (2 N + 1)
-  simd::SliceShift* shifts;  // kMaxSlices G
+  simd::SliceShift* shifts;  // kMaxSlices (2 N + 1)
   int16_t* weights;          // G
   StackPart* parts;          // of a rectangle
   uint32_t* sums;            // kPixelSums of the pixels of a tile
