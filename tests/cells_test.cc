@@ -354,6 +354,22 @@ TEST_CASE("cells: borders of one blur are that blur, within a pixel for rounding
   }
 }
 
+TEST_CASE("cells: a pixel that reaches farther counts from where it lies") {
+  Map map = EmptyMap(24, 24, 0, 1);
+  const auto reach = [&](int side) { return Cells(map, 0, 24, 1).grid.At(1, 1)->reach[side]; };
+  std::fill(map.disparity.begin(), map.disparity.end(), Fixed(3));
+  const int farther = reach(starfocus::kLeft);
+  std::fill(map.disparity.begin(), map.disparity.end(), Fixed(2));
+  const int all = reach(starfocus::kLeft);
+  CHECK(farther == all + 1);
+  // One that lies at least a pixel inside reaches no farther than those at the side.
+  map.At(8 + 5, 8 + 6) = Fixed(3);
+  for (int side = 0; side < 4; ++side) CHECK(reach(side) == all);
+  map.At(8, 8 + 4) = Fixed(3);
+  CHECK(reach(starfocus::kLeft) == farther);
+  CHECK(reach(starfocus::kRight) == all);
+}
+
 TEST_CASE("cells: one pixel out of focus widens the borders of the blocks it reaches, no other") {
   // Pixel (24 + k, 40) of radius 5 beside the block of 16 at (32, 32).
   for (int k = 0; k < 8; ++k) {
