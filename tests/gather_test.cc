@@ -162,8 +162,7 @@ TEST_CASE("gather: beside depth edges views go on, and nothing gets worse agains
     MESSAGE("dB with and without: ", Psnr(gathered.rgb, benchmark.rgb), " ",
             Psnr(views.rgb, benchmark.rgb), ", gathered ", gathered.report.gathered_pixels);
     // At 52 dB half of the difference is the rounding of both pictures to bytes.
-    CHECK(Psnr(gathered.rgb, benchmark.rgb) >
-          std::min(Psnr(views.rgb, benchmark.rgb) - 0.2, 52.0));
+    CHECK(Psnr(gathered.rgb, benchmark.rgb) > std::min(Psnr(views.rgb, benchmark.rgb) - 0.2, 52.0));
   }
 }
 
