@@ -6,6 +6,7 @@
 #include "analyze/figures.h"
 #include "lib/analysis/engine_steps.h"
 #include "lib/analysis/selection.h"
+#include "lib/rules.h"
 #include "platform/file.h"
 #include "platform/progress.h"
 
@@ -45,10 +46,14 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
   }
 }
 
-// The least r that a layer is used at: (12), or LayerByCells without depth edges.
+// The least r, of halves, that a layer is used at: (12), or LayerByCells without depth edges.
 double LeastRadius(sf_rule rule, int layer) {
-  if (rule == SF_RULE_PAPER) return 3.0 * layer;
-  return layer == 0 ? 0.0 : layer == 1 ? 7.0 : 24.0;
+  const auto layer_at = [&](double r) {
+    return rule == SF_RULE_PAPER ? LayerByPaper(r) : LayerByCells(r, false);
+  };
+  double least = 0;
+  while (layer_at(least) < layer) least += 0.5;
+  return least;
 }
 
 // Measures one series in the direction of `sign`, from the least r that its layer is used at.
