@@ -5,6 +5,10 @@
 namespace starfocus {
 namespace {
 
+// Memory of a worker for each pixel of a largest block, where that is enough: slices are made in
+// sections of what is left of it.
+constexpr size_t kPixelBytes = 256;
+
 SpanMemory TakeSpans(size_t side, Carver* carver) {
   SpanMemory memory;
   memory.span_capacity = 512;
@@ -27,20 +31,16 @@ int32_t LargestSliceN(const sf_config& config) {
              ViewsOfBenchmark(config.max_blur));
 }
 
-// A field and its accumulators; E and R of StarScratch.
-void TakeField(size_t extended, size_t rectangle, int k, Carver* carver, StarScratch* scratch) {
-  const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
-  scratch->field_rgb[k] = carver->Take<uint8_t>(extended * rgb_stride);
-  scratch->field_disparity[k] = carver->Take<int16_t>(extended * extended);
-  scratch->accumulators[k] = carver->Take<uint32_t>(3 * rectangle * rectangle);
-}
-
-// All but the first field; E and R, and the largest N.
+// E and R of StarScratch, and the largest N; all but the first accumulators.
 void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver, StarScratch* star) {
   StarScratch& scratch = *star;
   const size_t area = extended * extended;
   const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
-  TakeField(extended, rectangle, 1, carver, star);
+  for (int k = 0; k < 2; ++k) {
+    scratch.field_rgb[k] = carver->Take<uint8_t>(extended * rgb_stride);
+    scratch.field_disparity[k] = carver->Take<int16_t>(area);
+  }
+  scratch.accumulators[1] = carver->Take<uint32_t>(3 * rectangle * rectangle);
   scratch.diagonal_rgb = carver->Take<uint8_t>(3 * area);
   scratch.diagonal_disparity = carver->Take<int16_t>(area);
   scratch.diagonal_offsets = carver->Take<uint32_t>(2 * extended);
@@ -58,62 +58,74 @@ void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver, S
   scratch.spans = TakeSpans(extended, carver);
 }
 
-// E and R of StackScratch, and the largest N; `reach`: pixels beyond a rectangle of slices.
-StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t max_n,
+// What is found of a field before slices are made.
+void TakeField(size_t extended, Carver* carver, StackScratch* stack) {
+  StackScratch& scratch = *stack;
+  Surfaces& surfaces = scratch.surfaces;
+  const size_t row = simd::SliceSamples(extended);
+  scratch.field_rgb = carver->Take<uint8_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+  scratch.field_disparity = carver->Take<int16_t>(extended * extended);
+  for (uint8_t*& edges : surfaces.edges) {
+    edges = carver->Take<uint8_t>(extended * row + simd::kSliceLanes);
+  }
+  surfaces.moved = carver->Take<int16_t>(row);
+  surfaces.behind = carver->Take<int16_t>(row);
+  surfaces.steps = carver->Take<simd::StepBits>(row / simd::kSliceLanes);
+  for (uint16_t*& sources : surfaces.sources) sources = carver->Take<uint16_t>(row);
+  scratch.bins = carver->Take<uint8_t>(kSliceBins);
+  scratch.least_blur = carver->Take<int32_t>(extended);
+}
+
+// E and R of StackScratch, and the largest N; `reach`: pixels beyond a rectangle of slices. The
+// pool is what is left of `bytes` for all, if that is enough.
+StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t max_n, size_t bytes,
                        Carver* carver) {
   StackScratch scratch;
+  const size_t first = carver->Mark();
   Surfaces& surfaces = scratch.surfaces;
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
     surfaces.disparity[k] = carver->Take<int16_t>(area);
     surfaces.rgb[k] = carver->Take<uint8_t>(3 * area);
   }
-  for (uint8_t*& edges : surfaces.edges) edges = carver->Take<uint8_t>(area);
   surfaces.share = carver->Take<uint8_t>(area);
   surfaces.hiding = carver->Take<uint8_t>(extended);
-  surfaces.moved = carver->Take<int16_t>(simd::SliceSamples(extended));
-  surfaces.behind = carver->Take<int16_t>(simd::SliceSamples(extended));
-  surfaces.steps = carver->Take<simd::StepBits>(simd::SliceSamples(extended) / simd::kSliceLanes);
-  for (uint16_t*& sources : surfaces.sources) {
-    sources = carver->Take<uint16_t>(simd::SliceSamples(extended));
-  }
-  scratch.bins = carver->Take<uint8_t>(kSliceBins);
-  scratch.least_blur = carver->Take<int32_t>(extended);
-  const size_t rows = rectangle + 2 * reach;
-  scratch.cover_rows = static_cast<int32_t>(rows) + 1;
-  scratch.covers = carver->Take<simd::SliceCover>(kMaxSlices * (rows + 1));
-  scratch.plane_samples = kLargeSlices * SliceSize(rectangle, rectangle, reach);
-  scratch.planes = carver->Take<int16_t>(scratch.plane_samples);
-  scratch.filtered = carver->Take<int16_t>(SliceSize(rectangle, rectangle, reach));
-  scratch.tile_rows = kLargeTiles * ShiftedRows(rectangle, reach);
-  scratch.tile = carver->Take<int16_t>(4 * simd::kSliceLanes * scratch.tile_rows);
-  scratch.tile_near = carver->Take<uint8_t>(scratch.tile_rows + simd::kRowsAhead);
-  scratch.offsets = carver->Take<SliceOffset>(kMaxSlices * (2 * max_n + 1));
-  const size_t group = Min(2 * max_n + 1, size_t{kGroupViews});
-  scratch.shifts = carver->Take<simd::SliceShift>(kMaxSlices * (2 * max_n + 1));
-  scratch.weights = carver->Take<int16_t>(group);
+  scratch.centre = carver->Take<uint8_t>(3 * rectangle * rectangle);
+  scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
+  scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
   scratch.parts = carver->Take<StackPart>(StackParts(rectangle));
   scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rectangle);
+  scratch.filtered = carver->Take<int16_t>((rectangle + 2 * reach) * SlicePlane(rectangle, reach));
+  const size_t field = carver->Mark(), used = field - first;
+  TakeField(extended, carver, &scratch);
+  carver->Reuse(field);
+  constexpr size_t kLeastSlices = 5;
+  const size_t least =
+      kLeastSlices * (SliceBytes(kLeastColumns, kLeastRows, reach) + TileBytes(kLeastRows, reach));
+  const size_t others = used + simd::kPadding, left = bytes > others ? bytes - others : 0;
+  scratch.limits = {kLargeSlices * SliceSize(rectangle, rectangle, reach),
+                    kLargeTiles * ShiftedRows(rectangle, reach), left > least ? left : least};
+  scratch.pool = carver->Take<uint8_t>(scratch.limits.bytes);
   return scratch;
 }
 
+// What one block after the other is rendered, or parted, in shares memory: only sums are handed on.
 Worker TakeWorker(const sf_config& config, Carver* carver) {
   const auto side = static_cast<size_t>(config.largest_block);
   const Reach reach = GetReach(config.max_blur);
   Worker worker = {};
   const size_t extended = side + 2 * static_cast<size_t>(reach.border);
   const int32_t max_n = Max(LargestN(config), ViewsOfBenchmark(config.max_blur));
-  TakeField(extended, side, 0, carver, &worker.star);
-  // A picture is refocused by one rule: views are line scans or slices.
-  const size_t views = carver->Mark();
+  const size_t first = carver->Mark();
+  worker.star.accumulators[0] = carver->Take<uint32_t>(3 * side * side);
+  const size_t shared = carver->Mark();
   TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.star);
-  carver->Reuse(views);
+  carver->Reuse(shared);
   const auto rim = static_cast<size_t>(reach.border - kCellSize - 2);
-  worker.stack = TakeStack(extended, side, rim + kSliceMargin,
-                           static_cast<size_t>(LargestSliceN(config)), carver);
-  carver->GoOn();
-  worker.resample.line = carver->Take<int16_t>(3 * (side + 16));
-  worker.resample.filtered = carver->Take<int16_t>(3 * (side + 16));
+  worker.stack =
+      TakeStack(extended, side, rim + kSliceMargin, static_cast<size_t>(LargestSliceN(config)),
+                kPixelBytes * side * side - (shared - first) - sizeof(Worker), carver);
+  carver->Reuse(shared);
   // A rendered rectangle is at most half a block and 4 pixels wide.
   const size_t half = side / 2 + 8;
   worker.upsample.line = carver->Take<int16_t>(3 * half);
@@ -122,10 +134,15 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   worker.layer_samples = carver->Take<int16_t>(3 * half * half);
   worker.middle_samples = carver->Take<int16_t>(3 * half * half);
   worker.picture_samples = carver->Take<int16_t>(3 * side * side);
+  carver->Reuse(shared);
+  worker.resample.line = carver->Take<int16_t>(3 * (side + 16));
+  worker.resample.filtered = carver->Take<int16_t>(3 * (side + 16));
+  carver->Reuse(shared);
   worker.partition.nodes =
       carver->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
   worker.partition.cells = carver->Take<int16_t>(
       SurroundingSamples(config.largest_block / kCellSize, GetReach(config.max_blur).cells));
+  carver->GoOn();
   return worker;
 }
 

@@ -5,6 +5,8 @@
 namespace starfocus {
 namespace {
 
+using simd::SliceOffset;
+
 constexpr int32_t kFractionOne = 1 << 15;
 
 // What a box of `cell` pixels (kShiftBits), more than kBoxCell, covers of the pixels around it.
@@ -106,27 +108,39 @@ void SpreadCover(int32_t reach, const PlacedSlice& placed) {
   }
 }
 
+// Plane by plane: one is filtered along rows into memory of its own, and back along columns.
 void Spread(const simd::Kernels& kernels, int16_t* filtered, const PlacedSlice& placed) {
   const simd::SliceTaps taps = TapsOf(placed.cell);
-  const size_t row_size = 4 * placed.plane;
-  const auto at = [&](int32_t row) { return static_cast<size_t>(row) * row_size; };
-  filtered += simd::kSliceLanes;
-  for (int32_t row = 0; row < placed.rows; ++row) {
-    if (placed.cover[row].some != 0) {
-      kernels.spread_slice(placed.samples + at(row), 1, taps, row_size, filtered + at(row));
-    } else {
-      std::memset(filtered + at(row), 0, row_size * sizeof(*filtered));
-    }
-  }
+  const size_t plane = placed.plane;
   SpreadCover(taps.reach, placed);
-  for (int32_t row = taps.reach; row < placed.rows - taps.reach; ++row) {
-    if (placed.cover[row].some == 0) continue;
-    kernels.spread_slice(filtered + at(row), static_cast<ptrdiff_t>(row_size), taps, row_size,
-                         placed.samples + at(row));
+  for (size_t c = 0; c < 4; ++c) {
+    const auto sample = [&](int32_t row) {
+      return placed.samples + (4 * static_cast<size_t>(row) + c) * plane;
+    };
+    const auto along_row = [&](int32_t row) { return filtered + static_cast<size_t>(row) * plane; };
+    for (int32_t row = 0; row < placed.rows; ++row) {
+      if (placed.cover[row].some != 0) {
+        kernels.spread_slice(sample(row), 1, taps, plane, along_row(row));
+      } else {
+        std::memset(along_row(row), 0, plane * sizeof(*filtered));
+      }
+    }
+    for (int32_t row = taps.reach; row < placed.rows - taps.reach; ++row) {
+      if (placed.cover[row].some == 0) continue;
+      kernels.spread_slice(along_row(row), static_cast<ptrdiff_t>(plane), taps, plane, sample(row));
+    }
   }
 }
 
 }  // namespace
+
+void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride, SliceOffset* offsets) {
+  const int32_t cell = Abs(grid.Shift(grid.Move(1), disparity));
+  for (int32_t i = -grid.n(); i <= grid.n(); ++i, offsets += stride) {
+    const int32_t shift = grid.Shift(grid.Move(Abs(i)), disparity);
+    *offsets = OffsetOf(i < 0 ? -shift : shift, cell);
+  }
+}
 
 void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, PlacedSlice* placed) {
   const int32_t rim = Abs(grid.Shift(grid.Move(grid.n()), disparity));
@@ -134,11 +148,6 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Place
   placed->reach = SliceReach(rim);
   placed->rows = rect.height + 2 * placed->reach;
   placed->plane = SlicePlane(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
-  for (int32_t i = 0; i <= grid.n(); ++i) {
-    const int32_t shift = grid.Shift(grid.Move(i), disparity);
-    placed->offsets[i] = OffsetOf(shift, placed->cell);
-    placed->offsets[-i] = OffsetOf(-shift, placed->cell);
-  }
 }
 
 void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Slice& slice,

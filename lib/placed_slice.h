@@ -14,12 +14,6 @@
 
 namespace starfocus {
 
-// Where a view shows a slice: moved by whole pixels and a fraction of one.
-struct SliceOffset {
-  int32_t whole;
-  simd::SliceFraction fraction;
-};
-
 // Cells up to this wide, three pixels, are boxes of their width on up to four pixels; what
 // interpolation adds to wider ones, spread before they are moved, is little. kShiftBits.
 inline constexpr int32_t kBoxCell = 3 * kShiftOne;
@@ -40,7 +34,6 @@ struct PlacedSlice {
   int32_t cell = 0;                   // width r / N of its aperture cell, kShiftBits
   int16_t* samples = nullptr;         // of the first row
   simd::SliceCover* cover = nullptr;  // of each row
-  SliceOffset* offsets = nullptr;     // of view 0: from -N to N
 };
 
 // Samples between the planes of a slice that reaches `reach` pixels beyond a rectangle.
@@ -57,11 +50,25 @@ constexpr size_t ShiftedRows(size_t height, size_t reach) {
   return height + 2 * reach + simd::kRowsAhead;
 }
 
-// Geometry and offsets of a slice that moves as `disparity`; cover and offsets must be set.
+// Bytes of it and its covers, and of it in a tile with the marks of its rows.
+constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
+  return SliceSize(width, height, reach) * sizeof(int16_t) +
+         (height + 2 * reach) * sizeof(simd::SliceCover);
+}
+constexpr size_t TileBytes(size_t height, size_t reach) {
+  return ShiftedRows(height, reach) * (4 * simd::kSliceLanes * sizeof(int16_t) + 1);
+}
+
+// Where views show a slice that moves as `disparity`: of the views from -N to N, `stride` apart.
+void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride,
+                 simd::SliceOffset* offsets);
+
+// Geometry of the slice around `rect`.
 void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, PlacedSlice* placed);
 
 // Copies the slice's pixels around `rect` (in pixels of the surfaces, whose outermost pixels go on
-// beyond them) and spreads them for wide cells; `filtered` has room for as many samples.
+// beyond them) and spreads them for wide cells; `filtered` has room for the rows of one plane.
+// Samples and covers must be set.
 void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Slice& slice,
                const Rect& rect, int16_t* filtered, const PlacedSlice& placed);
 
@@ -88,8 +95,8 @@ void PlaceTile(const PlacedSlice& placed, int32_t x, int32_t top, int32_t bottom
                ShiftedSlice* shifted);
 
 // Writes the rows that are moved by `offset`.
-void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
-                int32_t x, const ShiftedSlice& shifted);
+void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed,
+                const simd::SliceOffset& offset, int32_t x, const ShiftedSlice& shifted);
 
 }  // namespace starfocus
 

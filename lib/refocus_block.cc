@@ -106,13 +106,9 @@ Rendered Render(const EngineState& engine, const Block& block, StarJob job,
   job.window = &counting.window();
   uint64_t samples = Samples(job.rect);
   if (UsesCells(engine)) {
-    Field field;
-    field.rgb = worker->star.field_rgb[0];
-    field.disparity = worker->star.field_disparity[0];
     const GatherMap* gathered = block.gathers ? &engine.plan.gathered : nullptr;
     const SliceRule& rule = IsBenchmark(engine) ? kFineSlices : kSlices;
-    samples =
-        3 * RefocusStack(job, rule, gathered, &field, &worker->stack, worker->star.accumulators[0]);
+    samples = 3 * RefocusStack(job, rule, gathered, &worker->stack, worker->star.accumulators[0]);
   } else {
     RefocusRectangle(job, &worker->star);
   }

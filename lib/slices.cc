@@ -124,7 +124,8 @@ class SliceFinder {
   // 0: too many, or too large.
   int32_t Cut(int coarser, Slice* slices) const {
     int32_t count = 0;
-    size_t samples = 0, rows = 0;
+    const SliceLimits& limits = job_.limits;
+    size_t samples = 0, rows = 0, bytes = 0;
     for (int32_t bin = bins_ - 1; bin >= 0; --bin) {
       if (job_.bins[bin] == 0) continue;
       if (count == job_.rule.most) return 0;
@@ -146,7 +147,8 @@ class SliceFinder {
       const auto height = static_cast<size_t>(job_.rect.height);
       samples += SliceSize(static_cast<size_t>(job_.rect.width), height, reach);
       rows += ShiftedRows(height, reach);
-      if (samples > job_.samples || rows > job_.tile_rows) return 0;
+      bytes += SliceBytes(kLeastColumns, kLeastRows, reach) + TileBytes(kLeastRows, reach);
+      if (samples > limits.samples || rows > limits.rows || bytes > limits.bytes) return 0;
     }
     return count;
   }

@@ -21,12 +21,19 @@ struct SliceRule {
 inline constexpr int32_t kSliceSharp = 4 * kShiftOne;
 inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
 inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // of the benchmark mode
-inline constexpr int32_t kMaxSlices = 32;
+inline constexpr int32_t kMaxSlices = simd::kMaxSeen;
 
-// Slices get coarser beyond the memory of this many of the largest reach, too, and their tiles
-// beyond the rows of this many: of a narrow rectangle more slices fit than of a wide one.
+// What all slices together may take; beyond it they get coarser. Those of a rectangle would cost
+// more than they add: samples of kLargeSlices of the largest reach, rows of kLargeTiles in tiles,
+// so that a narrow rectangle may have more slices than a wide one. And bytes of its least section:
+// slices are in memory for a section of a rectangle at a time.
+struct SliceLimits {
+  size_t samples, rows, bytes;
+};
 inline constexpr size_t kLargeSlices = 6;
 inline constexpr size_t kLargeTiles = 12;
+inline constexpr int32_t kLeastColumns = static_cast<int32_t>(simd::kSliceLanes);
+inline constexpr int32_t kLeastRows = 8;
 
 // Ranges of disparity that are told apart: single ones up to a blur of 64 pixels at full aperture.
 inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
@@ -46,8 +53,7 @@ struct SliceJob {
   Rect rect;            // in pixels of the surfaces
   uint8_t* bins;        // kSliceBins
   int32_t* least_blur;  // largest side of surfaces: scratch
-  size_t samples;       // of all slices together
-  size_t tile_rows;     // of all slices together
+  SliceLimits limits;
 };
 
 // Finds the slices, the nearest first, that hold all pixels of the surfaces that may splat into a

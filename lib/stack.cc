@@ -19,38 +19,34 @@ constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns 
 
 class Stack {
  public:
-  Stack(const StarJob& job, const SliceRule& rule, const GatherMap* gathered, Field* field,
-        StackScratch* scratch, uint32_t* accumulators)
+  Stack(const StarJob& job, const SliceRule& rule, const GatherMap* gathered, StackScratch* scratch,
+        uint32_t* accumulators)
       : job_(job),
         rule_(rule),
         gathered_(gathered),
         grid_(*job.grid),
-        field_(*field),
         scratch_(*scratch),
         accumulators_(accumulators) {}
 
   uint64_t Refocus() {
-    LoadField(*job_.window, job_.rect, job_.border, &field_);
-    FindSurfaces(*job_.kernels, *job_.window, field_, &scratch_.surfaces);
-    FindMatte(*job_.kernels, *job_.window, grid_, field_, &scratch_.surfaces);
     FindScale();
-    PlaceSlices();
-    const uint64_t pixels = FindParts();
-    const size_t samples = kPixelSums * static_cast<size_t>(kChunk * job_.rect.height);
-    const StackPart *part = scratch_.parts, *last = part + parts_;
-    for (int32_t x = 0; x < job_.rect.width; x += kChunk) {
-      std::memset(scratch_.sums, 0, samples * sizeof(*scratch_.sums));
-      tile_.x = x;
-      tile_.first = part;
-      while (part < last && part->x == x) ++part;
-      tile_.end = part;
-      if (tile_.first < tile_.end) AddTile();
-      FinishTile();
+    LoadSurfaces();
+    CutSlices();
+    const Section largest = ChooseSection();
+    uint64_t pixels = 0;
+    for (int32_t y = 0; y < job_.rect.height; y += largest.height) {
+      for (int32_t x = 0; x < job_.rect.width; x += largest.width) {
+        section_ = {x, y, Min(largest.width, job_.rect.width - x),
+                    Min(largest.height, job_.rect.height - y)};
+        pixels += RefocusSection();
+      }
     }
     return pixels;
   }
 
  private:
+  using Section = Rect;  // a part of the rectangle, of which slices are in memory
+
   uint32_t Weight(int32_t i, int32_t j) const { return grid_.aperture.Weight(i, j); }
 
   // Largest j of the views (i, j).
@@ -82,58 +78,126 @@ class Stack {
         static_cast<uint32_t>(((weight_scale_ << grid_.aperture.sum_bits) >> 16) / kLeastShare);
   }
 
-  void PlaceSlices() {
-    const Rect& inner = field_.inner;
-    const SliceJob job = {job_.kernels,
-                          &scratch_.surfaces,
-                          &grid_,
-                          rule_,
-                          inner,
-                          scratch_.bins,
-                          scratch_.least_blur,
-                          scratch_.plane_samples,
-                          scratch_.tile_rows};
-    Slice slices[kMaxSlices];
-    count_ = FindSlices(job, slices);
-    int16_t* samples = scratch_.planes;
-    const int32_t views = 2 * grid_.n() + 1;
-    for (int32_t k = 0; k < count_; ++k) {
-      PlacedSlice& placed = placed_[k];
-      placed.cover = scratch_.covers + k * scratch_.cover_rows;
-      placed.offsets = scratch_.offsets + k * views + grid_.n();
-      placed.samples = samples + kChunk;
-      PlaceSlice(grid_, slices[k].disparity, inner, &placed);
-      FillSlice(*job_.kernels, scratch_.surfaces, slices[k], inner, scratch_.filtered, placed);
-      samples += SliceSize(static_cast<size_t>(inner.width), static_cast<size_t>(inner.height),
-                           static_cast<size_t>(placed.reach));
+  void LoadSurfaces() {
+    Field field;
+    field.rgb = scratch_.field_rgb;
+    field.disparity = scratch_.field_disparity;
+    LoadField(*job_.window, job_.rect, job_.border, &field);
+    FindSurfaces(*job_.kernels, *job_.window, field, &scratch_.surfaces);
+    FindMatte(*job_.kernels, *job_.window, grid_, field, &scratch_.surfaces);
+    inner_ = field.inner;
+    const size_t row = 3 * static_cast<size_t>(inner_.width);
+    for (int32_t y = 0; y < inner_.height; ++y) {
+      std::memcpy(scratch_.centre + static_cast<size_t>(y) * row, field.Rgb(inner_.x, inner_.y + y),
+                  row);
     }
   }
 
+  void CutSlices() {
+    const SliceJob job = {job_.kernels,  &scratch_.surfaces,  &grid_,         rule_, inner_,
+                          scratch_.bins, scratch_.least_blur, scratch_.limits};
+    count_ = FindSlices(job, slices_);
+    for (int32_t k = 0; k < count_; ++k) {
+      FindOffsets(grid_, slices_[k].disparity, static_cast<size_t>(count_), scratch_.offsets + k);
+    }
+  }
+
+  // Of slice k, in views (i, .) or (., i).
+  const simd::SliceOffset& Offset(int32_t k, int32_t i) const {
+    return scratch_.offsets[(i + grid_.n()) * count_ + k];
+  }
+
+  // The largest section of which all slices fit into the pool, by halving the rectangle.
+  Section ChooseSection() const {
+    Section section = {0, 0, job_.rect.width, job_.rect.height};
+    const auto half = [](int32_t side, int32_t least) {
+      return ((side + 1) / 2 + least - 1) / least * least;
+    };
+    while (PoolBytes(section) > scratch_.limits.bytes) {
+      const bool least_rows = section.height <= kLeastRows;
+      if (section.width > kLeastColumns && (least_rows || section.width >= section.height)) {
+        section.width = half(section.width, kLeastColumns);
+      } else {
+        section.height = half(section.height, kLeastRows);
+      }
+    }
+    return section;
+  }
+
+  size_t PoolBytes(const Section& section) const {
+    const auto width = static_cast<size_t>(section.width);
+    const auto height = static_cast<size_t>(section.height);
+    size_t bytes = 0;
+    for (int32_t k = 0; k < count_; ++k) {
+      PlacedSlice placed;
+      PlaceSlice(grid_, slices_[k].disparity, section, &placed);
+      const auto reach = static_cast<size_t>(placed.reach);
+      bytes += SliceBytes(width, height, reach) + TileBytes(height, reach);
+    }
+    return bytes;
+  }
+
+  uint64_t RefocusSection() {
+    PlaceSlices();
+    const uint64_t pixels = FindParts();
+    const size_t samples = kPixelSums * static_cast<size_t>(kChunk * section_.height);
+    const StackPart *part = scratch_.parts, *last = part + parts_;
+    for (int32_t x = 0; x < section_.width; x += kChunk) {
+      std::memset(scratch_.sums, 0, samples * sizeof(*scratch_.sums));
+      tile_.x = x;
+      tile_.first = part;
+      while (part < last && part->x == x) ++part;
+      tile_.end = part;
+      if (tile_.first < tile_.end) AddTile();
+      FinishTile();
+    }
+    return pixels;
+  }
+
+  // Makes them of the section, one behind the other in the pool.
+  void PlaceSlices() {
+    const Rect rect = {inner_.x + section_.x, inner_.y + section_.y, section_.width,
+                       section_.height};
+    uint8_t* next = scratch_.pool;
+    for (int32_t k = 0; k < count_; ++k) {
+      PlacedSlice& placed = placed_[k];
+      PlaceSlice(grid_, slices_[k].disparity, rect, &placed);
+      const auto rows = static_cast<size_t>(placed.rows);
+      placed.cover = reinterpret_cast<simd::SliceCover*>(next);
+      placed.samples = reinterpret_cast<int16_t*>(placed.cover + rows) + kChunk;
+      FillSlice(*job_.kernels, scratch_.surfaces, slices_[k], rect, scratch_.filtered, placed);
+      next += SliceBytes(static_cast<size_t>(rect.width), static_cast<size_t>(rect.height),
+                         static_cast<size_t>(placed.reach));
+    }
+    tile_.memory = reinterpret_cast<int16_t*>(next);
+  }
+
   // Of one slice, whose cell makes the rest of the fraction.
-  static bool Same(const SliceOffset& a, const SliceOffset& b) {
+  static bool Same(const simd::SliceOffset& a, const simd::SliceOffset& b) {
     return a.whole == b.whole && a.fraction.edge == b.fraction.edge;
   }
 
   bool IsGathered(const StackPart& part) const {
     if (gathered_ == nullptr) return false;
-    const int32_t right = Min(job_.rect.x + part.x + kChunk, job_.rect.x + job_.rect.width);
-    for (int32_t y = part.y; y < part.y + part.rows; y += kCellSize) {
-      for (int32_t x = job_.rect.x + part.x; x < right; x += kCellSize) {
-        if (gathered_->At(x, job_.rect.y + y) == 0) return false;
+    const int32_t left = job_.rect.x + section_.x, top = job_.rect.y + section_.y + part.y;
+    const int32_t right = left + Min(part.x + kChunk, section_.width);
+    for (int32_t y = top; y < top + part.rows; y += kCellSize) {
+      for (int32_t x = left + part.x; x < right; x += kCellSize) {
+        if (gathered_->At(x, y) == 0) return false;
       }
     }
     return true;
   }
 
-  // What each part of the rectangle sees of the slices. Returns their pixels.
+  // What each part of the section sees of the slices. Returns their pixels.
   uint64_t FindParts() {
-    static_assert(kPartRows == kCellSize && kChunk % kCellSize == 0, "parts are whole cells");
+    static_assert(kLeastRows == kCellSize && kChunk % kCellSize == 0, "parts are whole cells");
     parts_ = 0;
     uint64_t pixels = 0;
-    for (int32_t x = 0; x < job_.rect.width; x += kChunk) {
-      for (int32_t y = 0; y < job_.rect.height; y += kPartRows) {
+    for (int32_t x = 0; x < section_.width; x += kChunk) {
+      for (int32_t y = 0; y < section_.height; y += kLeastRows) {
         StackPart& part = scratch_.parts[parts_];
-        part = {x, y, Min(kPartRows, job_.rect.height - y), 0, {}};
+        part = {x, y, Min(kLeastRows, section_.height - y), 0, {}};
         if (IsGathered(part)) continue;
         ++parts_;
         for (int32_t k = 0; k < count_; ++k) {
@@ -142,7 +206,7 @@ class Stack {
           if (cover.all != 0) break;
         }
         pixels += static_cast<uint64_t>(part.count) *
-                  static_cast<uint64_t>(part.rows * Min(kChunk, job_.rect.width - x));
+                  static_cast<uint64_t>(part.rows * Min(kChunk, section_.width - x));
       }
     }
     return pixels;
@@ -165,43 +229,41 @@ class Stack {
     for (const StackPart* part = tile_.first; part < tile_.end; ++part) {
       for (int32_t k = 0; k < part->count; ++k) seen |= uint32_t{1} << part->shown[k];
     }
-    const StackPart& bottom = tile_.end[-1];
-    int16_t* samples = scratch_.tile;
-    uint8_t* near = scratch_.tile_near + simd::kRowsAhead;
+    size_t rows = 0;
     tile_.count = 0;
     for (int32_t k = 0; k < count_; ++k) {
       if ((seen >> k & 1) == 0) continue;
       tile_.slices[tile_.count++] = k;
-      shifted_[k].samples = samples;
-      shifted_[k].near = near;
-      PlaceTile(placed_[k], tile_.x, tile_.first->y, bottom.y + bottom.rows, &shifted_[k]);
-      samples += 4 * shifted_[k].plane;
-      near += shifted_[k].plane / kChunk;
+      rows += static_cast<size_t>(placed_[k].rows) + simd::kRowsAhead;
     }
-    FindShifts();
+    PlaceTiles(rows);
     for (int32_t i = -grid_.n(); i <= grid_.n(); ++i) AddColumn(i);
   }
 
-  // Where views (., j) show the tile's slices.
-  void FindShifts() {
-    simd::SliceShift* shifts = scratch_.shifts;
-    for (int32_t j = -grid_.n(); j <= grid_.n(); ++j, shifts += count_) {
-      for (int32_t n = 0; n < tile_.count; ++n) {
-        const int32_t k = tile_.slices[n];
-        const SliceOffset& offset = placed_[k].offsets[j];
-        const int32_t row = placed_[k].reach + offset.whole;
-        shifts[k] = {shifted_[k].samples + row * kChunk, shifted_[k].near + row, shifted_[k].plane,
-                     offset.fraction};
-      }
+  // Of so many rows together. Marks follow all samples.
+  void PlaceTiles(size_t rows) {
+    const StackPart& bottom = tile_.end[-1];
+    int16_t* samples = tile_.memory;
+    uint8_t* near = reinterpret_cast<uint8_t*>(samples + 4 * rows * kChunk) + simd::kRowsAhead;
+    for (int32_t n = 0; n < tile_.count; ++n) {
+      const int32_t k = tile_.slices[n];
+      const PlacedSlice& placed = placed_[k];
+      ShiftedSlice& shifted = shifted_[k];
+      shifted.samples = samples;
+      shifted.near = near;
+      PlaceTile(placed, tile_.x, tile_.first->y, bottom.y + bottom.rows, &shifted);
+      seen_[k] = {samples + placed.reach * kChunk, near + placed.reach, shifted.plane};
+      samples += 4 * shifted.plane;
+      near += shifted.plane / kChunk;
     }
   }
 
   // Views (i, j) of all j.
   void AddColumn(int32_t i) {
     for (int32_t n = 0; n < tile_.count; ++n) {
-      const PlacedSlice& placed = placed_[tile_.slices[n]];
-      if (i > -grid_.n() && Same(placed.offsets[i], placed.offsets[i - 1])) continue;
-      ShiftSlice(*job_.kernels, placed, placed.offsets[i], tile_.x, shifted_[tile_.slices[n]]);
+      const int32_t k = tile_.slices[n];
+      if (i > -grid_.n() && Same(Offset(k, i), Offset(k, i - 1))) continue;
+      ShiftSlice(*job_.kernels, placed_[k], Offset(k, i), tile_.x, shifted_[k]);
     }
     const int32_t last = LastAcross(Abs(i));
     for (int32_t first = -last; first <= last; first += kGroupViews) {
@@ -214,36 +276,31 @@ class Stack {
     for (int32_t j = first; j <= last; ++j) {
       scratch_.weights[j - first] = static_cast<int16_t>((Weight(i, j) * weight_scale_) >> 16);
     }
-    const simd::SliceShift* shifts = scratch_.shifts + (first + grid_.n()) * count_;
-    const auto views = static_cast<size_t>(last + 1 - first);
     for (const StackPart* part = tile_.first; part < tile_.end; ++part) {
-      AddPart(shifts, views, *part);
+      const simd::SliceViews job = {scratch_.weights,
+                                    &Offset(0, first),
+                                    static_cast<size_t>(last + 1 - first),
+                                    seen_,
+                                    static_cast<size_t>(count_),
+                                    part->shown,
+                                    static_cast<size_t>(part->count),
+                                    static_cast<size_t>(part->y)};
+      job_.kernels->composite(job, static_cast<size_t>(part->rows),
+                              scratch_.sums + kPixelSums * static_cast<size_t>(part->y * kChunk));
     }
-  }
-
-  void AddPart(const simd::SliceShift* shifts, size_t views, const StackPart& part) {
-    const simd::SliceViews job = {scratch_.weights,
-                                  shifts,
-                                  views,
-                                  static_cast<size_t>(count_),
-                                  part.shown,
-                                  static_cast<size_t>(part.count),
-                                  static_cast<size_t>(part.y)};
-    job_.kernels->composite(job, static_cast<size_t>(part.rows),
-                            scratch_.sums + kPixelSums * static_cast<size_t>(part.y * kChunk));
   }
 
   // What no slice covers is as what covers the rest. A pixel that hardly any view shows is that of
   // the centre view.
   void FinishTile() {
     const simd::StackFinish finish = {least_covered_, grid_.aperture.sum_bits};
-    const auto columns = static_cast<size_t>(Min(kChunk, job_.rect.width - tile_.x));
-    for (int32_t y = 0; y < job_.rect.height; ++y) {
-      const auto at = static_cast<size_t>(y * job_.rect.width + tile_.x);
+    const auto columns = static_cast<size_t>(Min(kChunk, section_.width - tile_.x));
+    const int32_t left = section_.x + tile_.x;
+    for (int32_t y = 0; y < section_.height; ++y) {
+      const size_t at = 3 * static_cast<size_t>((section_.y + y) * job_.rect.width + left);
       job_.kernels->finish_stack(scratch_.sums + kPixelSums * static_cast<size_t>(y * kChunk),
-                                 simd::kSliceLanes,
-                                 field_.Rgb(field_.inner.x + tile_.x, field_.inner.y + y), finish,
-                                 columns, accumulators_ + 3 * at);
+                                 simd::kSliceLanes, scratch_.centre + at, finish, columns,
+                                 accumulators_ + at);
     }
   }
 
@@ -251,18 +308,22 @@ class Stack {
   const SliceRule rule_;
   const GatherMap* gathered_;
   const ViewGrid& grid_;
-  Field& field_;
   StackScratch& scratch_;
   uint32_t* accumulators_;
+  Rect inner_ = {};  // the rectangle in its surfaces
+  Slice slices_[kMaxSlices];
+  int32_t count_ = 0;
+  Section section_ = {};  // under way
   PlacedSlice placed_[kMaxSlices];
   ShiftedSlice shifted_[kMaxSlices];  // of the tile and the column of views under way
+  simd::TileSlice seen_[kMaxSlices];  // the same, as views of them see it
   struct Tile {
-    int32_t x;  // in the rectangle
+    int32_t x;  // in the section
     const StackPart *first, *end;
     int32_t slices[kMaxSlices];  // that are seen
     int32_t count;
+    int16_t* memory;
   } tile_;
-  int32_t count_ = 0;
   int32_t parts_ = 0;
   uint64_t weight_scale_ = 0;  // 16 bits
   uint32_t least_covered_ = 0;
@@ -271,8 +332,8 @@ class Stack {
 }  // namespace
 
 uint64_t RefocusStack(const StarJob& job, const SliceRule& rule, const GatherMap* gathered,
-                      Field* field, StackScratch* scratch, uint32_t* accumulators) {
-  return Stack(job, rule, gathered, field, scratch, accumulators).Refocus();
+                      StackScratch* scratch, uint32_t* accumulators) {
+  return Stack(job, rule, gathered, scratch, accumulators).Refocus();
 }
 
 }  // namespace starfocus

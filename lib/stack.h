@@ -12,10 +12,9 @@
 
 namespace starfocus {
 
-// Parts of a rectangle, this high and kSliceLanes wide, that see slices of their own.
-inline constexpr int32_t kPartRows = 8;
+// Parts of a section, kLeastRows high and kSliceLanes wide, that see slices of their own.
 struct StackPart {
-  int32_t x, y, rows;  // in the rectangle
+  int32_t x, y, rows;  // in the section
   int32_t count;       // slices seen
   uint8_t shown[kMaxSlices];
 };
@@ -27,36 +26,34 @@ inline constexpr size_t kPixelSums = 4;
 inline constexpr int32_t kGroupViews = 81;
 
 // Memory of one worker. E and R: largest side of an extended rectangle and of a rectangle; N; G:
-// the smaller of 2 N + 1 and kGroupViews.
+// the smaller of 2 N + 1 and kGroupViews. What slices are cut from is made of the field, and they
+// are made of surfaces when the field is no longer needed: the pool may share its memory.
 struct StackScratch {
-  Surfaces surfaces;         // E^2 each
-  uint8_t* bins;             // kSliceBins
-  int32_t* least_blur;       // E
-  simd::SliceCover* covers;  // kMaxSlices E
-  int32_t cover_rows;        // E
-  int16_t* planes;           // of all slices
-  size_t plane_samples;      // that fit
-  int16_t* filtered;         // SliceSize(R, R, E - R)
-  int16_t* tile;             // of all slices
-  uint8_t* tile_near;        // of each row of it, and kRowsAhead before
-  size_t tile_rows;          // that fit
-  SliceOffset* offsets;      // kMaxSlices (2 N + 1)
-  simd::SliceShift* shifts;  // kMaxSlices (2 N + 1)
-  int16_t* weights;          // G
-  StackPart* parts;          // of a rectangle
-  uint32_t* sums;            // kPixelSums of the pixels of a tile
+  uint8_t* field_rgb;          // E rows of RgbStride(E)
+  int16_t* field_disparity;    // E^2
+  Surfaces surfaces;           // E^2 each
+  uint8_t* bins;               // kSliceBins
+  int32_t* least_blur;         // E
+  uint8_t* centre;             // 3 R^2: the rectangle in the centre view
+  simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1)
+  int16_t* weights;            // G
+  StackPart* parts;            // of a rectangle
+  uint32_t* sums;              // kPixelSums of the pixels of a tile
+  int16_t* filtered;           // a plane of SliceSize(R, R, E - R)
+  uint8_t* pool;               // slices of a section, their covers, and a tile
+  SliceLimits limits;          // bytes: of the pool
 };
 
 // Parts of the largest rectangle.
 constexpr size_t StackParts(size_t side) {
-  return (side + kPartRows - 1) / kPartRows * (simd::SliceSamples(side) / simd::kSliceLanes);
+  constexpr size_t kRows = kLeastRows;
+  return (side + kRows - 1) / kRows * (simd::SliceSamples(side) / simd::kSliceLanes);
 }
 
 // As RefocusRectangle, by slices cut as `rule` says, of what is not `gathered` (null: of all; at
-// layer 0). `field`: for the extended rectangle, with memory set. Returns the pixels rendered in
-// each view, over all slices.
+// layer 0). Returns the pixels rendered in each view, over all slices.
 uint64_t RefocusStack(const StarJob& job, const SliceRule& rule, const GatherMap* gathered,
-                      Field* field, StackScratch* scratch, uint32_t* accumulators);
+                      StackScratch* scratch, uint32_t* accumulators);
 
 }  // namespace starfocus
 

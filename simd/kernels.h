@@ -107,24 +107,33 @@ struct SliceFraction {
 // Rows of a tile that composite may read beyond the last one it adds.
 inline constexpr size_t kRowsAhead = 6;
 
-// A slice in one view of a tile, kSliceLanes columns of pixels whose rows follow each other in each
-// of four planes, `plane` samples apart: its first row, whether each row from there on or one of
-// the next kRowsAhead is more than zeros, and what the view sees of a row and the next ones.
-struct SliceShift {
+// A slice in a tile, kSliceLanes columns of pixels whose rows follow each other in each of four
+// planes, `plane` samples apart: the row that an unmoved view shows first, and whether each row
+// from there on or one of the next kRowsAhead is more than zeros.
+struct TileSlice {
   const int16_t* samples;
   const uint8_t* near;
   size_t plane;
+};
+
+// Where a view shows a slice: moved by whole pixels, and what it sees of a row and the next ones.
+struct SliceOffset {
+  int32_t whole;
   SliceFraction fraction;
 };
 
-// Views of a tile above each other. shifts[view * slices + k] is slice k in a view; those of
-// `shown`, the nearest first, are seen.
+inline constexpr size_t kMaxSeen = 32;
+
+// Views of a tile above each other. offsets[view * count + k] is where a view shows slice k of
+// `slices`; those of `shown`, the nearest first, are seen.
 struct SliceViews {
   const int16_t* weights;  // [0, 2^14), 58000 at most together
-  const SliceShift* shifts;
-  size_t count, slices;
+  const SliceOffset* offsets;
+  size_t views;
+  const TileSlice* slices;
+  size_t count;
   const uint8_t* shown;
-  size_t shown_count;
+  size_t shown_count;  // kMaxSeen at most
   size_t row;  // the first of what is composited
 };
 

@@ -227,16 +227,18 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
   for (size_t y = 0; y < rows; ++y, sums += 4 * kSliceLanes) {
     const size_t row = views.row + y;
     for (size_t n = 0; n < kSliceLanes; ++n) {
-      for (size_t view = 0; view < views.count; ++view) {
+      for (size_t view = 0; view < views.views; ++view) {
         const int16_t weight = views.weights[view];
         int16_t light = kSliceOne;
         for (size_t k = 0; k < views.shown_count; ++k) {
-          const SliceShift& shift = views.shifts[view * views.slices + views.shown[k]];
-          if (shift.near[row] == 0) continue;
-          const int16_t* from = shift.samples + row * kSliceLanes + n;
+          const TileSlice& slice = views.slices[views.shown[k]];
+          const SliceOffset& offset = views.offsets[view * views.count + views.shown[k]];
+          const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
+          if (slice.near[moved] == 0) continue;
+          const int16_t* from = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
           const auto value = [&](size_t c) {
-            return Between15(from + c * shift.plane, from + 3 * shift.plane, kSliceLanes,
-                             shift.fraction);
+            return Between15(from + c * slice.plane, from + 3 * slice.plane, kSliceLanes,
+                             offset.fraction);
           };
           const int16_t covered = value(3);
           for (size_t c = 0; c < 4; ++c) {

@@ -7,6 +7,7 @@
 #endif
 
 #include <cstring>
+#include <type_traits>
 
 #include "simd/compat-inl.h"
 #include "simd/kernels.h"
@@ -191,16 +192,17 @@ HWY_INLINE void TakeLight(SliceVec weight, SliceVec red, SliceVec green, SliceVe
 // What a slice gives to a vector of rows of a view, of which `at` is the first sample; each row of
 // the view sees kTaps rows, 2 to 4.
 template <int kTaps>
-HWY_INLINE void TakeRows(const SliceShift& shift, const int16_t* HWY_RESTRICT at, SliceVec weight,
-                         SliceVec& light, SliceVec& r, SliceVec& g, SliceVec& b, SliceVec& a) {
+HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
+                         const int16_t* HWY_RESTRICT at, SliceVec weight, SliceVec& light,
+                         SliceVec& r, SliceVec& g, SliceVec& b, SliceVec& a) {
   const TileTag d16;
   const auto load = [&](const int16_t* from) HWY_ATTR { return hn::LoadU(d16, from); };
-  const int16_t* HWY_RESTRICT cover = at + 3 * shift.plane;
-  auto first = hn::Set(d16, shift.fraction.edge);
-  const auto third = hn::Set(d16, shift.fraction.third);
-  const auto fourth = hn::Set(d16, shift.fraction.fourth);
+  const int16_t* HWY_RESTRICT cover = at + 3 * plane;
+  auto first = hn::Set(d16, fraction.edge);
+  const auto third = hn::Set(d16, fraction.third);
+  const auto fourth = hn::Set(d16, fraction.fourth);
   if (kTaps == 2) {
-    const auto inside = hn::Set(d16, shift.fraction.inside);
+    const auto inside = hn::Set(d16, fraction.inside);
     first = hn::IfThenElse(hn::Eq(load(cover), load(cover + kSliceLanes)), inside, first);
   }
   const auto between = [&](const int16_t* from) HWY_ATTR {
@@ -217,34 +219,44 @@ HWY_INLINE void TakeRows(const SliceShift& shift, const int16_t* HWY_RESTRICT at
   // Colours are at most roundings there: times a weight below a half they are nothing, too.
   if (hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
   const auto excess = hn::Max(hn::Sub(covered, light), hn::Zero(d16));
-  TakeLight(weight, between(at), between(at + shift.plane), between(at + 2 * shift.plane), covered,
-            excess, light, r, g, b, a);
+  TakeLight(weight, between(at), between(at + plane), between(at + 2 * plane), covered, excess,
+            light, r, g, b, a);
 }
 
+// A slice that is seen, and where the first view shows it.
+struct SeenSlice {
+  TileSlice slice;
+  const SliceOffset* offsets;
+};
+
 // Two vectors of rows of a tile.
-HWY_INLINE void CompositeRows(const SliceViews& views, size_t row, size_t n, size_t rows,
-                              uint32_t* HWY_RESTRICT sums) {
+HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, size_t row, size_t n,
+                              size_t rows, uint32_t* HWY_RESTRICT sums) {
   const TileTag d16;
   const size_t step = RowsOf(d16), second = step * kSliceLanes;
   const auto zero = hn::Zero(d16), one = hn::Set(d16, kSliceOne);
   auto r0 = zero, g0 = zero, b0 = zero, a0 = zero, r1 = zero, g1 = zero, b1 = zero, a1 = zero;
-  const SliceShift* shifts = views.shifts;
-  for (size_t view = 0; view < views.count; ++view, shifts += views.slices) {
+  const SeenSlice* const end = seen + views.shown_count;
+  for (size_t view = 0, first = 0; view < views.views; ++view, first += views.count) {
     const auto weight = hn::Set(d16, views.weights[view]);
     auto light0 = one, light1 = one;
-    for (size_t k = 0; k < views.shown_count; ++k) {
-      const SliceShift& shift = shifts[views.shown[k]];
-      if (shift.near[row] == 0) continue;
-      const int16_t* at = shift.samples + row * kSliceLanes + n;
-      if (shift.fraction.third == 0) {
-        TakeRows<2>(shift, at, weight, light0, r0, g0, b0, a0);
-        TakeRows<2>(shift, at + second, weight, light1, r1, g1, b1, a1);
-      } else if (shift.fraction.fourth == 0) {
-        TakeRows<3>(shift, at, weight, light0, r0, g0, b0, a0);
-        TakeRows<3>(shift, at + second, weight, light1, r1, g1, b1, a1);
+    for (const SeenSlice* k = seen; k != end; ++k) {
+      const TileSlice& slice = k->slice;
+      const SliceOffset& offset = k->offsets[first];
+      const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
+      if (slice.near[moved] == 0) continue;
+      const int16_t* at = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
+      const auto take = [&](auto taps) HWY_ATTR {
+        constexpr int kTaps = decltype(taps)::value;
+        TakeRows<kTaps>(offset.fraction, slice.plane, at, weight, light0, r0, g0, b0, a0);
+        TakeRows<kTaps>(offset.fraction, slice.plane, at + second, weight, light1, r1, g1, b1, a1);
+      };
+      if (offset.fraction.third == 0) {
+        take(std::integral_constant<int, 2>());
+      } else if (offset.fraction.fourth == 0) {
+        take(std::integral_constant<int, 3>());
       } else {
-        TakeRows<4>(shift, at, weight, light0, r0, g0, b0, a0);
-        TakeRows<4>(shift, at + second, weight, light1, r1, g1, b1, a1);
+        take(std::integral_constant<int, 4>());
       }
       if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
     }
@@ -263,9 +275,13 @@ HWY_INLINE void CompositeRows(const SliceViews& views, size_t row, size_t n, siz
 HWY_INLINE void CompositeViews(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRICT sums) {
   const TileTag d;
   const size_t step = 2 * RowsOf(d);
+  SeenSlice seen[kMaxSeen];
+  for (size_t k = 0; k < views.shown_count; ++k) {
+    seen[k] = {views.slices[views.shown[k]], views.offsets + views.shown[k]};
+  }
   for (size_t y = 0; y < rows; y += step, sums += 4 * step * kSliceLanes) {
     for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d)) {
-      CompositeRows(views, views.row + y, n, rows - y, sums);
+      CompositeRows(views, seen, views.row + y, n, rows - y, sums);
     }
   }
 }

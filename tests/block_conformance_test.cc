@@ -78,9 +78,9 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   const std::vector<reference::Block> blocks = Partition(state, covered);
   const bool cells = params.rule == SF_RULE_CELLS;
-  const size_t slice_samples = cells ? state.workers[0].stack.plane_samples : 0;
-  const Distance distance = Compare(
-      out.Tight(), reference::RefocusBlocks(scene, params, config.theta, slice_samples, blocks));
+  const starfocus::SliceLimits* limits = cells ? &state.workers[0].stack.limits : nullptr;
+  const Distance distance =
+      Compare(out.Tight(), reference::RefocusBlocks(scene, params, config.theta, limits, blocks));
   for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
     test::Output other(scene.width, scene.height);
     state.kernels = kernels;

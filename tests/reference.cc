@@ -259,15 +259,16 @@ Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& le
 }  // namespace
 
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,
-                                  size_t slice_samples, const std::vector<Block>& blocks) {
+                                  const starfocus::SliceLimits* limits,
+                                  const std::vector<Block>& blocks) {
   const LightField field = Load(scene);
   const std::vector<Picture> layers = MakeLayers(field.at({0, 0}));
   const bool benchmark = params.mode == SF_MODE_BENCHMARK;
-  const Slicing slicing = {slice_samples, size_t(benchmark ? 32 : 16), benchmark ? 0.125 : 0.375};
+  const Slicing slicing = {limits, size_t(benchmark ? 32 : 16), benchmark ? 0.125 : 0.375};
   Result result;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   for (const Block& block : blocks) {
-    const bool by_cells = slice_samples > 0 && block.n > 0;
+    const bool by_cells = limits != nullptr && block.n > 0;
     const Lens lens =
         MakeLens(params, theta, block.n, block.layer, by_cells ? ExtentOfCells(block.n) : 1);
     const Rectangle rectangle = {

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "lib/slices.h"
 #include "starfocus/starfocus.h"
 #include "tests/test_scene.h"
 
@@ -43,10 +44,11 @@ struct Block {
 
 // Block mode, or the benchmark's blocks, with a given partition of the picture and without
 // deblocking; unrounded,
-// 3 * width * height. `slice_samples`: by the rule of cells, in slices of at most that many samples
-// together; 0: by the paper's rule.
+// 3 * width * height. `limits`: of slices, by the rule of cells; null: by the
+// paper's rule.
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,
-                                  size_t slice_samples, const std::vector<Block>& blocks);
+                                  const starfocus::SliceLimits* limits,
+                                  const std::vector<Block>& blocks);
 
 }  // namespace reference
 

@@ -45,9 +45,7 @@ class RangeFinder {
   std::vector<Range> Find() const {
     for (int64_t coarser = 1;; coarser *= 2) {
       const std::vector<Range> ranges = Cut(coarser);
-      if (ranges.size() <= slicing_.most && Samples(ranges) <= slicing_.samples) {
-        return ranges;
-      }
+      if (ranges.size() <= slicing_.most && Fit(ranges)) return ranges;
     }
   }
 
@@ -88,14 +86,17 @@ class RangeFinder {
     return ranges;
   }
 
-  size_t Samples(const std::vector<Range>& ranges) const {
-    size_t samples = 0;
+  bool Fit(const std::vector<Range>& ranges) const {
+    starfocus::SliceLimits all = {};
     for (const Range& range : ranges) {
       const int rim = std::abs(lens_.Shift(lens_.n, range.Disparity()));
-      samples += starfocus::SliceSize(size_t(rect_.width), size_t(rect_.height),
-                                      size_t(starfocus::SliceReach(rim)));
+      const auto reach = size_t(starfocus::SliceReach(rim)), height = size_t(rect_.height);
+      all.samples += starfocus::SliceSize(size_t(rect_.width), height, reach);
+      all.rows += starfocus::ShiftedRows(height, reach);
+      all.bytes += starfocus::SliceBytes(16, 8, reach) + starfocus::TileBytes(8, reach);
     }
-    return samples;
+    const starfocus::SliceLimits& limits = *slicing_.limits;
+    return all.samples <= limits.samples && all.rows <= limits.rows && all.bytes <= limits.bytes;
   }
 
   const Lens& lens_;

@@ -5,14 +5,15 @@
 
 #include <cstddef>
 
+#include "lib/slices.h"
 #include "tests/reference_field.h"
 
 namespace reference {
 
-// What slices are cut by: the memory of all together and their number, beyond which they get
+// What slices are cut by: what all together may take and their number, beyond which they get
 // coarser, and the pixels that they may lie apart at the rim where they are sharp.
 struct Slicing {
-  size_t samples;
+  const starfocus::SliceLimits* limits;
   size_t most;
   double range;
 };

@@ -20,7 +20,8 @@ using starfocus::simd::kSliceOne;
 using starfocus::simd::ReferenceKernels;
 using starfocus::simd::SliceCover;
 using starfocus::simd::SliceFraction;
-using starfocus::simd::SliceShift;
+using starfocus::simd::SliceOffset;
+using starfocus::simd::TileSlice;
 
 // Samples that kernels write and read of a row.
 size_t Whole(size_t count) { return starfocus::simd::SliceSamples(count); }
@@ -137,15 +138,15 @@ void TestShift(const Kernels& kernels) {
 }
 
 // A slice in a tile: planes of rows of kSliceLanes samples, some rows empty.
-struct TileSlice {
+struct TileMemory {
   std::vector<int16_t> samples;
   std::vector<uint8_t> near;
 };
 
-TileSlice MakeTileSlice(size_t rows, test::Random* random) {
+TileMemory MakeTile(size_t rows, test::Random* random) {
   const size_t plane = rows * kSliceLanes;
   const std::vector<int16_t> in = Planes(rows, kSliceLanes, random->Int(5, 100), random);
-  TileSlice slice = {std::vector<int16_t>(4 * plane), std::vector<uint8_t>(rows)};
+  TileMemory slice = {std::vector<int16_t>(4 * plane), std::vector<uint8_t>(rows)};
   for (size_t row = 0; row < rows; ++row) {
     if (random->Int(0, 3) == 0) continue;
     for (size_t n = 0; n < 4 * kSliceLanes; ++n) {
@@ -164,26 +165,29 @@ void TestComposite(const Kernels& kernels) {
   for (int round = 0; round < 200; ++round) {
     const size_t rows = size_t(random.Int(1, 9));
     const size_t slices = size_t(random.Int(1, 6)), views = size_t(random.Int(1, 9));
+    std::vector<TileMemory> memory;
     std::vector<TileSlice> tiles;
     for (size_t k = 0; k < slices; ++k) {
-      tiles.push_back(MakeTileSlice(rows + 9 + starfocus::simd::kRowsAhead, &random));
+      memory.push_back(MakeTile(rows + 9 + starfocus::simd::kRowsAhead, &random));
+    }
+    constexpr size_t kMost = 4;  // rows that views move by
+    for (const TileMemory& tile : memory) {
+      tiles.push_back({tile.samples.data() + kMost * kSliceLanes, tile.near.data() + kMost,
+                       tile.samples.size() / 4});
     }
     std::vector<int16_t> weights(views);
     for (int16_t& weight : weights)
       weight = int16_t(random.Int(0, std::min(16383, 58000 / int(views))));
-    std::vector<SliceShift> shifts;
+    std::vector<SliceOffset> offsets;
     for (size_t n = 0; n < views * slices; ++n) {
-      const size_t row = size_t(random.Int(0, 8));
-      const TileSlice& tile = tiles[n % slices];
-      shifts.push_back({tile.samples.data() + row * kSliceLanes, tile.near.data() + row,
-                        tile.samples.size() / 4, Fraction(&random)});
+      offsets.push_back({random.Int(-int(kMost), int(kMost)), Fraction(&random)});
     }
     std::vector<uint8_t> shown;
     for (size_t k = 0; k < slices; ++k) {
       if (random.Int(0, 4) > 0) shown.push_back(uint8_t(k));
     }
-    const starfocus::simd::SliceViews job = {weights.data(), shifts.data(), views, slices,
-                                             shown.data(),   shown.size(),  1};
+    const starfocus::simd::SliceViews job = {
+        weights.data(), offsets.data(), views, tiles.data(), slices, shown.data(), shown.size(), 1};
     std::vector<uint32_t> expected(4 * (rows + 1) * kSliceLanes, 5), got = expected;
     ReferenceKernels().composite(job, rows, expected.data());
     kernels.composite(job, rows, got.data());

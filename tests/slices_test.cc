@@ -16,7 +16,7 @@ using starfocus::Slice;
 using starfocus::SliceRule;
 
 constexpr int kSize = 64;
-constexpr size_t kMemory = size_t{1} << 24, kRows = 1 << 12;
+constexpr starfocus::SliceLimits kAmple = {size_t{1} << 24, 1 << 12, size_t{1} << 24};
 
 // Maps of one surface, or of one behind another, as FindSurfaces leaves them.
 struct Scene {
@@ -42,8 +42,9 @@ struct Scene {
   }
 
   // Of the middle 16 x 16 pixels.
-  std::vector<Slice> Cut(double focus, double aperture = 1, size_t memory = kMemory,
-                         const SliceRule& rule = starfocus::kSlices, size_t rows = kRows) {
+  std::vector<Slice> Cut(double focus, double aperture = 1,
+                         const SliceRule& rule = starfocus::kSlices,
+                         const starfocus::SliceLimits& limits = kAmple) {
     starfocus::Aperture views;
     views.n = 4;
     const auto grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
@@ -58,8 +59,7 @@ struct Scene {
                                              {24, 24, 16, 16},
                                              bins.data(),
                                              least.data(),
-                                             memory,
-                                             rows},
+                                             limits},
                                             slices.data());
     REQUIRE(count > 0);
     REQUIRE(count <= rule.most);
@@ -123,7 +123,7 @@ TEST_CASE("slices: three eighths of a pixel at the rim, more of a wide blur, and
   const std::vector<Slice> blurred = scene.Cut(-40);
   for (const Slice& slice : blurred) CHECK(slice.high - slice.low <= 24 * (42 - 4) / 4);
   CHECK(blurred.size() < scene.Cut(0).size());
-  for (const Slice& slice : scene.Cut(0, 1, kMemory, starfocus::kFineSlices)) {
+  for (const Slice& slice : scene.Cut(0, 1, starfocus::kFineSlices)) {
     CHECK(slice.high - slice.low < 8);
   }
 }
@@ -134,8 +134,12 @@ TEST_CASE("slices: coarser where there are too many, or too large ones") {
   for (int16_t& disparity : scene.planes[0]) disparity = int16_t(random.Int(-2000, 2000));
   const size_t all = scene.Cut(0).size();
   CHECK(all > 4);
-  CHECK(scene.Cut(0, 1, kMemory / 256).size() < all);
-  CHECK(scene.Cut(0, 1, kMemory, starfocus::kSlices, kRows / 16).size() < all);
+  const starfocus::SliceLimits tight[] = {{1 << 16, kAmple.rows, kAmple.bytes},
+                                          {kAmple.samples, 1 << 8, kAmple.bytes},
+                                          {kAmple.samples, kAmple.rows, 1 << 17}};
+  for (const starfocus::SliceLimits& limits : tight) {
+    CHECK(scene.Cut(0, 1, starfocus::kSlices, limits).size() < all);
+  }
 }
 
 }  // namespace

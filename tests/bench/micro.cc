@@ -90,12 +90,15 @@ void Composite(const Kernels& kernels, Buffers* b) {
   uint8_t near[kTileRows];
   std::memset(near, 1, sizeof(near));
   const uint8_t shown[2] = {0, 1};
-  starfocus::simd::SliceShift shifts[2 * kSliceViews];
+  starfocus::simd::SliceOffset offsets[2 * kSliceViews];
   for (size_t n = 0; n < 2 * kSliceViews; ++n) {
     const auto back = static_cast<int16_t>(-3000 * static_cast<int>(n / 2));
-    shifts[n] = {b->in.data() + n % 2 * 8, near, kSamples / 4, {back, back, 0, 0}};
+    offsets[n] = {0, {back, back, 0, 0}};
   }
-  kernels.composite({weights, shifts, kSliceViews, 2, shown, 2, 0}, kTileRows, b->sums.data());
+  const starfocus::simd::TileSlice slices[2] = {{b->in.data(), near, kSamples / 4},
+                                                {b->in.data() + 8, near, kSamples / 4}};
+  kernels.composite({weights, offsets, kSliceViews, slices, 2, shown, 2, 0}, kTileRows,
+                    b->sums.data());
 }
 
 // Of 128 pixels, a quarter lie 15 units before the others and hide them at their left, for views at
