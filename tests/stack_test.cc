@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "lib/engine.h"
 #include "starfocus/starfocus.h"
 #include "tests/refocused.h"
 #include "tests/test_scene.h"
@@ -124,6 +125,46 @@ TEST_CASE("stack: where slices of a slope overlap, its end covers no more than e
   CAPTURE(most);
   CHECK(std::abs(least - kEdge) < 0.06);
   CHECK(std::abs(most - kEdge) < 0.06);
+}
+
+TEST_CASE("stack: slices made section by section give the same picture") {
+  test::Random random(4);
+  test::Scene scene = HalfPlanes(9, -9, 5);
+  for (auto& picture : scene.pictures) {
+    for (uint8_t& sample : picture) sample = uint8_t(random.Int(0, 255));
+  }
+  test::Engine engine(test::ConfigFor(scene, 20));
+  REQUIRE(engine.status() == SF_OK);
+  auto& limits = reinterpret_cast<starfocus::EngineState*>(engine.get())->workers[0].stack.limits;
+  const auto reach = size_t(starfocus::SliceReach(16 * starfocus::kShiftOne));
+  const size_t whole = starfocus::SliceBytes(64, 64, reach) + starfocus::TileBytes(64, reach);
+  const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::TileBytes(8, reach);
+  REQUIRE(limits.bytes > 2 * whole);
+  for (const double focus : {0.0, 6.0}) {
+    const sf_params params = test::Params(focus, 1, SF_MODE_BENCHMARK);
+    test::Output expected(kWidth, kHeight), out(kWidth, kHeight);
+    REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
+    const size_t ample = limits.bytes;
+    for (const size_t bytes : {whole, (whole + least) / 2, 2 * least}) {
+      limits.bytes = bytes;
+      REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+      CAPTURE(focus);
+      CAPTURE(bytes);
+      CHECK(out.bytes == expected.bytes);
+    }
+    limits.bytes = ample;
+  }
+}
+
+TEST_CASE("stack: a worker takes a mebibyte at blocks of 64 and blurs of 32") {
+  size_t bytes[2];
+  for (int workers = 1; workers <= 2; ++workers) {
+    sf_config config = test::ConfigFor(HalfPlanes(16, -16, 17), 32);
+    config.largest_block = 64;
+    config.max_workers = workers;
+    REQUIRE(sf_workspace_size(&config, &bytes[workers - 1]) == SF_OK);
+  }
+  CHECK(bytes[1] - bytes[0] <= size_t{1} << 20);
 }
 
 }  // namespace
