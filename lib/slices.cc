@@ -9,10 +9,9 @@ namespace {
 
 constexpr int kOverlapParts = 10;  // of a slice's range
 
-// Pixels whose bins are looked at together: rows, columns, and columns of the largest surfaces.
+// Pixels whose bins are looked at together: rows and columns.
 constexpr int32_t kMarkedRows = 8;
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
-constexpr int32_t kMaxChunks = 64;
 
 class SliceFinder {
  public:

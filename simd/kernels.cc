@@ -61,6 +61,11 @@ uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   return LookBehindRow(row, hidden);
 }
 
+void Interpolate(const uint8_t* here, const uint8_t* next, const uint8_t* weight, size_t plane,
+                 uint8_t* out) {
+  InterpolatePixels(here, next, weight, plane, out);
+}
+
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out) {
   return SelectPixels(row, range, count, plane, out);
@@ -152,6 +157,7 @@ const Kernels* Table() {
                                       FindSteps,
                                       BesideSteps,
                                       LookBehind,
+                                      Interpolate,
                                       SelectSlice,
                                       SpreadSlice,
                                       ShiftSlice,

@@ -295,12 +295,34 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 
 const Kernels& ReferenceKernels() {
   using namespace reference;
-  static constexpr Kernels kernels = {
-      "reference",   Accumulate,     Blend,       FilterDisc,       Split,       FindEdges,
-      FindRanges,    FindSteps,      BesideSteps, LookBehind,       SelectSlice, SpreadSlice,
-      ShiftSlice,    Composite,      FinishStack, FindRuns,         MeasureCell, ReachBlock,
-      SurroundCells, Transpose,      Finish,      ConvertDisparity, Widen,       Narrow,
-      FinishLayer,   FilterHalfBand, Between};
+  static constexpr Kernels kernels = {"reference",
+                                      Accumulate,
+                                      Blend,
+                                      FilterDisc,
+                                      Split,
+                                      FindEdges,
+                                      FindRanges,
+                                      FindSteps,
+                                      BesideSteps,
+                                      LookBehind,
+                                      Interpolate,
+                                      SelectSlice,
+                                      SpreadSlice,
+                                      ShiftSlice,
+                                      Composite,
+                                      FinishStack,
+                                      FindRuns,
+                                      MeasureCell,
+                                      ReachBlock,
+                                      SurroundCells,
+                                      Transpose,
+                                      Finish,
+                                      ConvertDisparity,
+                                      Widen,
+                                      Narrow,
+                                      FinishLayer,
+                                      FilterHalfBand,
+                                      Between};
   return kernels;
 }
 
