@@ -48,6 +48,11 @@ void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t cou
   FindRangesOfRows(disparity, stride, rows, count, ranges);
 }
 
+void FindWithin(const int16_t* disparity, size_t stride, size_t rows, const DisparityRange& range,
+                uint16_t* within) {
+  FindWithinRows(disparity, stride, rows, range, within);
+}
+
 void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps) {
   FindStepsOfRow(row, count, step, steps);
 }
@@ -154,6 +159,7 @@ const Kernels* Table() {
                                       Split,
                                       FindEdges,
                                       FindRanges,
+                                      FindWithin,
                                       FindSteps,
                                       BesideSteps,
                                       LookBehind,

@@ -304,6 +304,10 @@ struct Kernels {
   void (*find_ranges)(const int16_t* disparity, size_t stride, size_t rows, size_t count,
                       DisparityRange* ranges);
 
+  // Bit k of within[row]: whether disparity[row * stride + k], k < kSliceLanes, is in the range.
+  void (*find_within)(const int16_t* disparity, size_t stride, size_t rows,
+                      const DisparityRange& range, uint16_t* within);
+
   // Steps of more than `step` after each pixel n < count of a row, by kSliceLanes of them; pixel
   // `count` is read.
   void (*find_steps)(const int16_t* row, size_t count, int16_t step, StepBits* steps);

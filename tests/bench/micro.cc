@@ -172,6 +172,14 @@ const Case kCases[] = {
          benchmark::DoNotOptimize(ranges);
        }
      }},
+    {"find_within", false, 2,
+     [](const Kernels& k, Buffers* b) {
+       uint16_t within[8];
+       for (size_t n = 0; n < kSamples; n += 8 * starfocus::simd::kSliceLanes) {
+         k.find_within(b->in.data() + n, starfocus::simd::kSliceLanes, 8, {2000, 9000}, within);
+         benchmark::DoNotOptimize(within);
+       }
+     }},
     {"find_steps", false, 2,
      [](const Kernels& k, Buffers* b) {
        k.find_steps(b->in.data(), kSamples, 20000, b->steps.data());
