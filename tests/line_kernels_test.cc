@@ -312,8 +312,9 @@ void TestFindWithin(const Kernels& kernels) {
     const size_t rows = size_t(random.Int(1, kMost)), stride = size_t(random.Int(16, 40));
     std::vector<int16_t> in(rows * stride);
     for (int16_t& d : in) d = int16_t(random.Int(-40, 40) * (random.Int(0, 3) == 0 ? 819 : 1));
-    const auto low = int16_t(random.Int(-45, 35)), high = int16_t(random.Int(low, 45));
-    const starfocus::simd::DisparityRange range = {low, random.Int(0, 3) == 0 ? INT16_MAX : high};
+    const auto low = int16_t(random.Int(-45, 35));
+    const auto high = int16_t(random.Int(0, 3) == 0 ? INT16_MAX : random.Int(low, 45));
+    const starfocus::simd::DisparityRange range = {low, high};
     std::vector<uint16_t> expected(kMost, 7), got = expected;
     ReferenceKernels().find_within(in.data(), stride, rows, range, expected.data());
     kernels.find_within(in.data(), stride, rows, range, got.data());
