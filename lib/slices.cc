@@ -9,10 +9,9 @@ namespace {
 
 constexpr int kOverlapParts = 10;  // of a slice's range
 
-// Pixels whose bins are looked at together: rows, columns, and columns of the largest surfaces.
+// Pixels whose bins are looked at together: rows and columns.
 constexpr int32_t kMarkedRows = 8;
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
-constexpr int32_t kMaxChunks = 64;
 
 class SliceFinder {
  public:
@@ -68,32 +67,45 @@ class SliceFinder {
                               static_cast<size_t>(surfaces_.stride), static_cast<size_t>(end - y),
                               static_cast<size_t>(surfaces_.width), ranges);
     for (int32_t x = 0; x < surfaces_.width; x += kChunk) {
+      const simd::DisparityRange& range = ranges[x / kChunk];
       const Rect pixels = {x, y, Min(kChunk, surfaces_.width - x), end - y};
-      if (!IsDone(pixels, ranges[x / kChunk])) MarkPixels(surface, pixels);
-    }
-  }
-
-  // Whether no bin is left to mark for pixels of a range: most fall into bins that are marked, or
-  // are too sharp to reach the rect.
-  bool IsDone(const Rect& pixels, const simd::DisparityRange& range) const {
-    if (range.low > range.high) return true;
-    const int32_t farthest = Max(Abs(range.low - grid_.focus), Abs(range.high - grid_.focus));
-    if (farthest < job_.least_blur[Beyond(pixels)]) return true;
-    const int32_t first = BinOf(range.low), last = BinOf(range.high);
-    return std::memchr(job_.bins + first, 0, static_cast<size_t>(last + 1 - first)) == nullptr;
-  }
-
-  void MarkPixels(int surface, const Rect& pixels) {
-    for (int32_t y = pixels.y; y < pixels.y + pixels.height; ++y) {
-      const int16_t* disparity = surfaces_.disparity[surface] + surfaces_.At(0, y);
-      for (int32_t x = pixels.x; x < pixels.x + pixels.width; ++x) {
-        if (surface > 0 && disparity[x] == kNoSurface) continue;
-        uint8_t& bin = job_.bins[BinOf(disparity[x])];
-        if (bin != 0) continue;
-        const int32_t least = job_.least_blur[Beyond({x, y, 1, 1})];
-        if (Abs(disparity[x] - grid_.focus) >= least) bin = 1;
+      const int32_t least = job_.least_blur[Beyond(pixels)];
+      if (least == 0) {
+        MarkPixels(surface, pixels, range.low, range.high);
+      } else {  // what is too sharp does not reach the rect
+        MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus - least));
+        MarkPixels(surface, pixels, Max(range.low, grid_.focus + least), range.high);
       }
     }
+  }
+
+  // Of disparities [low, high]; most fall into bins that are marked.
+  void MarkPixels(int surface, const Rect& pixels, int32_t low, int32_t high) {
+    if (low > high) return;
+    const uint8_t *first = job_.bins + BinOf(low), *last = job_.bins + BinOf(high);
+    first =
+        static_cast<const uint8_t*>(std::memchr(first, 0, static_cast<size_t>(last + 1 - first)));
+    if (first == nullptr) return;
+    while (*last != 0) --last;
+    const simd::DisparityRange range = {static_cast<int16_t>(Max(low, LowOf(first))),
+                                        static_cast<int16_t>(Min(high, LowOf(last + 1) - 1))};
+    const int16_t* disparity = surfaces_.disparity[surface] + surfaces_.At(pixels.x, pixels.y);
+    uint16_t within[kMarkedRows];
+    job_.kernels->find_within(disparity, static_cast<size_t>(surfaces_.stride),
+                              static_cast<size_t>(pixels.height), range, within);
+    for (int32_t y = 0; y < pixels.height; ++y, disparity += surfaces_.stride) {
+      ForEachBit(within[y], [&](int32_t k) {
+        uint8_t& mark = job_.bins[BinOf(disparity[k])];
+        if (mark != 0) return;
+        const int32_t least = job_.least_blur[Beyond({pixels.x + k, pixels.y + y, 1, 1})];
+        if (Abs(disparity[k] - grid_.focus) >= least) mark = 1;
+      });
+    }
+  }
+
+  // The lowest disparity of a bin.
+  int32_t LowOf(const uint8_t* bin) const {
+    return base_ + (static_cast<int32_t>(bin - job_.bins) << bin_bits_);
   }
 
   int32_t BinOf(int32_t disparity) const { return (disparity - base_) >> bin_bits_; }

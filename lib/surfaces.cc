@@ -7,12 +7,132 @@
 namespace starfocus {
 namespace {
 
-// No surface: also behind a row's end, since kernels look at whole vectors.
-void Clear(int16_t* disparity, int32_t count) {
-  for (int32_t k = 0; k < count; ++k) disparity[k] = kNoSurface;
+constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+
+// No surface behind a row's end, since kernels look at whole vectors.
+void ClearChunk(int16_t* disparity) {
+  for (int32_t k = 0; k < kChunk; ++k) disparity[k] = kNoSurface;
 }
 
-constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+// Hidden pixels of a chunk: the first one's place in the field, their disparities, and where their
+// colours are found as look_behind tells it.
+struct HiddenChunk {
+  int32_t x, y;
+  const int16_t* disparity;
+  const uint16_t* source;
+};
+
+// The colours of hidden pixels, each between two pixels, as `interpolate` takes them.
+class HiddenColours {
+ public:
+  uint8_t here[3 * kChunk] = {}, next[3 * kChunk] = {}, weight[kChunk] = {};
+
+  HiddenColours(const Window& window, const Field& field) : window_(window), field_(field) {}
+
+  // Of the pixels k of which bit k is set. Behind one edge many are read one after the other.
+  void Read(const HiddenChunk& chunk, uint32_t pixels) {
+    while (pixels != 0) {
+      const int32_t first = LowestBit(pixels);
+      pixels &= ~uint32_t{0} << ReadFrom(chunk, first);
+    }
+  }
+
+ private:
+  // Reads pixel k and those after it that are read with it. Returns the first that is not.
+  int32_t ReadFrom(const HiddenChunk& chunk, int32_t k) {
+    const uint32_t source = chunk.source[k], sides = source & 15;
+    if ((sides & (sides - 1)) != 0) {
+      ReadMean(chunk, k);
+      return k + 1;
+    }
+    const bool seen = source >> simd::kSourceDistance == 0;
+    return seen && window_.layer == 0 ? ReadPairs(chunk, k, LowestBit(sides))
+                                      : ReadStretch(chunk, k, LowestBit(sides));
+  }
+
+  // At layer 0, as long as what the captured view shows follows each other there.
+  int32_t ReadPairs(const HiddenChunk& chunk, int32_t first, int32_t side) {
+    const uint32_t source = chunk.source[first];
+    const int dx = kSides[side][0], dy = kSides[side][1];
+    const int bits = kShiftBits - kDisparityBits - (IsHalf(side, source) ? 1 : 0);
+    const int32_t back = -(dx + dy) * (1 << bits);
+    const int32_t moved = chunk.disparity[first] * back >> kShiftBits;
+    int32_t end = first, place = chunk.disparity[first] * back;
+    do {
+      weight[end++] = static_cast<uint8_t>(place & (kShiftOne - 1));
+      if (end == kChunk || chunk.source[end] != source) break;
+      place = chunk.disparity[end] * back;
+    } while (place >> kShiftBits == moved);
+    CountReads(end - first);
+    const int across = Abs(dx), down = Abs(dy), view = ViewOf(side, source);
+    const int32_t x = field_.x + chunk.x + first + across * moved;
+    const int32_t y = field_.y + chunk.y + down * moved;
+    CopyCaptured(window_, view, x, y, end - first, here + 3 * first);
+    CopyCaptured(window_, view, x + across, y + down, end - first, next + 3 * first);
+    return end;
+  }
+
+  // Of the same disparity.
+  int32_t ReadStretch(const HiddenChunk& chunk, int32_t first, int32_t side) {
+    int32_t end = first;
+    do {
+      weight[end++] = 0;
+    } while (end < kChunk && chunk.source[end] == chunk.source[first] &&
+             chunk.disparity[end] == chunk.disparity[first]);
+    ReadSide(chunk, first, end - first, side, here + 3 * first);
+    return end;
+  }
+
+  // The mean of all sides.
+  void ReadMean(const HiddenChunk& chunk, int32_t k) {
+    int32_t sums[3] = {0, 0, 0}, count = 0;
+    ForEachBit(chunk.source[k] & 15, [&](int32_t side) {
+      uint8_t shown[3];
+      ReadSide(chunk, k, 1, side, shown);
+      for (int c = 0; c < 3; ++c) sums[c] += shown[c];
+      ++count;
+    });
+    for (int c = 0; c < 3; ++c) {
+      here[3 * k + c] = static_cast<uint8_t>((sums[c] + count / 2) / count);
+    }
+    weight[k] = 0;
+  }
+
+  // Of `count` pixels from k on, of one disparity and source.
+  void ReadSide(const HiddenChunk& chunk, int32_t k, int32_t count, int32_t side,
+                uint8_t* rgb) const {
+    const int dx = kSides[side][0], dy = kSides[side][1];
+    const uint32_t source = chunk.source[k];
+    const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
+    if (distance != 0) {
+      std::memcpy(rgb, field_.Rgb(chunk.x + k + dx * distance, chunk.y + dy * distance),
+                  3 * static_cast<size_t>(count));
+      return;
+    }
+    CountReads(count);
+    const int64_t full = int64_t{chunk.disparity[k]} * (1 << (kShiftBits - kDisparityBits));
+    const auto moved = static_cast<int32_t>(
+        RoundShift(full * 2, 1 + window_.layer + (IsHalf(side, source) ? 1 : 0)));
+    const CapturedLine line = {(field_.x + chunk.x + k) * kShiftOne - dx * moved,
+                               (field_.y + chunk.y) * kShiftOne - dy * moved, 1, 0};
+    ReadCaptured(window_, ViewOf(side, source), line, count, rgb);
+  }
+
+  void CountReads(int32_t pixels) const {
+    if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(pixels);
+  }
+
+  static bool IsHalf(int32_t side, uint32_t source) {
+    return (source >> (simd::kSourceHalf + side) & 1) != 0;
+  }
+
+  static int ViewOf(int32_t side, uint32_t source) {
+    return CapturedView(kSides[side][0], kSides[side][1], IsHalf(side, source));
+  }
+
+  const Window& window_;
+  const Field& field_;
+};
 
 class SurfaceFinder {
  public:
@@ -20,8 +140,8 @@ class SurfaceFinder {
                 Surfaces* surfaces)
       : kernels_(kernels),
         window_(window),
-        field_(field),
         surfaces_(*surfaces),
+        colours_(window, field),
         unit_(int32_t{1} << (kDisparityBits + window.layer)),
         step_(kDepthEdge << window.layer) {}
 
@@ -38,16 +158,18 @@ class SurfaceFinder {
 
  private:
   void FindRange() {
-    int16_t low = *Row(0), high = low;
-    for (int32_t y = 0; y < surfaces_.height; ++y) {
-      const int16_t* row = Row(y);
-      for (int32_t x = 0; x < surfaces_.width; ++x) {
-        low = row[x] < low ? row[x] : low;
-        high = row[x] > high ? row[x] : high;
-      }
+    simd::DisparityRange ranges[kMaxChunks];
+    kernels_.find_ranges(Row(0), static_cast<size_t>(surfaces_.stride),
+                         static_cast<size_t>(surfaces_.height),
+                         static_cast<size_t>(surfaces_.width), ranges);
+    simd::DisparityRange all = ranges[0];
+    for (int32_t x = kChunk; x < surfaces_.width; x += kChunk) {
+      const simd::DisparityRange& range = ranges[x / kChunk];
+      all.low = range.low < all.low ? range.low : all.low;
+      all.high = range.high > all.high ? range.high : all.high;
     }
-    surfaces_.low = low;
-    surfaces_.high = high;
+    surfaces_.low = all.low;
+    surfaces_.high = all.high;
   }
 
   uint8_t* Edges(int side, int32_t y) const { return surfaces_.edges[side] + surfaces_.At(0, y); }
@@ -117,87 +239,35 @@ class SurfaceFinder {
     row.side_views = window_.views > 1;
     row.half_views = window_.views == 17;
     for (int side = 0; side < 4; ++side) row.edges[side] = Edges(side, y);
+    uint16_t found[simd::kSurfaces - 1][kMaxChunks];
     const simd::HiddenRow hidden = {{surfaces_.disparity[1] + at, surfaces_.disparity[2] + at},
                                     {surfaces_.sources[0], surfaces_.sources[1]},
+                                    {found[0], found[1]},
                                     surfaces_.share + at};
     const uint64_t chunks = kernels_.look_behind(row, hidden);
     surfaces_.hiding[y] = chunks != 0;
     for (int behind = 1; behind < simd::kSurfaces; ++behind) {
-      int32_t from = 0;
-      for (uint64_t rest = chunks; rest != 0; rest >>= 1, from += kChunk) {
-        if ((rest & 1) != 0) SetColours(from, Min(from + kChunk, surfaces_.width), y, behind);
+      int32_t chunk = 0;
+      for (uint64_t rest = chunks; rest != 0; rest >>= 1, ++chunk) {
+        const uint32_t pixels = (rest & 1) != 0 ? found[behind - 1][chunk] : 0;
+        if (pixels != 0) SetColours(chunk * kChunk, y, behind, pixels);
       }
     }
   }
 
-  // Of the pixels first ... end - 1 of a row. Behind one edge many are read one after the other.
-  void SetColours(int32_t first, int32_t end, int32_t y, int behind) {
-    const uint16_t* sources = surfaces_.sources[behind - 1];
-    const int16_t* disparity = surfaces_.disparity[behind] + surfaces_.At(0, y);
-    uint8_t* const rgb = surfaces_.rgb[behind] + surfaces_.At(0, y);
-    for (int32_t x = first; x < end;) {
-      const uint32_t source = sources[x];
-      if (source == 0) {
-        ++x;
-        continue;
-      }
-      int32_t count = 1;
-      uint8_t shown[3 * kChunk];
-      const uint32_t sides = source & 15;
-      if ((sides & (sides - 1)) == 0 && source >> simd::kSourceDistance == 0) {
-        while (x + count < end && sources[x + count] == source &&
-               disparity[x + count] == disparity[x]) {
-          ++count;
-        }
-        Read({x, y, LowestBit(sides), count}, disparity[x], source, shown);
-      } else {
-        ReadMean(x, y, disparity[x], source, shown);
-      }
-      for (const uint8_t* from = shown; count > 0; --count, ++x, from += 3) {
-        for (size_t c = 0; c < 3; ++c) rgb[c * surfaces_.plane + static_cast<size_t>(x)] = from[c];
-      }
-    }
-  }
-
-  // The mean of all sides.
-  void ReadMean(int32_t x, int32_t y, int16_t disparity, uint32_t source, uint8_t* rgb) const {
-    int32_t sums[3] = {0, 0, 0}, count = 0;
-    ForEachBit(source & 15, [&](int32_t side) {
-      uint8_t shown[3];
-      Read({x, y, side, 1}, disparity, source, shown);
-      for (int c = 0; c < 3; ++c) sums[c] += shown[c];
-      ++count;
-    });
-    for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>((sums[c] + count / 2) / count);
-  }
-
-  // Pixels of a row, one after the other, of which the same side shows what is behind.
-  struct Stretch {
-    int32_t x, y, side, count;
-  };
-
-  // `source` as look_behind gives it; of one pixel where no view shows it.
-  void Read(const Stretch& at, int16_t disparity, uint32_t source, uint8_t* rgb) const {
-    const int dx = kSides[at.side][0], dy = kSides[at.side][1];
-    const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
-    if (distance != 0) {
-      std::memcpy(rgb, field_.Rgb(at.x + dx * distance, at.y + dy * distance), 3);
-      return;
-    }
-    if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(at.count);
-    const bool half = (source >> (simd::kSourceHalf + at.side) & 1) != 0;
-    const int64_t full = int64_t{disparity} * (1 << (kShiftBits - kDisparityBits));
-    const auto moved =
-        static_cast<int32_t>(RoundShift(full * 2, 1 + window_.layer + (half ? 1 : 0)));
-    const CapturedLine line = {(field_.x + at.x) * kShiftOne - dx * moved,
-                               (field_.y + at.y) * kShiftOne - dy * moved, 1, 0};
-    ReadCaptured(window_, CapturedView(dx, dy, half), line, at.count, rgb);
+  // Of the `found` pixels of a chunk.
+  void SetColours(int32_t x, int32_t y, int behind, uint32_t found) {
+    const size_t at = surfaces_.At(x, y);
+    colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + x},
+                  found);
+    kernels_.interpolate(colours_.here, colours_.next, colours_.weight, surfaces_.plane,
+                         surfaces_.rgb[behind] + at);
   }
 
   const simd::Kernels& kernels_;
   const Window& window_;
-  const Field& field_;
   Surfaces& surfaces_;
+  HiddenColours colours_;
   const int32_t unit_;  // disparity that a pixel of the layer is at distance 1
   const int32_t step_;  // a larger one from pixel to pixel may hide something
 };
@@ -214,13 +284,11 @@ void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Fiel
     const size_t at = surfaces->At(0, y);
     std::memcpy(surfaces->disparity[0] + at, field.Disparity(0, y),
                 static_cast<size_t>(field.width) * sizeof(int16_t));
-    Clear(surfaces->disparity[0] + at + field.width, surfaces->stride - field.width);
+    ClearChunk(surfaces->disparity[0] + at + field.width);  // the next row is copied over it
     kernels.split(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
                   surfaces->rgb[0] + at);
   }
-  for (int16_t* disparity : surfaces->disparity) {
-    Clear(disparity + surfaces->plane, static_cast<int32_t>(simd::kSliceLanes));
-  }
+  for (int16_t* disparity : surfaces->disparity) ClearChunk(disparity + surfaces->plane);
   std::memset(surfaces->share + surfaces->plane, simd::kSliceWhole, simd::kSliceLanes);
   SurfaceFinder(kernels, window, field, surfaces).Find();
 }

@@ -17,6 +17,9 @@ using simd::kNoSurface;
 // A larger step of disparity from pixel to pixel, at layer 0, may hide something: kDisparityBits.
 inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
 
+// The widest surfaces, by kSliceLanes columns.
+inline constexpr int32_t kMaxChunks = 64;
+
 // Surface 0 is the field itself, the nearest one. Rows of `stride` pixels, then kSliceLanes more;
 // colours in three planes, `plane` apart.
 struct Surfaces {

@@ -1,5 +1,6 @@
 #include "lib/window.h"
 
+#include <cstring>
 #include <initializer_list>
 
 namespace starfocus {
@@ -143,6 +144,17 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
   } else {
     ReadLine(Endless{window.view[index], right, bottom}, layer, from, count, rgb);
   }
+}
+
+void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
+                  uint8_t* rgb) {
+  const Endless pixels = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+  const uint8_t* row = pixels.Row(y);
+  if (x >= 0 && x + count <= window.picture_width) {
+    std::memcpy(rgb, row + 3 * x, 3 * static_cast<size_t>(count));
+    return;
+  }
+  for (int32_t p = 0; p < count; ++p) std::memcpy(rgb + 3 * p, row + pixels.Column(x + p), 3);
 }
 
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {

@@ -60,6 +60,11 @@ struct CapturedLine {
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
                   uint8_t* rgb);
 
+// Copies `count` pixels of a captured view, from (x, y) of the picture on along its row; outside
+// the picture the nearest ones.
+void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
+                  uint8_t* rgb);
+
 // One such colour at L = 0 before it is rounded, 2 * kShiftBits; x or y is a whole pixel.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
 

@@ -48,6 +48,11 @@ void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t cou
   FindRangesOfRows(disparity, stride, rows, count, ranges);
 }
 
+void FindWithin(const int16_t* disparity, size_t stride, size_t rows, const DisparityRange& range,
+                uint16_t* within) {
+  FindWithinRows(disparity, stride, rows, range, within);
+}
+
 void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps) {
   FindStepsOfRow(row, count, step, steps);
 }
@@ -59,6 +64,11 @@ void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t ste
 
 uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   return LookBehindRow(row, hidden);
+}
+
+void Interpolate(const uint8_t* here, const uint8_t* next, const uint8_t* weight, size_t plane,
+                 uint8_t* out) {
+  InterpolatePixels(here, next, weight, plane, out);
 }
 
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
@@ -149,9 +159,11 @@ const Kernels* Table() {
                                       Split,
                                       FindEdges,
                                       FindRanges,
+                                      FindWithin,
                                       FindSteps,
                                       BesideSteps,
                                       LookBehind,
+                                      Interpolate,
                                       SelectSlice,
                                       SpreadSlice,
                                       ShiftSlice,

@@ -193,11 +193,12 @@ inline constexpr int kSourceHalf = 4, kSourceDistance = 8;
 inline constexpr int16_t kUnseen =
     256;  // added to the distance of what no view shows, for an order
 
-// What look_behind writes of a row: the surfaces behind the first one, and what the first one
-// covers (SurfaceRow).
+// What look_behind writes of a row: the surfaces behind the first one, which pixels have them (bit
+// k of found[c]: pixel c kSliceLanes + k), and what the first one covers (SurfaceRow).
 struct HiddenRow {
   int16_t* disparity[kSurfaces - 1];
   uint16_t* source[kSurfaces - 1];
+  uint16_t* found[kSurfaces - 1];
   uint8_t* share;
 };
 
@@ -312,6 +313,10 @@ struct Kernels {
   void (*find_ranges)(const int16_t* disparity, size_t stride, size_t rows, size_t count,
                       DisparityRange* ranges);
 
+  // Bit k of within[row]: whether disparity[row * stride + k], k < kSliceLanes, is in the range.
+  void (*find_within)(const int16_t* disparity, size_t stride, size_t rows,
+                      const DisparityRange& range, uint16_t* within);
+
   // Steps of more than `step` after each pixel n < count of a row, by kSliceLanes of them; pixel
   // `count` is read.
   void (*find_steps)(const int16_t* row, size_t count, int16_t step, StepBits* steps);
@@ -326,8 +331,14 @@ struct Kernels {
   // that. Sides that a side view shows come before all others: where no pixel towards the side lies
   // nearer, by half a pixel per unit, and moves in the view to within 3/4 of a pixel of the place
   // behind. Shares are kSliceEnd beside an edge, else kSliceWhole. Returns of which kSliceLanes of
-  // the row something is hidden; only there sources are written. width <= 64 kSliceLanes.
+  // the row something is hidden; only there `source` and `found` are written. width <= 64
+  // kSliceLanes.
   uint64_t (*look_behind)(const DepthRow& row, const HiddenRow& hidden);
+
+  // Interpolates kSliceLanes pixels, each between two: out[c * plane + n] = (here[3 n + c] (256 -
+  // weight[n]) + next[3 n + c] weight[n]) / 256, halves up.
+  void (*interpolate)(const uint8_t* here, const uint8_t* next, const uint8_t* weight, size_t plane,
+                      uint8_t* out);
 
   // Of the surfaces within the range, at each pixel n < count: the colour of the first one times
   // its share, plus that of the next one times the rest, and what both cover; zeros where there is

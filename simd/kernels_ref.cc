@@ -97,6 +97,17 @@ void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t cou
   }
 }
 
+void FindWithin(const int16_t* disparity, size_t stride, size_t rows, const DisparityRange& range,
+                uint16_t* within) {
+  for (size_t row = 0; row < rows; ++row, disparity += stride) {
+    int bits = 0;
+    for (size_t k = 0; k < kSliceLanes; ++k) {
+      if (disparity[k] >= range.low && disparity[k] <= range.high) bits |= 1 << k;
+    }
+    within[row] = static_cast<uint16_t>(bits);
+  }
+}
+
 void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
               const RunLimits& limits, const RunMarks& marks) {
   for (size_t k = 0; k < lines; ++k) {
@@ -296,11 +307,11 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 const Kernels& ReferenceKernels() {
   using namespace reference;
   static constexpr Kernels kernels = {
-      "reference",   Accumulate,     Blend,       FilterDisc,       Split,       FindEdges,
-      FindRanges,    FindSteps,      BesideSteps, LookBehind,       SelectSlice, SpreadSlice,
-      ShiftSlice,    Composite,      FinishStack, FindRuns,         MeasureCell, ReachBlock,
-      SurroundCells, Transpose,      Finish,      ConvertDisparity, Widen,       Narrow,
-      FinishLayer,   FilterHalfBand, Between};
+      "reference", Accumulate,  Blend,         FilterDisc,     Split,       FindEdges,
+      FindRanges,  FindWithin,  FindSteps,     BesideSteps,    LookBehind,  Interpolate,
+      SelectSlice, SpreadSlice, ShiftSlice,    Composite,      FinishStack, FindRuns,
+      MeasureCell, ReachBlock,  SurroundCells, Transpose,      Finish,      ConvertDisparity,
+      Widen,       Narrow,      FinishLayer,   FilterHalfBand, Between};
   return kernels;
 }
 

@@ -1,4 +1,4 @@
-// Kernels::find_ranges. Included once per target.
+// Kernels::find_ranges and find_within. Included once per target.
 #if defined(STARFOCUS_SIMD_RANGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_RANGES_INL_H_
 #undef STARFOCUS_SIMD_RANGES_INL_H_
@@ -8,6 +8,7 @@
 
 #include "simd/compat-inl.h"
 #include "simd/kernels.h"
+#include "simd/surfaces-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -39,6 +40,21 @@ HWY_INLINE void FindRangesOfRows(const int16_t* disparity, size_t stride, size_t
   for (size_t n = 0; n < count; n += kSliceLanes) {
     *ranges++ = RangeOfColumns(disparity + n, stride, rows,
                                count - n < kSliceLanes ? count - n : kSliceLanes);
+  }
+}
+
+HWY_INLINE void FindWithinRows(const int16_t* HWY_RESTRICT disparity, size_t stride, size_t rows,
+                               const DisparityRange& range, uint16_t* HWY_RESTRICT within) {
+  const SurfaceTag d16;
+  const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
+  for (size_t row = 0; row < rows; ++row, disparity += stride) {
+    uint32_t bits = 0;
+    for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
+      const auto value = hn::LoadU(d16, disparity + n);
+      const auto outside = hn::Or(hn::Lt(value, low), hn::Gt(value, high));
+      if (!hn::AllTrue(d16, outside)) bits |= BitsOf(d16, hn::Not(outside)) << n;
+    }
+    within[row] = static_cast<uint16_t>(bits);
   }
 }
 

@@ -152,14 +152,25 @@ uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
       end = end || row.edges[side][x] == 1;
     }
     hidden.share[x] = end ? kSliceEnd : static_cast<uint8_t>(kSliceWhole);
+    const size_t chunk = static_cast<size_t>(x) / kSliceLanes;
     int16_t above = kNoSurface;
     for (int behind = 0; behind < kSurfaces - 1; ++behind) {
       above = ChooseSurface(sides, x, behind, 1 << row.unit_bits, above, hidden);
-      if (above == kNoSurface) continue;
-      chunks |= uint64_t{1} << (static_cast<size_t>(x) / kSliceLanes);
+      const int bit = above != kNoSurface ? 1 << static_cast<size_t>(x) % kSliceLanes : 0;
+      uint16_t& found = hidden.found[behind][chunk];
+      found = static_cast<uint16_t>((static_cast<size_t>(x) % kSliceLanes == 0 ? 0 : found) | bit);
+      if (bit != 0) chunks |= uint64_t{1} << chunk;
     }
   }
   return chunks;
+}
+
+void Interpolate(const uint8_t* here, const uint8_t* next, const uint8_t* weight, size_t plane,
+                 uint8_t* out) {
+  for (size_t n = 0; n < 3 * kSliceLanes; ++n) {
+    const int sum = here[n] * (256 - weight[n / 3]) + next[n] * weight[n / 3];
+    out[n % 3 * plane + n / 3] = static_cast<uint8_t>((sum + 128) >> 8);
+  }
 }
 
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,

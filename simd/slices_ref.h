@@ -14,6 +14,8 @@ void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps);
 void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t step,
                  uint16_t* beside);
 uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden);
+void Interpolate(const uint8_t* here, const uint8_t* next, const uint8_t* weight, size_t plane,
+                 uint8_t* out);
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out);
 void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,

@@ -1,5 +1,5 @@
-// The kernels of surfaces: split, find_steps, find_edges, look_behind, beside_steps. Included once
-// per target.
+// The kernels of surfaces: split, find_steps, find_edges, look_behind, interpolate, beside_steps.
+// Included once per target.
 #if defined(STARFOCUS_SIMD_SURFACES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_SURFACES_INL_H_
 #undef STARFOCUS_SIMD_SURFACES_INL_H_
@@ -185,7 +185,7 @@ HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t ch
   const hn::RebindToUnsigned<SurfaceTag> du16;
   const auto unit = hn::Set(d16, static_cast<int16_t>(1 << unit_bits));
   const auto none = hn::Set(d16, kNoRank), nothing = hn::Set(d16, kNoSurface);
-  bool any = false;
+  uint32_t found[kSurfaces - 1] = {};
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
     auto above = nothing;
     for (int surface = 0; surface < kSurfaces - 1; ++surface) {
@@ -201,14 +201,18 @@ HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t ch
         disparity = hn::IfThenElse(hn::Lt(rank, best), far, nearest);
         best = hn::Min(best, rank);
       }
-      above = hn::IfThenElse(hn::Lt(best, none), disparity, nothing);
-      any = any || !hn::AllFalse(d16, hn::Lt(best, none));
+      const auto some = hn::Lt(best, none);
+      above = hn::IfThenElse(some, disparity, nothing);
+      found[surface] |= BitsOf(d16, some) << k;
       hn::StoreU(above, d16, hidden.disparity[surface] + chunk + k);
       const auto source = SourceOf(d16, sides, k, best, above);
       hn::StoreU(hn::BitCast(du16, source), du16, hidden.source[surface] + chunk + k);
     }
   }
-  return any;
+  for (int surface = 0; surface < kSurfaces - 1; ++surface) {
+    hidden.found[surface][chunk / kSliceLanes] = static_cast<uint16_t>(found[surface]);
+  }
+  return found[0] != 0;  // the first of them is nowhere missing
 }
 
 // Which sides of a chunk hide something, bit by bit; tells where surfaces end. Most hide nothing.
@@ -255,6 +259,31 @@ HWY_INLINE uint64_t LookBehindRow(const DepthRow& row, const HiddenRow& hidden) 
     if (ChooseSurfaces(sides, row.unit_bits, chunk, hidden)) chunks |= bit;
   }
   return chunks;
+}
+
+HWY_INLINE void InterpolatePixels(const uint8_t* HWY_RESTRICT here,
+                                  const uint8_t* HWY_RESTRICT next,
+                                  const uint8_t* HWY_RESTRICT weight, size_t plane,
+                                  uint8_t* HWY_RESTRICT out) {
+  const hn::CappedTag<uint16_t, kSliceLanes> d16;
+  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  const auto half = hn::Set(d16, uint16_t{128});
+  for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
+    hn::Vec<decltype(d8)> r, g, b, next_r, next_g, next_b;
+    hn::LoadInterleaved3(d8, here + 3 * n, r, g, b);
+    hn::LoadInterleaved3(d8, next + 3 * n, next_r, next_g, next_b);
+    const auto share = hn::PromoteTo(d16, hn::LoadU(d8, weight + n));
+    const auto store = [&](auto first, auto second, size_t c) HWY_ATTR {
+      const auto from = hn::PromoteTo(d16, first), to = hn::PromoteTo(d16, second);
+      // Modulo 2^16; the sum is no more than that.
+      const auto moved = hn::Mul(hn::Sub(to, from), share);
+      const auto sum = hn::Add(hn::Add(hn::ShiftLeft<8>(from), half), moved);
+      hn::StoreU(hn::TruncateTo(d8, hn::ShiftRight<8>(sum)), d8, out + c * plane + n);
+    };
+    store(r, next_r, 0);
+    store(g, next_g, 1);
+    store(b, next_b, 2);
+  }
 }
 
 // Lanes beyond `count` are masked before anything depends on them: what lies there may never have

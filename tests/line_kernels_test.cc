@@ -284,7 +284,7 @@ TEST_CASE("line kernels: cells by their definition") {
   }
 }
 
-// --- find_ranges ---
+// --- find_ranges, find_within ---
 
 void TestFindRanges(const Kernels& kernels) {
   test::Random random(9);
@@ -301,6 +301,27 @@ void TestFindRanges(const Kernels& kernels) {
     for (size_t k = 0; k < got.size(); ++k) {
       CHECK(got[k].low == expected[k].low);
       CHECK(got[k].high == expected[k].high);
+    }
+  }
+}
+
+void TestFindWithin(const Kernels& kernels) {
+  constexpr size_t kMost = 9;
+  test::Random random(10);
+  for (int round = 0; round < 200; ++round) {
+    const size_t rows = size_t(random.Int(1, kMost)), stride = size_t(random.Int(16, 40));
+    std::vector<int16_t> in(rows * stride);
+    for (int16_t& d : in) d = int16_t(random.Int(-40, 40) * (random.Int(0, 3) == 0 ? 819 : 1));
+    const auto low = int16_t(random.Int(-45, 35));
+    const auto high = int16_t(random.Int(0, 3) == 0 ? INT16_MAX : random.Int(low, 45));
+    const starfocus::simd::DisparityRange range = {low, high};
+    std::vector<uint16_t> expected(kMost, 7), got = expected;
+    ReferenceKernels().find_within(in.data(), stride, rows, range, expected.data());
+    kernels.find_within(in.data(), stride, rows, range, got.data());
+    CHECK(got == expected);
+    for (int k = 0; k < 16; ++k) {
+      const bool inside = in[size_t(k)] >= range.low && in[size_t(k)] <= range.high;
+      CHECK((expected[0] >> k & 1) == int(inside));
     }
   }
 }
@@ -384,6 +405,7 @@ TEST_CASE("line kernels: the same results on every target") {
     TestFindRuns(*kernels);
     TestMeasureCell(*kernels);
     TestFindRanges(*kernels);
+    TestFindWithin(*kernels);
     TestTranspose(*kernels);
   }
 }

@@ -154,7 +154,7 @@ struct DepthField {
 
 struct Hidden {
   std::vector<int16_t> disparity[2];
-  std::vector<uint16_t> source[2];
+  std::vector<uint16_t> source[2], found[2];
   std::vector<uint8_t> share;
   uint64_t chunks = 0;
 
@@ -162,12 +162,15 @@ struct Hidden {
     for (int k = 0; k < 2; ++k) {
       disparity[k].assign(share.size(), 7);
       source[k].assign(share.size(), 7);
+      found[k].assign(share.size() / kSliceLanes, 7);
     }
     chunks = kernels.look_behind(row, {{disparity[0].data(), disparity[1].data()},
                                        {source[0].data(), source[1].data()},
+                                       {found[0].data(), found[1].data()},
                                        share.data()});
     for (size_t n = 0; n < share.size(); ++n) {
-      if ((chunks >> n / kSliceLanes & 1) == 0) source[0][n] = source[1][n] = 0;
+      if ((chunks >> n / kSliceLanes & 1) != 0) continue;
+      for (int k = 0; k < 2; ++k) source[k][n] = found[k][n / kSliceLanes] = 0;
     }
   }
 };
@@ -187,6 +190,11 @@ void TestLookBehind(const Kernels& kernels) {
       for (int k = 0; k < 2; ++k) {
         CHECK(got.disparity[k] == expected.disparity[k]);
         CHECK(got.source[k] == expected.source[k]);
+        CHECK(got.found[k] == expected.found[k]);
+        for (size_t n = 0; n < expected.source[k].size(); ++n) {
+          const int found = expected.found[k][n / kSliceLanes] >> n % kSliceLanes & 1;
+          CHECK(found == int(expected.source[k][n] != 0));
+        }
       }
       for (const uint16_t source : expected.source[0]) {
         const int sides = source & 15, distance = source >> starfocus::simd::kSourceDistance;
@@ -205,6 +213,22 @@ void TestLookBehind(const Kernels& kernels) {
   CHECK(second > 100);
 }
 
+void TestInterpolate(const Kernels& kernels) {
+  test::Random random(5);
+  const size_t plane = kSliceLanes + 5;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<uint8_t> here = test::RandomBytes(3 * kSliceLanes, &random);
+    std::vector<uint8_t> next = test::RandomBytes(3 * kSliceLanes, &random);
+    const std::vector<uint8_t> weight = test::RandomBytes(kSliceLanes, &random);
+    if (round == 0) here.assign(here.size(), 255), next = here;
+    std::vector<uint8_t> expected(3 * plane, 7), got = expected;
+    ReferenceKernels().interpolate(here.data(), next.data(), weight.data(), plane, expected.data());
+    kernels.interpolate(here.data(), next.data(), weight.data(), plane, got.data());
+    CHECK(got == expected);
+    if (round == 0) CHECK(expected[0] == 255);
+  }
+}
+
 TEST_CASE("surface kernels: every target gives the bits of the plain ones") {
   for (const Kernels* kernels : test::SimdTargets()) {
     CAPTURE(kernels->name);
@@ -212,6 +236,7 @@ TEST_CASE("surface kernels: every target gives the bits of the plain ones") {
     TestFindEdges(*kernels);
     TestSteps(*kernels);
     TestLookBehind(*kernels);
+    TestInterpolate(*kernels);
   }
 }
 

@@ -120,8 +120,11 @@ void LookBehind(const Kernels& kernels, Buffers* b) {
   row.unit_bits = 6;
   row.side_views = row.half_views = true;
   for (int side = 0; side < 4; ++side) row.edges[side] = side == 1 ? left : none;
-  const starfocus::simd::HiddenRow hidden = {
-      {b->out.data(), b->out.data() + kPlane}, {b->starts.data(), b->edges.data()}, b->line.data()};
+  uint16_t found[2][kPlane / kSliceLanes];
+  const starfocus::simd::HiddenRow hidden = {{b->out.data(), b->out.data() + kPlane},
+                                             {b->starts.data(), b->edges.data()},
+                                             {found[0], found[1]},
+                                             b->line.data()};
   for (size_t n = 0; n < kSamples / kPlane; ++n) {
     benchmark::DoNotOptimize(kernels.look_behind(row, hidden));
   }
@@ -172,6 +175,14 @@ const Case kCases[] = {
          benchmark::DoNotOptimize(ranges);
        }
      }},
+    {"find_within", false, 2,
+     [](const Kernels& k, Buffers* b) {
+       uint16_t within[8];
+       for (size_t n = 0; n < kSamples; n += 8 * starfocus::simd::kSliceLanes) {
+         k.find_within(b->in.data() + n, starfocus::simd::kSliceLanes, 8, {2000, 9000}, within);
+         benchmark::DoNotOptimize(within);
+       }
+     }},
     {"find_steps", false, 2,
      [](const Kernels& k, Buffers* b) {
        k.find_steps(b->in.data(), kSamples, 20000, b->steps.data());
@@ -181,6 +192,14 @@ const Case kCases[] = {
        k.beside_steps(b->in.data() + kMargin, 8, kSamples, 20000, b->starts.data());
      }},
     {"look_behind", false, 2 + 4 + 2 * 2 + 1, LookBehind},
+    {"interpolate", false, 1 + 1 + 1,
+     [](const Kernels& k, Buffers* b) {
+       constexpr size_t kPixels = starfocus::simd::kSliceLanes;
+       const uint8_t* bytes = b->bytes.data();
+       for (size_t n = 0; n < kSamples; n += 3 * kPixels) {
+         k.interpolate(bytes + n, bytes + n + 3, bytes, kSamples / 3, b->line.data() + n / 3);
+       }
+     }},
     {"select_slice", false, 3 * (2 + 3) / 4 + 1 + 2,
      [](const Kernels& k, Buffers* b) {
        const int16_t* in = b->in.data();
