@@ -31,15 +31,18 @@ std::string ParseRule(const std::string& text, sf_rule* rule) {
   return "";
 }
 
+std::string ParseLargestBlock(const std::string& text, int* side) {
+  if (text.empty()) return "";
+  const std::string range = ParseWhole("--largest-block", text, 32, 256, side);
+  if (range.empty() && (*side & (*side - 1)) == 0) return "";
+  return Expected("--largest-block", "32, 64, 128 or 256", "'" + text + "'");
+}
+
 // Sets what block mode adds to the plan.
 std::string PlanBlocks(const LensOptions& options, LensPlan* plan) {
-  int* const side = &plan->largest_block;
-  const std::string range = ParseWhole("--largest-block", options.largest_block, 32, 256, side);
-  if (!range.empty() || (*side & (*side - 1)) != 0) {
-    return Expected("--largest-block", "32, 64, 128 or 256", "'" + options.largest_block + "'");
-  }
-  std::string error =
-      ParseWhole("--max-layer", options.max_layer, 0, SF_LAYERS - 1, &plan->max_layer);
+  std::string error = ParseLargestBlock(options.largest_block, &plan->largest_block);
+  if (!error.empty()) return error;
+  error = ParseWhole("--max-layer", options.max_layer, 0, SF_LAYERS - 1, &plan->max_layer);
   if (error.empty()) {
     error = ParseWhole("--deblocking", options.deblocking, 0, 255, &plan->deblocking);
   }
@@ -75,8 +78,8 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
   command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
   command->add_flag("--fill-invalid", options->fill_invalid,
                     "Replace non-finite disparities by their nearest valid neighbour");
-  command->add_option("--largest-block", options->largest_block, "32, 64, 128 or 256")
-      ->capture_default_str();
+  command->add_option("--largest-block", options->largest_block,
+                      "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128");
   command->add_option("--rule", options->rule,
                       "paper or cells: how many views a blur needs, and whether they are rendered "
                       "line by line or show slices (default: paper in frame mode, else cells)");
@@ -197,7 +200,8 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.disparity_min = stats.min;
   task.config.disparity_max = stats.max;
   task.config.max_blur = max_blur;
-  task.config.largest_block = plan.largest_block;
+  const int side = plan.largest_block;
+  task.config.largest_block = side != 0 ? side : LargestBlockFor(light_field.width());
   task.config.max_layer = plan.max_layer;
   task.config.deblocking = plan.deblocking;
   task.config.timing = plan.timing;

@@ -16,7 +16,7 @@ namespace starfocus {
 // As typed.
 struct LensOptions {
   std::string focus, focus_at, aperture = "1", mode = "block", rule, views, threads = "1";
-  std::string largest_block = "64", max_layer = "2", deblocking = "35", n_scale = "1", timing;
+  std::string largest_block, max_layer = "2", deblocking = "35", n_scale = "1", timing;
   bool fill_invalid = false;
 };
 
@@ -32,7 +32,8 @@ struct LensPlan {
   sf_rule rule = SF_RULE_DEFAULT;
   int views = 0;  // 0: all there are
   int threads = 1;
-  int largest_block = 0, max_layer = 0, deblocking = 0;
+  int largest_block = 0;  // 0: LargestBlockFor the picture
+  int max_layer = 0, deblocking = 0;
   double n_scale = 1;
   sf_timing timing = {};
 };

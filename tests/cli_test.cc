@@ -344,6 +344,17 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
   CHECK(Call(folder, "analyze --help").code == 0);
 }
 
+TEST_CASE("wide pictures are refocused in larger blocks") {
+  const TempFolder folder;
+  for (const auto& [size, side] : {std::pair{"1535x16", "64"}, {"1536x16", "128"}}) {
+    CAPTURE(size);
+    REQUIRE(Call(folder, std::string("scene wide --views 1 --size ") + size).code == 0);
+    REQUIRE(Call(folder, "refocus wide -o wide.ppm --focus 3 --report wide.json").code == 0);
+    const std::string expected = std::string("\"largest_block\": ") + side + ",";
+    CHECK(Text(folder.file("wide.json")).find(expected) != std::string::npos);
+  }
+}
+
 TEST_CASE("cli: a region is that part of the picture") {
   TempFolder folder;
   Prepare(folder);

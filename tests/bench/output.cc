@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "platform/light_field.h"
+
 namespace starfocus::bench {
 namespace {
 
@@ -28,7 +30,8 @@ Json Describe(const Machine& machine, const Row& row) {
   json["mode"] = row.task.mode;
   json["views"] = row.task.views;
   json["max_layer"] = row.task.max_layer;
-  json["largest_block"] = row.task.largest_block;
+  const int side = row.task.largest_block;
+  json["largest_block"] = side != 0 ? side : LargestBlockFor(row.width);
   json["rule"] = row.task.rule == SF_RULE_DEFAULT ? "default"
                  : row.task.rule == SF_RULE_PAPER ? "paper"
                                                   : "cells";

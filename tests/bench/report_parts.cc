@@ -47,7 +47,7 @@ std::string Method(const Row& row) {
   if (row.study == "options" && task.max_layer != SF_LAYERS - 1) {
     name += ", layers to " + std::to_string(task.max_layer);
   }
-  if (row.study == "options" && task.largest_block != 64) {
+  if (row.study == "options" && task.largest_block != 0) {
     name += ", blocks to " + std::to_string(task.largest_block);
   }
   if (task.n_scale != 1) name += ", N × " + Fixed(task.n_scale, 2);

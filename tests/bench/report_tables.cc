@@ -36,7 +36,7 @@ double WithLayers(const Rows& rows, const std::string& field, int layer, const V
                      [&](const Row& row) {
                        return row.study == "options" && row.field == field &&
                               row.task.max_layer == layer && row.task.rule == SF_RULE_DEFAULT &&
-                              row.task.largest_block == 64 && row.task.n_scale == 1 &&
+                              row.task.largest_block == 0 && row.task.n_scale == 1 &&
                               std::isfinite(row.quantile);
                      }),
               value);

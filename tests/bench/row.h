@@ -15,7 +15,7 @@ struct Task {
   std::string mode = "block";  // block, frame, benchmark, blur or a rival's name
   int views = 0;
   int max_layer = SF_LAYERS - 1;
-  int largest_block = 64;
+  int largest_block = 0;       // 0: LargestBlockFor the field
   int rule = SF_RULE_DEFAULT;  // sf_rule
   double n_scale = 1;          // of the rule's N
   std::string target;          // SIMD target; empty: the best one
