@@ -140,10 +140,8 @@ class Stack {
   uint64_t RefocusSection() {
     PlaceSlices();
     const uint64_t pixels = FindParts();
-    const size_t samples = kPixelSums * static_cast<size_t>(kChunk * section_.height);
     const StackPart *part = scratch_.parts, *last = part + parts_;
     for (int32_t x = 0; x < section_.width; x += kChunk) {
-      std::memset(scratch_.sums, 0, samples * sizeof(*scratch_.sums));
       tile_.x = x;
       tile_.first = part;
       while (part < last && part->x == x) ++part;
@@ -228,6 +226,8 @@ class Stack {
     uint32_t seen = 0;
     for (const StackPart* part = tile_.first; part < tile_.end; ++part) {
       for (int32_t k = 0; k < part->count; ++k) seen |= uint32_t{1} << part->shown[k];
+      const size_t sums = kPixelSums * static_cast<size_t>(part->rows * kChunk);
+      std::memset(Sums(part->y), 0, sums * sizeof(*scratch_.sums));
     }
     size_t rows = 0;
     tile_.count = 0;
@@ -285,24 +285,48 @@ class Stack {
                                     part->shown,
                                     static_cast<size_t>(part->count),
                                     static_cast<size_t>(part->y)};
-      job_.kernels->composite(job, static_cast<size_t>(part->rows),
-                              scratch_.sums + kPixelSums * static_cast<size_t>(part->y * kChunk));
+      job_.kernels->composite(job, static_cast<size_t>(part->rows), Sums(part->y));
     }
+  }
+
+  uint32_t* Sums(int32_t row) const {
+    return scratch_.sums + kPixelSums * static_cast<size_t>(row * kChunk);
+  }
+
+  void FinishTile() {
+    int32_t row = 0;
+    for (const StackPart* part = tile_.first; part < tile_.end; ++part) {
+      ClearRows(row, part->y);
+      row = part->y + part->rows;
+      FinishRows(part->y, row);
+    }
+    ClearRows(row, section_.height);
   }
 
   // What no slice covers is as what covers the rest. A pixel that hardly any view shows is that of
   // the centre view.
-  void FinishTile() {
+  void FinishRows(int32_t first, int32_t end) {
     const simd::StackFinish finish = {least_covered_, grid_.aperture.sum_bits};
-    const auto columns = static_cast<size_t>(Min(kChunk, section_.width - tile_.x));
-    const int32_t left = section_.x + tile_.x;
-    for (int32_t y = 0; y < section_.height; ++y) {
-      const size_t at = 3 * static_cast<size_t>((section_.y + y) * job_.rect.width + left);
-      job_.kernels->finish_stack(scratch_.sums + kPixelSums * static_cast<size_t>(y * kChunk),
-                                 simd::kSliceLanes, scratch_.centre + at, finish, columns,
-                                 accumulators_ + at);
+    for (int32_t row = first; row < end; ++row) {
+      const size_t at = FirstSample(row);
+      job_.kernels->finish_stack(Sums(row), simd::kSliceLanes, scratch_.centre + at, finish,
+                                 Columns(), accumulators_ + at);
     }
   }
+
+  // Of what is gathered afterwards.
+  void ClearRows(int32_t first, int32_t end) {
+    for (int32_t row = first; row < end; ++row) {
+      std::memset(accumulators_ + FirstSample(row), 0, 3 * Columns() * sizeof(*accumulators_));
+    }
+  }
+
+  // Of the tile's row in the rectangle.
+  size_t FirstSample(int32_t row) const {
+    return 3 * static_cast<size_t>((section_.y + row) * job_.rect.width + section_.x + tile_.x);
+  }
+
+  size_t Columns() const { return static_cast<size_t>(Min(kChunk, section_.width - tile_.x)); }
 
   const StarJob& job_;
   const SliceRule rule_;
