@@ -50,10 +50,15 @@ constexpr size_t ShiftedRows(size_t height, size_t reach) {
   return height + 2 * reach + simd::kRowsAhead;
 }
 
+// Bytes of the covers of its rows, so that what follows them is aligned as they are.
+constexpr size_t CoverBytes(size_t rows) {
+  constexpr size_t kAligned = 4;
+  return (rows + kAligned - 1) / kAligned * kAligned * sizeof(simd::SliceCover);
+}
+
 // Bytes of it and its covers, and of it in a tile with the marks of its rows.
 constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
-  return SliceSize(width, height, reach) * sizeof(int16_t) +
-         (height + 2 * reach) * sizeof(simd::SliceCover);
+  return SliceSize(width, height, reach) * sizeof(int16_t) + CoverBytes(height + 2 * reach);
 }
 constexpr size_t TileBytes(size_t height, size_t reach) {
   return ShiftedRows(height, reach) * (4 * simd::kSliceLanes * sizeof(int16_t) + 1);

@@ -162,7 +162,7 @@ class Stack {
       PlaceSlice(grid_, slices_[k].disparity, rect, &placed);
       const auto rows = static_cast<size_t>(placed.rows);
       placed.cover = reinterpret_cast<simd::SliceCover*>(next);
-      placed.samples = reinterpret_cast<int16_t*>(placed.cover + rows) + kChunk;
+      placed.samples = reinterpret_cast<int16_t*>(next + CoverBytes(rows)) + kChunk;
       FillSlice(*job_.kernels, scratch_.surfaces, slices_[k], rect, scratch_.filtered, placed);
       next += SliceBytes(static_cast<size_t>(rect.width), static_cast<size_t>(rect.height),
                          static_cast<size_t>(placed.reach));
