@@ -38,10 +38,10 @@ struct LayerPlane {
   Plane<int16_t> half;            // between the passes: subsampled along x only
 };
 
-// Memory of a worker for resampling.
+// Memory of a worker for resampling: a line parted into its even and its odd pixels.
 struct ResampleScratch {
-  int16_t* line;      // 3 (largest block + 6 + 2) samples
-  int16_t* filtered;  // the same
+  int16_t* even;  // 3 (half a largest block + 2 + 4) samples
+  int16_t* odd;   // the same
 };
 
 // Subsamples columns [begin, end) of `to` for its rows from the pictures' rows (layer 1) ...
