@@ -33,6 +33,7 @@ struct RowRange {
 struct LayerPlane {
   int32_t width = 0, height = 0;  // of the whole layer
   RowRange rows = {0, 0};         // what is stored
+  int32_t known = 0;              // rows before it are there, in columns the last stripe needed
   Plane<uint8_t> rgb;             // what is refocused
   Plane<int16_t> samples;         // the same, simd::kLayerBits, in range: what the next layer needs
   Plane<int16_t> half;            // between the passes: subsampled along x only
