@@ -2,6 +2,7 @@
 
 #include "lib/gather.h"
 #include "lib/rules.h"
+#include "lib/stripe_layers.h"
 #include "lib/validate.h"
 
 namespace starfocus {
@@ -119,6 +120,7 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   engine->plan.all_measured = false;
   engine->prepared = false;
   engine->changes.active = false;
+  ForgetLayers(engine);
   return SF_OK;
 }
 

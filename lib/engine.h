@@ -65,8 +65,11 @@ struct StripePlan {
   Block* blocks;               // MaxBlocks per largest block
   int32_t* counts;             // blocks used of each
   GatherMap gathered;          // block mode
-  uint8_t* needed[SF_LAYERS];  // per largest block's column: its columns of layer 1, 2 are read
+  uint8_t* needed[SF_LAYERS];  // per largest block's column: ColumnNeed of its layer 1, 2
 };
+
+// Whether the columns of a layer are read by the stripe, and whether they were by the one before.
+enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
 
 struct EngineState {
   sf_config config;

@@ -26,6 +26,7 @@
 // | blur kernel weight   | uint16 | 2^k     | [0, 32767], sum 2^k       | signed 16-bit multiplies  |
 // | accumulator          | uint32 | 2^k     | <= 255 * 2^k, k <= 24     | 0.4 % below 2^32          |
 // | layer sample         | int16  | 2^6     | [0, 255]                  | 2 x                       |
+// | two layer samples    | int16  | 2^6     | [0, 510]                  | 0.4 % below 511.98        |
 // | filtered along x     | int16  | 2^6     | [-39, 294]                | 74 % below 511            |
 // | sum of filter taps   | int32  | 2^20    | [-100, 410]: twice 1.33   | 5 x                       |
 // | upsampled along y    | int16  | 2^6     | [-43, 298]                | 71 % below 511            |

@@ -8,39 +8,42 @@ namespace {
 using simd::Kernels;
 using simd::kLayerWhite;
 
-// Positions [2 begin - 3, 2 end + 2) of a line, those outside [0, size) repeating the edge.
-struct Taps {
-  int32_t begin, end, size;
-  int32_t First() const { return 2 * begin - 3; }
-  int32_t Count() const { return 2 * (end - begin) + 5; }
+// Pixels of a line by pairs, as the filter needs them for pixels [begin, end) of the layer: pair k
+// is pixels 2 k and 2 k + 1.
+struct PairRange {
+  int32_t begin, end;
+  int32_t First() const { return begin - 2; }
+  int32_t Count() const { return end - begin + 3; }
 };
 
-// Filters a line of pixels, whose first is taps.First(), along x and keeps every second.
-void HalveLine(const Kernels& kernels, const Taps& taps, const ResampleScratch& scratch,
-               int16_t* out) {
-  const int32_t pixels = taps.end - taps.begin;
-  kernels.half_band(scratch.line + 9, 3, kDownFilter, 3 * static_cast<size_t>(2 * pixels - 1),
-                    INT16_MIN, INT16_MAX, scratch.filtered);
-  CheckAll(ranges::kFilteredAlongX, scratch.filtered, 3 * static_cast<size_t>(2 * pixels - 1));
-  for (int32_t x = 0; x < pixels; ++x) {
-    std::memcpy(out + 3 * x, scratch.filtered + 6 * x, 3 * sizeof(int16_t));
+void Part(const Kernels& kernels, const uint8_t* in, int32_t pairs, int16_t* even, int16_t* odd) {
+  kernels.widen_phases(in, static_cast<size_t>(pairs), even, odd);
+}
+void Part(const Kernels& kernels, const int16_t* in, int32_t pairs, int16_t* even, int16_t* odd) {
+  kernels.split_phases(in, static_cast<size_t>(pairs), even, odd);
+}
+
+int16_t Sample(uint8_t byte) { return static_cast<int16_t>(byte << simd::kLayerBits); }
+int16_t Sample(int16_t sample) { return sample; }
+
+// Pairs [first, last) of both phases: all of them the same pixel of the picture's edge.
+template <class T>
+void RepeatEdge(const T* pixel, int32_t first, int32_t last, const ResampleScratch& phases) {
+  for (int32_t n = 3 * first; n < 3 * last; n += 3) {
+    for (int32_t c = 0; c < 3; ++c) phases.even[n + c] = phases.odd[n + c] = Sample(pixel[c]);
   }
 }
 
-// Repeats the edge pixels of scratch.line where taps leave the picture.
-template <class Load>
-void LoadLine(const Taps& taps, int16_t* line, const Load& load) {
-  const int32_t first = Max(taps.First(), 0);
-  const int32_t last = Min(taps.First() + taps.Count(), taps.size);
-  load(first, last, line + 3 * (first - taps.First()));
-  for (int32_t x = taps.First(); x < first; ++x) {
-    std::memcpy(line + 3 * (x - taps.First()), line + 3 * (first - taps.First()),
-                3 * sizeof(int16_t));
-  }
-  for (int32_t x = last; x < taps.First() + taps.Count(); ++x) {
-    std::memcpy(line + 3 * (x - taps.First()), line + 3 * (last - 1 - taps.First()),
-                3 * sizeof(int16_t));
-  }
+// Parts a row of `width` pixels, repeating its edge pixels where the pairs leave it.
+template <class T>
+void PartLine(const Kernels& kernels, const T* row, int32_t width, const PairRange& pairs,
+              const ResampleScratch& phases) {
+  const int32_t first = Max(pairs.First(), 0);
+  const int32_t last = Min(pairs.First() + pairs.Count(), width / 2);
+  const int32_t left = first - pairs.First(), right = last - pairs.First();
+  RepeatEdge(row, 0, left, phases);
+  Part(kernels, row + 6 * first, last - first, phases.even + 3 * left, phases.odd + 3 * left);
+  RepeatEdge(row + 3 * (width - 1), right, pairs.Count(), phases);
 }
 
 // The vertical pass: `to->half` holds the rows from 2 * rows.first - 3 on, the picture's edge rows
@@ -57,17 +60,18 @@ void HalveRows(const Kernels& kernels, int32_t begin, int32_t end, LayerPlane* t
   }
 }
 
-// Runs load(y, first, last, line), which writes pixels [first, last) of row y as samples, over all
-// rows that the layer's rows are made of.
-template <class Load>
-void Downsample(const Kernels& kernels, int32_t width, int32_t height, int32_t begin, int32_t end,
-                const ResampleScratch& scratch, const Load& load, LayerPlane* to) {
-  const Taps taps = {begin, end, width};
+// From a plane of width x height pixels. The horizontal pass makes all rows that the layer's rows
+// are made of.
+template <class T>
+void Downsample(const Kernels& kernels, const Plane<const T>& from, int32_t width, int32_t height,
+                int32_t begin, int32_t end, const ResampleScratch& phases, LayerPlane* to) {
+  const PairRange pairs = {begin, end};
+  const size_t count = 3 * static_cast<size_t>(end - begin);
   for (int32_t y = 2 * to->rows.first - 3; y < 2 * to->rows.last + 2; ++y) {
-    const int32_t row = Clamp(y, 0, height - 1);
-    LoadLine(taps, scratch.line,
-             [&](int32_t first, int32_t last, int16_t* line) { load(row, first, last, line); });
-    HalveLine(kernels, taps, scratch, to->half.Row(y) + 3 * begin);
+    int16_t* half = to->half.Row(y) + 3 * begin;
+    PartLine(kernels, from.Row(Clamp(y, 0, height - 1)), width, pairs, phases);
+    kernels.halve(phases.even + 6, phases.odd + 6, kDownFilter, count, half);
+    CheckAll(ranges::kFilteredAlongX, half, count);
   }
   HalveRows(kernels, begin, end, to);
 }
@@ -87,23 +91,14 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 void DownsamplePicture(const Kernels& kernels, const Plane<const uint8_t>& from, int32_t width,
                        int32_t height, int32_t begin, int32_t end, const ResampleScratch& scratch,
                        LayerPlane* to) {
-  Downsample(
-      kernels, width, height, begin, end, scratch,
-      [&](int32_t y, int32_t first, int32_t last, int16_t* line) {
-        kernels.widen(from.Row(y) + 3 * first, 3 * static_cast<size_t>(last - first), line);
-      },
-      to);
+  Downsample(kernels, from, width, height, begin, end, scratch, to);
 }
 
 void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, int32_t begin, int32_t end,
                      const ResampleScratch& scratch, LayerPlane* to) {
-  Downsample(
-      kernels, from.width, from.height, begin, end, scratch,
-      [&](int32_t y, int32_t first, int32_t last, int16_t* line) {
-        std::memcpy(line, from.samples.Row(y) + 3 * first,
-                    3 * static_cast<size_t>(last - first) * sizeof(int16_t));
-      },
-      to);
+  const Plane<int16_t>& in = from.samples;
+  const Plane<const int16_t> samples = {in.data, in.stride, in.rows, in.first};
+  Downsample(kernels, samples, from.width, from.height, begin, end, scratch, to);
 }
 
 void UpsampleByTwo(const Kernels& kernels, const LayerRect& in, int32_t first,

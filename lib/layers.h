@@ -33,15 +33,16 @@ struct RowRange {
 struct LayerPlane {
   int32_t width = 0, height = 0;  // of the whole layer
   RowRange rows = {0, 0};         // what is stored
+  int32_t known = 0;              // rows before it are there, in columns the last stripe needed
   Plane<uint8_t> rgb;             // what is refocused
   Plane<int16_t> samples;         // the same, simd::kLayerBits, in range: what the next layer needs
   Plane<int16_t> half;            // between the passes: subsampled along x only
 };
 
-// Memory of a worker for resampling.
+// Memory of a worker for resampling: a line parted into its even and its odd pixels.
 struct ResampleScratch {
-  int16_t* line;      // 3 (largest block + 6 + 2) samples
-  int16_t* filtered;  // the same
+  int16_t* even;  // 3 (half a largest block + 2 + 4) samples
+  int16_t* odd;   // the same
 };
 
 // Subsamples columns [begin, end) of `to` for its rows from the pictures' rows (layer 1) ...

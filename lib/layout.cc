@@ -139,8 +139,8 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   worker.middle_samples = carver->Take<int16_t>(3 * half * half);
   worker.picture_samples = carver->Take<int16_t>(3 * side * side);
   carver->Reuse(shared);
-  worker.resample.line = carver->Take<int16_t>(3 * (side + 16));
-  worker.resample.filtered = carver->Take<int16_t>(3 * (side + 16));
+  worker.resample.even = carver->Take<int16_t>(3 * half);
+  worker.resample.odd = carver->Take<int16_t>(3 * half);
   carver->Reuse(shared);
   worker.partition.nodes =
       carver->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));

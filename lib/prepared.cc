@@ -39,20 +39,22 @@ sf_status ConvertAll(const EngineState& engine, const Prepared& prepared) {
 sf_status MakeLayers(const Prepared& prepared, EngineState* engine, const Runner& runner) {
   LayerPlane own[SF_LAYERS];
   for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->layers[layer];
-  ClearLayerColumns(*engine);
-  MarkLayerColumns(*engine);
   const int32_t height = engine->config.height, side = BlockSide(*engine);
   // Layers end beyond the picture.
   constexpr int32_t kBeyond = 16;
   sf_status status = SF_OK;
   for (int32_t y = 0; y < height && status == SF_OK; y += side) {
+    ForgetLayers(engine);  // those of the stripe before lie elsewhere
+    MarkLayerColumns(*engine);
     PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, engine);
     for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
+      engine->layers[layer].rgb.rows = 0;
       engine->layers[layer].rgb.data = prepared.layers[layer].Row(engine->layers[layer].rows.first);
     }
     status = FillLayers(engine, runner);
   }
   for (int layer = 0; layer < SF_LAYERS; ++layer) engine->layers[layer] = own[layer];
+  ForgetLayers(engine);
   return status;
 }
 

@@ -254,7 +254,7 @@ void CountSpared(EngineState* engine) {
   const int32_t columns = Columns(*engine);
   for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
     for (int32_t column = 0; column < columns; ++column) {
-      engine->report.skipped.layer_columns += engine->plan.needed[layer][column] == 0;
+      engine->report.skipped.layer_columns += (engine->plan.needed[layer][column] & kNeeded) == 0;
     }
   }
 }

@@ -12,8 +12,11 @@ struct LayerJob {
 template <int kLayer>
 void Downsample(const LayerJob& job, int32_t index, Worker* worker) {
   EngineState& engine = *job.engine;
-  if (engine.plan.needed[kLayer][index] == 0) return;
-  LayerPlane* to = &engine.layers[kLayer];
+  const int need = engine.plan.needed[kLayer][index];
+  if ((need & kNeeded) == 0) return;
+  LayerPlane missing = engine.layers[kLayer], *to = &missing;
+  if ((need & kNeededBefore) != 0) to->rows.first = to->known;
+  if (to->rows.first == to->rows.last) return;
   const int32_t side = BlockSide(engine) >> kLayer;
   const int32_t begin = index * side;
   // The last column takes what a layer has beyond the picture.
@@ -28,22 +31,39 @@ void Downsample(const LayerJob& job, int32_t index, Worker* worker) {
   }
 }
 
-void SetColumns(const EngineState& engine, int layer, int value) {
-  std::memset(engine.plan.needed[layer], value, static_cast<size_t>(Columns(engine)));
+void Mark(const EngineState& engine, int layer, int32_t column) {
+  engine.plan.needed[layer][column] |= kNeeded;
 }
 
 bool AnyColumn(const EngineState& engine, int layer) {
-  return std::memchr(engine.plan.needed[layer], 1, static_cast<size_t>(Columns(engine))) != nullptr;
+  int any = 0;
+  for (int32_t column = 0; column < Columns(engine); ++column) {
+    any |= engine.plan.needed[layer][column];
+  }
+  return (any & kNeeded) != 0;
+}
+
+// Layer 1 lies in rings, of as many rows as a stripe may need: what the stripe before made stays.
+void PlaceInRings(const sf_config& config, LayerPlane* plane) {
+  plane->rgb.rows = plane->samples.rows =
+      (config.largest_block + 2 * GetReach(config.max_blur).rows) / 2 + 4;
 }
 
 }  // namespace
 
 void ClearLayerColumns(const EngineState& engine) {
-  for (int layer = 1; layer < SF_LAYERS; ++layer) SetColumns(engine, layer, 0);
+  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+    for (int32_t column = 0; column < Columns(engine); ++column) {
+      uint8_t& need = engine.plan.needed[layer][column];
+      need = (need & kNeeded) != 0 ? kNeededBefore : 0;
+    }
+  }
 }
 
 void MarkLayerColumns(const EngineState& engine) {
-  for (int layer = 1; layer <= engine.config.max_layer; ++layer) SetColumns(engine, layer, 1);
+  for (int layer = 1; layer <= engine.config.max_layer; ++layer) {
+    for (int32_t column = 0; column < Columns(engine); ++column) Mark(engine, layer, column);
+  }
 }
 
 void MarkLayerColumns(const EngineState& engine, const Block& block) {
@@ -56,8 +76,16 @@ void MarkLayerColumns(const EngineState& engine, const Block& block) {
     const int32_t first = Max(0, (left - reach) / BlockSide(engine));
     const int32_t last = Min(Columns(engine) - 1, (right + reach) / BlockSide(engine));
     for (int32_t column = first; column <= last; ++column) {
-      engine.plan.needed[layer][column] = 1;
+      Mark(engine, layer, column);
     }
+  }
+}
+
+void ForgetLayers(EngineState* engine) {
+  PlaceInRings(engine->config, &engine->layers[1]);
+  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+    engine->layers[layer].rows = {0, 0};
+    std::memset(engine->plan.needed[layer], 0, static_cast<size_t>(Columns(*engine)));
   }
 }
 
@@ -65,11 +93,16 @@ void PlaceLayers(const RowRange& of_picture, EngineState* engine) {
   RowRange rows = {of_picture.first >> 2, (of_picture.last >> 2) + 1};
   for (int layer = SF_LAYERS - 1; layer > 0; --layer) {
     LayerPlane& plane = engine->layers[layer];
-    plane.rows = {Max(0, rows.first), Min(plane.height, rows.last)};
+    const RowRange inside = {Max(0, rows.first), Min(plane.height, rows.last)};
+    // Layer 2 is made anew: of the columns beside those it was needed in, layer 1 may have lacked.
+    const bool kept = layer == 1 && plane.rows.first <= inside.first;
+    plane.known = kept ? Clamp(plane.rows.last, inside.first, inside.last) : inside.first;
+    plane.rows = inside;
     plane.rgb.first = plane.samples.first = plane.rows.first;
     plane.half.first = 2 * plane.rows.first - 3;
     rows = {2 * rows.first - 3, 2 * rows.last + 3};
-    engine->windows[layer].centre = {plane.rgb.data, plane.rgb.stride, 0, plane.rgb.first};
+    engine->windows[layer].centre = {plane.rgb.data, plane.rgb.stride, plane.rgb.rows,
+                                     plane.rgb.first};
   }
 }
 
@@ -83,6 +116,7 @@ sf_status FillLayers(EngineState* engine, const Runner& runner) {
   if (status == SF_OK && AnyColumn(*engine, 2)) {
     status = RunJobs<LayerJob, Downsample<2>>(&job, columns, runner);
   }
+  if (status != SF_OK) ForgetLayers(engine);
   return status;
 }
 

@@ -7,14 +7,17 @@
 
 namespace starfocus {
 
-// The columns of largest blocks in which the layers are needed: none; all, of the layers that the
-// engine may use; those that `block` reads.
+// The columns of largest blocks in which the layers are needed by the next stripe: none; all, of
+// the layers that the engine may use; those that `block` reads.
 void ClearLayerColumns(const EngineState& engine);
 void MarkLayerColumns(const EngineState& engine);
 void MarkLayerColumns(const EngineState& engine, const Block& block);
 
+// The layers' rows are no longer of use: they are of another picture, or not all were made.
+void ForgetLayers(EngineState* engine);
+
 // Makes room in the engine's layers and their windows for the rows that rows `of_picture` subsample
-// to.
+// to, and keeps those that are there.
 void PlaceLayers(const RowRange& of_picture, EngineState* engine);
 
 // Subsamples into the marked columns of placed layers. SF_OK or SF_ERROR_RUNNER.

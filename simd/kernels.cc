@@ -127,7 +127,13 @@ bool ConvertDisparity(const float* disparity, size_t count, float low, float hig
   return ConvertDisparities(disparity, count, low, high, out);
 }
 
-void Widen(const uint8_t* in, size_t count, int16_t* out) { WidenSamples(in, count, out); }
+void WidenPhases(const uint8_t* in, size_t pairs, int16_t* even, int16_t* odd) {
+  WidenPhasesOfLine(in, pairs, even, odd);
+}
+
+void SplitPhases(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd) {
+  SplitPhasesOfLine(in, pairs, even, odd);
+}
 
 void Narrow(const int16_t* in, size_t count, uint8_t* out) { NarrowSamples(in, count, out); }
 
@@ -138,6 +144,11 @@ void FinishLayer(const uint32_t* accumulators, size_t count, int shift, int16_t*
 void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
                     int16_t low, int16_t high, int16_t* out) {
   HalfBandSamples(in, step, taps, count, low, high, out);
+}
+
+void Halve(const int16_t* even, const int16_t* odd, const HalfBand& taps, size_t count,
+           int16_t* out) {
+  HalveLine(even, odd, taps, count, out);
 }
 
 void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count, int16_t low,
@@ -176,10 +187,12 @@ const Kernels* Table() {
                                       Transpose,
                                       Finish,
                                       ConvertDisparity,
-                                      Widen,
+                                      WidenPhases,
+                                      SplitPhases,
                                       Narrow,
                                       FinishLayer,
                                       FilterHalfBand,
+                                      Halve,
                                       Between};
   return &kernels;
 }

@@ -134,7 +134,7 @@ struct SliceViews {
   size_t count;
   const uint8_t* shown;
   size_t shown_count;  // kMaxSeen at most
-  size_t row;  // the first of what is composited
+  size_t row;          // the first of what is composited
 };
 
 // Lowest and highest disparity of several; low > high: there is none.
@@ -405,8 +405,13 @@ struct Kernels {
   bool (*convert_disparity)(const float* disparity, size_t count, float low, float high,
                             int16_t* out);
 
-  // out[n] = in[n] << 6.
-  void (*widen)(const uint8_t* in, size_t count, int16_t* out);
+  // Parts a line of pixels into its phases, as samples: even[3 n + c] = in[6 n + c] << 6 and
+  // odd[3 n + c] = in[6 n + 3 + c] << 6, for n < pairs.
+  void (*widen_phases)(const uint8_t* in, size_t pairs, int16_t* even, int16_t* odd);
+
+  // The same of samples, which stay as they are. A sample past the end of each phase may be
+  // written.
+  void (*split_phases)(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd);
 
   // out[n] = in[n] rounded to a whole number, halves to even, and clamped to a byte.
   void (*narrow)(const int16_t* in, size_t count, uint8_t* out);
@@ -418,6 +423,12 @@ struct Kernels {
   //                 + far (in[n - 3 step] + in[n + 3 step]) + 2^13) >> 14, low, high).
   void (*half_band)(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
                     int16_t low, int16_t high, int16_t* out);
+
+  // Filters a line of samples in range and keeps the even pixels, from the line's phases: as
+  // half_band, saturated alone, with centre even[n] + near (odd[n - 3] + odd[n])
+  // + far (odd[n - 6] + odd[n + 3]).
+  void (*halve)(const int16_t* even, const int16_t* odd, const HalfBand& taps, size_t count,
+                int16_t* out);
 
   // The odd phase of upsampling, between in[n] and in[n + step]: as half_band with
   // near (in[n] + in[n + step]) + far (in[n - step] + in[n + 2 step]) alone.

@@ -259,8 +259,22 @@ bool ConvertDisparity(const float* disparity, size_t count, float low, float hig
   return inside;
 }
 
-void Widen(const uint8_t* in, size_t count, int16_t* out) {
-  for (size_t n = 0; n < count; ++n) out[n] = static_cast<int16_t>(in[n] << kLayerBits);
+void WidenPhases(const uint8_t* in, size_t pairs, int16_t* even, int16_t* odd) {
+  for (size_t n = 0; n < pairs; ++n) {
+    for (size_t c = 0; c < 3; ++c) {
+      even[3 * n + c] = static_cast<int16_t>(in[6 * n + c] << kLayerBits);
+      odd[3 * n + c] = static_cast<int16_t>(in[6 * n + 3 + c] << kLayerBits);
+    }
+  }
+}
+
+void SplitPhases(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd) {
+  for (size_t n = 0; n < pairs; ++n) {
+    for (size_t c = 0; c < 3; ++c) {
+      even[3 * n + c] = in[6 * n + c];
+      odd[3 * n + c] = in[6 * n + 3 + c];
+    }
+  }
 }
 
 void Narrow(const int16_t* in, size_t count, uint8_t* out) {
@@ -293,6 +307,16 @@ void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps, siz
   }
 }
 
+void Halve(const int16_t* even, const int16_t* odd, const HalfBand& taps, size_t count,
+           int16_t* out) {
+  for (size_t n = 0; n < count; ++n) {
+    const int16_t* at = odd + n;
+    out[n] = RoundTaps(
+        taps.centre * even[n] + taps.near * (at[-3] + at[0]) + taps.far * (at[-6] + at[3]),
+        INT16_MIN, INT16_MAX);
+  }
+}
+
 void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count, int16_t low,
              int16_t high, int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
@@ -307,11 +331,12 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 const Kernels& ReferenceKernels() {
   using namespace reference;
   static constexpr Kernels kernels = {
-      "reference", Accumulate,  Blend,         FilterDisc,     Split,       FindEdges,
-      FindRanges,  FindWithin,  FindSteps,     BesideSteps,    LookBehind,  Interpolate,
-      SelectSlice, SpreadSlice, ShiftSlice,    Composite,      FinishStack, FindRuns,
-      MeasureCell, ReachBlock,  SurroundCells, Transpose,      Finish,      ConvertDisparity,
-      Widen,       Narrow,      FinishLayer,   FilterHalfBand, Between};
+      "reference", Accumulate,  Blend,         FilterDisc,  Split,          FindEdges,
+      FindRanges,  FindWithin,  FindSteps,     BesideSteps, LookBehind,     Interpolate,
+      SelectSlice, SpreadSlice, ShiftSlice,    Composite,   FinishStack,    FindRuns,
+      MeasureCell, ReachBlock,  SurroundCells, Transpose,   Finish,         ConvertDisparity,
+      WidenPhases, SplitPhases, Narrow,        FinishLayer, FilterHalfBand, Halve,
+      Between};
   return kernels;
 }
 

@@ -1,5 +1,5 @@
-// The kernels of the layers: widen, narrow, finish_layer, half_band, between. Included once per
-// target.
+// The kernels of the layers: widen_phases, split_phases, halve, half_band, between, narrow,
+// finish_layer. Included once per target.
 #if defined(STARFOCUS_SIMD_RESAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_RESAMPLE_INL_H_
 #undef STARFOCUS_SIMD_RESAMPLE_INL_H_
@@ -14,35 +14,90 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE void WidenSamples(const uint8_t* HWY_RESTRICT in, size_t count,
-                             int16_t* HWY_RESTRICT out) {
-  const hn::ScalableTag<int16_t> d16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
-  const size_t lanes = hn::Lanes(d16);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
-    const auto value = hn::PromoteTo(d16, hn::LoadU(d8, in + n));
-    hn::StoreU(hn::ShiftLeft<kLayerBits>(value), d16, out + n);
-  }
-  ReferenceKernels().widen(in + n, count - n, out + n);
+// Runs step(n) for each vector of `count` samples; the last one begins where it ends with them, so
+// that some are made twice. Returns whether there are enough for a vector.
+template <class Step>
+HWY_INLINE bool ForVectors(size_t count, size_t lanes, const Step& step) {
+  if (count < lanes) return false;
+  for (size_t n = 0; n < count - lanes; n += lanes) step(n);
+  step(count - lanes);
+  return true;
 }
+
+#if HWY_TARGET == HWY_SCALAR
+
+HWY_INLINE void WidenPhasesOfLine(const uint8_t* in, size_t pairs, int16_t* even, int16_t* odd) {
+  ReferenceKernels().widen_phases(in, pairs, even, odd);
+}
+
+HWY_INLINE void SplitPhasesOfLine(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd) {
+  ReferenceKernels().split_phases(in, pairs, even, odd);
+}
+
+#else
+
+// Five pairs of pixels at once, 15 samples of each phase: a vector of the first 8 and one of the
+// last 8. Bytes become the high ones of their lanes.
+HWY_INLINE void WidenPhasesOfLine(const uint8_t* HWY_RESTRICT in, size_t pairs,
+                                  int16_t* HWY_RESTRICT even, int16_t* HWY_RESTRICT odd) {
+  constexpr uint8_t kZero = 0x80;
+  alignas(16) static constexpr uint8_t kFirst[16] = {kZero, 0, kZero, 1, kZero, 2,  kZero, 6,
+                                                     kZero, 7, kZero, 8, kZero, 12, kZero, 13};
+  alignas(16) static constexpr uint8_t kEvenLast[16] = {kZero, 0, kZero, 1,  kZero, 5,  kZero, 6,
+                                                        kZero, 7, kZero, 11, kZero, 12, kZero, 13};
+  alignas(16) static constexpr uint8_t kOddLast[16] = {kZero, 2, kZero, 3,  kZero, 7,  kZero, 8,
+                                                       kZero, 9, kZero, 13, kZero, 14, kZero, 15};
+  const hn::FixedTag<uint8_t, 16> d8;
+  const hn::Repartition<uint16_t, decltype(d8)> du16;
+  const hn::RebindToSigned<decltype(du16)> d16;
+  const auto first = hn::Load(d8, kFirst), even_last = hn::Load(d8, kEvenLast),
+             odd_last = hn::Load(d8, kOddLast);
+  const auto widen = [&](const uint8_t* from, auto bytes, int16_t* to) HWY_ATTR {
+    const auto high = hn::BitCast(du16, hn::TableLookupBytesOr0(hn::LoadU(d8, from), bytes));
+    hn::StoreU(hn::BitCast(d16, hn::ShiftRight<8 - kLayerBits>(high)), d16, to);
+  };
+  const bool done = ForVectors(pairs, 5, [&](size_t pair) HWY_ATTR {
+    const uint8_t* from = in + 6 * pair;
+    widen(from, first, even + 3 * pair);
+    widen(from + 13, even_last, even + 3 * pair + 7);
+    widen(from + 3, first, odd + 3 * pair);
+    widen(from + 14, odd_last, odd + 3 * pair + 7);
+  });
+  if (!done) ReferenceKernels().widen_phases(in, pairs, even, odd);
+}
+
+// A fourth sample goes with each pixel and is overwritten by the next one.
+HWY_INLINE void SplitPhasesOfLine(const int16_t* HWY_RESTRICT in, size_t pairs,
+                                  int16_t* HWY_RESTRICT even, int16_t* HWY_RESTRICT odd) {
+  const hn::FixedTag<int16_t, 4> d16;
+  const auto split = [&](size_t pair) HWY_ATTR {
+    hn::StoreU(hn::LoadU(d16, in + 6 * pair), d16, even + 3 * pair);
+    hn::StoreU(hn::LoadU(d16, in + 6 * pair + 3), d16, odd + 3 * pair);
+  };
+  size_t pair = 0;
+  for (; pair + 2 <= pairs; pair += 2) {
+    split(pair);
+    split(pair + 1);
+  }
+  if (pair < pairs) split(pair);
+}
+
+#endif
 
 HWY_INLINE void NarrowSamples(const int16_t* HWY_RESTRICT in, size_t count,
                               uint8_t* HWY_RESTRICT out) {
   const hn::ScalableTag<int16_t> d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
-  const size_t lanes = hn::Lanes(d16);
   const auto below_half = hn::Set(d16, int16_t{(1 << (kLayerBits - 1)) - 1});
   const auto one = hn::Set(d16, int16_t{1});
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     // Saturating: an int16 near its limit still rounds to 255.
     const auto value = hn::LoadU(d16, in + n);
     const auto odd = hn::And(hn::ShiftRight<kLayerBits>(value), one);
     const auto sum = hn::SaturatedAdd(value, hn::Add(below_half, odd));
     hn::StoreU(hn::DemoteTo(d8, hn::ShiftRight<kLayerBits>(sum)), d8, out + n);
-  }
-  ReferenceKernels().narrow(in + n, count - n, out + n);
+  });
+  if (!done) ReferenceKernels().narrow(in, count, out);
 }
 
 HWY_INLINE void FinishLayerSamples(const uint32_t* HWY_RESTRICT accumulators, size_t count,
@@ -50,63 +105,153 @@ HWY_INLINE void FinishLayerSamples(const uint32_t* HWY_RESTRICT accumulators, si
   const hn::ScalableTag<uint32_t> d32;
   const hn::RebindToSigned<decltype(d32)> di32;
   const hn::Rebind<int16_t, decltype(d32)> d16;
-  const size_t lanes = hn::Lanes(d32);
   const auto half = hn::Set(d32, uint32_t{1} << (shift - kLayerBits - 1));
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(d32), [&](size_t n) HWY_ATTR {
     const auto sum = hn::Add(hn::LoadU(d32, accumulators + n), half);
     const auto value = hn::BitCast(di32, hn::ShiftRightSame(sum, shift - kLayerBits));
     hn::StoreU(hn::DemoteTo(d16, value), d16, out + n);
-  }
-  ReferenceKernels().finish_layer(accumulators + n, count - n, shift, out + n);
+  });
+  if (!done) ReferenceKernels().finish_layer(accumulators, count, shift, out);
 }
 
-// Adds 2^13, drops kTapBits and clamps, by saturation to int16 first.
-template <class D16, class V32, class V16>
-HWY_INLINE V16 RoundSum(D16 d16, V32 sum, V32 half, V16 low, V16 high) {
-  const auto value = hn::DemoteTo(d16, hn::ShiftRight<kTapBits>(hn::Add(sum, half)));
-  return hn::Min(hn::Max(value, low), high);
+// Rounded sums of taps, saturated: centre c + near (a + b) + far (d + e) of a vector's samples.
+#if STARFOCUS_HAVE_PAIR_MULTIPLY
+
+// Products of two vectors' samples in turn: the lower and the upper lanes of each block of 128
+// bits, which is how saturation puts them together again.
+using FilterTag = hn::ScalableTag<int16_t>;
+using WideTag = hn::Repartition<int32_t, FilterTag>;
+using FilterVec = hn::Vec<FilterTag>;
+using WideVec = hn::Vec<WideTag>;
+
+// Adds a tap_a + b tap_b.
+HWY_INLINE void AddTaps(FilterVec a, FilterVec b, int32_t tap_a, int32_t tap_b, WideVec& low,
+                        WideVec& high) {
+  const FilterTag d16;
+  const WideTag d32;
+  const auto pair =
+      hn::Set(d32, static_cast<int32_t>((tap_a & 0xFFFF) | static_cast<uint32_t>(tap_b) << 16));
+  const auto taps = hn::BitCast(d16, pair);
+  auto unused = hn::Zero(d32);
+  low = hn::ReorderWidenMulAccumulate(d32, hn::InterleaveLower(d16, a, b), taps, low, unused);
+  high = hn::ReorderWidenMulAccumulate(d32, hn::InterleaveUpper(d16, a, b), taps, high, unused);
 }
 
-HWY_INLINE void HalfBandSamples(const int16_t* in, ptrdiff_t step, const HalfBand& taps,
-                                size_t count, int16_t low, int16_t high, int16_t* out) {
-  const hn::ScalableTag<int32_t> d32;
-  const hn::Rebind<int16_t, decltype(d32)> d16;
-  const size_t lanes = hn::Lanes(d32);
-  const auto centre = hn::Set(d32, taps.centre), near = hn::Set(d32, taps.near),
-             far = hn::Set(d32, taps.far), half = hn::Set(d32, 1 << (kTapBits - 1));
+// The centre, and with it the half that makes dropping kTapBits round.
+HWY_INLINE void BeginTaps(FilterVec centre, int32_t tap, WideVec& low, WideVec& high) {
+  low = high = hn::Zero(WideTag());
+  AddTaps(centre, hn::Set(FilterTag(), int16_t{1}), tap, 1 << (kTapBits - 1), low, high);
+}
+
+HWY_INLINE FilterVec EndTaps(WideVec low, WideVec high) {
+  return hn::ReorderDemote2To(FilterTag(), hn::ShiftRight<kTapBits>(low),
+                              hn::ShiftRight<kTapBits>(high));
+}
+
+HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, FilterVec b,
+                                FilterVec d, FilterVec e) {
+  WideVec low, high;
+  BeginTaps(c, taps.centre, low, high);
+  AddTaps(a, b, taps.near, taps.near, low, high);
+  AddTaps(d, e, taps.far, taps.far, low, high);
+  return EndTaps(low, high);
+}
+
+// Where sums of two samples fit 16 bits.
+HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
+  WideVec low, high;
+  BeginTaps(c, taps.centre, low, high);
+  AddTaps(ab, de, taps.near, taps.far, low, high);
+  return EndTaps(low, high);
+}
+
+HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, FilterVec d,
+                               FilterVec e) {
+  WideVec low = hn::Set(WideTag(), 1 << (kTapBits - 1)), high = low;
+  AddTaps(a, b, taps.near, taps.near, low, high);
+  AddTaps(d, e, taps.far, taps.far, low, high);
+  return EndTaps(low, high);
+}
+
+#else
+
+using WideTag = hn::ScalableTag<int32_t>;
+using FilterTag = hn::Rebind<int16_t, WideTag>;
+using FilterVec = hn::Vec<FilterTag>;
+using WideVec = hn::Vec<WideTag>;
+
+HWY_INLINE WideVec Wide(FilterVec samples) { return hn::PromoteTo(WideTag(), samples); }
+
+HWY_INLINE WideVec Weighed(int32_t tap, WideVec samples) {
+  return hn::Mul(hn::Set(WideTag(), tap), samples);
+}
+
+HWY_INLINE FilterVec EndTaps(WideVec sum) {
+  const auto half = hn::Set(WideTag(), 1 << (kTapBits - 1));
+  return hn::DemoteTo(FilterTag(), hn::ShiftRight<kTapBits>(hn::Add(sum, half)));
+}
+
+HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, FilterVec b,
+                                FilterVec d, FilterVec e) {
+  const auto beside = Weighed(taps.near, hn::Add(Wide(a), Wide(b)));
+  const auto beyond = Weighed(taps.far, hn::Add(Wide(d), Wide(e)));
+  return EndTaps(hn::Add(Weighed(taps.centre, Wide(c)), hn::Add(beside, beyond)));
+}
+
+// Where sums of two samples fit 16 bits.
+HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
+  const auto beside = Weighed(taps.near, Wide(ab)), beyond = Weighed(taps.far, Wide(de));
+  return EndTaps(hn::Add(Weighed(taps.centre, Wide(c)), hn::Add(beside, beyond)));
+}
+
+HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, FilterVec d,
+                               FilterVec e) {
+  return EndTaps(hn::Add(Weighed(taps.near, hn::Add(Wide(a), Wide(b))),
+                         Weighed(taps.far, hn::Add(Wide(d), Wide(e)))));
+}
+
+#endif
+
+// Taps by value: they stay in registers though what is written might alias them.
+HWY_INLINE void HalfBandSamples(const int16_t* in, ptrdiff_t step, HalfBand taps, size_t count,
+                                int16_t low, int16_t high, int16_t* out) {
+  const FilterTag d16;
   const auto vlow = hn::Set(d16, low), vhigh = hn::Set(d16, high);
-  const auto load = [&](const int16_t* at)
-                        HWY_ATTR { return hn::PromoteTo(d32, hn::LoadU(d16, at)); };
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
+  const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const int16_t* at = in + n;
-    const auto beside = hn::Mul(near, hn::Add(load(at - step), load(at + step)));
-    const auto beyond = hn::Mul(far, hn::Add(load(at - 3 * step), load(at + 3 * step)));
-    const auto sum = hn::Add(hn::Mul(centre, load(at)), hn::Add(beside, beyond));
-    hn::StoreU(RoundSum(d16, sum, half, vlow, vhigh), d16, out + n);
-  }
-  ReferenceKernels().half_band(in + n, step, taps, count - n, low, high, out + n);
+    const auto value = HalfBandOf(taps, load(at), load(at - step), load(at + step),
+                                  load(at - 3 * step), load(at + 3 * step));
+    hn::StoreU(hn::Min(hn::Max(value, vlow), vhigh), d16, out + n);
+  });
+  if (!done) ReferenceKernels().half_band(in, step, taps, count, low, high, out);
 }
 
-HWY_INLINE void BetweenSamples(const int16_t* in, ptrdiff_t step, const HalfBand& taps,
-                               size_t count, int16_t low, int16_t high, int16_t* out) {
-  const hn::ScalableTag<int32_t> d32;
-  const hn::Rebind<int16_t, decltype(d32)> d16;
-  const size_t lanes = hn::Lanes(d32);
-  const auto near = hn::Set(d32, taps.near), far = hn::Set(d32, taps.far),
-             half = hn::Set(d32, 1 << (kTapBits - 1));
+HWY_INLINE void HalveLine(const int16_t* HWY_RESTRICT even, const int16_t* HWY_RESTRICT odd,
+                          HalfBand taps, size_t count, int16_t* HWY_RESTRICT out) {
+  const FilterTag d16;
+  const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
+  const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
+    const int16_t* at = odd + n;
+    const auto beside = hn::Add(load(at - 3), load(at));
+    const auto beyond = hn::Add(load(at - 6), load(at + 3));
+    hn::StoreU(HalfBandOf(taps, load(even + n), beside, beyond), d16, out + n);
+  });
+  if (!done) ReferenceKernels().halve(even, odd, taps, count, out);
+}
+
+HWY_INLINE void BetweenSamples(const int16_t* in, ptrdiff_t step, HalfBand taps, size_t count,
+                               int16_t low, int16_t high, int16_t* out) {
+  const FilterTag d16;
   const auto vlow = hn::Set(d16, low), vhigh = hn::Set(d16, high);
-  const auto load = [&](const int16_t* at)
-                        HWY_ATTR { return hn::PromoteTo(d32, hn::LoadU(d16, at)); };
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
+  const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const int16_t* at = in + n;
-    const auto beside = hn::Mul(near, hn::Add(load(at), load(at + step)));
-    const auto beyond = hn::Mul(far, hn::Add(load(at - step), load(at + 2 * step)));
-    hn::StoreU(RoundSum(d16, hn::Add(beside, beyond), half, vlow, vhigh), d16, out + n);
-  }
-  ReferenceKernels().between(in + n, step, taps, count - n, low, high, out + n);
+    const auto value =
+        BetweenOf(taps, load(at), load(at + step), load(at - step), load(at + 2 * step));
+    hn::StoreU(hn::Min(hn::Max(value, vlow), vhigh), d16, out + n);
+  });
+  if (!done) ReferenceKernels().between(in, step, taps, count, low, high, out);
 }
 
 }  // namespace HWY_NAMESPACE

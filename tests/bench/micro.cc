@@ -279,8 +279,14 @@ const Case kCases[] = {
        benchmark::DoNotOptimize(
            k.convert_disparity(b->disparity.data(), kSamples, -8, 8, b->out.data()));
      }},
-    {"widen", false, 1 + 2,
-     [](const Kernels& k, Buffers* b) { k.widen(b->bytes.data(), kSamples, b->out.data()); }},
+    {"widen_phases", false, 1 + 2,
+     [](const Kernels& k, Buffers* b) {
+       k.widen_phases(b->bytes.data(), kSamples / 6, b->out.data(), b->middles.data());
+     }},
+    {"split_phases", false, 2 + 2,
+     [](const Kernels& k, Buffers* b) {
+       k.split_phases(b->in.data(), kSamples / 6, b->out.data(), b->middles.data());
+     }},
     {"narrow", false, 2 + 1,
      [](const Kernels& k, Buffers* b) { k.narrow(b->in.data(), kSamples, b->line.data()); }},
     {"finish_layer", false, 4 + 2,
@@ -290,6 +296,11 @@ const Case kCases[] = {
     {"half_band", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
        k.half_band(b->in.data() + kMargin, 3, kTaps, kSamples, 0, 16320, b->out.data());
+     }},
+    {"halve", false, 2 + 2 + 2,
+     [](const Kernels& k, Buffers* b) {
+       const int16_t* in = b->in.data() + kMargin;
+       k.halve(in, in, kTaps, kSamples, b->out.data());
      }},
     {"between", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
