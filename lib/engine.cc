@@ -59,6 +59,11 @@ void MakeTables(EngineState* engine) {
     engine->view_counts[n] = CountViews(n);
     weights += ApertureSize(n);
   }
+  for (int32_t n = 0; n <= engine->max_cell_n; ++n) {
+    engine->cell_apertures[n] = MakeCellAperture(n, engine->fall_off, weights);
+    engine->cell_view_counts[n] = CountCells(engine->cell_apertures[n]);
+    weights += ApertureSize(n);
+  }
   engine->blur_steps = 0;
 }
 
@@ -88,16 +93,18 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   engine->params = params;
   engine->region = RegionOf(config, params);
   engine->reach = GetReach(r_max);
+  const bool cells = UsesCells(*engine);
   if (IsBenchmark(*engine)) {
-    engine->aperture =
-        MakeAperture(ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
+    engine->aperture = (cells ? MakeCellAperture : MakeAperture)(
+        ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
   } else {
-    const int32_t n = UsesCells(*engine) ? ViewsByCells(r_max) : ViewsByPaper(r_max);
-    engine->aperture = engine->apertures[ScaleViews(n, config.n_scale)];
+    const int32_t n = cells ? ViewsByCells(r_max) : ViewsByPaper(r_max);
+    engine->aperture =
+        (cells ? engine->cell_apertures : engine->apertures)[ScaleViews(n, config.n_scale)];
   }
   const ViewGrid grid = MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false);
   engine->scale = {grid.focus, grid.step};
-  const bool gathers = IsBlockMode(*engine) && UsesCells(*engine) && config.gather != 0;
+  const bool gathers = IsBlockMode(*engine) && cells && config.gather != 0;
   if (params.mode == SF_MODE_BLUR || gathers) {
     const int32_t steps = BlurStepCount(gathers && r_max > kMaxGather ? kMaxGather : r_max);
     if (steps > engine->blur_steps) {

@@ -77,10 +77,10 @@ struct EngineState {
   uint32_t fall_off;  // ApertureFallOff(config.theta)
 
   // Tables made once: by N up to max_n, and kernels of the blur mode as far as asked for.
-  int32_t max_n;
-  Aperture* apertures;
-  uint16_t* aperture_weights;
-  ViewCounts* view_counts;
+  int32_t max_n, max_cell_n;
+  Aperture *apertures, *cell_apertures;  // by the paper's rule and by the rule of cells
+  uint16_t* aperture_weights;            // of both
+  ViewCounts *view_counts, *cell_view_counts;
   uint16_t* benchmark_weights;
   BlurKernel* blur_kernels;
   uint16_t* blur_weights;
@@ -132,6 +132,12 @@ inline bool UsesCells(const EngineState& engine) {
 }
 
 // Whether blocks of different layers are joined.
+// Of a block with the rule's N.
+inline const Aperture& ApertureOf(const EngineState& engine, int32_t n) {
+  if (!IsBlockMode(engine)) return engine.aperture;
+  return UsesCells(engine) ? engine.cell_apertures[n] : engine.apertures[n];
+}
+
 inline bool IsDeblocking(const EngineState& engine) {
   return IsBlockMode(engine) && engine.config.max_layer > 0 && engine.config.deblocking > 0;
 }

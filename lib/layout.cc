@@ -24,15 +24,16 @@ SpanMemory TakeSpans(size_t side, Carver* carver) {
 
 // The largest N of the block and frame modes.
 int32_t LargestN(const sf_config& config) {
-  // One more than (9) gives: radii are rounded up before it. For small blurs cells ask for more.
-  const int32_t n = Max(ViewsByPaper(config.max_blur), ViewsByCells(config.max_blur)) + 1;
-  return ScaleViews(n, config.n_scale);
+  // One more than (9) gives: radii are rounded up before it.
+  return ScaleViews(ViewsByPaper(config.max_blur) + 1, config.n_scale);
+}
+int32_t LargestCellN(const sf_config& config) {
+  return ScaleViews(ViewsByCells(config.max_blur + 1), config.n_scale);
 }
 
 // The largest N of slices.
 int32_t LargestSliceN(const sf_config& config) {
-  return Max(ScaleViews(ViewsByCells(config.max_blur + 1), config.n_scale),
-             ViewsOfBenchmark(config.max_blur));
+  return Max(LargestCellN(config), ViewsOfBenchmark(config.max_blur));
 }
 
 // E and R of StarScratch, and the largest N; all but the first accumulators.
@@ -152,12 +153,17 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
 
 void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->max_n = LargestN(config);
+  engine->max_cell_n = LargestCellN(config);
   const auto count = static_cast<size_t>(engine->max_n) + 1;
+  const auto cell_count = static_cast<size_t>(engine->max_cell_n) + 1;
   size_t weights = 0;
   for (int32_t n = 0; n <= engine->max_n; ++n) weights += ApertureSize(n);
+  for (int32_t n = 0; n <= engine->max_cell_n; ++n) weights += ApertureSize(n);
   engine->apertures = carver->Take<Aperture>(count);
+  engine->cell_apertures = carver->Take<Aperture>(cell_count);
   engine->aperture_weights = carver->Take<uint16_t>(weights);
   engine->view_counts = carver->Take<ViewCounts>(count);
+  engine->cell_view_counts = carver->Take<ViewCounts>(cell_count);
   engine->benchmark_weights =
       carver->Take<uint16_t>(ApertureSize(ViewsOfBenchmark(config.max_blur)));
   engine->blur_kernels =

@@ -69,10 +69,6 @@ void FillColour(const uint8_t* colour, const Rect& rect, const Plane<uint8_t>& o
   }
 }
 
-const Aperture& ApertureOf(const EngineState& engine, const Block& block) {
-  return IsBlockMode(engine) ? engine.apertures[block.n] : engine.aperture;
-}
-
 // A window that counts for a worker what is read of its views.
 class Counting {
  public:
@@ -118,7 +114,7 @@ Rendered Render(const EngineState& engine, const Block& block, StarJob job,
   } else {
     FinishLayer(*engine.kernels, block, shift, out, *worker);
   }
-  const auto views = static_cast<uint64_t>(ApertureOf(engine, block).views);
+  const auto views = static_cast<uint64_t>(ApertureOf(engine, block.n).views);
   return {views, views * samples};
 }
 
@@ -140,7 +136,7 @@ const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rend
 // A copied block has one view, the centre.
 Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
                       Worker* worker) {
-  const Aperture& aperture = ApertureOf(engine, block);
+  const Aperture& aperture = ApertureOf(engine, block.n);
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
   const bool pinhole = aperture.n == 0;
   const Aperture& rendered = pinhole ? engine.apertures[1] : aperture;

@@ -9,12 +9,12 @@ namespace starfocus {
 // Views along the aperture radius by (9). r_max >= 0 in pixels; 0 needs the centre view alone.
 int32_t ViewsByPaper(double r_max);
 
-// Views along the aperture radius when each stands for its cell of the aperture, however wide; at
-// least as good as (9) for every smaller radius too (lib/analysis/cell_rule.h has the criterion).
-// r_max in [0, 128]:
+// N for views that each stand for their cell of the aperture, however wide: the radius of the lens
+// in cells, rounded up (LensInCells of lib/aperture.h). At least as good as (9) for every smaller
+// radius too (lib/analysis/cell_rule.h has the criterion). r_max in [0, 128]:
 //
-//   r_max <=  1/2   11   24   32   45   59   81  109  120  128
-//   N           0    4    6    8   10   12   14   16   18   20
+//   r_max <=  1/2   18   25   34   49   68   83  119  128
+//   N           0    4    5    6    7    9   11   12   13
 int32_t ViewsByCells(double r_max);
 
 // N of either rule times `scale` in [0.5, 2], rounded up; 0 and a scale of 1 change nothing.

@@ -51,9 +51,8 @@ class Stack {
 
   // Largest j of the views (i, j).
   int32_t LastAcross(int32_t i) const {
-    const int32_t n = grid_.n();
-    int32_t j = n;
-    while (i * i + j * j > n * n) --j;
+    int32_t j = grid_.n();
+    while (i * i + j * j > grid_.aperture.most) --j;
     return j;
   }
 

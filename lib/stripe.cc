@@ -33,9 +33,10 @@ Block WholeBlock(const EngineState& engine, const Rect& rect) {
   block.layer = 0;
   block.n = engine.aperture.n;
   block.gathers = false;
-  block.cost = PredictTime(engine.config.timing,
-                           MeasureWork(block.rendered, block.border, CountViews(engine.aperture.n),
-                                       UsesCells(engine), 0, {}, 0));
+  const ViewCounts views =
+      UsesCells(engine) ? CountCells(engine.aperture) : CountViews(engine.aperture.n);
+  block.cost = PredictTime(engine.config.timing, MeasureWork(block.rendered, block.border, views,
+                                                             UsesCells(engine), 0, {}, 0));
   return block;
 }
 
@@ -119,13 +120,13 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
   rules.height = engine.config.height;
   rules.largest_block = BlockSide(engine);
   rules.max_layer = engine.config.max_layer;
-  rules.max_n = engine.max_n;
+  rules.max_n = UsesCells(engine) ? engine.max_cell_n : engine.max_n;
   rules.cells = UsesCells(engine);
   rules.n_scale = engine.config.n_scale;
   rules.gathers = UsesCells(engine) && engine.config.gather != 0;
   rules.scale = engine.scale;
   rules.timing = engine.config.timing;
-  rules.views = engine.view_counts;
+  rules.views = UsesCells(engine) ? engine.cell_view_counts : engine.view_counts;
   engine.plan.counts[column] = PartitionBlock(
       *engine.kernels, rules, engine.cells, column * BlockSide(engine), stripe.y,
       engine.reach.cells, worker->partition, BlocksOf(engine, column), engine.plan.gathered);
@@ -159,8 +160,7 @@ void Announce(const Block& block, EngineState* engine) {
   sf_report& report = engine->report;
   if (block.n > report.n || report.rendered_views == 0) {
     report.n = block.n;
-    report.rendered_views =
-        IsBlockMode(*engine) ? engine->apertures[block.n].views : engine->aperture.views;
+    report.rendered_views = ApertureOf(*engine, block.n).views;
   }
   if (engine->params.on_block == nullptr) return;
   const sf_block told = {block.rect.x,      block.rect.y, block.rect.width,

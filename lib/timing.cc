@@ -14,6 +14,11 @@ ViewCounts CountViews(int32_t n) {
   return views;
 }
 
+ViewCounts CountCells(const Aperture& aperture) {
+  const auto a = 4 * static_cast<uint32_t>(aperture.last);
+  return {a, 0, static_cast<uint32_t>(aperture.views) - 1 - a};
+}
+
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views, bool cells,
                       uint64_t upsampled_pixels, const Content (&content)[2], int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);

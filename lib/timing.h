@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "lib/aperture.h"
 #include "lib/cells.h"
 #include "lib/field.h"
 #include "starfocus/starfocus.h"
@@ -24,6 +25,8 @@ struct ViewCounts {
   uint32_t a, b, c;
 };
 ViewCounts CountViews(int32_t n);
+// Of the views of cells, whose types are all one but for those on the axes.
+ViewCounts CountCells(const Aperture& aperture);
 
 // The work of `rect` with `border`, both in pixels of the layer, and N views along the radius.
 // `cells`: by the rule of cells. `content`: what the block holds at layer 0 along rows and along

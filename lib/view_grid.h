@@ -18,7 +18,7 @@ struct ViewGrid {
   int32_t half_views = 0;  // views |i| <= half_views take holes from the views at half distance
   int32_t spread = 0;      // disparity range of a run, kDisparityBits
 
-  int32_t n() const { return aperture.n; }
+  int32_t n() const { return aperture.last; }
 
   // u of view i in pixels of the layer per unit of disparity, kStepBits; i in [0, N], N > 0.
   int64_t Move(int32_t i) const { return (i * step + n() / 2) / n(); }

@@ -454,7 +454,7 @@ TEST_CASE("refocus: the report holds what was rendered") {
   f.params.mode = SF_MODE_BENCHMARK;
   REQUIRE(f.Refocus(engine.get()) == SF_OK);
   CHECK(f.report.n == 6);
-  CHECK(f.report.rendered_views == 113);
+  CHECK(f.report.rendered_views == 101);
   CHECK(f.report.rendered_samples > 0);
 }
 

@@ -149,23 +149,51 @@ TEST_CASE("aperture: the largest N of the configuration") {
   }
 }
 
-TEST_CASE("aperture: cells drawn in by their extent blur as much as the lens, or less") {
-  CHECK(starfocus::CellExtent(0) == 1);
-  CHECK(starfocus::CellExtent(2) == doctest::Approx(0.92836));
-  for (int n = 1; n <= 40; ++n) {
-    const double extent = starfocus::CellExtent(n);
-    double views = 0, squares = 0;  // of the points of all cells, along x
-    ForEachView(n, [&](int i, int, bool inside) {
-      if (!inside) return;
-      views += 1;
-      squares += (i * i + 1.0 / 12) * extent * extent / (n * n);
-    });
-    CAPTURE(n);
-    CHECK(squares / views <= doctest::Approx(0.25));
-    if (extent < 1) CHECK(squares / views == doctest::Approx(0.25));
-    CHECK(extent > 0.7);
-    CHECK(Sampled(n, 0.26 * kPi).aperture.extent == extent);
+TEST_CASE("aperture: cells have the light of their part of the lens") {
+  for (const double theta : {0.1 * kPi, 0.26 * kPi, 0.4 * kPi}) {
+    for (const int n : {2, 3, 4, 5, 6, 7, 9, 13, 40, 256}) {
+      std::vector<uint16_t> storage(starfocus::ApertureSize(n));
+      const starfocus::Aperture cells =
+          starfocus::MakeCellAperture(n, starfocus::ApertureFallOff(theta), storage.data());
+      const double lens = starfocus::LensInCells(n) / 32.0, c = std::pow(std::tan(theta), -2);
+      CAPTURE(n);
+      CHECK(cells.n == n);
+      CHECK(cells.extent == doctest::Approx(cells.last / lens));
+      int views = 0;
+      double sum = 0, light = 0, squares = 0, exact = 0;
+      for (int i = -n; i <= n; ++i) {
+        for (int j = -n; j <= n; ++j) {
+          const double weight = cells.Weight(i, j);
+          const bool inside = i * i + j * j <= cells.most;
+          CHECK((inside || weight == 0));
+          views += inside;
+          sum += weight;
+          squares += weight * (i * i + j * j + 1.0 / 6) / (lens * lens);
+        }
+      }
+      // Rings of the lens, and what lies out there.
+      for (double rho = 0.5e-3; rho < 1; rho += 1e-3) {
+        const double ring = rho * std::pow(c / (rho * rho + c), 2);
+        light += ring;
+        exact += ring * rho * rho;
+      }
+      CHECK(views == cells.views);
+      CHECK(sum == std::ldexp(1.0, cells.sum_bits));
+      // A box blurs a rim cell's light over more than the part within.
+      CHECK(squares / sum == doctest::Approx(exact / light)
+                                 .epsilon(n < 4    ? 0.25
+                                          : n < 13 ? 0.06
+                                                   : 0.02));
+    }
   }
+}
+
+TEST_CASE("aperture: no views but the centre's") {
+  uint16_t weight = 0;
+  const starfocus::Aperture cells = starfocus::MakeCellAperture(0, 65536, &weight);
+  CHECK(cells.views == 1);
+  CHECK(cells.last == 0);
+  CHECK(weight == 1 << cells.sum_bits);
 }
 
 }  // namespace

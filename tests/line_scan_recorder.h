@@ -75,7 +75,7 @@ struct Recorder {
 
 inline ViewGrid MakeGrid(int n, double focus, double aperture) {
   starfocus::Aperture views;
-  views.n = n;
+  views.n = views.last = n;
   return starfocus::MakeViewGrid(views, focus, aperture, 0, false);
 }
 

@@ -25,26 +25,22 @@ LightField Load(const test::Scene& scene) {
   return field;
 }
 
-// Of cells (squares of 1 / n around the views) as wide that they blur as much as the lens, in the
-// mean square, but no wider than the lens.
-double ExtentOfCells(int n) {
-  double views = 0, squares = 0;
-  for (int j = -n; j <= n; ++j) {
-    for (int i = -n; i <= n; ++i) {
-      if (i * i + j * j > n * n) continue;
-      views += 1;
-      squares += i * i + 1.0 / 12;
-    }
-  }
-  return std::min(1.0, std::sqrt(n * n / 4.0 / (squares / views)));
-}
-
-Lens MakeLens(const sf_params& params, double theta, int n, int layer, double extent = 1) {
+Lens MakeLens(const sf_params& params, double theta, int n, int layer, bool cells = false) {
   Lens lens;
   lens.n = n;
+  lens.most = n * n;
   lens.radius = params.aperture;
   lens.theta = theta;
   lens.focus = RoundedTo64(params.focus);
+  double extent = 1;
+  if (cells) {
+    // Views up to 5/32 of a cell beyond the rim.
+    lens.cells = n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
+    const double farthest = lens.cells + 5 / 32.0;
+    lens.n = int(farthest);
+    lens.most = int(farthest * farthest);
+    extent = lens.n / lens.cells;
+  }
   const auto step = int64_t(params.aperture * extent * (1 << 24));
   lens.step = std::max<int64_t>(1, Rounded(2 * step, 1 + layer));
   lens.layer = layer;
@@ -269,8 +265,7 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   for (const Block& block : blocks) {
     const bool by_cells = limits != nullptr && block.n > 0;
-    const Lens lens =
-        MakeLens(params, theta, block.n, block.layer, by_cells ? ExtentOfCells(block.n) : 1);
+    const Lens lens = MakeLens(params, theta, block.n, block.layer, by_cells);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
         block.right,      block.top,        block.bottom};

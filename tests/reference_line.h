@@ -48,7 +48,9 @@ using LightField = std::map<std::pair<int, int>, Picture>;
 
 // The lens: N views along its radius, and how far pixels move in them.
 struct Lens {
-  int n = 0;
+  int n = 0;          // outermost view
+  int most = 0;       // i^2 + j^2 of the views
+  double cells = 0;   // radius in cells that views stand for; 0: they stand for points
   double radius = 0;  // u_t
   double theta = 0;
   int focus = 0;     // d_t, 1/64
@@ -70,9 +72,21 @@ struct Lens {
   int Spread() const { return int(std::min<int64_t>(kSurfaceStep, (int64_t{16} << 24) / step)); }
   // Views at most half a unit from the centre have a captured view at that distance.
   bool Half(int k) const { return 2 * k * radius <= n; }
-  bool Contains(int i, int j) const { return i * i + j * j <= n * n; }
+  bool Contains(int i, int j) const { return i * i + j * j <= most; }
   double Density(int i, int j) const {
+    if (cells > 0) return DensityOfCell(i, j);
     return n == 0 ? 1 : ApertureDensity(double(i) / n, double(j) / n, theta);
+  }
+  // The mean of it over the cell; beyond the rim there is none.
+  double DensityOfCell(int i, int j) const {
+    constexpr int kPoints = 24;
+    double sum = 0;
+    for (int point = 0; point < kPoints * kPoints; ++point) {
+      const double u = (i + (point % kPoints + 0.5) / kPoints - 0.5) / cells;
+      const double v = (j + (point / kPoints + 0.5) / kPoints - 0.5) / cells;
+      if (u * u + v * v <= 1) sum += ApertureDensity(u, v, theta);
+    }
+    return sum / (kPoints * kPoints);
   }
   // Largest j of the views (i, j) rendered from type A view i: below the diagonal.
   int LastAcross(int i) const {

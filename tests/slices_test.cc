@@ -46,7 +46,7 @@ struct Scene {
                          const SliceRule& rule = starfocus::kSlices,
                          const starfocus::SliceLimits& limits = kAmple) {
     starfocus::Aperture views;
-    views.n = 4;
+    views.n = views.last = 4;
     const auto grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
     const auto range = std::minmax_element(planes[0].begin(), planes[0].end());
     surfaces.low = *range.first;

@@ -57,7 +57,7 @@ struct Scene {
     field.disparity = copy.data();
     starfocus::LoadField(window, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
     starfocus::Aperture aperture;
-    aperture.n = 4;
+    aperture.n = aperture.last = 4;
     window.layer = layer;
     const ViewGrid grid = starfocus::MakeViewGrid(aperture, 0, 1, 0, false);
     starfocus::UnmixEdges(starfocus::simd::BestKernels(), window, grid, &field);

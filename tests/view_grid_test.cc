@@ -16,7 +16,7 @@ using starfocus::ViewGrid;
 
 ViewGrid MakeGrid(int n, double focus, double aperture, int layer = 0, bool half = false) {
   starfocus::Aperture views;
-  views.n = n;
+  views.n = views.last = n;
   return starfocus::MakeViewGrid(views, focus, aperture, layer, half);
 }
 

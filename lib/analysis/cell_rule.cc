@@ -5,6 +5,7 @@
 
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/selection.h"
+#include "lib/analysis/view_kernel.h"
 #include "lib/rules.h"
 
 namespace starfocus::analysis {
@@ -44,9 +45,10 @@ const std::vector<double>& CellStudy::CellErrors(int n) {
   const size_t index = static_cast<size_t>(n);
   if (cells_.size() <= index) cells_.resize(index + 1);
   std::vector<double>& errors = cells_[index];
+  const CellLights lights(n, theta_);
   for (int k = static_cast<int>(errors.size()); k < count(); ++k) {
-    errors.push_back(
-        SquaredError(CellKernel(Radius(k), n, theta_), ideal_[static_cast<size_t>(k)]));
+    const Kernel kernel = n == 0 ? IdealKernel(0, theta_) : CellKernel(Radius(k), lights);
+    errors.push_back(SquaredError(kernel, ideal_[static_cast<size_t>(k)]));
   }
   return errors;
 }

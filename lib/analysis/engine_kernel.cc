@@ -98,8 +98,7 @@ Kernel ReadKernel(const Engine& measured, int x, int y, int radius, uint8_t dark
   Kernel kernel(radius);
   const Block& block = engine.plan.blocks[0];
   const Worker& worker = engine.workers[0];
-  const Aperture& aperture =
-      engine.params.mode == SF_MODE_BLOCK ? engine.apertures[block.n] : engine.aperture;
+  const Aperture& aperture = ApertureOf(engine, block.n);
   const double one = std::ldexp(1.0, block.layer == 0 ? aperture.sum_bits : simd::kLayerBits);
   for (int m = -radius; m <= radius; ++m) {
     for (int n = -radius; n <= radius; ++n) {

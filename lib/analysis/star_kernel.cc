@@ -59,15 +59,19 @@ void Spread(double x, const Footprint& footprint, const Visit& visit) {
 
 Kernel StarKernel(double radius, int n, double theta, Cells cells) {
   if (n == 0) return IdealKernel(0, theta);
-  const double r = cells == Cells::kNarrow ? radius : radius * CellExtent(n);
-  const Footprint footprint = MakeFootprint(r / n, cells);
-  Kernel kernel(static_cast<int>(std::ceil(r)) + 1 + footprint.taps.radius());
-  const auto place = [&](int i) { return std::round(i * r / n * kShiftOne) / kShiftOne; };
-  for (int i = -n; i <= n; ++i) {
+  const bool narrow = cells == Cells::kNarrow;
+  const CellLights lights(narrow ? 0 : n, theta);
+  const int last = narrow ? n : LastCell(n), most = narrow ? n * n : MostOfCells(n);
+  const double step = narrow ? radius / n : radius * kCellUnits / LensInCells(n);
+  const Footprint footprint = MakeFootprint(step, cells);
+  Kernel kernel(static_cast<int>(std::ceil(last * step)) + 1 + footprint.taps.radius());
+  const auto place = [&](int i) { return std::round(i * step * kShiftOne) / kShiftOne; };
+  for (int i = -last; i <= last; ++i) {
     Kernel1 column(kernel.radius());
-    for (int j = -n; j <= n; ++j) {
-      if (i * i + j * j > n * n) continue;
-      const double weight = Aperture(double(i * i + j * j) / (double(n) * n), theta);
+    for (int j = -last; j <= last; ++j) {
+      if (i * i + j * j > most) continue;
+      const double weight =
+          narrow ? Aperture(double(i * i + j * j) / (double(n) * n), theta) : lights(i, j);
       if (cells == Cells::kNarrow && i != 0 && std::abs(i) == std::abs(j)) {
         Spread(place(i), footprint,
                [&](int x, double share) { kernel.at(x, i == j ? x : -x) += weight * share; });

@@ -13,7 +13,7 @@ enum class Cells { kNarrow, kWide };
 
 // The kernel of N views at blur radius r, positions and cells rounded to the engine's 1/256 pixel.
 // A cell of up to 3 pixels covers what a box of its width does; a wider one, at most 7, is linear
-// interpolation after a box on whole pixels. Views of wide cells are drawn in to CellExtent(n).
+// interpolation after a box on whole pixels. Views of cells lie as those of MakeCellAperture.
 Kernel StarKernel(double r, int n, double theta, Cells cells);
 
 }  // namespace starfocus::analysis

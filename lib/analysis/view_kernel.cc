@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "lib/analysis/aperture.h"
 #include "lib/analysis/ideal.h"
+#include "lib/aperture.h"
 
 namespace starfocus::analysis {
 namespace {
@@ -19,25 +21,18 @@ void ForEachTap(double x, double width, const Visit& visit) {
 
 int RadiusOf(double r, double width) { return static_cast<int>(std::ceil(r + (width + 1) / 2)); }
 
-}  // namespace
-
-double Trapezoid(double t, double width) {
-  const double overlap = (1 + width) / 2 - std::fabs(t);
-  return std::clamp(overlap, 0.0, std::min(width, 1.0)) / width;
-}
-
-Kernel ViewKernel(double r, int n, double theta, double width, Rim rim) {
-  const int largest = n * n - (rim == Rim::kExcluded ? 1 : 0);
-  Kernel kernel(RadiusOf(r, width));
-  for (int i = -n; i <= n; ++i) {
+// The views (i, j), |i| <= last, i^2 + j^2 <= most, `step` pixels apart.
+template <class Weight>
+Kernel SumViews(int last, int most, double step, double width, const Weight& weight) {
+  Kernel kernel(RadiusOf(last * step, width));
+  for (int i = -last; i <= last; ++i) {
     Kernel1 column(kernel.radius());
-    for (int j = -n; j <= n; ++j) {
-      if (i * i + j * j > largest) continue;
-      const double weight = Aperture(double(i * i + j * j) / (double(n) * n), theta);
-      const double y = j * r / n;
-      ForEachTap(y, width, [&](int m) { column.at(m) += weight * Trapezoid(m - y, width); });
+    for (int j = -last; j <= last; ++j) {
+      if (i * i + j * j > most) continue;
+      const double y = j * step, light = weight(i, j);
+      ForEachTap(y, width, [&](int m) { column.at(m) += light * Trapezoid(m - y, width); });
     }
-    const double x = i * r / n;
+    const double x = i * step;
     ForEachTap(x, width, [&](int k) {
       const double share = Trapezoid(k - x, width);
       for (int m = -kernel.radius(); m <= kernel.radius(); ++m)
@@ -48,14 +43,53 @@ Kernel ViewKernel(double r, int n, double theta, double width, Rim rim) {
   return kernel;
 }
 
+}  // namespace
+
+double Trapezoid(double t, double width) {
+  const double overlap = (1 + width) / 2 - std::fabs(t);
+  return std::clamp(overlap, 0.0, std::min(width, 1.0)) / width;
+}
+
+Kernel ViewKernel(double r, int n, double theta, double width, Rim rim) {
+  return SumViews(n, n * n - (rim == Rim::kExcluded ? 1 : 0), r / n, width, [&](int i, int j) {
+    return Aperture(double(i * i + j * j) / (double(n) * n), theta);
+  });
+}
+
 Kernel PaperKernel(double r, int n, double theta, Rim rim) {
   return ViewKernel(r, n, theta, 1, rim);
 }
 
-Kernel CellKernel(double r, int n, double theta) {
+CellLights::CellLights(int n, double theta) : n_(n) {
+  constexpr int kPoints = 16;
+  const double lens = double(LensInCells(n)) / kCellUnits;
+  for (int i = 0; i <= LastCell(n); ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double light = 0;
+      for (int point = 0; point < kPoints * kPoints; ++point) {
+        const double x = i + (point % kPoints + 0.5) / kPoints - 0.5;
+        const double y = j + (point / kPoints + 0.5) / kPoints - 0.5;
+        light += Aperture((x * x + y * y) / (lens * lens), theta);
+      }
+      lights_.push_back(light);
+    }
+  }
+}
+
+double CellLights::operator()(int i, int j) const {
+  const int high = std::max(std::abs(i), std::abs(j)), low = std::min(std::abs(i), std::abs(j));
+  return lights_[size_t(high * (high + 1) / 2 + low)];
+}
+
+Kernel CellKernel(double r, const CellLights& lights) {
   constexpr double kNarrowest = 1e-6;
-  if (n == 0) return IdealKernel(0, theta);
-  return ViewKernel(r, n, theta, std::max(r / n, kNarrowest));
+  const int n = lights.n();
+  const double cell = r * kCellUnits / LensInCells(n);
+  return SumViews(LastCell(n), MostOfCells(n), cell, std::max(cell, kNarrowest), lights);
+}
+
+Kernel CellKernel(double r, int n, double theta) {
+  return n == 0 ? IdealKernel(0, theta) : CellKernel(r, CellLights(n, theta));
 }
 
 Kernel1 SampledAperture1(int n, double theta) {

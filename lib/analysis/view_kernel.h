@@ -3,6 +3,8 @@
 #ifndef STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
 
+#include <vector>
+
 #include "lib/analysis/kernel.h"
 
 namespace starfocus::analysis {
@@ -21,8 +23,22 @@ Kernel ViewKernel(double r, int n, double theta, double width, Rim rim = Rim::kI
 // With the triangular h of the paper.
 Kernel PaperKernel(double r, int n, double theta, Rim rim = Rim::kIncluded);
 
-// Each view stands for its cell of the aperture, u_t / N wide: h is as wide as a pixel moves from
-// view to view, L = r / N. N = 0 is the centre view alone: the unit impulse.
+// What of the light of a lens of LensInCells(n) goes through the cell around each view (i, j).
+class CellLights {
+ public:
+  CellLights(int n, double theta);
+
+  int n() const { return n_; }
+  double operator()(int i, int j) const;
+
+ private:
+  int n_;
+  std::vector<double> lights_;  // of 0 <= j <= i
+};
+
+// Each view stands for its cell of the aperture: h is as wide as a pixel moves from view to view.
+// N = 0 is the centre view alone: the unit impulse.
+Kernel CellKernel(double r, const CellLights& lights);
 Kernel CellKernel(double r, int n, double theta);
 
 // The paper's kernel with the 1D aperture, whose views are |i| <= N.
