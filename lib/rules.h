@@ -13,7 +13,7 @@ int32_t ViewsByPaper(double r_max);
 // in cells, rounded up (LensInCells of lib/aperture.h). At least as good as (9) for every smaller
 // radius too (lib/analysis/cell_rule.h has the criterion). r_max in [0, 128]:
 //
-//   r_max <=  1/2   18   25   34   49   68   83  119  128
+//   r_max <=  1/2   11   25   34   49   68   83  119  128
 //   N           0    4    5    6    7    9   11   12   13
 int32_t ViewsByCells(double r_max);
 

@@ -194,7 +194,7 @@ TEST_CASE("constants: the running engine has the kernel it is described by") {
 }
 
 TEST_CASE("constants: the engine's cells keep the threshold at every radius that N serves") {
-  for (const double r_max : {18.0, 25.0, 34.0, 40.0}) {
+  for (const double r_max : {11.0, 25.0, 34.0, 40.0}) {
     const int n = ViewsByCells(r_max);
     double worst = 0, worst_r = 0;
     for (double r = 0.5 + 1.0 / 64; r <= r_max; r += 1.0 / 16) {

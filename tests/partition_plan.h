@@ -142,7 +142,7 @@ inline int ViewsOf(bool cells, double r_max) {
     constexpr struct {
       double r_max;
       int n;
-    } kSteps[] = {{0.5, 0}, {18, 4}, {25, 5}, {34, 6}, {49, 7}};
+    } kSteps[] = {{0.5, 0}, {11, 4}, {25, 5}, {34, 6}, {49, 7}};
     for (const auto& step : kSteps) {
       if (r_max <= step.r_max) return step.n;
     }

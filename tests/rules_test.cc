@@ -107,7 +107,7 @@ TEST_CASE("rules: the table of views that stand for their cells") {
   constexpr struct {
     double r_max;
     int n;
-  } kTable[] = {{0.5, 0}, {18, 4},  {25, 5},   {34, 6},  {49, 7},
+  } kTable[] = {{0.5, 0}, {11, 4},  {25, 5},   {34, 6},  {49, 7},
                 {68, 9},  {83, 11}, {119, 12}, {128, 13}};
   CHECK(ViewsByCells(0) == 0);
   for (size_t k = 0; k < std::size(kTable); ++k) {
