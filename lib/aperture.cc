@@ -10,7 +10,7 @@ namespace {
 // (3) relative to its centre, (c / (rho^2 + c))^2 with rho^2 = square / n^2, with 20 fractional
 // bits. Integers only, so that every machine makes the same weights.
 uint64_t Relative(uint64_t square, uint64_t n_square, uint64_t fall_off) {
-  const uint64_t denominator = (square << 16) + fall_off * n_square;   // < 2^39
+  const uint64_t denominator = (square << 16) + fall_off * n_square;   // < 2^40
   const uint64_t ratio = ((fall_off * n_square) << 24) / denominator;  // 2^24 at the centre
   return (ratio * ratio) >> 28;
 }

@@ -14,7 +14,7 @@ uint32_t ApertureFallOff(double theta);
 // 2^sum_bits, so that a constant picture comes out unchanged.
 struct Aperture {
   int32_t n = 0;     // N
-  int32_t last = 0;  // of the views (i, 0)
+  int32_t last = 0;  // i of the outermost view (i, 0)
   int32_t most = 0;
   int sum_bits = 1;
   int32_t views = 1;
@@ -36,7 +36,7 @@ inline constexpr int32_t kCellUnits = 32;
 constexpr int32_t LensInCells(int32_t n) { return n == 4 ? 123 : kCellUnits * n - 11; }
 
 // Their centres lie up to this far from its axis: a little beyond the rim they are worth rendering,
-// too.
+// too. Last and most of their Aperture.
 constexpr int32_t FarthestCell(int32_t n) { return n == 0 ? 0 : LensInCells(n) + 5; }
 constexpr int32_t LastCell(int32_t n) { return FarthestCell(n) / kCellUnits; }
 constexpr int32_t MostOfCells(int32_t n) {

@@ -31,7 +31,7 @@ struct PlacedSlice {
   int32_t reach = 0;                  // pixels beyond the rectangle
   int32_t rows = 0;                   // the rectangle's, and reach above and below it
   size_t plane = 0;                   // samples from plane to plane; four to the next row
-  int32_t cell = 0;                   // width r / N of its aperture cell, kShiftBits
+  int32_t cell = 0;                   // width of its aperture cell, kShiftBits
   int16_t* samples = nullptr;         // of the first row
   simd::SliceCover* cover = nullptr;  // of each row
 };
