@@ -43,6 +43,12 @@ Reach GetReach(double max_blur) {
   return reach;
 }
 
+int32_t LayerRows(const sf_config& config, int layer) {
+  int32_t rows = config.largest_block + 2 * GetReach(config.max_blur).rows;
+  for (; layer > 0; --layer) rows = rows / 2 + 4;
+  return rows;
+}
+
 int32_t SideReach(const sf_config& config, double max_blur) {
   // A hole is read at most its disparity away from a place within the blur radius, by a filter of
   // 7 taps at most.

@@ -28,6 +28,9 @@ struct Reach {
 };
 Reach GetReach(double max_blur);
 
+// Rows of a layer that a stripe may need.
+int32_t LayerRows(const sf_config& config, int layer);
+
 // Rows beyond a stripe that side views are read in, for blur up to a radius.
 int32_t SideReach(const sf_config& config, double max_blur);
 

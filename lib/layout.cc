@@ -173,13 +173,13 @@ void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
 
 // Planes of layers 1 and 2 around a stripe.
 void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
-  size_t rows = static_cast<size_t>(config.largest_block + 2 * GetReach(config.max_blur).rows);
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     LayerPlane& plane = engine->layers[layer];
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
     plane.half.stride = plane.rgb.stride = plane.samples.stride = 3 * width;
-    plane.half.data = carver->Take<int16_t>(3 * width * (rows + 8));
-    rows = rows / 2 + 4;
+    const auto above = static_cast<size_t>(LayerRows(config, layer - 1));
+    const auto rows = static_cast<size_t>(LayerRows(config, layer));
+    plane.half.data = carver->Take<int16_t>(3 * width * (above + 8));
     plane.rgb.data = carver->Take<uint8_t>(3 * width * rows);
     plane.samples.data = carver->Take<int16_t>(3 * width * rows);
   }

@@ -45,8 +45,7 @@ bool AnyColumn(const EngineState& engine, int layer) {
 
 // Layer 1 lies in rings, of as many rows as a stripe may need: what the stripe before made stays.
 void PlaceInRings(const sf_config& config, LayerPlane* plane) {
-  plane->rgb.rows = plane->samples.rows =
-      (config.largest_block + 2 * GetReach(config.max_blur).rows) / 2 + 4;
+  plane->rgb.rows = plane->samples.rows = LayerRows(config, 1);
 }
 
 }  // namespace
