@@ -107,7 +107,9 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
   constexpr size_t kLeastSlices = 5;
   const size_t least =
       kLeastSlices * (SliceBytes(kLeastColumns, kLeastRows, reach) + TileBytes(kLeastRows, reach));
-  const size_t others = used + simd::kPadding, left = bytes > others ? bytes - others : 0;
+  // Less what rounding to SF_ALIGNMENT may add.
+  const size_t others = used + simd::kPadding + 2 * SF_ALIGNMENT;
+  const size_t left = bytes > others ? bytes - others : 0;
   scratch.limits = {kLargeSlices * SliceSize(rectangle, rectangle, reach),
                     kLargeTiles * ShiftedRows(rectangle, reach), left > least ? left : least};
   scratch.pool = carver->Take<uint8_t>(scratch.limits.bytes);
