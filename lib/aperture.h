@@ -33,7 +33,9 @@ struct Aperture {
 // The radius of the lens in cells, kCellUnits of each, for the N of ViewsByCells: of those near N
 // that whose views give the kernel with the least error.
 inline constexpr int32_t kCellUnits = 32;
-constexpr int32_t LensInCells(int32_t n) { return n == 4 ? 123 : kCellUnits * n - 11; }
+constexpr int32_t LensInCells(int32_t n) {
+  return n == 1 ? kCellUnits : n == 4 ? 123 : kCellUnits * n - 11;
+}
 
 // Their centres lie up to this far from its axis: a little beyond the rim they are worth rendering,
 // too. Last and most of their Aperture.
@@ -53,7 +55,8 @@ constexpr size_t ApertureSize(int32_t n) {
 Aperture MakeAperture(int32_t n, uint32_t fall_off, uint16_t* weights);
 
 // Views that stand for their cells of a lens LensInCells(n) wide, by what of its light is theirs:
-// of the cells that straddle its rim the part within. n in [2, 256] or 0, the centre view alone.
+// of the cells that straddle its rim the part within. n in [0, 256]; 0 is the centre view
+// alone.
 Aperture MakeCellAperture(int32_t n, uint32_t fall_off, uint16_t* weights);
 
 }  // namespace starfocus

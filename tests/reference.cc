@@ -35,7 +35,7 @@ Lens MakeLens(const sf_params& params, double theta, int n, int layer, bool cell
   double extent = 1;
   if (cells) {
     // Views up to 5/32 of a cell beyond the rim.
-    lens.cells = n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
+    lens.cells = n == 1 ? 1 : n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
     const double farthest = lens.cells + 5 / 32.0;
     lens.n = int(farthest);
     lens.most = int(farthest * farthest);
