@@ -17,8 +17,9 @@ sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& st
   config.disparity_min = stats.min;
   config.disparity_max = stats.max;
   config.max_blur = SF_MAX_BLUR;
-  config.largest_block = 256;  // the scratch then serves every smaller block
-  config.skips = 0;            // the model is one of rendering
+  config.largest_block = 256;       // the scratch then serves every smaller block
+  config.n_scale = SF_MAX_N_SCALE;  // and there are apertures of every N that is sampled
+  config.skips = 0;                 // the model is one of rendering
   return config;
 }
 
@@ -108,8 +109,8 @@ BlockWork BlockBench::Work(const BlockTask& task) {
     for (const Cell& cell : cells) AddCell(cell, &content);
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
-  return MeasureWork(block.rendered, block.border, CountViews(block.n), true, upsampled, content,
-                     block.layer);
+  return MeasureWork(block.rendered, block.border, CountCells(engine_->cell_apertures[block.n]),
+                     true, upsampled, content, block.layer);
 }
 
 uint64_t BlockBench::Now() const {
