@@ -134,13 +134,13 @@ inline bool UsesCells(const EngineState& engine) {
   return (IsBlockMode(engine) || IsBenchmark(engine)) && rule != SF_RULE_PAPER;
 }
 
-// Whether blocks of different layers are joined.
 // Of a block with the rule's N.
 inline const Aperture& ApertureOf(const EngineState& engine, int32_t n) {
   if (!IsBlockMode(engine)) return engine.aperture;
   return UsesCells(engine) ? engine.cell_apertures[n] : engine.apertures[n];
 }
 
+// Whether blocks of different layers are joined.
 inline bool IsDeblocking(const EngineState& engine) {
   return IsBlockMode(engine) && engine.config.max_layer > 0 && engine.config.deblocking > 0;
 }

@@ -291,6 +291,19 @@ TEST_CASE("cli: analyze agrees with the paper and writes its tables") {
   }
 }
 
+TEST_CASE("cli: calibrate writes what refocus --timing takes") {
+  TempFolder folder;
+  const std::string size = STARFOCUS_EMULATED ? "64x48" : "96x64";
+  REQUIRE(Call(folder, "scene lf --name portrait --size " + size).code == 0);
+  const Outcome outcome = Call(folder, "calibrate --light-field lf --check lf -o timing.json");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.find("per block") != std::string::npos);
+  CHECK(Text(folder.file("timing.json")).find("\"block\"") != std::string::npos);
+  CHECK(Call(folder, "refocus lf --focus 2 --timing timing.json -o a.png").code == 0);
+  CHECK(fs::exists(folder.file("a.png")));
+}
+
 TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together") {
   TempFolder folder;
   Prepare(folder);

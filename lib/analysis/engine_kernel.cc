@@ -92,22 +92,31 @@ class Engine {
   sf_status status_ = SF_OK;
 };
 
-// The response to the white pixel at (x, y), `radius` around it.
-Kernel ReadKernel(const Engine& measured, int x, int y, int radius, uint8_t dark) {
+// Gray levels of the picture refocused last, before they are rounded to bytes.
+std::vector<double> ReadLevels(const Engine& measured) {
   const EngineState& engine = measured.state();
-  Kernel kernel(radius);
   const Block& block = engine.plan.blocks[0];
   const Worker& worker = engine.workers[0];
   const Aperture& aperture = ApertureOf(engine, block.n);
   const double one = std::ldexp(1.0, block.layer == 0 ? aperture.sum_bits : simd::kLayerBits);
+  std::vector<double> levels(measured.out().size() / 3);
+  for (size_t k = 0; k < levels.size(); ++k) {
+    const double sample =
+        block.layer == 0 ? worker.star.accumulators[0][3 * k] : worker.picture_samples[3 * k];
+    // The centre view alone is copied.
+    levels[k] = aperture.n == 0 ? measured.out()[3 * k] : sample / one;
+  }
+  return levels;
+}
+
+// What a white pixel at (x, y) adds to a picture of one gray level, `radius` around it.
+Kernel ReadKernel(const std::vector<double>& levels, const std::vector<double>& flat, int side,
+                  int x, int y, int radius) {
+  Kernel kernel(radius);
   for (int m = -radius; m <= radius; ++m) {
     for (int n = -radius; n <= radius; ++n) {
-      const int at = 3 * ((y + m) * engine.config.width + x + n);
-      const double sample =
-          block.layer == 0 ? worker.star.accumulators[0][at] : worker.picture_samples[at];
-      // The centre view alone is copied.
-      const double level = aperture.n == 0 ? measured.out()[static_cast<size_t>(at)] : sample / one;
-      kernel.at(n, m) = (level - dark) / (kWhite - dark);
+      const auto at = static_cast<size_t>((y + m) * side + x + n);
+      kernel.at(n, m) = levels[at] - flat[at];
     }
   }
   return kernel;
@@ -125,6 +134,10 @@ sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
   Impulse impulse(side, probe.r, dark);
   Engine engine(ConfigOf(side, probe));
   if (engine.status() != SF_OK) return engine.status();
+  // Where nothing is white, roundings of a layer add up to one or two 64ths of a gray level.
+  const sf_status flat_status = engine.Refocus(impulse, probe);
+  if (flat_status != SF_OK) return flat_status;
+  const std::vector<double> flat = ReadLevels(engine);
   Kernel sum(radius);
   double squares = 0;
   // A flat picture transposed gives the transposed kernel: half of the places will do.
@@ -134,7 +147,8 @@ sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
       const sf_status status = engine.Refocus(impulse, probe);
       if (status != SF_OK) return status;
       impulse.Set(middle + a, middle + b, dark);
-      const Kernel kernel = ReadKernel(engine, middle + a, middle + b, radius, dark);
+      Kernel kernel = ReadKernel(ReadLevels(engine), flat, side, middle + a, middle + b, radius);
+      kernel.Scale(1.0 / (kWhite - dark));
       squares += (a == b ? 1 : 2) * Energy(kernel);
       for (int n = -radius; n <= radius; ++n) {
         for (int m = -radius; m <= radius; ++m) {

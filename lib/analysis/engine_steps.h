@@ -34,10 +34,9 @@ struct EngineStep {
 sf_status MeasureStep(const EngineProbe& probe, EngineStep* step);
 
 // Measured kernel and StarKernel may be this far apart: slices have 7 fractional bits of a gray
-// level and the weights of views 10 or so, and what layers give is measured to 1/64 gray level
-// only, of the fewer views the more: at layer 2 an impulse of 191 levels is left with 12, in more
-// pixels the larger the blur.
-inline constexpr double kExplained[] = {1.1e-5, 5e-5, 1e-4};  // by layer
+// level, the weights of views 10 or so, and the samples of layers 6, of the few levels that a
+// pixel is left with when it is spread.
+inline constexpr double kExplained[] = {1.1e-5, 2e-5, 2e-5};  // by layer
 
 // Why step.engine exceeds kThreshold; empty when it does not. Starts with "unexplained" when the
 // measured kernel is not the one the engine's description gives.
