@@ -107,9 +107,12 @@ struct SliceFraction {
 // Rows of a tile that composite may read beyond the last one it adds.
 inline constexpr size_t kRowsAhead = 6;
 
+// What a row of a tile and the next kRowsAhead ones show of a slice.
+enum RowsNear : uint8_t { kNothingNear, kSomethingNear, kCoveredNear };  // all of their pixels
+
 // A slice in a tile, kSliceLanes columns of pixels whose rows follow each other in each of four
-// planes, `plane` samples apart: the row that an unmoved view shows first, and whether each row
-// from there on or one of the next kRowsAhead is more than zeros.
+// planes, `plane` samples apart: the row that an unmoved view shows first, and the RowsNear of each
+// row from there on.
 struct TileSlice {
   const int16_t* samples;
   const uint8_t* near;
@@ -353,7 +356,8 @@ struct Kernels {
 
   // Moves rows by a fraction of a sample into a tile: out[n] is what is seen of in[n] and what
   // follows it, each product rounded halves up. `plane`: of the tile. Where anything of a row is
-  // covered, near[row - kRowsAhead] to near[row] become 1; the others stay as they are.
+  // covered, near[row - kRowsAhead] to near[row] become kSomethingNear, and the first of them
+  // kCoveredNear where all of these rows is; the others stay as they are.
   void (*shift_slice)(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                       size_t plane, int16_t* out, uint8_t* near);
 

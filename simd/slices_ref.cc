@@ -1,5 +1,6 @@
 #include "simd/slices_ref.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
@@ -221,16 +222,23 @@ void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_
 
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
                 int16_t* out, uint8_t* near) {
+  size_t all_covered = 0;  // rows, one after the other
   for (size_t row = 0; row < rows; ++row) {
     const int16_t* covered = in.samples + (4 * row + 3) * in.plane;
     for (size_t c = 0; c < 4; ++c) {
       const int16_t* from = in.samples + (4 * row + c) * in.plane;
       int16_t* to = out + c * plane + row * kSliceLanes;
-      for (size_t n = 0; n < kSliceLanes; ++n) {
+      for (size_t n = 0; n < kSliceLanes; ++n)
         to[n] = Between15(from + n, covered + n, 1, fraction);
-        if (c == 3 && to[n] != 0) std::memset(near + row - kRowsAhead, 1, kRowsAhead + 1);
-      }
     }
+    const int16_t *shown = out + 3 * plane + row * kSliceLanes, *end = shown + kSliceLanes;
+    uint8_t* first = near + row - kRowsAhead;
+    if (std::any_of(shown, end, [](int16_t sample) { return sample != 0; })) {
+      std::memset(first, kSomethingNear, kRowsAhead + 1);
+    }
+    const bool all = std::all_of(shown, end, [](int16_t sample) { return sample == kSliceOne; });
+    all_covered = all ? all_covered + 1 : 0;
+    if (all_covered > kRowsAhead) *first = kCoveredNear;
   }
 }
 
@@ -245,7 +253,7 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
           const TileSlice& slice = views.slices[views.shown[k]];
           const SliceOffset& offset = views.offsets[view * views.count + views.shown[k]];
           const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
-          if (slice.near[moved] == 0) continue;
+          if (slice.near[moved] == kNothingNear) continue;
           const int16_t* from = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
           const auto value = [&](size_t c) {
             return Between15(from + c * slice.plane, from + 3 * slice.plane, kSliceLanes,

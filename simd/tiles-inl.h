@@ -46,40 +46,62 @@ HWY_INLINE hn::Vec<D> LoadRows(D d, const int16_t* HWY_RESTRICT at, size_t strid
   return hn::LoadU(d, at);
 }
 
-// Marks the rows near one that has samples other than zero.
-HWY_INLINE void MarkNear(uint8_t* HWY_RESTRICT near) {
-  static_assert(kRowsAhead == 6, "two words are seven rows");
-  const uint32_t marks = 0x01010101;
-  std::memcpy(near - 6, &marks, sizeof(marks));
-  std::memcpy(near - 3, &marks, sizeof(marks));
-}
+// What there is in one row, or in each of two.
+struct RowsShown {
+  bool some[2] = {false, false};
+  bool all[2] = {true, true};  // all of it is covered
+};
 
-// Marks those near the rows that a vector is of.
+// Adds a vector of the coverage of rows, or of a part of one.
 template <class D>
-HWY_INLINE void MarkRows(D d, hn::Vec<D> samples, uint8_t* HWY_RESTRICT near) {
-  const auto filled = hn::Ne(samples, hn::Zero(d));
+HWY_INLINE void AddShown(D d, hn::Vec<D> covered, RowsShown* shown) {
+  const auto some = hn::Ne(covered, hn::Zero(d));
+  const auto all = hn::Eq(covered, hn::Set(d, kSliceOne));
 #if STARFOCUS_WIDE_TILES
   if (hn::Lanes(d) > kSliceLanes) {
-    uint8_t bits[8];  // as many may be written
-    hn::StoreMaskBits(d, filled, bits);
+    uint8_t some_bits[8], all_bits[8];  // as many may be written
+    hn::StoreMaskBits(d, some, some_bits);
+    hn::StoreMaskBits(d, all, all_bits);
     for (size_t k = 0; k < 2; ++k) {
-      if ((bits[2 * k] | bits[2 * k + 1]) != 0) MarkNear(near + k);
+      shown->some[k] = (some_bits[2 * k] | some_bits[2 * k + 1]) != 0;
+      shown->all[k] = (all_bits[2 * k] & all_bits[2 * k + 1]) == 0xFF;
     }
     return;
   }
 #endif
-  if (!hn::AllFalse(d, filled)) MarkNear(near);
+  shown->some[0] |= !hn::AllFalse(d, some);
+  shown->all[0] &= hn::AllTrue(d, all);
 }
+
+// Marks rows near each one, from the first on.
+class RowMarks {
+ public:
+  HWY_INLINE void Add(bool some, bool all, uint8_t* HWY_RESTRICT near) {
+    static_assert(kRowsAhead == 6 && kSomethingNear == 1, "two words are seven rows");
+    const uint32_t marks = 0x01010101;
+    if (some) {
+      std::memcpy(near - 6, &marks, sizeof(marks));
+      std::memcpy(near - 3, &marks, sizeof(marks));
+    }
+    all_covered_ = all ? all_covered_ + 1 : 0;
+    if (all_covered_ > kRowsAhead) near[-6] = kCoveredNear;
+  }
+
+ private:
+  size_t all_covered_ = 0;  // rows up to the last
+};
 
 // Returns how many of the rows are moved: as many as fill vectors.
 template <int kTaps, class D>
 HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near) {
+                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near,
+                            RowMarks* marks) {
   const size_t lanes = hn::Lanes(d), step = RowsOf(d), stride = 4 * in.plane;
   const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
   const auto third = hn::Set(d, fraction.third), fourth = hn::Set(d, fraction.fourth);
   size_t row = 0;
   for (; row + step <= rows; row += step, out += step * kSliceLanes) {
+    RowsShown rows_shown;
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
       const int16_t* HWY_RESTRICT from = in.samples + row * stride + n;
       const auto load = [&](size_t c, size_t next)
@@ -90,6 +112,7 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
       if (kTaps > 3) any = hn::Or(any, load(3, 3));
       if (hn::AllTrue(d, hn::Eq(any, hn::Zero(d)))) {
         for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d), d, out + c * plane + n);
+        rows_shown.all[0] = rows_shown.all[1] = false;
         continue;
       }
       const auto first = kTaps > 2 ? edge : hn::IfThenElse(hn::Eq(covered, next), inside, edge);
@@ -105,7 +128,10 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
       for (size_t c = 0; c < 3; ++c) hn::StoreU(between(c), d, out + c * plane + n);
       const auto shown = between(3);
       hn::StoreU(shown, d, out + 3 * plane + n);
-      MarkRows(d, shown, near + row);
+      AddShown(d, shown, &rows_shown);
+    }
+    for (size_t k = 0; k < step; ++k) {
+      marks->Add(rows_shown.some[k], rows_shown.all[k], near + row + k);
     }
   }
   return row;
@@ -114,11 +140,12 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
 template <int kTaps>
 HWY_INLINE void ShiftAllRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                              size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near) {
-  const size_t done = ShiftRows<kTaps>(TileTag(), in, fraction, rows, plane, out, near);
+  RowMarks marks;
+  const size_t done = ShiftRows<kTaps>(TileTag(), in, fraction, rows, plane, out, near, &marks);
   if (done == rows) return;
   const SlicePlanes rest = {in.samples + done * 4 * in.plane, in.plane};
   ShiftRows<kTaps>(RowTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes,
-                   near + done);
+                   near + done, &marks);
 }
 
 HWY_INLINE void ShiftPlanes(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
@@ -190,8 +217,8 @@ HWY_INLINE void TakeLight(SliceVec weight, SliceVec red, SliceVec green, SliceVe
 }
 
 // What a slice gives to a vector of rows of a view, of which `at` is the first sample; each row of
-// the view sees kTaps rows, 2 to 4.
-template <int kTaps>
+// the view sees kTaps rows, 2 to 4, kCovered where all of them are.
+template <int kTaps, bool kCovered>
 HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
                          const int16_t* HWY_RESTRICT at, SliceVec weight, SliceVec& light,
                          SliceVec& r, SliceVec& g, SliceVec& b, SliceVec& a) {
@@ -203,7 +230,9 @@ HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
   const auto fourth = hn::Set(d16, fraction.fourth);
   if (kTaps == 2) {
     const auto inside = hn::Set(d16, fraction.inside);
-    first = hn::IfThenElse(hn::Eq(load(cover), load(cover + kSliceLanes)), inside, first);
+    first = kCovered
+                ? inside
+                : hn::IfThenElse(hn::Eq(load(cover), load(cover + kSliceLanes)), inside, first);
   }
   const auto between = [&](const int16_t* from) HWY_ATTR {
     const auto middle = load(from + kSliceLanes);
@@ -215,9 +244,9 @@ HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
     const auto last = hn::Sub(below, load(from + 3 * kSliceLanes));
     return hn::Add(value, hn::MulFixedPoint15(last, fourth));
   };
-  const auto covered = between(cover);
+  const auto covered = kCovered ? hn::Set(d16, kSliceOne) : between(cover);
   // Colours are at most roundings there: times a weight below a half they are nothing, too.
-  if (hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
+  if (!kCovered && hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
   const auto excess = hn::Max(hn::Sub(covered, light), hn::Zero(d16));
   TakeLight(weight, between(at), between(at + plane), between(at + 2 * plane), covered, excess,
             light, r, g, b, a);
@@ -244,20 +273,30 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
       const TileSlice& slice = k->slice;
       const SliceOffset& offset = k->offsets[first];
       const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
-      if (slice.near[moved] == 0) continue;
+      const uint8_t near = slice.near[moved];
+      if (near == kNothingNear) continue;
       const int16_t* at = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
-      const auto take = [&](auto taps) HWY_ATTR {
+      const auto take = [&](auto taps, auto all_covered) HWY_ATTR {
         constexpr int kTaps = decltype(taps)::value;
-        TakeRows<kTaps>(offset.fraction, slice.plane, at, weight, light0, r0, g0, b0, a0);
-        TakeRows<kTaps>(offset.fraction, slice.plane, at + second, weight, light1, r1, g1, b1, a1);
+        constexpr bool kCovered = decltype(all_covered)::value;
+        TakeRows<kTaps, kCovered>(offset.fraction, slice.plane, at, weight, light0, r0, g0, b0, a0);
+        TakeRows<kTaps, kCovered>(offset.fraction, slice.plane, at + second, weight, light1, r1, g1,
+                                  b1, a1);
       };
-      if (offset.fraction.third == 0) {
-        take(std::integral_constant<int, 2>());
-      } else if (offset.fraction.fourth == 0) {
-        take(std::integral_constant<int, 3>());
-      } else {
-        take(std::integral_constant<int, 4>());
+      const auto take_taps = [&](auto all_covered) HWY_ATTR {
+        if (offset.fraction.third == 0) {
+          take(std::integral_constant<int, 2>(), all_covered);
+        } else if (offset.fraction.fourth == 0) {
+          take(std::integral_constant<int, 3>(), all_covered);
+        } else {
+          take(std::integral_constant<int, 4>(), all_covered);
+        }
+      };
+      if (near == kCoveredNear) {
+        take_taps(std::true_type());
+        break;
       }
+      take_taps(std::false_type());
       if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
     }
   }

@@ -76,7 +76,9 @@ SliceFraction Fraction(test::Random* random) {
   return {edge, edge, int16_t(-third), int16_t(taps == 4 ? 0 : -random->Int(0, third))};
 }
 
-// Colours and coverage of slices: colours at most as large as the coverage.
+// Colours and coverage of slices: colours at most as large as the coverage. `share` is how many of
+// 100 stretches of rows are covered, fully or not; kFull: all of them, fully.
+constexpr int kFull = 101;
 std::vector<int16_t> Planes(size_t rows, size_t plane, int share, test::Random* random) {
   std::vector<int16_t> samples(4 * rows * plane + 2 * kSliceLanes);
   for (size_t row = 0; row < rows; ++row) {
@@ -87,6 +89,7 @@ std::vector<int16_t> Planes(size_t rows, size_t plane, int share, test::Random* 
                 : random->Int(0, 1) == 0    ? kSliceOne
                                             : random->Int(0, kSliceOne);
       }
+      if (share == kFull) cover = kSliceOne;
       int16_t* at = samples.data() + 4 * row * plane + n;
       for (size_t c = 0; c < 3; ++c) at[c * plane] = int16_t(cover * random->Int(0, 255) / 256);
       at[3 * plane] = int16_t(cover);
@@ -117,9 +120,10 @@ void TestSpread(const Kernels& kernels) {
 
 void TestShift(const Kernels& kernels) {
   test::Random random(5);
+  int covered = 0;
   for (int round = 0; round < 70; ++round) {
-    const size_t rows = size_t(random.Int(1, 9)), in_plane = 16 * size_t(random.Int(1, 4)) + 32;
-    std::vector<int16_t> in = Planes(rows, in_plane, 20, &random);
+    const size_t rows = size_t(random.Int(1, 19)), in_plane = 16 * size_t(random.Int(1, 4)) + 32;
+    std::vector<int16_t> in = Planes(rows, in_plane, round % 2 == 0 ? 20 : kFull, &random);
     const size_t empty = size_t(random.Int(0, int(rows) - 1)), plane = kSliceLanes * (rows + 4);
     std::fill_n(in.begin() + ptrdiff_t(4 * empty * in_plane), 4 * in_plane, int16_t{0});
     const SliceFraction fraction = Fraction(&random);
@@ -134,27 +138,38 @@ void TestShift(const Kernels& kernels) {
     CHECK(got == expected);
     CHECK(got_near == near);
     CHECK(near.back() == 9);
+    covered += int(std::count(near.begin(), near.end(), starfocus::simd::kCoveredNear));
   }
+  CHECK(covered > 0);
 }
 
-// A slice in a tile: planes of rows of kSliceLanes samples, some rows empty.
+// A slice in a tile: planes of rows of kSliceLanes samples, some rows empty or, of every other one,
+// none.
 struct TileMemory {
   std::vector<int16_t> samples;
   std::vector<uint8_t> near;
 };
 
 TileMemory MakeTile(size_t rows, test::Random* random) {
-  const size_t plane = rows * kSliceLanes;
-  const std::vector<int16_t> in = Planes(rows, kSliceLanes, random->Int(5, 100), random);
+  const size_t plane = rows * kSliceLanes, ahead = starfocus::simd::kRowsAhead;
+  const bool full = random->Int(0, 1) == 0;
+  const int share = full ? kFull : random->Int(5, 100);
+  const std::vector<int16_t> in = Planes(rows, kSliceLanes, share, random);
   TileMemory slice = {std::vector<int16_t>(4 * plane), std::vector<uint8_t>(rows)};
+  std::vector<int> covered(rows + ahead);  // samples of each row
   for (size_t row = 0; row < rows; ++row) {
-    if (random->Int(0, 3) == 0) continue;
+    if (random->Int(0, full ? 11 : 3) == 0) continue;
     for (size_t n = 0; n < 4 * kSliceLanes; ++n) {
       const int16_t sample = in[4 * row * kSliceLanes + n];
       slice.samples[n / kSliceLanes * plane + row * kSliceLanes + n % kSliceLanes] = sample;
-      if (sample == 0) continue;
-      const size_t first = row - std::min(row, starfocus::simd::kRowsAhead);
-      for (size_t k = first; k <= row; ++k) slice.near[k] = 1;
+      covered[row] += sample != 0;
+    }
+  }
+  for (size_t row = 0; row < rows; ++row) {
+    const auto first = covered.begin() + ptrdiff_t(row), end = first + ptrdiff_t(ahead) + 1;
+    if (std::any_of(first, end, [](int count) { return count > 0; })) {
+      slice.near[row] = full && std::find(first, end, 0) == end ? starfocus::simd::kCoveredNear
+                                                                : starfocus::simd::kSomethingNear;
     }
   }
   return slice;
@@ -162,6 +177,7 @@ TileMemory MakeTile(size_t rows, test::Random* random) {
 
 void TestComposite(const Kernels& kernels) {
   test::Random random(6);
+  ptrdiff_t covered = 0;
   for (int round = 0; round < 200; ++round) {
     const size_t rows = size_t(random.Int(1, 9));
     const size_t slices = size_t(random.Int(1, 6)), views = size_t(random.Int(1, 9));
@@ -194,7 +210,11 @@ void TestComposite(const Kernels& kernels) {
     CAPTURE(round);
     CHECK(got == expected);
     CHECK(expected.back() == 5);
+    for (const TileMemory& tile : memory) {
+      covered += std::count(tile.near.begin(), tile.near.end(), starfocus::simd::kCoveredNear);
+    }
   }
+  CHECK(covered > 200);
 }
 
 TEST_CASE("slice kernels: every target gives the bits of the plain ones") {
