@@ -27,6 +27,10 @@ using TileTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
 using TileTag = RowTag;
 #endif
 
+// Whether composite has a way of its own for rows that are covered: with 16 registers it has to
+// keep more of them in memory for that than it gains.
+constexpr bool kCoveredApart = STARFOCUS_WIDE_TILES || !HWY_ARCH_X86;
+
 // Rows of a tile that a vector holds, or a part of one row.
 template <class D>
 HWY_INLINE size_t RowsOf(D d) {
@@ -283,20 +287,24 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
         TakeRows<kTaps, kCovered>(offset.fraction, slice.plane, at + second, weight, light1, r1, g1,
                                   b1, a1);
       };
-      const auto take_taps = [&](auto all_covered) HWY_ATTR {
+      const std::integral_constant<bool, kCoveredApart> apart;
+      if (kCoveredApart && near == kCoveredNear) {
         if (offset.fraction.third == 0) {
-          take(std::integral_constant<int, 2>(), all_covered);
+          take(std::integral_constant<int, 2>(), apart);
         } else if (offset.fraction.fourth == 0) {
-          take(std::integral_constant<int, 3>(), all_covered);
+          take(std::integral_constant<int, 3>(), apart);
         } else {
-          take(std::integral_constant<int, 4>(), all_covered);
+          take(std::integral_constant<int, 4>(), apart);
         }
-      };
-      if (near == kCoveredNear) {
-        take_taps(std::true_type());
         break;
       }
-      take_taps(std::false_type());
+      if (offset.fraction.third == 0) {
+        take(std::integral_constant<int, 2>(), std::false_type());
+      } else if (offset.fraction.fourth == 0) {
+        take(std::integral_constant<int, 3>(), std::false_type());
+      } else {
+        take(std::integral_constant<int, 4>(), std::false_type());
+      }
       if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
     }
   }
