@@ -14,8 +14,7 @@ simd::SliceTaps TapsOf(int32_t cell) {
   constexpr int32_t kLargest = (2 * simd::kMaxSpread + 1) * kShiftOne;
   const int32_t length = Min(cell, kLargest);
   simd::SliceTaps taps;
-  taps.reach = 2;
-  while ((2 * taps.reach + 1) * kShiftOne < length) ++taps.reach;
+  taps.reach = SpreadReach(cell);
   const int32_t whole = (2 * taps.reach - 1) * kShiftOne;
   const int32_t inner = 2 * kFractionOne * kShiftOne / length;
   const int32_t outer = kFractionOne / kShiftOne * (length - whole) * kShiftOne / length;
@@ -143,9 +142,8 @@ void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride, SliceOf
 }
 
 void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, PlacedSlice* placed) {
-  const int32_t rim = Abs(grid.Shift(grid.Move(grid.n()), disparity));
   placed->cell = Abs(grid.Shift(grid.Move(1), disparity));
-  placed->reach = SliceReach(rim);
+  placed->reach = SliceReach(Abs(grid.Shift(grid.Move(grid.n()), disparity)), placed->cell);
   placed->rows = rect.height + 2 * placed->reach;
   placed->plane = SlicePlane(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
 }

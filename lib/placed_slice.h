@@ -18,13 +18,22 @@ namespace starfocus {
 // interpolation adds to wider ones, spread before they are moved, is little. kShiftBits.
 inline constexpr int32_t kBoxCell = 3 * kShiftOne;
 
+// Pixels on either side that wider cells spread a pixel to.
+constexpr int32_t SpreadReach(int32_t cell) {
+  static_assert(simd::kMaxSpread == 3, "wider boxes are cut off");
+  return cell <= kBoxCell ? 0 : cell <= 5 * kShiftOne ? 2 : simd::kMaxSpread;
+}
+
 // Pixels beyond its blur radius (rounded up) that a slice is made of: filters, boxes,
 // interpolation.
-inline constexpr int32_t kSliceMargin = simd::kMaxSpread + 1;
+constexpr int32_t SliceMargin(int32_t cell) {
+  return cell > kShiftOne && cell <= kBoxCell ? 2 : SpreadReach(cell) + 1;
+}
+inline constexpr int32_t kSliceMargin = simd::kMaxSpread + 1;  // at most
 
-// Pixels beyond the rectangle that a slice blurred by `rim` (kShiftBits) is made of.
-constexpr int32_t SliceReach(int32_t rim) {
-  return ((rim + kShiftOne - 1) >> kShiftBits) + kSliceMargin;
+// Pixels beyond the rectangle that a slice blurred by `rim` (both kShiftBits) is made of.
+constexpr int32_t SliceReach(int32_t rim, int32_t cell) {
+  return ((rim + kShiftOne - 1) >> kShiftBits) + SliceMargin(cell);
 }
 
 struct PlacedSlice {

@@ -128,11 +128,6 @@ class SliceFinder {
     return static_cast<int32_t>(Limited(bins << coarser));
   }
 
-  // Pixels beyond the rectangle.
-  int32_t Reach(int16_t disparity) const {
-    return SliceReach(Abs(grid_.Shift(grid_.Move(grid_.n()), disparity)));
-  }
-
   // 0: too many, or too large.
   int32_t Cut(int coarser, Slice* slices) const {
     int32_t count = 0;
@@ -155,7 +150,9 @@ class SliceFinder {
       slice.overlap =
           static_cast<int16_t>(Min(high + (span << bin_bits_) / kOverlapParts, INT16_MAX));
       slice.disparity = static_cast<int16_t>(low + (slice.high - low) / 2);
-      const auto reach = static_cast<size_t>(Reach(slice.disparity));
+      PlacedSlice placed;
+      PlaceSlice(grid_, slice.disparity, job_.rect, &placed);
+      const auto reach = static_cast<size_t>(placed.reach);
       const auto height = static_cast<size_t>(job_.rect.height);
       samples += SliceSize(static_cast<size_t>(job_.rect.width), height, reach);
       rows += ShiftedRows(height, reach);

@@ -90,7 +90,8 @@ class RangeFinder {
     starfocus::SliceLimits all = {};
     for (const Range& range : ranges) {
       const int rim = std::abs(lens_.Shift(lens_.n, range.Disparity()));
-      const auto reach = size_t(starfocus::SliceReach(rim)), height = size_t(rect_.height);
+      const int cell = std::abs(lens_.Shift(1, range.Disparity()));
+      const auto reach = size_t(starfocus::SliceReach(rim, cell)), height = size_t(rect_.height);
       all.samples += starfocus::SliceSize(size_t(rect_.width), height, reach);
       all.rows += starfocus::ShiftedRows(height, reach);
       all.bytes += starfocus::SliceBytes(16, 8, reach) + starfocus::TileBytes(8, reach);
@@ -153,7 +154,8 @@ Plane Spread(const Plane& from, double box, int dx, int dy) {
 
 Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
                 const Rectangle& rect) {
-  const int reach = starfocus::SliceReach(std::abs(lens.Shift(lens.n, range.Disparity())));
+  // More than any view shows.
+  const int reach = std::abs(lens.Shift(lens.n, range.Disparity())) / 256 + 6;
   Plane plane(reach, reach, rect.width + 2 * reach, rect.height + 2 * reach);
   for (int y = -reach; y < rect.height + reach; ++y) {
     for (int x = -reach; x < rect.width + reach; ++x) {
