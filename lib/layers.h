@@ -24,11 +24,6 @@ constexpr int32_t LayerSize(int32_t size, int32_t layer) {
   return layer == 0 ? size : (LayerSize(size, layer - 1) + 1) / 2 + 1;
 }
 
-// Rows [first, last) of a layer.
-struct RowRange {
-  int32_t first, last;
-};
-
 // One layer of the centre view around a stripe.
 struct LayerPlane {
   int32_t width = 0, height = 0;  // of the whole layer

@@ -160,16 +160,15 @@ void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Sli
   if (placed.cell > kBoxCell) Spread(kernels, filtered, placed);
 }
 
-void PlaceTile(const PlacedSlice& placed, int32_t x, int32_t top, int32_t bottom,
-               ShiftedSlice* shifted) {
+void PlaceTile(const PlacedSlice& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted) {
   const uint64_t chunks = ChunksOf(placed, x);
-  const int32_t last_row = bottom + 2 * placed.reach;
+  const int32_t top = seen.first, last_row = seen.last + 2 * placed.reach;
   const auto empty = [&](int32_t row) { return (placed.cover[row].some & chunks) == 0; };
   int32_t first = top, end = last_row;
   while (first < end && empty(first)) ++first;
   while (end > first && empty(end - 1)) --end;
-  shifted->first = first;
-  shifted->end = end;
+  shifted->filled = {first, end};
+  shifted->moved = {0, 0};
   shifted->plane = (static_cast<size_t>(placed.rows) + simd::kRowsAhead) * simd::kSliceLanes;
   const auto clear = [&](int32_t from, int32_t to) {
     const size_t at = static_cast<size_t>(from), rows = static_cast<size_t>(to - from);
@@ -185,16 +184,18 @@ void PlaceTile(const PlacedSlice& placed, int32_t x, int32_t top, int32_t bottom
 }
 
 void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
-                int32_t x, const ShiftedSlice& shifted) {
-  if (shifted.first == shifted.end) return;
-  const auto row = static_cast<size_t>(shifted.first);
-  const auto rows = static_cast<size_t>(shifted.end - shifted.first);
-  uint8_t* near = shifted.near + row;
+                int32_t x, const RowRange& rows, ShiftedSlice* shifted) {
+  shifted->moved = rows;
+  const int32_t first = Max(rows.first, shifted->filled.first);
+  const int32_t end = Min(rows.last, shifted->filled.last);
+  if (first >= end) return;
+  const auto row = static_cast<size_t>(first), count = static_cast<size_t>(end - first);
+  uint8_t* near = shifted->near + row;
   // The marks of the column of views before.
-  std::memset(near - simd::kRowsAhead, 0, rows + simd::kRowsAhead);
+  std::memset(near - simd::kRowsAhead, 0, count + simd::kRowsAhead);
   const int16_t* from = placed.samples + row * 4 * placed.plane;
-  kernels.shift_slice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction, rows,
-                      shifted.plane, shifted.samples + row * simd::kSliceLanes, near);
+  kernels.shift_slice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction,
+                      count, shifted->plane, shifted->samples + row * simd::kSliceLanes, near);
 }
 
 }  // namespace starfocus

@@ -87,13 +87,14 @@ void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Sli
                const Rect& rect, int16_t* filtered, const PlacedSlice& placed);
 
 // Rows of a slice in a tile, kSliceLanes columns of the rectangle, as a column of views shows them:
-// four planes, `plane` samples apart, and whether there is anything in each row or one of the
-// kRowsAhead next ones; as many lie before the first.
+// four planes, `plane` samples apart, and the RowsNear of each row; kRowsAhead marks lie before the
+// first.
 struct ShiftedSlice {
   int16_t* samples = nullptr;
   uint8_t* near = nullptr;
   size_t plane = 0;
-  int32_t first = 0, end = 0;  // rows outside of these are empty in all views
+  RowRange filled = {0, 0};  // rows outside of these are empty in all views
+  RowRange moved = {0, 0};   // those that are in the tile now
 };
 
 // Chunks of a row (bits of SliceCover) that some view shows in the tile at column `x`.
@@ -103,14 +104,14 @@ constexpr uint64_t ChunksOf(const PlacedSlice& placed, int32_t x) {
   return (uint64_t{2} << last) - (uint64_t{1} << first);
 }
 
-// Finds the rows of the tile at column `x` of the rectangle that views show in its rows [top,
-// bottom), and writes the others that are read for these. The memory must be set.
-void PlaceTile(const PlacedSlice& placed, int32_t x, int32_t top, int32_t bottom,
-               ShiftedSlice* shifted);
+// Finds the rows of the tile at column `x` of the rectangle that views show in its rows `seen`, and
+// writes the others that are read for these. The memory must be set.
+void PlaceTile(const PlacedSlice& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted);
 
-// Writes the rows that are moved by `offset`.
+// Writes those of `rows` that are filled, moved by `offset`.
 void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed,
-                const simd::SliceOffset& offset, int32_t x, const ShiftedSlice& shifted);
+                const simd::SliceOffset& offset, int32_t x, const RowRange& rows,
+                ShiftedSlice* shifted);
 
 }  // namespace starfocus
 

@@ -16,6 +16,7 @@ constexpr uint32_t kLeastShare = 4;
 constexpr uint32_t kGroupSum = 58000;
 
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns of a tile
+constexpr int32_t kRowsAhead = static_cast<int32_t>(simd::kRowsAhead);
 
 class Stack {
  public:
@@ -222,16 +223,20 @@ class Stack {
 
   // What of the slices is seen in the tile, and all views of it.
   void AddTile() {
-    uint32_t seen = 0;
+    for (int32_t k = 0; k < count_; ++k) tile_.rows[k] = {0, 0};
     for (const StackPart* part = tile_.first; part < tile_.end; ++part) {
-      for (int32_t k = 0; k < part->count; ++k) seen |= uint32_t{1} << part->shown[k];
+      for (int32_t n = 0; n < part->count; ++n) {
+        RowRange& rows = tile_.rows[part->shown[n]];
+        if (rows.last == 0) rows.first = part->y;
+        rows.last = part->y + part->rows;
+      }
       const size_t sums = kPixelSums * static_cast<size_t>(part->rows * kChunk);
       std::memset(Sums(part->y), 0, sums * sizeof(*scratch_.sums));
     }
     size_t rows = 0;
     tile_.count = 0;
     for (int32_t k = 0; k < count_; ++k) {
-      if ((seen >> k & 1) == 0) continue;
+      if (tile_.rows[k].last == 0) continue;
       tile_.slices[tile_.count++] = k;
       rows += static_cast<size_t>(placed_[k].rows) + simd::kRowsAhead;
     }
@@ -241,7 +246,6 @@ class Stack {
 
   // Of so many rows together. Marks follow all samples.
   void PlaceTiles(size_t rows) {
-    const StackPart& bottom = tile_.end[-1];
     int16_t* samples = tile_.memory;
     uint8_t* near = reinterpret_cast<uint8_t*>(samples + 4 * rows * kChunk) + simd::kRowsAhead;
     for (int32_t n = 0; n < tile_.count; ++n) {
@@ -250,7 +254,7 @@ class Stack {
       ShiftedSlice& shifted = shifted_[k];
       shifted.samples = samples;
       shifted.near = near;
-      PlaceTile(placed, tile_.x, tile_.first->y, bottom.y + bottom.rows, &shifted);
+      PlaceTile(placed, tile_.x, tile_.rows[k], &shifted);
       seen_[k] = {samples + placed.reach * kChunk, near + placed.reach, shifted.plane};
       samples += 4 * shifted.plane;
       near += shifted.plane / kChunk;
@@ -259,15 +263,25 @@ class Stack {
 
   // Views (i, j) of all j.
   void AddColumn(int32_t i) {
-    for (int32_t n = 0; n < tile_.count; ++n) {
-      const int32_t k = tile_.slices[n];
-      if (i > -grid_.n() && Same(Offset(k, i), Offset(k, i - 1))) continue;
-      ShiftSlice(*job_.kernels, placed_[k], Offset(k, i), tile_.x, shifted_[k]);
-    }
     const int32_t last = LastAcross(Abs(i));
+    for (int32_t n = 0; n < tile_.count; ++n) MoveSlice(tile_.slices[n], i, last);
     for (int32_t first = -last; first <= last; first += kGroupViews) {
       AddGroup(i, first, Min(first + kGroupViews - 1, last));
     }
+  }
+
+  // Of slice k what views (i, -last) to (i, last) show; nothing if it is there from the column of
+  // views before.
+  void MoveSlice(int32_t k, int32_t i, int32_t last) {
+    const PlacedSlice& placed = placed_[k];
+    const RowRange& seen = tile_.rows[k];
+    const int32_t a = Offset(k, -last).whole, b = Offset(k, last).whole;
+    const RowRange rows = {seen.first + placed.reach + Min(a, b),
+                           Min(seen.last + placed.reach + Max(a, b) + kRowsAhead, placed.rows)};
+    const RowRange& moved = shifted_[k].moved;
+    const bool within = moved.first <= rows.first && rows.last <= moved.last;
+    if (within && Same(Offset(k, i), Offset(k, i - 1))) return;
+    ShiftSlice(*job_.kernels, placed, Offset(k, i), tile_.x, rows, &shifted_[k]);
   }
 
   // Views (i, first) to (i, last).
@@ -343,6 +357,7 @@ class Stack {
   struct Tile {
     int32_t x;  // in the section
     const StackPart *first, *end;
+    RowRange rows[kMaxSlices];   // of the section, of the parts that see a slice
     int32_t slices[kMaxSlices];  // that are seen
     int32_t count;
     int16_t* memory;

@@ -10,6 +10,11 @@
 
 namespace starfocus {
 
+// Rows [first, last) of a picture, a layer or a tile.
+struct RowRange {
+  int32_t first, last;
+};
+
 // Rows of T, from row `first` on; a ring (rows > 0) holds row y at y modulo `rows` instead.
 template <class T>
 struct Plane {
