@@ -94,7 +94,7 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
     surfaces.rgb[k] = carver->Take<uint8_t>(3 * area);
   }
   surfaces.share = carver->Take<uint8_t>(area);
-  surfaces.hiding = carver->Take<uint8_t>(extended);
+  surfaces.hiding = carver->Take<uint64_t>(extended);
   scratch.centre = carver->Take<uint8_t>(3 * rectangle * rectangle);
   scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
   scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));

@@ -58,7 +58,7 @@ class MatteFinder {
 
   void Part(int32_t column, int32_t row, int32_t disparity, int32_t share, const Parts& parts) {
     const size_t at = surfaces_.At(column, row);
-    surfaces_.hiding[row] = 1;
+    surfaces_.hiding[row] |= uint64_t{1} << (column / static_cast<int32_t>(simd::kSliceLanes));
     surfaces_.share[at] = static_cast<uint8_t>(share);
     surfaces_.disparity[2][at] = surfaces_.disparity[1][at];
     surfaces_.disparity[1][at] = static_cast<int16_t>(disparity);

@@ -8,6 +8,7 @@ namespace {
 using simd::SliceOffset;
 
 constexpr int32_t kFractionOne = 1 << 15;
+constexpr auto kChunk = static_cast<int32_t>(simd::kSliceLanes);
 
 // What a box of `cell` pixels (kShiftBits), more than kBoxCell, covers of the pixels around it.
 simd::SliceTaps TapsOf(int32_t cell) {
@@ -73,6 +74,8 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surface
   simd::SurfaceRow from;
   from.plane = surfaces.plane;
   from.share = surfaces.share + at;
+  const uint64_t hiding = surfaces.hiding[y] >> (x + first) / kChunk;
+  from.hiding = (x + first) % kChunk == 0 ? hiding : hiding | hiding >> 1;
   for (int k = 0; k < simd::kSurfaces; ++k) {
     from.disparity[k] = surfaces.disparity[k] + at;
     from.rgb[k] = surfaces.rgb[k] + at;

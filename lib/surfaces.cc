@@ -245,7 +245,7 @@ class SurfaceFinder {
                                     {found[0], found[1]},
                                     surfaces_.share + at};
     const uint64_t chunks = kernels_.look_behind(row, hidden);
-    surfaces_.hiding[y] = chunks != 0;
+    surfaces_.hiding[y] = chunks;
     for (int behind = 1; behind < simd::kSurfaces; ++behind) {
       int32_t chunk = 0;
       for (uint64_t rest = chunks; rest != 0; rest >>= 1, ++chunk) {

@@ -35,7 +35,7 @@ struct Surfaces {
   int16_t *moved = nullptr, *behind = nullptr;  // of find_edges: a row
   simd::StepBits* steps = nullptr;              // of find_steps: a row
   uint16_t* sources[simd::kSurfaces - 1] = {};  // of look_behind: a row
-  uint8_t* hiding = nullptr;                    // of each row: whether there is more than surface 0
+  uint64_t* hiding = nullptr;  // of each row: in which kSliceLanes there is more than surface 0
 
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(stride) + static_cast<size_t>(x);

@@ -60,13 +60,15 @@ constexpr size_t SliceSamples(size_t count) {
 
 // A row of the surfaces at each pixel, the nearest first: disparities, colours in three planes, and
 // how much of the pixel the first one covers (kSliceBits), the others being behind it. Where there
-// are fewer, the disparity of the others is below any slice.
+// are fewer, the disparity of the others is below any slice. Only of those kSliceLanes whose bit of
+// `hiding` is set more than the first one is looked at: elsewhere it is all of each pixel.
 inline constexpr int kSurfaces = 3;
 struct SurfaceRow {
   const int16_t* disparity[kSurfaces];
   const uint8_t* rgb[kSurfaces];
   const uint8_t* share;  // [1, kSliceWhole] or kSliceEnd
   size_t plane;          // bytes
+  uint64_t hiding;
 };
 
 // Disparities [low, high], and up to `overlap` >= high but for the first surface where it ends or

@@ -34,6 +34,27 @@ HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, const SliceRange& rang
   uint64_t bit = 1;
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, bit <<= 1) {
     bool some = false, all = true;
+    if ((row.hiding & bit) == 0) {  // most
+      for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
+        const auto found = inside(row.disparity[0] + n);
+        if (hn::AllFalse(d16, found)) {
+          for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, out + c * plane + n);
+          all = all && n >= count;
+          continue;
+        }
+        for (size_t c = 0; c < 3; ++c) {
+          const auto value = hn::ShiftLeft<kSliceBits>(byte(row.rgb[0] + c * row.plane + n));
+          hn::StoreU(hn::IfThenElseZero(found, value), d16, out + c * plane + n);
+        }
+        hn::StoreU(hn::IfThenElseZero(found, hn::Set(d16, kSliceOne)), d16, out + 3 * plane + n);
+        const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
+        some = some || !hn::AllFalse(d16, hn::And(found, counted));
+        all = all && hn::AllFalse(d16, hn::AndNot(found, counted));
+      }
+      if (some) cover.some |= bit;
+      if (all) cover.all |= bit;
+      continue;
+    }
     for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
       const auto nearest = inside(row.disparity[0] + n), next = inside(row.disparity[1] + n);
       const auto last = inside(row.disparity[2] + n);

@@ -181,14 +181,15 @@ SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t co
     const uint64_t bit = uint64_t{1} << (chunk / kSliceLanes);
     cover.all |= bit;
     for (size_t n = chunk; n < chunk + kSliceLanes; ++n) {
+      const bool hiding = (row.hiding & bit) != 0;
       const auto inside = [&](int surface) {
-        const bool end = surface == 0 && row.share[n] != kSliceWhole;
+        const bool end = hiding && surface == 0 && row.share[n] != kSliceWhole;
         return row.disparity[surface][n] >= range.low &&
                row.disparity[surface][n] <= (end ? range.high : range.overlap);
       };
-      int next = 1;
+      int next = hiding ? 1 : kSurfaces;
       while (next < kSurfaces && !inside(next)) ++next;
-      const int share = row.share[n] < kSliceWhole ? row.share[n] : kSliceWhole;
+      const int share = hiding && row.share[n] < kSliceWhole ? row.share[n] : kSliceWhole;
       const int front = inside(0) ? share : 0;
       const int behind = next < kSurfaces ? kSliceWhole - front : 0;
       const bool found = front + behind > 0, all = front + behind == kSliceWhole;

@@ -32,7 +32,7 @@ void TestSelect(const Kernels& kernels) {
     const size_t whole = Whole(count), plane = whole + size_t(random.Int(0, 20));
     std::vector<int16_t> disparity[3];
     std::vector<uint8_t> rgb[3];
-    starfocus::simd::SurfaceRow row;
+    starfocus::simd::SurfaceRow row = {};
     row.plane = plane;
     for (int k = 0; k < 3; ++k) {
       disparity[k] = test::DisparityRow(whole, &random);
@@ -49,6 +49,7 @@ void TestSelect(const Kernels& kernels) {
       part = uint8_t(kind < 2 ? 128 : kind == 2 ? starfocus::simd::kSliceEnd : random.Int(1, 127));
     }
     row.share = share.data();
+    for (size_t bit = 0; bit < 64; ++bit) row.hiding |= uint64_t(random.Int(0, 2) > 0) << bit;
     const int middle = disparity[0][count / 2], range = random.Int(0, 400);
     const starfocus::simd::SliceRange inside = {
         int16_t(middle - range), int16_t(middle + range / 2), int16_t(middle + range)};

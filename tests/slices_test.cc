@@ -21,7 +21,7 @@ constexpr starfocus::SliceLimits kAmple = {size_t{1} << 24, 1 << 12, size_t{1} <
 // Maps of one surface, or of one behind another, as FindSurfaces leaves them.
 struct Scene {
   std::vector<int16_t> planes[3];
-  std::vector<uint8_t> hiding = std::vector<uint8_t>(kSize);
+  std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
   std::vector<uint8_t> bins = std::vector<uint8_t>(starfocus::kSliceBins);
   std::vector<int32_t> least = std::vector<int32_t>(kSize);
   starfocus::Surfaces surfaces;
@@ -37,7 +37,7 @@ struct Scene {
   }
 
   int16_t& At(int x, int y, int surface = 0) {
-    hiding[size_t(y)] |= surface > 0;
+    if (surface > 0) hiding[size_t(y)] |= uint64_t{1} << (x / 16);
     return planes[surface][size_t(y * kSize + x)];
   }
 

@@ -28,7 +28,8 @@ struct Scene {
   std::vector<int16_t> planes[3], rows[2];
   std::vector<uint16_t> sources[2];
   std::vector<starfocus::simd::StepBits> steps;
-  std::vector<uint8_t> colours[3], edges[4], hiding = std::vector<uint8_t>(kSize), share, rgb;
+  std::vector<uint8_t> colours[3], edges[4], share, rgb;
+  std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
   starfocus::Window window;
   Surfaces surfaces;
   starfocus::Reads reads;
@@ -186,7 +187,7 @@ TEST_CASE("surfaces: slopes of up to three quarters of a pixel hide nothing") {
       for (int x = 0; x < kSize; ++x) scene.Set(x, y, slope * x, x);
     }
     scene.Find();
-    CHECK(std::all_of(scene.hiding.begin(), scene.hiding.end(), [](int h) { return h == 0; }));
+    CHECK(std::all_of(scene.hiding.begin(), scene.hiding.end(), [](uint64_t h) { return h == 0; }));
   }
   Scene steep(5);
   for (int y = 0; y < kSize; ++y) {

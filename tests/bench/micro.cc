@@ -205,7 +205,7 @@ const Case kCases[] = {
        const int16_t* in = b->in.data();
        const uint8_t* rgb = b->bytes.data();
        const starfocus::simd::SurfaceRow row = {
-           {in, in + 16, in + 32}, {rgb, rgb, rgb}, rgb, kPlane};
+           {in, in + 16, in + 32}, {rgb, rgb, rgb}, rgb, kPlane, ~uint64_t{0}};
        for (size_t n = 0; n < 6; ++n) {
          benchmark::DoNotOptimize(k.select_slice(row, {2000, 8000, 9000}, kPlane, kPlane,
                                                  b->out.data() + 4 * n * kPlane));
