@@ -27,9 +27,9 @@ using TileTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
 using TileTag = RowTag;
 #endif
 
-// Whether composite has a way of its own for rows that are covered: with 16 registers it has to
-// keep more of them in memory for that than it gains.
-constexpr bool kCoveredApart = STARFOCUS_WIDE_TILES || !HWY_ARCH_X86;
+// Whether composite has a way of its own for rows that are covered: with narrower vectors that takes
+// more instructions than it saves.
+constexpr bool kCoveredApart = HWY_MAX_BYTES >= 32;
 
 // Whether composite looks whether a vector shows nothing, or nothing before it, and saves what
 // there is to do then. What it shows can't be foreseen: on x86 wrong guesses take up to 12 % more
@@ -55,37 +55,31 @@ HWY_INLINE hn::Vec<D> LoadRows(D d, const int16_t* HWY_RESTRICT at, size_t strid
   return hn::LoadU(d, at);
 }
 
-// What there is in one row, or in each of two.
-struct RowsShown {
-  bool some[2] = {false, false};
-  bool all[2] = {true, true};  // all of it is covered
-};
-
-// Adds a vector of the coverage of rows, or of a part of one.
-template <class D>
-HWY_INLINE void AddShown(D d, hn::Vec<D> covered, RowsShown* shown) {
-  const auto some = hn::Ne(covered, hn::Zero(d));
-  const auto all = hn::Eq(covered, hn::Set(d, kSliceOne));
-#if STARFOCUS_WIDE_TILES
-  if (hn::Lanes(d) > kSliceLanes) {
-    uint8_t some_bits[8], all_bits[8];  // as many may be written
-    hn::StoreMaskBits(d, some, some_bits);
-    hn::StoreMaskBits(d, all, all_bits);
-    for (size_t k = 0; k < 2; ++k) {
-      shown->some[k] = (some_bits[2 * k] | some_bits[2 * k + 1]) != 0;
-      shown->all[k] = (all_bits[2 * k] & all_bits[2 * k + 1]) == 0xFF;
-    }
-    return;
-  }
-#endif
-  shown->some[0] |= !hn::AllFalse(d, some);
-  shown->all[0] &= hn::AllTrue(d, all);
-}
-
 // Marks rows near each one, from the first on.
 class RowMarks {
  public:
-  HWY_INLINE void Add(bool some, bool all, uint8_t* HWY_RESTRICT near) {
+  // Of a row or two: the most and the least that is covered of the parts of it that vectors hold.
+  template <class D>
+  HWY_INLINE void Add(D d, hn::Vec<D> most, hn::Vec<D> least, uint8_t* HWY_RESTRICT near) {
+    const auto some = hn::Ne(most, hn::Zero(d));
+    const auto all = hn::Eq(least, hn::Set(d, kSliceOne));
+#if STARFOCUS_WIDE_TILES
+    if (hn::Lanes(d) > kSliceLanes) {
+      uint8_t some_bits[8], all_bits[8];  // as many may be written
+      hn::StoreMaskBits(d, some, some_bits);
+      hn::StoreMaskBits(d, all, all_bits);
+      for (size_t k = 0; k < 2; ++k) {
+        AddRow((some_bits[2 * k] | some_bits[2 * k + 1]) != 0,
+               (all_bits[2 * k] & all_bits[2 * k + 1]) == 0xFF, near + k);
+      }
+      return;
+    }
+#endif
+    AddRow(!hn::AllFalse(d, some), hn::AllTrue(d, all), near);
+  }
+
+ private:
+  HWY_INLINE void AddRow(bool some, bool all, uint8_t* HWY_RESTRICT near) {
     static_assert(kRowsAhead == 6 && kSomethingNear == 1, "two words are seven rows");
     const uint32_t marks = 0x01010101;
     if (some) {
@@ -96,7 +90,6 @@ class RowMarks {
     if (all_covered_ > kRowsAhead) near[-6] = kCoveredNear;
   }
 
- private:
   size_t all_covered_ = 0;  // rows up to the last
 };
 
@@ -110,7 +103,7 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
   const auto third = hn::Set(d, fraction.third), fourth = hn::Set(d, fraction.fourth);
   size_t row = 0;
   for (; row + step <= rows; row += step, out += step * kSliceLanes) {
-    RowsShown rows_shown;
+    auto most = hn::Zero(d), least = hn::Set(d, kSliceOne);
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
       const int16_t* HWY_RESTRICT from = in.samples + row * stride + n;
       const auto load = [&](size_t c, size_t next)
@@ -121,7 +114,7 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
       if (kTaps > 3) any = hn::Or(any, load(3, 3));
       if (hn::AllTrue(d, hn::Eq(any, hn::Zero(d)))) {
         for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d), d, out + c * plane + n);
-        rows_shown.all[0] = rows_shown.all[1] = false;
+        least = hn::Zero(d);
         continue;
       }
       const auto first = kTaps > 2 ? edge : hn::IfThenElse(hn::Eq(covered, next), inside, edge);
@@ -137,11 +130,10 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
       for (size_t c = 0; c < 3; ++c) hn::StoreU(between(c), d, out + c * plane + n);
       const auto shown = between(3);
       hn::StoreU(shown, d, out + 3 * plane + n);
-      AddShown(d, shown, &rows_shown);
+      most = hn::Max(most, shown);
+      least = hn::Min(least, shown);
     }
-    for (size_t k = 0; k < step; ++k) {
-      marks->Add(rows_shown.some[k], rows_shown.all[k], near + row + k);
-    }
+    marks->Add(d, most, least, near + row);
   }
   return row;
 }
