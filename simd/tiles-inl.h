@@ -27,8 +27,8 @@ using TileTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
 using TileTag = RowTag;
 #endif
 
-// Whether composite has a way of its own for rows that are covered: with narrower vectors that takes
-// more instructions than it saves.
+// Whether composite has a way of its own for rows that are covered: with narrower vectors that
+// takes more instructions than it saves.
 constexpr bool kCoveredApart = HWY_MAX_BYTES >= 32;
 
 // Whether composite looks whether a vector shows nothing, or nothing before it, and saves what
