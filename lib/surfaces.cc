@@ -115,6 +115,7 @@ class HiddenColours {
         RoundShift(full * 2, 1 + window_.layer + (IsHalf(side, source) ? 1 : 0)));
     const CapturedLine line = {(field_.x + chunk.x + k) * kShiftOne - dx * moved,
                                (field_.y + chunk.y) * kShiftOne - dy * moved, 1, 0};
+    PrefetchCaptured(window_, ViewOf(side, source), line);
     ReadCaptured(window_, ViewOf(side, source), line, count, rgb);
   }
 

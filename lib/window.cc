@@ -6,9 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Side views are read here and there, in pieces that are too short for the processor to foresee
-// what comes: those of the rows below soon. Only time depends on it.
-constexpr int32_t kRowsAhead = 2;
+constexpr int32_t kRowsAhead = 2;  // of the layer, that are asked for
 
 void Prefetch(const uint8_t* bytes) {
 #if defined(__GNUC__)
@@ -152,13 +150,18 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
   const int32_t right = window.picture_width - 1, bottom = window.picture_height - 1;
   if (Min(x, end_x) >= reach && Max(x, end_x) <= right - reach && Min(y, end_y) >= reach &&
       Max(y, end_y) <= bottom - reach) {
-    const int32_t ahead = y + (kRowsAhead << layer);
-    Prefetch(window.view[index].Row(Min(ahead, bottom)) + 3 * x);
-    Prefetch(window.view[index].Row(Min(ahead + 1, bottom)) + 3 * x);
     ReadLine(Inside{window.view[index]}, layer, from, count, rgb);
   } else {
     ReadLine(Endless{window.view[index], right, bottom}, layer, from, count, rgb);
   }
+}
+
+void PrefetchCaptured(const Window& window, int index, const CapturedLine& line) {
+  const CapturedLine from = OfPicture(line, window.layer);
+  const Endless pixels = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+  const int32_t ahead = from.y + (kRowsAhead << window.layer);
+  Prefetch(pixels.Row(ahead) + pixels.Column(from.x));
+  Prefetch(pixels.Row(ahead + 1) + pixels.Column(from.x));
 }
 
 void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,

@@ -65,6 +65,10 @@ struct CapturedLine {
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
                   uint8_t* rgb);
 
+// Asks for what lies a little below the first place of a line: what is read in short pieces, row by
+// row, the processor does not foresee. Only time depends on it.
+void PrefetchCaptured(const Window& window, int index, const CapturedLine& line);
+
 // Copies `count` pixels of a captured view, from (x, y) of the picture on along its row; outside
 // the picture the nearest ones.
 void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
