@@ -36,9 +36,11 @@ void ReadFar(const Window& window, const BoundaryPixel& pixel, const uint8_t* mi
   const int dx = pixel.side[0], dy = pixel.side[1];
   const bool half = window.views == 17;
   const int32_t moved = pixel.disparity * (1 << (kShiftBits - kDisparityBits - (half ? 1 : 0)));
+  const int view = CapturedView(-dx, -dy, half);
+  const int32_t x = pixel.x * kShiftOne + dx * moved, y = pixel.y * kShiftOne + dy * moved;
+  PrefetchCaptured(window, view, {x, y, 0, 0});
   int32_t sums[3];
-  InterpolateCaptured(window, CapturedView(-dx, -dy, half), pixel.x * kShiftOne + dx * moved,
-                      pixel.y * kShiftOne + dy * moved, sums);
+  InterpolateCaptured(window, view, x, y, sums);
   // Halves towards the pixel, so that an inverted picture is decided on alike.
   constexpr int32_t kHalf = 1 << (2 * kShiftBits - 1);
   for (int c = 0; c < 3; ++c) {
