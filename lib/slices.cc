@@ -93,12 +93,18 @@ class SliceFinder {
     uint16_t within[kMarkedRows];
     job_.kernels->find_within(disparity, static_cast<size_t>(surfaces_.stride),
                               static_cast<size_t>(pixels.height), range, within);
+    // Copies, since marks might be part of anything.
+    uint8_t* const bins = job_.bins;
+    const int32_t* const least_blur = job_.least_blur;
+    const int32_t base = base_, bits = bin_bits_, focus = grid_.focus;
+    const int32_t left = job_.rect.x - pixels.x, right = left + job_.rect.width - 1;
     for (int32_t y = 0; y < pixels.height; ++y, disparity += surfaces_.stride) {
-      ForEachBit(within[y], [&](int32_t k) {
-        uint8_t& mark = job_.bins[BinOf(disparity[k])];
+      const int32_t in_column = Beyond({job_.rect.x, pixels.y + y, 1, 1});
+      ForEachBit(within[y], [=](int32_t k) {
+        uint8_t& mark = bins[(disparity[k] - base) >> bits];
         if (mark != 0) return;
-        const int32_t least = job_.least_blur[Beyond({pixels.x + k, pixels.y + y, 1, 1})];
-        if (Abs(disparity[k] - grid_.focus) >= least) mark = 1;
+        const int32_t beyond = Max(in_column, Max(left - k, k - right));
+        if (Abs(disparity[k] - focus) >= least_blur[beyond]) mark = 1;
       });
     }
   }
