@@ -28,12 +28,12 @@ usage: ./do COMMAND
           --micro   only times kernels, the line scan and small pictures
   cross ARCH [build]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated
   boot    run the board program on an emulated board: its GPIO lines, buttons and screen
-  count [record]  AArch64 instructions per pixel against tests/instruction_counts.txt
+  count [record]  AArch64 instructions per pixel against tests/board/instruction_counts.txt
   partitions [write]  what block mode costs on boards with another architecture's coefficients
-  coefficients [ARCH...]  those of boards from instruction counts, into lib/timing_defaults.h:
+  coefficients [ARCH...]  those of boards from instruction counts, into lib/plan/timing_defaults.h:
           some ten minutes each
   size [write]   what boards need: code, stack and memory (write: into toolchains/README.md)
-  golden  record tests/golden.txt anew, after an intended change of the engine's output
+  golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file
   help    this text
 
@@ -267,7 +267,7 @@ bench() {
     done
   fi
   $BUILD/starfocus-bench $fields $options --sweep build/bench/portrait-small \
-    --x86-counts tests/bench/baseline.txt --arm-counts tests/instruction_counts.txt \
+    --x86-counts tests/bench/baseline.txt --arm-counts tests/board/instruction_counts.txt \
     --revision "$(git rev-parse --short HEAD 2>/dev/null)" --csv build/bench/results.csv \
     --json build/bench/results.json --html build/bench/report.html || fail "the bench failed"
   echo "report: build/bench/report.html; rows: build/bench/results.csv and .json"

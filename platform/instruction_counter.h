@@ -1,4 +1,4 @@
-// Instructions executed so far on a machine emulated by QEMU with tests/count_instructions.c.
+// Instructions executed so far on a machine emulated by QEMU with tests/board/count_instructions.c.
 #ifndef STARFOCUS_PLATFORM_INSTRUCTION_COUNTER_H_
 #define STARFOCUS_PLATFORM_INSTRUCTION_COUNTER_H_
 

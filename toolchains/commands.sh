@@ -59,7 +59,7 @@ into_readme() {
 build_counter() {
   mkdir -p "$LOGS"
   step plugin "building the emulator's counter" \
-    cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/count_instructions.c
+    cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/board/count_instructions.c
 }
 
 # instructions PRESET CASE KERNELS [COEFFICIENTS]: of one refocusing, on the emulated board.
@@ -75,10 +75,10 @@ instructions() {
 }
 
 # Instructions per pixel with NEON and with the plain reference kernels. Fails when any is more than
-# 3 % above tests/instruction_counts.txt, if that is of the same compiler; `record` writes that file
+# 3 % above tests/board/instruction_counts.txt, if that is of the same compiler; `record` writes that file
 # and toolchains/README.md.
 count() {
-  local baseline=tests/instruction_counts.txt now=$LOGS/instruction_counts.txt name pixels kernels
+  local baseline=tests/board/instruction_counts.txt now=$LOGS/instruction_counts.txt name pixels kernels
   local compiler recorded
   build_counter
   compiler=$(aarch64-linux-gnu-g++ --version | head -n 1)
@@ -145,7 +145,7 @@ prepare_board() {
 BOARDS="aarch64 armhf armv6 riscv64"
 
 # coefficients [ARCHITECTURE...]: the built-in timing coefficients of some boards or all, from
-# instruction counts, into lib/timing_defaults.h.
+# instruction counts, into lib/plan/timing_defaults.h.
 coefficients() {
   local preset numbers scene
   for preset in "$@"; do board "$preset"; done
@@ -168,9 +168,9 @@ coefficients() {
     grep '^R2' "$LOGS/coefficients-$preset.log"
     numbers=$(sed -n '/"timing"/,/}/s/.*: *\([0-9][0-9]*\),*$/\1/p' build/coefficients/$preset.json |
       paste -s -d ',' | sed 's/,/, /g')
-    sed -i "s/{\"$preset\", {[0-9, ]*}}/{\"$preset\", {$numbers}}/" lib/timing_defaults.h
-    grep -F "\"$preset\", {$numbers}" lib/timing_defaults.h ||
-      fail "lib/timing_defaults.h has no line for $preset"
+    sed -i "s/{\"$preset\", {[0-9, ]*}}/{\"$preset\", {$numbers}}/" lib/plan/timing_defaults.h
+    grep -F "\"$preset\", {$numbers}" lib/plan/timing_defaults.h ||
+      fail "lib/plan/timing_defaults.h has no line for $preset"
   done
 }
 
@@ -236,7 +236,7 @@ cross() {
   fi
 }
 
-# Records the checksums of tests/golden.txt anew, after an intended change of the engine's output.
+# Records the checksums of tests/engine/golden.txt anew, after an intended change of the engine's output.
 golden() {
   install_missing
   build golden_test
@@ -325,5 +325,5 @@ boot() {
     toolchains/sysroot.sh arm64 build/sysroot/arm64
   cross_build aarch64 board_refocus
   build starfocus
-  tests/board_boot.sh $PROGRAM build/aarch64/board_refocus build/boot || exit 1
+  tests/board/boot.sh $PROGRAM build/aarch64/board_refocus build/boot || exit 1
 }

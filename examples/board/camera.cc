@@ -1,4 +1,4 @@
-#include "board/camera.h"
+#include "examples/board/camera.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "board/panel.h"
+#include "examples/board/panel.h"
 
 #include <algorithm>
 

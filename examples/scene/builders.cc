@@ -1,4 +1,4 @@
-#include "scene/builders.h"
+#include "examples/scene/builders.h"
 
 #include <cmath>
 

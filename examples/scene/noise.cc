@@ -1,4 +1,4 @@
-#include "scene/noise.h"
+#include "examples/scene/noise.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // A person with a woollen hat in front of a room: near subject, objects in the middle, far wall.
-#include "scene/builders.h"
-#include "scene/textures.h"
+#include "examples/scene/builders.h"
+#include "examples/scene/textures.h"
 
 namespace starfocus {
 namespace {

@@ -1,10 +1,10 @@
-#include "scene/render.h"
+#include "examples/scene/render.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "scene/noise.h"
+#include "examples/scene/noise.h"
 
 namespace starfocus {
 namespace {

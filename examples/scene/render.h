@@ -3,11 +3,11 @@
 #ifndef STARFOCUS_EXAMPLES_SCENE_RENDER_H_
 #define STARFOCUS_EXAMPLES_SCENE_RENDER_H_
 
+#include "examples/scene/scene.h"
 #include "platform/image.h"
 #include "platform/pfm.h"
 #include "platform/progress.h"
 #include "platform/runner.h"
-#include "scene/scene.h"
 
 namespace starfocus {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/scene.h"
+#include "examples/scene/scene.h"
 
 namespace starfocus {
 namespace {

@@ -1,6 +1,6 @@
 // The scenes `wires` and `ramp`: hard cases for line scans, plain to look at.
-#include "scene/builders.h"
-#include "scene/textures.h"
+#include "examples/scene/builders.h"
+#include "examples/scene/textures.h"
 
 namespace starfocus {
 

@@ -2,7 +2,7 @@
 #ifndef STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_
 #define STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_
 
-#include "scene/scene.h"
+#include "examples/scene/scene.h"
 
 namespace starfocus {
 

@@ -1,8 +1,8 @@
 // Test patterns of the scenes `wires` and `ramp`.
 #include <cmath>
 
-#include "scene/noise.h"
-#include "scene/textures.h"
+#include "examples/scene/noise.h"
+#include "examples/scene/textures.h"
 
 namespace starfocus {
 

@@ -1,8 +1,8 @@
 // Walls, furniture, plants and lights.
 #include <cmath>
 
-#include "scene/noise.h"
-#include "scene/textures.h"
+#include "examples/scene/noise.h"
+#include "examples/scene/textures.h"
 
 namespace starfocus {
 namespace {

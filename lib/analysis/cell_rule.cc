@@ -6,7 +6,7 @@
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/selection.h"
 #include "lib/analysis/view_kernel.h"
-#include "lib/rules.h"
+#include "lib/base/rules.h"
 
 namespace starfocus::analysis {
 int FewestCells(double r, double theta) {

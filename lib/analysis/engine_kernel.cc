@@ -5,7 +5,7 @@
 #include <new>
 #include <vector>
 
-#include "lib/engine.h"
+#include "lib/engine/engine.h"
 
 namespace starfocus::analysis {
 namespace {

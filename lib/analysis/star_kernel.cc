@@ -7,9 +7,9 @@
 #include "lib/analysis/aperture.h"
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/view_kernel.h"
-#include "lib/aperture.h"
-#include "lib/fixed.h"
-#include "lib/placed_slice.h"
+#include "lib/base/aperture.h"
+#include "lib/base/fixed.h"
+#include "lib/slices/slice_plane.h"
 
 namespace starfocus::analysis {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "lib/analysis/aperture.h"
 #include "lib/analysis/ideal.h"
-#include "lib/aperture.h"
+#include "lib/base/aperture.h"
 
 namespace starfocus::analysis {
 namespace {

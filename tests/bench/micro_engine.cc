@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "lib/deblock.h"
-#include "lib/line_scan.h"
-#include "lib/runs.h"
+#include "lib/filter/deblock.h"
+#include "lib/line_scan/line_scan.h"
+#include "lib/line_scan/runs.h"
 #include "tests/bench/micro.h"
 #include "tests/bench/timed_engine.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/engine.h"
+#include "lib/engine/engine.h"
 #include "simd/kernels.h"
 
 namespace starfocus::bench {

@@ -9,7 +9,7 @@
 
 #include "platform/light_field.h"
 #include "tests/fuzz/input.h"
-#include "tests/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "tests/stress/families.h"
 #include "tests/stress/setup.h"
-#include "tests/symmetry.h"
+#include "tests/support/symmetry.h"
 
 namespace starfocus::stress {
 namespace {

@@ -1,6 +1,6 @@
 #include "tests/stress/ranges.h"
 
-#include "lib/fixed.h"
+#include "lib/base/fixed.h"
 
 namespace starfocus::stress {
 namespace {

@@ -6,7 +6,7 @@
 #include <new>
 #include <utility>
 
-#include "lib/engine.h"
+#include "lib/engine/engine.h"
 
 namespace starfocus::stress {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
-#include "tests/test_scene.h"
+#include "tests/support/test_scene.h"
 
 namespace starfocus::stress {
 

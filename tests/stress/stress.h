@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/test_scene.h"
+#include "tests/support/test_scene.h"
 
 namespace starfocus::stress {
 

@@ -1,0 +1,301 @@
+// board_refocus: a refocusing camera on a board. A rotary encoder moves the focus plane, one button
+// changes the aperture, another takes the picture; an output line is high exactly while the engine
+// runs, for a scope or a power meter.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "examples/board/camera.h"
+#include "examples/board/panel.h"
+#include "examples/cli/options.h"
+#include "platform/clock.h"
+#include "platform/file.h"
+#include "platform/framebuffer.h"
+#include "platform/gpio.h"
+#include "platform/image_io.h"
+
+namespace {
+
+using namespace starfocus;
+
+struct Options {
+  std::string folder, chip = "gpiochip0", encoder, aperture, shutter, busy;
+  std::string debounce = "10", active = "low", bias = "pull-up";
+  std::string focus, step, mode = "block", threads = "1", pictures = "0";
+  std::string out, framebuffer;
+  bool list = false;
+};
+
+struct Plan {
+  PanelLines lines;
+  int busy = -1;
+  int debounce = 10;  // milliseconds
+  GpioBias bias = GpioBias::kPullUp;
+  bool focus_given = false;
+  double focus = 0, step = 0;  // step 0: a fortieth of the scene
+  int threads = 1, pictures = 0;
+};
+
+constexpr int kLastLine = 100000;
+
+std::string ParseLine(const std::string& option, const std::string& text, int* line) {
+  return text.empty() ? "" : ParseWhole(option, text, 0, kLastLine, line);
+}
+
+std::string PlanLines(const Options& options, Plan* plan) {
+  std::string error;
+  PanelLines& lines = plan->lines;
+  if (!options.encoder.empty()) {
+    error = ParsePair("--encoder", options.encoder, ',', &lines.encoder_a, &lines.encoder_b);
+  }
+  if (error.empty()) error = ParseLine("--aperture-button", options.aperture, &lines.aperture);
+  if (error.empty()) error = ParseLine("--shutter", options.shutter, &lines.shutter);
+  if (error.empty()) error = ParseLine("--busy", options.busy, &plan->busy);
+  if (!error.empty()) return error;
+  if (lines.shutter < 0) return Expected("--shutter", "the line of the shutter button", "none");
+  std::vector<int> all = lines.All();
+  if (plan->busy >= 0) all.push_back(plan->busy);
+  std::sort(all.begin(), all.end());
+  const auto twice = std::adjacent_find(all.begin(), all.end());
+  if (twice == all.end()) return "";
+  return Expected("lines", "a line for each control", std::to_string(*twice) + " twice");
+}
+
+// Everything that can be refused before the light field is read.
+std::string MakePlan(const Options& options, Plan* plan) {
+  std::string error = PlanLines(options, plan);
+  if (error.empty()) {
+    error = ParseWhole("--debounce", options.debounce, 0, 1000, &plan->debounce);
+  }
+  if (error.empty() && !options.focus.empty()) {
+    error = ParseNumber("--focus", options.focus, &plan->focus);
+    plan->focus_given = true;
+  }
+  if (error.empty() && !options.step.empty()) {
+    error = ParseNumber("--step", options.step, &plan->step);
+  }
+  if (error.empty()) {
+    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
+  }
+  if (error.empty())
+    error = ParseWhole("--pictures", options.pictures, 0, 1000000, &plan->pictures);
+  if (error.empty() && !options.out.empty()) error = CheckImageOutput(options.out);
+  if (!error.empty()) return error;
+  if (options.out.empty() && options.framebuffer.empty()) {
+    return Expected("--out", "a picture file to write, or --framebuffer", "neither");
+  }
+  if (options.active != "low" && options.active != "high") {
+    return Expected("--active", "low or high", "'" + options.active + "'");
+  }
+  if (options.mode != "block" && options.mode != "frame") {
+    return Expected("--mode", "block or frame", "'" + options.mode + "'");
+  }
+  if (options.bias == "none") plan->bias = GpioBias::kAsIs;
+  if (options.bias == "pull-down") plan->bias = GpioBias::kPullDown;
+  if (options.bias == "pull-up" || plan->bias != GpioBias::kPullUp) return "";
+  return Expected("--bias", "pull-up, pull-down or none", "'" + options.bias + "'");
+}
+
+int64_t Nanoseconds() { return static_cast<int64_t>(Seconds() * 1e9); }
+
+// "picture.png" and 3 make "picture-3.png".
+std::string Numbered(const std::string& path, int number) {
+  const size_t dot = path.rfind('.');
+  return path.substr(0, dot) + "-" + std::to_string(number) + path.substr(dot);
+}
+
+class Board {
+ public:
+  Board(const Options& options, const Plan& plan)
+      : options_(options), plan_(plan), camera_(plan.threads) {}
+
+  // The lines are taken before the light field is read: their absence is known sooner.
+  std::string Open() {
+    std::string error = inputs_.Open(options_.chip, plan_.lines.All(), plan_.bias);
+    if (error.empty() && plan_.busy >= 0) error = busy_.Open(options_.chip, plan_.busy);
+    if (error.empty()) {
+      error =
+          camera_.Load(options_.folder, options_.mode == "block" ? SF_MODE_BLOCK : SF_MODE_FRAME);
+    }
+    if (!error.empty()) return error;
+    step_ = plan_.step != 0 ? plan_.step : (camera_.nearest() - camera_.farthest()) / 40;
+    focus_ = 0.5 * (camera_.nearest() + camera_.farthest());
+    if (plan_.focus_given) {
+      if (plan_.focus < camera_.farthest() || plan_.focus > camera_.nearest()) {
+        return Expected("--focus",
+                        "a disparity of the scene, " + Short(camera_.farthest()) + " to " +
+                            Short(camera_.nearest()),
+                        Short(plan_.focus));
+      }
+      focus_ = plan_.focus;
+    }
+    std::printf("ready: focus %g (%g to %g), aperture %g, workspace %zu bytes, %s\n", focus_,
+                camera_.farthest(), camera_.nearest(), aperture(), camera_.workspace_bytes(),
+                sf_simd_target());
+    return "";
+  }
+
+  // Serves the controls until the wanted number of pictures is taken.
+  std::string Run() {
+    bool a = true, b = true;
+    std::string error;
+    if (plan_.lines.encoder_a >= 0) {
+      error = inputs_.Read(plan_.lines.encoder_a, &a);
+      if (error.empty()) error = inputs_.Read(plan_.lines.encoder_b, &b);
+    }
+    Panel panel(plan_.lines, options_.active == "low", int64_t{plan_.debounce} * 1000000, a, b);
+    std::vector<GpioEdge> edges;
+    while (error.empty() && !Finished()) {
+      const int64_t wait = panel.Wait(Nanoseconds());
+      error = inputs_.Wait(wait < 0 ? -1 : static_cast<int>(wait / 1000000 + 1), &edges);
+      for (size_t i = 0; i < edges.size() && error.empty() && !Finished(); ++i) {
+        error = Act(panel.Edge(edges[i].line, edges[i].high, edges[i].nanoseconds));
+      }
+      if (error.empty() && edges.empty()) error = Act(panel.Settle(Nanoseconds()));
+    }
+    return error;
+  }
+
+ private:
+  double aperture() const { return camera_.apertures()[aperture_]; }
+  bool Finished() const { return plan_.pictures != 0 && taken_ >= plan_.pictures; }
+
+  std::string Act(const PanelActions& actions) {
+    if (!actions.any()) return "";
+    focus_ =
+        std::clamp(focus_ + actions.focus_steps * step_, camera_.farthest(), camera_.nearest());
+    aperture_ = (aperture_ + static_cast<size_t>(actions.apertures)) % camera_.apertures().size();
+    if (actions.shutters != 0) return TakePicture();
+    std::printf("focus %g, aperture %g\n", focus_, aperture());
+    return "";
+  }
+
+  std::string SetBusy(bool high, bool* read_back) {
+    if (plan_.busy < 0) return "";
+    const std::string error = busy_.Set(high);
+    return error.empty() ? busy_.Read(read_back) : error;
+  }
+
+  std::string TakePicture() {
+    bool during = false, after = false;
+    std::string error = SetBusy(true, &during);
+    if (!error.empty()) return error;
+    const double start = Seconds();
+    const sf_status status = camera_.Take(focus_, aperture());
+    const double seconds = Seconds() - start;
+    error = SetBusy(false, &after);
+    if (!error.empty()) return error;
+    if (status != SF_OK) return Expected("picture", "a refocused one", sf_status_string(status));
+    ++taken_;
+    std::printf("picture %d: focus %g, aperture %g, %.3f ms", taken_, focus_, aperture(),
+                1e3 * seconds);
+    if (plan_.busy >= 0) std::printf(", busy line read back %d, then %d", during, after);
+    std::printf("\n");
+    Keep();
+    return "";
+  }
+
+  // A full disk must not end the camera.
+  void Keep() {
+    std::string error;
+    if (!options_.framebuffer.empty()) {
+      error = ShowOnFramebuffer(options_.framebuffer, camera_.picture());
+    }
+    if (error.empty() && !options_.out.empty()) {
+      const std::string path = Numbered(options_.out, taken_);
+      error = WriteImage(path, camera_.picture());
+      if (error.empty()) std::printf("wrote %s\n", path.c_str());
+    }
+    if (!error.empty()) std::fprintf(stderr, "board_refocus: %s\n", error.c_str());
+  }
+
+  const Options& options_;
+  const Plan& plan_;
+  GpioInputs inputs_;
+  GpioOutput busy_;
+  Camera camera_;
+  double focus_ = 0, step_ = 0;
+  size_t aperture_ = 0;
+  int taken_ = 0;
+};
+
+std::string List() {
+  std::vector<GpioChip> chips;
+  const std::string error = ListGpioChips(&chips);
+  for (const GpioChip& chip : chips) {
+    std::printf("%s: %s, %d lines\n", chip.name.c_str(), chip.label.c_str(), chip.lines);
+  }
+  return error;
+}
+
+void AddOptions(CLI::App* app, Options* options) {
+  app->add_option("DIR", options->folder, "Light-field folder");
+  app->add_flag("--list", options->list, "List the GPIO chips and end");
+  app->add_option("--chip", options->chip, "GPIO chip: gpiochip0, 0 or a path")
+      ->capture_default_str();
+  app->add_option("--encoder", options->encoder, "Lines A,B of the rotary encoder for the focus");
+  app->add_option("--aperture-button", options->aperture, "Line of the button for the aperture");
+  app->add_option("--shutter", options->shutter, "Line of the button that takes a picture");
+  app->add_option("--busy", options->busy, "Output line, high exactly while the engine runs");
+  app->add_option("--debounce", options->debounce, "Milliseconds a button may bounce")
+      ->capture_default_str();
+  app->add_option("--active", options->active, "Level of a pressed button: low or high")
+      ->capture_default_str();
+  app->add_option("--bias", options->bias, "Of the inputs: pull-up, pull-down or none")
+      ->capture_default_str();
+  app->add_option("--focus", options->focus, "Disparity to begin with; default: the middle");
+  app->add_option("--step", options->step, "Disparity of an encoder step; default: 1/40 of all");
+  app->add_option("--mode", options->mode, "block or frame")->capture_default_str();
+  app->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
+  app->add_option("--pictures", options->pictures, "End after so many; 0: never")
+      ->capture_default_str();
+  app->add_option("--out", options->out, "Picture file (.png, .ppm, .jpg); a number is added");
+  app->add_option("--framebuffer", options->framebuffer, "Linux framebuffer, such as /dev/fb0");
+}
+
+int Fail(const std::string& line) {
+  std::fprintf(stderr, "board_refocus: %s\n", line.c_str());
+  return 1;
+}
+
+int Main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  CLI::App app("Refocuses a light field by knob and buttons on GPIO lines.", "board_refocus");
+  Options options;
+  AddOptions(&app, &options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    return Fail(Expected("command line", "what `board_refocus --help` lists", error.what()));
+  }
+  std::string error;
+  Plan plan;
+  if (options.list) {
+    error = List();
+  } else if (options.folder.empty()) {
+    error = Expected("DIR", "a light-field folder", "nothing");
+  } else {
+    error = MakePlan(options, &plan);
+    Board board(options, plan);
+    if (error.empty()) error = board.Open();
+    if (error.empty()) error = board.Run();
+  }
+  return error.empty() ? 0 : Fail(error);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return Main(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return Fail("memory: expected enough for these pictures, found too little");
+  } catch (const std::exception& error) {
+    return Fail(starfocus::Expected("board_refocus", "no internal failure", error.what()));
+  }
+}

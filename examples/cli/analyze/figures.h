@@ -1,0 +1,28 @@
+// The tables and figures of the paper's section III, regenerated from its definitions.
+#ifndef STARFOCUS_EXAMPLES_CLI_ANALYZE_FIGURES_H_
+#define STARFOCUS_EXAMPLES_CLI_ANALYZE_FIGURES_H_
+
+#include <string>
+
+#include "examples/cli/analyze/table.h"
+
+namespace starfocus {
+
+// Each prints its part of the summary to stdout.
+Figure AnalyseTableOne();
+Figure AnalyseViewNumber();  // Fig. 6 and the thresholds of (9)
+
+// Nothing to print.
+Figure DrawViewKernels();      // Fig. 4
+Figure DrawViewResponses();    // Fig. 5
+Figure DrawSubsampledBlurs();  // Fig. 8
+
+// The aperture cells' table and rule, for blur radii up to max_blur.
+Figure AnalyseCells(double max_blur);
+
+// The running engine's kernels; *error is set when it could not be run.
+Figure AnalyseEngine(std::string* error);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_ANALYZE_FIGURES_H_

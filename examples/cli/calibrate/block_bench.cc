@@ -1,0 +1,129 @@
+#include "examples/cli/calibrate/block_bench.h"
+
+#include <algorithm>
+
+#include "lib/engine/refocus_block.h"
+#include "platform/clock.h"
+
+namespace starfocus {
+namespace {
+
+sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& stats) {
+  sf_config config;
+  sf_config_init(&config);
+  config.width = light_field.width();
+  config.height = light_field.height();
+  config.views = static_cast<int32_t>(light_field.views.size());
+  config.disparity_min = stats.min;
+  config.disparity_max = stats.max;
+  config.max_blur = SF_MAX_BLUR;
+  config.largest_block = 256;       // the scratch then serves every smaller block
+  config.n_scale = SF_MAX_N_SCALE;  // and there are apertures of every N that is sampled
+  config.skips = 0;                 // the model is one of rendering
+  return config;
+}
+
+}  // namespace
+
+std::string BlockBench::Open(const std::string& where, const LightField& light_field) {
+  light_field_ = &light_field;
+  const FloatMap& map = light_field.disparity;
+  sf_disparity_stats stats = {};
+  sf_status status = sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width),
+                                          map.width, map.height, &stats);
+  if (status == SF_OK && stats.invalid != 0) status = SF_ERROR_NOT_FINITE;
+  sf_engine* engine = nullptr;
+  size_t bytes = 0;
+  if (status == SF_OK) {
+    status = MakeEngine(MakeConfig(light_field, stats), &workspace_, &bytes, &engine);
+  }
+  if (status != SF_OK) {
+    return Expected(where, "a light field to calibrate with", sf_status_string(status));
+  }
+  engine_ = reinterpret_cast<EngineState*>(engine);
+  picture_ = Image(map.width, map.height);
+  HoldDisparity();
+  for (int layer = 1; layer < SF_LAYERS; ++layer) HoldLayer(layer);
+  return "";
+}
+
+void BlockBench::HoldDisparity() {
+  const FloatMap& map = light_field_->disparity;
+  disparity_.resize(map.values.size() + simd::kPadding);
+  engine_->disparity = {disparity_.data(), size_t(map.width), 0, 0};
+  engine_->disparity_rows = 0;
+  for (int y = 0; y < map.height; ++y) {
+    // The range is the map's own, so that no value can be outside.
+    PushDisparity(map.values.data() + size_t(y) * size_t(map.width), engine_);
+  }
+  Plane<const uint8_t> views[kMaxViews];
+  for (size_t i = 0; i < light_field_->views.size(); ++i) {
+    const Image& view = light_field_->views[i];
+    views[i] = {view.pixels.data(), view.stride(), 0, 0};
+  }
+  SetViews(views, engine_);
+}
+
+void BlockBench::HoldLayer(int layer) {
+  LayerPlane& plane = engine_->layers[layer];
+  const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
+  layer_rgb_[layer].resize(stride * rows + simd::kPadding);
+  layer_samples_[layer].resize(stride * rows + simd::kPadding);
+  layer_half_[layer].resize(stride * (2 * rows + 6) + simd::kPadding);
+  plane.rows = {0, plane.height};
+  plane.rgb = {layer_rgb_[layer].data(), stride, 0, 0};
+  plane.samples = {layer_samples_[layer].data(), stride, 0, 0};
+  plane.half = {layer_half_[layer].data(), stride, 0, -3};
+  const ResampleScratch& scratch = engine_->workers[0].resample;
+  const int32_t step = engine_->config.largest_block / 2;
+  for (int32_t begin = 0; begin < plane.width; begin += step) {
+    const int32_t end = std::min(begin + step, plane.width);
+    if (layer == 1) {
+      DownsamplePicture(*engine_->kernels, engine_->windows[0].centre, engine_->config.width,
+                        engine_->config.height, begin, end, scratch, &plane);
+    } else {
+      DownsampleLayer(*engine_->kernels, engine_->layers[layer - 1], begin, end, scratch, &plane);
+    }
+  }
+  engine_->windows[layer].centre = {plane.rgb.data, stride, 0, 0};
+}
+
+void BlockBench::Focus(const BlockTask& task) {
+  sf_params params;
+  sf_params_init(&params);
+  params.focus = task.focus;
+  params.aperture = task.aperture;
+  SetLens(params, engine_);
+}
+
+BlockWork BlockBench::Work(const BlockTask& task) {
+  Focus(task);
+  const Block& block = task.block;
+  const Rect& rect = block.rect;
+  Content content[2] = {};
+  std::vector<Cell> cells(size_t((rect.width + kCellSize - 1) / kCellSize));
+  const int first = rect.x / kCellSize;
+  for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
+    MeasureCells(*engine_->kernels, engine_->windows[0], engine_->scale, y / kCellSize, first,
+                 first + int(cells.size()), cells.data());
+    for (const Cell& cell : cells) AddCell(cell, &content);
+  }
+  const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
+  return MeasureWork(block.rendered, block.border, CountCells(engine_->cell_apertures[block.n]),
+                     true, upsampled, content, block.layer);
+}
+
+uint64_t BlockBench::Now() const {
+  if (counter_ != nullptr) return counter_->Count() * kPicosecondsPerInstruction;
+  return 1000 * ThreadNanoseconds();
+}
+
+uint64_t BlockBench::Time(const BlockTask& task) {
+  Focus(task);
+  const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
+  const uint64_t start = Now();
+  RefocusBlock(*engine_, task.block, out, engine_->workers);
+  return Now() - start;
+}
+
+}  // namespace starfocus

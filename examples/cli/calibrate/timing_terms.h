@@ -1,0 +1,34 @@
+// The terms of the timing model, for whoever goes through them by name.
+#ifndef STARFOCUS_EXAMPLES_CLI_CALIBRATE_TIMING_TERMS_H_
+#define STARFOCUS_EXAMPLES_CLI_CALIBRATE_TIMING_TERMS_H_
+
+#include <cstdint>
+
+#include "lib/plan/timing.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+struct TimingTerm {
+  const char* name;
+  uint32_t sf_timing::*coefficient;
+  uint64_t BlockWork::*work;  // null: one for each block
+  const char* unit;           // what the coefficient is a time of
+};
+
+inline constexpr TimingTerm kTimingTerms[] = {
+    {"block", &sf_timing::block, nullptr, "block"},
+    {"field", &sf_timing::field, &BlockWork::field, "pixel of the extended block"},
+    {"a", &sf_timing::a, &BlockWork::a, "rendered pixel of type A"},
+    {"b", &sf_timing::b, &BlockWork::b, "rendered pixel of type B"},
+    {"c", &sf_timing::c, &BlockWork::c, "rendered pixel of type C"},
+    {"upsample", &sf_timing::upsample, &BlockWork::upsample, "upsampled pixel"},
+    {"span", &sf_timing::span, &BlockWork::span, "stretch of a rendered line"},
+    {"hole", &sf_timing::hole, &BlockWork::hole, "uncovered pixel"},
+};
+inline constexpr int kTimingTermCount = sizeof(kTimingTerms) / sizeof(kTimingTerms[0]);
+static_assert(sizeof(sf_timing) == kTimingTermCount * sizeof(uint32_t), "every coefficient");
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_CALIBRATE_TIMING_TERMS_H_

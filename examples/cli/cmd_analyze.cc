@@ -1,0 +1,80 @@
+// starfocus analyze: the paper's filter analysis, and the engine's kernels beside it.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "examples/cli/analyze/figures.h"
+#include "examples/cli/commands.h"
+#include "examples/cli/options.h"
+#include "platform/gnuplot.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string folder;
+  std::string max_blur = "40";
+};
+
+std::string WriteText(const fs::path& path, const std::string& text) {
+  return WriteFile(path.string(), Bytes(text.begin(), text.end()));
+}
+
+std::string Write(const fs::path& folder, const Figure& figure, bool draw) {
+  for (const Table& table : figure.tables) {
+    const std::string error = WriteText(folder / (table.name() + ".csv"), table.Csv());
+    if (!error.empty()) return error;
+  }
+  if (!draw || figure.name.empty()) return "";
+  Bytes picture;
+  const std::string error = RunGnuplot(figure.name + ".svg", figure.Script(), &picture);
+  if (!error.empty()) return error;
+  return WriteFile((folder / (figure.name + ".svg")).string(), picture);
+}
+
+std::string Run(const Options& options) {
+  int max_blur = 0;
+  std::string error = ParseWhole("--max-blur", options.max_blur, 1, 128, &max_blur);
+  if (!error.empty()) return error;
+  if (!options.folder.empty()) {
+    std::error_code failure;
+    fs::create_directories(options.folder, failure);
+    if (failure) return Expected(options.folder, "a folder to write into", failure.message());
+  }
+  std::vector<Figure> figures = {AnalyseTableOne(), AnalyseViewNumber(), AnalyseCells(max_blur),
+                                 AnalyseEngine(&error)};
+  if (!error.empty() || options.folder.empty()) return error;
+  figures.push_back(DrawViewKernels());
+  figures.push_back(DrawViewResponses());
+  figures.push_back(DrawSubsampledBlurs());
+  const bool draw = HasGnuplot();
+  for (const Figure& figure : figures) {
+    error = Write(options.folder, figure, draw);
+    if (!error.empty()) return error;
+  }
+  std::printf("%s in %s\n", draw ? "CSV files and SVG drawings" : "CSV files",
+              options.folder.c_str());
+  if (!draw) std::printf("no drawings: gnuplot is missing (Debian: apt-get install gnuplot-nox)\n");
+  return "";
+}
+
+}  // namespace
+
+void AddAnalyzeCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "analyze",
+      "The paper's filter analysis (section III) from its definitions: Table I, Fig. 6, the rules "
+      "(9) and (12), the rule for aperture cells, and the kernels of the running engine");
+  command->add_option("-o,--output", options->folder,
+                      "Folder for CSV files and, with gnuplot, SVG drawings of Figs. 4, 5, 6, 8");
+  command->add_option(
+      "--max-blur", options->max_blur,
+      "Largest blur radius of the rule for aperture cells, 1 to 128 (default 40; 128 takes "
+      "minutes)");
+  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+}
+
+}  // namespace starfocus

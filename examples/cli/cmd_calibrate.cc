@@ -1,0 +1,155 @@
+// starfocus calibrate: the timing model's coefficients on this machine.
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "examples/cli/calibrate/scene_times.h"
+#include "examples/cli/commands.h"
+#include "examples/cli/options.h"
+#include "examples/cli/timing_file.h"
+#include "examples/scene/render.h"
+#include "platform/file.h"
+#include "platform/instruction_counter.h"
+#include "platform/runner.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int kWidth = 1024, kHeight = 768, kViews = 9;  // of the scenes made here
+constexpr int kRepetitions = 5;                          // of times; a count repeats exactly
+constexpr double kLowestAgreement = 0.98;
+
+struct Options {
+  std::string out, folder, check, counter;
+};
+
+std::string Trace(const std::string& name, SceneTimes* times) {
+  ThreadRunner runner(HardwareWorkers());
+  Scene scene;
+  MakeScene(name, &scene);
+  const Renderer renderer(scene, kWidth, kHeight, &runner);
+  LightField light_field;
+  {
+    Progress progress("rendering " + name, int64_t{kHeight} * kViews);
+    for (int i = 0; i < kViews; ++i) {
+      double u = 0, v = 0;
+      sf_view_position(i, &u, &v);
+      light_field.views.push_back(renderer.View(u, v, &progress));
+    }
+  }
+  light_field.disparity = renderer.Disparity();
+  return times->Open(name, std::move(light_field));
+}
+
+std::string Load(const std::string& folder, SceneTimes* times) {
+  LightField light_field;
+  const std::string error = LoadLightField(folder, 0, &light_field);
+  return error.empty() ? times->Open(folder, std::move(light_field)) : error;
+}
+
+using Scenes = std::vector<std::unique_ptr<SceneTimes>>;
+
+// The scene to fit first, then those to check.
+std::string OpenScenes(const Options& options, Scenes* scenes) {
+  const auto add = [&](const std::string& folder, const std::string& name) {
+    scenes->push_back(std::make_unique<SceneTimes>());
+    return folder.empty() ? Trace(name, scenes->back().get()) : Load(folder, scenes->back().get());
+  };
+  std::string error = add(options.folder, "portrait");
+  if (!error.empty()) return error;
+  if (!options.check.empty()) return add(options.check, "");
+  for (const char* name : {"wires", "ramp"}) {
+    if (error.empty()) error = add("", name);
+  }
+  return error;
+}
+
+// In turns, so that a slow spell of the machine meets all scenes and sizes alike.
+void Measure(const Scenes& scenes, const InstructionCounter* counter) {
+  int64_t blocks = 0;
+  for (const auto& scene : scenes) {
+    scene->CountWith(counter);
+    blocks += scene->blocks();
+  }
+  const int repetitions = counter != nullptr ? 1 : kRepetitions;
+  Progress progress("measuring", blocks * repetitions);
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    for (const auto& scene : scenes) scene->Measure(&progress);
+  }
+}
+
+void PrintCoefficients(const sf_timing& timing) {
+  std::printf("coefficients on %s, picoseconds:\n", sf_simd_target());
+  for (const TimingTerm& term : kTimingTerms) {
+    std::printf("%10s %9u per %s\n", term.name, unsigned{timing.*term.coefficient}, term.unit);
+  }
+}
+
+// Prints how well the model predicts the scene, and returns the same as JSON.
+nlohmann::ordered_json Judge(const char* role, const SceneTimes& scene, const sf_timing& timing) {
+  const Agreement configurations = Compare(timing, scene.Configurations());
+  const Agreement blocks = Compare(timing, scene.Blocks());
+  std::printf("R2 %.4f (weighted %.4f; single blocks %.4f), %s: %s, %lld blocks\n",
+              configurations.plain, configurations.weighted, blocks.plain, role,
+              scene.name().c_str(), static_cast<long long>(scene.blocks()));
+  if (configurations.plain < kLowestAgreement) {
+    std::printf("below %g: calibrate again while the machine has nothing else to do\n",
+                kLowestAgreement);
+  }
+  nlohmann::ordered_json json;
+  json["scene"] = scene.name();
+  json["blocks"] = scene.blocks();
+  json["r2"] = configurations.plain;
+  json["r2_weighted"] = configurations.weighted;
+  json["r2_single_blocks"] = blocks.plain;
+  return json;
+}
+
+std::string Calibrate(const Options& options) {
+  Scenes scenes;
+  InstructionCounter counter;
+  const bool counts = !options.counter.empty();
+  std::string error = options.out.empty() ? "" : CheckOutputPath(options.out);
+  if (error.empty() && counts) error = counter.Open(options.counter);
+  if (error.empty()) error = OpenScenes(options, &scenes);
+  if (!error.empty()) return error;
+  Measure(scenes, counts ? &counter : nullptr);
+  const sf_timing timing = FitTiming(scenes[0]->Configurations());
+  PrintCoefficients(timing);
+  nlohmann::ordered_json json;
+  json["simd_target"] = sf_simd_target();
+  json["measured"] =
+      counts ? "instructions, taken as " + std::to_string(kPicosecondsPerInstruction) + " ps each"
+             : "processor time";
+  json["timing"] = TimingJson(timing);
+  json["fit"] = Judge("fit", *scenes[0], timing);
+  json["checks"] = nlohmann::ordered_json::array();
+  for (size_t i = 1; i < scenes.size(); ++i) {
+    json["checks"].push_back(Judge("check", *scenes[i], timing));
+  }
+  if (options.out.empty()) return "";
+  const std::string text =
+      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return WriteFile(options.out, Bytes(text.begin(), text.end()));
+}
+
+}  // namespace
+
+void AddCalibrateCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "calibrate", "Measure this machine for the timing model behind block mode's partition");
+  command->add_option("-o,--output", options->out, "JSON file to write, for refocus --timing");
+  command->add_option("--light-field", options->folder,
+                      "Folder to fit the model to; default: the scene portrait");
+  command->add_option("--check", options->check,
+                      "Folder to check the model on; default: the scenes wires and ramp");
+  command->add_option(
+      "--counter", options->counter,
+      "On a board emulated by QEMU with tests/board/count_instructions.c, the file it "
+      "counts instructions in: they are measured instead of time");
+  command->callback([options, action] { *action = [options] { return Calibrate(*options); }; });
+}
+
+}  // namespace starfocus

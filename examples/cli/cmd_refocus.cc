@@ -1,0 +1,204 @@
+// starfocus refocus: the picture of a lens focused elsewhere, or a row of them.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "examples/cli/commands.h"
+#include "examples/cli/engine_run.h"
+#include "examples/cli/options.h"
+#include "examples/cli/outputs.h"
+#include "examples/cli/partition_map.h"
+#include "examples/cli/refocus_plan.h"
+#include "examples/cli/refocus_report.h"
+#include "platform/clock.h"
+#include "platform/image_io.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int kMostPictures = 1000;  // of a sweep: three digits
+
+struct Options {
+  std::string folder, out, report, map, region, sweep;
+  LensOptions lens;
+  bool stream = false;
+};
+
+struct Loaded {
+  LightField light_field;
+  sf_disparity_stats stats = {};
+  double max_blur = 0;
+};
+
+// The picture of a sweep: "out.png" becomes "out_007.png".
+std::string Numbered(const std::string& path, size_t index) {
+  const std::filesystem::path name(path);
+  char number[16];
+  std::snprintf(number, sizeof(number), "_%03d", static_cast<int>(index));
+  return (name.parent_path() / (name.stem().string() + number + name.extension().string()))
+      .string();
+}
+
+std::string CheckOutputs(const Options& options, const LensPlan& plan) {
+  std::vector<Output> outputs;
+  if (options.sweep.empty()) outputs.push_back({"--output", options.out});
+  for (size_t i = 0; i < plan.foci.size() && !options.sweep.empty(); ++i) {
+    outputs.push_back({"--output", Numbered(options.out, i)});
+  }
+  if (!options.map.empty()) outputs.push_back({"--map", options.map});
+  std::string error = CheckImageOutput(options.out);
+  for (size_t i = 0; i < outputs.size() && error.empty(); ++i) {
+    error = CheckImageOutput(outputs[i].path);
+  }
+  if (!options.report.empty()) {
+    if (error.empty()) error = CheckOutputPath(options.report);
+    outputs.push_back({"--report", options.report});
+  }
+  return error.empty() ? CheckApart(outputs, {options.folder}) : error;
+}
+
+// D0:D1:N.
+std::string ParseSweep(const std::string& text, std::vector<double>* foci) {
+  const size_t first = text.find(':'), second = text.find(':', first + 1);
+  double from = 0, to = 0;
+  int count = 0;
+  if (first == std::string::npos || second == std::string::npos ||
+      !ParseNumber("", text.substr(0, first), &from).empty() ||
+      !ParseNumber("", text.substr(first + 1, second - first - 1), &to).empty() ||
+      !ParseWhole("", text.substr(second + 1), 2, kMostPictures, &count).empty()) {
+    return Expected(
+        "--sweep",
+        "D0:D1:N, two disparities and 2 to " + std::to_string(kMostPictures) + " pictures",
+        "'" + text.substr(0, 60) + "'");
+  }
+  for (int i = 0; i < count; ++i) foci->push_back(from + (to - from) * i / (count - 1));
+  return "";
+}
+
+std::string PlanFoci(const Options& options, LensPlan* plan) {
+  if (options.sweep.empty()) return PlanFocus(options.lens, plan);
+  const bool focus = !options.lens.focus.empty(), pixel = !options.lens.focus_at.empty();
+  if (focus || pixel || options.stream || !options.map.empty()) {
+    return Expected("--sweep", "no other focus, no --stream and no --map",
+                    focus            ? "--focus"
+                    : pixel          ? "--focus-at"
+                    : options.stream ? "--stream"
+                                     : "--map");
+  }
+  plan->focus_option = "--sweep";
+  return ParseSweep(options.sweep, &plan->foci);
+}
+
+std::string PlanRegion(const Options& options, LensPlan* plan) {
+  if (options.region.empty()) return "";
+  if (options.stream) return Expected("--region", "whole pictures in memory", "--stream");
+  return ParseRegion("--region", options.region, &plan->region);
+}
+
+// Everything that can be refused before a file is read.
+std::string MakePlan(const Options& options, LensPlan* plan) {
+  std::string error = PlanFoci(options, plan);
+  if (error.empty()) error = CheckOutputs(options, *plan);
+  if (error.empty()) error = PlanRegion(options, plan);
+  return error.empty() ? PlanLens(options.lens, plan) : error;
+}
+
+std::string CheckRegion(const FloatMap& map, const Options& options, const sf_region& region) {
+  if (region.x + region.width <= map.width && region.y + region.height <= map.height) return "";
+  return Expected(
+      "--region",
+      "pixels of the picture, " + std::to_string(map.width) + "x" + std::to_string(map.height),
+      options.region);
+}
+
+std::string Load(const Options& options, LensPlan* plan, Loaded* loaded) {
+  FloatMap* map = &loaded->light_field.disparity;
+  std::string error = LoadViews(options.folder, plan->views, &loaded->light_field);
+  if (error.empty()) {
+    error = PrepareDisparity(options.folder, options.lens.fill_invalid, map, &loaded->stats);
+  }
+  if (error.empty()) error = ChooseFocus(*map, plan);
+  if (error.empty()) error = CheckRegion(*map, options, plan->region);
+  return error.empty() ? ChooseBlur(*plan, loaded->stats, &loaded->max_blur) : error;
+}
+
+std::string WriteReport(const Options& options, const std::string& text) {
+  return WriteFile(options.report, Bytes(text.begin(), text.end()));
+}
+
+std::string RunOne(const Options& options, const EngineTask& one, double start) {
+  EngineTask task = one;
+  std::vector<sf_block> blocks;
+  if (!options.map.empty()) {
+    task.params.on_block = CollectBlock;
+    task.params.on_block_data = &blocks;
+  }
+  task.stream = options.stream;
+  EngineRun run(task.threads, 1);
+  EngineResult result;
+  std::string error = run.Start(options.folder, task);
+  if (error.empty()) error = run.Refocus(options.folder, task, &result);
+  if (error.empty()) error = WriteImage(options.out, result.picture);
+  if (error.empty() && !options.map.empty()) {
+    const sf_region& region = task.params.region;
+    error = WriteImage(options.map, DrawPartition(result.picture, region.x, region.y, blocks));
+  }
+  if (!error.empty() || options.report.empty()) return error;
+  return WriteReport(options, ReportText(task, result, Seconds() - start));
+}
+
+std::string RunSweep(const Options& options, const std::vector<double>& foci, EngineTask task,
+                     double start) {
+  EngineRun run(task.threads, static_cast<int>(foci.size()));
+  SeriesReport report;
+  std::string error = run.Start(options.folder, task);
+  if (error.empty()) error = run.Prepare(options.folder, task);
+  for (size_t i = 0; i < foci.size() && error.empty(); ++i) {
+    task.params.focus = foci[i];
+    const std::string out = Numbered(options.out, i);
+    EngineResult result;
+    error = run.Refocus(options.folder, task, &result);
+    if (error.empty()) error = WriteImage(out, result.picture);
+    report.Add(out, task, result);
+  }
+  if (!error.empty() || options.report.empty()) return error;
+  return WriteReport(options, report.Text(Seconds() - start));
+}
+
+std::string Run(const Options& options) {
+  const double start = Seconds();
+  LensPlan plan;
+  Loaded loaded;
+  std::string error = MakePlan(options, &plan);
+  if (error.empty()) error = Load(options, &plan, &loaded);
+  if (!error.empty()) return error;
+  const EngineTask task =
+      MakeTask(plan, loaded.light_field, loaded.stats, loaded.max_blur, !options.report.empty());
+  return options.sweep.empty() ? RunOne(options, task, start)
+                               : RunSweep(options, plan.foci, task, start);
+}
+
+}  // namespace
+
+void AddRefocusCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app->add_subcommand("refocus", "The picture a lens focused at a disparity would have taken");
+  command->add_option("DIR", options->folder, "Light-field folder")->required();
+  command->add_option("-o,--output", options->out, "Picture to write: .png, .ppm or .jpg")
+      ->required();
+  AddLensOptions(command, &options->lens);
+  command->add_option("--sweep", options->sweep,
+                      "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
+                      "out_001.png, ...");
+  command->add_option("--region", options->region,
+                      "X,Y,W,H: only that part of the picture, at its share of the time");
+  command->add_flag("--stream", options->stream, "Row by row instead of whole pictures");
+  command->add_option("--map", options->map,
+                      "Picture to write: the blocks, red for L = 0, green for 1, blue for 2");
+  command->add_option("--report", options->report, "JSON file for figures of the run");
+  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+}
+
+}  // namespace starfocus

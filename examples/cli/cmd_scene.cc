@@ -1,0 +1,162 @@
+// starfocus scene: a ray-traced light field with exact disparity and ground truth.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "examples/cli/commands.h"
+#include "examples/cli/options.h"
+#include "examples/scene/render.h"
+#include "platform/image_io.h"
+#include "platform/light_field.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int64_t kMostPixels = int64_t{1} << 25;  // all views are held in memory
+
+struct Options {
+  std::string folder, name = "portrait", size = "1024x768", views = "17", threads;
+  std::vector<std::string> truths;
+};
+
+struct Truth {
+  double focus, aperture;
+};
+
+struct Plan {
+  Scene scene;
+  int width = 0, height = 0, views = 0, threads = 0;
+  std::vector<Truth> truths;
+};
+
+std::string ParseTruth(const std::string& text, Truth* truth) {
+  const size_t comma = text.find(',');
+  if (comma == std::string::npos) {
+    return Expected("--truth", "D,U: disparity in focus and aperture", "'" + text + "'");
+  }
+  const std::string error = ParseNumber("--truth", text.substr(0, comma), &truth->focus);
+  if (!error.empty()) return error;
+  if (truth->focus < -SF_MAX_DISPARITY || truth->focus > SF_MAX_DISPARITY) {
+    return Expected("--truth", "a disparity within +-500", "'" + text + "'");
+  }
+  return ParseAperture("--truth", text.substr(comma + 1), &truth->aperture);
+}
+
+std::string MakePlan(const Options& options, Plan* plan) {
+  if (!MakeScene(options.name, &plan->scene)) {
+    return Expected("--name", "portrait, wires or ramp", "'" + options.name + "'");
+  }
+  std::string error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
+  if (!error.empty()) return error;
+  if (plan->width < 1 || plan->height < 1 || int64_t(plan->width) * plan->height > kMostPixels) {
+    return Expected("--size", "WxH from 1x1 to " + std::to_string(kMostPixels) + " pixels",
+                    "'" + options.size + "'");
+  }
+  error = ParseViews("--views", options.views, &plan->views);
+  if (!error.empty()) return error;
+  plan->threads = HardwareWorkers();
+  if (!options.threads.empty()) {
+    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
+    if (!error.empty()) return error;
+  }
+  for (const std::string& text : options.truths) {
+    plan->truths.emplace_back();
+    error = ParseTruth(text, &plan->truths.back());
+    if (!error.empty()) return error;
+  }
+  return "";
+}
+
+// Views of an earlier, larger set or in another format would mix with the new ones.
+std::string CheckFolder(const std::string& folder, int views) {
+  std::error_code failure;
+  if (fs::exists(folder, failure) && !fs::is_directory(folder, failure)) {
+    return Expected(folder, "a folder or nothing", "a file");
+  }
+  for (int i = 0; i < SF_MAX_VIEWS; ++i) {
+    for (const char* extension : {".png", ".ppm", ".jpg"}) {
+      const fs::path path = fs::path(folder) / (ViewName(i) + extension);
+      const bool replaced = i < views && std::string(extension) == ".png";
+      if (!replaced && fs::exists(path, failure)) {
+        return Expected(path.string(), "no view left from another light field", "one");
+      }
+    }
+  }
+  return "";
+}
+
+std::string MetaText(const Plan& plan, const Renderer& renderer, const FloatMap& disparity) {
+  std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
+  text += "size: " + std::to_string(plan.width) + "x" + std::to_string(plan.height) + "\n";
+  text += "views: " + std::to_string(plan.views) + "\n";
+  for (const NamedPoint& point : plan.scene.points) {
+    int x, y;
+    renderer.ToPixel(point.x, point.y, &x, &y);
+    text += std::string(point.name) + ": " + std::to_string(x) + "," + std::to_string(y) +
+            " disparity " + Short(disparity.at(x, y)) + "\n";
+  }
+  text +=
+      "made by: starfocus scene; disparity.pfm is exact at pixel centres, in pixels per unit u\n"
+      "convention: centre pixel (x, y) appears in view (u, v) at (x - u*d, y - v*d)\n"
+      "truth_dt<D>_ut<U>.png: thin-lens ground truth, aperture density (3) with theta 0.26 pi\n";
+  return text;
+}
+
+std::string Run(const Options& options) {
+  Plan plan;
+  std::string error = MakePlan(options, &plan);
+  if (error.empty()) error = CheckFolder(options.folder, plan.views);
+  if (!error.empty()) return error;
+  ThreadRunner runner(plan.threads);
+  const Renderer renderer(plan.scene, plan.width, plan.height, &runner);
+  LightField light_field;
+  std::vector<Image> truths;
+  {
+    const int64_t pictures = plan.views + Renderer::kTruthCost * int64_t(plan.truths.size());
+    Progress progress("rendering", plan.height * pictures);
+    for (int i = 0; i < plan.views; ++i) {
+      double u = 0, v = 0;
+      sf_view_position(i, &u, &v);
+      light_field.views.push_back(renderer.View(u, v, &progress));
+    }
+    light_field.disparity = renderer.Disparity();
+    for (const Truth& truth : plan.truths) {
+      truths.push_back(renderer.Truth(truth.focus, truth.aperture, &progress));
+    }
+  }
+  error = SaveLightField(options.folder, light_field, &runner);
+  for (size_t i = 0; i < truths.size() && error.empty(); ++i) {
+    const std::string name =
+        "truth_dt" + Short(plan.truths[i].focus) + "_ut" + Short(plan.truths[i].aperture) + ".png";
+    error = WriteImage((fs::path(options.folder) / name).string(), truths[i]);
+  }
+  if (!error.empty()) return error;
+  const std::string meta = MetaText(plan, renderer, light_field.disparity);
+  return WriteFile((fs::path(options.folder) / "meta.txt").string(),
+                   Bytes(meta.begin(), meta.end()));
+}
+
+}  // namespace
+
+void AddSceneCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app->add_subcommand("scene", "Ray-trace a light field with exact disparity into a folder");
+  command->add_option("DIR", options->folder, "Folder to write")->required();
+  command->add_option("--name", options->name, "portrait, wires or ramp")->capture_default_str();
+  command->add_option("--size", options->size, "Width and height, WxH")->capture_default_str();
+  command->add_option("--views", options->views, "17, 9, 5 or 1")->capture_default_str();
+  command
+      ->add_option("--truth", options->truths,
+                   "D,U: also the picture of a lens of aperture U focused at disparity D; "
+                   "may be repeated")
+      ->type_name("D,U ...");
+  command->add_option("--threads", options->threads, "1 to 64; default: all of the machine");
+  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+}
+
+}  // namespace starfocus

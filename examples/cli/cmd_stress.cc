@@ -1,0 +1,104 @@
+// starfocus stress: tries to break the engine.
+#include <cinttypes>
+#include <cstdio>
+#include <memory>
+
+#include "examples/cli/commands.h"
+#include "examples/cli/options.h"
+#include "platform/file.h"
+#include "tests/stress/setup.h"
+#include "tests/stress/stress.h"
+
+namespace starfocus {
+namespace {
+
+struct Options {
+  std::string seconds = "10", seed = "1", family, number;
+};
+
+std::string Names() {
+  std::string names;
+  for (const stress::Family& family : stress::Families()) {
+    names += (names.empty() ? "" : ", ") + std::string(family.name);
+  }
+  return names;
+}
+
+const stress::Family* Find(const std::string& name) {
+  for (const stress::Family& family : stress::Families()) {
+    if (family.name == name) return &family;
+  }
+  return nullptr;
+}
+
+std::string ParseCount(const std::string& option, const std::string& text, uint64_t* value) {
+  *value = 0;
+  if (text.empty() || text.size() > 19 || text.find_first_not_of("0123456789") < text.size()) {
+    return Expected(option, "a whole number", text);
+  }
+  for (const char digit : text) *value = *value * 10 + static_cast<uint64_t>(digit - '0');
+  return "";
+}
+
+std::string RepeatCase(const stress::Family& family, const std::string& text) {
+  uint64_t number = 0;
+  const std::string error = ParseCount("--case", text, &number);
+  if (!error.empty()) return error;
+  const stress::Outcome outcome = stress::RunCase(family, number);
+  if (!outcome.failure.empty()) return outcome.failure;
+  std::printf("%s %" PRIu64 ": %g %s\n", family.name, number, outcome.error, family.measures);
+  return "";
+}
+
+void Print(const stress::Report& report) {
+  std::printf("%-11s %8s  %-13s %s\n", "family", "cases", "largest error", "");
+  for (const stress::FamilyReport& part : report.families) {
+    std::printf("%-11s %8" PRIu64 "  %-13.4g %s", part.family->name, part.cases, part.largest,
+                part.family->measures);
+    if (part.largest > 0) std::printf(" (case %" PRIu64 ")", part.largest_case);
+    std::printf("\n");
+  }
+  std::printf("%" PRIu64 " cases in %.1f s (%.0f a minute) on", report.cases, report.seconds,
+              static_cast<double>(report.cases) / report.seconds * 60);
+  for (const simd::Kernels* kernels : stress::AllKernels()) std::printf(" %s", kernels->name);
+  std::printf("\n");
+}
+
+std::string Run(const Options& options) {
+  stress::Options wanted;
+  const stress::Family* family = Find(options.family);
+  if (family == nullptr && !(options.family.empty() && options.number.empty())) {
+    return Expected("--family", "one of " + Names(),
+                    options.family.empty() ? "none" : options.family);
+  }
+  if (!options.number.empty()) return RepeatCase(*family, options.number);
+  std::string error = ParseNumber("--seconds", options.seconds, &wanted.seconds);
+  uint64_t seed = 0;
+  if (error.empty()) error = ParseCount("--seed", options.seed, &seed);
+  if (!error.empty()) return error;
+  wanted.seed = seed;
+  wanted.family = options.family;
+  const stress::Report report = stress::RunStress(wanted, [](const std::string& line) {
+    std::printf("FAILED: %s\n", line.c_str());
+    std::fflush(stdout);
+  });
+  Print(report);
+  if (report.failures == 0) return "";
+  return Expected("stress", "no failure", std::to_string(report.failures));
+}
+
+}  // namespace
+
+void AddStressCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "stress", "Try to break the engine with random refocusings whose result is known or bounded");
+  command->add_option("--seconds", options->seconds, "How long to try")->capture_default_str();
+  command->add_option("--seed", options->seed, "Which cases to try: others with every seed")
+      ->capture_default_str();
+  command->add_option("--family", options->family, "Only this family: " + Names());
+  command->add_option("--case", options->number, "Repeat one case of --family");
+  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+}
+
+}  // namespace starfocus

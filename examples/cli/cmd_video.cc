@@ -1,0 +1,202 @@
+// starfocus video: light field after light field, refocusing what changed.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "examples/cli/commands.h"
+#include "examples/cli/engine_run.h"
+#include "examples/cli/outputs.h"
+#include "examples/cli/refocus_plan.h"
+#include "examples/cli/refocus_report.h"
+#include "platform/clock.h"
+#include "platform/image_io.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMostFrames = 10000;  // four digits
+
+struct Options {
+  std::vector<std::string> folders;
+  std::string out, report;
+  LensOptions lens;
+};
+
+// The frames and what is the same for all of them.
+struct Video {
+  std::vector<std::string> folders;
+  int width = 0, height = 0, views = 0;
+  sf_disparity_stats stats = {};  // of all frames
+  double max_blur = 0;
+};
+
+std::string FramePath(const std::string& folder, size_t index) {
+  char name[32];
+  std::snprintf(name, sizeof(name), "frame_%04d.png", static_cast<int>(index));
+  return (fs::path(folder) / name).string();
+}
+
+// The folders given, or those in the only one when it is no light field itself, but for hidden ones
+// and that of the output.
+std::string FindFrames(const Options& options, Video* video) {
+  std::vector<std::string>& folders = video->folders;
+  folders = options.folders;
+  std::error_code error;
+  const std::string& only = folders[0];
+  if (folders.size() == 1 && fs::is_directory(only, error) &&
+      !fs::exists(DisparityPath(only), error)) {
+    folders.clear();
+    for (const auto& entry : fs::directory_iterator(only, error)) {
+      const bool hidden = entry.path().filename().string()[0] == '.';
+      const bool own = fs::equivalent(entry.path(), options.out, error);  // of an earlier run
+      if (entry.is_directory(error) && !hidden && !own) folders.push_back(entry.path().string());
+    }
+    std::sort(folders.begin(), folders.end());
+    if (folders.empty()) return Expected(options.folders[0], "light-field folders", "none");
+  }
+  if (folders.size() <= kMostFrames) return "";
+  return Expected("DIR", "at most " + std::to_string(kMostFrames) + " frames",
+                  std::to_string(folders.size()));
+}
+
+std::string CheckOutputs(const Options& options, const Video& video) {
+  std::error_code failure;
+  std::string error;
+  if (options.out.empty()) return Expected("--output", "a folder", "an empty name");
+  if (fs::is_directory(options.out, failure)) {
+    for (size_t i = 0; i < video.folders.size() && error.empty(); ++i) {
+      error = CheckImageOutput(FramePath(options.out, i));
+    }
+  } else if (fs::exists(options.out, failure)) {
+    return Expected(options.out, "a folder", "a file");
+  } else {
+    error = CheckOutputPath(options.out);
+  }
+  if (!error.empty()) return error;
+  std::vector<Output> outputs = {{"--output", options.out}};
+  for (size_t i = 0; i < video.folders.size(); ++i) {
+    outputs.push_back({"--output", FramePath(options.out, i)});
+  }
+  if (!options.report.empty()) {
+    error = CheckOutputPath(options.report);
+    outputs.push_back({"--report", options.report});
+  }
+  return error.empty() ? CheckApart(outputs, video.folders) : error;
+}
+
+std::string CheckSize(const std::string& folder, const FloatMap& map, const Video& video) {
+  if (map.width == video.width && map.height == video.height) return "";
+  return Expected(folder,
+                  std::to_string(video.width) + "x" + std::to_string(video.height) +
+                      " pixels as the first frame",
+                  std::to_string(map.width) + "x" + std::to_string(map.height));
+}
+
+// Looks at all frames: their views and disparities.
+std::string Scan(const Options& options, LensPlan* plan, Video* video) {
+  std::string error = CountViews(video->folders[0], &video->views);
+  if (error.empty() && plan->views != 0) video->views = plan->views;
+  for (size_t i = 0; i < video->folders.size() && error.empty(); ++i) {
+    const std::string& folder = video->folders[i];
+    int views = 0;
+    FloatMap map;
+    sf_disparity_stats stats = {};
+    error = CountViews(folder, &views);
+    if (error.empty() && views < video->views) {
+      return Expected(folder, std::to_string(video->views) + " views", std::to_string(views));
+    }
+    if (error.empty()) error = ReadPfm(DisparityPath(folder), &map);
+    if (!error.empty()) return error;
+    if (i == 0) video->width = map.width, video->height = map.height;
+    error = CheckSize(folder, map, *video);
+    if (error.empty()) error = PrepareDisparity(folder, options.lens.fill_invalid, &map, &stats);
+    if (i == 0 && error.empty()) error = ChooseFocus(map, plan);
+    video->stats.min = i == 0 ? stats.min : std::min(video->stats.min, stats.min);
+    video->stats.max = i == 0 ? stats.max : std::max(video->stats.max, stats.max);
+  }
+  return error.empty() ? ChooseBlur(*plan, video->stats, &video->max_blur) : error;
+}
+
+std::string LoadFrame(const Options& options, const Video& video, size_t index,
+                      LightField* light_field) {
+  const std::string& folder = video.folders[index];
+  sf_disparity_stats stats;
+  std::string error = LoadLightField(folder, video.views, light_field);
+  if (error.empty()) error = CheckSize(folder, light_field->disparity, video);
+  if (!error.empty()) return error;
+  return PrepareDisparity(folder, options.lens.fill_invalid, &light_field->disparity, &stats);
+}
+
+std::string RefocusFrames(const Options& options, const LensPlan& plan, const Video& video,
+                          SeriesReport* report) {
+  EngineRun run(plan.threads, static_cast<int>(video.folders.size()));
+  LightField now, before;
+  Image picture;
+  for (size_t i = 0; i < video.folders.size(); ++i) {
+    const std::string &folder = video.folders[i], out = FramePath(options.out, i);
+    std::swap(now, before);
+    std::string error = LoadFrame(options, video, i, &now);
+    if (!error.empty()) return error;
+    const EngineTask task = MakeTask(plan, now, video.stats, video.max_blur, true);
+    EngineResult result;
+    if (i == 0) error = run.Start(folder, task);
+    if (error.empty()) {
+      error = i == 0 ? run.Refocus(folder, task, &result)
+                     : run.RefocusAfter(folder, task, before, picture, &result);
+    }
+    if (error.empty()) error = WriteImage(out, result.picture);
+    if (!error.empty()) return error;
+    report->Add(out, task, result);
+    picture = std::move(result.picture);
+  }
+  return "";
+}
+
+std::string Run(const Options& options) {
+  const double start = Seconds();
+  LensPlan plan;
+  Video video;
+  std::string error = PlanFocus(options.lens, &plan);
+  if (error.empty()) error = PlanLens(options.lens, &plan);
+  if (error.empty()) error = FindFrames(options, &video);
+  if (error.empty()) error = CheckOutputs(options, video);
+  if (error.empty()) error = Scan(options, &plan, &video);
+  if (!error.empty()) return error;
+  std::error_code failure;
+  fs::create_directory(options.out, failure);
+  if (failure) return Expected(options.out, "a folder that can be made", failure.message());
+  SeriesReport report;
+  error = RefocusFrames(options, plan, video, &report);
+  if (!error.empty() || options.report.empty()) return error;
+  const std::string text = report.Text(Seconds() - start);
+  return WriteFile(options.report, Bytes(text.begin(), text.end()));
+}
+
+}  // namespace
+
+void AddVideoCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "video",
+      "Refocuses frame after frame; blocks that depend on nothing that changed are copied");
+  command
+      ->add_option("DIR", options->folders,
+                   "Light-field folders of one size, or the folder of such folders by name")
+      ->required();
+  command->add_option("-o,--output", options->out, "Folder for frame_0000.png, frame_0001.png, ...")
+      ->required();
+  AddLensOptions(command, &options->lens);
+  command->add_option("--report", options->report,
+                      "JSON file for figures of every frame, reused blocks among them");
+  command->footer(
+      "--focus-at means the first frame. The frame modes choose N for the disparities of all "
+      "frames.");
+  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+}
+
+}  // namespace starfocus

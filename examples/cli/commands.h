@@ -1,0 +1,26 @@
+// The subcommands of `starfocus`. Each adds itself to the command line and, when chosen, sets
+// `action`; an action returns an error line, empty for success.
+#ifndef STARFOCUS_EXAMPLES_CLI_COMMANDS_H_
+#define STARFOCUS_EXAMPLES_CLI_COMMANDS_H_
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+namespace starfocus {
+
+using Action = std::function<std::string()>;
+
+void AddSceneCommand(CLI::App* app, Action* action);
+void AddRefocusCommand(CLI::App* app, Action* action);
+void AddVideoCommand(CLI::App* app, Action* action);
+void AddCalibrateCommand(CLI::App* app, Action* action);
+void AddCompareCommand(CLI::App* app, Action* action);
+void AddInfoCommand(CLI::App* app, Action* action);
+void AddSheetCommand(CLI::App* app, Action* action);
+void AddStressCommand(CLI::App* app, Action* action);
+void AddAnalyzeCommand(CLI::App* app, Action* action);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_COMMANDS_H_

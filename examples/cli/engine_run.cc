@@ -1,0 +1,136 @@
+#include "examples/cli/engine_run.h"
+
+#include <algorithm>
+#include <new>
+
+#include "platform/clock.h"
+#include "platform/file.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int kStreamRows = 8;  // pushed and pulled at a time
+
+// The light field from row `first` on.
+sf_light_field Rows(const LightField& light_field, int first) {
+  sf_light_field rows = {};
+  for (size_t i = 0; i < light_field.views.size(); ++i) {
+    const Image& view = light_field.views[i];
+    rows.views[i] = {view.row(first), view.stride()};
+  }
+  const FloatMap& map = light_field.disparity;
+  rows.disparity = map.values.data() + size_t(first) * size_t(map.width);
+  rows.disparity_stride = sizeof(float) * size_t(map.width);
+  return rows;
+}
+
+std::string Outcome(const std::string& where, sf_status status) {
+  if (status == SF_OK) return "";
+  return Expected(where, "a light field that the engine refocuses", sf_status_string(status));
+}
+
+}  // namespace
+
+void FreeAligned::operator()(void* memory) const {
+  ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
+}
+
+sf_status MakeEngine(const sf_config& config, Workspace* workspace, size_t* bytes,
+                     sf_engine** engine) {
+  const sf_status status = sf_workspace_size(&config, bytes);
+  if (status != SF_OK) return status;
+  workspace->reset(::operator new (*bytes, std::align_val_t{SF_ALIGNMENT}));
+  return sf_init(&config, workspace->get(), *bytes, engine);
+}
+
+int EngineRun::ShownRunner::Run(void* data, sf_job job, void* job_data, int32_t count) {
+  ShownRunner* self = static_cast<ShownRunner*>(data);
+  const int status = ThreadRunner::Run(&self->pool, job, job_data, count);
+  if (self->batches) self->progress.Step();
+  return status;
+}
+
+EngineRun::EngineRun(int threads, int pictures)
+    : runner_{ThreadRunner(threads), Progress("refocusing", pictures > 1 ? pictures : 0),
+              pictures == 1} {}
+
+std::string EngineRun::Start(const std::string& where, const EngineTask& task) {
+  sf_config config = task.config;
+  config.max_workers = task.threads;
+  config.streaming = task.stream ? 1 : 0;
+  return Outcome(where, MakeEngine(config, &workspace_, &workspace_bytes_, &engine_));
+}
+
+std::string EngineRun::Prepare(const std::string& where, const EngineTask& task) {
+  sf_status status = sf_prepared_size(&task.config, &prepared_bytes_);
+  if (status != SF_OK) return Outcome(where, status);
+  prepared_memory_.reset(::operator new (prepared_bytes_, std::align_val_t{SF_ALIGNMENT}));
+  const sf_light_field rows = Rows(*task.light_field, 0);
+  status = sf_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, ShownRunner::Run,
+                      &runner_, &prepared_);
+  return Outcome(where, status);
+}
+
+std::string EngineRun::Refocus(const std::string& where, const EngineTask& task,
+                               EngineResult* result) {
+  return Run(where, task, nullptr, result);
+}
+
+std::string EngineRun::RefocusAfter(const std::string& where, const EngineTask& task,
+                                    const LightField& before, const Image& picture,
+                                    EngineResult* result) {
+  const sf_previous previous = {Rows(before, 0), picture.pixels.data(), picture.stride()};
+  return Run(where, task, &previous, result);
+}
+
+sf_status EngineRun::RunStream(const EngineTask& task, EngineResult* result) {
+  Image* out = &result->picture;
+  sf_status status = sf_stream_begin(engine_, &task.params);
+  int pushed = 0, pulled = 0;
+  while (status == SF_OK && pulled < out->height) {
+    int32_t consumed = 0, written = 0;
+    if (pushed < out->height) {
+      const sf_light_field rows = Rows(*task.light_field, pushed);
+      status =
+          sf_stream_push(engine_, &rows, std::min(kStreamRows, out->height - pushed), &consumed);
+      pushed += consumed;
+    }
+    if (status != SF_OK) break;
+    status = sf_stream_pull(engine_, out->row(pulled), out->stride(),
+                            std::min(kStreamRows, out->height - pulled), ShownRunner::Run, &runner_,
+                            &written, &result->report);
+    pulled += written;
+    if (status == SF_OK && consumed == 0 && written == 0) return SF_ERROR_STATE;
+  }
+  return status;
+}
+
+std::string EngineRun::Run(const std::string& where, const EngineTask& task,
+                           const sf_previous* previous, EngineResult* result) {
+  const sf_region& region = task.params.region;
+  Image& out = result->picture;
+  out = region.width > 0 ? Image(region.width, region.height)
+                         : Image(task.config.width, task.config.height);
+  result->workspace_bytes = workspace_bytes_;
+  result->prepared_bytes = prepared_bytes_;
+  const sf_light_field rows = Rows(*task.light_field, 0);
+  const double start = Seconds();
+  sf_status status = SF_OK;
+  if (task.stream) {
+    status = RunStream(task, result);
+  } else if (previous != nullptr) {
+    status = sf_refocus_after(engine_, &task.params, &rows, previous, out.pixels.data(),
+                              out.stride(), ShownRunner::Run, &runner_, &result->report);
+  } else if (prepared_ != nullptr) {
+    status = sf_refocus_prepared(engine_, &task.params, prepared_, out.pixels.data(), out.stride(),
+                                 ShownRunner::Run, &runner_, &result->report);
+  } else {
+    status = sf_refocus(engine_, &task.params, &rows, out.pixels.data(), out.stride(),
+                        ShownRunner::Run, &runner_, &result->report);
+  }
+  result->seconds = Seconds() - start;
+  if (!runner_.batches) runner_.progress.Step();
+  return Outcome(where, status);
+}
+
+}  // namespace starfocus

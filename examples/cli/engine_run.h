@@ -1,0 +1,82 @@
+// Refocusing through the C ABI: workspace, entry path, time.
+#ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_RUN_H_
+#define STARFOCUS_EXAMPLES_CLI_ENGINE_RUN_H_
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "platform/image.h"
+#include "platform/light_field.h"
+#include "platform/progress.h"
+#include "platform/runner.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+struct FreeAligned {
+  void operator()(void* memory) const;
+};
+using Workspace = std::unique_ptr<void, FreeAligned>;
+
+// An engine in memory of its own, *bytes of it.
+sf_status MakeEngine(const sf_config& config, Workspace* workspace, size_t* bytes,
+                     sf_engine** engine);
+
+struct EngineTask {
+  const LightField* light_field = nullptr;
+  sf_config config;  // version, sizes, views, disparity range and max_blur filled in
+  sf_params params;
+  int threads = 1;
+  bool stream = false;  // rows in, rows out instead of whole pictures
+};
+
+struct EngineResult {
+  Image picture;
+  sf_report report = {};
+  double seconds = 0;  // inside the engine
+  size_t workspace_bytes = 0;
+  size_t prepared_bytes = 0;
+};
+
+// Refocuses one picture or several of one configuration, with a progress line. Errors are lines
+// about the `where` of the call, empty for success.
+class EngineRun {
+ public:
+  EngineRun(int threads, int pictures);
+
+  // Makes the engine; the task's config is that of all pictures.
+  std::string Start(const std::string& where, const EngineTask& task);
+
+  // Prepares the task's light field for all further calls of Refocus.
+  std::string Prepare(const std::string& where, const EngineTask& task);
+
+  std::string Refocus(const std::string& where, const EngineTask& task, EngineResult* result);
+
+  // As Refocus, after `before`, of which `picture` was made with the same params.
+  std::string RefocusAfter(const std::string& where, const EngineTask& task,
+                           const LightField& before, const Image& picture, EngineResult* result);
+
+ private:
+  struct ShownRunner {
+    ThreadRunner pool;
+    Progress progress;
+    bool batches;  // every batch of jobs is a step of the progress, not every picture
+
+    static int Run(void* data, sf_job job, void* job_data, int32_t count);
+  };
+
+  sf_status RunStream(const EngineTask& task, EngineResult* result);
+  std::string Run(const std::string& where, const EngineTask& task, const sf_previous* previous,
+                  EngineResult* result);
+
+  ShownRunner runner_;
+  Workspace workspace_, prepared_memory_;
+  size_t workspace_bytes_ = 0, prepared_bytes_ = 0;
+  sf_engine* engine_ = nullptr;
+  sf_prepared* prepared_ = nullptr;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_ENGINE_RUN_H_

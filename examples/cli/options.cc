@@ -1,0 +1,98 @@
+#include "examples/cli/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "platform/file.h"
+#include "platform/light_field.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+namespace {
+
+std::string Quoted(const std::string& text) { return "'" + text.substr(0, 60) + "'"; }
+
+bool ReadWhole(const std::string& text, int* value) {
+  if (text.empty() || text.size() > 9) return false;
+  *value = 0;
+  for (char c : text) {
+    if (c < '0' || c > '9') return false;
+    *value = *value * 10 + (c - '0');
+  }
+  return true;
+}
+
+bool ReadNumber(const std::string& text, double* value) {
+  if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string::npos) return false;
+  char* end = nullptr;
+  *value = std::strtod(text.c_str(), &end);
+  return *end == '\0' && std::isfinite(*value);
+}
+
+}  // namespace
+
+std::string ParseNumber(const std::string& option, const std::string& text, double* value) {
+  return ReadNumber(text, value) ? "" : Expected(option, "a finite number", Quoted(text));
+}
+
+std::string ParseWhole(const std::string& option, const std::string& text, int low, int high,
+                       int* value) {
+  if (ReadWhole(text, value) && *value >= low && *value <= high) return "";
+  return Expected(option,
+                  "a whole number from " + std::to_string(low) + " to " + std::to_string(high),
+                  Quoted(text));
+}
+
+std::string ParsePair(const std::string& option, const std::string& text, char separator,
+                      int* first, int* second) {
+  const size_t at = text.find(separator);
+  if (at != std::string::npos && ReadWhole(text.substr(0, at), first) &&
+      ReadWhole(text.substr(at + 1), second) && *first <= kMaxPictureSize &&
+      *second <= kMaxPictureSize) {
+    return "";
+  }
+  return Expected(option, std::string("two whole numbers with '") + separator + "' between them",
+                  Quoted(text));
+}
+
+std::string ParseRegion(const std::string& option, const std::string& text, sf_region* region) {
+  int values[4] = {};
+  size_t begin = 0;
+  for (int i = 0; i < 4; ++i) {
+    const size_t end = i == 3 ? text.size() : std::min(text.find(',', begin), text.size());
+    const bool size = i >= 2;
+    if (begin > end || !ReadWhole(text.substr(begin, end - begin), &values[i]) ||
+        values[i] > kMaxPictureSize || (size && values[i] == 0)) {
+      return Expected(option, "X,Y,W,H in whole pixels, W and H not 0", Quoted(text));
+    }
+    begin = end + 1;
+  }
+  *region = {values[0], values[1], values[2], values[3]};
+  return "";
+}
+
+std::string ParseAperture(const std::string& option, const std::string& text, double* value) {
+  if (ReadNumber(text, value) && *value > 0 && *value <= 1) return "";
+  return Expected(option, "an aperture above 0 and at most 1", Quoted(text));
+}
+
+std::string ParseScale(const std::string& option, const std::string& text, double* value) {
+  if (ReadNumber(text, value) && *value >= SF_MIN_N_SCALE && *value <= SF_MAX_N_SCALE) return "";
+  return Expected(option, "a factor from " + Short(SF_MIN_N_SCALE) + " to " + Short(SF_MAX_N_SCALE),
+                  Quoted(text));
+}
+
+std::string ParseViews(const std::string& option, const std::string& text, int* value) {
+  if (ReadWhole(text, value) && IsStarSet(*value)) return "";
+  return Expected(option, "17, 9, 5 or 1", Quoted(text));
+}
+
+std::string Short(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%g", value);
+  return text;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,45 @@
+#include "examples/cli/partition_map.h"
+
+#include <algorithm>
+
+namespace starfocus {
+namespace {
+
+// The paper's Fig. 14 has red for L = 0 and blue for L = 2.
+constexpr uint8_t kLayerColors[SF_LAYERS][3] = {{230, 60, 50}, {60, 180, 75}, {50, 110, 235}};
+constexpr int kTintPercent = 40;
+
+int Grey(const uint8_t* rgb) { return (77 * rgb[0] + 150 * rgb[1] + 29 * rgb[2] + 128) >> 8; }
+
+// The first row and column of a block are its outline: its neighbours draw the other two sides. The
+// map's first pixel is the picture's (left, top).
+void DrawBlock(const sf_block& block, int left, int top, Image* map) {
+  const uint8_t* color = kLayerColors[block.layer];
+  const int begin = std::max(block.x, left);
+  const int end = std::min(block.x + block.width, left + map->width);
+  const int bottom = std::min(block.y + block.height, top + map->height);
+  for (int y = std::max(block.y, top); y < bottom; ++y) {
+    for (int x = begin; x < end; ++x) {
+      uint8_t* pixel = map->row(y - top) + 3 * (x - left);
+      const bool outline = x == block.x || y == block.y;
+      const int percent = outline ? 100 : kTintPercent, grey = Grey(pixel);
+      for (int c = 0; c < 3; ++c) {
+        pixel[c] = static_cast<uint8_t>((color[c] * percent + grey * (100 - percent) + 50) / 100);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void CollectBlock(void* data, const sf_block* block) {
+  static_cast<std::vector<sf_block>*>(data)->push_back(*block);
+}
+
+Image DrawPartition(const Image& picture, int left, int top, const std::vector<sf_block>& blocks) {
+  Image map = picture;
+  for (const sf_block& block : blocks) DrawBlock(block, left, top, &map);
+  return map;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,21 @@
+// The partition of a refocusing, drawn over a picture.
+#ifndef STARFOCUS_EXAMPLES_CLI_PARTITION_MAP_H_
+#define STARFOCUS_EXAMPLES_CLI_PARTITION_MAP_H_
+
+#include <vector>
+
+#include "platform/image.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// An sf_block_visitor; `data` is a std::vector<sf_block> that the block is added to.
+void CollectBlock(void* data, const sf_block* block);
+
+// The picture in grey, or the region of it whose first pixel is (left, top), every block tinted by
+// its layer (L = 0 red, 1 green, 2 blue) and outlined.
+Image DrawPartition(const Image& picture, int left, int top, const std::vector<sf_block>& blocks);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_PARTITION_MAP_H_

@@ -1,0 +1,220 @@
+#include "examples/cli/refocus_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "examples/cli/options.h"
+#include "examples/cli/refocus_report.h"
+#include "examples/cli/timing_file.h"
+#include "platform/clock.h"
+#include "platform/file.h"
+
+namespace starfocus {
+namespace {
+
+std::string ParseMode(const std::string& text, sf_mode* mode) {
+  for (size_t i = 0; i < std::size(kModeNames); ++i) {
+    if (text != kModeNames[i]) continue;
+    *mode = static_cast<sf_mode>(i);
+    return "";
+  }
+  return Expected("--mode", "block, frame, benchmark or blur", "'" + text + "'");
+}
+
+std::string ParseRule(const std::string& text, sf_rule* rule) {
+  if (text.empty()) return "";
+  if (text != "paper" && text != "cells") {
+    return Expected("--rule", "paper or cells", "'" + text + "'");
+  }
+  *rule = text == "paper" ? SF_RULE_PAPER : SF_RULE_CELLS;
+  return "";
+}
+
+std::string ParseLargestBlock(const std::string& text, int* side) {
+  if (text.empty()) return "";
+  const std::string range = ParseWhole("--largest-block", text, 32, 256, side);
+  if (range.empty() && (*side & (*side - 1)) == 0) return "";
+  return Expected("--largest-block", "32, 64, 128 or 256", "'" + text + "'");
+}
+
+// Sets what block mode adds to the plan.
+std::string PlanBlocks(const LensOptions& options, LensPlan* plan) {
+  std::string error = ParseLargestBlock(options.largest_block, &plan->largest_block);
+  if (!error.empty()) return error;
+  error = ParseWhole("--max-layer", options.max_layer, 0, SF_LAYERS - 1, &plan->max_layer);
+  if (error.empty()) {
+    error = ParseWhole("--deblocking", options.deblocking, 0, 255, &plan->deblocking);
+  }
+  if (!error.empty()) return error;
+  if (!options.timing.empty()) return ReadTiming(options.timing, &plan->timing);
+  sf_config defaults;
+  sf_config_init(&defaults);
+  plan->timing = defaults.timing;
+  return "";
+}
+
+std::string FirstInvalid(const FloatMap& map, int64_t count) {
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (std::isfinite(map.at(x, y))) continue;
+      return std::to_string(count) + " that are not, the first at " + std::to_string(x) + "," +
+             std::to_string(y) + " (--fill-invalid replaces them)";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+void AddLensOptions(CLI::App* command, LensOptions* options) {
+  command->add_option("--focus", options->focus, "Disparity in focus");
+  command->add_option("--focus-at", options->focus_at, "X,Y: the disparity of that pixel");
+  command->add_option("--aperture", options->aperture, "Radius, above 0 up to 1")
+      ->capture_default_str();
+  command->add_option("--mode", options->mode, "block, frame, benchmark or blur")
+      ->capture_default_str();
+  command->add_option("--views", options->views, "17, 9, 5 or 1; default: all of the folder");
+  command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
+  command->add_flag("--fill-invalid", options->fill_invalid,
+                    "Replace non-finite disparities by their nearest valid neighbour");
+  command->add_option("--largest-block", options->largest_block,
+                      "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128");
+  command->add_option("--rule", options->rule,
+                      "paper or cells: how many views a blur needs, and whether they are rendered "
+                      "line by line or show slices (default: paper in frame mode, else cells)");
+  command
+      ->add_option("--n-scale", options->n_scale,
+                   "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "
+                   "closer to the benchmark")
+      ->capture_default_str();
+  command->add_option("--max-layer", options->max_layer, "0, 1 or 2: may subsample by 2^L")
+      ->capture_default_str();
+  command
+      ->add_option("--deblocking", options->deblocking,
+                   "0 to 255 grey levels: the largest step smoothed between layers; 0: off")
+      ->capture_default_str();
+  command->add_option("--timing", options->timing,
+                      "JSON file that starfocus calibrate wrote; default: built in");
+}
+
+std::string PlanLens(const LensOptions& options, LensPlan* plan) {
+  std::string error = ParseAperture("--aperture", options.aperture, &plan->aperture);
+  if (error.empty()) {
+    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
+  }
+  if (error.empty() && !options.views.empty()) {
+    error = ParseViews("--views", options.views, &plan->views);
+  }
+  if (error.empty()) error = ParseMode(options.mode, &plan->mode);
+  if (error.empty()) error = ParseRule(options.rule, &plan->rule);
+  if (error.empty()) error = ParseScale("--n-scale", options.n_scale, &plan->n_scale);
+  return error.empty() ? PlanBlocks(options, plan) : error;
+}
+
+std::string PlanFocus(const LensOptions& options, LensPlan* plan) {
+  if (options.focus.empty() == options.focus_at.empty()) {
+    return Expected("--focus", "either --focus D or --focus-at X,Y",
+                    options.focus.empty() ? "neither" : "both");
+  }
+  if (options.focus.empty()) {
+    plan->focus_option = "--focus-at";
+    return ParsePair("--focus-at", options.focus_at, ',', &plan->x, &plan->y);
+  }
+  plan->focus_option = "--focus";
+  plan->foci.resize(1);
+  return ParseNumber("--focus", options.focus, &plan->foci[0]);
+}
+
+std::string LoadViews(const std::string& folder, int views, LightField* light_field) {
+  if (views != 0) {
+    // A missing view of the set asked for is the option's fault when smaller sets are complete.
+    int available = 0;
+    const std::string error = CountViews(folder, &available);
+    if (error.empty() && available < views) {
+      return Expected("--views",
+                      "at most " + std::to_string(available) + ", the views in " + folder,
+                      std::to_string(views));
+    }
+  }
+  return LoadLightField(folder, views, light_field);
+}
+
+std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map,
+                             sf_disparity_stats* stats) {
+  const std::string path = DisparityPath(folder);
+  const size_t stride = sizeof(float) * size_t(map->width);
+  sf_status status = SF_OK;
+  if (fill) {
+    status = sf_fill_disparity(map->values.data(), stride, map->width, map->height);
+  }
+  if (status == SF_OK) {
+    status = sf_measure_disparity(map->values.data(), stride, map->width, map->height, stats);
+  }
+  if (status != SF_OK) return Expected(path, "a disparity map", sf_status_string(status));
+  if (stats->invalid != 0) {
+    return Expected(path, "finite disparities", FirstInvalid(*map, stats->invalid));
+  }
+  const double largest = std::max(std::fabs(double(stats->min)), std::fabs(double(stats->max)));
+  if (largest <= SF_MAX_DISPARITY) return "";
+  return Expected(path, "disparities within +-" + Short(SF_MAX_DISPARITY),
+                  Short(stats->min) + " to " + Short(stats->max));
+}
+
+std::string ChooseFocus(const FloatMap& map, LensPlan* plan) {
+  if (!plan->foci.empty()) return "";
+  if (plan->x >= map.width || plan->y >= map.height) {
+    return Expected("--focus-at",
+                    "a pixel of the picture, up to " + std::to_string(map.width - 1) + "," +
+                        std::to_string(map.height - 1),
+                    std::to_string(plan->x) + "," + std::to_string(plan->y));
+  }
+  plan->foci = {map.at(plan->x, plan->y)};
+  return "";
+}
+
+std::string ChooseBlur(const LensPlan& plan, const sf_disparity_stats& stats, double* max_blur) {
+  double focus = plan.foci[0], range = 0;
+  for (const double f : plan.foci) {
+    const double r = std::max(std::fabs(stats.min - f), std::fabs(stats.max - f));
+    if (r <= range) continue;
+    range = r;
+    focus = f;
+  }
+  const double needed = plan.aperture * range;
+  *max_blur = std::max(1.0, std::ceil(needed));
+  if (needed <= SF_MAX_BLUR && std::fabs(focus) <= SF_MAX_FOCUS) return "";
+  return Expected(plan.focus_option, "blur radii up to " + Short(SF_MAX_BLUR) + " pixels",
+                  Short(needed) + " (aperture " + Short(plan.aperture) + ", focus " + Short(focus) +
+                      ", disparities " + Short(stats.min) + " to " + Short(stats.max) + ")");
+}
+
+EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
+                    const sf_disparity_stats& stats, double max_blur, bool reported) {
+  EngineTask task;
+  task.light_field = &light_field;
+  sf_config_init(&task.config);
+  task.config.width = light_field.width();
+  task.config.height = light_field.height();
+  task.config.views = static_cast<int32_t>(light_field.views.size());
+  task.config.disparity_min = stats.min;
+  task.config.disparity_max = stats.max;
+  task.config.max_blur = max_blur;
+  const int side = plan.largest_block;
+  task.config.largest_block = side != 0 ? side : LargestBlockFor(light_field.width());
+  task.config.max_layer = plan.max_layer;
+  task.config.deblocking = plan.deblocking;
+  task.config.timing = plan.timing;
+  task.config.n_scale = plan.n_scale;
+  sf_params_init(&task.params);
+  task.params.mode = plan.mode;
+  task.params.rule = plan.rule;
+  task.params.focus = plan.foci[0];
+  task.params.aperture = plan.aperture;
+  task.params.region = plan.region;
+  if (reported) task.params.clock = ThreadNanoseconds;
+  task.threads = plan.threads;
+  return task;
+}
+
+}  // namespace starfocus

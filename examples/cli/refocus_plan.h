@@ -1,0 +1,65 @@
+// What `refocus` and `video` have in common: the options of a lens and an engine, and the light
+// field they are applied to. Functions return an error line, empty for success.
+#ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_PLAN_H_
+#define STARFOCUS_EXAMPLES_CLI_REFOCUS_PLAN_H_
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "examples/cli/engine_run.h"
+#include "platform/light_field.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// As typed.
+struct LensOptions {
+  std::string focus, focus_at, aperture = "1", mode = "block", rule, views, threads = "1";
+  std::string largest_block, max_layer = "2", deblocking = "35", n_scale = "1", timing;
+  bool fill_invalid = false;
+};
+
+void AddLensOptions(CLI::App* command, LensOptions* options);
+
+struct LensPlan {
+  std::string focus_option;  // that the foci come from
+  std::vector<double> foci;  // one, or those of a sweep; none while they depend on a pixel
+  int x = 0, y = 0;          // that pixel
+  double aperture = 1;
+  sf_region region = {};  // all 0: the whole picture
+  sf_mode mode = SF_MODE_BLOCK;
+  sf_rule rule = SF_RULE_DEFAULT;
+  int views = 0;  // 0: all there are
+  int threads = 1;
+  int largest_block = 0;  // 0: LargestBlockFor the picture
+  int max_layer = 0, deblocking = 0;
+  double n_scale = 1;
+  sf_timing timing = {};
+};
+
+// All that can be refused before a light field is read, but for the focus.
+std::string PlanLens(const LensOptions& options, LensPlan* plan);
+// --focus or --focus-at.
+std::string PlanFocus(const LensOptions& options, LensPlan* plan);
+
+// Loads plan.views views.
+std::string LoadViews(const std::string& folder, int views, LightField* light_field);
+
+// Fills holes of the folder's map if asked to, and measures it.
+std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map,
+                             sf_disparity_stats* stats);
+
+// The disparity of the chosen pixel, if the focus depends on it.
+std::string ChooseFocus(const FloatMap& map, LensPlan* plan);
+
+// The largest blur radius of any focus, rounded up to whole pixels.
+std::string ChooseBlur(const LensPlan& plan, const sf_disparity_stats& stats, double* max_blur);
+
+// The task of the first focus; with a clock when it is to be reported.
+EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
+                    const sf_disparity_stats& stats, double max_blur, bool reported);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_REFOCUS_PLAN_H_

@@ -1,0 +1,32 @@
+// The figures of refocusings, as JSON for --report.
+#ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REPORT_H_
+#define STARFOCUS_EXAMPLES_CLI_REFOCUS_REPORT_H_
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "examples/cli/engine_run.h"
+
+namespace starfocus {
+
+// The modes by name, in the order of sf_mode.
+inline constexpr const char* kModeNames[] = {"frame", "benchmark", "block", "blur"};
+
+// The task must have been run with ThreadNanoseconds for a clock.
+std::string ReportText(const EngineTask& task, const EngineResult& result, double seconds_total);
+
+// Of several pictures, each with its name.
+class SeriesReport {
+ public:
+  void Add(const std::string& output, const EngineTask& task, const EngineResult& result);
+  std::string Text(double seconds_total) const;
+
+ private:
+  nlohmann::ordered_json pictures_ = nlohmann::ordered_json::array();
+  uint64_t reused_blocks_ = 0, largest_blocks_ = 0;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_REFOCUS_REPORT_H_

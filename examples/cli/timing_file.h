@@ -1,0 +1,22 @@
+// Timing coefficients in JSON files: what `starfocus calibrate` writes and `refocus --timing`
+// reads.
+#ifndef STARFOCUS_EXAMPLES_CLI_TIMING_FILE_H_
+#define STARFOCUS_EXAMPLES_CLI_TIMING_FILE_H_
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// The member "timing" of such a file.
+nlohmann::ordered_json TimingJson(const sf_timing& timing);
+
+// Reads the member "timing"; it must hold every coefficient and nothing else. Other members of the
+// file are remarks. Returns an error line, empty for success.
+std::string ReadTiming(const std::string& path, sf_timing* timing);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_TIMING_FILE_H_

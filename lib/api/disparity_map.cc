@@ -1,0 +1,88 @@
+// Measuring and mending whole disparity maps, before any engine exists.
+#include <cmath>
+
+#include "lib/api/validate.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+namespace {
+
+// A line of a map: elements `step` floats apart.
+struct MapLine {
+  float* data;
+  size_t step;
+  int32_t length;
+
+  float& operator[](int32_t k) const { return data[static_cast<size_t>(k) * step]; }
+};
+
+// Fills the gap (left, right) between valid elements; -1 and length stand for none. Between two,
+// the farther surface goes on: what is unknown beside an edge is mostly what the edge hides.
+void FillGap(const MapLine& line, int32_t left, int32_t right) {
+  if (left < 0 && right >= line.length) return;
+  for (int32_t k = left + 1; k < right; ++k) {
+    if (left < 0) {
+      line[k] = line[right];
+    } else if (right >= line.length) {
+      line[k] = line[left];
+    } else {
+      line[k] = line[left] < line[right] ? line[left] : line[right];
+    }
+  }
+}
+
+// True when the line held a valid element.
+bool FillLine(const MapLine& line) {
+  int32_t last = -1;
+  for (int32_t k = 0; k <= line.length; ++k) {
+    if (k < line.length && !std::isfinite(line[k])) continue;
+    FillGap(line, last, k);
+    last = k;
+  }
+  bool valid = false;
+  for (int32_t k = 0; k < line.length && !valid; ++k) valid = std::isfinite(line[k]);
+  return valid;
+}
+
+}  // namespace
+}  // namespace starfocus
+
+sf_status sf_measure_disparity(const float* disparity, size_t stride, int32_t width, int32_t height,
+                               sf_disparity_stats* stats) {
+  if (stats == nullptr) return SF_ERROR_NULL;
+  const sf_status status = starfocus::CheckMap(disparity, stride, width, height);
+  if (status != SF_OK) return status;
+  sf_disparity_stats found = {0.0f, 0.0f, 0};
+  bool any = false;
+  for (int32_t y = 0; y < height; ++y) {
+    const float* row = disparity + static_cast<size_t>(y) * (stride / sizeof(float));
+    for (int32_t x = 0; x < width; ++x) {
+      const float d = row[x];
+      if (!std::isfinite(d)) {
+        ++found.invalid;
+      } else if (!any) {
+        found.min = found.max = d;
+        any = true;
+      } else {
+        found.min = d < found.min ? d : found.min;
+        found.max = d > found.max ? d : found.max;
+      }
+    }
+  }
+  *stats = found;
+  return SF_OK;
+}
+
+sf_status sf_fill_disparity(float* disparity, size_t stride, int32_t width, int32_t height) {
+  sf_disparity_stats stats;
+  const sf_status status = sf_measure_disparity(disparity, stride, width, height, &stats);
+  if (status != SF_OK || stats.invalid == 0) return status;
+  const size_t row_step = stride / sizeof(float);
+  if (stats.invalid == int64_t{width} * height) return SF_ERROR_ALL_INVALID;
+  for (int32_t y = 0; y < height; ++y) {
+    starfocus::FillLine({disparity + static_cast<size_t>(y) * row_step, 1, width});
+  }
+  // Rows that had nothing are still wholly invalid, so every column has the same gaps.
+  for (int32_t x = 0; x < width; ++x) starfocus::FillLine({disparity + x, row_step, height});
+  return SF_OK;
+}

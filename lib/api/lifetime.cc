@@ -1,0 +1,75 @@
+// The C ABI of an engine's life: defaults, sizes, init.
+#include <cstring>
+#include <new>
+
+#include "lib/api/validate.h"
+#include "lib/engine/engine.h"
+#include "lib/engine/layout.h"
+#include "starfocus/starfocus.h"
+
+using starfocus::EngineState;
+
+uint32_t sf_abi_version(void) { return SF_ABI_VERSION; }
+
+void sf_config_init(sf_config* config) {
+  if (config == nullptr) return;
+  std::memset(config, 0, sizeof(*config));
+  config->version = SF_ABI_VERSION;
+  config->views = 5;
+  config->max_blur = 32.0;
+  config->largest_block = 64;
+  config->max_workers = 1;
+  config->theta = 0.26 * 3.14159265358979323846;
+  config->max_layer = SF_LAYERS - 1;
+  config->deblocking = 35;
+  config->timing = starfocus::DefaultTiming();
+  config->n_scale = 1.0;
+  config->skips = 1;
+  config->gather = 1;
+}
+
+void sf_params_init(sf_params* params) {
+  if (params == nullptr) return;
+  std::memset(params, 0, sizeof(*params));
+  params->version = SF_ABI_VERSION;
+  params->mode = SF_MODE_BLOCK;
+  params->aperture = 1.0;
+}
+
+int sf_view_position(int32_t index, double* u, double* v) {
+  if (index < 0 || index >= SF_MAX_VIEWS || u == nullptr || v == nullptr) return 0;
+  const starfocus::ViewPosition position = starfocus::CapturedPosition(index);
+  *u = 0.5 * position.u2;
+  *v = 0.5 * position.v2;
+  return 1;
+}
+
+sf_status sf_workspace_size(const sf_config* config, size_t* bytes) {
+  if (config == nullptr || bytes == nullptr) return SF_ERROR_NULL;
+  const sf_status status = starfocus::CheckConfig(*config);
+  if (status != SF_OK) return status;
+  EngineState* counted = nullptr;
+  *bytes = starfocus::LayOut(*config, nullptr, &counted);
+  return SF_OK;
+}
+
+sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_engine** engine) {
+  if (engine == nullptr) return SF_ERROR_NULL;
+  *engine = nullptr;
+  if (config == nullptr || workspace == nullptr) return SF_ERROR_NULL;
+  size_t needed = 0;
+  sf_status status = sf_workspace_size(config, &needed);
+  if (status == SF_OK) status = starfocus::CheckMemory(workspace);
+  if (status != SF_OK) return status;
+  if (bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
+  new (workspace) EngineState();
+  EngineState* made = nullptr;
+  starfocus::LayOut(*config, workspace, &made);
+  made->config = *config;
+  made->kernels = &starfocus::simd::BestKernels();
+  starfocus::MakeTables(made);
+  *engine = reinterpret_cast<sf_engine*>(made);
+  return SF_OK;
+}
+
+const char* sf_simd_target(void) { return starfocus::simd::BestKernels().name; }

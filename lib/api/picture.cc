@@ -1,0 +1,242 @@
+// The C ABI for whole pictures and regions of them: checks, then stripe by stripe.
+#include <cstring>
+
+#include "lib/api/light_field.h"
+#include "lib/api/prepared.h"
+#include "lib/api/validate.h"
+#include "lib/engine/engine.h"
+#include "lib/engine/layout.h"
+#include "lib/engine/stripe.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+namespace {
+
+// Where a picture goes: rows of the region.
+struct Output {
+  uint8_t* data;
+  size_t stride;
+  Rect region;
+
+  size_t RowBytes() const { return 3 * static_cast<size_t>(region.width); }
+  uint8_t* At(int32_t x, int32_t y) const {
+    return data + static_cast<size_t>(y - region.y) * stride +
+           3 * static_cast<size_t>(x - region.x);
+  }
+};
+
+// Rows of the stripes that the region needs; a stripe's first row is a multiple of the largest
+// block.
+RowRange StripeRows(const EngineState& engine) {
+  const Rect& region = engine.region;
+  const int32_t reach = JoinReach(engine);
+  const int32_t side = engine.config.largest_block;
+  return {Max(0, region.y - reach) / side * side,
+          Min(engine.config.height, region.y + region.height + reach)};
+}
+
+// Everything that the stripes may read is checked before the first pixel is written.
+sf_status CheckDisparity(const EngineState& engine, const sf_light_field& light_field) {
+  const RowRange stripes = StripeRows(engine);
+  const int32_t side = engine.config.largest_block;
+  const int32_t end = (stripes.last + side - 1) / side * side + engine.reach.rows;
+  for (int32_t y = Max(0, stripes.first - engine.reach.rows); y < Min(engine.config.height, end);
+       ++y) {
+    const sf_status status =
+        ConvertDisparity(engine, DisparityRow(light_field, y), engine.disparity.Row(0));
+    if (status != SF_OK) return status;
+  }
+  return SF_OK;
+}
+
+// Copies what changed of a row from the engine's own rows.
+void WriteChanges(const EngineState& engine, const Plane<uint8_t>& rows, int32_t row,
+                  const Output& out) {
+  const Rect& region = out.region;
+  const int32_t side = BlockSide(engine), reach = JoinReach(engine);
+  for (int32_t column = 0; column < Columns(engine); ++column) {
+    const int32_t x = column * side;
+    if (!HasChanged(engine.changes, {x, row - reach, side, 1 + 2 * reach})) continue;
+    const int32_t first = Max(x - reach, region.x);
+    const int32_t last = Min(x + side + reach, region.x + region.width);
+    if (first >= last) continue;
+    std::memcpy(out.At(first, row), rows.Row(row) + 3 * static_cast<size_t>(first),
+                3 * static_cast<size_t>(last - first));
+  }
+}
+
+// Writes rows of the region, up to row `end`, that the stripe at row y finished in the engine's own
+// rows; what they have not comes from the picture before.
+void WriteRows(const EngineState& engine, int32_t y, int32_t end, const sf_previous* before,
+               const Output& out) {
+  const Plane<uint8_t> rows = BufferRows(engine, y);
+  const Rect& region = out.region;
+  for (int32_t row = Max(y - kDeblockRows, region.y); row < end; ++row) {
+    if (before == nullptr) {
+      std::memcpy(out.At(region.x, row), rows.Row(row) + 3 * static_cast<size_t>(region.x),
+                  out.RowBytes());
+    } else {
+      std::memcpy(out.At(region.x, row),
+                  before->out + static_cast<size_t>(row - region.y) * before->out_stride,
+                  out.RowBytes());
+      WriteChanges(engine, rows, row, out);
+    }
+  }
+}
+
+// Converts the rows that the stripe at row y reads and no stripe before it.
+sf_status PushRows(const sf_light_field& light_field, int32_t y, EngineState* engine) {
+  const int32_t needed = Min(engine->config.height, y + BlockSide(*engine) + engine->reach.rows);
+  while (engine->disparity_rows < needed) {
+    const sf_status status =
+        PushDisparity(DisparityRow(light_field, engine->disparity_rows), engine);
+    if (status != SF_OK) return status;
+  }
+  return SF_OK;
+}
+
+// A refocusing as the C ABI asks for it; prepared and previous may be null.
+struct Request {
+  const sf_params* params;
+  const sf_light_field* light_field;
+  const Prepared* prepared;
+  const sf_previous* previous;
+  uint8_t* out;
+  size_t out_stride;
+  Runner runner;
+};
+
+// Sets up the comparison with the light field before.
+void UsePrevious(const Request& request, EngineState* engine) {
+  const sf_config& config = engine->config;
+  Changes& changes = engine->changes;
+  changes.active = true;
+  changes.before = &request.previous->light_field;
+  changes.now = request.light_field;
+  // Depth-dependent blur is that of the centre view.
+  changes.views = request.params->mode == SF_MODE_BLUR ? 1 : config.views;
+  changes.width = config.width;
+  changes.height = config.height;
+  changes.side = BlockSide(*engine);
+  changes.centre_reach = engine->reach.rows;
+  changes.side_reach = SideReach(config, engine->report.r_max);
+  StartChanges(StripeRows(*engine).first, &changes);
+}
+
+sf_status RefocusStripes(const Request& request, EngineState* engine) {
+  const int32_t side = BlockSide(*engine);
+  const RowRange stripes = StripeRows(*engine);
+  const Output out = {request.out, request.out_stride, engine->region};
+  const bool direct = IsWhole(request.params->region) && request.previous == nullptr;
+  engine->disparity_rows = Max(0, stripes.first - engine->reach.rows);
+  for (int32_t y = stripes.first; y < stripes.last; y += side) {
+    sf_status status =
+        request.prepared != nullptr ? SF_OK : PushRows(*request.light_field, y, engine);
+    if (status != SF_OK) return status;
+    if (request.previous != nullptr) CompareRows(y, &engine->changes);
+    status = direct ? RefocusStripe(engine, y, {out.data, out.stride, 0, 0}, request.runner)
+                    : RefocusIntoBuffer(engine, y, request.runner);
+    if (status != SF_OK) return status;
+    if (direct) continue;
+    // The stripe after the last one changes nothing of the region.
+    const int32_t region_end = out.region.y + out.region.height;
+    const int32_t end =
+        y + side >= stripes.last ? region_end : Min(FinishedRows(*engine, y), region_end);
+    WriteRows(*engine, y, end, request.previous, out);
+  }
+  return SF_OK;
+}
+
+sf_status CheckPictures(const Request& request, const Rect& region, const sf_config& config) {
+  sf_status status = CheckLightField(config, *request.light_field);
+  if (status == SF_OK) {
+    status = CheckOutput(region.width, region.height, request.out, request.out_stride);
+  }
+  if (status != SF_OK || request.previous == nullptr) return status;
+  const sf_previous& previous = *request.previous;
+  status = CheckLightField(config, previous.light_field);
+  if (status != SF_OK) return status;
+  return CheckOutput(region.width, region.height, previous.out, previous.out_stride);
+}
+
+// Whether the output overlaps the workspace or anything that is read.
+bool OutputOverlaps(const Request& request, const Rect& region, const EngineState& engine) {
+  const size_t row_bytes = 3 * static_cast<size_t>(region.width);
+  const Extent out = ExtentOf(request.out, request.out_stride, region.height, row_bytes);
+  if (Overlaps(out, Workspace(engine)) ||
+      OverlapsLightField(out, engine.config, *request.light_field)) {
+    return true;
+  }
+  if (request.prepared != nullptr && Overlaps(out, PreparedMemory(*request.prepared))) return true;
+  if (request.previous == nullptr) return false;
+  const sf_previous& previous = *request.previous;
+  return OverlapsLightField(out, engine.config, previous.light_field) ||
+         Overlaps(out, ExtentOf(previous.out, previous.out_stride, region.height, row_bytes));
+}
+
+sf_status CheckRequest(const Request& request, const EngineState& engine) {
+  const sf_config& config = engine.config;
+  sf_status status = CheckParams(*request.params);
+  if (status == SF_OK) status = CheckRegion(config, request.params->region);
+  if (status != SF_OK) return status;
+  if (request.prepared != nullptr && !Fits(*request.prepared, config)) return SF_ERROR_PREPARED;
+  const Rect region = RegionOf(config, *request.params);
+  status = CheckPictures(request, region, config);
+  if (status != SF_OK) return status;
+  return OutputOverlaps(request, region, engine) ? SF_ERROR_OVERLAP : SF_OK;
+}
+
+sf_status Refocus(const Request& request, EngineState* engine, sf_report* report) {
+  sf_status status = CheckRequest(request, *engine);
+  if (status != SF_OK) return status;
+  engine->stream.active = false;
+  status = SetLens(*request.params, engine);
+  if (status != SF_OK) return status;
+  SetPictures(*request.light_field, engine);
+  if (request.prepared != nullptr) {
+    UsePrepared(*request.prepared, engine);
+  } else {
+    status = CheckDisparity(*engine, *request.light_field);
+    if (status != SF_OK) return status;
+  }
+  if (request.previous != nullptr) UsePrevious(request, engine);
+  status = RefocusStripes(request, engine);
+  if (status == SF_OK && report != nullptr) *report = GetReport(*engine);
+  return status;
+}
+
+}  // namespace
+}  // namespace starfocus
+
+using starfocus::EngineState;
+
+sf_status sf_refocus(sf_engine* engine, const sf_params* params, const sf_light_field* light_field,
+                     uint8_t* out, size_t out_stride, sf_runner runner, void* runner_data,
+                     sf_report* report) {
+  if (engine == nullptr || params == nullptr || light_field == nullptr) return SF_ERROR_NULL;
+  return starfocus::Refocus(
+      {params, light_field, nullptr, nullptr, out, out_stride, {runner, runner_data}},
+      reinterpret_cast<EngineState*>(engine), report);
+}
+
+sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
+                           const sf_light_field* light_field, const sf_previous* previous,
+                           uint8_t* out, size_t out_stride, sf_runner runner, void* runner_data,
+                           sf_report* report) {
+  if (engine == nullptr || params == nullptr || light_field == nullptr || previous == nullptr) {
+    return SF_ERROR_NULL;
+  }
+  return starfocus::Refocus(
+      {params, light_field, nullptr, previous, out, out_stride, {runner, runner_data}},
+      reinterpret_cast<EngineState*>(engine), report);
+}
+
+sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
+                              const sf_prepared* prepared, uint8_t* out, size_t out_stride,
+                              sf_runner runner, void* runner_data, sf_report* report) {
+  if (engine == nullptr || params == nullptr || prepared == nullptr) return SF_ERROR_NULL;
+  const auto* p = reinterpret_cast<const starfocus::Prepared*>(prepared);
+  return starfocus::Refocus(
+      {params, &p->light_field, p, nullptr, out, out_stride, {runner, runner_data}},
+      reinterpret_cast<EngineState*>(engine), report);
+}

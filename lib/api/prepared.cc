@@ -1,0 +1,127 @@
+#include "lib/api/prepared.h"
+
+#include <new>
+
+#include "lib/api/light_field.h"
+#include "lib/engine/layout.h"
+#include "lib/engine/stripe_layers.h"
+
+namespace starfocus {
+namespace {
+
+size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) {
+  Carver carver(base);
+  *prepared = carver.Take<Prepared>(1);
+  Prepared counted;  // stands in for **prepared while counting
+  Prepared& p = *prepared == nullptr ? counted : **prepared;
+  const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
+  p.disparity.stride = width;
+  p.disparity.data = carver.Take<int16_t>(width * height);
+  for (int layer = 1; layer <= config.max_layer; ++layer) {
+    Plane<uint8_t>& plane = p.layers[layer];
+    plane.stride = 3 * static_cast<size_t>(LayerSize(config.width, layer));
+    plane.data =
+        carver.Take<uint8_t>(plane.stride * static_cast<size_t>(LayerSize(config.height, layer)));
+  }
+  return carver.used();
+}
+
+sf_status ConvertAll(const EngineState& engine, const Prepared& prepared) {
+  for (int32_t y = 0; y < engine.config.height; ++y) {
+    const sf_status status =
+        ConvertDisparity(engine, DisparityRow(prepared.light_field, y), prepared.disparity.Row(y));
+    if (status != SF_OK) return status;
+  }
+  return SF_OK;
+}
+
+// Stripe by stripe in the engine's own planes, but for the pixels.
+sf_status MakeLayers(const Prepared& prepared, EngineState* engine, const Runner& runner) {
+  LayerPlane own[SF_LAYERS];
+  for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->layers[layer];
+  const int32_t height = engine->config.height, side = BlockSide(*engine);
+  // Layers end beyond the picture.
+  constexpr int32_t kBeyond = 16;
+  sf_status status = SF_OK;
+  for (int32_t y = 0; y < height && status == SF_OK; y += side) {
+    ForgetLayers(engine);  // those of the stripe before lie elsewhere
+    MarkLayerColumns(*engine);
+    PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, engine);
+    for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
+      engine->layers[layer].rgb.rows = 0;
+      engine->layers[layer].rgb.data = prepared.layers[layer].Row(engine->layers[layer].rows.first);
+    }
+    status = FillLayers(engine, runner);
+  }
+  for (int layer = 0; layer < SF_LAYERS; ++layer) engine->layers[layer] = own[layer];
+  ForgetLayers(engine);
+  return status;
+}
+
+}  // namespace
+
+bool Fits(const Prepared& prepared, const sf_config& config) {
+  const sf_config& made = prepared.config;
+  return made.width == config.width && made.height == config.height && made.views == config.views &&
+         made.disparity_min == config.disparity_min && made.disparity_max == config.disparity_max &&
+         made.max_layer == config.max_layer;
+}
+
+Extent PreparedMemory(const Prepared& prepared) {
+  Prepared* counted = nullptr;
+  return ExtentOf(&prepared, 0, 1, LayOutPrepared(prepared.config, nullptr, &counted));
+}
+
+void UsePrepared(const Prepared& prepared, EngineState* engine) {
+  const Plane<int16_t>& disparity = prepared.disparity;
+  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    engine->windows[layer].disparity = {disparity.data, disparity.stride, 0, 0};
+    const Plane<uint8_t>& plane = prepared.layers[layer];
+    if (layer > 0) engine->windows[layer].centre = {plane.data, plane.stride, 0, 0};
+  }
+  engine->prepared = true;
+}
+
+}  // namespace starfocus
+
+using starfocus::EngineState;
+using starfocus::Prepared;
+
+sf_status sf_prepared_size(const sf_config* config, size_t* bytes) {
+  if (config == nullptr || bytes == nullptr) return SF_ERROR_NULL;
+  const sf_status status = starfocus::CheckConfig(*config);
+  if (status != SF_OK) return status;
+  Prepared* counted = nullptr;
+  *bytes = starfocus::LayOutPrepared(*config, nullptr, &counted);
+  return SF_OK;
+}
+
+sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
+                     size_t bytes, sf_runner runner, void* runner_data, sf_prepared** prepared) {
+  if (prepared == nullptr) return SF_ERROR_NULL;
+  *prepared = nullptr;
+  if (engine == nullptr || light_field == nullptr) return SF_ERROR_NULL;
+  EngineState& e = *reinterpret_cast<EngineState*>(engine);
+  sf_status status = starfocus::CheckLightField(e.config, *light_field);
+  if (status == SF_OK) status = starfocus::CheckMemory(memory);
+  if (status != SF_OK) return status;
+  Prepared* made = nullptr;
+  const size_t needed = starfocus::LayOutPrepared(e.config, nullptr, &made);
+  if (bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
+  const starfocus::Extent extent = starfocus::ExtentOf(memory, 0, 1, needed);
+  if (starfocus::Overlaps(extent, starfocus::Workspace(e)) ||
+      starfocus::OverlapsLightField(extent, e.config, *light_field)) {
+    return SF_ERROR_OVERLAP;
+  }
+  e.stream.active = false;
+  new (memory) Prepared();
+  starfocus::LayOutPrepared(e.config, memory, &made);
+  made->config = e.config;
+  made->light_field = *light_field;
+  status = starfocus::ConvertAll(e, *made);
+  if (status != SF_OK) return status;
+  starfocus::SetPictures(*light_field, &e);
+  status = starfocus::MakeLayers(*made, &e, {runner, runner_data});
+  if (status == SF_OK) *prepared = reinterpret_cast<sf_prepared*>(made);
+  return status;
+}

@@ -1,0 +1,44 @@
+// Checks of everything that comes from outside, before anything is written.
+#ifndef STARFOCUS_LIB_API_VALIDATE_H_
+#define STARFOCUS_LIB_API_VALIDATE_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+sf_status CheckConfig(const sf_config& config);
+sf_status CheckParams(const sf_params& params);
+
+// Memory to lay something out in.
+sf_status CheckMemory(const void* memory);
+
+// A disparity map of its own.
+sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height);
+
+// Pointers and strides of a light field of `config`.
+sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field);
+
+// All 0, or inside the picture.
+sf_status CheckRegion(const sf_config& config, const sf_region& region);
+inline bool IsWhole(const sf_region& region) {
+  return region.x == 0 && region.y == 0 && region.width == 0 && region.height == 0;
+}
+
+// An output of `rows` rows of `width` pixels.
+sf_status CheckOutput(int32_t width, int32_t rows, const uint8_t* out, size_t stride);
+
+// [data, data + bytes) as a range of addresses.
+struct Extent {
+  uintptr_t begin, end;
+};
+Extent ExtentOf(const void* data, size_t stride, int32_t rows, size_t row_bytes);
+inline bool Overlaps(const Extent& a, const Extent& b) {
+  return a.begin < b.end && b.begin < a.end;
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_API_VALIDATE_H_

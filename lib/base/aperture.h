@@ -1,0 +1,64 @@
+// The aperture (3) sampled on the grid of rendered views, as integer weights.
+#ifndef STARFOCUS_LIB_BASE_APERTURE_H_
+#define STARFOCUS_LIB_BASE_APERTURE_H_
+
+#include <cstddef>
+#include <cstdint>
+
+namespace starfocus {
+
+// cot^2(theta) with 16 fractional bits; theta in [0.05 pi, 0.45 pi] gives [0.025, 40].
+uint32_t ApertureFallOff(double theta);
+
+// Weights of the views (i, j), i^2 + j^2 <= most. All views together sum to exactly
+// 2^sum_bits, so that a constant picture comes out unchanged.
+struct Aperture {
+  int32_t n = 0;     // N
+  int32_t last = 0;  // i of the outermost view (i, 0)
+  int32_t most = 0;
+  int sum_bits = 1;
+  int32_t views = 1;
+  double extent = 1;                  // of the outermost views of cells, of the lens's radius
+  const uint16_t* weights = nullptr;  // of 0 <= j <= i <= n at index i (i + 1) / 2 + j
+
+  // Any i, j in [-n, n]; zero outside the disc.
+  uint32_t Weight(int32_t i, int32_t j) const {
+    if (i < 0) i = -i;
+    if (j < 0) j = -j;
+    const int32_t high = i > j ? i : j, low = i > j ? j : i;
+    return weights[high * (high + 1) / 2 + low];
+  }
+};
+
+// The radius of the lens in cells, kCellUnits of each, for the N of ViewsByCells: of those near N
+// that whose views give the kernel with the least error.
+inline constexpr int32_t kCellUnits = 32;
+constexpr int32_t LensInCells(int32_t n) {
+  return n == 1 ? kCellUnits : n == 4 ? 123 : kCellUnits * n - 11;
+}
+
+// Their centres lie up to this far from its axis: a little beyond the rim they are worth rendering,
+// too. Last and most of their Aperture.
+constexpr int32_t FarthestCell(int32_t n) { return n == 0 ? 0 : LensInCells(n) + 5; }
+constexpr int32_t LastCell(int32_t n) { return FarthestCell(n) / kCellUnits; }
+constexpr int32_t MostOfCells(int32_t n) {
+  return FarthestCell(n) * FarthestCell(n) / (kCellUnits * kCellUnits);
+}
+
+// Number of weights an Aperture of n stores.
+constexpr size_t ApertureSize(int32_t n) {
+  return (static_cast<size_t>(n) + 1) * (static_cast<size_t>(n) + 2) / 2;
+}
+
+// The views i^2 + j^2 <= N^2 as in a_{d,N} of (5). Fills weights[ApertureSize(n)]; fall_off as
+// ApertureFallOff gives; n in [0, 256].
+Aperture MakeAperture(int32_t n, uint32_t fall_off, uint16_t* weights);
+
+// Views that stand for their cells of a lens LensInCells(n) wide, by what of its light is theirs:
+// of the cells that straddle its rim the part within. n in [0, 256]; 0 is the centre view
+// alone.
+Aperture MakeCellAperture(int32_t n, uint32_t fall_off, uint16_t* weights);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_BASE_APERTURE_H_

@@ -1,0 +1,147 @@
+// Every fixed-point value of the engine: its scale, range and headroom, once.
+//
+// clang-format off
+// | value                | type   | scale   | range                     | headroom                  |
+// |----------------------|--------|---------|---------------------------|---------------------------|
+// | disparity d          | int16  | 2^6     | +-500 px per unit u       | 2.3 % below +-511.98      |
+// | focus d_t            | int32  | 2^6     | +-10^6 px per unit u      | 33 x                      |
+// | step u_t / 2^L       | int64  | 2^24    | (0, 1]                    | only in products below    |
+// | step * (d - d_t)     | int64  | 2^30    | blur radius, +-129 px     | 2^26 x                    |
+// | shift s              | int32  | 2^8     | +-129 px                  | 2^16 x                    |
+// | blur radius of cells | uint16 | 2^6     | [0, 129] px               | 7.9 x                     |
+// | reach of cells       | int16  | 1       | [-8, 131] px              | 250 x                     |
+// | cell width r / N     | int32  | 2^8     | [0, 1], clamped           | -                         |
+// | interpolation weight | int32  | 2^8     | [0, 1/2]                  | -                         |
+// | colour of a slice    | int16  | 2^7     | [0, 255], times coverage  | 0.4 % below 2^15          |
+// | coverage of a slice  | int16  | 2^15    | [0, 1]; 1 is 32767        | saturates                 |
+// | wide cell r / N      | int32  | 2^8     | (1, 7], clamped           | -                         |
+// | parts of a wide cell | int16  | 2^15    | [-1, 0], one together     | none: 16 bits hold -1     |
+// | sum / coverage       | uint64 | 2^48    | 2^32 sums, 2^32 inverses  | none: colours <= coverage |
+// | weight of a view     | int16  | varies  | [0, 14500]                | 13 % below 2^14           |
+// | sums of a column     | uint16 | 2^8     | weights: 58000; 1/9 more  | 1 % below 2^16            |
+// | sums of slices       | uint32 | 2^8     | 58000 a column, N <= 41   | 800 x                     |
+// | two disc rows, +-x   | uint16 | 1       | [0, 1020], four pixels    | 64 x; signed multiplies   |
+// | blended pixel        | uint16 | 2^8     | [0, 255], + 1/2           | 0.2 % below 2^16          |
+// | aperture weight      | uint16 | 2^k     | [0, 32767], sum 2^k       | signed 16-bit multiplies  |
+// | blur kernel weight   | uint16 | 2^k     | [0, 32767], sum 2^k       | signed 16-bit multiplies  |
+// | accumulator          | uint32 | 2^k     | <= 255 * 2^k, k <= 24     | 0.4 % below 2^32          |
+// | layer sample         | int16  | 2^6     | [0, 255]                  | 2 x                       |
+// | two layer samples    | int16  | 2^6     | [0, 510]                  | 0.4 % below 511.98        |
+// | filtered along x     | int16  | 2^6     | [-39, 294]                | 74 % below 511            |
+// | sum of filter taps   | int32  | 2^20    | [-100, 410]: twice 1.33   | 5 x                       |
+// | upsampled along y    | int16  | 2^6     | [-43, 298]                | 71 % below 511            |
+// | hole's position      | int32  | 2^8     | +-66300 px                | 126 x                     |
+// | hole, layer 0        | int32  | 2^16    | [0, 255]                  | 128 x                     |
+// | hole, layer L        | int32  | 2^(4L)  | [0, 255], L <= 2          | 2^15 x                    |
+// | share of a mixture   | int32  | 2^10    | [0, 4/5], four of a pixel | 2.4 x in the sum of four  |
+// clang-format on
+//
+// Rounding: Round* rounds half up; a plain shift truncates towards minus infinity.
+#ifndef STARFOCUS_LIB_BASE_FIXED_H_
+#define STARFOCUS_LIB_BASE_FIXED_H_
+
+#include <cstddef>
+#include <cstdint>
+
+namespace starfocus {
+
+inline constexpr int kDisparityBits = 6;
+inline constexpr int kStepBits = 24;
+inline constexpr int kShiftBits = 8;
+inline constexpr int32_t kShiftOne = 1 << kShiftBits;
+inline constexpr int kShareBits = 10;
+inline constexpr int kMaxWeightBits = 24;
+inline constexpr int32_t kMaxWeight = 32767;
+
+// Two neighbouring pixels belong to one surface when their disparities differ by at most this.
+inline constexpr int32_t kSurfaceStep = (3 << kDisparityBits) / 2;
+
+// What the table promises, for the values that several lines of code make.
+struct FixedRange {
+  const char* name;
+  int64_t low, high;
+};
+
+namespace ranges {
+inline constexpr int64_t kPixel = 1 << kShiftBits;
+inline constexpr int64_t kBlurEnd = 129;
+inline constexpr FixedRange kDisparity = {"disparity", -500 * 64, 500 * 64};
+inline constexpr FixedRange kFocus = {"focus", -1000000 * 64, 1000000 * 64};
+inline constexpr FixedRange kShift = {"shift", -kBlurEnd* kPixel, kBlurEnd* kPixel};
+inline constexpr FixedRange kRadius = {"blur radius of a cell", 0, kBlurEnd << kDisparityBits};
+inline constexpr FixedRange kReach = {"reach of a cell", -8, kBlurEnd + 2};
+inline constexpr FixedRange kCellWeight = {"interpolation weight", 0, kPixel / 2};
+inline constexpr FixedRange kWeight = {"aperture weight", 0, kMaxWeight};
+inline constexpr FixedRange kBlurWeight = {"blur kernel weight", 0, kMaxWeight};
+inline constexpr FixedRange kFilteredAlongX = {"filtered along x", -39 * 64, 294 * 64};
+inline constexpr FixedRange kUpsampledAlongY = {"upsampled along y", -43 * 64, 298 * 64};
+inline constexpr FixedRange kLayerSample = {"layer sample", 0, 255 * 64};
+inline constexpr FixedRange kHolePosition = {"position of a hole", -66300 * kPixel, 66300 * kPixel};
+inline constexpr FixedRange kHolePixel = {"hole at layer 0", 0, 255 * kPixel* kPixel};
+inline constexpr FixedRange kUnmixed = {"unmixed pixel", 0, 255};
+inline constexpr FixedRange kRemainder = {"weight left after all orbits", 0, 0};
+}  // namespace ranges
+
+// Returns `value`. With STARFOCUS_CHECK_RANGES, a debug build of its own, a value outside its range
+// is told to on_range_failure; without a listener the program ends. Otherwise nothing is checked.
+#ifdef STARFOCUS_CHECK_RANGES
+inline constexpr bool kCheckRanges = true;
+extern void (*on_range_failure)(const FixedRange& range, int64_t value);
+void FailRange(const FixedRange& range, int64_t value);
+template <class T>
+T Checked(const FixedRange& range, T value) {
+  const auto wide = static_cast<int64_t>(value);
+  if (wide < range.low || wide > range.high) FailRange(range, wide);
+  return value;
+}
+#else
+inline constexpr bool kCheckRanges = false;
+template <class T>
+constexpr T Checked(const FixedRange&, T value) {
+  return value;
+}
+#endif
+
+// Checks an array.
+template <class T>
+void CheckAll(const FixedRange& range, const T* values, size_t count) {
+  if (!kCheckRanges) return;
+  for (size_t n = 0; n < count; ++n) Checked(range, values[n]);
+}
+
+// Accumulators of pixels whose weights sum to 2^sum_bits.
+inline void CheckSums(const uint32_t* sums, size_t count, int sum_bits) {
+  CheckAll({"accumulator", 0, int64_t{255} << sum_bits}, sums, count);
+}
+
+constexpr int64_t RoundShift(int64_t value, int bits) {
+  return (value + (int64_t{1} << (bits - 1))) >> bits;
+}
+
+constexpr int32_t Min(int32_t a, int32_t b) { return a < b ? a : b; }
+constexpr int32_t Max(int32_t a, int32_t b) { return a > b ? a : b; }
+constexpr int32_t Abs(int32_t a) { return a < 0 ? -a : a; }
+constexpr int32_t Clamp(int32_t value, int32_t low, int32_t high) {
+  return value < low ? low : value > high ? high : value;
+}
+
+// Index of the lowest bit set; bits != 0.
+inline int32_t LowestBit(uint32_t bits) {
+#if defined(__GNUC__)
+  return __builtin_ctz(bits);
+#else
+  int32_t index = 0;
+  while ((bits >> index & 1) == 0) ++index;
+  return index;
+#endif
+}
+
+// Calls visit(index) for every bit set, from the lowest on.
+template <class Visit>
+void ForEachBit(uint32_t bits, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(LowestBit(bits));
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_BASE_FIXED_H_

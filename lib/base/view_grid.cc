@@ -1,0 +1,37 @@
+#include "lib/base/view_grid.h"
+
+#include <cmath>
+
+namespace starfocus {
+
+namespace {
+
+// Within a run no pixel is displaced by more than half of this from its place, in pixels
+// (kShiftBits), in any view.
+constexpr int32_t kRunSpread = kShiftOne / 4;
+
+}  // namespace
+
+ViewGrid MakeViewGrid(const Aperture& aperture, double focus, double aperture_radius, int layer,
+                      bool has_half_views) {
+  ViewGrid grid;
+  grid.aperture = aperture;
+  grid.focus = static_cast<int32_t>(
+      Checked(ranges::kFocus, std::floor(focus * (1 << kDisparityBits) + 0.5)));
+  const double step = aperture_radius * (int64_t{1} << kStepBits);
+  grid.step = RoundShift(static_cast<int64_t>(step) << 1, 1 + layer);
+  if (grid.step < 1) grid.step = 1;
+  grid.layer = layer;
+  if (has_half_views) {
+    while (grid.half_views < grid.n() && 2 * (grid.half_views + 1) * aperture_radius <= grid.n()) {
+      ++grid.half_views;
+    }
+  }
+  // spread * u_t / 2^layer is that, but a depth edge always ends a run.
+  const int64_t spread =
+      (int64_t{kRunSpread} << (kStepBits + kDisparityBits - kShiftBits)) / grid.step;
+  grid.spread = static_cast<int32_t>(spread < kSurfaceStep ? spread : kSurfaceStep);
+  return grid;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,188 @@
+#include "lib/engine/engine.h"
+
+#include "lib/api/validate.h"
+#include "lib/base/rules.h"
+#include "lib/engine/stripe_layers.h"
+#include "lib/filter/gather.h"
+
+namespace starfocus {
+namespace {
+
+int32_t CeilPixels(double value) {
+  const auto whole = static_cast<int32_t>(value);
+  return value > whole ? whole + 1 : whole;
+}
+
+double AbsDouble(double value) { return value < 0 ? -value : value; }
+
+double MaxDouble(double a, double b) { return a > b ? a : b; }
+
+// Blur radius of the configured range's farther end.
+double LargestBlur(const sf_config& config, const sf_params& params) {
+  return params.aperture * MaxDouble(AbsDouble(config.disparity_min - params.focus),
+                                     AbsDouble(config.disparity_max - params.focus));
+}
+
+}  // namespace
+
+Rect RegionOf(const sf_config& config, const sf_params& params) {
+  const sf_region& region = params.region;
+  if (IsWhole(region)) return {0, 0, config.width, config.height};
+  return {region.x, region.y, region.width, region.height};
+}
+
+Reach GetReach(double max_blur) {
+  // A cell reaches at most r and half a pixel of rounding beyond itself, or a layer's margin more;
+  // its pixels then lie less than a cell further away.
+  const int32_t splat = CeilPixels(max_blur) + 1 + kLayerMargin[2];
+  Reach reach;
+  reach.border = CeilPixels(max_blur) + kCellSize + 2;
+  reach.cells = (splat + kCellSize - 1) / kCellSize + 1;
+  // And the taps of two downsampling filters.
+  reach.rows = (reach.cells + 1) * kCellSize + 16;
+  return reach;
+}
+
+int32_t LayerRows(const sf_config& config, int layer) {
+  int32_t rows = config.largest_block + 2 * GetReach(config.max_blur).rows;
+  for (; layer > 0; --layer) rows = rows / 2 + 4;
+  return rows;
+}
+
+int32_t SideReach(const sf_config& config, double max_blur) {
+  // A hole is read at most its disparity away from a place within the blur radius, by a filter of
+  // 7 taps at most.
+  const double disparity =
+      MaxDouble(AbsDouble(config.disparity_min), AbsDouble(config.disparity_max));
+  return GetReach(max_blur).rows + CeilPixels(max_blur) + CeilPixels(disparity) + 8;
+}
+
+void MakeTables(EngineState* engine) {
+  engine->fall_off = ApertureFallOff(engine->config.theta);
+  uint16_t* weights = engine->aperture_weights;
+  for (int32_t n = 0; n <= engine->max_n; ++n) {
+    engine->apertures[n] = MakeAperture(n, engine->fall_off, weights);
+    engine->view_counts[n] = CountViews(n);
+    weights += ApertureSize(n);
+  }
+  for (int32_t n = 0; n <= engine->max_cell_n; ++n) {
+    engine->cell_apertures[n] = MakeCellAperture(n, engine->fall_off, weights);
+    engine->cell_view_counts[n] = CountCells(engine->cell_apertures[n]);
+    weights += ApertureSize(n);
+  }
+  engine->blur_steps = 0;
+}
+
+void SetViews(const Plane<const uint8_t>* views, EngineState* engine) {
+  const sf_config& config = engine->config;
+  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    Window& window = engine->windows[layer];
+    window.layer = layer;
+    window.width = LayerSize(config.width, layer);
+    window.height = LayerSize(config.height, layer);
+    window.picture_width = config.width;
+    window.picture_height = config.height;
+    window.views = config.views;
+    for (int view = 0; view < config.views; ++view) window.view[view] = views[view];
+    window.disparity = {engine->disparity.data, engine->disparity.stride, engine->disparity.rows,
+                        0};
+    engine->layers[layer].width = window.width;
+    engine->layers[layer].height = window.height;
+  }
+  engine->windows[0].centre = views[0];
+}
+
+sf_status SetLens(const sf_params& params, EngineState* engine) {
+  const sf_config& config = engine->config;
+  const double r_max = LargestBlur(config, params);
+  if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
+  engine->params = params;
+  engine->region = RegionOf(config, params);
+  engine->reach = GetReach(r_max);
+  const bool cells = UsesCells(*engine);
+  if (IsBenchmark(*engine)) {
+    engine->aperture = (cells ? MakeCellAperture : MakeAperture)(
+        ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
+  } else {
+    const int32_t n = cells ? ViewsByCells(r_max) : ViewsByPaper(r_max);
+    engine->aperture =
+        (cells ? engine->cell_apertures : engine->apertures)[ScaleViews(n, config.n_scale)];
+  }
+  const ViewGrid grid = MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false);
+  engine->scale = {grid.focus, grid.step};
+  const bool gathers = IsBlockMode(*engine) && cells && config.gather != 0;
+  if (params.mode == SF_MODE_BLUR || gathers) {
+    const int32_t steps = BlurStepCount(gathers && r_max > kMaxGather ? kMaxGather : r_max);
+    if (steps > engine->blur_steps) {
+      MakeBlurKernels(engine->blur_steps, steps, engine->fall_off, engine->blur_weights,
+                      engine->blur_kernels);
+      engine->blur_steps = steps;
+    }
+  }
+  engine->report = sf_report();
+  engine->report.r_max = r_max;
+  for (int32_t worker = 0; worker < config.max_workers; ++worker) {
+    for (sf_layer_report& layer : engine->workers[worker].layers) layer = sf_layer_report();
+    engine->workers[worker].skipped = sf_skipped();
+    engine->workers[worker].centre_bytes = 0;
+    engine->workers[worker].side_bytes = 0;
+    engine->workers[worker].gathered_pixels = 0;
+  }
+  engine->disparity_rows = 0;
+  engine->map.rows = 0;
+  engine->plan.all_measured = false;
+  engine->prepared = false;
+  engine->changes.active = false;
+  ForgetLayers(engine);
+  return SF_OK;
+}
+
+sf_status ConvertDisparity(const EngineState& engine, const float* row, int16_t* out) {
+  const sf_config& config = engine.config;
+  const auto width = static_cast<size_t>(config.width);
+  if (!engine.kernels->convert_disparity(row, width, config.disparity_min, config.disparity_max,
+                                         out)) {
+    for (size_t x = 0; x < width; ++x) {
+      if (!(row[x] - row[x] == 0.0f)) return SF_ERROR_NOT_FINITE;
+    }
+    return SF_ERROR_DISPARITY;
+  }
+  CheckAll(ranges::kDisparity, out, width);
+  return SF_OK;
+}
+
+sf_status PushDisparity(const float* row, EngineState* engine) {
+  const sf_status status =
+      ConvertDisparity(*engine, row, engine->disparity.Row(engine->disparity_rows));
+  if (status == SF_OK) ++engine->disparity_rows;
+  engine->report.disparity_bytes += sizeof(float) * static_cast<uint64_t>(engine->config.width);
+  return status;
+}
+
+sf_report GetReport(const EngineState& engine) {
+  sf_report report = engine.report;
+  for (int32_t worker = 0; worker < engine.config.max_workers; ++worker) {
+    for (int layer = 0; layer < SF_LAYERS; ++layer) {
+      const sf_layer_report& part = engine.workers[worker].layers[layer];
+      sf_layer_report& sum = report.layers[layer];
+      sum.blocks += part.blocks;
+      sum.pixels += part.pixels;
+      sum.views += part.views;
+      sum.rendered_samples += part.rendered_samples;
+      sum.predicted_ps += part.predicted_ps;
+      sum.measured_ns += part.measured_ns;
+      report.rendered_samples += part.rendered_samples;
+    }
+    const sf_skipped& skipped = engine.workers[worker].skipped;
+    report.skipped.copied_blocks += skipped.copied_blocks;
+    report.skipped.copied_pixels += skipped.copied_pixels;
+    report.skipped.filled_blocks += skipped.filled_blocks;
+    report.skipped.filled_pixels += skipped.filled_pixels;
+    report.centre_bytes += engine.workers[worker].centre_bytes;
+    report.side_bytes += engine.workers[worker].side_bytes;
+    report.gathered_pixels += engine.workers[worker].gathered_pixels;
+  }
+  return report;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,113 @@
+#include "lib/engine/frame_changes.h"
+
+#include <cstring>
+
+#include "lib/base/fixed.h"
+
+namespace starfocus {
+namespace {
+
+// Pixels that are compared at once.
+constexpr int32_t kUnit = 16;
+
+// Stripes that depend on row y.
+struct StripeRange {
+  int32_t first, last;
+};
+
+StripeRange StripesOf(const Changes& changes, int32_t y, int32_t reach) {
+  return {Max(0, y - reach) / changes.side, Min(changes.height - 1, y + reach) / changes.side};
+}
+
+// Whether all blocks of the stripes are flagged already: where much changes, most rows need no
+// look.
+bool AllFlagged(const Changes& changes, const StripeRange& stripes) {
+  for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
+    if (std::memchr(changes.Flags(stripe), 0, static_cast<size_t>(changes.columns)) != nullptr) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Compares row y of `pixel_bytes` a pixel and flags the blocks that depend on what differs.
+void CompareRow(const Changes& changes, const void* a, const void* b, size_t pixel_bytes, int32_t y,
+                int32_t reach) {
+  const auto* before = static_cast<const uint8_t*>(a);
+  const auto* now = static_cast<const uint8_t*>(b);
+  const StripeRange stripes = StripesOf(changes, y, reach);
+  if (AllFlagged(changes, stripes) ||
+      std::memcmp(before, now, pixel_bytes * static_cast<size_t>(changes.width)) == 0) {
+    return;
+  }
+  int32_t flagged = -1;  // last column of this row's
+  for (int32_t x = 0; x < changes.width; x += kUnit) {
+    const int32_t first = Max(0, x - reach) / changes.side;
+    const int32_t last = Min(changes.width - 1, x + kUnit - 1 + reach) / changes.side;
+    if (last == flagged) continue;
+    const size_t offset = pixel_bytes * static_cast<size_t>(x);
+    const size_t bytes = pixel_bytes * static_cast<size_t>(Min(kUnit, changes.width - x));
+    if (std::memcmp(before + offset, now + offset, bytes) == 0) continue;
+    flagged = last;
+    for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
+      std::memset(changes.Flags(stripe) + first, 1, static_cast<size_t>(last - first + 1));
+    }
+  }
+}
+
+void CompareViews(const Changes& changes, int32_t y) {
+  const auto row = static_cast<size_t>(y);
+  const sf_light_field &a = *changes.before, &b = *changes.now;
+  CompareRow(changes, a.disparity + row * (a.disparity_stride / sizeof(float)),
+             b.disparity + row * (b.disparity_stride / sizeof(float)), sizeof(float), y,
+             changes.centre_reach);
+  for (int32_t view = 0; view < changes.views; ++view) {
+    CompareRow(changes, a.views[view].data + row * a.views[view].stride,
+               b.views[view].data + row * b.views[view].stride, 3, y,
+               view == 0 ? changes.centre_reach : changes.side_reach);
+  }
+}
+
+int32_t LargestReach(const Changes& changes) {
+  return changes.views == 1 ? changes.centre_reach : changes.side_reach;
+}
+
+}  // namespace
+
+int32_t ChangeStripes(int32_t side, int32_t reach) {
+  // Rows up to `reach` beyond the stripe after the current one are compared, which flag stripes up
+  // to as much again beyond; the one before the current is still asked for.
+  return 2 * reach / side + 5;
+}
+
+void StartChanges(int32_t y, Changes* changes) {
+  const int32_t reach = LargestReach(*changes);
+  changes->rows = Max(0, y - changes->side - reach);
+  changes->known = Max(0, changes->rows - reach) / changes->side;
+}
+
+void CompareRows(int32_t y, Changes* changes) {
+  const int32_t reach = LargestReach(*changes);
+  const int32_t end = Min(changes->height, y + 2 * changes->side + reach);
+  for (; changes->rows < end; ++changes->rows) {
+    const int32_t last = Min(changes->height - 1, changes->rows + reach) / changes->side;
+    for (; changes->known <= last; ++changes->known) {
+      std::memset(changes->Flags(changes->known), 0, static_cast<size_t>(changes->columns));
+    }
+    CompareViews(*changes, changes->rows);
+  }
+}
+
+bool HasChanged(const Changes& changes, const Rect& rect) {
+  const int32_t side = changes.side;
+  const int32_t first = Max(0, rect.x) / side;
+  const int32_t last = Min(changes.width, rect.x + rect.width) - 1;
+  const int32_t bottom = Min(changes.height, rect.y + rect.height) - 1;
+  for (int32_t stripe = Max(0, rect.y) / side; stripe <= bottom / side; ++stripe) {
+    const uint8_t* flags = changes.Flags(stripe) + first;
+    if (std::memchr(flags, 1, static_cast<size_t>(last / side - first + 1)) != nullptr) return true;
+  }
+  return false;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,48 @@
+// Which largest blocks depend on pixels that differ between two light fields.
+#ifndef STARFOCUS_LIB_ENGINE_FRAME_CHANGES_H_
+#define STARFOCUS_LIB_ENGINE_FRAME_CHANGES_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/input/field.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Rows are compared from the first one that is needed to the last; blocks of a stripe and of those
+// beside it are known once all rows within their reach are compared.
+struct Changes {
+  bool active = false;  // there is something to compare with
+  const sf_light_field *before, *now;
+  int32_t views;                     // that matter
+  int32_t width, height, side;       // of the picture and its largest blocks
+  int32_t columns;                   // of largest blocks
+  int32_t centre_reach, side_reach;  // pixels around a block that it may depend on
+  int32_t rows;                      // compared so far
+  int32_t known;                     // stripes whose flags are set up
+  uint8_t* flags = nullptr;          // ring of stripes, by column: 1 where something changed
+  int32_t stripes = 0;               // of the ring
+
+  uint8_t* Flags(int32_t stripe) const {
+    return flags + static_cast<size_t>(stripe % stripes) * static_cast<size_t>(columns);
+  }
+};
+
+// Stripes that the ring must hold when blocks of `side` depend on pixels up to `reach` away.
+int32_t ChangeStripes(int32_t side, int32_t reach);
+
+// Starts anew, for stripes from row y on.
+void StartChanges(int32_t y, Changes* changes);
+
+// Compares all rows that blocks of the stripe at row y, and of those before and after it, depend
+// on.
+void CompareRows(int32_t y, Changes* changes);
+
+// Whether a largest block that has pixels in `rect`, or less than a stripe away from those last
+// compared, has changed.
+bool HasChanged(const Changes& changes, const Rect& rect);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_ENGINE_FRAME_CHANGES_H_

@@ -1,0 +1,261 @@
+#include "lib/engine/layout.h"
+
+#include "lib/base/rules.h"
+
+namespace starfocus {
+namespace {
+
+// Memory of a worker, where that is enough: slices are made in sections of what is left of it. With
+// less for small blocks slices would get coarser: 0.1 to 0.5 dB.
+constexpr size_t WorkerBytes(size_t side) {
+  constexpr size_t kPixelBytes = 256, kLeast = size_t{768} << 10;
+  const size_t bytes = kPixelBytes * side * side;
+  return bytes > kLeast ? bytes : kLeast;
+}
+
+SpanMemory TakeSpans(size_t side, Carver* carver) {
+  SpanMemory memory;
+  memory.span_capacity = 512;
+  memory.spans = carver->Take<simd::Span>(memory.span_capacity);
+  memory.pixel_capacity = 3 * 2 * side;
+  memory.pixels = carver->Take<uint8_t>(memory.pixel_capacity);
+  return memory;
+}
+
+// The largest N of the block and frame modes.
+int32_t LargestN(const sf_config& config) {
+  // One more than (9) gives: radii are rounded up before it.
+  return ScaleViews(ViewsByPaper(config.max_blur) + 1, config.n_scale);
+}
+int32_t LargestCellN(const sf_config& config) {
+  return ScaleViews(ViewsByCells(config.max_blur + 1), config.n_scale);
+}
+
+// The largest N of slices.
+int32_t LargestSliceN(const sf_config& config) {
+  return Max(LargestCellN(config), ViewsOfBenchmark(config.max_blur));
+}
+
+// E and R of StarScratch, and the largest N; all but the first accumulators.
+void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver, StarScratch* star) {
+  StarScratch& scratch = *star;
+  const size_t area = extended * extended;
+  const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
+  for (int k = 0; k < 2; ++k) {
+    scratch.field_rgb[k] = carver->Take<uint8_t>(extended * rgb_stride);
+    scratch.field_disparity[k] = carver->Take<int16_t>(area);
+  }
+  scratch.accumulators[1] = carver->Take<uint32_t>(3 * rectangle * rectangle);
+  scratch.diagonal_rgb = carver->Take<uint8_t>(3 * area);
+  scratch.diagonal_disparity = carver->Take<int16_t>(area);
+  scratch.diagonal_offsets = carver->Take<uint32_t>(2 * extended);
+  scratch.moves = carver->Take<int64_t>(max_n + 1);
+  scratch.marks.starts = carver->Take<uint16_t>(RunMarkWords(extended, extended));
+  scratch.marks.edges = carver->Take<uint16_t>(RunMarkWords(extended, extended));
+  scratch.marks.middles = carver->Take<int16_t>(RunMiddles(extended, extended));
+  scratch.runs = carver->Take<Run>(area);
+  scratch.run_counts = carver->Take<int32_t>(extended);
+  scratch.line_runs = carver->Take<Run>(extended);
+  scratch.strip_rgb = carver->Take<uint8_t>(3 * rectangle * kStripRows);
+  scratch.view_disparity = carver->Take<int16_t>(rectangle * extended);
+  scratch.columns_rgb = carver->Take<uint8_t>(rectangle * rgb_stride);
+  scratch.line_accumulators = carver->Take<uint32_t>(3 * extended);
+  scratch.spans = TakeSpans(extended, carver);
+}
+
+// What is found of a field before slices are made.
+void TakeField(size_t extended, Carver* carver, StackScratch* stack) {
+  StackScratch& scratch = *stack;
+  Surfaces& surfaces = scratch.surfaces;
+  const size_t row = simd::SliceSamples(extended);
+  scratch.field_rgb = carver->Take<uint8_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+  scratch.field_disparity = carver->Take<int16_t>(extended * extended);
+  for (uint8_t*& edges : surfaces.edges) {
+    edges = carver->Take<uint8_t>(extended * row + simd::kSliceLanes);
+  }
+  surfaces.moved = carver->Take<int16_t>(row);
+  surfaces.behind = carver->Take<int16_t>(row);
+  surfaces.steps = carver->Take<simd::StepBits>(row / simd::kSliceLanes);
+  for (uint16_t*& sources : surfaces.sources) sources = carver->Take<uint16_t>(row);
+  scratch.bins = carver->Take<uint8_t>(kSliceBins);
+  scratch.least_blur = carver->Take<int32_t>(extended);
+}
+
+// E and R of StackScratch, and the largest N; `reach`: pixels beyond a rectangle of slices. The
+// pool is what is left of `bytes` for all, if that is enough.
+StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t max_n, size_t bytes,
+                       Carver* carver) {
+  StackScratch scratch;
+  const size_t first = carver->Mark();
+  Surfaces& surfaces = scratch.surfaces;
+  const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
+  for (int k = 0; k < simd::kSurfaces; ++k) {
+    surfaces.disparity[k] = carver->Take<int16_t>(area);
+    surfaces.rgb[k] = carver->Take<uint8_t>(3 * area);
+  }
+  surfaces.share = carver->Take<uint8_t>(area);
+  surfaces.hiding = carver->Take<uint64_t>(extended);
+  scratch.centre = carver->Take<uint8_t>(3 * rectangle * rectangle);
+  scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
+  scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
+  scratch.parts = carver->Take<StackPart>(StackParts(rectangle));
+  scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rectangle);
+  scratch.filtered = carver->Take<int16_t>((rectangle + 2 * reach) * SlicePlane(rectangle, reach));
+  const size_t field = carver->Mark(), used = field - first;
+  TakeField(extended, carver, &scratch);
+  carver->Reuse(field);
+  constexpr size_t kLeastSlices = 5;
+  const size_t least =
+      kLeastSlices * (SliceBytes(kLeastColumns, kLeastRows, reach) + TileBytes(kLeastRows, reach));
+  // Less what rounding to SF_ALIGNMENT may add.
+  const size_t others = used + simd::kPadding + 2 * SF_ALIGNMENT;
+  const size_t left = bytes > others ? bytes - others : 0;
+  scratch.limits = {kLargeSlices * SliceSize(rectangle, rectangle, reach),
+                    kLargeTiles * ShiftedRows(rectangle, reach), left > least ? left : least};
+  scratch.pool = carver->Take<uint8_t>(scratch.limits.bytes);
+  return scratch;
+}
+
+// What one block after the other is rendered, or parted, in shares memory: only sums are handed on.
+Worker TakeWorker(const sf_config& config, Carver* carver) {
+  const auto side = static_cast<size_t>(config.largest_block);
+  const Reach reach = GetReach(config.max_blur);
+  Worker worker = {};
+  const size_t extended = side + 2 * static_cast<size_t>(reach.border);
+  const int32_t max_n = Max(LargestN(config), ViewsOfBenchmark(config.max_blur));
+  const size_t first = carver->Mark();
+  worker.star.accumulators[0] = carver->Take<uint32_t>(3 * side * side);
+  const size_t shared = carver->Mark();
+  TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.star);
+  carver->Reuse(shared);
+  const auto rim = static_cast<size_t>(reach.border - kCellSize - 2);
+  worker.stack =
+      TakeStack(extended, side, rim + kSliceMargin, static_cast<size_t>(LargestSliceN(config)),
+                WorkerBytes(side) - (shared - first) - sizeof(Worker), carver);
+  carver->Reuse(shared);
+  // A rendered rectangle is at most half a block and 4 pixels wide.
+  const size_t half = side / 2 + 8;
+  worker.upsample.line = carver->Take<int16_t>(3 * half);
+  worker.upsample.between = carver->Take<int16_t>(3 * half);
+  worker.upsample.even = carver->Take<int16_t>(3 * half);
+  worker.layer_samples = carver->Take<int16_t>(3 * half * half);
+  worker.middle_samples = carver->Take<int16_t>(3 * half * half);
+  worker.picture_samples = carver->Take<int16_t>(3 * side * side);
+  carver->Reuse(shared);
+  worker.resample.even = carver->Take<int16_t>(3 * half);
+  worker.resample.odd = carver->Take<int16_t>(3 * half);
+  carver->Reuse(shared);
+  worker.partition.nodes =
+      carver->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
+  worker.partition.cells = carver->Take<int16_t>(
+      SurroundingSamples(config.largest_block / kCellSize, GetReach(config.max_blur).cells));
+  carver->GoOn();
+  return worker;
+}
+
+void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
+  engine->max_n = LargestN(config);
+  engine->max_cell_n = LargestCellN(config);
+  const auto count = static_cast<size_t>(engine->max_n) + 1;
+  const auto cell_count = static_cast<size_t>(engine->max_cell_n) + 1;
+  size_t weights = 0;
+  for (int32_t n = 0; n <= engine->max_n; ++n) weights += ApertureSize(n);
+  for (int32_t n = 0; n <= engine->max_cell_n; ++n) weights += ApertureSize(n);
+  engine->apertures = carver->Take<Aperture>(count);
+  engine->cell_apertures = carver->Take<Aperture>(cell_count);
+  engine->aperture_weights = carver->Take<uint16_t>(weights);
+  engine->view_counts = carver->Take<ViewCounts>(count);
+  engine->cell_view_counts = carver->Take<ViewCounts>(cell_count);
+  engine->benchmark_weights =
+      carver->Take<uint16_t>(ApertureSize(ViewsOfBenchmark(config.max_blur)));
+  engine->blur_kernels =
+      carver->Take<BlurKernel>(static_cast<size_t>(BlurStepCount(config.max_blur)));
+  engine->blur_weights = carver->Take<uint16_t>(BlurWeightCount(config.max_blur));
+}
+
+// Planes of layers 1 and 2 around a stripe.
+void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
+  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+    LayerPlane& plane = engine->layers[layer];
+    const auto width = static_cast<size_t>(LayerSize(config.width, layer));
+    plane.half.stride = plane.rgb.stride = plane.samples.stride = 3 * width;
+    const auto above = static_cast<size_t>(LayerRows(config, layer - 1));
+    const auto rows = static_cast<size_t>(LayerRows(config, layer));
+    plane.half.data = carver->Take<int16_t>(3 * width * (above + 8));
+    plane.rgb.data = carver->Take<uint8_t>(3 * width * rows);
+    plane.samples.data = carver->Take<int16_t>(3 * width * rows);
+  }
+}
+
+void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
+  const Reach reach = GetReach(config.max_blur);
+  const int32_t side = config.largest_block;
+  const auto blocks = static_cast<size_t>((config.width + side - 1) / side);
+  engine->cells.columns = (config.width + kCellSize - 1) / kCellSize;
+  engine->cells.rows = (config.height + kCellSize - 1) / kCellSize;
+  engine->cells.cells =
+      carver->Take<Cell>(static_cast<size_t>(engine->cells.columns) *
+                         static_cast<size_t>(side / kCellSize + 2 * reach.cells + 2));
+  engine->plan.wanted = carver->Take<uint8_t>(blocks);
+  engine->plan.measured = carver->Take<uint8_t>(blocks);
+  engine->plan.blocks = carver->Take<Block>(blocks * static_cast<size_t>(MaxBlocks(side)));
+  engine->plan.counts = carver->Take<int32_t>(blocks);
+  engine->plan.gathered.columns = static_cast<int32_t>(blocks) * side / kCellSize;
+  engine->plan.gathered.cells = carver->Take<uint8_t>(
+      static_cast<size_t>(engine->plan.gathered.columns * (side / kCellSize)));
+  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+    engine->plan.needed[layer] = carver->Take<uint8_t>(blocks);
+  }
+  Changes& changes = engine->changes;
+  changes.columns = static_cast<int32_t>(blocks);
+  changes.stripes = ChangeStripes(side, SideReach(config, config.max_blur));
+  changes.flags = carver->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
+  engine->map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
+  engine->map.units = carver->Take<uint8_t>(static_cast<size_t>(engine->map.columns) *
+                                            static_cast<size_t>(side / kSmallestBlock + 1));
+}
+
+void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
+  const auto width = static_cast<size_t>(config.width);
+  const bool streaming = config.streaming != 0;
+  const int32_t beyond =
+      streaming ? SideReach(config, config.max_blur) : GetReach(config.max_blur).rows;
+  const int32_t rows = config.largest_block + 2 * beyond;
+  engine->disparity.rows = rows;
+  engine->disparity.stride = width;
+  engine->disparity.data = carver->Take<int16_t>(width * static_cast<size_t>(rows));
+  engine->stripe_out =
+      carver->Take<uint8_t>(3 * width * static_cast<size_t>(config.largest_block + kDeblockRows));
+  if (!streaming) return;
+  for (int view = 0; view < config.views; ++view) {
+    engine->rings[view].rows = rows;
+    engine->rings[view].stride = 3 * width;
+    engine->rings[view].data = carver->Take<uint8_t>(3 * width * static_cast<size_t>(rows));
+  }
+}
+
+}  // namespace
+
+size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
+  Carver carver(base);
+  *engine = carver.Take<EngineState>(1);
+  EngineState counted;  // stands in for *engine while counting
+  EngineState& e = *engine == nullptr ? counted : **engine;
+  TakeTables(config, &carver, &e);
+  TakeRows(config, &carver, &e);
+  TakeLayers(config, &carver, &e);
+  TakeStripe(config, &carver, &e);
+  e.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
+  for (int32_t worker = 0; worker < config.max_workers; ++worker) {
+    const Worker taken = TakeWorker(config, &carver);
+    if (*engine != nullptr) e.workers[worker] = taken;
+  }
+  return carver.used();
+}
+
+Extent Workspace(const EngineState& engine) {
+  EngineState* counted = nullptr;
+  return ExtentOf(&engine, 0, 1, LayOut(engine.config, nullptr, &counted));
+}
+
+}  // namespace starfocus

@@ -1,0 +1,205 @@
+#include "lib/engine/refocus_block.h"
+
+#include <cstring>
+
+#include "lib/engine/trivial_block.h"
+#include "lib/filter/gather.h"
+
+namespace starfocus {
+namespace {
+
+size_t Samples(const Rect& rect) {
+  return 3 * static_cast<size_t>(rect.width) * static_cast<size_t>(rect.height);
+}
+
+uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
+  return out.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x);
+}
+
+void FinishPicture(const simd::Kernels& kernels, const Rect& rect, int shift,
+                   const Plane<uint8_t>& out, const Worker& worker) {
+  const size_t samples = 3 * static_cast<size_t>(rect.width);
+  CheckSums(worker.star.accumulators[0], Samples(rect), shift);
+  for (int32_t row = 0; row < rect.height; ++row) {
+    kernels.finish(worker.star.accumulators[0] + static_cast<size_t>(row) * samples, samples, shift,
+                   At(out, rect, row));
+  }
+}
+
+// From layer 2 to layer 1, with the margin that the next step reads, to the picture.
+void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
+                 const Plane<uint8_t>& out, const Worker& worker) {
+  CheckSums(worker.star.accumulators[0], Samples(block.rendered), shift);
+  kernels.finish_layer(worker.star.accumulators[0], Samples(block.rendered), shift,
+                       worker.layer_samples);
+  CheckAll(ranges::kLayerSample, worker.layer_samples, Samples(block.rendered));
+  LayerRect layer = {worker.layer_samples, block.rendered.width, block.rendered.height};
+  int32_t margin = kLayerMargin[block.layer] >> block.layer;
+  if (block.layer == 2) {
+    const int32_t next_margin = kLayerMargin[1] >> 1;
+    const LayerRect middle = {worker.middle_samples,
+                              ((block.rect.width + 1) >> 1) + 2 * next_margin,
+                              ((block.rect.height + 1) >> 1) + 2 * next_margin};
+    UpsampleByTwo(kernels, layer, margin - next_margin / 2, worker.upsample, middle);
+    layer = middle;
+    margin = next_margin;
+  }
+  const LayerRect picture = {worker.picture_samples, block.rect.width, block.rect.height};
+  UpsampleByTwo(kernels, layer, margin, worker.upsample, picture);
+  const size_t samples = 3 * static_cast<size_t>(block.rect.width);
+  for (int32_t row = 0; row < block.rect.height; ++row) {
+    kernels.narrow(picture.samples + static_cast<size_t>(row) * samples, samples,
+                   At(out, block.rect, row));
+  }
+}
+
+void CopyCentre(const EngineState& engine, const Rect& rect, const Plane<uint8_t>& out) {
+  for (int32_t row = 0; row < rect.height; ++row) {
+    std::memcpy(At(out, rect, row),
+                engine.windows[0].centre.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x),
+                3 * static_cast<size_t>(rect.width));
+  }
+}
+
+void FillColour(const uint8_t* colour, const Rect& rect, const Plane<uint8_t>& out) {
+  uint8_t* first = At(out, rect, 0);
+  for (int32_t x = 0; x < rect.width; ++x) std::memcpy(first + 3 * x, colour, 3);
+  for (int32_t row = 1; row < rect.height; ++row) {
+    std::memcpy(At(out, rect, row), first, 3 * static_cast<size_t>(rect.width));
+  }
+}
+
+// A window that counts for a worker what is read of its views.
+class Counting {
+ public:
+  Counting(const Window& window, Worker* worker) : window_(window), worker_(*worker) {
+    window_.reads = &reads_;
+  }
+  ~Counting() {
+    worker_.centre_bytes += 3 * reads_.centre_pixels;
+    worker_.side_bytes += reads_.side_colours * static_cast<uint64_t>(CapturedBytes(window_));
+  }
+  Counting(const Counting&) = delete;
+  Counting& operator=(const Counting&) = delete;
+
+  const Window& window() const { return window_; }
+
+ private:
+  Window window_;
+  Worker& worker_;
+  Reads reads_;
+};
+
+// What of a block is rendered.
+struct Rendered {
+  uint64_t views, samples;
+};
+
+// Renders the block's views: by cells as a stack of slices, whose samples all count.
+Rendered Render(const EngineState& engine, const Block& block, StarJob job,
+                const Plane<uint8_t>& out, Worker* worker) {
+  const Counting counting(*job.window, worker);
+  job.window = &counting.window();
+  uint64_t samples = Samples(job.rect);
+  if (UsesCells(engine)) {
+    const GatherMap* gathered = block.gathers ? &engine.plan.gathered : nullptr;
+    const SliceRule& rule = IsBenchmark(engine) ? kFineSlices : kSlices;
+    samples = 3 * RefocusStack(job, rule, gathered, &worker->stack, worker->star.accumulators[0]);
+  } else {
+    RefocusRectangle(job, &worker->star);
+  }
+  const int shift = job.grid->aperture.sum_bits;
+  if (block.layer == 0) {
+    FinishPicture(*engine.kernels, job.rect, shift, out, *worker);
+  } else {
+    FinishLayer(*engine.kernels, block, shift, out, *worker);
+  }
+  const auto views = static_cast<uint64_t>(ApertureOf(engine, block.n).views);
+  return {views, views * samples};
+}
+
+void GatherCells(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+                 Worker* worker) {
+  Field field;
+  field.rgb = worker->star.field_rgb[0];
+  field.disparity = worker->star.field_disparity[0];
+  const Counting counting(engine.windows[0], worker);
+  const GatherJob job = {&counting.window(), &engine.cells,       &engine.plan.gathered,
+                         engine.scale,       engine.blur_kernels, engine.kernels,
+                         block.rect};
+  worker->gathered_pixels += GatherRectangle(job, &field, At(out, block.rect, 0), out.stride);
+}
+
+// What views give of a block: at layer 0 they need not be rendered for all of it.
+const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
+
+// A copied block has one view, the centre.
+Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+                      Worker* worker) {
+  const Aperture& aperture = ApertureOf(engine, block.n);
+  // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
+  const bool pinhole = aperture.n == 0;
+  const Aperture& rendered = pinhole ? engine.apertures[1] : aperture;
+  const double extent = UsesCells(engine) ? rendered.extent : 1;
+  ViewGrid grid = MakeViewGrid(rendered, engine.params.focus, engine.params.aperture * extent,
+                               block.layer, engine.config.views == 17);
+  if (pinhole) grid.step = 0;
+  const StarJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
+                       block.border};
+  if (engine.config.skips == 0) return Render(engine, block, job, out, worker);
+  const Rect& rect = ViewsRect(block);
+  const uint64_t pixels = Samples(rect) / 3;
+  // Slices have ends, which move a little even then.
+  if (pinhole || (!UsesCells(engine) && NothingMoves(job))) {
+    CopyCentre(engine, rect, out);
+    worker->centre_bytes += 3 * pixels;
+    worker->skipped.copied_blocks += 1;
+    worker->skipped.copied_pixels += pixels;
+    return {1, 3 * pixels};
+  }
+  if (const uint8_t* colour = OneColour(job)) {
+    FillColour(colour, rect, out);
+    worker->skipped.filled_blocks += 1;
+    worker->skipped.filled_pixels += pixels;
+    return {0, 0};
+  }
+  return Render(engine, block, job, out, worker);
+}
+
+void BlurBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+               Worker* worker) {
+  const Counting counting(engine.windows[0], worker);
+  const BlurJob job = {&counting.window(), engine.scale, engine.blur_kernels,
+                       engine.kernels,     block.rect,   block.border.left};
+  const BlurScratch scratch = {worker->star.field_rgb[0], worker->star.accumulators[0],
+                               worker->star.spans};
+  BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
+}
+
+}  // namespace
+
+void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+                  Worker* worker) {
+  const sf_clock clock = engine.params.clock;
+  const uint64_t start = clock != nullptr ? clock() : 0;
+  Rendered rendered = {1, 0};  // the centre, of a block gathered whole
+  if (engine.params.mode == SF_MODE_BLUR) {
+    BlurBlock(engine, block, out, worker);
+    rendered = {0, 0};
+  } else {
+    if (block.rendered.width > 0) {
+      rendered = RefocusViews(engine, block, out, worker);
+    }
+    // After views, which know nothing of cells.
+    if (block.gathers) GatherCells(engine, block, out, worker);
+  }
+  sf_layer_report& report = worker->layers[block.layer];
+  report.blocks += 1;
+  report.pixels += Samples(block.rect) / 3;
+  report.views += rendered.views;
+  report.rendered_samples += rendered.samples;
+  report.predicted_ps += block.cost;
+  if (clock != nullptr) report.measured_ns += clock() - start;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,31 @@
+// The stripe loop's body: plans the blocks of one stripe, refocuses them and joins them.
+#ifndef STARFOCUS_LIB_ENGINE_STRIPE_H_
+#define STARFOCUS_LIB_ENGINE_STRIPE_H_
+
+#include <cstdint>
+
+#include "lib/engine/engine.h"
+#include "lib/engine/jobs.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Output rows that are final once the stripe that starts at row y is done.
+int32_t FinishedRows(const EngineState& engine, int32_t y);
+
+// Refocuses what the engine's region needs of the stripe that starts at row y, a multiple of the
+// largest block; stripes come one after the other. All rows within reach are in the windows; `out`
+// holds the stripe's rows and the kDeblockRows before it. SF_OK or SF_ERROR_RUNNER.
+sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& out,
+                        const Runner& runner);
+
+// The engine's own rows for the stripe that starts at row y, and those before it that it may still
+// change.
+Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y);
+
+// RefocusStripe into BufferRows.
+sf_status RefocusIntoBuffer(EngineState* engine, int32_t y, const Runner& runner);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_ENGINE_STRIPE_H_

@@ -1,0 +1,102 @@
+#include "lib/engine/trivial_block.h"
+
+#include <cstring>
+
+#include "lib/input/picture_edge.h"
+
+namespace starfocus {
+namespace {
+
+// In all views a pixel stays in its place, and its neighbour does not count, where
+// 2 |t| + L <= 1 (CellWeight) for its shift t and cell L <= |t|; here in kShiftBits, less one for
+// rounding.
+constexpr int32_t kStill = kShiftOne / 3 - 1;
+
+// Disparity steps from pixel to pixel, as moved by the outermost view at layer 0, up to which a
+// surface neither folds nor tears in any view, so that no hole opens: kMaxStretch bridges what an
+// eighth of a pixel and the rounding of shifts add up to.
+constexpr int32_t kGentleStep = (1 << kDisparityBits) / 8;
+
+// What of the extended rectangle lies in the picture; never empty (LoadField).
+struct Part {
+  int32_t left, right, top, bottom;  // exclusive at the right and the bottom
+};
+
+Rect Extended(const StarJob& job) {
+  const Rect& rect = job.rect;
+  const Border& border = job.border;
+  return {rect.x - border.left, rect.y - border.top, border.left + rect.width + border.right,
+          border.top + rect.height + border.bottom};
+}
+
+Part PartOf(const StarJob& job) {
+  const Window& window = *job.window;
+  const Rect rect = Extended(job);
+  return {Clamp(rect.x, 0, window.width - 1), Clamp(rect.x + rect.width, 1, window.width),
+          Clamp(rect.y, 0, window.height - 1), Clamp(rect.y + rect.height, 1, window.height)};
+}
+
+// Disparities of a row of the layer, every 2^L-th of the picture's.
+struct DisparityRow {
+  const int16_t* row;
+  int layer;
+  int32_t last;
+
+  DisparityRow(const Window& window, int32_t y)
+      : row(window.disparity.Row(Min(y << window.layer, window.picture_height - 1))),
+        layer(window.layer),
+        last(window.picture_width - 1) {}
+  int32_t At(int32_t x) const { return row[Min(x << layer, last)]; }
+};
+
+bool IsGentle(const Window& window, const Part& part) {
+  for (int32_t y = part.top; y < part.bottom; ++y) {
+    const DisparityRow row(window, y), above(window, Max(y - 1, part.top));
+    int32_t before = row.At(part.left);
+    for (int32_t x = part.left; x < part.right; ++x) {
+      const int32_t disparity = row.At(x);
+      if (Abs(disparity - before) > kGentleStep || Abs(disparity - above.At(x)) > kGentleStep) {
+        return false;
+      }
+      before = disparity;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool NothingMoves(const StarJob& job) {
+  const Window& window = *job.window;
+  if (window.layer != 0) return false;
+  const int64_t still =
+      (int64_t{kStill} << (kStepBits + kDisparityBits - kShiftBits)) / job.grid->step;
+  // Within this of one disparity there is no depth edge either, and so nothing to mix.
+  const auto limit = static_cast<int32_t>(still < kSurfaceStep / 2 ? still : kSurfaceStep / 2);
+  const int32_t focus = job.grid->focus;
+  const Part part = PartOf(job);
+  for (int32_t y = part.top; y < part.bottom; ++y) {
+    const int16_t* row = window.disparity.Row(y);
+    for (int32_t x = part.left; x < part.right; ++x) {
+      if (Abs(row[x] - focus) > limit) return false;
+    }
+  }
+  return true;
+}
+
+const uint8_t* OneColour(const StarJob& job) {
+  const Window& window = *job.window;
+  const Part part = PartOf(job);
+  const uint8_t* colour = window.centre.Row(part.top) + 3 * static_cast<ptrdiff_t>(part.left);
+  const size_t bytes = 3 * static_cast<size_t>(part.right - part.left);
+  for (int32_t y = part.top; y < part.bottom; ++y) {
+    const uint8_t* row = window.centre.Row(y) + 3 * static_cast<ptrdiff_t>(part.left);
+    if (std::memcmp(row, colour, 3) != 0) return nullptr;
+    if (std::memcmp(row, row + 3, bytes - 3) != 0) return nullptr;
+  }
+  // The centre view alone fills holes with what lies around them.
+  if (window.views == 1) return colour;
+  return IsGentle(window, part) && ShowsBeyond(window, Extended(job), colour) ? colour : nullptr;
+}
+
+}  // namespace starfocus

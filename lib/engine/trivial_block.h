@@ -1,0 +1,21 @@
+// Blocks whose picture is known without rendering their views, for the same bytes.
+#ifndef STARFOCUS_LIB_ENGINE_TRIVIAL_BLOCK_H_
+#define STARFOCUS_LIB_ENGINE_TRIVIAL_BLOCK_H_
+
+#include <cstdint>
+
+#include "lib/line_scan/triangles.h"
+
+namespace starfocus {
+
+// Whether every view shows every pixel of the job's rectangle where the centre view does, so that
+// the rectangle is that of the centre view. At layer 0 only: others are resampled all the same.
+bool NothingMoves(const StarJob& job);
+
+// The colour of all that may splat into the job's rectangle, where no side view can show another in
+// a hole; null where there is none. Three bytes of the centre view.
+const uint8_t* OneColour(const StarJob& job);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_ENGINE_TRIVIAL_BLOCK_H_

@@ -1,0 +1,61 @@
+// Depth-dependent image blurring of the centre view alone (the paper's [13], [14]): the classical
+// rival, each output pixel the ideal kernel (4) of its own blur radius.
+#ifndef STARFOCUS_LIB_FILTER_BLUR_H_
+#define STARFOCUS_LIB_FILTER_BLUR_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/filter/span_list.h"
+#include "lib/input/field.h"
+#include "lib/plan/block_stats.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+// Kernels of a ladder of radii: steps of 1/8 px up to 4 px, of 1/32 of the radius beyond.
+int32_t BlurStep(int32_t radius);  // of a radius with kDisparityBits
+int32_t BlurStepCount(double max_blur);
+
+// The octant 0 <= m <= n of one kernel; weights sum to exactly 2^sum_bits over the plane and fit
+// 15 bits.
+struct BlurKernel {
+  int32_t size;  // n of the outermost weights
+  int sum_bits;
+  const uint16_t* weights;  // at n (n + 1) / 2 + m
+
+  uint32_t Weight(int32_t n, int32_t m) const {
+    const int32_t a = Abs(n), b = Abs(m), high = Max(a, b), low = Min(a, b);
+    return weights[high * (high + 1) / 2 + low];
+  }
+};
+
+// Weights that all kernels up to max_blur store together.
+size_t BlurWeightCount(double max_blur);
+
+// Makes the kernels of steps [first, last) behind those before, which must have been made;
+// kernels[BlurStepCount], weights[BlurWeightCount]. fall_off as ApertureFallOff gives.
+void MakeBlurKernels(int32_t first, int32_t last, uint32_t fall_off, uint16_t* weights,
+                     BlurKernel* kernels);
+
+struct BlurJob {
+  const Window* window;
+  BlurScale scale;
+  const BlurKernel* kernels_of_radius;
+  const simd::Kernels* kernels;
+  Rect rect;
+  int32_t border;  // largest kernel size in the picture
+};
+
+struct BlurScratch {
+  uint8_t* rgb;            // the extended rectangle, rows packed
+  uint32_t* accumulators;  // 3 * rect.width
+  SpanMemory spans;
+};
+
+// Blurs job.rect into `out`, whose first row is the rectangle's.
+void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out, size_t out_stride);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_FILTER_BLUR_H_

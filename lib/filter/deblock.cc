@@ -1,0 +1,85 @@
+#include "lib/filter/deblock.h"
+
+#include <cstring>
+
+#include "lib/plan/partition.h"
+
+namespace starfocus {
+namespace {
+
+// Whether units of these layers need joining.
+bool Meet(int32_t before, int32_t after) {
+  return before != after && before != kNoLayer && after != kNoLayer;
+}
+
+bool Close(const uint8_t* a, const uint8_t* b, int32_t beta) {
+  return Abs(a[0] - b[0]) < beta && Abs(a[1] - b[1]) < beta && Abs(a[2] - b[2]) < beta;
+}
+
+// Filters the pixels q0, q1, ... on the lower layer's side of a boundary; `q` is `step` bytes from
+// pixel to pixel, away from the boundary, and p0 the pixel before it. `available`: pixels q has.
+void FilterLine(uint8_t* q, ptrdiff_t step, int32_t available, bool strong, int32_t beta) {
+  const uint8_t* p0 = q - step;
+  if (strong && available > 3 && Close(p0, q + 3 * step, beta)) {
+    const uint8_t* q3 = q + 3 * step;
+    for (int c = 0; c < 3; ++c) {
+      const int32_t p = p0[c], far = q3[c];
+      q[c] = static_cast<uint8_t>((3 * p + far + 2) >> 2);
+      q[step + c] = static_cast<uint8_t>((2 * p + 2 * far + 2) >> 2);
+      q[2 * step + c] = static_cast<uint8_t>((p + 3 * far + 2) >> 2);
+    }
+  } else if (available > 1 && Close(p0, q + step, beta)) {
+    for (int c = 0; c < 3; ++c) q[c] = static_cast<uint8_t>((p0[c] + q[step + c] + 1) >> 1);
+  }
+}
+
+// A boundary at `at`: a run of `count` pixels `along` bytes apart, at which units of layers before
+// and after meet `across` bytes apart. Room: pixels on either side that belong to the picture.
+void FilterBoundary(uint8_t* at, int32_t count, ptrdiff_t along, ptrdiff_t across, int32_t before,
+                    int32_t after, int32_t room_before, int32_t room_after, int32_t beta) {
+  const bool lower_after = before > after;
+  uint8_t* q = lower_after ? at : at - across;
+  const ptrdiff_t step = lower_after ? across : -across;
+  const int32_t available = lower_after ? room_after : room_before;
+  const bool strong = Max(before, after) == 2;
+  for (int32_t k = 0; k < count; ++k, q += along) FilterLine(q, step, available, strong, beta);
+}
+
+}  // namespace
+
+bool LayerMap::IsUniform(bool above) const {
+  const uint8_t* first = &At(0, above ? -1 : 0);
+  const size_t count = static_cast<size_t>(columns) * static_cast<size_t>(rows + (above ? 1 : 0));
+  return std::memcmp(first, first + 1, count - 1) == 0;
+}
+
+void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end) {
+  const LayerMap& map = *job.map;
+  for (int32_t row = job.y == 0 ? 1 : 0; row < map.rows; ++row) {
+    const int32_t y = job.y + row * kSmallestBlock;
+    for (int32_t column = begin; column < end; ++column) {
+      const int32_t before = map.At(column, row - 1), after = map.At(column, row);
+      if (!Meet(before, after)) continue;
+      const int32_t x = column * kSmallestBlock;
+      FilterBoundary(job.out.Row(y) + 3 * x, Min(kSmallestBlock, job.width - x), 3,
+                     static_cast<ptrdiff_t>(job.out.stride), before, after, kSmallestBlock,
+                     Min(kSmallestBlock, job.height - y), job.beta);
+    }
+  }
+}
+
+void DeblockColumns(const DeblockJob& job, int32_t first, int32_t last) {
+  const LayerMap& map = *job.map;
+  for (int32_t y = first; y < last; ++y) {
+    const int32_t row = (y - job.y + kSmallestBlock) / kSmallestBlock - 1;
+    for (int32_t column = 1; column < map.columns; ++column) {
+      const int32_t before = map.At(column - 1, row), after = map.At(column, row);
+      if (!Meet(before, after)) continue;
+      const int32_t x = column * kSmallestBlock;
+      FilterBoundary(job.out.Row(y) + 3 * x, 1, 0, 3, before, after, kSmallestBlock,
+                     Min(kSmallestBlock, job.width - x), job.beta);
+    }
+  }
+}
+
+}  // namespace starfocus

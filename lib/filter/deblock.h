@@ -1,0 +1,56 @@
+// Layer-dependent deblocking (paper, V-C): linear interpolation across the boundaries of blocks of
+// different layers.
+#ifndef STARFOCUS_LIB_FILTER_DEBLOCK_H_
+#define STARFOCUS_LIB_FILTER_DEBLOCK_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/input/window.h"
+
+namespace starfocus {
+
+// Pixels on either side of a boundary that filtering changes; what it changes depends on pixels no
+// farther away than that.
+inline constexpr int32_t kDeblockReach = 3;
+
+// Rows at the end of a stripe that wait for the next one: what a boundary below them reads.
+inline constexpr int32_t kDeblockRows = kDeblockReach + 1;
+
+// Of units that are not refocused: nothing is joined to them.
+inline constexpr uint8_t kNoLayer = 0xFF;
+
+// The layer of every 16x16 unit of the stripe before (its last row of units) and of this one.
+struct LayerMap {
+  uint8_t* units = nullptr;
+  int32_t columns = 0;  // units per row
+  int32_t rows = 0;     // of this stripe
+
+  // Whether no layer changes within this stripe, nor (above) from the one before it.
+  bool IsUniform(bool above) const;
+
+  // row -1: the stripe before.
+  uint8_t& At(int32_t column, int32_t row) const {
+    return units[static_cast<size_t>(row + 1) * static_cast<size_t>(columns) +
+                 static_cast<size_t>(column)];
+  }
+};
+
+struct DeblockJob {
+  const LayerMap* map;
+  Plane<uint8_t> out;     // the picture's rows
+  int32_t width, height;  // of the picture
+  int32_t y;              // of the stripe's first row
+  int32_t beta;           // of (16) and (17)
+};
+
+// Boundaries between rows of units, at the top of the stripe (y > 0) and inside it, for columns
+// [begin, end) of units. All of a row's must be done before its boundaries between columns.
+void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end);
+
+// Boundaries between columns of units, for picture rows [first, last).
+void DeblockColumns(const DeblockJob& job, int32_t first, int32_t last);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_FILTER_DEBLOCK_H_

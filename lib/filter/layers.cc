@@ -1,0 +1,127 @@
+#include "lib/filter/layers.h"
+
+#include <cstring>
+
+namespace starfocus {
+namespace {
+
+using simd::Kernels;
+using simd::kLayerWhite;
+
+// Pixels of a line by pairs, as the filter needs them for pixels [begin, end) of the layer: pair k
+// is pixels 2 k and 2 k + 1.
+struct PairRange {
+  int32_t begin, end;
+  int32_t First() const { return begin - 2; }
+  int32_t Count() const { return end - begin + 3; }
+};
+
+void Part(const Kernels& kernels, const uint8_t* in, int32_t pairs, int16_t* even, int16_t* odd) {
+  kernels.widen_phases(in, static_cast<size_t>(pairs), even, odd);
+}
+void Part(const Kernels& kernels, const int16_t* in, int32_t pairs, int16_t* even, int16_t* odd) {
+  kernels.split_phases(in, static_cast<size_t>(pairs), even, odd);
+}
+
+int16_t Sample(uint8_t byte) { return static_cast<int16_t>(byte << simd::kLayerBits); }
+int16_t Sample(int16_t sample) { return sample; }
+
+// Pairs [first, last) of both phases: all of them the same pixel of the picture's edge.
+template <class T>
+void RepeatEdge(const T* pixel, int32_t first, int32_t last, const ResampleScratch& phases) {
+  for (int32_t n = 3 * first; n < 3 * last; n += 3) {
+    for (int32_t c = 0; c < 3; ++c) phases.even[n + c] = phases.odd[n + c] = Sample(pixel[c]);
+  }
+}
+
+// Parts a row of `width` pixels, repeating its edge pixels where the pairs leave it.
+template <class T>
+void PartLine(const Kernels& kernels, const T* row, int32_t width, const PairRange& pairs,
+              const ResampleScratch& phases) {
+  const int32_t first = Max(pairs.First(), 0);
+  const int32_t last = Min(pairs.First() + pairs.Count(), width / 2);
+  const int32_t left = first - pairs.First(), right = last - pairs.First();
+  RepeatEdge(row, 0, left, phases);
+  Part(kernels, row + 6 * first, last - first, phases.even + 3 * left, phases.odd + 3 * left);
+  RepeatEdge(row + 3 * (width - 1), right, pairs.Count(), phases);
+}
+
+// The vertical pass: `to->half` holds the rows from 2 * rows.first - 3 on, the picture's edge rows
+// repeated.
+void HalveRows(const Kernels& kernels, int32_t begin, int32_t end, LayerPlane* to) {
+  const size_t count = 3 * static_cast<size_t>(end - begin);
+  for (int32_t y = to->rows.first; y < to->rows.last; ++y) {
+    const int16_t* in = to->half.Row(2 * y) + 3 * begin;
+    int16_t* samples = to->samples.Row(y) + 3 * begin;
+    kernels.half_band(in, static_cast<ptrdiff_t>(to->half.stride), kDownFilter, count, 0,
+                      kLayerWhite, samples);
+    CheckAll(ranges::kLayerSample, samples, count);
+    kernels.narrow(samples, count, to->rgb.Row(y) + 3 * begin);
+  }
+}
+
+// From a plane of width x height pixels. The horizontal pass makes all rows that the layer's rows
+// are made of.
+template <class T>
+void Downsample(const Kernels& kernels, const Plane<const T>& from, int32_t width, int32_t height,
+                int32_t begin, int32_t end, const ResampleScratch& phases, LayerPlane* to) {
+  const PairRange pairs = {begin, end};
+  const size_t count = 3 * static_cast<size_t>(end - begin);
+  for (int32_t y = 2 * to->rows.first - 3; y < 2 * to->rows.last + 2; ++y) {
+    int16_t* half = to->half.Row(y) + 3 * begin;
+    PartLine(kernels, from.Row(Clamp(y, 0, height - 1)), width, pairs, phases);
+    kernels.halve(phases.even + 6, phases.odd + 6, kDownFilter, count, half);
+    CheckAll(ranges::kFilteredAlongX, half, count);
+  }
+  HalveRows(kernels, begin, end, to);
+}
+
+// Pixels of `even` and `odd` in turn, `width` in all. Copies a fourth sample of each, which the
+// next pixel overwrites: one move instead of two.
+void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t* out) {
+  for (int32_t x = 0; x + 1 < width; x += 2, even += 3, odd += 3, out += 6) {
+    std::memcpy(out, even, 4 * sizeof(*out));
+    std::memcpy(out + 3, odd, 4 * sizeof(*out));
+  }
+  if (width % 2 != 0) std::memcpy(out, even, 3 * sizeof(*out));
+}
+
+}  // namespace
+
+void DownsamplePicture(const Kernels& kernels, const Plane<const uint8_t>& from, int32_t width,
+                       int32_t height, int32_t begin, int32_t end, const ResampleScratch& scratch,
+                       LayerPlane* to) {
+  Downsample(kernels, from, width, height, begin, end, scratch, to);
+}
+
+void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, int32_t begin, int32_t end,
+                     const ResampleScratch& scratch, LayerPlane* to) {
+  const Plane<int16_t>& in = from.samples;
+  const Plane<const int16_t> samples = {in.data, in.stride, in.rows, in.first};
+  Downsample(kernels, samples, from.width, from.height, begin, end, scratch, to);
+}
+
+void UpsampleByTwo(const Kernels& kernels, const LayerRect& in, int32_t first,
+                   const UpsampleScratch& scratch, const LayerRect& out) {
+  const size_t count = 3 * static_cast<size_t>(in.width);
+  for (int32_t y = 0; y < out.height; ++y) {
+    const int16_t* line = in.samples + static_cast<size_t>(first + (y >> 1)) * count;
+    if (y % 2 == 1) {
+      kernels.between(line, static_cast<ptrdiff_t>(count), kUpFilter, count, INT16_MIN, INT16_MAX,
+                      scratch.line);
+      CheckAll(ranges::kUpsampledAlongY, scratch.line, count);
+      line = scratch.line;
+    }
+    line += 3 * first;
+    kernels.between(line, 3, kUpFilter, 3 * static_cast<size_t>(out.width / 2), 0, kLayerWhite,
+                    scratch.between);
+    const int32_t pairs = (out.width + 1) / 2;
+    for (int32_t n = 0; n < 3 * pairs; ++n) {
+      scratch.even[n] = static_cast<int16_t>(Clamp(line[n], 0, kLayerWhite));
+    }
+    Interleave(scratch.even, scratch.between, out.width,
+               out.samples + 3 * static_cast<size_t>(y) * static_cast<size_t>(out.width));
+  }
+}
+
+}  // namespace starfocus

@@ -1,0 +1,81 @@
+// Spans waiting for a kernel, so that one call serves many views of a line.
+#ifndef STARFOCUS_LIB_FILTER_SPAN_LIST_H_
+#define STARFOCUS_LIB_FILTER_SPAN_LIST_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+// Memory of a list, and of the hole colours its spans point at.
+struct SpanMemory {
+  simd::Span* spans;
+  size_t span_capacity;
+  uint8_t* pixels;
+  size_t pixel_capacity;  // bytes; at least one line
+};
+
+class SpanList {
+ public:
+  // Spans are accumulated.
+  SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint32_t* accumulators)
+      : SpanList(kernels, memory, accumulators, nullptr) {}
+  // Spans are blended into a line.
+  SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint8_t* line)
+      : SpanList(kernels, memory, nullptr, line) {}
+
+  // The next span, for the caller to fill in.
+  simd::Span* Next() {
+    if (count_ == capacity_) Flush();
+    return spans_ + count_++;
+  }
+  void Add(const simd::Span& span) { *Next() = span; }
+
+  // Room for the colours of one span of a hole, which the caller adds next; bytes <=
+  // pixel_capacity.
+  uint8_t* Pixels(size_t bytes) {
+    if (used_ + bytes > pixel_capacity_ || count_ == capacity_) Flush();
+    uint8_t* pixels = pixels_ + used_;
+    used_ += bytes;
+    return pixels;
+  }
+
+  void Flush() {
+    if (count_ != 0) {
+      if (accumulators_ != nullptr) {
+        kernels_.accumulate(spans_, count_, accumulators_);
+      } else {
+        kernels_.blend(spans_, count_, line_);
+      }
+    }
+    count_ = 0;
+    used_ = 0;
+  }
+
+ private:
+  SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint32_t* accumulators,
+           uint8_t* line)
+      : kernels_(kernels),
+        spans_(memory.spans),
+        capacity_(memory.span_capacity),
+        pixels_(memory.pixels),
+        pixel_capacity_(memory.pixel_capacity),
+        accumulators_(accumulators),
+        line_(line) {}
+
+  const simd::Kernels& kernels_;
+  simd::Span* const spans_;
+  const size_t capacity_;
+  uint8_t* const pixels_;
+  const size_t pixel_capacity_;
+  uint32_t* const accumulators_;
+  uint8_t* const line_;
+  size_t count_ = 0;
+  size_t used_ = 0;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_FILTER_SPAN_LIST_H_

@@ -1,0 +1,72 @@
+// Boundary pixels: on the far side of a depth edge a captured pixel is a mixture of both surfaces.
+#ifndef STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_
+#define STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_
+
+#include <cstdint>
+
+#include "lib/base/fixed.h"
+#include "lib/input/field.h"
+#include "lib/input/window.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+// The centre view at layer 0; beyond its edges it repeats them.
+struct CentreView {
+  const Window& window;
+
+  int32_t Disparity(int32_t x, int32_t y) const {
+    return window.disparity.Row(
+        Clamp(y, 0, window.picture_height - 1))[Clamp(x, 0, window.picture_width - 1)];
+  }
+  const uint8_t* Colour(int32_t x, int32_t y) const {
+    return window.centre.Row(Clamp(y, 0, window.height - 1)) +
+           3 * static_cast<ptrdiff_t>(Clamp(x, 0, window.width - 1));
+  }
+};
+
+// A pixel and the depth edge beside it: a step of more than `step` up to `near`, kDisparityBits.
+struct BoundaryPixel {
+  int32_t x, y;
+  const int8_t* side;  // of kSides
+  int32_t disparity, near, step;
+};
+
+// What it is made of: how much of it is the nearer surface (kShareBits), and the colours of both. A
+// share of 0: it is no mixture of them.
+struct Mixture {
+  int32_t share;
+  const uint8_t* near;
+  uint8_t far[3];
+};
+
+// The near colour is that of the pixel behind the edge, or one pixel on where the surface goes on;
+// the far one is read from the captured view beside the centre in which the nearer surface has
+// moved out of the way. The window has such views.
+Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
+
+// Calls visit(column, row) for those pixels of a field at layer 0 that are farther away, by more
+// than `step`, than one beside, above or below them; of those in the picture, but for the field's
+// outermost ones.
+template <class Visit>
+void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const Field& field,
+                       int16_t step, const Visit& visit) {
+  constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes), kAtOnce = 16 * kChunk;
+  const int32_t left = Max(1, -field.x), right = Min(field.width - 1, window.width - field.x);
+  const int32_t top = Max(1, -field.y), bottom = Min(field.height - 1, window.height - field.y);
+  uint16_t beside[kAtOnce / kChunk];
+  for (int32_t row = top; row < bottom; ++row) {
+    for (int32_t from = left; from < right; from += kAtOnce) {
+      const int32_t count = Min(kAtOnce, right - from);
+      kernels.beside_steps(field.Disparity(from, row), field.width, static_cast<size_t>(count),
+                           step, beside);
+      for (int32_t k = 0; k < count; k += kChunk) {
+        ForEachBit(beside[k / kChunk], [&](int32_t bit) { visit(from + k + bit, row); });
+      }
+    }
+  }
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_

@@ -1,0 +1,77 @@
+// The extended rectangle that a block is refocused from, as lines in the three orientations of the
+// star (paper, IV-B): rows, columns (90 degrees) and diagonals (the lossless 45 degree layout).
+#ifndef STARFOCUS_LIB_INPUT_FIELD_H_
+#define STARFOCUS_LIB_INPUT_FIELD_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/input/window.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+struct Rect {
+  int32_t x, y, width, height;
+};
+
+// Pixels beyond a rectangle that can splat into it.
+struct Border {
+  int32_t left, right, top, bottom;
+};
+
+// Bytes from row to row of pixels that rows are transposed into.
+constexpr size_t RgbStride(int32_t width) {
+  return 3 * static_cast<size_t>(width) + simd::kTransposePadding;
+}
+
+// A copy of the extended rectangle; pixels outside the picture repeat its edge, or show what side
+// views see there (lib/beyond.h). Positions are
+// oriented: in a transposed field x runs down the picture and y across it.
+struct Field {
+  bool transposed = false;
+  int32_t width = 0, height = 0;  // of the extended rectangle
+  int32_t x = 0, y = 0;           // of its pixel (0, 0) in the picture
+  Rect inner = {0, 0, 0, 0};      // the rectangle itself, in pixels of the field
+  uint8_t* rgb = nullptr;         // rows of RgbStride(width) bytes
+  int16_t* disparity = nullptr;   // rows of `width`, kDisparityBits
+
+  uint8_t* Rgb(int32_t column, int32_t row) const {
+    return rgb + static_cast<size_t>(row) * RgbStride(width) + 3 * static_cast<size_t>(column);
+  }
+  int16_t* Disparity(int32_t column, int32_t row) const {
+    return disparity + static_cast<size_t>(row) * static_cast<size_t>(width) +
+           static_cast<size_t>(column);
+  }
+};
+
+// Copies `rect` and its border from the window into field->rgb and ->disparity.
+void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field);
+
+// Rows become columns; to->disparity, or after it to->rgb, must be set and differ from `from`'s.
+void TransposeDisparity(const Field& from, Field* to);
+void TransposePixels(const simd::Kernels& kernels, const Field& from, Field* to);
+
+// The diagonal lines of a field: direction (1, 1), or (1, -1) when anti.
+struct Diagonals {
+  bool anti = false;
+  uint8_t* rgb = nullptr;  // all lines packed one after the other
+  int16_t* disparity = nullptr;
+  uint32_t* offsets = nullptr;  // pixels before each line; Count(field) of them
+
+  static int32_t Count(const Field& field) { return field.width + field.height - 1; }
+};
+
+// Where diagonal `index` of a field starts, and its number of pixels; it goes on to (x + t, y + t),
+// or (x + t, y - t) when anti.
+struct DiagonalLine {
+  int32_t x, y, length;
+};
+DiagonalLine GetDiagonal(const Field& field, bool anti, int32_t index);
+
+// Copies the diagonals; the arrays must be set, each with room for the whole field.
+void LoadDiagonals(const Field& field, bool anti, Diagonals* diagonals);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_INPUT_FIELD_H_

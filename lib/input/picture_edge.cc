@@ -1,0 +1,160 @@
+#include "lib/input/picture_edge.h"
+
+#include <cstring>
+
+#include "lib/base/fixed.h"
+
+namespace starfocus {
+namespace {
+
+// Pixels of the picture from its edge on that may cover what lies beyond it: no more than rows are
+// kept around a stripe.
+constexpr int32_t kLookBack = 32;
+
+// The picture's part of a rectangle of the layer, in its pixels; exclusive at the right and the
+// bottom.
+struct Part {
+  int32_t left, right, top, bottom;
+
+  Part(const Window& window, const Rect& rect)
+      : left(Clamp(-rect.x, 0, rect.width)),
+        right(Clamp(Inside(window.picture_width, window.layer) - rect.x, 0, rect.width)),
+        top(Clamp(-rect.y, 0, rect.height)),
+        bottom(Clamp(Inside(window.picture_height, window.layer) - rect.y, 0, rect.height)) {}
+
+  // Pixels of the layer along an axis of `size` pixels of the picture; layers store more.
+  static int32_t Inside(int32_t size, int layer) { return (size + (1 << layer) - 1) >> layer; }
+};
+
+// A pixel at the picture's edge, in a rectangle, and the rectangle's pixels beyond it.
+struct Edge {
+  int32_t column, row;
+  const int8_t* out;
+  int32_t beyond;
+};
+
+// Calls take.Colours(edge, k, count, rgb) for the pixels k ... k + count - 1 beyond an edge that
+// the captured view shows, a few at a time, and then take.All(edge, last k).
+template <class Take>
+class Beyond {
+ public:
+  Beyond(const Window& window, const Rect& rect, Take* take)
+      : window_(window), rect_(rect), take_(*take) {}
+
+  void Look() {
+    const int32_t width = rect_.width, height = rect_.height;
+    const Part part(window_, rect_);
+    const bool inside = part.right - part.left == width && part.bottom - part.top == height;
+    if (inside) return;  // most are
+    for (int32_t row = part.top; row < part.bottom; ++row) {
+      LookOver({part.right - 1, row, kSides[0], width - part.right});
+      LookOver({part.left, row, kSides[1], part.left});
+    }
+    for (int32_t column = part.left; column < part.right; ++column) {
+      LookOver({column, part.bottom - 1, kSides[2], height - part.bottom});
+      LookOver({column, part.top, kSides[3], part.top});
+    }
+  }
+
+ private:
+  int32_t DisparityAt(int32_t x, int32_t y) const {
+    return window_.disparity.Row(y << window_.layer)[x << window_.layer];
+  }
+
+  void LookOver(const Edge& edge) {
+    if (edge.beyond == 0) return;
+    const int32_t disparity = DisparityAt(rect_.x + edge.column, rect_.y + edge.row);
+    // How the surface moves between the centre view and the one at distance 1, in pixels of the
+    // layer.
+    const int64_t full = int64_t{disparity} * (1 << (kShiftBits - kDisparityBits));
+    const auto moved = static_cast<int32_t>(RoundShift(full * 2, 1 + window_.layer));
+    int32_t seen = Min(edge.beyond, Abs(moved) >> kShiftBits);
+    if (disparity < 0 && seen > 0) seen = Uncovered(edge, disparity, seen);
+    if (seen == 0) return;
+    Read(edge, moved, seen);
+    take_.All(edge, seen);
+  }
+
+  // How many of the `seen` pixels beyond the edge lie before the first that, in the captured view,
+  // a nearer pixel inside the picture comes within 3/4 of a pixel of. Surfaces of positive
+  // disparity are seen from the side on which nearer ones move farther away.
+  int32_t Uncovered(const Edge& edge, int32_t disparity, int32_t seen) const {
+    const int layer = window_.layer;
+    const int32_t unit = int32_t{1} << (kDisparityBits + layer);
+    const int32_t width = Part::Inside(window_.picture_width, layer);
+    const int32_t height = Part::Inside(window_.picture_height, layer);
+    const int32_t room = Min(kLookBack >> layer, edge.out[0] != 0 ? width : height);
+    int32_t x = rect_.x + edge.column, y = rect_.y + edge.row;
+    for (int32_t m = 0; m < room; ++m, x -= edge.out[0], y -= edge.out[1]) {
+      const int32_t nearer = DisparityAt(x, y) - disparity;
+      const int32_t place = 4 * (nearer - m * unit);  // beyond the edge, quarters of a unit
+      if (place <= unit || 2 * nearer <= unit) continue;
+      const int32_t first = place > 3 * unit ? (place - 3 * unit) / (4 * unit) + 1 : 1;
+      if (4 * unit * first < place + 3 * unit) seen = Min(seen, first - 1);
+    }
+    return seen;
+  }
+
+  void Read(const Edge& edge, int32_t moved, int32_t seen) {
+    if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(seen);
+    const int dx = edge.out[0], dy = edge.out[1], sign = moved < 0 ? -1 : 1;
+    constexpr int32_t kAtOnce = 16;
+    uint8_t rgb[3 * kAtOnce];
+    for (int32_t first = 1; first <= seen; first += kAtOnce) {
+      const int32_t count = Min(kAtOnce, seen + 1 - first);
+      const int32_t x = (rect_.x + edge.column + first * dx) * kShiftOne - dx * Abs(moved);
+      const int32_t y = (rect_.y + edge.row + first * dy) * kShiftOne - dy * Abs(moved);
+      ReadCaptured(window_, CapturedView(sign * dx, sign * dy, false), {x, y, dx, dy}, count, rgb);
+      take_.Colours(edge, first, count, rgb);
+    }
+  }
+
+  const Window& window_;
+  const Rect rect_;
+  Take& take_;
+};
+
+// Writes them into a field, and the last one into what lies farther away.
+struct Filler {
+  Field& field;
+
+  uint8_t* Rgb(const Edge& edge, int32_t k) const {
+    return field.Rgb(edge.column + k * edge.out[0], edge.row + k * edge.out[1]);
+  }
+  void Colours(const Edge& edge, int32_t k, int32_t count, const uint8_t* rgb) {
+    for (const int32_t end = k + count; k < end; ++k, rgb += 3) std::memcpy(Rgb(edge, k), rgb, 3);
+  }
+  void All(const Edge& edge, int32_t last) {
+    for (int32_t k = last + 1; k <= edge.beyond; ++k) {
+      std::memcpy(Rgb(edge, k), Rgb(edge, last), 3);
+    }
+  }
+};
+
+// Whether they all have one colour.
+struct Matcher {
+  const uint8_t* colour;
+  bool all = true;
+
+  void Colours(const Edge&, int32_t, int32_t count, const uint8_t* rgb) {
+    for (int32_t k = 0; k < count; ++k) all = all && std::memcmp(rgb + 3 * k, colour, 3) == 0;
+  }
+  void All(const Edge&, int32_t) {}
+};
+
+}  // namespace
+
+void LookBeyond(const Window& window, Field* field) {
+  if (window.views == 1) return;
+  Filler filler = {*field};
+  Beyond(window, {field->x, field->y, field->width, field->height}, &filler).Look();
+}
+
+bool ShowsBeyond(const Window& window, const Rect& rect, const uint8_t* colour) {
+  if (window.views == 1) return true;
+  Matcher matcher = {colour};
+  Beyond(window, rect, &matcher).Look();
+  return matcher.all;
+}
+
+}  // namespace starfocus

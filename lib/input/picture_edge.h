@@ -1,0 +1,21 @@
+// What lies beyond the picture's edges, where captured views look.
+#ifndef STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_
+#define STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_
+
+#include "lib/input/field.h"
+#include "lib/input/window.h"
+
+namespace starfocus {
+
+// Where a field repeats an edge of the picture, the edge's surface goes on instead: pixels as far
+// beyond the edge as its disparity moves it from unit to unit take their colour from the captured
+// view that shows them, up to where something nearer covers them there. What lies farther away
+// repeats the last of them. Without side views, and beyond corners, nothing changes.
+void LookBeyond(const Window& window, Field* field);
+
+// Whether all that it would take from captured views for `rect` of the layer has this colour.
+bool ShowsBeyond(const Window& window, const Rect& rect, const uint8_t* colour);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_

@@ -1,0 +1,203 @@
+#include "lib/input/window.h"
+
+#include <cstring>
+#include <initializer_list>
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kRowsAhead = 2;  // of the layer, that are asked for
+
+void Prefetch(const uint8_t* bytes) {
+#if defined(__GNUC__)
+  __builtin_prefetch(bytes);
+#else
+  (void)bytes;
+#endif
+}
+
+constexpr ViewPosition kPositions[kMaxViews] = {
+    {0, 0}, {2, 0},  {-2, 0}, {0, 2},  {0, -2}, {2, 2},  {-2, 2}, {2, -2},  {-2, -2},
+    {1, 0}, {-1, 0}, {0, 1},  {0, -1}, {1, 1},  {-1, 1}, {1, -1}, {-1, -1},
+};
+
+// Triangular taps 1 2 1 and 1 2 3 4 3 2 1 of layers 1 and 2; each sums to 4^L.
+constexpr int32_t Tap(int layer, int32_t k) { return (1 << layer) - Abs(k); }
+
+// A view of which nothing outside is read.
+struct Inside {
+  const Plane<const uint8_t>& view;
+
+  const uint8_t* Row(int32_t y) const { return view.Row(y); }
+  static int32_t Column(int32_t x) { return 3 * x; }  // bytes
+};
+
+// A view whose edges go on for ever.
+struct Endless {
+  const Plane<const uint8_t>& view;
+  int32_t right, bottom;  // last column and row
+
+  const uint8_t* Row(int32_t y) const { return view.Row(Clamp(y, 0, bottom)); }
+  int32_t Column(int32_t x) const { return 3 * Clamp(x, 0, right); }  // bytes
+};
+
+// Calls take(k, sum) for the samples of `count` places, sum having 2 * kShiftBits. Steps of (dx,
+// dy) pixels keep the weights of the four pixels around a place.
+template <class Pixels, class Take>
+void Interpolate(const Pixels& pixels, const CapturedLine& line, int32_t count, const Take& take) {
+  const int32_t wx = line.x & (kShiftOne - 1), wy = line.y & (kShiftOne - 1);
+  const int32_t upper_left = (kShiftOne - wx) * (kShiftOne - wy);
+  const int32_t upper_right = wx * (kShiftOne - wy);
+  const int32_t lower_left = (kShiftOne - wx) * wy, lower_right = wx * wy;
+  int32_t column = line.x >> kShiftBits, row = line.y >> kShiftBits;
+  for (int32_t p = 0; p < count; ++p, column += line.dx, row += line.dy) {
+    const uint8_t *above = pixels.Row(row), *below = pixels.Row(row + 1);
+    const int32_t left = pixels.Column(column), right = pixels.Column(column + 1);
+    for (int k = 0; k < 3; ++k) {
+      const int32_t sum = above[left + k] * upper_left + above[right + k] * upper_right +
+                          below[left + k] * lower_left + below[right + k] * lower_right;
+      take(3 * p + k, Checked(ranges::kHolePixel, sum));
+    }
+  }
+}
+
+// The same of places on rows or columns of pixels: all but those of diagonals.
+template <class Pixels, class Take>
+void InterpolateOnAxis(const Pixels& pixels, const CapturedLine& line, int32_t count,
+                       const Take& take) {
+  const int32_t wx = line.x & (kShiftOne - 1), weight = wx + (line.y & (kShiftOne - 1));
+  int32_t column = line.x >> kShiftBits, row = line.y >> kShiftBits;
+  for (int32_t p = 0; p < count; ++p, column += line.dx, row += line.dy) {
+    const uint8_t* above = pixels.Row(row);
+    const uint8_t* here = above + pixels.Column(column);
+    const uint8_t* next =
+        wx != 0 ? above + pixels.Column(column + 1) : pixels.Row(row + 1) + pixels.Column(column);
+    for (int k = 0; k < 3; ++k) {
+      const int32_t sum = here[k] * kShiftOne + (next[k] - here[k]) * weight;
+      take(3 * p + k, Checked(ranges::kHolePixel, sum * kShiftOne));
+    }
+  }
+}
+
+template <int kLayer, class Pixels>
+void Subsample(const Pixels& pixels, int32_t x, int32_t y, uint8_t* rgb) {
+  constexpr int32_t kReach = (1 << kLayer) - 1;
+  int32_t sums[3] = {0, 0, 0};
+  for (int32_t dy = -kReach; dy <= kReach; ++dy) {
+    const uint8_t* row = pixels.Row(y + dy);
+    int32_t along[3] = {0, 0, 0};
+    for (int32_t dx = -kReach; dx <= kReach; ++dx) {
+      const uint8_t* from = row + pixels.Column(x + dx);
+      for (int k = 0; k < 3; ++k) along[k] += Tap(kLayer, dx) * from[k];
+    }
+    for (int k = 0; k < 3; ++k) sums[k] += Tap(kLayer, dy) * along[k];
+  }
+  for (int k = 0; k < 3; ++k) rgb[k] = static_cast<uint8_t>(RoundShift(sums[k], 4 * kLayer));
+}
+
+template <int kLayer, class Pixels>
+void SubsampleLine(const Pixels& pixels, const CapturedLine& line, int32_t count, uint8_t* rgb) {
+  for (int32_t p = 0; p < count; ++p, rgb += 3) {
+    Subsample<kLayer>(pixels, line.x + line.dx * p, line.y + line.dy * p, rgb);
+  }
+}
+
+// `line` is one of places at layer 0, else of whole pixels of the picture.
+template <class Pixels>
+void ReadLine(const Pixels& pixels, int layer, const CapturedLine& line, int32_t count,
+              uint8_t* rgb) {
+  if (layer == 2) {
+    SubsampleLine<2>(pixels, line, count, rgb);
+    return;
+  }
+  if (layer == 1) {
+    SubsampleLine<1>(pixels, line, count, rgb);
+    return;
+  }
+  const auto take = [&](int32_t k, int32_t sum) {
+    rgb[k] = static_cast<uint8_t>((sum + (1 << (2 * kShiftBits - 1))) >> (2 * kShiftBits));
+  };
+  if (line.x % kShiftOne == 0 || line.y % kShiftOne == 0) {
+    InterpolateOnAxis(pixels, line, count, take);
+  } else {
+    Interpolate(pixels, line, count, take);
+  }
+}
+
+// At a layer one rounding from 1 / kShiftOne of its pixels to the picture's.
+CapturedLine OfPicture(const CapturedLine& line, int layer) {
+  const int bits = kShiftBits - layer;
+  return {static_cast<int32_t>(RoundShift(line.x, bits)),
+          static_cast<int32_t>(RoundShift(line.y, bits)), line.dx * (1 << layer),
+          line.dy * (1 << layer)};
+}
+
+}  // namespace
+
+void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
+                  uint8_t* rgb) {
+  for (const int32_t last : {0, count - 1}) {
+    Checked(ranges::kHolePosition, line.x + line.dx * last * kShiftOne);
+    Checked(ranges::kHolePosition, line.y + line.dy * last * kShiftOne);
+  }
+  const int layer = window.layer;
+  const CapturedLine from = layer == 0 ? line : OfPicture(line, layer);
+  // Rows and columns that are read at the first and the last place.
+  const int32_t x = layer == 0 ? line.x >> kShiftBits : from.x;
+  const int32_t y = layer == 0 ? line.y >> kShiftBits : from.y;
+  const int32_t end_x = x + from.dx * (count - 1), end_y = y + from.dy * (count - 1);
+  const int32_t reach = layer == 0 ? 1 : (1 << layer) - 1;
+  const int32_t right = window.picture_width - 1, bottom = window.picture_height - 1;
+  if (Min(x, end_x) >= reach && Max(x, end_x) <= right - reach && Min(y, end_y) >= reach &&
+      Max(y, end_y) <= bottom - reach) {
+    ReadLine(Inside{window.view[index]}, layer, from, count, rgb);
+  } else {
+    ReadLine(Endless{window.view[index], right, bottom}, layer, from, count, rgb);
+  }
+}
+
+void PrefetchCaptured(const Window& window, int index, const CapturedLine& line) {
+  const CapturedLine from = OfPicture(line, window.layer);
+  const Endless pixels = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+  const int32_t ahead = from.y + (kRowsAhead << window.layer);
+  Prefetch(pixels.Row(ahead) + pixels.Column(from.x));
+  Prefetch(pixels.Row(ahead + 1) + pixels.Column(from.x));
+}
+
+void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
+                  uint8_t* rgb) {
+  const Endless pixels = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+  const uint8_t* row = pixels.Row(y);
+  if (x >= 0 && x + count <= window.picture_width) {
+    const uint8_t* ahead = pixels.Row(y + kRowsAhead);
+    Prefetch(ahead + 3 * x);
+    Prefetch(ahead + 3 * (x + count - 1));
+    std::memcpy(rgb, row + 3 * x, 3 * static_cast<size_t>(count));
+    return;
+  }
+  for (int32_t p = 0; p < count; ++p) std::memcpy(rgb + 3 * p, row + pixels.Column(x + p), 3);
+}
+
+void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {
+  const Endless pixels = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+  InterpolateOnAxis(pixels,
+                    {Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y), 0, 0}, 1,
+                    [&](int32_t k, int32_t sum) { rgb[k] = sum; });
+}
+
+int32_t CapturedBytes(const Window& window) {
+  const int32_t taps = window.layer == 0 ? 2 : 2 * (1 << window.layer) - 1;
+  return 3 * taps * taps;
+}
+
+int CapturedView(int u, int v, bool half) {
+  // By u + 1 and v + 1, at full distance; those at half distance are in the
+  // same order.
+  constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};
+  const int index = kIndex[u + 1][v + 1];
+  return half && index != 0 ? index + 8 : index;
+}
+
+ViewPosition CapturedPosition(int index) { return kPositions[index]; }
+
+}  // namespace starfocus

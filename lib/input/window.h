@@ -1,0 +1,98 @@
+// The rows of all views and of the disparity map that a stripe needs, whether they lie in the
+// caller's pictures or in a ring of lines.
+#ifndef STARFOCUS_LIB_INPUT_WINDOW_H_
+#define STARFOCUS_LIB_INPUT_WINDOW_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/base/fixed.h"
+
+namespace starfocus {
+
+// Rows [first, last) of a picture, a layer or a tile.
+struct RowRange {
+  int32_t first, last;
+};
+
+// Rows of T, from row `first` on; a ring (rows > 0) holds row y at y modulo `rows` instead.
+template <class T>
+struct Plane {
+  T* data = nullptr;
+  size_t stride = 0;  // in T
+  int32_t rows = 0;
+  int32_t first = 0;
+
+  T* Row(int32_t y) const {
+    const int32_t row = rows == 0 ? y - first : y % rows;
+    return data + static_cast<size_t>(row) * stride;
+  }
+};
+
+inline constexpr int kMaxViews = 17;
+
+// What was read of the caller's pictures, counted every time.
+struct Reads {
+  uint64_t centre_pixels = 0;  // of the centre view itself, not of its layers
+  uint64_t side_colours = 0;   // of side views; CapturedBytes each
+};
+
+// A light field at one layer: pixel (x, y) of the layer stands at (x << L, y << L) in the pictures.
+// Only the centre view is subsampled as a whole; of the others a few pixels are read, in holes.
+struct Window {
+  int32_t width = 0;  // of the layer
+  int32_t height = 0;
+  int layer = 0;                // L
+  int32_t views = 0;            // 1, 5, 9 or 17
+  Plane<const uint8_t> centre;  // at the layer
+  int32_t picture_width = 0;
+  int32_t picture_height = 0;
+  Plane<const uint8_t> view[kMaxViews];  // of the pictures
+  Plane<const int16_t> disparity;        // of the pictures, kDisparityBits
+  Reads* reads = nullptr;                // null: nobody counts
+};
+
+// Places one after the other in a captured view: the first at (x, y) of the layer, kShiftBits, each
+// (dx, dy) pixels of the layer after the one before.
+struct CapturedLine {
+  int32_t x, y, dx, dy;
+};
+
+// The colours at the first `count` places of a line in captured view `index`, 3 bytes each; places
+// outside the picture take the nearest pixel inside. Interpolated linearly at L = 0; at L > 0 a
+// binomial of 2^(L+1) - 1 taps per axis around the nearest pixel of the picture subsamples: what
+// shows in a hole of a defocused block is blurred by at least 3 pixels of the layer afterwards.
+void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
+                  uint8_t* rgb);
+
+// Asks for what lies a little below the first place of a line: what is read in short pieces, row by
+// row, the processor does not foresee. Only time depends on it.
+void PrefetchCaptured(const Window& window, int index, const CapturedLine& line);
+
+// Copies `count` pixels of a captured view, from (x, y) of the picture on along its row; outside
+// the picture the nearest ones.
+void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
+                  uint8_t* rgb);
+
+// One such colour at L = 0 before it is rounded, 2 * kShiftBits; x or y is a whole pixel.
+void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
+
+// Bytes that one such colour is made of.
+int32_t CapturedBytes(const Window& window);
+
+// The sides of a pixel.
+inline constexpr int8_t kSides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+
+// Index of the captured view in direction (u, v), each -1, 0 or 1 and not both 0, at full or half
+// distance.
+int CapturedView(int u, int v, bool half);
+
+// Position of a captured view in halves of a unit.
+struct ViewPosition {
+  int8_t u2, v2;
+};
+ViewPosition CapturedPosition(int index);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_INPUT_WINDOW_H_

@@ -1,0 +1,90 @@
+#include "lib/line_scan/holes.h"
+
+#include <cstring>
+
+namespace starfocus {
+namespace {
+
+// Disparity times the distance of the captured view, kShiftBits, in pixels of the layer.
+int64_t CapturedShift(const ViewGrid& grid, int32_t disparity, bool half) {
+  const int64_t full = int64_t{disparity} * (1 << (kShiftBits - kDisparityBits));
+  return RoundShift(full * 2, 1 + grid.layer + (half ? 1 : 0));
+}
+
+// From a place in the rendered view to the same point of a surface in the centre view and in the
+// captured view, along one axis, kShiftBits.
+struct Offset {
+  int32_t centre, captured;
+};
+
+Offset OffsetOf(const HoleView& view, int sign, int64_t move, int32_t disparity) {
+  const int64_t shift = view.grid->Shift(move, disparity);
+  const int64_t captured = shift - CapturedShift(*view.grid, disparity, view.half);
+  return {static_cast<int32_t>(sign * shift), static_cast<int32_t>(sign * captured)};
+}
+
+// Reads captured view (u, v), all in the orientation of the lines.
+void Read(const HoleView& view, int u, int v, const CapturedLine& line, int32_t count,
+          uint8_t* rgb) {
+  if (view.transposed) {
+    ReadCaptured(*view.window, CapturedView(v, u, view.half), {line.y, line.x, line.dy, line.dx},
+                 count, rgb);
+  } else {
+    ReadCaptured(*view.window, CapturedView(u, v, view.half), line, count, rgb);
+  }
+}
+
+// Squared, of the sums over R, G and B: at most 765^2.
+int32_t Difference(const uint8_t* a, const uint8_t* b) {
+  const int32_t sum = Abs(a[0] - b[0]) + Abs(a[1] - b[1]) + Abs(a[2] - b[2]);
+  return sum * sum;
+}
+
+// The diagonal view is missing: of the two views beside it, the more a pixel looks like the
+// background the more it counts. Nearly a choice, but without a jump, and transposing the picture
+// transposes the result.
+void MixNeighbours(const uint8_t* a, const uint8_t* b, const uint8_t* colour, uint8_t* out) {
+  const int32_t weight_a = Difference(b, colour) + 1, weight_b = Difference(a, colour) + 1;
+  const int32_t sum = weight_a + weight_b;
+  for (int c = 0; c < 3; ++c) {
+    out[c] = static_cast<uint8_t>((a[c] * weight_a + b[c] * weight_b + sum / 2) / sum);
+  }
+}
+
+}  // namespace
+
+void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t end,
+              int32_t disparity, const uint8_t* colour, uint8_t* out) {
+  if (view.window->views == 1) {
+    for (int32_t p = begin; p < end; ++p, out += 3) std::memcpy(out, colour, 3);
+    return;
+  }
+  const Offset along = OffsetOf(view, view.u, view.move_u, disparity);
+  const Offset across = OffsetOf(view, view.v, view.move_v, disparity);
+  const bool diagonal = view.u != 0 && view.v != 0;
+  const auto read = [&](int u, int v, int32_t p, int32_t count, uint8_t* rgb) {
+    if (view.window->reads != nullptr) {
+      view.window->reads->side_colours += static_cast<uint64_t>(count);
+    }
+    const int32_t x = (line.x + line.dx * p) * kShiftOne + (u != 0 ? along.captured : along.centre);
+    const int32_t y =
+        (line.y + line.dy * p) * kShiftOne + (v != 0 ? across.captured : across.centre);
+    Read(view, u, v, {x, y, line.dx, line.dy}, count, rgb);
+  };
+  if (!diagonal || view.window->views != 5) {
+    read(view.u, view.v, begin, end - begin, out);
+    return;
+  }
+  constexpr int32_t kAtOnce = 16;
+  uint8_t horizontal[3 * kAtOnce];
+  for (int32_t p = begin; p < end; p += kAtOnce) {
+    const int32_t count = Min(kAtOnce, end - p);
+    read(view.u, 0, p, count, horizontal);
+    read(0, view.v, p, count, out);
+    for (int32_t k = 0; k < count; ++k, out += 3) {
+      MixNeighbours(horizontal + 3 * k, out, colour, out);
+    }
+  }
+}
+
+}  // namespace starfocus

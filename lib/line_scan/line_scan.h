@@ -1,0 +1,312 @@
+// Center-based line scan (paper, IV-A): the surfaces and holes of one rendered view along a line,
+// in a single pass without z-buffer.
+#ifndef STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_
+#define STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_
+
+#include <cstdint>
+
+#include "lib/base/fixed.h"
+#include "lib/base/view_grid.h"
+#include "lib/line_scan/runs.h"
+
+namespace starfocus {
+
+// A line of the centre view (or of a type A view) with its disparity.
+struct Line {
+  const uint8_t* rgb;
+  const int16_t* disparity;
+  ptrdiff_t step;  // from one pixel's disparity to the next one's
+  int32_t length;
+};
+
+// The part of the views of a line that is wanted: rendered pixels [begin, end), begin < end.
+struct LinePart {
+  int32_t begin, end;
+};
+
+// A gap wider than this is no stretched surface, whatever the disparities say, in pixels.
+inline constexpr int32_t kMaxStretch = 4;
+
+// 2^23 / cell, rounded, for cells of [0, kShiftOne]; 0 at 0, where no neighbour counts.
+struct CellReciprocals {
+  uint32_t of[kShiftOne + 1] = {};
+  constexpr CellReciprocals() {
+    for (uint32_t cell = 1; cell <= kShiftOne; ++cell) of[cell] = ((1u << 23) + cell / 2) / cell;
+  }
+};
+inline constexpr CellReciprocals kCellReciprocals;
+
+// Weight of the neighbour (kShiftBits) in the aperture cell of width `cell` (kShiftBits) for a
+// sample `offset` away from its pixel's centre: clamp((|t| - 1/2) / L + 1/2, 0, 1) of the
+// aperture cell, L <= 1.
+inline int32_t CellWeight(int32_t offset, int32_t cell) {
+  const int32_t twice = 2 * Abs(offset) - kShiftOne + cell;  // <= cell
+  if (twice <= 0) return 0;
+  const uint32_t scaled = static_cast<uint32_t>(twice) * kCellReciprocals.of[cell];
+  return static_cast<int32_t>(Checked(ranges::kCellWeight, (scaled + (1u << 15)) >> 16));
+}
+
+// The surface whose end covers a part of a hole's outermost pixel, on the side where the scan goes
+// on.
+struct Rim {
+  int32_t pixel;    // of the line; -1: none
+  int32_t covered;  // kShiftBits
+};
+
+// Scans `line` for views, one after the other. Calls, in pixels of the line (never mirrored),
+//   sink.Surface(begin, end, source, neighbour, weight): rendered pixel p is line pixel
+//     source + (p - begin), and its neighbour at +-1 with `weight` (kShiftBits);
+//   sink.Mix(p, source, other, weight): rendered pixel p is line pixel `source`, but `weight`
+//     (kShiftBits) of it is covered by, or lets shine through, line pixel `other`;
+//   sink.Hole(begin, end, pixel, rim): uncovered; what is behind continues the surface of the
+//     visible line pixel `pixel`.
+// Every wanted pixel comes exactly once, in scan order.
+template <Direction kDirection, class Sink>
+class LineScan {
+ public:
+  LineScan(const Line& line, const Run* runs, int32_t count, const ViewGrid& grid,
+           const LinePart& part, Sink* sink)
+      : line_(line),
+        runs_(runs),
+        runs_end_(runs + count),
+        grid_(grid),
+        sink_(sink),
+        begin_(kMirrored ? line.length - part.end : part.begin),
+        end_(kMirrored ? line.length - part.begin : part.end) {}
+
+  // move: ViewGrid::Move of the view's distance along the line.
+  void Scan(int64_t move) {
+    move_ = move;
+    edge_ = {nullptr, 0, 0};
+    // From the line's own end, not the wanted part's: what a gap borders on may lie beyond.
+    filled_ = {Max(end_, line_.length - Whole(Shift(*runs_))), line_.length - 1};
+    int32_t run_end = line_.length;
+    for (const Run* run = runs_; run != runs_end_; ++run) {
+      if (filled_.from <= begin_ && !AwaitsBehind()) break;
+      const int32_t shift = Shift(*run), begin = run->begin, whole = Whole(shift);
+      const int32_t low = begin - whole;
+      if (low < filled_.from) {
+        if (low >= end_) {
+          // Not wanted itself, it may still cover a part of the last pixel that is.
+          edge_ = {EndsAtEdge(run) ? run : nullptr, shift - whole * kShiftOne, whole};
+        } else if (IsPlain(run, run_end, whole)) {
+          const int32_t offset = shift - whole * kShiftOne;
+          Emit(Max(low, begin_), Min(filled_.from, end_), whole, offset > 0 ? 1 : -1,
+               CellWeight(offset, Min(run->cell, kShiftOne)));
+        } else {
+          AddRun(run, run_end, shift);
+        }
+        filled_ = {low, begin};
+      }
+      run_end = begin;
+    }
+    FlushEdge();
+    if (filled_.from > begin_) Hole(begin_, filled_.from, filled_.pixel, {-1, 0});
+  }
+
+ private:
+  static constexpr bool kMirrored = kDirection == Direction::kLeftToRight;
+
+  // The lowest position filled so far, and the line position that filled it: whatever lands at or
+  // above it is hidden.
+  struct Filled {
+    int32_t from = 0, pixel = 0;
+  };
+
+  int32_t Pixel(int32_t q) const { return kMirrored ? line_.length - 1 - q : q; }
+  int32_t Disparity(int32_t q) const { return line_.disparity[Pixel(q) * line_.step]; }
+  int32_t Shift(const Run& run) const { return grid_.Shift(move_, run.disparity); }
+  static int32_t Whole(int32_t shift) { return (shift + kShiftOne / 2) >> kShiftBits; }
+
+  // The lower end of a surface that may cover a farther one: the last run added. Between rendered
+  // pixels it covers a part of one only.
+  struct Edge {
+    const Run* run;  // null: there is none
+    int32_t offset;  // kShiftBits: < 0, of its last pixel that part is missing, and the pixel waits
+                     // to be mixed; > 0, so much it covers of the next pixel
+    int32_t whole;
+  };
+
+  // Whether another surface follows below.
+  bool EndsAtEdge(const Run* run) const {
+    return run + 1 != runs_end_ && run[1].surface_end == run->begin;
+  }
+
+  // Whether the last wanted pixel waits for what is behind it.
+  bool AwaitsBehind() const {
+    return filled_.from == begin_ && edge_.run != nullptr && edge_.offset < 0;
+  }
+
+  // Whether what is visible of a run lies inside one surface, beside no gap: most runs do.
+  bool IsPlain(const Run* run, int32_t run_end, int32_t whole) const {
+    const int32_t begin = run->begin, end = Min(filled_.from, end_);
+    const bool inside = begin - whole < begin_ || (run + 1 != runs_end_ && !EndsAtEdge(run));
+    return inside && run_end - whole >= filled_.from && edge_.run == nullptr &&
+           end + whole < run->surface_end;
+  }
+
+  // The run's positions up to `run_end` move together. Emits those that are not hidden, up to what
+  // is filled; positions beyond the run's own stretch it over source pixels beyond it.
+  [[gnu::noinline]] void AddRun(const Run* run, int32_t run_end, int32_t shift) {
+    const int32_t whole = Whole(shift);
+    const int32_t offset = shift - whole * kShiftOne;
+    int32_t end = filled_.from;
+    if (run_end - whole < end) {
+      FlushEdge();
+      end = CloseGap(run_end - 1, whole, offset);
+    } else if (edge_.run != nullptr) {
+      end = CoverEdge(*run, run_end, whole, end);
+    }
+    end = Min(end, end_);
+    int32_t first = Max(run->begin - whole, begin_);
+    edge_ = {EndsAtEdge(run) ? run : nullptr, offset, whole};
+    if (edge_.run != nullptr && offset < 0 && first + whole == run->begin) {
+      if (first < end) {
+        ++first;
+      } else {
+        edge_.offset = 0;
+      }
+    }
+    if (first >= end) return;
+    const int32_t weight = CellWeight(offset, Min(run->cell, kShiftOne));
+    if (weight == 0) {
+      Emit(first, end, whole, 1, 0);
+    } else if (end + whole > run->surface_end) {
+      const int32_t own = Max(first, run_end - whole);
+      AddBeyondSurface(own, end, whole, offset, weight);
+      if (first < own) AddBlended(*run, first, own, whole, offset, weight);
+    } else {
+      AddBlended(*run, first, end, whole, offset, weight);
+    }
+  }
+
+  // Mixes the edge with `run` behind it, which goes on at `end`. Returns where the rest of it does.
+  int32_t CoverEdge(const Run& run, int32_t run_end, int32_t whole, int32_t end) {
+    const Edge edge = edge_;
+    if (edge.run->disparity - run.disparity <= kSurfaceStep) {
+      FlushEdge();
+      return end;
+    }
+    edge_.run = nullptr;
+    const int32_t at_edge = edge.run->begin;
+    if (edge.offset < 0) {
+      if (end >= begin_ && end < end_)
+        Mix(end, at_edge, Min(end + whole, run_end - 1), -edge.offset);
+    } else if (edge.offset > 0 && end - 1 < end_ && end - 1 >= Max(begin_, run.begin - whole)) {
+      Mix(end - 1, end - 1 + whole, at_edge, edge.offset);
+      return end - 1;
+    }
+    return end;
+  }
+
+  // The edge covers nothing: its last pixel stays whole.
+  void FlushEdge() {
+    if (edge_.run != nullptr && edge_.offset < 0) {
+      const int32_t p = edge_.run->begin - edge_.whole;
+      if (p >= begin_ && p < end_) Emit(p, p + 1, edge_.whole, 1, 0);
+    }
+    edge_.run = nullptr;
+  }
+
+  // Positions [first, end) with their neighbours; a pixel at the upper end of its surface or at the
+  // line's lower end has none there.
+  void AddBlended(const Run& run, int32_t first, int32_t end, int32_t whole, int32_t offset,
+                  int32_t weight) const {
+    if (offset > 0) {
+      const bool alone = end + whole == run.surface_end;
+      if (alone) Emit(end - 1, end, whole, 1, 0);
+      if (first < end - alone) Emit(first, end - alone, whole, 1, weight);
+    } else {
+      const bool alone = first + whole == 0;
+      if (first + alone < end) Emit(first + alone, end, whole, -1, weight);
+      if (alone) Emit(first, first + 1, whole, -1, 0);
+    }
+  }
+
+  // A stretch over another surface: pixels one by one.
+  void AddBeyondSurface(int32_t own, int32_t end, int32_t whole, int32_t offset,
+                        int32_t weight) const {
+    const int32_t side = offset > 0 ? 1 : -1;
+    for (; end > own; --end) {
+      const int32_t q = end - 1 + whole;
+      Emit(end - 1, end, whole, side, SameSurface(side < 0 ? q - 1 : q) ? weight : 0);
+    }
+  }
+
+  bool SameSurface(int32_t q) const {  // of positions q and q + 1
+    return q >= 0 && q + 1 < line_.length && Abs(Disparity(q) - Disparity(q + 1)) <= kSurfaceStep;
+  }
+
+  // Between a run's last pixel `q` and what is filled lies a gap: a stretched surface, which the
+  // run then covers, or a hole. Returns where the run ends. A nearer run ends between pixels: the
+  // one it covers in part belongs to the hole, whose rim it is.
+  int32_t CloseGap(int32_t q, int32_t whole, int32_t offset) const {
+    const int32_t gap = q + 1 - whole;
+    const int32_t step = Disparity(q) - Disparity(filled_.pixel);
+    const bool stretched = step <= kSurfaceStep && filled_.from - gap <= kMaxStretch &&
+                           filled_.from + whole <= line_.length;
+    if (stretched) return filled_.from;
+    if (step <= kSurfaceStep) {
+      Hole(Max(gap, begin_), filled_.from, step < 0 ? q : filled_.pixel, {-1, 0});
+      return gap;
+    }
+    const int32_t begin = offset > 0 ? gap - 1 : gap;
+    const int32_t covered = offset > 0 ? kShiftOne - offset : -offset;
+    const bool wanted = begin >= begin_ && covered > 0;
+    Hole(Max(begin, begin_), filled_.from, filled_.pixel, {wanted ? Pixel(q) : -1, covered});
+    return begin;
+  }
+
+  // What goes on there is the surface of position q.
+  void Hole(int32_t begin, int32_t end, int32_t q, const Rim& rim) const {
+    end = Min(end, end_);
+    if (begin >= end) return;
+    if (kMirrored) {
+      sink_->Hole(line_.length - end, line_.length - begin, Pixel(q), rim);
+    } else {
+      sink_->Hole(begin, end, Pixel(q), rim);
+    }
+  }
+
+  void Mix(int32_t p, int32_t q, int32_t other, int32_t weight) const {
+    sink_->Mix(kMirrored ? line_.length - 1 - p : p, Pixel(q), Pixel(other), weight);
+  }
+
+  void Emit(int32_t begin, int32_t end, int32_t whole, int32_t side, int32_t weight) const {
+    if (kMirrored) {
+      const int32_t first = line_.length - end;
+      sink_->Surface(first, line_.length - begin, first - whole, -side, weight);
+    } else {
+      sink_->Surface(begin, end, begin + whole, side, weight);
+    }
+  }
+
+  const Line& line_;
+  const Run* const runs_;
+  const Run* const runs_end_;
+  const ViewGrid& grid_;
+  Sink* const sink_;
+  const int32_t begin_;  // wanted positions [begin_, end_)
+  const int32_t end_;
+  int64_t move_ = 0;
+  Filled filled_;
+  Edge edge_ = {nullptr, 0, 0};
+};
+
+// Scans for views first .. last. next(k) makes the sink ready for view k and returns its move.
+template <class Sink, class Next>
+void ScanLine(const Line& line, Direction direction, const Run* runs, int32_t count,
+              const ViewGrid& grid, const LinePart& part, int32_t first, int32_t last, Sink* sink,
+              const Next& next) {
+  if (direction == Direction::kRightToLeft) {
+    LineScan<Direction::kRightToLeft, Sink> scan(line, runs, count, grid, part, sink);
+    for (int32_t k = first; k <= last; ++k) scan.Scan(next(k));
+  } else {
+    LineScan<Direction::kLeftToRight, Sink> scan(line, runs, count, grid, part, sink);
+    for (int32_t k = first; k <= last; ++k) scan.Scan(next(k));
+  }
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_

@@ -1,0 +1,107 @@
+// Turns what a line scan finds into spans for the kernels.
+#ifndef STARFOCUS_LIB_LINE_SCAN_SPAN_SINK_H_
+#define STARFOCUS_LIB_LINE_SCAN_SPAN_SINK_H_
+
+#include <cstdint>
+#include <cstring>
+
+#include "lib/filter/span_list.h"
+#include "lib/line_scan/line_scan.h"
+
+namespace starfocus {
+
+// Where the pixels of a rendered line go.
+struct SpanTarget {
+  int32_t out_begin;   // the first rendered pixel
+  uint32_t pixel;      // of the list's target, for that pixel
+  uint32_t weight;     // of each pixel: 256 when the list blends
+  int16_t* disparity;  // receives the rendered view's disparity from out_begin on; null: not wanted
+};
+
+// A sink of LineScan. holes.Fill(begin, end, disparity, colour, out) writes the colours of rendered
+// pixels [begin, end), behind which a surface of `disparity` and `colour` goes on.
+template <class Holes>
+class SpanSink {
+ public:
+  // With target.disparity, line.step is 1.
+  SpanSink(const Line& line, const SpanTarget& target, const Holes& holes, SpanList* list)
+      : line_(line), target_(target), holes_(holes), list_(list) {}
+
+  // Of the pixels that follow.
+  void SetWeight(uint32_t weight) { target_.weight = weight; }
+
+  void Surface(int32_t begin, int32_t end, int32_t source, int32_t neighbour, int32_t weight) {
+    const uint32_t neighbour_weight =
+        (target_.weight * static_cast<uint32_t>(weight) + kShiftOne / 2) >> kShiftBits;
+    Add(begin, end, line_.rgb + 3 * static_cast<ptrdiff_t>(source), neighbour_weight,
+        3 * neighbour);
+    if (target_.disparity == nullptr) return;
+    CopyDisparities(line_.disparity + source, end - begin,
+                    target_.disparity + (begin - target_.out_begin));
+  }
+
+  void Mix(int32_t p, int32_t source, int32_t other, int32_t weight) {
+    const uint32_t other_weight =
+        (target_.weight * static_cast<uint32_t>(weight) + kShiftOne / 2) >> kShiftBits;
+    Add(p, p + 1, line_.rgb + 3 * static_cast<ptrdiff_t>(source), other_weight,
+        3 * (other - source));
+    if (target_.disparity != nullptr) {
+      target_.disparity[p - target_.out_begin] = line_.disparity[source];
+    }
+  }
+
+  void Hole(int32_t begin, int32_t end, int32_t pixel, const Rim& rim) {
+    uint8_t* pixels = list_->Pixels(3 * static_cast<size_t>(end - begin));
+    const int16_t disparity = line_.disparity[pixel * line_.step];
+    holes_.Fill(begin, end, disparity, line_.rgb + 3 * static_cast<ptrdiff_t>(pixel), pixels);
+    const int32_t rim_at = rim.pixel < pixel ? begin : end - 1;
+    if (rim.pixel >= 0) {
+      const uint8_t* colour = line_.rgb + 3 * static_cast<ptrdiff_t>(rim.pixel);
+      uint8_t* out = pixels + 3 * (rim_at - begin);
+      for (int c = 0; c < 3; ++c) {
+        out[c] = static_cast<uint8_t>(
+            (out[c] * (kShiftOne - rim.covered) + colour[c] * rim.covered + kShiftOne / 2) >>
+            kShiftBits);
+      }
+    }
+    Add(begin, end, pixels, 0, 0);
+    if (target_.disparity == nullptr) return;
+    for (int32_t p = begin; p < end; ++p) target_.disparity[p - target_.out_begin] = disparity;
+    if (rim.pixel >= 0 && rim.covered > kShiftOne / 2) {
+      target_.disparity[rim_at - target_.out_begin] = line_.disparity[rim.pixel];
+    }
+  }
+
+ private:
+  // Mostly short: a call of memcpy takes as long as several of these moves.
+  static void CopyDisparities(const int16_t* from, int32_t count, int16_t* to) {
+    constexpr int32_t kAtOnce = 4;
+    constexpr size_t kBytes = kAtOnce * sizeof(int16_t);
+    if (count < kAtOnce) {
+      for (int32_t k = 0; k < count; ++k) to[k] = from[k];
+      return;
+    }
+    for (int32_t k = 0; k + kAtOnce < count; k += kAtOnce) std::memcpy(to + k, from + k, kBytes);
+    std::memcpy(to + count - kAtOnce, from + count - kAtOnce, kBytes);
+  }
+
+  void Add(int32_t begin, int32_t end, const uint8_t* source, uint32_t neighbour_weight,
+           int32_t neighbour_offset) {
+    simd::Span* span = list_->Next();
+    span->source = source;
+    span->target = 3 * (target_.pixel + static_cast<uint32_t>(begin - target_.out_begin));
+    span->samples = 3 * static_cast<uint32_t>(end - begin);
+    span->weight = static_cast<uint16_t>(target_.weight - neighbour_weight);
+    span->neighbour_weight = static_cast<uint16_t>(neighbour_weight);
+    span->neighbour_offset = neighbour_offset;
+  }
+
+  const Line& line_;
+  SpanTarget target_;
+  const Holes& holes_;
+  SpanList* list_;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_LINE_SCAN_SPAN_SINK_H_

@@ -1,0 +1,319 @@
+#include "lib/line_scan/triangles.h"
+
+#include <cstring>
+#include <initializer_list>
+
+#include "lib/line_scan/holes.h"
+#include "lib/line_scan/line_scan.h"
+#include "lib/line_scan/span_sink.h"
+#include "lib/line_scan/unmix.h"
+
+namespace starfocus {
+namespace {
+
+constexpr uint32_t kBlendOne = 256;
+
+Direction DirectionOf(int sign) {
+  return sign > 0 ? Direction::kRightToLeft : Direction::kLeftToRight;
+}
+
+// The rectangle's job, its field and the rendered view (u * i, v * j) in the field's orientation,
+// and a line of it.
+struct LineHoles {
+  const StarJob& job;
+  const Field& field;
+  const int64_t* moves;
+  int u, v;
+  int32_t i, j;
+  HoleLine line;
+
+  void Fill(int32_t begin, int32_t end, int32_t disparity, const uint8_t* colour,
+            uint8_t* out) const {
+    const HoleView view = {job.window,
+                           job.grid,
+                           field.transposed,
+                           u,
+                           v,
+                           u == 0 ? 0 : moves[i],
+                           v == 0 ? 0 : moves[j],
+                           Max(i, j) <= job.grid->half_views};
+    FillHole(view, line, begin, end, disparity, colour, out);
+  }
+};
+
+// The star over one rectangle. "Along" is the direction of type A's parallax, "across" of type C's.
+class Star {
+ public:
+  Star(const StarJob& job, StarScratch* scratch) : job_(job), grid_(*job.grid), scratch_(scratch) {}
+
+  void Refocus() {
+    Field rows = MakeField(0);
+    LoadField(*job_.window, job_.rect, job_.border, &rows);
+    UnmixEdges(*job_.kernels, *job_.window, grid_, &rows);
+    for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
+    Clear(1);
+    Field columns = MakeField(1);
+    TransposeDisparity(rows, &columns);
+    AddViews(rows, columns, scratch_->accumulators[1]);
+    TransposePixels(*job_.kernels, rows, &columns);
+    Clear(0);
+    AddCentre(rows);
+    TypeB(rows, false);
+    TypeB(rows, true);
+    AddViews(columns, rows, scratch_->accumulators[0]);
+    AddTransposed();
+  }
+
+ private:
+  // Rows of a field, those that some views are rendered in.
+  struct Rows {
+    int32_t begin, end;
+  };
+
+  void Clear(int orientation) {
+    const size_t samples = 3 * static_cast<size_t>(job_.rect.width) * job_.rect.height;
+    std::memset(scratch_->accumulators[orientation], 0, samples * sizeof(uint32_t));
+  }
+
+  Field MakeField(int orientation) const {
+    Field field;
+    field.rgb = scratch_->field_rgb[orientation];
+    field.disparity = scratch_->field_disparity[orientation];
+    return field;
+  }
+
+  SpanList Accumulating(uint32_t* accumulators) const {
+    return SpanList(*job_.kernels, scratch_->spans, accumulators);
+  }
+  SpanList Blending(uint8_t* line) const { return SpanList(*job_.kernels, scratch_->spans, line); }
+
+  // Adds `pixels` pixels with one weight.
+  static void AddLine(const uint8_t* rgb, int32_t pixels, uint32_t weight, uint32_t target,
+                      SpanList* list) {
+    list->Add(
+        {rgb, target, 3 * static_cast<uint32_t>(pixels), static_cast<uint16_t>(weight), 0, 0});
+  }
+
+  void AddCentre(const Field& rows) {
+    const Rect& inner = rows.inner;
+    SpanList list = Accumulating(scratch_->accumulators[0]);
+    for (int32_t row = 0; row < inner.height; ++row) {
+      AddLine(rows.Rgb(inner.x, inner.y + row), inner.width, grid_.aperture.Weight(0, 0),
+              3u * static_cast<uint32_t>(row * inner.width), &list);
+    }
+    list.Flush();
+  }
+
+  // Types A and C along the rows of `field`, in the triangles on either side of that axis; `other`
+  // is the same field in the other orientation.
+  void AddViews(const Field& field, const Field& other, uint32_t* accumulators) {
+    for (const int sign : {1, -1}) {
+      FindAllRuns(field, other, DirectionOf(sign));
+      for (int32_t i = 1; i <= grid_.n(); ++i) {
+        const int32_t last = LastAcross(i);
+        const Rows rows = RowsFor(field, last);
+        RenderTypeA(field, sign, i, rows);
+        AddColumns(field, sign, i, last, rows, accumulators);
+      }
+    }
+  }
+
+  void FindAllRuns(const Field& field, const Field& other, Direction direction) {
+    MarkRuns(*job_.kernels, grid_, {other.disparity, other.width, field.width, field.height},
+             direction, &scratch_->marks);
+    for (int32_t row = 0; row < field.height; ++row) {
+      scratch_->run_counts[row] = ReadRuns(scratch_->marks, row, field.width, grid_,
+                                           scratch_->moves[1], RunsOf(field, row));
+    }
+  }
+
+  Run* RunsOf(const Field& field, int32_t row) const {
+    return scratch_->runs + static_cast<size_t>(row) * static_cast<size_t>(field.width);
+  }
+
+  // Largest j of the type C views (i, j): inside the triangle and the disc.
+  int32_t LastAcross(int32_t i) const {
+    const int32_t n = grid_.n();
+    int32_t j = i - 1;
+    while (j > 0 && i * i + j * j > n * n) --j;
+    return Max(j, 0);
+  }
+
+  // Rows that the type C views (i, j), j <= last, can reach from.
+  Rows RowsFor(const Field& field, int32_t last) const {
+    const Rect& inner = field.inner;
+    const int32_t n = grid_.n(), above = inner.y, end = inner.y + inner.height;
+    const auto reach = [&](int32_t border) {
+      const int32_t splat = last == 0 ? 0 : (border * last + n - 1) / n + 1;
+      return Min(border, splat);
+    };
+    return {inner.y - reach(above), end + reach(field.height - end)};
+  }
+
+  // Renders view (sign * i, 0), one line per column of the rectangle, and its disparity.
+  void RenderTypeA(const Field& field, int sign, int32_t i, const Rows& rows) {
+    const int32_t width = field.inner.width, height = rows.end - rows.begin;
+    for (int32_t row = 0; row < height; row += kStripRows) {
+      const int32_t count = Min(kStripRows, height - row);
+      SpanList list = Blending(scratch_->strip_rgb);
+      for (int32_t k = 0; k < count; ++k) {
+        const SpanTarget target = {field.inner.x, static_cast<uint32_t>(k * width), kBlendOne,
+                                   scratch_->view_disparity + (row + k) * width};
+        RenderRow(field, sign, i, rows.begin + row + k, target, &list);
+      }
+      list.Flush();
+      job_.kernels->transpose(scratch_->strip_rgb, 3 * static_cast<size_t>(width),
+                              static_cast<size_t>(count), static_cast<size_t>(width),
+                              scratch_->columns_rgb + 3 * row, RgbStride(height));
+    }
+  }
+
+  void RenderRow(const Field& field, int sign, int32_t i, int32_t row, const SpanTarget& target,
+                 SpanList* list) {
+    const Line line = {field.Rgb(0, row), field.Disparity(0, row), 1, field.width};
+    const LineHoles holes = {
+        job_, field, scratch_->moves, sign, 0, i, 0, {field.x, field.y + row, 1, 0}};
+    SpanSink<LineHoles> sink(line, target, holes, list);
+    ScanLine(line, DirectionOf(sign), RunsOf(field, row), scratch_->run_counts[row], grid_,
+             {field.inner.x, field.inner.x + field.inner.width}, i, i, &sink,
+             [&](int32_t k) { return scratch_->moves[k]; });
+  }
+
+  // Adds the views (sign * i, j), |j| <= last, from the columns of the type A view.
+  void AddColumns(const Field& field, int sign, int32_t i, int32_t last, const Rows& rows,
+                  uint32_t* accumulators) {
+    const int32_t width = field.inner.width, height = rows.end - rows.begin;
+    SpanList list = Accumulating(accumulators);
+    for (const int across : {1, -1}) {
+      if (across < 0 && last == 0) continue;
+      const bool scan = last > 0;
+      if (scan) {
+        MarkRuns(*job_.kernels, grid_, {scratch_->view_disparity, width, height, width},
+                 DirectionOf(across), &scratch_->marks);
+      }
+      LineHoles holes = {job_,
+                         field,
+                         scratch_->moves,
+                         sign,
+                         across,
+                         i,
+                         0,
+                         {field.x + field.inner.x, field.y + rows.begin, 0, 1}};
+      for (int32_t x = 0; x < width; ++x, ++holes.line.x) {
+        const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
+                                              scratch_->line_runs)
+                                   : 0;
+        uint8_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
+        const Line line = {rgb, scratch_->view_disparity + x, width, height};
+        const int32_t top = field.inner.y - rows.begin;
+        const auto first = static_cast<uint32_t>(x * field.inner.height);
+        if (across > 0) {
+          AddLine(rgb + 3 * top, field.inner.height, grid_.aperture.Weight(i, 0), 3 * first, &list);
+        }
+        if (scan) {
+          AddColumn(line, count, last, {top, top + field.inner.height}, first, &holes, &list);
+        }
+      }
+    }
+    list.Flush();
+  }
+
+  // Adds the pixels of a part of the views j = 1 .. last on one side of a column.
+  void AddColumn(const Line& line, int32_t runs, int32_t last, const LinePart& part, uint32_t pixel,
+                 LineHoles* view, SpanList* list) {
+    LineHoles& holes = *view;
+    const SpanTarget target = {part.begin, pixel, 0, nullptr};
+    SpanSink<LineHoles> sink(line, target, holes, list);
+    ScanLine(line, DirectionOf(holes.v), scratch_->line_runs, runs, grid_, part, 1, last, &sink,
+             [&](int32_t j) {
+               holes.j = j;
+               sink.SetWeight(grid_.aperture.Weight(holes.i, j));
+               return scratch_->moves[j];
+             });
+  }
+
+  Diagonals GetDiagonals(const Field& field, bool anti) {
+    Diagonals diagonals;
+    diagonals.rgb = scratch_->diagonal_rgb;
+    diagonals.disparity = scratch_->diagonal_disparity;
+    diagonals.offsets = scratch_->diagonal_offsets;
+    LoadDiagonals(field, anti, &diagonals);
+    return diagonals;
+  }
+
+  static Line GetLine(const Diagonals& diagonals, int32_t index, int32_t length) {
+    const size_t offset = diagonals.offsets[index];
+    return {diagonals.rgb + 3 * offset, diagonals.disparity + offset, 1, length};
+  }
+
+  // Adds the type B views on one diagonal of the aperture, inside the disc.
+  void TypeB(const Field& field, bool anti) {
+    int32_t last = 0;
+    while (2 * (last + 1) * (last + 1) <= grid_.n() * grid_.n()) ++last;
+    if (last == 0) return;
+    const Diagonals diagonals = GetDiagonals(field, anti);
+    const Rect& inner = field.inner;
+    for (int32_t index = 0; index < Diagonals::Count(field); ++index) {
+      const DiagonalLine at = GetDiagonal(field, anti, index);
+      const int32_t top = anti ? at.y - (inner.y + inner.height - 1) : inner.y - at.y;
+      const int32_t begin = Max(Max(0, inner.x - at.x), top);
+      const int32_t end = Min(Min(at.length, inner.x + inner.width - at.x), top + inner.height);
+      if (begin >= end) continue;
+      AddDiagonal(field, diagonals, at, index, begin, end, last);
+    }
+  }
+
+  void AddDiagonal(const Field& field, const Diagonals& diagonals, const DiagonalLine& at,
+                   int32_t index, int32_t begin, int32_t end, int32_t last) {
+    const Line line = GetLine(diagonals, index, at.length);
+    uint32_t* sums = scratch_->line_accumulators;
+    std::memset(sums, 0, 3 * static_cast<size_t>(end - begin) * sizeof(uint32_t));
+    SpanList list = Accumulating(sums);
+    for (const int sign : {1, -1}) {
+      MarkRuns(*job_.kernels, grid_, {line.disparity, 1, at.length, 1}, DirectionOf(sign),
+               &scratch_->marks);
+      const int32_t runs =
+          ReadRuns(scratch_->marks, 0, at.length, grid_, scratch_->moves[1], scratch_->line_runs);
+      const int across = diagonals.anti ? -sign : sign;
+      const HoleLine hole_line = {field.x + at.x, field.y + at.y, 1, diagonals.anti ? -1 : 1};
+      LineHoles holes = {job_, field, scratch_->moves, sign, across, 0, 0, hole_line};
+      SpanSink<LineHoles> sink(line, {begin, 0, 0, nullptr}, holes, &list);
+      ScanLine(line, DirectionOf(sign), scratch_->line_runs, runs, grid_, {begin, end}, 1, last,
+               &sink, [&](int32_t k) {
+                 holes.i = holes.j = k;
+                 sink.SetWeight(grid_.aperture.Weight(k, k));
+                 return scratch_->moves[k];
+               });
+    }
+    list.Flush();
+    const Rect& inner = field.inner;
+    for (int32_t t = begin; t < end; ++t) {
+      const int32_t x = at.x + t - inner.x;
+      const int32_t y = (diagonals.anti ? at.y - t : at.y + t) - inner.y;
+      uint32_t* target = scratch_->accumulators[0] + 3 * (static_cast<size_t>(y) * inner.width + x);
+      for (int c = 0; c < 3; ++c) target[c] += sums[3 * (t - begin) + c];
+    }
+  }
+
+  // The pass over rows left its sums by columns: what type C was added to.
+  void AddTransposed() {
+    const int32_t width = job_.rect.width, height = job_.rect.height;
+    for (int32_t y = 0; y < height; ++y) {
+      uint32_t* to = scratch_->accumulators[0] + 3 * static_cast<size_t>(y) * width;
+      const uint32_t* from = scratch_->accumulators[1] + 3 * static_cast<size_t>(y);
+      for (int32_t x = 0; x < width; ++x, to += 3, from += 3 * static_cast<size_t>(height)) {
+        for (int c = 0; c < 3; ++c) to[c] += from[c];
+      }
+    }
+  }
+
+  const StarJob& job_;
+  const ViewGrid& grid_;
+  StarScratch* scratch_;
+};
+
+}  // namespace
+
+void RefocusRectangle(const StarJob& job, StarScratch* scratch) { Star(job, scratch).Refocus(); }
+
+}  // namespace starfocus

@@ -1,0 +1,55 @@
+// The paper's primitive: one rectangle of the picture refocused with a given N at one layer, by
+// rendering the views of the aperture as types A, B and C of eight triangles (IV-B).
+#ifndef STARFOCUS_LIB_LINE_SCAN_TRIANGLES_H_
+#define STARFOCUS_LIB_LINE_SCAN_TRIANGLES_H_
+
+#include <cstdint>
+
+#include "lib/base/view_grid.h"
+#include "lib/filter/span_list.h"
+#include "lib/input/field.h"
+#include "lib/input/window.h"
+#include "lib/line_scan/runs.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+// Type A lines that are rendered before they are transposed together; a multiple of four.
+inline constexpr int32_t kStripRows = 16;
+
+// Memory of one worker. E: largest side of an extended rectangle; R: of a rectangle. Every buffer
+// is followed by simd::kPadding bytes.
+struct StarScratch {
+  uint8_t* field_rgb[2];        // E rows of RgbStride(E): rows and columns
+  int16_t* field_disparity[2];  // E^2 each
+  uint8_t* diagonal_rgb;        // 3 E^2
+  int16_t* diagonal_disparity;  // E^2
+  uint32_t* diagonal_offsets;   // 2 E
+  int64_t* moves;               // N + 1: ViewGrid::Move of each view
+  simd::RunMarks marks;         // of E lines of E positions
+  Run* runs;                    // E^2: of all lines of a field
+  int32_t* run_counts;          // E
+  Run* line_runs;               // E: of one line
+  uint8_t* strip_rgb;           // 3 R kStripRows: type A lines before they are transposed
+  int16_t* view_disparity;      // R E: of the type A view, one line per row
+  uint8_t* columns_rgb;         // R rows of RgbStride(E): the type A view, one line per column
+  uint32_t* accumulators[2];    // 3 R^2 each: in the orientation of either pass
+  uint32_t* line_accumulators;  // 3 E
+  SpanMemory spans;
+};
+
+struct StarJob {
+  const Window* window;
+  const ViewGrid* grid;
+  const simd::Kernels* kernels;
+  Rect rect;
+  Border border;
+};
+
+// Sums the weighted views over job.rect into scratch->accumulators[0]: rows of 3 * width values
+// with grid.aperture.sum_bits fractional bits. N > 0.
+void RefocusRectangle(const StarJob& job, StarScratch* scratch);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_LINE_SCAN_TRIANGLES_H_

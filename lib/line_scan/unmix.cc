@@ -1,0 +1,75 @@
+#include "lib/line_scan/unmix.h"
+
+#include "lib/input/boundary_pixel.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kShareOne = 1 << kShareBits;
+
+// Blur radius, kShiftBits, up to which a surface counts as sharp. A pixel more, where the paper's
+// subsampled layers begin, and no outline shows.
+constexpr int32_t kSharp = 2 * kShiftOne;
+
+// How much of it to take out, kShiftBits, none below 0: all where the near surface is defocused by
+// a pixel more than the far one, and that by no more than kSharp.
+int32_t StrengthOf(int32_t near_radius, int32_t far_radius) {
+  return Min(Min(near_radius - far_radius, kSharp + kShiftOne - far_radius), kShiftOne);
+}
+
+class Unmixer {
+ public:
+  Unmixer(const Window& window, const ViewGrid& grid)
+      : centre_{window}, grid_(grid), rim_(grid.Move(grid.n())) {}
+
+  // Writes the far surface's colour of pixel (x, y): the mean over the depth edges beside it, each
+  // by the share that the nearer surface has there.
+  void Unmix(int32_t x, int32_t y, uint8_t* out) const {
+    const uint8_t* mixed = centre_.Colour(x, y);
+    const int32_t disparity = centre_.Disparity(x, y);
+    int32_t sums[3] = {0, 0, 0}, shares = 0;
+    for (const auto& side : kSides) {
+      const int32_t near = centre_.Disparity(x + side[0], y + side[1]);
+      if (near - disparity <= kSurfaceStep) continue;
+      const int32_t strength = StrengthOf(Radius(near), Radius(disparity));
+      if (strength <= 0) continue;
+      const Mixture mixture = FindMixture(centre_, {x, y, side, disparity, near, kSurfaceStep});
+      const int32_t weight = mixture.share * AmountOf(mixture.share, strength);
+      for (int c = 0; c < 3; ++c) sums[c] += weight * (mixture.far[c] - mixed[c]);
+      shares += mixture.share;
+    }
+    if (shares == 0) return;
+    const int32_t unit = shares * kShareOne;
+    for (int c = 0; c < 3; ++c) {
+      out[c] = static_cast<uint8_t>(
+          Checked(ranges::kUnmixed, (mixed[c] * unit + sums[c] + unit / 2) / unit));
+    }
+  }
+
+ private:
+  int32_t Radius(int32_t disparity) const { return Abs(grid_.Shift(rim_, disparity)); }
+
+  // How much of the pixel (kShareBits) is to become the far colour. All of it from a share of a
+  // half on, but less below: what is taken away there the nearer surface's own pixels mostly lack
+  // on the other side of the edge. And less where nothing would show (StrengthOf).
+  static int32_t AmountOf(int32_t share, int32_t strength) {
+    return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
+  }
+
+  const CentreView centre_;
+  const ViewGrid& grid_;
+  const int64_t rim_;
+};
+
+}  // namespace
+
+void UnmixEdges(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
+                Field* field) {
+  if (window.layer != 0 || window.views == 1) return;
+  const Unmixer unmixer(window, grid);
+  ForEachBesideEdge(kernels, window, *field, kSurfaceStep, [&](int32_t column, int32_t row) {
+    unmixer.Unmix(field->x + column, field->y + row, field->Rgb(column, row));
+  });
+}
+
+}  // namespace starfocus

@@ -1,0 +1,183 @@
+#include "lib/plan/block_stats.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kRadiusOne = 1 << kDisparityBits;
+
+// Largest |d - focus| of disparities in [low, high].
+int32_t Farthest(int32_t low, int32_t high, int32_t focus) {
+  return Max(Abs(low - focus), Abs(high - focus));
+}
+
+// By the paper's rule a run ends when its pixels drift apart by a quarter pixel (kRunSpread of
+// view_grid.cc). Slices range over more: coefficients tell what a step costs by either rule.
+constexpr int32_t kRunDrift = kRadiusOne / 4;
+constexpr int32_t kLargestGap = 8;
+
+// Disparity that moves by `distance` (kDisparityBits of a pixel) in the outermost view.
+int32_t DisparityOf(int32_t distance, int64_t step) {
+  const int64_t disparity = (int64_t{distance} << kStepBits) / step;
+  return static_cast<int32_t>(disparity < INT16_MAX ? disparity : INT16_MAX);
+}
+
+void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t step, Cell* cell) {
+  // One step in eight leads out of the cell, and is made up for.
+  const auto scaled = [](uint32_t sum, uint32_t one) {
+    return static_cast<uint16_t>(sum * kContentOne * kCellSize / (one * (kCellSize - 1)));
+  };
+  const auto slope = static_cast<uint32_t>(Max(1, slope_limit));
+  for (int along = 0; along < 2; ++along) {
+    cell->slopes[along] = scaled(measure.slopes[along], slope);
+    cell->edges[along] = scaled(measure.edges[along], 1);
+    const int64_t gaps = measure.gaps[along] * step >> kStepBits;
+    cell->gaps[along] = scaled(static_cast<uint32_t>(gaps), kRadiusOne);
+  }
+}
+
+// Of pixels that all reach as far.
+void StoreSides(int32_t reach, Cell* cell) {
+  for (int side = 0; side < 4; ++side) {
+    cell->reach[side] = static_cast<int16_t>(Checked(ranges::kReach, reach));
+    cell->inside[side] = static_cast<uint8_t>(Min(reach, kCellSize));
+  }
+}
+
+// Reach beyond either end of a line of 8 columns or rows of disparities, and the depth inside.
+void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
+                  const int16_t (&highs)[kCellSize], Side low, Side high, Cell* cell) {
+  for (int32_t k = 0; k < kCellSize; ++k) {
+    const int32_t distance = Farthest(lows[k], highs[k], scale.focus);
+    const int32_t reach = ReachOf(scale.RadiusAbove(distance));
+    const int32_t beyond_low = reach - k, beyond_high = reach - (kCellSize - 1 - k);
+    cell->reach[low] =
+        static_cast<int16_t>(Max(cell->reach[low], Checked(ranges::kReach, beyond_low)));
+    cell->reach[high] =
+        static_cast<int16_t>(Max(cell->reach[high], Checked(ranges::kReach, beyond_high)));
+    if (beyond_low > 0) cell->inside[low] = static_cast<uint8_t>(Max(cell->inside[low], k + 1));
+    if (beyond_high > 0) {
+      cell->inside[high] = static_cast<uint8_t>(Max(cell->inside[high], kCellSize - k));
+    }
+  }
+}
+
+// Cells of one row.
+class CellRow {
+ public:
+  CellRow(const simd::Kernels& kernels, const Window& window, const BlurScale& scale, int32_t row)
+      : kernels_(kernels),
+        window_(window),
+        scale_(scale),
+        near_focus_(Clamp(scale.focus, INT16_MIN, INT16_MAX)),
+        limits_{static_cast<int16_t>(near_focus_), kSurfaceStep,
+                static_cast<int16_t>(DisparityOf(kRunDrift, scale.step)),
+                static_cast<int16_t>(DisparityOf(kLargestGap * kRadiusOne, scale.step))} {
+    for (int32_t k = 0; k < kRows; ++k) {
+      rows_[k] = window.disparity.Row(Clamp(row * kCellSize + k - 1, 0, window.height - 1));
+    }
+  }
+
+  Cell Measure(int32_t column) const {
+    const simd::CellMeasure found = Find(column * kCellSize);
+    Cell cell = {};
+    cell.low = found.column_low[0];
+    cell.high = found.column_high[0];
+    for (int32_t k = 1; k < kCellSize; ++k) {
+      cell.low = found.column_low[k] < cell.low ? found.column_low[k] : cell.low;
+      cell.high = found.column_high[k] > cell.high ? found.column_high[k] : cell.high;
+    }
+    // A focus beyond int16 lies beyond every disparity, all on one side of it.
+    const int32_t nearest = found.nearest + Abs(scale_.focus - near_focus_);
+    const int32_t farthest = Farthest(cell.low, cell.high, scale_.focus);
+    cell.r_min = static_cast<uint16_t>(scale_.Radius(nearest));
+    cell.r_max = static_cast<uint16_t>(scale_.RadiusAbove(farthest));
+    if (found.edge_low <= found.edge_high) {
+      cell.r_edge = static_cast<uint16_t>(
+          scale_.RadiusAbove(Farthest(found.edge_low, found.edge_high, scale_.focus)));
+    }
+    const int32_t reach = ReachOf(cell.r_max);
+    if (reach == ReachOf(scale_.RadiusAbove(nearest))) {
+      StoreSides(reach, &cell);
+    } else {
+      for (int16_t& side : cell.reach) side = INT16_MIN;
+      MeasureSides(scale_, found.column_low, found.column_high, kLeft, kRight, &cell);
+      MeasureSides(scale_, found.row_low, found.row_high, kTop, kBottom, &cell);
+    }
+    StoreContent(found, limits_.slope_limit, scale_.step, &cell);
+    return cell;
+  }
+
+ private:
+  static constexpr int32_t kRows = kCellSize + 2;
+
+  // What the kernel finds at column x of the picture, whose edge is repeated around it.
+  simd::CellMeasure Find(int32_t x) const {
+    const int16_t* rows[kRows];
+    int16_t copies[kRows][kRows];
+    const bool inside = x > 0 && x + kCellSize < window_.width;
+    for (int32_t k = 0; k < kRows; ++k) {
+      rows[k] = rows_[k] + x;
+      if (inside) continue;
+      for (int32_t column = 0; column < kRows; ++column) {
+        copies[k][column] = rows_[k][Clamp(x + column - 1, 0, window_.width - 1)];
+      }
+      rows[k] = copies[k] + 1;
+    }
+    simd::CellMeasure measure;
+    kernels_.measure_cell(rows, limits_, &measure);
+    return measure;
+  }
+
+  const simd::Kernels& kernels_;
+  const Window& window_;
+  const BlurScale& scale_;
+  const int32_t near_focus_;
+  const simd::CellLimits limits_;
+  const int16_t* rows_[kRows];  // with those above and below the cells
+};
+
+void AddContent(const Content (&part)[2], Content (*sum)[2]) {
+  for (int along = 0; along < 2; ++along) {
+    (*sum)[along].slopes += part[along].slopes;
+    (*sum)[along].edges += part[along].edges;
+    (*sum)[along].gaps += part[along].gaps;
+  }
+}
+
+}  // namespace
+
+void AddCell(const Cell& cell, Content (*sum)[2]) {
+  const Content part[2] = {{cell.slopes[0], cell.edges[0], cell.gaps[0]},
+                           {cell.slopes[1], cell.edges[1], cell.gaps[1]}};
+  AddContent(part, sum);
+}
+
+void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
+                  int32_t row, int32_t first, int32_t last, Cell* cells) {
+  const CellRow cell_row(kernels, window, scale, row);
+  for (int32_t column = first; column < last; ++column) *cells++ = cell_row.Measure(column);
+}
+
+BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {
+  BlockStats merged = {INT32_MAX, 0, 0, {}, {}};
+  for (int child = 0; child < 4; ++child) {
+    if (children[child] == nullptr) continue;
+    const BlockStats& from = *children[child];
+    const int32_t right = child & 1, bottom = child >> 1;
+    merged.r_min = Min(merged.r_min, from.r_min);
+    merged.r_max = Max(merged.r_max, from.r_max);
+    merged.r_edge = Max(merged.r_edge, from.r_edge);
+    AddContent(from.content, &merged.content);
+    for (int layer = 0; layer < 3; ++layer) {
+      Border& border = merged.border[layer];
+      const Border& part = from.border[layer];
+      border.left = Max(border.left, part.left - right * side);
+      border.right = Max(border.right, part.right - (1 - right) * side);
+      border.top = Max(border.top, part.top - bottom * side);
+      border.bottom = Max(border.bottom, part.bottom - (1 - bottom) * side);
+    }
+  }
+  return merged;
+}
+
+}  // namespace starfocus

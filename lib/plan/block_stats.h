@@ -1,0 +1,113 @@
+// Variable-size block analysis (paper, V-A): what 8x8 cells know of the blur, and blocks made of
+// them.
+#ifndef STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
+#define STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/input/field.h"
+#include "lib/input/window.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+inline constexpr int32_t kCellSize = 8;
+
+// What line scans meet in a cell or block at layer 0, along rows or along columns, in units of
+// 1 / kContentOne: every step from pixel to pixel counts.
+inline constexpr int32_t kContentOne = 16;
+struct Content {
+  uint32_t slopes;  // runs that steps within a surface start; a fraction where it takes several
+  uint32_t edges;   // runs that depth edges start
+  uint32_t gaps;    // pixels that depth edges uncover in the outermost view, 8 at most each
+};
+
+// Blur radii carry kDisparityBits fractional bits: 128 px are 8192.
+struct Cell {
+  uint16_t r_min, r_max;  // rounded down, up
+  int16_t low, high;      // disparities, kDisparityBits
+  uint16_t r_edge;        // of the nearer surface at any depth edge here, 0: none
+  // How many pixels beyond its left, right, top and bottom edge the cell splats (<= 0: not at all),
+  // and how deep inside lie the pixels that do.
+  int16_t reach[4];
+  uint8_t inside[4];
+  uint16_t slopes[2], edges[2], gaps[2];  // Content along rows and along columns
+};
+
+enum Side { kLeft, kRight, kTop, kBottom };
+
+// The lens as the analysis sees it.
+struct BlurScale {
+  int32_t focus;  // kDisparityBits
+  int64_t step;   // u_t, kStepBits
+
+  // |d - d_t| (kDisparityBits) to a blur radius, rounded down.
+  int32_t Radius(int32_t distance) const {
+    return static_cast<int32_t>(Checked(ranges::kRadius, (step * distance) >> kStepBits));
+  }
+  // The same, rounded up: 0 only for what is in focus.
+  int32_t RadiusAbove(int32_t distance) const {
+    return static_cast<int32_t>((step * distance + (int64_t{1} << kStepBits) - 1) >> kStepBits);
+  }
+};
+
+// Pixels that blur of radius r (kDisparityBits) reaches, with half a pixel of rounding.
+constexpr int32_t ReachOf(int32_t r) {
+  return (r + (3 << kDisparityBits) / 2 - 1) >> kDisparityBits;
+}
+
+// A grid of cells over rows of the picture, all columns. Positions outside the picture, and only
+// those, take the nearest cell, whose edge the picture repeats.
+struct CellGrid {
+  Cell* cells = nullptr;
+  int32_t columns = 0;    // of the picture
+  int32_t rows = 0;       // of the picture
+  int32_t first_row = 0;  // rows [first_row, last_row) are stored
+  int32_t last_row = 0;
+
+  Cell* At(int32_t column, int32_t row) const {
+    return cells + static_cast<size_t>(row - first_row) * static_cast<size_t>(columns) + column;
+  }
+};
+
+// Cells of a stripe that are gathered instead of refocused by views, where they belong to a block
+// at layer 0.
+struct GatherMap {
+  uint8_t* cells = nullptr;
+  int32_t columns = 0;
+  int32_t first_row = 0;  // of the cells of the picture
+
+  // The cell that holds pixel (x, y) of the picture.
+  uint8_t& At(int32_t x, int32_t y) const {
+    return cells[static_cast<size_t>(y / kCellSize - first_row) * static_cast<size_t>(columns) +
+                 static_cast<size_t>(x / kCellSize)];
+  }
+};
+
+// Adds what line scans meet in a cell.
+void AddCell(const Cell& cell, Content (*sum)[2]);
+
+// Measures the cells at columns [first, last) of a row of the grid; the window is at layer 0.
+void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
+                  int32_t row, int32_t first, int32_t last, Cell* cells);
+
+// Pixels that a block refocused at layer L renders beyond its sides, because upsampling reads
+// them, in pixels of the picture.
+inline constexpr int16_t kLayerMargin[3] = {0, 4, 12};
+
+// What a block knows: radii of the pixels inside and (but for r_min) of those that splat into it,
+// and for each layer the border beyond which no pixel splats into the block and its margin.
+struct BlockStats {
+  int32_t r_min, r_max, r_edge;
+  Border border[3];
+  Content content[2];  // of the pixels inside, along rows and along columns
+};
+
+// Stats of the block of twice the side `side` made of children in z-order. Children outside the
+// picture are null.
+BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_PLAN_BLOCK_STATS_H_

@@ -1,0 +1,85 @@
+#include "lib/plan/neighbourhood.h"
+
+#include <cstring>
+
+namespace starfocus {
+namespace {
+
+// `outside`: a repetition of the picture's edge, placed anywhere inside the cell.
+void StorePlanes(const Cell& cell, bool outside, size_t plane, int16_t* out) {
+  const auto reach = static_cast<int16_t>(ReachOf(cell.r_max));
+  for (size_t side = 0; side < 4; ++side) {
+    out[(simd::kReachLeft + side) * plane] = outside ? reach : cell.reach[side];
+    out[(simd::kInsideLeft + side) * plane] = outside ? int16_t{kCellSize} : cell.inside[side];
+  }
+  out[simd::kReachPlane * plane] = reach;
+  out[simd::kRadiusPlane * plane] = static_cast<int16_t>(cell.r_max);
+  out[simd::kEdgePlane * plane] = static_cast<int16_t>(cell.r_edge);
+  out[simd::kLowPlane * plane] = cell.low;
+  out[simd::kHighPlane * plane] = cell.high;
+}
+
+bool IsSmooth(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
+  const int32_t range = high - low;
+  const int32_t blur = Max(Abs(low - scale.focus), Abs(high - scale.focus));
+  // A slope goes on from cell to cell.
+  const bool step = 2 * widest > range;
+  const int32_t limit = step ? Max(scale.Radius(blur) / 2, kSharpSmoothRange) : kSmoothRange;
+  return scale.step * range <= int64_t{Min(limit, kSmoothRange)} << kStepBits;
+}
+
+}  // namespace
+
+Surroundings LoadSurroundings(const CellGrid& grid, const Rect& cells, int32_t around,
+                              int16_t* samples) {
+  static_assert(kCellSize == simd::kCellPixels && int{kLeft} == int{simd::kReachLeft} &&
+                    int{kBottom} == int{simd::kReachBottom},
+                "sides of cells are the kernels'");
+  const auto stride = static_cast<size_t>(cells.width + 2 * around);
+  const size_t plane = stride * static_cast<size_t>(cells.height + 2 * around);
+  int16_t* out = samples;
+  for (int32_t y = cells.y - around; y < cells.y + cells.height + around; ++y) {
+    const int32_t row = Clamp(y, 0, grid.rows - 1);
+    for (int32_t x = cells.x - around; x < cells.x + cells.width + around; ++x) {
+      const int32_t column = Clamp(x, 0, grid.columns - 1);
+      StorePlanes(*grid.At(column, row), column != x || row != y, plane, out++);
+    }
+  }
+  std::memset(samples + simd::kCellPlanes * plane, 0, 2 * simd::kSliceLanes * sizeof(*samples));
+  const simd::CellPlanes planes = {samples + static_cast<size_t>(around) * (stride + 1), plane,
+                                   stride};
+  return {planes, cells.x, cells.y, cells.width, cells.height, around};
+}
+
+BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
+                        const Surroundings& surroundings, int32_t column, int32_t row) {
+  simd::BlockReach reach;
+  kernels.reach_block(surroundings.At(column, row), surroundings.around, kLayerMargin, &reach);
+  BlockStats stats = {INT32_MAX, reach.radius, reach.edge, {}, {}};
+  for (int32_t y = row; y < Min(row + 2, grid.rows); ++y) {
+    for (int32_t x = column; x < Min(column + 2, grid.columns); ++x) {
+      const Cell& cell = *grid.At(x, y);
+      stats.r_min = Min(stats.r_min, cell.r_min);
+      AddCell(cell, &stats.content);
+    }
+  }
+  for (int layer = 0; layer < 3; ++layer) {
+    const int16_t(&border)[4] = reach.border[layer];
+    stats.border[layer] = {border[kLeft], border[kRight], border[kTop], border[kBottom]};
+  }
+  return stats;
+}
+
+void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
+                const BlurScale& scale, int32_t row, bool* smooth) {
+  int16_t low[kMaxRowCells], high[kMaxRowCells], edge[kMaxRowCells];
+  uint16_t widest[kMaxRowCells];
+  static_assert(kMaxRowCells % simd::kSliceLanes == 0, "kernels write whole lanes");
+  kernels.surround_cells(surroundings.At(surroundings.column, row), surroundings.around,
+                         static_cast<size_t>(surroundings.columns), {low, high, widest, edge});
+  for (int32_t k = 0; k < surroundings.columns; ++k) {
+    smooth[k] = edge[k] == 0 && IsSmooth(scale, low[k], high[k], widest[k]);
+  }
+}
+
+}  // namespace starfocus

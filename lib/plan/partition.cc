@@ -1,0 +1,279 @@
+#include "lib/plan/partition.h"
+
+#include <cstdlib>
+
+#include "lib/base/rules.h"
+#include "lib/filter/gather.h"
+
+namespace starfocus {
+namespace {
+
+constexpr double kRadiusOne = 1 << kDisparityBits;
+
+// Pixels of a layer that upsampling to the picture reads beyond a block.
+constexpr int32_t LayerMargin(int32_t layer) { return kLayerMargin[layer] >> layer; }
+
+int32_t CeilShift(int32_t value, int32_t layer) { return (value + (1 << layer) - 1) >> layer; }
+
+// A border of a block to one of its rendered rectangle, at the layer: `beyond` pixels of the
+// nominal block were clipped off at the picture's edge. One pixel more for the neighbour of an
+// aperture cell.
+int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
+  return Max(0, CeilShift(border + beyond, layer) - LayerMargin(layer)) + 1;
+}
+
+class Partition {
+ public:
+  Partition(const simd::Kernels& kernels, const PartitionRules& rules,
+            const PartitionScratch& scratch, const GatherMap& gathered)
+      : kernels_(kernels),
+        rules_(rules),
+        scratch_(scratch),
+        gathered_(gathered),
+        side_(rules.largest_block / kSmallestBlock) {
+    while ((1 << levels_) < side_) ++levels_;
+  }
+
+  void Measure(const CellGrid& cells, int32_t x, int32_t y, int32_t around) {
+    x_ = x;
+    y_ = y;
+    // Whole smallest blocks, which may hang over the picture's edges.
+    const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(rules_.width - x),
+                         CellsWithin(rules_.height - y)};
+    const Surroundings surroundings = LoadSurroundings(cells, inside, around, scratch_.cells);
+    FindGathered(cells, surroundings);
+    for (int level = 0; level <= levels_; ++level) {
+      const int32_t count = side_ >> level;
+      for (int32_t row = 0; row < count; ++row) {
+        for (int32_t column = 0; column < count; ++column) {
+          if (!Inside(level, column, row)) continue;
+          MeasureNode(level, column, row, cells, surroundings);
+          Plan(level, column, row);
+        }
+      }
+    }
+  }
+
+  int32_t Emit(Block* blocks) {
+    count_ = 0;
+    EmitNode(levels_, 0, 0, blocks);
+    return count_;
+  }
+
+ private:
+  int32_t NodeSide(int level) const { return kSmallestBlock << level; }
+  PartitionNode& Node(int level, int32_t column, int32_t row) const {
+    int32_t index = row * (side_ >> level) + column;
+    for (int below = 0; below < level; ++below) index += (side_ >> below) * (side_ >> below);
+    return scratch_.nodes[index];
+  }
+  bool Inside(int level, int32_t column, int32_t row) const {
+    return x_ + column * NodeSide(level) < rules_.width &&
+           y_ + row * NodeSide(level) < rules_.height;
+  }
+
+  void MeasureNode(int level, int32_t column, int32_t row, const CellGrid& cells,
+                   const Surroundings& surroundings) {
+    PartitionNode& node = Node(level, column, row);
+    node.cells = node.gathered = 0;
+    node.gather = 0;
+    if (level == 0) {
+      MeasureUnit(column, row, cells, surroundings, &node);
+      return;
+    }
+    const BlockStats* children[4];
+    for (int child = 0; child < 4; ++child) {
+      const int32_t cx = 2 * column + (child & 1), cy = 2 * row + (child >> 1);
+      const bool inside = Inside(level - 1, cx, cy);
+      children[child] = inside ? &Node(level - 1, cx, cy).stats : nullptr;
+      if (!inside) continue;
+      node.cells += Node(level - 1, cx, cy).cells;
+      node.gathered += Node(level - 1, cx, cy).gathered;
+      node.gather += Node(level - 1, cx, cy).gather;
+    }
+    node.stats = MergeBlocks(children, NodeSide(level - 1));
+  }
+
+  // Cells of the smallest blocks that are needed for this many pixels of the picture.
+  int32_t CellsWithin(int32_t pixels) const {
+    constexpr int32_t kCells = kSmallestBlock / kCellSize;
+    return kCells * Min(side_, (pixels + kSmallestBlock - 1) / kSmallestBlock);
+  }
+
+  void FindGathered(const CellGrid& cells, const Surroundings& inside) {
+    const int32_t right = Min(inside.column + inside.columns, cells.columns);
+    const int32_t bottom = Min(inside.row + inside.rows, cells.rows);
+    bool smooth[kMaxRowCells] = {};
+    for (int32_t y = inside.row; y < bottom; ++y) {
+      if (rules_.gathers) FindSmooth(kernels_, inside, rules_.scale, y, smooth);
+      for (int32_t x = inside.column; x < right; ++x) {
+        const bool small = cells.At(x, y)->r_max <= kMaxGather << kDisparityBits;
+        gathered_.At(x * kCellSize, y * kCellSize) = small && smooth[x - inside.column] ? 1 : 0;
+      }
+    }
+  }
+
+  void MeasureUnit(int32_t column, int32_t row, const CellGrid& cells,
+                   const Surroundings& surroundings, PartitionNode* node) {
+    const int32_t cell_x = x_ / kCellSize + 2 * column, cell_y = y_ / kCellSize + 2 * row;
+    node->stats = MeasureBlock(kernels_, cells, surroundings, cell_x, cell_y);
+    for (int32_t y = cell_y; y < Min(cell_y + 2, cells.rows); ++y) {
+      for (int32_t x = cell_x; x < Min(cell_x + 2, cells.columns); ++x) {
+        ++node->cells;
+        if (gathered_.At(x * kCellSize, y * kCellSize) == 0) continue;
+        ++node->gathered;
+        node->gather += PredictGather(rules_.timing, kCellSize * kCellSize, cells.At(x, y)->r_max);
+      }
+    }
+  }
+
+  Rect RectOf(int level, int32_t column, int32_t row) const {
+    const int32_t side = NodeSide(level);
+    const int32_t x = x_ + column * side, y = y_ + row * side;
+    return {x, y, Min(side, rules_.width - x), Min(side, rules_.height - y)};
+  }
+
+  // The node as one block, and whether splitting it is cheaper.
+  void Plan(int level, int32_t column, int32_t row) {
+    PartitionNode& node = Node(level, column, row);
+    Block& block = node.block;
+    block.rect = RectOf(level, column, row);
+    ChooseParameters(node.stats, NodeSide(level), &block);
+    const bool views = block.n > 0, whole = node.gathered == node.cells;
+    if (views && node.gathered > 0 && (block.layer == 0 || whole)) {
+      const auto cells = static_cast<uint64_t>(node.cells);
+      const auto others = static_cast<uint64_t>(node.cells - node.gathered);
+      block.cost = node.gather + block.cost * others / cells;
+      block.layer = 0;
+      block.gathers = true;
+    }
+    uint64_t best = block.cost;
+    if (level > 0) best = Smaller(best, ChildrenCost(level, column, row));
+    node.best = best;
+  }
+
+  static uint64_t Smaller(uint64_t a, uint64_t b) { return b < a ? b : a; }
+
+  uint64_t ChildrenCost(int level, int32_t column, int32_t row) const {
+    uint64_t sum = 0;
+    for (int child = 0; child < 4; ++child) {
+      const int32_t cx = 2 * column + (child & 1), cy = 2 * row + (child >> 1);
+      if (Inside(level - 1, cx, cy)) sum += Node(level - 1, cx, cy).best;
+    }
+    return sum;
+  }
+
+  int32_t Views(const BlockStats& stats, int32_t layer) const {
+    const double r_max = static_cast<double>(stats.r_max) / (kRadiusOne * (1 << layer));
+    const int32_t n = rules_.cells ? ViewsByCells(r_max) : ViewsByPaper(r_max);
+    return ScaleViews(n, rules_.n_scale);
+  }
+
+  int32_t Layer(const BlockStats& stats) const {
+    const double r_min = static_cast<double>(stats.r_min) / kRadiusOne;
+    if (!rules_.cells) return Min(LayerByPaper(r_min), rules_.max_layer);
+    return Min(LayerByCells(r_min, stats.r_edge > 0), rules_.max_layer);
+  }
+
+  void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
+    const Rect& rect = block->rect;
+    const int32_t layer = Layer(stats);
+    block->gathers = false;
+    block->layer = layer;
+    block->n = Min(Views(stats, layer), rules_.max_n);
+    const int32_t margin = LayerMargin(layer);
+    block->rendered = {(rect.x >> layer) - margin, (rect.y >> layer) - margin,
+                       CeilShift(rect.width, layer) + 2 * margin,
+                       CeilShift(rect.height, layer) + 2 * margin};
+    const Border& border = stats.border[layer];
+    block->border = {
+        LayerBorder(border.left, 0, layer), LayerBorder(border.right, side - rect.width, layer),
+        LayerBorder(border.top, 0, layer), LayerBorder(border.bottom, side - rect.height, layer)};
+    const uint64_t upsampled =
+        layer == 0 ? 0 : static_cast<uint64_t>(rect.width) * static_cast<uint64_t>(rect.height);
+    block->cost = PredictTime(rules_.timing,
+                              MeasureWork(block->rendered, block->border, rules_.views[block->n],
+                                          rules_.cells, upsampled, stats.content, layer));
+  }
+
+  // Leaves to views the least rectangle around the cells that are not gathered.
+  void Shrink(Block* block) const {
+    const Rect& rect = block->rect;
+    int32_t left = rect.x + rect.width, top = rect.y + rect.height, right = 0, bottom = 0;
+    for (int32_t y = rect.y; y < rect.y + rect.height; y += kCellSize) {
+      for (int32_t x = rect.x; x < rect.x + rect.width; x += kCellSize) {
+        if (gathered_.At(x, y) != 0) continue;
+        left = Min(left, x);
+        right = Max(right, x + kCellSize);
+        top = Min(top, y);
+        bottom = Max(bottom, y + kCellSize);
+      }
+    }
+    right = Min(right, rules_.width);
+    bottom = Min(bottom, rules_.height);
+    block->n = 0;
+    block->rendered = {};
+    block->border = {};
+    if (left >= right) return;
+    block->rendered = {left, top, right - left, bottom - top};
+    MeasureRendered(block);
+  }
+
+  // N and the border, by the units that hold those cells.
+  void MeasureRendered(Block* block) const {
+    const Rect& rect = block->rendered;
+    const int32_t right = rect.x + rect.width, bottom = rect.y + rect.height;
+    BlockStats all = {};
+    Border& border = all.border[0];
+    for (int32_t y = rect.y & -kSmallestBlock; y < bottom; y += kSmallestBlock) {
+      for (int32_t x = rect.x & -kSmallestBlock; x < right; x += kSmallestBlock) {
+        const PartitionNode& node = Node(0, (x - x_) / kSmallestBlock, (y - y_) / kSmallestBlock);
+        if (node.gathered == node.cells) continue;
+        const Border& part = node.stats.border[0];
+        all.r_max = Max(all.r_max, node.stats.r_max);
+        border.left = Max(border.left, part.left - (x - rect.x));
+        border.right = Max(border.right, x + kSmallestBlock + part.right - right);
+        border.top = Max(border.top, part.top - (y - rect.y));
+        border.bottom = Max(border.bottom, y + kSmallestBlock + part.bottom - bottom);
+      }
+    }
+    block->n = Min(Views(all, 0), rules_.max_n);
+    block->border = {LayerBorder(border.left, 0, 0), LayerBorder(border.right, 0, 0),
+                     LayerBorder(border.top, 0, 0), LayerBorder(border.bottom, 0, 0)};
+  }
+
+  void EmitNode(int level, int32_t column, int32_t row, Block* blocks) {
+    if (!Inside(level, column, row)) return;
+    const PartitionNode& node = Node(level, column, row);
+    if (node.best == node.block.cost) {
+      Block& block = blocks[count_++];
+      block = node.block;
+      if (block.gathers) Shrink(&block);
+      return;
+    }
+    for (int child = 0; child < 4; ++child) {
+      EmitNode(level - 1, 2 * column + (child & 1), 2 * row + (child >> 1), blocks);
+    }
+  }
+
+  const simd::Kernels& kernels_;
+  const PartitionRules& rules_;
+  const PartitionScratch& scratch_;
+  const GatherMap& gathered_;
+  int32_t side_;  // in smallest blocks
+  int levels_ = 0;
+  int32_t x_ = 0, y_ = 0;
+  int32_t count_ = 0;
+};
+
+}  // namespace
+
+int32_t PartitionBlock(const simd::Kernels& kernels, const PartitionRules& rules,
+                       const CellGrid& cells, int32_t x, int32_t y, int32_t around,
+                       const PartitionScratch& scratch, Block* blocks, const GatherMap& gathered) {
+  Partition partition(kernels, rules, scratch, gathered);
+  partition.Measure(cells, x, y, around);
+  return partition.Emit(blocks);
+}
+
+}  // namespace starfocus

@@ -1,0 +1,78 @@
+// Timing-based quadtree partition of a largest block (paper, V-B).
+#ifndef STARFOCUS_LIB_PLAN_PARTITION_H_
+#define STARFOCUS_LIB_PLAN_PARTITION_H_
+
+#include <cstdint>
+
+#include "lib/plan/block_stats.h"
+#include "lib/plan/neighbourhood.h"
+#include "lib/plan/timing.h"
+
+namespace starfocus {
+
+inline constexpr int32_t kSmallestBlock = 16;
+
+// A block to refocus: a rectangle of the picture with its parameters.
+struct Block {
+  Rect rect;  // in pixels of the picture, clipped to it
+  // Of views, at the layer: with the margin that upsampling reads; at layer 0 around the cells that
+  // are not gathered, and empty when all are.
+  Rect rendered;
+  Border border;  // of `rendered`, at the layer
+  int32_t layer;  // L
+  int32_t n;      // N
+  bool gathers;   // the cells of the map
+  uint64_t cost;  // predicted, picoseconds
+};
+
+struct PartitionRules {
+  int32_t width, height;  // of the picture
+  int32_t largest_block;
+  int32_t max_layer;
+  int32_t max_n;
+  bool cells;      // ViewsByCells instead of (9)
+  double n_scale;  // of their N
+  bool gathers;    // smooth cells, with cells
+  BlurScale scale;
+  sf_timing timing;
+  const ViewCounts* views;  // by N, up to max_n
+};
+
+// A node of the quadtree: what it is as one block, and the least time of it or its children.
+struct PartitionNode {
+  BlockStats stats;
+  Block block;
+  uint64_t best;
+  int32_t cells, gathered;  // inside the picture, and those of them that could be
+  uint64_t gather;          // predicted time of that
+};
+
+// Blocks a largest block can split into.
+constexpr int32_t MaxBlocks(int32_t largest_block) {
+  return (largest_block / kSmallestBlock) * (largest_block / kSmallestBlock);
+}
+
+// Nodes of the quadtree of a largest block.
+constexpr int32_t PartitionNodes(int32_t largest_block) {
+  int32_t nodes = 0;
+  for (int32_t side = largest_block / kSmallestBlock; side > 0; side /= 2) nodes += side * side;
+  return nodes;
+}
+
+// Memory for a largest block: PartitionNodes of it, SurroundingSamples of its cells.
+struct PartitionScratch {
+  PartitionNode* nodes;
+  int16_t* cells;
+};
+
+// Splits the largest block at (x, y), multiples of largest_block, into the blocks of least
+// predicted time. `around`: how many cells away a pixel may splat from. Writes at most MaxBlocks
+// blocks in z-order, and what of `gathered` belongs to the largest block; returns the number of
+// blocks.
+int32_t PartitionBlock(const simd::Kernels& kernels, const PartitionRules& rules,
+                       const CellGrid& cells, int32_t x, int32_t y, int32_t around,
+                       const PartitionScratch& scratch, Block* blocks, const GatherMap& gathered);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_PLAN_PARTITION_H_

@@ -1,0 +1,50 @@
+// The timing model (13)-(15).
+#ifndef STARFOCUS_LIB_PLAN_TIMING_H_
+#define STARFOCUS_LIB_PLAN_TIMING_H_
+
+#include <cstdint>
+
+#include "lib/base/aperture.h"
+#include "lib/input/field.h"
+#include "lib/plan/block_stats.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// The work of refocusing one block, all at its layer: what the coefficients of sf_timing multiply.
+struct BlockWork {
+  uint64_t field;     // pixels of the extended rectangle
+  uint64_t a, b, c;   // rendered pixels P_A, P_B, P_C of (13)
+  uint64_t upsample;  // picture pixels, 0 at layer 0
+  uint64_t span;      // stretches of one disparity in all rendered lines
+  uint64_t hole;      // pixels that they leave uncovered, as if each view were an outermost one
+};
+
+// Views of each type inside the disc of N.
+struct ViewCounts {
+  uint32_t a, b, c;
+};
+ViewCounts CountViews(int32_t n);
+// Of the views of cells, whose types are all one but for those on the axes.
+ViewCounts CountCells(const Aperture& aperture);
+
+// The work of `rect` with `border`, both in pixels of the layer, and N views along the radius.
+// `cells`: by the rule of cells. `content`: what the block holds at layer 0 along rows and along
+// columns.
+BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views, bool cells,
+                      uint64_t upsampled_pixels, const Content (&content)[2], int32_t layer);
+
+// Picoseconds; exact in integers, so that a partition is the same on every machine.
+uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);
+
+// The same for gathering `pixels` of the picture, which is as much a filter of the picture as
+// upsampling, so that this has no coefficient of its own; for pixels that are blurred by `radius`
+// (kDisparityBits) at most.
+uint64_t PredictGather(const sf_timing& timing, uint64_t pixels, int32_t radius);
+
+// Coefficients of the architecture this is compiled for (timing_defaults.h).
+sf_timing DefaultTiming();
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_PLAN_TIMING_H_

@@ -1,0 +1,183 @@
+#include "lib/slices/depth_slices.h"
+
+#include <cstring>
+
+#include "lib/slices/slice_plane.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int kOverlapParts = 10;  // of a slice's range
+
+// Pixels whose bins are looked at together: rows and columns.
+constexpr int32_t kMarkedRows = 8;
+constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+
+class SliceFinder {
+ public:
+  explicit SliceFinder(const SliceJob& job)
+      : job_(job), surfaces_(*job.surfaces), grid_(*job.grid) {
+    const int64_t step = grid_.step > 0 ? grid_.step : 1;
+    constexpr int kBits = kStepBits + kDisparityBits - kShiftBits;
+    range_ = static_cast<int32_t>(Limited((int64_t{job.rule.range} << kBits) / step));
+    for (int32_t d = 0; d < Max(surfaces_.width, surfaces_.height); ++d) {
+      job_.least_blur[d] = static_cast<int32_t>(
+          Limited((int64_t{Max(d - 1, 0)} << (kStepBits + kDisparityBits)) / step));
+    }
+  }
+
+  int32_t Find(Slice* slices) {
+    FindBase();
+    std::memset(job_.bins, 0, static_cast<size_t>(bins_));
+    for (int surface = 0; surface < simd::kSurfaces; ++surface) Mark(surface);
+    for (int coarser = 0;; ++coarser) {
+      const int32_t count = Cut(coarser, slices);
+      if (count > 0) return count;
+    }
+  }
+
+ private:
+  static int64_t Limited(int64_t disparity) {
+    constexpr int64_t kMost = 1 << 20;
+    return disparity < kMost ? disparity : kMost;
+  }
+
+  void FindBase() {
+    const int32_t range = surfaces_.high - surfaces_.low;
+    base_ = surfaces_.low;
+    while (range >> bin_bits_ >= kSliceBins) ++bin_bits_;
+    bins_ = (range >> bin_bits_) + 1;
+  }
+
+  // Marks the bins of a surface's pixels that may splat into the rect, a few rows at a time. Rows
+  // that hide nothing have no surface but the first.
+  void Mark(int surface) {
+    const auto has = [&](int32_t y) { return surface == 0 || surfaces_.hiding[y] != 0; };
+    for (int32_t y = 0, end; y < surfaces_.height; y = end) {
+      end = y + 1;
+      if (!has(y)) continue;
+      while (end < Min(y + kMarkedRows, surfaces_.height) && has(end)) ++end;
+      MarkRows(surface, y, end);
+    }
+  }
+
+  void MarkRows(int surface, int32_t y, int32_t end) {
+    simd::DisparityRange ranges[kMaxChunks];
+    job_.kernels->find_ranges(surfaces_.disparity[surface] + surfaces_.At(0, y),
+                              static_cast<size_t>(surfaces_.stride), static_cast<size_t>(end - y),
+                              static_cast<size_t>(surfaces_.width), ranges);
+    for (int32_t x = 0; x < surfaces_.width; x += kChunk) {
+      const simd::DisparityRange& range = ranges[x / kChunk];
+      const Rect pixels = {x, y, Min(kChunk, surfaces_.width - x), end - y};
+      const int32_t least = job_.least_blur[Beyond(pixels)];
+      if (least == 0) {
+        MarkPixels(surface, pixels, range.low, range.high);
+      } else {  // what is too sharp does not reach the rect
+        MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus - least));
+        MarkPixels(surface, pixels, Max(range.low, grid_.focus + least), range.high);
+      }
+    }
+  }
+
+  // Of disparities [low, high]; most fall into bins that are marked.
+  void MarkPixels(int surface, const Rect& pixels, int32_t low, int32_t high) {
+    if (low > high) return;
+    const uint8_t *first = job_.bins + BinOf(low), *last = job_.bins + BinOf(high);
+    first =
+        static_cast<const uint8_t*>(std::memchr(first, 0, static_cast<size_t>(last + 1 - first)));
+    if (first == nullptr) return;
+    while (*last != 0) --last;
+    const simd::DisparityRange range = {static_cast<int16_t>(Max(low, LowOf(first))),
+                                        static_cast<int16_t>(Min(high, LowOf(last + 1) - 1))};
+    const int16_t* disparity = surfaces_.disparity[surface] + surfaces_.At(pixels.x, pixels.y);
+    uint16_t within[kMarkedRows];
+    job_.kernels->find_within(disparity, static_cast<size_t>(surfaces_.stride),
+                              static_cast<size_t>(pixels.height), range, within);
+    // Copies, since marks might be part of anything.
+    uint8_t* const bins = job_.bins;
+    const int32_t* const least_blur = job_.least_blur;
+    const int32_t base = base_, bits = bin_bits_, focus = grid_.focus;
+    const int32_t left = job_.rect.x - pixels.x, right = left + job_.rect.width - 1;
+    for (int32_t y = 0; y < pixels.height; ++y, disparity += surfaces_.stride) {
+      const int32_t in_column = Beyond({job_.rect.x, pixels.y + y, 1, 1});
+      ForEachBit(within[y], [=](int32_t k) {
+        uint8_t& mark = bins[(disparity[k] - base) >> bits];
+        if (mark != 0) return;
+        const int32_t beyond = Max(in_column, Max(left - k, k - right));
+        if (Abs(disparity[k] - focus) >= least_blur[beyond]) mark = 1;
+      });
+    }
+  }
+
+  // The lowest disparity of a bin.
+  int32_t LowOf(const uint8_t* bin) const {
+    return base_ + (static_cast<int32_t>(bin - job_.bins) << bin_bits_);
+  }
+
+  int32_t BinOf(int32_t disparity) const { return (disparity - base_) >> bin_bits_; }
+
+  // How far the nearest of the pixels lies beyond the rect.
+  int32_t Beyond(const Rect& pixels) const {
+    const Rect& rect = job_.rect;
+    const int32_t x =
+        Max(rect.x - (pixels.x + pixels.width - 1), pixels.x - (rect.x + rect.width - 1));
+    const int32_t y =
+        Max(rect.y - (pixels.y + pixels.height - 1), pixels.y - (rect.y + rect.height - 1));
+    return Max(Max(x, y), 0);
+  }
+
+  // Bins that a slice with this nearest bin may span.
+  int32_t Span(int32_t bin, int coarser) const {
+    const int32_t blur = Abs(grid_.Shift(grid_.step, base_ + (bin << bin_bits_)));
+    const int64_t wider = Max(kSliceSharp, blur - kSliceSharp);
+    const int64_t bins = (wider * range_ / kSliceSharp) >> bin_bits_;
+    return static_cast<int32_t>(Limited(bins << coarser));
+  }
+
+  // 0: too many, or too large.
+  int32_t Cut(int coarser, Slice* slices) const {
+    int32_t count = 0;
+    const SliceLimits& limits = job_.limits;
+    size_t samples = 0, rows = 0, bytes = 0;
+    for (int32_t bin = bins_ - 1; bin >= 0; --bin) {
+      if (job_.bins[bin] == 0) continue;
+      if (count == job_.rule.most) return 0;
+      const int32_t span = Span(bin, coarser), top = bin;
+      int32_t bottom = bin;
+      for (; bin > Max(top - span, -1); --bin) {
+        if (job_.bins[bin] != 0) bottom = bin;
+      }
+      ++bin;
+      Slice& slice = slices[count++];
+      const int32_t low = base_ + (bottom << bin_bits_);
+      const int32_t high = base_ + ((top + 1) << bin_bits_) - 1;
+      slice.low = static_cast<int16_t>(low);
+      slice.high = static_cast<int16_t>(Min(high, INT16_MAX));
+      slice.overlap =
+          static_cast<int16_t>(Min(high + (span << bin_bits_) / kOverlapParts, INT16_MAX));
+      slice.disparity = static_cast<int16_t>(low + (slice.high - low) / 2);
+      PlacedSlice placed;
+      PlaceSlice(grid_, slice.disparity, job_.rect, &placed);
+      const auto reach = static_cast<size_t>(placed.reach);
+      const auto height = static_cast<size_t>(job_.rect.height);
+      samples += SliceSize(static_cast<size_t>(job_.rect.width), height, reach);
+      rows += ShiftedRows(height, reach);
+      bytes += SliceBytes(kLeastColumns, kLeastRows, reach) + TileBytes(kLeastRows, reach);
+      if (samples > limits.samples || rows > limits.rows || bytes > limits.bytes) return 0;
+    }
+    return count;
+  }
+
+  const SliceJob& job_;
+  const Surfaces& surfaces_;
+  const ViewGrid& grid_;
+  int32_t range_;         // of the rule, as a disparity
+  int32_t bin_bits_ = 0;  // disparities of a bin
+  int32_t base_ = 0, bins_ = 0;
+};
+
+}  // namespace
+
+int32_t FindSlices(const SliceJob& job, Slice* slices) { return SliceFinder(job).Find(slices); }
+
+}  // namespace starfocus

@@ -1,0 +1,297 @@
+#include "lib/slices/layered_depth.h"
+
+#include <cstring>
+
+#include "lib/base/fixed.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+
+// No surface behind a row's end, since kernels look at whole vectors.
+void ClearChunk(int16_t* disparity) {
+  for (int32_t k = 0; k < kChunk; ++k) disparity[k] = kNoSurface;
+}
+
+// Hidden pixels of a chunk: the first one's place in the field, their disparities, and where their
+// colours are found as look_behind tells it.
+struct HiddenChunk {
+  int32_t x, y;
+  const int16_t* disparity;
+  const uint16_t* source;
+};
+
+// The colours of hidden pixels, each between two pixels, as `interpolate` takes them.
+class HiddenColours {
+ public:
+  uint8_t here[3 * kChunk] = {}, next[3 * kChunk] = {}, weight[kChunk] = {};
+
+  HiddenColours(const Window& window, const Field& field) : window_(window), field_(field) {}
+
+  // Of the pixels k of which bit k is set. Behind one edge many are read one after the other.
+  void Read(const HiddenChunk& chunk, uint32_t pixels) {
+    while (pixels != 0) {
+      const int32_t first = LowestBit(pixels);
+      pixels &= ~uint32_t{0} << ReadFrom(chunk, first);
+    }
+  }
+
+ private:
+  // Reads pixel k and those after it that are read with it. Returns the first that is not.
+  int32_t ReadFrom(const HiddenChunk& chunk, int32_t k) {
+    const uint32_t source = chunk.source[k], sides = source & 15;
+    if ((sides & (sides - 1)) != 0) {
+      ReadMean(chunk, k);
+      return k + 1;
+    }
+    const bool seen = source >> simd::kSourceDistance == 0;
+    return seen && window_.layer == 0 ? ReadPairs(chunk, k, LowestBit(sides))
+                                      : ReadStretch(chunk, k, LowestBit(sides));
+  }
+
+  // At layer 0, as long as what the captured view shows follows each other there.
+  int32_t ReadPairs(const HiddenChunk& chunk, int32_t first, int32_t side) {
+    const uint32_t source = chunk.source[first];
+    const int dx = kSides[side][0], dy = kSides[side][1];
+    const int bits = kShiftBits - kDisparityBits - (IsHalf(side, source) ? 1 : 0);
+    const int32_t back = -(dx + dy) * (1 << bits);
+    const int32_t moved = chunk.disparity[first] * back >> kShiftBits;
+    int32_t end = first, place = chunk.disparity[first] * back;
+    do {
+      weight[end++] = static_cast<uint8_t>(place & (kShiftOne - 1));
+      if (end == kChunk || chunk.source[end] != source) break;
+      place = chunk.disparity[end] * back;
+    } while (place >> kShiftBits == moved);
+    CountReads(end - first);
+    const int across = Abs(dx), down = Abs(dy), view = ViewOf(side, source);
+    const int32_t x = field_.x + chunk.x + first + across * moved;
+    const int32_t y = field_.y + chunk.y + down * moved;
+    CopyCaptured(window_, view, x, y, end - first, here + 3 * first);
+    CopyCaptured(window_, view, x + across, y + down, end - first, next + 3 * first);
+    return end;
+  }
+
+  // Of the same disparity.
+  int32_t ReadStretch(const HiddenChunk& chunk, int32_t first, int32_t side) {
+    int32_t end = first;
+    do {
+      weight[end++] = 0;
+    } while (end < kChunk && chunk.source[end] == chunk.source[first] &&
+             chunk.disparity[end] == chunk.disparity[first]);
+    ReadSide(chunk, first, end - first, side, here + 3 * first);
+    return end;
+  }
+
+  // The mean of all sides.
+  void ReadMean(const HiddenChunk& chunk, int32_t k) {
+    int32_t sums[3] = {0, 0, 0}, count = 0;
+    ForEachBit(chunk.source[k] & 15, [&](int32_t side) {
+      uint8_t shown[3];
+      ReadSide(chunk, k, 1, side, shown);
+      for (int c = 0; c < 3; ++c) sums[c] += shown[c];
+      ++count;
+    });
+    for (int c = 0; c < 3; ++c) {
+      here[3 * k + c] = static_cast<uint8_t>((sums[c] + count / 2) / count);
+    }
+    weight[k] = 0;
+  }
+
+  // Of `count` pixels from k on, of one disparity and source.
+  void ReadSide(const HiddenChunk& chunk, int32_t k, int32_t count, int32_t side,
+                uint8_t* rgb) const {
+    const int dx = kSides[side][0], dy = kSides[side][1];
+    const uint32_t source = chunk.source[k];
+    const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
+    if (distance != 0) {
+      std::memcpy(rgb, field_.Rgb(chunk.x + k + dx * distance, chunk.y + dy * distance),
+                  3 * static_cast<size_t>(count));
+      return;
+    }
+    CountReads(count);
+    const int64_t full = int64_t{chunk.disparity[k]} * (1 << (kShiftBits - kDisparityBits));
+    const auto moved = static_cast<int32_t>(
+        RoundShift(full * 2, 1 + window_.layer + (IsHalf(side, source) ? 1 : 0)));
+    const CapturedLine line = {(field_.x + chunk.x + k) * kShiftOne - dx * moved,
+                               (field_.y + chunk.y) * kShiftOne - dy * moved, 1, 0};
+    PrefetchCaptured(window_, ViewOf(side, source), line);
+    ReadCaptured(window_, ViewOf(side, source), line, count, rgb);
+  }
+
+  void CountReads(int32_t pixels) const {
+    if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(pixels);
+  }
+
+  static bool IsHalf(int32_t side, uint32_t source) {
+    return (source >> (simd::kSourceHalf + side) & 1) != 0;
+  }
+
+  static int ViewOf(int32_t side, uint32_t source) {
+    return CapturedView(kSides[side][0], kSides[side][1], IsHalf(side, source));
+  }
+
+  const Window& window_;
+  const Field& field_;
+};
+
+class SurfaceFinder {
+ public:
+  SurfaceFinder(const simd::Kernels& kernels, const Window& window, const Field& field,
+                Surfaces* surfaces)
+      : kernels_(kernels),
+        window_(window),
+        surfaces_(*surfaces),
+        colours_(window, field),
+        unit_(int32_t{1} << (kDisparityBits + window.layer)),
+        step_(kDepthEdge << window.layer) {}
+
+  void Find() {
+    const int32_t height = surfaces_.height;
+    FindRange();
+    for (int32_t y = 0; y < height; ++y) FindEdgesOfRow(y);
+    StartColumns(height - 1, 2);
+    for (int32_t y = height - 2; y >= 0; --y) FindEdgesOfColumns(y, y + 1, 2);
+    StartColumns(0, 3);
+    for (int32_t y = 1; y < height; ++y) FindEdgesOfColumns(y, y - 1, 3);
+    for (int32_t y = 0; y < height; ++y) FindRow(y);
+  }
+
+ private:
+  void FindRange() {
+    simd::DisparityRange ranges[kMaxChunks];
+    kernels_.find_ranges(Row(0), static_cast<size_t>(surfaces_.stride),
+                         static_cast<size_t>(surfaces_.height),
+                         static_cast<size_t>(surfaces_.width), ranges);
+    simd::DisparityRange all = ranges[0];
+    for (int32_t x = kChunk; x < surfaces_.width; x += kChunk) {
+      const simd::DisparityRange& range = ranges[x / kChunk];
+      all.low = range.low < all.low ? range.low : all.low;
+      all.high = range.high > all.high ? range.high : all.high;
+    }
+    surfaces_.low = all.low;
+    surfaces_.high = all.high;
+  }
+
+  uint8_t* Edges(int side, int32_t y) const { return surfaces_.edges[side] + surfaces_.At(0, y); }
+  const int16_t* Row(int32_t y) const { return surfaces_.disparity[0] + surfaces_.At(0, y); }
+
+  // As find_edges along a row, but from edge to edge: there are few.
+  void FindEdgesOfRow(int32_t y) {
+    const auto stride = static_cast<size_t>(surfaces_.stride);
+    std::memset(Edges(0, y), 0, stride);
+    std::memset(Edges(1, y), 0, stride);
+    const int16_t* row = Row(y);
+    const int32_t steps = surfaces_.width - 1;
+    kernels_.find_steps(row, static_cast<size_t>(steps), static_cast<int16_t>(step_),
+                        surfaces_.steps);
+    for (int32_t from = 0; from < steps; from += kChunk) {
+      const simd::StepBits& bits = surfaces_.steps[from / kChunk];
+      ForEachBit(bits.falls, [&](int32_t k) {
+        const int32_t x = from + k;
+        FollowEdge(row + x, -1, x + 1, Edges(0, y) + x);
+      });
+      ForEachBit(bits.rises, [&](int32_t k) {
+        const int32_t x = from + k + 1;
+        FollowEdge(row + x, 1, steps + 1 - x, Edges(1, y) + x);
+      });
+    }
+  }
+
+  // Writes the distances of the edge's near pixel, at `near`, and of up to `count` in all that
+  // follow, away from the edge, as far as the next one.
+  void FollowEdge(const int16_t* near, int direction, int32_t count, uint8_t* distance) const {
+    const int32_t far = near[-direction];
+    const int32_t farthest =
+        Min(simd::FarthestEdge(kDisparityBits + window_.layer), surfaces_.high - far);
+    for (int32_t k = 1, moved = 0; k <= count && moved <= farthest; ++k, moved += unit_) {
+      const int32_t depth = *near - far;
+      if (depth > step_ && moved <= depth) *distance = static_cast<uint8_t>(k);
+      if (k < count && near[direction] - *near > step_) return;
+      near += direction;
+      distance += direction;
+    }
+  }
+
+  void StartColumns(int32_t y, int side) {
+    std::memset(Edges(side, y), 0, static_cast<size_t>(surfaces_.stride));
+    for (int32_t x = 0; x < surfaces_.stride; ++x) {
+      surfaces_.moved[x] = INT16_MAX;
+      surfaces_.behind[x] = 0;
+    }
+  }
+
+  void FindEdgesOfColumns(int32_t y, int32_t beside, int side) {
+    const simd::EdgeLimits limits = {static_cast<int16_t>(step_), kDisparityBits + window_.layer};
+    kernels_.find_edges(Row(y), Row(beside), limits, static_cast<size_t>(surfaces_.width),
+                        surfaces_.moved, surfaces_.behind, Edges(side, y));
+  }
+
+  void FindRow(int32_t y) {
+    const size_t at = surfaces_.At(0, y);
+    simd::DepthRow row = {};
+    row.disparity = Row(y);
+    row.stride = surfaces_.stride;
+    row.width = surfaces_.width;
+    row.above = y;
+    row.below = surfaces_.height - 1 - y;
+    row.high = surfaces_.high;
+    row.unit_bits = kDisparityBits + window_.layer;
+    row.side_views = window_.views > 1;
+    row.half_views = window_.views == 17;
+    for (int side = 0; side < 4; ++side) row.edges[side] = Edges(side, y);
+    uint16_t found[simd::kSurfaces - 1][kMaxChunks];
+    const simd::HiddenRow hidden = {{surfaces_.disparity[1] + at, surfaces_.disparity[2] + at},
+                                    {surfaces_.sources[0], surfaces_.sources[1]},
+                                    {found[0], found[1]},
+                                    surfaces_.share + at};
+    const uint64_t chunks = kernels_.look_behind(row, hidden);
+    surfaces_.hiding[y] = chunks;
+    for (int behind = 1; behind < simd::kSurfaces; ++behind) {
+      int32_t chunk = 0;
+      for (uint64_t rest = chunks; rest != 0; rest >>= 1, ++chunk) {
+        const uint32_t pixels = (rest & 1) != 0 ? found[behind - 1][chunk] : 0;
+        if (pixels != 0) SetColours(chunk * kChunk, y, behind, pixels);
+      }
+    }
+  }
+
+  // Of the `found` pixels of a chunk.
+  void SetColours(int32_t x, int32_t y, int behind, uint32_t found) {
+    const size_t at = surfaces_.At(x, y);
+    colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + x},
+                  found);
+    kernels_.interpolate(colours_.here, colours_.next, colours_.weight, surfaces_.plane,
+                         surfaces_.rgb[behind] + at);
+  }
+
+  const simd::Kernels& kernels_;
+  const Window& window_;
+  Surfaces& surfaces_;
+  HiddenColours colours_;
+  const int32_t unit_;  // disparity that a pixel of the layer is at distance 1
+  const int32_t step_;  // a larger one from pixel to pixel may hide something
+};
+
+}  // namespace
+
+void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Field& field,
+                  Surfaces* surfaces) {
+  surfaces->width = field.width;
+  surfaces->height = field.height;
+  surfaces->stride = static_cast<int32_t>(simd::SliceSamples(static_cast<size_t>(field.width)));
+  surfaces->plane = static_cast<size_t>(surfaces->stride) * static_cast<size_t>(surfaces->height);
+  for (int32_t y = 0; y < field.height; ++y) {
+    const size_t at = surfaces->At(0, y);
+    std::memcpy(surfaces->disparity[0] + at, field.Disparity(0, y),
+                static_cast<size_t>(field.width) * sizeof(int16_t));
+    ClearChunk(surfaces->disparity[0] + at + field.width);  // the next row is copied over it
+    kernels.split(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
+                  surfaces->rgb[0] + at);
+  }
+  for (int16_t* disparity : surfaces->disparity) ClearChunk(disparity + surfaces->plane);
+  std::memset(surfaces->share + surfaces->plane, simd::kSliceWhole, simd::kSliceLanes);
+  SurfaceFinder(kernels, window, field, surfaces).Find();
+}
+
+}  // namespace starfocus

@@ -1,0 +1,56 @@
+// The surfaces of a field, one behind the other: what the centre view sees, and behind it at depth
+// edges what captured views see there.
+#ifndef STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_
+#define STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/input/field.h"
+#include "lib/input/window.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+using simd::kNoSurface;
+
+// A larger step of disparity from pixel to pixel, at layer 0, may hide something: kDisparityBits.
+inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
+
+// The widest surfaces, by kSliceLanes columns.
+inline constexpr int32_t kMaxChunks = 64;
+
+// Surface 0 is the field itself, the nearest one. Rows of `stride` pixels, then kSliceLanes more;
+// colours in three planes, `plane` apart.
+struct Surfaces {
+  int32_t width = 0, height = 0, stride = 0;
+  size_t plane = 0;
+  int16_t* disparity[simd::kSurfaces] = {};  // kDisparityBits
+  uint8_t* rgb[simd::kSurfaces] = {};
+  uint8_t* share = nullptr;   // of the pixel that surface 0 covers, kSliceBits, or kSliceEnd
+  int16_t low = 0, high = 0;  // disparities of the field
+  // Pixels to the far side of the depth edge to the right, left, bottom and top that a pixel hides;
+  // 0: it hides none.
+  uint8_t* edges[4] = {};
+  int16_t *moved = nullptr, *behind = nullptr;  // of find_edges: a row
+  simd::StepBits* steps = nullptr;              // of find_steps: a row
+  uint16_t* sources[simd::kSurfaces - 1] = {};  // of look_behind: a row
+  uint64_t* hiding = nullptr;  // of each row: in which kSliceLanes there is more than surface 0
+
+  size_t At(int32_t x, int32_t y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(stride) + static_cast<size_t>(x);
+  }
+};
+
+// Finds them for a field, which surface 0 is a copy of and covers all of. Behind a pixel lies what
+// its row and its column show behind the next depth edge on either side, as far as a view at
+// distance 1 can look there: at most two surfaces, the nearest edge's first. Their colours are read
+// from the captured view on the axis in which nothing covers them, at full or half distance;
+// without one the background goes on. Sides with the same distance and disparity give their mean.
+// The memory of `surfaces` must be set.
+void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Field& field,
+                  Surfaces* surfaces);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_

@@ -1,0 +1,204 @@
+#include "lib/slices/slice_plane.h"
+
+#include <cstring>
+
+namespace starfocus {
+namespace {
+
+using simd::SliceOffset;
+
+constexpr int32_t kFractionOne = 1 << 15;
+constexpr auto kChunk = static_cast<int32_t>(simd::kSliceLanes);
+
+// What a box of `cell` pixels (kShiftBits), more than kBoxCell, covers of the pixels around it.
+simd::SliceTaps TapsOf(int32_t cell) {
+  constexpr int32_t kLargest = (2 * simd::kMaxSpread + 1) * kShiftOne;
+  const int32_t length = Min(cell, kLargest);
+  simd::SliceTaps taps;
+  taps.reach = SpreadReach(cell);
+  const int32_t whole = (2 * taps.reach - 1) * kShiftOne;
+  const int32_t inner = 2 * kFractionOne * kShiftOne / length;
+  const int32_t outer = kFractionOne / kShiftOne * (length - whole) * kShiftOne / length;
+  const int32_t centre = kFractionOne - (taps.reach - 1) * inner - outer;
+  taps.inner = static_cast<int16_t>(inner);
+  taps.outer = static_cast<int16_t>(outer);
+  taps.centre = static_cast<int16_t>(centre);
+  return taps;
+}
+
+// What a cell of one to three pixels at `shift` (both kShiftBits) covers of two to four of them.
+// Spread beforehand and interpolated, cells beside each other would cover some pixels too much and
+// others too little. Mirrored shifts give mirrored parts, which is why trimmed ones are of halves.
+SliceOffset BoxOffset(int32_t shift, int32_t cell) {
+  // In half units, from the first pixel's left end on.
+  constexpr int32_t kHalves = 2 * kShiftOne;
+  const int32_t start = 2 * shift - cell + kShiftOne, whole = start >> (kShiftBits + 1);
+  const int32_t left = kHalves - (start & (kHalves - 1)), rest = 2 * cell - left;
+  const auto part = [&](int32_t covered) {
+    return static_cast<int16_t>(-(kFractionOne / 2 * covered / cell));
+  };
+  // Of two surfaces side by side, how much the one is that covers `more` than the other.
+  const auto share = [&](int32_t more) {
+    return static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / cell));
+  };
+  if (rest <= kHalves) return {whole, {share(left - rest), share(left - rest), 0, 0}};
+  if (rest <= 2 * kHalves) {
+    return {whole, {part(left), part(left), part(rest - kHalves), 0}};
+  }
+  const int32_t right = rest - 2 * kHalves;
+  return {whole, {part(left), part(left), share(right - left), part(right)}};
+}
+
+// `shift` in kShiftBits as whole pixels and a fraction. Inside the slice a cell narrower than a
+// pixel covers less of the pixels on either side of it than interpolation; its ends move evenly.
+SliceOffset OffsetOf(int32_t shift, int32_t cell) {
+  if (cell > kShiftOne && cell <= kBoxCell) return BoxOffset(shift, cell);
+  const int32_t whole = shift >> kShiftBits, rest = shift & (kShiftOne - 1);
+  const auto before = [](int32_t fraction) {
+    return static_cast<int16_t>(fraction - kFractionOne);
+  };
+  const int16_t edge = before(rest * (kFractionOne / kShiftOne));
+  if (rest == 0 || cell >= kShiftOne) return {whole, {edge, edge, 0, 0}};
+  const int32_t from_middle = (rest - kShiftOne / 2) * kFractionOne;
+  const int32_t inside = from_middle / Max(cell, 1) + kFractionOne / 2;
+  return {whole, {before(Clamp(inside, 0, kFractionOne)), edge, 0, 0}};
+}
+
+// Beyond the surfaces' left and right end their outermost pixels go on; behind the row's end there
+// is nothing.
+simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surfaces,
+                           const Slice& slice, int32_t x, int32_t y, int32_t width, size_t plane,
+                           int16_t* row) {
+  const int32_t first = Max(0, -x), last = Min(width, surfaces.width - x);
+  const size_t at = surfaces.At(x + first, y);
+  simd::SurfaceRow from;
+  from.plane = surfaces.plane;
+  from.share = surfaces.share + at;
+  const uint64_t hiding = surfaces.hiding[y] >> (x + first) / kChunk;
+  from.hiding = (x + first) % kChunk == 0 ? hiding : hiding | hiding >> 1;
+  for (int k = 0; k < simd::kSurfaces; ++k) {
+    from.disparity[k] = surfaces.disparity[k] + at;
+    from.rgb[k] = surfaces.rgb[k] + at;
+  }
+  const simd::SliceCover cover =
+      kernels.select_slice(from, {slice.low, slice.high, slice.overlap},
+                           static_cast<size_t>(last - first), plane, row + first);
+  const auto tail = (plane - static_cast<size_t>(width)) * sizeof(*row);
+  for (size_t c = 0; c < 4; ++c) std::memset(row + c * plane + width, 0, tail);
+  if (last - first == width) return cover;
+  for (int c = 0; c < 4; ++c, row += plane) {
+    for (int32_t k = 0; k < first; ++k) row[k] = row[first];
+    for (int32_t k = last; k < width; ++k) row[k] = row[last - 1];
+  }
+  return {~uint64_t{0}, 0};  // nobody looks closer at the few such rows
+}
+
+// Covers of what is spread by `reach` pixels.
+void SpreadCover(int32_t reach, const PlacedSlice& placed) {
+  constexpr int32_t kMost = simd::kMaxSpread;
+  simd::SliceCover before[kMost] = {};  // of the rows above, unspread
+  for (int32_t row = 0; row < placed.rows; ++row) {
+    const simd::SliceCover here = placed.cover[row];
+    uint64_t some = here.some;
+    for (int32_t k = 1; k <= reach; ++k) {
+      some |= before[k - 1].some;
+      if (row + k < placed.rows) some |= placed.cover[row + k].some;
+    }
+    for (int32_t k = kMost - 1; k > 0; --k) before[k] = before[k - 1];
+    before[0] = here;
+    placed.cover[row].some = some | some << 1 | some >> 1;
+  }
+}
+
+// Plane by plane: one is filtered along rows into memory of its own, and back along columns.
+void Spread(const simd::Kernels& kernels, int16_t* filtered, const PlacedSlice& placed) {
+  const simd::SliceTaps taps = TapsOf(placed.cell);
+  const size_t plane = placed.plane;
+  SpreadCover(taps.reach, placed);
+  for (size_t c = 0; c < 4; ++c) {
+    const auto sample = [&](int32_t row) {
+      return placed.samples + (4 * static_cast<size_t>(row) + c) * plane;
+    };
+    const auto along_row = [&](int32_t row) { return filtered + static_cast<size_t>(row) * plane; };
+    for (int32_t row = 0; row < placed.rows; ++row) {
+      if (placed.cover[row].some != 0) {
+        kernels.spread_slice(sample(row), 1, taps, plane, along_row(row));
+      } else {
+        std::memset(along_row(row), 0, plane * sizeof(*filtered));
+      }
+    }
+    for (int32_t row = taps.reach; row < placed.rows - taps.reach; ++row) {
+      if (placed.cover[row].some == 0) continue;
+      kernels.spread_slice(along_row(row), static_cast<ptrdiff_t>(plane), taps, plane, sample(row));
+    }
+  }
+}
+
+}  // namespace
+
+void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride, SliceOffset* offsets) {
+  const int32_t cell = Abs(grid.Shift(grid.Move(1), disparity));
+  for (int32_t i = -grid.n(); i <= grid.n(); ++i, offsets += stride) {
+    const int32_t shift = grid.Shift(grid.Move(Abs(i)), disparity);
+    *offsets = OffsetOf(i < 0 ? -shift : shift, cell);
+  }
+}
+
+void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, PlacedSlice* placed) {
+  placed->cell = Abs(grid.Shift(grid.Move(1), disparity));
+  placed->reach = SliceReach(Abs(grid.Shift(grid.Move(grid.n()), disparity)), placed->cell);
+  placed->rows = rect.height + 2 * placed->reach;
+  placed->plane = SlicePlane(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
+}
+
+void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Slice& slice,
+               const Rect& rect, int16_t* filtered, const PlacedSlice& placed) {
+  const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
+  const int32_t width = rect.width + 2 * placed.reach;
+  for (int32_t row = 0; row < placed.rows; ++row) {
+    placed.cover[row] =
+        SelectRow(kernels, surfaces, slice, x, Clamp(y + row, 0, surfaces.height - 1), width,
+                  placed.plane, placed.samples + static_cast<size_t>(row) * 4 * placed.plane);
+  }
+  if (placed.cell > kBoxCell) Spread(kernels, filtered, placed);
+}
+
+void PlaceTile(const PlacedSlice& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted) {
+  const uint64_t chunks = ChunksOf(placed, x);
+  const int32_t top = seen.first, last_row = seen.last + 2 * placed.reach;
+  const auto empty = [&](int32_t row) { return (placed.cover[row].some & chunks) == 0; };
+  int32_t first = top, end = last_row;
+  while (first < end && empty(first)) ++first;
+  while (end > first && empty(end - 1)) --end;
+  shifted->filled = {first, end};
+  shifted->moved = {0, 0};
+  shifted->plane = (static_cast<size_t>(placed.rows) + simd::kRowsAhead) * simd::kSliceLanes;
+  const auto clear = [&](int32_t from, int32_t to) {
+    const size_t at = static_cast<size_t>(from), rows = static_cast<size_t>(to - from);
+    std::memset(shifted->near + at, 0, rows);
+    for (size_t c = 0; c < 4; ++c) {
+      std::memset(shifted->samples + c * shifted->plane + at * simd::kSliceLanes, 0,
+                  rows * simd::kSliceLanes * sizeof(*shifted->samples));
+    }
+  };
+  // Rows that nothing moves to: composite reads those behind the last, too.
+  clear(top, first);
+  clear(end, last_row + static_cast<int32_t>(simd::kRowsAhead));
+}
+
+void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
+                int32_t x, const RowRange& rows, ShiftedSlice* shifted) {
+  shifted->moved = rows;
+  const int32_t first = Max(rows.first, shifted->filled.first);
+  const int32_t end = Min(rows.last, shifted->filled.last);
+  if (first >= end) return;
+  const auto row = static_cast<size_t>(first), count = static_cast<size_t>(end - first);
+  uint8_t* near = shifted->near + row;
+  // The marks of the column of views before.
+  std::memset(near - simd::kRowsAhead, 0, count + simd::kRowsAhead);
+  const int16_t* from = placed.samples + row * 4 * placed.plane;
+  kernels.shift_slice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction,
+                      count, shifted->plane, shifted->samples + row * simd::kSliceLanes, near);
+}
+
+}  // namespace starfocus

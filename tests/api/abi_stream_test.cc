@@ -1,0 +1,205 @@
+// Bad input and wrong order of the streaming functions.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kWidth = 20, kHeight = 90;
+constexpr size_t kHuge = std::numeric_limits<size_t>::max();
+
+struct Fixture {
+  test::Scene scene = test::RandomScene(kWidth, kHeight, 9, -2, 2, 3);
+  sf_config config = test::ConfigFor(scene, 8);
+  sf_params params = test::Params(0.5);
+  test::Output out{kWidth, kHeight, 4};
+
+  Fixture() { config.streaming = 1; }
+
+  sf_status Push(sf_engine* engine, const sf_light_field& field, int rows, int32_t* consumed) {
+    return sf_stream_push(engine, &field, rows, consumed);
+  }
+  sf_status Pull(sf_engine* engine, int rows, int32_t* written) {
+    return sf_stream_pull(engine, out.bytes.data(), out.stride, rows, nullptr, nullptr, written,
+                          nullptr);
+  }
+};
+
+TEST_CASE("stream: begin refuses what refocus refuses") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  CHECK(sf_stream_begin(nullptr, &f.params) == SF_ERROR_NULL);
+  CHECK(sf_stream_begin(engine.get(), nullptr) == SF_ERROR_NULL);
+  const auto begin = [&](void (*spoil)(sf_params*)) {
+    sf_params params = f.params;
+    spoil(&params);
+    return sf_stream_begin(engine.get(), &params);
+  };
+  CHECK(begin([](sf_params* p) { p->version = 0; }) == SF_ERROR_VERSION);
+  CHECK(begin([](sf_params* p) { p->reserved[3] = 1; }) == SF_ERROR_RESERVED);
+  CHECK(begin([](sf_params* p) { p->mode = 99; }) == SF_ERROR_MODE);
+  CHECK(begin([](sf_params* p) { p->focus = -2e6; }) == SF_ERROR_FOCUS);
+  CHECK(begin([](sf_params* p) { p->aperture = 0; }) == SF_ERROR_APERTURE);
+  CHECK(begin([](sf_params* p) { p->focus = 6.5; }) == SF_ERROR_BLUR_TOO_LARGE);
+}
+
+TEST_CASE("stream: not without streaming = 1, not without begin") {
+  Fixture f;
+  int32_t count = 0;
+  {
+    test::Engine engine(f.config);
+    REQUIRE(engine.status() == SF_OK);
+    CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_STATE);
+    CHECK(f.Pull(engine.get(), 1, &count) == SF_ERROR_STATE);
+    // A refused begin starts nothing.
+    sf_params params = f.params;
+    params.aperture = 2;
+    CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_APERTURE);
+    CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_STATE);
+  }
+  f.config.streaming = 0;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  CHECK(sf_stream_begin(engine.get(), &f.params) == SF_ERROR_STATE);
+  CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_STATE);
+  CHECK(f.Pull(engine.get(), 1, &count) == SF_ERROR_STATE);
+  CHECK(f.out.Untouched());
+}
+
+TEST_CASE("stream: push refuses null pointers, short strides and wrong counts") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+  int32_t count = 0;
+  sf_light_field field = f.scene.Field();
+  CHECK(sf_stream_push(nullptr, &field, 1, &count) == SF_ERROR_NULL);
+  CHECK(sf_stream_push(engine.get(), nullptr, 1, &count) == SF_ERROR_NULL);
+  CHECK(sf_stream_push(engine.get(), &field, 1, nullptr) == SF_ERROR_NULL);
+  field.views[8].data = nullptr;
+  CHECK(f.Push(engine.get(), field, 1, &count) == SF_ERROR_NULL);
+  field = f.scene.Field();
+  field.disparity = nullptr;
+  CHECK(f.Push(engine.get(), field, 1, &count) == SF_ERROR_NULL);
+  field = f.scene.Field();
+  field.views[8].stride = 3 * kWidth - 1;
+  CHECK(f.Push(engine.get(), field, 2, &count) == SF_ERROR_STRIDE);
+  field = f.scene.Field();
+  field.disparity_stride = 4 * kWidth - 4;
+  CHECK(f.Push(engine.get(), field, 2, &count) == SF_ERROR_STRIDE);
+  field.disparity_stride = 4 * kWidth + 2;
+  CHECK(f.Push(engine.get(), field, 2, &count) == SF_ERROR_STRIDE);
+  field = f.scene.Field();
+  CHECK(f.Push(engine.get(), field, -1, &count) == SF_ERROR_COUNT);
+  CHECK(f.Push(engine.get(), field, INT32_MIN, &count) == SF_ERROR_COUNT);
+  CHECK(f.Push(engine.get(), field, kHeight + 1, &count) == SF_ERROR_COUNT);
+  CHECK(f.Push(engine.get(), field, INT32_MAX, &count) == SF_ERROR_COUNT);
+  // None of these took a row: the whole picture still fits.
+  count = -1;
+  CHECK(f.Push(engine.get(), field, 0, &count) == SF_OK);
+  CHECK(count == 0);
+  CHECK(f.Push(engine.get(), field, 1, &count) == SF_OK);
+  CHECK(count == 1);
+  CHECK(f.Push(engine.get(), f.scene.Field(1), kHeight, &count) == SF_ERROR_COUNT);
+}
+
+TEST_CASE("stream: pull refuses null pointers, short strides, wrong counts and overlap") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+  int32_t count = 0;
+  REQUIRE(f.Push(engine.get(), f.scene.Field(), kHeight, &count) == SF_OK);
+  REQUIRE(count > 0);
+  uint8_t* out = f.out.bytes.data();
+  const auto pull = [&](sf_engine* e, uint8_t* o, size_t stride, int rows, int32_t* written) {
+    return sf_stream_pull(e, o, stride, rows, nullptr, nullptr, written, nullptr);
+  };
+  CHECK(pull(nullptr, out, f.out.stride, 1, &count) == SF_ERROR_NULL);
+  CHECK(pull(engine.get(), nullptr, f.out.stride, 1, &count) == SF_ERROR_NULL);
+  CHECK(pull(engine.get(), out, f.out.stride, 1, nullptr) == SF_ERROR_NULL);
+  CHECK(pull(engine.get(), out, 0, 2, &count) == SF_ERROR_STRIDE);
+  CHECK(pull(engine.get(), out, 3 * kWidth - 1, 2, &count) == SF_ERROR_STRIDE);
+  CHECK(pull(engine.get(), out, kHuge, 2, &count) == SF_ERROR_STRIDE);
+  CHECK(pull(engine.get(), out, f.out.stride, -1, &count) == SF_ERROR_COUNT);
+  CHECK(pull(engine.get(), out, f.out.stride, INT32_MIN, &count) == SF_ERROR_COUNT);
+  CHECK(pull(engine.get(), engine.workspace(), f.out.stride, 1, &count) == SF_ERROR_OVERLAP);
+  CHECK(pull(engine.get(), engine.workspace() + engine.bytes() - 1, f.out.stride, 1, &count) ==
+        SF_ERROR_OVERLAP);
+  CHECK(f.out.Untouched());
+}
+
+TEST_CASE("stream: a runner's failure is reported") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  const sf_runner fails = [](void*, sf_job, void*, int32_t) { return -1; };
+  CHECK(test::Stream(&engine, f.params, f.scene, &f.out, 16, 16, fails) == SF_ERROR_RUNNER);
+}
+
+TEST_CASE("stream: a row with a bad disparity is refused, the rows before it are not") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  const test::Scene good = f.scene;
+  test::Output expected(kWidth, kHeight, 4);
+  REQUIRE(test::Stream(&engine, f.params, good, &expected, 8, 8) == SF_OK);
+  const struct {
+    float value;
+    sf_status status;
+  } kBad[] = {{std::numeric_limits<float>::quiet_NaN(), SF_ERROR_NOT_FINITE},
+              {std::numeric_limits<float>::infinity(), SF_ERROR_NOT_FINITE},
+              {2.5f, SF_ERROR_DISPARITY}};
+  for (const auto& bad : kBad) {
+    for (int row : {0, 1, 3}) {
+      CAPTURE(row);
+      f.scene.Disparity(kWidth - 1, row) = bad.value;
+      REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+      int32_t consumed = -1;
+      CHECK(f.Push(engine.get(), f.scene.Field(), 5, &consumed) == bad.status);
+      CHECK(consumed == row);
+      // The caller may mend the row and go on.
+      f.scene = good;
+      test::Output out(kWidth, kHeight, 4);
+      int pushed = consumed, pulled = 0;
+      while (pulled < kHeight) {
+        int32_t took = 0, gave = 0;
+        if (pushed < kHeight) {
+          REQUIRE(f.Push(engine.get(), f.scene.Field(pushed), kHeight - pushed, &took) == SF_OK);
+        }
+        REQUIRE(sf_stream_pull(engine.get(), out.bytes.data() + out.stride * size_t(pulled),
+                               out.stride, kHeight - pulled, nullptr, nullptr, &gave,
+                               nullptr) == SF_OK);
+        REQUIRE(took + gave > 0);
+        pushed += took;
+        pulled += gave;
+      }
+      CHECK(out.bytes == expected.bytes);
+    }
+  }
+}
+
+TEST_CASE("stream: begin restarts, and whole pictures interrupt nothing but the stream") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  test::Output whole(kWidth, kHeight, 4);
+  REQUIRE(test::Refocus(&engine, f.params, f.scene, &whole) == SF_OK);
+  // Stop half way, then start again.
+  REQUIRE(sf_stream_begin(engine.get(), &f.params) == SF_OK);
+  int32_t count = 0;
+  REQUIRE(f.Push(engine.get(), f.scene.Field(), 40, &count) == SF_OK);
+  REQUIRE(f.Pull(engine.get(), 40, &count) == SF_OK);
+  test::Output streamed(kWidth, kHeight, 4);
+  REQUIRE(test::Stream(&engine, f.params, f.scene, &streamed, 7, 9) == SF_OK);
+  CHECK(streamed.bytes == whole.bytes);
+  // Every row is out: another push has no place.
+  CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_COUNT);
+}
+
+}  // namespace

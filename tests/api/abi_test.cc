@@ -1,0 +1,488 @@
+// Bad input of every public function but the streaming ones: each illegal value gives its own
+// status, and nothing is written. Illegal values first, as callers meet them.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfF = std::numeric_limits<float>::infinity();
+constexpr size_t kHuge = std::numeric_limits<size_t>::max();
+
+struct BadConfig {
+  std::string what;
+  void (*spoil)(sf_config*);
+  sf_status expected;
+};
+
+const BadConfig kBadConfigs[] = {
+    {"version 0", [](sf_config* c) { c->version = 0; }, SF_ERROR_VERSION},
+    {"version too new", [](sf_config* c) { c->version = SF_ABI_VERSION + 1; }, SF_ERROR_VERSION},
+    {"reserved first", [](sf_config* c) { c->reserved[0] = 1; }, SF_ERROR_RESERVED},
+    {"reserved last", [](sf_config* c) { c->reserved[6] = 1; }, SF_ERROR_RESERVED},
+    {"width 0", [](sf_config* c) { c->width = 0; }, SF_ERROR_SIZE},
+    {"width -1", [](sf_config* c) { c->width = -1; }, SF_ERROR_SIZE},
+    {"width too large", [](sf_config* c) { c->width = SF_MAX_SIZE + 1; }, SF_ERROR_SIZE},
+    {"width overflowing", [](sf_config* c) { c->width = INT32_MAX; }, SF_ERROR_SIZE},
+    {"width least", [](sf_config* c) { c->width = INT32_MIN; }, SF_ERROR_SIZE},
+    {"height 0", [](sf_config* c) { c->height = 0; }, SF_ERROR_SIZE},
+    {"height -1", [](sf_config* c) { c->height = -1; }, SF_ERROR_SIZE},
+    {"height too large", [](sf_config* c) { c->height = SF_MAX_SIZE + 1; }, SF_ERROR_SIZE},
+    {"height overflowing", [](sf_config* c) { c->height = INT32_MAX; }, SF_ERROR_SIZE},
+    {"views 0", [](sf_config* c) { c->views = 0; }, SF_ERROR_VIEWS},
+    {"views -1", [](sf_config* c) { c->views = -1; }, SF_ERROR_VIEWS},
+    {"views 2", [](sf_config* c) { c->views = 2; }, SF_ERROR_VIEWS},
+    {"views 16", [](sf_config* c) { c->views = 16; }, SF_ERROR_VIEWS},
+    {"views 18", [](sf_config* c) { c->views = 18; }, SF_ERROR_VIEWS},
+    {"min NaN", [](sf_config* c) { c->disparity_min = kNanF; }, SF_ERROR_DISPARITY_RANGE},
+    {"max NaN", [](sf_config* c) { c->disparity_max = kNanF; }, SF_ERROR_DISPARITY_RANGE},
+    {"min -inf", [](sf_config* c) { c->disparity_min = -kInfF; }, SF_ERROR_DISPARITY_RANGE},
+    {"max +inf", [](sf_config* c) { c->disparity_max = kInfF; }, SF_ERROR_DISPARITY_RANGE},
+    {"reversed", [](sf_config* c) { c->disparity_min = 5; }, SF_ERROR_DISPARITY_RANGE},
+    {"max too large", [](sf_config* c) { c->disparity_max = 501; }, SF_ERROR_DISPARITY_RANGE},
+    {"min too small", [](sf_config* c) { c->disparity_min = -501; }, SF_ERROR_DISPARITY_RANGE},
+    {"max_blur 0", [](sf_config* c) { c->max_blur = 0; }, SF_ERROR_MAX_BLUR},
+    {"max_blur -1", [](sf_config* c) { c->max_blur = -1; }, SF_ERROR_MAX_BLUR},
+    {"max_blur large", [](sf_config* c) { c->max_blur = 128.5; }, SF_ERROR_MAX_BLUR},
+    {"max_blur NaN", [](sf_config* c) { c->max_blur = kNan; }, SF_ERROR_MAX_BLUR},
+    {"max_blur inf", [](sf_config* c) { c->max_blur = kInf; }, SF_ERROR_MAX_BLUR},
+    {"block 0", [](sf_config* c) { c->largest_block = 0; }, SF_ERROR_BLOCK},
+    {"block -64", [](sf_config* c) { c->largest_block = -64; }, SF_ERROR_BLOCK},
+    {"block 16", [](sf_config* c) { c->largest_block = 16; }, SF_ERROR_BLOCK},
+    {"block 48", [](sf_config* c) { c->largest_block = 48; }, SF_ERROR_BLOCK},
+    {"block 512", [](sf_config* c) { c->largest_block = 512; }, SF_ERROR_BLOCK},
+    {"workers 0", [](sf_config* c) { c->max_workers = 0; }, SF_ERROR_WORKERS},
+    {"workers -1", [](sf_config* c) { c->max_workers = -1; }, SF_ERROR_WORKERS},
+    {"workers 65", [](sf_config* c) { c->max_workers = SF_MAX_WORKERS + 1; }, SF_ERROR_WORKERS},
+    {"theta 0", [](sf_config* c) { c->theta = 0; }, SF_ERROR_THETA},
+    {"theta small", [](sf_config* c) { c->theta = 0.157; }, SF_ERROR_THETA},
+    {"theta large", [](sf_config* c) { c->theta = 1.414; }, SF_ERROR_THETA},
+    {"theta negative", [](sf_config* c) { c->theta = -0.8; }, SF_ERROR_THETA},
+    {"theta NaN", [](sf_config* c) { c->theta = kNan; }, SF_ERROR_THETA},
+    {"theta inf", [](sf_config* c) { c->theta = kInf; }, SF_ERROR_THETA},
+    {"max_layer -1", [](sf_config* c) { c->max_layer = -1; }, SF_ERROR_LAYER},
+    {"max_layer 3", [](sf_config* c) { c->max_layer = SF_LAYERS; }, SF_ERROR_LAYER},
+    {"max_layer least", [](sf_config* c) { c->max_layer = INT32_MIN; }, SF_ERROR_LAYER},
+    {"max_layer most", [](sf_config* c) { c->max_layer = INT32_MAX; }, SF_ERROR_LAYER},
+    {"deblocking -1", [](sf_config* c) { c->deblocking = -1; }, SF_ERROR_DEBLOCKING},
+    {"deblocking 256", [](sf_config* c) { c->deblocking = 256; }, SF_ERROR_DEBLOCKING},
+    {"deblocking least", [](sf_config* c) { c->deblocking = INT32_MIN; }, SF_ERROR_DEBLOCKING},
+    {"deblocking most", [](sf_config* c) { c->deblocking = INT32_MAX; }, SF_ERROR_DEBLOCKING},
+    {"timing block", [](sf_config* c) { c->timing.block = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
+    {"timing field", [](sf_config* c) { c->timing.field = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
+    {"timing a", [](sf_config* c) { c->timing.a = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
+    {"timing b", [](sf_config* c) { c->timing.b = UINT32_MAX; }, SF_ERROR_TIMING},
+    {"timing c", [](sf_config* c) { c->timing.c = 0x80000000u; }, SF_ERROR_TIMING},
+    {"timing span", [](sf_config* c) { c->timing.span = SF_MAX_TIMING + 1; }, SF_ERROR_TIMING},
+    {"timing hole", [](sf_config* c) { c->timing.hole = UINT32_MAX; }, SF_ERROR_TIMING},
+    {"timing upsample", [](sf_config* c) { c->timing.upsample = UINT32_MAX; }, SF_ERROR_TIMING},
+    {"n_scale 0", [](sf_config* c) { c->n_scale = 0; }, SF_ERROR_N_SCALE},
+    {"n_scale small", [](sf_config* c) { c->n_scale = 0.4999; }, SF_ERROR_N_SCALE},
+    {"n_scale large", [](sf_config* c) { c->n_scale = 2.0001; }, SF_ERROR_N_SCALE},
+    {"n_scale negative", [](sf_config* c) { c->n_scale = -1; }, SF_ERROR_N_SCALE},
+    {"n_scale NaN", [](sf_config* c) { c->n_scale = kNan; }, SF_ERROR_N_SCALE},
+    {"n_scale inf", [](sf_config* c) { c->n_scale = kInf; }, SF_ERROR_N_SCALE},
+    {"skips -1", [](sf_config* c) { c->skips = -1; }, SF_ERROR_SKIPS},
+    {"skips 2", [](sf_config* c) { c->skips = 2; }, SF_ERROR_SKIPS},
+    {"gather -1", [](sf_config* c) { c->gather = -1; }, SF_ERROR_GATHER},
+    {"gather 2", [](sf_config* c) { c->gather = 2; }, SF_ERROR_GATHER},
+};
+
+struct BadParams {
+  std::string what;
+  void (*spoil)(sf_params*);
+  sf_status expected;
+};
+
+// For an engine of disparities [-2, 2] and max_blur 8.
+const BadParams kBadParams[] = {
+    {"version 0", [](sf_params* p) { p->version = 0; }, SF_ERROR_VERSION},
+    {"version too new", [](sf_params* p) { p->version = SF_ABI_VERSION + 1; }, SF_ERROR_VERSION},
+    {"reserved first", [](sf_params* p) { p->reserved[0] = 1; }, SF_ERROR_RESERVED},
+    {"reserved last", [](sf_params* p) { p->reserved[3] = 0x80000000u; }, SF_ERROR_RESERVED},
+    {"mode -1", [](sf_params* p) { p->mode = -1; }, SF_ERROR_MODE},
+    {"mode 4", [](sf_params* p) { p->mode = SF_MODE_BLUR + 1; }, SF_ERROR_MODE},
+    {"mode 1000", [](sf_params* p) { p->mode = 1000; }, SF_ERROR_MODE},
+    {"rule -1", [](sf_params* p) { p->rule = -1; }, SF_ERROR_RULE},
+    {"rule 3", [](sf_params* p) { p->rule = SF_RULE_CELLS + 1; }, SF_ERROR_RULE},
+    {"focus NaN", [](sf_params* p) { p->focus = kNan; }, SF_ERROR_FOCUS},
+    {"focus inf", [](sf_params* p) { p->focus = kInf; }, SF_ERROR_FOCUS},
+    {"focus -inf", [](sf_params* p) { p->focus = -kInf; }, SF_ERROR_FOCUS},
+    {"focus absurd", [](sf_params* p) { p->focus = 1.1e6; }, SF_ERROR_FOCUS},
+    {"focus -absurd", [](sf_params* p) { p->focus = -1e300; }, SF_ERROR_FOCUS},
+    {"aperture 0", [](sf_params* p) { p->aperture = 0; }, SF_ERROR_APERTURE},
+    {"aperture < 0", [](sf_params* p) { p->aperture = -0.5; }, SF_ERROR_APERTURE},
+    {"aperture > 1", [](sf_params* p) { p->aperture = 1.0000001; }, SF_ERROR_APERTURE},
+    {"aperture NaN", [](sf_params* p) { p->aperture = kNan; }, SF_ERROR_APERTURE},
+    {"aperture inf", [](sf_params* p) { p->aperture = kInf; }, SF_ERROR_APERTURE},
+    {"blur near", [](sf_params* p) { p->focus = 6.5; }, SF_ERROR_BLUR_TOO_LARGE},
+    {"blur far", [](sf_params* p) { p->focus = -6.5; }, SF_ERROR_BLUR_TOO_LARGE},
+    {"blur huge", [](sf_params* p) { p->focus = 1e6; }, SF_ERROR_BLUR_TOO_LARGE},
+};
+
+struct BadField {
+  std::string what;
+  void (*spoil)(sf_light_field*);
+  sf_status expected;
+};
+
+// For a width of 20.
+const BadField kBadFields[] = {
+    {"no centre view", [](sf_light_field* f) { f->views[0].data = nullptr; }, SF_ERROR_NULL},
+    {"no last view", [](sf_light_field* f) { f->views[16].data = nullptr; }, SF_ERROR_NULL},
+    {"no disparity", [](sf_light_field* f) { f->disparity = nullptr; }, SF_ERROR_NULL},
+    {"view stride 0", [](sf_light_field* f) { f->views[0].stride = 0; }, SF_ERROR_STRIDE},
+    {"view stride 59", [](sf_light_field* f) { f->views[16].stride = 59; }, SF_ERROR_STRIDE},
+    {"view stride huge", [](sf_light_field* f) { f->views[3].stride = kHuge; }, SF_ERROR_STRIDE},
+    {"disparity stride 0", [](sf_light_field* f) { f->disparity_stride = 0; }, SF_ERROR_STRIDE},
+    {"disparity stride 76", [](sf_light_field* f) { f->disparity_stride = 76; }, SF_ERROR_STRIDE},
+    {"disparity stride 82", [](sf_light_field* f) { f->disparity_stride = 82; }, SF_ERROR_STRIDE},
+    {"disparity stride huge", [](sf_light_field* f) { f->disparity_stride = kHuge - 3; },
+     SF_ERROR_STRIDE},
+};
+
+constexpr int kWidth = 20, kHeight = 12;
+
+struct Fixture {
+  test::Scene scene = test::RandomScene(kWidth, kHeight, 17, -2, 2, 1);
+  sf_config config = test::ConfigFor(scene, 8);
+  sf_params params = test::Params(0.5);
+  sf_light_field field = scene.Field();
+  test::Output out{kWidth, kHeight, 4};
+  sf_report report;
+  sf_report report_before;
+
+  Fixture() {
+    std::memset(&report, test::kPoison, sizeof report);
+    std::memcpy(&report_before, &report, sizeof report);
+  }
+  bool NothingWritten() const {
+    return out.Untouched() && std::memcmp(&report, &report_before, sizeof report) == 0;
+  }
+  sf_status Refocus(sf_engine* engine) {
+    return sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, nullptr, nullptr,
+                      &report);
+  }
+};
+
+TEST_CASE("statuses: every one has its own sentence") {
+  std::set<std::string> seen;
+  for (int status = SF_OK; status <= SF_ERROR_PREPARED; ++status) {
+    const char* text = sf_status_string(static_cast<sf_status>(status));
+    REQUIRE(text != nullptr);
+    CHECK_MESSAGE(std::strlen(text) > 3, status);
+    CHECK_MESSAGE(seen.insert(text).second, text);
+  }
+  for (int status : {-1, SF_ERROR_PREPARED + 1, 10000}) {
+    const char* text = sf_status_string(static_cast<sf_status>(status));
+    REQUIRE(text != nullptr);
+    CHECK(*text != '\0');
+  }
+}
+
+TEST_CASE("configuration: illegal values") {
+  Fixture f;
+  test::Engine legal(f.config);
+  REQUIRE(legal.status() == SF_OK);
+  for (const BadConfig& bad : kBadConfigs) {
+    CAPTURE(bad.what);
+    sf_config config = f.config;
+    bad.spoil(&config);
+    size_t bytes = 4711;
+    CHECK(sf_workspace_size(&config, &bytes) == bad.expected);
+    CHECK(bytes == 4711);
+    sf_engine* engine = legal.get();
+    std::vector<uint8_t> before(legal.workspace(), legal.workspace() + legal.bytes());
+    CHECK(sf_init(&config, legal.workspace(), legal.bytes(), &engine) == bad.expected);
+    CHECK(engine == nullptr);
+    CHECK(std::memcmp(before.data(), legal.workspace(), before.size()) == 0);
+  }
+}
+
+TEST_CASE("configuration: null pointers and never initialised structures") {
+  Fixture f;
+  size_t bytes = 0;
+  sf_engine* engine = nullptr;
+  sf_config zero;
+  std::memset(&zero, 0, sizeof zero);
+  CHECK(sf_workspace_size(nullptr, &bytes) == SF_ERROR_NULL);
+  CHECK(sf_workspace_size(&f.config, nullptr) == SF_ERROR_NULL);
+  CHECK(sf_workspace_size(&zero, &bytes) == SF_ERROR_VERSION);
+  REQUIRE(sf_workspace_size(&f.config, &bytes) == SF_OK);
+  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
+  CHECK(sf_init(nullptr, memory.data(), bytes, &engine) == SF_ERROR_NULL);
+  CHECK(sf_init(&f.config, nullptr, bytes, &engine) == SF_ERROR_NULL);
+  CHECK(sf_init(&f.config, memory.data(), bytes, nullptr) == SF_ERROR_NULL);
+  sf_config_init(nullptr);
+  sf_params_init(nullptr);
+}
+
+TEST_CASE("configuration: defaults and limits are legal") {
+  sf_config config;
+  std::memset(&config, test::kPoison, sizeof config);
+  sf_config_init(&config);
+  CHECK(config.version == SF_ABI_VERSION);
+  CHECK(sf_abi_version() == SF_ABI_VERSION);
+  CHECK(config.max_blur == 32);
+  CHECK(config.largest_block == 64);
+  CHECK(config.max_workers == 1);
+  CHECK(config.streaming == 0);
+  CHECK(config.max_layer == 2);
+  CHECK(config.deblocking == 35);
+  CHECK(config.n_scale == 1);
+  CHECK(config.skips == 1);
+  CHECK(config.gather == 1);
+  CHECK(config.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
+  for (uint32_t reserved : config.reserved) CHECK(reserved == 0);
+  sf_params params;
+  std::memset(&params, test::kPoison, sizeof params);
+  sf_params_init(&params);
+  CHECK(params.version == SF_ABI_VERSION);
+  CHECK(params.mode == SF_MODE_BLOCK);
+  CHECK(params.aperture == 1);
+  CHECK(params.focus == 0);
+  for (uint32_t reserved : params.reserved) CHECK(reserved == 0);
+
+  config.width = config.height = SF_MAX_SIZE;
+  config.views = SF_MAX_VIEWS;
+  config.disparity_min = static_cast<float>(-SF_MAX_DISPARITY);
+  config.disparity_max = static_cast<float>(SF_MAX_DISPARITY);
+  config.max_blur = SF_MAX_BLUR;
+  config.largest_block = 256;
+  config.max_workers = SF_MAX_WORKERS;
+  config.streaming = 1;
+  size_t bytes = 0;
+  for (double theta : {SF_MIN_THETA, SF_MAX_THETA}) {
+    config.theta = theta;
+    CHECK(sf_workspace_size(&config, &bytes) == SF_OK);
+    CHECK(bytes > 0);
+  }
+  for (const double n_scale : {SF_MIN_N_SCALE, SF_MAX_N_SCALE}) {
+    config.n_scale = n_scale;
+    CHECK(sf_workspace_size(&config, &bytes) == SF_OK);
+  }
+  for (const int max_layer : {0, 1, 2}) {
+    for (const int deblocking : {0, 1, 255}) {
+      for (const uint32_t timing : {0u, 1u, SF_MAX_TIMING}) {
+        config.max_layer = max_layer;
+        config.deblocking = deblocking;
+        config.timing = {timing, timing, timing, timing, timing, timing, timing, timing};
+        CHECK(sf_workspace_size(&config, &bytes) == SF_OK);
+      }
+    }
+  }
+}
+
+TEST_CASE("workspace: too small or misaligned") {
+  Fixture f;
+  size_t bytes = 0;
+  REQUIRE(sf_workspace_size(&f.config, &bytes) == SF_OK);
+  test::Engine legal(f.config);
+  REQUIRE(legal.status() == SF_OK);
+  uint8_t* workspace = legal.workspace();
+  for (size_t size : {size_t{0}, size_t{1}, size_t{64}, bytes / 2, bytes - 1}) {
+    sf_engine* engine = legal.get();
+    CHECK(sf_init(&f.config, workspace, size, &engine) == SF_ERROR_WORKSPACE_SMALL);
+    CHECK(engine == nullptr);
+  }
+  std::vector<uint8_t> larger(bytes + 2 * SF_ALIGNMENT);
+  const size_t address = reinterpret_cast<uintptr_t>(larger.data());
+  uint8_t* aligned = larger.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
+  for (int offset : {1, 2, 8, 16, 32, 63}) {
+    sf_engine* engine = legal.get();
+    CHECK(sf_init(&f.config, aligned + offset, bytes, &engine) == SF_ERROR_WORKSPACE_ALIGNMENT);
+    CHECK(engine == nullptr);
+  }
+  sf_engine* engine = nullptr;
+  CHECK(sf_init(&f.config, aligned, bytes + 64, &engine) == SF_OK);
+  CHECK(engine != nullptr);
+}
+
+TEST_CASE("refocus: illegal parameters") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  for (const BadParams& bad : kBadParams) {
+    CAPTURE(bad.what);
+    f.params = test::Params(0.5);
+    bad.spoil(&f.params);
+    CHECK(f.Refocus(engine.get()) == bad.expected);
+    CHECK(f.NothingWritten());
+  }
+  f.params = test::Params(6);  // r = 8: exactly the largest blur
+  CHECK(f.Refocus(engine.get()) == SF_OK);
+  CHECK(f.report.r_max == 8);
+}
+
+TEST_CASE("refocus: illegal light fields") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  for (const BadField& bad : kBadFields) {
+    CAPTURE(bad.what);
+    f.field = f.scene.Field();
+    bad.spoil(&f.field);
+    CHECK(f.Refocus(engine.get()) == bad.expected);
+    CHECK(f.NothingWritten());
+  }
+}
+
+TEST_CASE("refocus: null pointers and output stride") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  uint8_t* out = f.out.bytes.data();
+  const size_t stride = f.out.stride;
+  const auto run = [&](sf_engine* e, const sf_params* p, const sf_light_field* l, uint8_t* o,
+                       size_t s) { return sf_refocus(e, p, l, o, s, nullptr, nullptr, nullptr); };
+  CHECK(run(nullptr, &f.params, &f.field, out, stride) == SF_ERROR_NULL);
+  CHECK(run(engine.get(), nullptr, &f.field, out, stride) == SF_ERROR_NULL);
+  CHECK(run(engine.get(), &f.params, nullptr, out, stride) == SF_ERROR_NULL);
+  CHECK(run(engine.get(), &f.params, &f.field, nullptr, stride) == SF_ERROR_NULL);
+  for (size_t bad : {size_t{0}, size_t{1}, size_t{59}, kHuge, kHuge / 4}) {
+    CHECK(run(engine.get(), &f.params, &f.field, out, bad) == SF_ERROR_STRIDE);
+  }
+  CHECK(f.NothingWritten());
+}
+
+TEST_CASE("refocus: illegal disparity values, wherever they are") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  const struct {
+    float value;
+    sf_status expected;
+  } kBad[] = {{kNanF, SF_ERROR_NOT_FINITE},   {kInfF, SF_ERROR_NOT_FINITE},
+              {-kInfF, SF_ERROR_NOT_FINITE},  {2.0001f, SF_ERROR_DISPARITY},
+              {-2.0001f, SF_ERROR_DISPARITY}, {3e38f, SF_ERROR_DISPARITY},
+              {-3e38f, SF_ERROR_DISPARITY}};
+  for (const auto& bad : kBad) {
+    for (int y : {0, kHeight / 2, kHeight - 1}) {
+      for (int x : {0, 7, kWidth - 1}) {
+        const float good = f.scene.Disparity(x, y);
+        f.scene.Disparity(x, y) = bad.value;
+        CHECK(f.Refocus(engine.get()) == bad.expected);
+        CHECK(f.NothingWritten());
+        f.scene.Disparity(x, y) = good;
+      }
+    }
+  }
+  CHECK(f.Refocus(engine.get()) == SF_OK);
+}
+
+TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  const size_t stride = 3 * kWidth;
+  const auto run = [&](void* out) {
+    return sf_refocus(engine.get(), &f.params, &f.field, static_cast<uint8_t*>(out), stride,
+                      nullptr, nullptr, nullptr);
+  };
+  const test::Scene before = f.scene;
+  CHECK(run(f.scene.pictures[0].data()) == SF_ERROR_OVERLAP);
+  CHECK(run(f.scene.pictures[16].data() + stride * kHeight - 1) == SF_ERROR_OVERLAP);
+  CHECK(run(f.scene.disparity.data()) == SF_ERROR_OVERLAP);
+  CHECK(run(engine.workspace()) == SF_ERROR_OVERLAP);
+  CHECK(run(engine.workspace() + engine.bytes() - 1) == SF_ERROR_OVERLAP);
+  CHECK(f.scene.pictures == before.pictures);
+  CHECK(f.scene.disparity == before.disparity);
+
+  // Neighbours in memory do not overlap.
+  std::vector<uint8_t> joined(3 * stride * kHeight, test::kPoison);
+  uint8_t* view = joined.data() + stride * kHeight;
+  std::memcpy(view, f.scene.pictures[0].data(), stride * kHeight);
+  f.field.views[0].data = view;
+  CHECK(run(joined.data()) == SF_OK);
+  CHECK(run(joined.data() + 2 * stride * kHeight) == SF_OK);
+  CHECK(run(joined.data() + 1) == SF_ERROR_OVERLAP);
+}
+
+TEST_CASE("refocus: a runner's failure is reported, in whichever phase of a stripe it comes") {
+  // Out of focus, so that all phases of block mode run.
+  Fixture f;
+  f.config.gather = 0;
+  f.config.max_blur = 12;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  struct Failing {
+    int calls, last;
+    static int Run(void* self, sf_job job, void* data, int32_t count) {
+      Failing& failing = *static_cast<Failing*>(self);
+      if (++failing.calls > failing.last) return 1;
+      for (int32_t i = 0; i < count; ++i) job(data, i, 0);
+      return 0;
+    }
+  };
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
+    CAPTURE(mode);
+    f.params = test::Params(9.75, 1, mode);
+    const auto run = [&](Failing* failing) {
+      return sf_refocus(engine.get(), &f.params, &f.field, f.out.bytes.data(), f.out.stride,
+                        Failing::Run, failing, nullptr);
+    };
+    Failing never = {0, 1000};
+    REQUIRE(run(&never) == SF_OK);
+    REQUIRE(never.calls >= (mode == SF_MODE_BLOCK ? 4 : 1));
+    for (int last = 0; last < never.calls; ++last) {
+      Failing failing = {0, last};
+      CHECK(run(&failing) == SF_ERROR_RUNNER);
+      CHECK(failing.calls == last + 1);
+    }
+  }
+}
+
+TEST_CASE("refocus: the report holds what was rendered") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == SF_OK);
+  f.params = test::Params(-3, 0.5);  // r_max = 0.5 * 5
+  REQUIRE(f.Refocus(engine.get()) == SF_OK);
+  CHECK(f.report.r_max == doctest::Approx(2.5));
+  CHECK(f.report.n == 3);
+  CHECK(f.report.rendered_views == 29);
+  f.params.mode = SF_MODE_BENCHMARK;
+  REQUIRE(f.Refocus(engine.get()) == SF_OK);
+  CHECK(f.report.n == 6);
+  CHECK(f.report.rendered_views == 101);
+  CHECK(f.report.rendered_samples > 0);
+}
+
+TEST_CASE("view positions") {
+  const double kExpected[SF_MAX_VIEWS][2] = {
+      {0, 0},    {1, 0},     {-1, 0},     {0, 1},      {0, -1},     {1, 1},
+      {-1, 1},   {1, -1},    {-1, -1},    {0.5, 0},    {-0.5, 0},   {0, 0.5},
+      {0, -0.5}, {0.5, 0.5}, {-0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}};
+  double u = 7, v = 7;
+  CHECK(sf_view_position(-1, &u, &v) == 0);
+  CHECK(sf_view_position(SF_MAX_VIEWS, &u, &v) == 0);
+  CHECK(sf_view_position(INT32_MAX, &u, &v) == 0);
+  CHECK(sf_view_position(INT32_MIN, &u, &v) == 0);
+  CHECK(sf_view_position(0, nullptr, &v) == 0);
+  CHECK(sf_view_position(0, &u, nullptr) == 0);
+  CHECK(u == 7);
+  CHECK(v == 7);
+  for (int i = 0; i < SF_MAX_VIEWS; ++i) {
+    CAPTURE(i);
+    REQUIRE(sf_view_position(i, &u, &v) != 0);
+    CHECK(u == kExpected[i][0]);
+    CHECK(v == kExpected[i][1]);
+  }
+}
+
+TEST_CASE("the SIMD target has a name") {
+  REQUIRE(sf_simd_target() != nullptr);
+  CHECK(*sf_simd_target() != '\0');
+}
+
+}  // namespace

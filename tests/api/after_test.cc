@@ -1,0 +1,222 @@
+// sf_refocus_after: the bytes of refocusing the frame alone, blocks reused where nothing changed.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/layered_scene.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kViews[] = {1, 5, 9, 17};
+
+sf_status After(test::Engine* engine, const sf_params& params, const test::Scene& scene,
+                const test::Scene& before, const test::Output& before_out, test::Output* out,
+                sf_report* report) {
+  const sf_light_field field = scene.Field();
+  const sf_previous previous = {before.Field(), before_out.bytes.data(), before_out.stride};
+  return sf_refocus_after(engine->get(), &params, &field, &previous, out->bytes.data(), out->stride,
+                          nullptr, nullptr, report);
+}
+
+int LargestBlocks(const test::Scene& scene, int side) {
+  return ((scene.width + side - 1) / side) * ((scene.height + side - 1) / side);
+}
+
+// Something small happens: a pixel or patch of one view, or of the disparity map.
+void Change(test::Scene* scene, test::Random* random) {
+  const int x0 = random->Int(0, scene->width - 1), y0 = random->Int(0, scene->height - 1);
+  const int side = random->Int(0, 1) * random->Int(0, 12);
+  const int view = random->Int(-1, scene->views() - 1);
+  const float d = float(random->Real(scene->disparity_min, scene->disparity_max));
+  for (int y = y0; y <= std::min(y0 + side, scene->height - 1); ++y) {
+    for (int x = x0; x <= std::min(x0 + side, scene->width - 1); ++x) {
+      if (view < 0) {
+        scene->Disparity(x, y) = d;
+      } else {
+        for (int c = 0; c < 3; ++c) scene->Pixel(view, x, y)[c] = random->Byte();
+      }
+    }
+  }
+}
+
+void CheckFrames(test::Scene scene, const sf_config& config, const sf_params& params, int frames,
+                 test::Random* random) {
+  test::Engine engine(config), alone(config);
+  REQUIRE(engine.status() == SF_OK);
+  const sf_region& r = params.region;
+  const int width = r.width > 0 ? r.width : scene.width;
+  const int height = r.height > 0 ? r.height : scene.height;
+  test::Output before_out(width, height, 2);
+  REQUIRE(test::Refocus(&engine, params, scene, &before_out) == SF_OK);
+  for (int frame = 0; frame < frames; ++frame) {
+    CAPTURE(frame);
+    const test::Scene before = scene;
+    const int changes = random->Int(0, 3);
+    for (int k = 0; k < changes; ++k) Change(&scene, random);
+    test::Output expected(width, height, 2), out(width, height, 2);
+    sf_report report = {}, whole = {};
+    REQUIRE(After(&engine, params, scene, before, before_out, &out, &report) == SF_OK);
+    REQUIRE(test::Refocus(&alone, params, scene, &expected, nullptr, nullptr, &whole) == SF_OK);
+    const bool same = out.bytes == expected.bytes;
+    CHECK(same);
+    CHECK(whole.reused_blocks == 0);
+    if (r.width == 0) {
+      const int blocks = LargestBlocks(scene, config.largest_block);
+      CHECK(report.reused_blocks <= uint64_t(blocks));
+      if (changes == 0) CHECK(report.reused_blocks == uint64_t(blocks));
+      if (report.reused_blocks == uint64_t(blocks)) CHECK(report.rendered_samples == 0);
+    }
+    before_out = out;
+  }
+}
+
+TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change a little") {
+  test::Random random(91);
+  for (int round = 0; round < 32; ++round) {
+    CAPTURE(round);
+    const int width = random.Int(1, 300), height = random.Int(1, 260);
+    const test::Scene scene =
+        test::LayeredScene(width, height, kViews[round % 4], 5, uint64_t(round) + 900);
+    sf_config config = test::ConfigFor(scene, 12);
+    config.largest_block = 32 << random.Int(0, 1);
+    config.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
+    config.deblocking = random.Int(0, 3) == 0 ? 35 : 255;
+    sf_params params = test::Params(random.Real(-5, 5), random.Real(0.1, 1), SF_MODE_BLOCK);
+    params.rule = random.Int(0, 2);
+    if (round % 4 == 3) params.mode = round % 8 == 3 ? SF_MODE_FRAME : SF_MODE_BLUR;
+    if (round % 5 == 4) {
+      params.region = {random.Int(0, width - 1), random.Int(0, height - 1), 1, 1};
+      params.region.width = random.Int(1, width - params.region.x);
+      params.region.height = random.Int(1, height - params.region.y);
+    }
+    CheckFrames(scene, config, params, 6, &random);
+  }
+}
+
+TEST_CASE("after: joins between blocks of different layers, beside a change") {
+  test::Random random(92);
+  test::Scene scene = test::LayeredScene(320, 320, 1, 6, 5);
+  for (int y = 0; y < 320; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      scene.Disparity(x, y) = (x / 32 + y / 32) % 2 == 0 ? 0.0f : 6.0f;
+    }
+  }
+  sf_config config = test::ConfigFor(scene, 9);
+  config.largest_block = 32;
+  config.deblocking = 255;
+  for (const double focus : {-1.0, 0.0, 3.0}) {
+    sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+    params.rule = SF_RULE_PAPER;
+    CheckFrames(scene, config, params, 12, &random);
+  }
+}
+
+TEST_CASE("after: a block that changes its layer changes its neighbours' joins") {
+  // Blocks that never split, of layer 0 for the sake of one pixel in focus far from the others.
+  test::Scene scene = test::LayeredScene(600, 600, 1, 6, 5);
+  std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);
+  scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;
+  sf_config config = test::ConfigFor(scene, 6);
+  config.largest_block = 256;
+  config.deblocking = 255;
+  config.timing = {};
+  config.timing.block = SF_MAX_TIMING;
+  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  params.rule = SF_RULE_PAPER;
+  test::Engine engine(config);
+  test::Output first(600, 600), second(600, 600), expected(600, 600);
+  sf_report report = {};
+  REQUIRE(test::Refocus(&engine, params, scene, &first) == SF_OK);
+  const test::Scene before = scene;
+  scene.Disparity(5, 5) = 0;
+  REQUIRE(After(&engine, params, scene, before, first, &second, &report) == SF_OK);
+  REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
+  const bool same = second.bytes == expected.bytes;
+  CHECK(same);
+  CHECK(report.reused_blocks == 5);  // all but the corner's four
+  // The join is on the neighbours' side.
+  bool right = false, below = false;
+  for (int k = 20; k < 200; ++k) {
+    right = right || !std::equal(second.Pixel(256, k), second.Pixel(257, k), first.Pixel(256, k));
+    below =
+        below || !std::equal(second.Pixel(k, 256), second.Pixel(k + 1, 256), first.Pixel(k, 256));
+  }
+  CHECK(right);
+  CHECK(below);
+}
+
+TEST_CASE("after: what is far from a change is reused") {
+  const test::Scene before = test::LayeredScene(640, 512, 5, 2, 6);
+  const sf_config config = test::ConfigFor(before, 4);
+  test::Engine engine(config);
+  const sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  test::Output first(640, 512), second(640, 512);
+  sf_report whole = {}, report = {};
+  REQUIRE(test::Refocus(&engine, params, before, &first, nullptr, nullptr, &whole) == SF_OK);
+  test::Scene now = before;
+  now.Pixel(3, 40, 30)[1] ^= 1;
+  REQUIRE(After(&engine, params, now, before, first, &second, &report) == SF_OK);
+  CHECK(report.reused_blocks >= 80 - 12);
+  CHECK(report.reused_blocks < 80);
+  CHECK(report.rendered_samples * 2 < whole.rendered_samples);
+  CHECK(report.rendered_samples > 0);
+}
+
+TEST_CASE("after: depth-dependent blur does not look at side views") {
+  const test::Scene before = test::LayeredScene(100, 100, 5, 2, 6);
+  test::Engine engine(test::ConfigFor(before, 4));
+  const sf_params params = test::Params(0, 1, SF_MODE_BLUR);
+  test::Output first(100, 100), second(100, 100);
+  REQUIRE(test::Refocus(&engine, params, before, &first) == SF_OK);
+  test::Scene now = before;
+  now.Pixel(3, 50, 50)[1] ^= 1;
+  sf_report report = {};
+  REQUIRE(After(&engine, params, now, before, first, &second, &report) == SF_OK);
+  CHECK(report.reused_blocks == 4);
+  CHECK(first.bytes == second.bytes);
+}
+
+TEST_CASE("after: bad input") {
+  const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
+  test::Engine engine(test::ConfigFor(scene, 8));
+  const sf_light_field field = scene.Field();
+  const sf_params params = test::Params(1);
+  test::Output out(50, 40), before(50, 40);
+  const sf_previous good = {field, before.bytes.data(), before.stride};
+  const auto run = [&](const sf_light_field* f, const sf_previous* previous, uint8_t* to) {
+    return sf_refocus_after(engine.get(), &params, f, previous, to, out.stride, nullptr, nullptr,
+                            nullptr);
+  };
+  uint8_t* to = out.bytes.data();
+  CHECK(run(nullptr, &good, to) == SF_ERROR_NULL);
+  CHECK(run(&field, nullptr, to) == SF_ERROR_NULL);
+  CHECK(run(&field, &good, nullptr) == SF_ERROR_NULL);
+  sf_previous bad = good;
+  bad.out = nullptr;
+  CHECK(run(&field, &bad, to) == SF_ERROR_NULL);
+  bad = good;
+  bad.out_stride = 149;
+  CHECK(run(&field, &bad, to) == SF_ERROR_STRIDE);
+  bad = good;
+  bad.light_field.views[4].data = nullptr;
+  CHECK(run(&field, &bad, to) == SF_ERROR_NULL);
+  bad = good;
+  bad.light_field.disparity_stride = 4;
+  CHECK(run(&field, &bad, to) == SF_ERROR_STRIDE);
+  bad = good;
+  bad.out = to + 3;
+  CHECK(run(&field, &bad, to) == SF_ERROR_OVERLAP);
+  test::Scene other = scene;
+  bad = good;
+  bad.light_field = other.Field();
+  CHECK(run(&field, &bad, other.pictures[2].data()) == SF_ERROR_OVERLAP);
+  CHECK(out.Untouched());
+  CHECK(run(&field, &good, to) == SF_OK);
+}
+
+}  // namespace

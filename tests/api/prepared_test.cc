@@ -1,0 +1,215 @@
+// Prepared light fields: the bytes of sf_refocus for every lens, and bad input.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/layered_scene.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kViews[] = {1, 5, 9, 17};
+
+// Memory of exactly the size asked for, poisoned.
+class Memory {
+ public:
+  explicit Memory(const sf_config& config) {
+    REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+    memory_.assign(bytes + SF_ALIGNMENT, test::kPoison);
+  }
+  uint8_t* get() {
+    const uintptr_t address = reinterpret_cast<uintptr_t>(memory_.data());
+    return memory_.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
+  }
+  size_t bytes = 0;
+
+ private:
+  std::vector<uint8_t> memory_;
+};
+
+sf_prepared* Prepare(test::Engine* engine, const test::Scene& scene, Memory* memory) {
+  const sf_light_field field = scene.Field();
+  sf_prepared* prepared = nullptr;
+  REQUIRE(sf_prepare(engine->get(), &field, memory->get(), memory->bytes, nullptr, nullptr,
+                     &prepared) == SF_OK);
+  return prepared;
+}
+
+// Refocuses with both and compares bytes and counts.
+void CheckSame(test::Engine* engine, const sf_prepared* prepared, const test::Scene& scene,
+               const sf_params& params) {
+  const sf_region& r = params.region;
+  const int width = r.width > 0 ? r.width : scene.width;
+  const int height = r.height > 0 ? r.height : scene.height;
+  test::Output expected(width, height, 3), got(width, height, 3);
+  sf_report report = {}, prepared_report = {};
+  REQUIRE(sf_refocus_prepared(engine->get(), &params, prepared, got.bytes.data(), got.stride,
+                              nullptr, nullptr, &prepared_report) == SF_OK);
+  REQUIRE(test::Refocus(engine, params, scene, &expected, nullptr, nullptr, &report) == SF_OK);
+  const bool same = got.bytes == expected.bytes;
+  CHECK(same);
+  // Layers and disparities were read when it was prepared.
+  CHECK(prepared_report.centre_bytes <= report.centre_bytes);
+  CHECK(prepared_report.disparity_bytes == 0);
+  CHECK(report.disparity_bytes > 0);
+  prepared_report.centre_bytes = report.centre_bytes;
+  prepared_report.disparity_bytes = report.disparity_bytes;
+  CHECK(std::memcmp(&report, &prepared_report, sizeof(report)) == 0);
+}
+
+TEST_CASE("prepared: the bytes of sf_refocus, in every mode, for many lenses and regions") {
+  test::Random random(81);
+  constexpr int kSizes[][2] = {{1, 1},    {1, 130},  {130, 1},  {31, 33},   {64, 64},  {65, 63},
+                               {100, 37}, {67, 260}, {200, 90}, {129, 128}, {97, 131}, {150, 66}};
+  int round = 0;
+  for (const auto& size : kSizes) {
+    const test::Scene scene =
+        test::LayeredScene(size[0], size[1], kViews[round % 4], 7, uint64_t(round) + 800);
+    sf_config config = test::ConfigFor(scene, 20);
+    config.largest_block = 32 << random.Int(0, 3);
+    config.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
+    CAPTURE(round);
+    ++round;
+    test::Engine engine(config);
+    REQUIRE(engine.status() == SF_OK);
+    Memory memory(config);
+    const sf_prepared* prepared = Prepare(&engine, scene, &memory);
+    for (int lens = 0; lens < 6; ++lens) {
+      sf_params params = test::Params(random.Real(-12, 12), random.Real(0.3, 1), SF_MODE_BLOCK);
+      params.rule = random.Int(0, 2);
+      if (lens == 4) params.mode = round % 2 == 0 ? SF_MODE_FRAME : SF_MODE_BLUR;
+      if (lens == 5) {
+        params.region = {random.Int(0, size[0] - 1), random.Int(0, size[1] - 1), 1, 1};
+        params.region.width = random.Int(1, size[0] - params.region.x);
+        params.region.height = random.Int(1, size[1] - params.region.y);
+      }
+      CheckSame(&engine, prepared, scene, params);
+    }
+  }
+}
+
+TEST_CASE("prepared: by one engine for another, which streams in between") {
+  const test::Scene scene = test::LayeredScene(140, 100, 5, 7, 11);
+  sf_config config = test::ConfigFor(scene, 20);
+  test::Engine maker(config);
+  Memory memory(config);
+  const sf_prepared* prepared = Prepare(&maker, scene, &memory);
+  config.max_workers = 3;
+  config.streaming = 1;
+  config.largest_block = 32;
+  config.max_blur = 16;
+  test::Engine user(config);
+  REQUIRE(user.status() == SF_OK);
+  CheckSame(&user, prepared, scene, test::Params(2, 1, SF_MODE_BLOCK));
+  test::Output whole(140, 100), streamed(140, 100);
+  REQUIRE(test::Refocus(&user, test::Params(-3, 1, SF_MODE_BLOCK), scene, &whole) == SF_OK);
+  CheckSame(&user, prepared, scene, test::Params(8, 1, SF_MODE_BLOCK));
+  REQUIRE(test::Stream(&user, test::Params(-3, 1, SF_MODE_BLOCK), scene, &streamed, 9, 9) == SF_OK);
+  CHECK(streamed.bytes == whole.bytes);
+}
+
+TEST_CASE("prepared: what the documentation says of the memory") {
+  const test::Scene scene = test::LayeredScene(1000, 800, 5, 7, 11);
+  sf_config config = test::ConfigFor(scene, 20);
+  const double pixels = 1000.0 * 800;
+  CHECK(double(Memory(config).bytes) / pixels == doctest::Approx(2.94).epsilon(0.01));
+  config.max_layer = 0;
+  CHECK(double(Memory(config).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
+}
+
+TEST_CASE("prepared: bad input") {
+  test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
+  const sf_config config = test::ConfigFor(scene, 8);
+  test::Engine engine(config);
+  Memory memory(config);
+  size_t bytes = 4711;
+  sf_config bad = config;
+  bad.views = 3;
+  CHECK(sf_prepared_size(&bad, &bytes) == SF_ERROR_VIEWS);
+  CHECK(sf_prepared_size(nullptr, &bytes) == SF_ERROR_NULL);
+  CHECK(sf_prepared_size(&config, nullptr) == SF_ERROR_NULL);
+  CHECK(bytes == 4711);
+  const sf_light_field field = scene.Field();
+  sf_light_field none = field;
+  none.disparity = nullptr;
+  const auto prepare = [&](sf_engine* e, const sf_light_field* f, void* at, size_t size) {
+    sf_prepared* prepared = reinterpret_cast<sf_prepared*>(&scene);
+    const sf_status status = sf_prepare(e, f, at, size, nullptr, nullptr, &prepared);
+    CHECK((prepared == nullptr) == (status != SF_OK));
+    return status;
+  };
+  uint8_t* at = memory.get();
+  CHECK(prepare(nullptr, &field, at, memory.bytes) == SF_ERROR_NULL);
+  CHECK(prepare(engine.get(), nullptr, at, memory.bytes) == SF_ERROR_NULL);
+  CHECK(prepare(engine.get(), &none, at, memory.bytes) == SF_ERROR_NULL);
+  CHECK(prepare(engine.get(), &field, nullptr, memory.bytes) == SF_ERROR_NULL);
+  CHECK(sf_prepare(engine.get(), &field, at, memory.bytes, nullptr, nullptr, nullptr) ==
+        SF_ERROR_NULL);
+  CHECK(prepare(engine.get(), &field, at, memory.bytes - 1) == SF_ERROR_WORKSPACE_SMALL);
+  CHECK(prepare(engine.get(), &field, at + 8, memory.bytes) == SF_ERROR_WORKSPACE_ALIGNMENT);
+  CHECK(prepare(engine.get(), &field, engine.workspace(), memory.bytes) == SF_ERROR_OVERLAP);
+  for (const float value : {std::numeric_limits<float>::quiet_NaN(), 3.5f}) {
+    const float good = scene.Disparity(49, 39);
+    scene.Disparity(49, 39) = value;
+    CHECK(prepare(engine.get(), &field, at, memory.bytes) ==
+          (value > 3 ? SF_ERROR_DISPARITY : SF_ERROR_NOT_FINITE));
+    scene.Disparity(49, 39) = good;
+  }
+  CHECK(prepare(engine.get(), &field, at, memory.bytes) == SF_OK);
+}
+
+TEST_CASE("prepared: refocusing refuses what sf_refocus refuses, and another configuration") {
+  const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
+  const sf_config config = test::ConfigFor(scene, 8);
+  test::Engine engine(config);
+  Memory memory(config);
+  const sf_prepared* prepared = Prepare(&engine, scene, &memory);
+  test::Output out(50, 40);
+  const auto run = [&](sf_engine* e, const sf_params& params, const sf_prepared* p, void* to) {
+    return sf_refocus_prepared(e, &params, p, static_cast<uint8_t*>(to), out.stride, nullptr,
+                               nullptr, nullptr);
+  };
+  const sf_params params = test::Params(1);
+  CHECK(run(nullptr, params, prepared, out.bytes.data()) == SF_ERROR_NULL);
+  CHECK(run(engine.get(), params, nullptr, out.bytes.data()) == SF_ERROR_NULL);
+  CHECK(run(engine.get(), params, prepared, nullptr) == SF_ERROR_NULL);
+  CHECK(run(engine.get(), test::Params(9), prepared, out.bytes.data()) == SF_ERROR_BLUR_TOO_LARGE);
+  CHECK(run(engine.get(), test::Params(1, 2), prepared, out.bytes.data()) == SF_ERROR_APERTURE);
+  CHECK(run(engine.get(), params, prepared, memory.get() + memory.bytes - 1) == SF_ERROR_OVERLAP);
+  CHECK(run(engine.get(), params, prepared, engine.workspace()) == SF_ERROR_OVERLAP);
+  for (int field = 0; field < 6; ++field) {
+    sf_config other = config;
+    if (field == 0) other.width = 49;
+    if (field == 1) other.height = 39;
+    if (field == 2) other.views = 1;
+    if (field == 3) other.disparity_min = -4;
+    if (field == 4) other.disparity_max = 4;
+    if (field == 5) other.max_layer = 1;
+    test::Engine another(other);
+    REQUIRE(another.status() == SF_OK);
+    CHECK(run(another.get(), params, prepared, out.bytes.data()) == SF_ERROR_PREPARED);
+  }
+  CHECK(out.Untouched());
+}
+
+TEST_CASE("prepared: a runner's failure is reported") {
+  const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
+  const sf_config config = test::ConfigFor(scene, 8);
+  test::Engine engine(config);
+  Memory memory(config);
+  const sf_light_field field = scene.Field();
+  sf_prepared* prepared = nullptr;
+  const sf_runner fail = [](void*, sf_job, void*, int32_t) { return 1; };
+  CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, fail, nullptr, &prepared) ==
+        SF_ERROR_RUNNER);
+  CHECK(prepared == nullptr);
+  // The engine goes on as before.
+  const sf_prepared* again = Prepare(&engine, scene, &memory);
+  CheckSame(&engine, again, scene, test::Params(-4, 1, SF_MODE_BLOCK));
+}
+
+}  // namespace

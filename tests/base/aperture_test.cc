@@ -1,0 +1,200 @@
+// The integer weights against the aperture (3) in double.
+#include "lib/base/aperture.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kThetas[] = {SF_MIN_THETA, 0.1 * kPi, 0.26 * kPi, 0.4 * kPi, SF_MAX_THETA};
+
+// (3): a(u, v) = cot^4 / (pi cos^2 (u^2 + v^2 + cot^2)^2) inside the unit disc.
+double Density(double u, double v, double theta) {
+  const double cot2 = std::pow(std::cos(theta) / std::sin(theta), 2);
+  return cot2 * cot2 / (kPi * std::pow(std::cos(theta), 2) * std::pow(u * u + v * v + cot2, 2));
+}
+
+struct Sampled {
+  explicit Sampled(int n, double theta)
+      : storage(starfocus::ApertureSize(n)),
+        aperture(starfocus::MakeAperture(n, starfocus::ApertureFallOff(theta), storage.data())) {}
+
+  std::vector<uint16_t> storage;
+  starfocus::Aperture aperture;
+};
+
+template <class Visit>
+void ForEachView(int n, const Visit& visit) {
+  for (int j = -n; j <= n; ++j) {
+    for (int i = -n; i <= n; ++i) visit(i, j, i * i + j * j <= n * n);
+  }
+}
+
+TEST_CASE("aperture: the density (3) falls off to cos^4 theta at the rim and holds all light") {
+  for (const double theta : kThetas) {
+    CAPTURE(theta);
+    CHECK(Density(0.6, 0.8, theta) / Density(0, 0, theta) ==
+          doctest::Approx(std::pow(std::cos(theta), 4)));
+    double light = 0;
+    constexpr int kRings = 4000;
+    for (int ring = 0; ring < kRings; ++ring) {
+      const double rho = (ring + 0.5) / kRings;
+      light += Density(rho, 0, theta) * 2 * kPi * rho / kRings;
+    }
+    CHECK(light == doctest::Approx(1).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("aperture: cot^2 theta with 16 fractional bits") {
+  for (const double theta : kThetas) {
+    const double cot2 = std::pow(std::cos(theta) / std::sin(theta), 2);
+    CHECK(std::fabs(starfocus::ApertureFallOff(theta) / 65536.0 - cot2) <= 0.5001 / 65536);
+  }
+}
+
+TEST_CASE("aperture: number of views in the disc") {
+  constexpr int kViews[][2] = {{0, 1},    {1, 5},    {2, 13},    {3, 29},    {4, 49},
+                               {5, 81},   {7, 149},  {8, 197},   {10, 317},  {13, 529},
+                               {16, 797}, {17, 901}, {19, 1129}, {22, 1517}, {26, 2121}};
+  for (const auto& row : kViews) CHECK(Sampled(row[0], 0.26 * kPi).aperture.views == row[1]);
+  for (int n = 0; n <= 40; ++n) {
+    int views = 0;
+    ForEachView(n, [&](int, int, bool inside) { views += inside; });
+    CHECK(Sampled(n, 1).aperture.views == views);
+  }
+}
+
+TEST_CASE("aperture: weights follow (3), sum to a power of two and fit signed 16 bits") {
+  double furthest = 0, furthest_centre = 0;
+  for (int n = 1; n <= 40; ++n) {
+    for (const double theta : kThetas) {
+      CAPTURE(n);
+      CAPTURE(theta);
+      const Sampled sampled(n, theta);
+      const starfocus::Aperture& aperture = sampled.aperture;
+      CHECK(aperture.n == n);
+      REQUIRE(aperture.sum_bits >= 1);
+      REQUIRE(aperture.sum_bits <= 24);
+      double total = 0;
+      ForEachView(n, [&](int i, int j, bool inside) {
+        if (inside) total += Density(double(i) / n, double(j) / n, theta);
+      });
+      int64_t sum = 0;
+      int outside = 0, too_large = 0;
+      const double unit = std::ldexp(1.0, aperture.sum_bits);
+      ForEachView(n, [&](int i, int j, bool inside) {
+        const uint32_t weight = aperture.Weight(i, j);
+        sum += weight;
+        too_large += weight > 32767;
+        outside += !inside && weight != 0;
+        if (!inside) return;
+        const double wanted = Density(double(i) / n, double(j) / n, theta) / total * unit;
+        double& worst = i == 0 && j == 0 ? furthest_centre : furthest;
+        worst = std::fmax(worst, std::fabs(weight - wanted));
+      });
+      CHECK(sum == int64_t{1} << aperture.sum_bits);
+      CHECK(outside == 0);
+      CHECK(too_large == 0);
+      // Half the weights' range is used, so that their rounding is as small as it can be.
+      if (aperture.sum_bits < 24) CHECK(aperture.Weight(0, 0) > 16000);
+    }
+  }
+  MESSAGE("furthest from (3): " << furthest << ", the centre " << furthest_centre);
+  // A weight takes up the rounding of the orbit before it: up to 4 units over 4 views, and the
+  // centre alone up to 4 units; plus half a unit of its own and the 20 bits of the densities.
+  // Half a unit of rounding, one of the orbits' carry, and another half on the diagonals, whose
+  // weights are even.
+  CHECK(furthest < 2);
+  CHECK(furthest_centre < 4.6);
+}
+
+TEST_CASE("aperture: the same weight for mirrored and transposed views") {
+  for (const int n : {1, 2, 7, 18}) {
+    const Sampled sampled(n, 0.26 * kPi);
+    int different = 0;
+    ForEachView(n, [&](int i, int j, bool) {
+      const uint32_t weight = sampled.aperture.Weight(i, j);
+      different += weight != sampled.aperture.Weight(-i, j);
+      different += weight != sampled.aperture.Weight(i, -j);
+      different += weight != sampled.aperture.Weight(j, i);
+    });
+    CHECK(different == 0);
+  }
+}
+
+TEST_CASE("aperture: the centre view alone has all the weight") {
+  const Sampled sampled(0, 0.26 * kPi);
+  CHECK(sampled.aperture.views == 1);
+  CHECK(sampled.aperture.Weight(0, 0) == 1u << sampled.aperture.sum_bits);
+  CHECK(sampled.aperture.Weight(0, 0) <= 32767);
+}
+
+TEST_CASE("aperture: the largest N of the configuration") {
+  for (const double theta : kThetas) {
+    const Sampled sampled(256, theta);
+    int64_t sum = 0, largest = 0;
+    ForEachView(256, [&](int i, int j, bool) {
+      sum += sampled.aperture.Weight(i, j);
+      largest = std::max<int64_t>(largest, sampled.aperture.Weight(i, j));
+    });
+    CHECK(sum == int64_t{1} << sampled.aperture.sum_bits);
+    CHECK(largest <= 32767);
+  }
+}
+
+TEST_CASE("aperture: cells have the light of their part of the lens") {
+  for (const double theta : {0.1 * kPi, 0.26 * kPi, 0.4 * kPi}) {
+    for (const int n : {1, 2, 3, 4, 5, 6, 7, 9, 13, 40, 256}) {
+      std::vector<uint16_t> storage(starfocus::ApertureSize(n));
+      const starfocus::Aperture cells =
+          starfocus::MakeCellAperture(n, starfocus::ApertureFallOff(theta), storage.data());
+      const double lens = starfocus::LensInCells(n) / 32.0, c = std::pow(std::tan(theta), -2);
+      CAPTURE(n);
+      CHECK(cells.n == n);
+      CHECK(cells.extent == doctest::Approx(cells.last / lens));
+      int views = 0;
+      double sum = 0, light = 0, squares = 0, exact = 0;
+      for (int i = -n; i <= n; ++i) {
+        for (int j = -n; j <= n; ++j) {
+          const double weight = cells.Weight(i, j);
+          const bool inside = i * i + j * j <= cells.most;
+          CHECK((inside || weight == 0));
+          views += inside;
+          sum += weight;
+          squares += weight * (i * i + j * j + 1.0 / 6) / (lens * lens);
+        }
+      }
+      // Rings of the lens, and what lies out there.
+      for (double rho = 0.5e-3; rho < 1; rho += 1e-3) {
+        const double ring = rho * std::pow(c / (rho * rho + c), 2);
+        light += ring;
+        exact += ring * rho * rho;
+      }
+      CHECK(cells.last > 0);
+      CHECK(views == cells.views);
+      CHECK(sum == std::ldexp(1.0, cells.sum_bits));
+      // A box blurs a rim cell's light over more than the part within.
+      CHECK(squares / sum == doctest::Approx(exact / light)
+                                 .epsilon(n < 4    ? 0.25
+                                          : n < 13 ? 0.06
+                                                   : 0.02));
+    }
+  }
+}
+
+TEST_CASE("aperture: no views but the centre's") {
+  uint16_t weight = 0;
+  const starfocus::Aperture cells = starfocus::MakeCellAperture(0, 65536, &weight);
+  CHECK(cells.views == 1);
+  CHECK(cells.last == 0);
+  CHECK(weight == 1 << cells.sum_bits);
+}
+
+}  // namespace

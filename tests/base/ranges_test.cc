@@ -1,0 +1,38 @@
+// The run-time checks of fixed.h's table.
+#include <doctest/doctest.h>
+
+#include "lib/base/fixed.h"
+
+namespace {
+
+constexpr starfocus::FixedRange kRange = {"test", -2, 3};
+
+#ifdef STARFOCUS_CHECK_RANGES
+int told = 0;
+int64_t last = 0;
+
+void Remember(const starfocus::FixedRange& range, int64_t value) {
+  CHECK(range.name == kRange.name);
+  ++told;
+  last = value;
+}
+
+TEST_CASE("ranges: a value outside is told, one inside is not") {
+  starfocus::on_range_failure = Remember;
+  const int16_t values[] = {-2, 3, 4, 0};
+  starfocus::CheckAll(kRange, values, 4);
+  CHECK(told == 1);
+  CHECK(last == 4);
+  CHECK(starfocus::Checked(kRange, -3) == -3);
+  CHECK(told == 2);
+  starfocus::on_range_failure = nullptr;
+}
+#else
+TEST_CASE("ranges: nothing is checked in an ordinary build") {
+  static_assert(starfocus::Checked(kRange, 4) == 4);
+  const int16_t values[] = {-3, 4};
+  starfocus::CheckAll(kRange, values, 2);
+}
+#endif
+
+}  // namespace

@@ -1,0 +1,143 @@
+// The selection rules for N and the layer at, just below and just above every step.
+#include "lib/base/rules.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+
+#include "starfocus/starfocus.h"
+
+namespace {
+
+using starfocus::LayerByCells;
+using starfocus::LayerByPaper;
+using starfocus::ScaleViews;
+using starfocus::ViewsByCells;
+using starfocus::ViewsByPaper;
+using starfocus::ViewsOfBenchmark;
+
+double Below(double value) { return std::nextafter(value, 0.0); }
+double Above(double value) { return std::nextafter(value, 1e9); }
+
+TEST_CASE("rules: (9) below 4 is the ceiling of the radius") {
+  CHECK(ViewsByPaper(0) == 0);
+  CHECK(ViewsByPaper(std::numeric_limits<double>::denorm_min()) == 1);
+  CHECK(ViewsByPaper(0.5) == 1);
+  for (int r = 1; r <= 3; ++r) {
+    CAPTURE(r);
+    CHECK(ViewsByPaper(Below(r)) == r);
+    CHECK(ViewsByPaper(r) == r);
+    CHECK(ViewsByPaper(Above(r)) == r + 1);
+  }
+}
+
+TEST_CASE("rules: (9) is 4 from 4 to 4 / 0.787") {
+  CHECK(ViewsByPaper(Below(4)) == 4);
+  CHECK(ViewsByPaper(4) == 4);
+  CHECK(ViewsByPaper(Above(4)) == 4);
+  CHECK(ViewsByPaper(5) == 4);
+  CHECK(ViewsByPaper(5.08) == 4);
+  const double threshold = 4 / 0.787;
+  CHECK(ViewsByPaper(Below(threshold)) == 4);
+  CHECK(ViewsByPaper(threshold) == 4);
+  CHECK(ViewsByPaper(threshold * (1 + 1e-12)) == 5);
+  CHECK(ViewsByPaper(5.09) == 5);
+}
+
+TEST_CASE("rules: (9) above is the ceiling of 0.787 times the radius") {
+  // Radius r in thousandths: the ceiling of 787 r / 10^6, in integers.
+  for (int r = 5083; r <= 128000; ++r) {
+    const int expected = int((int64_t{787} * r + 999999) / 1000000);
+    if (ViewsByPaper(r / 1000.0) != expected) {
+      CAPTURE(r);
+      CHECK(ViewsByPaper(r / 1000.0) == expected);
+    }
+  }
+  for (int n = 5; n <= 100; ++n) {
+    const double step = n / 0.787;
+    CAPTURE(n);
+    CHECK(ViewsByPaper(step * (1 - 1e-12)) == n);
+    CHECK(ViewsByPaper(step * (1 + 1e-12)) == n + 1);
+  }
+}
+
+TEST_CASE("rules: (9) on the table of the design") {
+  constexpr int kTable[][2] = {{2, 2},   {4, 4},   {5, 4},   {6, 5},   {8, 7},  {10, 8},
+                               {12, 10}, {16, 13}, {20, 16}, {24, 19}, {32, 26}};
+  for (const auto& row : kTable) CHECK(ViewsByPaper(row[0]) == row[1]);
+}
+
+TEST_CASE("rules: (9) never decreases") {
+  int last = 0;
+  for (double r = 0; r <= SF_MAX_BLUR; r += 1.0 / 64) {
+    REQUIRE(ViewsByPaper(r) >= last);
+    last = ViewsByPaper(r);
+  }
+}
+
+TEST_CASE("rules: the benchmark renders twice the ceiling of the radius") {
+  CHECK(ViewsOfBenchmark(0) == 0);
+  CHECK(ViewsOfBenchmark(0.01) == 2);
+  for (int r = 1; r <= 128; ++r) {
+    CAPTURE(r);
+    CHECK(ViewsOfBenchmark(Below(r)) == 2 * r);
+    CHECK(ViewsOfBenchmark(r) == 2 * r);
+    CHECK(ViewsOfBenchmark(Above(r)) == 2 * r + 2);
+  }
+}
+
+TEST_CASE("rules: a scale multiplies N and rounds it up, and leaves 0 alone") {
+  for (int n = 0; n <= 102; ++n) {
+    CAPTURE(n);
+    CHECK(ScaleViews(n, 1) == n);
+    CHECK(ScaleViews(n, 0.5) == (n + 1) / 2);
+    CHECK(ScaleViews(n, 2) == 2 * n);
+    // In tenths, which no double is exactly.
+    for (int tenths = 5; tenths <= 20; ++tenths) {
+      CAPTURE(tenths);
+      CHECK(ScaleViews(n, tenths / 10.0) == (n * tenths + 9) / 10);
+    }
+  }
+}
+
+TEST_CASE("rules: the table of views that stand for their cells") {
+  constexpr struct {
+    double r_max;
+    int n;
+  } kTable[] = {{0.5, 0}, {11, 4},  {25, 5},   {34, 6},  {49, 7},
+                {68, 9},  {83, 11}, {119, 12}, {128, 13}};
+  CHECK(ViewsByCells(0) == 0);
+  for (size_t k = 0; k < std::size(kTable); ++k) {
+    CAPTURE(kTable[k].r_max);
+    CHECK(ViewsByCells(Below(kTable[k].r_max)) == kTable[k].n);
+    CHECK(ViewsByCells(kTable[k].r_max) == kTable[k].n);
+    if (k + 1 < std::size(kTable)) CHECK(ViewsByCells(Above(kTable[k].r_max)) == kTable[k + 1].n);
+  }
+}
+
+TEST_CASE("rules: layers from radius 3 and 6 on by (12)") {
+  CHECK(LayerByPaper(0) == 0);
+  CHECK(LayerByPaper(Below(3)) == 0);
+  CHECK(LayerByPaper(3) == 1);
+  CHECK(LayerByPaper(Below(6)) == 1);
+  CHECK(LayerByPaper(6) == 2);
+  CHECK(LayerByPaper(SF_MAX_BLUR) == 2);
+}
+
+TEST_CASE("rules: layers from radius 7 and 24 on with cells, no layer 2 beside depth edges") {
+  CHECK(LayerByCells(0, false) == 0);
+  CHECK(LayerByCells(Below(7), false) == 0);
+  CHECK(LayerByCells(7, false) == 1);
+  CHECK(LayerByCells(Below(24), false) == 1);
+  CHECK(LayerByCells(24, false) == 2);
+  CHECK(LayerByCells(SF_MAX_BLUR, false) == 2);
+  CHECK(LayerByCells(0, true) == 0);
+  CHECK(LayerByCells(Below(7), true) == 0);
+  CHECK(LayerByCells(7, true) == 1);
+  CHECK(LayerByCells(SF_MAX_BLUR, true) == 1);
+}
+
+}  // namespace

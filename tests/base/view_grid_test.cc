@@ -1,0 +1,123 @@
+// How far pixels move from view to view, against u * (d - d_t) in double.
+#include "lib/base/view_grid.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::ViewGrid;
+
+ViewGrid MakeGrid(int n, double focus, double aperture, int layer = 0, bool half = false) {
+  starfocus::Aperture views;
+  views.n = views.last = n;
+  return starfocus::MakeViewGrid(views, focus, aperture, layer, half);
+}
+
+TEST_CASE("view grid: the focus is rounded to 1/64, half up") {
+  CHECK(MakeGrid(4, 0, 1).focus == 0);
+  CHECK(MakeGrid(4, 1.5, 1).focus == 96);
+  CHECK(MakeGrid(4, 1.0 / 128, 1).focus == 1);
+  CHECK(MakeGrid(4, -1.0 / 128, 1).focus == 0);
+  CHECK(MakeGrid(4, -3.0 / 128, 1).focus == -1);
+  CHECK(MakeGrid(4, SF_MAX_FOCUS, 1).focus == 64000000);
+  CHECK(MakeGrid(4, -SF_MAX_FOCUS, 1).focus == -64000000);
+}
+
+TEST_CASE("view grid: view i lies at i u_t / N") {
+  for (const double aperture : {1.0, 0.5, 0.123456, 1e-9}) {
+    for (const int n : {1, 2, 3, 7, 26, 256}) {
+      for (const int layer : {0, 1, 2}) {
+        const ViewGrid grid = MakeGrid(n, 0, aperture, layer);
+        const double rim = std::max(aperture / (1 << layer), 1.0 / (1 << 24));
+        double furthest = 0;
+        for (int i = 0; i <= n; ++i) {
+          furthest = std::max(furthest, std::fabs(double(grid.Move(i)) - rim * i / n * (1 << 24)));
+        }
+        CAPTURE(aperture);
+        CAPTURE(n);
+        CAPTURE(layer);
+        CHECK(grid.Move(0) == 0);
+        CHECK(grid.Move(n) == grid.step);
+        CHECK(furthest <= 1.5);
+      }
+    }
+  }
+}
+
+TEST_CASE("view grid: shifts are u (d - d_t), to 1/256 of a pixel, within the blur radius") {
+  test::Random random(5);
+  for (int round = 0; round < 20000; ++round) {
+    const double aperture = random.Real(0.01, 1);
+    const double radius = random.Real(0, SF_MAX_BLUR);
+    const double disparity = random.Int(-500 * 64, 500 * 64) / 64.0;
+    const double focus =
+        std::floor((disparity + (random.Int(0, 1) == 0 ? 1 : -1) * radius / aperture) * 64 + 0.5) /
+        64;
+    const int n = random.Int(1, 256), i = random.Int(0, n);
+    const ViewGrid grid = MakeGrid(n, focus, aperture);
+    const int shift = grid.Shift(grid.Move(i), int(disparity * 64));
+    const double exact = aperture * i / n * (disparity - focus) * 256;
+    // Half a unit of its own, and 1.5 units of the view's place (2^-24) over the whole distance.
+    const double bound = 0.5 + 1.5 * 256 / (1 << 24) * std::fabs(disparity - focus) + 1e-9;
+    if (std::fabs(shift - exact) > bound) {
+      CAPTURE(aperture);
+      CAPTURE(focus);
+      CAPTURE(disparity);
+      CHECK(std::fabs(shift - exact) <= bound);
+    }
+    const double blur = aperture * std::fabs(disparity - focus);
+    if (std::abs(shift) > std::ceil(blur * 256)) CHECK(std::abs(shift) <= std::ceil(blur * 256));
+  }
+}
+
+TEST_CASE("view grid: shifts round half up, in focus nothing moves") {
+  const ViewGrid grid = MakeGrid(4, 2, 1);
+  CHECK(grid.Shift(grid.Move(4), 128) == 0);
+  CHECK(grid.Shift(grid.Move(4), 129) == 4);
+  CHECK(grid.Shift(grid.Move(4), 127) == -4);
+  CHECK(grid.Shift(grid.Move(1), 129) == 1);
+  const ViewGrid fine = MakeGrid(8, 2, 1);  // halves of 1/256
+  CHECK(fine.Shift(fine.Move(1), 129) == 1);
+  CHECK(fine.Shift(fine.Move(1), 127) == 0);
+  CHECK(fine.Shift(fine.Move(3), 129) == 2);
+  CHECK(fine.Shift(fine.Move(3), 127) == -1);
+}
+
+TEST_CASE("view grid: views up to half a unit away use the views at half distance") {
+  CHECK(MakeGrid(8, 0, 1, 0, true).half_views == 4);
+  CHECK(MakeGrid(7, 0, 1, 0, true).half_views == 3);
+  CHECK(MakeGrid(1, 0, 1, 0, true).half_views == 0);
+  CHECK(MakeGrid(8, 0, 0.5, 0, true).half_views == 8);
+  CHECK(MakeGrid(8, 0, 0.51, 0, true).half_views == 7);
+  CHECK(MakeGrid(10, 0, 0.75, 0, true).half_views == 6);
+  CHECK(MakeGrid(8, 0, 1, 0, false).half_views == 0);
+  CHECK(MakeGrid(0, 0, 1, 0, true).half_views == 0);
+}
+
+// Whatever a run's disparity range, no pixel is drawn further than 1/8 of a pixel from its place.
+TEST_CASE("view grid: the spread of a run displaces by at most an eighth of a pixel") {
+  for (const double aperture : {1.0, 0.9, 0.5, 0.3, 0.2, 0.01, 1e-7}) {
+    for (const int layer : {0, 1, 2}) {
+      const ViewGrid grid = MakeGrid(9, 0, aperture, layer);
+      CAPTURE(aperture);
+      CAPTURE(layer);
+      const double spread = grid.spread / 64.0, u = aperture / (1 << layer);
+      CHECK(grid.spread >= 1);
+      CHECK(grid.spread <= starfocus::kSurfaceStep);
+      CHECK(spread / 2 * u <= 0.125 + 1e-6);
+      // As large as that allows.
+      const bool largest =
+          grid.spread == starfocus::kSurfaceStep || (spread + 1.0 / 64) / 2 * u > 0.125 - 1e-6;
+      CHECK(largest);
+    }
+  }
+}
+
+}  // namespace

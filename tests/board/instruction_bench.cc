@@ -1,0 +1,97 @@
+// instruction_bench CASE simd|reference RUNS [COEFFICIENTS]: refocuses RUNS times. What one
+// refocusing costs is the difference between the instructions of two runs and of one, as counted by
+// count_instructions.c: all that happens before the first is the same. `instruction_bench list`
+// prints the cases, `instruction_bench coefficients` the architectures whose built-in coefficients
+// of the timing model may be named.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "lib/plan/timing_defaults.h"
+#include "simd/kernels.h"
+#include "tests/support/integer_scene.h"
+#include "tests/support/simd_targets.h"
+
+namespace {
+
+struct Case {
+  const char* name;
+  int views;
+  test::Depth depth;
+  sf_mode mode;
+  double focus, aperture;
+  int width = 192, height = 128;
+  sf_rule rule = SF_RULE_DEFAULT;
+};
+
+// Of 192 x 128 pixels if not told otherwise; the name tells views, scene, mode and the largest blur
+// radius in pixels.
+constexpr Case kCases[] = {
+    {"17-layers-frame-8", 17, test::Depth::kLayers, SF_MODE_FRAME, -4, 1},
+    {"17-slanted-frame-8", 17, test::Depth::kSlanted, SF_MODE_FRAME, 4, 1},
+    {"5-layers-frame-6", 5, test::Depth::kLayers, SF_MODE_FRAME, 2, 1},
+    {"1-layers-frame-4", 1, test::Depth::kLayers, SF_MODE_FRAME, 0, 1},
+    {"17-layers-block-8", 17, test::Depth::kLayers, SF_MODE_BLOCK, -4, 1},
+    {"5-slanted-block-4", 5, test::Depth::kSlanted, SF_MODE_BLOCK, 0, 1},
+    // Large enough for partitions to differ.
+    {"9-room-block-7", 9, test::Depth::kRoom, SF_MODE_BLOCK, 3.5, 1, 384, 256},
+    {"5-room-block-4", 5, test::Depth::kRoom, SF_MODE_BLOCK, -1, 1, 384, 256},
+    {"9-room-block-paper-7", 9, test::Depth::kRoom, SF_MODE_BLOCK, 3.5, 1, 384, 256, SF_RULE_PAPER},
+    {"1-layers-blur-8", 1, test::Depth::kLayers, SF_MODE_BLUR, 4, 1},
+    {"9-layers-benchmark-4", 9, test::Depth::kLayers, SF_MODE_BENCHMARK, 0, 1},
+};
+
+const Case* Find(const char* name) {
+  for (const Case& one : kCases) {
+    if (std::strcmp(one.name, name) == 0) return &one;
+  }
+  return nullptr;
+}
+
+const sf_timing* FindTiming(const char* name) {
+  for (const starfocus::NamedTiming& each : starfocus::kBuiltInTimings) {
+    if (std::strcmp(each.name, name) == 0) return &each.timing;
+  }
+  return nullptr;
+}
+
+// Of no architecture in particular: the counts then don't change when coefficients do.
+constexpr sf_timing kTiming = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
+
+int Run(const Case& one, bool reference, int runs, const sf_timing& timing) {
+  const test::Scene scene = test::IntegerScene(one.width, one.height, one.views, one.depth);
+  sf_config config = test::ConfigFor(scene, 16);
+  config.timing = timing;
+  test::Engine engine(config);
+  if (engine.status() != SF_OK) return 1;
+  if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());
+  test::Output out(one.width, one.height);
+  sf_params params = test::Params(one.focus, one.aperture, one.mode);
+  params.rule = one.rule;
+  for (int run = 0; run < runs; ++run) {
+    if (test::Refocus(&engine, params, scene, &out) != SF_OK) return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 2 && std::strcmp(argv[1], "list") == 0) {
+    for (const Case& one : kCases) std::printf("%s %d\n", one.name, one.width * one.height);
+    return 0;
+  }
+  if (argc == 2 && std::strcmp(argv[1], "coefficients") == 0) {
+    for (const auto& each : starfocus::kBuiltInTimings) std::printf("%s\n", each.name);
+    return 0;
+  }
+  const Case* one = argc == 4 || argc == 5 ? Find(argv[1]) : nullptr;
+  const sf_timing* timing = argc == 5 ? FindTiming(argv[4]) : &kTiming;
+  if (one == nullptr || timing == nullptr) {
+    std::fprintf(stderr,
+                 "usage: instruction_bench list | coefficients | "
+                 "CASE simd|reference RUNS [COEFFICIENTS]\n");
+    return 1;
+  }
+  return Run(*one, std::strcmp(argv[2], "reference") == 0, std::atoi(argv[3]), *timing);
+}

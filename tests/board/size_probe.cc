@@ -1,0 +1,175 @@
+// Prints what the engine needs of a board's memory: `size_probe stack` the bytes of stack its calls
+// use, `size_probe workspace` a table of workspaces. For ./do size.
+#include <pthread.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr size_t kStackBytes = 1 << 20;
+constexpr uint8_t kPaint = 0xA5;
+
+void Check(bool good, const char* what) {
+  if (good) return;
+  std::fprintf(stderr, "size_probe: %s failed\n", what);
+  std::exit(1);
+}
+
+// The engine's calls, made on a stack of their own.
+struct Calls {
+  sf_config config;
+  sf_params params;
+  sf_light_field field;
+  void* workspace;
+  size_t bytes;
+  uint8_t* out;
+  size_t out_stride;
+  sf_status status;
+  uintptr_t top;  // of what the calls use
+};
+
+uintptr_t FrameAddress() { return reinterpret_cast<uintptr_t>(__builtin_frame_address(0)); }
+
+void* RunNothing(void* data) {
+  static_cast<Calls*>(data)->top = FrameAddress();
+  return nullptr;
+}
+
+void* RunCalls(void* data) {
+  Calls* calls = static_cast<Calls*>(data);
+  calls->top = FrameAddress();
+  sf_engine* engine = nullptr;
+  size_t needed = 0;
+  calls->status = sf_workspace_size(&calls->config, &needed);
+  if (calls->status == SF_OK) {
+    calls->status = sf_init(&calls->config, calls->workspace, calls->bytes, &engine);
+  }
+  if (calls->status == SF_OK && calls->config.streaming == 0) {
+    calls->status = sf_refocus(engine, &calls->params, &calls->field, calls->out, calls->out_stride,
+                               nullptr, nullptr, nullptr);
+  } else if (calls->status == SF_OK) {
+    int32_t consumed = 0, written = 0;
+    calls->status = sf_stream_begin(engine, &calls->params);
+    if (calls->status == SF_OK) {
+      calls->status = sf_stream_push(engine, &calls->field, calls->config.height, &consumed);
+    }
+    if (calls->status == SF_OK) {
+      calls->status = sf_stream_pull(engine, calls->out, calls->out_stride, calls->config.height,
+                                     nullptr, nullptr, &written, nullptr);
+    }
+  }
+  return nullptr;
+}
+
+// Bytes below the thread's first frame that `run` has written to.
+size_t StackUsed(void* (*run)(void*), Calls* calls) {
+  void* stack = nullptr;
+  Check(posix_memalign(&stack, 65536, kStackBytes) == 0, "allocating a stack");
+  std::memset(stack, kPaint, kStackBytes);
+  pthread_attr_t attributes;
+  pthread_t thread;
+  Check(pthread_attr_init(&attributes) == 0, "pthread_attr_init");
+  Check(pthread_attr_setstack(&attributes, stack, kStackBytes) == 0, "pthread_attr_setstack");
+  Check(pthread_create(&thread, &attributes, run, calls) == 0, "pthread_create");
+  Check(pthread_join(thread, nullptr) == 0, "pthread_join");
+  const uint8_t* lowest = static_cast<const uint8_t*>(stack);
+  while (*lowest == kPaint) ++lowest;
+  const size_t used = calls->top - reinterpret_cast<uintptr_t>(lowest);
+  std::free(stack);
+  return used;
+}
+
+// The deepest of every star set, mode and entry path, without what a thread's end costs itself.
+void PrintStack() {
+  size_t most = 0;
+  for (const int views : {1, 5, 9, 17}) {
+    for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
+      for (const int streaming : {0, 1}) {
+        const test::Scene scene = test::RandomScene(150, 90, views, -4, 4, 3);
+        Calls calls = {};
+        calls.config = test::ConfigFor(scene, 16);
+        calls.config.streaming = streaming;
+        calls.params = test::Params(1, 1, mode);
+        calls.field = scene.Field();
+        test::Output out(150, 90);
+        calls.out = out.bytes.data();
+        calls.out_stride = out.stride;
+        test::Engine memory(calls.config);
+        Check(memory.status() == SF_OK, "sf_init");
+        calls.workspace = memory.workspace();
+        calls.bytes = memory.bytes();
+        const size_t nothing = StackUsed(RunNothing, &calls);
+        const size_t used = StackUsed(RunCalls, &calls);
+        Check(calls.status == SF_OK, "refocusing");
+        Check(used > nothing && used < kStackBytes / 2, "measuring the stack");
+        most = used > most ? used : most;
+      }
+    }
+  }
+  std::printf("%zu\n", most);
+}
+
+size_t WorkspaceKilobytes(int width, int height, int views, int block, double blur, int streaming) {
+  sf_config config;
+  sf_config_init(&config);
+  config.width = width;
+  config.height = height;
+  config.views = views;
+  config.disparity_min = -16;
+  config.disparity_max = 16;
+  config.max_blur = blur;
+  config.largest_block = block;
+  config.streaming = streaming;
+  size_t bytes = 0;
+  Check(sf_workspace_size(&config, &bytes) == SF_OK, "sf_workspace_size");
+  return (bytes + 1023) / 1024;
+}
+
+// A row for each picture and star set, a column for each block and blur radius.
+void PrintWorkspace() {
+  constexpr struct {
+    const char* name;
+    int width, height;
+  } kSizes[] = {{"VGA", 640, 480}, {"HD", 1280, 720}, {"Full HD", 1920, 1080}};
+  constexpr int kBlocks[] = {32, 64, 128, 256}, kBlurs[] = {8, 32, 128};
+  const auto row = [&](const char* name, const char* input, int width, int height, int views,
+                       int streaming) {
+    std::printf("| %s | %s |", name, input);
+    for (const int block : kBlocks) {
+      for (const int blur : kBlurs) {
+        std::printf(" %zu |", WorkspaceKilobytes(width, height, views, block, blur, streaming));
+      }
+    }
+    std::printf("\n");
+  };
+  std::printf("| | block, r: |");
+  for (const int block : kBlocks) {
+    for (const int blur : kBlurs) std::printf(" %d, %d |", block, blur);
+  }
+  std::printf("\n|---|---|");
+  for (size_t i = 0; i < sizeof(kBlocks) / sizeof(int) * 3; ++i) std::printf("--:|");
+  std::printf("\n");
+  for (const auto& size : kSizes) {
+    row(size.name, "whole pictures", size.width, size.height, 17, 0);
+    for (const int views : {1, 5, 9, 17}) {
+      char input[40];
+      std::snprintf(input, sizeof(input), "%d streamed view%s", views, views == 1 ? "" : "s");
+      row(size.name, input, size.width, size.height, views, 1);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 2 && std::strcmp(argv[1], "stack") == 0) return PrintStack(), 0;
+  if (argc == 2 && std::strcmp(argv[1], "workspace") == 0) return PrintWorkspace(), 0;
+  std::fprintf(stderr, "usage: size_probe stack|workspace\n");
+  return 1;
+}

@@ -1,0 +1,285 @@
+// Block mode against the double-precision reference given the engine's own partition: at most one
+// gray level apart anywhere, on every SIMD target.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "lib/engine/engine.h"
+#include "simd/kernels.h"
+#include "starfocus/starfocus.h"
+#include "tests/conformance/conformance.h"
+#include "tests/conformance/reference.h"
+#include "tests/support/simd_targets.h"
+#include "tests/support/test_scene.h"
+#ifdef STARFOCUS_PROGRAM
+#include "examples/scene/render.h"
+#endif
+
+namespace {
+
+using namespace conformance;
+
+constexpr double kTheta = 0.26 * 3.14159265358979323846;
+constexpr int kStars[] = {1, 5, 9, 17};
+constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted, Depth::kNoisy};
+constexpr sf_rule kRules[] = {SF_RULE_PAPER, SF_RULE_CELLS};
+
+// Pixels that blocks of each layer cover, and those gathered.
+struct Covered {
+  int64_t pixels[SF_LAYERS] = {};
+  int64_t gathered = 0;
+};
+
+std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState& engine,
+                                                   const starfocus::Block& block) {
+  std::vector<reference::GatheredCell> cells;
+  if (!block.gathers) return cells;
+  constexpr int kSide = starfocus::kCellSize;
+  const int right = block.rect.x + block.rect.width, bottom = block.rect.y + block.rect.height;
+  for (int y = block.rect.y; y < bottom; y += kSide) {
+    for (int x = block.rect.x; x < right; x += kSide) {
+      if (engine.plan.gathered.At(x, y) == 0) continue;
+      cells.push_back({x, y, std::min(kSide, right - x), std::min(kSide, bottom - y)});
+    }
+  }
+  return cells;
+}
+
+// The partition of a picture of a single stripe.
+std::vector<reference::Block> Partition(const starfocus::EngineState& engine, Covered* covered) {
+  std::vector<reference::Block> blocks;
+  const int side = engine.config.largest_block;
+  REQUIRE(engine.config.height <= side);
+  for (int column = 0; column * side < engine.config.width; ++column) {
+    for (int k = 0; k < engine.plan.counts[column]; ++k) {
+      const starfocus::Block& b =
+          engine.plan.blocks[size_t(column) * size_t(starfocus::MaxBlocks(side)) + size_t(k)];
+      blocks.push_back({b.rect.x, b.rect.y, b.rect.width, b.rect.height, b.layer, b.n, b.rendered.x,
+                        b.rendered.y, b.rendered.width, b.rendered.height, b.border.left,
+                        b.border.right, b.border.top, b.border.bottom, GatheredCells(engine, b)});
+      for (const reference::GatheredCell& cell : blocks.back().gathered) {
+        covered->gathered += cell.width * cell.height;
+      }
+      covered->pixels[b.layer] += b.rect.width * b.rect.height;
+    }
+  }
+  return blocks;
+}
+
+Distance Check(const test::Scene& scene, const sf_params& params, const sf_config& config,
+               Covered* covered) {
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  auto& state = *reinterpret_cast<starfocus::EngineState*>(engine.get());
+  test::Output out(scene.width, scene.height);
+  state.kernels = &starfocus::simd::ReferenceKernels();
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  const std::vector<reference::Block> blocks = Partition(state, covered);
+  const bool cells = params.rule == SF_RULE_CELLS;
+  const starfocus::SliceLimits* limits = cells ? &state.workers[0].stack.limits : nullptr;
+  const Distance distance =
+      Compare(out.Tight(), reference::RefocusBlocks(scene, params, config.theta, limits, blocks));
+  for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
+    test::Output other(scene.width, scene.height);
+    state.kernels = kernels;
+    REQUIRE(test::Refocus(&engine, params, scene, &other) == SF_OK);
+    const bool same = other.bytes == out.bytes;
+    CHECK_MESSAGE(same, kernels->name);
+  }
+  CAPTURE(scene.width);
+  CAPTURE(scene.height);
+  CAPTURE(scene.views());
+  CAPTURE(params.focus);
+  CAPTURE(params.aperture);
+  CAPTURE(params.rule);
+  CAPTURE(config.max_layer);
+  CAPTURE(config.largest_block);
+  CHECK(distance.largest <= 1);
+  if (distance.samples >= kEnoughSamples) CHECK(distance.mean() < kMeanLimit);
+  return distance;
+}
+
+sf_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
+  sf_config config = test::ConfigFor(scene, max_blur);
+  config.theta = kTheta;
+  config.max_layer = max_layer;
+  config.deblocking = 0;  // a decision by thresholds; deblock_test has it
+  config.largest_block = 32;
+  while (config.largest_block < scene.height) config.largest_block *= 2;
+  return config;
+}
+
+// Both rules and all layers.
+Distance CheckAll(const test::Scene& scene, double focus, double aperture, Covered* covered) {
+  Distance all;
+  for (const sf_rule rule : kRules) {
+    for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
+      sf_params params = test::Params(focus, aperture, SF_MODE_BLOCK);
+      params.rule = rule;
+      Covered here;
+      const Distance one = Check(scene, params, Config(scene, max_layer), &here);
+      all.Add(one);
+      for (int layer = 0; layer < SF_LAYERS; ++layer) covered->pixels[layer] += here.pixels[layer];
+      covered->gathered += here.gathered;
+    }
+  }
+  return all;
+}
+
+void Tell(const char* name, const Distance& all, const Covered& covered) {
+  all.Print(name);
+  std::printf("  pixels at layers 0, 1, 2: %lld %lld %lld\n",
+              static_cast<long long>(covered.pixels[0]), static_cast<long long>(covered.pixels[1]),
+              static_cast<long long>(covered.pixels[2]));
+  CHECK(all.mean() < kMeanLimit);
+  for (const int64_t pixels : covered.pixels) CHECK(pixels > 0);
+  std::printf("  gathered: %lld\n", static_cast<long long>(covered.gathered));
+}
+
+TEST_CASE("block conformance: random scenes, every star set, both rules, all layers") {
+  test::Random random(51);
+  Distance all;
+  Covered covered;
+  for (int round = 0; round < (STARFOCUS_EMULATED ? 1 : 3); ++round) {
+    for (const int views : kStars) {
+      for (const Depth depth : kDepths) {
+        const int width = random.Int(1, 96), height = random.Int(1, 64);
+        const float low = float(random.Real(-6, 2));
+        test::Scene scene =
+            test::EmptyScene(width, height, views, low, low + float(random.Real(0.5, 6)));
+        SetDepth(depth, &scene, &random);
+        SetColours(Colours(random.Int(0, 2)), &scene, &random);
+        const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.3, 1);
+        all.Add(CheckAll(scene, low - random.Real(0, 9), aperture, &covered));
+      }
+    }
+  }
+  Tell("random scenes in blocks", all, covered);
+}
+
+TEST_CASE("block conformance: the benchmark's slices") {
+  test::Random random(54);
+  Distance all;
+  Covered covered;
+  for (const int views : kStars) {
+    if (STARFOCUS_EMULATED && views != 5) continue;
+    for (const Depth depth : kDepths) {
+      const float low = float(random.Real(-3, 2));
+      test::Scene scene = test::EmptyScene(random.Int(40, 64), random.Int(33, 48), views, low,
+                                           low + float(random.Real(0.5, 4)));
+      SetDepth(depth, &scene, &random);
+      SetColours(Colours(random.Int(0, 2)), &scene, &random);
+      sf_params params = test::Params(low - random.Real(-1, 2), 1, SF_MODE_BENCHMARK);
+      params.rule = SF_RULE_CELLS;
+      all.Add(Check(scene, params, Config(scene, 2), &covered));
+    }
+  }
+  all.Print("the benchmark in slices");
+  CHECK(all.mean() < kMeanLimit);
+  CHECK(covered.pixels[1] + covered.pixels[2] + covered.gathered == 0);
+}
+
+TEST_CASE("block conformance: largest cells, smallest and single blocks") {
+  test::Random random(52);
+  Distance all;
+  Covered covered;
+  for (const uint32_t block_cost : {0u, 1000u, SF_MAX_TIMING}) {
+    for (const Depth depth : {Depth::kConstant, Depth::kSlanted}) {
+      test::Scene scene = test::EmptyScene(64, 48, 5, 0, 4);
+      SetDepth(depth, &scene, &random);
+      SetColours(Colours::kRandom, &scene, &random);
+      for (const double focus : {-25.0, -7.0, -2.0}) {
+        for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
+          sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+          params.rule = SF_RULE_CELLS;
+          sf_config config = Config(scene, max_layer, 32);
+          config.timing.block = block_cost;
+          all.Add(Check(scene, params, config, &covered));
+        }
+      }
+    }
+  }
+  Tell("cells and partitions", all, covered);
+}
+
+TEST_CASE("block conformance: more slices than fit, widest cells") {
+  struct Lens {
+    float low, high;
+    double focus, max_blur;
+  };
+  // Surfaces blurred on both sides of the focus, in more slices than there are and in more than
+  // memory has room for; and an aperture whose cells are almost as wide as they are spread.
+  constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
+  test::Random random(53);
+  Distance all;
+  Covered covered;
+  for (const Lens& lens : kLenses) {
+    for (const Depth depth : {Depth::kPiecewise, Depth::kNoisy}) {
+      for (const int views : {1, 17}) {
+        test::Scene scene = test::EmptyScene(64, 48, views, lens.low, lens.high);
+        SetDepth(depth, &scene, &random);
+        SetColours(Colours::kRandom, &scene, &random);
+        for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
+          sf_params params = test::Params(lens.focus, 1, SF_MODE_BLOCK);
+          params.rule = SF_RULE_CELLS;
+          all.Add(Check(scene, params, Config(scene, max_layer, lens.max_blur), &covered));
+        }
+      }
+    }
+  }
+  all.Print("many slices and wide cells");
+}
+
+#ifdef STARFOCUS_PROGRAM
+TEST_CASE("block conformance: parts of the demo's scenes") {
+  constexpr int kWidth = STARFOCUS_EMULATED ? 96 : 192, kHeight = kWidth * 3 / 4;
+  starfocus::ThreadRunner runner(1);
+  Distance all;
+  Covered covered;
+  for (const char* name : {"portrait", "wires", "ramp"}) {
+    starfocus::Scene drawn;
+    REQUIRE(starfocus::MakeScene(name, &drawn));
+    const starfocus::Renderer renderer(drawn, kWidth, kHeight, &runner);
+    starfocus::LightField field;
+    for (int i = 0; i < 5; ++i) {
+      double u = 0, v = 0;
+      sf_view_position(i, &u, &v);
+      field.views.push_back(renderer.View(u, v, nullptr));
+    }
+    field.disparity = renderer.Disparity();
+    // The disparities of a picture of this size are a few pixels: seen from far out of focus.
+    const test::Scene scene = Crop(field, kWidth / 3, kHeight / 3, 64, 48);
+    for (const double focus : {double(scene.disparity_max), scene.disparity_min - 6.5}) {
+      all.Add(CheckAll(scene, focus, 1, &covered));
+    }
+  }
+  Tell("demo scenes", all, covered);
+}
+
+TEST_CASE("block conformance: parts of the data sets") {
+  Distance all;
+  Covered covered;
+  bool any = false;
+  for (const char* name : {"wires", "stilllife", "microcity", "chess", "dino"}) {
+    const std::string folder = test::DataSet(name);
+    if (folder.empty()) continue;
+    any = true;
+    starfocus::LightField field;
+    REQUIRE(starfocus::LoadLightField(folder, 0, &field) == "");
+    for (const int x : {200, 330}) {
+      const test::Scene scene = Crop(field, x, 180, 64, 48);
+      CAPTURE(name);
+      const double middle = 0.5 * double(scene.disparity_min + scene.disparity_max);
+      for (const double focus : {middle, scene.disparity_min - 6.5}) {
+        const double reach = std::max(scene.disparity_max - focus, focus - scene.disparity_min);
+        all.Add(CheckAll(scene, focus, std::min(1.0, 16 / reach), &covered));
+      }
+    }
+  }
+  if (any) Tell("data sets", all, covered);
+}
+#endif
+
+}  // namespace

@@ -1,0 +1,286 @@
+#include "tests/conformance/reference.h"
+
+#include "tests/conformance/reference_blur.h"
+#include "tests/conformance/reference_rectangle.h"
+#include "tests/conformance/reference_stack.h"
+
+namespace reference {
+namespace {
+
+LightField Load(const test::Scene& scene) {
+  LightField field;
+  for (int view = 0; view < scene.views(); ++view) {
+    double u = 0, v = 0;
+    sf_view_position(view, &u, &v);
+    Picture picture(scene.width, scene.height);
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) {
+        const uint8_t* rgb = scene.Pixel(view, x, y);
+        picture.colours[picture.At(x, y)] = {double(rgb[0]), double(rgb[1]), double(rgb[2])};
+        picture.disparities[picture.At(x, y)] = RoundedTo64(scene.Disparity(x, y));
+      }
+    }
+    field.emplace(std::make_pair(int(2 * u), int(2 * v)), std::move(picture));
+  }
+  return field;
+}
+
+Lens MakeLens(const sf_params& params, double theta, int n, int layer, bool cells = false) {
+  Lens lens;
+  lens.n = n;
+  lens.most = n * n;
+  lens.radius = params.aperture;
+  lens.theta = theta;
+  lens.focus = RoundedTo64(params.focus);
+  double extent = 1;
+  if (cells) {
+    // Views up to 5/32 of a cell beyond the rim.
+    lens.cells = n == 1 ? 1 : n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
+    const double farthest = lens.cells + 5 / 32.0;
+    lens.n = int(farthest);
+    lens.most = int(farthest * farthest);
+    extent = lens.n / lens.cells;
+  }
+  const auto step = int64_t(params.aperture * extent * (1 << 24));
+  lens.step = std::max<int64_t>(1, Rounded(2 * step, 1 + layer));
+  lens.layer = layer;
+  return lens;
+}
+
+// --- Layers ---
+
+// Taps at 0, +-1 and +-3 of sinc(n / 2) under a Kaiser window.
+struct Taps {
+  double centre, near, far;
+
+  explicit Taps(double beta) {
+    const auto kaiser = [&](int n) {
+      return std::cyl_bessel_i(0.0, beta * std::sqrt(1 - n * n / 9.0)) /
+             std::cyl_bessel_i(0.0, beta);
+    };
+    const double pi = 3.14159265358979323846;
+    centre = 1;
+    near = std::sin(pi / 2) / (pi / 2) * kaiser(1);
+    far = std::sin(3 * pi / 2) / (3 * pi / 2) * kaiser(3);
+  }
+};
+
+Colour Clamped(Colour colour) {
+  for (double& value : colour) value = std::clamp(value, 0.0, 255.0);
+  return colour;
+}
+
+Colour Sum(const Colour& a, double wa, const Colour& b, double wb) {
+  return {wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2]};
+}
+
+// One more pixel than inside, edges repeated; disparities are those of every second pixel.
+Picture Down(const Picture& from) {
+  const Taps taps(1.28);
+  const double unit = 1 / (taps.centre + 2 * (taps.near + taps.far));
+  const auto filtered = [&](const auto& at) {
+    Colour sum = Sum(at(0), unit * taps.centre, at(0), 0);
+    for (const int side : {-1, 1}) {
+      sum = Sum(sum, 1, Sum(at(side), unit * taps.near, at(3 * side), unit * taps.far), 1);
+    }
+    return sum;
+  };
+  Picture half((from.width + 1) / 2 + 1, from.height);
+  for (int y = 0; y < half.height; ++y) {
+    for (int x = 0; x < half.width; ++x) {
+      half.colours[half.At(x, y)] = filtered([&](int k) {
+        return from.colours[from.At(std::clamp(2 * x + k, 0, from.width - 1), y)];
+      });
+    }
+  }
+  Picture to(half.width, (from.height + 1) / 2 + 1);
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      to.colours[to.At(x, y)] = Clamped(filtered([&](int k) {
+        return half.colours[half.At(x, std::clamp(2 * y + k, 0, from.height - 1))];
+      }));
+    }
+  }
+  return to;
+}
+
+// The centre view at layers 0, 1, 2, with the picture's disparities.
+std::vector<Picture> MakeLayers(const Picture& picture) {
+  std::vector<Picture> layers = {picture};
+  for (int layer = 1; layer <= 2; ++layer) {
+    layers.push_back(Down(layers.back()));
+    Picture& to = layers.back();
+    for (int y = 0; y < to.height; ++y) {
+      for (int x = 0; x < to.width; ++x) {
+        to.disparities[to.At(x, y)] = picture.disparities[picture.At(
+            std::min(x << layer, picture.width - 1), std::min(y << layer, picture.height - 1))];
+      }
+    }
+  }
+  return layers;
+}
+
+// Part of a layer, its pixel (0, 0) at (x, y) there.
+struct Part {
+  int x, y;
+  Picture picture;
+};
+
+// The part of twice the size at (x, y), width x height pixels, that `from` covers with a margin.
+Part Up(const Part& from, int x, int y, int width, int height) {
+  const Taps taps(2.17);
+  const double near = 0.5 * taps.near / (taps.near + taps.far), far = 0.5 - near;
+  const auto between = [&](const auto& at, int position) {
+    const int before = position >> 1;
+    if (position % 2 == 0) return at(before);
+    return Sum(Sum(at(before), near, at(before + 1), near), 1,
+               Sum(at(before - 1), far, at(before + 2), far), 1);
+  };
+  Part to = {x, y, Picture(width, height)};
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      to.picture.colours[to.picture.At(column, row)] = Clamped(between(
+          [&](int k) -> Colour {
+            return between(
+                [&](int l) -> Colour {
+                  return from.picture.colours[from.picture.At(k - from.x, l - from.y)];
+                },
+                y + row);
+          },
+          x + column));
+    }
+  }
+  return to;
+}
+
+// A block's rectangle of the picture from what was rendered at its layer.
+Picture Finished(const Block& block, const Picture& rendered) {
+  Part part = {block.rendered_x, block.rendered_y, rendered};
+  if (block.layer == 2) {
+    part = Up(part, (block.x >> 1) - 2, (block.y >> 1) - 2, (block.width + 1) / 2 + 4,
+              (block.height + 1) / 2 + 4);
+  }
+  if (block.layer > 0) part = Up(part, block.x, block.y, block.width, block.height);
+  return part.picture;
+}
+
+void Put(const Picture& from, int x0, int y0, int width, Result* result) {
+  for (int y = 0; y < from.height; ++y) {
+    for (int x = 0; x < from.width; ++x) {
+      std::copy_n(from.colours[from.At(x, y)].data(), 3,
+                  &result->rgb[3 * (size_t(y0 + y) * size_t(width) + size_t(x0 + x))]);
+    }
+  }
+}
+
+}  // namespace
+
+double ApertureDensity(double u, double v, double theta) {
+  const double cot2 = 1 / (std::tan(theta) * std::tan(theta));
+  const double denominator = u * u + v * v + cot2;
+  return cot2 * cot2 / (denominator * denominator);
+}
+
+int ViewsAlongRadius(double r_max, int mode) {
+  if (mode == SF_MODE_BENCHMARK) return 2 * int(std::ceil(r_max));
+  if (r_max < 4) return int(std::ceil(r_max));
+  return std::max(4, int(std::ceil(0.787 * r_max)));
+}
+
+Result Refocus(const test::Scene& scene, const sf_params& params, double theta, int block) {
+  const LightField field = Load(scene);
+  const double r_max = params.aperture * std::max(std::fabs(scene.disparity_min - params.focus),
+                                                  std::fabs(scene.disparity_max - params.focus));
+  const int n = ViewsAlongRadius(r_max, params.mode), border = int(std::ceil(r_max)) + 2;
+  const Lens lens = MakeLens(params, theta, n, 0);
+  Result result;
+  result.n = n;
+  result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
+  for (int j = -n; j <= n; ++j) {
+    for (int i = -n; i <= n; ++i) result.views += lens.Contains(i, j);
+  }
+  for (int y = 0; y < scene.height; y += block) {
+    for (int x = 0; x < scene.width; x += block) {
+      const Rectangle rectangle = {x,
+                                   y,
+                                   std::min(block, scene.width - x),
+                                   std::min(block, scene.height - y),
+                                   border,
+                                   border,
+                                   border,
+                                   border};
+      Put(RefocusRectangle(field, field.at({0, 0}), lens, rectangle), x, y, scene.width, &result);
+    }
+  }
+  return result;
+}
+
+namespace {
+
+// Every pixel of the cell, from what lies around it.
+Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& lens) {
+  const Picture& picture = field.at({0, 0});
+  int low = INT32_MAX, high = INT32_MIN;
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const int disparity = picture.disparities[picture.At(
+          std::min(cell.x + x, picture.width - 1), std::min(cell.y + y, picture.height - 1))];
+      low = std::min(low, disparity);
+      high = std::max(high, disparity);
+    }
+  }
+  const int distance = std::abs((low + high) / 2 - lens.focus);
+  const BlurKernel kernel =
+      MakeBlurKernel(NearestRadius(int(std::floor(lens.radius * distance))), lens.theta);
+  const Rectangle rectangle = {cell.x,      cell.y,      cell.width,  cell.height,
+                               kernel.size, kernel.size, kernel.size, kernel.size};
+  Picture extended = ExtendedRectangle(picture, rectangle);
+  LookBeyond(field, picture, 0, rectangle, &extended);
+  Picture to(cell.width, cell.height);
+  for (int y = 0; y < cell.height; ++y) {
+    for (int x = 0; x < cell.width; ++x) {
+      Colour& sum = to.colours[to.At(x, y)];
+      for (int m = -kernel.size; m <= kernel.size; ++m) {
+        for (int n = -kernel.size; n <= kernel.size; ++n) {
+          const Colour& from =
+              extended.colours[extended.At(x + n + kernel.size, y + m + kernel.size)];
+          for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * from[c];
+        }
+      }
+    }
+  }
+  return to;
+}
+
+}  // namespace
+
+std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,
+                                  const starfocus::SliceLimits* limits,
+                                  const std::vector<Block>& blocks) {
+  const LightField field = Load(scene);
+  const std::vector<Picture> layers = MakeLayers(field.at({0, 0}));
+  const bool benchmark = params.mode == SF_MODE_BENCHMARK;
+  const Slicing slicing = {limits, size_t(benchmark ? 32 : 16), benchmark ? 0.125 : 0.375};
+  Result result;
+  result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
+  for (const Block& block : blocks) {
+    const bool by_cells = limits != nullptr && block.n > 0;
+    const Lens lens = MakeLens(params, theta, block.n, block.layer, by_cells);
+    const Rectangle rectangle = {
+        block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
+        block.right,      block.top,        block.bottom};
+    if (rectangle.width > 0) {
+      const Picture& layer = layers[size_t(block.layer)];
+      const Picture rendered = by_cells ? RefocusStack(field, layer, lens, rectangle, slicing)
+                                        : RefocusRectangle(field, layer, lens, rectangle);
+      Put(Finished(block, rendered), block.layer == 0 ? rectangle.x : block.x,
+          block.layer == 0 ? rectangle.y : block.y, scene.width, &result);
+    }
+    for (const GatheredCell& cell : block.gathered) {
+      Put(Gather(field, cell, lens), cell.x, cell.y, scene.width, &result);
+    }
+  }
+  return result.rgb;
+}
+
+}  // namespace reference

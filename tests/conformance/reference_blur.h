@@ -1,0 +1,73 @@
+// The reference's ideal kernel (4) over pixels, for the blur mode and for what block mode gathers.
+#ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
+#define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace reference {
+
+inline constexpr int kOne = 64;  // of disparities and radii
+
+// The nearest radius, in 1 / kOne pixels, of the ladder that blur.h describes: steps of 1/8 pixel
+// up to 4 pixels, of 1/32 of each octave's beginning beyond.
+inline double NearestRadius(int radius) {
+  double unit = kOne / 8.0;
+  for (double octave = 4 * kOne; radius >= octave; octave *= 2) unit = octave / 32;
+  return std::floor(radius / unit + 0.5) * unit / kOne;
+}
+
+// Integral of (3) over [x0, x1] x [y0, y1] of the unit disc's plane, by lines of y and the midpoint
+// rule along them, which ends on the disc's rim exactly.
+inline double Integral(double x0, double x1, double y0, double y1, double cot_square) {
+  constexpr int kLines = 96, kPoints = 24;
+  double sum = 0;
+  for (int line = 0; line < kLines; ++line) {
+    const double y = y0 + (line + 0.5) / kLines * (y1 - y0);
+    if (std::abs(y) >= 1) continue;
+    const double rim = std::sqrt(1 - y * y), from = std::max(x0, -rim), to = std::min(x1, rim);
+    if (from >= to) continue;
+    for (int point = 0; point < kPoints; ++point) {
+      const double x = from + (point + 0.5) / kPoints * (to - from);
+      const double ratio = cot_square / (x * x + y * y + cot_square);
+      sum += ratio * ratio * (to - from) / kPoints;
+    }
+  }
+  return sum * (y1 - y0) / kLines;
+}
+
+// (4), summing to 1.
+struct BlurKernel {
+  int size = 0;
+  std::vector<double> weights;  // (2 size + 1)^2
+  double At(int n, int m) const {
+    return weights[size_t(m + size) * size_t(2 * size + 1) + size_t(n + size)];
+  }
+};
+
+inline BlurKernel MakeBlurKernel(double r, double theta) {
+  BlurKernel kernel;
+  if (r == 0) {
+    kernel.weights = {1};
+    return kernel;
+  }
+  const double cot_square = 1 / (std::tan(theta) * std::tan(theta));
+  kernel.size = int(std::ceil(r + 0.5));
+  double sum = 0;
+  for (int m = -kernel.size; m <= kernel.size; ++m) {
+    for (int n = -kernel.size; n <= kernel.size; ++n) {
+      const double weight =
+          Integral((n - 0.5) / r, (n + 0.5) / r, (m - 0.5) / r, (m + 0.5) / r, cot_square);
+      kernel.weights.push_back(weight);
+      sum += weight;
+    }
+  }
+  for (double& weight : kernel.weights) weight /= sum;
+  return kernel;
+}
+
+}  // namespace reference
+
+#endif  // STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_

@@ -1,0 +1,177 @@
+#include "tests/conformance/reference_field.h"
+
+namespace reference {
+namespace {
+
+// Interpolated linearly; beyond the picture its edge goes on.
+Colour ReadPicture(const LightField& field, int u2, int v2, double x, double y) {
+  const Picture& picture = field.at({u2, v2});
+  const int left = int(std::floor(x)), top = int(std::floor(y));
+  Colour colour = {0, 0, 0};
+  for (int row = top; row <= top + 1; ++row) {
+    for (int column = left; column <= left + 1; ++column) {
+      const double weight = (1 - std::fabs(x - column)) * (1 - std::fabs(y - row));
+      const Colour& pixel = picture.colours[picture.At(std::clamp(column, 0, picture.width - 1),
+                                                       std::clamp(row, 0, picture.height - 1))];
+      for (size_t c = 0; c < 3; ++c) colour[c] += weight * pixel[c];
+    }
+  }
+  return colour;
+}
+
+// Where `mixed` lies from `far` to `near`; 0 when they are too similar, it is too far away from the
+// line between them, or beyond 4/5 of the way.
+double ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
+  double along = 0, contrast = 0, distance = 0;
+  for (size_t c = 0; c < 3; ++c) {
+    along += (mixed[c] - far[c]) * (near[c] - far[c]);
+    contrast += (near[c] - far[c]) * (near[c] - far[c]);
+    distance += (mixed[c] - far[c]) * (mixed[c] - far[c]);
+  }
+  if (contrast < 64 || along <= 0 || 5 * along > 4 * contrast) return 0;
+  const double beside = distance * contrast - along * along;
+  return 16 * beside > contrast * (432 + contrast) ? 0 : along / contrast;
+}
+
+// From 0 to 1 as the near surface's blur exceeds the far one's by a pixel, and back to 0 as the
+// latter goes from 2 to 3.
+double Strength(const Lens& lens, int near, int far) {
+  const double r_near = std::abs(lens.Shift(lens.n, near)) / 256.0;
+  const double r_far = std::abs(lens.Shift(lens.n, far)) / 256.0;
+  return std::min({1.0, r_near - r_far, 3 - r_far});
+}
+
+}  // namespace
+
+Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step) {
+  const Picture& picture = field.at({0, 0});
+  const auto at = [&](int k) {
+    return picture.At(std::clamp(x + k * side.x, 0, picture.width - 1),
+                      std::clamp(y + k * side.y, 0, picture.height - 1));
+  };
+  const int disparity = picture.disparities[at(0)], near = picture.disparities[at(1)];
+  const Colour& mixed = picture.colours[at(0)];
+  const double distance = field.size() == 17 ? 0.5 : 1;
+  Mixed result;
+  result.far = ReadPicture(field, int(-side.x * 2 * distance), int(-side.y * 2 * distance),
+                           x + side.x * distance * disparity / 64.0,
+                           y + side.y * distance * disparity / 64.0);
+  // Whole levels, as captured colours are; halves towards the pixel.
+  for (size_t c = 0; c < 3; ++c) {
+    double& far = result.far[c];
+    far = mixed[c] > far ? std::floor(far + 0.5) : std::ceil(far - 0.5);
+  }
+  result.near = picture.colours[at(std::abs(picture.disparities[at(2)] - near) <= step ? 2 : 1)];
+  result.share = ShareOf(result.near, result.far, mixed);
+  return result;
+}
+
+void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre) {
+  if (lens.n == 0 || lens.layer != 0 || field.size() == 1) return;
+  const Picture before = *centre;
+  for (int y = 1; y + 1 < centre->height; ++y) {
+    for (int x = 1; x + 1 < centre->width; ++x) {
+      const Colour& mixed = before.colours[centre->At(x, y)];
+      const int disparity = centre->disparities[centre->At(x, y)];
+      if (!field.at({0, 0}).Inside(rect.x - rect.left + x, rect.y - rect.top + y)) continue;
+      Colour sum = {0, 0, 0};
+      double shares = 0;
+      for (const Direction& side : kDirections) {
+        const int near = centre->disparities[centre->At(x + side.x, y + side.y)];
+        if (near - disparity <= kSurfaceStep) continue;
+        const double strength = Strength(lens, near, disparity);
+        if (strength <= 0) continue;
+        const Mixed mixture =
+            MixtureAt(field, rect.x - rect.left + x, rect.y - rect.top + y, side, kSurfaceStep);
+        const double weight = mixture.share * std::min(1.0, 2 * mixture.share) * strength;
+        for (size_t c = 0; c < 3; ++c) sum[c] += weight * (mixture.far[c] - mixed[c]);
+        shares += mixture.share;
+      }
+      if (shares == 0) continue;
+      for (size_t c = 0; c < 3; ++c) {
+        centre->colours[centre->At(x, y)][c] = mixed[c] + sum[c] / shares;
+      }
+    }
+  }
+}
+
+// Interpolated at layer 0; at others the picture's pixel nearest to (x, y), weighed with those
+// around it by 1 2 1 or 1 2 3 4 3 2 1 along either axis.
+Colour Read(const LightField& field, int layer, int u2, int v2, double x, double y) {
+  if (layer == 0) return ReadPicture(field, u2, v2, x, y);
+  const auto nearest = [&](double at) { return int(Rounded(std::lround(at * 256), 8 - layer)); };
+  const int reach = (1 << layer) - 1, column = nearest(x), row = nearest(y);
+  Colour colour = {0, 0, 0};
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const double weight = double((1 << layer) - std::abs(dx)) * ((1 << layer) - std::abs(dy));
+      const Colour pixel = ReadPicture(field, u2, v2, column + dx, row + dy);
+      for (size_t c = 0; c < 3; ++c) colour[c] += weight / (1 << 4 * layer) * pixel[c];
+    }
+  }
+  return colour;
+}
+
+Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
+  const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
+  Picture centre(rect.left + rect.width + rect.right, rect.top + rect.height + rect.bottom);
+  for (int y = 0; y < centre.height; ++y) {
+    for (int x = 0; x < centre.width; ++x) {
+      const size_t from =
+          layer.At(std::clamp(x0 + x, 0, layer.width - 1), std::clamp(y0 + y, 0, layer.height - 1));
+      centre.colours[centre.At(x, y)] = layer.colours[from];
+      centre.disparities[centre.At(x, y)] = layer.disparities[from];
+    }
+  }
+  return centre;
+}
+
+namespace {
+
+// How many pixels beyond the edge at (x, y) of the layer the captured view shows, `disparity` being
+// the edge's: whole ones, none from the first on that lies under something nearer.
+int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction& out,
+               int disparity) {
+  const double unit = 64 << layer;
+  int seen = int(std::abs(disparity) / unit + 1.0 / 512);
+  if (disparity >= 0) return seen;
+  for (int m = 0; m < 32 >> layer; ++m) {
+    const int column = (x - m * out.x) * (1 << layer), row = (y - m * out.y) * (1 << layer);
+    if (!picture.Inside(column, row)) break;
+    const double nearer = (picture.disparities[picture.At(column, row)] - disparity) / unit;
+    if (nearer <= 0.5 || nearer <= m) continue;
+    for (int k = 1; k <= seen; ++k) {
+      if (std::fabs(nearer - m - k) < 0.75) seen = k - 1;
+    }
+  }
+  return seen;
+}
+
+}  // namespace
+
+void LookBeyond(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
+                Picture* extended) {
+  if (field.size() == 1) return;
+  const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
+  const int right = ((picture.width - 1) >> layer), bottom = ((picture.height - 1) >> layer);
+  for (int row = 0; row < extended->height; ++row) {
+    for (int column = 0; column < extended->width; ++column) {
+      const int x = x0 + column, y = y0 + row;
+      const Direction out = {(x > right) - (x < 0), (y > bottom) - (y < 0)};
+      if ((out.x == 0) == (out.y == 0)) continue;  // inside, or beyond a corner
+      const int edge_x = std::clamp(x, 0, right), edge_y = std::clamp(y, 0, bottom);
+      const int disparity =
+          picture.disparities[picture.At(edge_x * (1 << layer), edge_y * (1 << layer))];
+      const int seen = SeenBeyond(picture, layer, edge_x, edge_y, out, disparity);
+      const int k = std::min(seen, std::abs(x - edge_x) + std::abs(y - edge_y));
+      if (seen == 0) continue;
+      const double moved = std::abs(double(Rounded(int64_t{8} * disparity, 1 + layer)) / 256);
+      const int sign = disparity < 0 ? -2 : 2;
+      extended->colours[extended->At(column, row)] =
+          Read(field, layer, sign * out.x, sign * out.y, edge_x + out.x * (k - moved),
+               edge_y + out.y * (k - moved));
+    }
+  }
+}
+
+}  // namespace reference

@@ -1,0 +1,48 @@
+// The reference's extended rectangle, and colours of captured views.
+#ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FIELD_H_
+#define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FIELD_H_
+
+#include "tests/conformance/reference_line.h"
+
+namespace reference {
+
+// A rectangle of a layer and the border it is rendered from, in the layer's pixels.
+struct Rectangle {
+  int x, y, width, height;
+  int left, right, top, bottom;
+};
+
+struct Direction {
+  int x, y;
+};
+constexpr Direction kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+
+// A rectangle with its border, from the centre view at some layer, whose edge goes on beyond it.
+Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect);
+
+// Where the layer's edge goes on beyond the picture: the surface at the edge of `picture` (at layer
+// 0) goes on, and the captured view that looks out there shows as much of it as the surface moves
+// from unit to unit, up to what a nearer pixel of the 32 inside covers.
+void LookBeyond(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
+                Picture* extended);
+
+// What a pixel (x, y) of the centre view is a mixture of that lies beside a depth edge, a step of
+// more than `step` (1/64) up to the side: how much of it shows the near surface (0: it is no
+// mixture), and the colours of both. The far one is what the captured view that looks behind the
+// near surface shows of the pixel.
+struct Mixed {
+  double share;
+  Colour near, far;
+};
+Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step);
+
+// At layer 0: in the rectangle's sharp pixels beside a more defocused surface that surface's part
+// gives way to the far colour. The outermost pixels reach nothing.
+void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre);
+
+// The colour at (x, y) of the layer in the captured view at (u2, v2), in halves of a unit.
+Colour Read(const LightField& field, int layer, int u2, int v2, double x, double y);
+
+}  // namespace reference
+
+#endif  // STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FIELD_H_

@@ -1,0 +1,322 @@
+#include "tests/conformance/reference_stack.h"
+
+#include <set>
+
+#include "lib/slices/depth_slices.h"
+#include "lib/slices/slice_plane.h"
+#include "tests/conformance/reference_surfaces.h"
+
+namespace reference {
+namespace {
+
+// --- Slices: ranges of disparity. ---
+
+struct Range {
+  int low, high;
+  int overlap;  // a little nearer than high: a part of the next slice too
+
+  int Disparity() const { return low + (high - low) / 2; }  // as which the slice moves
+};
+
+class RangeFinder {
+ public:
+  RangeFinder(const SurfaceMap& map, const Lens& lens, const Rectangle& rect,
+              const Slicing& slicing)
+      : lens_(lens), rect_(rect), slicing_(slicing) {
+    int high = INT32_MIN;
+    low_ = INT32_MAX;
+    for (const auto& surfaces : map.pixels) {
+      for (const Surface& surface : surfaces) {
+        low_ = std::min(low_, surface.disparity);
+        high = std::max(high, surface.disparity);
+      }
+    }
+    while ((high - low_) / bin_ >= starfocus::kSliceBins) bin_ *= 2;
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) {
+        for (const Surface& surface : map.At(x, y)) {
+          if (Reaches(surface.disparity, x, y)) occupied_.insert((surface.disparity - low_) / bin_);
+        }
+      }
+    }
+  }
+
+  // From near to far, the finest that are few and small enough.
+  std::vector<Range> Find() const {
+    for (int64_t coarser = 1;; coarser *= 2) {
+      const std::vector<Range> ranges = Cut(coarser);
+      if (ranges.size() <= slicing_.most && Fit(ranges)) return ranges;
+    }
+  }
+
+ private:
+  static constexpr int64_t kMost = 1 << 20;  // no disparity is larger
+  static constexpr int kUnitBits = 24 + 6;   // of a disparity times a step
+
+  // Whether a pixel of the extended rectangle is blurred into the rectangle.
+  bool Reaches(int disparity, int x, int y) const {
+    const int right = rect_.left + rect_.width - 1, bottom = rect_.top + rect_.height - 1;
+    const int away = std::max({rect_.left - x, x - right, rect_.top - y, y - bottom, 1}) - 1;
+    const int64_t least = (int64_t{away} << kUnitBits) / lens_.step;
+    return std::abs(disparity - lens_.focus) >= std::min(kMost, least);
+  }
+
+  // How many bins a slice may span whose nearest one is `bin`.
+  int64_t Span(int bin, int64_t coarser) const {
+    constexpr int64_t kSharp = 4 * 256;  // a blur of 4 pixels
+    const auto range = int64_t(256 * slicing_.range);
+    const int64_t whole = std::min(kMost, (range << (kUnitBits - 8)) / lens_.step);
+    const auto rim = Rounded(lens_.step * (low_ + bin * bin_ - lens_.focus), kUnitBits - 8);
+    const int64_t wider = std::max(kSharp, std::abs(rim) - kSharp);
+    return std::min(kMost, wider * whole / kSharp / bin_ * coarser);
+  }
+
+  std::vector<Range> Cut(int64_t coarser) const {
+    std::vector<Range> ranges;
+    for (auto nearest = occupied_.rbegin(); nearest != occupied_.rend();) {
+      const int64_t span = Span(*nearest, coarser);
+      auto next = nearest, farthest = nearest;
+      for (; next != occupied_.rend() && *next > *nearest - span; ++next) farthest = next;
+      const int low = low_ + *farthest * bin_;
+      const int high = std::min(low_ + (*nearest + 1) * bin_ - 1, int{INT16_MAX});
+      const int64_t overlap = std::min<int64_t>(high + span * bin_ / 10, INT16_MAX);
+      ranges.push_back({low, high, int(overlap)});
+      nearest = next;
+    }
+    return ranges;
+  }
+
+  bool Fit(const std::vector<Range>& ranges) const {
+    starfocus::SliceLimits all = {};
+    for (const Range& range : ranges) {
+      const int rim = std::abs(lens_.Shift(lens_.n, range.Disparity()));
+      const int cell = std::abs(lens_.Shift(1, range.Disparity()));
+      const auto reach = size_t(starfocus::SliceReach(rim, cell)), height = size_t(rect_.height);
+      all.samples += starfocus::SliceSize(size_t(rect_.width), height, reach);
+      all.rows += starfocus::ShiftedRows(height, reach);
+      all.bytes += starfocus::SliceBytes(16, 8, reach) + starfocus::TileBytes(8, reach);
+    }
+    const starfocus::SliceLimits& limits = *slicing_.limits;
+    return all.samples <= limits.samples && all.rows <= limits.rows && all.bytes <= limits.bytes;
+  }
+
+  const Lens& lens_;
+  const Rectangle& rect_;
+  const Slicing slicing_;
+  int low_ = 0;  // disparity of bin 0
+  int bin_ = 1;  // disparities of a bin
+  std::set<int> occupied_;
+};
+
+// --- A slice: its pixels, and where views show it. ---
+
+// Three colours times coverage, and the coverage.
+using Light = std::array<double, 4>;
+
+// Of a rectangle whose pixel (0, 0) is the refocused one's, reaching beyond it.
+struct Plane {
+  int left, top, width, height;  // left, top: pixels beyond the rectangle
+  std::vector<Light> pixels;
+
+  Plane(int l, int t, int w, int h)
+      : left(l), top(t), width(w), height(h), pixels(size_t(w) * size_t(h), Light{}) {}
+
+  bool Inside(int x, int y) const {
+    return x >= -left && x < width - left && y >= -top && y < height - top;
+  }
+  Light& At(int x, int y) { return pixels[size_t(y + top) * size_t(width) + size_t(x + left)]; }
+  const Light& At(int x, int y) const {
+    return pixels[size_t(y + top) * size_t(width) + size_t(x + left)];
+  }
+};
+
+// A wider cell of the aperture, in pixels, is spread before its slice is moved.
+constexpr double kWidestBox = 3;
+
+// Spread by a box along x or y. What lies beyond the plane is empty: no view shows what it changes.
+Plane Spread(const Plane& from, double box, int dx, int dy) {
+  Plane to = from;
+  const int reach = int(std::ceil((box - 1) / 2));
+  for (int y = -from.top; y < from.height - from.top; ++y) {
+    for (int x = -from.left; x < from.width - from.left; ++x) {
+      Light sum = {};
+      for (int k = -reach; k <= reach; ++k) {
+        if (!from.Inside(x + k * dx, y + k * dy)) continue;
+        const double covered = std::min(box / 2, k + 0.5) - std::max(-box / 2, k - 0.5);
+        const Light& light = from.At(x + k * dx, y + k * dy);
+        for (size_t c = 0; c < 4; ++c) sum[c] += covered / box * light[c];
+      }
+      to.At(x, y) = sum;
+    }
+  }
+  return to;
+}
+
+Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
+                const Rectangle& rect) {
+  // More than any view shows.
+  const int reach = std::abs(lens.Shift(lens.n, range.Disparity())) / 256 + 6;
+  Plane plane(reach, reach, rect.width + 2 * reach, rect.height + 2 * reach);
+  for (int y = -reach; y < rect.height + reach; ++y) {
+    for (int x = -reach; x < rect.width + reach; ++x) {
+      for (const Surface& surface : map.At(x + rect.left, y + rect.top)) {
+        // In two slices the end of a surface would cover twice as much.
+        const int high = surface.share < 1 || surface.ends ? range.high : range.overlap;
+        if (surface.disparity < range.low || surface.disparity > high) continue;
+        Light& light = plane.At(x, y);
+        const double part = (1 - light[3]) * surface.share;
+        for (size_t c = 0; c < 3; ++c) light[c] += part * surface.colour[c];
+        light[3] += part;
+      }
+    }
+  }
+  const double cell = std::abs(lens.Shift(1, range.Disparity())) / 256.0;
+  const double box = std::min(cell, 2.0 * starfocus::simd::kMaxSpread + 1);
+  return box > kWidestBox ? Spread(Spread(plane, box, 1, 0), box, 0, 1) : plane;
+}
+
+// What a view sees of pixels one after the other, from `first` on.
+struct Offset {
+  int first;
+  std::vector<double> parts;
+  double inside;  // of the second of two pixels that are covered alike, instead of parts[1]
+
+  template <class At>
+  Light See(const At& at) const {
+    Light seen = {};
+    for (size_t k = 0; k < parts.size(); ++k) {
+      const Light light = at(first + int(k));
+      for (size_t c = 0; c < 4; ++c) seen[c] += parts[k] * light[c];
+    }
+    if (parts.size() != 2) return seen;
+    const Light from = at(first), to = at(first + 1);
+    if (std::abs(from[3] - to[3]) >= 1e-9) return seen;
+    for (size_t c = 0; c < 4; ++c) seen[c] = from[c] + inside * (to[c] - from[c]);
+    return seen;
+  }
+};
+
+// Of view k along an axis. An aperture's cell of one to three pixels covers what it does of pixels;
+// a narrower one less of the pixels on either side of it than interpolation.
+Offset OffsetOf(const Lens& lens, int k, int disparity) {
+  const int shift = (k < 0 ? -1 : 1) * (k == 0 ? 0 : lens.Shift(std::abs(k), disparity));
+  const double moved = shift / 256.0;
+  const double cell = std::max(1, std::abs(lens.Shift(1, disparity))) / 256.0;
+  if (cell > 1 && cell <= kWidestBox) {
+    const double left = moved - cell / 2 + 0.5, right = moved + cell / 2 + 0.5;
+    Offset box = {int(std::floor(left)), {}, 0};
+    for (int x = box.first; x < right; ++x) {
+      box.parts.push_back((std::min(right, x + 1.0) - std::max(left, double(x))) / cell);
+    }
+    if (box.parts.size() == 2) box.inside = box.parts[1];
+    return box;
+  }
+  const double whole = std::floor(moved), edge = moved - whole;
+  if (edge == 0) return {int(whole), {1}, 0};
+  const double inside = cell >= 1 ? edge : std::clamp((edge - 0.5) / cell + 0.5, 0.0, 1.0);
+  return {int(whole), {1 - edge, edge}, inside};
+}
+
+// As views of one column show a plane: moved along x, over the rectangle's columns.
+Plane MovedAlongX(const Plane& from, const Offset& offset, int width) {
+  Plane to(0, from.top, width, from.height);
+  for (int y = -from.top; y < from.height - from.top; ++y) {
+    for (int x = 0; x < width; ++x) {
+      to.At(x, y) = offset.See([&](int k) { return from.At(x + k, y); });
+    }
+  }
+  return to;
+}
+
+// --- Views: slices in front of each other. ---
+
+// What a slice that covers more than what is left of the light gives of itself: the part that is
+// left, light / covered, as the first terms of a series in what the slice leaves open.
+double ShareOf(double covered, double light) {
+  const double open = 1 - covered;
+  return std::min(4 * light, 1 - (covered - light) * (1 + open + open * open));
+}
+
+class Stack {
+ public:
+  Stack(const SurfaceMap& map, const std::vector<Range>& ranges, const Lens& lens,
+        const Rectangle& rect)
+      : ranges_(ranges), lens_(lens), rect_(rect), sum_(0, 0, rect.width, rect.height) {
+    for (const Range& range : ranges) planes_.push_back(MakePlane(map, range, lens, rect));
+  }
+
+  // The weighted sum of all views.
+  const Plane& AddViews() {
+    for (int i = -lens_.n; i <= lens_.n; ++i) {
+      std::vector<Plane> column;
+      for (size_t k = 0; k < planes_.size(); ++k) {
+        column.push_back(
+            MovedAlongX(planes_[k], OffsetOf(lens_, i, ranges_[k].Disparity()), rect_.width));
+      }
+      for (int j = -lens_.n; j <= lens_.n; ++j) {
+        if (lens_.Contains(i, j)) AddView(column, j, lens_.Density(i, j));
+      }
+    }
+    return sum_;
+  }
+
+ private:
+  void AddView(const std::vector<Plane>& column, int j, double weight) {
+    std::vector<Offset> offsets;
+    for (const Range& range : ranges_) offsets.push_back(OffsetOf(lens_, j, range.Disparity()));
+    for (int y = 0; y < rect_.height; ++y) {
+      for (int x = 0; x < rect_.width; ++x) {
+        double light = 1;
+        for (size_t k = 0; k < column.size() && light > 0; ++k) {
+          const auto at = [&](int row) { return column[k].At(x, y + row); };
+          Take(offsets[k].See(at), weight, &light, &sum_.At(x, y));
+        }
+      }
+    }
+  }
+
+  // A slice takes of the light what it covers, the last one what is left.
+  static void Take(const Light& slice, double weight, double* light, Light* sum) {
+    const double covered = slice[3];
+    if (covered > *light) weight *= ShareOf(covered, *light);
+    for (size_t c = 0; c < 4; ++c) (*sum)[c] += weight * slice[c];
+    *light = std::max(0.0, *light - covered);
+  }
+
+  const std::vector<Range>& ranges_;
+  const Lens& lens_;
+  const Rectangle& rect_;
+  std::vector<Plane> planes_;
+  Plane sum_;
+};
+
+}  // namespace
+
+Picture RefocusStack(const LightField& field, const Picture& centre, const Lens& lens,
+                     const Rectangle& rectangle, const Slicing& slicing) {
+  Picture extended = ExtendedRectangle(centre, rectangle);
+  LookBeyond(field, field.at({0, 0}), lens.layer, rectangle, &extended);
+  const SurfaceMap map = FindSurfaces(field, extended, lens, rectangle.x - rectangle.left,
+                                      rectangle.y - rectangle.top);
+  const std::vector<Range> ranges = RangeFinder(map, lens, rectangle, slicing).Find();
+  Stack stack(map, ranges, lens, rectangle);
+  const Plane& sum = stack.AddViews();
+  double total = 0;
+  for (int j = -lens.n; j <= lens.n; ++j) {
+    for (int i = -lens.n; i <= lens.n; ++i) total += lens.Contains(i, j) ? lens.Density(i, j) : 0;
+  }
+  Picture picture(rectangle.width, rectangle.height);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      // Where slices cover less than a quarter of all light, the pixel is that of the centre view.
+      const Light& light = sum.At(x, y);
+      Colour& colour = picture.colours[picture.At(x, y)];
+      colour = extended.colours[extended.At(x + rectangle.left, y + rectangle.top)];
+      if (4 * light[3] < total) continue;
+      for (size_t c = 0; c < 3; ++c) colour[c] = std::min(255.0, light[c] / light[3]);
+    }
+  }
+  return picture;
+}
+
+}  // namespace reference

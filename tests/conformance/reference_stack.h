@@ -1,0 +1,27 @@
+// The reference's rectangle by the rule of cells: one block as a stack of slices, which each view
+// shows moved against each other.
+#ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
+#define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
+
+#include <cstddef>
+
+#include "lib/slices/depth_slices.h"
+#include "tests/conformance/reference_field.h"
+
+namespace reference {
+
+// What slices are cut by: what all together may take and their number, beyond which they get
+// coarser, and the pixels that they may lie apart at the rim where they are sharp.
+struct Slicing {
+  const starfocus::SliceLimits* limits;
+  size_t most;
+  double range;
+};
+
+// As RefocusRectangle.
+Picture RefocusStack(const LightField& field, const Picture& centre, const Lens& lens,
+                     const Rectangle& rectangle, const Slicing& slicing);
+
+}  // namespace reference
+
+#endif  // STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_

@@ -1,0 +1,195 @@
+#include "tests/conformance/reference_surfaces.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "simd/kernels.h"
+
+namespace reference {
+namespace {
+
+// What the far side of the depth edge in one direction shows behind a pixel.
+struct Background {
+  Direction towards;
+  int distance;  // in pixels
+  int disparity;
+  int captured;  // distance of the captured view that sees it, in halves of a unit; 0: none does
+
+  // Those that a captured view sees come first, and of them those nearest to the pixel.
+  bool SameRank(const Background& other) const {
+    return (captured == 0) == (other.captured == 0) && distance == other.distance;
+  }
+  bool Before(const Background& other) const {
+    if ((captured == 0) != (other.captured == 0)) return captured != 0;
+    if (distance != other.distance) return distance < other.distance;
+    return disparity > other.disparity;
+  }
+};
+
+class SurfaceFinder {
+ public:
+  // (x0, y0): of the extended rectangle in the layer.
+  SurfaceFinder(const LightField& field, const Picture& extended, const Lens& lens, int x0, int y0)
+      : field_(field),
+        extended_(extended),
+        lens_(lens),
+        x0_(x0),
+        y0_(y0),
+        unit_(64 << lens.layer) {}
+
+  SurfaceMap Find() const {
+    SurfaceMap map = {extended_.width, extended_.height, {}};
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) map.pixels.push_back(SurfacesOf(x, y));
+    }
+    return map;
+  }
+
+ private:
+  int Disparity(int x, int y) const { return extended_.disparities[extended_.At(x, y)]; }
+
+  // A step down by more than 3/4 of a pixel of the layer per pixel is a depth edge.
+  bool IsEdge(int near, int far) const { return near - far > unit_ * 3 / 4; }
+
+  std::vector<Surface> SurfacesOf(int x, int y) const {
+    std::vector<Surface> surfaces = {{Disparity(x, y), extended_.colours[extended_.At(x, y)]}};
+    for (const Direction& side : kDirections) {
+      if (!extended_.Inside(x + side.x, y + side.y)) continue;
+      surfaces[0].ends |= IsEdge(surfaces[0].disparity, Disparity(x + side.x, y + side.y));
+    }
+    AddHidden(x, y, &surfaces);
+    Part(x, y, &surfaces);
+    return surfaces;
+  }
+
+  // On the far side of a depth edge the pixel is parted into the near surface and the far one, by
+  // the mean over the edges beside it, where some view shows them moved against each other.
+  void Part(int x, int y, std::vector<Surface>* surfaces) const {
+    const bool outermost =
+        x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1;
+    if (lens_.layer != 0 || field_.size() == 1 || outermost) return;
+    if (!field_.at({0, 0}).Inside(x0_ + x, y0_ + y)) return;
+    Surface near = {INT16_MIN, {0, 0, 0}, 0}, far = {Disparity(x, y), {0, 0, 0}};
+    double shares = 0;
+    for (const Direction& side : kDirections) {
+      const int disparity = Disparity(x + side.x, y + side.y);
+      if (!IsEdge(disparity, far.disparity)) continue;
+      const int moved = lens_.Shift(lens_.n, disparity) - lens_.Shift(lens_.n, far.disparity);
+      if (std::abs(moved) <= 256) continue;
+      const Mixed mixed = MixtureAt(field_, x0_ + x, y0_ + y, side, unit_ * 3 / 4);
+      if (mixed.share == 0) continue;
+      for (size_t c = 0; c < 3; ++c) {
+        near.colour[c] += mixed.share * mixed.near[c];
+        far.colour[c] += mixed.share * mixed.far[c];
+      }
+      near.share = std::max(near.share, mixed.share);
+      near.disparity = std::max(near.disparity, disparity);
+      shares += mixed.share;
+    }
+    near.share = std::floor(near.share * 128 + 0.5) / 128;  // as the engine keeps it
+    if (near.share == 0) return;
+    for (size_t c = 0; c < 3; ++c) {
+      near.colour[c] /= shares;
+      far.colour[c] /= shares;
+    }
+    surfaces->front() = far;
+    surfaces->insert(surfaces->begin(), near);
+    if (surfaces->size() > starfocus::simd::kSurfaces) surfaces->pop_back();
+  }
+
+  // Behind the visible surface.
+  void AddHidden(int x, int y, std::vector<Surface>* hidden) const {
+    std::vector<Surface>& surfaces = *hidden;
+    std::vector<Background> backgrounds;
+    for (const Direction& towards : kDirections) LookBehind(x, y, towards, &backgrounds);
+    while (!backgrounds.empty() && surfaces.size() < starfocus::simd::kSurfaces) {
+      const Background best =
+          *std::min_element(backgrounds.begin(), backgrounds.end(),
+                            [](const Background& a, const Background& b) { return a.Before(b); });
+      surfaces.push_back({best.disparity, MeanColour(x, y, best, backgrounds)});
+      // Within a pixel of disparity it is the same surface.
+      const auto same = [&](const Background& other) {
+        return std::abs(other.disparity - best.disparity) <= unit_;
+      };
+      backgrounds.erase(std::remove_if(backgrounds.begin(), backgrounds.end(), same),
+                        backgrounds.end());
+    }
+  }
+
+  // The nearest depth edge in that direction counts, where the pixel hides the edge's far side from
+  // the centre view and a view at distance 1 can look that far behind it.
+  void LookBehind(int x, int y, const Direction& towards, std::vector<Background>* found) const {
+    const int here = Disparity(x, y);
+    for (int k = 0;; ++k) {
+      const int far_x = x + (k + 1) * towards.x, far_y = y + (k + 1) * towards.y;
+      if (!extended_.Inside(far_x, far_y)) return;
+      const int far = Disparity(far_x, far_y);
+      if (!IsEdge(Disparity(x + k * towards.x, y + k * towards.y), far)) continue;
+      if (!IsEdge(here, far) || k * unit_ > here - far) return;
+      Background background = {towards, k + 1, far, 0};
+      if (field_.size() > 1 && !IsCovered(x, y, background, 2)) {
+        background.captured = 2;
+      } else if (field_.size() == 17 && !IsCovered(x, y, background, 1)) {
+        background.captured = 1;
+      }
+      found->push_back(background);
+      return;
+    }
+  }
+
+  // Whether a nearer pixel, by more than half a pixel, comes to lie within 3/4 of a pixel of the
+  // pixel's background in the captured view at `halves` of a unit.
+  bool IsCovered(int x, int y, const Background& background, int halves) const {
+    const int unit = unit_ * 2 / halves;
+    int moved = 0;
+    for (; extended_.Inside(x, y); x += background.towards.x, y += background.towards.y) {
+      const int nearer = Disparity(x, y) - background.disparity;
+      if (2 * nearer > unit && 4 * std::abs(nearer - moved) < 3 * unit) return true;
+      moved += unit;
+    }
+    return false;
+  }
+
+  // The background's colour: the mean over all directions that tie.
+  Colour MeanColour(int x, int y, const Background& best,
+                    const std::vector<Background>& backgrounds) const {
+    Colour sum = {0, 0, 0};
+    int count = 0;
+    for (const Background& background : backgrounds) {
+      if (!background.SameRank(best) || background.disparity != best.disparity) continue;
+      const Colour colour = ColourOf(x, y, background);
+      for (size_t c = 0; c < 3; ++c) sum[c] += colour[c];
+      ++count;
+    }
+    for (double& value : sum) value /= count;
+    return sum;
+  }
+
+  Colour ColourOf(int x, int y, const Background& background) const {
+    const auto& [dx, dy] = background.towards;
+    if (background.captured == 0) {  // the far side goes on
+      return extended_
+          .colours[extended_.At(x + dx * background.distance, y + dy * background.distance)];
+    }
+    const double moved =
+        double(Rounded(int64_t{4} * background.disparity * background.captured, 1 + lens_.layer)) /
+        256;
+    return Read(field_, lens_.layer, dx * background.captured, dy * background.captured,
+                x0_ + x - dx * moved, y0_ + y - dy * moved);
+  }
+
+  const LightField& field_;
+  const Picture& extended_;
+  const Lens& lens_;
+  const int x0_, y0_;
+  const int unit_;  // disparity by which pixels move by one from unit to unit
+};
+
+}  // namespace
+
+SurfaceMap FindSurfaces(const LightField& field, const Picture& extended, const Lens& lens, int x0,
+                        int y0) {
+  return SurfaceFinder(field, extended, lens, x0, y0).Find();
+}
+
+}  // namespace reference

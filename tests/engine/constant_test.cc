@@ -1,0 +1,141 @@
+// A constant picture comes out unchanged, bit for bit: every filter has unit gain exactly.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+struct Trial {
+  int width = 1, height = 1, views = 17;
+  float low = 0, high = 0;
+  double focus = 0, aperture = 1;
+  sf_mode mode = SF_MODE_FRAME;
+  int block = 64;
+  bool noisy = false;
+  uint8_t color[3] = {0, 0, 0};
+  uint64_t seed = 1;
+};
+
+std::string Text(const Trial& t) {
+  return std::to_string(t.width) + "x" + std::to_string(t.height) + " views " +
+         std::to_string(t.views) + " disparity [" + std::to_string(t.low) + ", " +
+         std::to_string(t.high) + "] focus " + std::to_string(t.focus) + " aperture " +
+         std::to_string(t.aperture) + " mode " + std::to_string(t.mode) + " block " +
+         std::to_string(t.block) + (t.noisy ? " noisy" : "") + " seed " + std::to_string(t.seed);
+}
+
+// Refocuses a picture of one colour; the number of samples that changed, -1 on error.
+int Changed(const Trial& t) {
+  test::Random random(t.seed);
+  test::Scene scene = test::EmptyScene(t.width, t.height, t.views, t.low, t.high);
+  for (auto& picture : scene.pictures) {
+    for (size_t i = 0; i < picture.size(); ++i) picture[i] = t.color[i % 3];
+  }
+  if (t.noisy) {
+    test::NoisyDisparity(&scene, &random);
+  } else {
+    test::RandomDisparity(&scene, &random);
+  }
+  sf_config config = test::ConfigFor(scene, 64);
+  config.largest_block = t.block;
+  config.skips = 0;  // what is filled has passed no filter
+  test::Engine engine(config);
+  test::Output out(t.width, t.height);
+  const sf_status status =
+      engine.status() != SF_OK
+          ? engine.status()
+          : test::Refocus(&engine, test::Params(t.focus, t.aperture, t.mode), scene, &out);
+  if (status != SF_OK) {
+    MESSAGE(sf_status_string(status));
+    return -1;
+  }
+  int changed = 0;
+  for (size_t i = 0; i < out.bytes.size(); ++i) changed += out.bytes[i] != t.color[i % 3];
+  return changed;
+}
+
+TEST_CASE("constant: every level") {
+  Trial t;
+  t.width = 19;
+  t.height = 11;
+  t.low = -2;
+  t.high = 3;
+  for (int views : {1, 5, 9, 17}) {
+    t.views = views;
+    for (int level = 0; level < 256; level += (views == 17 ? 1 : 15)) {
+      std::fill(t.color, t.color + 3, static_cast<uint8_t>(level));
+      t.seed = static_cast<uint64_t>(level) + 1;
+      CHECK_MESSAGE(Changed(t) == 0, Text(t) << " level " << level);
+    }
+  }
+}
+
+TEST_CASE("constant: every N") {
+  Trial t;
+  t.width = 21;
+  t.height = 18;
+  t.color[0] = 255;
+  t.color[1] = 128;
+  t.color[2] = 1;
+  for (int views : {1, 5, 9, 17}) {
+    t.views = views;
+    for (int radius = 0; radius <= 24; ++radius) {
+      for (sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+        if (mode == SF_MODE_BENCHMARK && radius > 12) continue;
+        t.low = static_cast<float>(-radius);
+        t.high = static_cast<float>(radius) / 2;
+        t.mode = mode;
+        t.seed = static_cast<uint64_t>(radius) + 100;
+        CHECK_MESSAGE(Changed(t) == 0, Text(t));
+      }
+    }
+  }
+}
+
+TEST_CASE("constant: every small size") {
+  Trial t;
+  t.low = -3;
+  t.high = 4;
+  t.focus = 0.25;
+  for (int height : {1, 2, 3, 5, 8, 17}) {
+    for (int width : {1, 2, 3, 4, 7, 16, 31, 33}) {
+      for (int views : {1, 5, 9, 17}) {
+        t.width = width;
+        t.height = height;
+        t.views = views;
+        t.seed = static_cast<uint64_t>(width * 100 + height);
+        for (int c = 0; c < 3; ++c) t.color[c] = static_cast<uint8_t>(t.seed * (c + 7));
+        CHECK_MESSAGE(Changed(t) == 0, Text(t));
+      }
+    }
+  }
+}
+
+TEST_CASE("constant: random sizes, ranges, focuses, apertures and blocks") {
+  test::Random random(2024);
+  constexpr int kViews[] = {1, 5, 9, 17}, kBlocks[] = {32, 64, 128, 256};
+  for (int round = 0; round < 250; ++round) {
+    Trial t;
+    t.width = random.Int(1, 90);
+    t.height = random.Int(1, 70);
+    t.views = kViews[random.Int(0, 3)];
+    t.block = kBlocks[random.Int(0, 3)];
+    const double middle = random.Real(-20, 20), spread = random.Real(0, 6);
+    t.low = static_cast<float>(middle - spread);
+    t.high = static_cast<float>(middle + spread);
+    t.focus = middle + random.Real(-1, 1) * (random.Int(0, 3) ? 3 : 10);
+    t.aperture = random.Int(0, 2) ? random.Real(0.01, 1) : 1;
+    t.mode = random.Int(0, 3) ? SF_MODE_FRAME : SF_MODE_BENCHMARK;
+    t.noisy = random.Int(0, 1) == 1;
+    for (uint8_t& c : t.color) c = random.Byte();
+    t.seed = static_cast<uint64_t>(round) + 1000;
+    CHECK_MESSAGE(Changed(t) == 0, Text(t));
+  }
+}
+
+}  // namespace

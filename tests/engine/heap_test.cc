@@ -1,0 +1,258 @@
+// The engine never allocates: malloc and its relatives are interposed for this whole program and
+// counted while the engine works.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace {
+
+std::atomic<bool> armed{false};
+std::atomic<int> calls{0};
+
+void Count() {
+  if (armed.load(std::memory_order_relaxed)) calls.fetch_add(1, std::memory_order_relaxed);
+}
+
+// Counts heap calls while it lives.
+class HeapWatch {
+ public:
+  HeapWatch() {
+    calls = 0;
+    armed = true;
+  }
+  ~HeapWatch() { armed = false; }
+  int Stop() {
+    armed = false;
+    return calls;
+  }
+};
+
+}  // namespace
+
+extern "C" {
+
+void* __libc_malloc(size_t);
+void* __libc_calloc(size_t, size_t);
+void* __libc_realloc(void*, size_t);
+void* __libc_memalign(size_t, size_t);
+void __libc_free(void*);
+
+void* malloc(size_t size) noexcept {
+  Count();
+  return __libc_malloc(size);
+}
+void* calloc(size_t count, size_t size) noexcept {
+  Count();
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, size_t size) noexcept {
+  Count();
+  return __libc_realloc(memory, size);
+}
+void* memalign(size_t alignment, size_t size) noexcept {
+  Count();
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) noexcept {
+  Count();
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** memory, size_t alignment, size_t size) noexcept {
+  Count();
+  *memory = __libc_memalign(alignment, size);
+  return *memory ? 0 : ENOMEM;
+}
+void free(void* memory) noexcept {
+  Count();
+  __libc_free(memory);
+}
+
+}  // extern "C"
+
+// The other forms of new and delete end in these (C++17 [new.delete]).
+void* operator new(size_t size) {
+  Count();
+  if (void* memory = __libc_malloc(size ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(size_t size, std::align_val_t alignment) {
+  Count();
+  if (void* memory = __libc_memalign(static_cast<size_t>(alignment), size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  Count();
+  __libc_free(memory);
+}
+void operator delete(void* memory, size_t) noexcept {
+  Count();
+  __libc_free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  Count();
+  __libc_free(memory);
+}
+void operator delete(void* memory, size_t, std::align_val_t) noexcept {
+  Count();
+  __libc_free(memory);
+}
+
+namespace {
+
+TEST_CASE("the watch sees every kind of heap call") {
+  HeapWatch watch;
+  void* volatile memory = std::malloc(10);
+  memory = std::realloc(memory, 1000);
+  std::free(memory);
+  memory = std::calloc(3, 5);
+  std::free(memory);
+  int* volatile number = new int(3);
+  delete number;
+  void* volatile aligned = ::operator new(64, std::align_val_t(64), std::nothrow);
+  ::operator delete(aligned, std::align_val_t(64));
+  CHECK(watch.Stop() >= 9);
+}
+
+TEST_CASE("no heap call in size query, init, refocusing and streaming") {
+  for (int views : {17, 9, 5, 1}) {
+    for (sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR}) {
+      CAPTURE(views);
+      const test::Scene scene = test::RandomScene(70, 50, views, -3, 3, 5);
+      sf_config config = test::ConfigFor(scene, 16);
+      config.streaming = 1;
+      test::Engine holder(config);  // only its memory is used
+      REQUIRE(holder.status() == SF_OK);
+      const sf_params params = test::Params(1.25, 0.9, mode);
+      const sf_light_field field = scene.Field();
+      test::Output out(70, 50);
+      const sf_runner runner = [](void*, sf_job job, void* data, int32_t count) {
+        for (int32_t i = count - 1; i >= 0; --i) job(data, i, 0);
+        return 0;
+      };
+
+      HeapWatch watch;
+      size_t bytes = 0;
+      sf_engine* engine = nullptr;
+      sf_report report;
+      const sf_status sized = sf_workspace_size(&config, &bytes);
+      const sf_status made = sf_init(&config, holder.workspace(), bytes, &engine);
+      const sf_status refocused = sf_refocus(engine, &params, &field, out.bytes.data(), out.stride,
+                                             runner, nullptr, &report);
+      const sf_status streamed = test::Stream(&holder, params, scene, &out, 13, 7);
+      const sf_status refused =
+          sf_refocus(engine, &params, &field, nullptr, 0, nullptr, nullptr, nullptr);
+      sf_status_string(refused);
+      sf_simd_target();
+      const int counted = watch.Stop();
+
+      CHECK(sized == SF_OK);
+      CHECK(made == SF_OK);
+      CHECK(refocused == SF_OK);
+      CHECK(streamed == SF_OK);
+      CHECK(refused == SF_ERROR_NULL);
+      CHECK(counted == 0);
+    }
+  }
+}
+
+TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and clock") {
+  // In focus on the left, far out of focus on the right.
+  test::Scene scene = test::RandomScene(160, 96, 5, -1, 26, 8);
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      scene.Disparity(x, y) = x < 48 ? 0.0f : x < 80 ? 6.0f : 26.0f;
+    }
+  }
+  sf_config config = test::ConfigFor(scene, 28);
+  config.largest_block = 32;
+  config.streaming = 1;
+  config.gather = 0;            // all three layers
+  test::Engine holder(config);  // only its memory is used
+  REQUIRE(holder.status() == SF_OK);
+  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  params.clock = []() -> uint64_t { return 7; };
+  int told = 0;
+  params.on_block_data = &told;
+  params.on_block = [](void* data, const sf_block*) { ++*static_cast<int*>(data); };
+  const sf_light_field field = scene.Field();
+  test::Output out(scene.width, scene.height);
+
+  HeapWatch watch;
+  sf_engine* engine = nullptr;
+  sf_report report;
+  const sf_status made = sf_init(&config, holder.workspace(), holder.bytes(), &engine);
+  const sf_status refocused =
+      sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, nullptr, nullptr, &report);
+  const sf_status streamed = test::Stream(&holder, params, scene, &out, 13, 7);
+  const int counted = watch.Stop();
+
+  CHECK(made == SF_OK);
+  CHECK(refocused == SF_OK);
+  CHECK(streamed == SF_OK);
+  CHECK(counted == 0);
+  CHECK(told > 0);
+  for (const sf_layer_report& layer : report.layers) CHECK(layer.blocks > 0);
+}
+
+TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") {
+  const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
+  const sf_config config = test::ConfigFor(scene, 16);
+  test::Engine holder(config), memory(config);
+  size_t bytes = 0;
+  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+  REQUIRE(bytes <= memory.bytes());  // memory's is as good as any
+  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  params.region = {30, 20, 50, 50};
+  const sf_light_field field = scene.Field();
+  test::Output out(50, 50);
+
+  HeapWatch watch;
+  sf_prepared* prepared = nullptr;
+  const sf_status made = sf_prepare(holder.get(), &field, memory.workspace(), memory.bytes(),
+                                    nullptr, nullptr, &prepared);
+  const sf_status again = sf_refocus_prepared(holder.get(), &params, prepared, out.bytes.data(),
+                                              out.stride, nullptr, nullptr, nullptr);
+  const sf_status part = sf_refocus(holder.get(), &params, &field, out.bytes.data(), out.stride,
+                                    nullptr, nullptr, nullptr);
+  const int counted = watch.Stop();
+
+  CHECK(made == SF_OK);
+  CHECK(again == SF_OK);
+  CHECK(part == SF_OK);
+  CHECK(counted == 0);
+}
+
+TEST_CASE("no heap call in measuring and filling disparity maps") {
+  test::Scene scene = test::RandomScene(40, 30, 1, -3, 3, 6);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (int x = 0; x < 40; ++x) scene.Disparity(x, 11) = nan;
+  scene.Disparity(4, 4) = nan;
+  HeapWatch watch;
+  sf_disparity_stats stats;
+  const sf_status measured = sf_measure_disparity(scene.disparity.data(), 160, 40, 30, &stats);
+  const sf_status filled = sf_fill_disparity(scene.disparity.data(), 160, 40, 30);
+  CHECK(watch.Stop() == 0);
+  CHECK(measured == SF_OK);
+  CHECK(filled == SF_OK);
+  CHECK(stats.invalid == 41);
+}
+
+}  // namespace
+
+#else
+
+TEST_CASE("heap calls cannot be counted in this build") {
+  MESSAGE("SKIPPED: malloc cannot be interposed here (not glibc, or a sanitizer)");
+}
+
+#endif

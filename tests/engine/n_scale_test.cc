@@ -1,0 +1,122 @@
+// sf_config.n_scale through the public ABI: which N it makes, that the other modes do not ask for
+// it, and that it trades time for error.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lib/base/rules.h"
+#include "starfocus/starfocus.h"
+#include "tests/support/integer_scene.h"
+#include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using test::Refocused;
+
+constexpr double kScales[] = {0.5, 0.7, 1, 1.4, 2};
+
+Refocused Refocus(const test::Scene& scene, const sf_params& params, double n_scale,
+                  double max_blur = 32) {
+  sf_config config = test::ConfigFor(scene, max_blur);
+  config.n_scale = n_scale;
+  config.gather = 0;  // N is all that differs
+  return test::RefocusScene(scene, config, params);
+}
+
+test::Scene FlatScene(uint64_t seed) { return test::RandomScene(40, 36, 5, 0, 0, seed); }
+
+double Psnr(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum == 0 ? 99 : 10 * std::log10(255.0 * 255.0 * double(a.size()) / sum);
+}
+
+TEST_CASE("n_scale: multiplies the N of either rule in frame and block mode") {
+  const test::Scene scene = FlatScene(1);
+  for (const double radius : {0.0, 0.25, 0.9, 3.5, 9.0, 17.0, 25.0}) {
+    for (const double scale : kScales) {
+      for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_CELLS}) {
+        for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
+          sf_params params = test::Params(radius, 1, mode);
+          params.rule = rule;
+          sf_config config = test::ConfigFor(scene);
+          config.n_scale = scale;
+          config.max_layer = 0;
+          config.gather = 0;  // which takes no views at all
+          test::Engine engine(config);
+          REQUIRE(engine.status() == SF_OK);
+          test::Output out(scene.width, scene.height);
+          sf_report report = {};
+          REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
+          const int n = rule == SF_RULE_PAPER ? starfocus::ViewsByPaper(radius)
+                                              : starfocus::ViewsByCells(radius);
+          CAPTURE(radius);
+          CAPTURE(scale);
+          CAPTURE(mode);
+          CHECK(report.n == int(std::ceil(n * scale - 1e-9)));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("n_scale: benchmark and blur mode do not change") {
+  const test::Scene scene = test::IntegerScene(70, 50, 5, test::Depth::kLayers);
+  for (const sf_mode mode : {SF_MODE_BENCHMARK, SF_MODE_BLUR}) {
+    const sf_params params = test::Params(1, 0.5, mode);
+    const Refocused plain = Refocus(scene, params, 1);
+    for (const double scale : kScales) {
+      const Refocused scaled = Refocus(scene, params, scale);
+      const bool same = scaled.rgb == plain.rgb;
+      CHECK(same);
+      if (mode == SF_MODE_BENCHMARK) CHECK(scaled.report.n == plain.report.n);
+    }
+  }
+}
+
+TEST_CASE("n_scale: the smallest workspace gives what a large one does") {
+  for (const double radius : {0.3, 0.51, 1.0, 2.5}) {
+    const test::Scene scene = FlatScene(2);
+    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_CELLS}) {
+      for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
+        sf_params params = test::Params(radius, 1, mode);
+        params.rule = rule;
+        CAPTURE(radius);
+        const bool same =
+            Refocus(scene, params, 2, radius).rgb == Refocus(scene, params, 2, 64).rgb;
+        CHECK(same);
+      }
+    }
+  }
+}
+
+TEST_CASE("n_scale: more views, and nearer to the benchmark") {
+  // Alone, since side views of noise see noise beyond the picture, each layer another.
+  const test::Scene scene = test::IntegerScene(160, 120, 1, test::Depth::kSlanted);
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
+    sf_params params = test::Params(-9.5, 1, SF_MODE_BENCHMARK);
+    const std::vector<uint8_t> benchmark = Refocus(scene, params, 1).rgb;
+    params.mode = mode;
+    std::string line = "mode " + std::to_string(mode) + ":";
+    uint64_t samples = 0;
+    std::vector<double> psnr;
+    for (const double scale : kScales) {
+      const Refocused picture = Refocus(scene, params, scale);
+      CAPTURE(mode);
+      CAPTURE(scale);
+      CHECK(picture.report.rendered_samples > samples);
+      samples = picture.report.rendered_samples;
+      psnr.push_back(Psnr(picture.rgb, benchmark));
+      line += " " + std::to_string(samples) + " samples, " + std::to_string(psnr.back()) + " dB;";
+    }
+    MESSAGE(line);
+    CHECK(psnr.front() + 1 < psnr[2]);
+    CHECK(psnr[2] <= psnr.back());
+  }
+}
+
+}  // namespace

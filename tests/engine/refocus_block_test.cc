@@ -1,0 +1,181 @@
+// A block refocused alone with the border that the analysis gives it, and with wider ones. Of one
+// flat surface nothing changes, at any layer. A gap between surfaces is filled from what is behind
+// it, which may lie beyond the border and land outside the block: there a little may.
+#include "lib/engine/refocus_block.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "lib/engine/engine.h"
+#include "lib/plan/partition.h"
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::Block;
+using starfocus::EngineState;
+
+constexpr int kViews[] = {1, 5, 9, 17};
+
+test::Scene NoiseScene(int width, int height, int views, float limit, test::Random* random) {
+  test::Scene scene = test::EmptyScene(width, height, views, -limit, limit);
+  for (auto& picture : scene.pictures) {
+    for (uint8_t& sample : picture) sample = random->Byte();
+  }
+  return scene;
+}
+
+test::Scene FlatScene(int width, int height, int views, float limit, test::Random* random) {
+  test::Scene scene = NoiseScene(width, height, views, limit, random);
+  const float d = static_cast<float>(random->Int(-64, 64)) / 64 * limit;
+  std::fill(scene.disparity.begin(), scene.disparity.end(), d);
+  return scene;
+}
+
+// Stairs or a pyramid. A step is no depth edge, and yet ends every run, so that runs do not depend
+// on where a line begins.
+test::Scene StairScene(int width, int height, int views, float limit, test::Random* random) {
+  constexpr float kStep = 1.25f;
+  test::Scene scene = NoiseScene(width, height, views, limit, random);
+  const int tread = random->Int(8, 40), kind = random->Int(0, 2);
+  const int cx = random->Int(0, width - 1), cy = random->Int(0, height - 1);
+  const int steps = static_cast<int>(limit / kStep), first = random->Int(-steps, steps);
+  const int direction = random->Int(0, 1) * 2 - 1;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const int dx = std::abs(x - cx), dy = std::abs(y - cy);
+      const int along = kind == 0 ? dx : kind == 1 ? dy : std::max(dx, dy);
+      const int step = std::clamp(first + direction * (along / tread), -steps, steps);
+      scene.Disparity(x, y) = kStep * static_cast<float>(step);
+    }
+  }
+  return scene;
+}
+
+// Rectangles of disparities so different that every edge ends a run.
+test::Scene SteppedScene(int width, int height, int views, float limit, test::Random* random) {
+  test::Scene scene = NoiseScene(width, height, views, limit, random);
+  const int steps = static_cast<int>(limit) / 2;
+  const int pieces = random->Int(2, 12);
+  for (int piece = 0; piece < pieces; ++piece) {
+    const float d = static_cast<float>(2 * random->Int(-steps, steps));
+    const int x0 = piece == 0 ? 0 : random->Int(0, width - 1);
+    const int y0 = piece == 0 ? 0 : random->Int(0, height - 1);
+    const int x1 = piece == 0 ? width : std::min(width, x0 + random->Int(1, width));
+    const int y1 = piece == 0 ? height : std::min(height, y0 + random->Int(1, height));
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) scene.Disparity(x, y) = d;
+    }
+  }
+  return scene;
+}
+
+std::vector<uint8_t> Pixels(const EngineState& engine, const Block& block) {
+  const size_t stride = 3 * static_cast<size_t>(engine.config.width);
+  std::vector<uint8_t> out(stride * static_cast<size_t>(engine.config.height), test::kPoison);
+  starfocus::RefocusBlock(engine, block, {out.data(), stride, 0, 0}, &engine.workers[0]);
+  return out;
+}
+
+// What wider borders changed, by layer.
+struct Changes {
+  int blocks[SF_LAYERS] = {}, changed[SF_LAYERS] = {}, largest[SF_LAYERS] = {};
+  int64_t samples[SF_LAYERS] = {}, changed_samples[SF_LAYERS] = {};
+
+  void Add(const Block& block, const std::vector<uint8_t>& given,
+           const std::vector<uint8_t>& wider) {
+    const int layer = block.layer;
+    blocks[layer] += 1;
+    samples[layer] += 3 * block.rect.width * block.rect.height;
+    changed[layer] += given != wider;
+    for (size_t i = 0; i < given.size(); ++i) {
+      const int difference = std::abs(given[i] - wider[i]);
+      changed_samples[layer] += difference != 0;
+      largest[layer] = std::max(largest[layer], difference);
+    }
+  }
+  void Tell() const {
+    for (int layer = 0; layer < SF_LAYERS; ++layer) {
+      char text[160];
+      std::snprintf(text, sizeof(text),
+                    "layer %d: %d of %d blocks change, %lld of %lld samples, by at most %d", layer,
+                    changed[layer], blocks[layer], static_cast<long long>(changed_samples[layer]),
+                    static_cast<long long>(samples[layer]), largest[layer]);
+      MESSAGE(std::string(text));
+    }
+  }
+};
+
+void CheckPicture(const test::Scene& scene, const sf_params& params, int more, Changes* changes) {
+  sf_config config = test::ConfigFor(scene, 40);
+  config.gather = 0;           // views everywhere
+  config.largest_block = 128;  // the whole picture, so that all of every layer is there
+  config.n_scale = more % 2 == 0 ? 1 : SF_MIN_N_SCALE;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  test::Output out(scene.width, scene.height);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  const EngineState& state = *reinterpret_cast<EngineState*>(engine.get());
+  for (int k = 0; k < state.plan.counts[0]; ++k) {
+    // Not from `out`, which has been deblocked.
+    Block block = state.plan.blocks[k];
+    const std::vector<uint8_t> given = Pixels(state, block);
+    block.border.left += more;
+    block.border.right += more;
+    block.border.top += more;
+    block.border.bottom += more;
+    changes->Add(block, given, Pixels(state, block));
+  }
+}
+
+template <class MakeScene>
+Changes CheckPictures(int rounds, double least_aperture, const MakeScene& make_scene) {
+  test::Random random(21);
+  Changes changes;
+  constexpr double kFocus[] = {0, 0.3, -1.45, 2.5, 7.2, 11, -13.6, 16};
+  for (int round = 0; round < rounds; ++round) {
+    const int width = random.Int(0, 9) == 0 ? random.Int(1, 20) : random.Int(17, 128);
+    const int height = random.Int(0, 9) == 0 ? random.Int(1, 20) : random.Int(17, 128);
+    const float limit = static_cast<float>(2 * random.Int(1, 6));
+    const test::Scene scene = make_scene(width, height, kViews[random.Int(0, 3)], limit, &random);
+    const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(least_aperture, 1);
+    sf_params params = test::Params(kFocus[random.Int(0, 7)], aperture, SF_MODE_BLOCK);
+    params.rule = round % 2 == 0 ? SF_RULE_PAPER : SF_RULE_CELLS;
+    CheckPicture(scene, params, random.Int(1, 9), &changes);
+  }
+  changes.Tell();
+  return changes;
+}
+
+void CheckSmall(const Changes& changes) {
+  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    CHECK(changes.blocks[layer] > 50);
+    CHECK(changes.changed_samples[layer] * 1000 <= changes.samples[layer]);
+    CHECK(changes.largest[layer] <= 8);
+  }
+}
+
+TEST_CASE("refocus_block: the border is enough for a flat surface at every layer, size and place") {
+  const Changes changes = CheckPictures(200, 0.3, FlatScene);
+  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    CHECK(changes.blocks[layer] > 30);
+    CHECK(changes.changed[layer] == 0);
+  }
+}
+
+TEST_CASE("refocus_block: what stretched surfaces beyond the border change stays small") {
+  CheckSmall(CheckPictures(250, 0.9, StairScene));
+}
+
+TEST_CASE("refocus_block: what holes beyond the border change stays small") {
+  CheckSmall(CheckPictures(300, 0.3, SteppedScene));
+}
+
+}  // namespace

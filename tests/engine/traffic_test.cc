@@ -1,0 +1,75 @@
+// What sf_report tells of bytes read of the light field.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64;
+
+// Noise at one disparity.
+test::Scene FlatScene(float disparity) {
+  test::Random random(3);
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, 5, -4, 4);
+  for (auto& picture : scene.pictures) picture = test::RandomBytes(picture.size(), &random);
+  for (float& d : scene.disparity) d = disparity;
+  return scene;
+}
+
+sf_config Config(const test::Scene& scene) {
+  sf_config config = test::ConfigFor(scene, 8);
+  config.largest_block = 64;
+  return config;
+}
+
+TEST_CASE("traffic: what is in focus is read once") {
+  const test::Scene scene = FlatScene(0.1f);
+  const sf_report report =
+      test::RefocusScene(scene, Config(scene), test::Params(0, 0.3, SF_MODE_BLOCK)).report;
+  CHECK(report.skipped.copied_pixels == kWidth * kHeight);
+  CHECK(report.centre_bytes == 3 * kWidth * kHeight);
+  CHECK(report.disparity_bytes == 4 * kWidth * kHeight);
+  CHECK(report.side_bytes == 0);
+}
+
+TEST_CASE("traffic: blocks are read with what lies around them") {
+  const test::Scene scene = FlatScene(0.1f);
+  sf_params params = test::Params(0, 0.75, SF_MODE_FRAME);
+  params.rule = SF_RULE_CELLS;
+  const sf_report report = test::RefocusScene(scene, Config(scene), params).report;
+  // Blocks of 64 and 32 by 64 with the border of blur radius 3: that many columns lie in the
+  // picture, and that many rows are read, of which the picture's edges repeat.
+  constexpr int kBorder = 5, kRows = kHeight + 2 * kBorder;
+  CHECK(report.centre_bytes == 3 * kRows * (64 + kBorder + 32 + kBorder));
+  CHECK(report.disparity_bytes == 4 * kWidth * kHeight);
+}
+
+TEST_CASE("traffic: of a map in focus at disparity 4 side views are read beyond the edges only") {
+  const test::Scene scene = FlatScene(4);
+  sf_params params = test::Params(3, 1, SF_MODE_FRAME);
+  params.rule = SF_RULE_CELLS;
+  const sf_report report = test::RefocusScene(scene, Config(scene), params).report;
+  // 4 of the pixels beyond each edge, beside each block, by 2 x 2 pixels of 3 bytes.
+  constexpr uint64_t kAlong = 2 * (kWidth + 2 * 9) + 2 * kHeight;
+  CHECK(report.side_bytes == 12 * 4 * kAlong);
+}
+
+TEST_CASE("traffic: layers read the centre view once more") {
+  const test::Scene scene = FlatScene(0.1f);
+  sf_config config = test::ConfigFor(scene, 24);
+  config.largest_block = 64;
+  config.gather = 0;
+  const sf_params params = test::Params(18, 1, SF_MODE_BLOCK);
+  const sf_report layered = test::RefocusScene(scene, config, params).report;
+  config.max_layer = 0;
+  const sf_report whole = test::RefocusScene(scene, config, params).report;
+  CHECK(layered.layers[0].pixels == 0);
+  CHECK(layered.centre_bytes >= 3 * kWidth * kHeight);
+  CHECK(layered.centre_bytes < whole.centre_bytes);
+}
+
+}  // namespace

@@ -1,0 +1,193 @@
+// The blur mode against an adaptive convolution in double precision with the ideal kernel (4).
+#include "lib/filter/blur.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lib/base/aperture.h"
+#include "starfocus/starfocus.h"
+#include "tests/conformance/reference_blur.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using reference::kOne;
+static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
+
+// The blurred picture, unrounded.
+std::vector<double> Reference(const test::Scene& scene, const sf_params& params, double theta) {
+  std::map<double, reference::BlurKernel> kernels;
+  std::vector<double> out;
+  const int focus = int(std::floor(params.focus * kOne + 0.5));
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      const int distance = std::abs(int(std::floor(scene.Disparity(x, y) * kOne + 0.5f)) - focus);
+      const double r = reference::NearestRadius(int(std::floor(params.aperture * distance)));
+      if (kernels.count(r) == 0) kernels[r] = reference::MakeBlurKernel(r, theta);
+      const reference::BlurKernel& kernel = kernels[r];
+      double sums[3] = {0, 0, 0};
+      for (int m = -kernel.size; m <= kernel.size; ++m) {
+        for (int n = -kernel.size; n <= kernel.size; ++n) {
+          const uint8_t* pixel = scene.Pixel(0, std::clamp(x + n, 0, scene.width - 1),
+                                             std::clamp(y + m, 0, scene.height - 1));
+          for (int c = 0; c < 3; ++c) sums[c] += kernel.At(n, m) * pixel[c];
+        }
+      }
+      out.insert(out.end(), sums, sums + 3);
+    }
+  }
+  return out;
+}
+
+std::vector<uint8_t> Blurred(const test::Scene& scene, double focus, double aperture, int block,
+                             double theta) {
+  sf_config config = test::ConfigFor(scene, 40);
+  config.largest_block = block;
+  config.theta = theta;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  test::Output out(scene.width, scene.height, 3);
+  REQUIRE(test::Refocus(&engine, test::Params(focus, aperture, SF_MODE_BLUR), scene, &out) ==
+          SF_OK);
+  CHECK(out.PaddingUntouched());
+  return out.Tight();
+}
+
+constexpr double kTheta = 0.26 * 3.14159265358979323846;
+
+// Largest difference from the rounded reference.
+double Difference(const test::Scene& scene, double focus, double aperture, int block,
+                  double theta = kTheta) {
+  const std::vector<uint8_t> got = Blurred(scene, focus, aperture, block, theta);
+  const std::vector<double> expected =
+      Reference(scene, test::Params(focus, aperture, SF_MODE_BLUR), theta);
+  double largest = 0;
+  for (size_t i = 0; i < got.size(); ++i) {
+    largest = std::max(largest, std::abs(got[i] - std::floor(expected[i] + 0.5)));
+  }
+  return largest;
+}
+
+TEST_CASE("blur: flat disparity of many radii, random and black-and-white pictures") {
+  double largest = 0;
+  for (const double r :
+       {0.0, 0.05, 0.125, 0.4, 0.5, 0.5625, 0.625, 0.75, 0.875, 1.0,  1.3,  1.5, 1.75,
+        2.0, 2.6,  3.0,   3.9, 4.0, 4.06,   5.0,   6.5,  8.0,   11.1, 16.0, 23.7}) {
+    const float d = static_cast<float>(r);
+    test::Scene scene = test::EmptyScene(37, 29, 1, d, d);
+    test::Random random(17);
+    for (const bool extreme : {false, true}) {
+      for (uint8_t& sample : scene.pictures[0]) {
+        sample = extreme ? uint8_t(random.Int(0, 1) * 255) : random.Byte();
+      }
+      const double difference = Difference(scene, 0, 1, 32);
+      CAPTURE(r);
+      CHECK(difference <= 1);
+      largest = std::max(largest, difference);
+    }
+    // A step between black and white: the worst a kernel's shape can meet.
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) {
+        std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(x < 15 || y > 20 ? 255 : 0));
+      }
+    }
+    CAPTURE(r);
+    CHECK(Difference(scene, 0, 1, 32) <= 1);
+  }
+}
+
+TEST_CASE("blur: random disparity, focus, aperture, fall-off and block") {
+  test::Random random(18);
+  for (int round = 0; round < 24; ++round) {
+    test::Scene scene = test::RandomScene(random.Int(1, 70), random.Int(1, 50), 1, -6, 6,
+                                          uint64_t(round) + 300, random.Int(0, 5));
+    if (round % 3 == 0) test::NoisyDisparity(&scene, &random);
+    const double theta = round % 4 == 0 ? random.Real(0.1, 0.4) * 3.14159 : kTheta;
+    const double focus = random.Real(-8, 8), aperture = random.Int(0, 1) ? 1 : random.Real(0.1, 1);
+    CAPTURE(round);
+    CAPTURE(theta);
+    CHECK(Difference(scene, focus, aperture, 32 << random.Int(0, 3), theta) <= 1);
+  }
+}
+
+TEST_CASE("blur: in focus it copies, and a constant stays") {
+  const test::Scene sharp = test::RandomScene(41, 33, 1, 2.5f, 2.5f, 7);
+  CHECK(Blurred(sharp, 2.5, 1, 32, kTheta) == sharp.pictures[0]);
+  for (int level = 0; level < 256; level += 5) {
+    test::Scene scene = test::RandomScene(40, 35, 1, -9, 9, uint64_t(level) + 1);
+    std::fill(scene.pictures[0].begin(), scene.pictures[0].end(), uint8_t(level));
+    CHECK(Blurred(scene, 0.3, 1, 64, kTheta) == scene.pictures[0]);
+  }
+}
+
+TEST_CASE("blur: it looks at the centre view alone") {
+  test::Scene scene = test::RandomScene(50, 40, 17, -4, 4, 19);
+  const std::vector<uint8_t> before = Blurred(scene, 1, 1, 32, kTheta);
+  for (size_t view = 1; view < scene.pictures.size(); ++view) {
+    std::fill(scene.pictures[view].begin(), scene.pictures[view].end(), uint8_t{9});
+  }
+  CHECK(Blurred(scene, 1, 1, 32, kTheta) == before);
+}
+
+TEST_CASE("blur: the size of blocks does not matter") {
+  const test::Scene scene = test::RandomScene(150, 90, 1, -6, 6, 20);
+  const std::vector<uint8_t> expected = Blurred(scene, 2, 1, 32, kTheta);
+  for (const int block : {64, 128, 256}) CHECK(Blurred(scene, 2, 1, block, kTheta) == expected);
+}
+
+TEST_CASE("blur: kernels sum to exactly one, fit their types and fall off from the centre") {
+  const double most = SF_MAX_BLUR;
+  const int steps = starfocus::BlurStepCount(most);
+  std::vector<uint16_t> weights(starfocus::BlurWeightCount(most));
+  std::vector<starfocus::BlurKernel> kernels(static_cast<size_t>(steps));
+  // In two parts, as an engine makes them when it is asked for more.
+  const uint32_t fall_off = starfocus::ApertureFallOff(kTheta);
+  starfocus::MakeBlurKernels(0, steps / 3, fall_off, weights.data(), kernels.data());
+  starfocus::MakeBlurKernels(steps / 3, steps, fall_off, weights.data(), kernels.data());
+  for (int step = 0; step < steps; ++step) {
+    const starfocus::BlurKernel& kernel = kernels[size_t(step)];
+    CAPTURE(step);
+    REQUIRE(kernel.weights >= weights.data());
+    const int size = kernel.size;
+    REQUIRE(kernel.weights + (size + 1) * (size + 2) / 2 <= weights.data() + weights.size());
+    int64_t sum = 0;
+    uint32_t largest = 0;
+    for (int m = -size; m <= size; ++m) {
+      for (int n = -size; n <= size; ++n) {
+        sum += kernel.Weight(n, m);
+        largest = std::max(largest, kernel.Weight(n, m));
+      }
+    }
+    CHECK(sum == int64_t{1} << kernel.sum_bits);
+    CHECK(kernel.sum_bits >= 1);
+    CHECK(kernel.sum_bits <= 24);
+    CHECK(largest <= 32767);
+    CHECK(kernel.Weight(0, 0) + 8 >= largest);  // the centre takes up the rounding
+  }
+}
+
+TEST_CASE("blur: the ladder of radii") {
+  int last = -1;
+  for (int radius = 0; radius <= int(SF_MAX_BLUR) * kOne; ++radius) {
+    const int step = starfocus::BlurStep(radius);
+    REQUIRE(step >= last);
+    REQUIRE(step <= last + 1);
+    last = step;
+  }
+  CHECK(starfocus::BlurStep(0) == 0);
+  CHECK(starfocus::BlurStep(4) == 1);  // half of 1/8 pixel is rounded up
+  CHECK(starfocus::BlurStep(3) == 0);
+  CHECK(starfocus::BlurStep(4 * kOne) == 32);
+  CHECK(starfocus::BlurStep(8 * kOne) == 64);
+  CHECK(starfocus::BlurStep(128 * kOne) == 32 + 5 * 32);
+  CHECK(starfocus::BlurStepCount(SF_MAX_BLUR) > starfocus::BlurStep(128 * kOne));
+}
+
+}  // namespace

@@ -1,0 +1,90 @@
+// Deblocking by the paper's words (V-C), a whole picture at once.
+#ifndef STARFOCUS_TESTS_FILTER_DEBLOCK_REFERENCE_H_
+#define STARFOCUS_TESTS_FILTER_DEBLOCK_REFERENCE_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+namespace test {
+
+constexpr int kUnit = 16;
+
+// A picture and the layers of its 16x16 units.
+struct LayeredPicture {
+  LayeredPicture(int w, int h)
+      : width(w),
+        height(h),
+        columns((w + kUnit - 1) / kUnit),
+        rows((h + kUnit - 1) / kUnit),
+        rgb(3 * size_t(w) * size_t(h)),
+        layers(size_t(columns) * size_t(rows)) {}
+
+  uint8_t* Pixel(int x, int y) { return rgb.data() + 3 * (size_t(y) * size_t(width) + size_t(x)); }
+  uint8_t& Layer(int column, int row) {
+    return layers[size_t(row) * size_t(columns) + size_t(column)];
+  }
+  int LayerOf(int x, int y) { return Layer(x / kUnit, y / kUnit); }
+
+  int width, height, columns, rows;
+  std::vector<uint8_t> rgb;
+  std::vector<uint8_t> layers;
+};
+
+// (16), (17).
+inline bool Artificial(const uint8_t* a, const uint8_t* b, int beta) {
+  bool all = true;
+  for (int c = 0; c < 3; ++c) all = all && std::abs(int(a[c]) - int(b[c])) < beta;
+  return all;
+}
+
+inline int RoundedQuotient(int value, int by) { return (2 * value + by) / (2 * by); }
+
+// The line p0 | q0 q1 q2 q3 from (x, y) = p0 on in direction (dx, dy), as far as the picture goes.
+// Linear interpolation between p0 and q3 where p is of layer 2, else between p0 and q1.
+inline void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, int beta) {
+  const auto inside = [&](int k) {
+    const int qx = x + dx * (k + 1), qy = y + dy * (k + 1);
+    return qx >= 0 && qx < picture->width && qy >= 0 && qy < picture->height;
+  };
+  const auto q = [&](int k) { return picture->Pixel(x + dx * (k + 1), y + dy * (k + 1)); };
+  const uint8_t* p0 = picture->Pixel(x, y);
+  const bool strong = picture->LayerOf(x, y) == 2;
+  int last = 0;  // q[last] stays
+  if (strong && inside(3) && Artificial(p0, q(3), beta)) {
+    last = 3;
+  } else if (inside(1) && Artificial(p0, q(1), beta)) {
+    last = 1;
+  }
+  for (int c = 0; c < 3; ++c) {
+    const int from = p0[c], to = last > 0 ? q(last)[c] : 0;
+    for (int k = 0; k < last; ++k) {
+      const int mixed = from * (last - k) + to * (k + 1);
+      q(k)[c] = uint8_t(RoundedQuotient(mixed, last + 1));
+    }
+  }
+}
+
+// Two pixels on either side of a boundary: filters the side of the lower layer.
+inline void FilterPair(LayeredPicture* picture, int x0, int y0, int x1, int y1, int beta) {
+  const int before = picture->LayerOf(x0, y0), after = picture->LayerOf(x1, y1);
+  if (before > after) FilterLine(picture, x0, y0, x1 - x0, y1 - y0, beta);
+  if (before < after) FilterLine(picture, x1, y1, x0 - x1, y0 - y1, beta);
+}
+
+// All horizontal boundaries of the picture, then all vertical ones.
+inline void DeblockPicture(LayeredPicture* picture, int beta) {
+  for (int y = kUnit; y < picture->height; y += kUnit) {
+    for (int x = 0; x < picture->width; ++x) FilterPair(picture, x, y - 1, x, y, beta);
+  }
+  for (int y = 0; y < picture->height; ++y) {
+    for (int x = kUnit; x < picture->width; x += kUnit) {
+      FilterPair(picture, x - 1, y, x, y, beta);
+    }
+  }
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_FILTER_DEBLOCK_REFERENCE_H_

@@ -1,0 +1,169 @@
+// What block mode gathers: cells that are smooth by the definition, blurred as the blur mode blurs
+// them, and nothing else.
+#include "lib/filter/gather.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "lib/engine/engine.h"
+#include "starfocus/starfocus.h"
+#include "tests/plan/measured_cells.h"
+#include "tests/support/layered_scene.h"
+#include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::Cell;
+using starfocus::kCellSize;
+using starfocus::kDisparityBits;
+using test::Refocused;
+using test::RefocusScene;
+
+constexpr int kOne = 1 << kDisparityBits;
+
+// Cells of a random map: pieces, slopes, noise.
+struct Cells {
+  Cells(int width, int height, test::Random* random)
+      : disparity(size_t(width) * size_t(height)),
+        scale({random->Int(-4 * kOne, 4 * kOne),
+               int64_t(random->Real(0.2, 1) * double(1 << starfocus::kStepBits))}) {
+    const int pieces = random->Int(0, 3), noise = random->Int(0, 40);
+    for (int piece = 0; piece <= pieces; ++piece) {
+      const int x0 = piece == 0 ? 0 : random->Int(0, width - 1);
+      const int y0 = piece == 0 ? 0 : random->Int(0, height - 1);
+      const int d = random->Int(-6 * kOne, 6 * kOne);
+      const double slope = random->Real(-3, 3);
+      for (int y = y0; y < height; ++y) {
+        for (int x = x0; x < width; ++x) {
+          disparity[size_t(y) * size_t(width) + size_t(x)] =
+              int16_t(d + slope * (x + y) + random->Int(0, noise));
+        }
+      }
+    }
+    grid = test::MeasureCells(disparity, width, height, scale, &cells);
+  }
+  Cells(const Cells&) = delete;
+
+  // Pixels that blur reaches, with half a pixel of rounding.
+  static int Reach(const Cell& cell) {
+    return int(std::ceil((cell.r_max + kOne / 2) / double(kOne)));
+  }
+
+  // Over all cells of the picture.
+  bool IsSmooth(int column, int row) const {
+    int low = INT32_MAX, high = INT32_MIN, widest = 0;
+    for (int y = 0; y < grid.rows; ++y) {
+      for (int x = 0; x < grid.columns; ++x) {
+        const Cell& cell = *grid.At(x, y);
+        const int between = std::max(std::abs(x - column), std::abs(y - row)) - 1;
+        if (between * kCellSize >= std::max(Reach(cell), Reach(*grid.At(column, row)))) continue;
+        if (cell.r_edge > 0) return false;
+        widest = std::max(widest, cell.high - cell.low);
+        low = std::min(low, int{cell.low});
+        high = std::max(high, int{cell.high});
+      }
+    }
+    const double radius = double(scale.step) / (1 << starfocus::kStepBits);
+    const double blur =
+        radius * std::max(std::abs(low - scale.focus), std::abs(high - scale.focus));
+    const bool step = 2 * widest > high - low;
+    const double limit = step ? std::clamp(std::floor(std::floor(blur) / 2) / kOne, 0.5, 1.5) : 1.5;
+    return double(high - low) / kOne * radius <= limit;
+  }
+
+  std::vector<int16_t> disparity;
+  std::vector<Cell> cells;
+  starfocus::CellGrid grid;
+  starfocus::BlurScale scale;
+};
+
+TEST_CASE("gather: smooth cells are those of the definition") {
+  test::Random random(61);
+  int smooth = 0, rough = 0;
+  for (int round = 0; round < 60; ++round) {
+    const Cells cells(random.Int(1, 120), random.Int(1, 100), &random);
+    const int around = starfocus::GetReach(12).cells;
+    for (int row = 0; row < cells.grid.rows; ++row) {
+      for (int column = 0; column < cells.grid.columns; ++column) {
+        const bool expected = cells.IsSmooth(column, row);
+        CHECK(test::IsSmooth(cells.grid, cells.scale, column, row, around) == expected);
+        (expected ? smooth : rough) += 1;
+      }
+    }
+  }
+  CHECK(smooth > 500);
+  CHECK(rough > 500);
+}
+
+TEST_CASE("gather: a flat surface gets the bytes of the blur mode, up to the largest radius") {
+  for (const double radius : {0.6, 1.0, 2.5, 4.0, 7.3, 12.0}) {
+    for (const int block : {32, 64, 256}) {
+      test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 62);
+      sf_config config = test::ConfigFor(scene, 16);
+      config.largest_block = block;
+      const Refocused gathered =
+          RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));
+      const Refocused blurred = RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLUR));
+      CAPTURE(radius);
+      const bool same = gathered.rgb == blurred.rgb;
+      CHECK(same);
+      CHECK(gathered.report.gathered_pixels == 70 * 45);
+      CHECK(gathered.report.n == 0);
+      CHECK(gathered.report.rendered_samples == 0);
+      config.gather = 0;
+      const Refocused views = RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));
+      CHECK(views.report.gathered_pixels == 0);
+      CHECK(views.report.n > 0);
+    }
+  }
+}
+
+TEST_CASE(
+    "gather: not beyond the largest radius, in focus, in frame modes or by the paper's rule") {
+  const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
+  const sf_config config = test::ConfigFor(scene, 16);
+  const auto gathered = [&](double focus, sf_mode mode, sf_rule rule) {
+    sf_params params = test::Params(focus, 1, mode);
+    params.rule = rule;
+    return RefocusScene(scene, config, params).report.gathered_pixels;
+  };
+  CHECK(gathered(12.1, SF_MODE_BLOCK, SF_RULE_CELLS) == 0);
+  CHECK(gathered(12, SF_MODE_BLOCK, SF_RULE_DEFAULT) == 70 * 45);
+  CHECK(gathered(0.5, SF_MODE_BLOCK, SF_RULE_CELLS) == 0);
+  CHECK(gathered(3, SF_MODE_BLOCK, SF_RULE_PAPER) == 0);
+  CHECK(gathered(3, SF_MODE_FRAME, SF_RULE_CELLS) == 0);
+  CHECK(gathered(3, SF_MODE_BENCHMARK, SF_RULE_CELLS) == 0);
+}
+
+double Psnr(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum == 0 ? 99 : 10 * std::log10(255.0 * 255.0 * double(a.size()) / sum);
+}
+
+TEST_CASE("gather: beside depth edges views go on, and nothing gets worse against the benchmark") {
+  for (const uint64_t seed : {64, 65, 66}) {
+    const test::Scene scene = test::LayeredScene(180, 130, 9, 6, seed);
+    sf_config config = test::ConfigFor(scene, 16);
+    const Refocused benchmark = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BENCHMARK));
+    const Refocused gathered = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BLOCK));
+    config.gather = 0;
+    const Refocused views = RefocusScene(scene, config, test::Params(1, 1, SF_MODE_BLOCK));
+    CHECK(gathered.report.gathered_pixels > 0);
+    CHECK(gathered.report.gathered_pixels < 180 * 130);
+    CHECK(gathered.rgb != views.rgb);
+    CAPTURE(seed);
+    MESSAGE("dB with and without: ", Psnr(gathered.rgb, benchmark.rgb), " ",
+            Psnr(views.rgb, benchmark.rgb), ", gathered ", gathered.report.gathered_pixels);
+    // At 52 dB half of the difference is the rounding of both pictures to bytes.
+    CHECK(Psnr(gathered.rgb, benchmark.rgb) > std::min(Psnr(views.rgb, benchmark.rgb) - 0.2, 52.0));
+  }
+}
+
+}  // namespace

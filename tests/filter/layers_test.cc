@@ -1,0 +1,416 @@
+// Subsampling and upsampling against the same separable filters in double precision.
+#include "lib/filter/layers.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "simd/kernels.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::LayerPlane;
+using starfocus::LayerRect;
+using starfocus::LayerSize;
+using starfocus::Plane;
+using starfocus::simd::HalfBand;
+using starfocus::simd::kLayerBits;
+using starfocus::simd::kPadding;
+using starfocus::simd::kTapBits;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kBetaDown = 1.28, kBetaUp = 2.17;
+
+// Modified Bessel function of the first kind, order 0.
+double Bessel(double x) {
+  double sum = 1, term = 1;
+  for (int k = 1; k < 60; ++k) {
+    term *= x * x / 4 / k / k;
+    sum += term;
+  }
+  return sum;
+}
+
+// Tap n in [-3, 3]: sinc(n / 2) under a 7-tap Kaiser window, all taps summing to `gain`.
+double Tap(int n, double beta, double gain) {
+  const auto windowed = [&](int k) {
+    const double x = kPi * k / 2, sinc = k == 0 ? 1 : k % 2 == 0 ? 0 : std::sin(x) / x;
+    return sinc * Bessel(beta * std::sqrt(1 - k * k / 9.0)) / Bessel(beta);
+  };
+  double sum = 0;
+  for (int k = -3; k <= 3; ++k) sum += windowed(k);
+  return windowed(n) / sum * gain;
+}
+
+// Pixels of three samples in double; the edge repeats outside.
+struct Image {
+  Image(int w, int h) : width(w), height(h), samples(3 * size_t(w) * size_t(h)) {}
+  double& At(int x, int y, int c) {
+    const size_t cx = size_t(std::clamp(x, 0, width - 1)),
+                 cy = size_t(std::clamp(y, 0, height - 1));
+    return samples[3 * (cy * size_t(width) + cx) + size_t(c)];
+  }
+  int width, height;
+  std::vector<double> samples;
+};
+
+double DownTap(int k) {
+  static const double taps[] = {Tap(0, kBetaDown, 1), Tap(1, kBetaDown, 1), 0,
+                                Tap(3, kBetaDown, 1)};
+  return taps[std::abs(k)];
+}
+double UpTap(int k) {
+  static const double taps[] = {Tap(0, kBetaUp, 2), Tap(1, kBetaUp, 2), 0, Tap(3, kBetaUp, 2)};
+  return taps[std::abs(k)];
+}
+
+// Colours a picture can show.
+double Clamped(double value) { return std::clamp(value, 0.0, 255.0); }
+
+Image Down(Image from) {
+  Image to(LayerSize(from.width, 1), LayerSize(from.height, 1));
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        double sum = 0;
+        for (int j = -3; j <= 3; ++j) {
+          for (int i = -3; i <= 3; ++i) {
+            sum += DownTap(i) * DownTap(j) * from.At(2 * x + i, 2 * y + j, c);
+          }
+        }
+        to.At(x, y, c) = Clamped(sum);
+      }
+    }
+  }
+  return to;
+}
+
+// Zeros between the samples, then the filter.
+Image Up(Image from, int width, int height) {
+  Image to(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        double sum = 0;
+        for (int j = -3; j <= 3; ++j) {
+          for (int i = -3; i <= 3; ++i) {
+            if ((x + i) % 2 != 0 || (y + j) % 2 != 0) continue;
+            sum += UpTap(i) * UpTap(j) * from.At((x + i) / 2, (y + j) / 2, c);
+          }
+        }
+        to.At(x, y, c) = Clamped(sum);
+      }
+    }
+  }
+  return to;
+}
+
+// A layer in memory of just its size.
+struct Layer {
+  Layer(int picture_width, int picture_height, int layer) {
+    plane.width = LayerSize(picture_width, layer);
+    plane.height = LayerSize(picture_height, layer);
+    plane.rows = {0, plane.height};
+    const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
+    rgb.assign(stride * rows + kPadding, test::kPoison);
+    samples.assign(stride * rows + kPadding, 0x7123);
+    half.assign(stride * (2 * rows + 5) + kPadding, 0x7123);
+    plane.rgb = {rgb.data(), stride, 0, 0};
+    plane.samples = {samples.data(), stride, 0, 0};
+    plane.half = {half.data(), stride, 0, -3};
+  }
+  Layer(const Layer&) = delete;
+
+  LayerPlane plane;
+  std::vector<uint8_t> rgb;
+  std::vector<int16_t> samples, half;
+};
+
+// Layers 1 and 2 of a picture as a stripe of largest blocks makes them.
+struct Layers {
+  Layers(const std::vector<uint8_t>& picture, int width, int height, int largest_block,
+         const starfocus::simd::Kernels& kernels)
+      : one(width, height, 1), two(width, height, 2) {
+    std::vector<int16_t> line(3 * (size_t(largest_block) + 16) + kPadding);
+    std::vector<int16_t> filtered = line;
+    const starfocus::ResampleScratch scratch = {line.data(), filtered.data()};
+    const Plane<const uint8_t> from = {picture.data(), 3 * size_t(width), 0, 0};
+    const int columns = (width + largest_block - 1) / largest_block;
+    for (int layer = 1; layer <= 2; ++layer) {
+      LayerPlane* to = layer == 1 ? &one.plane : &two.plane;
+      for (int index = columns - 1; index >= 0; --index) {
+        const int begin = index * (largest_block >> layer);
+        const int end = index + 1 == columns ? to->width : begin + (largest_block >> layer);
+        if (layer == 1) {
+          DownsamplePicture(kernels, from, width, height, begin, end, scratch, to);
+        } else {
+          DownsampleLayer(kernels, one.plane, begin, end, scratch, to);
+        }
+      }
+    }
+  }
+  Layer one, two;
+};
+
+// Samples of a layer with `margin` repeated pixels around them, as far as upsampling to width x
+// height reads.
+struct Padded {
+  template <class Load>
+  Padded(int layer_width, int layer_height, int width, int height, int margin, const Load& load) {
+    rect.width = (width + 1) / 2 + 2 * margin;
+    rect.height = (height + 1) / 2 + 2 * margin;
+    samples.resize(3 * size_t(rect.width) * size_t(rect.height) + kPadding);
+    rect.samples = samples.data();
+    for (int y = 0; y < rect.height; ++y) {
+      for (int x = 0; x < rect.width; ++x) {
+        const int cx = std::clamp(x - margin, 0, layer_width - 1);
+        const int cy = std::clamp(y - margin, 0, layer_height - 1);
+        for (int c = 0; c < 3; ++c) {
+          samples[3 * (size_t(y) * size_t(rect.width) + size_t(x)) + size_t(c)] = load(cx, cy, c);
+        }
+      }
+    }
+  }
+  LayerRect rect;
+  std::vector<int16_t> samples;
+};
+
+// Samples of width x height, doubled from a padded layer.
+std::vector<int16_t> UpByTwo(const Padded& in, int margin, int width, int height,
+                             const starfocus::simd::Kernels& kernels) {
+  std::vector<int16_t> line(3 * size_t(in.rect.width) + kPadding), between = line, even = line;
+  std::vector<int16_t> out(3 * size_t(width) * size_t(height) + kPadding);
+  UpsampleByTwo(kernels, in.rect, margin, {line.data(), between.data(), even.data()},
+                {out.data(), width, height});
+  return out;
+}
+
+// Where the samples that go up again come from: the layer with its bits below the point, or the
+// whole gray levels that are refocused.
+enum Source { kSamples, kBytes };
+
+// One or two layers down and up again, as samples.
+std::vector<int16_t> DownAndUp(const std::vector<uint8_t>& picture, int width, int height,
+                               int layer, Source source, int largest_block,
+                               const starfocus::simd::Kernels& kernels) {
+  const Layers layers(picture, width, height, largest_block, kernels);
+  const LayerPlane& plane = layer == 1 ? layers.one.plane : layers.two.plane;
+  const auto load = [&](int x, int y, int c) {
+    if (source == kBytes) return int16_t(plane.rgb.Row(y)[3 * x + c] << kLayerBits);
+    return plane.samples.Row(y)[3 * x + c];
+  };
+  constexpr int kMargin = 2;
+  if (layer == 1) {
+    const Padded one(plane.width, plane.height, width, height, kMargin, load);
+    return UpByTwo(one, kMargin, width, height, kernels);
+  }
+  const int w1 = layers.one.plane.width, h1 = layers.one.plane.height;
+  const Padded two(plane.width, plane.height, w1, h1, kMargin, load);
+  const std::vector<int16_t> middle = UpByTwo(two, kMargin, w1, h1, kernels);
+  const Padded one(w1, h1, width, height, kMargin, [&](int x, int y, int c) {
+    return middle[3 * (size_t(y) * size_t(w1) + size_t(x)) + size_t(c)];
+  });
+  return UpByTwo(one, kMargin, width, height, kernels);
+}
+
+Image ReferenceDownAndUp(const std::vector<uint8_t>& picture, int width, int height, int layer) {
+  Image image(width, height);
+  std::copy(picture.begin(), picture.end(), image.samples.begin());
+  const Image one = Down(image);
+  if (layer == 1) return Up(one, width, height);
+  return Up(Up(Down(one), one.width, one.height), width, height);
+}
+
+enum Content { kRandom, kBlackOrWhite, kBoard, kStep, kStripes, kSmooth, kContents };
+
+std::vector<uint8_t> RandomPicture(int width, int height, Content content, test::Random* random) {
+  std::vector<uint8_t> picture(3 * size_t(width) * size_t(height));
+  const int size = random->Int(1, 9), x0 = random->Int(0, width), y0 = random->Int(0, height);
+  const double fx = random->Real(0, 0.5), fy = random->Real(0, 0.5);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        int value = random->Byte();
+        if (content == kBlackOrWhite) value = value < 128 ? 0 : 255;
+        if (content == kBoard) value = (x / size + y / size + c) % 2 * 255;
+        if (content == kStep) value = (x < x0) == (y < y0) ? 255 : 0;
+        if (content == kStripes) value = (c == 0 ? x : y) / size % 2 * 255;
+        if (content == kSmooth) value = int(127.5 + 127 * std::sin(fx * x + fy * y + c));
+        picture[3 * (size_t(y) * size_t(width) + size_t(x)) + size_t(c)] = uint8_t(value);
+      }
+    }
+  }
+  return picture;
+}
+
+int LargestBlock(test::Random* random) { return 32 << random->Int(0, 3); }
+
+struct Errors {
+  double samples[3] = {}, levels[3] = {};  // by layer: before and after rounding to gray levels
+};
+
+// Largest differences of down and up from double precision.
+Errors Compare(Source source) {
+  test::Random random(13);
+  Errors errors;
+  constexpr int kSizes[] = {1, 2, 3, 4, 5, 7, 8, 15, 16, 17, 31, 33, 47, 70};
+  const starfocus::simd::Kernels& kernels = starfocus::simd::BestKernels();
+  for (int round = 0; round < 240; ++round) {
+    const int width = kSizes[random.Int(0, 13)], height = kSizes[random.Int(0, 13)];
+    const std::vector<uint8_t> picture =
+        RandomPicture(width, height, Content(round % kContents), &random);
+    for (int layer = 1; layer <= 2; ++layer) {
+      const std::vector<int16_t> got =
+          DownAndUp(picture, width, height, layer, source, LargestBlock(&random), kernels);
+      std::vector<uint8_t> levels(picture.size() + kPadding);
+      kernels.narrow(got.data(), picture.size(), levels.data());
+      const Image expected = ReferenceDownAndUp(picture, width, height, layer);
+      for (size_t i = 0; i < picture.size(); ++i) {
+        const double sample = std::ldexp(double(got[i]), -kLayerBits);
+        errors.samples[layer] =
+            std::max(errors.samples[layer], std::abs(sample - expected.samples[i]));
+        errors.levels[layer] = std::max(errors.levels[layer],
+                                        std::abs(levels[i] - std::nearbyint(expected.samples[i])));
+      }
+    }
+  }
+  char text[200];
+  std::snprintf(text, sizeof(text),
+                "%s: one layer %.3f (whole levels %.0f), two layers %.3f (whole levels %.0f)",
+                source == kSamples ? "samples" : "bytes", errors.samples[1], errors.levels[1],
+                errors.samples[2], errors.levels[2]);
+  MESSAGE(std::string(text));
+  return errors;
+}
+
+TEST_CASE("layers: taps are those of the definition") {
+  const double one = 1 << kTapBits;
+  // Within rounding; one tap of each sum takes up what rounding left of unit gain.
+  const auto check = [&](const HalfBand& taps, double beta, double gain) {
+    CHECK(std::abs(taps.near - one * Tap(1, beta, gain)) < 1);
+    CHECK(std::abs(taps.far - one * Tap(3, beta, gain)) < 1);
+  };
+  check(starfocus::kDownFilter, kBetaDown, 1);
+  CHECK(std::abs(starfocus::kDownFilter.centre - one * Tap(0, kBetaDown, 1)) < 1);
+  check(starfocus::kUpFilter, kBetaUp, 2);
+  // beta_U makes G_U(-1) nearly 0; unit gain of both phases makes it 0 exactly.
+  const double response = Tap(0, kBetaUp, 2) - 2 * Tap(1, kBetaUp, 2) - 2 * Tap(3, kBetaUp, 2);
+  CHECK(std::abs(response) < 3e-4);
+  CHECK(std::abs(starfocus::kUpFilter.centre - one * Tap(0, kBetaUp, 2)) <
+        1 + one * std::abs(response));
+  CHECK(starfocus::kUpFilter.centre == 1 << kTapBits);
+}
+
+TEST_CASE("layers: rounding of one and two layers down and up") {
+  const Errors errors = Compare(kSamples);
+  CHECK(errors.samples[1] <= 0.25);
+  CHECK(errors.samples[2] <= 0.5);
+  CHECK(errors.levels[1] <= 1);
+  CHECK(errors.levels[2] <= 1);
+}
+
+TEST_CASE("layers: with the layers rounded to the gray levels that are refocused") {
+  const Errors errors = Compare(kBytes);
+  CHECK(errors.samples[1] <= 1);
+  CHECK(errors.samples[2] <= 1);
+  CHECK(errors.levels[1] <= 1);
+  CHECK(errors.levels[2] <= 1);
+}
+
+TEST_CASE("layers: a layer holds the same picture as bytes and as samples") {
+  test::Random random(14);
+  for (int round = 0; round < 40; ++round) {
+    const int width = random.Int(1, 80), height = random.Int(1, 80);
+    const std::vector<uint8_t> picture =
+        RandomPicture(width, height, Content(round % kContents), &random);
+    const Layers layers(picture, width, height, LargestBlock(&random),
+                        starfocus::simd::BestKernels());
+    for (const LayerPlane* plane : {&layers.one.plane, &layers.two.plane}) {
+      bool same = true;
+      for (int y = 0; y < plane->height; ++y) {
+        for (int i = 0; i < 3 * plane->width; ++i) {
+          const int sample = plane->samples.Row(y)[i];
+          same = same && sample >= 0 && sample <= starfocus::simd::kLayerWhite;
+          // nearbyint rounds halves to even.
+          same = same && plane->rgb.Row(y)[i] == std::nearbyint(std::ldexp(sample, -kLayerBits));
+        }
+      }
+      CHECK(same);
+    }
+  }
+}
+
+TEST_CASE("layers: the columns may be made in any number of parts, on any target") {
+  test::Random random(15);
+  for (int round = 0; round < 30; ++round) {
+    const int width = random.Int(1, 270), height = random.Int(1, 40);
+    const std::vector<uint8_t> picture =
+        RandomPicture(width, height, Content(round % kContents), &random);
+    const Layers whole(picture, width, height, 512, starfocus::simd::ReferenceKernels());
+    for (const int block : {32, 64, 128, 256}) {
+      const Layers parts(picture, width, height, block, starfocus::simd::BestKernels());
+      const bool same = parts.one.rgb == whole.one.rgb && parts.two.rgb == whole.two.rgb;
+      CAPTURE(width);
+      CAPTURE(block);
+      CHECK(same);
+    }
+  }
+}
+
+TEST_CASE("layers: rows made alone are those of the whole layer") {
+  test::Random random(16);
+  const int width = 37, height = 90;
+  const std::vector<uint8_t> picture = RandomPicture(width, height, kRandom, &random);
+  const starfocus::simd::Kernels& kernels = starfocus::simd::BestKernels();
+  const Layers whole(picture, width, height, 64, kernels);
+  std::vector<int16_t> line(3 * 80 + kPadding), filtered = line;
+  const int layer_height = whole.one.plane.height;
+  for (const starfocus::RowRange rows :
+       {starfocus::RowRange{0, 1}, {5, 9}, {20, 33}, {layer_height - 2, layer_height}}) {
+    Layer part(width, height, 1);
+    part.plane.rows = rows;
+    part.plane.rgb.first = part.plane.samples.first = rows.first;
+    part.plane.half.first = 2 * rows.first - 3;
+    DownsamplePicture(kernels, {picture.data(), 3 * size_t(width), 0, 0}, width, height, 0,
+                      part.plane.width, {line.data(), filtered.data()}, &part.plane);
+    for (int y = rows.first; y < rows.last; ++y) {
+      CHECK(std::equal(part.plane.samples.Row(y), part.plane.samples.Row(y) + 3 * part.plane.width,
+                       whole.one.plane.samples.Row(y)));
+    }
+  }
+}
+
+TEST_CASE("layers: constant pictures of every level stay, at every small size") {
+  const starfocus::simd::Kernels& kernels = starfocus::simd::BestKernels();
+  for (int level = 0; level < 256; ++level) {
+    const int width = 1 + level % 13, height = 1 + level % 11;
+    const std::vector<uint8_t> picture(3 * size_t(width) * size_t(height), uint8_t(level));
+    for (int layer = 1; layer <= 2; ++layer) {
+      const std::vector<int16_t> got =
+          DownAndUp(picture, width, height, layer, kBytes, 32, kernels);
+      const bool same = std::all_of(got.begin(), got.begin() + long(picture.size()),
+                                    [&](int16_t sample) { return sample == level << kLayerBits; });
+      CAPTURE(level);
+      CAPTURE(layer);
+      CHECK(same);
+    }
+  }
+}
+
+TEST_CASE("layers: sizes") {
+  for (int size = 1; size < 300; ++size) {
+    // Inside the picture there are (size + 1) / 2 pixels of layer 1, and one more.
+    CHECK(LayerSize(size, 0) == size);
+    CHECK(LayerSize(size, 1) == (size + 1) / 2 + 1);
+    CHECK(LayerSize(size, 2) == ((size + 1) / 2 + 2) / 2 + 1);
+    CHECK(4 * (LayerSize(size, 2) - 1) >= size - 1);
+  }
+}
+
+}  // namespace

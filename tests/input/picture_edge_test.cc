@@ -1,0 +1,231 @@
+// What lies beyond the picture: a smaller picture of the same scene, refocused, is part of the
+// larger one where its side views saw enough, and what something nearer covers is not taken.
+#include "lib/input/picture_edge.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kSide = 96;
+
+// A pattern at one disparity, of which the picture starts at (x0, y0).
+test::Scene FlatScene(int x0, int y0, int side, int views, float disparity) {
+  test::Scene scene = test::EmptyScene(side, side, views, disparity - 1, disparity + 1);
+  for (int view = 0; view < views; ++view) {
+    double u = 0, v = 0;
+    sf_view_position(view, &u, &v);
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        // Pixel (x, y) of the centre is at (x - u d, y - v d).
+        const double px = x0 + x + u * double(disparity), py = y0 + y + v * double(disparity);
+        for (int c = 0; c < 3; ++c) {
+          const double wave = std::sin(0.23 * px + c) * std::cos(0.19 * py - c) + 0.004 * (px + py);
+          scene.Pixel(view, x, y)[c] = uint8_t(std::lround(110 + 75 * wave));
+        }
+      }
+    }
+  }
+  for (float& d : scene.disparity) d = disparity;
+  return scene;
+}
+
+struct Difference {
+  int largest;
+  double mean;
+};
+
+// Of the picture and the same part of a larger one, near the edges but for the
+// corners.
+Difference AtEdges(const test::Refocused& picture, const test::Refocused& larger, int margin) {
+  constexpr int kFrame = 6, kCorner = 16;
+  Difference difference = {0, 0};
+  int count = 0;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const bool beside_x = x < kFrame || x >= kSide - kFrame;
+      const bool beside_y = y < kFrame || y >= kSide - kFrame;
+      const bool corner =
+          (x < kCorner || x >= kSide - kCorner) && (y < kCorner || y >= kSide - kCorner);
+      if (corner || !(beside_x || beside_y)) continue;
+      for (int c = 0; c < 3; ++c) {
+        const size_t at = size_t(3 * (y * kSide + x) + c);
+        const size_t there = size_t(3 * ((y + margin) * (kSide + 2 * margin) + x + margin) + c);
+        const int apart = std::abs(picture.rgb[at] - larger.rgb[there]);
+        difference.largest = std::max(difference.largest, apart);
+        difference.mean += apart;
+        ++count;
+      }
+    }
+  }
+  difference.mean /= count;
+  return difference;
+}
+
+TEST_CASE("beyond: edges look as in a larger picture of the same scene") {
+  constexpr int kMargin = 32;
+  for (const int views : {5, 9, 17}) {
+    if (STARFOCUS_EMULATED && views != 17) continue;
+    for (const float disparity : {-9.0f, 9.0f, 10.5f}) {
+      const test::Scene scene = FlatScene(0, 0, kSide, views, disparity);
+      const test::Scene larger =
+          FlatScene(-kMargin, -kMargin, kSide + 2 * kMargin, views, disparity);
+      for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
+        for (const int gather : {0, 1}) {
+          sf_config config = test::ConfigFor(scene, 9);
+          config.gather = gather;
+          sf_config larger_config = test::ConfigFor(larger, 9);
+          larger_config.gather = gather;
+          const sf_params params = test::Params(double(disparity) - 8, 1, mode);
+          const Difference difference =
+              AtEdges(test::RefocusScene(scene, config, params),
+                      test::RefocusScene(larger, larger_config, params), kMargin);
+          CAPTURE(views);
+          CAPTURE(disparity);
+          CAPTURE(mode);
+          CAPTURE(gather);
+          CHECK(difference.largest <= 4);
+          CHECK(difference.mean < 0.75);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("beyond: a view alone repeats its edge") {
+  constexpr int kMargin = 32;
+  const test::Scene scene = FlatScene(0, 0, kSide, 1, 9);
+  const test::Scene larger = FlatScene(-kMargin, -kMargin, kSide + 2 * kMargin, 1, 9);
+  const sf_params params = test::Params(1, 1, SF_MODE_BLOCK);
+  const Difference difference =
+      AtEdges(test::RefocusScene(scene, test::ConfigFor(scene, 9), params),
+              test::RefocusScene(larger, test::ConfigFor(larger, 9), params), kMargin);
+  CHECK(difference.mean > 3);
+}
+
+// --- One row of a field. ---
+
+constexpr int kWidth = 64, kHeight = 8, kBorder = 12;
+
+struct Row {
+  // The centre view is 10 x, side view v is 100 + v, at pixel x.
+  explicit Row(int views) : side(size_t(views)) {
+    for (size_t view = 0; view < side.size(); ++view) {
+      side[view].assign(3 * kWidth * kHeight, uint8_t(100 + view));
+      window.view[view] = {side[view].data(), 3 * kWidth, 0, 0};
+    }
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) side[0][size_t(3 * (y * kWidth + x))] = uint8_t(x);
+    }
+    window.width = window.picture_width = kWidth;
+    window.height = window.picture_height = kHeight;
+    window.views = views;
+    window.centre = window.view[0];
+    disparity.assign(kWidth * kHeight, 0);
+    window.disparity = {disparity.data(), kWidth, 0, 0};
+  }
+  Row(const Row&) = delete;
+
+  void Fill(int begin, int end, int unit) {
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = begin; x < end; ++x) disparity[size_t(y * kWidth + x)] = int16_t(64 * unit);
+    }
+  }
+
+  // Red of the pixels from kBorder left of the picture to kBorder right of it.
+  std::vector<int> Load() {
+    const int width = kWidth + 2 * kBorder;
+    std::vector<uint8_t> rgb(starfocus::RgbStride(width) * kHeight);
+    std::vector<int16_t> copy(size_t(width) * kHeight);
+    starfocus::Field field;
+    field.rgb = rgb.data();
+    field.disparity = copy.data();
+    starfocus::LoadField(window, {0, 0, kWidth, kHeight}, {kBorder, kBorder, 0, 0}, &field);
+    std::vector<int> row;
+    for (int x = 0; x < width; ++x) row.push_back(*field.Rgb(x, 3));
+    return row;
+  }
+
+  std::vector<std::vector<uint8_t>> side;
+  std::vector<int16_t> disparity;
+  starfocus::Window window;
+};
+
+TEST_CASE("beyond: the view that looks out over an edge, as far as it does") {
+  for (const int views : {5, 9, 17}) {
+    for (const int unit : {-5, 5}) {
+      Row scene(views);
+      scene.Fill(0, kWidth, unit);
+      // View 1 is (1, 0), view 2 (-1, 0); pixel k beyond the left edge lies at -k - u d.
+      const int left = unit < 0 ? 1 : 2, right = 3 - left;
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < 5; ++x) {
+          scene.side[size_t(left)][size_t(3 * (y * kWidth + x))] = uint8_t(200 + x);
+          scene.side[size_t(right)][size_t(3 * (y * kWidth + kWidth - 1 - x))] = uint8_t(200 + x);
+        }
+      }
+      const std::vector<int> row = scene.Load();
+      for (int k = 1; k <= kBorder; ++k) {
+        CAPTURE(views);
+        CAPTURE(unit);
+        CAPTURE(k);
+        const int seen = 200 + std::max(5 - k, 0);
+        CHECK(row[size_t(kBorder - k)] == seen);
+        CHECK(row[size_t(kBorder + kWidth - 1 + k)] == seen);
+      }
+      CHECK(row[kBorder] == 0);
+      CHECK(row[kBorder + kWidth - 1] == kWidth - 1);
+    }
+  }
+}
+
+TEST_CASE("beyond: nothing is taken from under a nearer surface, nor behind it") {
+  Row scene(5);
+  scene.Fill(0, kWidth, -6);
+  scene.Fill(4, 7, 1);  // 7 nearer: in the view at (1, 0) over the pixels 1 to 3 beyond the edge
+  std::vector<int> row = scene.Load();
+  for (int k = 0; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 0);
+  scene.Fill(3, 7, -6);
+  scene.Fill(2, 4, 1);  // over pixels 4 and 5
+  row = scene.Load();
+  CHECK(row[kBorder] == 0);
+  for (int k = 1; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 101);
+  for (int y = 0; y < kHeight; ++y) {
+    // Pixel 4 beyond the edge is at 2 there, 3 at 3.
+    scene.side[1][size_t(3 * (y * kWidth + 2))] = 7;
+    scene.side[1][size_t(3 * (y * kWidth + 3))] = 9;
+  }
+  row = scene.Load();
+  CHECK(row[kBorder - 2] == 101);
+  for (int k = 3; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 9);
+}
+
+TEST_CASE("beyond: near surfaces look out on the side that others leave free") {
+  Row scene(5);
+  scene.Fill(0, kWidth, 3);
+  scene.Fill(1, 20, 9);
+  const std::vector<int> row = scene.Load();
+  for (int k = 1; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 102);
+}
+
+TEST_CASE("beyond: whether all that is seen has one colour") {
+  Row scene(5);
+  scene.Fill(0, kWidth, -3);
+  const uint8_t colour[3] = {101, 101, 101}, other[3] = {100, 100, 100};
+  const starfocus::Rect left = {-4, 0, 8, kHeight}, inside = {4, 0, 8, kHeight};
+  CHECK(starfocus::ShowsBeyond(scene.window, left, colour));
+  CHECK(!starfocus::ShowsBeyond(scene.window, left, other));
+  CHECK(starfocus::ShowsBeyond(scene.window, inside, other));
+  scene.Fill(0, kWidth, 0);
+  CHECK(starfocus::ShowsBeyond(scene.window, left, other));
+}
+
+}  // namespace

@@ -1,0 +1,55 @@
+// The runs of lines, as the engine finds them, into memory of exactly the size they need.
+#ifndef STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_
+#define STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "lib/line_scan/runs.h"
+#include "simd/kernels.h"
+
+namespace test {
+
+using Depths = std::vector<int16_t>;
+
+// Of lines of one length, side by side; `step` >= their number.
+inline std::vector<std::vector<starfocus::Run>> FindRuns(const starfocus::simd::Kernels& kernels,
+                                                         const std::vector<Depths>& lines,
+                                                         const starfocus::ViewGrid& grid,
+                                                         starfocus::Direction direction,
+                                                         size_t step) {
+  const size_t length = lines[0].size();
+  std::vector<int16_t> disparity(length * step + starfocus::simd::kPadding / sizeof(int16_t));
+  for (size_t k = 0; k < lines.size(); ++k) {
+    for (size_t q = 0; q < length; ++q) disparity[q * step + k] = lines[k][q];
+  }
+  std::vector<uint16_t> starts(starfocus::RunMarkWords(length, lines.size()), 0xCDCD);
+  std::vector<uint16_t> edges = starts;
+  std::vector<int16_t> middles(starfocus::RunMiddles(length, lines.size()), 0x5A5A);
+  starfocus::simd::RunMarks marks = {starts.data(), edges.data(), middles.data(), 0};
+  MarkRuns(kernels, grid,
+           {disparity.data(), ptrdiff_t(step), int32_t(length), int32_t(lines.size())}, direction,
+           &marks);
+  std::vector<std::vector<starfocus::Run>> found;
+  for (size_t k = 0; k < lines.size(); ++k) {
+    std::vector<starfocus::Run> runs(length);
+    const int32_t count = ReadRuns(marks, int32_t(k), int32_t(length), grid,
+                                   grid.n() == 0 ? 0 : grid.Move(1), runs.data());
+    REQUIRE(count >= 1);
+    REQUIRE(count <= int32_t(length));
+    runs.resize(size_t(count));
+    found.push_back(runs);
+  }
+  return found;
+}
+
+inline std::vector<starfocus::Run> FindRuns(const Depths& line, const starfocus::ViewGrid& grid,
+                                            starfocus::Direction direction) {
+  return FindRuns(starfocus::simd::BestKernels(), {line}, grid, direction, 1)[0];
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_

@@ -1,0 +1,147 @@
+// A sink that writes down what a line scan finds, and lines to scan.
+#ifndef STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_
+#define STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "lib/line_scan/line_scan.h"
+#include "tests/line_scan/find_runs.h"
+
+namespace test {
+
+using starfocus::Direction;
+using starfocus::ViewGrid;
+
+enum class Kind { kSurface, kMix, kHole };
+
+// What a rendered pixel shows.
+struct Shown {
+  int times = 0;
+  Kind kind = Kind::kSurface;
+  int source = -1;  // in a hole the visible pixel whose surface goes on
+  int other = -1;   // a neighbour, another surface, or the one whose end covers a part of a hole
+  int weight = 0;   // of the other
+};
+
+inline bool operator==(const Shown& a, const Shown& b) {
+  return a.times == b.times && a.kind == b.kind && a.source == b.source && a.other == b.other &&
+         a.weight == b.weight;
+}
+
+using Picture = std::vector<Shown>;
+
+// A sink that writes down what it is given.
+struct Recorder {
+  Direction direction;
+  Picture pixels;
+  std::vector<int> begins;  // of every call
+
+  void Surface(int begin, int end, int source, int neighbour, int weight) {
+    REQUIRE(begin < end);
+    REQUIRE(std::abs(neighbour) == 1);
+    begins.push_back(begin);
+    for (int p = begin; p < end; ++p) {
+      const int from = source + p - begin;
+      Show(p, Kind::kSurface, from, weight == 0 ? -1 : from + neighbour, weight);
+    }
+  }
+  void Mix(int p, int source, int other, int weight) {
+    begins.push_back(p);
+    Show(p, Kind::kMix, source, other, weight);
+  }
+  void Hole(int begin, int end, int pixel, const starfocus::Rim& rim) {
+    REQUIRE(begin < end);
+    begins.push_back(begin);
+    for (int p = begin; p < end; ++p) Show(p, Kind::kHole, pixel, -1, 0);
+    if (rim.pixel < 0) return;
+    // The scan goes on from right to left at the hole's left end; a sink may tell it by this.
+    CHECK((rim.pixel < pixel) == (direction == Direction::kRightToLeft));
+    Shown& shown = pixels[size_t(direction == Direction::kRightToLeft ? begin : end - 1)];
+    shown.other = rim.pixel;
+    shown.weight = rim.covered;
+  }
+  void Show(int p, Kind kind, int source, int other, int weight) {
+    REQUIRE(p >= 0);
+    REQUIRE(p < int(pixels.size()));
+    Shown& shown = pixels[size_t(p)];
+    shown = {shown.times + 1, kind, source, other, weight};
+  }
+};
+
+inline ViewGrid MakeGrid(int n, double focus, double aperture) {
+  starfocus::Aperture views;
+  views.n = views.last = n;
+  return starfocus::MakeViewGrid(views, focus, aperture, 0, false);
+}
+
+inline Recorder Record(const Depths& line, const ViewGrid& grid, int view, Direction direction,
+                       int begin, int end) {
+  const std::vector<starfocus::Run> runs = test::FindRuns(line, grid, direction);
+  // Disparities with a step between them, as a column of a picture has them.
+  const int step = 1 + int(line.size()) % 3, length = int(line.size());
+  Depths spaced(line.size() * size_t(step));
+  for (size_t q = 0; q < line.size(); ++q) spaced[q * size_t(step)] = line[q];
+  Recorder recorder = {direction, Picture(line.size()), {}};
+  starfocus::ScanLine(starfocus::Line{nullptr, spaced.data(), step, length}, direction, runs.data(),
+                      int32_t(runs.size()), grid, {begin, end}, view, view, &recorder,
+                      [&](int32_t k) { return grid.Move(k); });
+  return recorder;
+}
+
+// The rightmost view of a lens of radius 1 focused at 0: pixels move left by their disparity.
+inline Picture Scan(const Depths& line, int begin, int end) {
+  const ViewGrid grid = MakeGrid(1, 0, 1);
+  return Record(line, grid, 1, Direction::kRightToLeft, begin, end).pixels;
+}
+inline Picture Scan(const Depths& line) { return Scan(line, 0, int(line.size())); }
+
+// The same line and its view seen in a mirror.
+inline Depths Mirrored(const Depths& line) { return {line.rbegin(), line.rend()}; }
+inline Picture Mirrored(const Picture& picture) {
+  Picture mirrored(picture.rbegin(), picture.rend());
+  for (Shown& shown : mirrored) {
+    if (shown.source >= 0) shown.source = int(picture.size()) - 1 - shown.source;
+    if (shown.other >= 0) shown.other = int(picture.size()) - 1 - shown.other;
+  }
+  return mirrored;
+}
+
+struct Stretch {
+  int pixels;
+  double disparity;
+};
+
+inline Depths MakeLine(const std::vector<Stretch>& stretches) {
+  Depths line;
+  for (const Stretch& s : stretches) {
+    line.insert(line.end(), size_t(s.pixels), int16_t(std::lround(s.disparity * 64)));
+  }
+  return line;
+}
+
+inline void CheckSurface(const Picture& picture, int begin, int end, int moved) {
+  for (int p = begin; p < end; ++p) {
+    CAPTURE(p);
+    CHECK(picture[size_t(p)].times == 1);
+    CHECK(picture[size_t(p)].kind == Kind::kSurface);
+    CHECK(picture[size_t(p)].source == p + moved);
+  }
+}
+
+inline void CheckHole(const Picture& picture, int begin, int end, int pixel) {
+  for (int p = begin; p < end; ++p) {
+    CAPTURE(p);
+    CHECK(picture[size_t(p)].times == 1);
+    CHECK(picture[size_t(p)].kind == Kind::kHole);
+    CHECK(picture[size_t(p)].source == pixel);
+  }
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_

@@ -1,0 +1,160 @@
+// Runs of one disparity along hand-made and random lines.
+#include "lib/line_scan/runs.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "tests/line_scan/find_runs.h"
+#include "tests/support/simd_targets.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::Direction;
+using starfocus::kSurfaceStep;
+using starfocus::Run;
+using starfocus::ViewGrid;
+using test::Depths;
+
+struct Found {
+  int begin, surface_end, disparity;
+};
+
+bool operator==(const Found& a, const Found& b) {
+  return a.begin == b.begin && a.surface_end == b.surface_end && a.disparity == b.disparity;
+}
+
+using Runs = std::vector<Found>;
+
+// A lens with n views, in focus at `focus`.
+ViewGrid MakeGrid(int n, double focus, int spread, double aperture = 1) {
+  starfocus::Aperture views;
+  views.n = views.last = n;
+  ViewGrid grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
+  grid.spread = spread;
+  return grid;
+}
+
+Runs Find(const Depths& line, Direction direction, int spread) {
+  Runs found;
+  for (const Run& run : test::FindRuns(line, MakeGrid(1, 0, spread, 0.2), direction)) {
+    found.push_back({run.begin, run.surface_end, run.disparity});
+  }
+  return found;
+}
+
+TEST_CASE("runs: one pixel, one surface, two surfaces") {
+  CHECK(Find({7}, Direction::kRightToLeft, 16) == Runs{{0, 1, 7}});
+  CHECK(Find({7}, Direction::kLeftToRight, 16) == Runs{{0, 1, 7}});
+  CHECK(Find({5, 5, 5, 5}, Direction::kRightToLeft, 0) == Runs{{0, 4, 5}});
+  CHECK(Find({1, 1, 1, 200, 200}, Direction::kRightToLeft, 16) == Runs{{3, 5, 200}, {0, 3, 1}});
+  CHECK(Find({1, 1, 1, 200, 200}, Direction::kLeftToRight, 16) == Runs{{2, 5, 1}, {0, 2, 200}});
+}
+
+TEST_CASE("runs: the spread may be reached, not exceeded; the middle is rounded down") {
+  CHECK(Find({16, 0}, Direction::kRightToLeft, 16) == Runs{{0, 2, 8}});
+  CHECK(Find({17, 0}, Direction::kRightToLeft, 16) == Runs{{1, 2, 0}, {0, 2, 17}});
+  CHECK(Find({0, 3}, Direction::kRightToLeft, 16) == Runs{{0, 2, 1}});
+  CHECK(Find({0, -3}, Direction::kRightToLeft, 16) == Runs{{0, 2, -2}});
+}
+
+TEST_CASE("runs: greedy from the end where the scan starts") {
+  const Depths ramp = {0, 2, 4, 6, 8, 10, 12};
+  CHECK(Find(ramp, Direction::kRightToLeft, 4) == Runs{{4, 7, 10}, {1, 7, 4}, {0, 7, 0}});
+  CHECK(Find(ramp, Direction::kLeftToRight, 4) == Runs{{4, 7, 2}, {1, 7, 8}, {0, 7, 12}});
+}
+
+TEST_CASE("runs: a surface ends where a step exceeds the limit, not where a run ends") {
+  const int16_t near = kSurfaceStep, nearer = kSurfaceStep + 1;
+  CHECK(Find({0, 0, near, near}, Direction::kRightToLeft, 96) == Runs{{0, 4, near / 2}});
+  CHECK(Find({0, 0, near, near}, Direction::kRightToLeft, 16) == Runs{{2, 4, near}, {0, 4, 0}});
+  CHECK(Find({0, 0, nearer, nearer}, Direction::kRightToLeft, 96) ==
+        Runs{{2, 4, nearer}, {0, 2, 0}});
+  CHECK(Find({0, 20, 40, nearer + 40, nearer + 20}, Direction::kRightToLeft, 16) ==
+        Runs{{4, 5, nearer + 20}, {3, 5, nearer + 40}, {2, 3, 40}, {1, 3, 20}, {0, 3, 0}});
+}
+
+TEST_CASE("runs: alternating extremes") {
+  Depths line;
+  for (int x = 0; x < 100; ++x) line.push_back(x % 2 == 0 ? 32000 : -32000);
+  for (const int spread : {0, 96}) {
+    const Runs runs = Find(line, Direction::kRightToLeft, spread);
+    REQUIRE(runs.size() == 100);
+    for (int k = 0; k < 100; ++k) {
+      CHECK(runs[size_t(k)] == Found{99 - k, 100 - k, line[size_t(99 - k)]});
+    }
+  }
+}
+
+TEST_CASE("runs: the aperture cell is what a view's step moves the run by") {
+  // Disparities from the focus, by 1/4 as there are four views: 0.5 and 0.75 pixels.
+  const ViewGrid grid = MakeGrid(4, 1, 16);
+  const std::vector<Run> runs =
+      test::FindRuns({-128, -128, 192, 192}, grid, Direction::kRightToLeft);
+  REQUIRE(runs.size() == 2);
+  CHECK(runs[0].cell == 128);
+  CHECK(runs[1].cell == 192);
+}
+
+// Line pixels in scan order for kRightToLeft; `runs` of it.
+void CheckLine(const Depths& line, const ViewGrid& grid, const std::vector<Run>& runs) {
+  int end = int(line.size()), surface_end = end;
+  for (const Run& run : runs) {
+    REQUIRE(run.begin < end);
+    const auto range = std::minmax_element(line.begin() + run.begin, line.begin() + end);
+    const int low = *range.first, high = *range.second;
+    CHECK(high - low <= grid.spread);
+    CHECK(run.disparity == (low + high) >> 1);
+    if (end < int(line.size()) &&
+        std::abs(line[size_t(end)] - line[size_t(end - 1)]) > kSurfaceStep) {
+      surface_end = end;
+    }
+    CHECK(run.surface_end == surface_end);
+    CHECK(run.cell == std::abs(grid.Shift(grid.Move(1), run.disparity)));
+    if (run.begin > 0) {  // one pixel more would be too many
+      const int next = line[size_t(run.begin - 1)];
+      CHECK(std::max(high, next) - std::min(low, next) > grid.spread);
+    }
+    end = run.begin;
+  }
+  CHECK(end == 0);
+}
+
+Depths RandomLine(int length, test::Random* random) {
+  Depths line(static_cast<size_t>(length));
+  const int amplitude = random->Int(0, 3) == 0 ? 7000 : 60 << random->Int(0, 3);
+  int level = random->Int(-amplitude, amplitude);
+  for (int16_t& d : line) {
+    if (random->Int(0, 3) == 0) level = random->Int(-amplitude, amplitude);
+    d = int16_t(level);
+  }
+  return line;
+}
+
+TEST_CASE("runs: random lines side by side, each covered by the longest runs the spread allows") {
+  test::Random random(3);
+  for (int round = 0; round < 150; ++round) {
+    const int length = random.Int(1, 70), count = random.Int(1, 40);
+    std::vector<Depths> lines, mirrored;
+    for (int k = 0; k < count; ++k) {
+      lines.push_back(RandomLine(length, &random));
+      mirrored.push_back({lines.back().rbegin(), lines.back().rend()});
+    }
+    const ViewGrid grid = MakeGrid(random.Int(1, 9), random.Real(-3, 3), random.Int(0, 96));
+    const size_t step = size_t(count + random.Int(0, 5));
+    for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
+      const auto runs = test::FindRuns(*kernels, lines, grid, Direction::kRightToLeft, step);
+      const auto left = test::FindRuns(*kernels, mirrored, grid, Direction::kLeftToRight, step);
+      for (size_t k = 0; k < lines.size(); ++k) {
+        CheckLine(lines[k], grid, runs[k]);
+        CheckLine(lines[k], grid, left[k]);
+      }
+    }
+  }
+}
+
+}  // namespace

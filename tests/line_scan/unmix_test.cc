@@ -1,0 +1,127 @@
+// Boundary pixels in a field of one row of depth edges.
+#include "lib/line_scan/unmix.h"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+namespace {
+
+using starfocus::Field;
+using starfocus::ViewGrid;
+using starfocus::Window;
+
+constexpr int kSize = 24;
+constexpr int kEdge = 12;  // the first near column
+
+// Grey levels of the far surface, the near one and the mixed pixel between them.
+struct Greys {
+  int far, near, mixed;
+};
+
+// A far surface at the left, a near one at the right, and captured views in which nothing but the
+// far surface is seen.
+struct Scene {
+  std::vector<uint8_t> centre, side;
+  std::vector<int16_t> disparity;
+  std::vector<uint8_t> rgb;
+  Window window;
+  Field field;
+
+  Scene(double far, double near, const Greys& greys, int views = 5, bool mirrored = false)
+      : centre(3 * kSize * kSize),
+        side(3 * kSize * kSize, uint8_t(greys.far)),
+        disparity(kSize * kSize),
+        rgb(starfocus::RgbStride(kSize) * kSize) {
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const int at = y * kSize + (mirrored ? kSize - 1 - x : x);
+        const int grey = x >= kEdge ? greys.near : x == kEdge - 1 ? greys.mixed : greys.far;
+        for (int c = 0; c < 3; ++c) centre[size_t(3 * at + c)] = uint8_t(grey);
+        disparity[size_t(at)] = int16_t(64 * (x >= kEdge ? near : far));
+      }
+    }
+    window.width = window.picture_width = kSize;
+    window.height = window.picture_height = kSize;
+    window.views = views;
+    window.centre = {centre.data(), 3 * kSize, 0, 0};
+    for (int view = 1; view < views; ++view) window.view[view] = {side.data(), 3 * kSize, 0, 0};
+    window.disparity = {disparity.data(), kSize, 0, 0};
+    field.rgb = rgb.data();
+    field.disparity = disparity.data();
+  }
+
+  // The grey levels of the middle row.
+  std::vector<int> Unmixed(int layer = 0) {
+    std::vector<int16_t> copy(disparity.size() + starfocus::simd::kPadding);
+    field.disparity = copy.data();
+    starfocus::LoadField(window, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
+    starfocus::Aperture aperture;
+    aperture.n = aperture.last = 4;
+    window.layer = layer;
+    const ViewGrid grid = starfocus::MakeViewGrid(aperture, 0, 1, 0, false);
+    starfocus::UnmixEdges(starfocus::simd::BestKernels(), window, grid, &field);
+    std::vector<int> greys;
+    for (int x = 0; x < kSize; ++x) greys.push_back(*field.Rgb(x, kSize / 2));
+    return greys;
+  }
+
+  // Of the mixed pixel; the others stay as they are.
+  int Mixed(int layer = 0) {
+    const std::vector<int> greys = Unmixed(layer);
+    for (int x = 0; x < kSize; ++x) {
+      if (x != kEdge - 1) CHECK(greys[size_t(x)] == centre[size_t(3 * x)]);
+    }
+    return greys[kEdge - 1];
+  }
+};
+
+TEST_CASE("unmix: the near part of a sharp pixel beside a defocused surface is taken out") {
+  CHECK(Scene(0, 4, {40, 240, 140}).Mixed() == 40);  // half
+  CHECK(Scene(0, 4, {40, 240, 180}).Mixed() == 40);
+  CHECK(Scene(0, 4, {40, 240, 90}).Mixed() == 65);  // of a quarter, half
+  CHECK(Scene(0, 4, {240, 40, 190}).Mixed() == 215);
+  CHECK(Scene(0, 4, {40, 240, 40}).Mixed() == 40);
+  CHECK(Scene(-1, 4, {40, 240, 90}).Mixed() == 65);
+}
+
+TEST_CASE("unmix: the captured view is read where the near surface has moved away") {
+  for (const int views : {5, 9, 17}) {
+    for (const bool mirrored : {false, true}) {
+      // The view that looks behind the edge is grey, the others would say that nothing is mixed.
+      Scene scene(2, 6, {40, 240, 140}, views, mirrored);
+      std::vector<uint8_t> other(scene.side.size(), 240);
+      const int right = views == 17 ? 9 : 1, left = right + 1, behind = mirrored ? right : left;
+      for (int view = 1; view < views; ++view) {
+        if (view != behind) scene.window.view[view].data = other.data();
+      }
+      // Of that view the pixel alone; it moves by -u d.
+      const int x = mirrored ? kSize - kEdge : kEdge - 1;
+      const int moved = x + (mirrored ? -1 : 1) * (views == 17 ? 1 : 2);
+      std::vector<uint8_t> one(scene.side.size(), 240);
+      for (int y = 0; y < kSize; ++y) {
+        for (int c = 0; c < 3; ++c) one[size_t(3 * (y * kSize + moved) + c)] = 40;
+      }
+      scene.window.view[behind].data = one.data();
+      CHECK(scene.Unmixed()[size_t(x)] == 40);
+    }
+  }
+}
+
+TEST_CASE("unmix: what is sharp in the nearer surface, blurred, or no mixture stays") {
+  CHECK(Scene(-4, 0, {40, 240, 140}).Mixed() == 140);    // the near surface is in focus
+  CHECK(Scene(0, 1, {40, 240, 140}).Mixed() == 140);     // no edge
+  CHECK(Scene(-3, 8, {40, 240, 140}).Mixed() == 140);    // blurred by three pixels
+  CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);   // the way there
+  CHECK(Scene(-1.5, 2, {40, 240, 140}).Mixed() == 90);   // hardly more defocused
+  CHECK(Scene(0, 4, {40, 240, 210}).Mixed() == 210);     // more near than far
+  CHECK(Scene(0, 4, {40, 240, 20}).Mixed() == 20);       // beyond the far colour
+  CHECK(Scene(0, 4, {40, 44, 42}).Mixed() == 42);        // hardly a contrast
+  CHECK(Scene(0, 4, {40, 240, 140}, 1).Mixed() == 140);  // nothing looks behind
+  CHECK(Scene(0, 4, {40, 240, 140}).Mixed(1) == 140);    // subsampled
+  Scene colourful(0, 4, {40, 240, 140});
+  for (int y = 0; y < kSize; ++y) colourful.centre[size_t(3 * (y * kSize + kEdge - 1))] = 255;
+  CHECK(colourful.Mixed() == 255);
+}
+
+}  // namespace

@@ -1,0 +1,473 @@
+// Block analysis against brute force: on random disparity maps, no pixel beyond a block's border
+// may have a blur that reaches the block or what a layer renders around it. The picture's edge
+// pixels repeat outside it.
+#include "lib/plan/block_stats.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "lib/engine/engine.h"
+#include "lib/plan/partition.h"
+#include "tests/plan/measured_cells.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::BlockStats;
+using starfocus::BlurScale;
+using starfocus::Border;
+using starfocus::Cell;
+using starfocus::CellGrid;
+using starfocus::kCellSize;
+using starfocus::kLayerMargin;
+using starfocus::kSmallestBlock;
+using starfocus::Window;
+
+constexpr int kDisparityOne = 1 << starfocus::kDisparityBits;
+constexpr int kSizes = 5;  // 16, 32, ... 256
+
+// A disparity map in the engine's units, and the lens.
+struct Map {
+  int width = 1, height = 1;
+  std::vector<int16_t> disparity;
+  std::vector<double> radius, right_edge, lower_edge;
+  BlurScale scale = {0, int64_t{1} << starfocus::kStepBits};
+
+  int16_t& At(int x, int y) { return disparity[size_t(y) * size_t(width) + size_t(x)]; }
+  // Fills the tables below once the disparities are there.
+  void Measure() {
+    radius.resize(disparity.size());
+    right_edge.assign(disparity.size(), -1);
+    lower_edge.assign(disparity.size(), -1);
+    for (size_t i = 0; i < disparity.size(); ++i) {
+      const int distance = std::abs(disparity[i] - scale.focus);
+      radius[i] = std::ldexp(double(scale.step), -starfocus::kStepBits) * distance / kDisparityOne;
+    }
+    const auto edge = [&](size_t a, size_t b) {
+      if (std::abs(disparity[a] - disparity[b]) <= starfocus::kSurfaceStep) return -1.0;
+      return disparity[a] > disparity[b] ? radius[a] : radius[b];
+    };
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const size_t i = Index(x, y);
+        if (x + 1 < width) right_edge[i] = edge(i, i + 1);
+        if (y + 1 < height) lower_edge[i] = edge(i, i + size_t(width));
+      }
+    }
+  }
+  // The edge of the picture repeats outside.
+  size_t Index(int x, int y) const {
+    const int cx = std::clamp(x, 0, width - 1), cy = std::clamp(y, 0, height - 1);
+    return size_t(cy) * size_t(width) + size_t(cx);
+  }
+  // Blur radius (2) in pixels.
+  double Radius(int x, int y) const { return radius[Index(x, y)]; }
+  // Radius of the nearer of a pixel and the one below (right of) it if a depth edge lies between;
+  // -1: none.
+  double EdgeRadius(int x, int y, bool below) const {
+    if (below) return y < 0 || y >= height ? -1 : lower_edge[Index(x, y)];
+    return x < 0 || x >= width ? -1 : right_edge[Index(x, y)];
+  }
+  double LargestRadius() const {
+    double largest = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) largest = std::max(largest, Radius(x, y));
+    }
+    return largest;
+  }
+};
+
+Map EmptyMap(int width, int height, double focus, double aperture) {
+  Map map;
+  map.width = width;
+  map.height = height;
+  map.disparity.assign(size_t(width) * size_t(height), 0);
+  map.scale.focus = int32_t(std::floor(focus * kDisparityOne + 0.5));
+  map.scale.step = int64_t(std::ldexp(aperture, starfocus::kStepBits));
+  return map;
+}
+
+int16_t Fixed(double disparity) {
+  return int16_t(std::clamp(std::floor(disparity * kDisparityOne + 0.5), -32000.0, 32000.0));
+}
+
+// `amplitude`: of what the content adds to the disparity 0.
+enum Content { kPieces, kNoise, kSparks, kSlant, kContents };
+
+Map RandomMap(int width, int height, Content content, double amplitude, test::Random* random) {
+  Map map = EmptyMap(width, height, random->Real(-amplitude, amplitude),
+                     random->Int(0, 1) == 0 ? 1 : random->Real(0.2, 1));
+  if (content == kPieces) {
+    for (int piece = 0; piece < 3 + width * height / 400; ++piece) {
+      const int16_t d = Fixed(random->Real(-amplitude, amplitude));
+      const int x0 = piece == 0 ? 0 : random->Int(0, width - 1);
+      const int y0 = piece == 0 ? 0 : random->Int(0, height - 1);
+      const int x1 = piece == 0 ? width : std::min(width, x0 + random->Int(1, 30));
+      const int y1 = piece == 0 ? height : std::min(height, y0 + random->Int(1, 30));
+      for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) map.At(x, y) = d;
+      }
+    }
+    return map;
+  }
+  const double dx = random->Real(-1, 1) * amplitude / 40, dy = random->Real(-1, 1) * amplitude / 40;
+  const double focus = double(map.scale.focus) / kDisparityOne;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      double d = 0;
+      if (content == kNoise) d = random->Real(-amplitude, amplitude);
+      // Single pixels out of focus, rare enough that each decides a border.
+      if (content == kSparks) {
+        d = focus + (random->Int(0, 299) == 0 ? random->Real(-amplitude, amplitude) : 0);
+      }
+      if (content == kSlant) {
+        d = std::clamp(dx * (x - width / 2) + dy * (y - height / 2), -amplitude, amplitude);
+      }
+      map.At(x, y) = Fixed(d);
+    }
+  }
+  return map;
+}
+
+// The cells of the stripe at row y, with the rows around it that the engine keeps: memory beyond
+// them is the sanitizer's.
+struct Cells {
+  Cells(const Map& map, int y, int side, int around) {
+    Window window;
+    window.width = window.picture_width = map.width;
+    window.height = window.picture_height = map.height;
+    window.disparity = {map.disparity.data(), size_t(map.width), 0, 0};
+    grid.columns = (map.width + kCellSize - 1) / kCellSize;
+    grid.rows = (map.height + kCellSize - 1) / kCellSize;
+    const int end = std::min(y + side, map.height);
+    grid.first_row = std::max(0, y / kCellSize - around);
+    grid.last_row = std::min(grid.rows, (end - 1) / kCellSize + around + 2);
+    cells.resize(size_t(grid.last_row - grid.first_row) * size_t(grid.columns));
+    grid.cells = cells.data();
+    for (int row = grid.first_row; row < grid.last_row; ++row) {
+      starfocus::MeasureCells(starfocus::simd::BestKernels(), window, map.scale, row, 0,
+                              grid.columns, grid.At(0, row));
+    }
+  }
+  CellGrid grid;
+  std::vector<Cell> cells;
+};
+
+// Whether a pixel that moves by up to its radius in any direction, rounded to a whole pixel, may
+// land in columns [x0, x1] and rows [y0, y1].
+bool Reaches(int x, int y, double radius, int x0, int y0, int x1, int y1) {
+  const double dx = std::max({0.0, x0 - 0.5 - x, x - (x1 + 0.5)});
+  const double dy = std::max({0.0, y0 - 0.5 - y, y - (y1 + 0.5)});
+  return dx * dx + dy * dy <= radius * radius;
+}
+
+// What the analysis may know of the block [x0, x0 + side) x [y0, y0 + side).
+struct Exact {
+  Border border[3] = {};
+  double inside_min = 1e9, inside_max = 0;  // radii of the block's pixels in the picture
+  double reaching_max = 0;                  // of those and all that reach them
+  double around_max = 0;                    // of all within the analysis' sight
+  double edge_max = 0;                      // of the nearer side of depth edges that concern it
+  double around_edge_max = 0;               // of all edges in sight
+};
+
+Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
+  const int x1 = std::min(x0 + side, map.width) - 1, y1 = std::min(y0 + side, map.height) - 1;
+  const int sight = int(std::ceil(largest)) + kLayerMargin[2] + 2;
+  Exact exact;
+  for (int y = y0 - sight; y < y0 + side + sight; ++y) {
+    for (int x = x0 - sight; x < x0 + side + sight; ++x) {
+      const double radius = map.Radius(x, y);
+      if (x >= x0 && x <= x1 && y >= y0 && y <= y1) {
+        exact.inside_min = std::min(exact.inside_min, radius);
+        exact.inside_max = std::max(exact.inside_max, radius);
+      }
+      for (int layer = 0; layer < 3; ++layer) {
+        const int margin = kLayerMargin[layer];
+        if (!Reaches(x, y, radius, x0 - margin, y0 - margin, x1 + margin, y1 + margin)) continue;
+        if (layer == 0) exact.reaching_max = std::max(exact.reaching_max, radius);
+        Border& border = exact.border[layer];
+        border.left = std::max(border.left, x0 - x);
+        border.right = std::max(border.right, x - (x0 + side - 1));
+        border.top = std::max(border.top, y0 - y);
+        border.bottom = std::max(border.bottom, y - (y0 + side - 1));
+      }
+    }
+  }
+  for (int y = y0 - sight - 24; y < y0 + side + sight + 24; ++y) {
+    for (int x = x0 - sight - 24; x < x0 + side + sight + 24; ++x) {
+      exact.around_max = std::max(exact.around_max, map.Radius(x, y));
+      for (const bool below : {false, true}) {
+        const int other_x = x + !below, other_y = y + below;
+        const double radius = map.EdgeRadius(x, y, below);
+        if (radius < 0) continue;
+        exact.around_edge_max = std::max(exact.around_edge_max, radius);
+        // An edge concerns the block when a pixel on either side is or lands in it.
+        if (Reaches(x, y, map.Radius(x, y), x0, y0, x1, y1) ||
+            Reaches(other_x, other_y, map.Radius(other_x, other_y), x0, y0, x1, y1)) {
+          exact.edge_max = std::max(exact.edge_max, radius);
+        }
+      }
+    }
+  }
+  return exact;
+}
+
+// Sums over blocks, by size and layer.
+struct Tally {
+  int64_t blocks = 0, exact = 0, given = 0;  // borders of four sides
+  double exact_area = 0, given_area = 0;     // of extended rectangles
+};
+Tally tallies[kSizes][3];
+int64_t violations = 0;
+
+void Count(int level, int layer, const Exact& exact, const BlockStats& stats) {
+  const Border& e = exact.border[layer];
+  const Border& g = stats.border[layer];
+  const int side = kSmallestBlock << level;
+  Tally& tally = tallies[level][layer];
+  tally.blocks += 1;
+  tally.exact += e.left + e.right + e.top + e.bottom;
+  tally.given += g.left + g.right + g.top + g.bottom;
+  tally.exact_area += double(side + e.left + e.right) * (side + e.top + e.bottom);
+  tally.given_area += double(side + g.left + g.right) * (side + g.top + g.bottom);
+}
+
+void CheckBlock(const Map& map, int x0, int y0, int level, double largest,
+                const BlockStats& stats) {
+  const int side = kSmallestBlock << level;
+  const Exact exact = Measure(map, x0, y0, side, largest);
+  CAPTURE(map.width);
+  CAPTURE(map.height);
+  CAPTURE(x0);
+  CAPTURE(y0);
+  CAPTURE(side);
+  for (int layer = 0; layer < 3; ++layer) {
+    CAPTURE(layer);
+    const Border& e = exact.border[layer];
+    const Border& g = stats.border[layer];
+    Count(level, layer, exact, stats);
+    const bool enough =
+        g.left >= e.left && g.right >= e.right && g.top >= e.top && g.bottom >= e.bottom;
+    if (enough) continue;
+    if (++violations > 5) continue;  // they come in thousands
+    CHECK(g.left >= e.left);
+    CHECK(g.right >= e.right);
+    CHECK(g.top >= e.top);
+    CHECK(g.bottom >= e.bottom);
+  }
+  // Rounded down and up by at most a unit each.
+  const double r_min = double(stats.r_min) / kDisparityOne, unit = 2.0 / kDisparityOne;
+  const double r_max = double(stats.r_max) / kDisparityOne;
+  CHECK(r_min <= exact.inside_min);
+  CHECK(r_min > exact.inside_min - unit);
+  CHECK(r_max >= exact.reaching_max);
+  CHECK(r_max <= std::max(exact.inside_max, exact.around_max) + unit);
+  const double r_edge = double(stats.r_edge) / kDisparityOne;
+  CHECK(r_edge >= exact.edge_max);
+  CHECK(r_edge <= exact.around_edge_max + unit);
+}
+
+// Checks all blocks of a picture, as the engine's quadtree makes them.
+void CheckMap(Map map, int largest_block) {
+  map.Measure();
+  const double largest = map.LargestRadius();
+  const int around = starfocus::GetReach(largest).cells;
+  for (int y = 0; y < map.height; y += largest_block) {
+    const Cells cells(map, y, largest_block, around);
+    // stats[level]: the blocks of one size in the stripe, row by row; null beyond the picture.
+    std::vector<std::vector<BlockStats>> stats;
+    for (int level = 0; (kSmallestBlock << level) <= largest_block; ++level) {
+      const int side = kSmallestBlock << level;
+      const int columns = (map.width + side - 1) / side;
+      const int rows = (std::min(largest_block, map.height - y) + side - 1) / side;
+      const int below_columns = (map.width + side / 2 - 1) / (side / 2);
+      const int below_rows = (std::min(largest_block, map.height - y) + side / 2 - 1) / (side / 2);
+      stats.emplace_back();
+      for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+          if (level == 0) {
+            stats[0].push_back(
+                test::MeasureBlock(cells.grid, 2 * column, 2 * row + y / kCellSize, around));
+          } else {
+            const BlockStats* children[4];
+            for (int child = 0; child < 4; ++child) {
+              const int cx = 2 * column + child % 2, cy = 2 * row + child / 2;
+              const bool inside = cx < below_columns && cy < below_rows;
+              children[child] =
+                  inside ? &stats[size_t(level) - 1][size_t(cy * below_columns + cx)] : nullptr;
+            }
+            stats[size_t(level)].push_back(starfocus::MergeBlocks(children, side / 2));
+          }
+          CheckBlock(map, column * side, y + row * side, level, largest,
+                     stats[size_t(level)].back());
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("cells: no pixel beyond a border reaches its block, on random disparity maps") {
+  test::Random random(11);
+  constexpr int kWidths[] = {1, 7, 8, 9, 15, 16, 17, 23, 40, 64, 71, 90};
+  for (int round = 0; round < (STARFOCUS_EMULATED ? 100 : 300); ++round) {
+    const int width = kWidths[random.Int(0, 11)], height = kWidths[random.Int(0, 11)];
+    const auto content = Content(round % kContents);
+    const double amplitude = std::vector<double>{0.3, 1, 3, 8, 20}[size_t(random.Int(0, 4))];
+    const Map map = RandomMap(width, height, content, amplitude, &random);
+    CAPTURE(round);
+    CheckMap(map, 32 << random.Int(0, 1));
+  }
+  for (const int width : {200, 256, 300, 515}) {
+    for (int round = 0; round < kContents; ++round) {
+      const int height = random.Int(100, 280);
+      CheckMap(RandomMap(width, height, Content(round % kContents), random.Real(2, 9), &random),
+               128 << random.Int(0, 1));
+    }
+  }
+  CHECK(violations == 0);
+}
+
+TEST_CASE("cells: borders of one blur are that blur, within a pixel for rounding and a cell") {
+  Map map = EmptyMap(64, 64, 0, 1);
+  for (const double r : {0.0, 0.25, 1.0, 2.5, 7.0, 11.5, 30.0}) {
+    std::fill(map.disparity.begin(), map.disparity.end(), Fixed(r));
+    const int around = starfocus::GetReach(r).cells;
+    const Cells cells(map, 0, 64, around);
+    const BlockStats stats = test::MeasureBlock(cells.grid, 2, 2, around);
+    CAPTURE(r);
+    CHECK(stats.r_min == int(r * kDisparityOne));
+    CHECK(stats.r_max == int(r * kDisparityOne));
+    for (int layer = 0; layer < 3; ++layer) {
+      const int needed = int(std::floor(r + 0.5)) + (r >= 0.5 ? kLayerMargin[layer] : 0);
+      const Border& border = stats.border[layer];
+      for (const int side : {border.left, border.right, border.top, border.bottom}) {
+        CHECK(side >= needed);
+        CHECK(side <= needed + (needed == 0 && layer == 0 ? 1 : kCellSize + kLayerMargin[layer]));
+      }
+    }
+  }
+}
+
+TEST_CASE("cells: a pixel that reaches farther counts from where it lies") {
+  Map map = EmptyMap(24, 24, 0, 1);
+  const auto reach = [&](int side) { return Cells(map, 0, 24, 1).grid.At(1, 1)->reach[side]; };
+  std::fill(map.disparity.begin(), map.disparity.end(), Fixed(3));
+  const int farther = reach(starfocus::kLeft);
+  std::fill(map.disparity.begin(), map.disparity.end(), Fixed(2));
+  const int all = reach(starfocus::kLeft);
+  CHECK(farther == all + 1);
+  // One that lies at least a pixel inside reaches no farther than those at the side.
+  map.At(8 + 5, 8 + 6) = Fixed(3);
+  for (int side = 0; side < 4; ++side) CHECK(reach(side) == all);
+  map.At(8, 8 + 4) = Fixed(3);
+  CHECK(reach(starfocus::kLeft) == farther);
+  CHECK(reach(starfocus::kRight) == all);
+}
+
+TEST_CASE("cells: one pixel out of focus widens the borders of the blocks it reaches, no other") {
+  // Pixel (24 + k, 40) of radius 5 beside the block of 16 at (32, 32).
+  for (int k = 0; k < 8; ++k) {
+    Map map = EmptyMap(96, 96, 0, 1);
+    map.At(24 + k, 40) = Fixed(5);
+    const Cells cells(map, 0, 96, 3);
+    const BlockStats stats = test::MeasureBlock(cells.grid, 4, 4, 3);
+    CAPTURE(k);
+    const int distance = 8 - k;
+    const int needed = distance <= 5 ? distance : 0;
+    CHECK(stats.border[0].left >= needed);
+    CHECK(stats.border[0].left <= std::max(1, distance <= 6 ? distance : 0));
+    CHECK(stats.border[0].right <= 1);
+    CHECK(stats.border[0].top <= 1);
+    CHECK(stats.border[0].bottom <= 1);
+    if (needed > 0) CHECK(stats.r_max >= 5 * kDisparityOne);
+    CHECK(stats.r_min == 0);
+    // Farther blocks neither see it nor count its radius.
+    for (const int column : {7, 8}) {
+      const BlockStats far = test::MeasureBlock(cells.grid, column, 4, 3);
+      CHECK(far.border[0].left <= 1);
+      CHECK(far.r_max == 0);
+    }
+  }
+}
+
+TEST_CASE("cells: a silhouette counts for the cell behind it too") {
+  // A surface begins abruptly with radius 9 at column (row) 40 and slopes down to the right.
+  for (const bool transposed : {false, true}) {
+    Map map = EmptyMap(96, 96, 0, 1);
+    for (int along = 0; along < 96; ++along) {
+      for (int k = 0; k < 8; ++k) {
+        (transposed ? map.At(along, 40 + k) : map.At(40 + k, along)) =
+            Fixed(std::max(0.0, 9 - 1.5 * k));
+      }
+    }
+    map.Measure();
+    const Cells cells(map, 0, 96, 4);
+    // Blocks at 48, 32 and 16: reached from 8 pixels away, inside, and from 9.
+    for (const int column : {6, 4, 2}) {
+      const BlockStats stats = transposed ? test::MeasureBlock(cells.grid, 4, column, 4)
+                                          : test::MeasureBlock(cells.grid, column, 4, 4);
+      CAPTURE(transposed);
+      CAPTURE(column);
+      CHECK(stats.r_edge == 9 * kDisparityOne);
+    }
+  }
+}
+
+TEST_CASE("cells: the engine's largest border and sight cover what the analysis asks for") {
+  test::Random random(12);
+  for (const double r : {0.1, 1.0, 4.9, 13.3, 32.0, 60.0}) {
+    const starfocus::Reach reach = starfocus::GetReach(r);
+    Map map = EmptyMap(280, 280, 0, 1);
+    for (int16_t& d : map.disparity) d = Fixed(random.Real(-r, r));
+    const Cells cells(map, 0, 280, reach.cells);
+    const Cells wide(map, 0, 280, reach.cells + 3);
+    for (int column = 14; column < 20; ++column) {
+      const BlockStats stats = test::MeasureBlock(cells.grid, column, 16, reach.cells);
+      const BlockStats wider = test::MeasureBlock(wide.grid, column, 16, reach.cells + 3);
+      CAPTURE(r);
+      CHECK(stats.r_max == wider.r_max);
+      for (int layer = 0; layer < 3; ++layer) {
+        const Border& border = stats.border[layer];
+        const Border& same = wider.border[layer];
+        CHECK(border.left == same.left);
+        CHECK(border.right == same.right);
+        CHECK(border.top == same.top);
+        CHECK(border.bottom == same.bottom);
+      }
+      const Border& border = stats.border[0];
+      // One pixel more is rendered for the neighbour of an aperture cell.
+      for (const int side : {border.left, border.right, border.top, border.bottom}) {
+        CHECK(side + 1 <= reach.border);
+      }
+    }
+  }
+}
+
+// Last: tells what the first cases measured.
+TEST_CASE("cells: how much larger than needed borders are") {
+  for (int level = 0; level < kSizes; ++level) {
+    for (int layer = 0; layer < 3; ++layer) {
+      const Tally& tally = tallies[level][layer];
+      if (tally.blocks == 0) continue;
+      char text[160];
+      std::snprintf(text, sizeof(text),
+                    "block %3d layer %d: %6lld blocks, border exact %.2f px, given %.2f px; "
+                    "extended area %+.1f %%",
+                    kSmallestBlock << level, layer, static_cast<long long>(tally.blocks),
+                    double(tally.exact) / 4 / double(tally.blocks),
+                    double(tally.given) / 4 / double(tally.blocks),
+                    100 * (tally.given_area / tally.exact_area - 1));
+      MESSAGE(std::string(text));
+      // On average less than a cell on each side.
+      CHECK(tally.given - tally.exact < 4 * kCellSize * tally.blocks);
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,65 @@
+// The cells of a whole disparity map in memory, measured as the engine measures them.
+#ifndef STARFOCUS_TESTS_PLAN_MEASURED_CELLS_H_
+#define STARFOCUS_TESTS_PLAN_MEASURED_CELLS_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lib/plan/block_stats.h"
+#include "lib/plan/neighbourhood.h"
+#include "simd/kernels.h"
+
+namespace test {
+
+// `disparity`: width x height, kDisparityBits, rows packed. The grid's cells lie in `cells`.
+inline starfocus::CellGrid MeasureCells(const std::vector<int16_t>& disparity, int width,
+                                        int height, const starfocus::BlurScale& scale,
+                                        std::vector<starfocus::Cell>* cells) {
+  starfocus::Window window;
+  window.width = window.picture_width = width;
+  window.height = window.picture_height = height;
+  window.disparity = {disparity.data(), size_t(width), 0, 0};
+  starfocus::CellGrid grid;
+  grid.columns = (width + starfocus::kCellSize - 1) / starfocus::kCellSize;
+  grid.rows = grid.last_row = (height + starfocus::kCellSize - 1) / starfocus::kCellSize;
+  cells->resize(size_t(grid.columns) * size_t(grid.rows));
+  grid.cells = cells->data();
+  for (int row = 0; row < grid.rows; ++row) {
+    starfocus::MeasureCells(starfocus::simd::BestKernels(), window, scale, row, 0, grid.columns,
+                            grid.At(0, row));
+  }
+  return grid;
+}
+
+// The surroundings of a block of 2 x 2 cells, in memory of their own.
+class BlockSurroundings {
+ public:
+  BlockSurroundings(const starfocus::CellGrid& grid, int column, int row, int around)
+      : samples_(starfocus::SurroundingSamples(2, around), int16_t{0x5A5A}),
+        surroundings_(
+            starfocus::LoadSurroundings(grid, {column, row, 2, 2}, around, samples_.data())) {}
+  const starfocus::Surroundings& operator*() const { return surroundings_; }
+
+ private:
+  std::vector<int16_t> samples_;
+  starfocus::Surroundings surroundings_;
+};
+
+inline starfocus::BlockStats MeasureBlock(const starfocus::CellGrid& grid, int column, int row,
+                                          int around) {
+  return starfocus::MeasureBlock(starfocus::simd::BestKernels(), grid,
+                                 *BlockSurroundings(grid, column, row, around), column, row);
+}
+
+inline bool IsSmooth(const starfocus::CellGrid& grid, const starfocus::BlurScale& scale, int column,
+                     int row, int around) {
+  bool smooth[starfocus::kMaxRowCells];
+  starfocus::FindSmooth(starfocus::simd::BestKernels(),
+                        *BlockSurroundings(grid, column, row, around), scale, row, smooth);
+  return smooth[0];
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_PLAN_MEASURED_CELLS_H_

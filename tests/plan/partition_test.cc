@@ -1,0 +1,238 @@
+// The quadtree against all partitions there are, with the rules for layers and views and the timing
+// model applied anew.
+#include "lib/plan/partition.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "lib/engine/engine.h"
+#include "tests/plan/measured_cells.h"
+#include "tests/support/partition_plan.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::Block;
+using starfocus::BlurScale;
+using starfocus::Border;
+using starfocus::kCellSize;
+using starfocus::kSmallestBlock;
+using starfocus::Rect;
+using test::AllCosts;
+using test::LayerOf;
+using test::LeastCost;
+using test::Plan;
+using test::Planned;
+using test::ViewsOf;
+
+bool Same(const Rect& a, const Rect& b) {
+  return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
+}
+bool Same(const Border& a, const Border& b) {
+  return a.left == b.left && a.right == b.right && a.top == b.top && a.bottom == b.bottom;
+}
+
+// Side of the quadtree's node that a block is: of the least that hold it.
+int SideOf(const Plan& plan, const Block& block, int x, int y) {
+  int side = kSmallestBlock;
+  while (side < block.rect.width || side < block.rect.height) side *= 2;
+  // At the picture's edge a clipped block may be that of a larger node.
+  for (; side <= plan.rules.largest_block; side *= 2) {
+    if ((block.rect.x - x) % side == 0 && (block.rect.y - y) % side == 0 &&
+        Planned(plan, block.rect.x, block.rect.y, side).cost == block.cost) {
+      return side;
+    }
+  }
+  return 0;
+}
+
+void CheckBlocks(const Plan& plan, int x, int y, const std::vector<Block>& blocks) {
+  const int side = plan.rules.largest_block;
+  std::vector<int> covered(size_t(side) * size_t(side));
+  for (const Block& block : blocks) {
+    const Rect& rect = block.rect;
+    REQUIRE(rect.width > 0);
+    REQUIRE(rect.height > 0);
+    REQUIRE(rect.x + rect.width <= std::min(x + side, plan.rules.width));
+    REQUIRE(rect.y + rect.height <= std::min(y + side, plan.rules.height));
+    for (int row = rect.y; row < rect.y + rect.height; ++row) {
+      for (int column = rect.x; column < rect.x + rect.width; ++column) {
+        covered[size_t(row - y) * size_t(side) + size_t(column - x)] += 1;
+      }
+    }
+    const int node = SideOf(plan, block, x, y);
+    CAPTURE(rect.x);
+    CAPTURE(rect.y);
+    CAPTURE(rect.width);
+    CAPTURE(rect.height);
+    REQUIRE(node > 0);
+    const Block planned = Planned(plan, rect.x, rect.y, node);
+    CHECK(Same(rect, planned.rect));
+    CHECK(Same(block.rendered, planned.rendered));
+    CHECK(Same(block.border, planned.border));
+    CHECK(block.layer == planned.layer);
+    CHECK(block.n == planned.n);
+    CHECK(block.gathers == planned.gathers);
+    for (int row = rect.y; row < rect.y + rect.height && block.gathers; row += kCellSize) {
+      for (int column = rect.x; column < rect.x + rect.width; column += kCellSize) {
+        CHECK((plan.gathered.At(column, row) != 0) == plan.MayGather(column, row));
+      }
+    }
+  }
+  bool once = true;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const bool inside = plan.Inside(x + column, y + row);
+      once = once && covered[size_t(row) * size_t(side) + size_t(column)] == (inside ? 1 : 0);
+    }
+  }
+  CHECK(once);
+}
+
+uint64_t Sum(const std::vector<Block>& blocks) {
+  uint64_t sum = 0;
+  for (const Block& block : blocks) sum += block.cost;
+  return sum;
+}
+
+// Checks every largest block of a picture; the number of blocks.
+size_t CheckPicture(const Plan& plan) {
+  size_t count = 0;
+  const int side = plan.rules.largest_block;
+  for (int y = 0; y < plan.rules.height; y += side) {
+    for (int x = 0; x < plan.rules.width; x += side) {
+      CAPTURE(plan.rules.width);
+      CAPTURE(plan.rules.height);
+      CAPTURE(side);
+      CAPTURE(x);
+      CAPTURE(y);
+      const std::vector<Block> blocks = plan.Partition(x, y);
+      CHECK(Sum(blocks) == LeastCost(plan, x, y, side));
+      CheckBlocks(plan, x, y, blocks);
+      const std::vector<Block> again = plan.Partition(x, y);
+      REQUIRE(again.size() == blocks.size());
+      for (size_t k = 0; k < blocks.size(); ++k) CHECK(Same(again[k].rect, blocks[k].rect));
+      count += blocks.size();
+    }
+  }
+  return count;
+}
+
+TEST_CASE("partition: the least of all partitions, tiled once, by the rules") {
+  test::Random random(7);
+  size_t blocks = 0, largest_blocks = 0;
+  for (int round = 0; round < 60; ++round) {
+    const int side = 32 << random.Int(0, 3);
+    const int width = random.Int(1, side + 40), height = random.Int(1, side + 40);
+    Plan plan(width, height, side, random.Real(0.5, 14), &random);
+    if (round % 2 == 1) plan.rules.timing.block = 0;  // whatever a block costs here, splits more
+    blocks += CheckPicture(plan);
+    largest_blocks += size_t(((width - 1) / side + 1) * ((height - 1) / side + 1));
+  }
+  CHECK(blocks > 2 * largest_blocks);  // there was something to decide
+}
+
+TEST_CASE("partition: literally every partition of 128") {
+  test::Random random(8);
+  for (int round = 0; round < 3; ++round) {
+    const Plan plan(128 - 30 * round, 128, 128, 8, &random);
+    const std::vector<uint64_t> all = AllCosts(plan, 0, 0, 128);
+    if (round == 0) CHECK(all.size() == 83522);  // 1 + (1 + 2^4)^4
+    CHECK(Sum(plan.Partition(0, 0)) == *std::min_element(all.begin(), all.end()));
+  }
+}
+
+TEST_CASE("partition: random and degenerate coefficients") {
+  test::Random random(9);
+  for (int round = 0; round < 60; ++round) {
+    const int side = 32 << random.Int(0, 1);
+    Plan plan(random.Int(1, side), random.Int(1, side), side, 9, &random);
+    sf_timing& timing = plan.rules.timing;
+    for (uint32_t* value : {&timing.block, &timing.field, &timing.a, &timing.b, &timing.c,
+                            &timing.upsample, &timing.span, &timing.hole}) {
+      const int kind = random.Int(0, 3);
+      *value = kind == 0 ? 0 : kind == 1 ? SF_MAX_TIMING : uint32_t(random.Int(0, SF_MAX_TIMING));
+    }
+    CheckPicture(plan);
+  }
+}
+
+TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
+  test::Random random(10);
+  for (const uint32_t block : {0u, 1u, SF_MAX_TIMING}) {
+    for (const int side : {32, 64, 128, 256}) {
+      Plan plan(side - 5, side, side, 10, &random);
+      plan.rules.timing = {};
+      plan.rules.gathers = false;  // what is gathered is not the block's
+      plan.rules.timing.block = block;
+      const std::vector<Block> blocks = plan.Partition(0, 0);
+      REQUIRE(blocks.size() == 1);
+      CHECK(blocks[0].rect.width == side - 5);
+      CHECK(blocks[0].rect.height == side);
+      CHECK(blocks[0].cost == block);
+    }
+  }
+}
+
+TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds") {
+  const int kMiddle = 128;
+  for (const double r :
+       {0.0,   1 / 64.0, 0.5,       1.0,     2.0,      2.984375, 3.0,      3.015625,  3.5, 3.984375,
+        4.0,   5.0,      5.078125,  5.09375, 5.984375, 6.0,      6.015625, 7.984375,  8.0, 8.015625,
+        10.25, 11.0,     11.015625, 15.9,    16.0,     20.5,     24.0,     24.015625, 30.0}) {
+    for (int max_layer = 0; max_layer <= 2; ++max_layer) {
+      test::Random random(1);
+      Plan plan(3 * kMiddle, 3 * kMiddle, 128, 1, &random);
+      std::fill(plan.disparity.begin(), plan.disparity.end(), int16_t(std::floor(r * 64)));
+      const BlurScale scale = {0, int64_t{1} << starfocus::kStepBits};
+      plan.rules.scale = scale;
+      plan.grid = test::MeasureCells(plan.disparity, 3 * kMiddle, 3 * kMiddle, scale, &plan.cells);
+      plan.around = starfocus::GetReach(r).cells;
+      plan.rules.max_layer = max_layer;
+      plan.rules.n_scale = 1;
+      const double exact = std::floor(r * 64) / 64;
+      CAPTURE(exact);
+      CAPTURE(max_layer);
+      for (const bool cells : {false, true}) {
+        CAPTURE(cells);
+        plan.rules.cells = plan.rules.gathers = cells;
+        for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
+          const bool gathered = cells && exact > 0.5 && exact <= 12;
+          CHECK(block.gathers == gathered);
+          if (gathered) {
+            CHECK(block.layer == 0);
+            CHECK(block.n == 0);
+            CHECK(block.rendered.width == 0);
+            continue;
+          }
+          const int layer = std::min(LayerOf(cells, exact, false), max_layer);
+          CHECK(block.layer == layer);
+          CHECK(block.n == ViewsOf(cells, exact / (1 << layer)));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("partition: a picture in focus stays whole") {
+  test::Random random(11);
+  Plan flat(256, 256, 128, 0.001, &random);
+  CHECK(flat.Partition(128, 0).size() == 1);
+  CHECK(flat.Partition(0, 128).size() == 1);
+}
+
+TEST_CASE("partition: N never exceeds its table") {
+  test::Random random(12);
+  for (int round = 0; round < 20; ++round) {
+    Plan plan(90, 70, 64, 20, &random);
+    plan.rules.max_n = random.Int(0, 12);
+    plan.rules.max_layer = 0;
+    for (const Block& block : plan.Partition(0, 0)) CHECK(block.n <= plan.rules.max_n);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,213 @@
+// The timing model: views counted one by one, and a time that is linear in work and coefficients.
+#include "lib/plan/timing.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <cstdlib>
+
+#include "lib/plan/timing_defaults.h"
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::BlockWork;
+using starfocus::Border;
+using starfocus::Content;
+using starfocus::Rect;
+using starfocus::ViewCounts;
+
+// The types of Fig. 11: A on the axes, B on the diagonals, C between them; the centre is none.
+ViewCounts CountOneByOne(int n) {
+  ViewCounts views = {0, 0, 0};
+  for (int i = -n; i <= n; ++i) {
+    for (int j = -n; j <= n; ++j) {
+      if (i * i + j * j > n * n || (i == 0 && j == 0)) continue;
+      if (i == 0 || j == 0) {
+        ++views.a;
+      } else if (std::abs(i) == std::abs(j)) {
+        ++views.b;
+      } else {
+        ++views.c;
+      }
+    }
+  }
+  return views;
+}
+
+// Summed view by view, as (13) has it. With cells the centre is of type A too, and all views away
+// from the rows' axis are scanned along columns.
+BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool cells,
+                            uint64_t upsampled, const Content (&content)[2], int layer) {
+  const auto width = uint64_t(rect.width), height = uint64_t(rect.height);
+  const uint64_t wide = width + uint64_t(border.left) + uint64_t(border.right);
+  const uint64_t high = height + uint64_t(border.top) + uint64_t(border.bottom);
+  BlockWork work = {wide * high, 0, 0, 0, upsampled, 0, 0};
+  uint64_t views = 0, lines = 0;
+  for (int i = -n; i <= n; ++i) {
+    for (int j = -n; j <= n; ++j) {
+      if (i * i + j * j > n * n) continue;
+      if (cells && n > 0) lines += j == 0 ? high : width;
+      if (i == 0 && j == 0) {
+        work.a += cells && n > 0 ? width * high : 0;
+        continue;
+      }
+      ++views;
+      if (j == 0) {
+        work.a += width * high;
+      } else if (cells) {
+        work.c += width * height;
+      } else if (i == 0) {
+        work.a += wide * height;
+      } else if (std::abs(i) == std::abs(j)) {
+        work.b += width * height;
+      } else {
+        work.c += width * height;
+      }
+    }
+  }
+  // Of every two views one is scanned along rows, the other along columns; with cells those on the
+  // rows' axis along rows, all others along columns. A layer has 1 / 2^L of the lines; a slope
+  // makes 1 / 2^L of the runs along each, a gap is 1 / 2^L as wide.
+  const int scale = 1 << layer;
+  const uint64_t on_axis = n == 0 ? 0 : 2 * uint64_t(n) + 1;
+  const uint64_t scans[2] = {cells ? on_axis : views / 2,
+                             cells ? views - uint64_t(2 * n) : views / 2};
+  work.span = cells ? lines : views / 2 * (width + height);
+  for (int along = 0; along < 2; ++along) {
+    const Content& met = content[along];
+    const uint64_t runs = met.slopes / uint64_t(scale * scale) + met.edges / uint64_t(scale);
+    work.span += scans[along] * runs / starfocus::kContentOne;
+    work.hole += scans[along] * (met.gaps / uint64_t(scale * scale)) / starfocus::kContentOne;
+  }
+  return work;
+}
+
+TEST_CASE("timing: views of each type, counted one by one") {
+  for (int n = 0; n <= 110; ++n) {
+    CAPTURE(n);
+    const ViewCounts expected = CountOneByOne(n), got = starfocus::CountViews(n);
+    CHECK(got.a == expected.a);
+    CHECK(got.b == expected.b);
+    CHECK(got.c == expected.c);
+  }
+}
+
+TEST_CASE("timing: the work of a block, view by view") {
+  test::Random random(3);
+  for (int round = 0; round < 300; ++round) {
+    const Rect rect = {random.Int(-9, 99), random.Int(-9, 99), random.Int(1, 256),
+                       random.Int(1, 256)};
+    const Border border = {random.Int(0, 140), random.Int(0, 140), random.Int(0, 140),
+                           random.Int(0, 140)};
+    const int n = random.Int(0, round < 250 ? 12 : 102);
+    const uint64_t upsampled = random.Next();
+    const auto amount = [&] { return uint32_t(random.Int(0, 1 << 16)); };
+    const Content content[2] = {{amount(), amount(), amount()}, {amount(), amount(), amount()}};
+    const int layer = random.Int(0, 2);
+    const bool cells = random.Int(0, 1) == 1;
+    const BlockWork expected = MeasureViewByView(rect, border, n, cells, upsampled, content, layer);
+    const BlockWork got = starfocus::MeasureWork(rect, border, starfocus::CountViews(n), cells,
+                                                 upsampled, content, layer);
+    CAPTURE(n);
+    CHECK(got.field == expected.field);
+    CHECK(got.a == expected.a);
+    CHECK(got.b == expected.b);
+    CHECK(got.c == expected.c);
+    CHECK(got.upsample == expected.upsample);
+    CHECK(got.span == expected.span);
+    CHECK(got.hole == expected.hole);
+  }
+}
+
+constexpr uint32_t sf_timing::*kCoefficients[] = {
+    &sf_timing::field,    &sf_timing::a,    &sf_timing::b,    &sf_timing::c,
+    &sf_timing::upsample, &sf_timing::span, &sf_timing::hole, &sf_timing::block};
+constexpr uint64_t BlockWork::*kAmounts[] = {
+    &BlockWork::field,    &BlockWork::a,    &BlockWork::b,   &BlockWork::c,
+    &BlockWork::upsample, &BlockWork::span, &BlockWork::hole};
+static_assert(sizeof(sf_timing) == 8 * sizeof(uint32_t), "a coefficient is not tested");
+static_assert(sizeof(BlockWork) == 7 * sizeof(uint64_t), "an amount is not tested");
+
+sf_timing EqualTiming(uint32_t value) {
+  sf_timing timing = {};
+  for (const auto coefficient : kCoefficients) timing.*coefficient = value;
+  return timing;
+}
+
+TEST_CASE("timing: each coefficient counts its own work") {
+  BlockWork work = {};
+  uint64_t amount = 1;
+  for (const auto which : kAmounts) work.*which = ++amount;
+  CHECK(starfocus::PredictTime(EqualTiming(0), work) == 0);
+  for (int k = 0; k < 8; ++k) {
+    sf_timing timing = EqualTiming(0);
+    timing.*kCoefficients[k] = 100;
+    CHECK(starfocus::PredictTime(timing, work) == 100 * (k < 7 ? work.*kAmounts[k] : 1));
+  }
+}
+
+TEST_CASE("timing: linear in work and in coefficients") {
+  test::Random random(4);
+  for (int round = 0; round < 200; ++round) {
+    sf_timing s = {}, t = {}, sum = {};
+    for (const auto which : kCoefficients) {
+      s.*which = uint32_t(random.Int(0, 1 << 24));
+      t.*which = uint32_t(random.Int(0, 1 << 24));
+      sum.*which = s.*which + t.*which;
+    }
+    BlockWork v = {}, w = {}, both = {};
+    for (const auto which : kAmounts) {
+      v.*which = uint64_t(random.Int(0, 1 << 20));
+      w.*which = uint64_t(random.Int(0, 1 << 20));
+      both.*which = v.*which + w.*which;
+    }
+    CHECK(starfocus::PredictTime(sum, v) ==
+          starfocus::PredictTime(s, v) + starfocus::PredictTime(t, v));
+    CHECK(starfocus::PredictTime(s, both) + s.block ==
+          starfocus::PredictTime(s, v) + starfocus::PredictTime(s, w));
+  }
+}
+
+TEST_CASE("timing: a largest block with the largest coefficients, and all it splits into") {
+  const sf_timing most = EqualTiming(SF_MAX_TIMING);
+  const auto exact = [&](const BlockWork& work) {
+    long double sum = 1;
+    for (const auto which : kAmounts) sum += static_cast<long double>(work.*which);
+    return sum * SF_MAX_TIMING;
+  };
+  for (const int side : {16, 32, 64, 128, 256}) {
+    // Of content, more than there are pixels.
+    const auto pixels = uint32_t(side * side);
+    const Content along = {64 * pixels, 64 * pixels, 256 * pixels};
+    const Content content[2] = {along, along};
+    const BlockWork work =
+        starfocus::MeasureWork({0, 0, side, side}, {140, 140, 140, 140}, starfocus::CountViews(102),
+                               false, pixels, content, 0);
+    CAPTURE(side);
+    CHECK(exact(work) * (256 / side) * (256 / side) < 1.8e19L);
+    CHECK(static_cast<long double>(starfocus::PredictTime(most, work)) == exact(work));
+  }
+}
+
+TEST_CASE("timing: the built-in coefficients are legal, and only some pixels cost nothing more") {
+  for (const starfocus::NamedTiming& each : starfocus::kBuiltInTimings) {
+    CAPTURE(each.name);
+    const sf_timing& timing = each.timing;
+    for (const auto coefficient : kCoefficients) CHECK(timing.*coefficient <= SF_MAX_TIMING);
+    // A fit cannot always tell the types apart, B and C being rendered from A, nor the field, whose
+    // pixels grow with those of type A. By slices A tells most of what a block and its steps cost.
+    CHECK(timing.a > 0);
+    CHECK(timing.upsample > 0);
+    CHECK(timing.span + timing.hole > 0);
+  }
+  sf_config config;
+  sf_config_init(&config);
+  const sf_timing& own = starfocus::kBuiltInTimings[starfocus::kOwnTiming].timing;
+  for (const auto coefficient : kCoefficients) {
+    CHECK(config.timing.*coefficient == own.*coefficient);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,170 @@
+// The picture of a stack of slices, where what it must be is known.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "lib/engine/engine.h"
+#include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64, kEdge = 48;
+
+// White and near on the left, black and far on the right; all captured views black but where they
+// look beyond the left edge.
+test::Scene HalfPlanes(double near, double far, int views) {
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, views, float(far), float(near));
+  for (auto& picture : scene.pictures) std::fill(picture.begin(), picture.end(), uint8_t{0});
+  for (int y = 0; y < kHeight; ++y) {
+    for (int view = 1; view < views; ++view)
+      std::fill_n(scene.Pixel(view, 0, y), 3 * 20, uint8_t(255));
+    for (int x = 0; x < kWidth; ++x) {
+      scene.Disparity(x, y) = float(x < kEdge ? near : far);
+      if (x < kEdge) std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(255));
+    }
+  }
+  return scene;
+}
+
+std::vector<int> MiddleRow(const test::Scene& scene, double focus, sf_mode mode, int layers = 0) {
+  sf_config config = test::ConfigFor(scene, 32);
+  config.gather = 0;
+  config.max_layer = layers;
+  sf_params params = test::Params(focus, 1, mode);
+  params.rule = SF_RULE_CELLS;
+  const test::Refocused picture = test::RefocusScene(scene, config, params);
+  std::vector<int> row;
+  for (int x = 0; x < kWidth; ++x) {
+    row.push_back(picture.rgb[size_t(3 * (kHeight / 2 * kWidth + x))]);
+  }
+  return row;
+}
+
+TEST_CASE("stack: a surface in focus has a sharp end in front of a blurred one") {
+  for (const int views : {5, 9, 17}) {
+    for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+      const std::vector<int> row = MiddleRow(HalfPlanes(2, -6, views), 2, mode);
+      CAPTURE(views);
+      for (int x = 0; x < kWidth; ++x) {
+        CAPTURE(x);
+        CHECK(row[size_t(x)] == (x < kEdge ? 255 : 0));
+      }
+    }
+  }
+}
+
+TEST_CASE("stack: a blurred surface falls off evenly in front of one in focus") {
+  for (const double radius : {2.0, 6.0, 13.0, 20.0}) {
+    const std::vector<int> row = MiddleRow(HalfPlanes(radius - 3, -3, 5), -3, SF_MODE_BLOCK);
+    CAPTURE(radius);
+    for (int x = 1; x < kWidth; ++x) {
+      CAPTURE(x);
+      CHECK(row[size_t(x)] <= row[size_t(x - 1)]);
+      // No band: a cell is at most a sixth of the blur wide, but for the sharpest.
+      if (radius > 3) CHECK(row[size_t(x - 1)] - row[size_t(x)] <= 300 / radius);
+      if (x < kEdge - radius - 2) CHECK(row[size_t(x)] == 255);
+      if (x > kEdge + radius + 2) CHECK(row[size_t(x)] == 0);
+    }
+    // Half of the light at the edge.
+    CHECK(std::abs(row[kEdge - 1] + row[kEdge] - 255) <= 6);
+  }
+}
+
+TEST_CASE("stack: the far surface behind a blurred one is what captured views see") {
+  test::Scene scene = HalfPlanes(4, 0, 5);
+  for (int view = 1; view < 5; ++view) {
+    std::fill(scene.pictures[size_t(view)].begin(), scene.pictures[size_t(view)].end(),
+              uint8_t(100));
+  }
+  const std::vector<int> row = MiddleRow(scene, 0, SF_MODE_BLOCK);
+  // Where the near surface covers some of the lens the hidden grey shows, beside it the black.
+  CHECK(row[kEdge - 1] > 150);
+  CHECK(row[kEdge - 4] > row[kEdge - 1]);
+  CHECK(row[kEdge + 6] == 0);
+}
+
+TEST_CASE("stack: adjacent slices of one slope neither leak nor cover each other") {
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, 5, -3, 8);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      scene.Disparity(x, y) = -3 + 11.0f * float(x) / kWidth;
+      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(2 * x));  // a ramp: blur leaves it
+    }
+  }
+  for (const double focus : {-3.0, 0.0, 8.0}) {
+    const std::vector<int> row = MiddleRow(scene, focus, SF_MODE_BLOCK);
+    for (int x = 16; x < kWidth - 16; ++x) {
+      CAPTURE(focus);
+      CAPTURE(x);
+      CHECK(std::abs(row[size_t(x)] - 2 * x) <= 1);
+    }
+  }
+}
+
+TEST_CASE("stack: where slices of a slope overlap, its end covers no more than elsewhere") {
+  test::Scene scene = HalfPlanes(7, 0, 5);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kEdge; ++x) scene.Disparity(x, y) = 3 + float(y) / kHeight;
+  }
+  sf_config config = test::ConfigFor(scene, 32);
+  config.gather = 0;
+  config.max_layer = 0;
+  const test::Refocused picture =
+      test::RefocusScene(scene, config, test::Params(0, 1, SF_MODE_BLOCK));
+  double least = kWidth, most = 0;
+  for (int y = 8; y < kHeight - 8; ++y) {
+    double light = 0;
+    for (int x = 0; x < kWidth; ++x) light += picture.rgb[size_t(3 * (y * kWidth + x))] / 255.0;
+    least = std::min(least, light);
+    most = std::max(most, light);
+  }
+  CAPTURE(least);
+  CAPTURE(most);
+  CHECK(std::abs(least - kEdge) < 0.06);
+  CHECK(std::abs(most - kEdge) < 0.06);
+}
+
+TEST_CASE("stack: slices made section by section give the same picture") {
+  test::Random random(4);
+  test::Scene scene = HalfPlanes(9, -9, 5);
+  for (auto& picture : scene.pictures) {
+    for (uint8_t& sample : picture) sample = uint8_t(random.Int(0, 255));
+  }
+  test::Engine engine(test::ConfigFor(scene, 20));
+  REQUIRE(engine.status() == SF_OK);
+  auto& limits = reinterpret_cast<starfocus::EngineState*>(engine.get())->workers[0].stack.limits;
+  const auto reach = size_t(starfocus::SliceReach(16 * starfocus::kShiftOne, starfocus::kShiftOne));
+  const size_t whole = starfocus::SliceBytes(64, 64, reach) + starfocus::TileBytes(64, reach);
+  const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::TileBytes(8, reach);
+  REQUIRE(limits.bytes > 2 * whole);
+  for (const double focus : {0.0, 6.0}) {
+    const sf_params params = test::Params(focus, 1, SF_MODE_BENCHMARK);
+    test::Output expected(kWidth, kHeight), out(kWidth, kHeight);
+    REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
+    const size_t ample = limits.bytes;
+    for (const size_t bytes : {whole, (whole + least) / 2, 2 * least}) {
+      limits.bytes = bytes;
+      REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+      CAPTURE(focus);
+      CAPTURE(bytes);
+      CHECK(out.bytes == expected.bytes);
+    }
+    limits.bytes = ample;
+  }
+}
+
+TEST_CASE("stack: a worker takes a mebibyte at blocks of 64 and blurs of 32") {
+  size_t bytes[2];
+  for (int workers = 1; workers <= 2; ++workers) {
+    sf_config config = test::ConfigFor(HalfPlanes(16, -16, 17), 32);
+    config.largest_block = 64;
+    config.max_workers = workers;
+    REQUIRE(sf_workspace_size(&config, &bytes[workers - 1]) == SF_OK);
+  }
+  CHECK(bytes[1] - bytes[0] <= size_t{1} << 20);
+}
+
+}  // namespace

@@ -1,0 +1,145 @@
+// How the surfaces of a rectangle are cut into slices.
+#include "lib/slices/depth_slices.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::kMaxSlices;
+using starfocus::Slice;
+using starfocus::SliceRule;
+
+constexpr int kSize = 64;
+constexpr starfocus::SliceLimits kAmple = {size_t{1} << 24, 1 << 12, size_t{1} << 24};
+
+// Maps of one surface, or of one behind another, as FindSurfaces leaves them.
+struct Scene {
+  std::vector<int16_t> planes[3];
+  std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
+  std::vector<uint8_t> bins = std::vector<uint8_t>(starfocus::kSliceBins);
+  std::vector<int32_t> least = std::vector<int32_t>(kSize);
+  starfocus::Surfaces surfaces;
+
+  Scene() {
+    surfaces.width = surfaces.height = surfaces.stride = kSize;
+    for (int k = 0; k < 3; ++k) {
+      planes[k].assign(kSize * kSize + starfocus::simd::kSliceLanes,
+                       k == 0 ? int16_t{0} : starfocus::kNoSurface);
+      surfaces.disparity[k] = planes[k].data();
+    }
+    surfaces.hiding = hiding.data();
+  }
+
+  int16_t& At(int x, int y, int surface = 0) {
+    if (surface > 0) hiding[size_t(y)] |= uint64_t{1} << (x / 16);
+    return planes[surface][size_t(y * kSize + x)];
+  }
+
+  // Of the middle 16 x 16 pixels.
+  std::vector<Slice> Cut(double focus, double aperture = 1,
+                         const SliceRule& rule = starfocus::kSlices,
+                         const starfocus::SliceLimits& limits = kAmple) {
+    starfocus::Aperture views;
+    views.n = views.last = 4;
+    const auto grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
+    const auto range = std::minmax_element(planes[0].begin(), planes[0].end());
+    surfaces.low = *range.first;
+    surfaces.high = *range.second;
+    std::vector<Slice> slices(kMaxSlices);
+    const int count = starfocus::FindSlices({&starfocus::simd::BestKernels(),
+                                             &surfaces,
+                                             &grid,
+                                             rule,
+                                             {24, 24, 16, 16},
+                                             bins.data(),
+                                             least.data(),
+                                             limits},
+                                            slices.data());
+    REQUIRE(count > 0);
+    REQUIRE(count <= rule.most);
+    slices.resize(size_t(count));
+    for (size_t k = 0; k < slices.size(); ++k) {
+      CHECK(slices[k].low <= slices[k].disparity);
+      CHECK(slices[k].disparity <= slices[k].high);
+      CHECK(slices[k].high <= slices[k].overlap);
+      if (k > 0) CHECK(slices[k].high < slices[k - 1].low);
+    }
+    return slices;
+  }
+};
+
+TEST_CASE("slices: one surface is one slice, moved by its own disparity") {
+  for (const int disparity : {-333, 0, 1, 517}) {
+    Scene scene;
+    std::fill(scene.planes[0].begin(), scene.planes[0].end(), int16_t(disparity));
+    const std::vector<Slice> slices = scene.Cut(2.25);
+    CHECK(slices.size() == 1);
+    CHECK(slices[0].disparity == disparity);
+  }
+}
+
+TEST_CASE("slices: the nearest first, also what lies behind") {
+  Scene scene;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 30; x < kSize; ++x) scene.At(x, y) = 400;
+  }
+  scene.At(0, 0) = -300;  // too far away to be seen; nothing is hidden that is nowhere visible
+  scene.At(35, 32, 1) = -200;
+  scene.At(35, 32, 2) = -300;
+  const std::vector<Slice> slices = scene.Cut(0);
+  REQUIRE(slices.size() == 4);
+  CHECK(slices[0].disparity == 400);
+  CHECK(slices[1].disparity == 0);
+  CHECK(slices[2].disparity == -200);
+  CHECK(slices[3].disparity == -300);
+}
+
+TEST_CASE("slices: what cannot splat into the rectangle is left out") {
+  Scene scene;
+  scene.At(10, 30) = 64 * 12;  // 14 pixels away, and one for interpolation
+  CHECK(scene.Cut(0).size() == 1);
+  scene.At(10, 30) = 64 * 13;
+  CHECK(scene.Cut(0).size() == 2);
+  CHECK(scene.Cut(0, 0.5).size() == 1);
+}
+
+TEST_CASE("slices: three eighths of a pixel at the rim, more of a wide blur, and all disparities") {
+  Scene scene;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) scene.At(x, y) = int16_t(4 * (x - 32));  // -2 to 2 pixels
+  }
+  std::vector<bool> held(4 * 64);
+  for (const Slice& slice : scene.Cut(0)) {
+    CHECK(slice.high - slice.low < 24);
+    for (int d = slice.low; d <= slice.high; ++d) held[size_t(d + 128)] = true;
+  }
+  for (int x = 24; x < 40; ++x) CHECK(held[size_t(scene.At(x, 30) + 128)]);
+  const std::vector<Slice> blurred = scene.Cut(-40);
+  for (const Slice& slice : blurred) CHECK(slice.high - slice.low <= 24 * (42 - 4) / 4);
+  CHECK(blurred.size() < scene.Cut(0).size());
+  for (const Slice& slice : scene.Cut(0, 1, starfocus::kFineSlices)) {
+    CHECK(slice.high - slice.low < 8);
+  }
+}
+
+TEST_CASE("slices: coarser where there are too many, or too large ones") {
+  test::Random random(5);
+  Scene scene;
+  for (int16_t& disparity : scene.planes[0]) disparity = int16_t(random.Int(-2000, 2000));
+  const size_t all = scene.Cut(0).size();
+  CHECK(all > 4);
+  const starfocus::SliceLimits tight[] = {{1 << 16, kAmple.rows, kAmple.bytes},
+                                          {kAmple.samples, 1 << 8, kAmple.bytes},
+                                          {kAmple.samples, kAmple.rows, 1 << 17}};
+  for (const starfocus::SliceLimits& limits : tight) {
+    CHECK(scene.Cut(0, 1, starfocus::kSlices, limits).size() < all);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,238 @@
+// What lies behind the visible surface of a field, and where it is read.
+#include "lib/slices/layered_depth.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::kNoSurface;
+using starfocus::Surfaces;
+
+constexpr int kSize = 40;
+constexpr int kStride = 48;  // SliceSamples
+constexpr int kChunk = int(starfocus::simd::kSliceLanes);
+constexpr int kArea = kStride * kSize + 16;
+
+// A disparity map in pixels per unit, the centre view in one grey level, captured views that say
+// where they are read: R holds x, G holds y and B the view.
+struct Scene {
+  std::vector<int16_t> disparity = std::vector<int16_t>(kSize * kSize);
+  std::vector<uint8_t> centre = std::vector<uint8_t>(3 * kSize * kSize);
+  std::vector<uint8_t> side[SF_MAX_VIEWS];
+  std::vector<int16_t> planes[3], rows[2];
+  std::vector<uint16_t> sources[2];
+  std::vector<starfocus::simd::StepBits> steps;
+  std::vector<uint8_t> colours[3], edges[4], share, rgb;
+  std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
+  starfocus::Window window;
+  Surfaces surfaces;
+  starfocus::Reads reads;
+
+  explicit Scene(int views) {
+    for (int view = 1; view < views; ++view) {
+      side[view].resize(3 * kSize * kSize);
+      for (int at = 0; at < kSize * kSize; ++at) {
+        uint8_t* pixel = &side[view][size_t(3 * at)];
+        pixel[0] = uint8_t(at % kSize);
+        pixel[1] = uint8_t(at / kSize);
+        pixel[2] = uint8_t(view);
+      }
+      window.view[view] = {side[view].data(), 3 * kSize, 0, 0};
+    }
+    window.width = window.picture_width = window.height = window.picture_height = kSize;
+    window.views = views;
+    window.reads = &reads;
+  }
+
+  void Set(int x, int y, double pixels, int grey) {
+    disparity[size_t(y * kSize + x)] = int16_t(64 * pixels);
+    std::fill_n(&centre[size_t(3 * (y * kSize + x))], 3, uint8_t(grey));
+  }
+  void Fill(int x0, int x1, int y0, int y1, double pixels, int grey) {
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) Set(x, y, pixels, grey);
+    }
+  }
+
+  void Find() {
+    window.centre = {centre.data(), 3 * kSize, 0, 0};
+    window.disparity = {disparity.data(), kSize, 0, 0};
+    for (int k = 0; k < 3; ++k) {
+      planes[k].assign(kArea + 2 * kChunk, 0);
+      colours[k].assign(3 * kArea, 0);
+      surfaces.disparity[k] = planes[k].data() + kChunk;
+      surfaces.rgb[k] = colours[k].data();
+    }
+    for (int k = 0; k < 4; ++k) {
+      edges[k].assign(kArea, 0);
+      surfaces.edges[k] = edges[k].data();
+    }
+    for (std::vector<int16_t>& row : rows) row.assign(kStride, 0);
+    for (int k = 0; k < 2; ++k) {
+      sources[k].assign(kStride, 0);
+      surfaces.sources[k] = sources[k].data();
+    }
+    steps.resize(kStride / kChunk);
+    surfaces.steps = steps.data();
+    share.assign(kArea, 0);
+    surfaces.share = share.data();
+    surfaces.moved = rows[0].data();
+    surfaces.behind = rows[1].data();
+    surfaces.hiding = hiding.data();
+    rgb.assign(starfocus::RgbStride(kSize) * kSize, 0);
+    std::vector<int16_t> copy(kSize * kSize + starfocus::simd::kPadding);
+    starfocus::Field field;
+    field.rgb = rgb.data();
+    field.disparity = copy.data();
+    starfocus::LoadField(window, {0, 0, kSize, kSize}, {0, 0, 0, 0}, &field);
+    starfocus::FindSurfaces(starfocus::simd::BestKernels(), window, field, &surfaces);
+  }
+
+  // In pixels per unit; -1000: no surface.
+  double Behind(int x, int y, int surface = 1) const {
+    const int16_t found = surfaces.disparity[surface][surfaces.At(x, y)];
+    return found == kNoSurface ? -1000 : found / 64.0;
+  }
+  int Colour(int x, int y, int c, int surface = 1) const {
+    return surfaces.rgb[surface][size_t(c) * surfaces.plane + surfaces.At(x, y)];
+  }
+};
+
+TEST_CASE("surfaces: behind a near square lies what captured views see beside its edges") {
+  for (const int views : {5, 9, 17}) {
+    Scene scene(views);
+    scene.Fill(0, kSize, 0, kSize, 1, 10);
+    scene.Fill(12, 28, 12, 28, 5, 90);
+    scene.Find();
+    CAPTURE(views);
+    // Up to the four pixels and one that a view at distance 1 looks behind.
+    for (int x = 12; x < 28; ++x) {
+      const int distance = std::min(x - 11, 28 - x);
+      CHECK(scene.Behind(x, 20) == (distance <= 5 ? 1 : -1000));
+    }
+    // The view to the left sees the far point one pixel further right.
+    CHECK(scene.Colour(13, 20, 2) == 2);
+    CHECK(scene.Colour(13, 20, 0) == 14);
+    CHECK(scene.Colour(13, 20, 1) == 20);
+    CHECK(scene.Colour(26, 20, 2) == 1);
+    CHECK(scene.Colour(26, 20, 0) == 25);
+    CHECK(scene.Colour(20, 26, 2) == 3);
+    CHECK(scene.Colour(20, 26, 1) == 25);
+    CHECK(scene.Behind(5, 5) == -1000);
+    CHECK(scene.Behind(13, 20, 2) == -1000);
+    CHECK(scene.reads.side_colours > 0);
+    CHECK(scene.share[scene.surfaces.At(12, 20)] == starfocus::simd::kSliceEnd);
+    CHECK(scene.share[scene.surfaces.At(13, 20)] == starfocus::simd::kSliceWhole);
+    CHECK(scene.share[scene.surfaces.At(11, 20)] == starfocus::simd::kSliceWhole);
+    CHECK(scene.surfaces.low == 64);
+    CHECK(scene.surfaces.high == 5 * 64);
+  }
+}
+
+TEST_CASE("surfaces: without a captured view the background goes on") {
+  Scene scene(1);
+  scene.Fill(0, kSize, 0, kSize, 1, 10);
+  scene.Fill(20, kSize, 0, kSize, 4, 90);
+  scene.Find();
+  CHECK(scene.Behind(20, 20) == 1);
+  CHECK(scene.Colour(20, 20, 1) == 10);
+  CHECK(scene.reads.side_colours == 0);
+}
+
+TEST_CASE("surfaces: what another surface covers in the captured view is not read there") {
+  // A slit of two pixels between near surfaces, which show in front of it from either side.
+  Scene scene(5);
+  scene.Fill(0, kSize, 0, kSize, 5, 90);
+  scene.Fill(20, 22, 0, kSize, 0, 10);
+  scene.Find();
+  CHECK(scene.Behind(19, 20) == 0);
+  CHECK(scene.Colour(19, 20, 1) == 10);
+  // A pixel further in shows through the slit.
+  CHECK(scene.Behind(16, 20) == 0);
+  CHECK(scene.Colour(16, 20, 0) == 16);
+  CHECK(scene.Colour(16, 20, 2) == 1);
+}
+
+TEST_CASE("surfaces: tied sides give the mean") {
+  Scene scene(5);
+  scene.Fill(0, kSize, 0, kSize, 0, 10);
+  scene.Fill(20, 21, 0, kSize, 4, 90);
+  scene.Find();
+  CHECK(scene.Behind(20, 20) == 0);
+  CHECK(scene.Colour(20, 20, 0) == 20);
+  CHECK(scene.Colour(20, 20, 2) == 2);  // of views 1 and 2, halves up
+  CHECK(scene.reads.side_colours == 2 * kSize);
+}
+
+TEST_CASE("surfaces: two of them behind a third") {
+  Scene scene(5);
+  scene.Fill(0, kSize, 0, 20, 0, 10);
+  scene.Fill(0, kSize, 20, kSize, 3, 40);
+  scene.Fill(18, 22, 18, 22, 8, 90);
+  scene.Find();
+  CHECK(scene.Behind(18, 20) == 3);
+  CHECK(scene.Behind(18, 20, 2) == 0);
+}
+
+TEST_CASE("surfaces: slopes of up to three quarters of a pixel hide nothing") {
+  for (const double slope : {0.0, 0.25, 0.75, -0.75}) {
+    Scene scene(5);
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) scene.Set(x, y, slope * x, x);
+    }
+    scene.Find();
+    CHECK(std::all_of(scene.hiding.begin(), scene.hiding.end(), [](uint64_t h) { return h == 0; }));
+  }
+  Scene steep(5);
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) steep.Set(x, y, 0.8 * x, x);
+  }
+  steep.Find();
+  CHECK(steep.hiding[20] != 0);
+}
+
+// Pixels from (x, y) to the far side of the next edge, 0 where that is not behind it.
+int Distance(const Scene& scene, int x, int y, int dx, int dy) {
+  const auto at = [&](int t) {
+    return int(scene.disparity[size_t((y + dy * t) * kSize + x + dx * t)]);
+  };
+  for (int t = 1; x + dx * t >= 0 && x + dx * t < kSize && y + dy * t >= 0 && y + dy * t < kSize;
+       ++t) {
+    if (at(t - 1) - at(t) <= 48) continue;
+    return at(0) - at(t) > 48 && (t - 1) * 64 <= at(0) - at(t) ? t : 0;
+  }
+  return 0;
+}
+
+TEST_CASE("surfaces: the edges of random maps, by looking for each") {
+  test::Random random(3);
+  for (int round = 0; round < 20; ++round) {
+    Scene scene(5);
+    for (int patch = 0; patch < 30; ++patch) {
+      const int x = random.Int(0, kSize - 1), y = random.Int(0, kSize - 1);
+      scene.Fill(x, std::min(kSize, x + random.Int(1, 12)), y,
+                 std::min(kSize, y + random.Int(1, 12)), random.Real(-6, 6), patch);
+    }
+    scene.Find();
+    int edges = 0;
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const size_t at = scene.surfaces.At(x, y);
+        CHECK(scene.edges[0][at] == Distance(scene, x, y, 1, 0));
+        CHECK(scene.edges[1][at] == Distance(scene, x, y, -1, 0));
+        CHECK(scene.edges[2][at] == Distance(scene, x, y, 0, 1));
+        CHECK(scene.edges[3][at] == Distance(scene, x, y, 0, -1));
+        edges += scene.edges[0][at] > 0;
+      }
+    }
+    CHECK(edges > 20);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,110 @@
+// Boundary pixels of slices, in a picture of one depth edge.
+#include "lib/slices/matte.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kWidth = 64, kHeight = 48, kEdge = 32;
+constexpr int kNear = 240, kFar = 40;
+
+// Near on the right and far on the left; the far column beside the edge shows a quarter of the near
+// surface. Captured views show the far surface everywhere.
+test::Scene Mixed(double near, double far, int views, bool transposed = false, int mixed = 90) {
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, views, float(std::min(near, far)),
+                                       float(std::max(near, far)));
+  for (auto& picture : scene.pictures) std::fill(picture.begin(), picture.end(), uint8_t(kFar));
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const int along = transposed ? y + 8 : x;
+      scene.Disparity(x, y) = float(along >= kEdge ? near : far);
+      const int grey = along >= kEdge ? kNear : along == kEdge - 1 ? mixed : kFar;
+      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(grey));
+    }
+  }
+  return scene;
+}
+
+std::vector<int> MiddleRow(const test::Scene& scene, double focus, bool transposed = false) {
+  sf_config config = test::ConfigFor(scene, 32);
+  config.gather = 0;
+  config.max_layer = 0;
+  const test::Refocused picture =
+      test::RefocusScene(scene, config, test::Params(focus, 1, SF_MODE_BLOCK));
+  std::vector<int> row;
+  for (int k = 0; k < (transposed ? kHeight : kWidth); ++k) {
+    const int x = transposed ? kWidth / 2 : k, y = transposed ? k : kHeight / 2;
+    row.push_back(picture.rgb[size_t(3 * (y * kWidth + x))]);
+  }
+  return row;
+}
+
+TEST_CASE("matte: a mixed pixel stays what it is while both surfaces are sharp") {
+  for (const int views : {5, 9, 17}) {
+    const std::vector<int> row = MiddleRow(Mixed(1, 0, views), 0.5);
+    CAPTURE(views);
+    CHECK(std::abs(row[kEdge - 1] - 90) <= 12);
+    CHECK(row[kEdge - 3] == kFar);
+    CHECK(row[kEdge + 2] == kNear);
+  }
+}
+
+TEST_CASE("matte: a defocused surface ends a quarter of a pixel further out, without an outline") {
+  for (const bool transposed : {false, true}) {
+    const int edge = transposed ? kEdge - 8 : kEdge;
+    const std::vector<int> mixed = MiddleRow(Mixed(6, 0, 5, transposed), 0, transposed);
+    const std::vector<int> pure = MiddleRow(Mixed(6, 0, 5, transposed, kFar), 0, transposed);
+    int light = 0;
+    for (size_t k = 0; k < mixed.size(); ++k) light += mixed[k] - pure[k];
+    CAPTURE(transposed);
+    // A quarter of a pixel more of it, spread over its blur.
+    CHECK(std::abs(light - (kNear - kFar) / 4) <= 12);
+    for (int k = edge - 5; k < edge + 5; ++k) {
+      CHECK(mixed[size_t(k)] - pure[size_t(k)] >= 0);
+      CHECK(mixed[size_t(k)] - pure[size_t(k)] <= 12);
+    }
+  }
+}
+
+TEST_CASE("matte: a defocused background is free of a sharp surface's part") {
+  const std::vector<int> row = MiddleRow(Mixed(0, -6, 5), 0);
+  CHECK(std::abs(row[kEdge - 1] - 90) <= 1);  // the sharp end keeps its quarter
+  for (int x = 4; x < kEdge - 1; ++x) CHECK(row[size_t(x)] == kFar);
+  for (int x = kEdge; x < kWidth - 4; ++x) CHECK(row[size_t(x)] == kNear);
+}
+
+TEST_CASE("matte: what is no mixture, or nothing looks behind, is blurred as it is") {
+  // Brighter than the near surface: not between both.
+  const std::vector<int> odd = MiddleRow(Mixed(0, -6, 5, false, 255), 0);
+  CHECK(odd[kEdge - 4] > kFar);
+  const std::vector<int> alone = MiddleRow(Mixed(0, -6, 1), 0);
+  CHECK(alone[kEdge - 1] < 90);
+  CHECK(alone[kEdge - 4] > kFar);
+}
+
+TEST_CASE("matte: where slices of a slope overlap, its end still covers a quarter") {
+  test::Scene scene = Mixed(0, -8, 5);
+  scene.disparity_min = -8;
+  scene.disparity_max = 1;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = kEdge; x < kWidth; ++x) scene.Disparity(x, y) = float(-0.6 + 1.2 * y / kHeight);
+  }
+  sf_config config = test::ConfigFor(scene, 32);
+  config.gather = 0;
+  config.max_layer = 0;
+  const test::Refocused picture =
+      test::RefocusScene(scene, config, test::Params(0, 1, SF_MODE_BLOCK));
+  for (int y = 2; y < kHeight - 2; ++y) {
+    CAPTURE(y);
+    CHECK(std::abs(picture.rgb[size_t(3 * (y * kWidth + kEdge - 1))] - 90) <= 16);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,58 @@
+// Light fields made with integers alone, the same on every machine and compiler: no rounding and no
+// order of evaluation enters. For checksums and instruction counts.
+#ifndef STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_
+#define STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_
+
+#include "tests/support/test_scene.h"
+
+namespace test {
+
+enum class Depth { kLayers, kSlanted, kNoise, kRoom };
+
+// A disparity every machine computes alike: multiples of 1/64, 1/160 and 1/7, one division each.
+inline float DisparityAt(Depth depth, int x, int y, Random* random) {
+  switch (depth) {
+    case Depth::kLayers: {
+      const bool near = (x / 19 + y / 23) % 3 == 0, middle = (x * 2 + y) % 71 < 24;
+      return static_cast<float>(near ? 250 : middle ? 37 : -130) / 64.0f;
+    }
+    case Depth::kSlanted:
+      return static_cast<float>(3 * x - 2 * y) / 160.0f;
+    case Depth::kNoise:
+      return static_cast<float>(random->Int(-21, 21)) / 7.0f;
+    case Depth::kRoom: {  // a wall, a floor that comes nearer, a disc and a pole before both
+      const int dx = x - 120, dy = y - 90;
+      if (dx * dx + dy * dy < 56 * 56) return 3.5f;
+      if (x >= 290 && x < 302) return 1.25f;
+      return y < 150 ? -3.0f : static_cast<float>(y - 150) / 20.0f - 3.0f;
+    }
+  }
+  return 0;
+}
+
+// Smooth shading with noise and hard edges; views shifted and shaded apart, so that nothing can be
+// taken from the wrong one unnoticed.
+inline Scene IntegerScene(int width, int height, int views, Depth depth) {
+  Scene scene = EmptyScene(width, height, views, -4, 4);
+  Random random(static_cast<uint64_t>(views) * 10 + static_cast<uint64_t>(depth));
+  for (int view = 0; view < views; ++view) {
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          const int shade = 5 * x + 3 * y * (c + 1) + 29 * view;
+          const int edge = ((x + 2 * view) / 9 + y / 7) % 2 * 90;
+          const int noise = random.Int(0, 40);
+          scene.Pixel(view, x, y)[c] = static_cast<uint8_t>(shade / 4 % 126 + edge + noise);
+        }
+      }
+    }
+  }
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) scene.Disparity(x, y) = DisparityAt(depth, x, y, &random);
+  }
+  return scene;
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_

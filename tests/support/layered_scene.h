@@ -1,0 +1,51 @@
+// Light fields for block mode: areas for every layer.
+#ifndef STARFOCUS_TESTS_SUPPORT_LAYERED_SCENE_H_
+#define STARFOCUS_TESTS_SUPPORT_LAYERED_SCENE_H_
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace test {
+
+// Flat areas large enough for layers 1 and 2, and edges: a slanted background and rectangles.
+inline Scene LayeredScene(int width, int height, int views, float limit, uint64_t seed) {
+  Random random(seed);
+  Scene scene = EmptyScene(width, height, views, -limit, limit, int(seed % 4));
+  // Pictures whose views agree roughly: a texture that moves with the view.
+  for (int view = 0; view < views; ++view) {
+    double u = 0, v = 0;
+    sf_view_position(view, &u, &v);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          const double wave = std::sin(0.4 * (x + 2 * u) + c) + std::cos(0.3 * (y + 2 * v) - c);
+          scene.Pixel(view, x, y)[c] = uint8_t(127 + 50 * wave + random.Int(-20, 20));
+        }
+      }
+    }
+  }
+  const int pieces = random.Int(1, 5);
+  for (int piece = 0; piece <= pieces; ++piece) {
+    const int x0 = piece == 0 ? 0 : random.Int(0, width - 1);
+    const int y0 = piece == 0 ? 0 : random.Int(0, height - 1);
+    const int x1 = piece == 0 ? width : std::min(width, x0 + random.Int(1, width));
+    const int y1 = piece == 0 ? height : std::min(height, y0 + random.Int(1, height));
+    const double base = random.Real(-limit, limit),
+                 slant = random.Int(0, 1) * random.Real(-.05, .05);
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        const float d = float(base + slant * (x - x0 + y - y0));
+        scene.Disparity(x, y) = std::clamp(d, -limit, limit);
+      }
+    }
+  }
+  return scene;
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_LAYERED_SCENE_H_

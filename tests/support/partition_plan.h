@@ -1,0 +1,284 @@
+// A random disparity map measured, and its partition planned anew: what the rules for layers and
+// views, gathering and the timing model give each block, and the costs of all partitions there are.
+#ifndef STARFOCUS_TESTS_SUPPORT_PARTITION_PLAN_H_
+#define STARFOCUS_TESTS_SUPPORT_PARTITION_PLAN_H_
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "lib/engine/engine.h"
+#include "lib/plan/partition.h"
+#include "tests/plan/measured_cells.h"
+#include "tests/support/test_scene.h"
+
+namespace test {
+
+using starfocus::Block;
+using starfocus::BlockStats;
+using starfocus::BlurScale;
+using starfocus::Border;
+using starfocus::Cell;
+using starfocus::CellGrid;
+using starfocus::kCellSize;
+using starfocus::kLayerMargin;
+using starfocus::kSmallestBlock;
+using starfocus::PartitionNode;
+using starfocus::PartitionRules;
+using starfocus::Rect;
+using starfocus::ViewCounts;
+
+constexpr int kMaxN = 110;
+constexpr double kRadiusOne = 1 << starfocus::kDisparityBits;
+
+// A disparity map measured, and the rules of a partition.
+struct Plan {
+  Plan(int width, int height, int largest_block, double limit, Random* random)
+      : disparity(size_t(width) * size_t(height)), views(kMaxN + 1) {
+    const int pieces = random->Int(0, 8);
+    for (int piece = 0; piece <= pieces; ++piece) {
+      const int x0 = piece == 0 ? 0 : random->Int(0, width - 1);
+      const int y0 = piece == 0 ? 0 : random->Int(0, height - 1);
+      const int x1 = piece == 0 ? width : std::min(width, x0 + random->Int(1, width));
+      const int y1 = piece == 0 ? height : std::min(height, y0 + random->Int(1, height));
+      const double d = random->Real(-limit, limit);
+      for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+          disparity[size_t(y) * size_t(width) + size_t(x)] = int16_t(d * kRadiusOne);
+        }
+      }
+    }
+    const double focus = random->Real(-limit, limit);
+    const BlurScale scale = {int32_t(focus * kRadiusOne), int64_t{1} << starfocus::kStepBits};
+    rules.scale = scale;
+    grid = MeasureCells(disparity, width, height, scale, &cells);
+    around = starfocus::GetReach(2 * limit).cells;
+    flags.assign(cells.size(), kPoison);
+    gathered = {flags.data(), grid.columns, 0};
+    for (int n = 0; n <= kMaxN; ++n) views[size_t(n)] = starfocus::CountViews(n);
+    rules.width = width;
+    rules.height = height;
+    rules.largest_block = largest_block;
+    rules.max_layer = random->Int(0, 2);
+    rules.max_n = kMaxN;
+    rules.cells = random->Int(0, 1) == 1;
+    rules.gathers = rules.cells;
+    rules.n_scale = (2 + 2 * rules.max_layer + rules.cells) / 4.0;
+    rules.timing = starfocus::DefaultTiming();
+    rules.views = views.data();
+  }
+  Plan(const Plan&) = delete;
+
+  std::vector<Block> Partition(int x, int y) const {
+    std::vector<PartitionNode> nodes(size_t(starfocus::PartitionNodes(rules.largest_block)));
+    std::memset(static_cast<void*>(nodes.data()), kPoison, nodes.size() * sizeof(PartitionNode));
+    std::vector<Block> blocks(size_t(starfocus::MaxBlocks(rules.largest_block)));
+    std::vector<int16_t> samples(
+        starfocus::SurroundingSamples(rules.largest_block / kCellSize, around), kPoison);
+    const int count =
+        starfocus::PartitionBlock(starfocus::simd::BestKernels(), rules, grid, x, y, around,
+                                  {nodes.data(), samples.data()}, blocks.data(), gathered);
+    REQUIRE(count >= 1);
+    REQUIRE(count <= int(blocks.size()));
+    blocks.resize(size_t(count));
+    return blocks;
+  }
+
+  // Whether the cell at pixel (x, y) is one that need not be refocused by views.
+  bool MayGather(int x, int y) const {
+    const int column = x / kCellSize, row = y / kCellSize;
+    return rules.gathers && test::IsSmooth(grid, rules.scale, column, row, around) &&
+           grid.At(column, row)->r_max <= 12 * int(kRadiusOne);
+  }
+
+  bool Inside(int x, int y) const { return x < rules.width && y < rules.height; }
+
+  // The statistics of any block, from its blocks of 16.
+  BlockStats Stats(int x, int y, int side) const {
+    if (side == kSmallestBlock) {
+      return test::MeasureBlock(grid, x / kCellSize, y / kCellSize, around);
+    }
+    BlockStats stats[4];
+    const BlockStats* children[4];
+    for (int child = 0; child < 4; ++child) {
+      const int cx = x + child % 2 * side / 2, cy = y + child / 2 * side / 2;
+      children[child] = nullptr;
+      if (!Inside(cx, cy)) continue;
+      stats[child] = Stats(cx, cy, side / 2);
+      children[child] = &stats[child];
+    }
+    return starfocus::MergeBlocks(children, side / 2);
+  }
+
+  std::vector<int16_t> disparity;
+  std::vector<Cell> cells;
+  std::vector<uint8_t> flags;  // of gathered
+  starfocus::GatherMap gathered;
+  std::vector<ViewCounts> views;
+  CellGrid grid;
+  int around = 0;
+  PartitionRules rules;
+};
+
+// Layers from `radius` and twice that on.
+inline int LayerFrom(double r_min, double radius) {
+  return r_min >= 2 * radius ? 2 : r_min >= radius ? 1 : 0;
+}
+
+// (12), or with wide aperture cells only where less can go wrong: both layers later, and
+// silhouettes never rounded to four pixels.
+inline int LayerOf(bool cells, double r_min, bool silhouette) {
+  if (!cells) return LayerFrom(r_min, 3);
+  return r_min < 7 ? 0 : r_min < 24 || silhouette ? 1 : 2;
+}
+
+// (9), or what wide aperture cells need.
+inline int ViewsOf(bool cells, double r_max) {
+  if (cells) {
+    constexpr struct {
+      double r_max;
+      int n;
+    } kSteps[] = {{0.5, 0}, {11, 4}, {25, 5}, {34, 6}, {49, 7}};
+    for (const auto& step : kSteps) {
+      if (r_max <= step.r_max) return step.n;
+    }
+    REQUIRE(false);
+  }
+  if (r_max < 4) return int(std::ceil(r_max));
+  if (r_max < 4 / 0.787) return 4;
+  return int(std::ceil(0.787 * r_max));
+}
+
+inline int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
+
+// Leaves to views what holds the cells that may not be gathered: their rectangle, and N and border
+// of the units of 16 that they lie in.
+inline void PlanRest(const Plan& plan, Block* block) {
+  const Rect rect = block->rect;
+  int left = INT32_MAX, top = INT32_MAX, right = 0, bottom = 0, r_max = 0;
+  const auto for_each = [&](const auto& visit) {
+    for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
+      for (int x = rect.x; x < rect.x + rect.width; x += kCellSize) {
+        if (!plan.MayGather(x, y)) visit(x, y);
+      }
+    }
+  };
+  for_each([&](int x, int y) {
+    left = std::min(left, x);
+    top = std::min(top, y);
+    right = std::max(right, std::min(x + kCellSize, plan.rules.width));
+    bottom = std::max(bottom, std::min(y + kCellSize, plan.rules.height));
+  });
+  block->n = 0;
+  block->rendered = {};
+  block->border = {};
+  if (right == 0) return;
+  block->rendered = {left, top, right - left, bottom - top};
+  Border border = {0, 0, 0, 0};
+  for_each([&](int x, int y) {
+    const int unit_x = x / kSmallestBlock * kSmallestBlock;
+    const int unit_y = y / kSmallestBlock * kSmallestBlock;
+    const BlockStats stats = plan.Stats(unit_x, unit_y, kSmallestBlock);
+    const Border& part = stats.border[0];
+    r_max = std::max(r_max, stats.r_max);
+    border.left = std::max(border.left, left - (unit_x - part.left));
+    border.top = std::max(border.top, top - (unit_y - part.top));
+    border.right = std::max(border.right, unit_x + kSmallestBlock + part.right - right);
+    border.bottom = std::max(border.bottom, unit_y + kSmallestBlock + part.bottom - bottom);
+  });
+  block->n = std::min(int(std::ceil(ViewsOf(true, r_max / kRadiusOne) * plan.rules.n_scale)),
+                      plan.rules.max_n);
+  block->border = {border.left + 1, border.right + 1, border.top + 1, border.bottom + 1};
+}
+
+// Gathers what may be: at layer 0, and where that is the whole block.
+inline void PlanGathering(const Plan& plan, Block* block) {
+  uint64_t cells = 0, others = 0, gather = 0;
+  for (int y = block->rect.y; y < block->rect.y + block->rect.height; y += kCellSize) {
+    for (int x = block->rect.x; x < block->rect.x + block->rect.width; x += kCellSize) {
+      ++cells;
+      if (plan.MayGather(x, y)) {
+        gather += starfocus::PredictGather(plan.rules.timing, kCellSize * kCellSize,
+                                           plan.grid.At(x / kCellSize, y / kCellSize)->r_max);
+      } else {
+        ++others;
+      }
+    }
+  }
+  if (others == cells || (others > 0 && block->layer > 0)) return;
+  block->layer = 0;
+  block->gathers = true;
+  block->cost = gather + block->cost * others / cells;
+  PlanRest(plan, block);
+}
+
+// A block with the parameters that the rules give it.
+inline Block Planned(const Plan& plan, int x, int y, int side) {
+  const BlockStats stats = plan.Stats(x, y, side);
+  Block block = {};
+  block.rect = {x, y, std::min(side, plan.rules.width - x), std::min(side, plan.rules.height - y)};
+  const bool cells = plan.rules.cells;
+  block.layer =
+      std::min(LayerOf(cells, stats.r_min / kRadiusOne, stats.r_edge > 0), plan.rules.max_layer);
+  const int scale = 1 << block.layer;
+  const int views = ViewsOf(cells, stats.r_max / (kRadiusOne * scale));
+  block.n = std::min(int(std::ceil(views * plan.rules.n_scale)), plan.rules.max_n);
+  const int margin = kLayerMargin[block.layer] / scale;
+  block.rendered = {x / scale - margin, y / scale - margin,
+                    CeilQuotient(block.rect.width, scale) + 2 * margin,
+                    CeilQuotient(block.rect.height, scale) + 2 * margin};
+  const Border& border = stats.border[block.layer];
+  const auto beyond = [&](int pixels) {
+    return std::max(0, CeilQuotient(pixels, scale) - margin) + 1;
+  };
+  block.border = {beyond(border.left), beyond(border.right + side - block.rect.width),
+                  beyond(border.top), beyond(border.bottom + side - block.rect.height)};
+  const uint64_t upsampled =
+      block.layer == 0 ? 0 : uint64_t(block.rect.width) * uint64_t(block.rect.height);
+  block.cost = starfocus::PredictTime(
+      plan.rules.timing,
+      starfocus::MeasureWork(block.rendered, block.border, starfocus::CountViews(block.n),
+                             plan.rules.cells, upsampled, stats.content, block.layer));
+  if (block.n > 0) PlanGathering(plan, &block);
+  return block;
+}
+
+// The cost of every partition of a block, by brute force.
+inline std::vector<uint64_t> AllCosts(const Plan& plan, int x, int y, int side) {
+  std::vector<uint64_t> costs = {Planned(plan, x, y, side).cost};
+  if (side == kSmallestBlock) return costs;
+  std::vector<uint64_t> sums = {0};
+  for (int child = 0; child < 4; ++child) {
+    const int cx = x + child % 2 * side / 2, cy = y + child / 2 * side / 2;
+    if (!plan.Inside(cx, cy)) continue;
+    std::vector<uint64_t> longer;
+    for (const uint64_t cost : AllCosts(plan, cx, cy, side / 2)) {
+      for (const uint64_t sum : sums) longer.push_back(sum + cost);
+    }
+    sums = longer;
+  }
+  costs.insert(costs.end(), sums.begin(), sums.end());
+  return costs;
+}
+
+// The least cost, where all partitions are too many to list.
+inline uint64_t LeastCost(const Plan& plan, int x, int y, int side) {
+  if (side <= 64) {
+    const std::vector<uint64_t> all = AllCosts(plan, x, y, side);
+    return *std::min_element(all.begin(), all.end());
+  }
+  uint64_t split = 0;
+  for (int child = 0; child < 4; ++child) {
+    const int cx = x + child % 2 * side / 2, cy = y + child / 2 * side / 2;
+    if (plan.Inside(cx, cy)) split += LeastCost(plan, cx, cy, side / 2);
+  }
+  return std::min(split, Planned(plan, x, y, side).cost);
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_PARTITION_PLAN_H_

@@ -1,0 +1,33 @@
+// A scene refocused by an engine of its own: the picture and the report.
+#ifndef STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_
+#define STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace test {
+
+struct Refocused {
+  std::vector<uint8_t> rgb;  // rows packed
+  sf_report report = {};
+};
+
+inline Refocused RefocusScene(const Scene& scene, const sf_config& config,
+                              const sf_params& params) {
+  Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  Output out(scene.width, scene.height);
+  Refocused refocused;
+  REQUIRE(Refocus(&engine, params, scene, &out, nullptr, nullptr, &refocused.report) == SF_OK);
+  refocused.rgb = out.Tight();
+  return refocused;
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_

@@ -1,0 +1,283 @@
+// What the tests of the public interface share: deterministic random light fields, an engine with
+// its memory, whole-picture and streamed refocusing into a padded, poisoned picture.
+#ifndef STARFOCUS_TESTS_SUPPORT_TEST_SCENE_H_
+#define STARFOCUS_TESTS_SUPPORT_TEST_SCENE_H_
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+
+namespace test {
+
+constexpr uint8_t kPoison = 0xCD;
+
+// Small generator with the same sequence on every machine (xorshift64*).
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 0x1234567u) {}
+
+  uint32_t Next() {
+    state_ ^= state_ >> 12;
+    state_ ^= state_ << 25;
+    state_ ^= state_ >> 27;
+    return static_cast<uint32_t>((state_ * 0x2545F4914F6CDD1Du) >> 32);
+  }
+  // Integer in [low, high].
+  int Int(int low, int high) {
+    return low + static_cast<int>(Next() % static_cast<uint32_t>(high - low + 1));
+  }
+  double Unit() { return Next() / 4294967295.0; }
+  double Real(double low, double high) { return low + (high - low) * Unit(); }
+  uint8_t Byte() { return static_cast<uint8_t>(Next() >> 24); }
+
+ private:
+  uint64_t state_;
+};
+
+// Any bytes, or black and white ones.
+inline std::vector<uint8_t> RandomBytes(size_t size, Random* random) {
+  std::vector<uint8_t> bytes(size);
+  const bool extreme = random->Int(0, 1) == 0;
+  for (uint8_t& byte : bytes) byte = extreme ? uint8_t(255 * random->Int(0, 1)) : random->Byte();
+  return bytes;
+}
+
+// A light field in memory. Strides may exceed the rows.
+struct Scene {
+  int width = 0;
+  int height = 0;
+  float disparity_min = 0;
+  float disparity_max = 0;
+  size_t stride = 0;           // bytes
+  size_t disparity_width = 0;  // floats
+  std::vector<std::vector<uint8_t>> pictures;
+  std::vector<float> disparity;
+
+  int views() const { return static_cast<int>(pictures.size()); }
+  uint8_t* Pixel(int view, int x, int y) {
+    return pictures[static_cast<size_t>(view)].data() + static_cast<size_t>(y) * stride +
+           3 * static_cast<size_t>(x);
+  }
+  const uint8_t* Pixel(int view, int x, int y) const {
+    return const_cast<Scene*>(this)->Pixel(view, x, y);
+  }
+  float& Disparity(int x, int y) {
+    return disparity[static_cast<size_t>(y) * disparity_width + static_cast<size_t>(x)];
+  }
+  float Disparity(int x, int y) const { return const_cast<Scene*>(this)->Disparity(x, y); }
+
+  // The rows from `row` on, as the engine takes them.
+  sf_light_field Field(int row = 0) const {
+    sf_light_field field = {};
+    for (size_t i = 0; i < pictures.size(); ++i) {
+      field.views[i].data = pictures[i].data() + static_cast<size_t>(row) * stride;
+      field.views[i].stride = stride;
+    }
+    field.disparity = disparity.data() + static_cast<size_t>(row) * disparity_width;
+    field.disparity_stride = disparity_width * sizeof(float);
+    return field;
+  }
+};
+
+// Sizes a scene; `padding` bytes per picture row and floats per disparity row are added.
+inline Scene EmptyScene(int width, int height, int views, float low, float high, int padding = 0) {
+  Scene scene;
+  scene.width = width;
+  scene.height = height;
+  scene.disparity_min = low;
+  scene.disparity_max = high;
+  scene.stride = 3 * static_cast<size_t>(width) + static_cast<size_t>(padding);
+  scene.disparity_width = static_cast<size_t>(width + padding);
+  scene.pictures.assign(static_cast<size_t>(views),
+                        std::vector<uint8_t>(scene.stride * static_cast<size_t>(height), kPoison));
+  scene.disparity.assign(scene.disparity_width * static_cast<size_t>(height), low);
+  return scene;
+}
+
+// Piecewise disparity: a slanted background and random rectangles, all within the scene's range.
+inline void RandomDisparity(Scene* scene, Random* random) {
+  const double low = scene->disparity_min, high = scene->disparity_max;
+  const auto put = [&](int x0, int y0, int x1, int y1) {
+    const double base = random->Real(low, high);
+    const bool slanted = random->Int(0, 2) == 0;
+    const double dx = slanted ? random->Real(-0.2, 0.2) : 0;
+    const double dy = slanted ? random->Real(-0.2, 0.2) : 0;
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        const float value = static_cast<float>(base + dx * (x - x0) + dy * (y - y0));
+        scene->Disparity(x, y) = std::clamp(value, scene->disparity_min, scene->disparity_max);
+      }
+    }
+  };
+  put(0, 0, scene->width, scene->height);
+  const int patches = 2 + scene->width * scene->height / 300;
+  for (int i = 0; i < patches; ++i) {
+    const int x = random->Int(0, scene->width - 1), y = random->Int(0, scene->height - 1);
+    put(x, y, std::min(scene->width, x + random->Int(1, 24)),
+        std::min(scene->height, y + random->Int(1, 24)));
+  }
+}
+
+// Every pixel its own disparity: the worst case for runs of one shift.
+inline void NoisyDisparity(Scene* scene, Random* random) {
+  for (int y = 0; y < scene->height; ++y) {
+    for (int x = 0; x < scene->width; ++x) {
+      const float value =
+          static_cast<float>(random->Real(scene->disparity_min, scene->disparity_max));
+      scene->Disparity(x, y) = std::clamp(value, scene->disparity_min, scene->disparity_max);
+    }
+  }
+}
+
+// Random pictures (the views need not agree) over a random piecewise disparity.
+inline Scene RandomScene(int width, int height, int views, float low, float high, uint64_t seed,
+                         int padding = 0) {
+  Random random(seed);
+  Scene scene = EmptyScene(width, height, views, low, high, padding);
+  for (auto& picture : scene.pictures) {
+    for (uint8_t& sample : picture) sample = random.Byte();
+  }
+  RandomDisparity(&scene, &random);
+  return scene;
+}
+
+inline sf_config ConfigFor(const Scene& scene, double max_blur = 32) {
+  sf_config config;
+  sf_config_init(&config);
+  config.width = scene.width;
+  config.height = scene.height;
+  config.views = scene.views();
+  config.disparity_min = scene.disparity_min;
+  config.disparity_max = scene.disparity_max;
+  config.max_blur = max_blur;
+  return config;
+}
+
+inline sf_params Params(double focus, double aperture = 1, sf_mode mode = SF_MODE_FRAME) {
+  sf_params params;
+  sf_params_init(&params);
+  params.focus = focus;
+  params.aperture = aperture;
+  params.mode = mode;
+  return params;
+}
+
+// An engine in poisoned memory of exactly the size asked for.
+class Engine {
+ public:
+  explicit Engine(const sf_config& config) {
+    status_ = sf_workspace_size(&config, &bytes_);
+    if (status_ != SF_OK) return;
+    memory_.assign(bytes_ + SF_ALIGNMENT, kPoison);
+    status_ = sf_init(&config, workspace(), bytes_, &engine_);
+  }
+  sf_status status() const { return status_; }
+  sf_engine* get() const { return engine_; }
+  size_t bytes() const { return bytes_; }
+  uint8_t* workspace() {
+    const uintptr_t address = reinterpret_cast<uintptr_t>(memory_.data());
+    return memory_.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
+  }
+
+ private:
+  std::vector<uint8_t> memory_;
+  size_t bytes_ = 0;
+  sf_engine* engine_ = nullptr;
+  sf_status status_ = SF_OK;
+};
+
+// An output picture with poisoned rows and row padding.
+struct Output {
+  Output(int w, int h, int padding = 0)
+      : width(w),
+        height(h),
+        stride(3 * static_cast<size_t>(w) + static_cast<size_t>(padding)),
+        bytes(stride * static_cast<size_t>(h), kPoison) {}
+
+  bool Untouched() const {
+    return std::all_of(bytes.begin(), bytes.end(), [](uint8_t b) { return b == kPoison; });
+  }
+  bool PaddingUntouched() const {
+    for (size_t row = 0; row < bytes.size(); row += stride) {
+      for (size_t i = 3 * static_cast<size_t>(width); i < stride; ++i) {
+        if (bytes[row + i] != kPoison) return false;
+      }
+    }
+    return true;
+  }
+  const uint8_t* Pixel(int x, int y) const {
+    return bytes.data() + static_cast<size_t>(y) * stride + 3 * static_cast<size_t>(x);
+  }
+  // The pixels without row padding.
+  std::vector<uint8_t> Tight() const {
+    std::vector<uint8_t> tight;
+    for (int y = 0; y < height; ++y) {
+      tight.insert(tight.end(), Pixel(0, y), Pixel(0, y) + 3 * width);
+    }
+    return tight;
+  }
+
+  int width;
+  int height;
+  size_t stride;
+  std::vector<uint8_t> bytes;
+};
+
+// AnyEngine has get(), as Engine.
+template <class AnyEngine>
+sf_status Refocus(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
+                  sf_runner runner = nullptr, void* runner_data = nullptr,
+                  sf_report* report = nullptr) {
+  const sf_light_field field = scene.Field();
+  return sf_refocus(engine->get(), &params, &field, out->bytes.data(), out->stride, runner,
+                    runner_data, report);
+}
+
+// Pushes and pulls at most `push_rows` and `pull_rows` rows at a time until all rows are out.
+// SF_ERROR_STATE when neither side moves.
+template <class AnyEngine>
+sf_status Stream(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,
+                 int push_rows, int pull_rows, sf_runner runner = nullptr,
+                 void* runner_data = nullptr, sf_report* report = nullptr) {
+  sf_status status = sf_stream_begin(engine->get(), &params);
+  int pushed = 0, pulled = 0;
+  while (status == SF_OK && pulled < scene.height) {
+    int32_t consumed = 0, written = 0;
+    const int rows_in = std::min(push_rows, scene.height - pushed);
+    if (rows_in > 0) {
+      const sf_light_field field = scene.Field(pushed);
+      status = sf_stream_push(engine->get(), &field, rows_in, &consumed);
+      if (status != SF_OK) break;
+    }
+    const int rows_out = std::min(pull_rows, scene.height - pulled);
+    status =
+        sf_stream_pull(engine->get(), out->bytes.data() + static_cast<size_t>(pulled) * out->stride,
+                       out->stride, rows_out, runner, runner_data, &written, report);
+    pushed += consumed;
+    pulled += written;
+    if (status == SF_OK && consumed == 0 && written == 0) status = SF_ERROR_STATE;
+  }
+  return status;
+}
+
+#ifdef STARFOCUS_DATA_DIR
+// Folder of the data set `name`; empty, with a message, when this machine does not have it.
+inline std::string DataSet(const std::string& name) {
+  const std::string folder = std::string(STARFOCUS_DATA_DIR) + "/" + name;
+  if (std::FILE* file = std::fopen((folder + "/disparity.pfm").c_str(), "rb")) {
+    std::fclose(file);
+    return folder;
+  }
+  std::printf("SKIPPED: data set '%s' is not on this machine\n", name.c_str());
+  return std::string();
+}
+#endif
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_TEST_SCENE_H_
