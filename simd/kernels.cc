@@ -9,13 +9,13 @@
 #include "simd/blend-inl.h"
 #include "simd/cells-inl.h"
 #include "simd/disc-inl.h"
-#include "simd/finish_stack-inl.h"
+#include "simd/finish_composite-inl.h"
+#include "simd/neighbourhood-inl.h"
 #include "simd/ranges-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
 #include "simd/surfaces-inl.h"
-#include "simd/surroundings-inl.h"
 #include "simd/tiles-inl.h"
 #include "simd/transpose-inl.h"
 
@@ -90,9 +90,9 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
   CompositeViews(views, rows, sums);
 }
 
-void FinishStack(const uint32_t* sums, size_t plane, const uint8_t* rgb, const StackFinish& finish,
-                 size_t count, uint32_t* out) {
-  FinishPixelsOfStack(sums, plane, rgb, finish, count, out);
+void FinishComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                     const CompositeFinish& finish, size_t count, uint32_t* out) {
+  FinishPixelsOfComposite(sums, plane, rgb, finish, count, out);
 }
 
 void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
@@ -179,7 +179,7 @@ const Kernels* Table() {
                                       SpreadSlice,
                                       ShiftSlice,
                                       Composite,
-                                      FinishStack,
+                                      FinishComposite,
                                       FindRuns,
                                       MeasureCell,
                                       ReachBlock,

@@ -149,7 +149,7 @@ struct DisparityRange {
 
 // From sums of slices to accumulators of weights that sum to 2^bits: pixels covered less than
 // `least` take the centre view's colour.
-struct StackFinish {
+struct CompositeFinish {
   uint32_t least;  // > 0
   int bits;        // [1, 24]
 };
@@ -373,8 +373,8 @@ struct Kernels {
   // Colours over coverage: out[3 n + c] = sums[c * plane + n] * (2^kInverseBits / covered) in units
   // of 2^-bits, halves up and 255 at most, where covered = sums[3 * plane + n] >= least; the
   // division truncates. rgb[3 n + c] << bits elsewhere. Whole kSliceLanes are read.
-  void (*finish_stack)(const uint32_t* sums, size_t plane, const uint8_t* rgb,
-                       const StackFinish& finish, size_t count, uint32_t* out);
+  void (*finish_composite)(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                           const CompositeFinish& finish, size_t count, uint32_t* out);
 
   // Splits lines 0 .. lines - 1 of `length` positions, greedily from position 0 on; position q of
   // line k is disparity[q * step + k].

@@ -331,11 +331,11 @@ void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t cou
 const Kernels& ReferenceKernels() {
   using namespace reference;
   static constexpr Kernels kernels = {
-      "reference", Accumulate,  Blend,         FilterDisc,  Split,          FindEdges,
-      FindRanges,  FindWithin,  FindSteps,     BesideSteps, LookBehind,     Interpolate,
-      SelectSlice, SpreadSlice, ShiftSlice,    Composite,   FinishStack,    FindRuns,
-      MeasureCell, ReachBlock,  SurroundCells, Transpose,   Finish,         ConvertDisparity,
-      WidenPhases, SplitPhases, Narrow,        FinishLayer, FilterHalfBand, Halve,
+      "reference", Accumulate,  Blend,         FilterDisc,  Split,           FindEdges,
+      FindRanges,  FindWithin,  FindSteps,     BesideSteps, LookBehind,      Interpolate,
+      SelectSlice, SpreadSlice, ShiftSlice,    Composite,   FinishComposite, FindRuns,
+      MeasureCell, ReachBlock,  SurroundCells, Transpose,   Finish,          ConvertDisparity,
+      WidenPhases, SplitPhases, Narrow,        FinishLayer, FilterHalfBand,  Halve,
       Between};
   return kernels;
 }

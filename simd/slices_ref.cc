@@ -273,8 +273,8 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
   }
 }
 
-void FinishStack(const uint32_t* sums, size_t plane, const uint8_t* rgb, const StackFinish& finish,
-                 size_t count, uint32_t* out) {
+void FinishComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                     const CompositeFinish& finish, size_t count, uint32_t* out) {
   const int shift = kInverseBits - 8 - finish.bits;
   const uint64_t white = uint64_t{255} << finish.bits, half = uint64_t{1} << (shift - 1);
   for (size_t n = 0; n < count; ++n) {

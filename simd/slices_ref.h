@@ -23,8 +23,8 @@ void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
                 int16_t* out, uint8_t* near);
 void Composite(const SliceViews& views, size_t rows, uint32_t* sums);
-void FinishStack(const uint32_t* sums, size_t plane, const uint8_t* rgb, const StackFinish& finish,
-                 size_t count, uint32_t* out);
+void FinishComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                     const CompositeFinish& finish, size_t count, uint32_t* out);
 
 }  // namespace starfocus::simd::reference
 

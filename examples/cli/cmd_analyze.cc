@@ -43,8 +43,8 @@ std::string Run(const Options& options) {
     fs::create_directories(options.folder, failure);
     if (failure) return Expected(options.folder, "a folder to write into", failure.message());
   }
-  std::vector<Figure> figures = {AnalyseTableOne(), AnalyseViewNumber(), AnalyseCells(max_blur),
-                                 AnalyseEngine(&error)};
+  std::vector<Figure> figures = {AnalyseTableOne(), AnalyseViewNumber(),
+                                 AnalyseSubapertures(max_blur), AnalyseEngine(&error)};
   if (!error.empty() || options.folder.empty()) return error;
   figures.push_back(DrawViewKernels());
   figures.push_back(DrawViewResponses());
@@ -67,12 +67,12 @@ void AddAnalyzeCommand(CLI::App* app, Action* action) {
   CLI::App* command = app->add_subcommand(
       "analyze",
       "The paper's filter analysis (section III) from its definitions: Table I, Fig. 6, the rules "
-      "(9) and (12), the rule for aperture cells, and the kernels of the running engine");
+      "(9) and (12), the rule for subapertures, and the kernels of the running engine");
   command->add_option("-o,--output", options->folder,
                       "Folder for CSV files and, with gnuplot, SVG drawings of Figs. 4, 5, 6, 8");
   command->add_option(
       "--max-blur", options->max_blur,
-      "Largest blur radius of the rule for aperture cells, 1 to 128 (default 40; 128 takes "
+      "Largest blur radius of the rule for subapertures, 1 to 128 (default 40; 128 takes "
       "minutes)");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }

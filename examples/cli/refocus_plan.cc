@@ -24,10 +24,10 @@ std::string ParseMode(const std::string& text, sf_mode* mode) {
 
 std::string ParseRule(const std::string& text, sf_rule* rule) {
   if (text.empty()) return "";
-  if (text != "paper" && text != "cells") {
-    return Expected("--rule", "paper or cells", "'" + text + "'");
+  if (text != "paper" && text != "subaperture") {
+    return Expected("--rule", "paper or subaperture", "'" + text + "'");
   }
-  *rule = text == "paper" ? SF_RULE_PAPER : SF_RULE_CELLS;
+  *rule = text == "paper" ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
   return "";
 }
 
@@ -80,9 +80,10 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
                     "Replace non-finite disparities by their nearest valid neighbour");
   command->add_option("--largest-block", options->largest_block,
                       "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128");
-  command->add_option("--rule", options->rule,
-                      "paper or cells: how many views a blur needs, and whether they are rendered "
-                      "line by line or show slices (default: paper in frame mode, else cells)");
+  command->add_option(
+      "--rule", options->rule,
+      "paper or subaperture: how many views a blur needs, and whether they are rendered "
+      "line by line or show slices (default: paper in frame mode, else subaperture)");
   command
       ->add_option("--n-scale", options->n_scale,
                    "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "

@@ -5,12 +5,12 @@
 namespace starfocus {
 namespace {
 
-using Surfaces = std::vector<Surface>;
+using LayeredDepth = std::vector<Surface>;
 
 constexpr double kX = -110;  // of the subject
 constexpr double kWall = -9;
 
-void AddHead(Surfaces* out) {
+void AddHead(LayeredDepth* out) {
   const Material face = {PaintFace, {248, 196, 164}, {230, 168, 136}, 1, 11};
   const Material skin = {PaintSkin, {244, 188, 156}, {226, 160, 128}, 1, 12};
   const Material neck = {PaintSkin, {170, 116, 92}, {146, 92, 72}, 1, 17};
@@ -25,7 +25,7 @@ void AddHead(Surfaces* out) {
   }
 }
 
-void AddEyes(Surfaces* out) {
+void AddEyes(LayeredDepth* out) {
   const Material eye = {PaintEye, {72, 128, 140}, {}, 1, 14};
   const Material brow = {PaintHair, {52, 26, 16}, {130, 74, 38}, 1, 15};
   const Material rim = {PaintTwist, {46, 24, 18}, {150, 84, 40}, 0.6, 16};
@@ -41,7 +41,7 @@ void AddEyes(Surfaces* out) {
   out->push_back(Wire(kX - 7, -44, 8.46, kX + 7, -44, 8.46, 2.4, rim));
 }
 
-void AddClothes(Surfaces* out) {
+void AddClothes(LayeredDepth* out) {
   const Material hat = {PaintKnit, {186, 44, 44}, {238, 226, 206}, 1.15, 21};
   const Material brim = {PaintKnit, {238, 226, 206}, {214, 196, 170}, 1.3, 22};
   const Material pompom = {PaintFur, {206, 190, 166}, {252, 246, 234}, 1, 23};
@@ -62,14 +62,14 @@ void AddClothes(Surfaces* out) {
   }
 }
 
-void AddTable(Surfaces* out) {
+void AddTable(LayeredDepth* out) {
   const Material wood = {PaintWood, {142, 88, 48}, {88, 48, 24}, 1, 31};
   Surface table = Piece(Outline::kBox, 0, 430, 5.2, 3000, 210, wood);
   table.slope_y = 0.05;
   out->push_back(table);
 }
 
-void AddPlant(Surfaces* out) {
+void AddPlant(LayeredDepth* out) {
   const Material pot = {PaintGlaze, {52, 86, 140}, {230, 226, 214}, 1, 41};
   const Material rim = {PaintMatter, {40, 62, 108}, {84, 116, 164}, 1, 42};
   const Material stem = {PaintTwist, {60, 92, 40}, {96, 134, 58}, 2, 43};
@@ -101,7 +101,7 @@ void AddPlant(Surfaces* out) {
   }
 }
 
-void AddBooks(Surfaces* out) {
+void AddBooks(LayeredDepth* out) {
   struct Book {
     double x, width, height;
     Color color, letters;
@@ -124,7 +124,7 @@ void AddBooks(Surfaces* out) {
                       {PaintTwist, {70, 44, 24}, {110, 76, 40}, 1, 81}));
 }
 
-void AddWall(Surfaces* out) {
+void AddWall(LayeredDepth* out) {
   const Material paper = {PaintWallpaper, {34, 62, 74}, {112, 132, 112}, 1, 90};
   Surface wall = Piece(Outline::kNone, 0, 0, kWall, 0, 0, paper);
   wall.slope_x = 0.0008;
@@ -136,7 +136,7 @@ void AddWall(Surfaces* out) {
 }
 
 // Fairy lights on a sagging cord; out of focus they become discs of the aperture's shape.
-void AddLights(Surfaces* out) {
+void AddLights(LayeredDepth* out) {
   const Material cord = {PaintTwist, {28, 34, 30}, {62, 74, 60}, 0.8, 100};
   const Color colors[] = {{255, 190, 90}, {255, 140, 70}, {255, 214, 130}, {250, 168, 110}};
   const double d = kWall + 1;

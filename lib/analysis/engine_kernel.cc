@@ -102,7 +102,7 @@ std::vector<double> ReadLevels(const Engine& measured) {
   std::vector<double> levels(measured.out().size() / 3);
   for (size_t k = 0; k < levels.size(); ++k) {
     const double sample =
-        block.layer == 0 ? worker.star.accumulators[0][3 * k] : worker.picture_samples[3 * k];
+        block.layer == 0 ? worker.line_scan.accumulators[0][3 * k] : worker.picture_samples[3 * k];
     // The centre view alone is copied.
     levels[k] = aperture.n == 0 ? measured.out()[3 * k] : sample / one;
   }

@@ -35,10 +35,10 @@ sf_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
   const double theta = kDefaultTheta;
   const int n = measured.n, layer = measured.layer;
   const double r = std::fabs(probe.r), small = r / (1 << layer);
-  const bool wide = probe.rule == SF_RULE_CELLS;
+  const bool wide = probe.rule == SF_RULE_SUBAPERTURE;
   const Kernel ideal = IdealKernel(r, theta);
-  const Kernel star =
-      Through(StarKernel(small, n, theta, wide ? Cells::kWide : Cells::kNarrow), layer);
+  const Kernel star = Through(
+      StarKernel(small, n, theta, wide ? Subapertures::kWide : Subapertures::kNarrow), layer);
   const auto error = [&](const Kernel& kernel) {
     return SquaredError(Through(kernel, layer), ideal);
   };
@@ -50,7 +50,7 @@ sf_status MeasureStep(const EngineProbe& probe, EngineStep* step) {
            wide,
            SquaredError(measured.kernel, ideal),
            SquaredError(star, ideal),
-           error(CellKernel(small, n, theta)),
+           error(SubapertureKernel(small, n, theta)),
            error(n == 0 ? IdealKernel(0, theta) : PaperKernel(small, n, theta)),
            error(both),
            SquaredError(measured.kernel, star),
@@ -68,15 +68,16 @@ std::string Explain(const EngineStep& step) {
   if (MakeLayerTheory(r, step.layer).error > kThreshold) {
     return "the layers' filters: the ideal kernel through them exceeds it too";
   }
-  if (step.cells > kThreshold) {
-    return "too few views: exact aperture cells exceed it with this N too";
+  if (step.subapertures > kThreshold) {
+    return "too few views: exact aperture subapertures exceed it with this N too";
   }
-  if (step.wide) return "wide cells are boxes, above 3 pixels on whole ones and then interpolated";
+  if (step.wide)
+    return "wide subapertures are boxes, above 3 pixels on whole ones and then interpolated";
   if (step.both_axes > kThreshold) {
-    return "cells one pixel wide where views lie r / N > 1 apart";
+    return "subapertures one pixel wide where views lie r / N > 1 apart";
   }
   return r > step.n * (1 << step.layer)
-             ? "type B views spread along their diagonal only, cells one pixel wide"
+             ? "type B views spread along their diagonal only, subapertures one pixel wide"
              : "type B views spread along their diagonal only";
 }
 

@@ -18,17 +18,17 @@ LayerTheory MakeLayerTheory(double r, int layer);
 
 // SSE (8) against the ideal kernel (4) at one r, all through the layers where L > 0.
 struct EngineStep {
-  double r;          // signed
-  int n;             // N the engine chose
-  int layer;         // L the engine chose
-  bool wide;         // cells may be wider than a pixel
-  double engine;     // of the measured kernel
-  double star;       // of StarKernel
-  double cells;      // of CellKernel
-  double paper;      // of PaperKernel
-  double both_axes;  // of cells at most a pixel wide, every view spread along both axes
-  double apart;      // squared difference of the measured kernel and StarKernel
-  double aliasing;   // measured
+  double r;             // signed
+  int n;                // N the engine chose
+  int layer;            // L the engine chose
+  bool wide;            // subapertures may be wider than a pixel
+  double engine;        // of the measured kernel
+  double star;          // of StarKernel
+  double subapertures;  // of SubapertureKernel
+  double paper;         // of PaperKernel
+  double both_axes;     // of subapertures at most a pixel wide, every view spread along both axes
+  double apart;         // squared difference of the measured kernel and StarKernel
+  double aliasing;      // measured
 };
 
 sf_status MeasureStep(const EngineProbe& probe, EngineStep* step);

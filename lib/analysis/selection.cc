@@ -9,8 +9,8 @@ double PaperError(double r, int n, double theta, Rim rim) {
   return SquaredError(PaperKernel(r, n, theta, rim), IdealKernel(r, theta));
 }
 
-double CellError(double r, int n, double theta) {
-  return SquaredError(CellKernel(r, n, theta), IdealKernel(r, theta));
+double SubapertureError(double r, int n, double theta) {
+  return SquaredError(SubapertureKernel(r, n, theta), IdealKernel(r, theta));
 }
 
 RatioPoint WorstOverSampling(int n, double theta, Rim rim) {

@@ -9,9 +9,9 @@ namespace starfocus::analysis {
 // The paper's epsilon: a blur may differ from the ideal one by this SSE.
 inline constexpr double kThreshold = 1e-3;
 
-// SSE (8) of the paper's kernel, and of the aperture cells' kernel.
+// SSE (8) of the paper's kernel, and of the aperture subapertures' kernel.
 double PaperError(double r, int n, double theta, Rim rim = Rim::kIncluded);
-double CellError(double r, int n, double theta);
+double SubapertureError(double r, int n, double theta);
 
 // A point of Fig. 6.
 struct RatioPoint {

@@ -16,21 +16,22 @@ namespace {
 
 constexpr double kNarrowest = 1e-6, kWidest = 7;
 
-// A view's footprint on the line: one tap, or those of a box on whole pixels for cells wider than
-// kBoxCell, each then spread by a box of `width`; up to a pixel that is the interpolation.
+// A view's footprint on the line: one tap, or those of a box on whole pixels for subapertures wider
+// than kBoxSubaperture, each then spread by a box of `width`; up to a pixel that is the
+// interpolation.
 struct Footprint {
   double width;
   Kernel1 taps;
 };
 
-Footprint MakeFootprint(double cell, Cells cells) {
-  const double width = std::min(kWidest, std::round(kShiftOne * cell) / kShiftOne);
-  if (cells == Cells::kNarrow || width <= 1) {
-    Footprint narrow = {std::clamp(cell, kNarrowest, 1.0), Kernel1(0)};
+Footprint MakeFootprint(double subaperture, Subapertures subapertures) {
+  const double width = std::min(kWidest, std::round(kShiftOne * subaperture) / kShiftOne);
+  if (subapertures == Subapertures::kNarrow || width <= 1) {
+    Footprint narrow = {std::clamp(subaperture, kNarrowest, 1.0), Kernel1(0)};
     narrow.taps.at(0) = 1;
     return narrow;
   }
-  if (width * kShiftOne <= kBoxCell) {
+  if (width * kShiftOne <= kBoxSubaperture) {
     Footprint box = {width, Kernel1(static_cast<int>(std::ceil((width - 1) / 2)))};
     box.taps.at(0) = 1;
     return box;
@@ -57,13 +58,13 @@ void Spread(double x, const Footprint& footprint, const Visit& visit) {
 
 }  // namespace
 
-Kernel StarKernel(double radius, int n, double theta, Cells cells) {
+Kernel StarKernel(double radius, int n, double theta, Subapertures subapertures) {
   if (n == 0) return IdealKernel(0, theta);
-  const bool narrow = cells == Cells::kNarrow;
-  const CellLights lights(narrow ? 0 : n, theta);
-  const int last = narrow ? n : LastCell(n), most = narrow ? n * n : MostOfCells(n);
-  const double step = narrow ? radius / n : radius * kCellUnits / LensInCells(n);
-  const Footprint footprint = MakeFootprint(step, cells);
+  const bool narrow = subapertures == Subapertures::kNarrow;
+  const SubapertureLights lights(narrow ? 0 : n, theta);
+  const int last = narrow ? n : LastSubaperture(n), most = narrow ? n * n : MostOfSubapertures(n);
+  const double step = narrow ? radius / n : radius * kSubapertureUnits / LensInSubapertures(n);
+  const Footprint footprint = MakeFootprint(step, subapertures);
   Kernel kernel(static_cast<int>(std::ceil(last * step)) + 1 + footprint.taps.radius());
   const auto place = [&](int i) { return std::round(i * step * kShiftOne) / kShiftOne; };
   for (int i = -last; i <= last; ++i) {
@@ -72,7 +73,7 @@ Kernel StarKernel(double radius, int n, double theta, Cells cells) {
       if (i * i + j * j > most) continue;
       const double weight =
           narrow ? Aperture(double(i * i + j * j) / (double(n) * n), theta) : lights(i, j);
-      if (cells == Cells::kNarrow && i != 0 && std::abs(i) == std::abs(j)) {
+      if (subapertures == Subapertures::kNarrow && i != 0 && std::abs(i) == std::abs(j)) {
         Spread(place(i), footprint,
                [&](int x, double share) { kernel.at(x, i == j ? x : -x) += weight * share; });
       } else {

@@ -60,10 +60,10 @@ Kernel PaperKernel(double r, int n, double theta, Rim rim) {
   return ViewKernel(r, n, theta, 1, rim);
 }
 
-CellLights::CellLights(int n, double theta) : n_(n) {
+SubapertureLights::SubapertureLights(int n, double theta) : n_(n) {
   constexpr int kPoints = 16;
-  const double lens = double(LensInCells(n)) / kCellUnits;
-  for (int i = 0; i <= LastCell(n); ++i) {
+  const double lens = double(LensInSubapertures(n)) / kSubapertureUnits;
+  for (int i = 0; i <= LastSubaperture(n); ++i) {
     for (int j = 0; j <= i; ++j) {
       double light = 0;
       for (int point = 0; point < kPoints * kPoints; ++point) {
@@ -76,20 +76,21 @@ CellLights::CellLights(int n, double theta) : n_(n) {
   }
 }
 
-double CellLights::operator()(int i, int j) const {
+double SubapertureLights::operator()(int i, int j) const {
   const int high = std::max(std::abs(i), std::abs(j)), low = std::min(std::abs(i), std::abs(j));
   return lights_[size_t(high * (high + 1) / 2 + low)];
 }
 
-Kernel CellKernel(double r, const CellLights& lights) {
+Kernel SubapertureKernel(double r, const SubapertureLights& lights) {
   constexpr double kNarrowest = 1e-6;
   const int n = lights.n();
-  const double cell = r * kCellUnits / LensInCells(n);
-  return SumViews(LastCell(n), MostOfCells(n), cell, std::max(cell, kNarrowest), lights);
+  const double subaperture = r * kSubapertureUnits / LensInSubapertures(n);
+  return SumViews(LastSubaperture(n), MostOfSubapertures(n), subaperture,
+                  std::max(subaperture, kNarrowest), lights);
 }
 
-Kernel CellKernel(double r, int n, double theta) {
-  return n == 0 ? IdealKernel(0, theta) : CellKernel(r, CellLights(n, theta));
+Kernel SubapertureKernel(double r, int n, double theta) {
+  return n == 0 ? IdealKernel(0, theta) : SubapertureKernel(r, SubapertureLights(n, theta));
 }
 
 Kernel1 SampledAperture1(int n, double theta) {

@@ -1,5 +1,5 @@
 // The kernel of refocusing by rendered views (5)-(7): the paper's with the triangular h, and that
-// of aperture cells.
+// of aperture subapertures.
 #ifndef STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
 
@@ -23,10 +23,11 @@ Kernel ViewKernel(double r, int n, double theta, double width, Rim rim = Rim::kI
 // With the triangular h of the paper.
 Kernel PaperKernel(double r, int n, double theta, Rim rim = Rim::kIncluded);
 
-// What of the light of a lens of LensInCells(n) goes through the cell around each view (i, j).
-class CellLights {
+// What of the light of a lens of LensInSubapertures(n) goes through the subaperture around each
+// view (i, j).
+class SubapertureLights {
  public:
-  CellLights(int n, double theta);
+  SubapertureLights(int n, double theta);
 
   int n() const { return n_; }
   double operator()(int i, int j) const;
@@ -36,10 +37,10 @@ class CellLights {
   std::vector<double> lights_;  // of 0 <= j <= i
 };
 
-// Each view stands for its cell of the aperture: h is as wide as a pixel moves from view to view.
-// N = 0 is the centre view alone: the unit impulse.
-Kernel CellKernel(double r, const CellLights& lights);
-Kernel CellKernel(double r, int n, double theta);
+// Each view stands for its subaperture of the aperture: h is as wide as a pixel moves from view to
+// view. N = 0 is the centre view alone: the unit impulse.
+Kernel SubapertureKernel(double r, const SubapertureLights& lights);
+Kernel SubapertureKernel(double r, int n, double theta);
 
 // The paper's kernel with the 1D aperture, whose views are |i| <= N.
 Kernel1 PaperKernel1(double r, int n, double theta);

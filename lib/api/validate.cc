@@ -59,7 +59,7 @@ sf_status CheckParams(const sf_params& params) {
   if (params.version != SF_ABI_VERSION) return SF_ERROR_VERSION;
   if (!AllZero(params.reserved)) return SF_ERROR_RESERVED;
   if (params.mode < SF_MODE_FRAME || params.mode > SF_MODE_BLUR) return SF_ERROR_MODE;
-  if (params.rule < SF_RULE_DEFAULT || params.rule > SF_RULE_CELLS) return SF_ERROR_RULE;
+  if (params.rule < SF_RULE_DEFAULT || params.rule > SF_RULE_SUBAPERTURE) return SF_ERROR_RULE;
   if (!(params.focus >= -SF_MAX_FOCUS && params.focus <= SF_MAX_FOCUS)) return SF_ERROR_FOCUS;
   if (!(params.aperture > 0.0 && params.aperture <= 1.0)) return SF_ERROR_APERTURE;
   return SF_OK;

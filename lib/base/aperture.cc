@@ -70,18 +70,18 @@ Aperture Weigh(int32_t n, int32_t last, int32_t most, const Light& light, uint16
   return aperture;
 }
 
-// Of the light of a lens `radius` wide (kCellUnits) what goes through the cell around (i, j), 20
-// bits: by its points in a square grid.
-uint64_t LightOfCell(int32_t i, int32_t j, int32_t radius, uint32_t fall_off) {
-  constexpr int32_t kStep = 2, kPoints = kCellUnits / kStep;
+// Of the light of a lens `radius` wide (kSubapertureUnits) what goes through the subaperture around
+// (i, j), 20 bits: by its points in a square grid.
+uint64_t LightOfSubaperture(int32_t i, int32_t j, int32_t radius, uint32_t fall_off) {
+  constexpr int32_t kStep = 2, kPoints = kSubapertureUnits / kStep;
   const auto lens = static_cast<uint64_t>(radius) * static_cast<uint64_t>(radius);
   int bits = 0;  // that (3) does without
   while (lens >> bits >= uint64_t{1} << 18) ++bits;
   uint64_t light = 0;
   for (int32_t a = 0; a < kPoints; ++a) {
     for (int32_t b = 0; b < kPoints; ++b) {
-      const int64_t x = kCellUnits * i + kStep * a + 1 - kCellUnits / 2;
-      const int64_t y = kCellUnits * j + kStep * b + 1 - kCellUnits / 2;
+      const int64_t x = kSubapertureUnits * i + kStep * a + 1 - kSubapertureUnits / 2;
+      const int64_t y = kSubapertureUnits * j + kStep * b + 1 - kSubapertureUnits / 2;
       const auto square = static_cast<uint64_t>(x * x + y * y);
       if (square <= lens) light += Relative(square >> bits, lens >> bits, fall_off);
     }
@@ -106,13 +106,13 @@ Aperture MakeAperture(int32_t n, uint32_t fall_off, uint16_t* weights) {
       weights);
 }
 
-Aperture MakeCellAperture(int32_t n, uint32_t fall_off, uint16_t* weights) {
+Aperture MakeSubapertures(int32_t n, uint32_t fall_off, uint16_t* weights) {
   if (n == 0) return MakeAperture(n, fall_off, weights);
-  const int32_t radius = LensInCells(n), last = LastCell(n);
+  const int32_t radius = LensInSubapertures(n), last = LastSubaperture(n);
   Aperture aperture = Weigh(
-      n, last, MostOfCells(n),
-      [&](int32_t i, int32_t j) { return LightOfCell(i, j, radius, fall_off); }, weights);
-  aperture.extent = static_cast<double>(kCellUnits * last) / radius;
+      n, last, MostOfSubapertures(n),
+      [&](int32_t i, int32_t j) { return LightOfSubaperture(i, j, radius, fall_off); }, weights);
+  aperture.extent = static_cast<double>(kSubapertureUnits * last) / radius;
   return aperture;
 }
 

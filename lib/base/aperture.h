@@ -18,7 +18,7 @@ struct Aperture {
   int32_t most = 0;
   int sum_bits = 1;
   int32_t views = 1;
-  double extent = 1;                  // of the outermost views of cells, of the lens's radius
+  double extent = 1;  // of the outermost views of subapertures, of the lens's radius
   const uint16_t* weights = nullptr;  // of 0 <= j <= i <= n at index i (i + 1) / 2 + j
 
   // Any i, j in [-n, n]; zero outside the disc.
@@ -30,19 +30,19 @@ struct Aperture {
   }
 };
 
-// The radius of the lens in cells, kCellUnits of each, for the N of ViewsByCells: of those near N
-// that whose views give the kernel with the least error.
-inline constexpr int32_t kCellUnits = 32;
-constexpr int32_t LensInCells(int32_t n) {
-  return n == 1 ? kCellUnits : n == 4 ? 123 : kCellUnits * n - 11;
+// The radius of the lens in subapertures, kSubapertureUnits of each, for the N of
+// ViewsBySubaperture: of those near N that whose views give the kernel with the least error.
+inline constexpr int32_t kSubapertureUnits = 32;
+constexpr int32_t LensInSubapertures(int32_t n) {
+  return n == 1 ? kSubapertureUnits : n == 4 ? 123 : kSubapertureUnits * n - 11;
 }
 
 // Their centres lie up to this far from its axis: a little beyond the rim they are worth rendering,
 // too. Last and most of their Aperture.
-constexpr int32_t FarthestCell(int32_t n) { return n == 0 ? 0 : LensInCells(n) + 5; }
-constexpr int32_t LastCell(int32_t n) { return FarthestCell(n) / kCellUnits; }
-constexpr int32_t MostOfCells(int32_t n) {
-  return FarthestCell(n) * FarthestCell(n) / (kCellUnits * kCellUnits);
+constexpr int32_t FarthestSubaperture(int32_t n) { return n == 0 ? 0 : LensInSubapertures(n) + 5; }
+constexpr int32_t LastSubaperture(int32_t n) { return FarthestSubaperture(n) / kSubapertureUnits; }
+constexpr int32_t MostOfSubapertures(int32_t n) {
+  return FarthestSubaperture(n) * FarthestSubaperture(n) / (kSubapertureUnits * kSubapertureUnits);
 }
 
 // Number of weights an Aperture of n stores.
@@ -54,10 +54,10 @@ constexpr size_t ApertureSize(int32_t n) {
 // ApertureFallOff gives; n in [0, 256].
 Aperture MakeAperture(int32_t n, uint32_t fall_off, uint16_t* weights);
 
-// Views that stand for their cells of a lens LensInCells(n) wide, by what of its light is theirs:
-// of the cells that straddle its rim the part within. n in [0, 256]; 0 is the centre view
-// alone.
-Aperture MakeCellAperture(int32_t n, uint32_t fall_off, uint16_t* weights);
+// Views that stand for their subapertures of a lens LensInSubapertures(n) wide, by what of its
+// light is theirs: of the subapertures that straddle its rim the part within. n in [0, 256]; 0 is
+// the centre view alone.
+Aperture MakeSubapertures(int32_t n, uint32_t fall_off, uint16_t* weights);
 
 }  // namespace starfocus
 

@@ -14,20 +14,20 @@ int32_t Ceil(double value) {
   return value > whole ? whole + 1 : whole;
 }
 
-struct CellStep {
+struct SubapertureStep {
   double r_max;
   int32_t n;
 };
 // The criterion would let 4 serve up to 18: 0.1 to 0.4 dB farther from the benchmark mode on real
 // maps for 4 % of the instructions.
-constexpr CellStep kCellSteps[] = {{0.5, 0}, {11, 4},  {25, 5},   {34, 6},  {49, 7},
-                                   {68, 9},  {83, 11}, {119, 12}, {128, 13}};
+constexpr SubapertureStep kSubapertureSteps[] = {{0.5, 0}, {11, 4},  {25, 5},   {34, 6},  {49, 7},
+                                                 {68, 9},  {83, 11}, {119, 12}, {128, 13}};
 
-// With cells the rest of the error is smaller, and so must that of layers be: against truth on the
-// portrait layer 2 from 8 or 16 up costs 0.2 to 0.35 dB and saves 4 % of the instructions, layer 1
-// from 5 up 0.1 to 0.2 dB and saves up to 19 %. Layer 2 rounds silhouettes to four pixels.
-constexpr double kCellLayerRadius = 7.0;
-constexpr double kCellCoarseRadius = 24.0;
+// With subapertures the rest of the error is smaller, and so must that of layers be: against truth
+// on the portrait layer 2 from 8 or 16 up costs 0.2 to 0.35 dB and saves 4 % of the instructions,
+// layer 1 from 5 up 0.1 to 0.2 dB and saves up to 19 %. Layer 2 rounds silhouettes to four pixels.
+constexpr double kSubapertureLayerRadius = 7.0;
+constexpr double kSubapertureCoarseRadius = 24.0;
 
 }  // namespace
 
@@ -37,9 +37,9 @@ int32_t ViewsByPaper(double r_max) {
   return Ceil(kUnderSampling * r_max);
 }
 
-int32_t ViewsByCells(double r_max) {
+int32_t ViewsBySubaperture(double r_max) {
   int32_t n = 0;
-  for (const CellStep& step : kCellSteps) {
+  for (const SubapertureStep& step : kSubapertureSteps) {
     n = step.n;
     if (r_max <= step.r_max) break;
   }
@@ -59,9 +59,9 @@ int32_t LayerByPaper(double r_min) {
   return r_min >= kLayerRadius ? 1 : 0;
 }
 
-int32_t LayerByCells(double r_min, bool depth_edges) {
-  if (r_min >= kCellCoarseRadius && !depth_edges) return 2;
-  return r_min >= kCellLayerRadius ? 1 : 0;
+int32_t LayerBySubaperture(double r_min, bool depth_edges) {
+  if (r_min >= kSubapertureCoarseRadius && !depth_edges) return 2;
+  return r_min >= kSubapertureLayerRadius ? 1 : 0;
 }
 
 }  // namespace starfocus

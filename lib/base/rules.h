@@ -9,13 +9,14 @@ namespace starfocus {
 // Views along the aperture radius by (9). r_max >= 0 in pixels; 0 needs the centre view alone.
 int32_t ViewsByPaper(double r_max);
 
-// N for views that each stand for their cell of the aperture, however wide: the radius of the lens
-// in cells, rounded up (LensInCells of lib/aperture.h). At least as good as (9) for every smaller
-// radius too (lib/analysis/cell_rule.h has the criterion). r_max in [0, 128]:
+// N for views that each stand for their subaperture of the aperture, however wide: the radius of
+// the lens in subapertures, rounded up (LensInSubapertures of lib/aperture.h). At least as good as
+// (9) for every smaller radius too (lib/analysis/subaperture_rule.h has the criterion). r_max in
+// [0, 128]:
 //
 //   r_max <=  1/2   11   25   34   49   68   83  119  128
 //   N           0    4    5    6    7    9   11   12   13
-int32_t ViewsByCells(double r_max);
+int32_t ViewsBySubaperture(double r_max);
 
 // N of either rule times `scale` in [0.5, 2], rounded up; 0 and a scale of 1 change nothing.
 int32_t ScaleViews(int32_t n, double scale);
@@ -24,9 +25,10 @@ int32_t ScaleViews(int32_t n, double scale);
 int32_t ViewsOfBenchmark(double r_max);
 
 // Subsampled layer, up to 2, for the smallest blur radius of a block in pixels: by (12), and the
-// more careful choice beside ViewsByCells, for blocks that depth edges may splat into and others.
+// more careful choice beside ViewsBySubaperture, for blocks that depth edges may splat into and
+// others.
 int32_t LayerByPaper(double r_min);
-int32_t LayerByCells(double r_min, bool depth_edges);
+int32_t LayerBySubaperture(double r_min, bool depth_edges);
 
 }  // namespace starfocus
 

@@ -65,9 +65,9 @@ void MakeTables(EngineState* engine) {
     engine->view_counts[n] = CountViews(n);
     weights += ApertureSize(n);
   }
-  for (int32_t n = 0; n <= engine->max_cell_n; ++n) {
-    engine->cell_apertures[n] = MakeCellAperture(n, engine->fall_off, weights);
-    engine->cell_view_counts[n] = CountCells(engine->cell_apertures[n]);
+  for (int32_t n = 0; n <= engine->max_subaperture_n; ++n) {
+    engine->subapertures[n] = MakeSubapertures(n, engine->fall_off, weights);
+    engine->subaperture_view_counts[n] = CountSubapertures(engine->subapertures[n]);
     weights += ApertureSize(n);
   }
   engine->blur_steps = 0;
@@ -99,18 +99,18 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   engine->params = params;
   engine->region = RegionOf(config, params);
   engine->reach = GetReach(r_max);
-  const bool cells = UsesCells(*engine);
+  const bool subapertures = UsesSubapertures(*engine);
   if (IsBenchmark(*engine)) {
-    engine->aperture = (cells ? MakeCellAperture : MakeAperture)(
+    engine->aperture = (subapertures ? MakeSubapertures : MakeAperture)(
         ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
   } else {
-    const int32_t n = cells ? ViewsByCells(r_max) : ViewsByPaper(r_max);
+    const int32_t n = subapertures ? ViewsBySubaperture(r_max) : ViewsByPaper(r_max);
     engine->aperture =
-        (cells ? engine->cell_apertures : engine->apertures)[ScaleViews(n, config.n_scale)];
+        (subapertures ? engine->subapertures : engine->apertures)[ScaleViews(n, config.n_scale)];
   }
   const ViewGrid grid = MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false);
   engine->scale = {grid.focus, grid.step};
-  const bool gathers = IsBlockMode(*engine) && cells && config.gather != 0;
+  const bool gathers = IsBlockMode(*engine) && subapertures && config.gather != 0;
   if (params.mode == SF_MODE_BLUR || gathers) {
     const int32_t steps = BlurStepCount(gathers && r_max > kMaxGather ? kMaxGather : r_max);
     if (steps > engine->blur_steps) {

@@ -45,8 +45,8 @@ struct Stream {
 
 // Memory of one worker and what it counted.
 struct Worker {
-  StarScratch star;
-  StackScratch stack;
+  LineScanScratch line_scan;
+  CompositorScratch compositor;
   ResampleScratch resample;
   UpsampleScratch upsample;
   int16_t* layer_samples;   // a rendered rectangle
@@ -80,10 +80,10 @@ struct EngineState {
   uint32_t fall_off;  // ApertureFallOff(config.theta)
 
   // Tables made once: by N up to max_n, and kernels of the blur mode as far as asked for.
-  int32_t max_n, max_cell_n;
-  Aperture *apertures, *cell_apertures;  // by the paper's rule and by the rule of cells
-  uint16_t* aperture_weights;            // of both
-  ViewCounts *view_counts, *cell_view_counts;
+  int32_t max_n, max_subaperture_n;
+  Aperture *apertures, *subapertures;  // by the paper's rule and by the rule of subapertures
+  uint16_t* aperture_weights;          // of both
+  ViewCounts *view_counts, *subaperture_view_counts;
   uint16_t* benchmark_weights;
   BlurKernel* blur_kernels;
   uint16_t* blur_weights;
@@ -127,17 +127,17 @@ inline bool IsBenchmark(const EngineState& engine) {
   return engine.params.mode == SF_MODE_BENCHMARK;
 }
 
-// Whether views stand for cells, and show slices.
-inline bool UsesCells(const EngineState& engine) {
+// Whether views stand for subapertures, and show slices.
+inline bool UsesSubapertures(const EngineState& engine) {
   const int32_t rule = engine.params.rule;
-  if (engine.params.mode == SF_MODE_FRAME) return rule == SF_RULE_CELLS;
+  if (engine.params.mode == SF_MODE_FRAME) return rule == SF_RULE_SUBAPERTURE;
   return (IsBlockMode(engine) || IsBenchmark(engine)) && rule != SF_RULE_PAPER;
 }
 
 // Of a block with the rule's N.
 inline const Aperture& ApertureOf(const EngineState& engine, int32_t n) {
   if (!IsBlockMode(engine)) return engine.aperture;
-  return UsesCells(engine) ? engine.cell_apertures[n] : engine.apertures[n];
+  return UsesSubapertures(engine) ? engine.subapertures[n] : engine.apertures[n];
 }
 
 // Whether blocks of different layers are joined.

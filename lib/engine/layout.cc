@@ -27,18 +27,19 @@ int32_t LargestN(const sf_config& config) {
   // One more than (9) gives: radii are rounded up before it.
   return ScaleViews(ViewsByPaper(config.max_blur) + 1, config.n_scale);
 }
-int32_t LargestCellN(const sf_config& config) {
-  return ScaleViews(ViewsByCells(config.max_blur + 1), config.n_scale);
+int32_t LargestSubapertureN(const sf_config& config) {
+  return ScaleViews(ViewsBySubaperture(config.max_blur + 1), config.n_scale);
 }
 
 // The largest N of slices.
 int32_t LargestSliceN(const sf_config& config) {
-  return Max(LargestCellN(config), ViewsOfBenchmark(config.max_blur));
+  return Max(LargestSubapertureN(config), ViewsOfBenchmark(config.max_blur));
 }
 
-// E and R of StarScratch, and the largest N; all but the first accumulators.
-void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver, StarScratch* star) {
-  StarScratch& scratch = *star;
+// E and R of LineScanScratch, and the largest N; all but the first accumulators.
+void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver,
+              LineScanScratch* star) {
+  LineScanScratch& scratch = *star;
   const size_t area = extended * extended;
   const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
   for (int k = 0; k < 2; ++k) {
@@ -64,9 +65,9 @@ void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver, S
 }
 
 // What is found of a field before slices are made.
-void TakeField(size_t extended, Carver* carver, StackScratch* stack) {
-  StackScratch& scratch = *stack;
-  Surfaces& surfaces = scratch.surfaces;
+void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
+  CompositorScratch& scratch = *stack;
+  LayeredDepth& surfaces = scratch.surfaces;
   const size_t row = simd::SliceSamples(extended);
   scratch.field_rgb = carver->Take<uint8_t>(extended * RgbStride(static_cast<int32_t>(extended)));
   scratch.field_disparity = carver->Take<int16_t>(extended * extended);
@@ -81,13 +82,13 @@ void TakeField(size_t extended, Carver* carver, StackScratch* stack) {
   scratch.least_blur = carver->Take<int32_t>(extended);
 }
 
-// E and R of StackScratch, and the largest N; `reach`: pixels beyond a rectangle of slices. The
-// pool is what is left of `bytes` for all, if that is enough.
-StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t max_n, size_t bytes,
-                       Carver* carver) {
-  StackScratch scratch;
+// E and R of CompositorScratch, and the largest N; `reach`: pixels beyond a rectangle of slices.
+// The pool is what is left of `bytes` for all, if that is enough.
+CompositorScratch TakeCompositor(size_t extended, size_t rectangle, size_t reach, size_t max_n,
+                                 size_t bytes, Carver* carver) {
+  CompositorScratch scratch;
   const size_t first = carver->Mark();
-  Surfaces& surfaces = scratch.surfaces;
+  LayeredDepth& surfaces = scratch.surfaces;
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
     surfaces.disparity[k] = carver->Take<int16_t>(area);
@@ -98,9 +99,10 @@ StackScratch TakeStack(size_t extended, size_t rectangle, size_t reach, size_t m
   scratch.centre = carver->Take<uint8_t>(3 * rectangle * rectangle);
   scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
   scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
-  scratch.parts = carver->Take<StackPart>(StackParts(rectangle));
+  scratch.parts = carver->Take<SectionPart>(SectionParts(rectangle));
   scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rectangle);
-  scratch.filtered = carver->Take<int16_t>((rectangle + 2 * reach) * SlicePlane(rectangle, reach));
+  scratch.filtered =
+      carver->Take<int16_t>((rectangle + 2 * reach) * PlaneSamples(rectangle, reach));
   const size_t field = carver->Mark(), used = field - first;
   TakeField(extended, carver, &scratch);
   carver->Reuse(field);
@@ -124,14 +126,14 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const size_t extended = side + 2 * static_cast<size_t>(reach.border);
   const int32_t max_n = Max(LargestN(config), ViewsOfBenchmark(config.max_blur));
   const size_t first = carver->Mark();
-  worker.star.accumulators[0] = carver->Take<uint32_t>(3 * side * side);
+  worker.line_scan.accumulators[0] = carver->Take<uint32_t>(3 * side * side);
   const size_t shared = carver->Mark();
-  TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.star);
+  TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.line_scan);
   carver->Reuse(shared);
   const auto rim = static_cast<size_t>(reach.border - kCellSize - 2);
-  worker.stack =
-      TakeStack(extended, side, rim + kSliceMargin, static_cast<size_t>(LargestSliceN(config)),
-                WorkerBytes(side) - (shared - first) - sizeof(Worker), carver);
+  worker.compositor =
+      TakeCompositor(extended, side, rim + kSliceMargin, static_cast<size_t>(LargestSliceN(config)),
+                     WorkerBytes(side) - (shared - first) - sizeof(Worker), carver);
   carver->Reuse(shared);
   // A rendered rectangle is at most half a block and 4 pixels wide.
   const size_t half = side / 2 + 8;
@@ -155,17 +157,17 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
 
 void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->max_n = LargestN(config);
-  engine->max_cell_n = LargestCellN(config);
+  engine->max_subaperture_n = LargestSubapertureN(config);
   const auto count = static_cast<size_t>(engine->max_n) + 1;
-  const auto cell_count = static_cast<size_t>(engine->max_cell_n) + 1;
+  const auto subaperture_count = static_cast<size_t>(engine->max_subaperture_n) + 1;
   size_t weights = 0;
   for (int32_t n = 0; n <= engine->max_n; ++n) weights += ApertureSize(n);
-  for (int32_t n = 0; n <= engine->max_cell_n; ++n) weights += ApertureSize(n);
+  for (int32_t n = 0; n <= engine->max_subaperture_n; ++n) weights += ApertureSize(n);
   engine->apertures = carver->Take<Aperture>(count);
-  engine->cell_apertures = carver->Take<Aperture>(cell_count);
+  engine->subapertures = carver->Take<Aperture>(subaperture_count);
   engine->aperture_weights = carver->Take<uint16_t>(weights);
   engine->view_counts = carver->Take<ViewCounts>(count);
-  engine->cell_view_counts = carver->Take<ViewCounts>(cell_count);
+  engine->subaperture_view_counts = carver->Take<ViewCounts>(subaperture_count);
   engine->benchmark_weights =
       carver->Take<uint16_t>(ApertureSize(ViewsOfBenchmark(config.max_blur)));
   engine->blur_kernels =

@@ -19,18 +19,18 @@ uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
 void FinishPicture(const simd::Kernels& kernels, const Rect& rect, int shift,
                    const Plane<uint8_t>& out, const Worker& worker) {
   const size_t samples = 3 * static_cast<size_t>(rect.width);
-  CheckSums(worker.star.accumulators[0], Samples(rect), shift);
+  CheckSums(worker.line_scan.accumulators[0], Samples(rect), shift);
   for (int32_t row = 0; row < rect.height; ++row) {
-    kernels.finish(worker.star.accumulators[0] + static_cast<size_t>(row) * samples, samples, shift,
-                   At(out, rect, row));
+    kernels.finish(worker.line_scan.accumulators[0] + static_cast<size_t>(row) * samples, samples,
+                   shift, At(out, rect, row));
   }
 }
 
 // From layer 2 to layer 1, with the margin that the next step reads, to the picture.
 void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
                  const Plane<uint8_t>& out, const Worker& worker) {
-  CheckSums(worker.star.accumulators[0], Samples(block.rendered), shift);
-  kernels.finish_layer(worker.star.accumulators[0], Samples(block.rendered), shift,
+  CheckSums(worker.line_scan.accumulators[0], Samples(block.rendered), shift);
+  kernels.finish_layer(worker.line_scan.accumulators[0], Samples(block.rendered), shift,
                        worker.layer_samples);
   CheckAll(ranges::kLayerSample, worker.layer_samples, Samples(block.rendered));
   LayerRect layer = {worker.layer_samples, block.rendered.width, block.rendered.height};
@@ -96,17 +96,18 @@ struct Rendered {
 };
 
 // Renders the block's views: by cells as a stack of slices, whose samples all count.
-Rendered Render(const EngineState& engine, const Block& block, StarJob job,
+Rendered Render(const EngineState& engine, const Block& block, RenderJob job,
                 const Plane<uint8_t>& out, Worker* worker) {
   const Counting counting(*job.window, worker);
   job.window = &counting.window();
   uint64_t samples = Samples(job.rect);
-  if (UsesCells(engine)) {
+  if (UsesSubapertures(engine)) {
     const GatherMap* gathered = block.gathers ? &engine.plan.gathered : nullptr;
     const SliceRule& rule = IsBenchmark(engine) ? kFineSlices : kSlices;
-    samples = 3 * RefocusStack(job, rule, gathered, &worker->stack, worker->star.accumulators[0]);
+    samples = 3 * CompositeRectangle(job, rule, gathered, &worker->compositor,
+                                     worker->line_scan.accumulators[0]);
   } else {
-    RefocusRectangle(job, &worker->star);
+    RefocusRectangle(job, &worker->line_scan);
   }
   const int shift = job.grid->aperture.sum_bits;
   if (block.layer == 0) {
@@ -121,8 +122,8 @@ Rendered Render(const EngineState& engine, const Block& block, StarJob job,
 void GatherCells(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
                  Worker* worker) {
   Field field;
-  field.rgb = worker->star.field_rgb[0];
-  field.disparity = worker->star.field_disparity[0];
+  field.rgb = worker->line_scan.field_rgb[0];
+  field.disparity = worker->line_scan.field_disparity[0];
   const Counting counting(engine.windows[0], worker);
   const GatherJob job = {&counting.window(), &engine.cells,       &engine.plan.gathered,
                          engine.scale,       engine.blur_kernels, engine.kernels,
@@ -140,17 +141,17 @@ Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
   const bool pinhole = aperture.n == 0;
   const Aperture& rendered = pinhole ? engine.apertures[1] : aperture;
-  const double extent = UsesCells(engine) ? rendered.extent : 1;
+  const double extent = UsesSubapertures(engine) ? rendered.extent : 1;
   ViewGrid grid = MakeViewGrid(rendered, engine.params.focus, engine.params.aperture * extent,
                                block.layer, engine.config.views == 17);
   if (pinhole) grid.step = 0;
-  const StarJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
-                       block.border};
+  const RenderJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
+                         block.border};
   if (engine.config.skips == 0) return Render(engine, block, job, out, worker);
   const Rect& rect = ViewsRect(block);
   const uint64_t pixels = Samples(rect) / 3;
   // Slices have ends, which move a little even then.
-  if (pinhole || (!UsesCells(engine) && NothingMoves(job))) {
+  if (pinhole || (!UsesSubapertures(engine) && NothingMoves(job))) {
     CopyCentre(engine, rect, out);
     worker->centre_bytes += 3 * pixels;
     worker->skipped.copied_blocks += 1;
@@ -171,8 +172,8 @@ void BlurBlock(const EngineState& engine, const Block& block, const Plane<uint8_
   const Counting counting(engine.windows[0], worker);
   const BlurJob job = {&counting.window(), engine.scale, engine.blur_kernels,
                        engine.kernels,     block.rect,   block.border.left};
-  const BlurScratch scratch = {worker->star.field_rgb[0], worker->star.accumulators[0],
-                               worker->star.spans};
+  const BlurScratch scratch = {worker->line_scan.field_rgb[0], worker->line_scan.accumulators[0],
+                               worker->line_scan.spans};
   BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
 }
 

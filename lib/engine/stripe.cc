@@ -34,9 +34,9 @@ Block WholeBlock(const EngineState& engine, const Rect& rect) {
   block.n = engine.aperture.n;
   block.gathers = false;
   const ViewCounts views =
-      UsesCells(engine) ? CountCells(engine.aperture) : CountViews(engine.aperture.n);
+      UsesSubapertures(engine) ? CountSubapertures(engine.aperture) : CountViews(engine.aperture.n);
   block.cost = PredictTime(engine.config.timing, MeasureWork(block.rendered, block.border, views,
-                                                             UsesCells(engine), 0, {}, 0));
+                                                             UsesSubapertures(engine), 0, {}, 0));
   return block;
 }
 
@@ -44,7 +44,7 @@ Block WholeBlock(const EngineState& engine, const Rect& rect) {
 void PlanWhole(const Stripe& stripe, int32_t column) {
   EngineState& engine = *stripe.engine;
   const int32_t largest = BlockSide(engine);
-  const int32_t side = IsBenchmark(engine) && UsesCells(engine) ? kFineSide : largest;
+  const int32_t side = IsBenchmark(engine) && UsesSubapertures(engine) ? kFineSide : largest;
   const int32_t left = column * largest, right = Min(left + largest, engine.config.width);
   const int32_t bottom = stripe.y + stripe.height;
   int32_t count = 0;
@@ -120,13 +120,13 @@ void PlanBlocks(const Stripe& stripe, int32_t column, Worker* worker) {
   rules.height = engine.config.height;
   rules.largest_block = BlockSide(engine);
   rules.max_layer = engine.config.max_layer;
-  rules.max_n = UsesCells(engine) ? engine.max_cell_n : engine.max_n;
-  rules.cells = UsesCells(engine);
+  rules.max_n = UsesSubapertures(engine) ? engine.max_subaperture_n : engine.max_n;
+  rules.subapertures = UsesSubapertures(engine);
   rules.n_scale = engine.config.n_scale;
-  rules.gathers = UsesCells(engine) && engine.config.gather != 0;
+  rules.gathers = UsesSubapertures(engine) && engine.config.gather != 0;
   rules.scale = engine.scale;
   rules.timing = engine.config.timing;
-  rules.views = UsesCells(engine) ? engine.cell_view_counts : engine.view_counts;
+  rules.views = UsesSubapertures(engine) ? engine.subaperture_view_counts : engine.view_counts;
   engine.plan.counts[column] = PartitionBlock(
       *engine.kernels, rules, engine.cells, column * BlockSide(engine), stripe.y,
       engine.reach.cells, worker->partition, BlocksOf(engine, column), engine.plan.gathered);

@@ -8,8 +8,8 @@ namespace starfocus {
 namespace {
 
 // In all views a pixel stays in its place, and its neighbour does not count, where
-// 2 |t| + L <= 1 (CellWeight) for its shift t and cell L <= |t|; here in kShiftBits, less one for
-// rounding.
+// 2 |t| + L <= 1 (SubapertureWeight) for its shift t and cell L <= |t|; here in kShiftBits, less
+// one for rounding.
 constexpr int32_t kStill = kShiftOne / 3 - 1;
 
 // Disparity steps from pixel to pixel, as moved by the outermost view at layer 0, up to which a
@@ -22,14 +22,14 @@ struct Part {
   int32_t left, right, top, bottom;  // exclusive at the right and the bottom
 };
 
-Rect Extended(const StarJob& job) {
+Rect Extended(const RenderJob& job) {
   const Rect& rect = job.rect;
   const Border& border = job.border;
   return {rect.x - border.left, rect.y - border.top, border.left + rect.width + border.right,
           border.top + rect.height + border.bottom};
 }
 
-Part PartOf(const StarJob& job) {
+Part PartOf(const RenderJob& job) {
   const Window& window = *job.window;
   const Rect rect = Extended(job);
   return {Clamp(rect.x, 0, window.width - 1), Clamp(rect.x + rect.width, 1, window.width),
@@ -66,7 +66,7 @@ bool IsGentle(const Window& window, const Part& part) {
 
 }  // namespace
 
-bool NothingMoves(const StarJob& job) {
+bool NothingMoves(const RenderJob& job) {
   const Window& window = *job.window;
   if (window.layer != 0) return false;
   const int64_t still =
@@ -84,7 +84,7 @@ bool NothingMoves(const StarJob& job) {
   return true;
 }
 
-const uint8_t* OneColour(const StarJob& job) {
+const uint8_t* OneColour(const RenderJob& job) {
   const Window& window = *job.window;
   const Part part = PartOf(job);
   const uint8_t* colour = window.centre.Row(part.top) + 3 * static_cast<ptrdiff_t>(part.left);

@@ -10,11 +10,11 @@ namespace starfocus {
 
 // Whether every view shows every pixel of the job's rectangle where the centre view does, so that
 // the rectangle is that of the centre view. At layer 0 only: others are resampled all the same.
-bool NothingMoves(const StarJob& job);
+bool NothingMoves(const RenderJob& job);
 
 // The colour of all that may splat into the job's rectangle, where no side view can show another in
 // a hole; null where there is none. Three bytes of the centre view.
-const uint8_t* OneColour(const StarJob& job);
+const uint8_t* OneColour(const RenderJob& job);
 
 }  // namespace starfocus
 

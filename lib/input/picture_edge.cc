@@ -76,7 +76,7 @@ class Beyond {
   }
 
   // How many of the `seen` pixels beyond the edge lie before the first that, in the captured view,
-  // a nearer pixel inside the picture comes within 3/4 of a pixel of. Surfaces of positive
+  // a nearer pixel inside the picture comes within 3/4 of a pixel of. LayeredDepth of positive
   // disparity are seen from the side on which nearer ones move farther away.
   int32_t Uncovered(const Edge& edge, int32_t disparity, int32_t seen) const {
     const int layer = window_.layer;

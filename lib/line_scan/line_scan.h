@@ -27,23 +27,25 @@ struct LinePart {
 // A gap wider than this is no stretched surface, whatever the disparities say, in pixels.
 inline constexpr int32_t kMaxStretch = 4;
 
-// 2^23 / cell, rounded, for cells of [0, kShiftOne]; 0 at 0, where no neighbour counts.
-struct CellReciprocals {
+// 2^23 / subaperture, rounded, for subapertures of [0, kShiftOne]; 0 at 0, where no neighbour
+// counts.
+struct SubapertureReciprocals {
   uint32_t of[kShiftOne + 1] = {};
-  constexpr CellReciprocals() {
-    for (uint32_t cell = 1; cell <= kShiftOne; ++cell) of[cell] = ((1u << 23) + cell / 2) / cell;
+  constexpr SubapertureReciprocals() {
+    for (uint32_t subaperture = 1; subaperture <= kShiftOne; ++subaperture)
+      of[subaperture] = ((1u << 23) + subaperture / 2) / subaperture;
   }
 };
-inline constexpr CellReciprocals kCellReciprocals;
+inline constexpr SubapertureReciprocals kSubapertureReciprocals;
 
-// Weight of the neighbour (kShiftBits) in the aperture cell of width `cell` (kShiftBits) for a
-// sample `offset` away from its pixel's centre: clamp((|t| - 1/2) / L + 1/2, 0, 1) of the
-// aperture cell, L <= 1.
-inline int32_t CellWeight(int32_t offset, int32_t cell) {
-  const int32_t twice = 2 * Abs(offset) - kShiftOne + cell;  // <= cell
+// Weight of the neighbour (kShiftBits) in the aperture subaperture of width `subaperture`
+// (kShiftBits) for a sample `offset` away from its pixel's centre: clamp((|t| - 1/2) / L + 1/2, 0,
+// 1) of the aperture subaperture, L <= 1.
+inline int32_t SubapertureWeight(int32_t offset, int32_t subaperture) {
+  const int32_t twice = 2 * Abs(offset) - kShiftOne + subaperture;  // <= subaperture
   if (twice <= 0) return 0;
-  const uint32_t scaled = static_cast<uint32_t>(twice) * kCellReciprocals.of[cell];
-  return static_cast<int32_t>(Checked(ranges::kCellWeight, (scaled + (1u << 15)) >> 16));
+  const uint32_t scaled = static_cast<uint32_t>(twice) * kSubapertureReciprocals.of[subaperture];
+  return static_cast<int32_t>(Checked(ranges::kSubapertureWeight, (scaled + (1u << 15)) >> 16));
 }
 
 // The surface whose end covers a part of a hole's outermost pixel, on the side where the scan goes
@@ -92,7 +94,7 @@ class LineScan {
         } else if (IsPlain(run, run_end, whole)) {
           const int32_t offset = shift - whole * kShiftOne;
           Emit(Max(low, begin_), Min(filled_.from, end_), whole, offset > 0 ? 1 : -1,
-               CellWeight(offset, Min(run->cell, kShiftOne)));
+               SubapertureWeight(offset, Min(run->subaperture, kShiftOne)));
         } else {
           AddRun(run, run_end, shift);
         }
@@ -168,7 +170,7 @@ class LineScan {
       }
     }
     if (first >= end) return;
-    const int32_t weight = CellWeight(offset, Min(run->cell, kShiftOne));
+    const int32_t weight = SubapertureWeight(offset, Min(run->subaperture, kShiftOne));
     if (weight == 0) {
       Emit(first, end, whole, 1, 0);
     } else if (end + whole > run->surface_end) {

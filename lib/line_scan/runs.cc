@@ -14,7 +14,7 @@ void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const LineBund
 }
 
 int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const ViewGrid& grid,
-                 int64_t cell_move, Run* runs) {
+                 int64_t subaperture_move, Run* runs) {
   Run* run = runs;
   int32_t surface_end = length;
   // A run's middle stands at its last position in scan order.
@@ -24,7 +24,7 @@ int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const V
     run->begin = static_cast<uint16_t>(begin);
     run->surface_end = static_cast<uint16_t>(surface_end);
     run->disparity = disparity;
-    run->cell = static_cast<uint16_t>(Abs(grid.Shift(cell_move, disparity)));
+    run->subaperture = static_cast<uint16_t>(Abs(grid.Shift(subaperture_move, disparity)));
     ++run;
   };
   size_t word = static_cast<size_t>(k);

@@ -15,7 +15,7 @@ struct Run {
   uint16_t begin;
   uint16_t surface_end;  // where the surface it belongs to ends: the next depth edge, or the line's
   int16_t disparity;     // kDisparityBits: the middle of the run's range
-  uint16_t cell;         // width of its aperture cell r / N, kShiftBits
+  uint16_t subaperture;  // width of its aperture subaperture r / N, kShiftBits
 };
 
 // Scan order of a line. A view to the right of the centre (or below it) is scanned from the right
@@ -46,10 +46,10 @@ void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const LineBund
               Direction direction, simd::RunMarks* marks);
 
 // The runs of line k, in scan order, from high positions to low. Positions are mirrored for
-// kLeftToRight: position q stands for pixel length - 1 - q. cell_move: ViewGrid::Move(1).
+// kLeftToRight: position q stands for pixel length - 1 - q. subaperture_move: ViewGrid::Move(1).
 // Writes at most `length` runs, returns their number.
 int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const ViewGrid& grid,
-                 int64_t cell_move, Run* runs);
+                 int64_t subaperture_move, Run* runs);
 
 }  // namespace starfocus
 

@@ -20,7 +20,7 @@ Direction DirectionOf(int sign) {
 // The rectangle's job, its field and the rendered view (u * i, v * j) in the field's orientation,
 // and a line of it.
 struct LineHoles {
-  const StarJob& job;
+  const RenderJob& job;
   const Field& field;
   const int64_t* moves;
   int u, v;
@@ -44,7 +44,8 @@ struct LineHoles {
 // The star over one rectangle. "Along" is the direction of type A's parallax, "across" of type C's.
 class Star {
  public:
-  Star(const StarJob& job, StarScratch* scratch) : job_(job), grid_(*job.grid), scratch_(scratch) {}
+  Star(const RenderJob& job, LineScanScratch* scratch)
+      : job_(job), grid_(*job.grid), scratch_(scratch) {}
 
   void Refocus() {
     Field rows = MakeField(0);
@@ -307,13 +308,15 @@ class Star {
     }
   }
 
-  const StarJob& job_;
+  const RenderJob& job_;
   const ViewGrid& grid_;
-  StarScratch* scratch_;
+  LineScanScratch* scratch_;
 };
 
 }  // namespace
 
-void RefocusRectangle(const StarJob& job, StarScratch* scratch) { Star(job, scratch).Refocus(); }
+void RefocusRectangle(const RenderJob& job, LineScanScratch* scratch) {
+  Star(job, scratch).Refocus();
+}
 
 }  // namespace starfocus

@@ -19,7 +19,7 @@ inline constexpr int32_t kStripRows = 16;
 
 // Memory of one worker. E: largest side of an extended rectangle; R: of a rectangle. Every buffer
 // is followed by simd::kPadding bytes.
-struct StarScratch {
+struct LineScanScratch {
   uint8_t* field_rgb[2];        // E rows of RgbStride(E): rows and columns
   int16_t* field_disparity[2];  // E^2 each
   uint8_t* diagonal_rgb;        // 3 E^2
@@ -38,7 +38,7 @@ struct StarScratch {
   SpanMemory spans;
 };
 
-struct StarJob {
+struct RenderJob {
   const Window* window;
   const ViewGrid* grid;
   const simd::Kernels* kernels;
@@ -48,7 +48,7 @@ struct StarJob {
 
 // Sums the weighted views over job.rect into scratch->accumulators[0]: rows of 3 * width values
 // with grid.aperture.sum_bits fractional bits. N > 0.
-void RefocusRectangle(const StarJob& job, StarScratch* scratch);
+void RefocusRectangle(const RenderJob& job, LineScanScratch* scratch);
 
 }  // namespace starfocus
 

@@ -17,7 +17,7 @@ int32_t CeilShift(int32_t value, int32_t layer) { return (value + (1 << layer) -
 
 // A border of a block to one of its rendered rectangle, at the layer: `beyond` pixels of the
 // nominal block were clipped off at the picture's edge. One pixel more for the neighbour of an
-// aperture cell.
+// subaperture.
 int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
   return Max(0, CeilShift(border + beyond, layer) - LayerMargin(layer)) + 1;
 }
@@ -165,14 +165,14 @@ class Partition {
 
   int32_t Views(const BlockStats& stats, int32_t layer) const {
     const double r_max = static_cast<double>(stats.r_max) / (kRadiusOne * (1 << layer));
-    const int32_t n = rules_.cells ? ViewsByCells(r_max) : ViewsByPaper(r_max);
+    const int32_t n = rules_.subapertures ? ViewsBySubaperture(r_max) : ViewsByPaper(r_max);
     return ScaleViews(n, rules_.n_scale);
   }
 
   int32_t Layer(const BlockStats& stats) const {
     const double r_min = static_cast<double>(stats.r_min) / kRadiusOne;
-    if (!rules_.cells) return Min(LayerByPaper(r_min), rules_.max_layer);
-    return Min(LayerByCells(r_min, stats.r_edge > 0), rules_.max_layer);
+    if (!rules_.subapertures) return Min(LayerByPaper(r_min), rules_.max_layer);
+    return Min(LayerBySubaperture(r_min, stats.r_edge > 0), rules_.max_layer);
   }
 
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
@@ -193,7 +193,7 @@ class Partition {
         layer == 0 ? 0 : static_cast<uint64_t>(rect.width) * static_cast<uint64_t>(rect.height);
     block->cost = PredictTime(rules_.timing,
                               MeasureWork(block->rendered, block->border, rules_.views[block->n],
-                                          rules_.cells, upsampled, stats.content, layer));
+                                          rules_.subapertures, upsampled, stats.content, layer));
   }
 
   // Leaves to views the least rectangle around the cells that are not gathered.

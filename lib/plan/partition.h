@@ -30,9 +30,9 @@ struct PartitionRules {
   int32_t largest_block;
   int32_t max_layer;
   int32_t max_n;
-  bool cells;      // ViewsByCells instead of (9)
-  double n_scale;  // of their N
-  bool gathers;    // smooth cells, with cells
+  bool subapertures;  // ViewsBySubaperture instead of (9)
+  double n_scale;     // of their N
+  bool gathers;       // smooth cells, with cells
   BlurScale scale;
   sf_timing timing;
   const ViewCounts* views;  // by N, up to max_n

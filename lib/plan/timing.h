@@ -25,14 +25,15 @@ struct ViewCounts {
   uint32_t a, b, c;
 };
 ViewCounts CountViews(int32_t n);
-// Of the views of cells, whose types are all one but for those on the axes.
-ViewCounts CountCells(const Aperture& aperture);
+// Of the views of subapertures, whose types are all one but for those on the axes.
+ViewCounts CountSubapertures(const Aperture& aperture);
 
 // The work of `rect` with `border`, both in pixels of the layer, and N views along the radius.
-// `cells`: by the rule of cells. `content`: what the block holds at layer 0 along rows and along
-// columns.
-BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views, bool cells,
-                      uint64_t upsampled_pixels, const Content (&content)[2], int32_t layer);
+// `subapertures`: by the rule of subapertures. `content`: what the block holds at layer 0 along
+// rows and along columns.
+BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views,
+                      bool subapertures, uint64_t upsampled_pixels, const Content (&content)[2],
+                      int32_t layer);
 
 // Picoseconds; exact in integers, so that a partition is the same on every machine.
 uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);

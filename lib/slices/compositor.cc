@@ -18,10 +18,10 @@ constexpr uint32_t kGroupSum = 58000;
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns of a tile
 constexpr int32_t kRowsAhead = static_cast<int32_t>(simd::kRowsAhead);
 
-class Stack {
+class Compositor {
  public:
-  Stack(const StarJob& job, const SliceRule& rule, const GatherMap* gathered, StackScratch* scratch,
-        uint32_t* accumulators)
+  Compositor(const RenderJob& job, const SliceRule& rule, const GatherMap* gathered,
+             CompositorScratch* scratch, uint32_t* accumulators)
       : job_(job),
         rule_(rule),
         gathered_(gathered),
@@ -83,7 +83,7 @@ class Stack {
     field.rgb = scratch_.field_rgb;
     field.disparity = scratch_.field_disparity;
     LoadField(*job_.window, job_.rect, job_.border, &field);
-    FindSurfaces(*job_.kernels, *job_.window, field, &scratch_.surfaces);
+    FindLayeredDepth(*job_.kernels, *job_.window, field, &scratch_.surfaces);
     FindMatte(*job_.kernels, *job_.window, grid_, field, &scratch_.surfaces);
     inner_ = field.inner;
     const size_t row = 3 * static_cast<size_t>(inner_.width);
@@ -129,7 +129,7 @@ class Stack {
     const auto height = static_cast<size_t>(section.height);
     size_t bytes = 0;
     for (int32_t k = 0; k < count_; ++k) {
-      PlacedSlice placed;
+      SlicePlane placed;
       PlaceSlice(grid_, slices_[k].disparity, section, &placed);
       const auto reach = static_cast<size_t>(placed.reach);
       bytes += SliceBytes(width, height, reach) + TileBytes(height, reach);
@@ -140,7 +140,7 @@ class Stack {
   uint64_t RefocusSection() {
     PlaceSlices();
     const uint64_t pixels = FindParts();
-    const StackPart *part = scratch_.parts, *last = part + parts_;
+    const SectionPart *part = scratch_.parts, *last = part + parts_;
     for (int32_t x = 0; x < section_.width; x += kChunk) {
       tile_.x = x;
       tile_.first = part;
@@ -158,7 +158,7 @@ class Stack {
                        section_.height};
     uint8_t* next = scratch_.pool;
     for (int32_t k = 0; k < count_; ++k) {
-      PlacedSlice& placed = placed_[k];
+      SlicePlane& placed = placed_[k];
       PlaceSlice(grid_, slices_[k].disparity, rect, &placed);
       const auto rows = static_cast<size_t>(placed.rows);
       placed.cover = reinterpret_cast<simd::SliceCover*>(next);
@@ -170,12 +170,12 @@ class Stack {
     tile_.memory = reinterpret_cast<int16_t*>(next);
   }
 
-  // Of one slice, whose cell makes the rest of the fraction.
+  // Of one slice, whose subaperture makes the rest of the fraction.
   static bool Same(const simd::SliceOffset& a, const simd::SliceOffset& b) {
     return a.whole == b.whole && a.fraction.edge == b.fraction.edge;
   }
 
-  bool IsGathered(const StackPart& part) const {
+  bool IsGathered(const SectionPart& part) const {
     if (gathered_ == nullptr) return false;
     const int32_t left = job_.rect.x + section_.x, top = job_.rect.y + section_.y + part.y;
     const int32_t right = left + Min(part.x + kChunk, section_.width);
@@ -194,7 +194,7 @@ class Stack {
     uint64_t pixels = 0;
     for (int32_t x = 0; x < section_.width; x += kChunk) {
       for (int32_t y = 0; y < section_.height; y += kLeastRows) {
-        StackPart& part = scratch_.parts[parts_];
+        SectionPart& part = scratch_.parts[parts_];
         part = {x, y, Min(kLeastRows, section_.height - y), 0, {}};
         if (IsGathered(part)) continue;
         ++parts_;
@@ -211,7 +211,7 @@ class Stack {
   }
 
   // Whether some, or all, of the slice's pixels that a part may see in any view are covered.
-  static simd::SliceCover CoverOf(const PlacedSlice& placed, const StackPart& part) {
+  static simd::SliceCover CoverOf(const SlicePlane& placed, const SectionPart& part) {
     const uint64_t chunks = ChunksOf(placed, part.x);
     simd::SliceCover cover = {0, chunks};
     for (int32_t row = part.y; row < part.y + part.rows + 2 * placed.reach; ++row) {
@@ -224,7 +224,7 @@ class Stack {
   // What of the slices is seen in the tile, and all views of it.
   void AddTile() {
     for (int32_t k = 0; k < count_; ++k) tile_.rows[k] = {0, 0};
-    for (const StackPart* part = tile_.first; part < tile_.end; ++part) {
+    for (const SectionPart* part = tile_.first; part < tile_.end; ++part) {
       for (int32_t n = 0; n < part->count; ++n) {
         RowRange& rows = tile_.rows[part->shown[n]];
         if (rows.last == 0) rows.first = part->y;
@@ -250,7 +250,7 @@ class Stack {
     uint8_t* near = reinterpret_cast<uint8_t*>(samples + 4 * rows * kChunk) + simd::kRowsAhead;
     for (int32_t n = 0; n < tile_.count; ++n) {
       const int32_t k = tile_.slices[n];
-      const PlacedSlice& placed = placed_[k];
+      const SlicePlane& placed = placed_[k];
       ShiftedSlice& shifted = shifted_[k];
       shifted.samples = samples;
       shifted.near = near;
@@ -273,7 +273,7 @@ class Stack {
   // Of slice k what views (i, -last) to (i, last) show; nothing if it is there from the column of
   // views before.
   void MoveSlice(int32_t k, int32_t i, int32_t last) {
-    const PlacedSlice& placed = placed_[k];
+    const SlicePlane& placed = placed_[k];
     const RowRange& seen = tile_.rows[k];
     const int32_t a = Offset(k, -last).whole, b = Offset(k, last).whole;
     const RowRange rows = {seen.first + placed.reach + Min(a, b),
@@ -289,7 +289,7 @@ class Stack {
     for (int32_t j = first; j <= last; ++j) {
       scratch_.weights[j - first] = static_cast<int16_t>((Weight(i, j) * weight_scale_) >> 16);
     }
-    for (const StackPart* part = tile_.first; part < tile_.end; ++part) {
+    for (const SectionPart* part = tile_.first; part < tile_.end; ++part) {
       const simd::SliceViews job = {scratch_.weights,
                                     &Offset(0, first),
                                     static_cast<size_t>(last + 1 - first),
@@ -308,7 +308,7 @@ class Stack {
 
   void FinishTile() {
     int32_t row = 0;
-    for (const StackPart* part = tile_.first; part < tile_.end; ++part) {
+    for (const SectionPart* part = tile_.first; part < tile_.end; ++part) {
       ClearRows(row, part->y);
       row = part->y + part->rows;
       FinishRows(part->y, row);
@@ -319,11 +319,11 @@ class Stack {
   // What no slice covers is as what covers the rest. A pixel that hardly any view shows is that of
   // the centre view.
   void FinishRows(int32_t first, int32_t end) {
-    const simd::StackFinish finish = {least_covered_, grid_.aperture.sum_bits};
+    const simd::CompositeFinish finish = {least_covered_, grid_.aperture.sum_bits};
     for (int32_t row = first; row < end; ++row) {
       const size_t at = FirstSample(row);
-      job_.kernels->finish_stack(Sums(row), simd::kSliceLanes, scratch_.centre + at, finish,
-                                 Columns(), accumulators_ + at);
+      job_.kernels->finish_composite(Sums(row), simd::kSliceLanes, scratch_.centre + at, finish,
+                                     Columns(), accumulators_ + at);
     }
   }
 
@@ -341,22 +341,22 @@ class Stack {
 
   size_t Columns() const { return static_cast<size_t>(Min(kChunk, section_.width - tile_.x)); }
 
-  const StarJob& job_;
+  const RenderJob& job_;
   const SliceRule rule_;
   const GatherMap* gathered_;
   const ViewGrid& grid_;
-  StackScratch& scratch_;
+  CompositorScratch& scratch_;
   uint32_t* accumulators_;
   Rect inner_ = {};  // the rectangle in its surfaces
   Slice slices_[kMaxSlices];
   int32_t count_ = 0;
   Section section_ = {};  // under way
-  PlacedSlice placed_[kMaxSlices];
+  SlicePlane placed_[kMaxSlices];
   ShiftedSlice shifted_[kMaxSlices];  // of the tile and the column of views under way
   simd::TileSlice seen_[kMaxSlices];  // the same, as views of them see it
   struct Tile {
     int32_t x;  // in the section
-    const StackPart *first, *end;
+    const SectionPart *first, *end;
     RowRange rows[kMaxSlices];   // of the section, of the parts that see a slice
     int32_t slices[kMaxSlices];  // that are seen
     int32_t count;
@@ -369,9 +369,9 @@ class Stack {
 
 }  // namespace
 
-uint64_t RefocusStack(const StarJob& job, const SliceRule& rule, const GatherMap* gathered,
-                      StackScratch* scratch, uint32_t* accumulators) {
-  return Stack(job, rule, gathered, scratch, accumulators).Refocus();
+uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const GatherMap* gathered,
+                            CompositorScratch* scratch, uint32_t* accumulators) {
+  return Compositor(job, rule, gathered, scratch, accumulators).Refocus();
 }
 
 }  // namespace starfocus

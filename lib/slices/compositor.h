@@ -1,5 +1,5 @@
-// The primitive of cells: one rectangle of the picture refocused as a stack of slices, which each
-// view of the aperture shows moved against each other, the nearer in front of the farther.
+// The primitive of subapertures: one rectangle of the picture refocused as a stack of slices, which
+// each view of the aperture shows moved against each other, the nearer in front of the farther.
 #ifndef STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 #define STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 
@@ -13,7 +13,7 @@
 namespace starfocus {
 
 // Parts of a section, kLeastRows high and kSliceLanes wide, that see slices of their own.
-struct StackPart {
+struct SectionPart {
   int32_t x, y, rows;  // in the section
   int32_t count;       // slices seen
   uint8_t shown[kMaxSlices];
@@ -22,22 +22,22 @@ struct StackPart {
 // Of the light of a pixel: R, G, B and what is covered.
 inline constexpr size_t kPixelSums = 4;
 
-// Views of a column that are summed in 16 bits: all of those that cells need.
+// Views of a column that are summed in 16 bits: all of those that subapertures need.
 inline constexpr int32_t kGroupViews = 81;
 
 // Memory of one worker. E and R: largest side of an extended rectangle and of a rectangle; N; G:
 // the smaller of 2 N + 1 and kGroupViews. What slices are cut from is made of the field, and they
 // are made of surfaces when the field is no longer needed: the pool may share its memory.
-struct StackScratch {
+struct CompositorScratch {
   uint8_t* field_rgb;          // E rows of RgbStride(E)
   int16_t* field_disparity;    // E^2
-  Surfaces surfaces;           // E^2 each
+  LayeredDepth surfaces;       // E^2 each
   uint8_t* bins;               // kSliceBins
   int32_t* least_blur;         // E
   uint8_t* centre;             // 3 R^2: the rectangle in the centre view
   simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1)
   int16_t* weights;            // G
-  StackPart* parts;            // of a rectangle
+  SectionPart* parts;          // of a rectangle
   uint32_t* sums;              // kPixelSums of the pixels of a tile
   int16_t* filtered;           // a plane of SliceSize(R, R, E - R)
   uint8_t* pool;               // slices of a section, their covers, and a tile
@@ -45,15 +45,15 @@ struct StackScratch {
 };
 
 // Parts of the largest rectangle.
-constexpr size_t StackParts(size_t side) {
+constexpr size_t SectionParts(size_t side) {
   constexpr size_t kRows = kLeastRows;
   return (side + kRows - 1) / kRows * (simd::SliceSamples(side) / simd::kSliceLanes);
 }
 
 // As RefocusRectangle, by slices cut as `rule` says, of what is not `gathered` (null: of all; at
 // layer 0). Returns the pixels rendered in each view, over all slices.
-uint64_t RefocusStack(const StarJob& job, const SliceRule& rule, const GatherMap* gathered,
-                      StackScratch* scratch, uint32_t* accumulators);
+uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const GatherMap* gathered,
+                            CompositorScratch* scratch, uint32_t* accumulators);
 
 }  // namespace starfocus
 

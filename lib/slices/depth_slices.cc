@@ -156,7 +156,7 @@ class SliceFinder {
       slice.overlap =
           static_cast<int16_t>(Min(high + (span << bin_bits_) / kOverlapParts, INT16_MAX));
       slice.disparity = static_cast<int16_t>(low + (slice.high - low) / 2);
-      PlacedSlice placed;
+      SlicePlane placed;
       PlaceSlice(grid_, slice.disparity, job_.rect, &placed);
       const auto reach = static_cast<size_t>(placed.reach);
       const auto height = static_cast<size_t>(job_.rect.height);
@@ -169,7 +169,7 @@ class SliceFinder {
   }
 
   const SliceJob& job_;
-  const Surfaces& surfaces_;
+  const LayeredDepth& surfaces_;
   const ViewGrid& grid_;
   int32_t range_;         // of the rule, as a disparity
   int32_t bin_bits_ = 0;  // disparities of a bin

@@ -47,7 +47,7 @@ struct Slice {
 
 struct SliceJob {
   const simd::Kernels* kernels;
-  const Surfaces* surfaces;
+  const LayeredDepth* surfaces;
   const ViewGrid* grid;
   SliceRule rule;
   Rect rect;            // in pixels of the surfaces

@@ -138,7 +138,7 @@ class HiddenColours {
 class SurfaceFinder {
  public:
   SurfaceFinder(const simd::Kernels& kernels, const Window& window, const Field& field,
-                Surfaces* surfaces)
+                LayeredDepth* surfaces)
       : kernels_(kernels),
         window_(window),
         surfaces_(*surfaces),
@@ -267,7 +267,7 @@ class SurfaceFinder {
 
   const simd::Kernels& kernels_;
   const Window& window_;
-  Surfaces& surfaces_;
+  LayeredDepth& surfaces_;
   HiddenColours colours_;
   const int32_t unit_;  // disparity that a pixel of the layer is at distance 1
   const int32_t step_;  // a larger one from pixel to pixel may hide something
@@ -275,8 +275,8 @@ class SurfaceFinder {
 
 }  // namespace
 
-void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Field& field,
-                  Surfaces* surfaces) {
+void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const Field& field,
+                      LayeredDepth* surfaces) {
   surfaces->width = field.width;
   surfaces->height = field.height;
   surfaces->stride = static_cast<int32_t>(simd::SliceSamples(static_cast<size_t>(field.width)));

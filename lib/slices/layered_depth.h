@@ -22,7 +22,7 @@ inline constexpr int32_t kMaxChunks = 64;
 
 // Surface 0 is the field itself, the nearest one. Rows of `stride` pixels, then kSliceLanes more;
 // colours in three planes, `plane` apart.
-struct Surfaces {
+struct LayeredDepth {
   int32_t width = 0, height = 0, stride = 0;
   size_t plane = 0;
   int16_t* disparity[simd::kSurfaces] = {};  // kDisparityBits
@@ -48,8 +48,8 @@ struct Surfaces {
 // from the captured view on the axis in which nothing covers them, at full or half distance;
 // without one the background goes on. Sides with the same distance and disparity give their mean.
 // The memory of `surfaces` must be set.
-void FindSurfaces(const simd::Kernels& kernels, const Window& window, const Field& field,
-                  Surfaces* surfaces);
+void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const Field& field,
+                      LayeredDepth* surfaces);
 
 }  // namespace starfocus
 

@@ -5,13 +5,14 @@
 namespace starfocus {
 namespace {
 
-// Surfaces that move less against each other leave a mixture what it is; a quarter of a pixel was
-// no nearer to the truth.
+// LayeredDepth that move less against each other leave a mixture what it is; a quarter of a pixel
+// was no nearer to the truth.
 constexpr int32_t kLeastMove = kShiftOne;
 
 class MatteFinder {
  public:
-  MatteFinder(const Window& window, const ViewGrid& grid, const Field& field, Surfaces* surfaces)
+  MatteFinder(const Window& window, const ViewGrid& grid, const Field& field,
+              LayeredDepth* surfaces)
       : centre_{window},
         grid_(grid),
         field_(field),
@@ -74,14 +75,14 @@ class MatteFinder {
   const CentreView centre_;
   const ViewGrid& grid_;
   const Field& field_;
-  Surfaces& surfaces_;
+  LayeredDepth& surfaces_;
   const int64_t rim_;
 };
 
 }  // namespace
 
 void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
-               const Field& field, Surfaces* surfaces) {
+               const Field& field, LayeredDepth* surfaces) {
   if (window.layer != 0 || window.views == 1) return;
   MatteFinder finder(window, grid, field, surfaces);
   ForEachBesideEdge(kernels, window, field, kDepthEdge,

@@ -10,12 +10,13 @@ using simd::SliceOffset;
 constexpr int32_t kFractionOne = 1 << 15;
 constexpr auto kChunk = static_cast<int32_t>(simd::kSliceLanes);
 
-// What a box of `cell` pixels (kShiftBits), more than kBoxCell, covers of the pixels around it.
-simd::SliceTaps TapsOf(int32_t cell) {
+// What a box of `subaperture` pixels (kShiftBits), more than kBoxSubaperture, covers of the pixels
+// around it.
+simd::SliceTaps TapsOf(int32_t subaperture) {
   constexpr int32_t kLargest = (2 * simd::kMaxSpread + 1) * kShiftOne;
-  const int32_t length = Min(cell, kLargest);
+  const int32_t length = Min(subaperture, kLargest);
   simd::SliceTaps taps;
-  taps.reach = SpreadReach(cell);
+  taps.reach = SpreadReach(subaperture);
   const int32_t whole = (2 * taps.reach - 1) * kShiftOne;
   const int32_t inner = 2 * kFractionOne * kShiftOne / length;
   const int32_t outer = kFractionOne / kShiftOne * (length - whole) * kShiftOne / length;
@@ -26,20 +27,21 @@ simd::SliceTaps TapsOf(int32_t cell) {
   return taps;
 }
 
-// What a cell of one to three pixels at `shift` (both kShiftBits) covers of two to four of them.
-// Spread beforehand and interpolated, cells beside each other would cover some pixels too much and
-// others too little. Mirrored shifts give mirrored parts, which is why trimmed ones are of halves.
-SliceOffset BoxOffset(int32_t shift, int32_t cell) {
+// What a subaperture of one to three pixels at `shift` (both kShiftBits) covers of two to four of
+// them. Spread beforehand and interpolated, subapertures beside each other would cover some pixels
+// too much and others too little. Mirrored shifts give mirrored parts, which is why trimmed ones
+// are of halves.
+SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
   // In half units, from the first pixel's left end on.
   constexpr int32_t kHalves = 2 * kShiftOne;
-  const int32_t start = 2 * shift - cell + kShiftOne, whole = start >> (kShiftBits + 1);
-  const int32_t left = kHalves - (start & (kHalves - 1)), rest = 2 * cell - left;
+  const int32_t start = 2 * shift - subaperture + kShiftOne, whole = start >> (kShiftBits + 1);
+  const int32_t left = kHalves - (start & (kHalves - 1)), rest = 2 * subaperture - left;
   const auto part = [&](int32_t covered) {
-    return static_cast<int16_t>(-(kFractionOne / 2 * covered / cell));
+    return static_cast<int16_t>(-(kFractionOne / 2 * covered / subaperture));
   };
   // Of two surfaces side by side, how much the one is that covers `more` than the other.
   const auto share = [&](int32_t more) {
-    return static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / cell));
+    return static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / subaperture));
   };
   if (rest <= kHalves) return {whole, {share(left - rest), share(left - rest), 0, 0}};
   if (rest <= 2 * kHalves) {
@@ -49,24 +51,26 @@ SliceOffset BoxOffset(int32_t shift, int32_t cell) {
   return {whole, {part(left), part(left), share(right - left), part(right)}};
 }
 
-// `shift` in kShiftBits as whole pixels and a fraction. Inside the slice a cell narrower than a
-// pixel covers less of the pixels on either side of it than interpolation; its ends move evenly.
-SliceOffset OffsetOf(int32_t shift, int32_t cell) {
-  if (cell > kShiftOne && cell <= kBoxCell) return BoxOffset(shift, cell);
+// `shift` in kShiftBits as whole pixels and a fraction. Inside the slice a subaperture narrower
+// than a pixel covers less of the pixels on either side of it than interpolation; its ends move
+// evenly.
+SliceOffset OffsetOf(int32_t shift, int32_t subaperture) {
+  if (subaperture > kShiftOne && subaperture <= kBoxSubaperture)
+    return BoxOffset(shift, subaperture);
   const int32_t whole = shift >> kShiftBits, rest = shift & (kShiftOne - 1);
   const auto before = [](int32_t fraction) {
     return static_cast<int16_t>(fraction - kFractionOne);
   };
   const int16_t edge = before(rest * (kFractionOne / kShiftOne));
-  if (rest == 0 || cell >= kShiftOne) return {whole, {edge, edge, 0, 0}};
+  if (rest == 0 || subaperture >= kShiftOne) return {whole, {edge, edge, 0, 0}};
   const int32_t from_middle = (rest - kShiftOne / 2) * kFractionOne;
-  const int32_t inside = from_middle / Max(cell, 1) + kFractionOne / 2;
+  const int32_t inside = from_middle / Max(subaperture, 1) + kFractionOne / 2;
   return {whole, {before(Clamp(inside, 0, kFractionOne)), edge, 0, 0}};
 }
 
 // Beyond the surfaces' left and right end their outermost pixels go on; behind the row's end there
 // is nothing.
-simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surfaces,
+simd::SliceCover SelectRow(const simd::Kernels& kernels, const LayeredDepth& surfaces,
                            const Slice& slice, int32_t x, int32_t y, int32_t width, size_t plane,
                            int16_t* row) {
   const int32_t first = Max(0, -x), last = Min(width, surfaces.width - x);
@@ -94,7 +98,7 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const Surfaces& surface
 }
 
 // Covers of what is spread by `reach` pixels.
-void SpreadCover(int32_t reach, const PlacedSlice& placed) {
+void SpreadCover(int32_t reach, const SlicePlane& placed) {
   constexpr int32_t kMost = simd::kMaxSpread;
   simd::SliceCover before[kMost] = {};  // of the rows above, unspread
   for (int32_t row = 0; row < placed.rows; ++row) {
@@ -111,8 +115,8 @@ void SpreadCover(int32_t reach, const PlacedSlice& placed) {
 }
 
 // Plane by plane: one is filtered along rows into memory of its own, and back along columns.
-void Spread(const simd::Kernels& kernels, int16_t* filtered, const PlacedSlice& placed) {
-  const simd::SliceTaps taps = TapsOf(placed.cell);
+void Spread(const simd::Kernels& kernels, int16_t* filtered, const SlicePlane& placed) {
+  const simd::SliceTaps taps = TapsOf(placed.subaperture);
   const size_t plane = placed.plane;
   SpreadCover(taps.reach, placed);
   for (size_t c = 0; c < 4; ++c) {
@@ -137,22 +141,22 @@ void Spread(const simd::Kernels& kernels, int16_t* filtered, const PlacedSlice& 
 }  // namespace
 
 void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride, SliceOffset* offsets) {
-  const int32_t cell = Abs(grid.Shift(grid.Move(1), disparity));
+  const int32_t subaperture = Abs(grid.Shift(grid.Move(1), disparity));
   for (int32_t i = -grid.n(); i <= grid.n(); ++i, offsets += stride) {
     const int32_t shift = grid.Shift(grid.Move(Abs(i)), disparity);
-    *offsets = OffsetOf(i < 0 ? -shift : shift, cell);
+    *offsets = OffsetOf(i < 0 ? -shift : shift, subaperture);
   }
 }
 
-void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, PlacedSlice* placed) {
-  placed->cell = Abs(grid.Shift(grid.Move(1), disparity));
-  placed->reach = SliceReach(Abs(grid.Shift(grid.Move(grid.n()), disparity)), placed->cell);
+void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, SlicePlane* placed) {
+  placed->subaperture = Abs(grid.Shift(grid.Move(1), disparity));
+  placed->reach = SliceReach(Abs(grid.Shift(grid.Move(grid.n()), disparity)), placed->subaperture);
   placed->rows = rect.height + 2 * placed->reach;
-  placed->plane = SlicePlane(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
+  placed->plane = PlaneSamples(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
 }
 
-void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Slice& slice,
-               const Rect& rect, int16_t* filtered, const PlacedSlice& placed) {
+void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
+               const Rect& rect, int16_t* filtered, const SlicePlane& placed) {
   const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
   const int32_t width = rect.width + 2 * placed.reach;
   for (int32_t row = 0; row < placed.rows; ++row) {
@@ -160,10 +164,10 @@ void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Sli
         SelectRow(kernels, surfaces, slice, x, Clamp(y + row, 0, surfaces.height - 1), width,
                   placed.plane, placed.samples + static_cast<size_t>(row) * 4 * placed.plane);
   }
-  if (placed.cell > kBoxCell) Spread(kernels, filtered, placed);
+  if (placed.subaperture > kBoxSubaperture) Spread(kernels, filtered, placed);
 }
 
-void PlaceTile(const PlacedSlice& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted) {
+void PlaceTile(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted) {
   const uint64_t chunks = ChunksOf(placed, x);
   const int32_t top = seen.first, last_row = seen.last + 2 * placed.reach;
   const auto empty = [&](int32_t row) { return (placed.cover[row].some & chunks) == 0; };
@@ -186,7 +190,7 @@ void PlaceTile(const PlacedSlice& placed, int32_t x, const RowRange& seen, Shift
   clear(end, last_row + static_cast<int32_t>(simd::kRowsAhead));
 }
 
-void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed, const SliceOffset& offset,
+void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed, const SliceOffset& offset,
                 int32_t x, const RowRange& rows, ShiftedSlice* shifted) {
   shifted->moved = rows;
   const int32_t first = Max(rows.first, shifted->filled.first);

@@ -1,5 +1,5 @@
 // A slice of a rectangle in memory: its pixels and those around it that some view shows, spread by
-// the aperture's cell where that is wide, and where each view shows it.
+// the aperture's subaperture where that is wide, and where each view shows it.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_PLANE_H_
 #define STARFOCUS_LIB_SLICES_SLICE_PLANE_H_
 
@@ -14,44 +14,45 @@
 
 namespace starfocus {
 
-// Cells up to this wide, three pixels, are boxes of their width on up to four pixels; what
+// Subapertures up to this wide, three pixels, are boxes of their width on up to four pixels; what
 // interpolation adds to wider ones, spread before they are moved, is little. kShiftBits.
-inline constexpr int32_t kBoxCell = 3 * kShiftOne;
+inline constexpr int32_t kBoxSubaperture = 3 * kShiftOne;
 
-// Pixels on either side that wider cells spread a pixel to.
-constexpr int32_t SpreadReach(int32_t cell) {
+// Pixels on either side that wider subapertures spread a pixel to.
+constexpr int32_t SpreadReach(int32_t subaperture) {
   static_assert(simd::kMaxSpread == 3, "wider boxes are cut off");
-  return cell <= kBoxCell ? 0 : cell <= 5 * kShiftOne ? 2 : simd::kMaxSpread;
+  return subaperture <= kBoxSubaperture ? 0 : subaperture <= 5 * kShiftOne ? 2 : simd::kMaxSpread;
 }
 
 // Pixels beyond its blur radius (rounded up) that a slice is made of: filters, boxes,
 // interpolation.
-constexpr int32_t SliceMargin(int32_t cell) {
-  return cell > kShiftOne && cell <= kBoxCell ? 2 : SpreadReach(cell) + 1;
+constexpr int32_t SliceMargin(int32_t subaperture) {
+  return subaperture > kShiftOne && subaperture <= kBoxSubaperture ? 2
+                                                                   : SpreadReach(subaperture) + 1;
 }
 inline constexpr int32_t kSliceMargin = simd::kMaxSpread + 1;  // at most
 
 // Pixels beyond the rectangle that a slice blurred by `rim` (both kShiftBits) is made of.
-constexpr int32_t SliceReach(int32_t rim, int32_t cell) {
-  return ((rim + kShiftOne - 1) >> kShiftBits) + SliceMargin(cell);
+constexpr int32_t SliceReach(int32_t rim, int32_t subaperture) {
+  return ((rim + kShiftOne - 1) >> kShiftBits) + SliceMargin(subaperture);
 }
 
-struct PlacedSlice {
+struct SlicePlane {
   int32_t reach = 0;                  // pixels beyond the rectangle
   int32_t rows = 0;                   // the rectangle's, and reach above and below it
   size_t plane = 0;                   // samples from plane to plane; four to the next row
-  int32_t cell = 0;                   // width of its aperture cell, kShiftBits
+  int32_t subaperture = 0;            // width of its aperture subaperture, kShiftBits
   int16_t* samples = nullptr;         // of the first row
   simd::SliceCover* cover = nullptr;  // of each row
 };
 
 // Samples between the planes of a slice that reaches `reach` pixels beyond a rectangle.
-constexpr size_t SlicePlane(size_t width, size_t reach) {
+constexpr size_t PlaneSamples(size_t width, size_t reach) {
   return simd::SliceSamples(simd::SliceSamples(width) + 2 * reach) + simd::kSliceLanes;
 }
 // Samples of it, with what filters read before and behind it.
 constexpr size_t SliceSize(size_t width, size_t height, size_t reach) {
-  return 4 * (height + 2 * reach) * SlicePlane(width, reach) + 2 * simd::kSliceLanes;
+  return 4 * (height + 2 * reach) * PlaneSamples(width, reach) + 2 * simd::kSliceLanes;
 }
 
 // Rows of it in a tile, with those that are read beyond the last.
@@ -78,13 +79,13 @@ void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride,
                  simd::SliceOffset* offsets);
 
 // Geometry of the slice around `rect`.
-void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, PlacedSlice* placed);
+void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, SlicePlane* placed);
 
 // Copies the slice's pixels around `rect` (in pixels of the surfaces, whose outermost pixels go on
-// beyond them) and spreads them for wide cells; `filtered` has room for the rows of one plane.
-// Samples and covers must be set.
-void FillSlice(const simd::Kernels& kernels, const Surfaces& surfaces, const Slice& slice,
-               const Rect& rect, int16_t* filtered, const PlacedSlice& placed);
+// beyond them) and spreads them for wide subapertures; `filtered` has room for the rows of one
+// plane. Samples and covers must be set.
+void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
+               const Rect& rect, int16_t* filtered, const SlicePlane& placed);
 
 // Rows of a slice in a tile, kSliceLanes columns of the rectangle, as a column of views shows them:
 // four planes, `plane` samples apart, and the RowsNear of each row; kRowsAhead marks lie before the
@@ -98,7 +99,7 @@ struct ShiftedSlice {
 };
 
 // Chunks of a row (bits of SliceCover) that some view shows in the tile at column `x`.
-constexpr uint64_t ChunksOf(const PlacedSlice& placed, int32_t x) {
+constexpr uint64_t ChunksOf(const SlicePlane& placed, int32_t x) {
   constexpr auto kChunk = static_cast<int32_t>(simd::kSliceLanes);
   const int32_t first = x / kChunk, last = (x + kChunk - 1 + 2 * placed.reach) / kChunk;
   return (uint64_t{2} << last) - (uint64_t{1} << first);
@@ -106,10 +107,10 @@ constexpr uint64_t ChunksOf(const PlacedSlice& placed, int32_t x) {
 
 // Finds the rows of the tile at column `x` of the rectangle that views show in its rows `seen`, and
 // writes the others that are read for these. The memory must be set.
-void PlaceTile(const PlacedSlice& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted);
+void PlaceTile(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted);
 
 // Writes those of `rows` that are filled, moved by `offset`.
-void ShiftSlice(const simd::Kernels& kernels, const PlacedSlice& placed,
+void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed,
                 const simd::SliceOffset& offset, int32_t x, const RowRange& rows,
                 ShiftedSlice* shifted);
 

@@ -6,12 +6,12 @@
 #include <string>
 
 #include "lib/analysis/aperture.h"
-#include "lib/analysis/cell_rule.h"
 #include "lib/analysis/half_band.h"
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/integral.h"
 #include "lib/analysis/selection.h"
 #include "lib/analysis/star_kernel.h"
+#include "lib/analysis/subaperture_rule.h"
 #include "lib/analysis/subsampled.h"
 #include "lib/analysis/view_kernel.h"
 #include "lib/base/aperture.h"
@@ -70,19 +70,21 @@ TEST_CASE("analysis: ideal kernel (4)") {
 }
 
 TEST_CASE("analysis: view-interpolation kernels tend to their limits") {
-  // Many cells tile the aperture; many views give the ideal kernel blurred by h.
-  CHECK(CellError(6, 40, kTheta) < 2e-6);
-  CHECK(CellError(6, 80, kTheta) < CellError(6, 40, kTheta));
-  CHECK(SquaredError(StarKernel(4, 4, kTheta, Cells::kNarrow), PaperKernel(4, 4, kTheta)) < 1e-12);
-  for (const Cells cells : {Cells::kNarrow, Cells::kWide}) {
-    CHECK(StarKernel(11, 4, kTheta, cells).Sum() == doctest::Approx(1));
+  // Many subapertures tile the aperture; many views give the ideal kernel blurred by h.
+  CHECK(SubapertureError(6, 40, kTheta) < 2e-6);
+  CHECK(SubapertureError(6, 80, kTheta) < SubapertureError(6, 40, kTheta));
+  CHECK(SquaredError(StarKernel(4, 4, kTheta, Subapertures::kNarrow), PaperKernel(4, 4, kTheta)) <
+        1e-12);
+  for (const Subapertures subapertures : {Subapertures::kNarrow, Subapertures::kWide}) {
+    CHECK(StarKernel(11, 4, kTheta, subapertures).Sum() == doctest::Approx(1));
   }
   // Where views lie whole pixels apart boxes on whole pixels are exact.
   for (const int n : {4, 5, 6}) {
     for (const int cell : {1, 2, 3, 5}) {
-      const double r = cell * double(LensInCells(n)) / kCellUnits;
+      const double r = cell * double(LensInSubapertures(n)) / kSubapertureUnits;
       CAPTURE(r);
-      CHECK(SquaredError(StarKernel(r, n, kTheta, Cells::kWide), CellKernel(r, n, kTheta)) < 1e-12);
+      CHECK(SquaredError(StarKernel(r, n, kTheta, Subapertures::kWide),
+                         SubapertureKernel(r, n, kTheta)) < 1e-12);
     }
   }
   for (const double width : {0.1, 0.5, 1.0, 2.5}) {
@@ -150,23 +152,23 @@ TEST_CASE("analysis: Fig. 6 and the thresholds of (9)") {
   CHECK(std::fabs(UnderSamplingRatio(4, kTheta, beside, Rim::kExcluded) - 0.787) < 5e-4);
 }
 
-TEST_CASE("analysis: fewest aperture cells at one radius") {
+TEST_CASE("analysis: fewest subapertures at one radius") {
   constexpr int kTable[][2] = {{2, 2},  {4, 3},  {5, 3},  {6, 3},  {8, 4}, {10, 3},
                                {12, 4}, {16, 5}, {20, 4}, {24, 5}, {32, 5}};
   for (const auto& row : kTable) {
     CAPTURE(row[0]);
-    CHECK(FewestCells(row[0], kTheta) == row[1]);
+    CHECK(FewestSubapertures(row[0], kTheta) == row[1]);
   }
 }
 
-TEST_CASE("analysis: the rule for aperture cells holds for every smaller radius") {
-  CellStudy study(STARFOCUS_EMULATED ? 20 : 40, 1.0 / 8, kTheta);
+TEST_CASE("analysis: the rule for subapertures holds for every smaller radius") {
+  SubapertureStudy study(STARFOCUS_EMULATED ? 20 : 40, 1.0 / 8, kTheta);
   int last = 0;
   for (int k = 0; k < study.count(); ++k) {
     const double r = study.Radius(k);
     CAPTURE(r);
     double worst = 0;
-    const int n = ViewsByCells(r);
+    const int n = ViewsBySubaperture(r);
     const double margin = study.Margin(k, n, &worst);
     CHECK_MESSAGE(margin <= 1, "with N = " << n << " at r = " << worst);
     CHECK(n >= last);

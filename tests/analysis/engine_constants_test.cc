@@ -90,16 +90,17 @@ TEST_CASE("constants: aperture weights are a_{d,N} of (5)") {
   }
 }
 
-TEST_CASE("constants: the footprint of a view is its aperture cell") {
+TEST_CASE("constants: the footprint of a view is its subaperture") {
   for (const int32_t cell : {1, 13, 64, 128, 200, 256}) {
     double worst = 0;
     for (int32_t offset = -kShiftOne / 2; offset <= kShiftOne / 2; ++offset) {
       const double t = double(kShiftOne - std::abs(offset)) / kShiftOne;
       const double exact = Trapezoid(t, double(cell) / kShiftOne);
-      worst = std::max(worst, std::fabs(CellWeight(offset, cell) / double(kShiftOne) - exact));
+      worst =
+          std::max(worst, std::fabs(SubapertureWeight(offset, cell) / double(kShiftOne) - exact));
     }
     CHECK_MESSAGE(worst <= 0.5 / kShiftOne + 1e-12,
-                  "h of (6) moves for cells " << cell << "/256 px wide: the aperture cells' table "
+                  "h of (6) moves for cells " << cell << "/256 px wide: the subapertures' table "
                                               << "and rule");
   }
 }
@@ -132,13 +133,17 @@ TEST_CASE("constants: the layers of (12)") {
   CHECK_MESSAGE(LayerByPaper(6) == 2, "(12) moves: layer 2 begins above r = 6");
 }
 
-TEST_CASE("constants: the layers beside the rule for cells") {
+TEST_CASE("constants: the layers beside the rule for subapertures") {
   const double below = std::nextafter(7.0, 0.0);
-  CHECK_MESSAGE(LayerByCells(below, false) == 0, "LayerByCells: layer 1 begins below r = 7");
-  CHECK_MESSAGE(LayerByCells(7, false) == 1, "LayerByCells: layer 1 begins above r = 7");
+  CHECK_MESSAGE(LayerBySubaperture(below, false) == 0,
+                "LayerBySubaperture: layer 1 begins below r = 7");
+  CHECK_MESSAGE(LayerBySubaperture(7, false) == 1,
+                "LayerBySubaperture: layer 1 begins above r = 7");
   const double second = std::nextafter(24.0, 0.0);
-  CHECK_MESSAGE(LayerByCells(second, false) == 1, "LayerByCells: layer 2 begins below r = 24");
-  CHECK_MESSAGE(LayerByCells(24, false) == 2, "LayerByCells: layer 2 begins above r = 24");
+  CHECK_MESSAGE(LayerBySubaperture(second, false) == 1,
+                "LayerBySubaperture: layer 2 begins below r = 24");
+  CHECK_MESSAGE(LayerBySubaperture(24, false) == 2,
+                "LayerBySubaperture: layer 2 begins above r = 24");
 }
 
 TEST_CASE("constants: the filters go down and up as (10) and (11) have it") {
@@ -174,7 +179,7 @@ void CheckEngine(sf_rule rule, int layer, int least, int most) {
         // N by (9) is 2 and 3 at first: what aliases is not quite the ideal kernel.
         CHECK(std::fabs(step.aliasing - theory.aliasing) < (rule == SF_RULE_PAPER ? 2e-4 : 1e-4));
       }
-      if (rule == SF_RULE_CELLS) {
+      if (rule == SF_RULE_SUBAPERTURE) {
         CHECK_MESSAGE(step.engine <= kThreshold, "the selection threshold: " << Explain(step));
       } else {
         // With N from (9) the worst is the half-covered neighbour at r = 1/2.
@@ -186,7 +191,7 @@ void CheckEngine(sf_rule rule, int layer, int least, int most) {
 
 TEST_CASE("constants: the running engine has the kernel it is described by") {
   constexpr int kMost = STARFOCUS_EMULATED ? 25 : 40;
-  for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_CELLS}) {
+  for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
     CheckEngine(rule, 0, 0, kMost);
     CheckEngine(rule, 1, rule == SF_RULE_PAPER ? 3 : 7, kMost);
     CheckEngine(rule, 2, rule == SF_RULE_PAPER ? 6 : 24, kMost);
@@ -195,15 +200,16 @@ TEST_CASE("constants: the running engine has the kernel it is described by") {
 
 TEST_CASE("constants: the engine's cells keep the threshold at every radius that N serves") {
   for (const double r_max : {11.0, 25.0, 34.0, 40.0}) {
-    const int n = ViewsByCells(r_max);
+    const int n = ViewsBySubaperture(r_max);
     double worst = 0, worst_r = 0;
     for (double r = 0.5 + 1.0 / 64; r <= r_max; r += 1.0 / 16) {
-      const double error = SquaredError(StarKernel(r, n, kDefaultTheta, Cells::kWide),
+      const double error = SquaredError(StarKernel(r, n, kDefaultTheta, Subapertures::kWide),
                                         IdealKernel(r, kDefaultTheta));
       if (error > worst) worst = error, worst_r = r;
     }
-    CHECK_MESSAGE(worst <= kThreshold, "the rule for cells: N = " << n << " misses (4) by " << worst
-                                                                  << " at r = " << worst_r);
+    CHECK_MESSAGE(worst <= kThreshold, "the rule for subapertures: N = " << n << " misses (4) by "
+                                                                         << worst
+                                                                         << " at r = " << worst_r);
   }
 }
 
@@ -213,8 +219,8 @@ TEST_CASE("constants: one N for a picture has the kernel it is described by") {
     REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RULE_PAPER, 0}, &step) == SF_OK);
     CHECK(step.n == ViewsByPaper(40));
     CHECK(step.apart <= kExplained[0]);
-    REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RULE_CELLS, 0}, &step) == SF_OK);
-    CHECK(step.n == ViewsByCells(40));
+    REQUIRE(MeasureStep({r, 40, SF_MODE_FRAME, SF_RULE_SUBAPERTURE, 0}, &step) == SF_OK);
+    CHECK(step.n == ViewsBySubaperture(40));
     CHECK(step.apart <= kExplained[0]);
   }
 }

@@ -149,22 +149,23 @@ TEST_CASE("aperture: the largest N of the configuration") {
   }
 }
 
-TEST_CASE("aperture: cells have the light of their part of the lens") {
+TEST_CASE("aperture: subapertures have the light of their part of the lens") {
   for (const double theta : {0.1 * kPi, 0.26 * kPi, 0.4 * kPi}) {
     for (const int n : {1, 2, 3, 4, 5, 6, 7, 9, 13, 40, 256}) {
       std::vector<uint16_t> storage(starfocus::ApertureSize(n));
-      const starfocus::Aperture cells =
-          starfocus::MakeCellAperture(n, starfocus::ApertureFallOff(theta), storage.data());
-      const double lens = starfocus::LensInCells(n) / 32.0, c = std::pow(std::tan(theta), -2);
+      const starfocus::Aperture subapertures =
+          starfocus::MakeSubapertures(n, starfocus::ApertureFallOff(theta), storage.data());
+      const double lens = starfocus::LensInSubapertures(n) / 32.0,
+                   c = std::pow(std::tan(theta), -2);
       CAPTURE(n);
-      CHECK(cells.n == n);
-      CHECK(cells.extent == doctest::Approx(cells.last / lens));
+      CHECK(subapertures.n == n);
+      CHECK(subapertures.extent == doctest::Approx(subapertures.last / lens));
       int views = 0;
       double sum = 0, light = 0, squares = 0, exact = 0;
       for (int i = -n; i <= n; ++i) {
         for (int j = -n; j <= n; ++j) {
-          const double weight = cells.Weight(i, j);
-          const bool inside = i * i + j * j <= cells.most;
+          const double weight = subapertures.Weight(i, j);
+          const bool inside = i * i + j * j <= subapertures.most;
           CHECK((inside || weight == 0));
           views += inside;
           sum += weight;
@@ -177,9 +178,9 @@ TEST_CASE("aperture: cells have the light of their part of the lens") {
         light += ring;
         exact += ring * rho * rho;
       }
-      CHECK(cells.last > 0);
-      CHECK(views == cells.views);
-      CHECK(sum == std::ldexp(1.0, cells.sum_bits));
+      CHECK(subapertures.last > 0);
+      CHECK(views == subapertures.views);
+      CHECK(sum == std::ldexp(1.0, subapertures.sum_bits));
       // A box blurs a rim cell's light over more than the part within.
       CHECK(squares / sum == doctest::Approx(exact / light)
                                  .epsilon(n < 4    ? 0.25
@@ -191,10 +192,10 @@ TEST_CASE("aperture: cells have the light of their part of the lens") {
 
 TEST_CASE("aperture: no views but the centre's") {
   uint16_t weight = 0;
-  const starfocus::Aperture cells = starfocus::MakeCellAperture(0, 65536, &weight);
-  CHECK(cells.views == 1);
-  CHECK(cells.last == 0);
-  CHECK(weight == 1 << cells.sum_bits);
+  const starfocus::Aperture subapertures = starfocus::MakeSubapertures(0, 65536, &weight);
+  CHECK(subapertures.views == 1);
+  CHECK(subapertures.last == 0);
+  CHECK(weight == 1 << subapertures.sum_bits);
 }
 
 }  // namespace

@@ -12,11 +12,11 @@
 
 namespace {
 
-using starfocus::LayerByCells;
 using starfocus::LayerByPaper;
+using starfocus::LayerBySubaperture;
 using starfocus::ScaleViews;
-using starfocus::ViewsByCells;
 using starfocus::ViewsByPaper;
+using starfocus::ViewsBySubaperture;
 using starfocus::ViewsOfBenchmark;
 
 double Below(double value) { return std::nextafter(value, 0.0); }
@@ -103,18 +103,19 @@ TEST_CASE("rules: a scale multiplies N and rounds it up, and leaves 0 alone") {
   }
 }
 
-TEST_CASE("rules: the table of views that stand for their cells") {
+TEST_CASE("rules: the table of views that stand for their subapertures") {
   constexpr struct {
     double r_max;
     int n;
   } kTable[] = {{0.5, 0}, {11, 4},  {25, 5},   {34, 6},  {49, 7},
                 {68, 9},  {83, 11}, {119, 12}, {128, 13}};
-  CHECK(ViewsByCells(0) == 0);
+  CHECK(ViewsBySubaperture(0) == 0);
   for (size_t k = 0; k < std::size(kTable); ++k) {
     CAPTURE(kTable[k].r_max);
-    CHECK(ViewsByCells(Below(kTable[k].r_max)) == kTable[k].n);
-    CHECK(ViewsByCells(kTable[k].r_max) == kTable[k].n);
-    if (k + 1 < std::size(kTable)) CHECK(ViewsByCells(Above(kTable[k].r_max)) == kTable[k + 1].n);
+    CHECK(ViewsBySubaperture(Below(kTable[k].r_max)) == kTable[k].n);
+    CHECK(ViewsBySubaperture(kTable[k].r_max) == kTable[k].n);
+    if (k + 1 < std::size(kTable))
+      CHECK(ViewsBySubaperture(Above(kTable[k].r_max)) == kTable[k + 1].n);
   }
 }
 
@@ -128,16 +129,16 @@ TEST_CASE("rules: layers from radius 3 and 6 on by (12)") {
 }
 
 TEST_CASE("rules: layers from radius 7 and 24 on with cells, no layer 2 beside depth edges") {
-  CHECK(LayerByCells(0, false) == 0);
-  CHECK(LayerByCells(Below(7), false) == 0);
-  CHECK(LayerByCells(7, false) == 1);
-  CHECK(LayerByCells(Below(24), false) == 1);
-  CHECK(LayerByCells(24, false) == 2);
-  CHECK(LayerByCells(SF_MAX_BLUR, false) == 2);
-  CHECK(LayerByCells(0, true) == 0);
-  CHECK(LayerByCells(Below(7), true) == 0);
-  CHECK(LayerByCells(7, true) == 1);
-  CHECK(LayerByCells(SF_MAX_BLUR, true) == 1);
+  CHECK(LayerBySubaperture(0, false) == 0);
+  CHECK(LayerBySubaperture(Below(7), false) == 0);
+  CHECK(LayerBySubaperture(7, false) == 1);
+  CHECK(LayerBySubaperture(Below(24), false) == 1);
+  CHECK(LayerBySubaperture(24, false) == 2);
+  CHECK(LayerBySubaperture(SF_MAX_BLUR, false) == 2);
+  CHECK(LayerBySubaperture(0, true) == 0);
+  CHECK(LayerBySubaperture(Below(7), true) == 0);
+  CHECK(LayerBySubaperture(7, true) == 1);
+  CHECK(LayerBySubaperture(SF_MAX_BLUR, true) == 1);
 }
 
 }  // namespace

@@ -225,11 +225,11 @@ const Case kCases[] = {
     // Of each view and slice.
     {"composite", false, 2 * kSliceViews * 2 + 8, Composite},
     // Again and again, to as many samples as the others.
-    {"finish_stack", false, 4 * 4 / 3 + 4,
+    {"finish_composite", false, 4 * 4 / 3 + 4,
      [](const Kernels& k, Buffers* b) {
        for (size_t n = 0; n < kSamples; n += 3 * kStackPlane) {
-         k.finish_stack(b->sums.data(), kStackPlane, b->bytes.data(), {1000, 16}, kStackPlane,
-                        b->sums.data() + 4 * kStackPlane);
+         k.finish_composite(b->sums.data(), kStackPlane, b->bytes.data(), {1000, 16}, kStackPlane,
+                            b->sums.data() + 4 * kStackPlane);
        }
      }},
     {"find_runs", false, 2 + 2,

@@ -34,7 +34,7 @@ Json Describe(const Machine& machine, const Row& row) {
   json["largest_block"] = side != 0 ? side : LargestBlockFor(row.width);
   json["rule"] = row.task.rule == SF_RULE_DEFAULT ? "default"
                  : row.task.rule == SF_RULE_PAPER ? "paper"
-                                                  : "cells";
+                                                  : "subaperture";
   json["n_scale"] = row.task.n_scale;
   json["workers"] = row.task.workers;
   json["aperture"] = row.aperture;

@@ -52,7 +52,7 @@ std::string Method(const Row& row) {
   }
   if (task.n_scale != 1) name += ", N × " + Fixed(task.n_scale, 2);
   if (task.rule == SF_RULE_PAPER) name += ", N by (9)";
-  if (task.rule == SF_RULE_CELLS) name += ", N by cells";
+  if (task.rule == SF_RULE_SUBAPERTURE) name += ", N by subapertures";
   return name;
 }
 

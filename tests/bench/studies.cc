@@ -36,7 +36,7 @@ void AddOptions(const Field& field, const Choice& choice, Group* group) {
     group->entries.back().task.max_layer = layer;
   }
   for (const char* mode : {"block", "frame"}) {
-    for (const int rule : {SF_RULE_PAPER, SF_RULE_CELLS}) {
+    for (const int rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
       if (!choice.rules) continue;
       group->entries.push_back(MakeEntry("options", mode, field.views()));
       group->entries.back().task.rule = rule;

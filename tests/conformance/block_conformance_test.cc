@@ -24,7 +24,7 @@ using namespace conformance;
 constexpr double kTheta = 0.26 * 3.14159265358979323846;
 constexpr int kStars[] = {1, 5, 9, 17};
 constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted, Depth::kNoisy};
-constexpr sf_rule kRules[] = {SF_RULE_PAPER, SF_RULE_CELLS};
+constexpr sf_rule kRules[] = {SF_RULE_PAPER, SF_RULE_SUBAPERTURE};
 
 // Pixels that blocks of each layer cover, and those gathered.
 struct Covered {
@@ -77,8 +77,8 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   state.kernels = &starfocus::simd::ReferenceKernels();
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   const std::vector<reference::Block> blocks = Partition(state, covered);
-  const bool cells = params.rule == SF_RULE_CELLS;
-  const starfocus::SliceLimits* limits = cells ? &state.workers[0].stack.limits : nullptr;
+  const bool cells = params.rule == SF_RULE_SUBAPERTURE;
+  const starfocus::SliceLimits* limits = cells ? &state.workers[0].compositor.limits : nullptr;
   const Distance distance =
       Compare(out.Tight(), reference::RefocusBlocks(scene, params, config.theta, limits, blocks));
   for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
@@ -172,7 +172,7 @@ TEST_CASE("block conformance: the benchmark's slices") {
       SetDepth(depth, &scene, &random);
       SetColours(Colours(random.Int(0, 2)), &scene, &random);
       sf_params params = test::Params(low - random.Real(-1, 2), 1, SF_MODE_BENCHMARK);
-      params.rule = SF_RULE_CELLS;
+      params.rule = SF_RULE_SUBAPERTURE;
       all.Add(Check(scene, params, Config(scene, 2), &covered));
     }
   }
@@ -193,7 +193,7 @@ TEST_CASE("block conformance: largest cells, smallest and single blocks") {
       for (const double focus : {-25.0, -7.0, -2.0}) {
         for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
           sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
-          params.rule = SF_RULE_CELLS;
+          params.rule = SF_RULE_SUBAPERTURE;
           sf_config config = Config(scene, max_layer, 32);
           config.timing.block = block_cost;
           all.Add(Check(scene, params, config, &covered));
@@ -204,12 +204,12 @@ TEST_CASE("block conformance: largest cells, smallest and single blocks") {
   Tell("cells and partitions", all, covered);
 }
 
-TEST_CASE("block conformance: more slices than fit, widest cells") {
+TEST_CASE("block conformance: more slices than fit, widest subapertures") {
   struct Lens {
     float low, high;
     double focus, max_blur;
   };
-  // Surfaces blurred on both sides of the focus, in more slices than there are and in more than
+  // LayeredDepth blurred on both sides of the focus, in more slices than there are and in more than
   // memory has room for; and an aperture whose cells are almost as wide as they are spread.
   constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
   test::Random random(53);
@@ -223,13 +223,13 @@ TEST_CASE("block conformance: more slices than fit, widest cells") {
         SetColours(Colours::kRandom, &scene, &random);
         for (int max_layer = 0; max_layer < SF_LAYERS; ++max_layer) {
           sf_params params = test::Params(lens.focus, 1, SF_MODE_BLOCK);
-          params.rule = SF_RULE_CELLS;
+          params.rule = SF_RULE_SUBAPERTURE;
           all.Add(Check(scene, params, Config(scene, max_layer, lens.max_blur), &covered));
         }
       }
     }
   }
-  all.Print("many slices and wide cells");
+  all.Print("many slices and wide subapertures");
 }
 
 #ifdef STARFOCUS_PROGRAM

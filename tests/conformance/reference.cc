@@ -264,15 +264,16 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
   Result result;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   for (const Block& block : blocks) {
-    const bool by_cells = limits != nullptr && block.n > 0;
-    const Lens lens = MakeLens(params, theta, block.n, block.layer, by_cells);
+    const bool by_subaperture = limits != nullptr && block.n > 0;
+    const Lens lens = MakeLens(params, theta, block.n, block.layer, by_subaperture);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
         block.right,      block.top,        block.bottom};
     if (rectangle.width > 0) {
       const Picture& layer = layers[size_t(block.layer)];
-      const Picture rendered = by_cells ? RefocusStack(field, layer, lens, rectangle, slicing)
-                                        : RefocusRectangle(field, layer, lens, rectangle);
+      const Picture rendered = by_subaperture
+                                   ? CompositeRectangle(field, layer, lens, rectangle, slicing)
+                                   : RefocusRectangle(field, layer, lens, rectangle);
       Put(Finished(block, rendered), block.layer == 0 ? rectangle.x : block.x,
           block.layer == 0 ? rectangle.y : block.y, scene.width, &result);
     }

@@ -44,7 +44,7 @@ struct Block {
 
 // Block mode, or the benchmark's blocks, with a given partition of the picture and without
 // deblocking; unrounded,
-// 3 * width * height. `limits`: of slices, by the rule of cells; null: by the
+// 3 * width * height. `limits`: of slices, by the rule of subapertures; null: by the
 // paper's rule.
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,
                                   const starfocus::SliceLimits* limits,

@@ -63,7 +63,7 @@ struct Lens {
   int Shift(int k, int disparity) const {
     return int(Rounded(Move(k) * (disparity - focus), 24 + 6 - 8));
   }
-  // Width of the aperture cell on the picture, r / N, at most a pixel.
+  // Width of the subaperture on the picture, r / N, at most a pixel.
   double Cell(int disparity) const {
     return std::min(1.0, radius / n * std::abs(disparity - focus) / (64.0 * (1 << layer)));
   }
@@ -74,11 +74,11 @@ struct Lens {
   bool Half(int k) const { return 2 * k * radius <= n; }
   bool Contains(int i, int j) const { return i * i + j * j <= most; }
   double Density(int i, int j) const {
-    if (cells > 0) return DensityOfCell(i, j);
+    if (cells > 0) return DensityOfSubaperture(i, j);
     return n == 0 ? 1 : ApertureDensity(double(i) / n, double(j) / n, theta);
   }
   // The mean of it over the cell; beyond the rim there is none.
-  double DensityOfCell(int i, int j) const {
+  double DensityOfSubaperture(int i, int j) const {
     constexpr int kPoints = 24;
     double sum = 0;
     for (int point = 0; point < kPoints * kPoints; ++point) {

@@ -130,7 +130,7 @@ struct Plane {
   }
 };
 
-// A wider cell of the aperture, in pixels, is spread before its slice is moved.
+// A wider subaperture, in pixels, is spread before its slice is moved.
 constexpr double kWidestBox = 3;
 
 // Spread by a box along x or y. What lies beyond the plane is empty: no view shows what it changes.
@@ -292,12 +292,12 @@ class Stack {
 
 }  // namespace
 
-Picture RefocusStack(const LightField& field, const Picture& centre, const Lens& lens,
-                     const Rectangle& rectangle, const Slicing& slicing) {
+Picture CompositeRectangle(const LightField& field, const Picture& centre, const Lens& lens,
+                           const Rectangle& rectangle, const Slicing& slicing) {
   Picture extended = ExtendedRectangle(centre, rectangle);
   LookBeyond(field, field.at({0, 0}), lens.layer, rectangle, &extended);
-  const SurfaceMap map = FindSurfaces(field, extended, lens, rectangle.x - rectangle.left,
-                                      rectangle.y - rectangle.top);
+  const SurfaceMap map = FindLayeredDepth(field, extended, lens, rectangle.x - rectangle.left,
+                                          rectangle.y - rectangle.top);
   const std::vector<Range> ranges = RangeFinder(map, lens, rectangle, slicing).Find();
   Stack stack(map, ranges, lens, rectangle);
   const Plane& sum = stack.AddViews();

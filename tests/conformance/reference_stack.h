@@ -1,5 +1,5 @@
-// The reference's rectangle by the rule of cells: one block as a stack of slices, which each view
-// shows moved against each other.
+// The reference's rectangle by the rule of subapertures: one block as a stack of slices, which each
+// view shows moved against each other.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_
 
@@ -19,8 +19,8 @@ struct Slicing {
 };
 
 // As RefocusRectangle.
-Picture RefocusStack(const LightField& field, const Picture& centre, const Lens& lens,
-                     const Rectangle& rectangle, const Slicing& slicing);
+Picture CompositeRectangle(const LightField& field, const Picture& centre, const Lens& lens,
+                           const Rectangle& rectangle, const Slicing& slicing);
 
 }  // namespace reference
 

@@ -187,8 +187,8 @@ class SurfaceFinder {
 
 }  // namespace
 
-SurfaceMap FindSurfaces(const LightField& field, const Picture& extended, const Lens& lens, int x0,
-                        int y0) {
+SurfaceMap FindLayeredDepth(const LightField& field, const Picture& extended, const Lens& lens,
+                            int x0, int y0) {
   return SurfaceFinder(field, extended, lens, x0, y0).Find();
 }
 

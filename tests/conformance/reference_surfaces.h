@@ -30,8 +30,8 @@ struct SurfaceMap {
 };
 
 // Those of an extended rectangle at (x0, y0) of the layer.
-SurfaceMap FindSurfaces(const LightField& field, const Picture& extended, const Lens& lens, int x0,
-                        int y0);
+SurfaceMap FindLayeredDepth(const LightField& field, const Picture& extended, const Lens& lens,
+                            int x0, int y0);
 
 }  // namespace reference
 

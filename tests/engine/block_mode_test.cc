@@ -258,7 +258,7 @@ TEST_CASE("block: all far out of focus goes to layer 2, as far as allowed") {
       const test::Scene scene = test::LayeredScene(size.first, size.second, 5, 2, 44);
       Setup s;
       s.focus = 20;
-      s.rule = SF_RULE_PAPER;  // wide cells keep silhouettes out of layer 2
+      s.rule = SF_RULE_PAPER;  // wide subapertures keep silhouettes out of layer 2
       s.max_layer = max_layer;
       s.block = 128;
       sf_report report = {};
@@ -277,7 +277,7 @@ struct Told {
   std::vector<int> covered;
   uint64_t blocks = 0, views = 0;
   int largest_n = 0;
-  bool cells = false;  // the rule
+  bool subapertures = false;  // the rule
 };
 
 TEST_CASE("block: the blocks told of tile the picture once and are those of the report") {
@@ -304,7 +304,8 @@ TEST_CASE("block: the blocks told of tile the picture once and are those of the 
       to.largest_n = std::max(to.largest_n, block->n);
       for (int i = -block->n; i <= block->n; ++i) {
         for (int j = -block->n; j <= block->n; ++j) {
-          const int most = to.cells ? starfocus::MostOfCells(block->n) : block->n * block->n;
+          const int most =
+              to.subapertures ? starfocus::MostOfSubapertures(block->n) : block->n * block->n;
           to.views += i * i + j * j <= most;
         }
       }

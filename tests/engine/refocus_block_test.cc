@@ -147,7 +147,7 @@ Changes CheckPictures(int rounds, double least_aperture, const MakeScene& make_s
     const test::Scene scene = make_scene(width, height, kViews[random.Int(0, 3)], limit, &random);
     const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(least_aperture, 1);
     sf_params params = test::Params(kFocus[random.Int(0, 7)], aperture, SF_MODE_BLOCK);
-    params.rule = round % 2 == 0 ? SF_RULE_PAPER : SF_RULE_CELLS;
+    params.rule = round % 2 == 0 ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
     CheckPicture(scene, params, random.Int(1, 9), &changes);
   }
   changes.Tell();

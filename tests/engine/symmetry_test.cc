@@ -1,5 +1,5 @@
 // Mirroring, transposing or turning the light field does the same to the refocused picture, when
-// the picture is whole blocks: exactly, but for turns with wide aperture cells.
+// the picture is whole blocks: exactly, but for turns with wide subapertures.
 #include "tests/support/symmetry.h"
 
 #include <doctest/doctest.h>
@@ -105,7 +105,7 @@ TEST_CASE("symmetry: also in benchmark mode and on noisy disparity") {
 }
 
 // Cells up to several pixels wide, over flat, slanted and noisy surfaces.
-TEST_CASE("symmetry: mirrors with wide aperture cells") {
+TEST_CASE("symmetry: mirrors with wide subapertures") {
   for (const int views : {17, 5, 1}) {
     test::Scene scene = test::RandomScene(64, 32, views, -3, 8, 35);
     test::Random random(36);
@@ -113,21 +113,21 @@ TEST_CASE("symmetry: mirrors with wide aperture cells") {
       if (noisy) test::NoisyDisparity(&scene, &random);
       for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
         sf_params params = test::Params(-12.6, 1, mode);
-        params.rule = SF_RULE_CELLS;
+        params.rule = SF_RULE_SUBAPERTURE;
         for (const Symmetry& s : kMirrors) Check(s, scene, params);
       }
     }
   }
 }
 
-// All views of wide cells are rendered along rows first. Over one surface the order only rounds
-// differently; which surface shows beside a depth edge depends on it.
-TEST_CASE("symmetry: turns with wide aperture cells, up to the order of rows and columns") {
+// All views of wide subapertures are rendered along rows first. Over one surface the order only
+// rounds differently; which surface shows beside a depth edge depends on it.
+TEST_CASE("symmetry: turns with wide subapertures, up to the order of rows and columns") {
   for (const int views : {17, 5, 1}) {
     for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
       for (const double focus : {-12.6, 1.3}) {
         sf_params params = test::Params(focus, 1, mode);
-        params.rule = SF_RULE_CELLS;
+        params.rule = SF_RULE_SUBAPERTURE;
         for (const Symmetry& s : kTurns) {
           CAPTURE(s.name);
           CAPTURE(views);

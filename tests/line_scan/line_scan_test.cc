@@ -118,12 +118,12 @@ TEST_CASE("line scan: no neighbour across an edge inside a stretch") {
   CHECK(picture[7].other == 11);
 }
 
-TEST_CASE("line scan: weights of the aperture cell") {
+TEST_CASE("line scan: weights of the subaperture") {
   for (int cell = 0; cell <= 256; ++cell) {
     for (int offset = -128; offset <= 128; ++offset) {
       const double t = std::abs(offset) / 256.0, width = cell / 256.0;
       const double exact = cell == 0 ? 0 : std::clamp((t - 0.5) / width + 0.5, 0.0, 1.0);
-      const double weight = starfocus::CellWeight(offset, cell) / 256.0;
+      const double weight = starfocus::SubapertureWeight(offset, cell) / 256.0;
       if (std::fabs(weight - exact) > 0.5001 / 256) {
         CAPTURE(cell);
         CAPTURE(offset);
@@ -274,7 +274,7 @@ TEST_CASE("line scan: every pixel as the reference has it") {
       const reference::Owner& owner = expected[p];
       bad += (shown.kind == Kind::kHole) != owner.hole || shown.source != owner.source;
       if (shown.other >= 0) bad += shown.other != owner.other;
-      // Offsets are exact; an aperture cell's width is rounded, the more it matters the narrower.
+      // Offsets are exact; a subaperture's width is rounded, the more it matters the narrower.
       const bool blended = shown.kind == Kind::kSurface;
       bad += std::fabs(shown.weight - 256 * owner.share) > (blended ? 4 : 0);
       mixed += shown.kind == Kind::kMix;

@@ -90,14 +90,14 @@ TEST_CASE("runs: alternating extremes") {
   }
 }
 
-TEST_CASE("runs: the aperture cell is what a view's step moves the run by") {
+TEST_CASE("runs: the subaperture is what a view's step moves the run by") {
   // Disparities from the focus, by 1/4 as there are four views: 0.5 and 0.75 pixels.
   const ViewGrid grid = MakeGrid(4, 1, 16);
   const std::vector<Run> runs =
       test::FindRuns({-128, -128, 192, 192}, grid, Direction::kRightToLeft);
   REQUIRE(runs.size() == 2);
-  CHECK(runs[0].cell == 128);
-  CHECK(runs[1].cell == 192);
+  CHECK(runs[0].subaperture == 128);
+  CHECK(runs[1].subaperture == 192);
 }
 
 // Line pixels in scan order for kRightToLeft; `runs` of it.
@@ -114,7 +114,7 @@ void CheckLine(const Depths& line, const ViewGrid& grid, const std::vector<Run>&
       surface_end = end;
     }
     CHECK(run.surface_end == surface_end);
-    CHECK(run.cell == std::abs(grid.Shift(grid.Move(1), run.disparity)));
+    CHECK(run.subaperture == std::abs(grid.Shift(grid.Move(1), run.disparity)));
     if (run.begin > 0) {  // one pixel more would be too many
       const int next = line[size_t(run.begin - 1)];
       CHECK(std::max(high, next) - std::min(low, next) > grid.spread);

@@ -441,7 +441,7 @@ TEST_CASE("cells: the engine's largest border and sight cover what the analysis 
         CHECK(border.bottom == same.bottom);
       }
       const Border& border = stats.border[0];
-      // One pixel more is rendered for the neighbour of an aperture cell.
+      // One pixel more is rendered for the neighbour of a subaperture.
       for (const int side : {border.left, border.right, border.top, border.bottom}) {
         CHECK(side + 1 <= reach.border);
       }

@@ -197,11 +197,11 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
       const double exact = std::floor(r * 64) / 64;
       CAPTURE(exact);
       CAPTURE(max_layer);
-      for (const bool cells : {false, true}) {
-        CAPTURE(cells);
-        plan.rules.cells = plan.rules.gathers = cells;
+      for (const bool subapertures : {false, true}) {
+        CAPTURE(subapertures);
+        plan.rules.subapertures = plan.rules.gathers = subapertures;
         for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
-          const bool gathered = cells && exact > 0.5 && exact <= 12;
+          const bool gathered = subapertures && exact > 0.5 && exact <= 12;
           CHECK(block.gathers == gathered);
           if (gathered) {
             CHECK(block.layer == 0);
@@ -209,9 +209,9 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
             CHECK(block.rendered.width == 0);
             continue;
           }
-          const int layer = std::min(LayerOf(cells, exact, false), max_layer);
+          const int layer = std::min(LayerOf(subapertures, exact, false), max_layer);
           CHECK(block.layer == layer);
-          CHECK(block.n == ViewsOf(cells, exact / (1 << layer)));
+          CHECK(block.n == ViewsOf(subapertures, exact / (1 << layer)));
         }
       }
     }

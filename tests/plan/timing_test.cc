@@ -36,9 +36,9 @@ ViewCounts CountOneByOne(int n) {
   return views;
 }
 
-// Summed view by view, as (13) has it. With cells the centre is of type A too, and all views away
-// from the rows' axis are scanned along columns.
-BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool cells,
+// Summed view by view, as (13) has it. With subapertures the centre is of type A too, and all views
+// away from the rows' axis are scanned along columns.
+BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool subapertures,
                             uint64_t upsampled, const Content (&content)[2], int layer) {
   const auto width = uint64_t(rect.width), height = uint64_t(rect.height);
   const uint64_t wide = width + uint64_t(border.left) + uint64_t(border.right);
@@ -48,15 +48,15 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool 
   for (int i = -n; i <= n; ++i) {
     for (int j = -n; j <= n; ++j) {
       if (i * i + j * j > n * n) continue;
-      if (cells && n > 0) lines += j == 0 ? high : width;
+      if (subapertures && n > 0) lines += j == 0 ? high : width;
       if (i == 0 && j == 0) {
-        work.a += cells && n > 0 ? width * high : 0;
+        work.a += subapertures && n > 0 ? width * high : 0;
         continue;
       }
       ++views;
       if (j == 0) {
         work.a += width * high;
-      } else if (cells) {
+      } else if (subapertures) {
         work.c += width * height;
       } else if (i == 0) {
         work.a += wide * height;
@@ -67,14 +67,14 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool 
       }
     }
   }
-  // Of every two views one is scanned along rows, the other along columns; with cells those on the
-  // rows' axis along rows, all others along columns. A layer has 1 / 2^L of the lines; a slope
-  // makes 1 / 2^L of the runs along each, a gap is 1 / 2^L as wide.
+  // Of every two views one is scanned along rows, the other along columns; with subapertures those
+  // on the rows' axis along rows, all others along columns. A layer has 1 / 2^L of the lines; a
+  // slope makes 1 / 2^L of the runs along each, a gap is 1 / 2^L as wide.
   const int scale = 1 << layer;
   const uint64_t on_axis = n == 0 ? 0 : 2 * uint64_t(n) + 1;
-  const uint64_t scans[2] = {cells ? on_axis : views / 2,
-                             cells ? views - uint64_t(2 * n) : views / 2};
-  work.span = cells ? lines : views / 2 * (width + height);
+  const uint64_t scans[2] = {subapertures ? on_axis : views / 2,
+                             subapertures ? views - uint64_t(2 * n) : views / 2};
+  work.span = subapertures ? lines : views / 2 * (width + height);
   for (int along = 0; along < 2; ++along) {
     const Content& met = content[along];
     const uint64_t runs = met.slopes / uint64_t(scale * scale) + met.edges / uint64_t(scale);
@@ -106,10 +106,11 @@ TEST_CASE("timing: the work of a block, view by view") {
     const auto amount = [&] { return uint32_t(random.Int(0, 1 << 16)); };
     const Content content[2] = {{amount(), amount(), amount()}, {amount(), amount(), amount()}};
     const int layer = random.Int(0, 2);
-    const bool cells = random.Int(0, 1) == 1;
-    const BlockWork expected = MeasureViewByView(rect, border, n, cells, upsampled, content, layer);
-    const BlockWork got = starfocus::MeasureWork(rect, border, starfocus::CountViews(n), cells,
-                                                 upsampled, content, layer);
+    const bool subapertures = random.Int(0, 1) == 1;
+    const BlockWork expected =
+        MeasureViewByView(rect, border, n, subapertures, upsampled, content, layer);
+    const BlockWork got = starfocus::MeasureWork(rect, border, starfocus::CountViews(n),
+                                                 subapertures, upsampled, content, layer);
     CAPTURE(n);
     CHECK(got.field == expected.field);
     CHECK(got.a == expected.a);

@@ -117,10 +117,11 @@ void TestFinish(const Kernels& kernels) {
   }
 }
 
-void TestFinishStack(const Kernels& kernels) {
+void TestFinishComposite(const Kernels& kernels) {
   test::Random random(6);
   for (size_t count = 1; count <= 70; ++count) {
-    const starfocus::simd::StackFinish finish = {uint32_t(random.Int(1, 90000)), random.Int(1, 24)};
+    const starfocus::simd::CompositeFinish finish = {uint32_t(random.Int(1, 90000)),
+                                                     random.Int(1, 24)};
     const size_t plane = starfocus::simd::SliceSamples(count) + size_t(random.Int(0, 5));
     const std::vector<uint8_t> rgb = test::RandomBytes(3 * count + kPadding, &random);
     const uint32_t all = 4 * finish.least + uint32_t(random.Int(0, 5));
@@ -139,8 +140,9 @@ void TestFinishStack(const Kernels& kernels) {
       }
     }
     std::vector<uint32_t> expected(3 * count + 50, 0x5A5A5A5A), got = expected;
-    ReferenceKernels().finish_stack(sums.data(), plane, rgb.data(), finish, count, expected.data());
-    kernels.finish_stack(sums.data(), plane, rgb.data(), finish, count, got.data());
+    ReferenceKernels().finish_composite(sums.data(), plane, rgb.data(), finish, count,
+                                        expected.data());
+    kernels.finish_composite(sums.data(), plane, rgb.data(), finish, count, got.data());
     CAPTURE(count);
     CHECK(got == expected);
   }
@@ -258,7 +260,7 @@ TEST_CASE("kernels: the same results on every target") {
     TestAccumulate(*kernels);
     TestBlend(*kernels);
     TestFinish(*kernels);
-    TestFinishStack(*kernels);
+    TestFinishComposite(*kernels);
     TestConvert(*kernels);
     TestDisc(*kernels);
   }
@@ -291,7 +293,7 @@ TEST_CASE("kernels: the definitions, by hand") {
   covered[3 * 16 + 1] = 99;
   const uint8_t centre[6] = {9, 9, 9, 5, 6, 7};
   uint32_t accumulators[6];
-  ReferenceKernels().finish_stack(covered.data(), 16, centre, {100, 16}, 2, accumulators);
+  ReferenceKernels().finish_composite(covered.data(), 16, centre, {100, 16}, 2, accumulators);
   CHECK(accumulators[0] == 64 << 16);
   CHECK(accumulators[1] == 0);
   CHECK(accumulators[3] == 5 << 16);

@@ -34,7 +34,7 @@ std::vector<int> MiddleRow(const test::Scene& scene, double focus, sf_mode mode,
   config.gather = 0;
   config.max_layer = layers;
   sf_params params = test::Params(focus, 1, mode);
-  params.rule = SF_RULE_CELLS;
+  params.rule = SF_RULE_SUBAPERTURE;
   const test::Refocused picture = test::RefocusScene(scene, config, params);
   std::vector<int> row;
   for (int x = 0; x < kWidth; ++x) {
@@ -135,7 +135,8 @@ TEST_CASE("stack: slices made section by section give the same picture") {
   }
   test::Engine engine(test::ConfigFor(scene, 20));
   REQUIRE(engine.status() == SF_OK);
-  auto& limits = reinterpret_cast<starfocus::EngineState*>(engine.get())->workers[0].stack.limits;
+  auto& limits =
+      reinterpret_cast<starfocus::EngineState*>(engine.get())->workers[0].compositor.limits;
   const auto reach = size_t(starfocus::SliceReach(16 * starfocus::kShiftOne, starfocus::kShiftOne));
   const size_t whole = starfocus::SliceBytes(64, 64, reach) + starfocus::TileBytes(64, reach);
   const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::TileBytes(8, reach);

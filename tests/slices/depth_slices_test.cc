@@ -18,13 +18,13 @@ using starfocus::SliceRule;
 constexpr int kSize = 64;
 constexpr starfocus::SliceLimits kAmple = {size_t{1} << 24, 1 << 12, size_t{1} << 24};
 
-// Maps of one surface, or of one behind another, as FindSurfaces leaves them.
+// Maps of one surface, or of one behind another, as FindLayeredDepth leaves them.
 struct Scene {
   std::vector<int16_t> planes[3];
   std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
   std::vector<uint8_t> bins = std::vector<uint8_t>(starfocus::kSliceBins);
   std::vector<int32_t> least = std::vector<int32_t>(kSize);
-  starfocus::Surfaces surfaces;
+  starfocus::LayeredDepth surfaces;
 
   Scene() {
     surfaces.width = surfaces.height = surfaces.stride = kSize;

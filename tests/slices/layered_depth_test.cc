@@ -12,7 +12,7 @@
 namespace {
 
 using starfocus::kNoSurface;
-using starfocus::Surfaces;
+using starfocus::LayeredDepth;
 
 constexpr int kSize = 40;
 constexpr int kStride = 48;  // SliceSamples
@@ -31,7 +31,7 @@ struct Scene {
   std::vector<uint8_t> colours[3], edges[4], share, rgb;
   std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
   starfocus::Window window;
-  Surfaces surfaces;
+  LayeredDepth surfaces;
   starfocus::Reads reads;
 
   explicit Scene(int views) {
@@ -91,7 +91,7 @@ struct Scene {
     field.rgb = rgb.data();
     field.disparity = copy.data();
     starfocus::LoadField(window, {0, 0, kSize, kSize}, {0, 0, 0, 0}, &field);
-    starfocus::FindSurfaces(starfocus::simd::BestKernels(), window, field, &surfaces);
+    starfocus::FindLayeredDepth(starfocus::simd::BestKernels(), window, field, &surfaces);
   }
 
   // In pixels per unit; -1000: no surface.

@@ -12,7 +12,7 @@ namespace {
 
 // Gray levels by which any pixel of a flat scene may jump when the lens changes by a step of its
 // scale, by what changes with it.
-// Nothing but the radius, or N by the rule for cells: each view's weights slide.
+// Nothing but the radius, or N by the rule for subapertures: each view's weights slide.
 constexpr int kSmoothJump = 12;
 // N by (9), or by the benchmark: at r = 1 five views become thirteen, of kernels 1e-2 apart (Fig. 6
 // below N = 4); more where theta puts all weight in the middle or on the rim.
@@ -30,10 +30,10 @@ int LayerOf(const sf_report& report) {
   return report.layers[2].pixels > 0 ? 2 : report.layers[1].pixels > 0 ? 1 : 0;
 }
 
-// Whether views stand for wide aperture cells; not told of blur mode, whose kernels are others.
-bool UsesCells(const sf_params& params) {
+// Whether views stand for wide subapertures; not told of blur mode, whose kernels are others.
+bool UsesSubapertures(const sf_params& params) {
   return params.rule != SF_RULE_PAPER &&
-         (params.mode != SF_MODE_FRAME || params.rule == SF_RULE_CELLS);
+         (params.mode != SF_MODE_FRAME || params.rule == SF_RULE_SUBAPERTURE);
 }
 
 int MostJump(const Setup& setup, const sf_report& a, const sf_report& b) {
@@ -45,7 +45,7 @@ int MostJump(const Setup& setup, const sf_report& a, const sf_report& b) {
     sf_config_init(&config);
     most = setup.config.theta == config.theta ? kLayerJump : kLayerJumpOfTheta;
   }
-  return a.n != b.n && !UsesCells(params) ? std::max(most, kViewsJump) : most;
+  return a.n != b.n && !UsesSubapertures(params) ? std::max(most, kViewsJump) : most;
 }
 
 Outcome Fail(const Setup& setup, const std::string& what) {
@@ -61,7 +61,7 @@ int LargestDifference(const std::vector<uint8_t>& a, const std::vector<uint8_t>&
 }  // namespace
 
 // Mirroring, turning and transposing a light field of whole blocks does the same to the result;
-// wide cells, whose views are rendered along rows first, are only mirrored.
+// wide subapertures, whose views are rendered along rows first, are only mirrored.
 Outcome Mirrors(test::Random* random) {
   Setup setup = RandomSetup({20, 6, 4, 6}, random);
   const float low = setup.scene.disparity_min, high = setup.scene.disparity_max;
@@ -75,7 +75,8 @@ Outcome Mirrors(test::Random* random) {
   setup.config.max_layer = 0;  // layers keep every second pixel, from the left and the top
   test::Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1,
                              random->Int(0, 1) == 1};
-  if (setup.params.mode != SF_MODE_BLUR && UsesCells(setup.params)) symmetry.transpose = false;
+  if (setup.params.mode != SF_MODE_BLUR && UsesSubapertures(setup.params))
+    symmetry.transpose = false;
   std::string failure;
   const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random), &failure);
   Setup other = setup;

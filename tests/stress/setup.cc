@@ -168,7 +168,7 @@ void FitBlur(Setup* setup) {
 
 void RandomMode(int modes, Setup* setup, test::Random* random) {
   setup->params.mode = random->Int(0, modes - 1);
-  setup->params.rule = random->Int(SF_RULE_DEFAULT, SF_RULE_CELLS);
+  setup->params.rule = random->Int(SF_RULE_DEFAULT, SF_RULE_SUBAPERTURE);
   // The benchmark's number of views grows with the square of twice the radius.
   if (setup->params.mode == SF_MODE_BENCHMARK && setup->Radius() > 4) {
     setup->params.mode = SF_MODE_BLOCK;

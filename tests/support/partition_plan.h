@@ -65,9 +65,9 @@ struct Plan {
     rules.largest_block = largest_block;
     rules.max_layer = random->Int(0, 2);
     rules.max_n = kMaxN;
-    rules.cells = random->Int(0, 1) == 1;
-    rules.gathers = rules.cells;
-    rules.n_scale = (2 + 2 * rules.max_layer + rules.cells) / 4.0;
+    rules.subapertures = random->Int(0, 1) == 1;
+    rules.gathers = rules.subapertures;
+    rules.n_scale = (2 + 2 * rules.max_layer + rules.subapertures) / 4.0;
     rules.timing = starfocus::DefaultTiming();
     rules.views = views.data();
   }
@@ -129,16 +129,16 @@ inline int LayerFrom(double r_min, double radius) {
   return r_min >= 2 * radius ? 2 : r_min >= radius ? 1 : 0;
 }
 
-// (12), or with wide aperture cells only where less can go wrong: both layers later, and
+// (12), or with wide subapertures only where less can go wrong: both layers later, and
 // silhouettes never rounded to four pixels.
-inline int LayerOf(bool cells, double r_min, bool silhouette) {
-  if (!cells) return LayerFrom(r_min, 3);
+inline int LayerOf(bool subapertures, double r_min, bool silhouette) {
+  if (!subapertures) return LayerFrom(r_min, 3);
   return r_min < 7 ? 0 : r_min < 24 || silhouette ? 1 : 2;
 }
 
-// (9), or what wide aperture cells need.
-inline int ViewsOf(bool cells, double r_max) {
-  if (cells) {
+// (9), or what wide subapertures need.
+inline int ViewsOf(bool subapertures, double r_max) {
+  if (subapertures) {
     constexpr struct {
       double r_max;
       int n;
@@ -221,11 +221,11 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   const BlockStats stats = plan.Stats(x, y, side);
   Block block = {};
   block.rect = {x, y, std::min(side, plan.rules.width - x), std::min(side, plan.rules.height - y)};
-  const bool cells = plan.rules.cells;
-  block.layer =
-      std::min(LayerOf(cells, stats.r_min / kRadiusOne, stats.r_edge > 0), plan.rules.max_layer);
+  const bool subapertures = plan.rules.subapertures;
+  block.layer = std::min(LayerOf(subapertures, stats.r_min / kRadiusOne, stats.r_edge > 0),
+                         plan.rules.max_layer);
   const int scale = 1 << block.layer;
-  const int views = ViewsOf(cells, stats.r_max / (kRadiusOne * scale));
+  const int views = ViewsOf(subapertures, stats.r_max / (kRadiusOne * scale));
   block.n = std::min(int(std::ceil(views * plan.rules.n_scale)), plan.rules.max_n);
   const int margin = kLayerMargin[block.layer] / scale;
   block.rendered = {x / scale - margin, y / scale - margin,
@@ -242,7 +242,7 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   block.cost = starfocus::PredictTime(
       plan.rules.timing,
       starfocus::MeasureWork(block.rendered, block.border, starfocus::CountViews(block.n),
-                             plan.rules.cells, upsampled, stats.content, block.layer));
+                             plan.rules.subapertures, upsampled, stats.content, block.layer));
   if (block.n > 0) PlanGathering(plan, &block);
   return block;
 }

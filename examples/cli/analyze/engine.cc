@@ -26,7 +26,7 @@ struct Series {
   double increment;  // of r
 };
 
-const char* NameOf(sf_rule rule) { return rule == SF_RULE_PAPER ? "paper" : "cells"; }
+const char* NameOf(sf_rule rule) { return rule == SF_RULE_PAPER ? "paper" : "subaperture"; }
 
 // Consecutive steps with the same reason.
 struct Stretch {
@@ -46,10 +46,10 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
   }
 }
 
-// The least r, of halves, that a layer is used at: (12), or LayerByCells without depth edges.
+// The least r, of halves, that a layer is used at: (12), or LayerBySubaperture without depth edges.
 double LeastRadius(sf_rule rule, int layer) {
   const auto layer_at = [&](double r) {
-    return rule == SF_RULE_PAPER ? LayerByPaper(r) : LayerByCells(r, false);
+    return rule == SF_RULE_PAPER ? LayerByPaper(r) : LayerBySubaperture(r, false);
   };
   double least = 0;
   while (layer_at(least) < layer) least += 0.5;
@@ -82,7 +82,7 @@ std::string Measure(const Series& series, int sign, Table* table, Table* layers)
     apart = std::max(apart, step.apart);
     if (step.aliasing > aliasing) aliasing = step.aliasing, aliasing_r = r;
     table->Row().Add(step.r).Add(step.layer).Add(NameOf(series.rule)).Add(step.n);
-    table->Add(step.engine).Add(step.star).Add(step.cells).Add(step.paper).Add(step.apart);
+    table->Add(step.engine).Add(step.star).Add(step.subapertures).Add(step.paper).Add(step.apart);
     table->Add(reason);
     if (series.layer > 0) {
       const LayerTheory theory = MakeLayerTheory(r, series.layer);
@@ -119,9 +119,10 @@ struct RuleTables {
 };
 
 RuleTables MakeTables(sf_rule rule) {
-  const std::string suffix = rule == SF_RULE_PAPER ? "" : "_cells";
+  const std::string suffix = rule == SF_RULE_PAPER ? "" : "_subapertures";
   const std::vector<std::string> columns = {
-      "r", "L", "rule", "N", "sse_engine", "sse_star", "sse_cells", "sse_paper", "apart", "reason"};
+      "r",         "L",     "rule",  "N", "sse_engine", "sse_star", "sse_subapertures",
+      "sse_paper", "apart", "reason"};
   return {Table("engine" + suffix, columns), Table("engine_r40" + suffix, columns),
           Table("engine_layers" + suffix, columns),
           Table("layers" + suffix, {"r", "L", "rule", "N", "sse_engine", "sse_theory",
@@ -133,7 +134,7 @@ RuleTables MakeTables(sf_rule rule) {
 Figure AnalyseEngine(std::string* error) {
   Figure figure = {"engine", 860, 1240, {}, ""};
   std::printf("The running engine: SSE of its kernels against (4), and why where above 1e-3\n");
-  for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_CELLS}) {
+  for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
     RuleTables tables = MakeTables(rule);
     for (int layer = 0; layer < SF_LAYERS; ++layer) {
       const Series series = {SF_MODE_BLOCK, rule, layer, 0, 1.0 / 8};
@@ -155,13 +156,14 @@ Figure AnalyseEngine(std::string* error) {
       "set ylabel 'SSE (8)'\nset xlabel 'r = d - d_t'\n"
       "set arrow 1 from graph 0, first 1e-3 to graph 1, first 1e-3 nohead dt 2 lc rgb '#888888'\n" +
       Panel("layer 0, N from (9) at |r|", "engine", "-40:40") +
-      Panel("layer 0, N by the rule for cells at |r|", "engine_cells", "-40:40") +
+      Panel("layer 0, N by the rule for subapertures at |r|", "engine_subapertures", "-40:40") +
       Panel("layer 0, N = 32 by (9), as for r_max = 40", "engine_r40", "0:40") +
-      "set title 'layers, N by the rule for cells'\nset xrange [0:40]\n"
-      "plot for [L=1:2] $layers_cells using (column(2) == L && $1 > 0 ? $1 : NaN):6 with lines lt "
+      "set title 'layers, N by the rule for subapertures'\nset xrange [0:40]\n"
+      "plot for [L=1:2] $layers_subapertures using (column(2) == L && $1 > 0 ? $1 : NaN):6 with "
+      "lines lt "
       "L "
       "title sprintf('L = %d, theory (10)', L), "
-      "for [L=1:2] $layers_cells using (column(2) == L ? abs($1) : NaN):5 with points pt 7 "
+      "for [L=1:2] $layers_subapertures using (column(2) == L ? abs($1) : NaN):5 with points pt 7 "
       "ps 0.2 lt L title sprintf('L = %d, measured', L)\nunset multiplot\n";
   return figure;
 }

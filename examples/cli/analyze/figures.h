@@ -17,8 +17,8 @@ Figure DrawViewKernels();      // Fig. 4
 Figure DrawViewResponses();    // Fig. 5
 Figure DrawSubsampledBlurs();  // Fig. 8
 
-// The aperture cells' table and rule, for blur radii up to max_blur.
-Figure AnalyseCells(double max_blur);
+// The subapertures' table and rule, for blur radii up to max_blur.
+Figure AnalyseSubapertures(double max_blur);
 
 // The running engine's kernels; *error is set when it could not be run.
 Figure AnalyseEngine(std::string* error);

@@ -109,8 +109,9 @@ BlockWork BlockBench::Work(const BlockTask& task) {
     for (const Cell& cell : cells) AddCell(cell, &content);
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
-  return MeasureWork(block.rendered, block.border, CountCells(engine_->cell_apertures[block.n]),
-                     true, upsampled, content, block.layer);
+  return MeasureWork(block.rendered, block.border,
+                     CountSubapertures(engine_->subapertures[block.n]), true, upsampled, content,
+                     block.layer);
 }
 
 uint64_t BlockBench::Now() const {

@@ -148,9 +148,9 @@ typedef struct sf_config {
                            [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
   int32_t skips;  /**< 1, the default: what sf_skipped counts is left out; 0: all is done, for the
                        same bytes */
-  int32_t gather; /**< 1, the default: SF_MODE_BLOCK by the rule of cells blurs the centre view as a
-                       whole (4) where one surface is all that lies within reach; 0: it renders
-                     views there too */
+  int32_t gather; /**< 1, the default: SF_MODE_BLOCK by the rule of subapertures blurs the centre
+                     view as a whole (4) where one surface is all that lies within reach; 0: it
+                     renders views there too */
   uint32_t reserved[7]; /**< zero */
 } sf_config;
 
@@ -182,10 +182,10 @@ typedef enum sf_mode {
 
 /** How many views a blur radius needs. */
 typedef enum sf_rule {
-  SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME, SF_RULE_CELLS for the others */
+  SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME, SF_RULE_SUBAPERTURE for the others */
   SF_RULE_PAPER = 1,   /**< (9): views at most a pixel or so apart, rendered line by line (IV) */
-  SF_RULE_CELLS = 2    /**< each view stands for its cell of the aperture, however wide, and shows
-                            slices of the scene */
+  SF_RULE_SUBAPERTURE = 2 /**< each view stands for its subaperture, however wide, and shows
+                         slices of the scene */
 } sf_rule;
 
 /** A block of SF_MODE_BLOCK as it was refocused. */
@@ -280,9 +280,10 @@ typedef struct sf_report {
   uint64_t disparity_bytes; /**< read of the disparity map: none of a prepared light field */
   uint64_t side_bytes;      /**< read of the views beside the centre, counted every time: in holes,
                                  beside depth edges and beyond the edges of the picture only */
-  uint64_t gathered_pixels; /**< SF_MODE_BLOCK by the rule of cells: blurred as a whole, since one
-                                 surface is all that lies within reach; no view is rendered there */
-  uint64_t reused_blocks;   /**< sf_refocus_after: largest blocks of which nothing was refocused */
+  uint64_t
+      gathered_pixels; /**< SF_MODE_BLOCK by the rule of subapertures: blurred as a whole, since one
+                            surface is all that lies within reach; no view is rendered there */
+  uint64_t reused_blocks; /**< sf_refocus_after: largest blocks of which nothing was refocused */
 } sf_report;
 
 /** Refocuses whole pictures, or the params' region of them: `out` points to its first pixel, and

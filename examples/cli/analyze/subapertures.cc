@@ -1,12 +1,12 @@
-// The rule (9) redone for aperture cells.
+// The rule (9) redone for subapertures.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "examples/cli/analyze/figures.h"
 #include "lib/analysis/aperture.h"
-#include "lib/analysis/cell_rule.h"
 #include "lib/analysis/selection.h"
+#include "lib/analysis/subaperture_rule.h"
 #include "lib/base/rules.h"
 #include "platform/progress.h"
 
@@ -20,13 +20,15 @@ constexpr double kStep = 1.0 / 8;
 
 Table SameRadius() {
   constexpr int kRadii[] = {2, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32};
-  Table table("cells_same_r", {"r", "N_paper", "sse_paper", "N_cells", "sse_cells"});
+  Table table("subapertures_same_r",
+              {"r", "N_paper", "sse_paper", "N_subapertures", "sse_subapertures"});
   std::printf(
-      "Aperture cells: least N whose error is no larger than the paper's at the same r\n"
+      "subapertures: least N whose error is no larger than the paper's at the same r\n"
       "     r  N by (9)       SSE  N cells       SSE\n");
   for (const int r : kRadii) {
-    const int paper = ViewsByPaper(r), cells = FewestCells(r, kTheta);
-    const double paper_error = PaperError(r, paper, kTheta), error = CellError(r, cells, kTheta);
+    const int paper = ViewsByPaper(r), cells = FewestSubapertures(r, kTheta);
+    const double paper_error = PaperError(r, paper, kTheta),
+                 error = SubapertureError(r, cells, kTheta);
     std::printf("  %4d  %8d  %8.2e  %7d  %8.2e\n", r, paper, paper_error, cells, error);
     table.Row().Add(r).Add(paper).Add(paper_error).Add(cells).Add(error);
   }
@@ -39,8 +41,8 @@ void PrintRule(const std::vector<int>& fewest, double limit) {
   for (size_t k = 0; k < fewest.size(); ++k) {
     const double r = double(k + 1) * kStep;
     const bool last = k + 1 == fewest.size();
-    if (last || starfocus::ViewsByCells(r) != starfocus::ViewsByCells(r + kStep)) {
-      std::printf(" %g:%d", r, starfocus::ViewsByCells(r));
+    if (last || starfocus::ViewsBySubaperture(r) != starfocus::ViewsBySubaperture(r + kStep)) {
+      std::printf(" %g:%d", r, starfocus::ViewsBySubaperture(r));
     }
   }
   std::printf("\n  Least N that could do, from each r_max up to %g\n   ", limit);
@@ -52,21 +54,21 @@ void PrintRule(const std::vector<int>& fewest, double limit) {
 
 }  // namespace
 
-Figure AnalyseCells(double max_blur) {
+Figure AnalyseSubapertures(double max_blur) {
   Figure figure = {"cells", 860, 480, {SameRadius()}, ""};
   Table table("cells", {"r_max", "N_paper", "N_fewest", "N_rule", "margin", "worst_r"});
-  CellStudy study(max_blur, kStep, kTheta);
-  Progress progress("aperture cells", study.count());
+  SubapertureStudy study(max_blur, kStep, kTheta);
+  Progress progress("subapertures", study.count());
   std::vector<int> fewest;
   double largest = 0, largest_at = 0;
   for (int k = 0; k < study.count(); ++k) {
     const double r = study.Radius(k);
     double worst = 0;
-    const double margin = study.Margin(k, starfocus::ViewsByCells(r), &worst);
+    const double margin = study.Margin(k, starfocus::ViewsBySubaperture(r), &worst);
     if (margin > largest) largest = margin, largest_at = r;
     fewest.push_back(study.Fewest(k));
     table.Row().Add(r).Add(ViewsByPaper(r)).Add(fewest.back());
-    table.Add(starfocus::ViewsByCells(r)).Add(margin).Add(worst);
+    table.Add(starfocus::ViewsBySubaperture(r)).Add(margin).Add(worst);
     progress.Step();
   }
   PrintRule(fewest, max_blur);
@@ -77,9 +79,9 @@ Figure AnalyseCells(double max_blur) {
       "set title 'Views along the aperture radius'\nset xlabel 'r_max'\nset ylabel 'N'\n"
       "set key top left\n"
       "plot $cells using 1:2 with steps lt 6 title 'N by (9)', "
-      "'' using 1:4 with steps lt 2 title 'N by the rule for cells', "
+      "'' using 1:4 with steps lt 2 title 'N by the rule for subapertures', "
       "'' using 1:3 with steps lt 1 lw 1 title 'least N for every r up to r_max', "
-      "$cells_same_r using 1:4 with points pt 7 ps 0.7 lt 3 title 'least N at r alone'\n";
+      "$subapertures_same_r using 1:4 with points pt 7 ps 0.7 lt 3 title 'least N at r alone'\n";
   return figure;
 }
 

@@ -1,4 +1,4 @@
-#include "lib/analysis/cell_rule.h"
+#include "lib/analysis/subaperture_rule.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,25 +9,26 @@
 #include "lib/base/rules.h"
 
 namespace starfocus::analysis {
-int FewestCells(double r, double theta) {
+int FewestSubapertures(double r, double theta) {
   const double limit = PaperError(r, ViewsByPaper(r), theta);
   int n = 0;
-  while (CellError(r, n, theta) > limit) ++n;
+  while (SubapertureError(r, n, theta) > limit) ++n;
   return n;
 }
 
-CellStudy::CellStudy(double r_limit, double step, double theta) : step_(step), theta_(theta) {
+SubapertureStudy::SubapertureStudy(double r_limit, double step, double theta)
+    : step_(step), theta_(theta) {
   for (int k = 1; k * step <= r_limit; ++k) ideal_.push_back(IdealKernel(k * step, theta));
 }
 
-double CellStudy::Margin(int k_max, int n, double* worst) {
-  const std::vector<double>& cells = CellErrors(n);
+double SubapertureStudy::Margin(int k_max, int n, double* worst) {
+  const std::vector<double>& subapertures = SubapertureErrors(n);
   const int paper_n = ViewsByPaper(Radius(k_max));
   const std::vector<double>& paper = PaperErrors(paper_n);
   const double over = over_sampling_[static_cast<size_t>(paper_n)];
   double largest = 0;
   for (size_t k = 0; k <= static_cast<size_t>(k_max); ++k) {
-    const double ratio = cells[k] / std::min(kThreshold, std::max(over, paper[k]));
+    const double ratio = subapertures[k] / std::min(kThreshold, std::max(over, paper[k]));
     if (ratio <= largest) continue;
     largest = ratio;
     if (worst != nullptr) *worst = Radius(static_cast<int>(k));
@@ -35,25 +36,25 @@ double CellStudy::Margin(int k_max, int n, double* worst) {
   return largest;
 }
 
-int CellStudy::Fewest(int k_max) {
+int SubapertureStudy::Fewest(int k_max) {
   int n = 0;
   while (Margin(k_max, n) > 1) ++n;
   return n;
 }
 
-const std::vector<double>& CellStudy::CellErrors(int n) {
+const std::vector<double>& SubapertureStudy::SubapertureErrors(int n) {
   const size_t index = static_cast<size_t>(n);
   if (cells_.size() <= index) cells_.resize(index + 1);
   std::vector<double>& errors = cells_[index];
-  const CellLights lights(n, theta_);
+  const SubapertureLights lights(n, theta_);
   for (int k = static_cast<int>(errors.size()); k < count(); ++k) {
-    const Kernel kernel = n == 0 ? IdealKernel(0, theta_) : CellKernel(Radius(k), lights);
+    const Kernel kernel = n == 0 ? IdealKernel(0, theta_) : SubapertureKernel(Radius(k), lights);
     errors.push_back(SquaredError(kernel, ideal_[static_cast<size_t>(k)]));
   }
   return errors;
 }
 
-const std::vector<double>& CellStudy::PaperErrors(int n) {
+const std::vector<double>& SubapertureStudy::PaperErrors(int n) {
   const size_t index = static_cast<size_t>(n);
   if (paper_.size() <= index) {
     paper_.resize(index + 1);

@@ -1,9 +1,9 @@
-// Kernels::finish_stack. Included once per target.
-#if defined(STARFOCUS_SIMD_FINISH_STACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_FINISH_STACK_INL_H_
-#undef STARFOCUS_SIMD_FINISH_STACK_INL_H_
+// Kernels::finish_composite. Included once per target.
+#if defined(STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_
+#undef STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_
 #else
-#define STARFOCUS_SIMD_FINISH_STACK_INL_H_
+#define STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_
 #endif
 
 #include <cstring>
@@ -17,15 +17,16 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE void FinishPixelsOfStack(const uint32_t* sums, size_t plane, const uint8_t* rgb,
-                                    const StackFinish& finish, size_t count, uint32_t* out) {
-  ReferenceKernels().finish_stack(sums, plane, rgb, finish, count, out);
+HWY_INLINE void FinishPixelsOfComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                                        const CompositeFinish& finish, size_t count,
+                                        uint32_t* out) {
+  ReferenceKernels().finish_composite(sums, plane, rgb, finish, count, out);
 }
 
 #else
 
-using StackTag = hn::CappedTag<uint32_t, kSliceLanes>;
-using StackVec = hn::Vec<StackTag>;
+using CompositeTag = hn::CappedTag<uint32_t, kSliceLanes>;
+using CompositeVec = hn::Vec<CompositeTag>;
 
 // Inverses of coverages in two halves. Most pixels beside each other are covered alike: there is no
 // division in SIMD, so that one is only made where the coverage changes.
@@ -33,8 +34,8 @@ class Inverses {
  public:
   explicit Inverses(uint32_t least) : least_(least) {}
 
-  HWY_INLINE void Load(StackVec covered) {
-    const StackTag d32;
+  HWY_INLINE void Load(CompositeVec covered) {
+    const CompositeTag d32;
     const bool alike = hn::AllTrue(d32, hn::Eq(covered, hn::Set(d32, covered_)));
     if (alike && alike_) return;
     alike_ = alike;
@@ -62,8 +63,8 @@ class Inverses {
 
 // min((sum * inverse + half) >> shift, white), of every other lane.
 template <class D64, class V64 = hn::Vec<D64> >
-HWY_INLINE V64 DivideEven(D64 d64, StackVec sum, StackVec low, StackVec high, V64 half, int shift,
-                          hn::Vec<hn::RebindToSigned<D64> > white) {
+HWY_INLINE V64 DivideEven(D64 d64, CompositeVec sum, CompositeVec low, CompositeVec high, V64 half,
+                          int shift, hn::Vec<hn::RebindToSigned<D64> > white) {
   const hn::RebindToSigned<D64> di64;
   const auto product = hn::Add(hn::MulEven(sum, low), hn::ShiftLeft<32>(hn::MulEven(sum, high)));
   const auto value = hn::ShiftRightSame(hn::Add(product, half), shift);
@@ -71,8 +72,8 @@ HWY_INLINE V64 DivideEven(D64 d64, StackVec sum, StackVec low, StackVec high, V6
 }
 
 HWY_INLINE void CopyMissing(const uint8_t* rgb, int bits, uint32_t* out) {
-  const StackTag d32;
-  const hn::Rebind<uint8_t, StackTag> d8;
+  const CompositeTag d32;
+  const hn::Rebind<uint8_t, CompositeTag> d8;
   const size_t lanes = hn::Lanes(d32);
   for (size_t n = 0; n < 3 * lanes; n += lanes) {
     const auto value = hn::PromoteTo(d32, hn::LoadU(d8, rgb + n));
@@ -82,9 +83,9 @@ HWY_INLINE void CopyMissing(const uint8_t* rgb, int bits, uint32_t* out) {
 
 // A vector of pixels.
 HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const uint8_t* rgb,
-                            const StackFinish& finish, Inverses& inverses, uint32_t* out) {
-  const StackTag d32;
-  const hn::Repartition<uint64_t, StackTag> d64;
+                            const CompositeFinish& finish, Inverses& inverses, uint32_t* out) {
+  const CompositeTag d32;
+  const hn::Repartition<uint64_t, CompositeTag> d64;
   const hn::RebindToSigned<decltype(d64)> di64;
   const auto covered = hn::LoadU(d32, sums + 3 * plane);
   const auto missing = hn::Lt(covered, hn::Set(d32, finish.least));
@@ -97,7 +98,7 @@ HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const uint8_t* r
   const auto half = hn::Set(d64, uint64_t{1} << (shift - 1));
   const auto white = hn::Set(di64, int64_t{255} << finish.bits);
   const auto low = hn::Load(d32, inverses.low), high = hn::Load(d32, inverses.high);
-  const auto odd = [&](StackVec v) HWY_ATTR {
+  const auto odd = [&](CompositeVec v) HWY_ATTR {
     return hn::BitCast(d32, hn::ShiftRight<32>(hn::BitCast(d64, v)));
   };
   const auto odd_low = odd(low), odd_high = odd(high);
@@ -115,9 +116,10 @@ HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const uint8_t* r
   }
 }
 
-HWY_INLINE void FinishPixelsOfStack(const uint32_t* sums, size_t plane, const uint8_t* rgb,
-                                    const StackFinish& finish, size_t count, uint32_t* out) {
-  const size_t lanes = hn::Lanes(StackTag());
+HWY_INLINE void FinishPixelsOfComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                                        const CompositeFinish& finish, size_t count,
+                                        uint32_t* out) {
+  const size_t lanes = hn::Lanes(CompositeTag());
   Inverses inverses(finish.least);
   size_t n = 0;
   for (; n + lanes <= count; n += lanes) {

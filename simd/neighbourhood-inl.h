@@ -1,9 +1,9 @@
 // Kernels::reach_block and surround_cells. Included once per target.
-#if defined(STARFOCUS_SIMD_SURROUNDINGS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_SURROUNDINGS_INL_H_
-#undef STARFOCUS_SIMD_SURROUNDINGS_INL_H_
+#if defined(STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_
+#undef STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_
 #else
-#define STARFOCUS_SIMD_SURROUNDINGS_INL_H_
+#define STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_
 #endif
 
 #include "simd/compat-inl.h"
