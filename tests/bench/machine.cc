@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/version.h"
 
 namespace starfocus::bench {
 namespace {
@@ -31,7 +32,7 @@ Machine ThisMachine(const std::string& revision) {
 #else
   machine.compiler = "gcc " __VERSION__;
 #endif
-  machine.version = STARFOCUS_VERSION;
+  machine.version = SF_VERSION_STRING;
   if (!revision.empty()) machine.version += " " + revision;
   return machine;
 }
