@@ -11,7 +11,7 @@
 
 #include "examples/board/camera.h"
 #include "examples/board/panel.h"
-#include "examples/cli/options.h"
+#include "examples/command_line/options.h"
 #include "platform/clock.h"
 #include "platform/file.h"
 #include "platform/framebuffer.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "examples/cli/engine_run.h"
+#include "examples/cli/engine/engine_run.h"
 #include "lib/engine/engine.h"
 #include "lib/plan/timing.h"
 #include "platform/instruction_counter.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "examples/cli/calibrate/timing_terms.h"
+#include "examples/cli/engine/timing_terms.h"
 
 namespace starfocus {
 

@@ -1,4 +1,4 @@
-#include "examples/cli/options.h"
+#include "examples/command_line/options.h"
 
 #include <algorithm>
 #include <cmath>

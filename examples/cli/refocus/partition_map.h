@@ -1,6 +1,6 @@
 // The partition of a refocusing, drawn over a picture.
-#ifndef STARFOCUS_EXAMPLES_CLI_PARTITION_MAP_H_
-#define STARFOCUS_EXAMPLES_CLI_PARTITION_MAP_H_
+#ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_PARTITION_MAP_H_
+#define STARFOCUS_EXAMPLES_CLI_REFOCUS_PARTITION_MAP_H_
 
 #include <vector>
 
@@ -18,4 +18,4 @@ Image DrawPartition(const Image& picture, int left, int top, const std::vector<s
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_EXAMPLES_CLI_PARTITION_MAP_H_
+#endif  // STARFOCUS_EXAMPLES_CLI_REFOCUS_PARTITION_MAP_H_

@@ -1,4 +1,4 @@
-#include "examples/cli/partition_map.h"
+#include "examples/cli/refocus/partition_map.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "examples/cli/label.h"
+#include "examples/cli/sheet/label.h"
 
 #include <stb/stb_easy_font.h>
 

@@ -1,7 +1,7 @@
 // Values of command-line options. Every function returns an error line naming the option, empty
 // for success.
-#ifndef STARFOCUS_EXAMPLES_CLI_OPTIONS_H_
-#define STARFOCUS_EXAMPLES_CLI_OPTIONS_H_
+#ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
+#define STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 
 #include <string>
 
@@ -37,4 +37,4 @@ std::string Short(double value);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_EXAMPLES_CLI_OPTIONS_H_
+#endif  // STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_

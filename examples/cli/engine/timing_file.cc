@@ -1,6 +1,6 @@
-#include "examples/cli/timing_file.h"
+#include "examples/cli/engine/timing_file.h"
 
-#include "examples/cli/calibrate/timing_terms.h"
+#include "examples/cli/engine/timing_terms.h"
 #include "platform/file.h"
 
 namespace starfocus {

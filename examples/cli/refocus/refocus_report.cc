@@ -1,4 +1,4 @@
-#include "examples/cli/refocus_report.h"
+#include "examples/cli/refocus/refocus_report.h"
 
 namespace starfocus {
 namespace {

@@ -1,12 +1,12 @@
-#include "examples/cli/refocus_plan.h"
+#include "examples/cli/refocus/refocus_plan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "examples/cli/options.h"
-#include "examples/cli/refocus_report.h"
-#include "examples/cli/timing_file.h"
+#include "examples/cli/engine/timing_file.h"
+#include "examples/cli/refocus/refocus_report.h"
+#include "examples/command_line/options.h"
 #include "platform/clock.h"
 #include "platform/file.h"
 

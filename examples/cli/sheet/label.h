@@ -1,6 +1,6 @@
 // Text on pictures.
-#ifndef STARFOCUS_EXAMPLES_CLI_LABEL_H_
-#define STARFOCUS_EXAMPLES_CLI_LABEL_H_
+#ifndef STARFOCUS_EXAMPLES_CLI_SHEET_LABEL_H_
+#define STARFOCUS_EXAMPLES_CLI_SHEET_LABEL_H_
 
 #include <string>
 
@@ -16,4 +16,4 @@ void DrawLabel(const std::string& text, int x, int y, Image* image);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_EXAMPLES_CLI_LABEL_H_
+#endif  // STARFOCUS_EXAMPLES_CLI_SHEET_LABEL_H_

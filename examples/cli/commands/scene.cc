@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/options.h"
+#include "examples/command_line/options.h"
 #include "examples/scene/render.h"
 #include "platform/image_io.h"
 #include "platform/light_field.h"

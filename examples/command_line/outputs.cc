@@ -1,4 +1,4 @@
-#include "examples/cli/outputs.h"
+#include "examples/command_line/outputs.h"
 
 #include <filesystem>
 #include <set>

@@ -1,13 +1,13 @@
 // What `refocus` and `video` have in common: the options of a lens and an engine, and the light
 // field they are applied to. Functions return an error line, empty for success.
-#ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_PLAN_H_
-#define STARFOCUS_EXAMPLES_CLI_REFOCUS_PLAN_H_
+#ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
+#define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 
 #include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
-#include "examples/cli/engine_run.h"
+#include "examples/cli/engine/engine_run.h"
 #include "platform/light_field.h"
 #include "starfocus/starfocus.h"
 
@@ -62,4 +62,4 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_EXAMPLES_CLI_REFOCUS_PLAN_H_
+#endif  // STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_

@@ -1,6 +1,6 @@
 // The terms of the timing model, for whoever goes through them by name.
-#ifndef STARFOCUS_EXAMPLES_CLI_CALIBRATE_TIMING_TERMS_H_
-#define STARFOCUS_EXAMPLES_CLI_CALIBRATE_TIMING_TERMS_H_
+#ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_TERMS_H_
+#define STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_TERMS_H_
 
 #include <cstdint>
 
@@ -31,4 +31,4 @@ static_assert(sizeof(sf_timing) == kTimingTermCount * sizeof(uint32_t), "every c
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_EXAMPLES_CLI_CALIBRATE_TIMING_TERMS_H_
+#endif  // STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_TERMS_H_

@@ -1,6 +1,6 @@
 // The files that a command is about to write, looked at together before any work.
-#ifndef STARFOCUS_EXAMPLES_CLI_OUTPUTS_H_
-#define STARFOCUS_EXAMPLES_CLI_OUTPUTS_H_
+#ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OUTPUTS_H_
+#define STARFOCUS_EXAMPLES_COMMAND_LINE_OUTPUTS_H_
 
 #include <string>
 #include <vector>
@@ -17,4 +17,4 @@ std::string CheckApart(const std::vector<Output>& outputs, const std::vector<std
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_EXAMPLES_CLI_OUTPUTS_H_
+#endif  // STARFOCUS_EXAMPLES_COMMAND_LINE_OUTPUTS_H_

@@ -5,7 +5,7 @@
 
 #include "examples/cli/analyze/figures.h"
 #include "examples/cli/commands.h"
-#include "examples/cli/options.h"
+#include "examples/command_line/options.h"
 #include "platform/gnuplot.h"
 
 namespace starfocus {

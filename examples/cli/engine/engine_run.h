@@ -1,6 +1,6 @@
 // Refocusing through the C ABI: workspace, entry path, time.
-#ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_RUN_H_
-#define STARFOCUS_EXAMPLES_CLI_ENGINE_RUN_H_
+#ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_ENGINE_RUN_H_
+#define STARFOCUS_EXAMPLES_CLI_ENGINE_ENGINE_RUN_H_
 
 #include <cstdint>
 #include <memory>
@@ -79,4 +79,4 @@ class EngineRun {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_EXAMPLES_CLI_ENGINE_RUN_H_
+#endif  // STARFOCUS_EXAMPLES_CLI_ENGINE_ENGINE_RUN_H_

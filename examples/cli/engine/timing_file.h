@@ -1,7 +1,7 @@
 // Timing coefficients in JSON files: what `starfocus calibrate` writes and `refocus --timing`
 // reads.
-#ifndef STARFOCUS_EXAMPLES_CLI_TIMING_FILE_H_
-#define STARFOCUS_EXAMPLES_CLI_TIMING_FILE_H_
+#ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_FILE_H_
+#define STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_FILE_H_
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,4 +19,4 @@ std::string ReadTiming(const std::string& path, sf_timing* timing);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_EXAMPLES_CLI_TIMING_FILE_H_
+#endif  // STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_FILE_H_

@@ -1,13 +1,14 @@
 // starfocus stress: tries to break the engine.
+#include "tests/stress/stress.h"
+
 #include <cinttypes>
 #include <cstdio>
 #include <memory>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/options.h"
+#include "examples/command_line/options.h"
 #include "platform/file.h"
 #include "tests/stress/setup.h"
-#include "tests/stress/stress.h"
 
 namespace starfocus {
 namespace {

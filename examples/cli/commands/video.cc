@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/engine_run.h"
-#include "examples/cli/outputs.h"
-#include "examples/cli/refocus_plan.h"
-#include "examples/cli/refocus_report.h"
+#include "examples/cli/engine/engine_run.h"
+#include "examples/cli/refocus/refocus_plan.h"
+#include "examples/cli/refocus/refocus_report.h"
+#include "examples/command_line/outputs.h"
 #include "platform/clock.h"
 #include "platform/image_io.h"
 

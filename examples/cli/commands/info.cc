@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/options.h"
+#include "examples/command_line/options.h"
 #include "platform/light_field.h"
 #include "starfocus/starfocus.h"
 

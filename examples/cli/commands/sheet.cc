@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/label.h"
-#include "examples/cli/options.h"
+#include "examples/cli/sheet/label.h"
+#include "examples/command_line/options.h"
 #include "platform/image_io.h"
 
 namespace starfocus {

@@ -6,8 +6,8 @@
 
 #include "examples/cli/calibrate/scene_times.h"
 #include "examples/cli/commands.h"
-#include "examples/cli/options.h"
-#include "examples/cli/timing_file.h"
+#include "examples/cli/engine/timing_file.h"
+#include "examples/command_line/options.h"
 #include "examples/scene/render.h"
 #include "platform/file.h"
 #include "platform/instruction_counter.h"

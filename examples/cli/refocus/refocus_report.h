@@ -1,12 +1,12 @@
 // The figures of refocusings, as JSON for --report.
-#ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REPORT_H_
-#define STARFOCUS_EXAMPLES_CLI_REFOCUS_REPORT_H_
+#ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_REPORT_H_
+#define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_REPORT_H_
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "examples/cli/engine_run.h"
+#include "examples/cli/engine/engine_run.h"
 
 namespace starfocus {
 
@@ -29,4 +29,4 @@ class SeriesReport {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_EXAMPLES_CLI_REFOCUS_REPORT_H_
+#endif  // STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_REPORT_H_

@@ -1,4 +1,4 @@
-#include "examples/cli/engine_run.h"
+#include "examples/cli/engine/engine_run.h"
 
 #include <algorithm>
 #include <new>
