@@ -6,6 +6,7 @@
 #include "lib/api/validate.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
+#include "lib/engine/lens.h"
 #include "lib/engine/stripe.h"
 #include "starfocus/starfocus.h"
 

@@ -2,6 +2,8 @@
 
 #include <initializer_list>
 
+#include "lib/engine/engine.h"
+
 namespace starfocus {
 namespace {
 
@@ -103,12 +105,6 @@ sf_status CheckRegion(const sf_config& config, const sf_region& region) {
 sf_status CheckOutput(int32_t width, int32_t rows, const uint8_t* out, size_t stride) {
   if (out == nullptr) return SF_ERROR_NULL;
   return ValidStride(stride, 3 * static_cast<size_t>(width), rows) ? SF_OK : SF_ERROR_STRIDE;
-}
-
-Extent ExtentOf(const void* data, size_t stride, int32_t rows, size_t row_bytes) {
-  const auto begin = reinterpret_cast<uintptr_t>(data);
-  const uintptr_t bytes = rows == 0 ? 0 : static_cast<uintptr_t>(rows - 1) * stride + row_bytes;
-  return {begin, begin + bytes};
 }
 
 }  // namespace starfocus

@@ -23,21 +23,9 @@ sf_status CheckLightField(const sf_config& config, const sf_light_field& light_f
 
 // All 0, or inside the picture.
 sf_status CheckRegion(const sf_config& config, const sf_region& region);
-inline bool IsWhole(const sf_region& region) {
-  return region.x == 0 && region.y == 0 && region.width == 0 && region.height == 0;
-}
 
 // An output of `rows` rows of `width` pixels.
 sf_status CheckOutput(int32_t width, int32_t rows, const uint8_t* out, size_t stride);
-
-// [data, data + bytes) as a range of addresses.
-struct Extent {
-  uintptr_t begin, end;
-};
-Extent ExtentOf(const void* data, size_t stride, int32_t rows, size_t row_bytes);
-inline bool Overlaps(const Extent& a, const Extent& b) {
-  return a.begin < b.end && b.begin < a.end;
-}
 
 }  // namespace starfocus
 

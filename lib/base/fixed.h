@@ -8,14 +8,14 @@
 // | step u_t / 2^L       | int64  | 2^24    | (0, 1]                    | only in products below    |
 // | step * (d - d_t)     | int64  | 2^30    | blur radius, +-129 px     | 2^26 x                    |
 // | shift s              | int32  | 2^8     | +-129 px                  | 2^16 x                    |
-// | blur radius of subapertures | uint16 | 2^6     | [0, 129] px               | 7.9 x                     |
-// | reach of subapertures       | int16  | 1       | [-8, 131] px              | 250 x                     |
-// | subaperture width r / N     | int32  | 2^8     | [0, 1], clamped           | -                         |
+// | blur radius of cells | uint16 | 2^6     | [0, 129] px               | 7.9 x                     |
+// | reach of cells       | int16  | 1       | [-8, 131] px              | 250 x                     |
+// | subaperture r / N    | int32  | 2^8     | [0, 1], clamped           | -                         |
 // | interpolation weight | int32  | 2^8     | [0, 1/2]                  | -                         |
 // | colour of a slice    | int16  | 2^7     | [0, 255], times coverage  | 0.4 % below 2^15          |
 // | coverage of a slice  | int16  | 2^15    | [0, 1]; 1 is 32767        | saturates                 |
-// | wide subaperture r / N      | int32  | 2^8     | (1, 7], clamped           | -                         |
-// | parts of a wide subaperture | int16  | 2^15    | [-1, 0], one together     | none: 16 bits hold -1     |
+// | wide subaperture     | int32  | 2^8     | (1, 7], clamped           | -                         |
+// | parts of wide ones   | int16  | 2^15    | [-1, 0], one together     | none: 16 bits hold -1     |
 // | sum / coverage       | uint64 | 2^48    | 2^32 sums, 2^32 inverses  | none: colours <= coverage |
 // | weight of a view     | int16  | varies  | [0, 14500]                | 13 % below 2^14           |
 // | sums of a column     | uint16 | 2^8     | weights: 58000; 1/9 more  | 1 % below 2^16            |
@@ -68,9 +68,8 @@ inline constexpr int64_t kBlurEnd = 129;
 inline constexpr FixedRange kDisparity = {"disparity", -500 * 64, 500 * 64};
 inline constexpr FixedRange kFocus = {"focus", -1000000 * 64, 1000000 * 64};
 inline constexpr FixedRange kShift = {"shift", -kBlurEnd* kPixel, kBlurEnd* kPixel};
-inline constexpr FixedRange kRadius = {"blur radius of a subaperture", 0,
-                                       kBlurEnd << kDisparityBits};
-inline constexpr FixedRange kReach = {"reach of a subaperture", -8, kBlurEnd + 2};
+inline constexpr FixedRange kRadius = {"blur radius of a cell", 0, kBlurEnd << kDisparityBits};
+inline constexpr FixedRange kReach = {"reach of a cell", -8, kBlurEnd + 2};
 inline constexpr FixedRange kSubapertureWeight = {"interpolation weight", 0, kPixel / 2};
 inline constexpr FixedRange kWeight = {"aperture weight", 0, kMaxWeight};
 inline constexpr FixedRange kBlurWeight = {"blur kernel weight", 0, kMaxWeight};

@@ -9,7 +9,7 @@ namespace starfocus {
 // Views along the aperture radius by (9). r_max >= 0 in pixels; 0 needs the centre view alone.
 int32_t ViewsByPaper(double r_max);
 
-// N for views that each stand for their subaperture of the aperture, however wide: the radius of
+// N for views that each stand for their subaperture, however wide: the radius of
 // the lens in subapertures, rounded up (LensInSubapertures of lib/aperture.h). At least as good as
 // (9) for every smaller radius too (lib/analysis/subaperture_rule.h has the criterion). r_max in
 // [0, 128]:
@@ -29,6 +29,10 @@ int32_t ViewsOfBenchmark(double r_max);
 // others.
 int32_t LayerByPaper(double r_min);
 int32_t LayerBySubaperture(double r_min, bool depth_edges);
+
+// Largest blur radius, in pixels, of what is gathered instead of rendered view by view: the taps of
+// the gathering kernel grow with its square.
+inline constexpr int32_t kMaxGather = 12;
 
 }  // namespace starfocus
 

@@ -1,10 +1,5 @@
 #include "lib/engine/engine.h"
 
-#include "lib/api/validate.h"
-#include "lib/base/rules.h"
-#include "lib/engine/stripe_layers.h"
-#include "lib/filter/gather.h"
-
 namespace starfocus {
 namespace {
 
@@ -16,12 +11,6 @@ int32_t CeilPixels(double value) {
 double AbsDouble(double value) { return value < 0 ? -value : value; }
 
 double MaxDouble(double a, double b) { return a > b ? a : b; }
-
-// Blur radius of the configured range's farther end.
-double LargestBlur(const sf_config& config, const sf_params& params) {
-  return params.aperture * MaxDouble(AbsDouble(config.disparity_min - params.focus),
-                                     AbsDouble(config.disparity_max - params.focus));
-}
 
 }  // namespace
 
@@ -90,51 +79,6 @@ void SetViews(const Plane<const uint8_t>* views, EngineState* engine) {
     engine->layers[layer].height = window.height;
   }
   engine->windows[0].centre = views[0];
-}
-
-sf_status SetLens(const sf_params& params, EngineState* engine) {
-  const sf_config& config = engine->config;
-  const double r_max = LargestBlur(config, params);
-  if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
-  engine->params = params;
-  engine->region = RegionOf(config, params);
-  engine->reach = GetReach(r_max);
-  const bool subapertures = UsesSubapertures(*engine);
-  if (IsBenchmark(*engine)) {
-    engine->aperture = (subapertures ? MakeSubapertures : MakeAperture)(
-        ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
-  } else {
-    const int32_t n = subapertures ? ViewsBySubaperture(r_max) : ViewsByPaper(r_max);
-    engine->aperture =
-        (subapertures ? engine->subapertures : engine->apertures)[ScaleViews(n, config.n_scale)];
-  }
-  const ViewGrid grid = MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false);
-  engine->scale = {grid.focus, grid.step};
-  const bool gathers = IsBlockMode(*engine) && subapertures && config.gather != 0;
-  if (params.mode == SF_MODE_BLUR || gathers) {
-    const int32_t steps = BlurStepCount(gathers && r_max > kMaxGather ? kMaxGather : r_max);
-    if (steps > engine->blur_steps) {
-      MakeBlurKernels(engine->blur_steps, steps, engine->fall_off, engine->blur_weights,
-                      engine->blur_kernels);
-      engine->blur_steps = steps;
-    }
-  }
-  engine->report = sf_report();
-  engine->report.r_max = r_max;
-  for (int32_t worker = 0; worker < config.max_workers; ++worker) {
-    for (sf_layer_report& layer : engine->workers[worker].layers) layer = sf_layer_report();
-    engine->workers[worker].skipped = sf_skipped();
-    engine->workers[worker].centre_bytes = 0;
-    engine->workers[worker].side_bytes = 0;
-    engine->workers[worker].gathered_pixels = 0;
-  }
-  engine->disparity_rows = 0;
-  engine->map.rows = 0;
-  engine->plan.all_measured = false;
-  engine->prepared = false;
-  engine->changes.active = false;
-  ForgetLayers(engine);
-  return SF_OK;
 }
 
 sf_status ConvertDisparity(const EngineState& engine, const float* row, int16_t* out) {

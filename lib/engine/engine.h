@@ -158,12 +158,13 @@ void MakeTables(EngineState* engine);
 // Points the windows at whole pictures (ring_rows = 0) or line rings.
 void SetViews(const Plane<const uint8_t>* views, EngineState* engine);
 
+// Whether no region is asked for, which means the whole picture.
+inline bool IsWhole(const sf_region& region) {
+  return region.x == 0 && region.y == 0 && region.width == 0 && region.height == 0;
+}
+
 // The rectangle that params ask for.
 Rect RegionOf(const sf_config& config, const sf_params& params);
-
-// Sets up the lens for params; SF_ERROR_BLUR_TOO_LARGE or SF_OK. The other fields of params must
-// have been checked.
-sf_status SetLens(const sf_params& params, EngineState* engine);
 
 // Converts a disparity row to `out`, checking that it lies in the configured range.
 sf_status ConvertDisparity(const EngineState& engine, const float* row, int16_t* out);

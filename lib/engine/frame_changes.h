@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/input/field.h"
+#include "lib/base/geometry.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

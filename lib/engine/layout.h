@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/api/validate.h"
+#include "lib/base/geometry.h"
 #include "lib/engine/engine.h"
 #include "starfocus/starfocus.h"
 

@@ -22,16 +22,9 @@ struct Part {
   int32_t left, right, top, bottom;  // exclusive at the right and the bottom
 };
 
-Rect Extended(const RenderJob& job) {
-  const Rect& rect = job.rect;
-  const Border& border = job.border;
-  return {rect.x - border.left, rect.y - border.top, border.left + rect.width + border.right,
-          border.top + rect.height + border.bottom};
-}
-
 Part PartOf(const RenderJob& job) {
   const Window& window = *job.window;
-  const Rect rect = Extended(job);
+  const Rect rect = Extended(job.rect, job.border);
   return {Clamp(rect.x, 0, window.width - 1), Clamp(rect.x + rect.width, 1, window.width),
           Clamp(rect.y, 0, window.height - 1), Clamp(rect.y + rect.height, 1, window.height)};
 }
@@ -96,7 +89,9 @@ const uint8_t* OneColour(const RenderJob& job) {
   }
   // The centre view alone fills holes with what lies around them.
   if (window.views == 1) return colour;
-  return IsGentle(window, part) && ShowsBeyond(window, Extended(job), colour) ? colour : nullptr;
+  return IsGentle(window, part) && ShowsBeyond(window, Extended(job.rect, job.border), colour)
+             ? colour
+             : nullptr;
 }
 
 }  // namespace starfocus

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "lib/line_scan/triangles.h"
+#include "lib/input/render_job.h"
 
 namespace starfocus {
 

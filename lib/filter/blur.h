@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "lib/filter/span_list.h"
-#include "lib/input/field.h"
+#include "lib/input/window.h"
 #include "lib/plan/block_stats.h"
 #include "simd/kernels.h"
 

@@ -1,5 +1,7 @@
 #include "lib/filter/gather.h"
 
+#include "lib/input/load_field.h"
+
 namespace starfocus {
 namespace {
 
@@ -65,11 +67,6 @@ class Gather {
 };
 
 }  // namespace
-
-int32_t GatherTaps(int32_t radius) {
-  const int32_t size = (radius + (3 << kDisparityBits) / 2) >> kDisparityBits;
-  return (size + 1) * (size + 1) * 51 / 64;
-}
 
 uint64_t GatherRectangle(const GatherJob& job, Field* field, uint8_t* out, size_t out_stride) {
   Gather gather(job, field);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "lib/base/rules.h"
 #include "lib/filter/blur.h"
 #include "lib/input/field.h"
 #include "lib/plan/block_stats.h"
@@ -13,13 +14,8 @@
 
 namespace starfocus {
 
-// Largest blur radius that is gathered, pixels: the kernels' taps grow with its square.
-inline constexpr int32_t kMaxGather = 12;
 static_assert(kMaxGather + 1 <= simd::kMaxDisc,
               "a kernel's edge lies in the pixel beyond its radius");
-
-// Quarter-plane taps of the kernel for blur radius r (kDisparityBits).
-int32_t GatherTaps(int32_t radius);
 
 struct GatherJob {
   const Window* window;  // at layer 0

@@ -6,28 +6,18 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/input/window.h"
+#include "lib/base/geometry.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
-
-struct Rect {
-  int32_t x, y, width, height;
-};
-
-// Pixels beyond a rectangle that can splat into it.
-struct Border {
-  int32_t left, right, top, bottom;
-};
 
 // Bytes from row to row of pixels that rows are transposed into.
 constexpr size_t RgbStride(int32_t width) {
   return 3 * static_cast<size_t>(width) + simd::kTransposePadding;
 }
 
-// A copy of the extended rectangle; pixels outside the picture repeat its edge, or show what side
-// views see there (lib/beyond.h). Positions are
-// oriented: in a transposed field x runs down the picture and y across it.
+// A copy of the extended rectangle. Positions are oriented: in a transposed field x runs down the
+// picture and y across it.
 struct Field {
   bool transposed = false;
   int32_t width = 0, height = 0;  // of the extended rectangle
@@ -44,9 +34,6 @@ struct Field {
            static_cast<size_t>(column);
   }
 };
-
-// Copies `rect` and its border from the window into field->rgb and ->disparity.
-void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field);
 
 // Rows become columns; to->disparity, or after it to->rgb, must be set and differ from `from`'s.
 void TransposeDisparity(const Field& from, Field* to);

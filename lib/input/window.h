@@ -7,27 +7,9 @@
 #include <cstdint>
 
 #include "lib/base/fixed.h"
+#include "lib/base/geometry.h"
 
 namespace starfocus {
-
-// Rows [first, last) of a picture, a layer or a tile.
-struct RowRange {
-  int32_t first, last;
-};
-
-// Rows of T, from row `first` on; a ring (rows > 0) holds row y at y modulo `rows` instead.
-template <class T>
-struct Plane {
-  T* data = nullptr;
-  size_t stride = 0;  // in T
-  int32_t rows = 0;
-  int32_t first = 0;
-
-  T* Row(int32_t y) const {
-    const int32_t row = rows == 0 ? y - first : y % rows;
-    return data + static_cast<size_t>(row) * stride;
-  }
-};
 
 inline constexpr int kMaxViews = 17;
 

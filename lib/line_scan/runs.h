@@ -15,7 +15,7 @@ struct Run {
   uint16_t begin;
   uint16_t surface_end;  // where the surface it belongs to ends: the next depth edge, or the line's
   int16_t disparity;     // kDisparityBits: the middle of the run's range
-  uint16_t subaperture;  // width of its aperture subaperture r / N, kShiftBits
+  uint16_t subaperture;  // width of its subaperture r / N, kShiftBits
 };
 
 // Scan order of a line. A view to the right of the centre (or below it) is scanned from the right

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "lib/input/load_field.h"
 #include "lib/line_scan/holes.h"
 #include "lib/line_scan/line_scan.h"
 #include "lib/line_scan/span_sink.h"

@@ -8,7 +8,7 @@
 #include "lib/base/view_grid.h"
 #include "lib/filter/span_list.h"
 #include "lib/input/field.h"
-#include "lib/input/window.h"
+#include "lib/input/render_job.h"
 #include "lib/line_scan/runs.h"
 #include "simd/kernels.h"
 
@@ -36,14 +36,6 @@ struct LineScanScratch {
   uint32_t* accumulators[2];    // 3 R^2 each: in the orientation of either pass
   uint32_t* line_accumulators;  // 3 E
   SpanMemory spans;
-};
-
-struct RenderJob {
-  const Window* window;
-  const ViewGrid* grid;
-  const simd::Kernels* kernels;
-  Rect rect;
-  Border border;
 };
 
 // Sums the weighted views over job.rect into scratch->accumulators[0]: rows of 3 * width values

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/input/field.h"
+#include "lib/base/geometry.h"
 #include "lib/input/window.h"
 #include "simd/kernels.h"
 

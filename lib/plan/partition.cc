@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "lib/base/rules.h"
-#include "lib/filter/gather.h"
 
 namespace starfocus {
 namespace {
@@ -16,7 +15,7 @@ constexpr int32_t LayerMargin(int32_t layer) { return kLayerMargin[layer] >> lay
 int32_t CeilShift(int32_t value, int32_t layer) { return (value + (1 << layer) - 1) >> layer; }
 
 // A border of a block to one of its rendered rectangle, at the layer: `beyond` pixels of the
-// nominal block were clipped off at the picture's edge. One pixel more for the neighbour of an
+// nominal block were clipped off at the picture's edge. One pixel more for the neighbour of a
 // subaperture.
 int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
   return Max(0, CeilShift(border + beyond, layer) - LayerMargin(layer)) + 1;

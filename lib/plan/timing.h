@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "lib/base/aperture.h"
-#include "lib/input/field.h"
+#include "lib/base/geometry.h"
 #include "lib/plan/block_stats.h"
 #include "starfocus/starfocus.h"
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "lib/input/load_field.h"
 #include "lib/slices/matte.h"
 
 namespace starfocus {

@@ -6,8 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/line_scan/triangles.h"
+#include "lib/input/render_job.h"
 #include "lib/plan/block_stats.h"
+#include "lib/slices/depth_slices.h"
 #include "lib/slices/slice_plane.h"
 
 namespace starfocus {

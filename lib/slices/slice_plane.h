@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/geometry.h"
 #include "lib/base/view_grid.h"
-#include "lib/input/field.h"
-#include "lib/slices/depth_slices.h"
 #include "lib/slices/layered_depth.h"
+#include "lib/slices/slice.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

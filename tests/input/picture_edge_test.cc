@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "lib/input/load_field.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"

@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "lib/input/load_field.h"
+
 namespace {
 
 using starfocus::Field;

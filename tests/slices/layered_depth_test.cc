@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "lib/input/load_field.h"
 #include "tests/support/test_scene.h"
 
 namespace {

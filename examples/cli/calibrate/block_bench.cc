@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lib/engine/lens.h"
 #include "lib/engine/refocus_block.h"
 #include "platform/clock.h"
 

@@ -1,0 +1,17 @@
+// The way from the window to the field of a block.
+#ifndef STARFOCUS_LIB_INPUT_LOAD_FIELD_H_
+#define STARFOCUS_LIB_INPUT_LOAD_FIELD_H_
+
+#include "lib/base/geometry.h"
+#include "lib/input/field.h"
+#include "lib/input/window.h"
+
+namespace starfocus {
+
+// Copies `rect` and its border from the window into field->rgb and ->disparity, which must be set.
+// Pixels outside the picture repeat its edge, or show what side views see there (picture_edge.h).
+void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_INPUT_LOAD_FIELD_H_

@@ -1,0 +1,38 @@
+// What a slice is: a part of the scene within a range of disparity so small that it moves as one
+// from view to view.
+#ifndef STARFOCUS_LIB_SLICES_SLICE_H_
+#define STARFOCUS_LIB_SLICES_SLICE_H_
+
+#include <cstdint>
+
+#include "lib/base/fixed.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+// How finely a scene is cut.
+struct SliceRule {
+  int32_t most;  // beyond this many, slices get coarser
+  // Pixels of the layer that a slice's disparities may lie apart at the aperture's rim, kShiftBits;
+  // where they are more blurred than twice kSliceSharp, as much more as what is beyond it.
+  int32_t range;
+};
+inline constexpr int32_t kSliceSharp = 4 * kShiftOne;
+inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
+inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // of the benchmark mode
+inline constexpr int32_t kMaxSlices = simd::kMaxSeen;
+
+// The least section of a rectangle that slices are made of.
+inline constexpr int32_t kLeastColumns = static_cast<int32_t>(simd::kSliceLanes);
+inline constexpr int32_t kLeastRows = 8;
+
+// Disparities [low, high] (kDisparityBits), which move as `disparity` does. Those up to `overlap`,
+// a little nearer, are part of this slice as well as of the nearer one, so that no gap opens
+// between both.
+struct Slice {
+  int16_t low, high, overlap, disparity;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_SLICES_SLICE_H_

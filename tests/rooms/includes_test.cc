@@ -1,0 +1,163 @@
+// The rooms of the house, from the includes themselves: data flows one way through lib/, and no two
+// modules know each other.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder may include itself and those before it in this list. lib/analysis measures the engine,
+// so that it may include all of lib.
+const std::vector<std::string> kRooms = {"simd",       "lib/base",    "lib/input",     "lib/plan",
+                                         "lib/filter", "lib/slices",  "lib/line_scan", "lib/engine",
+                                         "lib/api",    "lib/analysis"};
+
+// What else there is, and the rooms it may include. The programs of platform/ and examples/ see the
+// engine from outside; `calibrate` and `analyze` measure its parts.
+const std::map<std::string, std::set<std::string>> kOutside = {
+    {"platform", {"platform"}},
+};
+
+struct Include {
+  std::string from, to;  // files, from the root of the project on
+};
+
+std::string RoomOf(const std::string& file) {
+  const std::string folder = fs::path(file).parent_path().generic_string();
+  return folder.rfind("lib/", 0) == 0 ? folder : folder.substr(0, folder.find('/'));
+}
+
+// A module is a header and the unit of the same name. In simd/ a unit puts together what its header
+// declares from files that include that header, so that each file there is a module.
+std::string ModuleOf(const std::string& file) {
+  if (RoomOf(file) == "simd") return file;
+  return fs::path(file).replace_extension().generic_string();
+}
+
+std::vector<Include> ReadIncludes(const std::string& folder) {
+  const fs::path root = STARFOCUS_SOURCE_DIR;
+  const std::regex line_of("^ *#include \"((lib|simd|platform|examples|tests)/[^\"]+)\".*");
+  std::vector<Include> includes;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".h" && extension != ".cc" && extension != ".hpp") continue;
+    std::ifstream file(entry.path());
+    std::smatch found;
+    for (std::string line; std::getline(file, line);) {
+      if (!std::regex_match(line, found, line_of)) continue;
+      includes.push_back({fs::relative(entry.path(), root).generic_string(), found[1]});
+    }
+  }
+  return includes;
+}
+
+int PlaceOf(const std::string& room) {
+  const auto found = std::find(kRooms.begin(), kRooms.end(), room);
+  return found == kRooms.end() ? -1 : int(found - kRooms.begin());
+}
+
+// What breaks the order of rooms, one line each.
+std::vector<std::string> FindBackward(const std::vector<Include>& includes) {
+  std::vector<std::string> found;
+  for (const Include& include : includes) {
+    const int from = PlaceOf(RoomOf(include.from)), to = PlaceOf(RoomOf(include.to));
+    if (from < 0 || to < 0 || to > from) found.push_back(include.from + " -> " + include.to);
+  }
+  return found;
+}
+
+using Needs = std::map<std::string, std::set<std::string>>;  // modules that a module includes
+
+// Takes away modules that include none of the others. Returns whether there were any.
+bool DropLeaves(Needs* needs) {
+  bool changed = false;
+  for (auto module = needs->begin(); module != needs->end();) {
+    std::set<std::string>& to = module->second;
+    for (auto need = to.begin(); need != to.end();) {
+      need = needs->count(*need) == 0 ? to.erase(need) : std::next(need);
+    }
+    changed |= to.empty();
+    module = to.empty() ? needs->erase(module) : std::next(module);
+  }
+  return changed;
+}
+
+// The same for those that none of the others includes.
+bool DropRoots(Needs* needs) {
+  std::set<std::string> needed;
+  for (const auto& [module, to] : *needs) needed.insert(to.begin(), to.end());
+  bool changed = false;
+  for (auto module = needs->begin(); module != needs->end();) {
+    const bool root = needed.count(module->first) == 0;
+    changed |= root;
+    module = root ? needs->erase(module) : std::next(module);
+  }
+  return changed;
+}
+
+// Modules that include each other, directly or by others, and those between such.
+std::set<std::string> FindCircles(const std::vector<Include>& includes) {
+  Needs needs;
+  for (const Include& include : includes) {
+    const std::string from = ModuleOf(include.from), to = ModuleOf(include.to);
+    if (from != to) needs[from].insert(to);
+  }
+  while (DropLeaves(&needs) || DropRoots(&needs)) {
+  }
+  std::set<std::string> left;
+  for (const auto& [module, to] : needs) left.insert(module);
+  return left;
+}
+
+}  // namespace
+
+TEST_CASE("includes: data flows one way through the rooms of simd and lib") {
+  std::vector<Include> includes = ReadIncludes("lib");
+  const std::vector<Include> kernels = ReadIncludes("simd");
+  includes.insert(includes.end(), kernels.begin(), kernels.end());
+  REQUIRE(includes.size() > 200);
+  for (const std::string& line : FindBackward(includes)) FAIL_CHECK(line);
+  for (const std::string& room : kRooms) {
+    const auto inside = [&](const Include& include) { return RoomOf(include.from) == room; };
+    const auto count = std::count_if(includes.begin(), includes.end(), inside);
+    CHECK(count > 0);
+    std::printf("%-14s %3d includes, none backwards\n", room.c_str(), int(count));
+  }
+}
+
+TEST_CASE("includes: no module knows one that knows it") {
+  std::vector<Include> includes = ReadIncludes("lib");
+  const std::vector<Include> kernels = ReadIncludes("simd");
+  includes.insert(includes.end(), kernels.begin(), kernels.end());
+  for (const std::string& module : FindCircles(includes)) FAIL_CHECK("in a circle: " << module);
+}
+
+TEST_CASE("includes: what touches a machine knows the engine by its C ABI only") {
+  for (const auto& [folder, rooms] : kOutside) {
+    for (const Include& include : ReadIncludes(folder)) {
+      CHECK_MESSAGE(rooms.count(RoomOf(include.to)) == 1, include.from << " -> " << include.to);
+    }
+  }
+}
+
+TEST_CASE("includes: backward ones and circles are seen") {
+  const std::vector<Include> backward = {{"lib/plan/timing.cc", "lib/filter/gather.h"}};
+  CHECK(FindBackward(backward) ==
+        std::vector<std::string>{"lib/plan/timing.cc -> lib/filter/gather.h"});
+  CHECK(FindBackward({{"lib/filter/gather.h", "lib/plan/timing.h"}}).empty());
+  CHECK(FindBackward({{"lib/base/rules.cc", "platform/file.h"}}).size() == 1);
+  const std::vector<Include> circle = {{"lib/input/field.cc", "lib/input/picture_edge.h"},
+                                       {"lib/input/picture_edge.h", "lib/input/field.h"},
+                                       {"lib/input/field.h", "lib/input/window.h"}};
+  CHECK(FindCircles(circle) == std::set<std::string>{"lib/input/field", "lib/input/picture_edge"});
+}
