@@ -17,7 +17,7 @@ uint64_t Relative(uint64_t square, uint64_t n_square, uint64_t fall_off) {
 
 constexpr int64_t Max64(int64_t a, int64_t b) { return a > b ? a : b; }
 
-// How many of the views (+-i, +-j), (+-j, +-i) differ.
+// Returns how many different views (+-i, +-j), (+-j, +-i) are.
 uint32_t Orbit(int32_t i, int32_t j) {
   if (i == 0) return 1;
   return j == 0 || i == j ? 4 : 8;
@@ -33,7 +33,8 @@ void ForEachOrbit(int32_t last, int32_t most, const Visit& visit) {
   }
 }
 
-// Views (i, j), i^2 + j^2 <= most and i <= last, of as much light as `light(i, j)`, 20 bits.
+// Makes the weights of the views (i, j), i^2 + j^2 <= most and i <= last, in proportion to their
+// light `light(i, j)`, 20 bits.
 template <class Light>
 Aperture Weigh(int32_t n, int32_t last, int32_t most, const Light& light, uint16_t* weights) {
   for (size_t index = 0; index < ApertureSize(n); ++index) weights[index] = 0;
@@ -70,8 +71,8 @@ Aperture Weigh(int32_t n, int32_t last, int32_t most, const Light& light, uint16
   return aperture;
 }
 
-// Of the light of a lens `radius` wide (kSubapertureUnits) what goes through the subaperture around
-// (i, j), 20 bits: by its points in a square grid.
+// Returns the light, 20 bits, that goes through the subaperture around (i, j) of a lens whose
+// radius is `radius` (kSubapertureUnits): summed over the points of a square grid.
 uint64_t LightOfSubaperture(int32_t i, int32_t j, int32_t radius, uint32_t fall_off) {
   constexpr int32_t kStep = 2, kPoints = kSubapertureUnits / kStep;
   const auto lens = static_cast<uint64_t>(radius) * static_cast<uint64_t>(radius);

@@ -27,7 +27,8 @@ ViewGrid MakeViewGrid(const Aperture& aperture, double focus, double aperture_ra
       ++grid.half_views;
     }
   }
-  // spread * u_t / 2^layer is that, but a depth edge always ends a run.
+  // Within spread / (u_t / 2^layer) of disparity a run moves as one, but a depth edge always ends
+  // it.
   const int64_t spread =
       (int64_t{kRunSpread} << (kStepBits + kDisparityBits - kShiftBits)) / grid.step;
   grid.spread = static_cast<int32_t>(spread < kSurfaceStep ? spread : kSurfaceStep);

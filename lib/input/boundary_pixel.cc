@@ -5,14 +5,15 @@ namespace {
 
 constexpr int32_t kShareOne = 1 << kShareBits;
 
-// Colours nearer to each other than this, squared, tell no mixture.
+// Two colours whose squared distance is less than this tell no mixture apart.
 constexpr int64_t kLeastContrast = 64;
 // Up to this distance from the line between the two colours a pixel is their mixture, squared: a
 // few gray levels of noise and a sixteenth of their contrast's square.
 constexpr int64_t kNoise = 27;
 constexpr int64_t kContrastParts = 16;
 
-// How much of `mixed` shows `near`, the rest being `far`: kShareBits, 0 when it is no mixture. The
+// Returns how much of `mixed` shows `near`, the rest being `far`: kShareBits, 0 when it is no
+// mixture. The
 // far surface has the pixel's centre, so that more than 4/5 says that `far` is something else.
 int32_t ShareOf(const uint8_t* near, const uint8_t* far, const uint8_t* mixed) {
   int64_t along = 0, contrast = 0, distance = 0;
@@ -41,7 +42,7 @@ void ReadFar(const Window& window, const BoundaryPixel& pixel, const uint8_t* mi
   PrefetchCaptured(window, view, {x, y, 0, 0});
   int32_t sums[3];
   InterpolateCaptured(window, view, x, y, sums);
-  // Halves towards the pixel, so that an inverted picture is decided on alike.
+  // Halves are rounded towards the pixel, so that an inverted picture is decided on alike.
   constexpr int32_t kHalf = 1 << (2 * kShiftBits - 1);
   for (int c = 0; c < 3; ++c) {
     const bool up = (mixed[c] << (2 * kShiftBits)) > sums[c];

@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-// Fills what lies outside [first, last), not empty, of a row.
+// Fills what lies outside [first, last) of a row, which is not empty, with its ends.
 void RepeatEdges(int32_t first, int32_t last, int32_t width, uint8_t* rgb, int16_t* disparity) {
   for (int32_t column = 0; column < first; ++column) {
     std::memcpy(rgb + 3 * column, rgb + 3 * first, 3);

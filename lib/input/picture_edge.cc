@@ -7,12 +7,12 @@
 namespace starfocus {
 namespace {
 
-// Pixels of the picture from its edge on that may cover what lies beyond it: no more than rows are
-// kept around a stripe.
+// How many pixels of the picture, from its edge on, are looked at for what may cover a pixel beyond
+// it: no more than the rows that are kept around a stripe.
 constexpr int32_t kLookBack = 32;
 
-// The picture's part of a rectangle of the layer, in its pixels; exclusive at the right and the
-// bottom.
+// The part of a rectangle of the layer that lies in the picture, in pixels of the rectangle; right
+// and bottom are exclusive.
 struct Part {
   int32_t left, right, top, bottom;
 
@@ -45,7 +45,7 @@ class Beyond {
     const int32_t width = rect_.width, height = rect_.height;
     const Part part(window_, rect_);
     const bool inside = part.right - part.left == width && part.bottom - part.top == height;
-    if (inside) return;  // most are
+    if (inside) return;  // most rectangles are
     for (int32_t row = part.top; row < part.bottom; ++row) {
       LookOver({part.right - 1, row, kSides[0], width - part.right});
       LookOver({part.left, row, kSides[1], part.left});
@@ -76,7 +76,7 @@ class Beyond {
   }
 
   // How many of the `seen` pixels beyond the edge lie before the first that, in the captured view,
-  // a nearer pixel inside the picture comes within 3/4 of a pixel of. LayeredDepth of positive
+  // a nearer pixel inside the picture comes within 3/4 of a pixel of. Surfaces of positive
   // disparity are seen from the side on which nearer ones move farther away.
   int32_t Uncovered(const Edge& edge, int32_t disparity, int32_t seen) const {
     const int layer = window_.layer;
@@ -114,7 +114,7 @@ class Beyond {
   Take& take_;
 };
 
-// Writes them into a field, and the last one into what lies farther away.
+// Writes the colours beyond an edge into a field, and repeats the last one farther away.
 struct Filler {
   Field& field;
 
@@ -131,7 +131,7 @@ struct Filler {
   }
 };
 
-// Whether they all have one colour.
+// Tells whether the colours beyond all edges are one colour.
 struct Matcher {
   const uint8_t* colour;
   bool all = true;

@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kRowsAhead = 2;  // of the layer, that are asked for
+constexpr int32_t kRowsAhead = 2;  // rows of the layer below the first place that are asked for
 
 void Prefetch(const uint8_t* bytes) {
 #if defined(__GNUC__)
@@ -24,7 +24,7 @@ constexpr ViewPosition kPositions[kMaxViews] = {
 // Triangular taps 1 2 1 and 1 2 3 4 3 2 1 of layers 1 and 2; each sums to 4^L.
 constexpr int32_t Tap(int layer, int32_t k) { return (1 << layer) - Abs(k); }
 
-// A view of which nothing outside is read.
+// A view that is read inside the picture only.
 struct Inside {
   const Plane<const uint8_t>& view;
 
@@ -32,7 +32,7 @@ struct Inside {
   static int32_t Column(int32_t x) { return 3 * x; }  // bytes
 };
 
-// A view whose edges go on for ever.
+// A view whose outermost pixels go on beyond the picture.
 struct Endless {
   const Plane<const uint8_t>& view;
   int32_t right, bottom;  // last column and row
@@ -61,7 +61,7 @@ void Interpolate(const Pixels& pixels, const CapturedLine& line, int32_t count, 
   }
 }
 
-// The same of places on rows or columns of pixels: all but those of diagonals.
+// Reads places that lie on rows or columns of pixels, as all but those of diagonals do.
 template <class Pixels, class Take>
 void InterpolateOnAxis(const Pixels& pixels, const CapturedLine& line, int32_t count,
                        const Take& take) {
@@ -191,8 +191,7 @@ int32_t CapturedBytes(const Window& window) {
 }
 
 int CapturedView(int u, int v, bool half) {
-  // By u + 1 and v + 1, at full distance; those at half distance are in the
-  // same order.
+  // Indexed by u + 1 and v + 1, at full distance; the views at half distance are in the same order.
   constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};
   const int index = kIndex[u + 1][v + 1];
   return half && index != 0 ? index + 8 : index;

@@ -11,8 +11,8 @@ int64_t CapturedShift(const ViewGrid& grid, int32_t disparity, bool half) {
   return RoundShift(full * 2, 1 + grid.layer + (half ? 1 : 0));
 }
 
-// From a place in the rendered view to the same point of a surface in the centre view and in the
-// captured view, along one axis, kShiftBits.
+// How far the same point of a surface lies from its place in the rendered view, in the centre view
+// and in the captured view, along one axis, kShiftBits.
 struct Offset {
   int32_t centre, captured;
 };
@@ -34,15 +34,15 @@ void Read(const HoleView& view, int u, int v, const CapturedLine& line, int32_t 
   }
 }
 
-// Squared, of the sums over R, G and B: at most 765^2.
+// Returns the square of the summed differences of R, G and B, at most 765^2.
 int32_t Difference(const uint8_t* a, const uint8_t* b) {
   const int32_t sum = Abs(a[0] - b[0]) + Abs(a[1] - b[1]) + Abs(a[2] - b[2]);
   return sum * sum;
 }
 
 // The diagonal view is missing: of the two views beside it, the more a pixel looks like the
-// background the more it counts. Nearly a choice, but without a jump, and transposing the picture
-// transposes the result.
+// background the more it counts. This is nearly a choice, but without a jump, and transposing
+// the picture transposes the result.
 void MixNeighbours(const uint8_t* a, const uint8_t* b, const uint8_t* colour, uint8_t* out) {
   const int32_t weight_a = Difference(b, colour) + 1, weight_b = Difference(a, colour) + 1;
   const int32_t sum = weight_a + weight_b;

@@ -38,9 +38,9 @@ struct SubapertureReciprocals {
 };
 inline constexpr SubapertureReciprocals kSubapertureReciprocals;
 
-// Weight of the neighbour (kShiftBits) in the aperture subaperture of width `subaperture`
-// (kShiftBits) for a sample `offset` away from its pixel's centre: clamp((|t| - 1/2) / L + 1/2, 0,
-// 1) of the aperture subaperture, L <= 1.
+// Weight of the neighbour (kShiftBits) in a subaperture of width L = `subaperture` (kShiftBits, at
+// most a pixel) for a sample t = `offset` away from its pixel's centre:
+// clamp((|t| - 1/2) / L + 1/2, 0, 1).
 inline int32_t SubapertureWeight(int32_t offset, int32_t subaperture) {
   const int32_t twice = 2 * Abs(offset) - kShiftOne + subaperture;  // <= subaperture
   if (twice <= 0) return 0;
@@ -80,7 +80,8 @@ class LineScan {
   void Scan(int64_t move) {
     move_ = move;
     edge_ = {nullptr, 0, 0};
-    // From the line's own end, not the wanted part's: what a gap borders on may lie beyond.
+    // The scan starts from the line's own end, since what a gap borders on may lie beyond the
+    // wanted part.
     filled_ = {Max(end_, line_.length - Whole(Shift(*runs_))), line_.length - 1};
     int32_t run_end = line_.length;
     for (const Run* run = runs_; run != runs_end_; ++run) {
@@ -89,7 +90,7 @@ class LineScan {
       const int32_t low = begin - whole;
       if (low < filled_.from) {
         if (low >= end_) {
-          // Not wanted itself, it may still cover a part of the last pixel that is.
+          // The run is not wanted itself, but it may cover a part of the last pixel that is.
           edge_ = {EndsAtEdge(run) ? run : nullptr, shift - whole * kShiftOne, whole};
         } else if (IsPlain(run, run_end, whole)) {
           const int32_t offset = shift - whole * kShiftOne;
@@ -201,7 +202,7 @@ class LineScan {
     return end;
   }
 
-  // The edge covers nothing: its last pixel stays whole.
+  // Ends the edge without covering anything: its last pixel stays whole.
   void FlushEdge() {
     if (edge_.run != nullptr && edge_.offset < 0) {
       const int32_t p = edge_.run->begin - edge_.whole;
@@ -210,8 +211,8 @@ class LineScan {
     edge_.run = nullptr;
   }
 
-  // Positions [first, end) with their neighbours; a pixel at the upper end of its surface or at the
-  // line's lower end has none there.
+  // Emits positions [first, end) with their neighbours; a pixel at the upper end of its surface or
+  // at the line's lower end has none there.
   void AddBlended(const Run& run, int32_t first, int32_t end, int32_t whole, int32_t offset,
                   int32_t weight) const {
     if (offset > 0) {
@@ -225,7 +226,7 @@ class LineScan {
     }
   }
 
-  // A stretch over another surface: pixels one by one.
+  // Stretches the run over another surface, pixel by pixel.
   void AddBeyondSurface(int32_t own, int32_t end, int32_t whole, int32_t offset,
                         int32_t weight) const {
     const int32_t side = offset > 0 ? 1 : -1;
@@ -239,9 +240,9 @@ class LineScan {
     return q >= 0 && q + 1 < line_.length && Abs(Disparity(q) - Disparity(q + 1)) <= kSurfaceStep;
   }
 
-  // Between a run's last pixel `q` and what is filled lies a gap: a stretched surface, which the
-  // run then covers, or a hole. Returns where the run ends. A nearer run ends between pixels: the
-  // one it covers in part belongs to the hole, whose rim it is.
+  // Decides what lies between a run's last pixel `q` and what is filled: a stretched surface, which
+  // the run then covers, or a hole. Returns where the run ends. A nearer run ends between pixels:
+  // the one it covers in part belongs to the hole, whose rim it is.
   int32_t CloseGap(int32_t q, int32_t whole, int32_t offset) const {
     const int32_t gap = q + 1 - whole;
     const int32_t step = Disparity(q) - Disparity(filled_.pixel);
@@ -259,7 +260,7 @@ class LineScan {
     return begin;
   }
 
-  // What goes on there is the surface of position q.
+  // Emits a hole in which the surface of position q goes on.
   void Hole(int32_t begin, int32_t end, int32_t q, const Rim& rim) const {
     end = Min(end, end_);
     if (begin >= end) return;

@@ -73,7 +73,7 @@ class SpanSink {
   }
 
  private:
-  // Mostly short: a call of memcpy takes as long as several of these moves.
+  // Most are short: a call of memcpy takes as long as several of these moves.
   static void CopyDisparities(const int16_t* from, int32_t count, int16_t* to) {
     constexpr int32_t kAtOnce = 4;
     constexpr size_t kBytes = kAtOnce * sizeof(int16_t);

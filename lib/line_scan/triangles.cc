@@ -67,7 +67,7 @@ class Star {
   }
 
  private:
-  // Rows of a field, those that some views are rendered in.
+  // The rows of a field that some views are rendered in.
   struct Rows {
     int32_t begin, end;
   };
@@ -106,8 +106,8 @@ class Star {
     list.Flush();
   }
 
-  // Types A and C along the rows of `field`, in the triangles on either side of that axis; `other`
-  // is the same field in the other orientation.
+  // Adds types A and C along the rows of `field`, in the triangles on either side of that axis;
+  // `other` is the same field in the other orientation.
   void AddViews(const Field& field, const Field& other, uint32_t* accumulators) {
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
@@ -133,7 +133,7 @@ class Star {
     return scratch_->runs + static_cast<size_t>(row) * static_cast<size_t>(field.width);
   }
 
-  // Largest j of the type C views (i, j): inside the triangle and the disc.
+  // Returns the largest j of the type C views (i, j) that lie inside the triangle and the disc.
   int32_t LastAcross(int32_t i) const {
     const int32_t n = grid_.n();
     int32_t j = i - 1;
@@ -297,7 +297,7 @@ class Star {
     }
   }
 
-  // The pass over rows left its sums by columns: what type C was added to.
+  // The pass over rows left its sums in the order of columns, which type C was added in.
   void AddTransposed() {
     const int32_t width = job_.rect.width, height = job_.rect.height;
     for (int32_t y = 0; y < height; ++y) {

@@ -7,12 +7,13 @@ namespace {
 
 constexpr int32_t kShareOne = 1 << kShareBits;
 
-// Blur radius, kShiftBits, up to which a surface counts as sharp. A pixel more, where the paper's
-// subsampled layers begin, and no outline shows.
+// Blur radius, kShiftBits, up to which a surface counts as sharp. With a pixel more, where the
+// paper's subsampled layers begin, no outline shows.
 constexpr int32_t kSharp = 2 * kShiftOne;
 
-// How much of it to take out, kShiftBits, none below 0: all where the near surface is defocused by
-// a pixel more than the far one, and that by no more than kSharp.
+// Returns how much of the near surface to take out of the pixel, kShiftBits, none below 0: all
+// where the near surface is defocused by a pixel more than the far one, and that by no more than
+// kSharp.
 int32_t StrengthOf(int32_t near_radius, int32_t far_radius) {
   return Min(Min(near_radius - far_radius, kSharp + kShiftOne - far_radius), kShiftOne);
 }
@@ -49,9 +50,10 @@ class Unmixer {
  private:
   int32_t Radius(int32_t disparity) const { return Abs(grid_.Shift(rim_, disparity)); }
 
-  // How much of the pixel (kShareBits) is to become the far colour. All of it from a share of a
-  // half on, but less below: what is taken away there the nearer surface's own pixels mostly lack
-  // on the other side of the edge. And less where nothing would show (StrengthOf).
+  // Returns how much of the pixel (kShareBits) is to become the far colour: all of it from a share
+  // of a half on. Below that it is less, since what is taken away there is mostly missing from the
+  // nearer surface's own pixels on the other side of the edge. It is less, too, where nothing would
+  // show (StrengthOf).
   static int32_t AmountOf(int32_t share, int32_t strength) {
     return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
   }

@@ -1,4 +1,4 @@
-// Boundary pixels (lib/mixture.h) of line scans.
+// Boundary pixels (lib/input/boundary_pixel.h) of line scans.
 #ifndef STARFOCUS_LIB_LINE_SCAN_UNMIX_H_
 #define STARFOCUS_LIB_LINE_SCAN_UNMIX_H_
 
@@ -13,8 +13,8 @@ namespace starfocus {
 // has vanished. What the far surface looks like there is read from the captured view beside the
 // centre in which the nearer one has moved out of the way; a pixel that is no mixture of the two
 // colours stays as it is. The field is as LoadField left it; only what lies beyond the picture
-// and its outermost pixels, which splat into no rectangle, are not looked at. Layer 0 only: what is
-// subsampled is blurred enough.
+// and its outermost pixels, which splat into no rectangle, are not looked at. Only layer 0
+// needs it: what is subsampled is blurred enough.
 void UnmixEdges(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                 Field* field);
 

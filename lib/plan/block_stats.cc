@@ -22,7 +22,7 @@ int32_t DisparityOf(int32_t distance, int64_t step) {
 }
 
 void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t step, Cell* cell) {
-  // One step in eight leads out of the cell, and is made up for.
+  // Of eight steps along a line one leads out of the cell; the seven inside stand for all eight.
   const auto scaled = [](uint32_t sum, uint32_t one) {
     return static_cast<uint16_t>(sum * kContentOne * kCellSize / (one * (kCellSize - 1)));
   };
@@ -35,7 +35,7 @@ void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t
   }
 }
 
-// Of pixels that all reach as far.
+// Stores the reach of a cell whose pixels all reach equally far.
 void StoreSides(int32_t reach, Cell* cell) {
   for (int side = 0; side < 4; ++side) {
     cell->reach[side] = static_cast<int16_t>(Checked(ranges::kReach, reach));
@@ -43,7 +43,8 @@ void StoreSides(int32_t reach, Cell* cell) {
   }
 }
 
-// Reach beyond either end of a line of 8 columns or rows of disparities, and the depth inside.
+// Stores how far 8 columns or rows of disparities reach beyond either end of their line, and how
+// deep inside lie those that do.
 void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
                   const int16_t (&highs)[kCellSize], Side low, Side high, Cell* cell) {
   for (int32_t k = 0; k < kCellSize; ++k) {
@@ -61,7 +62,7 @@ void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
   }
 }
 
-// Cells of one row.
+// Measures the cells of one row.
 class CellRow {
  public:
   CellRow(const simd::Kernels& kernels, const Window& window, const BlurScale& scale, int32_t row)

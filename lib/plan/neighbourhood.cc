@@ -5,7 +5,8 @@
 namespace starfocus {
 namespace {
 
-// `outside`: a repetition of the picture's edge, placed anywhere inside the cell.
+// Stores a cell as the kernels read it. A cell `outside` the picture repeats its edge, whose pixels
+// may lie anywhere inside the cell.
 void StorePlanes(const Cell& cell, bool outside, size_t plane, int16_t* out) {
   const auto reach = static_cast<int16_t>(ReachOf(cell.r_max));
   for (size_t side = 0; side < 4; ++side) {
@@ -22,7 +23,7 @@ void StorePlanes(const Cell& cell, bool outside, size_t plane, int16_t* out) {
 bool IsSmooth(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
   const int32_t range = high - low;
   const int32_t blur = Max(Abs(low - scale.focus), Abs(high - scale.focus));
-  // A slope goes on from cell to cell.
+  // A slope goes on from cell to cell, and so may its blur.
   const bool step = 2 * widest > range;
   const int32_t limit = step ? Max(scale.Radius(blur) / 2, kSharpSmoothRange) : kSmoothRange;
   return scale.step * range <= int64_t{Min(limit, kSmoothRange)} << kStepBits;

@@ -36,7 +36,7 @@ class Partition {
   void Measure(const CellGrid& cells, int32_t x, int32_t y, int32_t around) {
     x_ = x;
     y_ = y;
-    // Whole smallest blocks, which may hang over the picture's edges.
+    // The cells are those of whole smallest blocks, which may hang over the picture's edges.
     const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(rules_.width - x),
                          CellsWithin(rules_.height - y)};
     const Surroundings surroundings = LoadSurroundings(cells, inside, around, scratch_.cells);
@@ -93,7 +93,7 @@ class Partition {
     node.stats = MergeBlocks(children, NodeSide(level - 1));
   }
 
-  // Cells of the smallest blocks that are needed for this many pixels of the picture.
+  // Returns how many cells the smallest blocks have that hold this many pixels of the picture.
   int32_t CellsWithin(int32_t pixels) const {
     constexpr int32_t kCells = kSmallestBlock / kCellSize;
     return kCells * Min(side_, (pixels + kSmallestBlock - 1) / kSmallestBlock);
@@ -132,7 +132,7 @@ class Partition {
     return {x, y, Min(side, rules_.width - x), Min(side, rules_.height - y)};
   }
 
-  // The node as one block, and whether splitting it is cheaper.
+  // Plans the node as one block, and keeps the lesser of its time and that of its children.
   void Plan(int level, int32_t column, int32_t row) {
     PartitionNode& node = Node(level, column, row);
     Block& block = node.block;
@@ -218,7 +218,7 @@ class Partition {
     MeasureRendered(block);
   }
 
-  // N and the border, by the units that hold those cells.
+  // Chooses N and the border by the units that hold those cells.
   void MeasureRendered(Block* block) const {
     const Rect& rect = block->rendered;
     const int32_t right = rect.x + rect.width, bottom = rect.y + rect.height;

@@ -39,8 +39,8 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& 
   BlockWork work = {};
   work.field = extended_width * extended_height;
   // Half of the type A views lie on either axis; each is rendered over the border of the other.
-  // With subapertures A is to move slices along rows, for each column of views, and C to composite
-  // all.
+  // With subapertures the work of type A is to move slices along rows, once for each column of
+  // views, and that of type C is to composite all views.
   const uint64_t rows = views.a / 2 + (subapertures && all > 0 ? 1 : 0),
                  columns = subapertures ? 0 : views.a / 2;
   work.a = rows * width * extended_height + columns * extended_width * height;
@@ -70,7 +70,8 @@ uint64_t PredictTime(const sf_timing& timing, const BlockWork& work) {
 }
 
 uint64_t PredictGather(const sf_timing& timing, uint64_t pixels, int32_t radius) {
-  // An estimate: 16 taps' time for any radius, and a tap costs a 64th of an upsampled pixel.
+  // This is an estimate: any radius costs the time of 16 taps besides its own, and a tap costs a
+  // 64th of an upsampled pixel.
   return timing.upsample * pixels * (GatherTaps(radius) + 16) / 64;
 }
 

@@ -25,7 +25,7 @@ struct ViewCounts {
   uint32_t a, b, c;
 };
 ViewCounts CountViews(int32_t n);
-// Of the views of subapertures, whose types are all one but for those on the axes.
+// Counts the views of subapertures: those on the axes as type A, all others as type C.
 ViewCounts CountSubapertures(const Aperture& aperture);
 
 // The work of `rect` with `border`, both in pixels of the layer, and N views along the radius.

@@ -5,7 +5,7 @@
 namespace starfocus {
 namespace {
 
-// LayeredDepth that move less against each other leave a mixture what it is; a quarter of a pixel
+// Surfaces that move less against each other leave a mixture what it is; a quarter of a pixel
 // was no nearer to the truth.
 constexpr int32_t kLeastMove = kShiftOne;
 

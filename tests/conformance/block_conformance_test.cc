@@ -209,7 +209,7 @@ TEST_CASE("block conformance: more slices than fit, widest subapertures") {
     float low, high;
     double focus, max_blur;
   };
-  // LayeredDepth blurred on both sides of the focus, in more slices than there are and in more than
+  // Surfaces blurred on both sides of the focus, in more slices than there are and in more than
   // memory has room for; and an aperture whose cells are almost as wide as they are spread.
   constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
   test::Random random(53);
