@@ -16,6 +16,16 @@ int FewestSubapertures(double r, double theta) {
   return n;
 }
 
+double WorstOfLens(int lens, double r_max, double theta) {
+  constexpr double kFirst = 0.625, kStep = 0.5;
+  const SubapertureLights lights = SubapertureLights::OfLens(lens, theta);
+  double worst = 0;
+  for (double r = kFirst; r <= r_max; r += kStep) {
+    worst = std::max(worst, SquaredError(SubapertureKernel(r, lights), IdealKernel(r, theta)));
+  }
+  return worst;
+}
+
 SubapertureStudy::SubapertureStudy(double r_limit, double step, double theta)
     : step_(step), theta_(theta) {
   for (int k = 1; k * step <= r_limit; ++k) ideal_.push_back(IdealKernel(k * step, theta));

@@ -17,6 +17,11 @@ namespace starfocus::analysis {
 // Least N whose subapertures are no worse at r than the paper's kernel with N from (9).
 int FewestSubapertures(double r, double theta);
 
+// The largest SSE (8) of the kernel of a lens `lens` / kSubapertureUnits subapertures wide, over
+// the radii from 5/8 of a pixel on (below, the centre view alone is rendered) up to r_max. It is
+// what LensInSubapertures keeps small.
+double WorstOfLens(int lens, double r_max, double theta);
+
 // Errors of the kernels at every r, for searching rules.
 class SubapertureStudy {
  public:

@@ -60,10 +60,13 @@ Kernel PaperKernel(double r, int n, double theta, Rim rim) {
   return ViewKernel(r, n, theta, 1, rim);
 }
 
-SubapertureLights::SubapertureLights(int n, double theta) : n_(n) {
+SubapertureLights::SubapertureLights(int n, double theta)
+    : SubapertureLights(theta, LensInSubapertures(n)) {}
+
+SubapertureLights::SubapertureLights(double theta, int units) : lens_(units) {
   constexpr int kPoints = 16;
-  const double lens = double(LensInSubapertures(n)) / kSubapertureUnits;
-  for (int i = 0; i <= LastSubaperture(n); ++i) {
+  const double lens = double(units) / kSubapertureUnits;
+  for (int i = 0; i <= LastOfLens(units); ++i) {
     for (int j = 0; j <= i; ++j) {
       double light = 0;
       for (int point = 0; point < kPoints * kPoints; ++point) {
@@ -76,6 +79,15 @@ SubapertureLights::SubapertureLights(int n, double theta) : n_(n) {
   }
 }
 
+int SubapertureLights::views() const {
+  const int last = LastOfLens(lens_), most = MostOfLens(lens_);
+  int count = 0;
+  for (int i = -last; i <= last; ++i) {
+    for (int j = -last; j <= last; ++j) count += i * i + j * j <= most ? 1 : 0;
+  }
+  return count;
+}
+
 double SubapertureLights::operator()(int i, int j) const {
   const int high = std::max(std::abs(i), std::abs(j)), low = std::min(std::abs(i), std::abs(j));
   return lights_[size_t(high * (high + 1) / 2 + low)];
@@ -83,9 +95,8 @@ double SubapertureLights::operator()(int i, int j) const {
 
 Kernel SubapertureKernel(double r, const SubapertureLights& lights) {
   constexpr double kNarrowest = 1e-6;
-  const int n = lights.n();
-  const double subaperture = r * kSubapertureUnits / LensInSubapertures(n);
-  return SumViews(LastSubaperture(n), MostOfSubapertures(n), subaperture,
+  const double subaperture = r * kSubapertureUnits / lights.lens();
+  return SumViews(LastOfLens(lights.lens()), MostOfLens(lights.lens()), subaperture,
                   std::max(subaperture, kNarrowest), lights);
 }
 

@@ -23,17 +23,22 @@ Kernel ViewKernel(double r, int n, double theta, double width, Rim rim = Rim::kI
 // With the triangular h of the paper.
 Kernel PaperKernel(double r, int n, double theta, Rim rim = Rim::kIncluded);
 
-// What of the light of a lens of LensInSubapertures(n) goes through the subaperture around each
-// view (i, j).
+// What of the light of a lens goes through the subaperture around each of its views (i, j).
 class SubapertureLights {
  public:
+  // The lens of N views along the radius, as wide as LensInSubapertures says.
   SubapertureLights(int n, double theta);
+  // A lens `lens` / kSubapertureUnits subapertures wide, > 0.
+  static SubapertureLights OfLens(int lens, double theta) { return {theta, lens}; }
 
-  int n() const { return n_; }
+  int lens() const { return lens_; }
+  int views() const;
   double operator()(int i, int j) const;
 
  private:
-  int n_;
+  SubapertureLights(double theta, int lens);
+
+  int lens_;
   std::vector<double> lights_;  // of 0 <= j <= i
 };
 

@@ -31,18 +31,30 @@ struct Aperture {
 };
 
 // The radius of the lens in subapertures, kSubapertureUnits of each, for the N of
-// ViewsBySubaperture: of those near N that whose views give the kernel with the least error.
+// ViewsBySubaperture. Both are computed: over all radii that N serves, no lens with as many views
+// has less than half of the worst error that 123 has at N = 4, and none has less than 32 * 5 - 11
+// at N = 5 (lib/analysis/subaperture_rule.h, WorstOfLens; docs/constants.md has the table).
 inline constexpr int32_t kSubapertureUnits = 32;
 constexpr int32_t LensInSubapertures(int32_t n) {
   return n == 1 ? kSubapertureUnits : n == 4 ? 123 : kSubapertureUnits * n - 11;
 }
 
-// Their centres lie up to this far from its axis: a little beyond the rim they are worth rendering,
-// too. Last and most of their Aperture.
-constexpr int32_t FarthestSubaperture(int32_t n) { return n == 0 ? 0 : LensInSubapertures(n) + 5; }
-constexpr int32_t LastSubaperture(int32_t n) { return FarthestSubaperture(n) / kSubapertureUnits; }
+// Subapertures whose centres lie up to this far beyond the rim are rendered, too: at N = 4 that
+// halves the worst error, for the four views on the axes.
+inline constexpr int32_t kBeyondRim = 5;
+
+// How far from the axis of a lens the centres of its subapertures lie, kSubapertureUnits; `last`
+// and `most` of their Aperture.
+constexpr int32_t FarthestOfLens(int32_t lens) { return lens + kBeyondRim; }
+constexpr int32_t LastOfLens(int32_t lens) { return FarthestOfLens(lens) / kSubapertureUnits; }
+constexpr int32_t MostOfLens(int32_t lens) {
+  return FarthestOfLens(lens) * FarthestOfLens(lens) / (kSubapertureUnits * kSubapertureUnits);
+}
+constexpr int32_t LastSubaperture(int32_t n) {
+  return n == 0 ? 0 : LastOfLens(LensInSubapertures(n));
+}
 constexpr int32_t MostOfSubapertures(int32_t n) {
-  return FarthestSubaperture(n) * FarthestSubaperture(n) / (kSubapertureUnits * kSubapertureUnits);
+  return n == 0 ? 0 : MostOfLens(LensInSubapertures(n));
 }
 
 // Number of weights an Aperture of n stores.

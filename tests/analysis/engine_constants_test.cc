@@ -15,12 +15,16 @@
 #include "lib/analysis/search.h"
 #include "lib/analysis/selection.h"
 #include "lib/analysis/star_kernel.h"
+#include "lib/analysis/subaperture_rule.h"
 #include "lib/analysis/subsampled.h"
 #include "lib/analysis/view_kernel.h"
 #include "lib/base/aperture.h"
 #include "lib/base/fixed.h"
 #include "lib/base/rules.h"
+#include "lib/filter/blur.h"
+#include "lib/filter/gather.h"
 #include "lib/filter/layers.h"
+#include "lib/plan/timing.h"
 #include "lib/line_scan/line_scan.h"
 #include "starfocus/starfocus.h"
 
@@ -210,6 +214,59 @@ TEST_CASE("constants: the engine's cells keep the threshold at every radius that
     CHECK_MESSAGE(worst <= kThreshold, "the rule for subapertures: N = " << n << " misses (4) by "
                                                                          << worst
                                                                          << " at r = " << worst_r);
+  }
+}
+
+TEST_CASE("constants: the width of the lens in subapertures") {
+  const auto worst = [](int lens, double r_max) { return WorstOfLens(lens, r_max, kDefaultTheta); };
+  const auto views = [](int lens) {
+    return SubapertureLights::OfLens(lens, kDefaultTheta).views();
+  };
+  // N = 5: the least worst error of all lenses with 69 views.
+  const double chosen = worst(LensInSubapertures(5), 25);
+  CHECK(views(LensInSubapertures(5)) == 69);
+  for (int lens = 5 * kSubapertureUnits - 24; lens <= 5 * kSubapertureUnits; ++lens) {
+    if (views(lens) != 69) continue;
+    CHECK_MESSAGE(worst(lens, 25) >= chosen, "32 n - 11: a lens of " << lens << " / 32 is better");
+  }
+  // N = 4: of lenses with as few views none has less than half of its worst error.
+  CHECK(views(LensInSubapertures(4)) == 49);
+  for (int lens = 4 * kSubapertureUnits - 24; lens <= 4 * kSubapertureUnits; ++lens) {
+    if (views(lens) > 49) continue;
+    CHECK_MESSAGE(worst(lens, 11) > worst(LensInSubapertures(4), 11) / 2,
+                  "123: a lens of " << lens << " / 32 has half its error");
+  }
+  // What the others are chosen by one formula for: far below the threshold of the rule.
+  for (const double r_max : {11.0, 25.0, 34.0, 49.0}) {
+    const int n = ViewsBySubaperture(r_max);
+    CAPTURE(n);
+    CHECK_MESSAGE(worst(LensInSubapertures(n), r_max) < kThreshold / 4,
+                  "LensInSubapertures: the worst error of its views moves");
+  }
+}
+
+TEST_CASE("constants: taps of a kernel that gathers") {
+  // The model counts no fewer taps than kernels have, and not half as many again but for the
+  // smallest. It adds the time of 16 taps and takes a tap for a 64th of an upsampled pixel.
+  sf_timing timing = {};
+  timing.upsample = 64;
+  const auto counted = [&](int32_t r) {
+    return static_cast<int32_t>(PredictGather(timing, 1, r)) - 16;
+  };
+  constexpr int32_t kOne = 1 << kDisparityBits;
+  std::vector<uint16_t> weights(BlurWeightCount(kMaxGather));
+  std::vector<BlurKernel> kernels(static_cast<size_t>(BlurStepCount(kMaxGather)));
+  MakeBlurKernels(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), weights.data(),
+                  kernels.data());
+  for (int32_t r = kOne; r <= kMaxGather * kOne; r += kOne / 4) {
+    const BlurKernel& kernel = kernels[static_cast<size_t>(BlurStep(r))];
+    int32_t taps = 0;
+    for (int32_t n = 0; n <= kernel.size; ++n) {
+      for (int32_t m = 0; m <= kernel.size; ++m) taps += kernel.Weight(n, m) != 0 ? 1 : 0;
+    }
+    CHECK_MESSAGE(counted(r) >= taps, "PredictGather: radius " << r << " / 64 has " << taps);
+    CHECK_MESSAGE(counted(r) <= taps + taps / 2 + 6,
+                  "PredictGather: radius " << r << " / 64 has " << taps);
   }
 }
 
