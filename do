@@ -32,7 +32,7 @@ usage: ./do COMMAND
   partitions [write]  what block mode costs on boards with another architecture's coefficients
   coefficients [ARCH...]  those of boards from instruction counts, into lib/plan/timing_defaults.h:
           some ten minutes each
-  size [write]   what boards need: code, stack and memory (write: into toolchains/README.md)
+  size [write]   what boards need: code, stack and memory (write: into docs/boards.md)
   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file
   help    this text

@@ -47,13 +47,13 @@ golden_by_sve_length() {
   done
 }
 
-# into_readme NAME FILE: puts the file between the marks of that name in toolchains/README.md.
-into_readme() {
+# into_boards NAME FILE: puts the file between the marks of that name in docs/boards.md.
+into_boards() {
   awk -v name="$1" -v tables="$2" '
     $0 == "<!-- " name ": end -->" { skip = 0 }
     !skip { print }
     $0 == "<!-- " name ": begin -->" { skip = 1; while ((getline line < tables) > 0) print line }
-  ' toolchains/README.md >"$LOGS/README.md" && cp "$LOGS/README.md" toolchains/README.md
+  ' docs/boards.md >"$LOGS/boards.md" && cp "$LOGS/boards.md" docs/boards.md
 }
 
 build_counter() {
@@ -76,7 +76,7 @@ instructions() {
 
 # Instructions per pixel with NEON and with the plain reference kernels. Fails when any is more than
 # 3 % above tests/board/instruction_counts.txt, if that is of the same compiler; `record` writes that file
-# and toolchains/README.md.
+# and docs/boards.md.
 count() {
   local baseline=tests/board/instruction_counts.txt now=$LOGS/instruction_counts.txt name pixels kernels
   local compiler recorded
@@ -95,7 +95,7 @@ count() {
       $2 == "reference" {
         printf "| %s | %.0f | %.0f | %.2f |\n", $1, simd / $3, $4 / $3, $4 / simd
       }' $baseline >"$LOGS/count.md"
-    into_readme count "$LOGS/count.md"
+    into_boards count "$LOGS/count.md"
   fi
   recorded=$(sed -n 's/^compiler //p' $baseline)
   awk -v judge="$([ "$recorded" = "$compiler" ] && echo 1)" '
@@ -175,7 +175,7 @@ coefficients() {
 }
 
 # partitions [write]: what block mode costs with the coefficients of every architecture, by the count
-# (write: into toolchains/README.md).
+# (write: into docs/boards.md).
 partitions() {
   local preset name set counts=$LOGS/partitions.txt
   case "${1:-}" in '' | write) ;; *) fail "usage: ./do partitions [write]" ;; esac
@@ -215,7 +215,7 @@ partitions() {
       }
     }' "$counts" >"$LOGS/partitions.md" || fail "not everything was counted: see $counts"
   cat "$LOGS/partitions.md"
-  [ "${1:-}" != write ] || into_readme partitions "$LOGS/partitions.md"
+  [ "${1:-}" != write ] || into_boards partitions "$LOGS/partitions.md"
 }
 
 # cross ARCHITECTURE [build]: builds everything for a board and runs every test on an emulated one.
@@ -302,7 +302,7 @@ size() {
   done
   size_tables >"$LOGS/size.md" || exit 1
   if [ "${1:-}" = write ]; then
-    into_readme size "$LOGS/size.md"
+    into_boards size "$LOGS/size.md"
   else
     cat "$LOGS/size.md"
   fi

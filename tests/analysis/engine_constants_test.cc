@@ -24,8 +24,8 @@
 #include "lib/filter/blur.h"
 #include "lib/filter/gather.h"
 #include "lib/filter/layers.h"
-#include "lib/plan/timing.h"
 #include "lib/line_scan/line_scan.h"
+#include "lib/plan/timing.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
