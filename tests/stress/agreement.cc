@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "tests/stress/families.h"
+#include "tests/stress/rig.h"
 #include "tests/stress/setup.h"
 #include "tests/support/symmetry.h"
 
@@ -140,24 +141,6 @@ Outcome Continuity(test::Random* random) {
                            std::to_string(LayerOf(report_b)));
   }
   return {static_cast<double>(jump), ""};
-}
-
-// Workers, streaming and SIMD targets give the same bytes.
-Outcome Identical(test::Random* random) {
-  const Setup setup = RandomSetup({72, 8, 4, 12}, random);
-  const Variant first = RandomVariant(random);
-  std::string failure;
-  const std::vector<uint8_t> a = Refocused(setup, first, &failure);
-  for (int round = 0; round < 2; ++round) {
-    const Variant second = RandomVariant(random);
-    const std::vector<uint8_t> b = Refocused(setup, second, &failure);
-    if (!failure.empty()) return Fail(setup, failure);
-    if (a != b) {
-      return Fail(setup, "'" + first.Text() + "' and '" + second.Text() + "' differ by " +
-                             std::to_string(LargestDifference(a, b)));
-    }
-  }
-  return {0, ""};
 }
 
 }  // namespace starfocus::stress

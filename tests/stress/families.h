@@ -21,8 +21,7 @@ Outcome Steps(test::Random* random);
 Outcome Mirrors(test::Random* random);
 Outcome SideViews(test::Random* random);
 Outcome Continuity(test::Random* random);
-Outcome Identical(test::Random* random);
-Outcome Again(test::Random* random);
+Outcome Differential(test::Random* random);
 
 }  // namespace starfocus::stress
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "tests/stress/families.h"
+#include "tests/stress/rig.h"
 #include "tests/stress/setup.h"
 
 namespace starfocus::stress {

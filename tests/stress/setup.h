@@ -1,4 +1,4 @@
-// A random refocusing and the ways of running it: what the stress families are made of.
+// A random refocusing: what the stress families are made of.
 #ifndef STARFOCUS_TESTS_STRESS_SETUP_H_
 #define STARFOCUS_TESTS_STRESS_SETUP_H_
 
@@ -6,13 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
 namespace starfocus::stress {
 
-enum class Depth { kFlat, kSlanted, kPiecewise, kNoisy, kAlternating };
+enum class Depth { kFlat, kSlanted, kPiecewise, kNoisy, kAlternating, kSparse, kFramed };
 enum class Colours { kNoise, kExtreme, kSmooth };
 
 struct Setup {
@@ -31,24 +30,6 @@ struct Bounds {
   int modes = 4;        // sf_mode below this
   float disparity = 8;  // |d|
 };
-
-// How the engine is run; the bytes must not depend on it.
-struct Variant {
-  const simd::Kernels* kernels = nullptr;  // null: the best of this machine
-  int workers = 1;
-  bool stream = false;
-  int push_rows = 1, pull_rows = 1;
-  uint64_t order = 0;  // of the jobs; 0: no runner
-  int skips = 1;       // sf_config.skips
-  int poison = -1;     // byte that fills the workspace before; -1: as the heap gave it
-
-  std::string Text() const;
-};
-
-// Tables of kernels of every SIMD target of this machine, and the plain reference.
-const std::vector<const simd::Kernels*>& AllKernels();
-
-Variant RandomVariant(test::Random* random);
 
 // Radii below, at and above the thresholds of the rules, and at random.
 double RandomRadius(double largest, test::Random* random);
@@ -69,11 +50,6 @@ void RandomMode(int modes, Setup* setup, test::Random* random);
 
 // Configures the smallest max_blur that the lens fits.
 void FitBlur(Setup* setup);
-
-// Bytes of the picture without row padding; empty, with a line in *failure, when the engine failed
-// or wrote where it must not.
-std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::string* failure,
-                               sf_report* report = nullptr);
 
 }  // namespace starfocus::stress
 

@@ -21,8 +21,7 @@ const std::vector<Family>& Families() {
       {"mirrors", "gray levels off the mirrored picture", 4, Mirrors},
       {"side-views", "gray levels (flat scenes at disparity 0 read no side view)", 4, SideViews},
       {"continuity", "gray levels per step of 1/64 in focus, 1/256 in aperture", 6, Continuity},
-      {"identical", "gray levels between workers, streaming, SIMD targets", 6, Identical},
-      {"again", "gray levels of regions, prepared light fields and frames after others", 3, Again},
+      {"differential", "gray levels between ways to ask for a picture", 9, Differential},
   };
   return families;
 }

@@ -16,12 +16,18 @@ namespace test {
 
 constexpr uint8_t kPoison = 0xCD;
 
-// Small generator with the same sequence on every machine (xorshift64*).
+// Small generator with the same sequence on every machine (xorshift64*). A fuzzer's bytes, if there
+// are any, come before the sequence.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 0x1234567u) {}
+  Random(const uint8_t* bytes, size_t size) : Random(0) {
+    bytes_ = bytes;
+    left_ = size;
+  }
 
   uint32_t Next() {
+    if (left_ > 0) return NextGiven();
     state_ ^= state_ >> 12;
     state_ ^= state_ << 25;
     state_ ^= state_ >> 27;
@@ -36,7 +42,19 @@ class Random {
   uint8_t Byte() { return static_cast<uint8_t>(Next() >> 24); }
 
  private:
+  // Two bytes choose among as many values as the draws of a test have.
+  uint32_t NextGiven() {
+    uint32_t value = *bytes_++;
+    if (--left_ > 0) {
+      value |= static_cast<uint32_t>(*bytes_++) << 8;
+      --left_;
+    }
+    return value | value << 16;
+  }
+
   uint64_t state_;
+  const uint8_t* bytes_ = nullptr;
+  size_t left_ = 0;
 };
 
 // Any bytes, or black and white ones.

@@ -8,7 +8,7 @@
 #include "examples/cli/commands.h"
 #include "examples/command_line/options.h"
 #include "platform/file.h"
-#include "tests/stress/setup.h"
+#include "tests/stress/rig.h"
 
 namespace starfocus {
 namespace {
@@ -52,9 +52,9 @@ std::string RepeatCase(const stress::Family& family, const std::string& text) {
 }
 
 void Print(const stress::Report& report) {
-  std::printf("%-11s %8s  %-13s %s\n", "family", "cases", "largest error", "");
+  std::printf("%-12s %8s  %-13s %s\n", "family", "cases", "largest error", "");
   for (const stress::FamilyReport& part : report.families) {
-    std::printf("%-11s %8" PRIu64 "  %-13.4g %s", part.family->name, part.cases, part.largest,
+    std::printf("%-12s %8" PRIu64 "  %-13.4g %s", part.family->name, part.cases, part.largest,
                 part.family->measures);
     if (part.largest > 0) std::printf(" (case %" PRIu64 ")", part.largest_case);
     std::printf("\n");

@@ -1,0 +1,246 @@
+// The family of what may be asked for in several ways: whole, streamed, as a region, prepared, as
+// the frame after another; by used engines, and by ones whose runner failed before.
+#include "tests/stress/differential.h"
+
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+
+#include "tests/stress/families.h"
+
+namespace starfocus::stress {
+namespace {
+
+// Rendered views times pixels, of those modes whose views grow with the radius.
+constexpr double kMostWork = 300000;
+// The wider the blur, the smaller the picture and the fewer the cases.
+constexpr Bounds kRegimes[] = {
+    {160, 3, 4, 8}, {160, 6, 4, 500}, {100, 16, 4, 40}, {64, 50, 4, 500}, {40, 128, 4, 500}};
+
+bool IsLineByLine(const Setup& setup) {
+  const sf_params& params = setup.params;
+  return params.rule == SF_RULE_PAPER || params.mode == SF_MODE_BENCHMARK ||
+         (params.mode == SF_MODE_FRAME && params.rule == SF_RULE_DEFAULT);
+}
+
+// Line by line the views are as many as the square of the radius.
+void LimitWork(Setup* setup) {
+  const double n = 1 + setup->Radius() * std::max(1.0, setup->config.n_scale);
+  const double views = 3.2 * n * n * (setup->params.mode == SF_MODE_BENCHMARK ? 4 : 1);
+  if (!IsLineByLine(*setup) || views * setup->config.width * setup->config.height < kMostWork) {
+    return;
+  }
+  setup->params.mode = SF_MODE_BLOCK;
+  setup->params.rule = SF_RULE_SUBAPERTURE;
+}
+
+Setup RandomCase(test::Random* random) {
+  Setup setup = RandomSetup(kRegimes[std::min(random->Int(0, 4), random->Int(0, 4))], random);
+  LimitWork(&setup);
+  if (random->Int(0, 3) == 0) {
+    setup.config.max_blur =
+        std::min(SF_MAX_BLUR, std::ceil(setup.config.max_blur) + random->Int(0, 8));
+  }
+  if (random->Int(0, 3) == 0) {
+    sf_timing& timing = setup.config.timing;
+    for (uint32_t* coefficient : {&timing.block, &timing.field, &timing.a, &timing.b, &timing.c,
+                                  &timing.upsample, &timing.span, &timing.hole}) {
+      *coefficient = random->Int(0, 2) == 0 ? 0 : random->Next() % (SF_MAX_TIMING + 1);
+    }
+  }
+  return setup;
+}
+
+// Uses the engine for something else.
+void Distract(const Asked& asked, Rig* rig, test::Random* random) {
+  const Setup& setup = asked.setup;
+  sf_params params = setup.params;
+  params.mode = random->Int(0, 1) == 0 ? SF_MODE_BLOCK : SF_MODE_BLUR;
+  params.rule = SF_RULE_SUBAPERTURE;
+  params.aperture /= random->Int(1, 4);
+  const sf_light_field field = setup.scene.Field();
+  test::Output out(setup.scene.width, setup.scene.height);
+  const int what = random->Int(0, 5);
+  if (what == 1) params.region = RandomRegion(setup.scene, random);
+  if (what <= 1) {
+    sf_refocus(rig->get(), &params, &field, out.bytes.data(), out.stride, rig->runner(),
+               rig->runner_data(), nullptr);
+  }
+  if (what == 2 && rig->config().streaming != 0) {
+    int32_t moved = 0;
+    sf_stream_begin(rig->get(), &params);
+    sf_stream_push(rig->get(), &field, random->Int(0, setup.scene.height), &moved);
+    sf_stream_pull(rig->get(), out.bytes.data(), out.stride, random->Int(0, setup.scene.height),
+                   rig->runner(), rig->runner_data(), &moved, nullptr);
+  }
+  if (what == 3) rig->Restart();
+}
+
+std::string Whole(const Asked& asked, test::Random* random) {
+  Rig rig(asked.setup.config, RandomVariant(random));
+  Distract(asked, &rig, random);
+  test::Output out(asked.setup.scene.width, asked.setup.scene.height, random->Int(0, 5));
+  const sf_status status = Retried(&rig, random, [&] {
+    return test::Refocus(&rig, asked.setup.params, asked.setup.scene, &out, rig.runner(),
+                         rig.runner_data());
+  });
+  return Verdict(rig, status, asked.picture, out);
+}
+
+std::string Region(const Asked& asked, test::Random* random) {
+  Rig rig(asked.setup.config, RandomVariant(random));
+  Distract(asked, &rig, random);
+  sf_params params = asked.setup.params;
+  params.region = RandomRegion(asked.setup.scene, random);
+  test::Output out(params.region.width, params.region.height, random->Int(0, 5));
+  const sf_status status = Retried(&rig, random, [&] {
+    return test::Refocus(&rig, params, asked.setup.scene, &out, rig.runner(), rig.runner_data());
+  });
+  return Verdict(rig, status, Crop(asked, params.region), out);
+}
+
+// A map with a bad value is refused before anything is written, unless the region cannot read it.
+std::string Refused(const Asked& asked, test::Random* random) {
+  Rig rig(asked.setup.config, RandomVariant(random));
+  Setup setup = asked.setup;
+  const sf_region whole = {0, 0, setup.scene.width, setup.scene.height};
+  const bool part = random->Int(0, 2) > 0;
+  const sf_region region = part ? RandomRegion(setup.scene, random) : whole;
+  if (part) setup.params.region = region;
+  const int x = random->Int(0, setup.scene.width - 1), y = random->Int(0, setup.scene.height - 1);
+  const bool nan = random->Int(0, 1) == 0;
+  setup.scene.Disparity(x, y) = nan ? std::numeric_limits<float>::quiet_NaN() : 1000.0f;
+  test::Output out(region.width, region.height);
+  const sf_status status =
+      test::Refocus(&rig, setup.params, setup.scene, &out, rig.runner(), rig.runner_data());
+  if (status == SF_OK && part) return Verdict(rig, status, Crop(asked, region), out);
+  if (status != (nan ? SF_ERROR_NOT_FINITE : SF_ERROR_DISPARITY)) {
+    return "bad value at " + std::to_string(x) + "," + std::to_string(y) +
+           " is told as: " + sf_status_string(status);
+  }
+  return out.Untouched() ? "" : "bad value is refused after a part of the picture was written";
+}
+
+// Another engine prepares than the one that refocuses.
+std::string Prepared(const Asked& asked, test::Random* random) {
+  sf_config config = asked.setup.config;
+  if (random->Int(0, 1) == 0) config.largest_block = 32 << random->Int(0, 3);
+  if (random->Int(0, 1) == 0) config.max_blur = random->Real(0.5, 64);
+  if (random->Int(0, 1) == 0) config.gather = 1 - config.gather;
+  Rig maker(config, RandomVariant(random)), rig(asked.setup.config, RandomVariant(random));
+  size_t bytes = 0;
+  sf_status status = sf_prepared_size(&config, &bytes);
+  if (status != SF_OK) return sf_status_string(status);
+  const Memory memory(bytes, random->Int(0, 255), random);
+  sf_prepared* prepared = nullptr;
+  const sf_light_field field = asked.setup.scene.Field();
+  status = Retried(&maker, random, [&] {
+    return sf_prepare(maker.get(), &field, memory.get(), bytes, maker.runner(), maker.runner_data(),
+                      &prepared);
+  });
+  if (status != SF_OK) return std::string("preparing: ") + sf_status_string(status);
+  const bool part = random->Int(0, 1) == 0;
+  sf_params params = asked.setup.params;
+  if (part) params.region = RandomRegion(asked.setup.scene, random);
+  const sf_region whole = {0, 0, asked.setup.scene.width, asked.setup.scene.height};
+  const sf_region region = part ? params.region : whole;
+  test::Output out(region.width, region.height, random->Int(0, 5));
+  Distract(asked, &rig, random);
+  status = Retried(&rig, random, [&] {
+    return sf_refocus_prepared(rig.get(), &params, prepared, out.bytes.data(), out.stride,
+                               rig.runner(), rig.runner_data(), nullptr);
+  });
+  return Verdict(rig, status, Crop(asked, region), out);
+}
+
+struct Way {
+  const char* name;
+  int share;
+  std::string (*run)(const Asked& asked, test::Random* random);
+};
+
+constexpr Way kWays[] = {{"whole", 3, Whole},     {"streamed", 4, Streamed}, {"region", 2, Region},
+                         {"refused", 1, Refused}, {"prepared", 2, Prepared}, {"after", 4, After}};
+
+const Way& RandomWay(test::Random* random) {
+  int shares = 0;
+  for (const Way& way : kWays) shares += way.share;
+  int drawn = random->Int(0, shares - 1);
+  const Way* way = kWays;
+  for (; drawn >= way->share; ++way) drawn -= way->share;
+  return *way;
+}
+
+}  // namespace
+
+sf_region RandomRegion(const test::Scene& scene, test::Random* random) {
+  sf_region region = {random->Int(0, scene.width - 1), random->Int(0, scene.height - 1), 1, 1};
+  if (random->Int(0, 2) == 0) return region;
+  region.width = random->Int(1, scene.width - region.x);
+  region.height = random->Int(1, scene.height - region.y);
+  return region;
+}
+
+std::vector<uint8_t> Crop(const Asked& asked, const sf_region& region) {
+  std::vector<uint8_t> crop;
+  const auto row = 3 * static_cast<std::ptrdiff_t>(asked.setup.scene.width);
+  for (int y = region.y; y < region.y + region.height; ++y) {
+    const auto begin = asked.picture.begin() + y * row + 3 * region.x;
+    crop.insert(crop.end(), begin, begin + 3 * region.width);
+  }
+  return crop;
+}
+
+sf_status Retried(Rig* rig, test::Random* random, const std::function<sf_status()>& call) {
+  if (random->Int(0, 3) == 0) {
+    rig->FailAfter(random->Int(0, 1) == 0 ? random->Int(0, 5) : random->Int(0, 60));
+    const sf_status status = call();
+    const bool failed = rig->failed();
+    rig->FailAfter(-1);
+    if (failed && status == SF_OK) return SF_ERROR_RUNNER;
+    if (status != SF_OK && !(failed && status == SF_ERROR_RUNNER)) return status;
+  }
+  return call();
+}
+
+std::string Verdict(const Rig& rig, sf_status status, const std::vector<uint8_t>& expected,
+                    const test::Output& out) {
+  const std::string how = " (" + rig.variant().Text() + ")";
+  if (status != SF_OK) return sf_status_string(status) + how;
+  if (!out.PaddingUntouched()) return "row padding overwritten" + how;
+  const std::vector<uint8_t> got = out.Tight();
+  size_t first = got.size(), count = 0;
+  int largest = 0;
+  for (size_t i = 0; i < got.size(); ++i) {
+    if (got[i] == expected[i]) continue;
+    first = std::min(first, i);
+    largest = std::max(largest, std::abs(got[i] - expected[i]));
+    ++count;
+  }
+  if (count == 0) return "";
+  const size_t pixel = first / 3, width = static_cast<size_t>(out.width);
+  return std::to_string(count) + " of " + std::to_string(got.size()) + " bytes differ, by up to " +
+         std::to_string(largest) + ", first at " + std::to_string(pixel % width) + "," +
+         std::to_string(pixel / width) + how;
+}
+
+Outcome Differential(test::Random* random) {
+  Asked asked = {RandomCase(random), {}};
+  std::string failure;
+  asked.picture = Refocused(asked.setup, Variant(), &failure);
+  const test::Scene before = asked.setup.scene;
+  for (int k = 0; k < 3 && failure.empty(); ++k) {
+    const Way& way = RandomWay(random);
+    failure = way.run(asked, random);
+    if (!failure.empty()) failure = std::string(way.name) + ": " + failure;
+  }
+  if (failure.empty() && (before.pictures != asked.setup.scene.pictures ||
+                          before.disparity != asked.setup.scene.disparity)) {
+    failure = "the light field was written to";
+  }
+  if (failure.empty()) return {0, ""};
+  return {0, failure + ": " + asked.setup.Text()};
+}
+
+}  // namespace starfocus::stress

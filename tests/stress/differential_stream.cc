@@ -1,0 +1,105 @@
+// Rows pushed and pulled in portions of any size, with bad rows, failing runners and new beginnings
+// in between.
+#include <limits>
+
+#include "tests/stress/differential.h"
+
+namespace starfocus::stress {
+namespace {
+
+// After a failed pull the next one still says SF_OK with wrong rows: until it repeats the rows or
+// refuses to go on, a stream whose pull failed begins anew.
+constexpr bool kFailedPullIsRemembered = false;
+
+struct Streaming {
+  Rig* rig;
+  const Asked& asked;
+  test::Random* random;
+  test::Scene scene;  // of which rows are spoiled for a while
+  test::Output out;
+  int most;  // rows at a time
+  int pushed = 0, pulled = 0;
+  std::string failure = {};
+
+  int height() const { return scene.height; }
+
+  void Begin() {
+    pushed = pulled = 0;
+    const sf_status status = sf_stream_begin(rig->get(), &asked.setup.params);
+    if (status != SF_OK) failure = std::string("begin: ") + sf_status_string(status);
+  }
+
+  // One of the next rows may be bad: no row from there on is consumed.
+  void Push() {
+    const int rows = random->Int(0, std::min(most, height() - pushed));
+    const int bad = rows > 0 && random->Int(0, 11) == 0 ? random->Int(0, rows - 1) : rows;
+    float* spoiled =
+        bad < rows ? &scene.Disparity(random->Int(0, scene.width - 1), pushed + bad) : nullptr;
+    const float kept = spoiled != nullptr ? *spoiled : 0;
+    if (spoiled != nullptr) {
+      *spoiled = random->Int(0, 1) == 0 ? std::numeric_limits<float>::quiet_NaN() : -1000.0f;
+    }
+    const sf_light_field field = scene.Field(pushed);
+    int32_t consumed = -1;
+    const sf_status status = sf_stream_push(rig->get(), &field, rows, &consumed);
+    if (spoiled != nullptr) *spoiled = kept;
+    const bool refused = status == SF_ERROR_NOT_FINITE || status == SF_ERROR_DISPARITY;
+    if (consumed < 0 || consumed > bad || (refused && consumed != bad) ||
+        (status != SF_OK && !(refused && bad < rows))) {
+      failure = std::string("push: ") + sf_status_string(status) + ", " + std::to_string(consumed) +
+                " of " + std::to_string(rows) + " rows consumed, row " + std::to_string(bad) +
+                " is bad";
+    }
+    pushed += consumed;
+  }
+
+  void Pull() {
+    const int rows = random->Int(0, std::min(most, height() - pulled));
+    const bool fails = random->Int(0, 15) == 0;
+    if (fails) rig->FailAfter(random->Int(0, 8));
+    int32_t written = -1;
+    const sf_status status =
+        sf_stream_pull(rig->get(), out.bytes.data() + size_t(pulled) * out.stride, out.stride, rows,
+                       rig->runner(), rig->runner_data(), &written, nullptr);
+    const bool failed = fails && rig->failed();
+    if (fails) rig->FailAfter(-1);
+    if (failed != (status == SF_ERROR_RUNNER) || written < 0 || written > rows) {
+      failure = std::string("pull: ") + sf_status_string(status) + ", " + std::to_string(written) +
+                " of " + std::to_string(rows) + " rows written";
+      return;
+    }
+    pulled += written;
+    if (status == SF_OK) return;
+    if (status == SF_ERROR_STATE || !kFailedPullIsRemembered) return Begin();
+    if (status != SF_ERROR_RUNNER) failure = std::string("pull: ") + sf_status_string(status);
+  }
+};
+
+}  // namespace
+
+std::string Streamed(const Asked& asked, test::Random* random) {
+  Variant variant = RandomVariant(random);
+  variant.stream = true;
+  Rig rig(asked.setup.config, variant);
+  const test::Scene& scene = asked.setup.scene;
+  const int most = random->Int(0, 1) == 0 ? random->Int(1, 9) : scene.height;
+  Streaming stream = {&rig, asked, random, scene, test::Output(scene.width, scene.height, 3), most};
+  stream.Begin();
+  if (random->Int(0, 7) == 0) {
+    stream.Push();
+    stream.Pull();
+    if (stream.failure.empty()) stream.Begin();
+  }
+  int idle = 0;
+  while (stream.failure.empty() && stream.pulled < scene.height) {
+    const int moved = stream.pushed + stream.pulled;
+    if (random->Int(0, 3) > 0) stream.Push();
+    if (stream.failure.empty() && random->Int(0, 3) > 0) stream.Pull();
+    idle = stream.pushed + stream.pulled == moved ? idle + 1 : 0;
+    if (idle > 1000) stream.failure = "neither rows in nor rows out";
+  }
+  if (!stream.failure.empty()) return stream.failure + " (" + variant.Text() + ")";
+  return Verdict(rig, SF_OK, asked.picture, stream.out);
+}
+
+}  // namespace starfocus::stress

@@ -1,0 +1,96 @@
+// The ways of running an engine. The bytes of a picture must not depend on any of them.
+#ifndef STARFOCUS_TESTS_STRESS_RIG_H_
+#define STARFOCUS_TESTS_STRESS_RIG_H_
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simd/kernels.h"
+#include "starfocus/starfocus.h"
+#include "tests/stress/setup.h"
+#include "tests/support/test_scene.h"
+
+namespace starfocus::stress {
+
+struct Variant {
+  const simd::Kernels* kernels = nullptr;  // null: the best of this machine
+  int workers = 1;
+  bool stream = false;
+  int push_rows = 1, pull_rows = 1;
+  uint64_t order = 0;  // of the jobs; 0: no runner
+  int skips = 1;       // sf_config.skips
+  double room = 1;     // factor of sf_config.max_blur
+  int poison = -1;     // of the workspace, as Memory's
+
+  std::string Text() const;
+};
+
+// Tables of kernels of every SIMD target of this machine, and the plain reference.
+const std::vector<const simd::Kernels*>& AllKernels();
+
+Variant RandomVariant(test::Random* random);
+
+// Aligned memory of exactly so many bytes, each of the value `poison`; of noise if that is above
+// 255, as the heap gave them if it is negative.
+class Memory {
+ public:
+  Memory(size_t bytes, int poison, test::Random* random);
+  void* get() const { return memory_.get(); }
+
+ private:
+  struct Free {
+    void operator()(void* memory) const;
+  };
+  std::unique_ptr<void, Free> memory_;
+};
+
+// The engine of a variant, in memory of exactly the size it asked for, and the runner of its jobs.
+class Rig {
+ public:
+  Rig(const sf_config& config, const Variant& variant);
+
+  // Makes the engine anew in the memory that it used.
+  void Restart();
+
+  sf_status status() const { return status_; }
+  sf_engine* get() const { return engine_; }
+  const sf_config& config() const { return config_; }
+  const Variant& variant() const { return variant_; }
+
+  // Null when the engine is to run the jobs by itself.
+  sf_runner runner() const { return variant_.order == 0 && jobs_left_ < 0 ? nullptr : Run; }
+  void* runner_data() { return this; }
+
+  // The runner fails after so many jobs, or never if that is negative.
+  void FailAfter(int32_t jobs) {
+    jobs_left_ = jobs;
+    failed_ = false;
+  }
+  // Whether it did since the last FailAfter.
+  bool failed() const { return failed_; }
+
+ private:
+  // Runs jobs one after the other in a shuffled order as any of the workers.
+  static int Run(void* self, sf_job job, void* data, int32_t count);
+
+  sf_config config_;
+  Variant variant_;
+  size_t bytes_ = 0;
+  std::unique_ptr<Memory> memory_;
+  sf_engine* engine_ = nullptr;
+  sf_status status_ = SF_OK;
+  test::Random random_;
+  int32_t jobs_left_ = -1;
+  bool failed_ = false;
+};
+
+// Bytes of the picture without row padding; empty, with a line in *failure, when the engine failed
+// or wrote where it must not.
+std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant, std::string* failure,
+                               sf_report* report = nullptr);
+
+}  // namespace starfocus::stress
+
+#endif  // STARFOCUS_TESTS_STRESS_RIG_H_
