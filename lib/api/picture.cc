@@ -202,7 +202,7 @@ sf_status Refocus(const Request& request, EngineState* engine, sf_report* report
   }
   if (request.previous != nullptr) UsePrevious(request, engine);
   status = RefocusStripes(request, engine);
-  if (status == SF_OK && report != nullptr) *report = GetReport(*engine);
+  if (status == SF_OK && report != nullptr) *report = engine->report;
   return status;
 }
 

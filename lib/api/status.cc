@@ -47,7 +47,8 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_COUNT:
       return "row count is negative or beyond the picture's last row";
     case SF_ERROR_RUNNER:
-      return "the runner reported failure; the output is incomplete";
+      return "the runner failed, or ran its jobs not exactly once each by valid workers; the "
+             "output is incomplete";
     case SF_ERROR_OVERLAP:
       return "output overlaps an input or the workspace";
     case SF_ERROR_ALL_INVALID:

@@ -123,6 +123,6 @@ sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int
     *written += starfocus::CopyRows(&e, out + static_cast<size_t>(*written) * out_stride,
                                     out_stride, rows - *written);
   }
-  if (report != nullptr) *report = starfocus::GetReport(e);
+  if (report != nullptr) *report = e.report;
   return SF_OK;
 }

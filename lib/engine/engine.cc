@@ -1,5 +1,7 @@
 #include "lib/engine/engine.h"
 
+#include <cstring>
+
 namespace starfocus {
 namespace {
 
@@ -103,11 +105,12 @@ sf_status PushDisparity(const float* row, EngineState* engine) {
   return status;
 }
 
-sf_report GetReport(const EngineState& engine) {
-  sf_report report = engine.report;
-  for (int32_t worker = 0; worker < engine.config.max_workers; ++worker) {
+void TakeCounts(EngineState* engine) {
+  sf_report& report = engine->report;
+  for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
+    const Counts& counts = engine->workers[worker].counts;
     for (int layer = 0; layer < SF_LAYERS; ++layer) {
-      const sf_layer_report& part = engine.workers[worker].layers[layer];
+      const sf_layer_report& part = counts.layers[layer];
       sf_layer_report& sum = report.layers[layer];
       sum.blocks += part.blocks;
       sum.pixels += part.pixels;
@@ -117,16 +120,27 @@ sf_report GetReport(const EngineState& engine) {
       sum.measured_ns += part.measured_ns;
       report.rendered_samples += part.rendered_samples;
     }
-    const sf_skipped& skipped = engine.workers[worker].skipped;
-    report.skipped.copied_blocks += skipped.copied_blocks;
-    report.skipped.copied_pixels += skipped.copied_pixels;
-    report.skipped.filled_blocks += skipped.filled_blocks;
-    report.skipped.filled_pixels += skipped.filled_pixels;
-    report.centre_bytes += engine.workers[worker].centre_bytes;
-    report.side_bytes += engine.workers[worker].side_bytes;
-    report.gathered_pixels += engine.workers[worker].gathered_pixels;
+    report.skipped.copied_blocks += counts.skipped.copied_blocks;
+    report.skipped.copied_pixels += counts.skipped.copied_pixels;
+    report.skipped.filled_blocks += counts.skipped.filled_blocks;
+    report.skipped.filled_pixels += counts.skipped.filled_pixels;
+    report.centre_bytes += counts.centre_bytes;
+    report.side_bytes += counts.side_bytes;
+    report.gathered_pixels += counts.gathered_pixels;
   }
-  return report;
+  DropCounts(engine);
+}
+
+void DropCounts(EngineState* engine) {
+  for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
+    engine->workers[worker].counts = Counts();
+  }
+}
+
+void ForgetStripe(EngineState* engine) {
+  LayerMap& map = engine->map;
+  std::memset(map.units, kNoLayer, static_cast<size_t>(map.columns));
+  engine->plan.all_measured = false;
 }
 
 }  // namespace starfocus

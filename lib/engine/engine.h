@@ -7,6 +7,7 @@
 
 #include "lib/base/view_grid.h"
 #include "lib/engine/frame_changes.h"
+#include "lib/engine/jobs.h"
 #include "lib/filter/blur.h"
 #include "lib/filter/deblock.h"
 #include "lib/filter/layers.h"
@@ -43,7 +44,16 @@ struct Stream {
   int32_t written = 0;   // output rows the caller has pulled
 };
 
-// Memory of one worker and what it counted.
+// What a worker counts in one stripe.
+struct Counts {
+  sf_layer_report layers[SF_LAYERS];
+  sf_skipped skipped;
+  uint64_t centre_bytes;
+  uint64_t side_bytes;
+  uint64_t gathered_pixels;
+};
+
+// Memory of one worker.
 struct Worker {
   LineScanScratch line_scan;
   CompositorScratch compositor;
@@ -53,11 +63,7 @@ struct Worker {
   int16_t* middle_samples;  // at layer 1, on the way up from layer 2
   int16_t* picture_samples;
   PartitionScratch partition;
-  sf_layer_report layers[SF_LAYERS];
-  sf_skipped skipped;
-  uint64_t centre_bytes;
-  uint64_t side_bytes;
-  uint64_t gathered_pixels;
+  Counts counts;
 };
 
 // The blocks of a stripe, largest block by largest block.
@@ -109,9 +115,11 @@ struct EngineState {
 
   Plane<uint8_t> rings[kMaxViews];  // with streaming
   uint8_t* stripe_out;              // kDeblockRows and a stripe, packed
+  uint8_t* last_rows;               // the last kDeblockRows of the stripe before, as it left them
   Stream stream;
 
   Worker* workers;  // config.max_workers
+  JobSet jobs;
 };
 
 inline int32_t BlockSide(const EngineState& engine) { return engine.config.largest_block; }
@@ -172,8 +180,12 @@ sf_status ConvertDisparity(const EngineState& engine, const float* row, int16_t*
 // Converts the next row into the engine's ring.
 sf_status PushDisparity(const float* row, EngineState* engine);
 
-// The report of what has been refocused.
-sf_report GetReport(const EngineState& engine);
+// Adds to the report what the workers counted since the last time; or forgets it.
+void TakeCounts(EngineState* engine);
+void DropCounts(EngineState* engine);
+
+// There is no stripe before the next one: nothing that it made is of use.
+void ForgetStripe(EngineState* engine);
 
 }  // namespace starfocus
 

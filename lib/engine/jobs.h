@@ -1,13 +1,15 @@
-// Jobs for the caller's runner.
+// Jobs for the caller's runner, which is not trusted to run each of them once.
 #ifndef STARFOCUS_LIB_ENGINE_JOBS_H_
 #define STARFOCUS_LIB_ENGINE_JOBS_H_
 
+#include <atomic>
 #include <cstdint>
 
-#include "lib/engine/engine.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
+
+struct Worker;
 
 // Who runs the jobs; a null function: the calling thread.
 struct Runner {
@@ -15,19 +17,38 @@ struct Runner {
   void* data;
 };
 
-// Runs kJob(data, index, memory of a worker of data.engine) for all indices in [0, count), count >
-// 0. SF_OK or SF_ERROR_RUNNER.
+using JobFunction = void (*)(const void* data, int32_t index, int32_t worker);
+
+// The set of jobs that a runner has been given. It lies in the workspace, so that a job called too
+// late finds it closed. Words instead of bytes: some machines have no atomic bytes.
+struct JobSet {
+  int32_t max_workers = 0;
+  std::atomic<uint32_t>* progress = nullptr;  // of each job; there is room for MaxJobs
+  JobFunction function = nullptr;
+  const void* data = nullptr;
+  int32_t count = 0;
+  std::atomic<uint32_t> busy[SF_MAX_WORKERS] = {};  // 1: a job has that worker's memory
+  std::atomic<uint32_t> open{0};                    // 1: the runner has not returned yet
+  std::atomic<uint32_t> misused{0};                 // 1: a call was refused
+};
+
+// Most jobs of any set of an engine.
+int32_t MaxJobs(const sf_config& config);
+
+// Runs function(data, index, worker) for all indices in [0, count), count > 0. SF_OK, or
+// SF_ERROR_RUNNER when the runner failed or did not run each of them exactly once. No job runs any
+// more afterwards, whatever the runner does.
+sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const Runner& runner,
+                    JobSet* set);
+
+// The same of kJob, with the worker's memory, for an engine that the data point to.
 template <class Data, void (*kJob)(const Data&, int32_t, Worker*)>
-sf_status RunJobs(Data* data, int32_t count, const Runner& runner) {
-  const sf_job call = [](void* job_data, int32_t index, int32_t worker) {
-    const auto& job = *static_cast<const Data*>(job_data);
+sf_status RunJobs(const Data& data, int32_t count, const Runner& runner) {
+  const JobFunction function = [](const void* job_data, int32_t index, int32_t worker) {
+    const Data& job = *static_cast<const Data*>(job_data);
     kJob(job, index, &job.engine->workers[worker]);
   };
-  if (runner.run != nullptr) {
-    return runner.run(runner.data, call, data, count) == 0 ? SF_OK : SF_ERROR_RUNNER;
-  }
-  for (int32_t index = 0; index < count; ++index) call(data, index, 0);
-  return SF_OK;
+  return RunJobSet(function, &data, count, runner, &data.engine->jobs);
 }
 
 }  // namespace starfocus

@@ -228,6 +228,7 @@ void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->disparity.data = carver->Take<int16_t>(width * static_cast<size_t>(rows));
   engine->stripe_out =
       carver->Take<uint8_t>(3 * width * static_cast<size_t>(config.largest_block + kDeblockRows));
+  engine->last_rows = carver->Take<uint8_t>(3 * width * kDeblockRows);
   if (!streaming) return;
   for (int view = 0; view < config.views; ++view) {
     engine->rings[view].rows = rows;
@@ -247,6 +248,8 @@ size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
   TakeRows(config, &carver, &e);
   TakeLayers(config, &carver, &e);
   TakeStripe(config, &carver, &e);
+  e.jobs.max_workers = config.max_workers;
+  e.jobs.progress = carver.Take<std::atomic<uint32_t>>(static_cast<size_t>(MaxJobs(config)));
   e.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
     const Worker taken = TakeWorker(config, &carver);

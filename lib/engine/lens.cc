@@ -44,18 +44,11 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   }
   engine->report = sf_report();
   engine->report.r_max = r_max;
-  for (int32_t worker = 0; worker < config.max_workers; ++worker) {
-    for (sf_layer_report& layer : engine->workers[worker].layers) layer = sf_layer_report();
-    engine->workers[worker].skipped = sf_skipped();
-    engine->workers[worker].centre_bytes = 0;
-    engine->workers[worker].side_bytes = 0;
-    engine->workers[worker].gathered_pixels = 0;
-  }
+  DropCounts(engine);
   engine->disparity_rows = 0;
-  engine->map.rows = 0;
-  engine->plan.all_measured = false;
   engine->prepared = false;
   engine->changes.active = false;
+  ForgetStripe(engine);
   ForgetLayers(engine);
   return SF_OK;
 }

@@ -72,12 +72,12 @@ void FillColour(const uint8_t* colour, const Rect& rect, const Plane<uint8_t>& o
 // A window that counts for a worker what is read of its views.
 class Counting {
  public:
-  Counting(const Window& window, Worker* worker) : window_(window), worker_(*worker) {
+  Counting(const Window& window, Worker* worker) : window_(window), counts_(worker->counts) {
     window_.reads = &reads_;
   }
   ~Counting() {
-    worker_.centre_bytes += 3 * reads_.centre_pixels;
-    worker_.side_bytes += reads_.side_colours * static_cast<uint64_t>(CapturedBytes(window_));
+    counts_.centre_bytes += 3 * reads_.centre_pixels;
+    counts_.side_bytes += reads_.side_colours * static_cast<uint64_t>(CapturedBytes(window_));
   }
   Counting(const Counting&) = delete;
   Counting& operator=(const Counting&) = delete;
@@ -86,7 +86,7 @@ class Counting {
 
  private:
   Window window_;
-  Worker& worker_;
+  Counts& counts_;
   Reads reads_;
 };
 
@@ -128,7 +128,8 @@ void GatherCells(const EngineState& engine, const Block& block, const Plane<uint
   const GatherJob job = {&counting.window(), &engine.cells,       &engine.plan.gathered,
                          engine.scale,       engine.blur_kernels, engine.kernels,
                          block.rect};
-  worker->gathered_pixels += GatherRectangle(job, &field, At(out, block.rect, 0), out.stride);
+  worker->counts.gathered_pixels +=
+      GatherRectangle(job, &field, At(out, block.rect, 0), out.stride);
 }
 
 // What views give of a block: at layer 0 they need not be rendered for all of it.
@@ -153,15 +154,15 @@ Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane
   // Slices have ends, which move a little even then.
   if (pinhole || (!UsesSubapertures(engine) && NothingMoves(job))) {
     CopyCentre(engine, rect, out);
-    worker->centre_bytes += 3 * pixels;
-    worker->skipped.copied_blocks += 1;
-    worker->skipped.copied_pixels += pixels;
+    worker->counts.centre_bytes += 3 * pixels;
+    worker->counts.skipped.copied_blocks += 1;
+    worker->counts.skipped.copied_pixels += pixels;
     return {1, 3 * pixels};
   }
   if (const uint8_t* colour = OneColour(job)) {
     FillColour(colour, rect, out);
-    worker->skipped.filled_blocks += 1;
-    worker->skipped.filled_pixels += pixels;
+    worker->counts.skipped.filled_blocks += 1;
+    worker->counts.skipped.filled_pixels += pixels;
     return {0, 0};
   }
   return Render(engine, block, job, out, worker);
@@ -194,7 +195,7 @@ void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uin
     // After views, which know nothing of cells.
     if (block.gathers) GatherCells(engine, block, out, worker);
   }
-  sf_layer_report& report = worker->layers[block.layer];
+  sf_layer_report& report = worker->counts.layers[block.layer];
   report.blocks += 1;
   report.pixels += Samples(block.rect) / 3;
   report.views += rendered.views;

@@ -6,7 +6,7 @@
 
 namespace starfocus {
 
-// Writes the block's rectangle of the picture into `out` and counts it in worker->layers.
+// Writes the block's rectangle of the picture into `out` and counts it in worker->counts.
 void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
                   Worker* worker);
 

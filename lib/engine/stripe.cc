@@ -145,14 +145,9 @@ void MapBlock(const EngineState& engine, const Stripe& stripe, const Block& bloc
 // Units of the map that no block covers stay without a layer.
 void ClearMap(const Stripe& stripe) {
   LayerMap& map = stripe.engine->map;
-  const auto columns = static_cast<size_t>(map.columns);
-  if (map.rows > 0) {
-    std::memcpy(map.units, &map.At(0, map.rows - 1), columns);
-  } else {
-    std::memset(map.units, kNoLayer, columns);
-  }
   map.rows = (stripe.height + kSmallestBlock - 1) / kSmallestBlock;
-  std::memset(&map.At(0, 0), kNoLayer, columns * static_cast<size_t>(map.rows));
+  std::memset(&map.At(0, 0), kNoLayer,
+              static_cast<size_t>(map.columns) * static_cast<size_t>(map.rows));
 }
 
 // Counts a block that will be refocused; tells the caller of it.
@@ -241,10 +236,10 @@ sf_status PlanStripe(Stripe* stripe, const Runner& runner) {
   if (IsBlockMode(engine)) {
     engine.plan.gathered.first_row = stripe->y / kCellSize;
     stripe->first_cells = PlaceCells(stripe->y, stripe->height, &engine);
-    status = RunJobs<Stripe, MeasureColumn>(stripe, columns, runner);
+    status = RunJobs<Stripe, MeasureColumn>(*stripe, columns, runner);
     if (status != SF_OK) return status;
   }
-  status = RunJobs<Stripe, PlanBlocks>(stripe, columns, runner);
+  status = RunJobs<Stripe, PlanBlocks>(*stripe, columns, runner);
   if (status == SF_OK) ReadPlan(*stripe);
   return status;
 }
@@ -268,11 +263,40 @@ sf_status Deblock(Stripe* stripe, const Runner& runner) {
         static_cast<uint64_t>(inside + (stripe->y > 0 ? map.columns : 0));
     return SF_OK;
   }
-  const sf_status status = RunJobs<Stripe, DeblockRowBoundaries>(stripe, Columns(engine), runner);
+  const sf_status status = RunJobs<Stripe, DeblockRowBoundaries>(*stripe, Columns(engine), runner);
   const int32_t rows = stripe->last_row - stripe->first_row;
   if (status != SF_OK || rows <= 0) return status;
   return RunJobs<Stripe, DeblockColumnBoundaries>(
-      stripe, (rows + kSmallestBlock - 1) / kSmallestBlock, runner);
+      *stripe, (rows + kSmallestBlock - 1) / kSmallestBlock, runner);
+}
+
+sf_status RefocusPhases(Stripe* stripe, const Runner& runner) {
+  EngineState& engine = *stripe->engine;
+  sf_status status = PlanStripe(stripe, runner);
+  if (status == SF_OK && IsBlockMode(engine)) CountSpared(&engine);
+  if (status == SF_OK && IsBlockMode(engine) && !engine.prepared) {
+    const int32_t around = (engine.reach.cells + 1) * kCellSize;
+    PlaceLayers({stripe->y - around, stripe->y + stripe->height + around}, &engine);
+    status = FillLayers(&engine, runner);
+  }
+  if (status == SF_OK) status = RunJobs<Stripe, RefocusColumn>(*stripe, Columns(engine), runner);
+  if (status == SF_OK && IsDeblocking(engine)) status = Deblock(stripe, runner);
+  return status;
+}
+
+// What the next stripe takes over from this one.
+void KeepStripe(EngineState* engine) {
+  TakeCounts(engine);
+  LayerMap& map = engine->map;
+  std::memcpy(map.units, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
+}
+
+// As if the stripe had not been begun; what it shared with the one before is made again.
+void WithdrawStripe(const sf_report& report, EngineState* engine) {
+  engine->report = report;
+  DropCounts(engine);
+  engine->plan.all_measured = false;
+  ForgetLayers(engine);
 }
 
 }  // namespace
@@ -291,20 +315,17 @@ sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& ou
                    Max(0, y - kDeblockRows),
                    FinishedRows(*engine, y),
                    0};
+  const sf_report report = engine->report;
   if (!ChooseColumns(stripe)) {
-    engine->map.rows = 0;  // nothing for the next stripe to join
-    engine->plan.all_measured = false;
+    ForgetStripe(engine);  // nothing for the next stripe to join
     return SF_OK;
   }
-  sf_status status = PlanStripe(&stripe, runner);
-  if (status == SF_OK && IsBlockMode(*engine)) CountSpared(engine);
-  if (status == SF_OK && IsBlockMode(*engine) && !engine->prepared) {
-    const int32_t around = (engine->reach.cells + 1) * kCellSize;
-    PlaceLayers({y - around, y + stripe.height + around}, engine);
-    status = FillLayers(engine, runner);
+  const sf_status status = RefocusPhases(&stripe, runner);
+  if (status == SF_OK) {
+    KeepStripe(engine);
+  } else {
+    WithdrawStripe(report, engine);
   }
-  if (status == SF_OK) status = RunJobs<Stripe, RefocusColumn>(&stripe, Columns(*engine), runner);
-  if (status == SF_OK && IsDeblocking(*engine)) status = Deblock(&stripe, runner);
   return status;
 }
 
@@ -314,11 +335,15 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
 
 sf_status RefocusIntoBuffer(EngineState* engine, int32_t y, const Runner& runner) {
   const Plane<uint8_t> rows = BufferRows(*engine, y);
-  // The last rows of the stripe before may still change.
-  const Plane<uint8_t> before = BufferRows(*engine, y - BlockSide(*engine));
-  std::memmove(rows.Row(y - kDeblockRows), before.Row(y - kDeblockRows),
-               kDeblockRows * rows.stride);
-  return RefocusStripe(engine, y, rows, runner);
+  const size_t bytes = kDeblockRows * rows.stride;
+  // The last rows of the stripe before may still change, and anew when a stripe that failed is
+  // refocused again.
+  std::memcpy(rows.Row(y - kDeblockRows), engine->last_rows, bytes);
+  const sf_status status = RefocusStripe(engine, y, rows, runner);
+  if (status == SF_OK) {
+    std::memcpy(engine->last_rows, rows.Row(y + BlockSide(*engine) - kDeblockRows), bytes);
+  }
+  return status;
 }
 
 }  // namespace starfocus

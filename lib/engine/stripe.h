@@ -15,7 +15,8 @@ int32_t FinishedRows(const EngineState& engine, int32_t y);
 
 // Refocuses what the engine's region needs of the stripe that starts at row y, a multiple of the
 // largest block; stripes come one after the other. All rows within reach are in the windows; `out`
-// holds the stripe's rows and the kDeblockRows before it. SF_OK or SF_ERROR_RUNNER.
+// holds the stripe's rows and the kDeblockRows before it. SF_OK, or SF_ERROR_RUNNER: `out` is then
+// half made, and the engine as it was, so that the stripe can be refocused again.
 sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& out,
                         const Runner& runner);
 
@@ -23,7 +24,7 @@ sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& ou
 // change.
 Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y);
 
-// RefocusStripe into BufferRows.
+// RefocusStripe into BufferRows, which may be called again after it failed.
 sf_status RefocusIntoBuffer(EngineState* engine, int32_t y, const Runner& runner);
 
 }  // namespace starfocus

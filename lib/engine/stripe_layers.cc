@@ -23,7 +23,8 @@ void Downsample(const LayerJob& job, int32_t index, Worker* worker) {
   const int32_t end = index + 1 == Columns(engine) ? to->width : begin + side;
   if (kLayer == 1) {
     const int32_t rows = to->rows.last - to->rows.first;
-    worker->centre_bytes += 3 * static_cast<uint64_t>((2 * (end - begin) + 5) * (2 * rows + 5));
+    worker->counts.centre_bytes +=
+        3 * static_cast<uint64_t>((2 * (end - begin) + 5) * (2 * rows + 5));
     DownsamplePicture(*engine.kernels, engine.windows[0].centre, engine.config.width,
                       engine.config.height, begin, end, worker->resample, to);
   } else {
@@ -106,16 +107,15 @@ void PlaceLayers(const RowRange& of_picture, EngineState* engine) {
 }
 
 sf_status FillLayers(EngineState* engine, const Runner& runner) {
-  LayerJob job = {engine};
+  const LayerJob job = {engine};
   const int32_t columns = Columns(*engine);
   sf_status status = SF_OK;
   if (AnyColumn(*engine, 1)) {
-    status = RunJobs<LayerJob, Downsample<1>>(&job, columns, runner);
+    status = RunJobs<LayerJob, Downsample<1>>(job, columns, runner);
   }
   if (status == SF_OK && AnyColumn(*engine, 2)) {
-    status = RunJobs<LayerJob, Downsample<2>>(&job, columns, runner);
+    status = RunJobs<LayerJob, Downsample<2>>(job, columns, runner);
   }
-  if (status != SF_OK) ForgetLayers(engine);
   return status;
 }
 

@@ -81,7 +81,7 @@ typedef enum sf_status {
   SF_ERROR_DISPARITY = 19,   /**< disparity map holds a value outside the configured range */
   SF_ERROR_STATE = 20,       /**< streaming call without sf_stream_begin or streaming = 1 */
   SF_ERROR_COUNT = 21,       /**< row count negative, or more rows than the picture has */
-  SF_ERROR_RUNNER = 22,      /**< the runner reported failure; output is incomplete */
+  SF_ERROR_RUNNER = 22,      /**< the runner failed or misused its jobs; output is incomplete */
   SF_ERROR_OVERLAP = 23,     /**< output overlaps an input or the workspace */
   SF_ERROR_ALL_INVALID = 24, /**< disparity map without a single finite value */
   SF_ERROR_LAYER = 25,       /**< max_layer is not 0, 1 or 2 */
@@ -239,10 +239,13 @@ typedef struct sf_light_field {
 } sf_light_field;
 
 /** A job of the engine: call it with every index in [0, count) exactly once. `worker` is in
- *  [0, max_workers); two jobs that run at the same time must have different workers. */
+ *  [0, max_workers); two jobs that run at the same time must have different workers. A call that
+ *  breaks this does nothing, and the engine's call then returns SF_ERROR_RUNNER. */
 typedef void (*sf_job)(void* job_data, int32_t index, int32_t worker);
 
-/** Runs a set of jobs and returns when all are done; 0 for success. Never called with count 0. */
+/** Runs a set of jobs and returns when all are done; 0 for success. Never called with count 0. Jobs
+ *  that it has left running are waited for, and those it has left out are no longer run: both are
+ *  SF_ERROR_RUNNER. */
 typedef int (*sf_runner)(void* runner_data, sf_job job, void* job_data, int32_t count);
 
 /** What the blocks of one layer did. */
@@ -344,7 +347,10 @@ SF_API sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_f
                                 int32_t* consumed);
 
 /** Writes up to `rows` next finished rows to out; *written may be 0 until more rows are pushed.
- *  runner as in sf_refocus. report may be null; it is complete once the last row is written. */
+ *  runner as in sf_refocus. report may be null; it is complete once the last row is written. After
+ *  SF_ERROR_RUNNER the rows counted by *written are good, and the next pull goes on behind them: it
+ *  tells sf_params.on_block again of blocks that had been left half done, but the report counts
+ *  them once (only centre_bytes may grow: what was read in vain is read again). */
 SF_API sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
                                 sf_runner runner, void* runner_data, int32_t* written,
                                 sf_report* report);

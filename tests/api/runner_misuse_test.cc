@@ -1,0 +1,224 @@
+// Runners that break their contract: SF_ERROR_RUNNER, and nothing worse.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kWidth = 130, kHeight = 70, kWorkers = 2;
+
+// A runner's way to run one set of jobs; it always says success.
+using RunSet = void (*)(sf_job job, void* data, int32_t count);
+
+void RunAll(sf_job job, void* data, int32_t count) {
+  for (int32_t i = 0; i < count; ++i) job(data, i, i % kWorkers);
+}
+
+struct Misuse {
+  std::string what;
+  RunSet run;
+};
+
+const Misuse kMisuses[] = {
+    {"runs nothing", [](sf_job, void*, int32_t) {}},
+    {"skips the first job",
+     [](sf_job job, void* data, int32_t count) {
+       for (int32_t i = 1; i < count; ++i) job(data, i, 0);
+     }},
+    {"skips the last job",
+     [](sf_job job, void* data, int32_t count) {
+       for (int32_t i = 0; i < count - 1; ++i) job(data, i, 0);
+     }},
+    {"runs a job twice",
+     [](sf_job job, void* data, int32_t count) {
+       RunAll(job, data, count);
+       job(data, count - 1, 1);
+     }},
+    {"runs one job as often as there are jobs",
+     [](sf_job job, void* data, int32_t count) {
+       for (int32_t i = 0; i <= count; ++i) job(data, 0, 0);
+     }},
+    {"index -1",
+     [](sf_job job, void* data, int32_t count) {
+       job(data, -1, 0);
+       RunAll(job, data, count);
+     }},
+    {"index count",
+     [](sf_job job, void* data, int32_t count) {
+       RunAll(job, data, count);
+       job(data, count, 0);
+     }},
+    {"least index",
+     [](sf_job job, void* data, int32_t count) {
+       RunAll(job, data, count);
+       job(data, INT32_MIN, 0);
+     }},
+    {"largest index",
+     [](sf_job job, void* data, int32_t count) {
+       RunAll(job, data, count);
+       job(data, INT32_MAX, 0);
+     }},
+    {"worker -1",
+     [](sf_job job, void* data, int32_t count) {
+       for (int32_t i = 0; i < count; ++i) job(data, i, -1);
+     }},
+    {"worker max_workers",
+     [](sf_job job, void* data, int32_t count) {
+       for (int32_t i = 0; i < count; ++i) job(data, i, i % (kWorkers + 1));
+       job(data, 0, kWorkers);
+     }},
+    {"a wrong worker although all is done",
+     [](sf_job job, void* data, int32_t count) {
+       RunAll(job, data, count);
+       job(data, 0, SF_MAX_WORKERS);
+     }},
+    {"least worker", [](sf_job job, void* data, int32_t) { job(data, 0, INT32_MIN); }},
+    {"largest worker", [](sf_job job, void* data, int32_t) { job(data, 0, INT32_MAX); }},
+};
+
+// Misuses chosen sets.
+struct Runner {
+  RunSet misuse;
+  int misused_set;
+  int sets = 0;
+
+  static int Run(void* self, sf_job job, void* data, int32_t count) {
+    Runner& runner = *static_cast<Runner*>(self);
+    (runner.sets++ == runner.misused_set ? runner.misuse : RunAll)(job, data, count);
+    return 0;
+  }
+};
+
+struct Fixture {
+  test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -3, 6, 4);
+  sf_config config = test::ConfigFor(scene, 20);
+  sf_params params = test::Params(-9, 1, SF_MODE_BLOCK);
+  test::Output expected{kWidth, kHeight};
+
+  Fixture() {
+    config.max_workers = kWorkers;
+    config.largest_block = 32;
+    config.gather = 0;
+    test::Engine engine(config);
+    REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
+  }
+};
+
+TEST_CASE("runner: every misuse of every set is an error, and harms no later call") {
+  Fixture f;
+  test::Engine engine(f.config);
+  Runner good = {RunAll, -1};
+  test::Output out(kWidth, kHeight);
+  REQUIRE(test::Refocus(&engine, f.params, f.scene, &out, Runner::Run, &good) == SF_OK);
+  CHECK(out.bytes == f.expected.bytes);
+  CHECK(good.sets > 6);
+  for (const Misuse& misuse : kMisuses) {
+    CAPTURE(misuse.what);
+    for (int set = 0; set < good.sets; set += set < 6 ? 1 : 5) {
+      CAPTURE(set);
+      Runner bad = {misuse.run, set};
+      CHECK(test::Refocus(&engine, f.params, f.scene, &out, Runner::Run, &bad) == SF_ERROR_RUNNER);
+      CHECK(bad.sets == set + 1);
+    }
+    out = test::Output(kWidth, kHeight);
+    CHECK(test::Refocus(&engine, f.params, f.scene, &out) == SF_OK);
+    CHECK(out.bytes == f.expected.bytes);
+  }
+}
+
+TEST_CASE("runner: sf_prepare refuses a runner that skips a job") {
+  Fixture f;
+  test::Engine engine(f.config);
+  size_t bytes = 0;
+  REQUIRE(sf_prepared_size(&f.config, &bytes) == SF_OK);
+  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
+  uint8_t* aligned = memory.data();
+  while (reinterpret_cast<uintptr_t>(aligned) % SF_ALIGNMENT != 0) ++aligned;
+  const sf_light_field field = f.scene.Field();
+  Runner bad = {kMisuses[2].run, 1};
+  sf_prepared* prepared = reinterpret_cast<sf_prepared*>(aligned);
+  CHECK(sf_prepare(engine.get(), &field, aligned, bytes, Runner::Run, &bad, &prepared) ==
+        SF_ERROR_RUNNER);
+  CHECK(prepared == nullptr);
+}
+
+// The set that is running, for a clock that is asked within its jobs.
+struct {
+  sf_job job;
+  void* data;
+  bool nested;
+} running;
+
+TEST_CASE("runner: a worker that is busy gets no second job") {
+  Fixture f;
+  test::Engine engine(f.config);
+  test::Output out(kWidth, kHeight);
+  running.nested = false;
+  f.params.clock = []() -> uint64_t {
+    // As if another thread had the same worker at the same time.
+    if (!running.nested) running.job(running.data, 2, 0);
+    running.nested = true;
+    return 0;
+  };
+  const sf_runner runner = [](void*, sf_job job, void* data, int32_t count) {
+    running.job = job;
+    running.data = data;
+    for (int32_t i = 0; i < count; ++i) job(data, i, 0);
+    return 0;
+  };
+  CHECK(test::Refocus(&engine, f.params, f.scene, &out, runner) == SF_ERROR_RUNNER);
+  CHECK(running.nested);
+}
+
+TEST_CASE("runner: a job called after its runner has returned does nothing") {
+  Fixture f;
+  test::Engine engine(f.config);
+  test::Output out(kWidth, kHeight);
+  const sf_runner keeps = [](void*, sf_job job, void* data, int32_t count) {
+    running.job = job;
+    running.data = data;
+    RunAll(job, data, count);
+    return 0;
+  };
+  REQUIRE(test::Refocus(&engine, f.params, f.scene, &out, keeps) == SF_OK);
+  for (const int worker : {-1, 0, 1, kWorkers, SF_MAX_WORKERS}) {
+    for (const int index : {-1, 0, 1, 1000}) running.job(running.data, index, worker);
+  }
+  CHECK(out.bytes == f.expected.bytes);
+  // And spoils nothing that comes.
+  CHECK(test::Refocus(&engine, f.params, f.scene, &out, keeps) == SF_OK);
+  CHECK(out.bytes == f.expected.bytes);
+}
+
+TEST_CASE("runner: jobs that still run when their runner returns are waited for") {
+  Fixture f;
+  test::Engine engine(f.config);
+  const sf_runner leaves = [](void* thread, sf_job job, void* data, int32_t count) {
+    std::atomic<bool> started{false};
+    *static_cast<std::thread*>(thread) = std::thread([&started, job, data, count] {
+      started = true;
+      for (int32_t i = 0; i < 100 * count; ++i) job(data, i % count, 1);
+    });
+    while (!started) std::this_thread::yield();
+    return 0;
+  };
+  for (int round = 0; round < 50; ++round) {
+    std::thread thread;
+    test::Output out(kWidth, kHeight);
+    CHECK(test::Refocus(&engine, f.params, f.scene, &out, leaves, &thread) == SF_ERROR_RUNNER);
+    const std::vector<uint8_t> left = out.bytes;
+    thread.join();
+    CHECK(out.bytes == left);
+  }
+  test::Output out(kWidth, kHeight);
+  CHECK(test::Refocus(&engine, f.params, f.scene, &out) == SF_OK);
+  CHECK(out.bytes == f.expected.bytes);
+}
+
+}  // namespace

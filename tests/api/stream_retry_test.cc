@@ -1,0 +1,132 @@
+// A stream goes on after a runner that failed: the same pull again gives the bytes of a stream that
+// nothing happened to.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kWidth = 150, kHeight = 170;
+
+// Runs half of the jobs of chosen sets and fails: `fails_at` counts sets.
+struct Failing {
+  int fails_at, times;
+  int sets = 0;
+
+  static int Run(void* self, sf_job job, void* data, int32_t count) {
+    Failing& failing = *static_cast<Failing*>(self);
+    const int set = failing.sets++;
+    const bool fails = set >= failing.fails_at && set < failing.fails_at + failing.times;
+    for (int32_t i = 0; i < (fails ? (count + 1) / 2 : count); ++i) job(data, i, 0);
+    return fails ? 1 : 0;
+  }
+};
+
+struct Streamed {
+  test::Output out{kWidth, kHeight, 5};
+  sf_report report = {};
+  int failures = 0;
+};
+
+// Pushes all it can and pulls `chunk` rows at a time, again whenever the runner failed. An engine
+// of its own, since what another left in memory could be right.
+Streamed Stream(const sf_config& config, const sf_params& params, const test::Scene& scene,
+                int chunk, Failing* failing) {
+  Streamed result;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+  int pushed = 0, pulled = 0;
+  while (pulled < kHeight) {
+    int32_t consumed = 0, written = 0;
+    if (pushed < kHeight) {
+      const sf_light_field field = scene.Field(pushed);
+      REQUIRE(sf_stream_push(engine.get(), &field, kHeight - pushed, &consumed) == SF_OK);
+    }
+    uint8_t* const rows = result.out.bytes.data() + size_t(pulled) * result.out.stride;
+    const sf_status status =
+        sf_stream_pull(engine.get(), rows, result.out.stride, std::min(chunk, kHeight - pulled),
+                       Failing::Run, failing, &written, &result.report);
+    pushed += consumed;
+    pulled += written;
+    if (status == SF_ERROR_RUNNER) {
+      ++result.failures;
+      continue;
+    }
+    REQUIRE(status == SF_OK);
+    REQUIRE(consumed + written > 0);
+  }
+  return result;
+}
+
+// Surfaces in focus beside others far out of it, so that all layers are used and joined.
+test::Scene MixedScene() {
+  test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -1, 26, 8);
+  for (int y = 0; y < kHeight; ++y) {
+    const int first = 30 + y / 5;
+    for (int x = 0; x < kWidth; ++x) {
+      scene.Disparity(x, y) = x < first ? 0.0f : x < first + 25 ? 6.0f : 26.0f;
+    }
+  }
+  return scene;
+}
+
+void CheckEqual(const sf_report& report, const sf_report& expected) {
+  CHECK(report.n == expected.n);
+  CHECK(report.rendered_views == expected.rendered_views);
+  CHECK(report.rendered_samples == expected.rendered_samples);
+  CHECK(std::memcmp(report.layers, expected.layers, sizeof report.layers) == 0);
+  CHECK(std::memcmp(&report.skipped, &expected.skipped, sizeof report.skipped) == 0);
+  CHECK(report.disparity_bytes == expected.disparity_bytes);
+  CHECK(report.side_bytes == expected.side_bytes);
+  CHECK(report.gathered_pixels == expected.gathered_pixels);
+}
+
+void CheckRetries(const test::Scene& scene, const sf_params& params, int gather) {
+  sf_config config = test::ConfigFor(scene, 28);
+  config.largest_block = 32;
+  config.streaming = 1;
+  config.gather = gather;
+  Failing never = {1 << 20, 0};
+  const Streamed expected = Stream(config, params, scene, kHeight, &never);
+  REQUIRE(expected.failures == 0);
+  const bool all_layers = params.mode == SF_MODE_BLOCK && params.rule == SF_RULE_SUBAPERTURE;
+  for (const sf_layer_report& layer : expected.report.layers)
+    CHECK((!all_layers || layer.blocks > 0));
+  int failed = 0;
+  for (int set = 0; set < never.sets; ++set) {
+    CAPTURE(set);
+    Failing failing = {set, set % 3 == 0 ? 2 : 1};
+    const Streamed streamed = Stream(config, params, scene, set % 2 == 0 ? kHeight : 7, &failing);
+    CHECK(streamed.failures > 0);
+    failed += streamed.failures;
+    CHECK(streamed.out.bytes == expected.out.bytes);
+    CHECK(streamed.out.PaddingUntouched());
+    CheckEqual(streamed.report, expected.report);
+  }
+  CHECK(failed >= never.sets);
+}
+
+TEST_CASE("stream: a pull after one whose runner failed repeats its rows, with the same report") {
+  const test::Scene scene = MixedScene();
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK, SF_MODE_BLUR}) {
+    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+      for (const int gather : {0, 1}) {
+        const bool plain = rule == SF_RULE_SUBAPERTURE && gather == 0;
+        if (mode != SF_MODE_BLOCK && !plain) continue;
+        CAPTURE(mode);
+        CAPTURE(rule);
+        CAPTURE(gather);
+        sf_params params = test::Params(0, 1, mode);
+        params.rule = rule;
+        CheckRetries(scene, params, gather);
+      }
+    }
+  }
+}
+
+}  // namespace
