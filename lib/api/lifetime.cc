@@ -49,7 +49,9 @@ sf_status sf_workspace_size(const sf_config* config, size_t* bytes) {
   const sf_status status = starfocus::CheckConfig(*config);
   if (status != SF_OK) return status;
   EngineState* counted = nullptr;
-  *bytes = starfocus::LayOut(*config, nullptr, &counted);
+  const size_t needed = starfocus::LayOut(*config, nullptr, &counted);
+  if (needed == starfocus::kTooLarge) return SF_ERROR_TOO_LARGE;
+  *bytes = needed;
   return SF_OK;
 }
 

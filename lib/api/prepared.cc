@@ -16,14 +16,14 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
   Prepared& p = *prepared == nullptr ? counted : **prepared;
   const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
   p.disparity.stride = width;
-  p.disparity.data = carver.Take<int16_t>(width * height);
+  p.disparity.data = carver.Take<int16_t>(width, height);
   for (int layer = 1; layer <= config.max_layer; ++layer) {
     Plane<uint8_t>& plane = p.layers[layer];
     plane.stride = 3 * static_cast<size_t>(LayerSize(config.width, layer));
     plane.data =
-        carver.Take<uint8_t>(plane.stride * static_cast<size_t>(LayerSize(config.height, layer)));
+        carver.Take<uint8_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
   }
-  return carver.used();
+  return carver.Bytes();
 }
 
 sf_status ConvertAll(const EngineState& engine, const Prepared& prepared) {
@@ -92,7 +92,9 @@ sf_status sf_prepared_size(const sf_config* config, size_t* bytes) {
   const sf_status status = starfocus::CheckConfig(*config);
   if (status != SF_OK) return status;
   Prepared* counted = nullptr;
-  *bytes = starfocus::LayOutPrepared(*config, nullptr, &counted);
+  const size_t needed = starfocus::LayOutPrepared(*config, nullptr, &counted);
+  if (needed == starfocus::kTooLarge) return SF_ERROR_TOO_LARGE;
+  *bytes = needed;
   return SF_OK;
 }
 
@@ -107,6 +109,7 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
   if (status != SF_OK) return status;
   Prepared* made = nullptr;
   const size_t needed = starfocus::LayOutPrepared(e.config, nullptr, &made);
+  if (needed == starfocus::kTooLarge) return SF_ERROR_TOO_LARGE;
   if (bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
   const starfocus::Extent extent = starfocus::ExtentOf(memory, 0, 1, needed);
   if (starfocus::Overlaps(extent, starfocus::Workspace(e)) ||

@@ -72,6 +72,8 @@ const char* sf_status_string(sf_status status) {
              "max_layer";
     case SF_ERROR_GATHER:
       return "gather is not 0 or 1";
+    case SF_ERROR_TOO_LARGE:
+      return "the configuration needs more memory than this machine can address";
   }
   return "unknown status";
 }

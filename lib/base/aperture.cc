@@ -113,7 +113,7 @@ Aperture MakeSubapertures(int32_t n, uint32_t fall_off, uint16_t* weights) {
   Aperture aperture = Weigh(
       n, last, MostOfSubapertures(n),
       [&](int32_t i, int32_t j) { return LightOfSubaperture(i, j, radius, fall_off); }, weights);
-  aperture.extent = static_cast<double>(kSubapertureUnits * last) / radius;
+  aperture.extent = SubapertureExtent(n);
   return aperture;
 }
 

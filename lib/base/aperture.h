@@ -56,6 +56,23 @@ constexpr int32_t LastSubaperture(int32_t n) {
 constexpr int32_t MostOfSubapertures(int32_t n) {
   return n == 0 ? 0 : MostOfLens(LensInSubapertures(n));
 }
+// Where the last one lies, of the lens's radius.
+constexpr double SubapertureExtent(int32_t n) {
+  return n == 0
+             ? 1
+             : static_cast<double>(kSubapertureUnits * LastSubaperture(n)) / LensInSubapertures(n);
+}
+
+inline constexpr int32_t kMaxViewsAlongRadius = 256;
+
+// The farthest that the last one lies for any N: 4 views reach beyond the rim.
+constexpr double LargestSubapertureExtent() {
+  double largest = 1;
+  for (int32_t n = 1; n <= kMaxViewsAlongRadius; ++n) {
+    largest = SubapertureExtent(n) > largest ? SubapertureExtent(n) : largest;
+  }
+  return largest;
+}
 
 // Number of weights an Aperture of n stores.
 constexpr size_t ApertureSize(int32_t n) {
@@ -63,12 +80,12 @@ constexpr size_t ApertureSize(int32_t n) {
 }
 
 // The views i^2 + j^2 <= N^2 as in a_{d,N} of (5). Fills weights[ApertureSize(n)]; fall_off as
-// ApertureFallOff gives; n in [0, 256].
+// ApertureFallOff gives; n in [0, kMaxViewsAlongRadius].
 Aperture MakeAperture(int32_t n, uint32_t fall_off, uint16_t* weights);
 
 // Views that stand for their subapertures of a lens LensInSubapertures(n) wide, by what of its
-// light is theirs: of the subapertures that straddle its rim the part within. n in [0, 256]; 0 is
-// the centre view alone.
+// light is theirs: of the subapertures that straddle its rim the part within. n in
+// [0, kMaxViewsAlongRadius]; 0 is the centre view alone.
 Aperture MakeSubapertures(int32_t n, uint32_t fall_off, uint16_t* weights);
 
 }  // namespace starfocus

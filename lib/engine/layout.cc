@@ -82,10 +82,10 @@ void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   scratch.least_blur = carver->Take<int32_t>(extended);
 }
 
-// E and R of CompositorScratch, and the largest N; `reach`: pixels beyond a rectangle of slices.
-// The pool is what is left of `bytes` for all, if that is enough.
-CompositorScratch TakeCompositor(size_t extended, size_t rectangle, size_t reach, size_t max_n,
-                                 size_t bytes, Carver* carver) {
+// E and R of CompositorScratch, and the largest N; `reach`: LargestSliceReach. The pool is what is
+// left of `bytes` for all, if that is enough for slices that reach `usual_reach`.
+CompositorScratch TakeCompositor(size_t extended, size_t rectangle, size_t reach,
+                                 size_t usual_reach, size_t max_n, size_t bytes, Carver* carver) {
   CompositorScratch scratch;
   const size_t first = carver->Mark();
   LayeredDepth& surfaces = scratch.surfaces;
@@ -107,13 +107,13 @@ CompositorScratch TakeCompositor(size_t extended, size_t rectangle, size_t reach
   TakeField(extended, carver, &scratch);
   carver->Reuse(field);
   constexpr size_t kLeastSlices = 5;
-  const size_t least =
-      kLeastSlices * (SliceBytes(kLeastColumns, kLeastRows, reach) + TileBytes(kLeastRows, reach));
+  const size_t least = kLeastSlices * (SliceBytes(kLeastColumns, kLeastRows, usual_reach) +
+                                       TileBytes(kLeastRows, usual_reach));
   // Less what rounding to SF_ALIGNMENT may add.
   const size_t others = used + simd::kPadding + 2 * SF_ALIGNMENT;
   const size_t left = bytes > others ? bytes - others : 0;
-  scratch.limits = {kLargeSlices * SliceSize(rectangle, rectangle, reach),
-                    kLargeTiles * ShiftedRows(rectangle, reach), left > least ? left : least};
+  scratch.limits = {kLargeSlices * SliceSize(rectangle, rectangle, usual_reach),
+                    kLargeTiles * ShiftedRows(rectangle, usual_reach), left > least ? left : least};
   scratch.pool = carver->Take<uint8_t>(scratch.limits.bytes);
   return scratch;
 }
@@ -130,9 +130,11 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const size_t shared = carver->Mark();
   TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.line_scan);
   carver->Reuse(shared);
-  const auto rim = static_cast<size_t>(reach.border - kCellSize - 2);
+  constexpr int32_t kMargin = simd::kMaxSpread + 1;
   worker.compositor =
-      TakeCompositor(extended, side, rim + kSliceMargin, static_cast<size_t>(LargestSliceN(config)),
+      TakeCompositor(extended, side, static_cast<size_t>(LargestSliceReach(config.max_blur)),
+                     static_cast<size_t>(reach.border - kCellSize - 2 + kMargin),
+                     static_cast<size_t>(LargestSliceN(config)),
                      WorkerBytes(side) - (shared - first) - sizeof(Worker), carver);
   carver->Reuse(shared);
   // A rendered rectangle is at most half a block and 4 pixels wide.
@@ -183,9 +185,9 @@ void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
     plane.half.stride = plane.rgb.stride = plane.samples.stride = 3 * width;
     const auto above = static_cast<size_t>(LayerRows(config, layer - 1));
     const auto rows = static_cast<size_t>(LayerRows(config, layer));
-    plane.half.data = carver->Take<int16_t>(3 * width * (above + 8));
-    plane.rgb.data = carver->Take<uint8_t>(3 * width * rows);
-    plane.samples.data = carver->Take<int16_t>(3 * width * rows);
+    plane.half.data = carver->Take<int16_t>(3 * width, above + 8);
+    plane.rgb.data = carver->Take<uint8_t>(3 * width, rows);
+    plane.samples.data = carver->Take<int16_t>(3 * width, rows);
   }
 }
 
@@ -225,15 +227,15 @@ void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   const int32_t rows = config.largest_block + 2 * beyond;
   engine->disparity.rows = rows;
   engine->disparity.stride = width;
-  engine->disparity.data = carver->Take<int16_t>(width * static_cast<size_t>(rows));
+  engine->disparity.data = carver->Take<int16_t>(width, static_cast<size_t>(rows));
   engine->stripe_out =
-      carver->Take<uint8_t>(3 * width * static_cast<size_t>(config.largest_block + kDeblockRows));
-  engine->last_rows = carver->Take<uint8_t>(3 * width * kDeblockRows);
+      carver->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
+  engine->last_rows = carver->Take<uint8_t>(3 * width, kDeblockRows);
   if (!streaming) return;
   for (int view = 0; view < config.views; ++view) {
     engine->rings[view].rows = rows;
     engine->rings[view].stride = 3 * width;
-    engine->rings[view].data = carver->Take<uint8_t>(3 * width * static_cast<size_t>(rows));
+    engine->rings[view].data = carver->Take<uint8_t>(3 * width, static_cast<size_t>(rows));
   }
 }
 
@@ -255,7 +257,7 @@ size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
     const Worker taken = TakeWorker(config, &carver);
     if (*engine != nullptr) e.workers[worker] = taken;
   }
-  return carver.used();
+  return carver.Bytes();
 }
 
 Extent Workspace(const EngineState& engine) {

@@ -11,37 +11,62 @@
 
 namespace starfocus {
 
-// Hands out aligned pieces of a block of memory, each followed by simd::kPadding bytes.
+// Bytes of what is larger than memory can be.
+inline constexpr size_t kTooLarge = SIZE_MAX;
+
+// Hands out aligned pieces of a block of memory, each followed by simd::kPadding bytes, as long as
+// all of them together take `most` bytes: no object is larger than half of the addresses.
 class Carver {
  public:
-  explicit Carver(void* base) : base_(static_cast<uint8_t*>(base)) {}
+  explicit Carver(void* base, size_t most = PTRDIFF_MAX)
+      : base_(static_cast<uint8_t*>(base)), most_(most) {}
 
+  // `count` times `times` of them.
   template <class T>
-  T* Take(size_t count) {
+  T* Take(size_t count, size_t times = 1) {
     T* piece = base_ == nullptr ? nullptr : reinterpret_cast<T*>(base_ + used_);
-    const size_t bytes = count * sizeof(T) + simd::kPadding;
-    used_ += (bytes + SF_ALIGNMENT - 1) / SF_ALIGNMENT * SF_ALIGNMENT;
+    Add(Product(Product(count, times), sizeof(T)));
     return piece;
   }
 
-  size_t used() const { return used_ > most_ ? used_ : most_; }
+  // Of all pieces, or kTooLarge: those handed out by then lie anywhere.
+  size_t Bytes() const { return too_large_ ? kTooLarge : used_ > largest_ ? used_ : largest_; }
 
   // What is taken from here on shares memory with what was taken since `mark` was.
   size_t Mark() const { return used_; }
   void Reuse(size_t mark) {
-    most_ = used();
+    largest_ = used_ > largest_ ? used_ : largest_;
     used_ = mark;
   }
   // And behind all of it.
-  void GoOn() { used_ = used(); }
+  void GoOn() { used_ = used_ > largest_ ? used_ : largest_; }
 
  private:
+  // SIZE_MAX for all that is larger.
+  static constexpr size_t Product(size_t a, size_t b) {
+    return a != 0 && b > SIZE_MAX / a ? SIZE_MAX : a * b;
+  }
+
+  void Add(size_t bytes) {
+    const size_t left = most_ - used_;
+    if (left < kExtra || bytes > left - kExtra) {
+      too_large_ = true;
+    } else {
+      used_ += (bytes + kExtra) / SF_ALIGNMENT * SF_ALIGNMENT;
+    }
+  }
+
+  // Padding, and what rounding up to SF_ALIGNMENT adds at most.
+  static constexpr size_t kExtra = simd::kPadding + SF_ALIGNMENT - 1;
+
   uint8_t* base_;
-  size_t used_ = 0, most_ = 0;
+  size_t most_;
+  size_t used_ = 0, largest_ = 0;
+  bool too_large_ = false;
 };
 
 // Lays out an engine for a valid configuration at `base` (aligned to SF_ALIGNMENT), or counts when
-// base is null. Returns the bytes used; *engine is null when counting.
+// base is null. Returns the bytes used, or kTooLarge; *engine is null when counting.
 size_t LayOut(const sf_config& config, void* base, EngineState** engine);
 
 // The memory an engine lives in.

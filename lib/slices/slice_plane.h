@@ -30,11 +30,21 @@ constexpr int32_t SliceMargin(int32_t subaperture) {
   return subaperture > kShiftOne && subaperture <= kBoxSubaperture ? 2
                                                                    : SpreadReach(subaperture) + 1;
 }
-inline constexpr int32_t kSliceMargin = simd::kMaxSpread + 1;  // at most
 
 // Pixels beyond the rectangle that a slice blurred by `rim` (both kShiftBits) is made of.
 constexpr int32_t SliceReach(int32_t rim, int32_t subaperture) {
   return ((rim + kShiftOne - 1) >> kShiftBits) + SliceMargin(subaperture);
+}
+
+// The most that SliceReach is, for lenses with blur radii up to `max_blur` pixels, any N and the
+// widest subapertures. Added to the blur: what rounding the focus and a disparity to kDisparityBits
+// does, and the middle of a slice, which lies up to two such steps beyond its pixels where bins
+// hold several disparities (kSliceBins).
+constexpr int32_t LargestSliceReach(double max_blur) {
+  constexpr double kRounding = 4.0 / (1 << kDisparityBits);
+  constexpr int32_t kWidest = 8 * kShiftOne;
+  const double rim = (max_blur + kRounding) * LargestSubapertureExtent() * kShiftOne;
+  return SliceReach(static_cast<int32_t>(rim) + 1, kWidest);
 }
 
 struct SlicePlane {

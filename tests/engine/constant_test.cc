@@ -17,6 +17,9 @@ struct Trial {
   sf_mode mode = SF_MODE_FRAME;
   int block = 64;
   bool noisy = false;
+  int levels = 0;  // of disparity, pixel by pixel at random
+  double max_blur = 64, n_scale = 1;
+  sf_rule rule = SF_RULE_DEFAULT;
   uint8_t color[3] = {0, 0, 0};
   uint64_t seed = 1;
 };
@@ -26,7 +29,8 @@ std::string Text(const Trial& t) {
          std::to_string(t.views) + " disparity [" + std::to_string(t.low) + ", " +
          std::to_string(t.high) + "] focus " + std::to_string(t.focus) + " aperture " +
          std::to_string(t.aperture) + " mode " + std::to_string(t.mode) + " block " +
-         std::to_string(t.block) + (t.noisy ? " noisy" : "") + " seed " + std::to_string(t.seed);
+         std::to_string(t.block) + (t.noisy ? " noisy" : "") + " n_scale " +
+         std::to_string(t.n_scale) + " seed " + std::to_string(t.seed);
 }
 
 // Refocuses a picture of one colour; the number of samples that changed, -1 on error.
@@ -36,20 +40,25 @@ int Changed(const Trial& t) {
   for (auto& picture : scene.pictures) {
     for (size_t i = 0; i < picture.size(); ++i) picture[i] = t.color[i % 3];
   }
-  if (t.noisy) {
+  if (t.levels > 0) {
+    for (float& disparity : scene.disparity) {
+      disparity = t.low + (t.high - t.low) * random.Int(0, t.levels - 1) / (t.levels - 1);
+    }
+  } else if (t.noisy) {
     test::NoisyDisparity(&scene, &random);
   } else {
     test::RandomDisparity(&scene, &random);
   }
-  sf_config config = test::ConfigFor(scene, 64);
+  sf_config config = test::ConfigFor(scene, t.max_blur);
   config.largest_block = t.block;
+  config.n_scale = t.n_scale;
   config.skips = 0;  // what is filled has passed no filter
   test::Engine engine(config);
   test::Output out(t.width, t.height);
+  sf_params params = test::Params(t.focus, t.aperture, t.mode);
+  params.rule = t.rule;
   const sf_status status =
-      engine.status() != SF_OK
-          ? engine.status()
-          : test::Refocus(&engine, test::Params(t.focus, t.aperture, t.mode), scene, &out);
+      engine.status() != SF_OK ? engine.status() : test::Refocus(&engine, params, scene, &out);
   if (status != SF_OK) {
     MESSAGE(sf_status_string(status));
     return -1;
@@ -110,6 +119,31 @@ TEST_CASE("constant: every small size") {
         t.views = views;
         t.seed = static_cast<uint64_t>(width * 100 + height);
         for (int c = 0; c < 3; ++c) t.color[c] = static_cast<uint8_t>(t.seed * (c + 7));
+        CHECK_MESSAGE(Changed(t) == 0, Text(t));
+      }
+    }
+  }
+}
+
+// Few views of a wide lens: slices of subapertures wider than three pixels are spread in memory of
+// their own, and those of N = 4 reach beyond the blur radius.
+TEST_CASE("constant: wide subapertures") {
+  Trial t;
+  t.width = t.height = 64;
+  t.views = 1;
+  t.levels = 6;
+  t.rule = SF_RULE_SUBAPERTURE;
+  std::fill(t.color, t.color + 3, static_cast<uint8_t>(204));
+  for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+    for (const double n_scale : {0.5, 0.66, 0.8, 2.0}) {
+      for (int radius = 10; radius <= 50; radius += mode == SF_MODE_FRAME ? 3 : 10) {
+        t.mode = mode;
+        t.n_scale = n_scale;
+        t.max_blur = radius;
+        t.low = static_cast<float>(-radius);
+        t.high = static_cast<float>(radius);
+        t.block = radius % 2 == 0 ? 64 : 32;
+        t.seed = static_cast<uint64_t>(radius);
         CHECK_MESSAGE(Changed(t) == 0, Text(t));
       }
     }

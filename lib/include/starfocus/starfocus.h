@@ -92,7 +92,8 @@ typedef enum sf_status {
   SF_ERROR_SKIPS = 30,       /**< skips is not 0 or 1 */
   SF_ERROR_REGION = 31,      /**< region outside the picture, or a streaming call with a region */
   SF_ERROR_PREPARED = 32,    /**< prepared light field of another configuration */
-  SF_ERROR_GATHER = 33       /**< gather is not 0 or 1 */
+  SF_ERROR_GATHER = 33,      /**< gather is not 0 or 1 */
+  SF_ERROR_TOO_LARGE = 34    /**< more memory needed than half of the machine's addresses */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */

@@ -1,0 +1,108 @@
+// The carving of memory, and the sizes that it gives of engines and prepared light fields.
+#include "lib/engine/layout.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::Carver;
+using starfocus::kTooLarge;
+
+TEST_CASE("layout: pieces are aligned, padded and counted as they are carved") {
+  alignas(SF_ALIGNMENT) static uint8_t memory[1 << 12];
+  Carver counting(nullptr), carver(memory);
+  for (Carver* one : {&counting, &carver}) {
+    uint8_t* first = one->Take<uint8_t>(1);
+    int32_t* second = one->Take<int32_t>(7, 5);
+    const size_t mark = one->Mark();
+    one->Take<uint8_t>(1000);
+    one->Reuse(mark);
+    uint8_t* shared = one->Take<uint8_t>(10);
+    one->GoOn();
+    uint8_t* last = one->Take<uint8_t>(0);
+    if (one == &counting) {
+      CHECK((first == nullptr && second == nullptr && shared == nullptr && last == nullptr));
+      continue;
+    }
+    CHECK(first == memory);
+    CHECK(reinterpret_cast<uint8_t*>(second) == memory + 128);  // 1 and 64 bytes
+    CHECK(shared == memory + 128 + 256);                        // 140 and 64
+    CHECK(last == shared + 1088);                               // 1000 and 64
+  }
+  CHECK(counting.Bytes() == 128 + 256 + 1088 + 64);
+  CHECK(carver.Bytes() == counting.Bytes());
+}
+
+TEST_CASE("layout: what memory cannot hold is too large, not small") {
+  constexpr size_t kMost = 1 << 16, kExtra = 64 + 63;  // of a piece: padding, rounding
+  const auto bytes = [](size_t count, size_t times) {
+    Carver carver(nullptr, kMost);
+    carver.Take<uint32_t>(count, times);
+    return carver.Bytes();
+  };
+  CHECK(bytes((kMost - kExtra) / 4, 1) <= kMost);
+  CHECK(bytes(1, (kMost - kExtra) / 4) <= kMost);
+  CHECK(bytes((kMost - kExtra) / 4 + 1, 1) == kTooLarge);
+  // Products that wrap to little.
+  CHECK(bytes(SIZE_MAX / 4 + 1, 1) == kTooLarge);
+  CHECK(bytes(SIZE_MAX / 8 + 2, 2) == kTooLarge);
+  CHECK(bytes(SIZE_MAX, SIZE_MAX) == kTooLarge);
+  CHECK(bytes(0, SIZE_MAX) == 64);
+  // A sum that wraps, and what follows it.
+  Carver carver(nullptr);
+  carver.Take<uint8_t>(SIZE_MAX / 2 - kExtra);
+  CHECK(carver.Bytes() <= SIZE_MAX / 2);
+  const size_t mark = carver.Mark();
+  carver.Take<uint8_t>(1);
+  CHECK(carver.Bytes() == kTooLarge);
+  carver.Reuse(mark);
+  CHECK(carver.Bytes() == kTooLarge);
+}
+
+// On 32 bits sizes of wide streaming configurations are beyond all addresses.
+TEST_CASE("layout: sizes never wrap, and too large ones are an error of every call") {
+  sf_config config;
+  sf_config_init(&config);
+  config.height = 65535;
+  config.views = SF_MAX_VIEWS;
+  config.disparity_min = -500;
+  config.disparity_max = 500;
+  config.max_blur = SF_MAX_BLUR;
+  config.largest_block = 256;
+  config.streaming = 1;
+  int refused = 0;
+  for (int width = 999; width <= SF_MAX_SIZE; width += 1000) {
+    config.width = width;
+    // Views of 3 bytes a pixel in as many rows as a stripe with what disparities and blurs reach.
+    const uint64_t rings = uint64_t{3 * SF_MAX_VIEWS * (256 + 2 * 628)} * uint64_t(width);
+    const uint64_t disparities = uint64_t{2 * 65535} * uint64_t(width);
+    for (const bool prepared : {false, true}) {
+      size_t bytes = 77;
+      const sf_status status =
+          prepared ? sf_prepared_size(&config, &bytes) : sf_workspace_size(&config, &bytes);
+      CAPTURE(width);
+      CAPTURE(prepared);
+      if (status == SF_OK) {
+        CHECK(bytes > (prepared ? disparities : rings));
+        CHECK(bytes < (prepared ? 2 : 4) * (prepared ? disparities : rings) + (1 << 26));
+        continue;
+      }
+      CHECK(status == SF_ERROR_TOO_LARGE);
+      CHECK(bytes == 77);
+      ++refused;
+      if (prepared) continue;
+      alignas(SF_ALIGNMENT) static uint8_t little[SF_ALIGNMENT];
+      sf_engine* engine = nullptr;
+      CHECK(sf_init(&config, little, sizeof(little), &engine) == SF_ERROR_TOO_LARGE);
+      CHECK(engine == nullptr);
+    }
+  }
+  CHECK((refused > 0) == (sizeof(size_t) == 4));
+}
+
+}  // namespace

@@ -1,0 +1,61 @@
+// How far slices reach: memory is laid out for the most that any lens may ask for.
+#include "lib/slices/slice_plane.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "lib/base/rules.h"
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+struct Views {
+  explicit Views(int n)
+      : weights(starfocus::ApertureSize(n)),
+        aperture(starfocus::MakeSubapertures(n, starfocus::ApertureFallOff(0.8), weights.data())) {}
+
+  std::vector<uint16_t> weights;
+  starfocus::Aperture aperture;
+};
+
+// Pixels that the slice of `disparity` reaches beyond a rectangle.
+int ReachOf(const Views& views, double focus, double aperture, int disparity) {
+  const starfocus::ViewGrid grid =
+      starfocus::MakeViewGrid(views.aperture, focus, aperture * views.aperture.extent, 0, false);
+  starfocus::SlicePlane placed;
+  starfocus::PlaceSlice(grid, int16_t(disparity), {0, 0, 64, 64}, &placed);
+  return placed.reach;
+}
+
+TEST_CASE("slice planes: no slice of any N reaches farther than the memory laid out for it") {
+  test::Random random(7);
+  std::vector<Views> all;
+  for (int n = 1; n <= 26; ++n) all.emplace_back(n);
+  double nearest = 9;  // to the most, in pixels
+  for (int round = 0; round < 40000; ++round) {
+    const double blur = random.Int(0, 3) == 0 ? random.Int(1, 128) : random.Real(0.5, SF_MAX_BLUR);
+    const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.3, 1);
+    // A focus that is rounded away from the disparity, which is rounded as well.
+    const double away = std::min(blur / aperture, 500.0);
+    const double focus = std::floor(random.Real(-10, 10) * 64) / 64 + 0.5 / 64;
+    const int disparity = int(std::floor((focus - away) * 64 + 0.5)) - random.Int(0, 2);
+    if (std::abs(disparity) > 500 * 64) continue;
+    for (const int n : {4, 4 + random.Int(-3, 22)}) {
+      const Views& views = all[size_t(n - 1)];
+      const int reach = ReachOf(views, focus, aperture, disparity);
+      const int most = starfocus::LargestSliceReach(aperture * away);
+      CAPTURE(n);
+      CAPTURE(blur);
+      CAPTURE(aperture);
+      CHECK(reach <= most);
+      nearest = std::min(nearest, double(most - reach));
+    }
+  }
+  CHECK(nearest == 0);
+}
+
+}  // namespace
