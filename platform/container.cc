@@ -14,10 +14,6 @@ bool StartsWith(const Bytes& bytes, const uint8_t (&signature)[kSize]) {
   return bytes.size() >= kSize && std::equal(signature, signature + kSize, bytes.begin());
 }
 
-uint32_t Read32(const uint8_t* bytes) {
-  return uint32_t(bytes[0]) << 24 | uint32_t(bytes[1]) << 16 | uint32_t(bytes[2]) << 8 | bytes[3];
-}
-
 // The CRC of a PNG chunk (PNG specification, annex D): x^32 + x^26 + ... + 1, reflected.
 struct CrcTable {
   uint32_t of[256] = {};
@@ -41,9 +37,10 @@ uint32_t Crc(const uint8_t* bytes, size_t size) {
 Container CheckPng(const Bytes& bytes) {
   for (size_t at = sizeof(kPngSignature); at + 12 <= bytes.size();) {
     const uint8_t* chunk = &bytes[at];
-    const size_t length = Read32(chunk);
+    const size_t length = ReadBigEndian32(chunk);
     if (length > bytes.size() - at - 12) return Container::kTruncated;
-    if (Crc(chunk + 4, length + 4) != Read32(chunk + 8 + length)) return Container::kBroken;
+    if (Crc(chunk + 4, length + 4) != ReadBigEndian32(chunk + 8 + length))
+      return Container::kBroken;
     if (std::equal(chunk + 4, chunk + 8, "IEND")) return Container::kWhole;
     at += 12 + length;
   }
@@ -102,8 +99,14 @@ Container CheckJpeg(const Bytes& bytes) {
 
 }  // namespace
 
+uint32_t ReadBigEndian32(const uint8_t* bytes) {
+  return uint32_t(bytes[0]) << 24 | uint32_t(bytes[1]) << 16 | uint32_t(bytes[2]) << 8 | bytes[3];
+}
+
+bool IsPng(const Bytes& bytes) { return StartsWith(bytes, kPngSignature); }
+
 Container CheckContainer(const Bytes& bytes) {
-  if (StartsWith(bytes, kPngSignature)) return CheckPng(bytes);
+  if (IsPng(bytes)) return CheckPng(bytes);
   if (StartsWith(bytes, kJpegSignature)) return CheckJpeg(bytes);
   return Container::kUnknown;
 }

@@ -2,6 +2,8 @@
 #ifndef STARFOCUS_PLATFORM_CONTAINER_H_
 #define STARFOCUS_PLATFORM_CONTAINER_H_
 
+#include <cstdint>
+
 #include "platform/file.h"
 
 namespace starfocus {
@@ -14,6 +16,12 @@ enum class Container {
 };
 
 Container CheckContainer(const Bytes& bytes);
+
+// Whether the file begins as a PNG file does.
+bool IsPng(const Bytes& bytes);
+
+// The whole number in four bytes, the highest first.
+uint32_t ReadBigEndian32(const uint8_t* bytes);
 
 }  // namespace starfocus
 

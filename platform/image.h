@@ -11,6 +11,11 @@ namespace starfocus {
 // Largest width and height of any file read or written: SF_MAX_SIZE of starfocus.h.
 inline constexpr int kMaxPictureSize = 65535;
 
+// Whether so many pixels can have room at all: on 32 bits the largest pictures cannot.
+constexpr bool FitsMemory(int width, int height, size_t bytes_per_pixel) {
+  return uint64_t(width) * uint64_t(height) <= uint64_t{PTRDIFF_MAX} / bytes_per_pixel;
+}
+
 struct Image {
   int width = 0;
   int height = 0;

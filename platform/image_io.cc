@@ -4,50 +4,139 @@
 #include <stb/stb_image_write.h>
 
 #include <climits>
-#include <memory>
+#include <new>
 
 #include "platform/container.h"
+#include "platform/png.h"
 #include "platform/ppm.h"
+#include "platform/stb_memory.h"
 
 namespace starfocus {
 namespace {
 
 constexpr int kJpegQuality = 95;
+// stb_image reads 2^30 samples of a PNG file, which may have four a pixel, and both it and
+// stb_image_write count bytes in an int.
+constexpr int64_t kMostStbPixels = int64_t{1} << 28;
 
-std::string DecodeStb(const std::string& path, const Bytes& bytes, Image* image) {
-  int width = 0, height = 0, channels = 0;
-  if (bytes.size() > INT_MAX) return Expected(path, "a file below 2 GiB", "a larger one");
-  const Container container = CheckContainer(bytes);
+std::string SizeText(int64_t width, int64_t height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+std::string CheckWhole(const std::string& path, Container container) {
+  if (container == Container::kWhole) return "";
   if (container == Container::kTruncated) {
     return Expected(path, "an undamaged picture", "a truncated one");
   }
   if (container == Container::kBroken) {
     return Expected(path, "an undamaged picture", "a broken one (checksum or code table)");
   }
-  const int size = static_cast<int>(bytes.size());
-  if (container == Container::kUnknown ||
-      !stbi_info_from_memory(bytes.data(), size, &width, &height, &channels)) {
-    return Expected(path, "a PNG, PPM or JPEG picture", "something else");
-  }
+  return Expected(path, "a PNG, PPM or JPEG picture", "something else");
+}
+
+std::string CheckSize(const std::string& path, int64_t width, int64_t height) {
   if (width < 1 || height < 1 || width > kMaxPictureSize || height > kMaxPictureSize) {
-    return Expected(path, "width and height from 1 to 65535",
-                    std::to_string(width) + "x" + std::to_string(height));
+    return Expected(path, "width and height from 1 to 65535", SizeText(width, height));
   }
-  std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-      stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 3), stbi_image_free);
-  if (!pixels) {
-    return Expected(path, "an undamaged picture",
-                    "a broken one (" + std::string(stbi_failure_reason()) + ")");
-  }
-  *image = Image(width, height);
-  image->pixels.assign(pixels.get(), pixels.get() + image->pixels.size());
+  if (width * height <= kMostStbPixels) return "";
+  return Expected(path, "a PNG or JPEG picture of at most 2^28 pixels", SizeText(width, height));
+}
+
+std::string Broken(const std::string& path) {
+  return Expected(path, "an undamaged picture",
+                  "a broken one (" + std::string(stbi_failure_reason()) + ")");
+}
+
+// Samples of the picture, `channels` a pixel, in memory of the StbMemory that lives.
+const stbi_uc* LoadStb(const Bytes& bytes, int channels, Image* image) {
+  int own_channels = 0;
+  const stbi_uc* samples =
+      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image->width,
+                            &image->height, &own_channels, channels);
+  if (samples != nullptr) *image = Image(image->width, image->height);
+  return samples;
+}
+
+std::string DecodeStb(const std::string& path, const Bytes& bytes, Image* image) {
+  const StbMemory memory;
+  Image result;
+  const stbi_uc* samples = LoadStb(bytes, 3, &result);
+  if (samples == nullptr) return Broken(path);
+  result.pixels.assign(samples, samples + result.pixels.size());
+  *image = std::move(result);
   return "";
+}
+
+std::string DecodeIndices(const std::string& path, const PngHeader& header, Bytes* bytes,
+                          Image* image) {
+  const StbMemory memory;
+  const Bytes palette = TakePalette(bytes);
+  const int colours = static_cast<int>(palette.size() / 3), step = GreyStep(header);
+  Image result;
+  const stbi_uc* levels = LoadStb(*bytes, 1, &result);
+  if (levels == nullptr) return Broken(path);
+  for (size_t i = 0; i < result.pixels.size() / 3; ++i) {
+    const int index = levels[i] / step;
+    if (index >= colours) {
+      return Expected(path, "indices below the palette's " + std::to_string(colours) + " colours",
+                      std::to_string(index));
+    }
+    for (size_t c = 0; c < 3; ++c) result.pixels[3 * i + c] = palette[3 * size_t(index) + c];
+  }
+  *image = std::move(result);
+  return "";
+}
+
+std::string DecodePng(const std::string& path, Bytes* bytes, Image* image) {
+  PngHeader header;
+  if (!ReadPngHeader(*bytes, &header)) {
+    return Expected(path, "a PNG picture that begins with its header", "none there");
+  }
+  const std::string error = CheckSize(path, header.width, header.height);
+  if (!error.empty()) return error;
+  return HasPalette(header) ? DecodeIndices(path, header, bytes, image)
+                            : DecodeStb(path, *bytes, image);
+}
+
+std::string DecodeJpeg(const std::string& path, const Bytes& bytes, Image* image) {
+  int width = 0, height = 0, channels = 0;
+  {
+    const StbMemory memory;
+    if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height,
+                               &channels)) {
+      return Broken(path);
+    }
+  }
+  const std::string error = CheckSize(path, width, height);
+  return error.empty() ? DecodeStb(path, bytes, image) : error;
+}
+
+std::string Decode(const std::string& path, Bytes* bytes, Image* image) {
+  if (bytes->empty()) return Expected(path, "a PNG, PPM or JPEG picture", "an empty file");
+  if (bytes->front() == 'P') return DecodePpm(path, *bytes, image);
+  if (bytes->size() > INT_MAX) return Expected(path, "a file below 2 GiB", "a larger one");
+  const std::string error = CheckWhole(path, CheckContainer(*bytes));
+  if (!error.empty()) return error;
+  return IsPng(*bytes) ? DecodePng(path, bytes, image) : DecodeJpeg(path, *bytes, image);
 }
 
 void Append(void* context, void* data, int size) {
   const uint8_t* first = static_cast<const uint8_t*>(data);
   Bytes* bytes = static_cast<Bytes*>(context);
   bytes->insert(bytes->end(), first, first + size);
+}
+
+std::string EncodeStb(const std::string& path, const Image& image, Bytes* bytes) {
+  const std::string error = CheckSize(path, image.width, image.height);
+  if (!error.empty()) return error;
+  const StbMemory memory;
+  const int ok = LowerExtension(path) == ".png"
+                     ? stbi_write_png_to_func(Append, bytes, image.width, image.height, 3,
+                                              image.pixels.data(), static_cast<int>(image.stride()))
+                     : stbi_write_jpg_to_func(Append, bytes, image.width, image.height, 3,
+                                              image.pixels.data(), kJpegQuality);
+  if (ok && !bytes->empty()) return "";
+  return Expected(path, "a picture that can be encoded", "an encoder failure");
 }
 
 bool IsKnownExtension(const std::string& extension) {
@@ -64,30 +153,29 @@ std::string CheckExtension(const std::string& path) {
 }  // namespace
 
 std::string ReadImage(const std::string& path, Image* image) {
-  Bytes bytes;
-  const std::string error = ReadFile(path, &bytes);
-  if (!error.empty()) return error;
-  if (bytes.empty()) return Expected(path, "a PNG, PPM or JPEG picture", "an empty file");
-  if (bytes[0] == 'P') return DecodePpm(path, bytes, image);
-  return DecodeStb(path, bytes, image);
+  try {
+    Bytes bytes;
+    const std::string error = ReadFile(path, &bytes);
+    return error.empty() ? Decode(path, &bytes, image) : error;
+  } catch (const std::bad_alloc&) {
+    return OutOfMemory(path, "read it");
+  }
 }
 
 std::string WriteImage(const std::string& path, const Image& image) {
-  const std::string error = CheckExtension(path);
+  std::string error = CheckExtension(path);
   if (!error.empty()) return error;
-  const std::string extension = LowerExtension(path);
-  if (extension == ".ppm") return WriteFile(path, EncodePpm(image));
-  Bytes bytes;
-  const int stride = static_cast<int>(image.stride());
-  const int ok = extension == ".png"
-                     ? stbi_write_png_to_func(Append, &bytes, image.width, image.height, 3,
-                                              image.pixels.data(), stride)
-                     : stbi_write_jpg_to_func(Append, &bytes, image.width, image.height, 3,
-                                              image.pixels.data(), kJpegQuality);
-  if (!ok || bytes.empty()) {
-    return Expected(path, "a picture that can be encoded", "an encoder failure");
+  try {
+    Bytes bytes;
+    if (LowerExtension(path) == ".ppm") {
+      bytes = EncodePpm(image);
+    } else {
+      error = EncodeStb(path, image, &bytes);
+    }
+    return error.empty() ? WriteFile(path, bytes) : error;
+  } catch (const std::bad_alloc&) {
+    return OutOfMemory(path, "write it");
   }
-  return WriteFile(path, bytes);
 }
 
 std::string CheckImageOutput(const std::string& path) {

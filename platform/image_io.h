@@ -9,7 +9,8 @@
 
 namespace starfocus {
 
-// Reads a picture, whatever its name says, by its content. Grey becomes RGB, alpha is dropped.
+// Reads a picture, whatever its name says, by its content. Grey becomes RGB, alpha is dropped. PNG
+// and JPEG pictures may have 2^28 pixels, here and below.
 std::string ReadImage(const std::string& path, Image* image);
 
 // Writes by extension: .png, .ppm, .jpg or .jpeg.

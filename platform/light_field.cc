@@ -123,6 +123,11 @@ std::string CountViews(const std::string& folder, int* views) {
   return "";
 }
 
+std::string ReadDisparity(const std::string& folder, FloatMap* map) {
+  const std::string path = DisparityPath(folder), error = CheckPlainFile(path);
+  return error.empty() ? ReadPfm(path, map) : error;
+}
+
 std::string LoadLightField(const std::string& folder, int views, LightField* light_field) {
   int chosen = 0;
   std::string error = ChooseViews(folder, views, &chosen);
@@ -132,7 +137,8 @@ std::string LoadLightField(const std::string& folder, int views, LightField* lig
   for (int i = 0; i < chosen; ++i) {
     const std::string path = FindView(folder, i);
     Image& view = result.views[size_t(i)];
-    error = ReadImage(path, &view);
+    error = CheckPlainFile(path);
+    if (error.empty()) error = ReadImage(path, &view);
     if (!error.empty()) return error;
     const Image& centre = result.views[0];
     if (view.width != centre.width || view.height != centre.height) {
@@ -140,7 +146,7 @@ std::string LoadLightField(const std::string& folder, int views, LightField* lig
                       SizeText(view.width, view.height));
     }
   }
-  error = ReadPfm(DisparityPath(folder), &result.disparity);
+  error = ReadDisparity(folder, &result.disparity);
   if (!error.empty()) return error;
   const Image& centre = result.views[0];
   if (result.width() != centre.width || result.height() != centre.height) {

@@ -41,6 +41,8 @@ bool IsLightFieldFile(const std::string& name);
 // names a missing file.
 std::string CountViews(const std::string& folder, int* views);
 
+std::string ReadDisparity(const std::string& folder, FloatMap* map);
+
 // Loads the largest complete set, or only the first `views` views when views is not 0. All sizes
 // must agree.
 std::string LoadLightField(const std::string& folder, int views, LightField* light_field);

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 
+#include "platform/image.h"
 #include "platform/text_header.h"
 
 namespace starfocus {
@@ -49,9 +51,7 @@ std::string ParseHeader(const std::string& path, TextHeader* header, FloatMap* m
   return "";
 }
 
-}  // namespace
-
-std::string ReadPfm(const std::string& path, FloatMap* map) {
+std::string Decode(const std::string& path, FloatMap* map) {
   Bytes bytes;
   std::string error = ReadFile(path, &bytes);
   if (!error.empty()) return error;
@@ -60,6 +60,9 @@ std::string ReadPfm(const std::string& path, FloatMap* map) {
   ByteOrder order = ByteOrder::kLittle;
   error = ParseHeader(path, &header, &result, &order);
   if (!error.empty()) return error;
+  if (!FitsMemory(result.width, result.height, sizeof(float))) {
+    return OutOfMemory(path, "read it");
+  }
   const size_t width = size_t(result.width), height = size_t(result.height);
   if (header.remaining() != 4 * width * height) {
     return Expected(path, std::to_string(4 * width * height) + " bytes of data",
@@ -75,7 +78,7 @@ std::string ReadPfm(const std::string& path, FloatMap* map) {
   return "";
 }
 
-std::string WritePfm(const std::string& path, const FloatMap& map, ByteOrder order) {
+Bytes Encode(const FloatMap& map, ByteOrder order) {
   const std::string header = "Pf\n" + std::to_string(map.width) + " " + std::to_string(map.height) +
                              "\n" + (order == ByteOrder::kLittle ? "-1.0" : "1.0") + "\n";
   Bytes bytes(header.begin(), header.end());
@@ -83,7 +86,25 @@ std::string WritePfm(const std::string& path, const FloatMap& map, ByteOrder ord
   for (int y = map.height - 1; y >= 0; --y) {
     for (int x = 0; x < map.width; ++x) AppendFloat(map.at(x, y), order, &bytes);
   }
-  return WriteFile(path, bytes);
+  return bytes;
+}
+
+}  // namespace
+
+std::string ReadPfm(const std::string& path, FloatMap* map) {
+  try {
+    return Decode(path, map);
+  } catch (const std::bad_alloc&) {
+    return OutOfMemory(path, "read it");
+  }
+}
+
+std::string WritePfm(const std::string& path, const FloatMap& map, ByteOrder order) {
+  try {
+    return WriteFile(path, Encode(map, order));
+  } catch (const std::bad_alloc&) {
+    return OutOfMemory(path, "write it");
+  }
 }
 
 }  // namespace starfocus

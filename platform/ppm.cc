@@ -25,6 +25,7 @@ std::string DecodePpm(const std::string& path, const Bytes& bytes, Image* image)
   }
   if (top == 0) return Expected(path, "a largest value from 1 to 65535", "'" + largest + "'");
   const int channels = magic == "P6" ? 3 : 1, sample_bytes = top > 255 ? 2 : 1;
+  if (!FitsMemory(w, h, 3 * sample_bytes)) return OutOfMemory(path, "read it");
   const size_t pixels = size_t(w) * size_t(h), need = pixels * size_t(channels * sample_bytes);
   if (header.remaining() < need) {
     return Expected(path, std::to_string(need) + " bytes of pixels",

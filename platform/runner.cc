@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <system_error>
+#include <utility>
 
 namespace starfocus {
 namespace {
@@ -28,6 +30,8 @@ ThreadRunner::ThreadRunner(int workers) {
     }
   } catch (const std::system_error&) {
     // Fewer threads than asked for only cost time.
+  } catch (const std::bad_alloc&) {
+    // The same where there is no memory for a thread.
   }
 }
 
@@ -40,11 +44,30 @@ ThreadRunner::~ThreadRunner() {
   for (std::thread& thread : threads_) thread.join();
 }
 
+// An exception must not leave a thread of the pool, nor the batch while others work on it.
+void ThreadRunner::RunJob(int32_t index, int32_t worker) {
+  if (failed_) return;
+  try {
+    batch_.job(batch_.data, index, worker);
+  } catch (...) {
+    const std::lock_guard<std::mutex> lock(sleep_);
+    if (failure_ == nullptr) failure_ = std::current_exception();
+    failed_ = true;
+  }
+}
+
+// The batch is done and its turn still held.
+void ThreadRunner::Rethrow() {
+  if (!failed_) return;
+  failed_ = false;
+  std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
 void ThreadRunner::Work(int32_t worker) {
   int32_t left = left_;
   while (left > 0) {
     if (!left_.compare_exchange_weak(left, left - 1)) continue;
-    batch_.job(batch_.data, batch_.count - left, worker);
+    RunJob(batch_.count - left, worker);
     if (--undone_ == 0 && waiting_) {
       // The caller is asleep, or will look again once it has the lock.
       { std::lock_guard<std::mutex> lock(sleep_); }
@@ -82,11 +105,13 @@ int ThreadRunner::Run(void* runner_data, sf_job job, void* job_data, int32_t cou
   self->Work(0);
   const auto done = [self] { return self->IsDone(); };
   LookFor(done);
-  if (done()) return 0;
-  std::unique_lock<std::mutex> lock(self->sleep_);
-  self->waiting_ = true;
-  self->finished_.wait(lock, done);
-  self->waiting_ = false;
+  if (!done()) {
+    std::unique_lock<std::mutex> lock(self->sleep_);
+    self->waiting_ = true;
+    self->finished_.wait(lock, done);
+    self->waiting_ = false;
+  }
+  self->Rethrow();
   return 0;
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -27,7 +28,8 @@ class ThreadRunner {
   int workers() const { return static_cast<int>(threads_.size()) + 1; }
 
   // The sf_runner; runner_data is the ThreadRunner. Calls from several threads take turns. A job
-  // must not call it again.
+  // must not call it again. When a job throws, those not yet begun are left out and the first
+  // exception is thrown here once no job runs any more; jobs of an engine do not throw.
   static int Run(void* runner_data, sf_job job, void* job_data, int32_t count);
 
  private:
@@ -39,6 +41,8 @@ class ThreadRunner {
 
   void Serve(int32_t worker);
   void Work(int32_t worker);
+  void RunJob(int32_t index, int32_t worker);
+  void Rethrow();
   bool IsCalled() const { return left_ > 0 || stop_; }
   bool IsDone() const { return undone_ == 0; }
 
@@ -50,10 +54,13 @@ class ThreadRunner {
   std::atomic<int32_t> undone_{0};
   std::atomic<bool> stop_{false};
 
+  std::atomic<bool> failed_{false};
+  std::exception_ptr failure_;  // of the batch
+
   // Who sleeps says so before the last look at the above; who changes that looks here afterwards.
   std::atomic<int32_t> idle_{0};      // threads at wake_
   std::atomic<bool> waiting_{false};  // the caller, at finished_
-  std::mutex sleep_;                  // of both
+  std::mutex sleep_;                  // of both, and of failure_
   std::condition_variable wake_;
   std::condition_variable finished_;
   std::vector<std::thread> threads_;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "platform/container.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus {
@@ -156,6 +157,19 @@ TEST_CASE("image_io: a JPEG table of more codes than it has room for is refused"
   CHECK(ReadBytes(bytes, &image).find("checksum or code table") != std::string::npos);
 }
 
+TEST_CASE("image_io: a JPEG table has 256 codes at most") {
+  for (const int codes : {255, 256, 257}) {
+    CAPTURE(codes);
+    const int length = 2 + 17 + codes;
+    Bytes jpeg = {0xff, 0xd8, 0xff, 0xc4, uint8_t(length >> 8), uint8_t(length & 255), 0};
+    jpeg.insert(jpeg.end(), 15, 16);
+    jpeg.push_back(uint8_t(codes - 15 * 16));
+    jpeg.insert(jpeg.end(), size_t(codes), 1);
+    jpeg.insert(jpeg.end(), {0xff, 0xd9});
+    CHECK(CheckContainer(jpeg) == (codes <= 256 ? Container::kWhole : Container::kBroken));
+  }
+}
+
 TEST_CASE("image_io: outputs that cannot be written leave nothing") {
   TempFolder folder;
   const Image image = Pattern(3, 3);
@@ -172,22 +186,102 @@ TEST_CASE("image_io: outputs that cannot be written leave nothing") {
   CHECK(CheckImageOutput("a.PPM") == "");
 }
 
-TEST_CASE("file: a link stays a link") {
-  TempFolder folder;
-  REQUIRE(WriteFile(folder.file("real"), FromText("old")) == "");
-  std::filesystem::create_symlink("real", folder.file("link"));
-  REQUIRE(WriteFile(folder.file("link"), FromText("new")) == "");
-  CHECK(std::filesystem::is_symlink(folder.file("link")));
-  Bytes bytes;
-  REQUIRE(ReadFile(folder.file("real"), &bytes) == "");
-  CHECK(bytes == FromText("new"));
+void AppendBigEndian32(uint32_t value, Bytes* bytes) {
+  for (const int shift : {24, 16, 8, 0}) bytes->push_back(static_cast<uint8_t>(value >> shift));
 }
 
-TEST_CASE("file: errors are one line") {
-  CHECK(Expected("a\nb", "c", "d\te") == "a b: expected c, found d e");
-  Bytes bytes;
-  CHECK(ReadFile("/", &bytes) != "");
-  CHECK(ReadFile("/no such file", &bytes) != "");
+void AppendChunk(const std::string& name, const Bytes& data, Bytes* png) {
+  AppendBigEndian32(static_cast<uint32_t>(data.size()), png);
+  const size_t begin = png->size();
+  png->insert(png->end(), name.begin(), name.end());
+  png->insert(png->end(), data.begin(), data.end());
+  uint32_t crc = ~0u;
+  for (size_t i = begin; i < png->size(); ++i) {
+    crc ^= (*png)[i];
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc % 2 == 0 ? 0 : 0xedb88320u);
+  }
+  AppendBigEndian32(~crc, png);
+}
+
+// A PNG file of one row whose packed samples are `row`, stored in its only block.
+Bytes MakePng(uint32_t width, uint32_t height, int depth, int colour, const Bytes& palette,
+              const Bytes& row) {
+  Bytes png = FromText("\x89PNG\r\n\x1a\n"), header, data = {0x78, 0x01, 1};
+  AppendBigEndian32(width, &header);
+  AppendBigEndian32(height, &header);
+  for (const int value : {depth, colour, 0, 0, 0}) header.push_back(static_cast<uint8_t>(value));
+  const size_t size = row.size() + 1;  // with the row's filter
+  for (const size_t value : {size & 255, size >> 8, ~size & 255, ~size >> 8 & 255, size_t{0}}) {
+    data.push_back(static_cast<uint8_t>(value));
+  }
+  data.insert(data.end(), row.begin(), row.end());
+  data.insert(data.end(), 4, 0);  // a checksum that stb_image does not look at
+  AppendChunk("IHDR", header, &png);
+  if (!palette.empty()) {
+    AppendChunk("PLTE", palette, &png);
+    AppendChunk("tRNS", {0, 128, 255}, &png);
+  }
+  AppendChunk("IDAT", data, &png);
+  AppendChunk("IEND", {}, &png);
+  return png;
+}
+
+TEST_CASE("image_io: a PNG palette is looked up, and an index beyond it refused") {
+  const Bytes palette = {10, 20, 30, 40, 50, 60, 70, 80, 90};
+  for (const int depth : {1, 2, 4, 8}) {
+    CAPTURE(depth);
+    const int per_byte = 8 / depth, colours = depth == 1 ? 2 : 3;
+    for (const int last : {colours - 1, (1 << depth) - 1}) {
+      Bytes row(size_t(per_byte == 8 ? 1 : 8 / per_byte), 0);
+      for (int x = 0; x < 8; ++x) {
+        const int index = x == 7 ? last : x % colours;
+        row[size_t(x / per_byte)] |= uint8_t(index << (8 - depth - x % per_byte * depth));
+      }
+      Image image;
+      const std::string error = ReadBytes(MakePng(8, 1, depth, 3, palette, row), &image);
+      if (last >= 3) {
+        CHECK(error.find("3 colours, found " + std::to_string(last)) != std::string::npos);
+        continue;
+      }
+      REQUIRE(error == "");
+      REQUIRE(image.width == 8);
+      for (int x = 0; x < 8; ++x) {
+        const int index = x == 7 ? last : x % colours;
+        for (int c = 0; c < 3; ++c) {
+          CHECK(image.row(0)[3 * x + c] == palette[size_t(3 * index + c)]);
+        }
+      }
+    }
+  }
+  Image image;
+  CHECK(ReadBytes(MakePng(8, 1, 8, 3, {}, Bytes(8)), &image) != "");        // no palette
+  CHECK(ReadBytes(MakePng(8, 1, 8, 3, Bytes(7), Bytes(8)), &image) != "");  // a third of a colour
+  CHECK(ReadBytes(MakePng(4, 1, 16, 3, palette, Bytes(8)), &image) != "");  // 16-bit indices
+  CHECK(ReadBytes(MakePng(8, 1, 8, 0, {}, Bytes(8, 99)), &image) == "");
+  CHECK(image.pixels == Bytes(24, 99));
+}
+
+TEST_CASE("image_io: a picture too large for its format says its size") {
+  const struct {
+    uint32_t width, height;
+    const char* expected;
+  } sizes[] = {{65536, 1, "1 to 65535, found 65536x1"},
+               {1, 0x7fffffff, "1 to 65535, found 1x2147483647"},
+               {20000, 20000, "2^28 pixels, found 20000x20000"},
+               {65535, 65535, "2^28 pixels, found 65535x65535"}};
+  for (const auto& size : sizes) {
+    Image image;
+    const Bytes png = MakePng(size.width, size.height, 8, 0, {}, Bytes(8));
+    CHECK(ReadBytes(png, &image).find(size.expected) != std::string::npos);
+  }
+  // The encoders count bytes in an int: more of them would be written out of bounds.
+  TempFolder folder;
+  Image large;
+  large.width = large.height = 40000;
+  for (const char* name : {"a.png", "a.jpg"}) {
+    CHECK(WriteImage(folder.file(name), large).find("40000x40000") != std::string::npos);
+  }
+  CHECK(folder.count() == 0);
 }
 
 }  // namespace

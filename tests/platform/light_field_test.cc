@@ -1,6 +1,7 @@
 #include "platform/light_field.h"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <string>
@@ -120,6 +121,19 @@ TEST_CASE("light_field: sizes must agree") {
   fs::remove(folder.file("disparity.pfm"));
   CHECK(Contains(LoadLightField(folder.path(), 0, &back), "disparity.pfm"));
   CHECK(back.views.empty());
+}
+
+TEST_CASE("light_field: a pipe in place of a view or the map keeps nobody waiting") {
+  for (const std::string& name : {ViewName(2) + ".png", std::string("disparity.pfm")}) {
+    TempFolder folder;
+    REQUIRE(Save(folder, Make(5, 4, 4)) == "");
+    REQUIRE(fs::remove(folder.file(name)));
+    REQUIRE(mkfifo(folder.file(name).c_str(), 0600) == 0);
+    LightField back;
+    const std::string error = LoadLightField(folder.path(), 0, &back);
+    CHECK(Contains(error, name));
+    CHECK(Contains(error, "pipe"));
+  }
 }
 
 TEST_CASE("light_field: no folder, a file, an empty folder") {

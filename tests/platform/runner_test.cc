@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <ctime>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -129,6 +130,34 @@ TEST_CASE("runner: calls from several threads take turns") {
   for (const auto& calls : record.calls) all = all && calls == 40;
   CHECK(all);
   CHECK(record.clashes == 0);
+}
+
+TEST_CASE("runner: the first exception of a batch reaches the caller when no job runs any more") {
+  struct Batch {
+    std::atomic<int> running{0}, calls{0};
+    static void Job(void* data, int32_t index, int32_t) {
+      Batch* self = static_cast<Batch*>(data);
+      ++self->running;
+      ++self->calls;
+      std::this_thread::sleep_for(std::chrono::milliseconds(index % 3));
+      --self->running;
+      if (index % 4 == 3) throw std::bad_alloc();
+    }
+  };
+  for (const int workers : {1, 2, 4}) {
+    ThreadRunner runner(workers);
+    for (int repeat = 0; repeat < 10; ++repeat) {
+      Batch batch;
+      CHECK_THROWS_AS(ThreadRunner::Run(&runner, Batch::Job, &batch, 100), std::bad_alloc);
+      CHECK(batch.running == 0);
+      CHECK(batch.calls >= 4);
+      CHECK(batch.calls < 100);
+      // The pool serves the next batch as if nothing had been.
+      Record record(50);
+      REQUIRE(ThreadRunner::Run(&runner, Record::Job, &record, 50) == 0);
+      for (const std::atomic<int>& calls : record.calls) CHECK(calls == 1);
+    }
+  }
 }
 
 TEST_CASE("runner: nonsense is refused or clamped") {

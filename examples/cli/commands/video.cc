@@ -110,7 +110,7 @@ std::string Scan(const Options& options, LensPlan* plan, Video* video) {
     if (error.empty() && views < video->views) {
       return Expected(folder, std::to_string(video->views) + " views", std::to_string(views));
     }
-    if (error.empty()) error = ReadPfm(DisparityPath(folder), &map);
+    if (error.empty()) error = ReadDisparity(folder, &map);
     if (!error.empty()) return error;
     if (i == 0) video->width = map.width, video->height = map.height;
     error = CheckSize(folder, map, *video);

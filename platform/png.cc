@@ -1,0 +1,49 @@
+#include "platform/png.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "platform/container.h"
+
+namespace starfocus {
+namespace {
+
+constexpr size_t kFirstChunk = 8;  // behind the signature
+constexpr int kGrey = 0, kPalette = 3;
+
+bool IsChunk(const uint8_t* chunk, const char* name) {
+  return std::equal(name, name + 4, chunk + 4);
+}
+
+}  // namespace
+
+bool ReadPngHeader(const Bytes& png, PngHeader* header) {
+  constexpr size_t kSize = 13;
+  if (png.size() < kFirstChunk + 8 + kSize) return false;
+  const uint8_t* chunk = &png[kFirstChunk];
+  if (!IsChunk(chunk, "IHDR") || ReadBigEndian32(chunk) != kSize) return false;
+  *header = {ReadBigEndian32(chunk + 8), ReadBigEndian32(chunk + 12), chunk[16], chunk[17]};
+  return true;
+}
+
+// stb_image refuses palettes of 16-bit indices, as the format does.
+bool HasPalette(const PngHeader& header) { return header.colour == kPalette && header.depth <= 8; }
+
+Bytes TakePalette(Bytes* png) {
+  Bytes palette;
+  (*png)[kFirstChunk + 17] = kGrey;
+  for (size_t at = kFirstChunk; at + 12 <= png->size();) {
+    uint8_t* chunk = &(*png)[at];
+    const size_t length = ReadBigEndian32(chunk);
+    if (IsChunk(chunk, "PLTE")) palette.assign(chunk + 8, chunk + 8 + length);
+    // The opacities of a palette mean nothing to grey levels: as a chunk of a name of its own they
+    // are skipped.
+    if (IsChunk(chunk, "tRNS")) chunk[4] = 'x';
+    at += 12 + length;
+  }
+  return palette;
+}
+
+int GreyStep(const PngHeader& header) { return 255 / ((1 << header.depth) - 1); }
+
+}  // namespace starfocus

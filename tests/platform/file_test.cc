@@ -1,0 +1,187 @@
+#include "platform/file.h"
+
+#include <doctest/doctest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "platform/temporary_file.h"
+#include "tests/support/temp_folder.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+Bytes FromText(const std::string& text) { return Bytes(text.begin(), text.end()); }
+
+std::string Read(const std::string& path) {
+  Bytes bytes;
+  REQUIRE(ReadFile(path, &bytes) == "");
+  return std::string(bytes.begin(), bytes.end());
+}
+
+mode_t Mode(const std::string& path) {
+  struct stat status;
+  REQUIRE(stat(path.c_str(), &status) == 0);
+  return status.st_mode & 07777;
+}
+
+TEST_CASE("file: a link stays a link") {
+  TempFolder folder;
+  REQUIRE(WriteFile(folder.file("real"), FromText("old")) == "");
+  fs::create_symlink("real", folder.file("link"));
+  REQUIRE(WriteFile(folder.file("link"), FromText("new")) == "");
+  CHECK(fs::is_symlink(folder.file("link")));
+  CHECK(Read(folder.file("real")) == "new");
+}
+
+TEST_CASE("file: errors are one line") {
+  CHECK(Expected("a\nb", "c", "d\te") == "a b: expected c, found d e");
+  Bytes bytes;
+  CHECK(ReadFile("/", &bytes) != "");
+  CHECK(ReadFile("/no such file", &bytes) != "");
+}
+
+TEST_CASE("file: what is replaced keeps its permissions") {
+  TempFolder folder;
+  const std::string path = folder.file("a");
+  for (const mode_t mode : {0600, 0640, 0666, 0755}) {
+    REQUIRE(WriteFile(path, FromText("old")) == "");
+    REQUIRE(chmod(path.c_str(), mode) == 0);
+    REQUIRE(WriteFile(path, FromText("new")) == "");
+    CHECK(Mode(path) == mode);
+    CHECK(Read(path) == "new");
+  }
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE("file: a read-only file is refused, before the work and when it is written") {
+  TempFolder folder;
+  const std::string path = folder.file("a");
+  REQUIRE(WriteFile(path, FromText("old")) == "");
+  fs::create_symlink("a", folder.file("link"));
+  REQUIRE(chmod(path.c_str(), 0444) == 0);
+  for (const std::string& name : {path, folder.file("link")}) {
+    CHECK(CheckOutputPath(name).find("read-only") != std::string::npos);
+    CHECK(WriteFile(name, FromText("new")).find("read-only") != std::string::npos);
+  }
+  CHECK(Read(path) == "old");
+  CHECK(folder.count() == 2);
+}
+
+TEST_CASE("file: every name that a folder can hold can be written, others are refused at once") {
+  TempFolder folder;
+  const long longest = pathconf(folder.path().c_str(), _PC_NAME_MAX);
+  REQUIRE(longest > 200);
+  for (const long length : {longest - 20, longest - 11, longest}) {
+    const std::string path = folder.file(std::string(size_t(length), 'n'));
+    CHECK(CheckOutputPath(path) == "");
+    CHECK(WriteFile(path, FromText("x")) == "");
+  }
+  const std::string path = folder.file(std::string(size_t(longest) + 1, 'n'));
+  CHECK(CheckOutputPath(path) != "");
+  CHECK(WriteFile(path, FromText("x")) != "");
+  CHECK(folder.count() == 3);
+}
+
+TEST_CASE("file: a pipe is no plain file") {
+  TempFolder folder;
+  REQUIRE(mkfifo(folder.file("pipe").c_str(), 0600) == 0);
+  REQUIRE(WriteFile(folder.file("file"), {}) == "");
+  CHECK(CheckPlainFile(folder.file("pipe")) != "");
+  CHECK(CheckPlainFile("/dev/null") != "");
+  CHECK(CheckPlainFile(folder.file("file")) == "");
+  CHECK(CheckPlainFile(folder.file("none")) == "");  // its reader tells
+}
+
+TEST_CASE("file: a full device is noticed") {
+  if (!fs::exists("/dev/full")) return;
+  CHECK(WriteFile("/dev/full", FromText("x")) != "");
+}
+
+// Starts a process that calls `work` and says when it has begun, ends it by `signal`, and returns
+// its status.
+template <class Work>
+int EndBySignal(int signal, const Work& work) {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    TemporaryFile::RemoveOnSignals();
+    work([&] { return write(ends[1], "x", 1) == 1; });
+    _exit(0);
+  }
+  char byte = 0;
+  REQUIRE(read(ends[0], &byte, 1) == 1);
+  REQUIRE(kill(child, signal) == 0);
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  close(ends[0]);
+  close(ends[1]);
+  return status;
+}
+
+TEST_CASE("file: signals that end the program leave no temporary file") {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    TempFolder folder;
+    const int status = EndBySignal(signal, [&](const auto& begun) {
+      TemporaryFile one(folder.path()), other(folder.path());
+      if (folder.count() == 2 && begun()) {
+        for (;;) pause();
+      }
+    });
+    CHECK(WIFSIGNALED(status));
+    CHECK(WTERMSIG(status) == signal);
+    CHECK(folder.count() == 0);
+  }
+}
+
+TEST_CASE("file: a signal amid many writers leaves whole files alone") {
+  const Bytes bytes(300000, 7);
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    TempFolder folder;
+    const int status = EndBySignal(SIGTERM, [&](const auto& begun) {
+      std::vector<std::thread> threads;
+      for (int t = 0; t < 3; ++t) {
+        threads.emplace_back([&, t] {
+          for (int i = 0;; ++i) {
+            if (WriteFile(folder.file(std::to_string(t)), bytes) != "") _exit(1);
+            if (i == attempt && t == 0) begun();
+          }
+        });
+      }
+      for (;;) pause();
+    });
+    CHECK(WIFSIGNALED(status));
+    CHECK(folder.count() <= 3);
+    for (const auto& entry : fs::directory_iterator(folder.path())) {
+      CHECK(fs::file_size(entry.path()) == bytes.size());
+    }
+  }
+}
+
+TEST_CASE("file: an ignored signal stays ignored") {
+  int code = -1;
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    signal(SIGHUP, SIG_IGN);
+    TemporaryFile::RemoveOnSignals();
+    raise(SIGHUP);
+    _exit(5);
+  }
+  REQUIRE(waitpid(child, &code, 0) == child);
+  CHECK(WIFEXITED(code));
+  CHECK(WEXITSTATUS(code) == 5);
+}
+
+}  // namespace
+}  // namespace starfocus
