@@ -245,27 +245,58 @@ TEST_CASE("constants: the width of the lens in subapertures") {
   }
 }
 
+// The kernels (4) that gather, and those of the blur mode up to as far.
+struct GatherKernels {
+  std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(kMaxGather));
+  std::vector<BlurKernel> kernels =
+      std::vector<BlurKernel>(static_cast<size_t>(BlurStepCount(kMaxGather)));
+
+  GatherKernels() {
+    MakeBlurKernels(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), weights.data(),
+                    kernels.data());
+  }
+  // Of a radius with kDisparityBits.
+  const BlurKernel& Of(int32_t r) const { return kernels[static_cast<size_t>(BlurStep(r))]; }
+};
+
+TEST_CASE("constants: steps between the radii of kernels that gather") {
+  const GatherKernels made;
+  double near_focus = 0, fine = 0, coarse = 0;
+  for (int32_t r = 1; r <= kMaxGather << kDisparityBits; ++r) {
+    const BlurKernel& kernel = made.Of(r);
+    Kernel engine(kernel.size);
+    for (int n = -kernel.size; n <= kernel.size; ++n) {
+      for (int m = -kernel.size; m <= kernel.size; ++m) {
+        engine.at(n, m) = std::ldexp(kernel.Weight(n, m), -kernel.sum_bits);
+      }
+    }
+    const double radius = double(r) / (1 << kDisparityBits);
+    const double error = SquaredError(engine, IdealKernel(radius, kDefaultTheta));
+    double& worst = radius < 1 ? near_focus : radius < 4 ? fine : coarse;
+    worst = std::max(worst, error);
+  }
+  CHECK_MESSAGE(near_focus < 7e-3,
+                "kFineSteps: below one pixel the kernel moves by " << near_focus);
+  CHECK_MESSAGE(fine < 1.7e-3, "kFineSteps: up to 4 pixels the kernel moves by " << fine);
+  CHECK_MESSAGE(coarse < 2e-5, "kCoarseSteps: the kernel moves by " << coarse);
+}
+
 TEST_CASE("constants: taps of a kernel that gathers") {
+  constexpr int32_t kOne = 1 << kDisparityBits;
   // The model counts no fewer taps than kernels have, and not half as many again but for the
   // smallest. It adds the time of 16 taps and takes a tap for a 64th of an upsampled pixel.
   sf_timing timing = {};
   timing.upsample = 64;
-  const auto counted = [&](int32_t r) {
-    return static_cast<int32_t>(PredictGather(timing, 1, r)) - 16;
-  };
-  constexpr int32_t kOne = 1 << kDisparityBits;
-  std::vector<uint16_t> weights(BlurWeightCount(kMaxGather));
-  std::vector<BlurKernel> kernels(static_cast<size_t>(BlurStepCount(kMaxGather)));
-  MakeBlurKernels(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), weights.data(),
-                  kernels.data());
+  const GatherKernels made;
   for (int32_t r = kOne; r <= kMaxGather * kOne; r += kOne / 4) {
-    const BlurKernel& kernel = kernels[static_cast<size_t>(BlurStep(r))];
+    const BlurKernel& kernel = made.Of(r);
+    const auto counted = static_cast<int32_t>(PredictGather(timing, 1, r)) - 16;
     int32_t taps = 0;
     for (int32_t n = 0; n <= kernel.size; ++n) {
       for (int32_t m = 0; m <= kernel.size; ++m) taps += kernel.Weight(n, m) != 0 ? 1 : 0;
     }
-    CHECK_MESSAGE(counted(r) >= taps, "PredictGather: radius " << r << " / 64 has " << taps);
-    CHECK_MESSAGE(counted(r) <= taps + taps / 2 + 6,
+    CHECK_MESSAGE(counted >= taps, "PredictGather: radius " << r << " / 64 has " << taps);
+    CHECK_MESSAGE(counted <= taps + taps / 2 + 6,
                   "PredictGather: radius " << r << " / 64 has " << taps);
   }
 }

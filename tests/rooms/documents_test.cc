@@ -1,0 +1,113 @@
+// What the documents name exists: files that they link to or cite, and names of the code.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = STARFOCUS_SOURCE_DIR;
+
+std::string Read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<fs::path> Documents() {
+  std::vector<fs::path> found = {kRoot / "README.md", kRoot / "CONTRIBUTING.md",
+                                 kRoot / "CHANGELOG.md", kRoot / "SECURITY.md"};
+  for (const fs::directory_entry& entry : fs::directory_iterator(kRoot / "docs")) {
+    if (entry.path().extension() == ".md") found.push_back(entry.path());
+  }
+  return found;
+}
+
+// Without blocks of code, which show commands and programs.
+std::string Prose(const fs::path& path) {
+  return std::regex_replace(Read(path), std::regex("```[^`]*```"), "");
+}
+
+// All matches of the pattern's first group.
+std::set<std::string> Find(const std::string& text, const std::string& pattern) {
+  std::set<std::string> found;
+  const std::regex expression(pattern);
+  for (std::sregex_iterator at(text.begin(), text.end(), expression), end; at != end; ++at) {
+    found.insert((*at)[1]);
+  }
+  return found;
+}
+
+// The words of the project's sources.
+std::set<std::string> WordsOfCode() {
+  std::set<std::string> words;
+  const std::regex word("[A-Za-z_][A-Za-z_0-9]*");
+  for (const char* folder : {"lib", "simd", "platform", "examples", "tests"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cc" && extension != ".hpp" && extension != ".c") {
+        continue;
+      }
+      if (entry.path().filename() == "documents_test.cc") continue;
+      const std::string text = Read(entry.path());
+      words.insert(std::sregex_token_iterator(text.begin(), text.end(), word),
+                   std::sregex_token_iterator());
+    }
+  }
+  return words;
+}
+
+TEST_CASE("documents: the README has 150 lines at most") {
+  const std::string text = Read(kRoot / "README.md");
+  CHECK(std::count(text.begin(), text.end(), '\n') <= 150);
+  CHECK(text.size() > 1000);
+}
+
+TEST_CASE("documents: what they link to is there") {
+  size_t links = 0;
+  for (const fs::path& document : Documents()) {
+    for (const std::string& link : Find(Read(document), "\\]\\(([^)#: ]+)[^): ]*\\)")) {
+      CHECK_MESSAGE(fs::exists(document.parent_path() / link), document.filename().string()
+                                                                   << " links to " << link);
+      ++links;
+    }
+  }
+  CHECK(links > 20);
+}
+
+TEST_CASE("documents: the files that they cite are there") {
+  // `lib/base/fixed.h`; what stands in the place of a name (DIR, *, <name>) is no file.
+  size_t files = 0;
+  for (const fs::path& document : Documents()) {
+    const std::string pattern =
+        "`((?:lib|simd|platform|examples|tests|toolchains|docs)/[^`*<> ]*)`";
+    for (const std::string& file : Find(Prose(document), pattern)) {
+      CHECK_MESSAGE(fs::exists(kRoot / file), document.filename().string() << " cites " << file);
+      ++files;
+    }
+  }
+  CHECK(files > 20);
+}
+
+TEST_CASE("documents: the names that they cite are names of the code") {
+  const std::set<std::string> words = WordsOfCode();
+  size_t names = 0;
+  for (const fs::path& document : Documents()) {
+    const std::string pattern = "`((?:sf_|SF_|k[A-Z]|[A-Z][a-z]+[A-Z])[A-Za-z_0-9]*)[^`]*`";
+    for (const std::string& name : Find(Prose(document), pattern)) {
+      if (name.back() == '_') continue;  // sf_stream_*
+      CHECK_MESSAGE(words.count(name) == 1, document.filename().string() << " cites " << name);
+      ++names;
+    }
+  }
+  CHECK(names > 40);
+}
+
+}  // namespace
