@@ -35,6 +35,17 @@ std::string Prose(const fs::path& path) {
   return std::regex_replace(Read(path), std::regex("```[^`]*```"), "");
 }
 
+// The blocks of code alone.
+std::string Code(const fs::path& path) {
+  const std::string text = Read(path);
+  const std::regex block("```[^`]*```");
+  std::string code;
+  for (std::sregex_iterator at(text.begin(), text.end(), block), end; at != end; ++at) {
+    code += at->str();
+  }
+  return code;
+}
+
 // All matches of the pattern's first group.
 std::set<std::string> Find(const std::string& text, const std::string& pattern) {
   std::set<std::string> found;
@@ -108,6 +119,57 @@ TEST_CASE("documents: the names that they cite are names of the code") {
     }
   }
   CHECK(names > 40);
+}
+
+// The text of all files of these kinds below the folders.
+std::string ReadAll(const std::vector<std::string>& folders,
+                    const std::set<std::string>& extensions) {
+  std::string text;
+  for (const std::string& folder : folders) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      if (entry.path().filename() == "documents_test.cc") continue;
+      if (extensions.count(entry.path().extension().string()) == 1) text += Read(entry.path());
+    }
+  }
+  return text;
+}
+
+TEST_CASE("documents: their programs call what there is") {
+  const std::set<std::string> words = WordsOfCode();
+  size_t names = 0;
+  for (const fs::path& document : Documents()) {
+    for (const std::string& name : Find(Read(document), "\\b((?:sf|SF)_[A-Za-z_0-9]+)")) {
+      if (name.back() == '_') continue;
+      CHECK_MESSAGE(words.count(name) == 1, document.filename().string() << " calls " << name);
+      ++names;
+    }
+  }
+  CHECK(names > 40);
+}
+
+TEST_CASE("documents: commands and options of the program are its own") {
+  const std::string sources = ReadAll({"examples", "tests"}, {".cc", ".h"});
+  const std::string scripts = Read(kRoot / "do") + ReadAll({"toolchains"}, {".sh", ".cmake"});
+  const std::set<std::string> of_others = {"--preset", "--build", "--install", "--prefix",
+                                           "--target", "--libs",  "--cflags",  "--rerun-failed"};
+  for (const fs::path& document : Documents()) {
+    const std::string text = Read(document);
+    for (const std::string& command : Find(Code(document), "\nstarfocus ([a-z]+) ")) {
+      CHECK_MESSAGE(sources.find("\"" + command + "\"") != std::string::npos,
+                    document.filename().string() << " calls starfocus " << command);
+    }
+    for (const std::string& option : Find(text, "[ `(](--[a-z][a-z-]*)")) {
+      const bool known = of_others.count(option) == 1 ||
+                         sources.find(option) != std::string::npos ||
+                         scripts.find(option) != std::string::npos;
+      CHECK_MESSAGE(known, document.filename().string() << " has the option " << option);
+    }
+    for (const std::string& command : Find(text, "\\./do ([a-z]+)")) {
+      const bool known = scripts.find("\n  " + command + ")") != std::string::npos ||
+                         scripts.find("\n  " + command + " |") != std::string::npos;
+      CHECK_MESSAGE(known, document.filename().string() << " calls ./do " << command);
+    }
+  }
 }
 
 }  // namespace
