@@ -31,7 +31,7 @@ int32_t LayerByPaper(double r_min);
 int32_t LayerBySubaperture(double r_min, bool depth_edges);
 
 // Largest blur radius, in pixels, of what is gathered instead of rendered view by view: the taps of
-// the gathering kernel grow with its square.
+// the gathering kernel grow with its square. Less is slower and less exact (docs/constants.md).
 inline constexpr int32_t kMaxGather = 12;
 
 }  // namespace starfocus

@@ -7,7 +7,7 @@ namespace starfocus {
 namespace {
 
 // Within a run no pixel is displaced by more than half of this from its place, in pixels
-// (kShiftBits), in any view.
+// (kShiftBits), in any view. Half of it gains nothing (docs/constants.md).
 constexpr int32_t kRunSpread = kShiftOne / 4;
 
 }  // namespace

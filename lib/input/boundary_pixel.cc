@@ -5,10 +5,11 @@ namespace {
 
 constexpr int32_t kShareOne = 1 << kShareBits;
 
-// Two colours whose squared distance is less than this tell no mixture apart.
+// Two colours whose squared distance is less than this tell no mixture apart: eight gray levels in
+// one channel. docs/constants.md has what these three were measured on.
 constexpr int64_t kLeastContrast = 64;
 // Up to this distance from the line between the two colours a pixel is their mixture, squared: a
-// few gray levels of noise and a sixteenth of their contrast's square.
+// noise of three gray levels in each channel, and a sixteenth of their contrast's square.
 constexpr int64_t kNoise = 27;
 constexpr int64_t kContrastParts = 16;
 

@@ -24,7 +24,8 @@ struct LinePart {
   int32_t begin, end;
 };
 
-// A gap wider than this is no stretched surface, whatever the disparities say, in pixels.
+// A gap wider than this is no stretched surface, whatever the disparities say, in pixels. Twice and
+// half of it were measured (docs/constants.md).
 inline constexpr int32_t kMaxStretch = 4;
 
 // 2^23 / subaperture, rounded, for subapertures of [0, kShiftOne]; 0 at 0, where no neighbour

@@ -8,7 +8,7 @@ namespace {
 constexpr int32_t kShareOne = 1 << kShareBits;
 
 // Blur radius, kShiftBits, up to which a surface counts as sharp. With a pixel more, where the
-// paper's subsampled layers begin, no outline shows.
+// paper's subsampled layers begin, no outline shows (docs/constants.md).
 constexpr int32_t kSharp = 2 * kShiftOne;
 
 // Returns how much of the near surface to take out of the pixel, kShiftBits, none below 0: all

@@ -9,7 +9,7 @@ namespace starfocus {
 namespace {
 
 // A pixel of which slices cover less than this part of all views' light is not made of them: what
-// rounding adds would show.
+// rounding adds would show. Scenes hardly have any, whatever the part (docs/constants.md).
 constexpr uint32_t kLeastShare = 4;
 
 // What weights of a group of views are together: in 16 bits with room for a ninth more, which the
