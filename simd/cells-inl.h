@@ -1,4 +1,4 @@
-// Kernels::measure_cell. Included once per target.
+// Vector code of cells.h. Included once per target.
 #if defined(STARFOCUS_SIMD_CELLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_CELLS_INL_H_
 #undef STARFOCUS_SIMD_CELLS_INL_H_
@@ -6,8 +6,8 @@
 #define STARFOCUS_SIMD_CELLS_INL_H_
 #endif
 
+#include "simd/cells.h"
 #include "simd/compat-inl.h"
-#include "simd/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -16,10 +16,7 @@ namespace HWY_NAMESPACE {
 // Vectors of unknown length can't be kept in arrays and structs.
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
-HWY_INLINE void MeasureDisparities(const int16_t* const rows[10], const CellLimits& limits,
-                                   CellMeasure* measure) {
-  ReferenceKernels().measure_cell(rows, limits, measure);
-}
+using reference::MeasureCell;
 
 #else
 
@@ -157,8 +154,8 @@ HWY_INLINE void MeasureSteps(const int16_t* const rows[10], const CellRow (&here
   along_columns.Store(1, measure);
 }
 
-HWY_INLINE void MeasureDisparities(const int16_t* const rows[10], const CellLimits& limits,
-                                   CellMeasure* measure) {
+inline void MeasureCell(const int16_t* const rows[10], const CellLimits& limits,
+                        CellMeasure* measure) {
   const CellTag d16;
   const UnsignedTag du16;
   const auto min = [](CellRow a, CellRow b) HWY_ATTR { return hn::Min(a, b); };

@@ -1,4 +1,4 @@
-// Kernels::disc. Included once per target.
+// Vector code of disc.h. Included once per target.
 #if defined(STARFOCUS_SIMD_DISC_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_DISC_INL_H_
 #undef STARFOCUS_SIMD_DISC_INL_H_
@@ -9,7 +9,8 @@
 #include <cstring>
 
 #include "simd/compat-inl.h"
-#include "simd/kernels.h"
+#include "simd/disc.h"
+#include "simd/spans-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -137,14 +138,13 @@ HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
 
 HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t count, int bits,
                            uint8_t* HWY_RESTRICT out) {
-  FinishSamples(accumulators, count, bits, out);
+  Finish(accumulators, count, bits, out);
 }
 
 #endif
 
-HWY_INLINE void DiscSamples(const uint8_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
-                            size_t rows, size_t count, uint8_t* HWY_RESTRICT out,
-                            size_t out_stride) {
+inline void FilterDisc(const uint8_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
+                       size_t rows, size_t count, uint8_t* HWY_RESTRICT out, size_t out_stride) {
   constexpr size_t kSpare = HWY_MAX_BYTES;
   const DiscPairs quarter(disc);
   const size_t margin = 3 * static_cast<size_t>(disc.size);

@@ -1,4 +1,4 @@
-// Kernels::finish_composite. Included once per target.
+// Vector code of finish_composite.h. Included once per target.
 #if defined(STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_
 #undef STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_
@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "simd/compat-inl.h"
-#include "simd/kernels.h"
+#include "simd/finish_composite.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -17,11 +17,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE void FinishPixelsOfComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
-                                        const CompositeFinish& finish, size_t count,
-                                        uint32_t* out) {
-  ReferenceKernels().finish_composite(sums, plane, rgb, finish, count, out);
-}
+using reference::FinishComposite;
 
 #else
 
@@ -116,9 +112,8 @@ HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const uint8_t* r
   }
 }
 
-HWY_INLINE void FinishPixelsOfComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
-                                        const CompositeFinish& finish, size_t count,
-                                        uint32_t* out) {
+inline void FinishComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                            const CompositeFinish& finish, size_t count, uint32_t* out) {
   const size_t lanes = hn::Lanes(CompositeTag());
   Inverses inverses(finish.least);
   size_t n = 0;

@@ -1,4 +1,4 @@
-// Kernels::reach_block and surround_cells. Included once per target.
+// Vector code of neighbourhood.h. Included once per target.
 #if defined(STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_
 #undef STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_
@@ -6,8 +6,8 @@
 #define STARFOCUS_SIMD_NEIGHBOURHOOD_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
-#include "simd/kernels.h"
+#include "simd/chunk-inl.h"
+#include "simd/neighbourhood.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -16,26 +16,18 @@ namespace HWY_NAMESPACE {
 // Vectors of unknown length can't be kept in structs.
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
-HWY_INLINE void ReachOneBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
-                              BlockReach* reach) {
-  ReferenceKernels().reach_block(planes, around, margins, reach);
-}
-
-HWY_INLINE void SurroundRow(const CellPlanes& planes, int32_t around, size_t count,
-                            const CellRanges& ranges) {
-  ReferenceKernels().surround_cells(planes, around, count, ranges);
-}
+using reference::ReachBlock;
+using reference::SurroundCells;
 
 #else
 
-using AroundTag = hn::CappedTag<int16_t, kSliceLanes>;
-using AroundVec = hn::Vec<AroundTag>;
+using AroundVec = hn::Vec<ChunkTag>;
 
 // Pixels between a block and columns or rows `first` + lane of cells from `around` before it on, in
 // the way of GapTo; none of the lanes beyond the last one is ever reached.
 struct ColumnGaps {
   ColumnGaps(int32_t around, int32_t first) {
-    const AroundTag d16;
+    const ChunkTag d16;
     const auto column = hn::Iota(d16, static_cast<int16_t>(first));
     const auto before = hn::Sub(hn::Set(d16, static_cast<int16_t>(around - 1)), column);
     const auto behind = hn::Sub(column, hn::Set(d16, static_cast<int16_t>(around + 2)));
@@ -62,7 +54,7 @@ class ColumnReach {
   // Rows [row, end) of cells, which reach the block from the plane `from` on.
   HWY_INLINE void AddRows(int32_t row, int32_t end, CellPlane from, int16_t (*border)[4],
                           CellPlane to) {
-    const AroundTag d16;
+    const ChunkTag d16;
     auto y0 = hn::Zero(d16), y1 = y0, y2 = y0;
     const auto whole = hn::Set(d16, kCellPixels);
     const auto least = [&](int layer) HWY_ATTR {
@@ -122,7 +114,7 @@ class ColumnReach {
   }
 
   static HWY_INLINE void Store(AroundVec values, int16_t* largest) {
-    const int16_t value = hn::GetLane(hn::MaxOfLanes(AroundTag(), values));
+    const int16_t value = hn::GetLane(hn::MaxOfLanes(ChunkTag(), values));
     if (value > *largest) *largest = value;
   }
 
@@ -136,15 +128,15 @@ class ColumnReach {
   const int16_t* const margins_;
   const int32_t first_;
   const ColumnGaps gaps_;
-  AroundVec x0_ = hn::Zero(AroundTag()), x1_ = x0_, x2_ = x0_;  // by layer
+  AroundVec x0_ = hn::Zero(ChunkTag()), x1_ = x0_, x2_ = x0_;  // by layer
   AroundVec radius_ = x0_, edge_ = x0_;
 };
 
-HWY_INLINE void ReachOneBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
-                              BlockReach* reach) {
+inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
+                       BlockReach* reach) {
   *reach = {};
   const int32_t side = 2 * around + 2;
-  for (int32_t first = 0; first < side; first += static_cast<int32_t>(hn::Lanes(AroundTag()))) {
+  for (int32_t first = 0; first < side; first += static_cast<int32_t>(hn::Lanes(ChunkTag()))) {
     ColumnReach columns(planes, around, margins, first);
     columns.AddRows(0, around, kReachBottom, reach->border, kReachTop);
     columns.AddRows(around, around + 2, kReachTop, nullptr, kReachTop);
@@ -156,7 +148,7 @@ HWY_INLINE void ReachOneBlock(const CellPlanes& planes, int32_t around, const in
 // Cells away beyond which none of a vector of cells, from `at` of the plane of reaches on, reaches
 // another.
 HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t around) {
-  const AroundTag d16;
+  const ChunkTag d16;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
   auto most = hn::Zero(d16);
   for (int32_t y = -around; y <= around; ++y) {
@@ -170,10 +162,10 @@ HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t aroun
   return cells < around ? cells : around;
 }
 
-HWY_INLINE void SurroundRow(const CellPlanes& planes, int32_t around, size_t count,
-                            const CellRanges& ranges) {
-  const AroundTag d16;
-  const hn::RebindToUnsigned<AroundTag> du16;
+inline void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
+                          const CellRanges& ranges) {
+  const ChunkTag d16;
+  const hn::RebindToUnsigned<ChunkTag> du16;
   const auto load = [&](const int16_t* at, int plane)
                         HWY_ATTR { return hn::LoadU(d16, at + plane * planes.plane); };
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {

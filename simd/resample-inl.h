@@ -1,5 +1,4 @@
-// The kernels of the layers: widen_phases, split_phases, halve, half_band, between, narrow,
-// finish_layer. Included once per target.
+// Vector code of resample.h. Included once per target.
 #if defined(STARFOCUS_SIMD_RESAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_RESAMPLE_INL_H_
 #undef STARFOCUS_SIMD_RESAMPLE_INL_H_
@@ -8,7 +7,7 @@
 #endif
 
 #include "simd/compat-inl.h"
-#include "simd/kernels.h"
+#include "simd/resample.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -26,20 +25,15 @@ HWY_INLINE bool ForVectors(size_t count, size_t lanes, const Step& step) {
 
 #if HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE void WidenPhasesOfLine(const uint8_t* in, size_t pairs, int16_t* even, int16_t* odd) {
-  ReferenceKernels().widen_phases(in, pairs, even, odd);
-}
-
-HWY_INLINE void SplitPhasesOfLine(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd) {
-  ReferenceKernels().split_phases(in, pairs, even, odd);
-}
+using reference::SplitPhases;
+using reference::WidenPhases;
 
 #else
 
 // Five pairs of pixels at once, 15 samples of each phase: a vector of the first 8 and one of the
 // last 8. Bytes become the high ones of their lanes.
-HWY_INLINE void WidenPhasesOfLine(const uint8_t* HWY_RESTRICT in, size_t pairs,
-                                  int16_t* HWY_RESTRICT even, int16_t* HWY_RESTRICT odd) {
+inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
+                        int16_t* HWY_RESTRICT odd) {
   constexpr uint8_t kZero = 0x80;
   alignas(16) static constexpr uint8_t kFirst[16] = {kZero, 0, kZero, 1, kZero, 2,  kZero, 6,
                                                      kZero, 7, kZero, 8, kZero, 12, kZero, 13};
@@ -63,12 +57,12 @@ HWY_INLINE void WidenPhasesOfLine(const uint8_t* HWY_RESTRICT in, size_t pairs,
     widen(from + 3, first, odd + 3 * pair);
     widen(from + 14, odd_last, odd + 3 * pair + 7);
   });
-  if (!done) ReferenceKernels().widen_phases(in, pairs, even, odd);
+  if (!done) reference::WidenPhases(in, pairs, even, odd);
 }
 
 // A fourth sample goes with each pixel and is overwritten by the next one.
-HWY_INLINE void SplitPhasesOfLine(const int16_t* HWY_RESTRICT in, size_t pairs,
-                                  int16_t* HWY_RESTRICT even, int16_t* HWY_RESTRICT odd) {
+inline void SplitPhases(const int16_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
+                        int16_t* HWY_RESTRICT odd) {
   const hn::FixedTag<int16_t, 4> d16;
   const auto split = [&](size_t pair) HWY_ATTR {
     hn::StoreU(hn::LoadU(d16, in + 6 * pair), d16, even + 3 * pair);
@@ -84,8 +78,7 @@ HWY_INLINE void SplitPhasesOfLine(const int16_t* HWY_RESTRICT in, size_t pairs,
 
 #endif
 
-HWY_INLINE void NarrowSamples(const int16_t* HWY_RESTRICT in, size_t count,
-                              uint8_t* HWY_RESTRICT out) {
+inline void Narrow(const int16_t* HWY_RESTRICT in, size_t count, uint8_t* HWY_RESTRICT out) {
   const hn::ScalableTag<int16_t> d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const auto below_half = hn::Set(d16, int16_t{(1 << (kLayerBits - 1)) - 1});
@@ -97,11 +90,11 @@ HWY_INLINE void NarrowSamples(const int16_t* HWY_RESTRICT in, size_t count,
     const auto sum = hn::SaturatedAdd(value, hn::Add(below_half, odd));
     hn::StoreU(hn::DemoteTo(d8, hn::ShiftRight<kLayerBits>(sum)), d8, out + n);
   });
-  if (!done) ReferenceKernels().narrow(in, count, out);
+  if (!done) reference::Narrow(in, count, out);
 }
 
-HWY_INLINE void FinishLayerSamples(const uint32_t* HWY_RESTRICT accumulators, size_t count,
-                                   int shift, int16_t* HWY_RESTRICT out) {
+inline void FinishLayer(const uint32_t* HWY_RESTRICT accumulators, size_t count, int shift,
+                        int16_t* HWY_RESTRICT out) {
   const hn::ScalableTag<uint32_t> d32;
   const hn::RebindToSigned<decltype(d32)> di32;
   const hn::Rebind<int16_t, decltype(d32)> d16;
@@ -111,7 +104,7 @@ HWY_INLINE void FinishLayerSamples(const uint32_t* HWY_RESTRICT accumulators, si
     const auto value = hn::BitCast(di32, hn::ShiftRightSame(sum, shift - kLayerBits));
     hn::StoreU(hn::DemoteTo(d16, value), d16, out + n);
   });
-  if (!done) ReferenceKernels().finish_layer(accumulators, count, shift, out);
+  if (!done) reference::FinishLayer(accumulators, count, shift, out);
 }
 
 // Rounded sums of taps, saturated: centre c + near (a + b) + far (d + e) of a vector's samples.
@@ -212,9 +205,9 @@ HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, F
 
 #endif
 
-// Taps by value: they stay in registers though what is written might alias them.
-HWY_INLINE void HalfBandSamples(const int16_t* in, ptrdiff_t step, HalfBand taps, size_t count,
-                                int16_t low, int16_t high, int16_t* out) {
+inline void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
+                           int16_t low, int16_t high, int16_t* out) {
+  const HalfBand taps = filter;  // stays in registers: what is written cannot alias a copy
   const FilterTag d16;
   const auto vlow = hn::Set(d16, low), vhigh = hn::Set(d16, high);
   const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
@@ -224,11 +217,12 @@ HWY_INLINE void HalfBandSamples(const int16_t* in, ptrdiff_t step, HalfBand taps
                                   load(at - 3 * step), load(at + 3 * step));
     hn::StoreU(hn::Min(hn::Max(value, vlow), vhigh), d16, out + n);
   });
-  if (!done) ReferenceKernels().half_band(in, step, taps, count, low, high, out);
+  if (!done) reference::FilterHalfBand(in, step, filter, count, low, high, out);
 }
 
-HWY_INLINE void HalveLine(const int16_t* HWY_RESTRICT even, const int16_t* HWY_RESTRICT odd,
-                          HalfBand taps, size_t count, int16_t* HWY_RESTRICT out) {
+inline void Halve(const int16_t* HWY_RESTRICT even, const int16_t* HWY_RESTRICT odd,
+                  const HalfBand& filter, size_t count, int16_t* HWY_RESTRICT out) {
+  const HalfBand taps = filter;
   const FilterTag d16;
   const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
@@ -237,11 +231,12 @@ HWY_INLINE void HalveLine(const int16_t* HWY_RESTRICT even, const int16_t* HWY_R
     const auto beyond = hn::Add(load(at - 6), load(at + 3));
     hn::StoreU(HalfBandOf(taps, load(even + n), beside, beyond), d16, out + n);
   });
-  if (!done) ReferenceKernels().halve(even, odd, taps, count, out);
+  if (!done) reference::Halve(even, odd, filter, count, out);
 }
 
-HWY_INLINE void BetweenSamples(const int16_t* in, ptrdiff_t step, HalfBand taps, size_t count,
-                               int16_t low, int16_t high, int16_t* out) {
+inline void Between(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
+                    int16_t low, int16_t high, int16_t* out) {
+  const HalfBand taps = filter;
   const FilterTag d16;
   const auto vlow = hn::Set(d16, low), vhigh = hn::Set(d16, high);
   const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
@@ -251,7 +246,7 @@ HWY_INLINE void BetweenSamples(const int16_t* in, ptrdiff_t step, HalfBand taps,
         BetweenOf(taps, load(at), load(at + step), load(at - step), load(at + 2 * step));
     hn::StoreU(hn::Min(hn::Max(value, vlow), vhigh), d16, out + n);
   });
-  if (!done) ReferenceKernels().between(in, step, taps, count, low, high, out);
+  if (!done) reference::Between(in, step, filter, count, low, high, out);
 }
 
 }  // namespace HWY_NAMESPACE

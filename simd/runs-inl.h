@@ -1,4 +1,4 @@
-// Kernels::find_runs. Included once per target.
+// Vector code of runs.h. Included once per target.
 #if defined(STARFOCUS_SIMD_RUNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_RUNS_INL_H_
 #undef STARFOCUS_SIMD_RUNS_INL_H_
@@ -7,7 +7,7 @@
 #endif
 
 #include "simd/compat-inl.h"
-#include "simd/kernels.h"
+#include "simd/runs.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -55,8 +55,8 @@ HWY_INLINE void FindRunsOfVector(D16 d16, const int16_t* HWY_RESTRICT disparity,
   }
 }
 
-HWY_INLINE void FindRunsOfLines(const int16_t* disparity, ptrdiff_t step, size_t length,
-                                size_t lines, const RunLimits& limits, const RunMarks& marks) {
+inline void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
+                     const RunLimits& limits, const RunMarks& marks) {
   const hn::CappedTag<int16_t, kRunLanes> d16;
   for (size_t line = 0; line < lines; line += hn::Lanes(d16)) {
     FindRunsOfVector(d16, disparity + line, step, length, limits, marks.stride, marks.starts + line,

@@ -1,4 +1,4 @@
-// The kernels of slices: select_slice, spread_slice. Included once per target.
+// Vector code of slices.h. Included once per target.
 #if defined(STARFOCUS_SIMD_SLICES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_SLICES_INL_H_
 #undef STARFOCUS_SIMD_SLICES_INL_H_
@@ -6,19 +6,16 @@
 #define STARFOCUS_SIMD_SLICES_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
-#include "simd/kernels.h"
+#include "simd/chunk-inl.h"
+#include "simd/slices.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Wider vectors would hold more than a narrow tile.
-using SliceTag = hn::CappedTag<int16_t, kSliceLanes>;
-
-HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, const SliceRange& range, size_t count,
-                                   size_t plane, int16_t* HWY_RESTRICT out) {
-  const SliceTag d16;
+inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count,
+                              size_t plane, int16_t* HWY_RESTRICT out) {
+  const ChunkTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
   const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
@@ -95,10 +92,9 @@ HWY_INLINE SliceCover SelectPixels(const SurfaceRow& row, const SliceRange& rang
   return cover;
 }
 
-HWY_INLINE void SpreadSamplesOfSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t step,
-                                     const SliceTaps& taps, size_t count,
-                                     int16_t* HWY_RESTRICT out) {
-  const SliceTag d16;
+inline void SpreadSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const SliceTaps& taps,
+                        size_t count, int16_t* HWY_RESTRICT out) {
+  const ChunkTag d16;
   const hn::RebindToUnsigned<decltype(d16)> du16;
   const size_t lanes = hn::Lanes(d16), whole = SliceSamples(count);
   const auto centre = hn::Set(d16, taps.centre), inner = hn::Set(d16, taps.inner),

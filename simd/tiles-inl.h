@@ -1,4 +1,4 @@
-// The kernels of tiles of slices: shift_slice, composite. Included once per target.
+// Vector code of tiles.h. Included once per target.
 #if defined(STARFOCUS_SIMD_TILES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_TILES_INL_H_
 #undef STARFOCUS_SIMD_TILES_INL_H_
@@ -9,22 +9,21 @@
 #include <cstring>
 #include <type_traits>
 
-#include "simd/compat-inl.h"
-#include "simd/kernels.h"
+#include "simd/chunk-inl.h"
+#include "simd/tiles.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
 // Rows of a tile follow each other: the widest vectors hold two of them.
-using RowTag = hn::CappedTag<int16_t, kSliceLanes>;
 #undef STARFOCUS_WIDE_TILES
 #if HWY_TARGET != HWY_SCALAR && HWY_MAX_BYTES >= 64
 #define STARFOCUS_WIDE_TILES 1
 using TileTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
 #else
 #define STARFOCUS_WIDE_TILES 0
-using TileTag = RowTag;
+using TileTag = ChunkTag;
 #endif
 
 // Whether composite has a way of its own for rows that are covered: with narrower vectors that
@@ -145,12 +144,12 @@ HWY_INLINE void ShiftAllRows(const SlicePlanes& in, const SliceFraction& fractio
   const size_t done = ShiftRows<kTaps>(TileTag(), in, fraction, rows, plane, out, near, &marks);
   if (done == rows) return;
   const SlicePlanes rest = {in.samples + done * 4 * in.plane, in.plane};
-  ShiftRows<kTaps>(RowTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes,
+  ShiftRows<kTaps>(ChunkTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes,
                    near + done, &marks);
 }
 
-HWY_INLINE void ShiftPlanes(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near) {
+inline void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
+                       size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near) {
   if (fraction.third == 0) {
     ShiftAllRows<2>(in, fraction, rows, plane, out, near);
   } else if (fraction.fourth == 0) {
@@ -329,7 +328,7 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
   if (rows > step) add(r1, g1, b1, a1, rows - step, sums + 4 * second + n);
 }
 
-HWY_INLINE void CompositeViews(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRICT sums) {
+inline void Composite(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRICT sums) {
   const TileTag d;
   const size_t step = 2 * RowsOf(d);
   SeenSlice seen[kMaxSeen];

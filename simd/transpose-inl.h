@@ -1,4 +1,4 @@
-// Kernels::transpose. Included once per target.
+// Vector code of transpose.h. Included once per target.
 #if defined(STARFOCUS_SIMD_TRANSPOSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_TRANSPOSE_INL_H_
 #undef STARFOCUS_SIMD_TRANSPOSE_INL_H_
@@ -7,7 +7,7 @@
 #endif
 
 #include "simd/compat-inl.h"
-#include "simd/kernels.h"
+#include "simd/transpose.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -15,16 +15,13 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE void TransposePixels(const uint8_t* in, size_t in_stride, size_t rows, size_t columns,
-                                uint8_t* out, size_t out_stride) {
-  ReferenceKernels().transpose(in, in_stride, rows, columns, out, out_stride);
-}
+using reference::Transpose;
 
 #else
 
 // 4 x 4 pixels at once, each 4 bytes wide on the way.
-HWY_INLINE void TransposePixels(const uint8_t* HWY_RESTRICT in, size_t in_stride, size_t rows,
-                                size_t columns, uint8_t* HWY_RESTRICT out, size_t out_stride) {
+inline void Transpose(const uint8_t* HWY_RESTRICT in, size_t in_stride, size_t rows, size_t columns,
+                      uint8_t* HWY_RESTRICT out, size_t out_stride) {
   const hn::FixedTag<uint8_t, 16> d8;
   const hn::Repartition<uint32_t, decltype(d8)> d32;
   const hn::Repartition<uint64_t, decltype(d8)> d64;

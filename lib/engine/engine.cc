@@ -86,8 +86,8 @@ void SetViews(const Plane<const uint8_t>* views, EngineState* engine) {
 sf_status ConvertDisparity(const EngineState& engine, const float* row, int16_t* out) {
   const sf_config& config = engine.config;
   const auto width = static_cast<size_t>(config.width);
-  if (!engine.kernels->convert_disparity(row, width, config.disparity_min, config.disparity_max,
-                                         out)) {
+  if (!engine.kernels->ConvertDisparity(row, width, config.disparity_min, config.disparity_max,
+                                        out)) {
     for (size_t x = 0; x < width; ++x) {
       if (!(row[x] - row[x] == 0.0f)) return SF_ERROR_NOT_FINITE;
     }

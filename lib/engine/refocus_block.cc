@@ -21,7 +21,7 @@ void FinishPicture(const simd::Kernels& kernels, const Rect& rect, int shift,
   const size_t samples = 3 * static_cast<size_t>(rect.width);
   CheckSums(worker.line_scan.accumulators[0], Samples(rect), shift);
   for (int32_t row = 0; row < rect.height; ++row) {
-    kernels.finish(worker.line_scan.accumulators[0] + static_cast<size_t>(row) * samples, samples,
+    kernels.Finish(worker.line_scan.accumulators[0] + static_cast<size_t>(row) * samples, samples,
                    shift, At(out, rect, row));
   }
 }
@@ -30,8 +30,8 @@ void FinishPicture(const simd::Kernels& kernels, const Rect& rect, int shift,
 void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
                  const Plane<uint8_t>& out, const Worker& worker) {
   CheckSums(worker.line_scan.accumulators[0], Samples(block.rendered), shift);
-  kernels.finish_layer(worker.line_scan.accumulators[0], Samples(block.rendered), shift,
-                       worker.layer_samples);
+  kernels.FinishLayer(worker.line_scan.accumulators[0], Samples(block.rendered), shift,
+                      worker.layer_samples);
   CheckAll(ranges::kLayerSample, worker.layer_samples, Samples(block.rendered));
   LayerRect layer = {worker.layer_samples, block.rendered.width, block.rendered.height};
   int32_t margin = kLayerMargin[block.layer] >> block.layer;
@@ -48,7 +48,7 @@ void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
   UpsampleByTwo(kernels, layer, margin, worker.upsample, picture);
   const size_t samples = 3 * static_cast<size_t>(block.rect.width);
   for (int32_t row = 0; row < block.rect.height; ++row) {
-    kernels.narrow(picture.samples + static_cast<size_t>(row) * samples, samples,
+    kernels.Narrow(picture.samples + static_cast<size_t>(row) * samples, samples,
                    At(out, block.rect, row));
   }
 }

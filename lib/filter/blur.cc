@@ -180,7 +180,7 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
       AddRun(kernel, row + 3 * begin, stride, x - begin, &list);
       list.Flush();
       CheckSums(scratch.accumulators, samples, kernel.sum_bits);
-      job.kernels->finish(scratch.accumulators, samples, kernel.sum_bits, out + 3 * begin);
+      job.kernels->Finish(scratch.accumulators, samples, kernel.sum_bits, out + 3 * begin);
     }
   }
 }

@@ -38,10 +38,10 @@ class Gather {
       }
       const BlurKernel& kernel = job_.kernels_of_radius[step];
       const int32_t width = Min(column * kCellSize, job_.rect.width) - x;
-      job_.kernels->disc(field_->Rgb(border_ + x, border_ + y), RgbStride(field_->width),
-                         {kernel.size, kernel.sum_bits, kernel.weights},
-                         static_cast<size_t>(height), 3 * static_cast<size_t>(width), out + 3 * x,
-                         out_stride);
+      job_.kernels->FilterDisc(field_->Rgb(border_ + x, border_ + y), RgbStride(field_->width),
+                               {kernel.size, kernel.sum_bits, kernel.weights},
+                               static_cast<size_t>(height), 3 * static_cast<size_t>(width),
+                               out + 3 * x, out_stride);
       pixels_ += static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
     }
   }

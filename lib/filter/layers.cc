@@ -17,10 +17,10 @@ struct PairRange {
 };
 
 void Part(const Kernels& kernels, const uint8_t* in, int32_t pairs, int16_t* even, int16_t* odd) {
-  kernels.widen_phases(in, static_cast<size_t>(pairs), even, odd);
+  kernels.WidenPhases(in, static_cast<size_t>(pairs), even, odd);
 }
 void Part(const Kernels& kernels, const int16_t* in, int32_t pairs, int16_t* even, int16_t* odd) {
-  kernels.split_phases(in, static_cast<size_t>(pairs), even, odd);
+  kernels.SplitPhases(in, static_cast<size_t>(pairs), even, odd);
 }
 
 int16_t Sample(uint8_t byte) { return static_cast<int16_t>(byte << simd::kLayerBits); }
@@ -53,10 +53,10 @@ void HalveRows(const Kernels& kernels, int32_t begin, int32_t end, LayerPlane* t
   for (int32_t y = to->rows.first; y < to->rows.last; ++y) {
     const int16_t* in = to->half.Row(2 * y) + 3 * begin;
     int16_t* samples = to->samples.Row(y) + 3 * begin;
-    kernels.half_band(in, static_cast<ptrdiff_t>(to->half.stride), kDownFilter, count, 0,
-                      kLayerWhite, samples);
+    kernels.FilterHalfBand(in, static_cast<ptrdiff_t>(to->half.stride), kDownFilter, count, 0,
+                           kLayerWhite, samples);
     CheckAll(ranges::kLayerSample, samples, count);
-    kernels.narrow(samples, count, to->rgb.Row(y) + 3 * begin);
+    kernels.Narrow(samples, count, to->rgb.Row(y) + 3 * begin);
   }
 }
 
@@ -70,7 +70,7 @@ void Downsample(const Kernels& kernels, const Plane<const T>& from, int32_t widt
   for (int32_t y = 2 * to->rows.first - 3; y < 2 * to->rows.last + 2; ++y) {
     int16_t* half = to->half.Row(y) + 3 * begin;
     PartLine(kernels, from.Row(Clamp(y, 0, height - 1)), width, pairs, phases);
-    kernels.halve(phases.even + 6, phases.odd + 6, kDownFilter, count, half);
+    kernels.Halve(phases.even + 6, phases.odd + 6, kDownFilter, count, half);
     CheckAll(ranges::kFilteredAlongX, half, count);
   }
   HalveRows(kernels, begin, end, to);
@@ -107,13 +107,13 @@ void UpsampleByTwo(const Kernels& kernels, const LayerRect& in, int32_t first,
   for (int32_t y = 0; y < out.height; ++y) {
     const int16_t* line = in.samples + static_cast<size_t>(first + (y >> 1)) * count;
     if (y % 2 == 1) {
-      kernels.between(line, static_cast<ptrdiff_t>(count), kUpFilter, count, INT16_MIN, INT16_MAX,
+      kernels.Between(line, static_cast<ptrdiff_t>(count), kUpFilter, count, INT16_MIN, INT16_MAX,
                       scratch.line);
       CheckAll(ranges::kUpsampledAlongY, scratch.line, count);
       line = scratch.line;
     }
     line += 3 * first;
-    kernels.between(line, 3, kUpFilter, 3 * static_cast<size_t>(out.width / 2), 0, kLayerWhite,
+    kernels.Between(line, 3, kUpFilter, 3 * static_cast<size_t>(out.width / 2), 0, kLayerWhite,
                     scratch.between);
     const int32_t pairs = (out.width + 1) / 2;
     for (int32_t n = 0; n < 3 * pairs; ++n) {

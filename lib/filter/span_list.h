@@ -45,9 +45,9 @@ class SpanList {
   void Flush() {
     if (count_ != 0) {
       if (accumulators_ != nullptr) {
-        kernels_.accumulate(spans_, count_, accumulators_);
+        kernels_.Accumulate(spans_, count_, accumulators_);
       } else {
-        kernels_.blend(spans_, count_, line_);
+        kernels_.Blend(spans_, count_, line_);
       }
     }
     count_ = 0;

@@ -58,8 +58,8 @@ void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const
   for (int32_t row = top; row < bottom; ++row) {
     for (int32_t from = left; from < right; from += kAtOnce) {
       const int32_t count = Min(kAtOnce, right - from);
-      kernels.beside_steps(field.Disparity(from, row), field.width, static_cast<size_t>(count),
-                           step, beside);
+      kernels.BesideSteps(field.Disparity(from, row), field.width, static_cast<size_t>(count), step,
+                          beside);
       for (int32_t k = 0; k < count; k += kChunk) {
         ForEachBit(beside[k / kChunk], [&](int32_t bit) { visit(from + k + bit, row); });
       }

@@ -7,7 +7,7 @@
 namespace starfocus {
 
 void TransposePixels(const simd::Kernels& kernels, const Field& from, Field* to) {
-  kernels.transpose(from.rgb, RgbStride(from.width), static_cast<size_t>(from.height),
+  kernels.Transpose(from.rgb, RgbStride(from.width), static_cast<size_t>(from.height),
                     static_cast<size_t>(from.width), to->rgb, RgbStride(to->width));
 }
 

@@ -8,9 +8,9 @@ void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const LineBund
   marks->stride = RunMarkStride(static_cast<size_t>(bundle.lines));
   const bool mirrored = direction == Direction::kLeftToRight;
   const simd::RunLimits limits = {static_cast<int16_t>(grid.spread), kSurfaceStep};
-  kernels.find_runs(bundle.disparity + (mirrored ? 0 : (bundle.length - 1) * bundle.step),
-                    mirrored ? bundle.step : -bundle.step, static_cast<size_t>(bundle.length),
-                    static_cast<size_t>(bundle.lines), limits, *marks);
+  kernels.FindRuns(bundle.disparity + (mirrored ? 0 : (bundle.length - 1) * bundle.step),
+                   mirrored ? bundle.step : -bundle.step, static_cast<size_t>(bundle.length),
+                   static_cast<size_t>(bundle.lines), limits, *marks);
 }
 
 int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const ViewGrid& grid,

@@ -164,7 +164,7 @@ class Star {
         RenderRow(field, sign, i, rows.begin + row + k, target, &list);
       }
       list.Flush();
-      job_.kernels->transpose(scratch_->strip_rgb, 3 * static_cast<size_t>(width),
+      job_.kernels->Transpose(scratch_->strip_rgb, 3 * static_cast<size_t>(width),
                               static_cast<size_t>(count), static_cast<size_t>(width),
                               scratch_->columns_rgb + 3 * row, RgbStride(height));
     }

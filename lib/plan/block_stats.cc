@@ -125,7 +125,7 @@ class CellRow {
       rows[k] = copies[k] + 1;
     }
     simd::CellMeasure measure;
-    kernels_.measure_cell(rows, limits_, &measure);
+    kernels_.MeasureCell(rows, limits_, &measure);
     return measure;
   }
 

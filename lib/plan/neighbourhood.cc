@@ -55,7 +55,7 @@ Surroundings LoadSurroundings(const CellGrid& grid, const Rect& cells, int32_t a
 BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
                         const Surroundings& surroundings, int32_t column, int32_t row) {
   simd::BlockReach reach;
-  kernels.reach_block(surroundings.At(column, row), surroundings.around, kLayerMargin, &reach);
+  kernels.ReachBlock(surroundings.At(column, row), surroundings.around, kLayerMargin, &reach);
   BlockStats stats = {INT32_MAX, reach.radius, reach.edge, {}, {}};
   for (int32_t y = row; y < Min(row + 2, grid.rows); ++y) {
     for (int32_t x = column; x < Min(column + 2, grid.columns); ++x) {
@@ -76,8 +76,8 @@ void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
   int16_t low[kMaxRowCells], high[kMaxRowCells], edge[kMaxRowCells];
   uint16_t widest[kMaxRowCells];
   static_assert(kMaxRowCells % simd::kSliceLanes == 0, "kernels write whole lanes");
-  kernels.surround_cells(surroundings.At(surroundings.column, row), surroundings.around,
-                         static_cast<size_t>(surroundings.columns), {low, high, widest, edge});
+  kernels.SurroundCells(surroundings.At(surroundings.column, row), surroundings.around,
+                        static_cast<size_t>(surroundings.columns), {low, high, widest, edge});
   for (int32_t k = 0; k < surroundings.columns; ++k) {
     smooth[k] = edge[k] == 0 && IsSmooth(scale, low[k], high[k], widest[k]);
   }

@@ -299,7 +299,7 @@ class Compositor {
                                     part->shown,
                                     static_cast<size_t>(part->count),
                                     static_cast<size_t>(part->y)};
-      job_.kernels->composite(job, static_cast<size_t>(part->rows), Sums(part->y));
+      job_.kernels->Composite(job, static_cast<size_t>(part->rows), Sums(part->y));
     }
   }
 
@@ -323,8 +323,8 @@ class Compositor {
     const simd::CompositeFinish finish = {least_covered_, grid_.aperture.sum_bits};
     for (int32_t row = first; row < end; ++row) {
       const size_t at = FirstSample(row);
-      job_.kernels->finish_composite(Sums(row), simd::kSliceLanes, scratch_.centre + at, finish,
-                                     Columns(), accumulators_ + at);
+      job_.kernels->FinishComposite(Sums(row), simd::kSliceLanes, scratch_.centre + at, finish,
+                                    Columns(), accumulators_ + at);
     }
   }
 

@@ -63,9 +63,9 @@ class SliceFinder {
 
   void MarkRows(int surface, int32_t y, int32_t end) {
     simd::DisparityRange ranges[kMaxChunks];
-    job_.kernels->find_ranges(surfaces_.disparity[surface] + surfaces_.At(0, y),
-                              static_cast<size_t>(surfaces_.stride), static_cast<size_t>(end - y),
-                              static_cast<size_t>(surfaces_.width), ranges);
+    job_.kernels->FindRanges(surfaces_.disparity[surface] + surfaces_.At(0, y),
+                             static_cast<size_t>(surfaces_.stride), static_cast<size_t>(end - y),
+                             static_cast<size_t>(surfaces_.width), ranges);
     for (int32_t x = 0; x < surfaces_.width; x += kChunk) {
       const simd::DisparityRange& range = ranges[x / kChunk];
       const Rect pixels = {x, y, Min(kChunk, surfaces_.width - x), end - y};
@@ -91,8 +91,8 @@ class SliceFinder {
                                         static_cast<int16_t>(Min(high, LowOf(last + 1) - 1))};
     const int16_t* disparity = surfaces_.disparity[surface] + surfaces_.At(pixels.x, pixels.y);
     uint16_t within[kMarkedRows];
-    job_.kernels->find_within(disparity, static_cast<size_t>(surfaces_.stride),
-                              static_cast<size_t>(pixels.height), range, within);
+    job_.kernels->FindWithin(disparity, static_cast<size_t>(surfaces_.stride),
+                             static_cast<size_t>(pixels.height), range, within);
     // Copies, since marks might be part of anything.
     uint8_t* const bins = job_.bins;
     const int32_t* const least_blur = job_.least_blur;

@@ -15,7 +15,7 @@ void ClearChunk(int16_t* disparity) {
 }
 
 // Hidden pixels of a chunk: the first one's place in the field, their disparities, and where their
-// colours are found as look_behind tells it.
+// colours are found as LookBehind tells it.
 struct HiddenChunk {
   int32_t x, y;
   const int16_t* disparity;
@@ -160,9 +160,9 @@ class SurfaceFinder {
  private:
   void FindRange() {
     simd::DisparityRange ranges[kMaxChunks];
-    kernels_.find_ranges(Row(0), static_cast<size_t>(surfaces_.stride),
-                         static_cast<size_t>(surfaces_.height),
-                         static_cast<size_t>(surfaces_.width), ranges);
+    kernels_.FindRanges(Row(0), static_cast<size_t>(surfaces_.stride),
+                        static_cast<size_t>(surfaces_.height), static_cast<size_t>(surfaces_.width),
+                        ranges);
     simd::DisparityRange all = ranges[0];
     for (int32_t x = kChunk; x < surfaces_.width; x += kChunk) {
       const simd::DisparityRange& range = ranges[x / kChunk];
@@ -176,15 +176,15 @@ class SurfaceFinder {
   uint8_t* Edges(int side, int32_t y) const { return surfaces_.edges[side] + surfaces_.At(0, y); }
   const int16_t* Row(int32_t y) const { return surfaces_.disparity[0] + surfaces_.At(0, y); }
 
-  // As find_edges along a row, but from edge to edge: there are few.
+  // As FindEdges along a row, but from edge to edge: there are few.
   void FindEdgesOfRow(int32_t y) {
     const auto stride = static_cast<size_t>(surfaces_.stride);
     std::memset(Edges(0, y), 0, stride);
     std::memset(Edges(1, y), 0, stride);
     const int16_t* row = Row(y);
     const int32_t steps = surfaces_.width - 1;
-    kernels_.find_steps(row, static_cast<size_t>(steps), static_cast<int16_t>(step_),
-                        surfaces_.steps);
+    kernels_.FindSteps(row, static_cast<size_t>(steps), static_cast<int16_t>(step_),
+                       surfaces_.steps);
     for (int32_t from = 0; from < steps; from += kChunk) {
       const simd::StepBits& bits = surfaces_.steps[from / kChunk];
       ForEachBit(bits.falls, [&](int32_t k) {
@@ -223,8 +223,8 @@ class SurfaceFinder {
 
   void FindEdgesOfColumns(int32_t y, int32_t beside, int side) {
     const simd::EdgeLimits limits = {static_cast<int16_t>(step_), kDisparityBits + window_.layer};
-    kernels_.find_edges(Row(y), Row(beside), limits, static_cast<size_t>(surfaces_.width),
-                        surfaces_.moved, surfaces_.behind, Edges(side, y));
+    kernels_.FindEdges(Row(y), Row(beside), limits, static_cast<size_t>(surfaces_.width),
+                       surfaces_.moved, surfaces_.behind, Edges(side, y));
   }
 
   void FindRow(int32_t y) {
@@ -245,7 +245,7 @@ class SurfaceFinder {
                                     {surfaces_.sources[0], surfaces_.sources[1]},
                                     {found[0], found[1]},
                                     surfaces_.share + at};
-    const uint64_t chunks = kernels_.look_behind(row, hidden);
+    const uint64_t chunks = kernels_.LookBehind(row, hidden);
     surfaces_.hiding[y] = chunks;
     for (int behind = 1; behind < simd::kSurfaces; ++behind) {
       int32_t chunk = 0;
@@ -261,7 +261,7 @@ class SurfaceFinder {
     const size_t at = surfaces_.At(x, y);
     colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + x},
                   found);
-    kernels_.interpolate(colours_.here, colours_.next, colours_.weight, surfaces_.plane,
+    kernels_.Interpolate(colours_.here, colours_.next, colours_.weight, surfaces_.plane,
                          surfaces_.rgb[behind] + at);
   }
 
@@ -286,7 +286,7 @@ void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const 
     std::memcpy(surfaces->disparity[0] + at, field.Disparity(0, y),
                 static_cast<size_t>(field.width) * sizeof(int16_t));
     ClearChunk(surfaces->disparity[0] + at + field.width);  // the next row is copied over it
-    kernels.split(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
+    kernels.Split(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
                   surfaces->rgb[0] + at);
   }
   for (int16_t* disparity : surfaces->disparity) ClearChunk(disparity + surfaces->plane);

@@ -32,9 +32,9 @@ struct LayeredDepth {
   // Pixels to the far side of the depth edge to the right, left, bottom and top that a pixel hides;
   // 0: it hides none.
   uint8_t* edges[4] = {};
-  int16_t *moved = nullptr, *behind = nullptr;  // of find_edges: a row
-  simd::StepBits* steps = nullptr;              // of find_steps: a row
-  uint16_t* sources[simd::kSurfaces - 1] = {};  // of look_behind: a row
+  int16_t *moved = nullptr, *behind = nullptr;  // of FindEdges: a row
+  simd::StepBits* steps = nullptr;              // of FindSteps: a row
+  uint16_t* sources[simd::kSurfaces - 1] = {};  // of LookBehind: a row
   uint64_t* hiding = nullptr;  // of each row: in which kSliceLanes there is more than surface 0
 
   size_t At(int32_t x, int32_t y) const {

@@ -85,8 +85,8 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const LayeredDepth& sur
     from.rgb[k] = surfaces.rgb[k] + at;
   }
   const simd::SliceCover cover =
-      kernels.select_slice(from, {slice.low, slice.high, slice.overlap},
-                           static_cast<size_t>(last - first), plane, row + first);
+      kernels.SelectSlice(from, {slice.low, slice.high, slice.overlap},
+                          static_cast<size_t>(last - first), plane, row + first);
   const auto tail = (plane - static_cast<size_t>(width)) * sizeof(*row);
   for (size_t c = 0; c < 4; ++c) std::memset(row + c * plane + width, 0, tail);
   if (last - first == width) return cover;
@@ -126,14 +126,14 @@ void Spread(const simd::Kernels& kernels, int16_t* filtered, const SlicePlane& p
     const auto along_row = [&](int32_t row) { return filtered + static_cast<size_t>(row) * plane; };
     for (int32_t row = 0; row < placed.rows; ++row) {
       if (placed.cover[row].some != 0) {
-        kernels.spread_slice(sample(row), 1, taps, plane, along_row(row));
+        kernels.SpreadSlice(sample(row), 1, taps, plane, along_row(row));
       } else {
         std::memset(along_row(row), 0, plane * sizeof(*filtered));
       }
     }
     for (int32_t row = taps.reach; row < placed.rows - taps.reach; ++row) {
       if (placed.cover[row].some == 0) continue;
-      kernels.spread_slice(along_row(row), static_cast<ptrdiff_t>(plane), taps, plane, sample(row));
+      kernels.SpreadSlice(along_row(row), static_cast<ptrdiff_t>(plane), taps, plane, sample(row));
     }
   }
 }
@@ -201,8 +201,8 @@ void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed, const Sl
   // The marks of the column of views before.
   std::memset(near - simd::kRowsAhead, 0, count + simd::kRowsAhead);
   const int16_t* from = placed.samples + row * 4 * placed.plane;
-  kernels.shift_slice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction,
-                      count, shifted->plane, shifted->samples + row * simd::kSliceLanes, near);
+  kernels.ShiftSlice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction, count,
+                     shifted->plane, shifted->samples + row * simd::kSliceLanes, near);
 }
 
 }  // namespace starfocus

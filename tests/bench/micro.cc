@@ -97,7 +97,7 @@ void Composite(const Kernels& kernels, Buffers* b) {
   }
   const starfocus::simd::TileSlice slices[2] = {{b->in.data(), near, kSamples / 4},
                                                 {b->in.data() + 8, near, kSamples / 4}};
-  kernels.composite({weights, offsets, kSliceViews, slices, 2, shown, 2, 0}, kTileRows,
+  kernels.Composite({weights, offsets, kSliceViews, slices, 2, shown, 2, 0}, kTileRows,
                     b->sums.data());
 }
 
@@ -126,7 +126,7 @@ void LookBehind(const Kernels& kernels, Buffers* b) {
                                              {found[0], found[1]},
                                              b->line.data()};
   for (size_t n = 0; n < kSamples / kPlane; ++n) {
-    benchmark::DoNotOptimize(kernels.look_behind(row, hidden));
+    benchmark::DoNotOptimize(kernels.LookBehind(row, hidden));
   }
 }
 
@@ -140,38 +140,38 @@ struct Case {
 const Case kCases[] = {
     {"accumulate", false, 1 + 8,
      [](const Kernels& k, Buffers* b) {
-       k.accumulate(b->spans.data(), b->spans.size(), b->sums.data());
+       k.Accumulate(b->spans.data(), b->spans.size(), b->sums.data());
      }},
     {"accumulate_pairs", true, 1 + 8,
      [](const Kernels& k, Buffers* b) {
-       k.accumulate(b->spans.data(), b->spans.size(), b->sums.data());
+       k.Accumulate(b->spans.data(), b->spans.size(), b->sums.data());
      }},
     {"blend", true, 1 + 1,
      [](const Kernels& k, Buffers* b) {
-       k.blend(b->spans.data(), b->spans.size(), b->line.data());
+       k.Blend(b->spans.data(), b->spans.size(), b->line.data());
      }},
     // Over the same lines, so that each stays in the cache for those around it.
     {"disc", false, 1 + 1,
      [](const Kernels& k, Buffers* b) {
        for (size_t n = 0; n < kSamples; n += kSpan) {
-         k.disc(b->bytes.data() + kMargin + kSpan * 4, kSpan, kDisc, 1, kSpan, b->line.data(),
-                kSpan);
+         k.FilterDisc(b->bytes.data() + kMargin + kSpan * 4, kSpan, kDisc, 1, kSpan, b->line.data(),
+                      kSpan);
        }
      }},
     {"split", false, 1 + 1,
      [](const Kernels& k, Buffers* b) {
-       k.split(b->bytes.data(), kSamples / 3, kSamples / 3, b->line.data());
+       k.Split(b->bytes.data(), kSamples / 3, kSamples / 3, b->line.data());
      }},
     {"find_edges", false, 2 + 2 + 2 * 4 + 1,
      [](const Kernels& k, Buffers* b) {
-       k.find_edges(b->in.data(), b->in.data() + 1, {48, 6}, kSamples, b->out.data(),
-                    b->middles.data(), b->line.data());
+       k.FindEdges(b->in.data(), b->in.data() + 1, {48, 6}, kSamples, b->out.data(),
+                   b->middles.data(), b->line.data());
      }},
     {"find_ranges", false, 2,
      [](const Kernels& k, Buffers* b) {
        starfocus::simd::DisparityRange ranges[kPlane / starfocus::simd::kSliceLanes];
        for (size_t n = 0; n < kSamples; n += 8 * kPlane) {
-         k.find_ranges(b->in.data() + n, kPlane, 8, kPlane, ranges);
+         k.FindRanges(b->in.data() + n, kPlane, 8, kPlane, ranges);
          benchmark::DoNotOptimize(ranges);
        }
      }},
@@ -179,17 +179,17 @@ const Case kCases[] = {
      [](const Kernels& k, Buffers* b) {
        uint16_t within[8];
        for (size_t n = 0; n < kSamples; n += 8 * starfocus::simd::kSliceLanes) {
-         k.find_within(b->in.data() + n, starfocus::simd::kSliceLanes, 8, {2000, 9000}, within);
+         k.FindWithin(b->in.data() + n, starfocus::simd::kSliceLanes, 8, {2000, 9000}, within);
          benchmark::DoNotOptimize(within);
        }
      }},
     {"find_steps", false, 2,
      [](const Kernels& k, Buffers* b) {
-       k.find_steps(b->in.data(), kSamples, 20000, b->steps.data());
+       k.FindSteps(b->in.data(), kSamples, 20000, b->steps.data());
      }},
     {"beside_steps", false, 2,
      [](const Kernels& k, Buffers* b) {
-       k.beside_steps(b->in.data() + kMargin, 8, kSamples, 20000, b->starts.data());
+       k.BesideSteps(b->in.data() + kMargin, 8, kSamples, 20000, b->starts.data());
      }},
     {"look_behind", false, 2 + 4 + 2 * 2 + 1, LookBehind},
     {"interpolate", false, 1 + 1 + 1,
@@ -197,7 +197,7 @@ const Case kCases[] = {
        constexpr size_t kPixels = starfocus::simd::kSliceLanes;
        const uint8_t* bytes = b->bytes.data();
        for (size_t n = 0; n < kSamples; n += 3 * kPixels) {
-         k.interpolate(bytes + n, bytes + n + 3, bytes, kSamples / 3, b->line.data() + n / 3);
+         k.Interpolate(bytes + n, bytes + n + 3, bytes, kSamples / 3, b->line.data() + n / 3);
        }
      }},
     {"select_slice", false, 3 * (2 + 3) / 4 + 1 + 2,
@@ -207,19 +207,19 @@ const Case kCases[] = {
        const starfocus::simd::SurfaceRow row = {
            {in, in + 16, in + 32}, {rgb, rgb, rgb}, rgb, kPlane, ~uint64_t{0}};
        for (size_t n = 0; n < 6; ++n) {
-         benchmark::DoNotOptimize(k.select_slice(row, {2000, 8000, 9000}, kPlane, kPlane,
-                                                 b->out.data() + 4 * n * kPlane));
+         benchmark::DoNotOptimize(k.SelectSlice(row, {2000, 8000, 9000}, kPlane, kPlane,
+                                                b->out.data() + 4 * n * kPlane));
        }
      }},
     {"spread_slice", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
-       k.spread_slice(b->in.data() + kMargin, 1, kSliceTaps, kSamples, b->out.data());
+       k.SpreadSlice(b->in.data() + kMargin, 1, kSliceTaps, kSamples, b->out.data());
      }},
     {"shift_slice", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
        uint8_t near[kTileRows + starfocus::simd::kRowsAhead];
-       k.shift_slice({b->in.data(), starfocus::simd::kSliceLanes}, {-9000, -9000, 0, 0}, kTileRows,
-                     kSamples / 4, b->out.data(), near + starfocus::simd::kRowsAhead);
+       k.ShiftSlice({b->in.data(), starfocus::simd::kSliceLanes}, {-9000, -9000, 0, 0}, kTileRows,
+                    kSamples / 4, b->out.data(), near + starfocus::simd::kRowsAhead);
        benchmark::DoNotOptimize(near);
      }},
     // Of each view and slice.
@@ -228,14 +228,14 @@ const Case kCases[] = {
     {"finish_composite", false, 4 * 4 / 3 + 4,
      [](const Kernels& k, Buffers* b) {
        for (size_t n = 0; n < kSamples; n += 3 * kStackPlane) {
-         k.finish_composite(b->sums.data(), kStackPlane, b->bytes.data(), {1000, 16}, kStackPlane,
-                            b->sums.data() + 4 * kStackPlane);
+         k.FinishComposite(b->sums.data(), kStackPlane, b->bytes.data(), {1000, 16}, kStackPlane,
+                           b->sums.data() + 4 * kStackPlane);
        }
      }},
     {"find_runs", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
-       k.find_runs(b->in.data(), kLines, kLength, kLines, {2000, 12000},
-                   {b->starts.data(), b->edges.data(), b->middles.data(), kLines});
+       k.FindRuns(b->in.data(), kLines, kLength, kLines, {2000, 12000},
+                  {b->starts.data(), b->edges.data(), b->middles.data(), kLines});
      }},
     // Cells of 64 pixels in rows of 8 cells; of all that is read, the cells alone count.
     {"measure_cell", false, 2,
@@ -245,7 +245,7 @@ const Case kCases[] = {
          const int16_t* rows[10];
          for (size_t y = 0; y < 10; ++y) rows[y] = b->in.data() + 1 + y * kStride + cell % 7 * 8;
          starfocus::simd::CellMeasure measure;
-         k.measure_cell(rows, {4000, 12000, 2000, 4000}, &measure);
+         k.MeasureCell(rows, {4000, 12000, 2000, 4000}, &measure);
          benchmark::DoNotOptimize(measure);
        }
      }},
@@ -255,7 +255,7 @@ const Case kCases[] = {
        constexpr int16_t kMargins[3] = {0, 4, 12};
        for (size_t block = 0; block < kSamples / 4; ++block) {
          starfocus::simd::BlockReach reach;
-         k.reach_block(b->Cells(), kAround, kMargins, &reach);
+         k.ReachBlock(b->Cells(), kAround, kMargins, &reach);
          benchmark::DoNotOptimize(reach);
        }
      }},
@@ -264,47 +264,47 @@ const Case kCases[] = {
        for (size_t n = 0; n < kSamples; n += 32) {
          int16_t ranges[3][32];
          uint16_t widest[32];
-         k.surround_cells(b->Cells(), kAround, 32, {ranges[0], ranges[1], widest, ranges[2]});
+         k.SurroundCells(b->Cells(), kAround, 32, {ranges[0], ranges[1], widest, ranges[2]});
          benchmark::DoNotOptimize(ranges);
        }
      }},
     {"transpose", false, 1 + 1,
      [](const Kernels& k, Buffers* b) {
-       k.transpose(b->bytes.data(), 3 * kColumns, kRows, kColumns, b->line.data(), 3 * kRows);
+       k.Transpose(b->bytes.data(), 3 * kColumns, kRows, kColumns, b->line.data(), 3 * kRows);
      }},
     {"finish", false, 4 + 1,
-     [](const Kernels& k, Buffers* b) { k.finish(b->sums.data(), kSamples, 24, b->line.data()); }},
+     [](const Kernels& k, Buffers* b) { k.Finish(b->sums.data(), kSamples, 24, b->line.data()); }},
     {"convert_disparity", false, 4 + 2,
      [](const Kernels& k, Buffers* b) {
        benchmark::DoNotOptimize(
-           k.convert_disparity(b->disparity.data(), kSamples, -8, 8, b->out.data()));
+           k.ConvertDisparity(b->disparity.data(), kSamples, -8, 8, b->out.data()));
      }},
     {"widen_phases", false, 1 + 2,
      [](const Kernels& k, Buffers* b) {
-       k.widen_phases(b->bytes.data(), kSamples / 6, b->out.data(), b->middles.data());
+       k.WidenPhases(b->bytes.data(), kSamples / 6, b->out.data(), b->middles.data());
      }},
     {"split_phases", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
-       k.split_phases(b->in.data(), kSamples / 6, b->out.data(), b->middles.data());
+       k.SplitPhases(b->in.data(), kSamples / 6, b->out.data(), b->middles.data());
      }},
     {"narrow", false, 2 + 1,
-     [](const Kernels& k, Buffers* b) { k.narrow(b->in.data(), kSamples, b->line.data()); }},
+     [](const Kernels& k, Buffers* b) { k.Narrow(b->in.data(), kSamples, b->line.data()); }},
     {"finish_layer", false, 4 + 2,
      [](const Kernels& k, Buffers* b) {
-       k.finish_layer(b->sums.data(), kSamples, 24, b->out.data());
+       k.FinishLayer(b->sums.data(), kSamples, 24, b->out.data());
      }},
     {"half_band", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
-       k.half_band(b->in.data() + kMargin, 3, kTaps, kSamples, 0, 16320, b->out.data());
+       k.FilterHalfBand(b->in.data() + kMargin, 3, kTaps, kSamples, 0, 16320, b->out.data());
      }},
     {"halve", false, 2 + 2 + 2,
      [](const Kernels& k, Buffers* b) {
        const int16_t* in = b->in.data() + kMargin;
-       k.halve(in, in, kTaps, kSamples, b->out.data());
+       k.Halve(in, in, kTaps, kSamples, b->out.data());
      }},
     {"between", false, 2 + 2,
      [](const Kernels& k, Buffers* b) {
-       k.between(b->in.data() + kMargin, 3, kTaps, kSamples, 0, 16320, b->out.data());
+       k.Between(b->in.data() + kMargin, 3, kTaps, kSamples, 0, 16320, b->out.data());
      }},
 };
 

@@ -269,7 +269,7 @@ Errors Compare(Source source) {
       const std::vector<int16_t> got =
           DownAndUp(picture, width, height, layer, source, LargestBlock(&random), kernels);
       std::vector<uint8_t> levels(picture.size() + kPadding);
-      kernels.narrow(got.data(), picture.size(), levels.data());
+      kernels.Narrow(got.data(), picture.size(), levels.data());
       const Image expected = ReferenceDownAndUp(picture, width, height, layer);
       for (size_t i = 0; i < picture.size(); ++i) {
         const double sample = std::ldexp(double(got[i]), -kLayerBits);

@@ -68,8 +68,8 @@ void TestAccumulate(const Kernels& kernels) {
       std::vector<uint32_t> expected(spans.end + kPadding);
       for (uint32_t& value : expected) value = random.Next() >> 4;
       std::vector<uint32_t> got = expected;
-      ReferenceKernels().accumulate(spans.spans.data(), spans.spans.size(), expected.data());
-      kernels.accumulate(spans.spans.data(), spans.spans.size(), got.data());
+      ReferenceKernels().Accumulate(spans.spans.data(), spans.spans.size(), expected.data());
+      kernels.Accumulate(spans.spans.data(), spans.spans.size(), got.data());
       CAPTURE(samples);
       CHECK(got == expected);
     }
@@ -83,8 +83,8 @@ void TestBlend(const Kernels& kernels) {
       const Spans spans(samples, count, true, &random);
       std::vector<uint8_t> expected(spans.end + kPadding, test::kPoison);
       std::vector<uint8_t> got = expected;
-      ReferenceKernels().blend(spans.spans.data(), spans.spans.size(), expected.data());
-      kernels.blend(spans.spans.data(), spans.spans.size(), got.data());
+      ReferenceKernels().Blend(spans.spans.data(), spans.spans.size(), expected.data());
+      kernels.Blend(spans.spans.data(), spans.spans.size(), got.data());
       CAPTURE(samples);
       CHECK(got == expected);
     }
@@ -108,8 +108,8 @@ void TestFinish(const Kernels& kernels) {
       }
       std::vector<uint8_t> expected(start + size_t(count) + kPadding, test::kPoison);
       std::vector<uint8_t> got = expected;
-      ReferenceKernels().finish(sums.data() + start, size_t(count), shift, expected.data() + start);
-      kernels.finish(sums.data() + start, size_t(count), shift, got.data() + start);
+      ReferenceKernels().Finish(sums.data() + start, size_t(count), shift, expected.data() + start);
+      kernels.Finish(sums.data() + start, size_t(count), shift, got.data() + start);
       CAPTURE(shift);
       CAPTURE(count);
       CHECK(got == expected);
@@ -140,9 +140,9 @@ void TestFinishComposite(const Kernels& kernels) {
       }
     }
     std::vector<uint32_t> expected(3 * count + 50, 0x5A5A5A5A), got = expected;
-    ReferenceKernels().finish_composite(sums.data(), plane, rgb.data(), finish, count,
-                                        expected.data());
-    kernels.finish_composite(sums.data(), plane, rgb.data(), finish, count, got.data());
+    ReferenceKernels().FinishComposite(sums.data(), plane, rgb.data(), finish, count,
+                                       expected.data());
+    kernels.FinishComposite(sums.data(), plane, rgb.data(), finish, count, got.data());
     CAPTURE(count);
     CHECK(got == expected);
   }
@@ -192,8 +192,9 @@ void TestDisc(const Kernels& kernels) {
     for (uint8_t& byte : in) byte = random.Int(0, 2) == 0 ? 255 : uint8_t(random.Next());
     const uint8_t* first = in.data() + kMargin * stride + 3 * kMargin;
     std::vector<uint8_t> expected(kRows * (count + 7), test::kPoison), got = expected;
-    ReferenceKernels().disc(first, stride, disc.disc, kRows, count, expected.data(), count + 7);
-    kernels.disc(first, stride, disc.disc, kRows, count, got.data(), count + 7);
+    ReferenceKernels().FilterDisc(first, stride, disc.disc, kRows, count, expected.data(),
+                                  count + 7);
+    kernels.FilterDisc(first, stride, disc.disc, kRows, count, got.data(), count + 7);
     CAPTURE(disc.disc.size);
     CAPTURE(count);
     CHECK(got == expected);
@@ -222,9 +223,9 @@ void TestConvert(const Kernels& kernels) {
       std::vector<int16_t> expected(size_t(count) + 8, 0x5A5A), got = expected;
       CAPTURE(limit);
       CAPTURE(count);
-      CHECK(ReferenceKernels().convert_disparity(disparity.data(), size_t(count), -limit, limit,
-                                                 expected.data()));
-      CHECK(kernels.convert_disparity(disparity.data(), size_t(count), -limit, limit, got.data()));
+      CHECK(ReferenceKernels().ConvertDisparity(disparity.data(), size_t(count), -limit, limit,
+                                                expected.data()));
+      CHECK(kernels.ConvertDisparity(disparity.data(), size_t(count), -limit, limit, got.data()));
       CHECK(got == expected);
       for (const float bad : {kNan, kInfinity, -kInfinity, std::nextafter(limit, 1000.0f),
                               std::nextafter(-limit, -1000.0f)}) {
@@ -232,7 +233,7 @@ void TestConvert(const Kernels& kernels) {
         std::vector<float> spoilt = disparity;
         spoilt[place] = bad;
         CHECK_FALSE(
-            kernels.convert_disparity(spoilt.data(), size_t(count), -limit, limit, got.data()));
+            kernels.ConvertDisparity(spoilt.data(), size_t(count), -limit, limit, got.data()));
         CHECK(got[size_t(count)] == 0x5A5A);
       }
     }
@@ -270,12 +271,12 @@ TEST_CASE("kernels: the definitions, by hand") {
   const uint8_t source[] = {10, 20, 30, 40, 50, 60, 70, 80, 90};
   const Span span = {source + 3, 1, 3, 192, 64, 3};
   uint8_t line[5] = {1, 1, 1, 1, 1};
-  ReferenceKernels().blend(&span, 1, line);
+  ReferenceKernels().Blend(&span, 1, line);
   // (192 * 40 + 64 * 70) / 256 = 47.5: halves to even
   const uint8_t blended[5] = {1, 48, 58, 68, 1};
   CHECK(std::memcmp(line, blended, sizeof(line)) == 0);
   uint32_t sums[5] = {5, 5, 5, 5, 5};
-  ReferenceKernels().accumulate(&span, 1, sums);
+  ReferenceKernels().Accumulate(&span, 1, sums);
   CHECK(sums[0] == 5);
   CHECK(sums[1] == 5 + 192 * 40 + 64 * 70);
   CHECK(sums[3] == 5 + 192 * 60 + 64 * 90);
@@ -283,7 +284,7 @@ TEST_CASE("kernels: the definitions, by hand") {
   const uint32_t wide[3] = {uint32_t{255} << 24, (7u << 24) + (1u << 23),
                             (7u << 24) + (1u << 23) - 1};
   uint8_t out[3];
-  ReferenceKernels().finish(wide, 3, 24, out);
+  ReferenceKernels().Finish(wide, 3, 24, out);
   CHECK(int(out[0]) == 255);
   CHECK(int(out[1]) == 8);
   CHECK(int(out[2]) == 7);
@@ -293,7 +294,7 @@ TEST_CASE("kernels: the definitions, by hand") {
   covered[3 * 16 + 1] = 99;
   const uint8_t centre[6] = {9, 9, 9, 5, 6, 7};
   uint32_t accumulators[6];
-  ReferenceKernels().finish_composite(covered.data(), 16, centre, {100, 16}, 2, accumulators);
+  ReferenceKernels().FinishComposite(covered.data(), 16, centre, {100, 16}, 2, accumulators);
   CHECK(accumulators[0] == 64 << 16);
   CHECK(accumulators[1] == 0);
   CHECK(accumulators[3] == 5 << 16);
@@ -302,12 +303,12 @@ TEST_CASE("kernels: the definitions, by hand") {
       {1, 0, 0, 2, 0, 0, 3, 0, 0}, {4, 0, 0, 50, 0, 0, 6, 0, 0}, {7, 0, 0, 8, 0, 0, 9, 0, 0}};
   const uint16_t ring[3] = {4, 2, 1};  // the centre, beside it, at the corners: 16 in all
   uint8_t disc[2] = {0, 77};
-  ReferenceKernels().disc(&rows[1][3], 9, {1, 4, ring}, 1, 1, disc, 9);
+  ReferenceKernels().FilterDisc(&rows[1][3], 9, {1, 4, ring}, 1, 1, disc, 9);
   CHECK(int(disc[0]) == (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9 + 8) / 16);
   CHECK(int(disc[1]) == 77);
   const float disparity[4] = {0.0078125f, -0.0078125f, -500, 500};
   int16_t converted[4];
-  CHECK(ReferenceKernels().convert_disparity(disparity, 4, -500, 500, converted));
+  CHECK(ReferenceKernels().ConvertDisparity(disparity, 4, -500, 500, converted));
   CHECK(converted[0] == 1);
   CHECK(converted[1] == 0);
   CHECK(converted[2] == -32000);

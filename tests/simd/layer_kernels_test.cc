@@ -47,8 +47,8 @@ void TestWidenPhases(const Kernels& kernels) {
     std::vector<int16_t> expected[2], got[2];
     for (auto& phase : expected) phase.assign(3 * pairs + 1, kPoison);
     for (auto& phase : got) phase.assign(3 * pairs + 1, kPoison);
-    ReferenceKernels().widen_phases(in.data(), pairs, expected[0].data(), expected[1].data());
-    kernels.widen_phases(in.data(), pairs, got[0].data(), got[1].data());
+    ReferenceKernels().WidenPhases(in.data(), pairs, expected[0].data(), expected[1].data());
+    kernels.WidenPhases(in.data(), pairs, got[0].data(), got[1].data());
     CAPTURE(pairs);
     CHECK(got[0] == expected[0]);
     CHECK(got[1] == expected[1]);
@@ -62,8 +62,8 @@ void TestSplitPhases(const Kernels& kernels) {
     std::vector<int16_t> expected[2], got[2];
     for (auto& phase : expected) phase.assign(3 * pairs + 2, kPoison);
     for (auto& phase : got) phase.assign(3 * pairs + 2, kPoison);
-    ReferenceKernels().split_phases(in.data(), pairs, expected[0].data(), expected[1].data());
-    kernels.split_phases(in.data(), pairs, got[0].data(), got[1].data());
+    ReferenceKernels().SplitPhases(in.data(), pairs, expected[0].data(), expected[1].data());
+    kernels.SplitPhases(in.data(), pairs, got[0].data(), got[1].data());
     CAPTURE(pairs);
     for (int phase = 0; phase < 2; ++phase) {
       got[phase][3 * pairs] = kPoison;  // may be written
@@ -79,8 +79,8 @@ void TestHalve(const Kernels& kernels) {
     const std::vector<int16_t> odd = RandomSamples(count + 9 + kPadding, true, &random);
     const HalfBand taps = RandomTaps(&random);
     std::vector<int16_t> expected(count + 1, kPoison), got = expected;
-    ReferenceKernels().halve(even.data(), odd.data() + 6, taps, count, expected.data());
-    kernels.halve(even.data(), odd.data() + 6, taps, count, got.data());
+    ReferenceKernels().Halve(even.data(), odd.data() + 6, taps, count, expected.data());
+    kernels.Halve(even.data(), odd.data() + 6, taps, count, got.data());
     CAPTURE(count);
     CHECK(got == expected);
   }
@@ -102,8 +102,8 @@ void TestHalfBand(const Kernels& kernels) {
         return out;
       };
       CAPTURE(count);
-      CHECK(filter(kernels.half_band) == filter(ReferenceKernels().half_band));
-      CHECK(filter(kernels.between) == filter(ReferenceKernels().between));
+      CHECK(filter(kernels.FilterHalfBand) == filter(ReferenceKernels().FilterHalfBand));
+      CHECK(filter(kernels.Between) == filter(ReferenceKernels().Between));
     }
   }
 }
@@ -121,8 +121,8 @@ void TestNarrow(const Kernels& kernels) {
                            : int16_t(random.Next());
     }
     std::vector<uint8_t> expected(count + 1, test::kPoison), got = expected;
-    ReferenceKernels().narrow(in.data(), count, expected.data());
-    kernels.narrow(in.data(), count, got.data());
+    ReferenceKernels().Narrow(in.data(), count, expected.data());
+    kernels.Narrow(in.data(), count, got.data());
     CAPTURE(count);
     CHECK(got == expected);
   }
@@ -137,8 +137,8 @@ void TestFinishLayer(const Kernels& kernels) {
       sum = random.Int(0, 3) == 0 ? uint32_t{255} << shift : random.Next() % (255u << shift);
     }
     std::vector<int16_t> expected(count + 1, kPoison), got = expected;
-    ReferenceKernels().finish_layer(sums.data(), count, shift, expected.data());
-    kernels.finish_layer(sums.data(), count, shift, got.data());
+    ReferenceKernels().FinishLayer(sums.data(), count, shift, expected.data());
+    kernels.FinishLayer(sums.data(), count, shift, got.data());
     CAPTURE(count);
     CAPTURE(shift);
     CHECK(got == expected);
@@ -164,17 +164,17 @@ TEST_CASE("layer kernels: halving is the half-band filter at every even pixel") 
   constexpr size_t kPairs = 20, kKept = kPairs - 3;
   const std::vector<int16_t> line = RandomSamples(6 * kPairs, true, &random);
   std::vector<int16_t> even(3 * kPairs), odd = even, halved(3 * kKept), whole(6 * kPairs);
-  kernels.split_phases(line.data(), kPairs, even.data(), odd.data());
-  kernels.halve(even.data() + 6, odd.data() + 6, starfocus::kDownFilter, 3 * kKept, halved.data());
-  kernels.half_band(line.data() + 12, 3, starfocus::kDownFilter, 6 * kKept - 3, INT16_MIN,
-                    INT16_MAX, whole.data());
+  kernels.SplitPhases(line.data(), kPairs, even.data(), odd.data());
+  kernels.Halve(even.data() + 6, odd.data() + 6, starfocus::kDownFilter, 3 * kKept, halved.data());
+  kernels.FilterHalfBand(line.data() + 12, 3, starfocus::kDownFilter, 6 * kKept - 3, INT16_MIN,
+                         INT16_MAX, whole.data());
   for (size_t n = 0; n < 3 * kKept; ++n) CHECK(halved[n] == whole[n / 3 * 6 + n % 3]);
 }
 
 TEST_CASE("layer kernels: the definitions, by hand") {
   const uint8_t bytes[12] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 255};
   int16_t even[6], odd[6];
-  ReferenceKernels().widen_phases(bytes, 2, even, odd);
+  ReferenceKernels().WidenPhases(bytes, 2, even, odd);
   const int16_t evens[6] = {64, 128, 192, 448, 512, 576};
   const int16_t odds[6] = {256, 320, 384, 640, 704, kLayerWhite};
   CHECK(std::memcmp(even, evens, sizeof(even)) == 0);
@@ -182,7 +182,7 @@ TEST_CASE("layer kernels: the definitions, by hand") {
   const int16_t beside[10] = {8, 0, 0, 10, 0, 0, 30, 0, 0, 16};
   const int16_t centre = 101;
   int16_t out = 0;
-  ReferenceKernels().halve(&centre, beside + 6, {8192, 4096, 2048}, 1, &out);
+  ReferenceKernels().Halve(&centre, beside + 6, {8192, 4096, 2048}, 1, &out);
   CHECK(out == 64);  // 101 / 2 + (10 + 30) / 4 + (8 + 16) / 8 = 63.5, halves up
 }
 

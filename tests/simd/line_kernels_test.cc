@@ -68,8 +68,8 @@ struct Marks {
     const int16_t* first =
         lines.disparity.data() + (lines.backwards ? size_t(lines.length - 1) * lines.step : 0);
     const ptrdiff_t step = lines.backwards ? -ptrdiff_t(lines.step) : ptrdiff_t(lines.step);
-    kernels.find_runs(first, step, size_t(lines.length), size_t(lines.count), limits,
-                      {starts.data(), edges.data(), middles.data(), stride});
+    kernels.FindRuns(first, step, size_t(lines.length), size_t(lines.count), limits,
+                     {starts.data(), edges.data(), middles.data(), stride});
   }
 
   bool Start(int q, int k) const { return Bit(starts, q, k); }
@@ -220,8 +220,8 @@ void TestMeasureCell(const Kernels& kernels) {
     const CellLimits limits = RandomCellLimits(&random);
     CellMeasure expected, got;
     std::memset(static_cast<void*>(&got), test::kPoison, sizeof(got));
-    ReferenceKernels().measure_cell(rows.rows, limits, &expected);
-    kernels.measure_cell(rows.rows, limits, &got);
+    ReferenceKernels().MeasureCell(rows.rows, limits, &expected);
+    kernels.MeasureCell(rows.rows, limits, &got);
     CAPTURE(round);
     const bool same = Same(got, expected);
     CHECK(same);
@@ -278,7 +278,7 @@ TEST_CASE("line kernels: cells by their definition") {
     const CellRows rows(&random);
     const CellLimits limits = RandomCellLimits(&random);
     CellMeasure got;
-    ReferenceKernels().measure_cell(rows.rows, limits, &got);
+    ReferenceKernels().MeasureCell(rows.rows, limits, &got);
     const bool same = Same(got, Measured(rows, limits));
     CHECK(same);
   }
@@ -295,8 +295,8 @@ void TestFindRanges(const Kernels& kernels) {
     for (int16_t& d : in)
       d = int16_t(random.Int(0, 3) < absent ? INT16_MIN : random.Int(-most, most));
     std::vector<starfocus::simd::DisparityRange> expected(6, {5, 5}), got = expected;
-    ReferenceKernels().find_ranges(in.data(), stride, rows, count, expected.data());
-    kernels.find_ranges(in.data(), stride, rows, count, got.data());
+    ReferenceKernels().FindRanges(in.data(), stride, rows, count, expected.data());
+    kernels.FindRanges(in.data(), stride, rows, count, got.data());
     CAPTURE(count);
     for (size_t k = 0; k < got.size(); ++k) {
       CHECK(got[k].low == expected[k].low);
@@ -316,8 +316,8 @@ void TestFindWithin(const Kernels& kernels) {
     const auto high = int16_t(random.Int(0, 3) == 0 ? INT16_MAX : random.Int(low, 45));
     const starfocus::simd::DisparityRange range = {low, high};
     std::vector<uint16_t> expected(kMost, 7), got = expected;
-    ReferenceKernels().find_within(in.data(), stride, rows, range, expected.data());
-    kernels.find_within(in.data(), stride, rows, range, got.data());
+    ReferenceKernels().FindWithin(in.data(), stride, rows, range, expected.data());
+    kernels.FindWithin(in.data(), stride, rows, range, got.data());
     CHECK(got == expected);
     for (int k = 0; k < 16; ++k) {
       const bool inside = in[size_t(k)] >= range.low && in[size_t(k)] <= range.high;
@@ -330,10 +330,10 @@ TEST_CASE("line kernels: ranges, by hand") {
   int16_t in[2 * 20] = {};
   for (int16_t& d : in) d = INT16_MIN;
   starfocus::simd::DisparityRange ranges[2];
-  ReferenceKernels().find_ranges(in, 20, 2, 17, ranges);
+  ReferenceKernels().FindRanges(in, 20, 2, 17, ranges);
   CHECK(ranges[0].low > ranges[0].high);
   in[3] = 8, in[20 + 15] = -32767, in[16] = 32767, in[17] = 0;
-  ReferenceKernels().find_ranges(in, 20, 2, 17, ranges);
+  ReferenceKernels().FindRanges(in, 20, 2, 17, ranges);
   CHECK(ranges[0].low == -32767);
   CHECK(ranges[0].high == 8);
   CHECK(ranges[1].low == 32767);
@@ -360,7 +360,7 @@ struct Pixels {
   std::vector<uint8_t> Transposed(const Kernels& kernels, size_t strip) const {
     std::vector<uint8_t> out = Out();
     for (size_t row = 0; row < rows; row += strip) {
-      kernels.transpose(in.data() + row * in_stride, in_stride, std::min(strip, rows - row),
+      kernels.Transpose(in.data() + row * in_stride, in_stride, std::min(strip, rows - row),
                         columns, out.data() + 3 * row, out_stride);
     }
     return out;
@@ -417,8 +417,8 @@ TEST_CASE("line kernels: the definitions of runs, cells and transposing, by hand
   const int16_t lines[5][2] = {{40, -32000}, {11, 32000}, {0, 31995}, {5, 31990}, {-5, 31989}};
   uint16_t starts[kRunLanes], edges[kRunLanes];
   int16_t middles[5 * kRunLanes];
-  ReferenceKernels().find_runs(lines[4], -2, 5, 2, {10, 10},
-                               RunMarks{starts, edges, middles, kRunLanes});
+  ReferenceKernels().FindRuns(lines[4], -2, 5, 2, {10, 10},
+                              RunMarks{starts, edges, middles, kRunLanes});
   CHECK(starts[0] == 0b11000);
   CHECK(edges[0] == 0b11000);
   CHECK(starts[1] == 0b11000);
@@ -436,7 +436,7 @@ TEST_CASE("line kernels: the definitions of runs, cells and transposing, by hand
   values[1 + 0][1 + 7] = -20;
   values[1 + 5][0] = 500;
   CellMeasure measure;
-  ReferenceKernels().measure_cell(rows, {100, 96, 15, 90}, &measure);
+  ReferenceKernels().MeasureCell(rows, {100, 96, 15, 90}, &measure);
   for (int k = 0; k < 8; ++k) {
     CHECK(measure.column_low[k] == (k == 7 ? -20 : 0));
     CHECK(measure.column_high[k] == (k == 4 ? 97 : 0));
@@ -453,7 +453,7 @@ TEST_CASE("line kernels: the definitions of runs, cells and transposing, by hand
   }
   values[1 + 5][0] = 0;
   values[1 + 3][1 + 4] = 96;
-  ReferenceKernels().measure_cell(rows, {100, 96, 15, 90}, &measure);
+  ReferenceKernels().MeasureCell(rows, {100, 96, 15, 90}, &measure);
   CHECK(measure.edge_low > measure.edge_high);
   for (int along = 0; along < 2; ++along) {
     CHECK(measure.edges[along] == 0);
@@ -462,7 +462,7 @@ TEST_CASE("line kernels: the definitions of runs, cells and transposing, by hand
 
   const uint8_t in[2][7] = {{1, 2, 3, 4, 5, 6, 99}, {7, 8, 9, 10, 11, 12, 99}};
   uint8_t out[2][6 + kTransposePadding] = {};
-  ReferenceKernels().transpose(in[0], sizeof(in[0]), 2, 2, out[0], sizeof(out[0]));
+  ReferenceKernels().Transpose(in[0], sizeof(in[0]), 2, 2, out[0], sizeof(out[0]));
   const uint8_t transposed[2][6] = {{1, 2, 3, 7, 8, 9}, {4, 5, 6, 10, 11, 12}};
   for (int k = 0; k < 2; ++k) CHECK(std::equal(transposed[k], transposed[k] + 6, out[k]));
 }

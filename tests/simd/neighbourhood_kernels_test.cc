@@ -63,8 +63,8 @@ void TestReachBlock(const Kernels& kernels) {
     for (int column = 0; column < 6; column += 2) {
       BlockReach expected, got;
       std::memset(&got, test::kPoison, sizeof(got));
-      ReferenceKernels().reach_block(cells.At(column, 2), cells.around, kMargins, &expected);
-      kernels.reach_block(cells.At(column, 2), cells.around, kMargins, &got);
+      ReferenceKernels().ReachBlock(cells.At(column, 2), cells.around, kMargins, &expected);
+      kernels.ReachBlock(cells.At(column, 2), cells.around, kMargins, &got);
       CAPTURE(round);
       const bool same = std::memcmp(&got, &expected, sizeof(got)) == 0;
       CHECK(same);
@@ -78,8 +78,8 @@ struct Ranges {
 
   Ranges(const Kernels& kernels, const RandomCells& cells, int row, size_t count)
       : low(count + kSliceLanes), high(low), edge(low), widest(low.size()) {
-    kernels.surround_cells(cells.At(0, row), cells.around, count,
-                           {low.data(), high.data(), widest.data(), edge.data()});
+    kernels.SurroundCells(cells.At(0, row), cells.around, count,
+                          {low.data(), high.data(), widest.data(), edge.data()});
     for (auto* plane : {&low, &high, &edge}) plane->resize(count);
     widest.resize(count);
   }

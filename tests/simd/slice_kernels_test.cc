@@ -54,9 +54,8 @@ void TestSelect(const Kernels& kernels) {
     const starfocus::simd::SliceRange inside = {
         int16_t(middle - range), int16_t(middle + range / 2), int16_t(middle + range)};
     std::vector<int16_t> expected(4 * plane + whole), got = expected;
-    const SliceCover a =
-        ReferenceKernels().select_slice(row, inside, count, plane, expected.data());
-    const SliceCover b = kernels.select_slice(row, inside, count, plane, got.data());
+    const SliceCover a = ReferenceKernels().SelectSlice(row, inside, count, plane, expected.data());
+    const SliceCover b = kernels.SelectSlice(row, inside, count, plane, got.data());
     CAPTURE(count);
     CHECK(got == expected);
     CHECK(a.some == b.some);
@@ -111,8 +110,8 @@ void TestSpread(const Kernels& kernels) {
       for (const ptrdiff_t step : {ptrdiff_t{1}, ptrdiff_t{4 * 48}}) {
         std::vector<int16_t> expected(count), got(count);
         const int16_t* at = in.data() + 4 * 48 * 8;
-        ReferenceKernels().spread_slice(at, step, taps, count, expected.data());
-        kernels.spread_slice(at, step, taps, count, got.data());
+        ReferenceKernels().SpreadSlice(at, step, taps, count, expected.data());
+        kernels.SpreadSlice(at, step, taps, count, got.data());
         CHECK(got == expected);
       }
     }
@@ -131,10 +130,10 @@ void TestShift(const Kernels& kernels) {
     std::vector<int16_t> expected(4 * plane), got = expected;
     std::vector<uint8_t> near(rows + starfocus::simd::kRowsAhead + 1, 9), got_near = near;
     const starfocus::simd::SlicePlanes from = {in.data() + random.Int(0, 16), in_plane};
-    ReferenceKernels().shift_slice(from, fraction, rows, plane, expected.data(),
-                                   near.data() + starfocus::simd::kRowsAhead);
-    kernels.shift_slice(from, fraction, rows, plane, got.data(),
-                        got_near.data() + starfocus::simd::kRowsAhead);
+    ReferenceKernels().ShiftSlice(from, fraction, rows, plane, expected.data(),
+                                  near.data() + starfocus::simd::kRowsAhead);
+    kernels.ShiftSlice(from, fraction, rows, plane, got.data(),
+                       got_near.data() + starfocus::simd::kRowsAhead);
     CAPTURE(round);
     CHECK(got == expected);
     CHECK(got_near == near);
@@ -206,8 +205,8 @@ void TestComposite(const Kernels& kernels) {
     const starfocus::simd::SliceViews job = {
         weights.data(), offsets.data(), views, tiles.data(), slices, shown.data(), shown.size(), 1};
     std::vector<uint32_t> expected(4 * (rows + 1) * kSliceLanes, 5), got = expected;
-    ReferenceKernels().composite(job, rows, expected.data());
-    kernels.composite(job, rows, got.data());
+    ReferenceKernels().Composite(job, rows, expected.data());
+    kernels.Composite(job, rows, got.data());
     CAPTURE(round);
     CHECK(got == expected);
     CHECK(expected.back() == 5);

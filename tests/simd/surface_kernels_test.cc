@@ -30,8 +30,8 @@ void TestSplit(const Kernels& kernels) {
     const std::vector<uint8_t> rgb = test::RandomBytes(3 * count + kPadding, &random);
     const size_t plane = count + size_t(random.Int(0, 9));
     std::vector<uint8_t> expected(3 * plane, 7), got = expected;
-    ReferenceKernels().split(rgb.data(), count, plane, expected.data());
-    kernels.split(rgb.data(), count, plane, got.data());
+    ReferenceKernels().Split(rgb.data(), count, plane, expected.data());
+    kernels.Split(rgb.data(), count, plane, got.data());
     CAPTURE(count);
     CHECK(got == expected);
     CHECK(expected[2 * plane + count - 1] == rgb[3 * count - 1]);
@@ -54,10 +54,10 @@ void TestFindEdges(const Kernels& kernels) {
           d = int16_t(std::clamp(d + random.Int(-300, 600), -32000, 32000));
       }
       std::vector<uint8_t> expected(whole), got(whole);
-      ReferenceKernels().find_edges(near.data(), far.data(), limits, count, moved.data(),
-                                    behind.data(), expected.data());
-      kernels.find_edges(near.data(), far.data(), limits, count, got_moved.data(),
-                         got_behind.data(), got.data());
+      ReferenceKernels().FindEdges(near.data(), far.data(), limits, count, moved.data(),
+                                   behind.data(), expected.data());
+      kernels.FindEdges(near.data(), far.data(), limits, count, got_moved.data(), got_behind.data(),
+                        got.data());
       CAPTURE(count);
       CHECK(got == expected);
       CHECK(got_moved == moved);
@@ -77,11 +77,11 @@ void TestSteps(const Kernels& kernels) {
     const int16_t* row = rows.data() + stride + 1;
     const size_t chunks = Whole(count) / kSliceLanes;
     std::vector<StepBits> expected(chunks), got(chunks);
-    ReferenceKernels().find_steps(row, count, 48, expected.data());
-    kernels.find_steps(row, count, 48, got.data());
+    ReferenceKernels().FindSteps(row, count, 48, expected.data());
+    kernels.FindSteps(row, count, 48, got.data());
     std::vector<uint16_t> beside(chunks), got_beside(chunks);
-    ReferenceKernels().beside_steps(row, ptrdiff_t(stride), count, 48, beside.data());
-    kernels.beside_steps(row, ptrdiff_t(stride), count, 48, got_beside.data());
+    ReferenceKernels().BesideSteps(row, ptrdiff_t(stride), count, 48, beside.data());
+    kernels.BesideSteps(row, ptrdiff_t(stride), count, 48, got_beside.data());
     CAPTURE(count);
     CHECK(got_beside == beside);
     for (size_t chunk = 0; chunk < chunks; ++chunk) {
@@ -164,10 +164,10 @@ struct Hidden {
       source[k].assign(share.size(), 7);
       found[k].assign(share.size() / kSliceLanes, 7);
     }
-    chunks = kernels.look_behind(row, {{disparity[0].data(), disparity[1].data()},
-                                       {source[0].data(), source[1].data()},
-                                       {found[0].data(), found[1].data()},
-                                       share.data()});
+    chunks = kernels.LookBehind(row, {{disparity[0].data(), disparity[1].data()},
+                                      {source[0].data(), source[1].data()},
+                                      {found[0].data(), found[1].data()},
+                                      share.data()});
     for (size_t n = 0; n < share.size(); ++n) {
       if ((chunks >> n / kSliceLanes & 1) != 0) continue;
       for (int k = 0; k < 2; ++k) source[k][n] = found[k][n / kSliceLanes] = 0;
@@ -222,8 +222,8 @@ void TestInterpolate(const Kernels& kernels) {
     const std::vector<uint8_t> weight = test::RandomBytes(kSliceLanes, &random);
     if (round == 0) here.assign(here.size(), 255), next = here;
     std::vector<uint8_t> expected(3 * plane, 7), got = expected;
-    ReferenceKernels().interpolate(here.data(), next.data(), weight.data(), plane, expected.data());
-    kernels.interpolate(here.data(), next.data(), weight.data(), plane, got.data());
+    ReferenceKernels().Interpolate(here.data(), next.data(), weight.data(), plane, expected.data());
+    kernels.Interpolate(here.data(), next.data(), weight.data(), plane, got.data());
     CHECK(got == expected);
     if (round == 0) CHECK(expected[0] == 255);
   }

@@ -1,24 +1,20 @@
-// The kernels of surfaces: split, find_steps, find_edges, look_behind, interpolate, beside_steps.
-// Included once per target.
-#if defined(STARFOCUS_SIMD_SURFACES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_SURFACES_INL_H_
-#undef STARFOCUS_SIMD_SURFACES_INL_H_
+// Vector code of layered_depth.h. Included once per target.
+#if defined(STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
+#undef STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
 #else
-#define STARFOCUS_SIMD_SURFACES_INL_H_
+#define STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
-#include "simd/kernels.h"
+#include "simd/chunk-inl.h"
+#include "simd/layered_depth.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// A chunk of kSliceLanes at most, so that bits of a mask are those of a chunk.
-using SurfaceTag = hn::CappedTag<int16_t, kSliceLanes>;
-
-HWY_INLINE void SplitPixels(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t plane,
-                            uint8_t* HWY_RESTRICT out) {
+inline void Split(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t plane,
+                  uint8_t* HWY_RESTRICT out) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   const size_t lanes = hn::Lanes(d8);
   size_t n = 0;
@@ -34,10 +30,10 @@ HWY_INLINE void SplitPixels(const uint8_t* HWY_RESTRICT rgb, size_t count, size_
   }
 }
 
-HWY_INLINE void FindEdgesOfRow(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,
-                               const EdgeLimits& limits, size_t count, int16_t* HWY_RESTRICT moved,
-                               int16_t* HWY_RESTRICT behind, uint8_t* HWY_RESTRICT distance) {
-  const SurfaceTag d16;
+inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,
+                      const EdgeLimits& limits, size_t count, int16_t* HWY_RESTRICT moved,
+                      int16_t* HWY_RESTRICT behind, uint8_t* HWY_RESTRICT distance) {
+  const ChunkTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
   const auto step = hn::Set(d16, limits.step);
@@ -60,21 +56,12 @@ HWY_INLINE void FindEdgesOfRow(const int16_t* HWY_RESTRICT near, const int16_t* 
   }
 }
 
-// Bit k: lane k.
-template <class D>
-HWY_INLINE uint32_t BitsOf(D d, hn::Mask<D> mask) {
-  uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  return uint32_t{bytes[0]} | uint32_t{bytes[1]} << 8;
-}
-
 // What the four sides show behind a chunk of pixels, if bit k of `some` is set for side k. In
 // memory, since some vectors have no size.
 struct ChunkSides {
   uint32_t some;
   int16_t rank[4][kSliceLanes], disparity[4][kSliceLanes], half[4][kSliceLanes];
 };
-constexpr int16_t kNoRank = INT16_MAX;
 
 // Lanes of pixels before which something lies in the view that moves by a pixel per `unit`; the
 // pixels that may, one after the other towards the side, are `step` apart. Up to `room` of them are
@@ -107,9 +94,9 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, V d
   return hn::MaskFromVec(covered);
 }
 
-// The sides of kSides of lib/window.h.
+// The sides of kSides of lib/input/window.h.
 HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, ChunkSides* sides) {
-  const SurfaceTag d16;
+  const ChunkTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const ptrdiff_t along = side < 2 ? 1 : row.stride, step = side % 2 == 0 ? along : -along;
   const int32_t unit = 1 << row.unit_bits, vertical = side == 2 ? row.below : row.above;
@@ -181,8 +168,8 @@ HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V dispar
 // The nearest and the next of them. Returns whether there is any.
 HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t chunk,
                                const HiddenRow& hidden) {
-  const SurfaceTag d16;
-  const hn::RebindToUnsigned<SurfaceTag> du16;
+  const ChunkTag d16;
+  const hn::RebindToUnsigned<ChunkTag> du16;
   const auto unit = hn::Set(d16, static_cast<int16_t>(1 << unit_bits));
   const auto none = hn::Set(d16, kNoRank), nothing = hn::Set(d16, kNoSurface);
   uint32_t found[kSurfaces - 1] = {};
@@ -239,8 +226,8 @@ HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t chunk, uint8_t* HWY_RES
   return sides;
 }
 
-HWY_INLINE uint64_t LookBehindRow(const DepthRow& row, const HiddenRow& hidden) {
-  const SurfaceTag d16;
+inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
+  const ChunkTag d16;
   ChunkSides sides;
   uint64_t chunks = 0, bit = 1;
   const auto nothing = hn::Set(d16, kNoSurface);
@@ -261,10 +248,9 @@ HWY_INLINE uint64_t LookBehindRow(const DepthRow& row, const HiddenRow& hidden) 
   return chunks;
 }
 
-HWY_INLINE void InterpolatePixels(const uint8_t* HWY_RESTRICT here,
-                                  const uint8_t* HWY_RESTRICT next,
-                                  const uint8_t* HWY_RESTRICT weight, size_t plane,
-                                  uint8_t* HWY_RESTRICT out) {
+inline void Interpolate(const uint8_t* HWY_RESTRICT here, const uint8_t* HWY_RESTRICT next,
+                        const uint8_t* HWY_RESTRICT weight, size_t plane,
+                        uint8_t* HWY_RESTRICT out) {
   const hn::CappedTag<uint16_t, kSliceLanes> d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const auto half = hn::Set(d16, uint16_t{128});
@@ -288,9 +274,9 @@ HWY_INLINE void InterpolatePixels(const uint8_t* HWY_RESTRICT here,
 
 // Lanes beyond `count` are masked before anything depends on them: what lies there may never have
 // been written.
-HWY_INLINE void FindStepsOfRow(const int16_t* HWY_RESTRICT row, size_t count, int16_t step,
-                               StepBits* HWY_RESTRICT steps) {
-  const SurfaceTag d16;
+inline void FindSteps(const int16_t* HWY_RESTRICT row, size_t count, int16_t step,
+                      StepBits* HWY_RESTRICT steps) {
+  const ChunkTag d16;
   const auto least = hn::Set(d16, step);
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, ++steps) {
     uint32_t falls = 0, rises = 0;
@@ -309,9 +295,9 @@ HWY_INLINE void FindStepsOfRow(const int16_t* HWY_RESTRICT row, size_t count, in
   }
 }
 
-HWY_INLINE void FindBesideSteps(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_t count,
-                                int16_t step, uint16_t* HWY_RESTRICT beside) {
-  const SurfaceTag d16;
+inline void BesideSteps(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_t count,
+                        int16_t step, uint16_t* HWY_RESTRICT beside) {
+  const ChunkTag d16;
   const auto least = hn::Set(d16, step);
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, ++beside) {
     uint32_t bits = 0;

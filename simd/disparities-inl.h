@@ -1,24 +1,42 @@
-// Kernels::find_ranges and find_within. Included once per target.
-#if defined(STARFOCUS_SIMD_RANGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_RANGES_INL_H_
-#undef STARFOCUS_SIMD_RANGES_INL_H_
+// Vector code of disparities.h. Included once per target.
+#if defined(STARFOCUS_SIMD_DISPARITIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_DISPARITIES_INL_H_
+#undef STARFOCUS_SIMD_DISPARITIES_INL_H_
 #else
-#define STARFOCUS_SIMD_RANGES_INL_H_
+#define STARFOCUS_SIMD_DISPARITIES_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
-#include "simd/kernels.h"
-#include "simd/surfaces-inl.h"
+#include "simd/chunk-inl.h"
+#include "simd/disparities.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
+inline bool ConvertDisparity(const float* HWY_RESTRICT disparity, size_t count, float low,
+                             float high, int16_t* HWY_RESTRICT out) {
+  const hn::ScalableTag<float> df;
+  const hn::RebindToSigned<decltype(df)> di32;
+  const hn::Rebind<int16_t, decltype(df)> di16;
+  const size_t lanes = hn::Lanes(df);
+  const auto scale = hn::Set(df, 64.0f);
+  const auto half = hn::Set(df, 0.5f);
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    const auto d = hn::LoadU(df, disparity + n);
+    const auto inside = hn::And(hn::Ge(d, hn::Set(df, low)), hn::Le(d, hn::Set(df, high)));
+    if (!hn::AllTrue(df, inside)) return false;
+    const auto scaled = hn::Floor(hn::Add(hn::Mul(d, scale), half));
+    hn::StoreU(hn::DemoteTo(di16, hn::ConvertTo(di32, scaled)), di16, out + n);
+  }
+  return n == count || reference::ConvertDisparity(disparity + n, count - n, low, high, out + n);
+}
+
 // Of `count` columns, kSliceLanes at most.
 HWY_INLINE DisparityRange RangeOfColumns(const int16_t* HWY_RESTRICT disparity, size_t stride,
                                          size_t rows, size_t count) {
-  const hn::CappedTag<int16_t, kSliceLanes> d16;
-  const auto none = hn::Set(d16, int16_t{INT16_MIN}), one = hn::Set(d16, int16_t{1});
+  const ChunkTag d16;
+  const auto none = hn::Set(d16, kNoSurface), one = hn::Set(d16, int16_t{1});
   // One less than the lowest: where there is no surface that wraps round to the largest.
   auto below = hn::Set(d16, int16_t{INT16_MAX}), high = none;
   for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
@@ -35,17 +53,17 @@ HWY_INLINE DisparityRange RangeOfColumns(const int16_t* HWY_RESTRICT disparity, 
           hn::GetLane(hn::MaxOfLanes(d16, high))};
 }
 
-HWY_INLINE void FindRangesOfRows(const int16_t* disparity, size_t stride, size_t rows, size_t count,
-                                 DisparityRange* ranges) {
+inline void FindRanges(const int16_t* disparity, size_t stride, size_t rows, size_t count,
+                       DisparityRange* ranges) {
   for (size_t n = 0; n < count; n += kSliceLanes) {
     *ranges++ = RangeOfColumns(disparity + n, stride, rows,
                                count - n < kSliceLanes ? count - n : kSliceLanes);
   }
 }
 
-HWY_INLINE void FindWithinRows(const int16_t* HWY_RESTRICT disparity, size_t stride, size_t rows,
-                               const DisparityRange& range, uint16_t* HWY_RESTRICT within) {
-  const SurfaceTag d16;
+inline void FindWithin(const int16_t* HWY_RESTRICT disparity, size_t stride, size_t rows,
+                       const DisparityRange& range, uint16_t* HWY_RESTRICT within) {
+  const ChunkTag d16;
   const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
   for (size_t row = 0; row < rows; ++row, disparity += stride) {
     uint32_t bits = 0;

@@ -1,0 +1,32 @@
+// Vectors of a group of kSliceLanes samples, and their masks as bits. Included once per target.
+#if defined(STARFOCUS_SIMD_CHUNK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_CHUNK_INL_H_
+#undef STARFOCUS_SIMD_CHUNK_INL_H_
+#else
+#define STARFOCUS_SIMD_CHUNK_INL_H_
+#endif
+
+#include "simd/compat-inl.h"
+#include "simd/padding.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+// A vector holds a group at most: rows are padded to whole groups only, and bits of a mask become
+// those of a group.
+using ChunkTag = hn::CappedTag<int16_t, kSliceLanes>;
+
+// The mask as bits: bit k is lane k.
+template <class D>
+HWY_INLINE uint32_t BitsOf(D d, hn::Mask<D> mask) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return uint32_t{bytes[0]} | uint32_t{bytes[1]} << 8;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif

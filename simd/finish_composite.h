@@ -1,0 +1,33 @@
+// The kernel that turns the sums of composited views into a picture's accumulators.
+#ifndef STARFOCUS_SIMD_FINISH_COMPOSITE_H_
+#define STARFOCUS_SIMD_FINISH_COMPOSITE_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/padding.h"
+
+namespace starfocus::simd {
+
+// Pixels whose coverage is below `least` take the centre view's colour. Accumulators get `bits`
+// fractional bits.
+struct CompositeFinish {
+  uint32_t least;  // > 0
+  int bits;        // [1, 24]
+};
+inline constexpr int kInverseBits = 48;
+
+namespace reference {
+
+// Divides colours by coverage, of which sums[c * plane + n] are the planes: out[3 n + c] is
+// sums[c * plane + n] * (2^kInverseBits / covered) in units of 2^-bits, rounded halves up and 255
+// at most, where covered = sums[3 * plane + n] >= least; the division truncates. Elsewhere out[3 n
+// + c] is rgb[3 n + c] << bits. Sums are read in whole groups of kSliceLanes; nothing past out[3
+// count - 1] is written.
+void FinishComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+                     const CompositeFinish& finish, size_t count, uint32_t* out);
+
+}  // namespace reference
+}  // namespace starfocus::simd
+
+#endif  // STARFOCUS_SIMD_FINISH_COMPOSITE_H_

@@ -1,0 +1,142 @@
+#include <cstdlib>
+#include <initializer_list>
+
+#include "simd/arithmetic_ref.h"
+#include "simd/layered_depth.h"
+
+namespace starfocus::simd::reference {
+namespace {
+
+// What one side shows behind a pixel.
+struct HiddenSide {
+  int rank;  // the nearer edge first, and those that a side view shows
+  int16_t disparity;
+  bool half;
+};
+
+// Whether something lies before the place behind a pixel in the view that moves by a pixel per
+// `unit`; the `room` pixels towards the side are `step` apart.
+bool IsCovered(const int16_t* at, ptrdiff_t step, int32_t room, int16_t disparity, int32_t unit) {
+  for (int32_t u = 0; u <= room; ++u, at += step) {
+    const int32_t nearer = *at - disparity;
+    if (2 * nearer > unit && 4 * std::abs(nearer - u * unit) < 3 * unit) return true;
+  }
+  return false;
+}
+
+HiddenSide LookBehindSide(const DepthRow& row, int32_t x, int side) {
+  const int32_t distance = row.edges[side][x], unit = 1 << row.unit_bits;
+  if (distance == 0) return {kNoRank, kNoSurface, false};
+  const ptrdiff_t along = side < 2 ? 1 : row.stride, step = side % 2 == 0 ? along : -along;
+  const int32_t rooms[4] = {row.width - 1 - x, x, row.below, row.above};
+  const int16_t* at = row.disparity + x;
+  const int16_t disparity = at[step * distance];
+  for (const bool half : {false, true}) {
+    if (!row.side_views || (half && !row.half_views)) break;
+    if (!IsCovered(at, step, rooms[side], disparity, half ? 2 * unit : unit)) {
+      return {distance, disparity, half};
+    }
+  }
+  return {distance + kUnseen, disparity, false};
+}
+
+// Writes pixel x of surface `behind` + 1, farther than `above` or nearer. Returns its disparity.
+int16_t ChooseSurface(const HiddenSide* sides, int32_t x, int behind, int32_t unit, int16_t above,
+                      const HiddenRow& hidden) {
+  const HiddenSide* best = nullptr;
+  for (const HiddenSide* side = sides; side < sides + 4; ++side) {
+    if (side->rank == kNoRank) continue;
+    if (behind > 0 && std::abs(side->disparity - above) <= unit) continue;
+    const bool before = best == nullptr || side->rank < best->rank ||
+                        (side->rank == best->rank && side->disparity > best->disparity);
+    if (before) best = side;
+  }
+  int source = 0;
+  for (int k = 0; best != nullptr && k < 4; ++k) {
+    if (sides[k].rank != best->rank || sides[k].disparity != best->disparity) continue;
+    source |= 1 << k | (sides[k].half ? 1 << (kSourceHalf + k) : 0);
+    if (best->rank > kUnseen) source |= (best->rank - kUnseen) << kSourceDistance;
+  }
+  hidden.source[behind][x] = static_cast<uint16_t>(source);
+  return hidden.disparity[behind][x] = best == nullptr ? kNoSurface : best->disparity;
+}
+
+}  // namespace
+
+void Split(const uint8_t* rgb, size_t count, size_t plane, uint8_t* out) {
+  for (size_t n = 0; n < count; ++n) {
+    for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
+  }
+}
+
+void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits, size_t count,
+               int16_t* moved, int16_t* behind, uint8_t* distance) {
+  for (size_t n = 0; n < SliceSamples(count); ++n) {
+    if (Saturated(near[n] - far[n]) > limits.step) {
+      moved[n] = 0;
+      behind[n] = far[n];
+    } else {
+      moved[n] = Saturated(moved[n] + (1 << limits.unit_bits));
+    }
+    const int16_t depth = Saturated(near[n] - behind[n]);
+    const bool hides =
+        depth > limits.step && moved[n] <= depth && moved[n] <= FarthestEdge(limits.unit_bits);
+    distance[n] = static_cast<uint8_t>(hides ? (moved[n] >> limits.unit_bits) + 1 : 0);
+  }
+}
+
+void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps) {
+  for (size_t n = 0; n < count; ++n) {
+    StepBits& bits = steps[n / kSliceLanes];
+    if (n % kSliceLanes == 0) bits = {0, 0};
+    const int fall = row[n] - row[n + 1], bit = 1 << n % kSliceLanes;
+    bits.falls = static_cast<uint16_t>(bits.falls | (fall > step ? bit : 0));
+    bits.rises = static_cast<uint16_t>(bits.rises | (-fall > step ? bit : 0));
+  }
+}
+
+void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t step,
+                 uint16_t* beside) {
+  for (size_t n = 0; n < count; ++n) {
+    uint16_t& bits = beside[n / kSliceLanes];
+    if (n % kSliceLanes == 0) bits = 0;
+    bool nearer = false;
+    for (const ptrdiff_t next : {ptrdiff_t{1}, ptrdiff_t{-1}, stride, -stride}) {
+      nearer = nearer || row[static_cast<ptrdiff_t>(n) + next] - row[n] > step;
+    }
+    bits = static_cast<uint16_t>(bits | (nearer ? 1 << n % kSliceLanes : 0));
+  }
+}
+
+uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
+  uint64_t chunks = 0;
+  for (int32_t x = 0; x < static_cast<int32_t>(SliceSamples(static_cast<size_t>(row.width))); ++x) {
+    HiddenSide sides[4];
+    bool end = false;
+    for (int side = 0; side < 4; ++side) {
+      sides[side] = LookBehindSide(row, x, side);
+      end = end || row.edges[side][x] == 1;
+    }
+    hidden.share[x] = end ? kSliceEnd : static_cast<uint8_t>(kSliceWhole);
+    const size_t chunk = static_cast<size_t>(x) / kSliceLanes;
+    int16_t above = kNoSurface;
+    for (int behind = 0; behind < kSurfaces - 1; ++behind) {
+      above = ChooseSurface(sides, x, behind, 1 << row.unit_bits, above, hidden);
+      const int bit = above != kNoSurface ? 1 << static_cast<size_t>(x) % kSliceLanes : 0;
+      uint16_t& found = hidden.found[behind][chunk];
+      found = static_cast<uint16_t>((static_cast<size_t>(x) % kSliceLanes == 0 ? 0 : found) | bit);
+      if (bit != 0) chunks |= uint64_t{1} << chunk;
+    }
+  }
+  return chunks;
+}
+
+void Interpolate(const uint8_t* here, const uint8_t* next, const uint8_t* weight, size_t plane,
+                 uint8_t* out) {
+  for (size_t n = 0; n < 3 * kSliceLanes; ++n) {
+    const int sum = here[n] * (256 - weight[n / 3]) + next[n] * weight[n / 3];
+    out[n % 3 * plane + n / 3] = static_cast<uint8_t>((sum + 128) >> 8);
+  }
+}
+
+}  // namespace starfocus::simd::reference

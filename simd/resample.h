@@ -1,0 +1,63 @@
+// Kernels that halve pictures into layers and bring layers back to full size.
+#ifndef STARFOCUS_SIMD_RESAMPLE_H_
+#define STARFOCUS_SIMD_RESAMPLE_H_
+
+#include <cstddef>
+#include <cstdint>
+
+namespace starfocus::simd {
+
+// Samples of layers have kLayerBits fractional bits. Those in range are [0, kLayerWhite]; filters
+// leave it by less than a fifth of white on either side.
+inline constexpr int kLayerBits = 6;
+inline constexpr int16_t kLayerWhite = 255 << kLayerBits;
+
+// Taps of a symmetric half-band filter with kTapBits fractional bits. Its seven taps are `centre`
+// in the middle, `near` beside it, `far` at the ends, and zeros between those. |tap| <= 2^kTapBits,
+// and no sum of products leaves 32 bits.
+inline constexpr int kTapBits = 14;
+struct HalfBand {
+  int32_t centre, near, far;
+};
+
+namespace reference {
+
+// Parts a line of pixels into even and odd ones, as samples: even[3 n + c] = in[6 n + c] <<
+// kLayerBits and odd[3 n + c] = in[6 n + 3 + c] << kLayerBits, for n < pairs. Nothing past `in` is
+// read, and nothing past the phases is written.
+void WidenPhases(const uint8_t* in, size_t pairs, int16_t* even, int16_t* odd);
+
+// Does the same for samples, which stay as they are. One sample past the end of each phase may be
+// written.
+void SplitPhases(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd);
+
+// out[n] = in[n] rounded to a whole number, halves to even, and clamped to a byte.
+void Narrow(const int16_t* in, size_t count, uint8_t* out);
+
+// Makes samples of accumulators: out[n] = (accumulators[n] + 2^(shift - 7)) >> (shift - 6). `shift`
+// lies in [7, 24], and results are in range.
+void FinishLayer(const uint32_t* accumulators, size_t count, int shift, int16_t* out);
+
+// Filters samples that lie `step` apart: out[n] is centre in[n] + near (in[n - step] + in[n +
+// step])
+// + far (in[n - 3 step] + in[n + 3 step]), rounded halves up to a sample and clamped to [low,
+// high].
+void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
+                    int16_t low, int16_t high, int16_t* out);
+
+// Filters a line and keeps the even pixels, given both phases of the line: out[n] is centre even[n]
+// + near (odd[n - 3] + odd[n]) + far (odd[n - 6] + odd[n + 3]), rounded as above and saturated to
+// 16 bits. Samples are in range.
+void Halve(const int16_t* even, const int16_t* odd, const HalfBand& taps, size_t count,
+           int16_t* out);
+
+// Interpolates the samples half way between in[n] and in[n + step]: out[n] is
+// near (in[n] + in[n + step]) + far (in[n - step] + in[n + 2 step]), rounded as above and clamped
+// to [low, high].
+void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count, int16_t low,
+             int16_t high, int16_t* out);
+
+}  // namespace reference
+}  // namespace starfocus::simd
+
+#endif  // STARFOCUS_SIMD_RESAMPLE_H_

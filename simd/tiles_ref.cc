@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cstring>
+
+#include "simd/arithmetic_ref.h"
+#include "simd/tiles.h"
+
+namespace starfocus::simd::reference {
+namespace {
+
+int16_t Between15(int16_t from, int16_t to, int16_t fraction) {
+  return static_cast<int16_t>(to + Product15(to - from, fraction));
+}
+
+// Sample n of a plane and the next ones, `next` samples on, of which `covered` is the coverage.
+int16_t Between15(const int16_t* at, const int16_t* covered, size_t next,
+                  const SliceFraction& fraction) {
+  const bool alike = covered[0] == covered[next];
+  int value = Between15(at[0], at[next], alike ? fraction.inside : fraction.edge);
+  if (fraction.third != 0) value += Product15(at[next] - at[2 * next], fraction.third);
+  if (fraction.fourth != 0) value += Product15(at[2 * next] - at[3 * next], fraction.fourth);
+  return static_cast<int16_t>(value);
+}
+
+// light / covered, both of kSliceOne, as a series: 1 - excess (1 + open + open^2), where the slice
+// leaves `open`. Exact where it leaves nothing or the excess is small; at most 4 * light.
+int16_t SliceShare(int16_t covered, int16_t light) {
+  const int32_t excess = covered - light, open = kSliceOne - covered;
+  const int16_t first = Product15(excess, open), second = Product15(first, open);
+  const int32_t share = kSliceOne - Saturated(excess + first + second);
+  return static_cast<int16_t>(share < 4 * light ? share : Saturated(4 * light));
+}
+
+}  // namespace
+
+void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
+                int16_t* out, uint8_t* near) {
+  size_t all_covered = 0;  // rows, one after the other
+  for (size_t row = 0; row < rows; ++row) {
+    const int16_t* covered = in.samples + (4 * row + 3) * in.plane;
+    for (size_t c = 0; c < 4; ++c) {
+      const int16_t* from = in.samples + (4 * row + c) * in.plane;
+      int16_t* to = out + c * plane + row * kSliceLanes;
+      for (size_t n = 0; n < kSliceLanes; ++n)
+        to[n] = Between15(from + n, covered + n, 1, fraction);
+    }
+    const int16_t *shown = out + 3 * plane + row * kSliceLanes, *end = shown + kSliceLanes;
+    uint8_t* first = near + row - kRowsAhead;
+    if (std::any_of(shown, end, [](int16_t sample) { return sample != 0; })) {
+      std::memset(first, kSomethingNear, kRowsAhead + 1);
+    }
+    const bool all = std::all_of(shown, end, [](int16_t sample) { return sample == kSliceOne; });
+    all_covered = all ? all_covered + 1 : 0;
+    if (all_covered > kRowsAhead) *first = kCoveredNear;
+  }
+}
+
+void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
+  for (size_t y = 0; y < rows; ++y, sums += 4 * kSliceLanes) {
+    const size_t row = views.row + y;
+    for (size_t n = 0; n < kSliceLanes; ++n) {
+      for (size_t view = 0; view < views.views; ++view) {
+        const int16_t weight = views.weights[view];
+        int16_t light = kSliceOne;
+        for (size_t k = 0; k < views.shown_count; ++k) {
+          const TileSlice& slice = views.slices[views.shown[k]];
+          const SliceOffset& offset = views.offsets[view * views.count + views.shown[k]];
+          const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
+          if (slice.near[moved] == kNothingNear) continue;
+          const int16_t* from = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
+          const auto value = [&](size_t c) {
+            return Between15(from + c * slice.plane, from + 3 * slice.plane, kSliceLanes,
+                             offset.fraction);
+          };
+          const int16_t covered = value(3);
+          for (size_t c = 0; c < 4; ++c) {
+            const int16_t lit =
+                covered > light ? Product15(value(c), SliceShare(covered, light)) : value(c);
+            sums[n + c * kSliceLanes] += static_cast<uint32_t>(Product15(weight, lit));
+          }
+          light = static_cast<int16_t>(covered > light ? 0 : light - covered);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace starfocus::simd::reference
