@@ -1,0 +1,105 @@
+// Cases of the kernels of simd/disparities.h.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/simd/kernel_cases.h"
+
+namespace test::kernel_cases {
+namespace {
+
+using starfocus::simd::DisparityRange;
+using starfocus::simd::Kernels;
+using starfocus::simd::kNoSurface;
+using starfocus::simd::kSliceLanes;
+using starfocus::simd::SliceSamples;
+
+// The ends of the range, halves of a step, and anything between.
+std::vector<float> DisparitiesWithin(size_t count, float low, float high, Draw* draw) {
+  std::vector<float> disparity(count);
+  for (float& d : disparity) {
+    const int kind = draw->Int(0, 4);
+    const double exact = draw->Real(low, high), tie = (std::floor(exact * 64) + 0.5) / 64;
+    d = kind == 0 ? low : kind == 1 ? high : kind == 2 ? float(tie) : float(exact);
+    d = std::clamp(d, low, high);
+  }
+  return disparity;
+}
+
+}  // namespace
+
+void ConvertDisparity(Draw* draw, KernelCall* call) {
+  constexpr float kLimits[] = {500, 7.3f, 0, 511},
+                  kInfinity = std::numeric_limits<float>::infinity();
+  const size_t count = draw->Length(1, kLongestBytes, kTimedSamples);
+  const float high = kLimits[draw->Int(0, 3)], low = draw->Int(0, 1) == 0 ? -high : high / 2;
+  std::vector<float> values = DisparitiesWithin(count, low, high, draw);
+  const float outside[] = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity,
+                           std::nextafter(high, kInfinity), std::nextafter(low, -kInfinity)};
+  const bool spoilt = draw->Rarely(3);
+  if (spoilt) values[size_t(draw->Int(0, int(count) - 1))] = outside[draw->Int(0, 4)];
+  const float* disparity = call->Input("disparity", values, starfocus::simd::kPadding);
+  auto* out = call->Output<int16_t>("out", count);
+  call->Result(out, count);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    return kernels.ConvertDisparity(disparity, count, low, high, out);
+  };
+  call->is_right = [=](uint64_t all_within, Met* met) {
+    if (all_within == 0) call->Free(out, count);
+    (*met)["refused"] += all_within == 0;
+    return all_within == !spoilt;
+  };
+}
+
+void FindRanges(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 70, 128), whole = SliceSamples(count);
+  const size_t rows = draw->Size(1, 9, kTimedSamples / 128);
+  const size_t stride = count + size_t(draw->Int(0, 5));
+  const int most = draw->Int(0, 2) == 0 ? 32767 : 90, absent = draw->Int(0, 4);
+  std::vector<int16_t> in((rows - 1) * stride + whole);
+  for (int16_t& d : in) d = int16_t(draw->Int(0, 3) < absent ? kNoSurface : draw->Int(-most, most));
+  const int16_t* disparity = call->Input("disparity", in);
+  for (size_t row = 0; row + 1 < rows; ++row) {
+    call->Ignore(disparity + row * stride + count, stride - count);
+  }
+  call->Ignore(disparity + (rows - 1) * stride + count, whole - count);
+  auto* ranges = call->Output<DisparityRange>("ranges", whole / kSliceLanes);
+  call->Result(ranges, whole / kSliceLanes);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.FindRanges(disparity, stride, rows, count, ranges);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    for (size_t k = 0; k < whole / kSliceLanes; ++k) {
+      (*met)[ranges[k].low > ranges[k].high ? "no surface" : "a range"] += 1;
+    }
+    return true;
+  };
+}
+
+void FindWithin(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Length(1, 9, kTimedSamples / kSliceLanes);
+  const size_t stride = draw->Size(16, 40, kSliceLanes);
+  std::vector<int16_t> in((rows - 1) * stride + kSliceLanes);
+  for (int16_t& d : in) d = int16_t(draw->Int(-40, 40) * (draw->Int(0, 3) == 0 ? 819 : 1));
+  const int16_t* disparity = call->Input("disparity", in);
+  const auto low = int16_t(draw->Int(-45, 35));
+  const auto high = int16_t(draw->Int(0, 3) == 0 ? INT16_MAX : draw->Int(low, 45));
+  auto* within = call->Output<uint16_t>("within", rows);
+  call->Result(within, rows);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.FindWithin(disparity, stride, rows, {low, high}, within);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met*) {
+    bool right = true;
+    for (size_t k = 0; k < rows * kSliceLanes; ++k) {
+      const int16_t d = disparity[k / kSliceLanes * stride + k % kSliceLanes];
+      const int bit = within[k / kSliceLanes] >> k % kSliceLanes & 1;
+      right = right && bit == int(d >= low && d <= high);
+    }
+    return right;
+  };
+}
+
+}  // namespace test::kernel_cases

@@ -1,0 +1,50 @@
+// The case of the kernel of simd/finish_composite.h.
+#include "tests/simd/kernel_cases.h"
+
+namespace test::kernel_cases {
+
+using starfocus::simd::CompositeFinish;
+using starfocus::simd::Kernels;
+using starfocus::simd::SliceSamples;
+
+// Coverage mostly stays what it was beside it: all, none, anything, or about what suffices. In the
+// bench it seldom changes, as in pictures.
+void FinishComposite(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 70, kTimedSamples / 3), whole = SliceSamples(count);
+  const size_t plane = whole + draw->Size(0, 5, 0);
+  const CompositeFinish finish = {uint32_t(draw->Int(1, 90000)), draw->Int(1, 24)};
+  const uint32_t all = 4 * finish.least + uint32_t(draw->Int(0, 5));
+  std::vector<uint32_t> values(3 * plane + whole);
+  uint32_t covered = all;
+  for (size_t n = 0; n < whole; ++n) {
+    const int kind = draw->Int(0, draw->timed() ? 199 : 19);
+    if (kind < 2) covered = all;
+    if (kind == 2) covered = 0;
+    if (kind == 3) covered = uint32_t(draw->Int(0, int(all)));
+    if (kind == 4) covered = finish.least - uint32_t(draw->Int(0, 1));
+    values[3 * plane + n] = covered;
+    for (size_t c = 0; c < 3; ++c) {
+      const int colour = kind == 5 ? 256 : kind == 6 ? 255 : draw->Int(0, 255);
+      values[c * plane + n] = uint32_t(uint64_t{covered} * uint64_t(colour) / 256);
+    }
+  }
+  const uint32_t* sums = call->Input("sums", values);
+  for (size_t c = 0; c < 4; ++c) {
+    call->Ignore(sums + c * plane + count, (c < 3 ? plane : whole) - count);
+  }
+  const uint8_t* rgb = call->Input("rgb", Bytes(3 * count, draw), starfocus::simd::kPadding);
+  auto* out = call->Output<uint32_t>("out", 3 * count);
+  call->Result(out, 3 * count);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.FinishComposite(sums, plane, rgb, finish, count, out);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    for (size_t n = 0; n < count; ++n) {
+      (*met)[sums[3 * plane + n] < finish.least ? "missing" : "covered"] += 1;
+    }
+    return true;
+  };
+}
+
+}  // namespace test::kernel_cases

@@ -1,0 +1,52 @@
+// A case for each kernel: it makes calls of any size and contents for the test, and one call of
+// ordinary size for the bench.
+#ifndef STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
+#define STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
+
+#include "simd/kernels.h"
+#include "tests/simd/kernel_call.h"
+
+namespace test {
+
+// Each case is defined beside those of its family, in spans_cases.cc and so on. A kernel of the
+// table without a case is an error of the linker.
+namespace kernel_cases {
+#define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, KernelCall* call);
+STARFOCUS_KERNELS(STARFOCUS_DECLARE_CASE)
+#undef STARFOCUS_DECLARE_CASE
+}  // namespace kernel_cases
+
+struct KernelCase {
+  const char* kernel;
+  void (*make)(Draw* draw, KernelCall* call);
+};
+
+inline constexpr KernelCase kKernelCases[] = {
+#define STARFOCUS_LIST_CASE(Kernel) {#Kernel, kernel_cases::Kernel},
+    STARFOCUS_KERNELS(STARFOCUS_LIST_CASE)
+#undef STARFOCUS_LIST_CASE
+};
+
+// Samples that a call of the bench works on, if its kernel does not say otherwise.
+inline constexpr int kTimedSamples = 3 * 1024;
+
+// Lengths that reach past two of the widest vectors, with all tails.
+inline constexpr int kLongestBytes = 2 * 64 + 3, kLongestSamples = 2 * 32 + 3;
+
+// Any bytes, or black and white ones.
+inline std::vector<uint8_t> Bytes(size_t count, Draw* draw) { return RandomBytes(count, draw); }
+
+// Disparities with runs and edges, also at the ends of the range.
+inline std::vector<int16_t> Disparities(size_t count, Draw* draw) {
+  std::vector<int16_t> row(count);
+  int value = draw->Int(-2000, 2000);
+  for (int16_t& disparity : row) {
+    if (draw->Int(0, 5) == 0) value += draw->Int(-200, 200);
+    disparity = int16_t(draw->Rarely(60) ? draw->Int(-32000, 32000) : value);
+  }
+  return row;
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_

@@ -1,0 +1,172 @@
+// What the references of the kernels compute, worked out by hand. kernels_test.cc compares all
+// targets with them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "lib/filter/layers.h"
+#include "simd/kernels.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::simd::CellMeasure;
+using starfocus::simd::Kernels;
+using starfocus::simd::kLayerWhite;
+using starfocus::simd::kRunLanes;
+using starfocus::simd::kTransposePadding;
+using starfocus::simd::ReferenceKernels;
+using starfocus::simd::RunMarks;
+using starfocus::simd::Span;
+
+TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand") {
+  const uint8_t source[] = {10, 20, 30, 40, 50, 60, 70, 80, 90};
+  const Span span = {source + 3, 1, 3, 192, 64, 3};
+  uint8_t line[5] = {1, 1, 1, 1, 1};
+  ReferenceKernels().Blend(&span, 1, line);
+  // (192 * 40 + 64 * 70) / 256 = 47.5: halves to even
+  const uint8_t blended[5] = {1, 48, 58, 68, 1};
+  CHECK(std::memcmp(line, blended, sizeof(line)) == 0);
+  uint32_t sums[5] = {5, 5, 5, 5, 5};
+  ReferenceKernels().Accumulate(&span, 1, sums);
+  CHECK(sums[0] == 5);
+  CHECK(sums[1] == 5 + 192 * 40 + 64 * 70);
+  CHECK(sums[3] == 5 + 192 * 60 + 64 * 90);
+  CHECK(sums[4] == 5);
+  const uint32_t wide[3] = {uint32_t{255} << 24, (7u << 24) + (1u << 23),
+                            (7u << 24) + (1u << 23) - 1};
+  uint8_t out[3];
+  ReferenceKernels().Finish(wide, 3, 24, out);
+  CHECK(int(out[0]) == 255);
+  CHECK(int(out[1]) == 8);
+  CHECK(int(out[2]) == 7);
+  const uint32_t stack[4 * 16] = {3 << 16, 3 << 16};  // red of two pixels, planes of 16
+  std::vector<uint32_t> covered(stack, stack + 4 * 16);
+  covered[3 * 16] = 12 << 16;
+  covered[3 * 16 + 1] = 99;
+  const uint8_t centre[6] = {9, 9, 9, 5, 6, 7};
+  uint32_t accumulators[6];
+  ReferenceKernels().FinishComposite(covered.data(), 16, centre, {100, 16}, 2, accumulators);
+  CHECK(accumulators[0] == 64 << 16);
+  CHECK(accumulators[1] == 0);
+  CHECK(accumulators[3] == 5 << 16);
+  CHECK(accumulators[5] == 7 << 16);
+  const uint8_t rows[3][9] = {
+      {1, 0, 0, 2, 0, 0, 3, 0, 0}, {4, 0, 0, 50, 0, 0, 6, 0, 0}, {7, 0, 0, 8, 0, 0, 9, 0, 0}};
+  const uint16_t ring[3] = {4, 2, 1};  // the centre, beside it, at the corners: 16 in all
+  uint8_t disc[2] = {0, 77};
+  ReferenceKernels().FilterDisc(&rows[1][3], 9, {1, 4, ring}, 1, 1, disc, 9);
+  CHECK(int(disc[0]) == (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9 + 8) / 16);
+  CHECK(int(disc[1]) == 77);
+  const float disparity[4] = {0.0078125f, -0.0078125f, -500, 500};
+  int16_t converted[4];
+  CHECK(ReferenceKernels().ConvertDisparity(disparity, 4, -500, 500, converted));
+  CHECK(converted[0] == 1);
+  CHECK(converted[1] == 0);
+  CHECK(converted[2] == -32000);
+  CHECK(converted[3] == 32000);
+}
+
+TEST_CASE("kernel definitions: ranges, by hand") {
+  int16_t in[2 * 20] = {};
+  for (int16_t& d : in) d = INT16_MIN;
+  starfocus::simd::DisparityRange ranges[2];
+  ReferenceKernels().FindRanges(in, 20, 2, 17, ranges);
+  CHECK(ranges[0].low > ranges[0].high);
+  in[3] = 8, in[20 + 15] = -32767, in[16] = 32767, in[17] = 0;
+  ReferenceKernels().FindRanges(in, 20, 2, 17, ranges);
+  CHECK(ranges[0].low == -32767);
+  CHECK(ranges[0].high == 8);
+  CHECK(ranges[1].low == 32767);
+  CHECK(ranges[1].high == 32767);
+}
+
+TEST_CASE("kernel definitions: runs, cells and transposing, by hand") {
+  // Two lines of five, read backwards, with limits that 10 reaches and 11 exceeds.
+  const int16_t lines[5][2] = {{40, -32000}, {11, 32000}, {0, 31995}, {5, 31990}, {-5, 31989}};
+  uint16_t starts[kRunLanes], edges[kRunLanes];
+  int16_t middles[5 * kRunLanes];
+  ReferenceKernels().FindRuns(lines[4], -2, 5, 2, {10, 10},
+                              RunMarks{starts, edges, middles, kRunLanes});
+  CHECK(starts[0] == 0b11000);
+  CHECK(edges[0] == 0b11000);
+  CHECK(starts[1] == 0b11000);
+  CHECK(edges[1] == 0b10000);
+  const int expected[5][2] = {{-5, 31989}, {0, 31989}, {0, 31992}, {11, 32000}, {40, -32000}};
+  for (size_t q = 0; q < 5; ++q) {
+    for (size_t k = 0; k < 2; ++k) CHECK(middles[q * kRunLanes + k] == expected[q][k]);
+  }
+
+  // A flat cell but for one pixel inside, one in the corner, and another beyond the left side.
+  int16_t values[10][10] = {};
+  const int16_t* rows[10];
+  for (int k = 0; k < 10; ++k) rows[k] = values[k] + 1;
+  values[1 + 3][1 + 4] = 97;
+  values[1 + 0][1 + 7] = -20;
+  values[1 + 5][0] = 500;
+  CellMeasure measure;
+  ReferenceKernels().MeasureCell(rows, {100, 96, 15, 90}, &measure);
+  for (int k = 0; k < 8; ++k) {
+    CHECK(measure.column_low[k] == (k == 7 ? -20 : 0));
+    CHECK(measure.column_high[k] == (k == 4 ? 97 : 0));
+    CHECK(measure.row_low[k] == (k == 0 ? -20 : 0));
+    CHECK(measure.row_high[k] == (k == 3 ? 97 : 0));
+  }
+  CHECK(measure.nearest == 3);
+  CHECK(measure.edge_low == 97);
+  CHECK(measure.edge_high == 500);
+  for (int along = 0; along < 2; ++along) {
+    CHECK(measure.edges[along] == 2);
+    CHECK(measure.gaps[along] == 2 * 90);
+    CHECK(measure.slopes[along] == 15);
+  }
+  values[1 + 5][0] = 0;
+  values[1 + 3][1 + 4] = 96;
+  ReferenceKernels().MeasureCell(rows, {100, 96, 15, 90}, &measure);
+  CHECK(measure.edge_low > measure.edge_high);
+  for (int along = 0; along < 2; ++along) {
+    CHECK(measure.edges[along] == 0);
+    CHECK(measure.slopes[along] == 3 * 15);
+  }
+
+  const uint8_t in[2][7] = {{1, 2, 3, 4, 5, 6, 99}, {7, 8, 9, 10, 11, 12, 99}};
+  uint8_t out[2][6 + kTransposePadding] = {};
+  ReferenceKernels().Transpose(in[0], sizeof(in[0]), 2, 2, out[0], sizeof(out[0]));
+  const uint8_t transposed[2][6] = {{1, 2, 3, 7, 8, 9}, {4, 5, 6, 10, 11, 12}};
+  for (int k = 0; k < 2; ++k) CHECK(std::equal(transposed[k], transposed[k] + 6, out[k]));
+}
+
+// What is kept of a line filtered as a whole.
+TEST_CASE("kernel definitions: halving is the half-band filter at every even pixel") {
+  test::Random random(7);
+  const Kernels& kernels = ReferenceKernels();
+  constexpr size_t kPairs = 20, kKept = kPairs - 3;
+  std::vector<int16_t> line(6 * kPairs);
+  for (int16_t& sample : line) sample = int16_t(random.Int(0, kLayerWhite));
+  std::vector<int16_t> even(3 * kPairs), odd = even, halved(3 * kKept), whole(6 * kPairs);
+  kernels.SplitPhases(line.data(), kPairs, even.data(), odd.data());
+  kernels.Halve(even.data() + 6, odd.data() + 6, starfocus::kDownFilter, 3 * kKept, halved.data());
+  kernels.FilterHalfBand(line.data() + 12, 3, starfocus::kDownFilter, 6 * kKept - 3, INT16_MIN,
+                         INT16_MAX, whole.data());
+  for (size_t n = 0; n < 3 * kKept; ++n) CHECK(halved[n] == whole[n / 3 * 6 + n % 3]);
+}
+
+TEST_CASE("kernel definitions: layers, by hand") {
+  const uint8_t bytes[12] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 255};
+  int16_t even[6], odd[6];
+  ReferenceKernels().WidenPhases(bytes, 2, even, odd);
+  const int16_t evens[6] = {64, 128, 192, 448, 512, 576};
+  const int16_t odds[6] = {256, 320, 384, 640, 704, kLayerWhite};
+  CHECK(std::memcmp(even, evens, sizeof(even)) == 0);
+  CHECK(std::memcmp(odd, odds, sizeof(odd)) == 0);
+  const int16_t beside[10] = {8, 0, 0, 10, 0, 0, 30, 0, 0, 16};
+  const int16_t centre = 101;
+  int16_t out = 0;
+  ReferenceKernels().Halve(&centre, beside + 6, {8192, 4096, 2048}, 1, &out);
+  CHECK(out == 64);  // 101 / 2 + (10 + 30) / 4 + (8 + 16) / 8 = 63.5, halves up
+}
+
+}  // namespace

@@ -1,0 +1,308 @@
+// Cases of the kernels of simd/layered_depth.h.
+#include <algorithm>
+
+#include "tests/simd/kernel_cases.h"
+
+namespace test::kernel_cases {
+namespace {
+
+using starfocus::simd::DepthRow;
+using starfocus::simd::HiddenRow;
+using starfocus::simd::Kernels;
+using starfocus::simd::kNoSurface;
+using starfocus::simd::kPadding;
+using starfocus::simd::kSliceLanes;
+using starfocus::simd::kSurfaces;
+using starfocus::simd::SliceSamples;
+using starfocus::simd::StepBits;
+
+constexpr int16_t kStep = 48;
+constexpr int kTimedWidth = 192;
+
+// Rows of disparities, each one the row before with some pixels moved.
+std::vector<int16_t> MovedRows(size_t rows, size_t whole, Draw* draw) {
+  std::vector<int16_t> all = Disparities(whole, draw);
+  for (size_t n = 0; n < (rows - 1) * whole; ++n) {
+    const int move = draw->Int(0, draw->timed() ? 30 : 3) == 0 ? draw->Int(-300, 600) : 0;
+    all.push_back(int16_t(std::clamp(all[n] + move, -32000, 32000)));
+  }
+  return all;
+}
+
+}  // namespace
+
+void Split(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 70, kTimedSamples / 3), plane = count + draw->Size(0, 9, 0);
+  const uint8_t* rgb = call->Input("rgb", Bytes(3 * count, draw), kPadding);
+  auto* out = call->Output<uint8_t>("out", 3 * plane);
+  for (size_t c = 0; c < 3; ++c) call->Result(out + c * plane, count);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.Split(rgb, count, plane, out);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met*) {
+    bool right = true;
+    for (size_t i = 0; i < 3 * count; ++i) right = right && out[i % 3 * plane + i / 3] == rgb[i];
+    return right;
+  };
+}
+
+// Row by row, the second one from the first, and so on.
+void FindEdges(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 50, kTimedWidth), whole = SliceSamples(count);
+  const size_t rows = draw->Size(2, 20, kTimedSamples / kTimedWidth + 1);
+  const starfocus::simd::EdgeLimits limits = {kStep, draw->Int(6, 8)};
+  const int16_t* disparity = call->Input("disparity", MovedRows(rows, whole, draw));
+  auto* moved = call->Output<int16_t>("moved", whole);
+  auto* behind = call->Output<int16_t>("behind", whole);
+  auto* distance = call->Output<uint8_t>("distance", (rows - 1) * whole);
+  std::fill_n(moved, whole, int16_t{INT16_MAX});
+  call->Result(moved, whole);
+  call->Result(behind, whole);
+  call->Result(distance, (rows - 1) * whole);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    for (size_t row = 1; row < rows; ++row) {
+      const int16_t* near = disparity + row * whole;
+      kernels.FindEdges(near, near - whole, limits, count, moved, behind,
+                        distance + (row - 1) * whole);
+    }
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    (*met)["hidden"] += std::count_if(distance, distance + (rows - 1) * whole,
+                                      [](uint8_t pixels) { return pixels > 1; });
+    return true;
+  };
+}
+
+void FindSteps(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 70, kTimedSamples),
+               chunks = SliceSamples(count) / kSliceLanes;
+  const int16_t* row = call->Input("row", Disparities(count + 1, draw), kPadding);
+  auto* steps = call->Output<StepBits>("steps", chunks);
+  call->Result(steps, chunks);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.FindSteps(row, count, kStep, steps);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    bool right = true;
+    for (size_t n = 0; n < chunks * kSliceLanes; ++n) {
+      const StepBits& bits = steps[n / kSliceLanes];
+      const bool fall = n < count && row[n] - row[n + 1] > kStep;
+      const bool rise = n < count && row[n + 1] - row[n] > kStep;
+      right = right && (bits.falls >> n % kSliceLanes & 1) == int(fall) &&
+              (bits.rises >> n % kSliceLanes & 1) == int(rise);
+      (*met)["steps"] += fall || rise;
+    }
+    return right;
+  };
+}
+
+void BesideSteps(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 70, 96), chunks = SliceSamples(count) / kSliceLanes;
+  const size_t rows = draw->Size(1, 3, kTimedSamples / 96);
+  const size_t stride = count + 2 + draw->Size(0, 7, 0);
+  const int16_t* field = call->Input("field", Disparities((rows + 2) * stride, draw), kPadding);
+  auto* beside = call->Output<uint16_t>("beside", rows * chunks);
+  call->Result(beside, rows * chunks);
+  const int16_t* first = field + stride + 1;
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    for (size_t y = 0; y < rows; ++y) {
+      kernels.BesideSteps(first + y * stride, ptrdiff_t(stride), count, kStep, beside + y * chunks);
+    }
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    bool right = true;
+    for (size_t i = 0; i < rows * chunks * kSliceLanes; ++i) {
+      const size_t n = i % (chunks * kSliceLanes), y = i / (chunks * kSliceLanes);
+      const int16_t* at = first + y * stride + n;
+      const bool expected =
+          n < count &&
+          std::max(std::max(at[-1], at[1]), std::max(*(at - stride), at[stride])) - *at > kStep;
+      right = right && (beside[i / kSliceLanes] >> n % kSliceLanes & 1) == int(expected);
+      (*met)["steps"] += expected;
+    }
+    return right;
+  };
+}
+
+namespace {
+
+// A field of disparities, some edges of which are as far away as any.
+struct DepthField {
+  int width, height;
+  size_t stride;
+  DepthRow row;  // what its rows have in common
+  const int16_t* samples;
+  const uint8_t* edges[4];
+
+  DepthRow Row(int y) const {
+    DepthRow one = row;
+    one.disparity = samples + kSliceLanes + stride * size_t(y);
+    one.above = y;
+    one.below = height - 1 - y;
+    for (int side = 0; side < 4; ++side) one.edges[side] = edges[side] + stride * size_t(y);
+    return one;
+  }
+};
+
+struct Patch {
+  int x, y, right, bottom;
+};
+
+// Rectangles of one disparity each, the first of which is the background.
+std::vector<int16_t> FieldSamples(DepthField* field, Draw* draw) {
+  const int width = field->width, height = field->height;
+  const int limit = draw->Rarely(4) ? 32000 : 12 << field->row.unit_bits;
+  std::vector<int16_t> samples(field->stride * size_t(height) + 2 * kSliceLanes, kNoSurface);
+  field->row.high = int16_t(-limit);
+  const auto paint = [&](const Patch& patch) {
+    const auto value = int16_t(draw->Int(-limit, limit));
+    for (int v = patch.y; v < patch.bottom; ++v) {
+      std::fill_n(samples.begin() + int64_t(kSliceLanes + field->stride * size_t(v)) + patch.x,
+                  patch.right - patch.x, value);
+    }
+  };
+  paint({0, 0, width, height});
+  for (int patch = 0; patch < width * height / 24; ++patch) {
+    const int x = draw->Int(0, width - 1), y = draw->Int(0, height - 1);
+    paint({x, y, std::min(width, x + draw->Int(1, 9)), std::min(height, y + draw->Int(1, 9))});
+  }
+  for (const int16_t sample : samples) field->row.high = std::max(field->row.high, sample);
+  return samples;
+}
+
+// Distances that stay inside the field, not those of edges alone; 0 for most pixels of the bench.
+std::vector<uint8_t> FieldEdges(const DepthField& field, int side, Draw* draw) {
+  std::vector<uint8_t> distances(field.stride * size_t(field.height));
+  for (int y = 0; y < field.height; ++y) {
+    for (int x = 0; x < field.width; ++x) {
+      const int rooms[4] = {field.width - 1 - x, x, field.height - 1 - y, y};
+      const int most = std::min(rooms[side], draw->Rarely(20) ? 255 : 20);
+      if (most == 0 || draw->Int(0, draw->timed() ? 60 : 2) != 0) continue;
+      distances[field.stride * size_t(y) + size_t(x)] = uint8_t(draw->Int(1, most));
+    }
+  }
+  return distances;
+}
+
+DepthField MakeField(Draw* draw, KernelCall* call) {
+  DepthField field = {};
+  field.width = int(draw->Length(1, 70, kTimedWidth));
+  field.height = int(draw->Size(1, 20, kTimedSamples / kTimedWidth));
+  field.stride = SliceSamples(size_t(field.width));
+  field.row.stride = ptrdiff_t(field.stride);
+  field.row.width = field.width;
+  field.row.unit_bits = draw->Int(6, 8);
+  field.row.side_views = !draw->Rarely(5);
+  field.row.half_views = field.row.side_views && draw->Int(0, 1) == 0;
+  field.samples = call->Input("disparity", FieldSamples(&field, draw));
+  constexpr const char* kNames[4] = {"right", "left", "bottom", "top"};
+  for (int side = 0; side < 4; ++side) {
+    field.edges[side] = call->Input(kNames[side], FieldEdges(field, side, draw));
+  }
+  return field;
+}
+
+// What LookBehind writes of all rows of a field.
+struct HiddenField {
+  int16_t* disparity[kSurfaces - 1];
+  uint16_t* source[kSurfaces - 1];
+  uint16_t* found[kSurfaces - 1];
+  uint8_t* share;
+  uint64_t* chunks;  // what it returns of each row
+
+  HiddenField(const DepthField& field, KernelCall* call) {
+    const auto rows = size_t(field.height), samples = field.stride * rows;
+    for (int k = 0; k < kSurfaces - 1; ++k) {
+      disparity[k] = call->Output<int16_t>(k == 0 ? "first" : "second", samples);
+      source[k] = call->Output<uint16_t>(k == 0 ? "first source" : "second source", samples);
+      found[k] = call->Output<uint16_t>("found", samples / kSliceLanes);
+      call->Result(disparity[k], samples);
+      call->Result(source[k], samples);
+      call->Result(found[k], samples / kSliceLanes);
+    }
+    share = call->Output<uint8_t>("share", samples);
+    chunks = call->Output<uint64_t>("returned", rows);
+    call->Result(share, samples);
+    call->Result(chunks, rows);
+  }
+
+  HiddenRow Row(size_t first) const {
+    HiddenRow row;
+    for (int k = 0; k < kSurfaces - 1; ++k) {
+      row.disparity[k] = disparity[k] + first;
+      row.source[k] = source[k] + first;
+      row.found[k] = found[k] + first / kSliceLanes;
+    }
+    row.share = share + first;
+    return row;
+  }
+
+  // Group n of the field, `hidden` if it was returned: bits of `found` are those of sources; what
+  // is there of others is open.
+  bool IsRight(size_t n, bool hidden, KernelCall* call, Met* met) const {
+    bool right = true;
+    for (int k = 0; k < kSurfaces - 1; ++k) {
+      if (!hidden) {
+        call->Free(source[k] + n * kSliceLanes, kSliceLanes);
+        call->Free(found[k] + n, 1);
+        continue;
+      }
+      for (size_t i = 0; i < kSliceLanes; ++i) {
+        const int value = source[k][n * kSliceLanes + i], sides = value & 15;
+        right = right && (found[k][n] >> i & 1) == int(value != 0);
+        right = right && (disparity[k][n * kSliceLanes + i] != kNoSurface) == (value != 0);
+        const bool unseen = value >> starfocus::simd::kSourceDistance != 0;
+        (*met)["seen"] += sides != 0 && !unseen;
+        (*met)["unseen"] += unseen;
+        (*met)["half"] += (value >> starfocus::simd::kSourceHalf & 15) != 0;
+        (*met)["tied"] += (sides & (sides - 1)) != 0;
+        if (k > 0) (*met)["second"] += value != 0;
+      }
+    }
+    return right;
+  }
+};
+
+}  // namespace
+
+void LookBehind(Draw* draw, KernelCall* call) {
+  const DepthField field = MakeField(draw, call);
+  const HiddenField hidden(field, call);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    for (int y = 0; y < field.height; ++y) {
+      hidden.chunks[y] = kernels.LookBehind(field.Row(y), hidden.Row(field.stride * size_t(y)));
+    }
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    bool right = true;
+    const size_t groups = field.stride / kSliceLanes;
+    for (size_t n = 0; n < groups * size_t(field.height); ++n) {
+      const bool any = (hidden.chunks[n / groups] >> n % groups & 1) != 0;
+      right = hidden.IsRight(n, any, call, met) && right;
+    }
+    return right;
+  };
+}
+
+void Interpolate(Draw* draw, KernelCall* call) {
+  const size_t groups = draw->Size(1, 3, kTimedSamples / 3 / kSliceLanes);
+  const size_t plane = groups * kSliceLanes + draw->Size(0, 9, 0), bytes = 3 * groups * kSliceLanes;
+  const uint8_t* here = call->Input("here", Bytes(bytes, draw));
+  const uint8_t* next = call->Input("next", Bytes(bytes, draw));
+  const uint8_t* weight = call->Input("weight", Bytes(groups * kSliceLanes, draw));
+  auto* out = call->Output<uint8_t>("out", 3 * plane);
+  for (size_t c = 0; c < 3; ++c) call->Result(out + c * plane, groups * kSliceLanes);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    for (size_t n = 0; n < groups * kSliceLanes; n += kSliceLanes) {
+      kernels.Interpolate(here + 3 * n, next + 3 * n, weight + n, plane, out + n);
+    }
+    return 0;
+  };
+}
+
+}  // namespace test::kernel_cases

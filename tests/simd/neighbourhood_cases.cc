@@ -1,0 +1,80 @@
+// Cases of the kernels of simd/neighbourhood.h.
+#include "tests/simd/kernel_cases.h"
+
+namespace test::kernel_cases {
+namespace {
+
+using starfocus::simd::BlockReach;
+using starfocus::simd::CellPlanes;
+using starfocus::simd::CellRanges;
+using starfocus::simd::kCellPixels;
+using starfocus::simd::kCellPlanes;
+using starfocus::simd::Kernels;
+using starfocus::simd::SliceSamples;
+
+// What blurs of cells reach. In the bench most blurs are small.
+int Reach(int around, Draw* draw) {
+  const int far = draw->Rarely(3) ? kCellPixels * around : 20;
+  return draw->Int(0, 3) == 0 && !draw->timed() ? draw->Int(1, far) : draw->Int(1, 9);
+}
+
+// `columns` x `rows` cells, and `around` cells around them; .cells is the first of the former.
+CellPlanes MakeCells(size_t columns, size_t rows, size_t around, Draw* draw, KernelCall* call) {
+  const size_t stride = columns + 2 * around, plane = stride * (rows + 2 * around);
+  const int most = draw->Rarely(4) ? 32000 : 300;
+  std::vector<int16_t> samples(kCellPlanes * plane);
+  for (size_t n = 0; n < plane; ++n) {
+    const auto set = [&](size_t index, int value) { samples[index * plane + n] = int16_t(value); };
+    const int reach = Reach(int(around), draw), low = draw->Int(-most, most);
+    for (size_t side = 0; side < 4; ++side) {
+      set(starfocus::simd::kReachLeft + side, draw->Int(-8, reach));
+      set(starfocus::simd::kInsideLeft + side, draw->Int(0, kCellPixels));
+    }
+    set(starfocus::simd::kReachPlane, reach);
+    set(starfocus::simd::kRadiusPlane, 64 * reach);
+    set(starfocus::simd::kEdgePlane, draw->Int(0, 9) == 0 ? 60 * reach : 0);
+    set(starfocus::simd::kLowPlane, low);
+    set(starfocus::simd::kHighPlane, draw->Int(low, most));
+  }
+  const int16_t* cells = call->Input("cells", samples, starfocus::simd::kPadding);
+  return {cells + around * (stride + 1), plane, stride};
+}
+
+}  // namespace
+
+void ReachBlock(Draw* draw, KernelCall* call) {
+  const size_t blocks = draw->Size(1, 3, 48);  // beside each other
+  const auto around = int32_t(draw->Length(1, 12, 2));
+  const CellPlanes cells = MakeCells(2 * blocks, 2, size_t(around), draw, call);
+  auto* reaches = call->Output<BlockReach>("reach", blocks);
+  call->Result(reaches, blocks);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    constexpr int16_t kMargins[3] = {0, 4, 12};
+    for (size_t block = 0; block < blocks; ++block) {
+      const CellPlanes at = {cells.cells + 2 * block, cells.plane, cells.stride};
+      kernels.ReachBlock(at, around, kMargins, &reaches[block]);
+    }
+    return 0;
+  };
+}
+
+void SurroundCells(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 33, 48), whole = SliceSamples(count);
+  const auto around = int32_t(draw->Size(1, 8, 2));
+  const CellPlanes cells = MakeCells(count, 1, size_t(around), draw, call);
+  const CellRanges ranges = {
+      call->Output<int16_t>("low", whole), call->Output<int16_t>("high", whole),
+      call->Output<uint16_t>("widest", whole), call->Output<int16_t>("edge", whole)};
+  for (const int16_t* plane : {ranges.low, ranges.high, ranges.edge}) {
+    call->Result(plane, count);
+    call->Free(plane + count, whole - count);
+  }
+  call->Result(ranges.widest, count);
+  call->Free(ranges.widest + count, whole - count);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.SurroundCells(cells, around, count, ranges);
+    return 0;
+  };
+}
+
+}  // namespace test::kernel_cases

@@ -1,0 +1,139 @@
+// Cases of the kernels of simd/resample.h.
+#include "lib/filter/layers.h"
+#include "tests/simd/kernel_cases.h"
+
+namespace test::kernel_cases {
+namespace {
+
+using starfocus::simd::HalfBand;
+using starfocus::simd::Kernels;
+using starfocus::simd::kLayerWhite;
+using starfocus::simd::kPadding;
+
+// Black, white and anything between, or samples as far out of range as filters leave them.
+std::vector<int16_t> Samples(size_t count, bool in_range, Draw* draw) {
+  std::vector<int16_t> samples(count);
+  for (int16_t& sample : samples) {
+    const int kind = draw->Int(0, 3), below = in_range ? 0 : -43 * 64;
+    const int most = in_range ? kLayerWhite : 298 * 64;
+    sample = int16_t(kind == 0 ? below : kind == 1 ? most : draw->Int(below, most));
+  }
+  return samples;
+}
+
+HalfBand Taps(Draw* draw) {
+  if (!draw->Rarely(2)) return starfocus::kDownFilter;
+  return {draw->Int(-16384, 16384), draw->Int(-16384, 16384), draw->Int(-8192, 8192)};
+}
+
+// Both phases of a line, where the kernel may leave anything in `more` samples past the end.
+struct Phases {
+  Phases(size_t pairs, size_t more, KernelCall* call)
+      : even(call->Output<int16_t>("even", 3 * pairs + more)),
+        odd(call->Output<int16_t>("odd", 3 * pairs + more)) {
+    for (int16_t* phase : {even, odd}) {
+      call->Result(phase, 3 * pairs);
+      call->Free(phase + 3 * pairs, more);
+    }
+  }
+
+  int16_t *even, *odd;
+};
+
+// Calls a filter of lines, whose samples lie three or a whole line apart.
+template <class Filter>
+void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);
+  const size_t step = draw->Rarely(2) ? count + 1 : 3;
+  const auto samples = Samples(count + 6 * step, false, draw);
+  const int16_t* in = call->Input("in", samples, kPadding) + 3 * step;
+  const HalfBand taps = Taps(draw);
+  const bool clamped = draw->Int(0, 1) == 0;
+  const int16_t low = clamped ? int16_t{0} : INT16_MIN, high = clamped ? kLayerWhite : INT16_MAX;
+  auto* out = call->Output<int16_t>("out", count);
+  call->Result(out, count);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    filter(kernels)(in, ptrdiff_t(step), taps, count, low, high, out);
+    return 0;
+  };
+}
+
+}  // namespace
+
+void WidenPhases(Draw* draw, KernelCall* call) {
+  const size_t pairs = draw->Length(0, kLongestSamples, kTimedSamples / 6);
+  const uint8_t* in = call->Input("in", Bytes(6 * pairs, draw));
+  const Phases out(pairs, 0, call);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.WidenPhases(in, pairs, out.even, out.odd);
+    return 0;
+  };
+}
+
+void SplitPhases(Draw* draw, KernelCall* call) {
+  const size_t pairs = draw->Length(0, kLongestSamples, kTimedSamples / 6);
+  const int16_t* in = call->Input("in", Samples(6 * pairs, false, draw), kPadding);
+  const Phases out(pairs, 1, call);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.SplitPhases(in, pairs, out.even, out.odd);
+    return 0;
+  };
+}
+
+void Narrow(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);
+  std::vector<int16_t> samples(count);
+  for (int16_t& sample : samples) {
+    const int kind = draw->Int(0, 4), tie = 64 * draw->Int(-1, 256) + 32;
+    sample = kind == 0   ? INT16_MIN
+             : kind == 1 ? INT16_MAX
+             : kind == 2 ? int16_t(tie)
+                         : int16_t(draw->Next());
+  }
+  const int16_t* in = call->Input("in", samples, kPadding);
+  auto* out = call->Output<uint8_t>("out", count);
+  call->Result(out, count);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.Narrow(in, count, out);
+    return 0;
+  };
+}
+
+void FinishLayer(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);
+  const int shift = draw->Int(7, 24);
+  std::vector<uint32_t> sums(count);
+  for (uint32_t& sum : sums) {
+    sum = draw->Int(0, 3) == 0 ? uint32_t{255} << shift : draw->Next() % (255u << shift);
+  }
+  const uint32_t* accumulators = call->Input("accumulators", sums, kPadding);
+  auto* out = call->Output<int16_t>("out", count);
+  call->Result(out, count);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.FinishLayer(accumulators, count, shift, out);
+    return 0;
+  };
+}
+
+void FilterHalfBand(Draw* draw, KernelCall* call) {
+  FilterLine([](const Kernels& kernels) { return kernels.FilterHalfBand; }, draw, call);
+}
+
+void Halve(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);
+  const int16_t* even = call->Input("even", Samples(count, true, draw), kPadding);
+  const int16_t* odd = call->Input("odd", Samples(count + 9, true, draw), kPadding) + 6;
+  const HalfBand taps = Taps(draw);
+  auto* out = call->Output<int16_t>("out", count);
+  call->Result(out, count);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.Halve(even, odd, taps, count, out);
+    return 0;
+  };
+}
+
+void Between(Draw* draw, KernelCall* call) {
+  FilterLine([](const Kernels& kernels) { return kernels.Between; }, draw, call);
+}
+
+}  // namespace test::kernel_cases

@@ -1,0 +1,92 @@
+// Cases of the kernels of simd/spans.h.
+#include "tests/simd/kernel_cases.h"
+
+namespace test::kernel_cases {
+namespace {
+
+using starfocus::simd::Kernels;
+using starfocus::simd::kPadding;
+using starfocus::simd::Span;
+
+struct Spans {
+  const Span* spans;
+  size_t count, end;
+};
+
+// Spans that lie side by side in the target, with gaps of up to two samples, and their sources.
+// With `blend` their weights sum to 256.
+Spans MakeSpans(bool blend, Draw* draw, KernelCall* call) {
+  constexpr size_t kMargin = 8;  // neighbours, and odd places to start
+  const size_t samples = draw->Length(1, kLongestBytes, 96);
+  const size_t count = draw->Size(1, 5, kTimedSamples / 96);
+  const std::vector<uint8_t> bytes = Bytes(kMargin + samples + kMargin, draw);
+  const uint8_t* source = call->Input("source", bytes, kPadding) + kMargin;
+  std::vector<Span> spans;
+  uint32_t target = uint32_t(draw->Int(0, 5));
+  for (size_t i = 0; i < count; ++i) {
+    const int kind = draw->timed() ? 2 : draw->Int(0, 3);
+    const int one = blend ? 256 : draw->Int(0, 1) == 0 ? 32767 : draw->Int(0, 32767);
+    const int neighbour = kind == 0 ? 0 : kind == 1 ? one : draw->Int(0, one);
+    Span span;
+    span.source = source + draw->Int(-3, 3);
+    span.target = target;
+    span.samples = uint32_t(samples);
+    span.neighbour_weight = uint16_t(neighbour);
+    span.weight = uint16_t(blend ? one - neighbour : kind == 1 ? 32767 : one);
+    span.neighbour_offset = draw->Int(0, 1) == 0 ? 3 : -3;
+    spans.push_back(span);
+    target += uint32_t(samples) + uint32_t(draw->Int(0, 2));
+  }
+  return {call->Input("spans", spans), count, target};
+}
+
+template <class T>
+T* MakeTarget(const char* name, const Spans& spans, KernelCall* call) {
+  T* target = call->Output<T>(name, spans.end);
+  for (size_t i = 0; i < spans.count; ++i) {
+    call->Result(target + spans.spans[i].target, spans.spans[i].samples);
+  }
+  return target;
+}
+
+}  // namespace
+
+void Accumulate(Draw* draw, KernelCall* call) {
+  const Spans spans = MakeSpans(false, draw, call);
+  auto* accumulators = MakeTarget<uint32_t>("accumulators", spans, call);
+  for (size_t n = 0; n < spans.end; ++n) accumulators[n] = draw->Next() >> 4;
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.Accumulate(spans.spans, spans.count, accumulators);
+    return 0;
+  };
+}
+
+void Blend(Draw* draw, KernelCall* call) {
+  const Spans spans = MakeSpans(true, draw, call);
+  auto* line = MakeTarget<uint8_t>("line", spans, call);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.Blend(spans.spans, spans.count, line);
+    return 0;
+  };
+}
+
+void Finish(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, kLongestBytes, kTimedSamples);
+  const int shift = draw->Int(1, 24);
+  const uint32_t largest = uint32_t{255} << shift;
+  std::vector<uint32_t> sums(count);
+  for (uint32_t& sum : sums) {
+    const int kind = draw->Int(0, 4);
+    const uint32_t half = (uint32_t(draw->Int(0, 254)) << shift) + (1u << (shift - 1));
+    sum = kind == 0 ? largest : kind == 1 ? half : kind == 2 ? half - 1 : draw->Next() % largest;
+  }
+  const uint32_t* accumulators = call->Input("accumulators", sums, kPadding);
+  auto* out = call->Output<uint8_t>("out", count);
+  call->Result(out, count);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.Finish(accumulators, count, shift, out);
+    return 0;
+  };
+}
+
+}  // namespace test::kernel_cases

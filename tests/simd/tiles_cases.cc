@@ -1,0 +1,171 @@
+// Cases of the kernels of simd/tiles.h.
+#include <algorithm>
+
+#include "tests/simd/kernel_cases.h"
+
+namespace test::kernel_cases {
+namespace {
+
+using starfocus::simd::kCoveredNear;
+using starfocus::simd::Kernels;
+using starfocus::simd::kRowsAhead;
+using starfocus::simd::kSliceLanes;
+using starfocus::simd::kSliceOne;
+using starfocus::simd::kSomethingNear;
+using starfocus::simd::SliceFraction;
+using starfocus::simd::SliceOffset;
+using starfocus::simd::SlicePlanes;
+using starfocus::simd::SliceViews;
+using starfocus::simd::TileSlice;
+
+// Where views lie: on whole samples, between two that weigh the same at edges and inside or not, or
+// on three or four of them.
+SliceFraction Fraction(Draw* draw) {
+  const int taps = draw->timed() ? 2 : draw->Int(1, 5), first = draw->Int(0, 32767);
+  if (taps == 1) return {INT16_MIN, INT16_MIN, 0, 0};
+  const auto edge = int16_t(-first);
+  if (taps == 2) return {edge, edge, 0, 0};
+  if (taps == 3) return {int16_t(draw->Int(-32768, 0)), edge, 0, 0};
+  const int third = draw->Int(1, 32768 - first);
+  return {edge, edge, int16_t(-third), int16_t(taps == 4 ? 0 : -draw->Int(0, third))};
+}
+
+// Rows of four planes side by side: colours at most as large as the coverage. `share` is how many
+// of 100 stretches of rows are covered, all over or not; kFull: all of them, all over.
+constexpr int kFull = 101;
+std::vector<int16_t> Planes(size_t rows, size_t plane, int share, Draw* draw) {
+  std::vector<int16_t> samples(4 * rows * plane);
+  for (size_t row = 0; row < rows; ++row) {
+    int cover = share == kFull ? kSliceOne : 0;
+    for (size_t n = 0; n < plane; ++n) {
+      if (share < kFull && draw->Int(0, 4) == 0) {
+        cover = draw->Int(0, 99) >= share ? 0
+                : draw->Int(0, 1) == 0    ? kSliceOne
+                                          : draw->Int(0, kSliceOne);
+      }
+      int16_t* at = samples.data() + 4 * row * plane + n;
+      for (size_t c = 0; c < 3; ++c) at[c * plane] = int16_t(cover * draw->Int(0, 255) / 256);
+      at[3 * plane] = int16_t(cover);
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+void ShiftSlice(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Length(1, 19, kTimedSamples / 4 / kSliceLanes);
+  const size_t more = draw->Size(0, 48, 0), in_plane = kSliceLanes + 3 + more;
+  const size_t plane = kSliceLanes * (rows + draw->Size(0, 4, 0));
+  std::vector<int16_t> samples = Planes(rows, in_plane, draw->Int(0, 1) == 0 ? 20 : kFull, draw);
+  const size_t empty = size_t(draw->Int(0, int(rows) - 1));
+  std::fill_n(samples.begin() + ptrdiff_t(4 * empty * in_plane), 4 * in_plane, int16_t{0});
+  const size_t first = size_t(draw->Int(0, int(more)));
+  samples.resize(samples.size() - (more - first));  // memory ends with the last sample that is seen
+  const SlicePlanes in = {call->Input("in", samples) + first, in_plane};
+  const SliceFraction fraction = Fraction(draw);
+  auto* out = call->Output<int16_t>("out", 3 * plane + rows * kSliceLanes);
+  for (size_t c = 0; c < 4; ++c) call->Result(out + c * plane, rows * kSliceLanes);
+  auto* near = call->Output<uint8_t>("near", kRowsAhead + rows);
+  constexpr uint8_t kLeft = 9;
+  std::fill_n(near, kRowsAhead + rows, kLeft);
+  call->Result(near, kRowsAhead + rows);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.ShiftSlice(in, fraction, rows, plane, out, near + kRowsAhead);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    const uint8_t *begin = near, *end = near + kRowsAhead + rows;
+    (*met)["covered"] += std::count(begin, end, uint8_t{kCoveredNear});
+    (*met)["left as it was"] += std::count(begin, end, kLeft);
+    return true;
+  };
+}
+
+namespace {
+
+// What each row of a tile and the rows after it show, given how many of its samples are covered. A
+// row that is covered all over may be marked as one that shows something.
+std::vector<uint8_t> NearOf(const std::vector<int>& covered, bool full) {
+  std::vector<uint8_t> near(covered.size() - kRowsAhead);
+  for (size_t row = 0; row < near.size(); ++row) {
+    const auto first = covered.begin() + ptrdiff_t(row), end = first + ptrdiff_t(kRowsAhead) + 1;
+    if (!std::any_of(first, end, [](int count) { return count > 0; })) continue;
+    near[row] = full && std::find(first, end, 0) == end ? kCoveredNear : kSomethingNear;
+  }
+  return near;
+}
+
+// A slice in a tile, of which some rows are empty. TileSlice is that `before` rows from its first.
+TileSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Met* met) {
+  const bool full = draw->Int(0, 1) == 0;
+  const auto in = Planes(rows, kSliceLanes, full ? kFull : draw->Int(5, 100), draw);
+  const size_t plane = kSliceLanes * rows;
+  std::vector<int16_t> samples(4 * plane);
+  std::vector<int> covered(rows + kRowsAhead);  // samples of each row
+  for (size_t row = 0; row < rows; ++row) {
+    if (draw->Rarely(full ? 12 : 4)) continue;
+    for (size_t n = 0; n < 4 * kSliceLanes; ++n) {
+      const int16_t sample = in[4 * row * kSliceLanes + n];
+      samples[n / kSliceLanes * plane + row * kSliceLanes + n % kSliceLanes] = sample;
+      covered[row] += sample != 0;
+    }
+  }
+  const std::vector<uint8_t> near = NearOf(covered, full);
+  (*met)["covered"] += std::count(near.begin(), near.end(), kCoveredNear);
+  return {call->Input("slice", samples) + before * kSliceLanes, call->Input("near", near) + before,
+          plane};
+}
+
+// A row before the first one that is composited, and rows that views move by.
+constexpr size_t kSkipped = 1, kMost = 4;
+
+SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {
+  const size_t count = draw->Size(1, 6, 2), view_count = draw->Size(1, 9, 5);
+  std::vector<TileSlice> slices;
+  for (size_t k = 0; k < count; ++k) {
+    slices.push_back(
+        MakeTile(kMost + kSkipped + rows + kMost + kRowsAhead, kMost, draw, call, met));
+  }
+  std::vector<int16_t> weights(view_count);
+  for (int16_t& weight : weights) {
+    weight = int16_t(draw->Int(0, std::min(16383, 58000 / int(view_count))));
+  }
+  std::vector<SliceOffset> offsets;
+  for (size_t n = 0; n < view_count * count; ++n) {
+    offsets.push_back({draw->Int(-int(kMost), int(kMost)), Fraction(draw)});
+  }
+  std::vector<uint8_t> shown;
+  for (size_t k = 0; k < count; ++k) {
+    if (!draw->Rarely(5)) shown.push_back(uint8_t(k));
+  }
+  return {call->Input("weights", weights),
+          call->Input("offsets", offsets),
+          view_count,
+          call->Input("slices", slices),
+          count,
+          call->Input("shown", shown),
+          shown.size(),
+          kSkipped};
+}
+
+}  // namespace
+
+void Composite(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Length(1, 9, kTimedSamples / 4 / kSliceLanes);
+  Met covered;
+  const SliceViews views = MakeViews(rows, draw, call, &covered);
+  auto* sums = call->Output<uint32_t>("sums", 4 * rows * kSliceLanes);
+  for (size_t n = 0; n < 4 * rows * kSliceLanes; ++n) sums[n] = uint32_t(draw->Int(0, 1 << 30));
+  call->Result(sums, 4 * rows * kSliceLanes);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.Composite(views, rows, sums);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    for (const auto& one : covered) (*met)[one.first] += one.second;
+    return true;
+  };
+}
+
+}  // namespace test::kernel_cases
