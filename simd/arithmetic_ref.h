@@ -12,7 +12,7 @@ inline int16_t Saturated(int32_t value) {
                                                   : value);
 }
 
-// The product of two numbers of 15 fractional bits, rounded halves up.
+// Returns the product of two numbers of 15 fractional bits, rounded halves up.
 inline int16_t Product15(int32_t a, int32_t b) {
   return static_cast<int16_t>((a * b + (1 << 14)) >> 15);
 }

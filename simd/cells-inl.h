@@ -13,26 +13,27 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Vectors of unknown length can't be kept in arrays and structs.
+// Vectors whose length is unknown at compile time can't be kept in arrays and structs, as below.
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 using reference::MeasureCell;
 
 #else
 
-// A row of a cell per vector.
+// A vector holds one row of a cell.
 using CellTag = hn::FixedTag<int16_t, 8>;
 using CellRow = hn::Vec<CellTag>;
 using UnsignedTag = hn::RebindToUnsigned<CellTag>;
 using UnsignedRow = hn::Vec<UnsignedTag>;
 
-// |a - b|, which may need all 16 bits.
+// Returns |a - b|, which may need all 16 bits.
 HWY_INLINE UnsignedRow Distance(CellRow a, CellRow b) {
   const UnsignedTag du16;
   return hn::Sub(hn::BitCast(du16, hn::Max(a, b)), hn::BitCast(du16, hn::Min(a, b)));
 }
 
-// Each lane's lowest of eight vectors' lanes: lane k is that of vector k.
+// Reduces each of eight vectors to one lane by `take` (minimum or maximum): lane k is that of
+// vector k.
 template <class Take>
 HWY_INLINE CellRow ReduceRows(const CellRow (&rows)[8], const Take& take) {
   const CellTag d16;
@@ -61,14 +62,14 @@ HWY_INLINE uint32_t SumOf(UnsignedRow row) {
   return hn::GetLane(hn::SumOfLanes(d32, pairs));
 }
 
-// Sums of steps, in 32-bit lanes where 16 bits may not hold them.
+// Sums up steps, in 32-bit lanes where 16 bits may not hold the sum.
 struct Steps {
   explicit Steps(const CellLimits& limits)
       : edge(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.edge))),
         slope_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.slope_limit))),
         gap_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.gap_limit))) {}
 
-  // Steps between a and b count inside the cell where `inside` is set.
+  // Adds the steps between a and b. They count as inside the cell where `inside` has all bits set.
   HWY_INLINE void Add(CellRow a, CellRow b, UnsignedRow inside) {
     const CellTag d16;
     const UnsignedTag du16;
@@ -103,7 +104,7 @@ struct Steps {
       hn::Zero(hn::Repartition<uint32_t, UnsignedTag>());
 };
 
-// Measures the steps of a cell without depth edges, as most are; false: there is one.
+// Measures the steps of a cell without depth edges, as most cells are. Returns false if it has one.
 HWY_INLINE bool MeasureSlopes(const int16_t* const rows[10], const CellRow (&here)[8],
                               UnsignedRow all_but_first, const CellLimits& limits,
                               CellMeasure* measure) {
@@ -160,7 +161,7 @@ inline void MeasureCell(const int16_t* const rows[10], const CellLimits& limits,
   const UnsignedTag du16;
   const auto min = [](CellRow a, CellRow b) HWY_ATTR { return hn::Min(a, b); };
   const auto max = [](CellRow a, CellRow b) HWY_ATTR { return hn::Max(a, b); };
-  // The step from column -1 to column 0 leads into the cell.
+  // The step from column -1 to column 0 leads into the cell, and so is not inside it.
   const auto all_but_first = hn::VecFromMask(du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
   const auto focus = hn::Set(d16, limits.focus);
   CellRow here[8];

@@ -16,8 +16,9 @@ namespace HWY_NAMESPACE {
 // A vector holds a group at most: rows are padded to whole groups only, and bits of a mask become
 // those of a group.
 using ChunkTag = hn::CappedTag<int16_t, kSliceLanes>;
+using ChunkVec = hn::Vec<ChunkTag>;
 
-// The mask as bits: bit k is lane k.
+// Returns the mask as bits: bit k is lane k.
 template <class D>
 HWY_INLINE uint32_t BitsOf(D d, hn::Mask<D> mask) {
   uint8_t bytes[8] = {};

@@ -1,4 +1,4 @@
-// Differences between Highway versions and targets, in one place. Included once per target.
+// This file hides what differs between Highway versions and targets. Included once per target.
 #if defined(STARFOCUS_SIMD_COMPAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_COMPAT_INL_H_
 #undef STARFOCUS_SIMD_COMPAT_INL_H_
@@ -14,8 +14,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// a * wa + b * wb in 32-bit lanes, for a, b <= 255 and wa, wb <= 32767; weights packed by
-// PackWeights. On x86 one multiply-add of 16-bit pairs, elsewhere two multiplications.
+// WeighPair returns a * wa + b * wb in 32-bit lanes, for a, b <= 255 and wa, wb <= 32767. It takes
+// one multiply-add of 16-bit pairs on x86 and two multiplications elsewhere.
 #undef STARFOCUS_HAVE_PAIR_MULTIPLY
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
 #define STARFOCUS_HAVE_PAIR_MULTIPLY 1

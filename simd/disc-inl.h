@@ -16,13 +16,14 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// A quarter of the disc in pairs of columns, row by row.
+// DiscPairs holds a quarter of the disc, row by row, in pairs of columns that are multiplied
+// together.
 struct DiscPairs {
   struct Pair {
     uint16_t first, second;
   };
   Pair pairs[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
-  int32_t counts[kMaxDisc + 1];  // of each row
+  int32_t counts[kMaxDisc + 1];  // of the pairs of each row
 
   explicit DiscPairs(const Disc& disc) {
     Pair* pair = pairs;
@@ -42,7 +43,7 @@ struct DiscPairs {
 inline constexpr size_t kDiscChunk = 192;  // samples filtered together
 inline constexpr size_t kDiscMargin = 3 * kMaxDisc;
 
-// Samples of rows y and -y added, from `margin` before the chunk to as many behind it.
+// Adds the samples of two rows that the disc weighs alike; the middle row comes alone.
 HWY_INLINE void AddRows(const uint8_t* above, const uint8_t* below, size_t count,
                         uint16_t* HWY_RESTRICT sums) {
   const hn::ScalableTag<uint16_t> d16;
@@ -54,10 +55,10 @@ HWY_INLINE void AddRows(const uint8_t* above, const uint8_t* below, size_t count
   }
 }
 
-// Adds a row of the disc, and the one below the middle, whose samples are added to it.
+// AddDiscRow adds a row of the disc to the accumulators. `sums` are those of AddRows.
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
 
-// Sums of 32 bits in the order in which pairs of 16 bits are interleaved: that of FinishDisc.
+// Accumulators stand in the order in which pairs of 16 bits are interleaved; FinishDisc knows it.
 HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
                            const uint16_t* HWY_RESTRICT sums, size_t count,
                            uint32_t* HWY_RESTRICT accumulators) {
@@ -148,7 +149,8 @@ inline void FilterDisc(const uint8_t* HWY_RESTRICT in, size_t in_stride, const D
   constexpr size_t kSpare = HWY_MAX_BYTES;
   const DiscPairs quarter(disc);
   const size_t margin = 3 * static_cast<size_t>(disc.size);
-  // The second column of a pair may lie a pixel beyond the disc, without weight.
+  // The second column of a pair may lie a pixel beyond the disc. Its weight is zero, but it is
+  // read.
   uint16_t padded[3 + kDiscChunk + 2 * kDiscMargin + 3 + kSpare] = {};
   uint16_t* const sums = padded + 3;
   uint32_t accumulators[kDiscChunk + kSpare];

@@ -32,12 +32,12 @@ inline bool ConvertDisparity(const float* HWY_RESTRICT disparity, size_t count, 
   return n == count || reference::ConvertDisparity(disparity + n, count - n, low, high, out + n);
 }
 
-// Of `count` columns, kSliceLanes at most.
+// Returns the range of `count` columns, which are kSliceLanes at most.
 HWY_INLINE DisparityRange RangeOfColumns(const int16_t* HWY_RESTRICT disparity, size_t stride,
                                          size_t rows, size_t count) {
   const ChunkTag d16;
   const auto none = hn::Set(d16, kNoSurface), one = hn::Set(d16, int16_t{1});
-  // One less than the lowest: where there is no surface that wraps round to the largest.
+  // `below` is one less than the lowest, as kNoSurface minus one wraps round to the largest.
   auto below = hn::Set(d16, int16_t{INT16_MAX}), high = none;
   for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
     const auto counted = hn::FirstN(d16, count - n);

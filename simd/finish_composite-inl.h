@@ -24,8 +24,8 @@ using reference::FinishComposite;
 using CompositeTag = hn::CappedTag<uint32_t, kSliceLanes>;
 using CompositeVec = hn::Vec<CompositeTag>;
 
-// Inverses of coverages in two halves. Most pixels beside each other are covered alike: there is no
-// division in SIMD, so that one is only made where the coverage changes.
+// Inverses of coverages, in two halves of 32 bits. There is no division in SIMD, and most pixels
+// are covered like the one beside them: an inverse is only computed where the coverage changes.
 class Inverses {
  public:
   explicit Inverses(uint32_t least) : least_(least) {}
@@ -57,7 +57,7 @@ class Inverses {
   uint64_t inverse_ = 0;
 };
 
-// min((sum * inverse + half) >> shift, white), of every other lane.
+// Returns min((sum * inverse + half) >> shift, white) of every other lane.
 template <class D64, class V64 = hn::Vec<D64> >
 HWY_INLINE V64 DivideEven(D64 d64, CompositeVec sum, CompositeVec low, CompositeVec high, V64 half,
                           int shift, hn::Vec<hn::RebindToSigned<D64> > white) {
@@ -77,7 +77,7 @@ HWY_INLINE void CopyMissing(const uint8_t* rgb, int bits, uint32_t* out) {
   }
 }
 
-// A vector of pixels.
+// Finishes a vector of pixels.
 HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const uint8_t* rgb,
                             const CompositeFinish& finish, Inverses& inverses, uint32_t* out) {
   const CompositeTag d32;

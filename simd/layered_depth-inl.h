@@ -56,23 +56,23 @@ inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTR
   }
 }
 
-// What the four sides show behind a chunk of pixels, if bit k of `some` is set for side k. In
-// memory, since some vectors have no size.
+// What the four sides show behind a group of pixels; that of side k is set if bit k of `some` is.
+// It is kept in memory, since some vectors have no size at compile time.
 struct ChunkSides {
   uint32_t some;
   int16_t rank[4][kSliceLanes], disparity[4][kSliceLanes], half[4][kSliceLanes];
 };
 
-// Lanes of pixels before which something lies in the view that moves by a pixel per `unit`; the
-// pixels that may, one after the other towards the side, are `step` apart. Up to `room` of them are
-// in the field, of all lanes at least `sure`, and none after `last` comes so far.
+// Finds the lanes whose place behind the pixel is covered in the view that moves by a pixel per
+// `unit`. The pixels that may cover it follow each other towards the side, `step` apart. Of these,
+// `room` lie in the field (`sure` in each lane), and those after number `last` never come so far.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, V disparity, V room,
                                    int32_t sure, int16_t unit, int32_t last) {
   const auto reach = static_cast<int16_t>(3 * unit / 4 - 1);
   const auto nearer = hn::Add(disparity, hn::Set(d16, static_cast<int16_t>(unit / 2)));
-  // Whether the place is within `reach` of the pixel is one comparison of the distance and `reach`,
-  // as an unsigned number; what is not nearer is told by the other.
+  // One comparison of unsigned numbers tells whether the place is within `reach` of where the pixel
+  // moves; the other one, whether the pixel is nearer at all.
   auto start = hn::Sub(hn::Sub(disparity, hn::Set(d16, reach)), hn::Set(d16, INT16_MIN));
   const auto end = hn::Set(d16, static_cast<int16_t>(INT16_MIN + 2 * reach + 1));
   const auto next = hn::Set(d16, unit);
@@ -94,7 +94,7 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, V d
   return hn::MaskFromVec(covered);
 }
 
-// The sides of kSides of lib/input/window.h.
+// Sides are numbered as in DepthRow::edges.
 HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, ChunkSides* sides) {
   const ChunkTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
@@ -146,7 +146,7 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, Chun
   }
 }
 
-// The nearest surface of rank `best`, `disparity`, and where its colour is.
+// Returns where the colour of the surface of rank `best` is found, see HiddenRow.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V disparity) {
   auto source = hn::Zero(d16);
@@ -165,7 +165,7 @@ HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V dispar
   return hn::IfThenElseZero(some, hn::Or(source, distance));
 }
 
-// The nearest and the next of them. Returns whether there is any.
+// Writes the hidden surfaces of a group of pixels. Returns whether there are any.
 HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t chunk,
                                const HiddenRow& hidden) {
   const ChunkTag d16;
@@ -202,7 +202,8 @@ HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t ch
   return found[0] != 0;  // the first of them is nowhere missing
 }
 
-// Which sides of a chunk hide something, bit by bit; tells where surfaces end. Most hide nothing.
+// Writes the shares of a group of pixels, which tell where surfaces end. Returns the sides that
+// hide something, bit by bit: most groups hide nothing.
 HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t chunk, uint8_t* HWY_RESTRICT share) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   const auto one = hn::Set(d8, uint8_t{1}), none = hn::Zero(d8);
@@ -261,7 +262,7 @@ inline void Interpolate(const uint8_t* HWY_RESTRICT here, const uint8_t* HWY_RES
     const auto share = hn::PromoteTo(d16, hn::LoadU(d8, weight + n));
     const auto store = [&](auto first, auto second, size_t c) HWY_ATTR {
       const auto from = hn::PromoteTo(d16, first), to = hn::PromoteTo(d16, second);
-      // Modulo 2^16; the sum is no more than that.
+      // Products may wrap modulo 2^16: their sum fits.
       const auto moved = hn::Mul(hn::Sub(to, from), share);
       const auto sum = hn::Add(hn::Add(hn::ShiftLeft<8>(from), half), moved);
       hn::StoreU(hn::TruncateTo(d8, hn::ShiftRight<8>(sum)), d8, out + c * plane + n);
@@ -272,8 +273,8 @@ inline void Interpolate(const uint8_t* HWY_RESTRICT here, const uint8_t* HWY_RES
   }
 }
 
-// Lanes beyond `count` are masked before anything depends on them: what lies there may never have
-// been written.
+// Lanes beyond `count` are masked before anything depends on them, as what lies there may never
+// have been written.
 inline void FindSteps(const int16_t* HWY_RESTRICT row, size_t count, int16_t step,
                       StepBits* HWY_RESTRICT steps) {
   const ChunkTag d16;

@@ -9,13 +9,13 @@ namespace {
 
 // What one side shows behind a pixel.
 struct HiddenSide {
-  int rank;  // the nearer edge first, and those that a side view shows
+  int rank;  // see kUnseen
   int16_t disparity;
-  bool half;
+  bool half;  // whether only the view at half distance shows it
 };
 
-// Whether something lies before the place behind a pixel in the view that moves by a pixel per
-// `unit`; the `room` pixels towards the side are `step` apart.
+// Tells whether something lies before the place behind a pixel in the view that moves by a pixel
+// per `unit`. The `room` pixels towards the side are `step` apart.
 bool IsCovered(const int16_t* at, ptrdiff_t step, int32_t room, int16_t disparity, int32_t unit) {
   for (int32_t u = 0; u <= room; ++u, at += step) {
     const int32_t nearer = *at - disparity;
@@ -40,7 +40,8 @@ HiddenSide LookBehindSide(const DepthRow& row, int32_t x, int side) {
   return {distance + kUnseen, disparity, false};
 }
 
-// Writes pixel x of surface `behind` + 1, farther than `above` or nearer. Returns its disparity.
+// Writes pixel x of hidden surface `behind`, which must differ from the one before it, `above`.
+// Returns its disparity.
 int16_t ChooseSurface(const HiddenSide* sides, int32_t x, int behind, int32_t unit, int16_t above,
                       const HiddenRow& hidden) {
   const HiddenSide* best = nullptr;

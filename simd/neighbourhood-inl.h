@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Vectors of unknown length can't be kept in structs.
+// Vectors whose length is unknown at compile time can't be kept in structs, as below.
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 using reference::ReachBlock;
@@ -21,10 +21,8 @@ using reference::SurroundCells;
 
 #else
 
-using AroundVec = hn::Vec<ChunkTag>;
-
-// Pixels between a block and columns or rows `first` + lane of cells from `around` before it on, in
-// the way of GapTo; none of the lanes beyond the last one is ever reached.
+// How many pixels lie between a block and columns of cells: lane k stands for column first + k,
+// where column 0 lies `around` cells before the block. Columns after the last one reach nothing.
 struct ColumnGaps {
   ColumnGaps(int32_t around, int32_t first) {
     const ChunkTag d16;
@@ -40,18 +38,19 @@ struct ColumnGaps {
     needed = hn::IfThenElse(beyond, hn::Set(d16, int16_t{INT16_MAX}), needed);
   }
 
-  AroundVec left, right;  // all bits, of columns on either side
-  AroundVec gap;
-  AroundVec needed;  // the least reach is one more; INT16_MIN: any
+  ChunkVec left, right;  // all bits set for columns on that side of the block
+  ChunkVec gap;
+  ChunkVec needed;  // a reach must exceed this; INT16_MIN in the block's own columns
 };
 
-// What reaches a block from columns of cells.
+// Collects what reaches a block from a vector of columns of cells.
 class ColumnReach {
  public:
   ColumnReach(const CellPlanes& planes, int32_t around, const int16_t* margins, int32_t first)
       : planes_(planes), around_(around), margins_(margins), first_(first), gaps_(around, first) {}
 
-  // Rows [row, end) of cells, which reach the block from the plane `from` on.
+  // Adds rows [row, end) of cells, which lie on one side of the block or beside it: their reach
+  // towards it is the plane `from`, and `border` at `to` is the side.
   HWY_INLINE void AddRows(int32_t row, int32_t end, CellPlane from, int16_t (*border)[4],
                           CellPlane to) {
     const ChunkTag d16;
@@ -113,12 +112,12 @@ class ColumnReach {
     return INT16_MIN;
   }
 
-  static HWY_INLINE void Store(AroundVec values, int16_t* largest) {
+  static HWY_INLINE void Store(ChunkVec values, int16_t* largest) {
     const int16_t value = hn::GetLane(hn::MaxOfLanes(ChunkTag(), values));
     if (value > *largest) *largest = value;
   }
 
-  HWY_INLINE void StoreSides(AroundVec values, int16_t (&border)[4]) const {
+  HWY_INLINE void StoreSides(ChunkVec values, int16_t (&border)[4]) const {
     Store(hn::And(values, gaps_.left), &border[kReachLeft]);
     Store(hn::And(values, gaps_.right), &border[kReachRight]);
   }
@@ -128,8 +127,8 @@ class ColumnReach {
   const int16_t* const margins_;
   const int32_t first_;
   const ColumnGaps gaps_;
-  AroundVec x0_ = hn::Zero(ChunkTag()), x1_ = x0_, x2_ = x0_;  // by layer
-  AroundVec radius_ = x0_, edge_ = x0_;
+  ChunkVec x0_ = hn::Zero(ChunkTag()), x1_ = x0_, x2_ = x0_;  // how far pixels lie away, by layer
+  ChunkVec radius_ = x0_, edge_ = x0_;
 };
 
 inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
@@ -145,8 +144,8 @@ inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t m
   }
 }
 
-// Cells away beyond which none of a vector of cells, from `at` of the plane of reaches on, reaches
-// another.
+// Returns how many cells away the cells are, at most, that a vector of cells reaches or is reached
+// by. `at` is the first of these cells in the plane of reaches.
 HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t around) {
   const ChunkTag d16;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));

@@ -13,8 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Runs step(n) for each vector of `count` samples; the last one begins where it ends with them, so
-// that some are made twice. Returns whether there are enough for a vector.
+// Runs step(n) for each vector of `count` samples. The last vector ends with the samples, so that
+// some are made twice. Returns whether there are enough samples for a vector.
 template <class Step>
 HWY_INLINE bool ForVectors(size_t count, size_t lanes, const Step& step) {
   if (count < lanes) return false;
@@ -30,8 +30,8 @@ using reference::WidenPhases;
 
 #else
 
-// Five pairs of pixels at once, 15 samples of each phase: a vector of the first 8 and one of the
-// last 8. Bytes become the high ones of their lanes.
+// Takes five pairs of pixels at once, which are 15 samples of each phase: a vector of the first 8
+// and one of the last 8. A byte becomes the high one of its lane, which is then shifted right.
 inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
                         int16_t* HWY_RESTRICT odd) {
   constexpr uint8_t kZero = 0x80;
@@ -60,7 +60,7 @@ inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, int16_t* H
   if (!done) reference::WidenPhases(in, pairs, even, odd);
 }
 
-// A fourth sample goes with each pixel and is overwritten by the next one.
+// A fourth sample is copied with each pixel, and the next pixel overwrites it.
 inline void SplitPhases(const int16_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
                         int16_t* HWY_RESTRICT odd) {
   const hn::FixedTag<int16_t, 4> d16;
@@ -84,7 +84,7 @@ inline void Narrow(const int16_t* HWY_RESTRICT in, size_t count, uint8_t* HWY_RE
   const auto below_half = hn::Set(d16, int16_t{(1 << (kLayerBits - 1)) - 1});
   const auto one = hn::Set(d16, int16_t{1});
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
-    // Saturating: an int16 near its limit still rounds to 255.
+    // Sums saturate, so that an int16 near its limit still rounds to 255.
     const auto value = hn::LoadU(d16, in + n);
     const auto odd = hn::And(hn::ShiftRight<kLayerBits>(value), one);
     const auto sum = hn::SaturatedAdd(value, hn::Add(below_half, odd));
@@ -107,17 +107,18 @@ inline void FinishLayer(const uint32_t* HWY_RESTRICT accumulators, size_t count,
   if (!done) reference::FinishLayer(accumulators, count, shift, out);
 }
 
-// Rounded sums of taps, saturated: centre c + near (a + b) + far (d + e) of a vector's samples.
+// The functions below compute centre c + near (a + b) + far (d + e) of a vector's samples, rounded
+// and saturated.
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
 
-// Products of two vectors' samples in turn: the lower and the upper lanes of each block of 128
-// bits, which is how saturation puts them together again.
+// Products are summed in two vectors, of the lower and the upper lanes of each block of 128 bits;
+// demoting with saturation puts them together again.
 using FilterTag = hn::ScalableTag<int16_t>;
 using WideTag = hn::Repartition<int32_t, FilterTag>;
 using FilterVec = hn::Vec<FilterTag>;
 using WideVec = hn::Vec<WideTag>;
 
-// Adds a tap_a + b tap_b.
+// Adds a tap_a + b tap_b to the sums.
 HWY_INLINE void AddTaps(FilterVec a, FilterVec b, int32_t tap_a, int32_t tap_b, WideVec& low,
                         WideVec& high) {
   const FilterTag d16;
@@ -130,7 +131,7 @@ HWY_INLINE void AddTaps(FilterVec a, FilterVec b, int32_t tap_a, int32_t tap_b, 
   high = hn::ReorderWidenMulAccumulate(d32, hn::InterleaveUpper(d16, a, b), taps, high, unused);
 }
 
-// The centre, and with it the half that makes dropping kTapBits round.
+// Begins sums with the centre, and the half that makes dropping kTapBits round.
 HWY_INLINE void BeginTaps(FilterVec centre, int32_t tap, WideVec& low, WideVec& high) {
   low = high = hn::Zero(WideTag());
   AddTaps(centre, hn::Set(FilterTag(), int16_t{1}), tap, 1 << (kTapBits - 1), low, high);
@@ -150,7 +151,7 @@ HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, 
   return EndTaps(low, high);
 }
 
-// Where sums of two samples fit 16 bits.
+// Takes the sums a + b and d + e, where they fit 16 bits.
 HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
   WideVec low, high;
   BeginTaps(c, taps.centre, low, high);
@@ -191,7 +192,7 @@ HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, 
   return EndTaps(hn::Add(Weighed(taps.centre, Wide(c)), hn::Add(beside, beyond)));
 }
 
-// Where sums of two samples fit 16 bits.
+// Takes the sums a + b and d + e, where they fit 16 bits.
 HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
   const auto beside = Weighed(taps.near, Wide(ab)), beyond = Weighed(taps.far, Wide(de));
   return EndTaps(hn::Add(Weighed(taps.centre, Wide(c)), hn::Add(beside, beyond)));

@@ -13,81 +13,111 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
+// Whether a slice covers some of a group's pixels, and all of each.
+struct GroupCover {
+  bool some = false, all = true;
+};
+
+// Tells which pixels have a disparity in [low, high].
+HWY_INLINE hn::Mask<ChunkTag> LiesIn(const int16_t* disparity, ChunkVec low, ChunkVec high) {
+  const ChunkTag d16;
+  const auto value = hn::LoadU(d16, disparity);
+  return hn::Not(hn::Or(hn::Lt(value, low), hn::Gt(value, high)));
+}
+
+HWY_INLINE ChunkVec LoadBytes(const uint8_t* at) {
+  const ChunkTag d16;
+  return hn::PromoteTo(d16, hn::LoadU(hn::Rebind<uint8_t, ChunkTag>(), at));
+}
+
+HWY_INLINE void StoreNothing(size_t plane, int16_t* HWY_RESTRICT out) {
+  const ChunkTag d16;
+  for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, out + c * plane);
+}
+
+// Selects a vector of pixels from n on, whose first surfaces cover all of them. `overlap` is the
+// end of the range.
+HWY_INLINE void SelectFirst(const SurfaceRow& row, ChunkVec low, ChunkVec overlap, size_t n,
+                            size_t count, size_t plane, int16_t* HWY_RESTRICT out,
+                            GroupCover& cover) {
+  const ChunkTag d16;
+  const auto found = LiesIn(row.disparity[0] + n, low, overlap);
+  if (hn::AllFalse(d16, found)) {
+    StoreNothing(plane, out + n);
+    cover.all = cover.all && n >= count;
+    return;
+  }
+  for (size_t c = 0; c < 3; ++c) {
+    const auto value = hn::ShiftLeft<kSliceBits>(LoadBytes(row.rgb[0] + c * row.plane + n));
+    hn::StoreU(hn::IfThenElseZero(found, value), d16, out + c * plane + n);
+  }
+  hn::StoreU(hn::IfThenElseZero(found, hn::Set(d16, kSliceOne)), d16, out + 3 * plane + n);
+  const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
+  cover.some = cover.some || !hn::AllFalse(d16, hn::And(found, counted));
+  cover.all = cover.all && hn::AllFalse(d16, hn::AndNot(found, counted));
+}
+
+// Selects a vector of pixels from n on, of whose surfaces any may be seen.
+HWY_INLINE void SelectAny(const SurfaceRow& row, ChunkVec low, ChunkVec high, ChunkVec overlap,
+                          size_t n, size_t count, size_t plane, int16_t* HWY_RESTRICT out,
+                          GroupCover& cover) {
+  const ChunkTag d16;
+  const auto pixel = hn::Set(d16, kSliceWhole);
+  const auto nearest = LiesIn(row.disparity[0] + n, low, overlap);
+  const auto next = LiesIn(row.disparity[1] + n, low, overlap);
+  const auto last = LiesIn(row.disparity[2] + n, low, overlap);
+  int16_t* to = out + n;
+  if (hn::AllFalse(d16, hn::Or(nearest, hn::Or(next, last)))) {  // as in most vectors
+    StoreNothing(plane, to);
+    cover.all = cover.all && n >= count;
+    return;
+  }
+  const auto share = LoadBytes(row.share + n);
+  const auto twice =
+      hn::And(hn::Ne(share, pixel), hn::Gt(hn::LoadU(d16, row.disparity[0] + n), high));
+  const auto first = hn::AndNot(twice, nearest);
+  const auto front = hn::IfThenElseZero(first, hn::Min(share, pixel));
+  const auto behind = hn::IfThenElseZero(hn::Or(next, last), hn::Sub(pixel, front));
+  const auto together = hn::Add(front, behind);
+  const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
+  const auto found = hn::Ne(together, hn::Zero(d16));
+  cover.some = cover.some || !hn::AllFalse(d16, hn::And(found, counted));
+  cover.all = cover.all && hn::AllFalse(d16, hn::And(hn::Ne(together, pixel), counted));
+  for (size_t c = 0; c < 3; ++c) {
+    const size_t at = c * row.plane + n;
+    // Colours of a surface that is not there were never written. They are masked, not multiplied by
+    // zero, which valgrind would not see through.
+    const auto deepest = hn::IfThenElseZero(last, LoadBytes(row.rgb[2] + at));
+    const auto hidden = hn::IfThenElse(next, LoadBytes(row.rgb[1] + at), deepest);
+    const auto value = hn::Add(hn::Mul(LoadBytes(row.rgb[0] + at), front), hn::Mul(hidden, behind));
+    hn::StoreU(value, d16, to + c * plane);
+  }
+  // The whole pixel times 2^8 is one more than kSliceOne.
+  const auto covered = hn::Sub(hn::ShiftLeft<8>(together), hn::ShiftRight<kSliceBits>(together));
+  hn::StoreU(covered, d16, to + 3 * plane);
+}
+
 inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count,
                               size_t plane, int16_t* HWY_RESTRICT out) {
   const ChunkTag d16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
   const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
   const auto overlap = hn::Set(d16, range.overlap);
-  const auto pixel = hn::Set(d16, kSliceWhole);
-  const auto byte = [&](const uint8_t* at)
-                        HWY_ATTR { return hn::PromoteTo(d16, hn::LoadU(d8, at)); };
-  const auto inside = [&](const int16_t* at) HWY_ATTR {
-    const auto disparity = hn::LoadU(d16, at);
-    return hn::Not(hn::Or(hn::Lt(disparity, low), hn::Gt(disparity, overlap)));
-  };
   SliceCover cover = {0, 0};
   uint64_t bit = 1;
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, bit <<= 1) {
-    bool some = false, all = true;
-    if ((row.hiding & bit) == 0) {  // most
+    GroupCover group;
+    if ((row.hiding & bit) == 0) {  // as in most groups
       for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
-        const auto found = inside(row.disparity[0] + n);
-        if (hn::AllFalse(d16, found)) {
-          for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, out + c * plane + n);
-          all = all && n >= count;
-          continue;
-        }
-        for (size_t c = 0; c < 3; ++c) {
-          const auto value = hn::ShiftLeft<kSliceBits>(byte(row.rgb[0] + c * row.plane + n));
-          hn::StoreU(hn::IfThenElseZero(found, value), d16, out + c * plane + n);
-        }
-        hn::StoreU(hn::IfThenElseZero(found, hn::Set(d16, kSliceOne)), d16, out + 3 * plane + n);
-        const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
-        some = some || !hn::AllFalse(d16, hn::And(found, counted));
-        all = all && hn::AllFalse(d16, hn::AndNot(found, counted));
+        SelectFirst(row, low, overlap, n, count, plane, out, group);
       }
-      if (some) cover.some |= bit;
-      if (all) cover.all |= bit;
-      continue;
+    } else {
+      for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
+        SelectAny(row, low, high, overlap, n, count, plane, out, group);
+      }
     }
-    for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
-      const auto nearest = inside(row.disparity[0] + n), next = inside(row.disparity[1] + n);
-      const auto last = inside(row.disparity[2] + n);
-      int16_t* to = out + n;
-      if (hn::AllFalse(d16, hn::Or(nearest, hn::Or(next, last)))) {  // most
-        for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, to + c * plane);
-        all = all && n >= count;
-        continue;
-      }
-      const auto share = byte(row.share + n);
-      const auto twice =
-          hn::And(hn::Ne(share, pixel), hn::Gt(hn::LoadU(d16, row.disparity[0] + n), high));
-      const auto first = hn::AndNot(twice, nearest);
-      const auto front = hn::IfThenElseZero(first, hn::Min(share, pixel));
-      const auto behind = hn::IfThenElseZero(hn::Or(next, last), hn::Sub(pixel, front));
-      const auto together = hn::Add(front, behind);
-      const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
-      const auto found = hn::Ne(together, hn::Zero(d16));
-      some = some || !hn::AllFalse(d16, hn::And(found, counted));
-      all = all && hn::AllFalse(d16, hn::And(hn::Ne(together, pixel), counted));
-      for (size_t c = 0; c < 3; ++c) {
-        const size_t at = c * row.plane + n;
-        // Where there is no surface its colours were never written; valgrind follows masks, but not
-        // products with zero.
-        const auto deepest = hn::IfThenElseZero(last, byte(row.rgb[2] + at));
-        const auto hidden = hn::IfThenElse(next, byte(row.rgb[1] + at), deepest);
-        const auto value = hn::Add(hn::Mul(byte(row.rgb[0] + at), front), hn::Mul(hidden, behind));
-        hn::StoreU(value, d16, to + c * plane);
-      }
-      // 2^8 of them are kSliceOne, and one more of the whole pixel.
-      const auto covered =
-          hn::Sub(hn::ShiftLeft<8>(together), hn::ShiftRight<kSliceBits>(together));
-      hn::StoreU(covered, d16, to + 3 * plane);
-    }
-    if (some) cover.some |= bit;
-    if (all) cover.all |= bit;
+    if (group.some) cover.some |= bit;
+    if (group.all) cover.all |= bit;
   }
   return cover;
 }

@@ -60,7 +60,7 @@ inline void Accumulate(const Span* HWY_RESTRICT spans, size_t count,
   }
 }
 
-// sum / 256 of at most 65280, halves to even.
+// Returns sum / 256, rounded halves to even, of sums of 65280 at most.
 template <class D16, class V16>
 HWY_INLINE V16 RoundToByte(D16 d16, V16 sum) {
   const auto below_half = hn::Set(d16, uint16_t{127}), one = hn::Set(d16, uint16_t{1});
@@ -68,7 +68,7 @@ HWY_INLINE V16 RoundToByte(D16 d16, V16 sum) {
   return hn::ShiftRight<8>(hn::Add(sum, rounding));
 }
 
-// target[n] = value(n) for n < samples, a vector of `lanes` values at a time.
+// Stores target[n] = value(n) for n < samples, a vector of `lanes` values at a time.
 template <class D8, class Value>
 HWY_INLINE void StoreSamples(D8 d8, size_t lanes, size_t samples, uint8_t* HWY_RESTRICT target,
                              const Value& value) {
@@ -80,7 +80,7 @@ HWY_INLINE void StoreSamples(D8 d8, size_t lanes, size_t samples, uint8_t* HWY_R
   }
   size_t n = 0;
   for (; n + lanes <= samples; n += lanes) hn::StoreU(value(n), d8, target + n);
-  // The last vector overlaps the one before it: the same values again.
+  // The last vector overlaps the one before it, and stores the same values again.
   if (n != samples) hn::StoreU(value(samples - lanes), d8, target + samples - lanes);
 }
 

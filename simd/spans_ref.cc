@@ -12,7 +12,7 @@ uint32_t SpanValue(const Span& span, uint32_t n) {
   return value;
 }
 
-// value / 256, halves to the even neighbour.
+// Returns value / 256, rounded halves to the even neighbour.
 uint8_t RoundBlend(uint32_t value) {
   return static_cast<uint8_t>((value + 127 + ((value >> 8) & 1)) >> 8);
 }

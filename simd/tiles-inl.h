@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Rows of a tile follow each other: the widest vectors hold two of them.
+// Rows of a tile follow each other in memory, so that the widest vectors hold two of them.
 #undef STARFOCUS_WIDE_TILES
 #if HWY_TARGET != HWY_SCALAR && HWY_MAX_BYTES >= 64
 #define STARFOCUS_WIDE_TILES 1
@@ -26,22 +26,21 @@ using TileTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
 using TileTag = ChunkTag;
 #endif
 
-// Whether composite has a way of its own for rows that are covered: with narrower vectors that
-// takes more instructions than it saves.
+// Whether Composite has a way of its own for rows that are covered all over. With narrower vectors
+// it takes more instructions than it saves.
 constexpr bool kCoveredApart = HWY_MAX_BYTES >= 32;
 
-// Whether composite looks whether a vector shows nothing, or nothing before it, and saves what
-// there is to do then. What it shows can't be foreseen: on x86 wrong guesses take up to 12 % more
-// time.
+// Whether Composite looks first whether a vector shows nothing, or has nothing before it, to save
+// the work. Branch prediction can't foresee that: on x86 wrong guesses take up to 12 % more time.
 constexpr bool kLooksFirst = !HWY_ARCH_X86;
 
-// Rows of a tile that a vector holds, or a part of one row.
+// Returns how many rows of a tile a vector holds: 1 also if it holds a part of one.
 template <class D>
 HWY_INLINE size_t RowsOf(D d) {
   return hn::Lanes(d) > kSliceLanes ? hn::Lanes(d) / kSliceLanes : 1;
 }
 
-// Samples of a row, or of two rows `stride` apart.
+// Loads samples of a row, or of two rows that lie `stride` apart.
 template <class D>
 HWY_INLINE hn::Vec<D> LoadRows(D d, const int16_t* HWY_RESTRICT at, size_t stride) {
 #if STARFOCUS_WIDE_TILES
@@ -54,17 +53,17 @@ HWY_INLINE hn::Vec<D> LoadRows(D d, const int16_t* HWY_RESTRICT at, size_t strid
   return hn::LoadU(d, at);
 }
 
-// Marks rows near each one, from the first on.
+// Writes the RowsNear of rows, one after the other from the first on.
 class RowMarks {
  public:
-  // Of a row or two: the most and the least that is covered of the parts of it that vectors hold.
+  // Adds one row or two, given the most and the least coverage over all vectors that hold it.
   template <class D>
   HWY_INLINE void Add(D d, hn::Vec<D> most, hn::Vec<D> least, uint8_t* HWY_RESTRICT near) {
     const auto some = hn::Ne(most, hn::Zero(d));
     const auto all = hn::Eq(least, hn::Set(d, kSliceOne));
 #if STARFOCUS_WIDE_TILES
     if (hn::Lanes(d) > kSliceLanes) {
-      uint8_t some_bits[8], all_bits[8];  // as many may be written
+      uint8_t some_bits[8], all_bits[8];  // StoreMaskBits may write 8 bytes
       hn::StoreMaskBits(d, some, some_bits);
       hn::StoreMaskBits(d, all, all_bits);
       for (size_t k = 0; k < 2; ++k) {
@@ -89,10 +88,10 @@ class RowMarks {
     if (all_covered_ > kRowsAhead) near[-6] = kCoveredNear;
   }
 
-  size_t all_covered_ = 0;  // rows up to the last
+  size_t all_covered_ = 0;  // how many rows up to the last one are covered all over
 };
 
-// Returns how many of the rows are moved: as many as fill vectors.
+// Moves as many of the rows as fill vectors. Returns how many.
 template <int kTaps, class D>
 HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                             size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near,
@@ -161,7 +160,7 @@ inline void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, siz
 
 using SliceVec = hn::Vec<TileTag>;
 
-// Adds 16 bits to sums of 32, of as many rows as there are.
+// Adds values of 16 bits to sums of 32 bits, of `rows` at most.
 HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums) {
   const TileTag d;
   const hn::RebindToUnsigned<TileTag> d16;
@@ -179,7 +178,7 @@ HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums
   }
 }
 
-// light / covered, where that is less than one: SliceShare.
+// Returns light / covered where that is less than one; the reference's SliceShare tells how.
 HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec excess) {
   const TileTag d16;
   const auto one = hn::Set(d16, kSliceOne);
@@ -191,15 +190,15 @@ HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec exce
   return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
 }
 
-// What is known of a view and a slice before it is looked at.
+// What is known of a view and a slice before the slice is looked at.
 enum class Known {
   kLit,      // no slice has taken of the view's light
   kCovered,  // nor is there anything to be seen behind this one, all of whose rows are covered
   kNothing,
 };
 
-// A slice's colours and coverage in a row of a view: `excess` is what it covers of the light more
-// than is left, which it gives nothing for.
+// Adds a slice's colours and coverage to a view, and takes the light that they cover. `excess` is
+// by how much the coverage exceeds the light that is left; the slice gives nothing for that.
 template <Known kKnown>
 HWY_INLINE void TakeLight(SliceVec weight, SliceVec red, SliceVec green, SliceVec blue,
                           SliceVec covered, SliceVec excess, SliceVec& light, SliceVec& r,
@@ -225,8 +224,8 @@ HWY_INLINE void TakeLight(SliceVec weight, SliceVec red, SliceVec green, SliceVe
   a = hn::Add(a, hn::MulFixedPoint15(weight, covered));
 }
 
-// What a slice gives to a vector of rows of a view, of which `at` is the first sample; each row of
-// the view sees kTaps rows, 2 to 4.
+// Adds what a slice gives to a vector of rows of a view, where `at` is the slice's first sample.
+// Each row of the view sees kTaps rows of the slice, 2 to 4.
 template <int kTaps, Known kKnown>
 HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
                          const int16_t* HWY_RESTRICT at, SliceVec weight, SliceVec& light,
@@ -255,7 +254,7 @@ HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
     return hn::Add(value, hn::MulFixedPoint15(last, fourth));
   };
   const auto covered = kCovered ? hn::Set(d16, kSliceOne) : between(cover);
-  // Colours are at most roundings there: times a weight below a half they are nothing, too.
+  // Colours there are roundings at most; times a weight below a half they are nothing, too.
   if (kLooksFirst && !kCovered && hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
   const auto excess =
       kKnown == Known::kNothing ? hn::Max(hn::Sub(covered, light), hn::Zero(d16)) : hn::Zero(d16);
@@ -269,7 +268,7 @@ struct SeenSlice {
   const SliceOffset* offsets;
 };
 
-// Two vectors of rows of a tile.
+// Composites two vectors of rows of a tile.
 HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, size_t row, size_t n,
                               size_t rows, uint32_t* HWY_RESTRICT sums) {
   const TileTag d16;

@@ -19,7 +19,7 @@ using reference::Transpose;
 
 #else
 
-// 4 x 4 pixels at once, each 4 bytes wide on the way.
+// Transposes 4 x 4 pixels at once; a pixel is 4 bytes wide on the way.
 inline void Transpose(const uint8_t* HWY_RESTRICT in, size_t in_stride, size_t rows, size_t columns,
                       uint8_t* HWY_RESTRICT out, size_t out_stride) {
   const hn::FixedTag<uint8_t, 16> d8;
@@ -34,7 +34,7 @@ inline void Transpose(const uint8_t* HWY_RESTRICT in, size_t in_stride, size_t r
     return hn::BitCast(d32, hn::TableLookupBytes(hn::LoadU(d8, at), widen));
   };
   for (size_t row = 0; row < rows; row += 4) {
-    // Rows that are not there: the last one again.
+    // The last row stands for rows that are not there.
     const uint8_t* at[4];
     for (size_t k = 0; k < 4; ++k) {
       at[k] = in + (row + k < rows ? row + k : rows - 1) * in_stride;
