@@ -9,7 +9,29 @@
 
 using starfocus::EngineState;
 
+namespace starfocus {
+namespace {
+
+// The configuration with a largest block in place of 0. Wide pictures are up to an eighth faster in
+// blocks of 128, which share what lies around them, and leave enough blocks for all workers; a
+// worker takes four times the memory then.
+sf_config Choose(const sf_config& config) {
+  constexpr int32_t kWide = 1536;
+  sf_config chosen = config;
+  if (chosen.largest_block == 0) chosen.largest_block = config.width < kWide ? 64 : 128;
+  return chosen;
+}
+
+}  // namespace
+}  // namespace starfocus
+
 uint32_t sf_abi_version(void) { return SF_ABI_VERSION; }
+
+const char* sf_version(void) { return SF_VERSION_STRING; }
+
+size_t sf_config_size(void) { return sizeof(sf_config); }
+
+size_t sf_params_size(void) { return sizeof(sf_params); }
 
 void sf_config_init(sf_config* config) {
   if (config == nullptr) return;
@@ -17,7 +39,6 @@ void sf_config_init(sf_config* config) {
   config->version = SF_ABI_VERSION;
   config->views = 5;
   config->max_blur = 32.0;
-  config->largest_block = 64;
   config->max_workers = 1;
   config->theta = 0.26 * 3.14159265358979323846;
   config->max_layer = SF_LAYERS - 1;
@@ -49,7 +70,7 @@ sf_status sf_workspace_size(const sf_config* config, size_t* bytes) {
   const sf_status status = starfocus::CheckConfig(*config);
   if (status != SF_OK) return status;
   EngineState* counted = nullptr;
-  const size_t needed = starfocus::LayOut(*config, nullptr, &counted);
+  const size_t needed = starfocus::LayOut(starfocus::Choose(*config), nullptr, &counted);
   if (needed == starfocus::kTooLarge) return SF_ERROR_TOO_LARGE;
   *bytes = needed;
   return SF_OK;
@@ -66,8 +87,9 @@ sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_eng
   if (bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
   new (workspace) EngineState();
   EngineState* made = nullptr;
-  starfocus::LayOut(*config, workspace, &made);
-  made->config = *config;
+  const sf_config chosen = starfocus::Choose(*config);
+  starfocus::LayOut(chosen, workspace, &made);
+  made->config = chosen;
   made->kernels = &starfocus::simd::BestKernels();
   starfocus::MakeTables(made);
   *engine = reinterpret_cast<sf_engine*>(made);

@@ -36,17 +36,23 @@ RowRange StripeRows(const EngineState& engine) {
           Min(engine.config.height, region.y + region.height + reach)};
 }
 
-// Everything that the stripes may read is checked before the first pixel is written.
-sf_status CheckDisparity(const EngineState& engine, const sf_light_field& light_field) {
+// Rows of the disparity map that the stripes may read.
+RowRange MapRows(const EngineState& engine) {
   const RowRange stripes = StripeRows(engine);
   const int32_t side = engine.config.largest_block;
   const int32_t end = (stripes.last + side - 1) / side * side + engine.reach.rows;
-  for (int32_t y = Max(0, stripes.first - engine.reach.rows); y < Min(engine.config.height, end);
-       ++y) {
-    const sf_status status =
-        ConvertDisparity(engine, DisparityRow(light_field, y), engine.disparity.Row(0));
+  return {Max(0, stripes.first - engine.reach.rows), Min(engine.config.height, end)};
+}
+
+// All of them are checked before the first pixel is written. The last ones come first, so that the
+// ring is left with those that the first stripes read.
+sf_status CheckDisparity(const sf_light_field& light_field, EngineState* engine) {
+  const RowRange rows = MapRows(*engine);
+  for (int32_t y = rows.last - 1; y >= rows.first; --y) {
+    const sf_status status = ReadDisparity(DisparityRow(light_field, y), y, engine);
     if (status != SF_OK) return status;
   }
+  engine->disparity_rows = Min(rows.last, rows.first + engine->disparity.rows);
   return SF_OK;
 }
 
@@ -85,12 +91,13 @@ void WriteRows(const EngineState& engine, int32_t y, int32_t end, const sf_previ
   }
 }
 
-// Converts the rows that the stripe at row y reads and no stripe before it.
-sf_status PushRows(const sf_light_field& light_field, int32_t y, EngineState* engine) {
+// Converts the rows that the stripe at row y reads and that are not in the ring. They were good
+// when they were checked.
+sf_status ReadRows(const sf_light_field& light_field, int32_t y, EngineState* engine) {
   const int32_t needed = Min(engine->config.height, y + BlockSide(*engine) + engine->reach.rows);
-  while (engine->disparity_rows < needed) {
-    const sf_status status =
-        PushDisparity(DisparityRow(light_field, engine->disparity_rows), engine);
+  for (; engine->disparity_rows < needed; ++engine->disparity_rows) {
+    const int32_t row = engine->disparity_rows;
+    const sf_status status = ReadDisparity(DisparityRow(light_field, row), row, engine);
     if (status != SF_OK) return status;
   }
   return SF_OK;
@@ -129,10 +136,9 @@ sf_status RefocusStripes(const Request& request, EngineState* engine) {
   const RowRange stripes = StripeRows(*engine);
   const Output out = {request.out, request.out_stride, engine->region};
   const bool direct = IsWhole(request.params->region) && request.previous == nullptr;
-  engine->disparity_rows = Max(0, stripes.first - engine->reach.rows);
   for (int32_t y = stripes.first; y < stripes.last; y += side) {
     sf_status status =
-        request.prepared != nullptr ? SF_OK : PushRows(*request.light_field, y, engine);
+        request.prepared != nullptr ? SF_OK : ReadRows(*request.light_field, y, engine);
     if (status != SF_OK) return status;
     if (request.previous != nullptr) CompareRows(y, &engine->changes);
     status = direct ? RefocusStripe(engine, y, {out.data, out.stride, 0, 0}, request.runner)
@@ -197,7 +203,7 @@ sf_status Refocus(const Request& request, EngineState* engine, sf_report* report
   if (request.prepared != nullptr) {
     UsePrepared(*request.prepared, engine);
   } else {
-    status = CheckDisparity(*engine, *request.light_field);
+    status = CheckDisparity(*request.light_field, engine);
     if (status != SF_OK) return status;
   }
   if (request.previous != nullptr) UsePrevious(request, engine);

@@ -26,10 +26,11 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
   return carver.Bytes();
 }
 
-sf_status ConvertAll(const EngineState& engine, const Prepared& prepared) {
+// Converts the map into rows of `to`.
+sf_status ConvertMap(const EngineState& engine, const sf_light_field& light_field,
+                     const Plane<int16_t>& to) {
   for (int32_t y = 0; y < engine.config.height; ++y) {
-    const sf_status status =
-        ConvertDisparity(engine, DisparityRow(prepared.light_field, y), prepared.disparity.Row(y));
+    const sf_status status = ConvertDisparity(engine, DisparityRow(light_field, y), to.Row(y));
     if (status != SF_OK) return status;
   }
   return SF_OK;
@@ -117,11 +118,14 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
     return SF_ERROR_OVERLAP;
   }
   e.stream.active = false;
+  // First into the engine's own ring, only to be checked: nothing is written when a row is bad.
+  status = starfocus::ConvertMap(e, *light_field, e.disparity);
+  if (status != SF_OK) return status;
   new (memory) Prepared();
   starfocus::LayOutPrepared(e.config, memory, &made);
   made->config = e.config;
   made->light_field = *light_field;
-  status = starfocus::ConvertAll(e, *made);
+  status = starfocus::ConvertMap(e, *light_field, made->disparity);
   if (status != SF_OK) return status;
   starfocus::SetPictures(*light_field, &e);
   status = starfocus::MakeLayers(*made, &e, {runner, runner_data});

@@ -19,7 +19,7 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_MAX_BLUR:
       return "max_blur is outside 0 (exclusive) to 128 pixels";
     case SF_ERROR_BLOCK:
-      return "largest_block is not 32, 64, 128 or 256";
+      return "largest_block is not 0, 32, 64, 128 or 256";
     case SF_ERROR_WORKERS:
       return "max_workers is outside 1 to 64";
     case SF_ERROR_THETA:
@@ -74,6 +74,8 @@ const char* sf_status_string(sf_status status) {
       return "gather is not 0 or 1";
     case SF_ERROR_TOO_LARGE:
       return "the configuration needs more memory than this machine can address";
+    case SF_ERROR_MEMORY:
+      return "the heap has no memory for a workspace";
   }
   return "unknown status";
 }

@@ -1,6 +1,7 @@
 // The streaming half of the C ABI: rows in, finished rows out, through the engine's line rings.
 #include <cstring>
 
+#include "lib/api/light_field.h"
 #include "lib/api/validate.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
@@ -23,8 +24,8 @@ bool StripeWaiting(const EngineState& engine) {
 
 sf_status PushRow(const sf_light_field& light_field, int32_t row, EngineState* engine) {
   const size_t offset = static_cast<size_t>(row);
-  const sf_status status = PushDisparity(
-      light_field.disparity + offset * (light_field.disparity_stride / sizeof(float)), engine);
+  const sf_status status =
+      ReadDisparity(DisparityRow(light_field, row), engine->stream.pushed, engine);
   if (status != SF_OK) return status;
   for (int view = 0; view < engine->config.views; ++view) {
     const sf_plane& plane = light_field.views[view];

@@ -38,7 +38,9 @@ sf_status CheckConfig(const sf_config& config) {
   }
   if (!(config.max_blur > 0.0 && config.max_blur <= SF_MAX_BLUR)) return SF_ERROR_MAX_BLUR;
   const int32_t block = config.largest_block;
-  if (block != 32 && block != 64 && block != 128 && block != 256) return SF_ERROR_BLOCK;
+  if (block != 0 && block != 32 && block != 64 && block != 128 && block != 256) {
+    return SF_ERROR_BLOCK;
+  }
   if (config.max_workers < 1 || config.max_workers > SF_MAX_WORKERS) return SF_ERROR_WORKERS;
   if (config.streaming != 0 && config.streaming != 1) return SF_ERROR_STATE;
   if (!(config.theta >= SF_MIN_THETA && config.theta <= SF_MAX_THETA)) return SF_ERROR_THETA;

@@ -97,12 +97,9 @@ sf_status ConvertDisparity(const EngineState& engine, const float* row, int16_t*
   return SF_OK;
 }
 
-sf_status PushDisparity(const float* row, EngineState* engine) {
-  const sf_status status =
-      ConvertDisparity(*engine, row, engine->disparity.Row(engine->disparity_rows));
-  if (status == SF_OK) ++engine->disparity_rows;
+sf_status ReadDisparity(const float* row, int32_t y, EngineState* engine) {
   engine->report.disparity_bytes += sizeof(float) * static_cast<uint64_t>(engine->config.width);
-  return status;
+  return ConvertDisparity(*engine, row, engine->disparity.Row(y));
 }
 
 void TakeCounts(EngineState* engine) {

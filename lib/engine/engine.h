@@ -107,7 +107,7 @@ struct EngineState {
   Window windows[SF_LAYERS];
   LayerPlane layers[SF_LAYERS];  // of layers 1 and 2
   Plane<int16_t> disparity;      // ring of converted rows
-  int32_t disparity_rows;        // converted so far
+  int32_t disparity_rows;        // of a whole picture, converted so far
   CellGrid cells;
   StripePlan plan;
   LayerMap map;
@@ -177,8 +177,8 @@ Rect RegionOf(const sf_config& config, const sf_params& params);
 // Converts a disparity row to `out`, checking that it lies in the configured range.
 sf_status ConvertDisparity(const EngineState& engine, const float* row, int16_t* out);
 
-// Converts the next row into the engine's ring.
-sf_status PushDisparity(const float* row, EngineState* engine);
+// Converts row y into the engine's ring.
+sf_status ReadDisparity(const float* row, int32_t y, EngineState* engine);
 
 // Adds to the report what the workers counted since the last time; or forgets it.
 void TakeCounts(EngineState* engine);

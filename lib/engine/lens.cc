@@ -44,8 +44,8 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   }
   engine->report = sf_report();
   engine->report.r_max = r_max;
+  engine->report.largest_block = config.largest_block;
   DropCounts(engine);
-  engine->disparity_rows = 0;
   engine->prepared = false;
   engine->changes.active = false;
   ForgetStripe(engine);

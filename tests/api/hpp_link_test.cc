@@ -1,53 +1,168 @@
 // starfocus.hpp alone, without exceptions and RTTI, on the shared library.
+#include <cstdio>
+#include <cstdlib>
+#include <new>
 #include <starfocus/starfocus.hpp>
 #include <utility>
 #include <vector>
 
 namespace {
 
+bool no_memory = false;  // for workspaces and prepared light fields
+
+}  // namespace
+
+void* operator new(size_t size, std::align_val_t, const std::nothrow_t&) noexcept {
+  return no_memory ? nullptr : std::aligned_alloc(SF_ALIGNMENT, (size + 63) / 64 * 64);
+}
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+
+namespace {
+
 constexpr int kSize = 12;
 
-// Whole picture, then the same rows streamed.
-bool Run() {
-  std::vector<uint8_t> picture(3 * kSize * kSize, 50), whole(picture.size()), rows(picture.size());
-  std::vector<float> disparity(kSize * kSize, 0.5f);
+// A light field of one view; every picture of it is constant.
+struct Field {
+  std::vector<uint8_t> picture = std::vector<uint8_t>(3 * kSize * kSize, 50);
+  std::vector<float> disparity = std::vector<float>(kSize * kSize, 0.5f);
   sf_light_field field = {};
-  field.views[0] = {picture.data(), 3 * kSize};
-  field.disparity = disparity.data();
-  field.disparity_stride = kSize * sizeof(float);
-
   starfocus::Config config;
-  config.width = config.height = kSize;
-  config.views = 1;
-  config.disparity_max = 1;
-  config.streaming = 1;
-  starfocus::Engine first;
-  if (first.Init(config) != SF_OK || first.workspace_bytes() == 0) return false;
-  starfocus::Engine engine = std::move(first);
-  if (engine.get() == nullptr) return false;
-
   starfocus::Params params;
-  params.focus = 3;
-  if (engine.Refocus(params, field, whole.data(), 3 * kSize) != SF_OK) return false;
-  std::vector<uint8_t> prepared(picture.size()), after(picture.size());
-  if (engine.Prepare(config, field) != SF_OK) return false;
-  if (engine.RefocusPrepared(params, prepared.data(), 3 * kSize) != SF_OK) return false;
-  const sf_previous previous = {field, whole.data(), 3 * kSize};
-  if (engine.RefocusAfter(params, field, previous, after.data(), 3 * kSize) != SF_OK) return false;
-  if (prepared != whole || after != whole) return false;
-  if (engine.StreamBegin(params) != SF_OK) return false;
-  int32_t consumed = 0, written = 0;
-  if (engine.StreamPush(field, kSize, &consumed) != SF_OK || consumed != kSize) return false;
-  if (engine.StreamPull(rows.data(), 3 * kSize, kSize, &written) != SF_OK) return false;
-  return written == kSize && whole == picture && rows == picture;
+
+  Field() {
+    field.views[0] = {picture.data(), 3 * kSize};
+    field.disparity = disparity.data();
+    field.disparity_stride = kSize * sizeof(float);
+    config.width = config.height = kSize;
+    config.views = 1;
+    config.disparity_max = 1;
+    config.streaming = 1;
+    params.focus = 3;
+  }
+
+  // Whether these calls give the picture.
+  bool Refocuses(starfocus::Engine* engine) const {
+    std::vector<uint8_t> out(picture.size());
+    return engine->Refocus(params, field, out.data(), 3 * kSize) == SF_OK && out == picture;
+  }
+  bool RefocusesPrepared(starfocus::Engine* engine) const {
+    std::vector<uint8_t> out(picture.size());
+    return engine->RefocusPrepared(params, out.data(), 3 * kSize) == SF_OK && out == picture;
+  }
+  bool RefocusesAfter(starfocus::Engine* engine) const {
+    std::vector<uint8_t> out(picture.size());
+    const sf_previous previous = {field, picture.data(), 3 * kSize};
+    return engine->RefocusAfter(params, field, previous, out.data(), 3 * kSize) == SF_OK &&
+           out == picture;
+  }
+  bool Streams(starfocus::Engine* engine) const {
+    std::vector<uint8_t> out(picture.size());
+    int32_t consumed = 0, written = 0;
+    return engine->StreamBegin(params) == SF_OK &&
+           engine->StreamPush(field, kSize, &consumed) == SF_OK && consumed == kSize &&
+           engine->StreamPull(out.data(), 3 * kSize, kSize, &written) == SF_OK &&
+           written == kSize && out == picture;
+  }
+
+  // Whether every call says that there is no engine.
+  bool IsEmpty(starfocus::Engine* engine) const {
+    std::vector<uint8_t> out(picture.size());
+    int32_t rows = 0;
+    const sf_previous previous = {field, picture.data(), 3 * kSize};
+    return engine->get() == nullptr && engine->workspace_bytes() == 0 &&
+           engine->Refocus(params, field, out.data(), 3 * kSize) == SF_ERROR_NULL &&
+           engine->RefocusAfter(params, field, previous, out.data(), 3 * kSize) == SF_ERROR_NULL &&
+           engine->Prepare(field) == SF_ERROR_NULL &&
+           engine->RefocusPrepared(params, out.data(), 3 * kSize) == SF_ERROR_NULL &&
+           engine->StreamBegin(params) == SF_ERROR_NULL &&
+           engine->StreamPush(field, kSize, &rows) == SF_ERROR_NULL &&
+           engine->StreamPull(out.data(), 3 * kSize, kSize, &rows) == SF_ERROR_NULL;
+  }
+};
+
+bool EveryCall() {
+  const Field f;
+  starfocus::Engine engine;
+  if (!f.IsEmpty(&engine)) return false;
+  starfocus::Config bad;
+  bad.width = -1;
+  if (engine.Init(bad) != SF_ERROR_SIZE || !f.IsEmpty(&engine)) return false;
+  if (engine.Init(f.config) != SF_OK || engine.workspace_bytes() == 0) return false;
+  return f.Refocuses(&engine) && engine.Prepare(f.field) == SF_OK && f.RefocusesPrepared(&engine) &&
+         f.RefocusesAfter(&engine) && f.Streams(&engine);
+}
+
+// A second Init that fails leaves the engine, and what it has prepared; one that succeeds is a new
+// engine.
+bool SecondInit() {
+  const Field f;
+  starfocus::Engine engine;
+  if (engine.Init(f.config) != SF_OK || engine.Prepare(f.field) != SF_OK) return false;
+  starfocus::Config bad;
+  if (engine.Init(bad) != SF_ERROR_SIZE) return false;
+  no_memory = true;
+  const sf_status status = engine.Init(f.config);
+  no_memory = false;
+  if (status != SF_ERROR_MEMORY) return false;
+  if (!f.Refocuses(&engine) || !f.RefocusesPrepared(&engine)) return false;
+  if (engine.Init(f.config) != SF_OK) return false;
+  std::vector<uint8_t> out(f.picture.size());
+  return engine.RefocusPrepared(f.params, out.data(), 3 * kSize) == SF_ERROR_NULL &&
+         f.Refocuses(&engine);
+}
+
+bool Moves() {
+  const Field f;
+  starfocus::Engine first;
+  if (first.Init(f.config) != SF_OK || first.Prepare(f.field) != SF_OK) return false;
+  {
+    starfocus::Engine second = std::move(first);
+    if (!f.IsEmpty(&first)) return false;
+    if (!f.Refocuses(&second) || !f.RefocusesPrepared(&second)) return false;
+    starfocus::Engine third;
+    if (third.Init(f.config) != SF_OK || third.Prepare(f.field) != SF_OK) return false;
+    third = std::move(second);
+    if (!f.IsEmpty(&second)) return false;
+    starfocus::Engine& same = third;
+    third = std::move(same);
+    if (!f.Refocuses(&third) || !f.RefocusesPrepared(&third)) return false;
+  }
+  // What it was moved to is gone.
+  if (!f.IsEmpty(&first)) return false;
+  return first.Init(f.config) == SF_OK && f.Refocuses(&first);
+}
+
+// A Prepare that fails leaves nothing prepared.
+bool SecondPrepare() {
+  Field f;
+  starfocus::Engine engine;
+  if (engine.Init(f.config) != SF_OK) return false;
+  std::vector<uint8_t> out(f.picture.size());
+  for (int round = 0; round < 2; ++round) {
+    if (engine.Prepare(f.field) != SF_OK || !f.RefocusesPrepared(&engine)) return false;
+    no_memory = round == 0;
+    f.disparity[7] = 2;
+    const sf_status status = engine.Prepare(f.field);
+    f.disparity[7] = 0.5f;
+    no_memory = false;
+    if (status != (round == 0 ? SF_ERROR_MEMORY : SF_ERROR_DISPARITY)) return false;
+    if (engine.RefocusPrepared(f.params, out.data(), 3 * kSize) != SF_ERROR_NULL) return false;
+  }
+  return f.Refocuses(&engine);
+}
+
+bool Passes(const char* name, bool (*test)()) {
+  const bool passed = test();
+  if (!passed) std::fprintf(stderr, "%s: failed\n", name);
+  return passed;
 }
 
 }  // namespace
 
 int main() {
-  starfocus::Config bad;
-  bad.width = -1;
-  starfocus::Engine engine;
-  if (engine.Init(bad) != SF_ERROR_SIZE) return 1;
-  return Run() ? 0 : 1;
+  bool passed = Passes("every call", EveryCall);
+  passed &= Passes("a second Init", SecondInit);
+  passed &= Passes("moves", Moves);
+  passed &= Passes("a second Prepare", SecondPrepare);
+  return passed ? 0 : 1;
 }

@@ -212,4 +212,25 @@ TEST_CASE("prepared: a runner's failure is reported") {
   CheckSame(&engine, again, scene, test::Params(-4, 1, SF_MODE_BLOCK));
 }
 
+TEST_CASE("prepared: a bad map is refused before anything is written") {
+  test::Scene scene = test::LayeredScene(50, 90, 5, 3, 12);
+  const sf_config config = test::ConfigFor(scene, 8);
+  test::Engine engine(config);
+  Memory memory(config);
+  const std::vector<uint8_t> before(memory.get(), memory.get() + memory.bytes);
+  for (const int row : {0, 40, 89}) {
+    CAPTURE(row);
+    const float good = scene.Disparity(49, row);
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), 1000.0f}) {
+      scene.Disparity(49, row) = bad;
+      const sf_light_field field = scene.Field();
+      sf_prepared* prepared = nullptr;
+      CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, nullptr, nullptr,
+                       &prepared) == (bad == bad ? SF_ERROR_DISPARITY : SF_ERROR_NOT_FINITE));
+      CHECK(std::equal(before.begin(), before.end(), memory.get()));
+    }
+    scene.Disparity(49, row) = good;
+  }
+}
+
 }  // namespace

@@ -58,6 +58,29 @@ TEST_CASE("traffic: of a map in focus at disparity 4 side views are read beyond 
   CHECK(report.side_bytes == 12 * 4 * kAlong);
 }
 
+TEST_CASE(
+    "traffic: the map is read twice, but for the rows that the first check leaves converted") {
+  constexpr int kTall = 300, kRing = 64 + 2 * 56;  // a stripe and its reach at a largest blur of 8
+  const test::Scene scene = test::RandomScene(kWidth, kTall, 5, -4, 4, 6);
+  sf_config config = Config(scene);
+  sf_params params = test::Params(0, 0.75, SF_MODE_BLOCK);
+  const sf_report whole = test::RefocusScene(scene, config, params).report;
+  CHECK(whole.disparity_bytes == 4 * kWidth * (kTall + (kTall - kRing)));
+  // Of a region, rows that its blocks may read.
+  params.region = {0, 130, kWidth, 40};
+  const sf_report part = test::RefocusScene(scene, config, params).report;
+  CHECK(part.disparity_bytes > 0);
+  CHECK(part.disparity_bytes < whole.disparity_bytes);
+  // Rows of a stream are checked one by one.
+  params.region = {};
+  config.streaming = 1;
+  test::Engine engine(config);
+  test::Output out(kWidth, kTall);
+  sf_report streamed = {};
+  REQUIRE(test::Stream(&engine, params, scene, &out, 50, 50, nullptr, nullptr, &streamed) == SF_OK);
+  CHECK(streamed.disparity_bytes == 4 * kWidth * kTall);
+}
+
 TEST_CASE("traffic: layers read the centre view once more") {
   const test::Scene scene = FlatScene(0.1f);
   sf_config config = test::ConfigFor(scene, 24);

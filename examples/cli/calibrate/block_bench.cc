@@ -52,10 +52,9 @@ void BlockBench::HoldDisparity() {
   const FloatMap& map = light_field_->disparity;
   disparity_.resize(map.values.size() + simd::kPadding);
   engine_->disparity = {disparity_.data(), size_t(map.width), 0, 0};
-  engine_->disparity_rows = 0;
   for (int y = 0; y < map.height; ++y) {
     // The range is the map's own, so that no value can be outside.
-    PushDisparity(map.values.data() + size_t(y) * size_t(map.width), engine_);
+    ReadDisparity(map.values.data() + size_t(y) * size_t(map.width), y, engine_);
   }
   Plane<const uint8_t> views[kMaxViews];
   for (size_t i = 0; i < light_field_->views.size(); ++i) {

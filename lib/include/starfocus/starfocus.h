@@ -31,6 +31,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "starfocus/version.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -67,7 +69,7 @@ typedef enum sf_status {
   SF_ERROR_VIEWS = 5,           /**< number of views is not 1, 5, 9 or 17 */
   SF_ERROR_DISPARITY_RANGE = 6, /**< configured disparity range not finite, reversed or too large */
   SF_ERROR_MAX_BLUR = 7,        /**< max_blur outside (0, SF_MAX_BLUR] */
-  SF_ERROR_BLOCK = 8,           /**< largest_block is not 32, 64, 128 or 256 */
+  SF_ERROR_BLOCK = 8,           /**< largest_block is not 0, 32, 64, 128 or 256 */
   SF_ERROR_WORKERS = 9,         /**< max_workers outside [1, SF_MAX_WORKERS] */
   SF_ERROR_THETA = 10,          /**< theta outside [SF_MIN_THETA, SF_MAX_THETA] */
   SF_ERROR_WORKSPACE_SMALL = 11,     /**< memory smaller than its size function says */
@@ -93,7 +95,8 @@ typedef enum sf_status {
   SF_ERROR_REGION = 31,      /**< region outside the picture, or a streaming call with a region */
   SF_ERROR_PREPARED = 32,    /**< prepared light field of another configuration */
   SF_ERROR_GATHER = 33,      /**< gather is not 0 or 1 */
-  SF_ERROR_TOO_LARGE = 34    /**< more memory needed than half of the machine's addresses */
+  SF_ERROR_TOO_LARGE = 34,   /**< more memory needed than half of the machine's addresses */
+  SF_ERROR_MEMORY = 35       /**< of starfocus.hpp alone: no memory for a workspace */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -101,6 +104,14 @@ SF_API const char* sf_status_string(sf_status status);
 
 /** SF_ABI_VERSION the library was built with. */
 SF_API uint32_t sf_abi_version(void);
+
+/** SF_VERSION_STRING the library was built with, e.g. "0.1.0"; static storage. */
+SF_API const char* sf_version(void);
+
+/** sizeof(sf_config) and sizeof(sf_params) in the library. A binding to another language declares
+ *  these structures itself, and checks with these that it has them right. */
+SF_API size_t sf_config_size(void);
+SF_API size_t sf_params_size(void);
 
 #define SF_MIN_THETA 0.15707963267948966 /**< 0.05 pi */
 #define SF_MAX_THETA 1.413716694115407   /**< 0.45 pi */
@@ -110,9 +121,10 @@ SF_API uint32_t sf_abi_version(void);
 #define SF_MAX_N_SCALE 2.0
 
 /** Run-time model of a block, the paper's (14) with terms for what surrounds the line scan, in
- *  picoseconds; only ratios matter. It decides the partition of SF_MODE_BLOCK and so its bytes.
- *  sf_config_init sets those of the architecture (of others than x86-64 from instruction counts);
- *  `starfocus calibrate` measures them on a machine. */
+ *  picoseconds; only ratios matter. It decides the partition of SF_MODE_BLOCK, and so its bytes:
+ *  sf_config_init sets the same coefficients on every machine, so that all of them give the same
+ *  picture. Those that `starfocus calibrate` measures on a machine save a few percent of its time
+ *  at most, and its pictures then differ from those of machines with others. */
 typedef struct sf_timing {
   uint32_t block;    /**< per block */
   uint32_t field;    /**< per pixel of the extended block at its layer: loading, rotating */
@@ -135,9 +147,10 @@ typedef struct sf_config {
   float disparity_max;   /**< largest disparity any map may hold, >= disparity_min */
   double max_blur;       /**< largest blur radius r = aperture * |d - focus| in pixels that will be
                               asked for, (0, SF_MAX_BLUR]; default 32 */
-  int32_t largest_block; /**< side of the largest refocusing block: 32, 64, 128, 256; default 64.
-                              For wide pictures 128 is up to an eighth faster; a worker's memory
-                              grows with the block's area, from 1 MiB at 64 on */
+  int32_t largest_block; /**< side of the largest refocusing block in pixels: 32, 64, 128, 256, or
+                              0, the default: 128 from a width of 1536 on, else 64. For wide
+                              pictures 128 is up to an eighth faster; a worker's memory grows with
+                              the block's area, from 1 MiB at 64 on. sf_report has what 0 chose */
   int32_t max_workers;   /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
   int32_t streaming;  /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
   double theta;       /**< fall-off of the aperture (3) in radians; default 0.26 pi */
@@ -276,12 +289,16 @@ typedef struct sf_report {
   double r_max;           /**< largest blur radius the configured disparity range allows, pixels */
   int32_t n;              /**< views along the aperture radius, N; the largest of any block */
   int32_t rendered_views; /**< views of i^2 + j^2 <= N^2 for that N */
+  int32_t largest_block;  /**< side of the largest blocks in pixels: the configured one, or what 0
+                               chose */
   uint64_t rendered_samples; /**< R, G, B samples of all rendered views, summed over the layers */
   sf_layer_report layers[SF_LAYERS]; /**< by L; frame modes use L = 0 only */
   sf_skipped skipped;
   uint64_t centre_bytes; /**< read of the centre view, counted every time: by blocks with what lies
                               around them, and for layers 1 and 2; not what skips look at */
-  uint64_t disparity_bytes; /**< read of the disparity map: none of a prepared light field */
+  uint64_t disparity_bytes; /**< read of the disparity map: nothing of a prepared light field. Of a
+                                 whole picture rows are read once to be checked, and once more
+                                 unless they were among the first ones */
   uint64_t side_bytes;      /**< read of the views beside the centre, counted every time: in holes,
                                  beside depth edges and beyond the edges of the picture only */
   uint64_t

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <utility>
 
 #include "starfocus/starfocus.h"
 
@@ -21,66 +22,78 @@ struct Params : sf_params {
 };
 
 // An engine together with its heap-allocated workspace. Movable; not for two threads at once.
+// Before Init, and after it was moved from, every other call returns SF_ERROR_NULL.
 class Engine {
  public:
-  // Allocates the workspace and makes the engine. SF_ERROR_NULL when memory is short.
+  // Allocates the workspace and makes the engine, in place of one made before; SF_ERROR_MEMORY when
+  // memory is short. After an error the engine is what it was before the call.
   sf_status Init(const sf_config& config) {
     size_t bytes = 0;
     sf_status status = sf_workspace_size(&config, &bytes);
     if (status != SF_OK) return status;
-    memory_.reset(::operator new(bytes, std::align_val_t(SF_ALIGNMENT), std::nothrow));
-    if (!memory_) return SF_ERROR_NULL;
-    bytes_ = bytes;
-    return sf_init(&config, memory_.get(), bytes, &engine_);
+    Owned<sf_engine> fresh(bytes);
+    if (fresh.memory == nullptr) return SF_ERROR_MEMORY;
+    status = sf_init(&config, fresh.memory.get(), bytes, &fresh.handle);
+    if (status != SF_OK) return status;
+    engine_ = std::move(fresh);
+    prepared_ = Owned<sf_prepared>();
+    config_ = config;
+    return SF_OK;
   }
 
   sf_status Refocus(const sf_params& params, const sf_light_field& light_field, uint8_t* out,
                     size_t out_stride, sf_runner runner = nullptr, void* runner_data = nullptr,
                     sf_report* report = nullptr) {
-    return sf_refocus(engine_, &params, &light_field, out, out_stride, runner, runner_data, report);
+    return sf_refocus(get(), &params, &light_field, out, out_stride, runner, runner_data, report);
   }
 
   sf_status RefocusAfter(const sf_params& params, const sf_light_field& light_field,
                          const sf_previous& previous, uint8_t* out, size_t out_stride,
                          sf_runner runner = nullptr, void* runner_data = nullptr,
                          sf_report* report = nullptr) {
-    return sf_refocus_after(engine_, &params, &light_field, &previous, out, out_stride, runner,
+    return sf_refocus_after(get(), &params, &light_field, &previous, out, out_stride, runner,
                             runner_data, report);
   }
 
-  // Allocates the memory of a prepared light field, in place of one prepared before, and prepares
-  // it. SF_ERROR_NULL when memory is short.
-  sf_status Prepare(const sf_config& config, const sf_light_field& light_field,
-                    sf_runner runner = nullptr, void* runner_data = nullptr) {
+  // Allocates the memory of a prepared light field and prepares it; SF_ERROR_MEMORY when memory is
+  // short. One prepared before is freed first, so that there are never two: after an error there is
+  // none, and RefocusPrepared returns SF_ERROR_NULL.
+  sf_status Prepare(const sf_light_field& light_field, sf_runner runner = nullptr,
+                    void* runner_data = nullptr) {
+    prepared_ = Owned<sf_prepared>();
+    if (get() == nullptr) return SF_ERROR_NULL;
     size_t bytes = 0;
-    const sf_status status = sf_prepared_size(&config, &bytes);
+    sf_status status = sf_prepared_size(&config_, &bytes);
     if (status != SF_OK) return status;
-    prepared_memory_.reset(::operator new(bytes, std::align_val_t(SF_ALIGNMENT), std::nothrow));
-    return sf_prepare(engine_, &light_field, prepared_memory_.get(), bytes, runner, runner_data,
-                      &prepared_);
+    Owned<sf_prepared> fresh(bytes);
+    if (fresh.memory == nullptr) return SF_ERROR_MEMORY;
+    status = sf_prepare(get(), &light_field, fresh.memory.get(), bytes, runner, runner_data,
+                        &fresh.handle);
+    if (status == SF_OK) prepared_ = std::move(fresh);
+    return status;
   }
 
   sf_status RefocusPrepared(const sf_params& params, uint8_t* out, size_t out_stride,
                             sf_runner runner = nullptr, void* runner_data = nullptr,
                             sf_report* report = nullptr) {
-    return sf_refocus_prepared(engine_, &params, prepared_, out, out_stride, runner, runner_data,
-                               report);
+    return sf_refocus_prepared(get(), &params, prepared_.handle, out, out_stride, runner,
+                               runner_data, report);
   }
 
-  sf_status StreamBegin(const sf_params& params) { return sf_stream_begin(engine_, &params); }
+  sf_status StreamBegin(const sf_params& params) { return sf_stream_begin(get(), &params); }
 
   sf_status StreamPush(const sf_light_field& rows, int32_t count, int32_t* consumed) {
-    return sf_stream_push(engine_, &rows, count, consumed);
+    return sf_stream_push(get(), &rows, count, consumed);
   }
 
   sf_status StreamPull(uint8_t* out, size_t out_stride, int32_t rows, int32_t* written,
                        sf_runner runner = nullptr, void* runner_data = nullptr,
                        sf_report* report = nullptr) {
-    return sf_stream_pull(engine_, out, out_stride, rows, runner, runner_data, written, report);
+    return sf_stream_pull(get(), out, out_stride, rows, runner, runner_data, written, report);
   }
 
-  sf_engine* get() const { return engine_; }
-  size_t workspace_bytes() const { return bytes_; }
+  sf_engine* get() const { return engine_.handle; }
+  size_t workspace_bytes() const { return engine_.bytes; }
 
  private:
   struct Free {
@@ -88,10 +101,29 @@ class Engine {
       ::operator delete(memory, std::align_val_t(SF_ALIGNMENT));
     }
   };
-  std::unique_ptr<void, Free> memory_, prepared_memory_;
-  sf_prepared* prepared_ = nullptr;
-  sf_engine* engine_ = nullptr;
-  size_t bytes_ = 0;
+
+  // What was made in memory of its own; nothing once it was moved from.
+  template <class Handle>
+  struct Owned {
+    Owned() = default;
+    explicit Owned(size_t size)
+        : memory(::operator new(size, std::align_val_t(SF_ALIGNMENT), std::nothrow)), bytes(size) {}
+    Owned(Owned&& other) noexcept { *this = std::move(other); }
+    Owned& operator=(Owned&& other) noexcept {
+      memory = std::move(other.memory);
+      handle = std::exchange(other.handle, nullptr);
+      bytes = std::exchange(other.bytes, 0);
+      return *this;
+    }
+
+    std::unique_ptr<void, Free> memory;
+    Handle* handle = nullptr;
+    size_t bytes = 0;
+  };
+
+  Owned<sf_engine> engine_;
+  Owned<sf_prepared> prepared_;
+  sf_config config_ = {};
 };
 
 }  // namespace starfocus
