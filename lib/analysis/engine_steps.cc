@@ -69,7 +69,7 @@ std::string Explain(const EngineStep& step) {
     return "the layers' filters: the ideal kernel through them exceeds it too";
   }
   if (step.subapertures > kThreshold) {
-    return "too few views: exact aperture subapertures exceed it with this N too";
+    return "too few views: exact subapertures exceed it with this N too";
   }
   if (step.wide)
     return "wide subapertures are boxes, above 3 pixels on whole ones and then interpolated";

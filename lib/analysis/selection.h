@@ -9,7 +9,7 @@ namespace starfocus::analysis {
 // The paper's epsilon: a blur may differ from the ideal one by this SSE.
 inline constexpr double kThreshold = 1e-3;
 
-// SSE (8) of the paper's kernel, and of the aperture subapertures' kernel.
+// The SSE (8) of the paper's kernel, and of the kernel of subapertures.
 double PaperError(double r, int n, double theta, Rim rim = Rim::kIncluded);
 double SubapertureError(double r, int n, double theta);
 

@@ -9,6 +9,7 @@
 #include "lib/base/rules.h"
 
 namespace starfocus::analysis {
+
 int FewestSubapertures(double r, double theta) {
   const double limit = PaperError(r, ViewsByPaper(r), theta);
   int n = 0;
@@ -54,8 +55,8 @@ int SubapertureStudy::Fewest(int k_max) {
 
 const std::vector<double>& SubapertureStudy::SubapertureErrors(int n) {
   const size_t index = static_cast<size_t>(n);
-  if (cells_.size() <= index) cells_.resize(index + 1);
-  std::vector<double>& errors = cells_[index];
+  if (subapertures_.size() <= index) subapertures_.resize(index + 1);
+  std::vector<double>& errors = subapertures_[index];
   const SubapertureLights lights(n, theta_);
   for (int k = static_cast<int>(errors.size()); k < count(); ++k) {
     const Kernel kernel = n == 0 ? IdealKernel(0, theta_) : SubapertureKernel(Radius(k), lights);

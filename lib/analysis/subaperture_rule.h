@@ -1,5 +1,5 @@
-// The rule (9) redone for aperture subapertures: how many views a blur radius needs when each
-// stands for its subaperture of the aperture.
+// The rule (9) redone for subapertures: how many views a blur radius needs when each stands for its
+// part of the lens.
 #ifndef STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
 #define STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
 
@@ -44,8 +44,8 @@ class SubapertureStudy {
 
   double step_, theta_;
   std::vector<Kernel> ideal_;
-  std::vector<std::vector<double>> cells_, paper_;  // by N; empty until asked for
-  std::vector<double> over_sampling_;               // of each N of paper_
+  std::vector<std::vector<double>> subapertures_, paper_;  // by N; empty until asked for
+  std::vector<double> over_sampling_;                      // of each N of paper_
 };
 
 }  // namespace starfocus::analysis

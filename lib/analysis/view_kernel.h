@@ -1,5 +1,5 @@
 // The kernel of refocusing by rendered views (5)-(7): the paper's with the triangular h, and that
-// of aperture subapertures.
+// of subapertures.
 #ifndef STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_
 
@@ -42,7 +42,7 @@ class SubapertureLights {
   std::vector<double> lights_;  // of 0 <= j <= i
 };
 
-// Each view stands for its subaperture of the aperture: h is as wide as a pixel moves from view to
+// Each view stands for its subaperture: h is as wide as a pixel moves from view to
 // view. N = 0 is the centre view alone: the unit impulse.
 Kernel SubapertureKernel(double r, const SubapertureLights& lights);
 Kernel SubapertureKernel(double r, int n, double theta);

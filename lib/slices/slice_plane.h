@@ -1,5 +1,5 @@
 // A slice of a rectangle in memory: its pixels and those around it that some view shows, spread by
-// the aperture's subaperture where that is wide, and where each view shows it.
+// the subaperture where that is wide, and where each view shows it.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_PLANE_H_
 #define STARFOCUS_LIB_SLICES_SLICE_PLANE_H_
 
@@ -51,7 +51,7 @@ struct SlicePlane {
   int32_t reach = 0;                  // pixels beyond the rectangle
   int32_t rows = 0;                   // the rectangle's, and reach above and below it
   size_t plane = 0;                   // samples from plane to plane; four to the next row
-  int32_t subaperture = 0;            // width of its aperture subaperture, kShiftBits
+  int32_t subaperture = 0;            // width of a view's, kShiftBits
   int16_t* samples = nullptr;         // of the first row
   simd::SliceCover* cover = nullptr;  // of each row
 };

@@ -108,7 +108,7 @@ std::string Measure(const Series& series, int sign, Table* table, Table* layers)
 std::string Panel(const std::string& title, const std::string& table, const std::string& range) {
   return "set title '" + title + "'\nset xrange [" + range + "]\nplot $" + table +
          " using 1:8 with lines lt 6 lw 1 title 'paper', "
-         "'' using 1:7 with lines lt 3 lw 1 title 'exact cells', "
+         "'' using 1:7 with lines lt 3 lw 1 title 'exact subapertures', "
          "'' using 1:6 with lines lt 1 lw 3 title 'described', "
          "'' using 1:5 with points pt 7 ps 0.2 lt 2 title 'measured'\n";
 }

@@ -24,13 +24,13 @@ Table SameRadius() {
               {"r", "N_paper", "sse_paper", "N_subapertures", "sse_subapertures"});
   std::printf(
       "subapertures: least N whose error is no larger than the paper's at the same r\n"
-      "     r  N by (9)       SSE  N cells       SSE\n");
+      "     r  N by (9)       SSE  N of ours       SSE\n");
   for (const int r : kRadii) {
-    const int paper = ViewsByPaper(r), cells = FewestSubapertures(r, kTheta);
+    const int paper = ViewsByPaper(r), fewest = FewestSubapertures(r, kTheta);
     const double paper_error = PaperError(r, paper, kTheta),
-                 error = SubapertureError(r, cells, kTheta);
-    std::printf("  %4d  %8d  %8.2e  %7d  %8.2e\n", r, paper, paper_error, cells, error);
-    table.Row().Add(r).Add(paper).Add(paper_error).Add(cells).Add(error);
+                 error = SubapertureError(r, fewest, kTheta);
+    std::printf("  %4d  %8d  %8.2e  %9d  %8.2e\n", r, paper, paper_error, fewest, error);
+    table.Row().Add(r).Add(paper).Add(paper_error).Add(fewest).Add(error);
   }
   return table;
 }
@@ -55,8 +55,8 @@ void PrintRule(const std::vector<int>& fewest, double limit) {
 }  // namespace
 
 Figure AnalyseSubapertures(double max_blur) {
-  Figure figure = {"cells", 860, 480, {SameRadius()}, ""};
-  Table table("cells", {"r_max", "N_paper", "N_fewest", "N_rule", "margin", "worst_r"});
+  Figure figure = {"subapertures", 860, 480, {SameRadius()}, ""};
+  Table table("subapertures", {"r_max", "N_paper", "N_fewest", "N_rule", "margin", "worst_r"});
   SubapertureStudy study(max_blur, kStep, kTheta);
   Progress progress("subapertures", study.count());
   std::vector<int> fewest;
@@ -78,7 +78,7 @@ Figure AnalyseSubapertures(double max_blur) {
   figure.commands =
       "set title 'Views along the aperture radius'\nset xlabel 'r_max'\nset ylabel 'N'\n"
       "set key top left\n"
-      "plot $cells using 1:2 with steps lt 6 title 'N by (9)', "
+      "plot $subapertures using 1:2 with steps lt 6 title 'N by (9)', "
       "'' using 1:4 with steps lt 2 title 'N by the rule for subapertures', "
       "'' using 1:3 with steps lt 1 lw 1 title 'least N for every r up to r_max', "
       "$subapertures_same_r using 1:4 with points pt 7 ps 0.7 lt 3 title 'least N at r alone'\n";
