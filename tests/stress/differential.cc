@@ -196,8 +196,7 @@ sf_status Retried(Rig* rig, test::Random* random, const std::function<sf_status(
   if (random->Int(0, 3) == 0) {
     rig->FailAfter(random->Int(0, 1) == 0 ? random->Int(0, 5) : random->Int(0, 60));
     const sf_status status = call();
-    const bool failed = rig->failed();
-    rig->FailAfter(-1);
+    const bool failed = rig->Mend();
     if (failed && status == SF_OK) return SF_ERROR_RUNNER;
     if (status != SF_OK && !(failed && status == SF_ERROR_RUNNER)) return status;
   }

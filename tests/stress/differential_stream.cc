@@ -7,10 +7,6 @@
 namespace starfocus::stress {
 namespace {
 
-// After a failed pull the next one still says SF_OK with wrong rows: until it repeats the rows or
-// refuses to go on, a stream whose pull failed begins anew.
-constexpr bool kFailedPullIsRemembered = false;
-
 struct Streaming {
   Rig* rig;
   const Asked& asked;
@@ -53,6 +49,7 @@ struct Streaming {
     pushed += consumed;
   }
 
+  // After a failure the next pull goes on behind the rows that were written.
   void Pull() {
     const int rows = random->Int(0, std::min(most, height() - pulled));
     const bool fails = random->Int(0, 15) == 0;
@@ -61,17 +58,12 @@ struct Streaming {
     const sf_status status =
         sf_stream_pull(rig->get(), out.bytes.data() + size_t(pulled) * out.stride, out.stride, rows,
                        rig->runner(), rig->runner_data(), &written, nullptr);
-    const bool failed = fails && rig->failed();
-    if (fails) rig->FailAfter(-1);
-    if (failed != (status == SF_ERROR_RUNNER) || written < 0 || written > rows) {
+    const bool failed = fails && rig->Mend();
+    if (status != (failed ? SF_ERROR_RUNNER : SF_OK) || written < 0 || written > rows) {
       failure = std::string("pull: ") + sf_status_string(status) + ", " + std::to_string(written) +
                 " of " + std::to_string(rows) + " rows written";
-      return;
     }
     pulled += written;
-    if (status == SF_OK) return;
-    if (status == SF_ERROR_STATE || !kFailedPullIsRemembered) return Begin();
-    if (status != SF_ERROR_RUNNER) failure = std::string("pull: ") + sf_status_string(status);
   }
 };
 

@@ -91,12 +91,29 @@ int Rig::Run(void* self, sf_job job, void* data, int32_t count) {
   for (int32_t i = 0; i < count; ++i) order[static_cast<size_t>(i)] = i;
   for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[rig->random_.Next() % i]);
   for (const int32_t index : order) {
-    if (rig->jobs_left_ == 0) {
-      rig->failed_ = true;
-      return 1;
+    const int32_t worker = rig->random_.Int(0, rig->variant_.workers - 1);
+    if (rig->jobs_left_ != 0) {
+      if (rig->jobs_left_ > 0) --rig->jobs_left_;
+      job(data, index, worker);
+      continue;
     }
-    if (rig->jobs_left_ > 0) --rig->jobs_left_;
-    job(data, index, rig->random_.Int(0, rig->variant_.workers - 1));
+    rig->jobs_left_ = -1;
+    rig->failed_ = true;
+    switch (rig->random_.Int(0, 4)) {
+      case 0:
+        return 1;  // says that it failed
+      case 1:
+        break;  // leaves the job out
+      case 2:
+        job(data, index, rig->variant_.workers);
+        break;  // a worker that there is not
+      case 3:
+        job(data, count, worker);
+        break;  // another job that there is not
+      default:
+        job(data, index, worker);
+        job(data, index, worker);
+    }
   }
   return 0;
 }

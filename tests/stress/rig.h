@@ -63,13 +63,16 @@ class Rig {
   sf_runner runner() const { return variant_.order == 0 && jobs_left_ < 0 ? nullptr : Run; }
   void* runner_data() { return this; }
 
-  // The runner fails after so many jobs, or never if that is negative.
+  // The runner does so many jobs well, then one of them wrong in some way or not at all.
   void FailAfter(int32_t jobs) {
     jobs_left_ = jobs;
     failed_ = false;
   }
-  // Whether it did since the last FailAfter.
-  bool failed() const { return failed_; }
+  // The runner does all jobs well. Whether it failed since the last FailAfter.
+  bool Mend() {
+    jobs_left_ = -1;
+    return failed_;
+  }
 
  private:
   // Runs jobs one after the other in a shuffled order as any of the workers.
