@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "starfocus/version.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,6 +81,12 @@ TEST_CASE("documents: the README has 150 lines at most") {
   const std::string text = Read(kRoot / "README.md");
   CHECK(std::count(text.begin(), text.end(), '\n') <= 150);
   CHECK(text.size() > 1000);
+}
+
+TEST_CASE("documents: their version is the library's") {
+  const std::string version = SF_VERSION_STRING;
+  CHECK(Find(Read(kRoot / "CITATION.cff"), "\nversion: (.+)\n").count(version) == 1);
+  CHECK(Find(Read(kRoot / "CHANGELOG.md"), "\n## \\[([^\\]]+)\\]").count(version) == 1);
 }
 
 TEST_CASE("documents: what they link to is there") {
