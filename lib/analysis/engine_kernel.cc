@@ -82,7 +82,7 @@ class Engine {
     const sf_status status =
         sf_refocus(engine_, &params, &field, out_.data(), 3 * side, nullptr, nullptr, nullptr);
     if (status != SF_OK) return status;
-    return state().plan.counts[0] == 1 ? SF_OK : SF_ERROR_BLOCK;
+    return state().stripe.plan.counts[0] == 1 ? SF_OK : SF_ERROR_BLOCK;
   }
 
  private:
@@ -95,14 +95,13 @@ class Engine {
 // Gray levels of the picture refocused last, before they are rounded to bytes.
 std::vector<double> ReadLevels(const Engine& measured) {
   const EngineState& engine = measured.state();
-  const Block& block = engine.plan.blocks[0];
-  const Worker& worker = engine.workers[0];
-  const Aperture& aperture = ApertureOf(engine, block.n);
+  const Block& block = engine.stripe.plan.blocks[0];
+  const Worker& worker = engine.crew.workers[0];
+  const Aperture& aperture = ApertureOf(engine.tables, engine.lens, block.n);
   const double one = std::ldexp(1.0, block.layer == 0 ? aperture.sum_bits : simd::kLayerBits);
   std::vector<double> levels(measured.out().size() / 3);
   for (size_t k = 0; k < levels.size(); ++k) {
-    const double sample =
-        block.layer == 0 ? worker.line_scan.accumulators[0][3 * k] : worker.picture_samples[3 * k];
+    const double sample = block.layer == 0 ? worker.sums[3 * k] : worker.picture_samples[3 * k];
     // The centre view alone is copied.
     levels[k] = aperture.n == 0 ? measured.out()[3 * k] : sample / one;
   }
@@ -159,7 +158,7 @@ sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
   }
   sum.Scale(1.0 / (places * places));
   const double aliasing = squares / (places * places) - Energy(sum);
-  const Block& block = engine.state().plan.blocks[0];
+  const Block& block = engine.state().stripe.plan.blocks[0];
   *result = {sum, aliasing, block.n, block.layer};
   return SF_OK;
 }

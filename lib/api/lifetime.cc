@@ -91,7 +91,7 @@ sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_eng
   starfocus::LayOut(chosen, workspace, &made);
   made->config = chosen;
   made->kernels = &starfocus::simd::BestKernels();
-  starfocus::MakeTables(made);
+  starfocus::MakeTables(made->config, &made->tables);
   *engine = reinterpret_cast<sf_engine*>(made);
   return SF_OK;
 }

@@ -29,8 +29,8 @@ struct Output {
 // Rows of the stripes that the region needs; a stripe's first row is a multiple of the largest
 // block.
 RowRange StripeRows(const EngineState& engine) {
-  const Rect& region = engine.region;
-  const int32_t reach = JoinReach(engine);
+  const Rect& region = engine.lens.region;
+  const int32_t reach = JoinReach(engine.config, engine.lens);
   const int32_t side = engine.config.largest_block;
   return {Max(0, region.y - reach) / side * side,
           Min(engine.config.height, region.y + region.height + reach)};
@@ -40,8 +40,8 @@ RowRange StripeRows(const EngineState& engine) {
 RowRange MapRows(const EngineState& engine) {
   const RowRange stripes = StripeRows(engine);
   const int32_t side = engine.config.largest_block;
-  const int32_t end = (stripes.last + side - 1) / side * side + engine.reach.rows;
-  return {Max(0, stripes.first - engine.reach.rows), Min(engine.config.height, end)};
+  const int32_t end = (stripes.last + side - 1) / side * side + engine.lens.reach.rows;
+  return {Max(0, stripes.first - engine.lens.reach.rows), Min(engine.config.height, end)};
 }
 
 // All of them are checked before the first pixel is written. The last ones come first, so that the
@@ -52,7 +52,7 @@ sf_status CheckDisparity(const sf_light_field& light_field, EngineState* engine)
     const sf_status status = ReadDisparity(DisparityRow(light_field, y), y, engine);
     if (status != SF_OK) return status;
   }
-  engine->disparity_rows = Min(rows.last, rows.first + engine->disparity.rows);
+  engine->pictures.disparity_rows = Min(rows.last, rows.first + engine->pictures.disparity.rows);
   return SF_OK;
 }
 
@@ -60,10 +60,10 @@ sf_status CheckDisparity(const sf_light_field& light_field, EngineState* engine)
 void WriteChanges(const EngineState& engine, const Plane<uint8_t>& rows, int32_t row,
                   const Output& out) {
   const Rect& region = out.region;
-  const int32_t side = BlockSide(engine), reach = JoinReach(engine);
-  for (int32_t column = 0; column < Columns(engine); ++column) {
+  const int32_t side = engine.config.largest_block, reach = JoinReach(engine.config, engine.lens);
+  for (int32_t column = 0; column < Columns(engine.config); ++column) {
     const int32_t x = column * side;
-    if (!HasChanged(engine.changes, {x, row - reach, side, 1 + 2 * reach})) continue;
+    if (!HasChanged(engine.stripe.changes, {x, row - reach, side, 1 + 2 * reach})) continue;
     const int32_t first = Max(x - reach, region.x);
     const int32_t last = Min(x + side + reach, region.x + region.width);
     if (first >= last) continue;
@@ -94,9 +94,10 @@ void WriteRows(const EngineState& engine, int32_t y, int32_t end, const sf_previ
 // Converts the rows that the stripe at row y reads and that are not in the ring. They were good
 // when they were checked.
 sf_status ReadRows(const sf_light_field& light_field, int32_t y, EngineState* engine) {
-  const int32_t needed = Min(engine->config.height, y + BlockSide(*engine) + engine->reach.rows);
-  for (; engine->disparity_rows < needed; ++engine->disparity_rows) {
-    const int32_t row = engine->disparity_rows;
+  const int32_t needed =
+      Min(engine->config.height, y + engine->config.largest_block + engine->lens.reach.rows);
+  for (; engine->pictures.disparity_rows < needed; ++engine->pictures.disparity_rows) {
+    const int32_t row = engine->pictures.disparity_rows;
     const sf_status status = ReadDisparity(DisparityRow(light_field, row), row, engine);
     if (status != SF_OK) return status;
   }
@@ -117,7 +118,7 @@ struct Request {
 // Sets up the comparison with the light field before.
 void UsePrevious(const Request& request, EngineState* engine) {
   const sf_config& config = engine->config;
-  Changes& changes = engine->changes;
+  Changes& changes = engine->stripe.changes;
   changes.active = true;
   changes.before = &request.previous->light_field;
   changes.now = request.light_field;
@@ -125,22 +126,22 @@ void UsePrevious(const Request& request, EngineState* engine) {
   changes.views = request.params->mode == SF_MODE_BLUR ? 1 : config.views;
   changes.width = config.width;
   changes.height = config.height;
-  changes.side = BlockSide(*engine);
-  changes.centre_reach = engine->reach.rows;
+  changes.side = engine->config.largest_block;
+  changes.centre_reach = engine->lens.reach.rows;
   changes.side_reach = SideReach(config, engine->report.r_max);
   StartChanges(StripeRows(*engine).first, &changes);
 }
 
 sf_status RefocusStripes(const Request& request, EngineState* engine) {
-  const int32_t side = BlockSide(*engine);
+  const int32_t side = engine->config.largest_block;
   const RowRange stripes = StripeRows(*engine);
-  const Output out = {request.out, request.out_stride, engine->region};
+  const Output out = {request.out, request.out_stride, engine->lens.region};
   const bool direct = IsWhole(request.params->region) && request.previous == nullptr;
   for (int32_t y = stripes.first; y < stripes.last; y += side) {
     sf_status status =
         request.prepared != nullptr ? SF_OK : ReadRows(*request.light_field, y, engine);
     if (status != SF_OK) return status;
-    if (request.previous != nullptr) CompareRows(y, &engine->changes);
+    if (request.previous != nullptr) CompareRows(y, &engine->stripe.changes);
     status = direct ? RefocusStripe(engine, y, {out.data, out.stride, 0, 0}, request.runner)
                     : RefocusIntoBuffer(engine, y, request.runner);
     if (status != SF_OK) return status;
@@ -148,7 +149,7 @@ sf_status RefocusStripes(const Request& request, EngineState* engine) {
     // The stripe after the last one changes nothing of the region.
     const int32_t region_end = out.region.y + out.region.height;
     const int32_t end =
-        y + side >= stripes.last ? region_end : Min(FinishedRows(*engine, y), region_end);
+        y + side >= stripes.last ? region_end : Min(FinishedRows(engine->config, y), region_end);
     WriteRows(*engine, y, end, request.previous, out);
   }
   return SF_OK;

@@ -30,7 +30,8 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
 sf_status ConvertMap(const EngineState& engine, const sf_light_field& light_field,
                      const Plane<int16_t>& to) {
   for (int32_t y = 0; y < engine.config.height; ++y) {
-    const sf_status status = ConvertDisparity(engine, DisparityRow(light_field, y), to.Row(y));
+    const sf_status status =
+        ConvertDisparity(engine.config, *engine.kernels, DisparityRow(light_field, y), to.Row(y));
     if (status != SF_OK) return status;
   }
   return SF_OK;
@@ -39,23 +40,24 @@ sf_status ConvertMap(const EngineState& engine, const sf_light_field& light_fiel
 // Stripe by stripe in the engine's own planes, but for the pixels.
 sf_status MakeLayers(const Prepared& prepared, EngineState* engine, const Runner& runner) {
   LayerPlane own[SF_LAYERS];
-  for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->layers[layer];
-  const int32_t height = engine->config.height, side = BlockSide(*engine);
+  for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->pictures.layers[layer];
+  const int32_t height = engine->config.height, side = engine->config.largest_block;
   // Layers end beyond the picture.
   constexpr int32_t kBeyond = 16;
   sf_status status = SF_OK;
   for (int32_t y = 0; y < height && status == SF_OK; y += side) {
-    ForgetLayers(engine);  // those of the stripe before lie elsewhere
-    MarkLayerColumns(*engine);
-    PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, engine);
+    ForgetLayers(engine->config, &engine->pictures);  // those of the stripe before lie elsewhere
+    MarkLayerColumns(engine->config, &engine->pictures);
+    PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, &engine->pictures);
     for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
-      engine->layers[layer].rgb.rows = 0;
-      engine->layers[layer].rgb.data = prepared.layers[layer].Row(engine->layers[layer].rows.first);
+      engine->pictures.layers[layer].rgb.rows = 0;
+      engine->pictures.layers[layer].rgb.data =
+          prepared.layers[layer].Row(engine->pictures.layers[layer].rows.first);
     }
-    status = FillLayers(engine, runner);
+    status = FillLayers(engine->config, *engine->kernels, runner, &engine->crew, &engine->pictures);
   }
-  for (int layer = 0; layer < SF_LAYERS; ++layer) engine->layers[layer] = own[layer];
-  ForgetLayers(engine);
+  for (int layer = 0; layer < SF_LAYERS; ++layer) engine->pictures.layers[layer] = own[layer];
+  ForgetLayers(engine->config, &engine->pictures);
   return status;
 }
 
@@ -76,11 +78,11 @@ Extent PreparedMemory(const Prepared& prepared) {
 void UsePrepared(const Prepared& prepared, EngineState* engine) {
   const Plane<int16_t>& disparity = prepared.disparity;
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
-    engine->windows[layer].disparity = {disparity.data, disparity.stride, 0, 0};
+    engine->pictures.windows[layer].disparity = {disparity.data, disparity.stride, 0, 0};
     const Plane<uint8_t>& plane = prepared.layers[layer];
-    if (layer > 0) engine->windows[layer].centre = {plane.data, plane.stride, 0, 0};
+    if (layer > 0) engine->pictures.windows[layer].centre = {plane.data, plane.stride, 0, 0};
   }
-  engine->prepared = true;
+  engine->pictures.prepared = true;
 }
 
 }  // namespace starfocus
@@ -119,7 +121,7 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
   }
   e.stream.active = false;
   // First into the engine's own ring, only to be checked: nothing is written when a row is bad.
-  status = starfocus::ConvertMap(e, *light_field, e.disparity);
+  status = starfocus::ConvertMap(e, *light_field, e.pictures.disparity);
   if (status != SF_OK) return status;
   new (memory) Prepared();
   starfocus::LayOutPrepared(e.config, memory, &made);

@@ -52,7 +52,7 @@ sf_status RefocusNext(EngineState* engine, const Runner& runner) {
   Stream& stream = engine->stream;
   const sf_status status = RefocusIntoBuffer(engine, stream.next, runner);
   if (status != SF_OK) return status;
-  stream.finished = FinishedRows(*engine, stream.next);
+  stream.finished = FinishedRows(engine->config, stream.next);
   stream.next += engine->config.largest_block;
   return SF_OK;
 }
@@ -76,7 +76,7 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   for (int view = 0; view < e.config.views; ++view) {
     views[view] = {e.rings[view].data, e.rings[view].stride, e.rings[view].rows, 0};
   }
-  starfocus::SetViews(views, &e);
+  starfocus::SetViews(e.config, views, &e.pictures);
   e.stream.active = true;
   return SF_OK;
 }

@@ -5,11 +5,10 @@
 #include <atomic>
 #include <cstdint>
 
+#include "lib/engine/worker.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
-
-struct Worker;
 
 // Who runs the jobs; a null function: the calling thread.
 struct Runner {
@@ -17,38 +16,43 @@ struct Runner {
   void* data;
 };
 
-using JobFunction = void (*)(const void* data, int32_t index, int32_t worker);
+using JobFunction = void (*)(const void* data, int32_t index, Worker* worker);
 
 // The set of jobs that a runner has been given. It lies in the workspace, so that a job called too
 // late finds it closed. Words instead of bytes: some machines have no atomic bytes.
 struct JobSet {
-  int32_t max_workers = 0;
-  std::atomic<uint32_t>* progress = nullptr;  // of each job; there is room for MaxJobs
   JobFunction function = nullptr;
   const void* data = nullptr;
   int32_t count = 0;
+  std::atomic<uint32_t>* progress = nullptr;        // of each job; there is room for MaxJobs
   std::atomic<uint32_t> busy[SF_MAX_WORKERS] = {};  // 1: a job has that worker's memory
   std::atomic<uint32_t> open{0};                    // 1: the runner has not returned yet
   std::atomic<uint32_t> misused{0};                 // 1: a call was refused
 };
 
+// The workers' memory, and the jobs that use it.
+struct Crew {
+  Worker* workers = nullptr;
+  int32_t max_workers = 1;
+  JobSet jobs;
+};
+
 // Most jobs of any set of an engine.
 int32_t MaxJobs(const sf_config& config);
 
-// Runs function(data, index, worker) for all indices in [0, count), count > 0. SF_OK, or
-// SF_ERROR_RUNNER when the runner failed or did not run each of them exactly once. No job runs any
-// more afterwards, whatever the runner does.
+// Runs function(data, index, memory of a worker) for all indices in [0, count), count > 0. SF_OK,
+// or SF_ERROR_RUNNER when the runner failed or did not run each of them exactly once. No job runs
+// any more afterwards, whatever the runner does.
 sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const Runner& runner,
-                    JobSet* set);
+                    Crew* crew);
 
-// The same of kJob, with the worker's memory, for an engine that the data point to.
+// The same of kJob, whose data are its input and say where its output goes.
 template <class Data, void (*kJob)(const Data&, int32_t, Worker*)>
-sf_status RunJobs(const Data& data, int32_t count, const Runner& runner) {
-  const JobFunction function = [](const void* job_data, int32_t index, int32_t worker) {
-    const Data& job = *static_cast<const Data*>(job_data);
-    kJob(job, index, &job.engine->workers[worker]);
+sf_status RunJobs(const Data& data, int32_t count, const Runner& runner, Crew* crew) {
+  const JobFunction function = [](const void* job_data, int32_t index, Worker* worker) {
+    kJob(*static_cast<const Data*>(job_data), index, worker);
   };
-  return RunJobSet(function, &data, count, runner, &data.engine->jobs);
+  return RunJobSet(function, &data, count, runner, crew);
 }
 
 }  // namespace starfocus

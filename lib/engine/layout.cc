@@ -36,7 +36,7 @@ int32_t LargestSliceN(const sf_config& config) {
   return Max(LargestSubapertureN(config), ViewsOfBenchmark(config.max_blur));
 }
 
-// E and R of LineScanScratch, and the largest N; all but the first accumulators.
+// E and R of LineScanScratch, and the largest N; all but its sums.
 void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver,
               LineScanScratch* star) {
   LineScanScratch& scratch = *star;
@@ -46,7 +46,7 @@ void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver,
     scratch.field_rgb[k] = carver->Take<uint8_t>(extended * rgb_stride);
     scratch.field_disparity[k] = carver->Take<int16_t>(area);
   }
-  scratch.accumulators[1] = carver->Take<uint32_t>(3 * rectangle * rectangle);
+  scratch.column_sums = carver->Take<uint32_t>(3 * rectangle * rectangle);
   scratch.diagonal_rgb = carver->Take<uint8_t>(3 * area);
   scratch.diagonal_disparity = carver->Take<int16_t>(area);
   scratch.diagonal_offsets = carver->Take<uint32_t>(2 * extended);
@@ -126,9 +126,13 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const size_t extended = side + 2 * static_cast<size_t>(reach.border);
   const int32_t max_n = Max(LargestN(config), ViewsOfBenchmark(config.max_blur));
   const size_t first = carver->Mark();
-  worker.line_scan.accumulators[0] = carver->Take<uint32_t>(3 * side * side);
+  worker.sums = carver->Take<uint32_t>(3 * side * side);
   const size_t shared = carver->Mark();
   TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.line_scan);
+  carver->Reuse(shared);
+  worker.field.rgb = carver->Take<uint8_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+  worker.field.disparity = carver->Take<int16_t>(extended * extended);
+  worker.spans = TakeSpans(extended, carver);
   carver->Reuse(shared);
   constexpr int32_t kMargin = simd::kMaxSpread + 1;
   worker.compositor =
@@ -158,29 +162,29 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
 }
 
 void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
-  engine->max_n = LargestN(config);
-  engine->max_subaperture_n = LargestSubapertureN(config);
-  const auto count = static_cast<size_t>(engine->max_n) + 1;
-  const auto subaperture_count = static_cast<size_t>(engine->max_subaperture_n) + 1;
+  engine->tables.max_n = LargestN(config);
+  engine->tables.max_subaperture_n = LargestSubapertureN(config);
+  const auto count = static_cast<size_t>(engine->tables.max_n) + 1;
+  const auto subaperture_count = static_cast<size_t>(engine->tables.max_subaperture_n) + 1;
   size_t weights = 0;
-  for (int32_t n = 0; n <= engine->max_n; ++n) weights += ApertureSize(n);
-  for (int32_t n = 0; n <= engine->max_subaperture_n; ++n) weights += ApertureSize(n);
-  engine->apertures = carver->Take<Aperture>(count);
-  engine->subapertures = carver->Take<Aperture>(subaperture_count);
-  engine->aperture_weights = carver->Take<uint16_t>(weights);
-  engine->view_counts = carver->Take<ViewCounts>(count);
-  engine->subaperture_view_counts = carver->Take<ViewCounts>(subaperture_count);
-  engine->benchmark_weights =
+  for (int32_t n = 0; n <= engine->tables.max_n; ++n) weights += ApertureSize(n);
+  for (int32_t n = 0; n <= engine->tables.max_subaperture_n; ++n) weights += ApertureSize(n);
+  engine->tables.apertures = carver->Take<Aperture>(count);
+  engine->tables.subapertures = carver->Take<Aperture>(subaperture_count);
+  engine->tables.aperture_weights = carver->Take<uint16_t>(weights);
+  engine->tables.view_counts = carver->Take<ViewCounts>(count);
+  engine->tables.subaperture_view_counts = carver->Take<ViewCounts>(subaperture_count);
+  engine->tables.benchmark_weights =
       carver->Take<uint16_t>(ApertureSize(ViewsOfBenchmark(config.max_blur)));
-  engine->blur_kernels =
+  engine->tables.blur_kernels =
       carver->Take<BlurKernel>(static_cast<size_t>(BlurStepCount(config.max_blur)));
-  engine->blur_weights = carver->Take<uint16_t>(BlurWeightCount(config.max_blur));
+  engine->tables.blur_weights = carver->Take<uint16_t>(BlurWeightCount(config.max_blur));
 }
 
 // Planes of layers 1 and 2 around a stripe.
 void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
-    LayerPlane& plane = engine->layers[layer];
+    LayerPlane& plane = engine->pictures.layers[layer];
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
     plane.half.stride = plane.rgb.stride = plane.samples.stride = 3 * width;
     const auto above = static_cast<size_t>(LayerRows(config, layer - 1));
@@ -195,28 +199,30 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
   const Reach reach = GetReach(config.max_blur);
   const int32_t side = config.largest_block;
   const auto blocks = static_cast<size_t>((config.width + side - 1) / side);
-  engine->cells.columns = (config.width + kCellSize - 1) / kCellSize;
-  engine->cells.rows = (config.height + kCellSize - 1) / kCellSize;
-  engine->cells.cells =
-      carver->Take<Cell>(static_cast<size_t>(engine->cells.columns) *
+  engine->stripe.cells.columns = (config.width + kCellSize - 1) / kCellSize;
+  engine->stripe.cells.rows = (config.height + kCellSize - 1) / kCellSize;
+  engine->stripe.cells.cells =
+      carver->Take<Cell>(static_cast<size_t>(engine->stripe.cells.columns) *
                          static_cast<size_t>(side / kCellSize + 2 * reach.cells + 2));
-  engine->plan.wanted = carver->Take<uint8_t>(blocks);
-  engine->plan.measured = carver->Take<uint8_t>(blocks);
-  engine->plan.blocks = carver->Take<Block>(blocks * static_cast<size_t>(MaxBlocks(side)));
-  engine->plan.counts = carver->Take<int32_t>(blocks);
-  engine->plan.gathered.columns = static_cast<int32_t>(blocks) * side / kCellSize;
-  engine->plan.gathered.cells = carver->Take<uint8_t>(
-      static_cast<size_t>(engine->plan.gathered.columns * (side / kCellSize)));
+  engine->stripe.plan.side = side;
+  engine->stripe.plan.columns = static_cast<int32_t>(blocks);
+  engine->stripe.plan.wanted = carver->Take<uint8_t>(blocks);
+  engine->stripe.plan.measured = carver->Take<uint8_t>(blocks);
+  engine->stripe.plan.blocks = carver->Take<Block>(blocks * static_cast<size_t>(MaxBlocks(side)));
+  engine->stripe.plan.counts = carver->Take<int32_t>(blocks);
+  engine->stripe.plan.gathered.columns = static_cast<int32_t>(blocks) * side / kCellSize;
+  engine->stripe.plan.gathered.cells = carver->Take<uint8_t>(
+      static_cast<size_t>(engine->stripe.plan.gathered.columns * (side / kCellSize)));
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
-    engine->plan.needed[layer] = carver->Take<uint8_t>(blocks);
+    engine->pictures.needed[layer] = carver->Take<uint8_t>(blocks);
   }
-  Changes& changes = engine->changes;
+  Changes& changes = engine->stripe.changes;
   changes.columns = static_cast<int32_t>(blocks);
   changes.stripes = ChangeStripes(side, SideReach(config, config.max_blur));
   changes.flags = carver->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
-  engine->map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
-  engine->map.units = carver->Take<uint8_t>(static_cast<size_t>(engine->map.columns) *
-                                            static_cast<size_t>(side / kSmallestBlock + 1));
+  engine->stripe.map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
+  engine->stripe.map.units = carver->Take<uint8_t>(static_cast<size_t>(engine->stripe.map.columns) *
+                                                   static_cast<size_t>(side / kSmallestBlock + 1));
 }
 
 void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
@@ -225,12 +231,12 @@ void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   const int32_t beyond =
       streaming ? SideReach(config, config.max_blur) : GetReach(config.max_blur).rows;
   const int32_t rows = config.largest_block + 2 * beyond;
-  engine->disparity.rows = rows;
-  engine->disparity.stride = width;
-  engine->disparity.data = carver->Take<int16_t>(width, static_cast<size_t>(rows));
-  engine->stripe_out =
+  engine->pictures.disparity.rows = rows;
+  engine->pictures.disparity.stride = width;
+  engine->pictures.disparity.data = carver->Take<int16_t>(width, static_cast<size_t>(rows));
+  engine->stripe.out =
       carver->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
-  engine->last_rows = carver->Take<uint8_t>(3 * width, kDeblockRows);
+  engine->stripe.last_rows = carver->Take<uint8_t>(3 * width, kDeblockRows);
   if (!streaming) return;
   for (int view = 0; view < config.views; ++view) {
     engine->rings[view].rows = rows;
@@ -250,12 +256,12 @@ size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
   TakeRows(config, &carver, &e);
   TakeLayers(config, &carver, &e);
   TakeStripe(config, &carver, &e);
-  e.jobs.max_workers = config.max_workers;
-  e.jobs.progress = carver.Take<std::atomic<uint32_t>>(static_cast<size_t>(MaxJobs(config)));
-  e.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
+  e.crew.max_workers = config.max_workers;
+  e.crew.jobs.progress = carver.Take<std::atomic<uint32_t>>(static_cast<size_t>(MaxJobs(config)));
+  e.crew.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
     const Worker taken = TakeWorker(config, &carver);
-    if (*engine != nullptr) e.workers[worker] = taken;
+    if (*engine != nullptr) e.crew.workers[worker] = taken;
   }
   return carver.Bytes();
 }

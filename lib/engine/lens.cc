@@ -1,7 +1,8 @@
 #include "lib/engine/lens.h"
 
 #include "lib/base/rules.h"
-#include "lib/engine/stripe_layers.h"
+#include "lib/base/view_grid.h"
+#include "lib/filter/blur.h"
 
 namespace starfocus {
 namespace {
@@ -13,43 +14,40 @@ double LargestBlur(const sf_config& config, const sf_params& params) {
   return params.aperture * (nearer > farther ? nearer : farther);
 }
 
+// The one aperture of the frame modes. The benchmark's is made in memory of its own.
+Aperture FrameAperture(const sf_config& config, const Tables& tables, const Lens& lens) {
+  const bool subapertures = UsesSubapertures(lens);
+  if (IsBenchmark(lens)) {
+    const int32_t n = ViewsOfBenchmark(lens.r_max);
+    return subapertures ? MakeSubapertures(n, tables.fall_off, tables.benchmark_weights)
+                        : MakeAperture(n, tables.fall_off, tables.benchmark_weights);
+  }
+  const int32_t n = subapertures ? ViewsBySubaperture(lens.r_max) : ViewsByPaper(lens.r_max);
+  return (subapertures ? tables.subapertures : tables.apertures)[ScaleViews(n, config.n_scale)];
+}
+
 }  // namespace
 
-sf_status SetLens(const sf_params& params, EngineState* engine) {
-  const sf_config& config = engine->config;
+Rect RegionOf(const sf_config& config, const sf_params& params) {
+  const sf_region& region = params.region;
+  if (IsWhole(region)) return {0, 0, config.width, config.height};
+  return {region.x, region.y, region.width, region.height};
+}
+
+sf_status MakeLens(const sf_config& config, const sf_params& params, Tables* tables, Lens* lens) {
   const double r_max = LargestBlur(config, params);
   if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
-  engine->params = params;
-  engine->region = RegionOf(config, params);
-  engine->reach = GetReach(r_max);
-  const bool subapertures = UsesSubapertures(*engine);
-  if (IsBenchmark(*engine)) {
-    engine->aperture = (subapertures ? MakeSubapertures : MakeAperture)(
-        ViewsOfBenchmark(r_max), engine->fall_off, engine->benchmark_weights);
-  } else {
-    const int32_t n = subapertures ? ViewsBySubaperture(r_max) : ViewsByPaper(r_max);
-    engine->aperture =
-        (subapertures ? engine->subapertures : engine->apertures)[ScaleViews(n, config.n_scale)];
-  }
-  const ViewGrid grid = MakeViewGrid(engine->aperture, params.focus, params.aperture, 0, false);
-  engine->scale = {grid.focus, grid.step};
-  const bool gathers = IsBlockMode(*engine) && subapertures && config.gather != 0;
+  lens->params = params;
+  lens->region = RegionOf(config, params);
+  lens->r_max = r_max;
+  lens->reach = GetReach(r_max);
+  lens->aperture = FrameAperture(config, *tables, *lens);
+  const ViewGrid grid = MakeViewGrid(lens->aperture, params.focus, params.aperture, 0, false);
+  lens->scale = {grid.focus, grid.step};
+  const bool gathers = Gathers(config, *lens);
   if (params.mode == SF_MODE_BLUR || gathers) {
-    const int32_t steps = BlurStepCount(gathers && r_max > kMaxGather ? kMaxGather : r_max);
-    if (steps > engine->blur_steps) {
-      MakeBlurKernels(engine->blur_steps, steps, engine->fall_off, engine->blur_weights,
-                      engine->blur_kernels);
-      engine->blur_steps = steps;
-    }
+    MakeBlurKernels(BlurStepCount(gathers && r_max > kMaxGather ? kMaxGather : r_max), tables);
   }
-  engine->report = sf_report();
-  engine->report.r_max = r_max;
-  engine->report.largest_block = config.largest_block;
-  DropCounts(engine);
-  engine->prepared = false;
-  engine->changes.active = false;
-  ForgetStripe(engine);
-  ForgetLayers(engine);
   return SF_OK;
 }
 

@@ -2,14 +2,72 @@
 #ifndef STARFOCUS_LIB_ENGINE_LENS_H_
 #define STARFOCUS_LIB_ENGINE_LENS_H_
 
-#include "lib/engine/engine.h"
+#include <cstdint>
+
+#include "lib/base/aperture.h"
+#include "lib/base/geometry.h"
+#include "lib/engine/reach.h"
+#include "lib/engine/tables.h"
+#include "lib/filter/deblock.h"
+#include "lib/plan/block_stats.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-// Sets up the lens for params; SF_ERROR_BLUR_TOO_LARGE or SF_OK. The other fields of params must
-// have been checked.
-sf_status SetLens(const sf_params& params, EngineState* engine);
+struct Lens {
+  sf_params params;
+  Rect region;        // of params, the whole picture when they have none
+  double r_max;       // largest blur radius of the configured range of disparities, pixels
+  Aperture aperture;  // frame modes: of the one N
+  BlurScale scale;
+  Reach reach;
+};
+
+// Whether no region is asked for, which means the whole picture.
+inline bool IsWhole(const sf_region& region) {
+  return region.x == 0 && region.y == 0 && region.width == 0 && region.height == 0;
+}
+
+// The rectangle that params ask for.
+Rect RegionOf(const sf_config& config, const sf_params& params);
+
+inline bool IsBlockMode(const Lens& lens) { return lens.params.mode == SF_MODE_BLOCK; }
+
+inline bool IsBenchmark(const Lens& lens) { return lens.params.mode == SF_MODE_BENCHMARK; }
+
+// Whether views stand for subapertures, and show slices.
+inline bool UsesSubapertures(const Lens& lens) {
+  const int32_t rule = lens.params.rule;
+  if (lens.params.mode == SF_MODE_FRAME) return rule == SF_RULE_SUBAPERTURE;
+  return (IsBlockMode(lens) || IsBenchmark(lens)) && rule != SF_RULE_PAPER;
+}
+
+// Whether smooth cells are gathered.
+inline bool Gathers(const sf_config& config, const Lens& lens) {
+  return IsBlockMode(lens) && UsesSubapertures(lens) && config.gather != 0;
+}
+
+// The aperture of a block with the rule's N.
+inline const Aperture& ApertureOf(const Tables& tables, const Lens& lens, int32_t n) {
+  if (!IsBlockMode(lens)) return lens.aperture;
+  return UsesSubapertures(lens) ? tables.subapertures[n] : tables.apertures[n];
+}
+
+// Whether blocks of different layers are joined.
+inline bool IsDeblocking(const sf_config& config, const Lens& lens) {
+  return IsBlockMode(lens) && config.max_layer > 0 && config.deblocking > 0;
+}
+
+// Pixels around a block that joining it to others may change, and the rows above a stripe that are
+// finished with it.
+inline int32_t JoinReach(const sf_config& config, const Lens& lens) {
+  static_assert(kDeblockRows >= kDeblockReach, "rows wait for every join that changes them");
+  return IsDeblocking(config, lens) ? kDeblockRows : 0;
+}
+
+// Makes the lens for params, and the tables that it needs and that are not there yet. Returns
+// SF_ERROR_BLUR_TOO_LARGE or SF_OK. The other fields of params must have been checked.
+sf_status MakeLens(const sf_config& config, const sf_params& params, Tables* tables, Lens* lens);
 
 }  // namespace starfocus
 

@@ -19,19 +19,18 @@ uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
 void FinishPicture(const simd::Kernels& kernels, const Rect& rect, int shift,
                    const Plane<uint8_t>& out, const Worker& worker) {
   const size_t samples = 3 * static_cast<size_t>(rect.width);
-  CheckSums(worker.line_scan.accumulators[0], Samples(rect), shift);
+  CheckSums(worker.sums, Samples(rect), shift);
   for (int32_t row = 0; row < rect.height; ++row) {
-    kernels.Finish(worker.line_scan.accumulators[0] + static_cast<size_t>(row) * samples, samples,
-                   shift, At(out, rect, row));
+    kernels.Finish(worker.sums + static_cast<size_t>(row) * samples, samples, shift,
+                   At(out, rect, row));
   }
 }
 
 // From layer 2 to layer 1, with the margin that the next step reads, to the picture.
 void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
                  const Plane<uint8_t>& out, const Worker& worker) {
-  CheckSums(worker.line_scan.accumulators[0], Samples(block.rendered), shift);
-  kernels.FinishLayer(worker.line_scan.accumulators[0], Samples(block.rendered), shift,
-                      worker.layer_samples);
+  CheckSums(worker.sums, Samples(block.rendered), shift);
+  kernels.FinishLayer(worker.sums, Samples(block.rendered), shift, worker.layer_samples);
   CheckAll(ranges::kLayerSample, worker.layer_samples, Samples(block.rendered));
   LayerRect layer = {worker.layer_samples, block.rendered.width, block.rendered.height};
   int32_t margin = kLayerMargin[block.layer] >> block.layer;
@@ -53,10 +52,10 @@ void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
   }
 }
 
-void CopyCentre(const EngineState& engine, const Rect& rect, const Plane<uint8_t>& out) {
+void CopyCentre(const Window& window, const Rect& rect, const Plane<uint8_t>& out) {
   for (int32_t row = 0; row < rect.height; ++row) {
     std::memcpy(At(out, rect, row),
-                engine.windows[0].centre.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x),
+                window.centre.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x),
                 3 * static_cast<size_t>(rect.width));
   }
 }
@@ -96,38 +95,36 @@ struct Rendered {
 };
 
 // Renders the block's views: by cells as a stack of slices, whose samples all count.
-Rendered Render(const EngineState& engine, const Block& block, RenderJob job,
-                const Plane<uint8_t>& out, Worker* worker) {
+Rendered Render(const BlockInputs& in, const Block& block, RenderJob job, const Plane<uint8_t>& out,
+                Worker* worker) {
   const Counting counting(*job.window, worker);
   job.window = &counting.window();
   uint64_t samples = Samples(job.rect);
-  if (UsesSubapertures(engine)) {
-    const GatherMap* gathered = block.gathers ? &engine.plan.gathered : nullptr;
-    const SliceRule& rule = IsBenchmark(engine) ? kFineSlices : kSlices;
-    samples = 3 * CompositeRectangle(job, rule, gathered, &worker->compositor,
-                                     worker->line_scan.accumulators[0]);
+  if (UsesSubapertures(*in.lens)) {
+    const GatherMap* gathered = block.gathers ? in.gathered : nullptr;
+    const SliceRule& rule = IsBenchmark(*in.lens) ? kFineSlices : kSlices;
+    samples = 3 * CompositeRectangle(job, rule, gathered, &worker->compositor, worker->sums);
   } else {
-    RefocusRectangle(job, &worker->line_scan);
+    RefocusRectangle(job, &worker->line_scan, worker->sums);
   }
   const int shift = job.grid->aperture.sum_bits;
   if (block.layer == 0) {
-    FinishPicture(*engine.kernels, job.rect, shift, out, *worker);
+    FinishPicture(*in.kernels, job.rect, shift, out, *worker);
   } else {
-    FinishLayer(*engine.kernels, block, shift, out, *worker);
+    FinishLayer(*in.kernels, block, shift, out, *worker);
   }
-  const auto views = static_cast<uint64_t>(ApertureOf(engine, block.n).views);
+  const auto views = static_cast<uint64_t>(ApertureOf(*in.tables, *in.lens, block.n).views);
   return {views, views * samples};
 }
 
-void GatherCells(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+void GatherCells(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  Worker* worker) {
   Field field;
-  field.rgb = worker->line_scan.field_rgb[0];
-  field.disparity = worker->line_scan.field_disparity[0];
-  const Counting counting(engine.windows[0], worker);
-  const GatherJob job = {&counting.window(), &engine.cells,       &engine.plan.gathered,
-                         engine.scale,       engine.blur_kernels, engine.kernels,
-                         block.rect};
+  field.rgb = worker->field.rgb;
+  field.disparity = worker->field.disparity;
+  const Counting counting(in.windows[0], worker);
+  const GatherJob job = {&counting.window(),      in.cells,   in.gathered, in.lens->scale,
+                         in.tables->blur_kernels, in.kernels, block.rect};
   worker->counts.gathered_pixels +=
       GatherRectangle(job, &field, At(out, block.rect, 0), out.stride);
 }
@@ -136,24 +133,23 @@ void GatherCells(const EngineState& engine, const Block& block, const Plane<uint
 const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
 
 // A copied block has one view, the centre.
-Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                       Worker* worker) {
-  const Aperture& aperture = ApertureOf(engine, block.n);
+  const Aperture& aperture = ApertureOf(*in.tables, *in.lens, block.n);
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
   const bool pinhole = aperture.n == 0;
-  const Aperture& rendered = pinhole ? engine.apertures[1] : aperture;
-  const double extent = UsesSubapertures(engine) ? rendered.extent : 1;
-  ViewGrid grid = MakeViewGrid(rendered, engine.params.focus, engine.params.aperture * extent,
-                               block.layer, engine.config.views == 17);
+  const Aperture& rendered = pinhole ? in.tables->apertures[1] : aperture;
+  const double extent = UsesSubapertures(*in.lens) ? rendered.extent : 1;
+  ViewGrid grid = MakeViewGrid(rendered, in.lens->params.focus, in.lens->params.aperture * extent,
+                               block.layer, in.config->views == 17);
   if (pinhole) grid.step = 0;
-  const RenderJob job = {&engine.windows[block.layer], &grid, engine.kernels, block.rendered,
-                         block.border};
-  if (engine.config.skips == 0) return Render(engine, block, job, out, worker);
+  const RenderJob job = {&in.windows[block.layer], &grid, in.kernels, block.rendered, block.border};
+  if (in.config->skips == 0) return Render(in, block, job, out, worker);
   const Rect& rect = ViewsRect(block);
   const uint64_t pixels = Samples(rect) / 3;
   // Slices have ends, which move a little even then.
-  if (pinhole || (!UsesSubapertures(engine) && NothingMoves(job))) {
-    CopyCentre(engine, rect, out);
+  if (pinhole || (!UsesSubapertures(*in.lens) && NothingMoves(job))) {
+    CopyCentre(in.windows[0], rect, out);
     worker->counts.centre_bytes += 3 * pixels;
     worker->counts.skipped.copied_blocks += 1;
     worker->counts.skipped.copied_pixels += pixels;
@@ -165,35 +161,34 @@ Rendered RefocusViews(const EngineState& engine, const Block& block, const Plane
     worker->counts.skipped.filled_pixels += pixels;
     return {0, 0};
   }
-  return Render(engine, block, job, out, worker);
+  return Render(in, block, job, out, worker);
 }
 
-void BlurBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                Worker* worker) {
-  const Counting counting(engine.windows[0], worker);
-  const BlurJob job = {&counting.window(), engine.scale, engine.blur_kernels,
-                       engine.kernels,     block.rect,   block.border.left};
-  const BlurScratch scratch = {worker->line_scan.field_rgb[0], worker->line_scan.accumulators[0],
-                               worker->line_scan.spans};
+  const Counting counting(in.windows[0], worker);
+  const BlurJob job = {&counting.window(), in.lens->scale, in.tables->blur_kernels,
+                       in.kernels,         block.rect,     block.border.left};
+  const BlurScratch scratch = {worker->field.rgb, worker->sums, worker->spans};
   BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
 }
 
 }  // namespace
 
-void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                   Worker* worker) {
-  const sf_clock clock = engine.params.clock;
+  const sf_clock clock = in.lens->params.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
   Rendered rendered = {1, 0};  // the centre, of a block gathered whole
-  if (engine.params.mode == SF_MODE_BLUR) {
-    BlurBlock(engine, block, out, worker);
+  if (in.lens->params.mode == SF_MODE_BLUR) {
+    BlurBlock(in, block, out, worker);
     rendered = {0, 0};
   } else {
     if (block.rendered.width > 0) {
-      rendered = RefocusViews(engine, block, out, worker);
+      rendered = RefocusViews(in, block, out, worker);
     }
     // After views, which know nothing of cells.
-    if (block.gathers) GatherCells(engine, block, out, worker);
+    if (block.gathers) GatherCells(in, block, out, worker);
   }
   sf_layer_report& report = worker->counts.layers[block.layer];
   report.blocks += 1;

@@ -2,12 +2,31 @@
 #ifndef STARFOCUS_LIB_ENGINE_REFOCUS_BLOCK_H_
 #define STARFOCUS_LIB_ENGINE_REFOCUS_BLOCK_H_
 
-#include "lib/engine/engine.h"
+#include "lib/base/geometry.h"
+#include "lib/engine/lens.h"
+#include "lib/engine/tables.h"
+#include "lib/engine/worker.h"
+#include "lib/input/window.h"
+#include "lib/plan/block_stats.h"
+#include "lib/plan/partition.h"
+#include "simd/kernels.h"
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
 
+// What the blocks of a stripe are made from.
+struct BlockInputs {
+  const sf_config* config;
+  const simd::Kernels* kernels;
+  const Tables* tables;
+  const Lens* lens;
+  const Window* windows;  // of each layer
+  const CellGrid* cells;
+  const GatherMap* gathered;
+};
+
 // Writes the block's rectangle of the picture into `out` and counts it in worker->counts.
-void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                   Worker* worker);
 
 }  // namespace starfocus

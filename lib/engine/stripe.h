@@ -6,14 +6,18 @@
 
 #include "lib/engine/engine.h"
 #include "lib/engine/jobs.h"
+#include "lib/engine/refocus_block.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-// Output rows that are final once the stripe that starts at row y is done.
-int32_t FinishedRows(const EngineState& engine, int32_t y);
+// What the engine makes the blocks of a stripe from.
+BlockInputs InputsOf(const EngineState& engine);
 
-// Refocuses what the engine's region needs of the stripe that starts at row y, a multiple of the
+// Output rows that are final once the stripe that starts at row y is done.
+int32_t FinishedRows(const sf_config& config, int32_t y);
+
+// Refocuses what the lens's region needs of the stripe that starts at row y, a multiple of the
 // largest block; stripes come one after the other. All rows within reach are in the windows; `out`
 // holds the stripe's rows and the kDeblockRows before it. SF_OK, or SF_ERROR_RUNNER: `out` is then
 // half made, and the engine as it was, so that the stripe can be refocused again.

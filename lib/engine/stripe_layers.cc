@@ -1,98 +1,86 @@
 #include "lib/engine/stripe_layers.h"
 
-#include <cstring>
+#include "lib/engine/reach.h"
 
 namespace starfocus {
 namespace {
 
+// Subsamples columns of largest blocks into a layer: job `index` has that column.
 struct LayerJob {
-  EngineState* engine;
+  const sf_config* config;
+  const simd::Kernels* kernels;
+  const Plane<const uint8_t>* picture;  // the centre view
+  const uint8_t* needed;                // ColumnNeed of the layer's columns
+  const LayerPlane* above;              // the layer that layer 2 is made of
+  const LayerPlane* to;                 // its planes are the output
 };
 
 template <int kLayer>
 void Downsample(const LayerJob& job, int32_t index, Worker* worker) {
-  EngineState& engine = *job.engine;
-  const int need = engine.plan.needed[kLayer][index];
+  const int need = job.needed[index];
   if ((need & kNeeded) == 0) return;
-  LayerPlane missing = engine.layers[kLayer], *to = &missing;
-  if ((need & kNeededBefore) != 0) to->rows.first = to->known;
-  if (to->rows.first == to->rows.last) return;
-  const int32_t side = BlockSide(engine) >> kLayer;
-  const int32_t begin = index * side;
+  LayerPlane missing = *job.to;
+  if ((need & kNeededBefore) != 0) missing.rows.first = missing.known;
+  if (missing.rows.first == missing.rows.last) return;
+  const int32_t side = job.config->largest_block >> kLayer, begin = index * side;
   // The last column takes what a layer has beyond the picture.
-  const int32_t end = index + 1 == Columns(engine) ? to->width : begin + side;
+  const int32_t end = index + 1 == Columns(*job.config) ? missing.width : begin + side;
   if (kLayer == 1) {
-    const int32_t rows = to->rows.last - to->rows.first;
+    const int32_t rows = missing.rows.last - missing.rows.first;
     worker->counts.centre_bytes +=
         3 * static_cast<uint64_t>((2 * (end - begin) + 5) * (2 * rows + 5));
-    DownsamplePicture(*engine.kernels, engine.windows[0].centre, engine.config.width,
-                      engine.config.height, begin, end, worker->resample, to);
+    DownsamplePicture(*job.kernels, *job.picture, job.config->width, job.config->height, begin, end,
+                      worker->resample, &missing);
   } else {
-    DownsampleLayer(*engine.kernels, engine.layers[kLayer - 1], begin, end, worker->resample, to);
+    DownsampleLayer(*job.kernels, *job.above, begin, end, worker->resample, &missing);
   }
 }
 
-void Mark(const EngineState& engine, int layer, int32_t column) {
-  engine.plan.needed[layer][column] |= kNeeded;
-}
-
-bool AnyColumn(const EngineState& engine, int layer) {
-  int any = 0;
-  for (int32_t column = 0; column < Columns(engine); ++column) {
-    any |= engine.plan.needed[layer][column];
+bool AnyColumn(const uint8_t* needed, int32_t columns) {
+  for (int32_t column = 0; column < columns; ++column) {
+    if ((needed[column] & kNeeded) != 0) return true;
   }
-  return (any & kNeeded) != 0;
-}
-
-// Layer 1 lies in rings, of as many rows as a stripe may need: what the stripe before made stays.
-void PlaceInRings(const sf_config& config, LayerPlane* plane) {
-  plane->rgb.rows = plane->samples.rows = LayerRows(config, 1);
+  return false;
 }
 
 }  // namespace
 
-void ClearLayerColumns(const EngineState& engine) {
+void ClearLayerColumns(const sf_config& config, Pictures* pictures) {
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
-    for (int32_t column = 0; column < Columns(engine); ++column) {
-      uint8_t& need = engine.plan.needed[layer][column];
+    for (int32_t column = 0; column < Columns(config); ++column) {
+      uint8_t& need = pictures->needed[layer][column];
       need = (need & kNeeded) != 0 ? kNeededBefore : 0;
     }
   }
 }
 
-void MarkLayerColumns(const EngineState& engine) {
-  for (int layer = 1; layer <= engine.config.max_layer; ++layer) {
-    for (int32_t column = 0; column < Columns(engine); ++column) Mark(engine, layer, column);
+void MarkLayerColumns(const sf_config& config, Pictures* pictures) {
+  for (int layer = 1; layer <= config.max_layer; ++layer) {
+    for (int32_t column = 0; column < Columns(config); ++column) {
+      pictures->needed[layer][column] |= kNeeded;
+    }
   }
 }
 
-void MarkLayerColumns(const EngineState& engine, const Block& block) {
-  const int32_t scale = 1 << block.layer;
+void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pictures) {
+  const int32_t side = config.largest_block, scale = 1 << block.layer;
   const int32_t left = (block.rendered.x - block.border.left) * scale;
   const int32_t right = (block.rendered.x + block.rendered.width + block.border.right) * scale;
   for (int layer = block.layer; layer > 0; --layer) {
     // Layer 2 is made of layer 1 by a filter of 3 pixels' reach, 6 of the picture.
     const int32_t reach = layer < block.layer ? 8 : 0;
-    const int32_t first = Max(0, (left - reach) / BlockSide(engine));
-    const int32_t last = Min(Columns(engine) - 1, (right + reach) / BlockSide(engine));
+    const int32_t first = Max(0, (left - reach) / side);
+    const int32_t last = Min(Columns(config) - 1, (right + reach) / side);
     for (int32_t column = first; column <= last; ++column) {
-      Mark(engine, layer, column);
+      pictures->needed[layer][column] |= kNeeded;
     }
   }
 }
 
-void ForgetLayers(EngineState* engine) {
-  PlaceInRings(engine->config, &engine->layers[1]);
-  for (int layer = 1; layer < SF_LAYERS; ++layer) {
-    engine->layers[layer].rows = {0, 0};
-    std::memset(engine->plan.needed[layer], 0, static_cast<size_t>(Columns(*engine)));
-  }
-}
-
-void PlaceLayers(const RowRange& of_picture, EngineState* engine) {
+void PlaceLayers(const RowRange& of_picture, Pictures* pictures) {
   RowRange rows = {of_picture.first >> 2, (of_picture.last >> 2) + 1};
   for (int layer = SF_LAYERS - 1; layer > 0; --layer) {
-    LayerPlane& plane = engine->layers[layer];
+    LayerPlane& plane = pictures->layers[layer];
     const RowRange inside = {Max(0, rows.first), Min(plane.height, rows.last)};
     // Layer 2 is made anew: of the columns beside those it was needed in, layer 1 may have lacked.
     const bool kept = layer == 1 && plane.rows.first <= inside.first;
@@ -101,20 +89,24 @@ void PlaceLayers(const RowRange& of_picture, EngineState* engine) {
     plane.rgb.first = plane.samples.first = plane.rows.first;
     plane.half.first = 2 * plane.rows.first - 3;
     rows = {2 * rows.first - 3, 2 * rows.last + 3};
-    engine->windows[layer].centre = {plane.rgb.data, plane.rgb.stride, plane.rgb.rows,
-                                     plane.rgb.first};
+    pictures->windows[layer].centre = {plane.rgb.data, plane.rgb.stride, plane.rgb.rows,
+                                       plane.rgb.first};
   }
 }
 
-sf_status FillLayers(EngineState* engine, const Runner& runner) {
-  const LayerJob job = {engine};
-  const int32_t columns = Columns(*engine);
+sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, const Runner& runner,
+                     Crew* crew, Pictures* pictures) {
+  const int32_t columns = Columns(config);
+  const LayerPlane* layers = pictures->layers;
+  const Plane<const uint8_t>* picture = &pictures->windows[0].centre;
   sf_status status = SF_OK;
-  if (AnyColumn(*engine, 1)) {
-    status = RunJobs<LayerJob, Downsample<1>>(job, columns, runner);
+  if (AnyColumn(pictures->needed[1], columns)) {
+    const LayerJob job = {&config, &kernels, picture, pictures->needed[1], nullptr, &layers[1]};
+    status = RunJobs<LayerJob, Downsample<1>>(job, columns, runner, crew);
   }
-  if (status == SF_OK && AnyColumn(*engine, 2)) {
-    status = RunJobs<LayerJob, Downsample<2>>(job, columns, runner);
+  if (status == SF_OK && AnyColumn(pictures->needed[2], columns)) {
+    const LayerJob job = {&config, &kernels, picture, pictures->needed[2], &layers[1], &layers[2]};
+    status = RunJobs<LayerJob, Downsample<2>>(job, columns, runner, crew);
   }
   return status;
 }

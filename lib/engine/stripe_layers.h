@@ -2,26 +2,31 @@
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_LAYERS_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_LAYERS_H_
 
-#include "lib/engine/engine.h"
 #include "lib/engine/jobs.h"
+#include "lib/engine/pictures.h"
+#include "lib/plan/partition.h"
+#include "simd/kernels.h"
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-// The columns of largest blocks in which the layers are needed by the next stripe: none; all, of
-// the layers that the engine may use; those that `block` reads.
-void ClearLayerColumns(const EngineState& engine);
-void MarkLayerColumns(const EngineState& engine);
-void MarkLayerColumns(const EngineState& engine, const Block& block);
+// Begins the stripe's marks of the columns of largest blocks in which layers are needed: none are,
+// and those of the stripe before were.
+void ClearLayerColumns(const sf_config& config, Pictures* pictures);
 
-// The layers' rows are no longer of use: they are of another picture, or not all were made.
-void ForgetLayers(EngineState* engine);
+// Marks all columns of the layers that the engine may use.
+void MarkLayerColumns(const sf_config& config, Pictures* pictures);
 
-// Makes room in the engine's layers and their windows for the rows that rows `of_picture` subsample
-// to, and keeps those that are there.
-void PlaceLayers(const RowRange& of_picture, EngineState* engine);
+// Marks the columns that `block` reads.
+void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pictures);
 
-// Subsamples into the marked columns of placed layers. SF_OK or SF_ERROR_RUNNER.
-sf_status FillLayers(EngineState* engine, const Runner& runner);
+// Makes room in the layers and their windows for the rows that rows `of_picture` subsample to, and
+// keeps those that are there.
+void PlaceLayers(const RowRange& of_picture, Pictures* pictures);
+
+// Subsamples into the marked columns of placed layers. Returns SF_OK or SF_ERROR_RUNNER.
+sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, const Runner& runner,
+                     Crew* crew, Pictures* pictures);
 
 }  // namespace starfocus
 

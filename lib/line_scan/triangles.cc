@@ -45,24 +45,24 @@ struct LineHoles {
 // The star over one rectangle. "Along" is the direction of type A's parallax, "across" of type C's.
 class Star {
  public:
-  Star(const RenderJob& job, LineScanScratch* scratch)
-      : job_(job), grid_(*job.grid), scratch_(scratch) {}
+  Star(const RenderJob& job, LineScanScratch* scratch, uint32_t* sums)
+      : job_(job), grid_(*job.grid), scratch_(scratch), sums_(sums) {}
 
   void Refocus() {
     Field rows = MakeField(0);
     LoadField(*job_.window, job_.rect, job_.border, &rows);
     UnmixEdges(*job_.kernels, *job_.window, grid_, &rows);
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
-    Clear(1);
+    Clear(scratch_->column_sums);
     Field columns = MakeField(1);
     TransposeDisparity(rows, &columns);
-    AddViews(rows, columns, scratch_->accumulators[1]);
+    AddViews(rows, columns, scratch_->column_sums);
     TransposePixels(*job_.kernels, rows, &columns);
-    Clear(0);
+    Clear(sums_);
     AddCentre(rows);
     TypeB(rows, false);
     TypeB(rows, true);
-    AddViews(columns, rows, scratch_->accumulators[0]);
+    AddViews(columns, rows, sums_);
     AddTransposed();
   }
 
@@ -72,9 +72,9 @@ class Star {
     int32_t begin, end;
   };
 
-  void Clear(int orientation) {
+  void Clear(uint32_t* sums) const {
     const size_t samples = 3 * static_cast<size_t>(job_.rect.width) * job_.rect.height;
-    std::memset(scratch_->accumulators[orientation], 0, samples * sizeof(uint32_t));
+    std::memset(sums, 0, samples * sizeof(uint32_t));
   }
 
   Field MakeField(int orientation) const {
@@ -98,7 +98,7 @@ class Star {
 
   void AddCentre(const Field& rows) {
     const Rect& inner = rows.inner;
-    SpanList list = Accumulating(scratch_->accumulators[0]);
+    SpanList list = Accumulating(sums_);
     for (int32_t row = 0; row < inner.height; ++row) {
       AddLine(rows.Rgb(inner.x, inner.y + row), inner.width, grid_.aperture.Weight(0, 0),
               3u * static_cast<uint32_t>(row * inner.width), &list);
@@ -292,7 +292,7 @@ class Star {
     for (int32_t t = begin; t < end; ++t) {
       const int32_t x = at.x + t - inner.x;
       const int32_t y = (diagonals.anti ? at.y - t : at.y + t) - inner.y;
-      uint32_t* target = scratch_->accumulators[0] + 3 * (static_cast<size_t>(y) * inner.width + x);
+      uint32_t* target = sums_ + 3 * (static_cast<size_t>(y) * inner.width + x);
       for (int c = 0; c < 3; ++c) target[c] += sums[3 * (t - begin) + c];
     }
   }
@@ -301,8 +301,8 @@ class Star {
   void AddTransposed() {
     const int32_t width = job_.rect.width, height = job_.rect.height;
     for (int32_t y = 0; y < height; ++y) {
-      uint32_t* to = scratch_->accumulators[0] + 3 * static_cast<size_t>(y) * width;
-      const uint32_t* from = scratch_->accumulators[1] + 3 * static_cast<size_t>(y);
+      uint32_t* to = sums_ + 3 * static_cast<size_t>(y) * width;
+      const uint32_t* from = scratch_->column_sums + 3 * static_cast<size_t>(y);
       for (int32_t x = 0; x < width; ++x, to += 3, from += 3 * static_cast<size_t>(height)) {
         for (int c = 0; c < 3; ++c) to[c] += from[c];
       }
@@ -312,12 +312,13 @@ class Star {
   const RenderJob& job_;
   const ViewGrid& grid_;
   LineScanScratch* scratch_;
+  uint32_t* sums_;
 };
 
 }  // namespace
 
-void RefocusRectangle(const RenderJob& job, LineScanScratch* scratch) {
-  Star(job, scratch).Refocus();
+void RefocusRectangle(const RenderJob& job, LineScanScratch* scratch, uint32_t* sums) {
+  Star(job, scratch, sums).Refocus();
 }
 
 }  // namespace starfocus

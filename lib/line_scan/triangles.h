@@ -33,14 +33,14 @@ struct LineScanScratch {
   uint8_t* strip_rgb;           // 3 R kStripRows: type A lines before they are transposed
   int16_t* view_disparity;      // R E: of the type A view, one line per row
   uint8_t* columns_rgb;         // R rows of RgbStride(E): the type A view, one line per column
-  uint32_t* accumulators[2];    // 3 R^2 each: in the orientation of either pass
+  uint32_t* column_sums;        // 3 R^2: of the pass over columns
   uint32_t* line_accumulators;  // 3 E
   SpanMemory spans;
 };
 
-// Sums the weighted views over job.rect into scratch->accumulators[0]: rows of 3 * width values
-// with grid.aperture.sum_bits fractional bits. N > 0.
-void RefocusRectangle(const RenderJob& job, LineScanScratch* scratch);
+// Sums the weighted views over job.rect into `sums`: rows of 3 * width values with
+// grid.aperture.sum_bits fractional bits. N > 0.
+void RefocusRectangle(const RenderJob& job, LineScanScratch* scratch, uint32_t* sums);
 
 }  // namespace starfocus
 

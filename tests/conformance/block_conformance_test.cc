@@ -40,7 +40,7 @@ std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState&
   const int right = block.rect.x + block.rect.width, bottom = block.rect.y + block.rect.height;
   for (int y = block.rect.y; y < bottom; y += kSide) {
     for (int x = block.rect.x; x < right; x += kSide) {
-      if (engine.plan.gathered.At(x, y) == 0) continue;
+      if (engine.stripe.plan.gathered.At(x, y) == 0) continue;
       cells.push_back({x, y, std::min(kSide, right - x), std::min(kSide, bottom - y)});
     }
   }
@@ -53,9 +53,10 @@ std::vector<reference::Block> Partition(const starfocus::EngineState& engine, Co
   const int side = engine.config.largest_block;
   REQUIRE(engine.config.height <= side);
   for (int column = 0; column * side < engine.config.width; ++column) {
-    for (int k = 0; k < engine.plan.counts[column]; ++k) {
+    for (int k = 0; k < engine.stripe.plan.counts[column]; ++k) {
       const starfocus::Block& b =
-          engine.plan.blocks[size_t(column) * size_t(starfocus::MaxBlocks(side)) + size_t(k)];
+          engine.stripe.plan
+              .blocks[size_t(column) * size_t(starfocus::MaxBlocks(side)) + size_t(k)];
       blocks.push_back({b.rect.x, b.rect.y, b.rect.width, b.rect.height, b.layer, b.n, b.rendered.x,
                         b.rendered.y, b.rendered.width, b.rendered.height, b.border.left,
                         b.border.right, b.border.top, b.border.bottom, GatheredCells(engine, b)});
@@ -78,7 +79,7 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   const std::vector<reference::Block> blocks = Partition(state, covered);
   const bool cells = params.rule == SF_RULE_SUBAPERTURE;
-  const starfocus::SliceLimits* limits = cells ? &state.workers[0].compositor.limits : nullptr;
+  const starfocus::SliceLimits* limits = cells ? &state.crew.workers[0].compositor.limits : nullptr;
   const Distance distance =
       Compare(out.Tight(), reference::RefocusBlocks(scene, params, config.theta, limits, blocks));
   for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {

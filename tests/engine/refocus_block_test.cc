@@ -1,8 +1,6 @@
 // A block refocused alone with the border that the analysis gives it, and with wider ones. Of one
 // flat surface nothing changes, at any layer. A gap between surfaces is filled from what is behind
 // it, which may lie beyond the border and land outside the block: there a little may.
-#include "lib/engine/refocus_block.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "lib/engine/engine.h"
+#include "lib/engine/stripe.h"
 #include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
@@ -80,7 +79,8 @@ test::Scene SteppedScene(int width, int height, int views, float limit, test::Ra
 std::vector<uint8_t> Pixels(const EngineState& engine, const Block& block) {
   const size_t stride = 3 * static_cast<size_t>(engine.config.width);
   std::vector<uint8_t> out(stride * static_cast<size_t>(engine.config.height), test::kPoison);
-  starfocus::RefocusBlock(engine, block, {out.data(), stride, 0, 0}, &engine.workers[0]);
+  starfocus::RefocusBlock(starfocus::InputsOf(engine), block, {out.data(), stride, 0, 0},
+                          &engine.crew.workers[0]);
   return out;
 }
 
@@ -123,9 +123,9 @@ void CheckPicture(const test::Scene& scene, const sf_params& params, int more, C
   test::Output out(scene.width, scene.height);
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   const EngineState& state = *reinterpret_cast<EngineState*>(engine.get());
-  for (int k = 0; k < state.plan.counts[0]; ++k) {
+  for (int k = 0; k < state.stripe.plan.counts[0]; ++k) {
     // Not from `out`, which has been deblocked.
-    Block block = state.plan.blocks[k];
+    Block block = state.stripe.plan.blocks[k];
     const std::vector<uint8_t> given = Pixels(state, block);
     block.border.left += more;
     block.border.right += more;

@@ -136,7 +136,7 @@ TEST_CASE("stack: slices made section by section give the same picture") {
   test::Engine engine(test::ConfigFor(scene, 20));
   REQUIRE(engine.status() == SF_OK);
   auto& limits =
-      reinterpret_cast<starfocus::EngineState*>(engine.get())->workers[0].compositor.limits;
+      reinterpret_cast<starfocus::EngineState*>(engine.get())->crew.workers[0].compositor.limits;
   const auto reach = size_t(starfocus::SliceReach(16 * starfocus::kShiftOne, starfocus::kShiftOne));
   const size_t whole = starfocus::SliceBytes(64, 64, reach) + starfocus::TileBytes(64, reach);
   const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::TileBytes(8, reach);

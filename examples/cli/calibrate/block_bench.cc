@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/engine/lens.h"
-#include "lib/engine/refocus_block.h"
+#include "lib/engine/stripe.h"
 #include "platform/clock.h"
 
 namespace starfocus {
@@ -51,7 +50,7 @@ std::string BlockBench::Open(const std::string& where, const LightField& light_f
 void BlockBench::HoldDisparity() {
   const FloatMap& map = light_field_->disparity;
   disparity_.resize(map.values.size() + simd::kPadding);
-  engine_->disparity = {disparity_.data(), size_t(map.width), 0, 0};
+  engine_->pictures.disparity = {disparity_.data(), size_t(map.width), 0, 0};
   for (int y = 0; y < map.height; ++y) {
     // The range is the map's own, so that no value can be outside.
     ReadDisparity(map.values.data() + size_t(y) * size_t(map.width), y, engine_);
@@ -61,11 +60,11 @@ void BlockBench::HoldDisparity() {
     const Image& view = light_field_->views[i];
     views[i] = {view.pixels.data(), view.stride(), 0, 0};
   }
-  SetViews(views, engine_);
+  SetViews(engine_->config, views, &engine_->pictures);
 }
 
 void BlockBench::HoldLayer(int layer) {
-  LayerPlane& plane = engine_->layers[layer];
+  LayerPlane& plane = engine_->pictures.layers[layer];
   const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
   layer_rgb_[layer].resize(stride * rows + simd::kPadding);
   layer_samples_[layer].resize(stride * rows + simd::kPadding);
@@ -74,18 +73,19 @@ void BlockBench::HoldLayer(int layer) {
   plane.rgb = {layer_rgb_[layer].data(), stride, 0, 0};
   plane.samples = {layer_samples_[layer].data(), stride, 0, 0};
   plane.half = {layer_half_[layer].data(), stride, 0, -3};
-  const ResampleScratch& scratch = engine_->workers[0].resample;
+  const ResampleScratch& scratch = engine_->crew.workers[0].resample;
   const int32_t step = engine_->config.largest_block / 2;
   for (int32_t begin = 0; begin < plane.width; begin += step) {
     const int32_t end = std::min(begin + step, plane.width);
     if (layer == 1) {
-      DownsamplePicture(*engine_->kernels, engine_->windows[0].centre, engine_->config.width,
-                        engine_->config.height, begin, end, scratch, &plane);
+      DownsamplePicture(*engine_->kernels, engine_->pictures.windows[0].centre,
+                        engine_->config.width, engine_->config.height, begin, end, scratch, &plane);
     } else {
-      DownsampleLayer(*engine_->kernels, engine_->layers[layer - 1], begin, end, scratch, &plane);
+      DownsampleLayer(*engine_->kernels, engine_->pictures.layers[layer - 1], begin, end, scratch,
+                      &plane);
     }
   }
-  engine_->windows[layer].centre = {plane.rgb.data, stride, 0, 0};
+  engine_->pictures.windows[layer].centre = {plane.rgb.data, stride, 0, 0};
 }
 
 void BlockBench::Focus(const BlockTask& task) {
@@ -104,14 +104,14 @@ BlockWork BlockBench::Work(const BlockTask& task) {
   std::vector<Cell> cells(size_t((rect.width + kCellSize - 1) / kCellSize));
   const int first = rect.x / kCellSize;
   for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
-    MeasureCells(*engine_->kernels, engine_->windows[0], engine_->scale, y / kCellSize, first,
-                 first + int(cells.size()), cells.data());
+    MeasureCells(*engine_->kernels, engine_->pictures.windows[0], engine_->lens.scale,
+                 y / kCellSize, first, first + int(cells.size()), cells.data());
     for (const Cell& cell : cells) AddCell(cell, &content);
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
   return MeasureWork(block.rendered, block.border,
-                     CountSubapertures(engine_->subapertures[block.n]), true, upsampled, content,
-                     block.layer);
+                     CountSubapertures(engine_->tables.subapertures[block.n]), true, upsampled,
+                     content, block.layer);
 }
 
 uint64_t BlockBench::Now() const {
@@ -123,7 +123,7 @@ uint64_t BlockBench::Time(const BlockTask& task) {
   Focus(task);
   const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
   const uint64_t start = Now();
-  RefocusBlock(*engine_, task.block, out, engine_->workers);
+  RefocusBlock(InputsOf(*engine_), task.block, out, engine_->crew.workers);
   return Now() - start;
 }
 

@@ -1,0 +1,39 @@
+// The pictures of a call: views, layers and converted disparities, as windows onto them.
+#ifndef STARFOCUS_LIB_ENGINE_PICTURES_H_
+#define STARFOCUS_LIB_ENGINE_PICTURES_H_
+
+#include <cstdint>
+
+#include "lib/base/geometry.h"
+#include "lib/filter/layers.h"
+#include "lib/input/window.h"
+#include "simd/kernels.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Whether the columns of a layer are read by the stripe, and whether they were by the one before.
+enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
+
+struct Pictures {
+  Window windows[SF_LAYERS];
+  LayerPlane layers[SF_LAYERS];  // layers 1 and 2, around a stripe
+  uint8_t* needed[SF_LAYERS];    // per column of largest blocks: ColumnNeed of its layer 1, 2
+  Plane<int16_t> disparity;      // ring of converted rows
+  int32_t disparity_rows;        // of a whole picture, converted so far
+  bool prepared;                 // disparities and layers of the windows are a prepared field's
+};
+
+// Points the windows at the views, which are whole pictures or line rings.
+void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictures* pictures);
+
+// Converts a disparity row to `out`, checking that it lies in the configured range.
+sf_status ConvertDisparity(const sf_config& config, const simd::Kernels& kernels, const float* row,
+                           int16_t* out);
+
+// Forgets the layers' rows, which are of another picture, or of which not all were made.
+void ForgetLayers(const sf_config& config, Pictures* pictures);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_ENGINE_PICTURES_H_

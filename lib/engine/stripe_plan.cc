@@ -1,0 +1,253 @@
+#include "lib/engine/stripe_plan.h"
+
+#include <cstring>
+
+#include "lib/engine/stripe_layers.h"
+
+namespace starfocus {
+namespace {
+
+// Measures the cells of columns of largest blocks: job `index` has that column.
+struct MeasureJob {
+  const simd::Kernels* kernels;
+  const Window* window;  // at layer 0
+  BlurScale scale;
+  int32_t per_block;  // columns of cells of a largest block
+  int32_t first_row;  // the first row of cells that no stripe before has measured
+  const uint8_t* measured;
+  CellGrid cells;  // output
+};
+
+// Splits largest blocks: job `index` has that column.
+struct PlanJob {
+  const sf_config* config;
+  const simd::Kernels* kernels;
+  const Tables* tables;
+  const Lens* lens;
+  const CellGrid* cells;
+  Stripe rows;
+  StripePlan plan;  // blocks, counts and gathered cells are the output
+};
+
+// The benchmark's fine slices of small blocks are fewer, and fit the memory that coarser ones have.
+constexpr int32_t kFineSide = 32;
+
+Block WholeBlock(const PlanJob& job, const Rect& rect) {
+  const Lens& lens = *job.lens;
+  const bool subapertures = UsesSubapertures(lens);
+  const int32_t border = lens.reach.border - kCellSize;
+  Block block;
+  block.rect = block.rendered = rect;
+  block.border = {border, border, border, border};
+  block.layer = 0;
+  block.n = lens.aperture.n;
+  block.gathers = false;
+  const ViewCounts views =
+      subapertures ? CountSubapertures(lens.aperture) : CountViews(lens.aperture.n);
+  block.cost = PredictTime(
+      job.config->timing, MeasureWork(block.rendered, block.border, views, subapertures, 0, {}, 0));
+  return block;
+}
+
+// Plans the frame modes and blur: blocks of one size, at layer 0.
+void PlanWhole(const PlanJob& job, int32_t column) {
+  const Lens& lens = *job.lens;
+  const int32_t largest = job.plan.side;
+  const int32_t side = IsBenchmark(lens) && UsesSubapertures(lens) ? kFineSide : largest;
+  const int32_t left = column * largest, right = Min(left + largest, job.config->width);
+  const int32_t bottom = job.rows.y + job.rows.height;
+  int32_t count = 0;
+  for (int32_t y = job.rows.y; y < bottom; y += side) {
+    for (int32_t x = left; x < right; x += side) {
+      job.plan.BlocksOf(column)[count++] =
+          WholeBlock(job, {x, y, Min(side, right - x), Min(side, bottom - y)});
+    }
+  }
+  job.plan.counts[column] = count;
+}
+
+void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
+  const StripePlan& plan = job.plan;
+  const Lens& lens = *job.lens;
+  plan.counts[column] = 0;
+  if (plan.wanted[column] == 0) return;
+  if (!IsBlockMode(lens)) {
+    PlanWhole(job, column);
+    return;
+  }
+  const bool subapertures = UsesSubapertures(lens);
+  PartitionRules rules;
+  rules.width = job.config->width;
+  rules.height = job.config->height;
+  rules.largest_block = plan.side;
+  rules.max_layer = job.config->max_layer;
+  rules.max_n = subapertures ? job.tables->max_subaperture_n : job.tables->max_n;
+  rules.subapertures = subapertures;
+  rules.n_scale = job.config->n_scale;
+  rules.gathers = Gathers(*job.config, lens);
+  rules.scale = lens.scale;
+  rules.timing = job.config->timing;
+  rules.views = subapertures ? job.tables->subaperture_view_counts : job.tables->view_counts;
+  plan.counts[column] =
+      PartitionBlock(*job.kernels, rules, *job.cells, column * plan.side, job.rows.y,
+                     lens.reach.cells, worker->partition, plan.BlocksOf(column), plan.gathered);
+}
+
+void MeasureColumn(const MeasureJob& job, int32_t index, Worker*) {
+  if (job.measured[index] == 0) return;
+  const int32_t first = index * job.per_block;
+  const int32_t last = Min(first + job.per_block, job.cells.columns);
+  for (int32_t row = job.first_row; row < job.cells.last_row; ++row) {
+    MeasureCells(*job.kernels, *job.window, job.scale, row, first, last, job.cells.At(first, row));
+  }
+}
+
+// Whether the region depends on pixels of `rect`.
+bool IsInRegion(const EngineState& engine, const Rect& rect) {
+  const Rect& region = engine.lens.region;
+  const int32_t reach = JoinReach(engine.config, engine.lens);
+  return rect.x - reach < region.x + region.width && region.x < rect.x + rect.width + reach &&
+         rect.y - reach < region.y + region.height && region.y < rect.y + rect.height + reach;
+}
+
+// Whether pixels that are not copied from the picture before depend on pixels of `rect`. Those are
+// what has changed and as far around it as joins reach, and joins reach there from as far again.
+bool IsNew(const EngineState& engine, const Rect& rect) {
+  const int32_t reach = 2 * JoinReach(engine.config, engine.lens);
+  const Changes& changes = engine.stripe.changes;
+  return !changes.active || HasChanged(changes, {rect.x - reach, rect.y - reach,
+                                                 rect.width + 2 * reach, rect.height + 2 * reach});
+}
+
+// Makes room for the cells around the stripe. Returns the first row that has to be measured: the
+// rows above it are known from the stripe before.
+int32_t PlaceCells(const Stripe& stripe, const Lens& lens, StripeState* state) {
+  CellGrid& cells = state->cells;
+  StripePlan& plan = state->plan;
+  const int32_t first = Max(0, stripe.y / kCellSize - lens.reach.cells);
+  const int32_t last = (stripe.y + stripe.height - 1) / kCellSize;
+  const bool all = std::memchr(plan.measured, 0, static_cast<size_t>(plan.columns)) == nullptr;
+  int32_t known = first;
+  if (plan.all_measured && all && cells.last_row > first) {
+    known = cells.last_row;
+    std::memmove(
+        cells.cells, cells.At(0, first),
+        static_cast<size_t>(known - first) * static_cast<size_t>(cells.columns) * sizeof(Cell));
+  }
+  plan.all_measured = all;
+  cells.first_row = first;
+  // A smallest block may hang over the picture's last row of cells.
+  cells.last_row = Min(cells.rows, last + lens.reach.cells + 2);
+  return known;
+}
+
+void MapBlock(const Stripe& stripe, const Block& block, const LayerMap& map) {
+  const Rect& rect = block.rect;
+  for (int32_t y = rect.y; y < rect.y + rect.height; y += kSmallestBlock) {
+    for (int32_t x = rect.x; x < rect.x + rect.width; x += kSmallestBlock) {
+      map.At(x / kSmallestBlock, (y - stripe.y) / kSmallestBlock) =
+          static_cast<uint8_t>(block.layer);
+    }
+  }
+}
+
+// Takes all layers off the map: units that no block covers stay without one.
+void ClearMap(const Stripe& stripe, LayerMap* map) {
+  map->rows = (stripe.height + kSmallestBlock - 1) / kSmallestBlock;
+  std::memset(&map->At(0, 0), kNoLayer,
+              static_cast<size_t>(map->columns) * static_cast<size_t>(map->rows));
+}
+
+// Counts a block that will be refocused, and tells the caller of it.
+void Announce(const Block& block, EngineState* engine) {
+  sf_report& report = engine->report;
+  if (block.n > report.n || report.rendered_views == 0) {
+    report.n = block.n;
+    report.rendered_views = ApertureOf(engine->tables, engine->lens, block.n).views;
+  }
+  const sf_params& params = engine->lens.params;
+  if (params.on_block == nullptr) return;
+  const sf_block told = {block.rect.x,      block.rect.y, block.rect.width,
+                         block.rect.height, block.layer,  block.n};
+  params.on_block(params.on_block_data, &told);
+}
+
+// Drops blocks that nothing asked for depends on, and finds what the others mean for the phases
+// that follow.
+void ReadPlan(const Stripe& stripe, EngineState* engine) {
+  const sf_config& config = engine->config;
+  Pictures& pictures = engine->pictures;
+  const StripePlan& plan = engine->stripe.plan;
+  ClearMap(stripe, &engine->stripe.map);
+  ClearLayerColumns(config, &pictures);
+  if (config.skips == 0) MarkLayerColumns(config, &pictures);
+  for (int32_t column = 0; column < plan.columns; ++column) {
+    Block* const blocks = plan.BlocksOf(column);
+    int32_t kept = 0;
+    for (int32_t k = 0; k < plan.counts[column]; ++k) {
+      if (!IsInRegion(*engine, blocks[k].rect) || !IsNew(*engine, blocks[k].rect)) continue;
+      const Block& block = blocks[kept++] = blocks[k];
+      MarkLayerColumns(config, block, &pictures);
+      MapBlock(stripe, block, engine->stripe.map);
+      Announce(block, engine);
+    }
+    plan.counts[column] = kept;
+  }
+}
+
+// Counts the columns of layers that no block needs.
+void CountSpared(EngineState* engine) {
+  for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
+    for (int32_t column = 0; column < engine->stripe.plan.columns; ++column) {
+      engine->report.skipped.layer_columns +=
+          (engine->pictures.needed[layer][column] & kNeeded) == 0;
+    }
+  }
+}
+
+}  // namespace
+
+bool ChooseColumns(const Stripe& rows, EngineState* engine) {
+  const StripePlan& plan = engine->stripe.plan;
+  const int32_t side = plan.side;
+  std::memset(plan.measured, 0, static_cast<size_t>(plan.columns));
+  bool any = false;
+  for (int32_t column = 0; column < plan.columns; ++column) {
+    const Rect block = {column * side, rows.y, side, rows.height};
+    const bool inside = IsInRegion(*engine, block), wanted = inside && IsNew(*engine, block);
+    plan.wanted[column] = wanted ? 1 : 0;
+    if (inside && !wanted) ++engine->report.reused_blocks;
+    if (!wanted) continue;
+    any = true;
+    const int32_t around = engine->lens.reach.cells * kCellSize;
+    const int32_t first = Max(0, column * side - around) / side;
+    const int32_t last = Min(plan.columns, ((column + 1) * side + around - 1) / side + 1);
+    std::memset(plan.measured + first, 1, static_cast<size_t>(last - first));
+  }
+  return any;
+}
+
+sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engine) {
+  const Lens& lens = engine->lens;
+  StripeState& state = engine->stripe;
+  const int32_t columns = state.plan.columns;
+  if (IsBlockMode(lens)) {
+    state.plan.gathered.first_row = rows.y / kCellSize;
+    const int32_t first_row = PlaceCells(rows, lens, &state);
+    const MeasureJob job = {
+        engine->kernels, &engine->pictures.windows[0], lens.scale, state.plan.side / kCellSize,
+        first_row,       state.plan.measured,          state.cells};
+    const sf_status status =
+        RunJobs<MeasureJob, MeasureColumn>(job, columns, runner, &engine->crew);
+    if (status != SF_OK) return status;
+  }
+  const PlanJob job = {&engine->config, engine->kernels, &engine->tables, &lens, &state.cells, rows,
+                       state.plan};
+  const sf_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, runner, &engine->crew);
+  if (status != SF_OK) return status;
+  ReadPlan(rows, engine);
+  if (IsBlockMode(lens)) CountSpared(engine);
+  return SF_OK;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,29 @@
+// The plan of a stripe: which largest blocks it needs, what their cells know, and the blocks each
+// is split into.
+#ifndef STARFOCUS_LIB_ENGINE_STRIPE_PLAN_H_
+#define STARFOCUS_LIB_ENGINE_STRIPE_PLAN_H_
+
+#include <cstdint>
+
+#include "lib/engine/engine.h"
+#include "lib/engine/jobs.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// A stripe of largest blocks: rows [y, y + height) of the picture.
+struct Stripe {
+  int32_t y, height;
+};
+
+// Marks in the stripe's plan the columns that are refocused and those whose cells they need.
+// Returns whether there are any.
+bool ChooseColumns(const Stripe& rows, EngineState* engine);
+
+// Measures cells, splits the largest blocks, drops blocks that nothing asked for depends on, and
+// tells the caller of the others. Returns SF_OK or SF_ERROR_RUNNER.
+sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engine);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_ENGINE_STRIPE_PLAN_H_

@@ -1,0 +1,42 @@
+// The state of a stripe, and what the next one takes over from it.
+#ifndef STARFOCUS_LIB_ENGINE_STRIPE_STATE_H_
+#define STARFOCUS_LIB_ENGINE_STRIPE_STATE_H_
+
+#include <cstdint>
+
+#include "lib/engine/frame_changes.h"
+#include "lib/filter/deblock.h"
+#include "lib/plan/block_stats.h"
+#include "lib/plan/partition.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// The blocks of a stripe, largest block by largest block.
+struct StripePlan {
+  int32_t side;        // of largest blocks, pixels
+  int32_t columns;     // of largest blocks
+  uint8_t* wanted;     // per largest block: some of its pixels are needed
+  uint8_t* measured;   // per largest block: its cells are needed
+  bool all_measured;   // whether the stripe before needed the cells of every column
+  Block* blocks;       // MaxBlocks per largest block
+  int32_t* counts;     // how many blocks of each are used
+  GatherMap gathered;  // which cells are gathered, in block mode
+
+  Block* BlocksOf(int32_t column) const {
+    return blocks + static_cast<size_t>(column) * static_cast<size_t>(MaxBlocks(side));
+  }
+};
+
+struct StripeState {
+  CellGrid cells;  // of the stripe, and as far around it as pixels splat
+  StripePlan plan;
+  LayerMap map;        // which layer each unit has, for deblocking
+  Changes changes;     // which blocks differ from the light field before
+  uint8_t* out;        // kDeblockRows and a stripe, packed
+  uint8_t* last_rows;  // the last kDeblockRows of the stripe before, as it left them
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_ENGINE_STRIPE_STATE_H_

@@ -1,0 +1,35 @@
+// Tables that an engine makes once, by N.
+#ifndef STARFOCUS_LIB_ENGINE_TABLES_H_
+#define STARFOCUS_LIB_ENGINE_TABLES_H_
+
+#include <cstdint>
+
+#include "lib/base/aperture.h"
+#include "lib/filter/blur.h"
+#include "lib/plan/timing.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+struct Tables {
+  uint32_t fall_off;  // ApertureFallOff(config.theta)
+  // Up to max_n by the paper's rule, up to max_subaperture_n by the rule of subapertures.
+  int32_t max_n, max_subaperture_n;
+  Aperture *apertures, *subapertures;
+  uint16_t* aperture_weights;  // of both
+  ViewCounts *view_counts, *subaperture_view_counts;
+  uint16_t* benchmark_weights;  // of the one aperture of the benchmark mode
+  BlurKernel* blur_kernels;
+  uint16_t* blur_weights;
+  int32_t blur_steps;  // kernels made so far
+};
+
+// Makes all but the blur kernels; the arrays must be set.
+void MakeTables(const sf_config& config, Tables* tables);
+
+// Makes the blur kernels of steps up to `steps` that are not there yet.
+void MakeBlurKernels(int32_t steps, Tables* tables);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_ENGINE_TABLES_H_

@@ -1,0 +1,51 @@
+// What belongs to one worker: memory that its jobs use one after the other, and what it counts.
+#ifndef STARFOCUS_LIB_ENGINE_WORKER_H_
+#define STARFOCUS_LIB_ENGINE_WORKER_H_
+
+#include <cstdint>
+
+#include "lib/filter/blur.h"
+#include "lib/filter/layers.h"
+#include "lib/line_scan/triangles.h"
+#include "lib/plan/partition.h"
+#include "lib/slices/compositor.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// What a worker counts in one stripe.
+struct Counts {
+  sf_layer_report layers[SF_LAYERS];
+  sf_skipped skipped;
+  uint64_t centre_bytes;
+  uint64_t side_bytes;
+  uint64_t gathered_pixels;
+};
+
+// The extended rectangle of a block in the centre view. E: largest side of one.
+struct FieldMemory {
+  uint8_t* rgb;        // E rows of RgbStride(E)
+  int16_t* disparity;  // E^2
+};
+
+// Every renderer leaves the weighted sums of a block in `sums`; but for these all memory of a
+// worker is shared, since a worker does one thing at a time (layout.cc). R: largest side of a
+// rectangle.
+struct Worker {
+  uint32_t* sums;     // 3 R^2
+  FieldMemory field;  // of blocks that are gathered, or blurred by depth
+  SpanMemory spans;   // of blocks blurred by depth
+  LineScanScratch line_scan;
+  CompositorScratch compositor;
+  ResampleScratch resample;
+  UpsampleScratch upsample;
+  int16_t* layer_samples;    // a rendered rectangle
+  int16_t* middle_samples;   // at layer 1, on the way up from layer 2
+  int16_t* picture_samples;  // 3 R^2: the block at layer 0
+  PartitionScratch partition;
+  Counts counts;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_ENGINE_WORKER_H_
