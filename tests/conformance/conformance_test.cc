@@ -132,7 +132,7 @@ TEST_CASE("conformance: blocks of 64, widest and narrowest aperture") {
 }
 
 #ifdef STARFOCUS_PROGRAM
-TEST_CASE("conformance: parts of the data set wires") {
+TEST_CASE("conformance: parts of the data sets: wires") {
   const std::string folder = test::DataSet("wires");
   if (folder.empty()) return;
   starfocus::LightField field;
