@@ -19,11 +19,14 @@ using starfocus::simd::StepBits;
 constexpr int16_t kStep = 48;
 constexpr int kTimedWidth = 192;
 
-// Rows of disparities, each one the row before with some pixels moved.
-std::vector<int16_t> MovedRows(size_t rows, size_t whole, Draw* draw) {
+// Rows of disparities, each one the row before with some pixels moved: anyhow, or by steps of just
+// `step`.
+std::vector<int16_t> MovedRows(size_t rows, size_t whole, int step, Draw* draw) {
   std::vector<int16_t> all = Disparities(whole, draw);
   for (size_t n = 0; n < (rows - 1) * whole; ++n) {
-    const int move = draw->Int(0, draw->timed() ? 30 : 3) == 0 ? draw->Int(-300, 600) : 0;
+    const int anyhow = draw->Int(-300, 600), steps = step * draw->Int(-2, 3);
+    const bool moves = draw->Int(0, draw->timed() ? 30 : 3) == 0;
+    const int move = !moves ? 0 : draw->Int(0, 1) == 0 ? anyhow : steps;
     all.push_back(int16_t(std::clamp(all[n] + move, -32000, 32000)));
   }
   return all;
@@ -51,8 +54,9 @@ void Split(Draw* draw, KernelCall* call) {
 void FindEdges(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 50, kTimedWidth), whole = SliceSamples(count);
   const size_t rows = draw->Size(2, 20, kTimedSamples / kTimedWidth + 1);
-  const starfocus::simd::EdgeLimits limits = {kStep, draw->Int(6, 8)};
-  const int16_t* disparity = call->Input("disparity", MovedRows(rows, whole, draw));
+  const starfocus::simd::EdgeLimits limits = {draw->Rarely(2) ? int16_t(draw->Int(1, 300)) : kStep,
+                                              draw->Int(6, 8)};
+  const int16_t* disparity = call->Input("disparity", MovedRows(rows, whole, limits.step, draw));
   auto* moved = call->Output<int16_t>("moved", whole);
   auto* behind = call->Output<int16_t>("behind", whole);
   auto* distance = call->Output<uint8_t>("distance", (rows - 1) * whole);
