@@ -20,7 +20,10 @@ usage: ./do COMMAND
   check   the same tests under sanitizers with every fixed-point range checked, then a few cases
           under valgrind
   fuzz [SECONDS]  run every fuzz target that long (60), new inputs kept in build/fuzz/inputs
-  build   build Release into build/release (the program: build/release/starfocus)
+  consumers [KIND...]  build and run projects outside the tree that use starfocus: package, source,
+          m32, wasm (all of them) or the preset of a board that was built
+  build   install what is missing, build Release into build/release (the program:
+          build/release/starfocus; cmake --install build/release puts it where it is found)
   bench   time and error of every mode, with a report: build/bench/report.html
           --quick   small pictures, few of them: a minute or two
           --check   only compares instruction counts with tests/bench/baseline.txt
@@ -76,12 +79,43 @@ step() {
   printf '%s (%d s)\n' "$label" $((SECONDS - start))
 }
 
-# Names of the packages of $PACKAGES that are not installed, in $missing.
+# has_header NAME: whether the compiler finds it, also where CMake looks first.
+has_header() {
+  local IFS=: prefix folders=()
+  for prefix in ${CMAKE_PREFIX_PATH:-}; do folders+=("-I$prefix/include"); done
+  echo "#include <$1>" | "${CXX:-c++}" "${folders[@]}" -E -x c++ - >/dev/null 2>&1
+}
+
+# has PACKAGE: whether what starfocus needs of a package is there, whoever installed it.
+has() {
+  case "$1" in
+    g++) command -v "${CXX:-c++}" ;;
+    ninja-build) command -v ninja ;;
+    gnuplot-nox) command -v gnuplot ;;
+    qemu-user) command -v qemu-aarch64 ;;
+    qemu-system-arm) command -v qemu-system-aarch64 ;;
+    emscripten) command -v emcc ;;
+    nodejs) command -v node ;;
+    g++-*-linux-*) command -v "${1#g++-}-g++" ;;
+    libhwy-dev) has_header hwy/highway.h ;;
+    libstb-dev) has_header stb/stb_image.h ;;
+    doctest-dev) has_header doctest/doctest.h ;;
+    libcli11-dev) has_header CLI/CLI.hpp ;;
+    nlohmann-json3-dev) has_header nlohmann/json.hpp ;;
+    libbenchmark-dev) has_header benchmark/benchmark.h ;;
+    lib*) false ;;
+    *) command -v "$1" ;;
+  esac >/dev/null
+}
+
+# Names of the packages of $PACKAGES that are not there, in $missing. Debian's database is asked only
+# about what was not found.
 find_missing() {
   local package
   missing=
   for package in $PACKAGES; do
-    dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
+    has "$package" ||
+      dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
       missing="$missing $package"
   done
   missing=${missing# }
@@ -115,7 +149,6 @@ install_missing() {
 }
 
 configure() {
-  command -v cmake >/dev/null || fail "starfocus is built with these Debian packages: $PACKAGES"
   if [ -f $BUILD/CMakeCache.txt ]; then
     step configure "configuring $BUILD" cmake -S . -B $BUILD -DCMAKE_BUILD_TYPE=Release
   elif command -v ninja >/dev/null; then
@@ -190,6 +223,24 @@ check() {
     $PROGRAM stress --seconds 30 --family differential
 }
 
+# consumers [KIND...]: projects outside the tree that use starfocus as others do.
+consumers() {
+  local kind target
+  if [ $# = 0 ]; then
+    set -- package source wasm
+    [ "$(uname -m)" != x86_64 ] || set -- "$@" m32
+  fi
+  for kind in "$@"; do
+    case "$kind" in
+      m32) PACKAGES="$PACKAGES libc6-dev-i386 lib32stdc++-12-dev" ;;
+      wasm) PACKAGES="$PACKAGES emscripten nodejs" ;;
+    esac
+  done
+  install_missing
+  for target in starfocus starfocus_shared; do build $target; done
+  tests/consumers/run.sh $BUILD "$@" || exit 1
+}
+
 # fuzz_target NAME SECONDS: from the seeds and what earlier runs found. A clean checkout takes the
 # same way each time, so that a change which fails is to blame for it.
 fuzz_target() {
@@ -208,7 +259,7 @@ fuzz() {
   step configure-fuzz "configuring build/fuzz" cmake --preset fuzz
   for target in $FUZZ_TARGETS; do
     step build-fuzz "building the fuzz target $target" \
-      cmake --build build/fuzz --parallel "$(nproc)" --target "fuzz_$target"
+      cmake --build build/fuzz --parallel "$(nproc)" --target "starfocus_fuzz_$target"
   done
   for target in $FUZZ_TARGETS; do fuzz_target "$target" "$1"; done
 }
@@ -229,7 +280,7 @@ bench_scene() {
 check_counts() {
   require valgrind
   build starfocus-bench-count
-  build instruction_bench
+  build starfocus_instruction_bench
   tests/bench/count.sh $BUILD "$1"
 }
 
@@ -285,7 +336,8 @@ case "${1:-help}" in
   demo) demo ;;
   test) run_tests ;;
   check) check ;;
-  build) build ;;
+  build) install_missing && build ;;
+  consumers) shift && consumers "$@" ;;
   fuzz) fuzz "${2:-60}" ;;
   bench) bench "${2:-}" ;;
   cross) shift && cross "$@" ;;

@@ -33,7 +33,7 @@ cross_build() {
 # Whatever SIMD targets and vector lengths the emulator has must give the tracked checksums, and
 # every kernel the reference's results.
 golden_by_sve_length() {
-  cross_build aarch64-max golden_test kernels_test
+  cross_build aarch64-max starfocus_golden_test starfocus_kernels_test
   local bytes name
   for bytes in 16 32 64; do
     printf 'SVE registers of %d bytes:\n' $bytes
@@ -128,7 +128,7 @@ count() {
 count_command() {
   case "${1:-}" in '' | record) ;; *) fail "usage: ./do count [record]" ;; esac
   prepare_board aarch64
-  cross_build aarch64 instruction_bench
+  cross_build aarch64 starfocus_instruction_bench
   count "${1:-}"
 }
 
@@ -182,7 +182,7 @@ partitions() {
   build_counter
   for preset in aarch64 armv6; do
     prepare_board $preset
-    cross_build $preset instruction_bench
+    cross_build $preset starfocus_instruction_bench
   done
   for preset in aarch64 armv6; do
     for name in $($(emulator $preset) build/$preset/tests/instruction_bench list |
@@ -239,7 +239,7 @@ cross() {
 # Records the checksums of tests/engine/golden.txt anew, after an intended change of the engine's output.
 golden() {
   install_missing
-  build golden_test
+  build starfocus_golden_test
   STARFOCUS_RECORD_GOLDEN=1 $BUILD/tests/golden_test --no-intro=true
 }
 
@@ -323,7 +323,7 @@ boot() {
   install_missing
   step sysroot-aarch64 "fetching headers and libraries for aarch64" \
     toolchains/sysroot.sh arm64 build/sysroot/arm64
-  cross_build aarch64 board_refocus
+  cross_build aarch64 starfocus_board_refocus
   build starfocus
   tests/board/boot.sh $PROGRAM build/aarch64/board_refocus build/boot || exit 1
 }

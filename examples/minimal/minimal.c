@@ -15,7 +15,8 @@ int main(void) {
   config.disparity_min = -8, config.disparity_max = 8, config.max_blur = 8;
   size_t bytes = 0;
   sf_status status = sf_workspace_size(&config, &bytes);
-  void* workspace = aligned_alloc(SF_ALIGNMENT, (bytes / SF_ALIGNMENT + 1) * SF_ALIGNMENT);
+  char* memory = malloc(bytes + SF_ALIGNMENT); /* the workspace begins at a multiple of that */
+  void* workspace = memory ? memory + (SF_ALIGNMENT - (uintptr_t)memory % SF_ALIGNMENT) : NULL;
   sf_engine* engine = NULL;
   if (!status) status = sf_init(&config, workspace, bytes, &engine);
   sf_params params; /* focus 0: the middle column; aperture 1 */
@@ -24,6 +25,6 @@ int main(void) {
   if (!status) status = sf_refocus(engine, &params, &field, out, W * 3, NULL, NULL, NULL);
   FILE* file = status ? NULL : fopen("minimal.ppm", "wb");
   if (file) fprintf(file, "P6 %d %d 255\n", W, H), fwrite(out, 3, W * H, file), fclose(file);
-  free(workspace);
+  free(memory);
   return puts(sf_status_string(status)), !file;
 }

@@ -1,5 +1,5 @@
 #!/bin/bash
-# board_boot.sh STARFOCUS BOARD_REFOCUS FOLDER: boots Debian's arm64 kernel on QEMU's "virt" board
+# boot.sh STARFOCUS BOARD_REFOCUS FOLDER: boots Debian's arm64 kernel on QEMU's "virt" board
 # with the statically linked BOARD_REFOCUS of an aarch64 build and a small light field made by the
 # STARFOCUS of this machine. QEMU's power button presses the shutter on line 3 of the board's PL061
 # GPIO chip; the picture must be the one STARFOCUS computes here, in a file and on the screen, and
@@ -8,7 +8,7 @@ set -u
 [ $# = 3 ] || { echo "usage: $0 STARFOCUS BOARD_REFOCUS FOLDER" >&2; exit 2; }
 starfocus=$(realpath "$1") program=$(realpath "$2") folder=$(realpath -m "$3")
 here=$(realpath "$(dirname "$0")")
-fetch=$here/../toolchains/fetch.sh
+fetch=$here/../../toolchains/fetch.sh
 width=160 height=120 # of the light field
 seconds=${STARFOCUS_BOOT_SECONDS:-120}
 emulator=

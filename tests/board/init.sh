@@ -1,5 +1,5 @@
 #!/bin/sh
-# The first process of the board that board_boot.sh emulates: runs board_refocus there and tells its
+# The first process of the board that boot.sh emulates: runs board_refocus there and tells its
 # findings on the serial line, one "board: NAME VALUE" each.
 PATH=/bin
 mount -t devtmpfs none /dev

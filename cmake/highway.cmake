@@ -1,0 +1,24 @@
+# starfocus_highway: Highway with the definitions every unit that names its targets must agree on.
+add_library(starfocus_highway INTERFACE)
+
+if(NOT STARFOCUS_STATIC_DISPATCH)
+  find_package(hwy CONFIG QUIET)
+  starfocus_require(hwy_FOUND libhwy-dev
+    "Highway's library for this machine (its headers suffice with STARFOCUS_STATIC_DISPATCH=ON)")
+  target_link_libraries(starfocus_highway INTERFACE hwy::hwy)
+  target_compile_definitions(starfocus_highway INTERFACE HWY_COMPILE_ALL_ATTAINABLE)
+  return()
+endif()
+
+# With a single target Highway is headers only, and these are the same for every machine: where the
+# target's own folders hold none, the host's do.
+find_path(STARFOCUS_HIGHWAY_INCLUDE_DIR hwy/highway.h)
+find_path(STARFOCUS_HIGHWAY_INCLUDE_DIR hwy/highway.h PATHS /usr/local/include /usr/include
+  NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)
+mark_as_advanced(STARFOCUS_HIGHWAY_INCLUDE_DIR)
+starfocus_require(STARFOCUS_HIGHWAY_INCLUDE_DIR libhwy-dev "Highway")
+# The compiler gets a folder with Highway alone: other headers of the host would hide the target's.
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/highway")
+file(CREATE_LINK "${STARFOCUS_HIGHWAY_INCLUDE_DIR}/hwy" "${PROJECT_BINARY_DIR}/highway/hwy" SYMBOLIC)
+target_include_directories(starfocus_highway SYSTEM INTERFACE "${PROJECT_BINARY_DIR}/highway")
+target_compile_definitions(starfocus_highway INTERFACE HWY_COMPILE_ONLY_STATIC)

@@ -1,0 +1,24 @@
+// The same as refocus.c through the C++ wrapper.
+#include <cstdio>
+#include <initializer_list>
+#include <starfocus/starfocus.hpp>
+
+#include "scene.h"
+
+int main() {
+  static Scene scene;
+  static uint8_t out[kHeight * kStride];
+  const sf_light_field field = MakeScene(&scene);
+  starfocus::Config config;
+  ConfigureFor(&config);
+  starfocus::Engine engine;
+  sf_status status = engine.Init(config);
+  for (const double focus : {6.0, -4.0}) {
+    starfocus::Params params;
+    params.focus = focus;
+    if (status == SF_OK) status = engine.Refocus(params, field, out, kStride);
+    if (status == SF_OK) std::printf("%08x\n", static_cast<unsigned>(Checksum(out, sizeof out)));
+  }
+  if (status != SF_OK) std::fprintf(stderr, "refocus: %s\n", sf_status_string(status));
+  return status != SF_OK;
+}

@@ -1,0 +1,13 @@
+# The program refocus of a consumer project, in its only LANGUAGE, and a target that lets it run, by the
+# emulator of a toolchain file if there is one, and keeps what it prints in the file sums.
+if(LANGUAGE STREQUAL "CXX")
+  set(CMAKE_CXX_STANDARD 17)
+  add_executable(refocus ${CMAKE_CURRENT_LIST_DIR}/refocus.cc)
+else()
+  set(CMAKE_C_STANDARD 99)
+  set(CMAKE_C_EXTENSIONS OFF)
+  add_executable(refocus ${CMAKE_CURRENT_LIST_DIR}/refocus.c)
+endif()
+target_compile_options(refocus PRIVATE -Wall -Wextra -pedantic -Werror)
+target_link_libraries(refocus PRIVATE starfocus::starfocus)
+add_custom_target(run ALL COMMAND refocus > ${CMAKE_BINARY_DIR}/sums)

@@ -1,0 +1,139 @@
+#!/bin/sh
+# run.sh BUILD KIND...: installs what was built in BUILD and builds small projects outside the tree
+# that use starfocus in each way there is. All of them must print the same checksums, those of a
+# program linked by hand with the library of BUILD.
+#   package   CMake packages and pkg-config, both libraries, then uninstalls
+#   source    the source tree as a part of another project, or fetched
+#   m32       built for 32 bits, with GCC's -m32
+#   wasm      built for WebAssembly SIMD with emscripten, run by node
+#   PRESET    what was built beside BUILD by this preset for another machine, run by its emulator
+set -eu
+[ $# -ge 2 ] || { echo "usage: $0 BUILD package|source|m32|wasm|PRESET..." >&2; exit 2; }
+sources=$(cd "$(dirname "$0")/../.." && pwd)
+build=$(cd "$1" && pwd)
+shift
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' HUP INT TERM
+cp -r "$sources/tests/consumers" "$work"
+
+# quietly COMMAND...: shows what it printed only when it fails.
+quietly() {
+  "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "consumers: failed: $*" >&2; exit 1; }
+}
+
+# same KIND: what its program printed into the file sums is what the first one printed.
+same() {
+  [ -f "$work/expected" ] || cp "$work/sums" "$work/expected"
+  [ "$(wc -l <"$work/sums")" = 2 ] && cmp -s "$work/sums" "$work/expected" || {
+    echo "consumers: $1: expected" $(cat "$work/expected"), found $(cat "$work/sums") >&2
+    exit 1
+  }
+  printf '%-40s %s\n' "$1" "$(paste -s -d ' ' "$work/sums")"
+}
+
+# project KIND FOLDER ARGUMENT...: configures, builds and runs a project of tests/consumers.
+project() {
+  kind=$1
+  folder=$2
+  shift 2
+  rm -rf "$work/build"
+  quietly cmake -S "$work/consumers/$folder" -B "$work/build" "$@"
+  quietly cmake --build "$work/build" --parallel "$(nproc)"
+  cp "$work/build/sums" "$work/sums"
+  same "$kind"
+}
+
+# program KIND COMPILER-ARGUMENT...: compiles the program by hand and runs it.
+program() {
+  kind=$1
+  shift
+  quietly cc -std=c99 -pedantic -Wall -Wextra -Werror "$work/consumers/refocus.c" \
+    -o "$work/refocus" "$@"
+  "$work/refocus" >"$work/sums"
+  same "$kind"
+}
+
+# library FOLDER ARGUMENT...: builds the static library alone, with these options, and installs it.
+library() {
+  folder=$1
+  shift
+  quietly cmake -S "$sources" -B "$work/$folder-build" -DSTARFOCUS_STATIC_DISPATCH=ON \
+    -DSTARFOCUS_PROGRAMS=OFF -DSTARFOCUS_TESTS=OFF "$@"
+  quietly cmake --build "$work/$folder-build" --parallel "$(nproc)"
+  quietly cmake --install "$work/$folder-build" --prefix "$work/$folder"
+}
+
+package() {
+  prefix=$work/prefix
+  quietly cmake --install "$build" --prefix "$prefix"
+  for kind in shared static; do
+    project "CMake package, C, $kind" cmake_package -DLANGUAGE=C -DKIND=$kind \
+      -DCMAKE_PREFIX_PATH="$prefix"
+  done
+  project 'CMake package, C++' cmake_package -DLANGUAGE=CXX -DCMAKE_PREFIX_PATH="$prefix"
+
+  # The prefix may be moved; without the shared library, pkg-config --static finds the other.
+  mv "$prefix" "$work/moved"
+  PKG_CONFIG_PATH=$(dirname "$(find "$work/moved" -name starfocus.pc)")
+  export PKG_CONFIG_PATH
+  folder=$(pkg-config --variable=libdir starfocus)
+  program 'pkg-config, C99, shared' $(pkg-config --cflags --libs starfocus) "-Wl,-rpath,$folder"
+  mkdir "$work/aside"
+  mv "$folder"/libstarfocus.so* "$work/aside"
+  program 'pkg-config --static, C99' $(pkg-config --static --cflags --libs starfocus)
+  mv "$work"/aside/* "$folder"
+
+  mv "$work/moved" "$prefix"
+  quietly cmake --build "$build" --target uninstall
+  left=$(find "$prefix" ! -type d -o -path '*/starfocus*')
+  [ -z "$left" ] || { echo "consumers: uninstall left" $left >&2; exit 1; }
+}
+
+# Without optimisation, which is quicker to build and must not matter.
+source_tree() {
+  project 'add_subdirectory, C' subproject "-DSTARFOCUS_DIR=$sources" \
+    -DSTARFOCUS_STATIC_DISPATCH=ON
+  quietly cmake -S "$work/consumers/subproject" -B "$work/everything" \
+    "-DSTARFOCUS_DIR=$sources" -DSTARFOCUS_PROGRAMS=ON -DSTARFOCUS_TESTS=ON
+  project 'FetchContent, C++, shared, -ffast-math' fetch_content "-DSTARFOCUS_DIR=$sources" \
+    -DSTARFOCUS_STATIC_DISPATCH=ON
+}
+
+m32() {
+  library m32 -DCMAKE_C_FLAGS=-m32 -DCMAKE_CXX_FLAGS=-m32
+  project '-m32, C' cmake_package -DLANGUAGE=C -DCMAKE_C_FLAGS=-m32 \
+    -DCMAKE_PREFIX_PATH="$work/m32"
+}
+
+wasm() {
+  NODE_PATH=/usr/share/nodejs
+  export NODE_PATH
+  library wasm "-DCMAKE_TOOLCHAIN_FILE=$sources/toolchains/wasm-emscripten.cmake"
+  project 'WebAssembly SIMD, C' cmake_package -DLANGUAGE=C -DKIND=static \
+    "-DCMAKE_TOOLCHAIN_FILE=$sources/toolchains/wasm-emscripten.cmake" \
+    -DCMAKE_EXE_LINKER_FLAGS='-sSINGLE_FILE=1 -sALLOW_MEMORY_GROWTH=1' \
+    "-Dstarfocus_DIR=$(dirname "$(find "$work/wasm" -name starfocus-config.cmake)")"
+}
+
+# preset NAME: a toolchain file's folders are the only ones CMake searches, hence the exact one.
+preset() {
+  other=$(dirname "$build")/$1
+  toolchain=$(sed -n 's/^CMAKE_TOOLCHAIN_FILE:[A-Z]*=//p' "$other/CMakeCache.txt")
+  quietly cmake --install "$other" --prefix "$work/$1"
+  project "CMake package, C, $1" cmake_package -DLANGUAGE=C -DKIND=static \
+    "-DCMAKE_TOOLCHAIN_FILE=$toolchain" \
+    "-Dstarfocus_DIR=$(dirname "$(find "$work/$1" -name starfocus-config.cmake)")"
+}
+
+program 'by hand, C99, static' "-I$sources/lib/include" "$build/lib/libstarfocus.a" \
+  $(sed -n 's/^Libs.private: //p' "$build/package/starfocus.pc")
+for kind in "$@"; do
+  case "$kind" in
+    package) package ;;
+    source) source_tree ;;
+    m32) m32 ;;
+    wasm) wasm ;;
+    *) preset "$kind" ;;
+  esac
+done

@@ -1,0 +1,64 @@
+/* A light field of five views that every consumer refocuses: a near square before a slope, all of
+ * it in numbers that each machine holds exactly; and the checksum of what came out. */
+#ifndef STARFOCUS_TESTS_CONSUMERS_SCENE_H_
+#define STARFOCUS_TESTS_CONSUMERS_SCENE_H_
+
+#include <starfocus/starfocus.h>
+
+enum { kWidth = 200, kHeight = 150, kViews = 5, kStride = 3 * kWidth };
+
+typedef struct Scene {
+  uint8_t views[kViews][kHeight * kStride];
+  float disparity[kHeight * kWidth];
+} Scene;
+
+static int DisparityAt(int x, int y) {
+  return x >= 60 && x < 140 && y >= 40 && y < 110 ? 6 : x / 40 - 4;
+}
+
+static uint8_t TextureAt(int x, int y, int channel) {
+  return (uint8_t)((x * x + 3 * x * y + 7 * y * y) / (5 + channel) & 255);
+}
+
+static sf_light_field MakeScene(Scene* scene) {
+  sf_light_field field = {{{0, 0}}, 0, 0};
+  int i, x, y, channel;
+  for (i = 0; i < kViews; ++i) {
+    double u = 0, v = 0;
+    sf_view_position(i, &u, &v);
+    for (y = 0; y < kHeight; ++y) {
+      for (x = 0; x < kWidth; ++x) {
+        const int d = DisparityAt(x, y);
+        for (channel = 0; channel < 3; ++channel) {
+          scene->views[i][y * kStride + 3 * x + channel] =
+              TextureAt(x + (int)u * d + 16 * d, y + (int)v * d, channel);
+        }
+        if (i == 0) scene->disparity[y * kWidth + x] = (float)d;
+      }
+    }
+    field.views[i].data = scene->views[i];
+    field.views[i].stride = kStride;
+  }
+  field.disparity = scene->disparity;
+  field.disparity_stride = kWidth * sizeof(float);
+  return field;
+}
+
+static void ConfigureFor(sf_config* config) {
+  config->width = kWidth;
+  config->height = kHeight;
+  config->views = kViews;
+  config->disparity_min = -4;
+  config->disparity_max = 6;
+  config->max_blur = 12;
+}
+
+/* FNV-1a. */
+static uint32_t Checksum(const uint8_t* bytes, size_t count) {
+  uint32_t sum = 2166136261u;
+  size_t i;
+  for (i = 0; i < count; ++i) sum = (sum ^ bytes[i]) * 16777619u;
+  return sum;
+}
+
+#endif /* STARFOCUS_TESTS_CONSUMERS_SCENE_H_ */

@@ -1,0 +1,44 @@
+#!/bin/sh
+# do_test.sh SOURCES: what ./do build says and does on machines that lack something. Their tools only
+# pretend, and neither has dpkg or apt-get.
+set -eu
+sources=$(cd "$1" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/tree" "$work/bin"
+cp -r "$sources/do" "$sources/toolchains" "$work/tree"
+for name in cat cut dirname env grep id mkdir nproc rm sed sleep tail tr; do
+  ln -s "$(command -v $name)" "$work/bin"
+done
+
+# build: its exit code in $result, what it says in the file said.
+build() {
+  result=0
+  PATH="$work/bin" CXX= CMAKE_PREFIX_PATH= "$work/tree/do" build >"$work/said" 2>&1 || result=$?
+}
+
+fail() {
+  echo "do_test: $1; ./do build said:" >&2
+  cat "$work/said" >&2
+  exit 1
+}
+
+build
+[ $result != 0 ] || fail "nothing is there and nothing is missed"
+for package in g++ cmake ninja-build libhwy-dev libstb-dev doctest-dev libcli11-dev; do
+  grep -qwF -e "$package" "$work/said" || fail "$package is not named"
+done
+
+for name in cmake ninja pkg-config; do
+  printf '#!/bin/sh\n' >"$work/bin/$name"
+done
+# A compiler that finds every header but one.
+printf '#!/bin/sh\n! grep -q CLI/CLI.hpp\n' >"$work/bin/c++"
+chmod +x "$work"/bin/*
+build
+[ $result != 0 ] || fail "a missing header is not missed"
+grep -qE 'packages.*: libcli11-dev$' "$work/said" || fail "expected libcli11-dev alone to be named"
+
+printf '#!/bin/sh\n' >"$work/bin/c++"
+build
+[ $result = 0 ] || fail "everything is there, and it fails"
