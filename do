@@ -19,6 +19,8 @@ usage: ./do COMMAND
   test    install what is missing, build and run every test
   check   the same tests under sanitizers with every fixed-point range checked, then a few cases
           under valgrind
+  mutate [FILE...|--since REV]  change one small thing at a time (in a copy) and tell which changes
+          no test notices; --sample N of them (50); --help tells the rest
   fuzz [SECONDS]  run every fuzz target that long (60), new inputs kept in build/fuzz/inputs
   consumers [KIND...]  build and run projects outside the tree that use starfocus: package, source,
           m32, wasm (all of them) or the preset of a board that was built
@@ -264,6 +266,11 @@ fuzz() {
   for target in $FUZZ_TARGETS; do fuzz_target "$target" "$1"; done
 }
 
+mutate() {
+  require ninja-build python3
+  tests/mutation/mutate "$@"
+}
+
 # require PACKAGE...: these too, for the commands that follow.
 require() {
   PACKAGES="$PACKAGES $*"
@@ -339,6 +346,7 @@ case "${1:-help}" in
   build) install_missing && build ;;
   consumers) shift && consumers "$@" ;;
   fuzz) fuzz "${2:-60}" ;;
+  mutate) shift && mutate "$@" ;;
   bench) bench "${2:-}" ;;
   cross) shift && cross "$@" ;;
   golden) golden ;;
