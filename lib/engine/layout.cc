@@ -5,8 +5,7 @@
 namespace starfocus {
 namespace {
 
-// Memory of a worker, where that is enough: slices are made in sections of what is left of it. With
-// less for small blocks slices would get coarser: 0.1 to 0.5 dB.
+// Memory of a worker, where that is enough: slices are made in sections of what is left of it.
 constexpr size_t WorkerBytes(size_t side) {
   constexpr size_t kPixelBytes = 256, kLeast = size_t{768} << 10;
   const size_t bytes = kPixelBytes * side * side;
@@ -82,10 +81,12 @@ void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   scratch.least_blur = carver->Take<int32_t>(extended);
 }
 
-// E and R of CompositorScratch, and the largest N; `reach`: LargestSliceReach. The pool is what is
-// left of `bytes` for all, if that is enough for slices that reach `usual_reach`.
-CompositorScratch TakeCompositor(size_t extended, size_t rectangle, size_t reach,
-                                 size_t usual_reach, size_t max_n, size_t bytes, Carver* carver) {
+// E and R of CompositorScratch, and the largest N. The pool is what is left of `bytes` for all, and
+// never less than what slices of the largest blur may take.
+CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_t max_n,
+                                 size_t bytes, Carver* carver) {
+  const auto rectangle = static_cast<size_t>(config.largest_block);
+  const auto reach = static_cast<size_t>(LargestSliceReach(config.max_blur));
   CompositorScratch scratch;
   const size_t first = carver->Mark();
   LayeredDepth& surfaces = scratch.surfaces;
@@ -106,15 +107,12 @@ CompositorScratch TakeCompositor(size_t extended, size_t rectangle, size_t reach
   const size_t field = carver->Mark(), used = field - first;
   TakeField(extended, carver, &scratch);
   carver->Reuse(field);
-  constexpr size_t kLeastSlices = 5;
-  const size_t least = kLeastSlices * (SliceBytes(kLeastColumns, kLeastRows, usual_reach) +
-                                       TileBytes(kLeastRows, usual_reach));
   // Less what rounding to SF_ALIGNMENT may add.
   const size_t others = used + simd::kPadding + 2 * SF_ALIGNMENT;
   const size_t left = bytes > others ? bytes - others : 0;
-  scratch.limits = {kLargeSlices * SliceSize(rectangle, rectangle, usual_reach),
-                    kLargeTiles * ShiftedRows(rectangle, usual_reach), left > least ? left : least};
-  scratch.pool = carver->Take<uint8_t>(scratch.limits.bytes);
+  const size_t least = LimitsOfSlices(config.largest_block, config.max_blur).bytes;
+  scratch.pool_bytes = left > least ? left : least;
+  scratch.pool = carver->Take<uint8_t>(scratch.pool_bytes);
   return scratch;
 }
 
@@ -134,12 +132,8 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   worker.field.disparity = carver->Take<int16_t>(extended * extended);
   worker.spans = TakeSpans(extended, carver);
   carver->Reuse(shared);
-  constexpr int32_t kMargin = simd::kMaxSpread + 1;
-  worker.compositor =
-      TakeCompositor(extended, side, static_cast<size_t>(LargestSliceReach(config.max_blur)),
-                     static_cast<size_t>(reach.border - kCellSize - 2 + kMargin),
-                     static_cast<size_t>(LargestSliceN(config)),
-                     WorkerBytes(side) - (shared - first) - sizeof(Worker), carver);
+  worker.compositor = TakeCompositor(config, extended, static_cast<size_t>(LargestSliceN(config)),
+                                     WorkerBytes(side) - (shared - first) - sizeof(Worker), carver);
   carver->Reuse(shared);
   // A rendered rectangle is at most half a block and 4 pixels wide.
   const size_t half = side / 2 + 8;

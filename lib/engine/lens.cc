@@ -41,6 +41,7 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Tables* tab
   lens->region = RegionOf(config, params);
   lens->r_max = r_max;
   lens->reach = GetReach(r_max);
+  lens->slice_limits = LimitsOfSlices(config.largest_block, r_max);
   lens->aperture = FrameAperture(config, *tables, *lens);
   const ViewGrid grid = MakeViewGrid(lens->aperture, params.focus, params.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};

@@ -10,6 +10,7 @@
 #include "lib/engine/tables.h"
 #include "lib/filter/deblock.h"
 #include "lib/plan/block_stats.h"
+#include "lib/slices/depth_slices.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -21,6 +22,7 @@ struct Lens {
   Aperture aperture;  // frame modes: of the one N
   BlurScale scale;
   Reach reach;
+  SliceLimits slice_limits;
 };
 
 // Whether no region is asked for, which means the whole picture.

@@ -103,7 +103,8 @@ Rendered Render(const BlockInputs& in, const Block& block, RenderJob job, const 
   if (UsesSubapertures(*in.lens)) {
     const GatherMap* gathered = block.gathers ? in.gathered : nullptr;
     const SliceRule& rule = IsBenchmark(*in.lens) ? kFineSlices : kSlices;
-    samples = 3 * CompositeRectangle(job, rule, gathered, &worker->compositor, worker->sums);
+    samples = 3 * CompositeRectangle(job, rule, in.lens->slice_limits, gathered,
+                                     &worker->compositor, worker->sums);
   } else {
     RefocusRectangle(job, &worker->line_scan, worker->sums);
   }

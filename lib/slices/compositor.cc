@@ -21,10 +21,11 @@ constexpr int32_t kRowsAhead = static_cast<int32_t>(simd::kRowsAhead);
 
 class Compositor {
  public:
-  Compositor(const RenderJob& job, const SliceRule& rule, const GatherMap* gathered,
-             CompositorScratch* scratch, uint32_t* accumulators)
+  Compositor(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
+             const GatherMap* gathered, CompositorScratch* scratch, uint32_t* accumulators)
       : job_(job),
         rule_(rule),
+        limits_(limits),
         gathered_(gathered),
         grid_(*job.grid),
         scratch_(*scratch),
@@ -95,8 +96,8 @@ class Compositor {
   }
 
   void CutSlices() {
-    const SliceJob job = {job_.kernels,  &scratch_.surfaces,  &grid_,         rule_, inner_,
-                          scratch_.bins, scratch_.least_blur, scratch_.limits};
+    const SliceJob job = {job_.kernels,  &scratch_.surfaces,  &grid_, rule_, inner_,
+                          scratch_.bins, scratch_.least_blur, limits_};
     count_ = FindSlices(job, slices_);
     for (int32_t k = 0; k < count_; ++k) {
       FindOffsets(grid_, slices_[k].disparity, static_cast<size_t>(count_), scratch_.offsets + k);
@@ -114,7 +115,7 @@ class Compositor {
     const auto half = [](int32_t side, int32_t least) {
       return ((side + 1) / 2 + least - 1) / least * least;
     };
-    while (PoolBytes(section) > scratch_.limits.bytes) {
+    while (PoolBytes(section) > scratch_.pool_bytes) {
       const bool least_rows = section.height <= kLeastRows;
       if (section.width > kLeastColumns && (least_rows || section.width >= section.height)) {
         section.width = half(section.width, kLeastColumns);
@@ -344,6 +345,7 @@ class Compositor {
 
   const RenderJob& job_;
   const SliceRule rule_;
+  const SliceLimits limits_;
   const GatherMap* gathered_;
   const ViewGrid& grid_;
   CompositorScratch& scratch_;
@@ -370,9 +372,10 @@ class Compositor {
 
 }  // namespace
 
-uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const GatherMap* gathered,
-                            CompositorScratch* scratch, uint32_t* accumulators) {
-  return Compositor(job, rule, gathered, scratch, accumulators).Refocus();
+uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
+                            const GatherMap* gathered, CompositorScratch* scratch,
+                            uint32_t* accumulators) {
+  return Compositor(job, rule, limits, gathered, scratch, accumulators).Refocus();
 }
 
 }  // namespace starfocus

@@ -42,7 +42,7 @@ struct CompositorScratch {
   uint32_t* sums;              // kPixelSums of the pixels of a tile
   int16_t* filtered;           // a plane of SliceSize(R, R, E - R)
   uint8_t* pool;               // slices of a section, their covers, and a tile
-  SliceLimits limits;          // bytes: of the pool
+  size_t pool_bytes;           // at least those of the limits; with more, sections are larger
 };
 
 // Parts of the largest rectangle.
@@ -51,10 +51,11 @@ constexpr size_t SectionParts(size_t side) {
   return (side + kRows - 1) / kRows * (simd::SliceSamples(side) / simd::kSliceLanes);
 }
 
-// As RefocusRectangle, by slices cut as `rule` says, of what is not `gathered` (null: of all; at
-// layer 0). Returns the pixels rendered in each view, over all slices.
-uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const GatherMap* gathered,
-                            CompositorScratch* scratch, uint32_t* accumulators);
+// As RefocusRectangle, by slices cut as `rule` and `limits` say, of what is not `gathered` (null:
+// of all; at layer 0). Returns the pixels rendered in each view, over all slices.
+uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
+                            const GatherMap* gathered, CompositorScratch* scratch,
+                            uint32_t* accumulators);
 
 }  // namespace starfocus
 

@@ -178,6 +178,23 @@ class SliceFinder {
 
 }  // namespace
 
+SliceLimits LimitsOfSlices(int32_t side, double blur) {
+  constexpr double kLeastBlur = 32;
+  constexpr size_t kMargin = 4, kLeastBytes = 442368, kPixelBytes = 119;
+  const double farthest = blur > kLeastBlur ? blur : kLeastBlur;
+  const auto whole = static_cast<size_t>(farthest);
+  const size_t reach = whole + (static_cast<double>(whole) < farthest ? 1 : 0) + kMargin;
+  const auto width = static_cast<size_t>(side);
+  SliceLimits limits;
+  limits.samples = kLargeSlices * SliceSize(width, width, reach);
+  limits.rows = kLargeTiles * ShiftedRows(width, reach);
+  limits.bytes =
+      kLeastSlices * (SliceBytes(kLeastColumns, kLeastRows, reach) + TileBytes(kLeastRows, reach));
+  if (limits.bytes < kLeastBytes) limits.bytes = kLeastBytes;
+  if (limits.bytes < kPixelBytes * width * width) limits.bytes = kPixelBytes * width * width;
+  return limits;
+}
+
 int32_t FindSlices(const SliceJob& job, Slice* slices) { return SliceFinder(job).Find(slices); }
 
 }  // namespace starfocus

@@ -12,15 +12,30 @@
 
 namespace starfocus {
 
-// What all slices together may take; beyond it they get coarser. Those of a rectangle would cost
-// more than they add: samples of kLargeSlices of the largest reach, rows of kLargeTiles in tiles,
-// so that a narrow rectangle may have more slices than a wide one. And bytes of its least section:
-// slices are in memory for a section of a rectangle at a time.
+// What all slices of a rectangle together may take; beyond it they get coarser. They would cost
+// more than they add: samples of kLargeSlices of the largest rectangle, rows of kLargeTiles in
+// tiles, so that a narrow rectangle may have more slices than a wide one. And bytes of the least
+// section, since slices are in memory for a section of a rectangle at a time.
 struct SliceLimits {
   size_t samples, rows, bytes;
 };
 inline constexpr size_t kLargeSlices = 6;
 inline constexpr size_t kLargeTiles = 12;
+inline constexpr size_t kLeastSlices = 5;
+
+// The limits of a lens with blur radii up to `blur` pixels, with blocks up to `side`. They decide
+// how finely a picture is cut, and so its bytes: they are made of numbers alone that the caller
+// gives, neither of the memory there is nor of what it is made for. With d = max(blur, 32), rounded
+// up, and slices that reach d + 4 pixels beyond their rectangle:
+//
+//   samples  SliceSize of kLargeSlices slices of a rectangle of `side` by `side` pixels
+//   rows     ShiftedRows of kLargeTiles of them
+//   bytes    the most of 442368, 119 side^2, and kLeastSlices of the least section's slices
+//            (SliceBytes and TileBytes of 16 by 8 pixels)
+//
+// With less for blurs below 32 pixels, slices of narrow rectangles would get coarser: 0.1 to 0.5
+// dB. The bytes are what a worker of a mebibyte (blocks of 64; 768 KiB at 32) has for slices at 32.
+SliceLimits LimitsOfSlices(int32_t side, double blur);
 
 // Ranges of disparity that are told apart: single ones up to a blur of 64 pixels at full aperture.
 inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;

@@ -11,6 +11,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/conformance/conformance.h"
 #include "tests/conformance/reference.h"
+#include "tests/conformance/reference_stack.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 #ifdef STARFOCUS_PROGRAM
@@ -79,9 +80,12 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   const std::vector<reference::Block> blocks = Partition(state, covered);
   const bool cells = params.rule == SF_RULE_SUBAPERTURE;
-  const starfocus::SliceLimits* limits = cells ? &state.crew.workers[0].compositor.limits : nullptr;
-  const Distance distance =
-      Compare(out.Tight(), reference::RefocusBlocks(scene, params, config.theta, limits, blocks));
+  const double blur = params.aperture * std::max(config.disparity_max - params.focus,
+                                                 params.focus - config.disparity_min);
+  const starfocus::SliceLimits limits = reference::LimitsOf(config.largest_block, blur);
+  const Distance distance = Compare(
+      out.Tight(),
+      reference::RefocusBlocks(scene, params, config.theta, cells ? &limits : nullptr, blocks));
   for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
     test::Output other(scene.width, scene.height);
     state.kernels = kernels;

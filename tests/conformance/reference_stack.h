@@ -18,6 +18,10 @@ struct Slicing {
   double range;
 };
 
+// What the slices of a rectangle may take of a lens that blurs up to `blur` pixels, with blocks up
+// to `side`: the formula of lib/slices/depth_slices.h.
+starfocus::SliceLimits LimitsOf(int side, double blur);
+
 // As RefocusRectangle.
 Picture CompositeRectangle(const LightField& field, const Picture& centre, const Lens& lens,
                            const Rectangle& rectangle, const Slicing& slicing);

@@ -135,25 +135,26 @@ TEST_CASE("stack: slices made section by section give the same picture") {
   }
   test::Engine engine(test::ConfigFor(scene, 20));
   REQUIRE(engine.status() == SF_OK);
-  auto& limits =
-      reinterpret_cast<starfocus::EngineState*>(engine.get())->crew.workers[0].compositor.limits;
+  size_t& pool = reinterpret_cast<starfocus::EngineState*>(engine.get())
+                     ->crew.workers[0]
+                     .compositor.pool_bytes;
   const auto reach = size_t(starfocus::SliceReach(16 * starfocus::kShiftOne, starfocus::kShiftOne));
   const size_t whole = starfocus::SliceBytes(64, 64, reach) + starfocus::TileBytes(64, reach);
   const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::TileBytes(8, reach);
-  REQUIRE(limits.bytes > 2 * whole);
+  REQUIRE(pool > 2 * whole);
   for (const double focus : {0.0, 6.0}) {
     const sf_params params = test::Params(focus, 1, SF_MODE_BENCHMARK);
     test::Output expected(kWidth, kHeight), out(kWidth, kHeight);
     REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
-    const size_t ample = limits.bytes;
+    const size_t ample = pool;
     for (const size_t bytes : {whole, (whole + least) / 2, 2 * least}) {
-      limits.bytes = bytes;
+      pool = bytes;
       REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
       CAPTURE(focus);
       CAPTURE(bytes);
       CHECK(out.bytes == expected.bytes);
     }
-    limits.bytes = ample;
+    pool = ample;
   }
 }
 

@@ -128,6 +128,28 @@ TEST_CASE("slices: three eighths of a pixel at the rim, more of a wide blur, and
   }
 }
 
+// The limits decide bytes: they are the same whatever the compiler and the width of pointers are.
+TEST_CASE("slices: what they may take follows from the block and the blur alone") {
+  const struct {
+    int side;
+    double blur;
+    starfocus::SliceLimits limits;
+  } expected[] = {{32, 0.5, {319680, 1320, 442368}},    {32, 32, {319680, 1320, 442368}},
+                  {64, 1, {522432, 1704, 487424}},      {64, 32, {522432, 1704, 487424}},
+                  {64, 32.25, {530112, 1728, 487424}},  {64, 48, {774336, 2088, 730510}},
+                  {64, 128, {2771136, 4008, 3508910}},  {128, 32, {1075392, 2472, 1949696}},
+                  {128, 128, {3913920, 4776, 3508910}}, {256, 32, {2771136, 4008, 7798784}},
+                  {256, 128, {6789312, 6312, 7798784}}};
+  for (const auto& one : expected) {
+    const starfocus::SliceLimits limits = starfocus::LimitsOfSlices(one.side, one.blur);
+    CAPTURE(one.side);
+    CAPTURE(one.blur);
+    CHECK(limits.samples == one.limits.samples);
+    CHECK(limits.rows == one.limits.rows);
+    CHECK(limits.bytes == one.limits.bytes);
+  }
+}
+
 TEST_CASE("slices: coarser where there are too many, or too large ones") {
   test::Random random(5);
   Scene scene;

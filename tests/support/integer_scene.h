@@ -53,6 +53,22 @@ inline Scene IntegerScene(int width, int height, int views, Depth depth) {
   return scene;
 }
 
+// Noise over `levels` disparities within +-range, pixel by pixel at random: as many slices as there
+// are levels, or fewer coarser ones where a block may not have that many.
+inline Scene LevelScene(int side, int levels, int range) {
+  Scene scene = EmptyScene(side, side, 1, static_cast<float>(-range), static_cast<float>(range));
+  Random random(static_cast<uint64_t>(1000 * range + levels));
+  std::vector<float> disparities;
+  for (int level = 0; level < levels; ++level) {
+    disparities.push_back(static_cast<float>(random.Int(-64 * range, 64 * range)) / 64.0f);
+  }
+  for (uint8_t& sample : scene.pictures[0]) sample = random.Byte();
+  for (float& disparity : scene.disparity) {
+    disparity = disparities[static_cast<size_t>(random.Int(0, levels - 1))];
+  }
+  return scene;
+}
+
 }  // namespace test
 
 #endif  // STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_

@@ -146,7 +146,8 @@ typedef struct sf_config {
                               blur, and so N of the frame modes, in every entry path */
   float disparity_max;   /**< largest disparity any map may hold, >= disparity_min */
   double max_blur;       /**< largest blur radius r = aperture * |d - focus| in pixels that will be
-                              asked for, (0, SF_MAX_BLUR]; default 32 */
+                              asked for, (0, SF_MAX_BLUR]; default 32. It reserves room and changes
+                              no picture */
   int32_t largest_block; /**< side of the largest refocusing block in pixels: 32, 64, 128, 256, or
                               0, the default: 128 from a width of 1536 on, else 64. For wide
                               pictures 128 is up to an eighth faster; a worker's memory grows with
