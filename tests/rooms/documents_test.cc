@@ -159,7 +159,7 @@ TEST_CASE("documents: commands and options of the program are its own") {
   const std::string sources = ReadAll({"examples", "tests"}, {".cc", ".h"});
   const std::string scripts = Read(kRoot / "do") + ReadAll({"toolchains"}, {".sh", ".cmake"});
   const std::set<std::string> of_others = {"--preset", "--build", "--install", "--prefix",
-                                           "--target", "--libs",  "--cflags",  "--rerun-failed"};
+                                           "--target", "--libs",  "--cflags",  "--static"};
   for (const fs::path& document : Documents()) {
     const std::string text = Read(document);
     for (const std::string& command : Find(Code(document), "\nstarfocus ([a-z]+) ")) {
