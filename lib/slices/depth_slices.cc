@@ -7,7 +7,9 @@
 namespace starfocus {
 namespace {
 
-constexpr int kOverlapParts = 10;  // of a slice's range
+// Slices overlap by this part of their range, so that no crack opens between two of one slope. None,
+// half and twice as much were measured (docs/constants.md).
+constexpr int kOverlapParts = 10;
 
 // Pixels whose bins are looked at together: rows and columns.
 constexpr int32_t kMarkedRows = 8;
