@@ -7,8 +7,8 @@
 namespace starfocus {
 namespace {
 
-// Slices overlap by this part of their range, so that no crack opens between two of one slope. None,
-// half and twice as much were measured (docs/constants.md).
+// Slices overlap by this part of their range, so that no crack opens between two of one slope.
+// None, half and twice as much were measured (docs/constants.md).
 constexpr int kOverlapParts = 10;
 
 // Pixels whose bins are looked at together: rows and columns.
