@@ -275,15 +275,15 @@ TEST_CASE("cli: analyze agrees with the paper and writes its tables") {
     CHECK(outcome.out.find(bad) == std::string::npos);
   }
   CHECK(outcome.out.find("agrees") != std::string::npos);
-  for (const char* name :
-       {"table1", "fig4", "fig5a", "fig5b", "fig6", "fig6_points", "fig8", "cells", "engine"}) {
+  for (const char* name : {"table1", "fig4", "fig5a", "fig5b", "fig6", "fig6_points", "fig8",
+                           "subapertures", "engine"}) {
     CAPTURE(name);
     const std::string csv = Text(folder.file("a/b/" + std::string(name) + ".csv"));
     CHECK(csv.find(",") != std::string::npos);
     CHECK(csv.find("nan") == std::string::npos);
   }
   const bool drawn = outcome.out.find("gnuplot is missing") == std::string::npos;
-  for (const char* name : {"fig4", "fig5", "fig6", "fig8", "cells", "engine"}) {
+  for (const char* name : {"fig4", "fig5", "fig6", "fig8", "subapertures", "engine"}) {
     CAPTURE(name);
     const std::string path = folder.file("a/b/" + std::string(name) + ".svg");
     CHECK(fs::exists(path) == drawn);
