@@ -34,9 +34,6 @@ usage: ./do COMMAND
   cross ARCH [build]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated
   boot    run the board program on an emulated board: its GPIO lines, buttons and screen
   count [record]  AArch64 instructions per pixel against tests/board/instruction_counts.txt
-  partitions [write]  what block mode costs on boards with another architecture's coefficients
-  coefficients [ARCH...]  those of boards from instruction counts, into lib/plan/timing_defaults.h:
-          some ten minutes each
   size [write]   what boards need: code, stack and memory (write: into docs/boards.md)
   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file
@@ -352,8 +349,6 @@ case "${1:-help}" in
   golden) golden ;;
   boot) boot ;;
   count) count_command "${2:-}" ;;
-  partitions) partitions "${2:-}" ;;
-  coefficients) shift && coefficients "$@" ;;
   size) size "${2:-}" ;;
   format) format ;;
   help | -h | --help) help ;;

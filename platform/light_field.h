@@ -20,11 +20,6 @@ struct LightField {
   int height() const { return disparity.height; }
 };
 
-// The programs' largest block: wide pictures are up to an eighth faster in larger ones, which share
-// what lies around them, and leave enough blocks for all workers; a worker takes four times the
-// memory then.
-constexpr int LargestBlockFor(int width) { return width < 1536 ? 64 : 128; }
-
 // The sizes a star-shaped set may have, smallest first.
 inline constexpr int kStarSets[] = {1, 5, 9, 17};
 bool IsStarSet(int views);

@@ -62,14 +62,13 @@ build_counter() {
     cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/board/count_instructions.c
 }
 
-# instructions PRESET CASE KERNELS [COEFFICIENTS]: of one refocusing, on the emulated board.
+# instructions PRESET CASE KERNELS: of one refocusing, on the emulated board.
 instructions() {
   local runs preset=$1 name=$2 kernels=$3
-  shift 3
   for runs in 1 2; do
     $(emulator "$preset") -d plugin \
       -plugin "$LOGS/count.so,sym=starfocus,sym=sf_,sym=memcpy,sym=memset,sym=memmove" \
-      "build/$preset/tests/instruction_bench" "$name" "$kernels" $runs "$@" 2>&1 |
+      "build/$preset/tests/instruction_bench" "$name" "$kernels" $runs 2>&1 |
       sed -n 's/^instructions: //p'
   done | awk 'NR == 1 { first = $1 } NR == 2 { print $1 - first }'
 }
@@ -140,82 +139,6 @@ prepare_board() {
   install_missing
   step "sysroot-$1" "fetching headers and libraries for $1" \
     toolchains/sysroot.sh $board_sysroot build/sysroot/$board_sysroot
-}
-
-BOARDS="aarch64 armhf armv6 riscv64"
-
-# coefficients [ARCHITECTURE...]: the built-in timing coefficients of some boards or all, from
-# instruction counts, into lib/plan/timing_defaults.h.
-coefficients() {
-  local preset numbers scene
-  for preset in "$@"; do board "$preset"; done
-  install_missing
-  build starfocus
-  for scene in portrait wires; do
-    [ -f "build/coefficients/$scene/meta.txt" ] || program "made the light field $scene" \
-      scene "build/coefficients/$scene" --name $scene --size 640x480 --views 9
-  done
-  build_counter
-  for preset in ${*:-$BOARDS}; do
-    prepare_board $preset
-    cross_build $preset starfocus
-    head -c 8 /dev/zero >build/coefficients/counter
-    step "coefficients-$preset" "counting instructions of blocks on $preset" \
-      $(emulator $preset) -plugin "$LOGS/count.so,counter=build/coefficients/counter" \
-      build/$preset/starfocus calibrate --counter build/coefficients/counter \
-      --light-field build/coefficients/portrait --check build/coefficients/wires \
-      --output build/coefficients/$preset.json
-    grep '^R2' "$LOGS/coefficients-$preset.log"
-    numbers=$(sed -n '/"timing"/,/}/s/.*: *\([0-9][0-9]*\),*$/\1/p' build/coefficients/$preset.json |
-      paste -s -d ',' | sed 's/,/, /g')
-    sed -i "s/{\"$preset\", {[0-9, ]*}}/{\"$preset\", {$numbers}}/" lib/plan/timing_defaults.h
-    grep -F "\"$preset\", {$numbers}" lib/plan/timing_defaults.h ||
-      fail "lib/plan/timing_defaults.h has no line for $preset"
-  done
-}
-
-# partitions [write]: what block mode costs with the coefficients of every architecture, by the count
-# (write: into docs/boards.md).
-partitions() {
-  local preset name set counts=$LOGS/partitions.txt
-  case "${1:-}" in '' | write) ;; *) fail "usage: ./do partitions [write]" ;; esac
-  build_counter
-  for preset in aarch64 armv6; do
-    prepare_board $preset
-    cross_build $preset starfocus_instruction_bench
-  done
-  for preset in aarch64 armv6; do
-    for name in $($(emulator $preset) build/$preset/tests/instruction_bench list |
-      sed -n 's/\([^ ]*-block-[^ ]*\) .*/\1/p'); do
-      for set in $($(emulator $preset) build/$preset/tests/instruction_bench coefficients); do
-        printf '%s %s %s %s\n' $preset "$name" "$set" "$(instructions $preset "$name" simd "$set")"
-      done
-    done
-  done >"$counts" 2>"$LOGS/partitions.log"
-  awk '
-    NF != 4 { bad = 1 }
-    {
-      row = "`" $2 "` on " $1
-      if (!(row in own)) rows[++n] = row
-      if (!($3 in known)) { known[$3] = 1; sets[++m] = $3 }
-      own[row] += $1 == $3 ? $4 : 0
-      count[row, $3] = $4
-    }
-    END {
-      if (bad || !n) exit 1
-      printf "| coefficients of"
-      for (k = 1; k <= m; ++k) printf " | %s", sets[k]
-      printf " |\n|---"
-      for (k = 1; k <= m; ++k) printf "|--:"
-      print "|"
-      for (i = 1; i <= n; ++i) {
-        printf "| %s", rows[i]
-        for (k = 1; k <= m; ++k) printf " | %+.2f %%", (count[rows[i], sets[k]] / own[rows[i]] - 1) * 100
-        print " |"
-      }
-    }' "$counts" >"$LOGS/partitions.md" || fail "not everything was counted: see $counts"
-  cat "$LOGS/partitions.md"
-  [ "${1:-}" != write ] || into_boards partitions "$LOGS/partitions.md"
 }
 
 # cross ARCHITECTURE [build]: builds everything for a board and runs every test on an emulated one.

@@ -43,7 +43,7 @@ uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);
 // (kDisparityBits) at most.
 uint64_t PredictGather(const sf_timing& timing, uint64_t pixels, int32_t radius);
 
-// Coefficients of the architecture this is compiled for (timing_defaults.h).
+// The same coefficients on every machine, so that all of them part a picture alike.
 sf_timing DefaultTiming();
 
 }  // namespace starfocus

@@ -403,10 +403,21 @@ TEST_CASE("refocus: output may overlap neither the inputs nor the workspace") {
   CHECK(run(f.scene.pictures[0].data()) == SF_ERROR_OVERLAP);
   CHECK(run(f.scene.pictures[16].data() + stride * kHeight - 1) == SF_ERROR_OVERLAP);
   CHECK(run(f.scene.disparity.data()) == SF_ERROR_OVERLAP);
+  CHECK(run(f.scene.disparity.data() + kWidth * kHeight - 1) == SF_ERROR_OVERLAP);
   CHECK(run(engine.workspace()) == SF_ERROR_OVERLAP);
   CHECK(run(engine.workspace() + engine.bytes() - 1) == SF_ERROR_OVERLAP);
   CHECK(f.scene.pictures == before.pictures);
   CHECK(f.scene.disparity == before.disparity);
+
+  // To the last byte of the map's last row.
+  std::vector<float> map(size_t(kWidth * kHeight) + stride * kHeight);
+  std::copy(f.scene.disparity.begin(), f.scene.disparity.end(), map.begin());
+  f.field.disparity = map.data();
+  uint8_t* const behind = reinterpret_cast<uint8_t*>(map.data() + kWidth * kHeight);
+  for (const size_t bytes : {size_t{1}, size_t{3}, size_t{kWidth}, stride - 1, stride}) {
+    CHECK(run(behind - bytes) == SF_ERROR_OVERLAP);
+  }
+  CHECK(run(behind) == SF_OK);
 
   // Neighbours in memory do not overlap.
   std::vector<uint8_t> joined(3 * stride * kHeight, test::kPoison);

@@ -98,6 +98,33 @@ TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change 
   }
 }
 
+TEST_CASE("after: blocks read side views as far away as the largest disparity") {
+  const test::Scene before = test::NearScene(70, 500, 5, 13);
+  sf_config config = test::ConfigFor(before, 8);
+  config.largest_block = 32;
+  test::Engine engine(config);
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
+    const sf_params params = test::Params(test::kNearFocus, 0.2, mode);
+    test::Output first(70, 500);
+    REQUIRE(test::Refocus(&engine, params, before, &first) == SF_OK);
+    for (int view = 1; view < 5; ++view) {
+      CAPTURE(view);
+      test::Scene scene = before;
+      for (int x = 0; x < 70; ++x) {
+        for (int y = 245; y < 255; ++y) scene.Pixel(view, x, y)[1] ^= 0xFF;
+      }
+      test::Output second(70, 500), expected(70, 500);
+      sf_report report = {};
+      REQUIRE(After(&engine, params, scene, before, first, &second, &report) == SF_OK);
+      REQUIRE(test::Refocus(&engine, params, scene, &expected) == SF_OK);
+      const bool same = second.bytes == expected.bytes, changed = expected.bytes != first.bytes;
+      CHECK(same);
+      CHECK(changed);
+      CHECK(report.reused_blocks > 0);
+    }
+  }
+}
+
 TEST_CASE("after: joins between blocks of different layers, beside a change") {
   test::Random random(92);
   test::Scene scene = test::LayeredScene(320, 320, 1, 6, 5);

@@ -176,6 +176,43 @@ TEST_CASE("region: only disparity rows that it can read are checked, before a pi
   }
 }
 
+TEST_CASE("region: a bad row is refused before a pixel is written, or is not read") {
+  constexpr int kHeight = 240;
+  test::Scene scene = test::LayeredScene(40, kHeight, 5, 3, 4);
+  sf_config config = test::ConfigFor(scene, 4);
+  config.largest_block = 32;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  constexpr sf_region kRegions[] = {
+      {0, 0, 0, 0}, {3, 0, 30, 9}, {3, 70, 30, 9}, {0, 120, 40, 50}, {3, 231, 30, 9}};
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK, SF_MODE_BLUR}) {
+    for (const sf_region& region : kRegions) {
+      CAPTURE(mode);
+      CAPTURE(Text(region));
+      sf_params params = test::Params(0, 1, mode);
+      params.region = region;
+      const test::Output blank(region.width > 0 ? region.width : 40,
+                               region.width > 0 ? region.height : kHeight);
+      test::Output good = blank;
+      REQUIRE(test::Refocus(&engine, params, scene, &good) == SF_OK);
+      int refused = 0;
+      for (int row = 0; row < kHeight; ++row) {
+        test::Output out = blank;
+        const float kept = scene.Disparity(5, row);
+        scene.Disparity(5, row) = std::numeric_limits<float>::quiet_NaN();
+        const sf_status status = test::Refocus(&engine, params, scene, &out);
+        scene.Disparity(5, row) = kept;
+        refused += status == SF_ERROR_NOT_FINITE;
+        const bool right = status == SF_OK ? out.bytes == good.bytes
+                                           : status == SF_ERROR_NOT_FINITE && out.Untouched();
+        CHECK_MESSAGE(right, "row ", row);
+      }
+      CHECK(refused >= good.height);
+      CHECK((refused < kHeight || region.width == 0));
+    }
+  }
+}
+
 TEST_CASE("region: outside the picture") {
   const test::Scene scene = test::LayeredScene(40, 30, 1, 4, 3);
   test::Engine engine(test::ConfigFor(scene, 8));

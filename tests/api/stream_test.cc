@@ -66,6 +66,14 @@ TEST_CASE("stream: same bytes for other focuses, apertures, modes and blocks") {
   CheckSame(scene, test::Params(2, 1), 128);
 }
 
+TEST_CASE("stream: rows of side views as far away as the largest disparity") {
+  const test::Scene scene = test::NearScene(70, 400, 5, 12);
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BLOCK}) {
+    CAPTURE(mode);
+    CheckSame(scene, test::Params(test::kNearFocus, 0.2, mode), 32);
+  }
+}
+
 TEST_CASE("stream: strides of pictures do not matter") {
   const test::Scene tight = test::RandomScene(50, 70, 9, -2, 2, 8);
   test::Scene padded = test::EmptyScene(50, 70, 9, -2, 2, 21);

@@ -30,8 +30,7 @@ Json Describe(const Machine& machine, const Row& row) {
   json["mode"] = row.task.mode;
   json["views"] = row.task.views;
   json["max_layer"] = row.task.max_layer;
-  const int side = row.task.largest_block;
-  json["largest_block"] = side != 0 ? side : LargestBlockFor(row.width);
+  json["largest_block"] = row.largest_block;
   json["rule"] = row.task.rule == SF_RULE_DEFAULT ? "default"
                  : row.task.rule == SF_RULE_PAPER ? "paper"
                                                   : "subaperture";

@@ -15,7 +15,7 @@ struct Task {
   std::string mode = "block";  // block, frame, benchmark, blur or a rival's name
   int views = 0;
   int max_layer = SF_LAYERS - 1;
-  int largest_block = 0;       // 0: LargestBlockFor the field
+  int largest_block = 0;       // 0: the library chooses
   int rule = SF_RULE_DEFAULT;  // sf_rule
   double n_scale = 1;          // of the rule's N
   std::string target;          // SIMD target; empty: the best one
@@ -40,6 +40,7 @@ struct Row {
   double quantile = kNone;  // of the disparity map, where the focus was chosen by one
   double r_max = kNone;
   int n = 0;
+  int largest_block = 0;  // that the engine used
   double rendered_views = 0, rendered_samples = 0;
   Quality benchmark, truth;  // against the benchmark mode and ray tracing
   double wall_ms = kNone;    // median by the wall clock

@@ -41,8 +41,7 @@ std::string Prepare(const Field& field, const Task& task, double focus, double a
   config.disparity_max = field.high;
   config.max_blur = std::max(1.0, std::ceil(field.LargestBlur(focus, aperture)));
   config.max_layer = task.max_layer;
-  config.largest_block =
-      task.largest_block != 0 ? task.largest_block : LargestBlockFor(field.data.width());
+  config.largest_block = task.largest_block;
   config.n_scale = task.n_scale;
   config.max_workers = task.workers;
   if (task.workers > 1) timed->pool = std::make_unique<ThreadRunner>(task.workers);

@@ -4,16 +4,12 @@
  *
  *   qemu-aarch64 -plugin count_instructions.so,sym=TEXT,sym=TEXT -d plugin PROGRAM
  *
- * prints "instructions: N" on stderr when PROGRAM ends. counter=FILE counts in the first 8 bytes of
- * FILE, which PROGRAM may map to watch itself (platform/instruction_counter.h). Debian has no
- * header of the interface (its version 1): the few functions used are declared here. */
-#include <fcntl.h>
+ * prints "instructions: N" on stderr when PROGRAM ends. Debian has no header of the interface (its
+ * version 1): the few functions used are declared here. */
 #include <inttypes.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 typedef uint64_t qemu_plugin_id_t;
 struct qemu_plugin_tb;
@@ -38,8 +34,7 @@ __attribute__((visibility("default"))) int qemu_plugin_version = 1;
 enum { kMostTexts = 16 };
 static char texts[kMostTexts][64];
 static int text_count;
-static uint64_t own_counter;
-static uint64_t* instructions = &own_counter;
+static uint64_t instructions;
 
 static int Wanted(const char* symbol) {
   if (text_count == 0) return 1;
@@ -56,29 +51,15 @@ static void Translated(qemu_plugin_id_t id, struct qemu_plugin_tb* block) {
     struct qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, i);
     if (!Wanted(qemu_plugin_insn_symbol(instruction))) continue;
     qemu_plugin_register_vcpu_insn_exec_inline(instruction, QEMU_PLUGIN_INLINE_ADD_U64,
-                                               instructions, 1);
+                                               &instructions, 1);
   }
 }
 
 static void Ended(qemu_plugin_id_t id, void* data) {
   char line[64];
   (void)id, (void)data;
-  snprintf(line, sizeof(line), "instructions: %" PRIu64 "\n", *instructions);
+  snprintf(line, sizeof(line), "instructions: %" PRIu64 "\n", instructions);
   qemu_plugin_outs(line);
-}
-
-/* Counts in a file from now on; 0 for success. */
-static int CountIn(const char* path) {
-  const int file = open(path, O_RDWR);
-  void* memory = MAP_FAILED;
-  if (file >= 0 && lseek(file, 0, SEEK_END) >= (off_t)sizeof(*instructions)) {
-    memory = mmap(NULL, sizeof(*instructions), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  }
-  if (file >= 0) close(file);
-  if (memory == MAP_FAILED) return -1;
-  instructions = memory;
-  *instructions = 0;
-  return 0;
 }
 
 __attribute__((visibility("default"))) int qemu_plugin_install(qemu_plugin_id_t id,
@@ -86,10 +67,6 @@ __attribute__((visibility("default"))) int qemu_plugin_install(qemu_plugin_id_t 
                                                                char** argv) {
   (void)info;
   for (int i = 0; i < argc; ++i) {
-    if (strncmp(argv[i], "counter=", 8) == 0) {
-      if (CountIn(argv[i] + 8) != 0) return -1;
-      continue;
-    }
     if (strncmp(argv[i], "sym=", 4) != 0 || text_count == kMostTexts) return -1;
     snprintf(texts[text_count++], sizeof(texts[0]), "%s", argv[i] + 4);
   }

@@ -1,13 +1,11 @@
-// instruction_bench CASE simd|reference RUNS [COEFFICIENTS]: refocuses RUNS times. What one
-// refocusing costs is the difference between the instructions of two runs and of one, as counted by
+// instruction_bench CASE simd|reference RUNS: refocuses RUNS times. What one refocusing costs is
+// the difference between the instructions of two runs and of one, as counted by
 // count_instructions.c: all that happens before the first is the same. `instruction_bench list`
-// prints the cases, `instruction_bench coefficients` the architectures whose built-in coefficients
-// of the timing model may be named.
+// prints the cases.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
-#include "lib/plan/timing_defaults.h"
 #include "simd/kernels.h"
 #include "tests/support/integer_scene.h"
 #include "tests/support/simd_targets.h"
@@ -48,20 +46,13 @@ const Case* Find(const char* name) {
   return nullptr;
 }
 
-const sf_timing* FindTiming(const char* name) {
-  for (const starfocus::NamedTiming& each : starfocus::kBuiltInTimings) {
-    if (std::strcmp(each.name, name) == 0) return &each.timing;
-  }
-  return nullptr;
-}
-
 // Of no architecture in particular: the counts then don't change when coefficients do.
 constexpr sf_timing kTiming = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
 
-int Run(const Case& one, bool reference, int runs, const sf_timing& timing) {
+int Run(const Case& one, bool reference, int runs) {
   const test::Scene scene = test::IntegerScene(one.width, one.height, one.views, one.depth);
   sf_config config = test::ConfigFor(scene, 16);
-  config.timing = timing;
+  config.timing = kTiming;
   test::Engine engine(config);
   if (engine.status() != SF_OK) return 1;
   if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());
@@ -81,17 +72,10 @@ int main(int argc, char** argv) {
     for (const Case& one : kCases) std::printf("%s %d\n", one.name, one.width * one.height);
     return 0;
   }
-  if (argc == 2 && std::strcmp(argv[1], "coefficients") == 0) {
-    for (const auto& each : starfocus::kBuiltInTimings) std::printf("%s\n", each.name);
-    return 0;
-  }
-  const Case* one = argc == 4 || argc == 5 ? Find(argv[1]) : nullptr;
-  const sf_timing* timing = argc == 5 ? FindTiming(argv[4]) : &kTiming;
-  if (one == nullptr || timing == nullptr) {
-    std::fprintf(stderr,
-                 "usage: instruction_bench list | coefficients | "
-                 "CASE simd|reference RUNS [COEFFICIENTS]\n");
+  const Case* one = argc == 4 ? Find(argv[1]) : nullptr;
+  if (one == nullptr) {
+    std::fprintf(stderr, "usage: instruction_bench list | CASE simd|reference RUNS\n");
     return 1;
   }
-  return Run(*one, std::strcmp(argv[2], "reference") == 0, std::atoi(argv[3]), *timing);
+  return Run(*one, std::strcmp(argv[2], "reference") == 0, std::atoi(argv[3]));
 }

@@ -95,9 +95,7 @@ std::string Refocus(const Case& one, const test::Scene& scene,
                     const starfocus::simd::Kernels* kernels, Covered* covered) {
   sf_config config = test::ConfigFor(scene, 43);
   config.largest_block = one.block;
-  // The partition depends on them, and each architecture has its own.
   config.gather = one.views != 9;  // views have their share, layers 1 and 2 with them
-  config.timing = {4000000, 12000, 1500, 1700, 2500, 9000, 0, 0};
   if (one.levels > 0) config.n_scale = 0.5;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);

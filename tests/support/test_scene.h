@@ -164,6 +164,19 @@ inline Scene RandomScene(int width, int height, int views, float low, float high
   return scene;
 }
 
+// A comb of surfaces so near that what they hide is read from side views some hundred pixels away.
+// To be focused at kNearFocus, with an aperture of 0.2.
+constexpr double kNearFocus = 100;
+inline Scene NearScene(int width, int height, int views, uint64_t seed) {
+  Scene scene = RandomScene(width, height, views, 85, 115, seed);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      scene.Disparity(x, y) = (x / 11 + y / 9) % 2 == 0 ? 85.0f : 115.0f;
+    }
+  }
+  return scene;
+}
+
 inline sf_config ConfigFor(const Scene& scene, double max_blur = 32) {
   sf_config config;
   sf_config_init(&config);

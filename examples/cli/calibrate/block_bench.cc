@@ -114,17 +114,12 @@ BlockWork BlockBench::Work(const BlockTask& task) {
                      content, block.layer);
 }
 
-uint64_t BlockBench::Now() const {
-  if (counter_ != nullptr) return counter_->Count() * kPicosecondsPerInstruction;
-  return 1000 * ThreadNanoseconds();
-}
-
 uint64_t BlockBench::Time(const BlockTask& task) {
   Focus(task);
   const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
-  const uint64_t start = Now();
+  const uint64_t start = ThreadNanoseconds();
   RefocusBlock(InputsOf(*engine_), task.block, out, engine_->crew.workers);
-  return Now() - start;
+  return 1000 * (ThreadNanoseconds() - start);
 }
 
 }  // namespace starfocus

@@ -9,14 +9,9 @@
 #include "examples/cli/engine/engine_run.h"
 #include "lib/engine/engine.h"
 #include "lib/plan/timing.h"
-#include "platform/instruction_counter.h"
 #include "platform/light_field.h"
 
 namespace starfocus {
-
-// What an instruction stands for where instructions are counted instead of time: two a cycle at
-// 2 GHz. Only ratios matter to a partition.
-inline constexpr uint64_t kPicosecondsPerInstruction = 250;
 
 // A lens and a block seen through it.
 struct BlockTask {
@@ -28,9 +23,6 @@ class BlockBench {
  public:
   // The light field must outlive the bench. Returns an error line, empty for success.
   std::string Open(const std::string& where, const LightField& light_field);
-
-  // From now on Time() counts instructions with `counter`; null: processor time.
-  void CountWith(const InstructionCounter* counter) { counter_ = counter; }
 
   // What the timing model knows of the task's block; its place must be a multiple of kCellSize.
   BlockWork Work(const BlockTask& task);
@@ -44,10 +36,8 @@ class BlockBench {
   void HoldDisparity();
   void HoldLayer(int layer);
   void Focus(const BlockTask& task);
-  uint64_t Now() const;  // picoseconds from some start
 
   const LightField* light_field_ = nullptr;
-  const InstructionCounter* counter_ = nullptr;
   Workspace workspace_;
   EngineState* engine_ = nullptr;
   std::vector<int16_t> disparity_;

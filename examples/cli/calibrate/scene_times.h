@@ -21,9 +21,6 @@ class SceneTimes {
   const std::string& name() const { return name_; }
   int64_t blocks() const { return blocks_; }
 
-  // Counts instructions instead of time; null: time.
-  void CountWith(const InstructionCounter* counter) { bench_.CountWith(counter); }
-
   // Times every block once more; the shortest time counts, because all that disturbs lengthens.
   void Measure(Progress* progress);
 

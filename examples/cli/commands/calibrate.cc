@@ -10,18 +10,17 @@
 #include "examples/command_line/options.h"
 #include "examples/scene/render.h"
 #include "platform/file.h"
-#include "platform/instruction_counter.h"
 #include "platform/runner.h"
 
 namespace starfocus {
 namespace {
 
 constexpr int kWidth = 1024, kHeight = 768, kViews = 9;  // of the scenes made here
-constexpr int kRepetitions = 5;                          // of times; a count repeats exactly
+constexpr int kRepetitions = 5;
 constexpr double kLowestAgreement = 0.98;
 
 struct Options {
-  std::string out, folder, check, counter;
+  std::string out, folder, check;
 };
 
 std::string Trace(const std::string& name, SceneTimes* times) {
@@ -66,15 +65,11 @@ std::string OpenScenes(const Options& options, Scenes* scenes) {
 }
 
 // In turns, so that a slow spell of the machine meets all scenes and sizes alike.
-void Measure(const Scenes& scenes, const InstructionCounter* counter) {
+void Measure(const Scenes& scenes) {
   int64_t blocks = 0;
-  for (const auto& scene : scenes) {
-    scene->CountWith(counter);
-    blocks += scene->blocks();
-  }
-  const int repetitions = counter != nullptr ? 1 : kRepetitions;
-  Progress progress("measuring", blocks * repetitions);
-  for (int repetition = 0; repetition < repetitions; ++repetition) {
+  for (const auto& scene : scenes) blocks += scene->blocks();
+  Progress progress("measuring", blocks * kRepetitions);
+  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
     for (const auto& scene : scenes) scene->Measure(&progress);
   }
 }
@@ -108,20 +103,14 @@ nlohmann::ordered_json Judge(const char* role, const SceneTimes& scene, const sf
 
 std::string Calibrate(const Options& options) {
   Scenes scenes;
-  InstructionCounter counter;
-  const bool counts = !options.counter.empty();
   std::string error = options.out.empty() ? "" : CheckOutputPath(options.out);
-  if (error.empty() && counts) error = counter.Open(options.counter);
   if (error.empty()) error = OpenScenes(options, &scenes);
   if (!error.empty()) return error;
-  Measure(scenes, counts ? &counter : nullptr);
+  Measure(scenes);
   const sf_timing timing = FitTiming(scenes[0]->Configurations());
   PrintCoefficients(timing);
   nlohmann::ordered_json json;
   json["simd_target"] = sf_simd_target();
-  json["measured"] =
-      counts ? "instructions, taken as " + std::to_string(kPicosecondsPerInstruction) + " ps each"
-             : "processor time";
   json["timing"] = TimingJson(timing);
   json["fit"] = Judge("fit", *scenes[0], timing);
   json["checks"] = nlohmann::ordered_json::array();
@@ -139,16 +128,14 @@ std::string Calibrate(const Options& options) {
 void AddCalibrateCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
-      "calibrate", "Measure this machine for the timing model behind block mode's partition");
+      "calibrate",
+      "Measure this machine for the timing model behind block mode's partition. Pictures made with "
+      "them differ from those of machines with other coefficients");
   command->add_option("-o,--output", options->out, "JSON file to write, for refocus --timing");
   command->add_option("--light-field", options->folder,
                       "Folder to fit the model to; default: the scene portrait");
   command->add_option("--check", options->check,
                       "Folder to check the model on; default: the scenes wires and ramp");
-  command->add_option(
-      "--counter", options->counter,
-      "On a board emulated by QEMU with tests/board/count_instructions.c, the file it "
-      "counts instructions in: they are measured instead of time");
   command->callback([options, action] { *action = [options] { return Calibrate(*options); }; });
 }
 

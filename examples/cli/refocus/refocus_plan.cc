@@ -201,8 +201,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.disparity_min = stats.min;
   task.config.disparity_max = stats.max;
   task.config.max_blur = max_blur;
-  const int side = plan.largest_block;
-  task.config.largest_block = side != 0 ? side : LargestBlockFor(light_field.width());
+  task.config.largest_block = plan.largest_block;
   task.config.max_layer = plan.max_layer;
   task.config.deblocking = plan.deblocking;
   task.config.timing = plan.timing;

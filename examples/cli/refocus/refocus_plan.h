@@ -32,7 +32,7 @@ struct LensPlan {
   sf_rule rule = SF_RULE_DEFAULT;
   int views = 0;  // 0: all there are
   int threads = 1;
-  int largest_block = 0;  // 0: LargestBlockFor the picture
+  int largest_block = 0;  // 0: the library chooses
   int max_layer = 0, deblocking = 0;
   double n_scale = 1;
   sf_timing timing = {};

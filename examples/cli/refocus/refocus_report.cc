@@ -71,9 +71,10 @@ nlohmann::ordered_json TrafficJson(const EngineTask& task, const sf_report& repo
 }
 
 // Largest blocks of the picture or region.
-uint64_t LargestBlocks(const sf_config& config, const sf_region& region) {
+uint64_t LargestBlocks(const EngineTask& task, int side) {
+  const sf_config& config = task.config;
+  const sf_region& region = task.params.region;
   const auto count = [&](int first, int size) {
-    const int side = config.largest_block;
     return static_cast<uint64_t>((first + size - 1) / side - first / side + 1);
   };
   if (region.width == 0) return count(0, config.width) * count(0, config.height);
@@ -95,7 +96,7 @@ nlohmann::ordered_json ReportJson(const EngineTask& task, const EngineResult& re
   json["N"] = result.report.n;
   json["rendered_views"] = result.report.rendered_views;
   json["rendered_samples"] = result.report.rendered_samples;
-  json["largest_block"] = task.config.largest_block;
+  json["largest_block"] = result.report.largest_block;
   json["max_layer"] = task.config.max_layer;
   json["deblocking"] = task.config.deblocking;
   json["layers"] = LayersJson(result.report, task.params.mode == SF_MODE_BLOCK);
@@ -122,7 +123,7 @@ void SeriesReport::Add(const std::string& output, const EngineTask& task,
   json["output"] = output;
   json.update(ReportJson(task, result));
   json["prepared_bytes"] = result.prepared_bytes;
-  const uint64_t blocks = LargestBlocks(task.config, task.params.region);
+  const uint64_t blocks = LargestBlocks(task, result.report.largest_block);
   json["largest_blocks"] = blocks;
   json["reused_blocks"] = result.report.reused_blocks;
   largest_blocks_ += blocks;
