@@ -8,13 +8,6 @@
 #include "tests/support/simd_targets.h"
 
 namespace starfocus::stress {
-namespace {
-
-// A larger max_blur still changes pictures that meet the limit of slices: switch this on when what
-// a rectangle may use follows from its own blur.
-constexpr bool kRoomChangesNothing = false;
-
-}  // namespace
 
 std::string Variant::Text() const {
   return std::string(kernels == nullptr ? "best" : kernels->name) + ", " + std::to_string(workers) +
@@ -48,7 +41,7 @@ Variant RandomVariant(test::Random* random) {
   variant.push_rows = random->Int(1, 40);
   variant.pull_rows = random->Int(1, 40);
   variant.skips = random->Int(0, 1);
-  if (kRoomChangesNothing && random->Int(0, 2) == 0) variant.room = random->Real(1, 8);
+  if (random->Int(0, 2) == 0) variant.room = random->Real(1, 8);
   return variant;
 }
 
