@@ -159,13 +159,13 @@ typedef struct sf_config {
   int32_t deblocking; /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
   sf_timing timing;   /**< each coefficient <= SF_MAX_TIMING */
   double n_scale;     /**< time against error: multiplies the N of either rule in SF_MODE_BLOCK and
-                           SF_MODE_FRAME, rounded up, and so with its square the views;
+                           SF_MODE_FRAME, rounded up; the number of views grows with its square;
                            [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
   int32_t skips;  /**< 1, the default: what sf_skipped counts is left out; 0: all is done, for the
                        same bytes */
-  int32_t gather; /**< 1, the default: SF_MODE_BLOCK by the rule of subapertures blurs the centre
-                     view as a whole (4) where one surface is all that lies within reach; 0: it
-                     renders views there too */
+  int32_t gather; /**< 1, the default: by SF_RULE_SUBAPERTURE SF_MODE_BLOCK blurs the centre view
+                     itself, with the kernel (4), where one surface is all that lies within reach;
+                     0: it renders views there too */
   uint32_t reserved[7]; /**< zero */
 } sf_config;
 
@@ -192,7 +192,7 @@ typedef enum sf_mode {
   SF_MODE_BENCHMARK = 1, /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark; the
                             rule says whether views show fine slices or are rendered line by line */
   SF_MODE_BLOCK = 2,     /**< blocks of variable size, each with its own N and layer (section V) */
-  SF_MODE_BLUR = 3 /**< depth-dependent blur of the centre view alone with the ideal kernel (4) */
+  SF_MODE_BLUR = 3 /**< the centre view alone, blurred by (4): up to ten times the time of blocks */
 } sf_mode;
 
 /** How many views a blur radius needs. */
@@ -212,7 +212,7 @@ typedef struct sf_block {
   int32_t n;      /**< N; 0: no views but the centre */
 } sf_block;
 
-/** Told of each block from the thread of the call, before the block is refocused. */
+/** Is told of each block, by the thread of the call, before the block is refocused. */
 typedef void (*sf_block_visitor)(void* data, const sf_block* block);
 
 /** A clock in nanoseconds, from any start; called from the runner's threads. */
@@ -230,7 +230,7 @@ typedef struct sf_params {
   int32_t mode;              /**< sf_mode; default SF_MODE_BLOCK */
   double focus;              /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS */
   double aperture;           /**< aperture radius u_t, (0, 1]; default 1 */
-  int32_t rule;              /**< sf_rule; ignored by the other modes; default SF_RULE_DEFAULT */
+  int32_t rule;              /**< sf_rule; SF_MODE_BLUR ignores it; default SF_RULE_DEFAULT */
   sf_clock clock;            /**< fills the report's times; null: they stay 0 */
   sf_block_visitor on_block; /**< null: nobody is told */
   void* on_block_data;       /**< passed to on_block */
@@ -269,8 +269,8 @@ typedef struct sf_layer_report {
   uint64_t pixels; /**< picture pixels they cover */
   uint64_t views;  /**< rendered views, summed over the blocks: 1 of a block copied or gathered
                         whole, 0 of one filled */
-  uint64_t rendered_samples; /**< R, G, B samples of those views inside their blocks; by cells, of
-                                  every slice that a part of the block sees */
+  uint64_t rendered_samples; /**< R, G, B samples of those views inside their blocks; of
+                                  SF_RULE_SUBAPERTURE in every slice that part of a block sees */
   uint64_t predicted_ps;     /**< by the timing model, picoseconds */
   uint64_t measured_ns;      /**< by sf_params.clock, summed over workers; 0 without one */
 } sf_layer_report;
@@ -318,7 +318,7 @@ SF_API sf_status sf_refocus(sf_engine* engine, const sf_params* params,
                             const sf_light_field* light_field, uint8_t* out, size_t out_stride,
                             sf_runner runner, void* runner_data, sf_report* report);
 
-/** What of a light field is the same for every lens; lives inside the caller's memory. */
+/** What is made of a light field for every lens alike; it lives inside the caller's memory. */
 typedef struct sf_prepared sf_prepared;
 
 /** Bytes that a prepared light field of `config` takes, into *bytes: 2 per pixel of the picture for
