@@ -10,21 +10,9 @@
 #include "lib/plan/block_stats.h"
 #include "lib/slices/depth_slices.h"
 #include "lib/slices/slice_plane.h"
+#include "lib/slices/tile.h"
 
 namespace starfocus {
-
-// Parts of a section, kLeastRows high and kSliceLanes wide, that see slices of their own.
-struct SectionPart {
-  int32_t x, y, rows;  // in the section
-  int32_t count;       // slices seen
-  uint8_t shown[kMaxSlices];
-};
-
-// Of the light of a pixel: R, G, B and what is covered.
-inline constexpr size_t kPixelSums = 4;
-
-// Views of a column that are summed in 16 bits: all of those that subapertures need.
-inline constexpr int32_t kGroupViews = 81;
 
 // Memory of one worker. E and R: largest side of an extended rectangle and of a rectangle; N; G:
 // the smaller of 2 N + 1 and kGroupViews. What slices are cut from is made of the field, and they

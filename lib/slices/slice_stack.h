@@ -1,0 +1,57 @@
+// The slices of a rectangle, as all views of the aperture show them.
+#ifndef STARFOCUS_LIB_SLICES_SLICE_STACK_H_
+#define STARFOCUS_LIB_SLICES_SLICE_STACK_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/base/geometry.h"
+#include "lib/base/view_grid.h"
+#include "lib/slices/slice.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+// Views of a column that are summed in 16 bits: all of those that subapertures need.
+inline constexpr int32_t kGroupViews = 81;
+
+// Weights of views as the kernels sum them: aperture weights times scale / 2^16.
+struct ViewWeights {
+  const Aperture* aperture;
+  uint64_t scale;          // 16 bits
+  uint32_t least_covered;  // sums of less than this are no colour: what rounding adds would show
+
+  int16_t Weight(int32_t i, int32_t j) const {
+    return static_cast<int16_t>((aperture->Weight(i, j) * scale) >> 16);
+  }
+
+  // Largest j of the views (i, j).
+  int32_t LastAcross(int32_t i) const {
+    int32_t j = aperture->last;
+    while (i * i + j * j > aperture->most) --j;
+    return j;
+  }
+};
+
+// Scales the weights of an aperture so that those of a group are at most kGroupSum together, and
+// each of them a quarter of it.
+ViewWeights ScaleWeights(const Aperture& aperture);
+
+// The nearest slice comes first.
+struct SliceStack {
+  const ViewGrid* grid;
+  ViewWeights weights;
+  Rect inner;  // the rectangle, in pixels of its surfaces
+  int32_t count;
+  Slice slices[kMaxSlices];
+  const simd::SliceOffset* offsets;  // of views -N to N, `count` each
+
+  // Where views (i, .) or (., i) show slice k.
+  const simd::SliceOffset& Offset(int32_t k, int32_t i) const {
+    return offsets[(i + grid->n()) * count + k];
+  }
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_SLICES_SLICE_STACK_H_

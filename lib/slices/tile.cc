@@ -1,0 +1,123 @@
+#include "lib/slices/tile.h"
+
+#include <cstring>
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+constexpr int32_t kRowsAhead = static_cast<int32_t>(simd::kRowsAhead);
+
+class Tile {
+ public:
+  Tile(const TileJob& job, const TileParts& parts) : job_(job), stack_(*job.stack), parts_(parts) {}
+
+  // Composites column by column of views.
+  void Composite() {
+    FindRows();
+    PlaceSlices();
+    for (int32_t i = -stack_.grid->n(); i <= stack_.grid->n(); ++i) AddColumn(i);
+  }
+
+ private:
+  // Finds which slices are seen and in which rows, and clears the sums.
+  void FindRows() {
+    for (int32_t k = 0; k < stack_.count; ++k) rows_[k] = {0, 0};
+    for (const SectionPart* part = parts_.first; part < parts_.end; ++part) {
+      for (int32_t n = 0; n < part->count; ++n) {
+        RowRange& rows = rows_[part->shown[n]];
+        if (rows.last == 0) rows.first = part->y;
+        rows.last = part->y + part->rows;
+      }
+      const size_t sums = kPixelSums * static_cast<size_t>(part->rows * kChunk);
+      std::memset(SumsOfRow(job_.sums, part->y), 0, sums * sizeof(*job_.sums));
+    }
+    for (int32_t k = 0; k < stack_.count; ++k) {
+      if (rows_[k].last != 0) seen_slices_[seen_++] = k;
+    }
+  }
+
+  // Places the seen slices one behind the other in the tile's memory; the marks of their rows
+  // follow all samples.
+  void PlaceSlices() {
+    size_t rows = 0;
+    for (int32_t n = 0; n < seen_; ++n) {
+      rows += static_cast<size_t>(job_.planes[seen_slices_[n]].rows) + simd::kRowsAhead;
+    }
+    int16_t* samples = job_.memory;
+    uint8_t* near = reinterpret_cast<uint8_t*>(samples + 4 * rows * kChunk) + simd::kRowsAhead;
+    for (int32_t n = 0; n < seen_; ++n) {
+      const int32_t k = seen_slices_[n];
+      const SlicePlane& placed = job_.planes[k];
+      ShiftedSlice& shifted = shifted_[k];
+      shifted.samples = samples;
+      shifted.near = near;
+      PlaceTile(placed, parts_.x, rows_[k], &shifted);
+      shown_[k] = {samples + placed.reach * kChunk, near + placed.reach, shifted.plane};
+      samples += 4 * shifted.plane;
+      near += shifted.plane / kChunk;
+    }
+  }
+
+  // Adds views (i, j) of all j.
+  void AddColumn(int32_t i) {
+    const int32_t last = stack_.weights.LastAcross(Abs(i));
+    for (int32_t n = 0; n < seen_; ++n) MoveSlice(seen_slices_[n], i, last);
+    for (int32_t first = -last; first <= last; first += kGroupViews) {
+      AddGroup(i, first, Min(first + kGroupViews - 1, last));
+    }
+  }
+
+  // Of one slice, whose subaperture makes the rest of the fraction.
+  static bool Same(const simd::SliceOffset& a, const simd::SliceOffset& b) {
+    return a.whole == b.whole && a.fraction.edge == b.fraction.edge;
+  }
+
+  // Moves of slice k what views (i, -last) to (i, last) show; nothing if it is there from the
+  // column of views before.
+  void MoveSlice(int32_t k, int32_t i, int32_t last) {
+    const SlicePlane& placed = job_.planes[k];
+    const RowRange& seen = rows_[k];
+    const int32_t a = stack_.Offset(k, -last).whole, b = stack_.Offset(k, last).whole;
+    const RowRange rows = {seen.first + placed.reach + Min(a, b),
+                           Min(seen.last + placed.reach + Max(a, b) + kRowsAhead, placed.rows)};
+    const RowRange& moved = shifted_[k].moved;
+    const bool within = moved.first <= rows.first && rows.last <= moved.last;
+    if (within && Same(stack_.Offset(k, i), stack_.Offset(k, i - 1))) return;
+    ShiftSlice(*job_.kernels, placed, stack_.Offset(k, i), parts_.x, rows, &shifted_[k]);
+  }
+
+  // Adds views (i, first) to (i, last).
+  void AddGroup(int32_t i, int32_t first, int32_t last) {
+    for (int32_t j = first; j <= last; ++j) {
+      job_.weights[j - first] = stack_.weights.Weight(i, j);
+    }
+    for (const SectionPart* part = parts_.first; part < parts_.end; ++part) {
+      const simd::SliceViews views = {job_.weights,
+                                      &stack_.Offset(0, first),
+                                      static_cast<size_t>(last + 1 - first),
+                                      shown_,
+                                      static_cast<size_t>(stack_.count),
+                                      part->shown,
+                                      static_cast<size_t>(part->count),
+                                      static_cast<size_t>(part->y)};
+      job_.kernels->Composite(views, static_cast<size_t>(part->rows),
+                              SumsOfRow(job_.sums, part->y));
+    }
+  }
+
+  const TileJob& job_;
+  const SliceStack& stack_;
+  const TileParts& parts_;
+  int32_t seen_ = 0;
+  int32_t seen_slices_[kMaxSlices];
+  RowRange rows_[kMaxSlices];          // of the section, of the parts that see a slice
+  ShiftedSlice shifted_[kMaxSlices];   // as the column of views under way shows them
+  simd::TileSlice shown_[kMaxSlices];  // the same, for the kernel
+};
+
+}  // namespace
+
+void CompositeTile(const TileJob& job, const TileParts& parts) { Tile(job, parts).Composite(); }
+
+}  // namespace starfocus
