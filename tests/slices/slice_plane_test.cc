@@ -58,4 +58,47 @@ TEST_CASE("slice planes: no slice of any N reaches farther than the memory laid 
   CHECK(nearest == 0);
 }
 
+// Surfaces tell in which groups of pixels one lies behind another; a slice may begin within a
+// group.
+TEST_CASE("slice planes: a pixel behind another is shown wherever groups of pixels begin") {
+  constexpr int kWidth = 64, kShown = 24;
+  constexpr size_t kRoom = kWidth + 2 * starfocus::simd::kSliceLanes;
+  for (int behind = 0; behind < kWidth; ++behind) {
+    std::vector<int16_t> near(kRoom, 0), far(kRoom, starfocus::kNoSurface), none = far;
+    far[size_t(behind)] = -640;
+    std::vector<uint8_t> rgb(3 * kRoom, 255), share(kRoom, 128);
+    uint64_t hiding = uint64_t{1} << behind / int(starfocus::simd::kSliceLanes);
+    starfocus::LayeredDepth surfaces;
+    surfaces.width = surfaces.stride = kWidth;
+    surfaces.height = 1;
+    surfaces.plane = kRoom;
+    surfaces.share = share.data();
+    surfaces.hiding = &hiding;
+    int16_t* disparities[] = {near.data(), far.data(), none.data()};
+    for (int k = 0; k < 3; ++k) {
+      surfaces.disparity[k] = disparities[k];
+      surfaces.rgb[k] = rgb.data();
+    }
+    starfocus::SlicePlane placed;
+    placed.reach = placed.subaperture = 0;
+    placed.rows = 1;
+    placed.plane = starfocus::PlaneSamples(kShown, 0);
+    std::vector<int16_t> samples(4 * placed.plane + 2 * starfocus::simd::kSliceLanes);
+    starfocus::simd::SliceCover cover;
+    placed.samples = samples.data();
+    placed.cover = &cover;
+    starfocus::Slice slice;
+    slice.disparity = slice.low = slice.high = slice.overlap = -640;
+    for (int x = 0; x + kShown <= kWidth; ++x) {
+      CAPTURE(behind);
+      CAPTURE(x);
+      starfocus::FillSlice(starfocus::simd::BestKernels(), surfaces, slice, {x, 0, kShown, 1},
+                           nullptr, placed);
+      const bool shown = behind >= x && behind < x + kShown;
+      CHECK((cover.some != 0) == shown);
+      if (shown) CHECK(samples[3 * placed.plane + size_t(behind - x)] != 0);
+    }
+  }
+}
+
 }  // namespace
