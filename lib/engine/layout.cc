@@ -1,6 +1,9 @@
 #include "lib/engine/layout.h"
 
 #include "lib/base/rules.h"
+#ifdef STARFOCUS_RED_ZONES
+#include <sanitizer/asan_interface.h>
+#endif
 
 namespace starfocus {
 namespace {
@@ -92,7 +95,9 @@ CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_
   LayeredDepth& surfaces = scratch.surfaces;
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
-    surfaces.disparity[k] = carver->Take<int16_t>(area);
+    // Looking behind a row's first pixels reads lanes before them, of which nothing is used.
+    int16_t* before = carver->Take<int16_t>(simd::kSliceLanes + area);
+    surfaces.disparity[k] = before == nullptr ? nullptr : before + simd::kSliceLanes;
     surfaces.rgb[k] = carver->Take<uint8_t>(3 * area);
   }
   surfaces.share = carver->Take<uint8_t>(area);
@@ -239,10 +244,7 @@ void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   }
 }
 
-}  // namespace
-
-size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
-  Carver carver(base);
+size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
   *engine = carver.Take<EngineState>(1);
   EngineState counted;  // stands in for *engine while counting
   EngineState& e = *engine == nullptr ? counted : **engine;
@@ -259,6 +261,36 @@ size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
   }
   return carver.Bytes();
 }
+
+#ifdef STARFOCUS_RED_ZONES
+void VisitZones(const EngineState& engine, void (*visit)(const void*, size_t, size_t)) {
+  const ZoneVisitor zones = {visit, &engine};
+  EngineState* counted = nullptr;
+  Carve(engine.config, Carver(nullptr, PTRDIFF_MAX, &zones), &counted);
+}
+#endif
+
+}  // namespace
+
+size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
+  return Carve(config, Carver(base), engine);
+}
+
+#ifdef STARFOCUS_RED_ZONES
+RedZones::RedZones(const EngineState& engine) : engine_(engine) {
+  VisitZones(engine, [](const void* base, size_t offset, size_t bytes) {
+    ASAN_POISON_MEMORY_REGION(static_cast<const uint8_t*>(base) + offset, bytes);
+  });
+}
+RedZones::~RedZones() {
+  VisitZones(engine_, [](const void* base, size_t offset, size_t bytes) {
+    ASAN_UNPOISON_MEMORY_REGION(static_cast<const uint8_t*>(base) + offset, bytes);
+  });
+}
+#else
+RedZones::RedZones(const EngineState& engine) : engine_(engine) {}
+RedZones::~RedZones() = default;
+#endif
 
 Extent Workspace(const EngineState& engine) {
   EngineState* counted = nullptr;

@@ -14,12 +14,34 @@ namespace starfocus {
 // Bytes of what is larger than memory can be.
 inline constexpr size_t kTooLarge = SIZE_MAX;
 
+// In builds with AddressSanitizer this many bytes behind each piece and its padding, a multiple of
+// SF_ALIGNMENT, are a red zone: whatever reads or writes it while a stripe is refocused is
+// reported. Pieces share no memory there, so that each has neighbours of its own.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define STARFOCUS_RED_ZONES
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define STARFOCUS_RED_ZONES
+#endif
+#ifdef STARFOCUS_RED_ZONES
+inline constexpr size_t kRedZone = 1024;
+#else
+inline constexpr size_t kRedZone = 0;
+#endif
+
+// Is told of each red zone: bytes before it, and its size.
+struct ZoneVisitor {
+  void (*visit)(const void* data, size_t offset, size_t bytes);
+  const void* data;
+};
+
 // Hands out aligned pieces of a block of memory, each followed by simd::kPadding bytes, as long as
 // all of them together take `most` bytes: no object is larger than half of the addresses.
 class Carver {
  public:
-  explicit Carver(void* base, size_t most = PTRDIFF_MAX)
-      : base_(static_cast<uint8_t*>(base)), most_(most) {}
+  explicit Carver(void* base, size_t most = PTRDIFF_MAX, const ZoneVisitor* zones = nullptr)
+      : base_(static_cast<uint8_t*>(base)), most_(most), zones_(zones) {}
 
   // `count` times `times` of them.
   template <class T>
@@ -35,6 +57,7 @@ class Carver {
   // What is taken from here on shares memory with what was taken since `mark` was.
   size_t Mark() const { return used_; }
   void Reuse(size_t mark) {
+    if (kRedZone > 0) return;
     largest_ = used_ > largest_ ? used_ : largest_;
     used_ = mark;
   }
@@ -53,14 +76,16 @@ class Carver {
       too_large_ = true;
     } else {
       used_ += (bytes + kExtra) / SF_ALIGNMENT * SF_ALIGNMENT;
+      if (zones_ != nullptr) zones_->visit(zones_->data, used_ - kRedZone, kRedZone);
     }
   }
 
-  // Padding, and what rounding up to SF_ALIGNMENT adds at most.
-  static constexpr size_t kExtra = simd::kPadding + SF_ALIGNMENT - 1;
+  // Padding, a red zone, and what rounding up to SF_ALIGNMENT adds at most.
+  static constexpr size_t kExtra = simd::kPadding + kRedZone + SF_ALIGNMENT - 1;
 
   uint8_t* base_;
   size_t most_;
+  const ZoneVisitor* zones_;
   size_t used_ = 0, largest_ = 0;
   bool too_large_ = false;
 };
@@ -68,6 +93,19 @@ class Carver {
 // Lays out an engine for a valid configuration at `base` (aligned to SF_ALIGNMENT), or counts when
 // base is null. Returns the bytes used, or kTooLarge; *engine is null when counting.
 size_t LayOut(const sf_config& config, void* base, EngineState** engine);
+
+// Makes the red zones of an engine's memory, if this build has any, ones that nobody may touch, as
+// long as the object lives: the memory is the caller's and may become something else afterwards.
+class RedZones {
+ public:
+  explicit RedZones(const EngineState& engine);
+  ~RedZones();
+  RedZones(const RedZones&) = delete;
+  RedZones& operator=(const RedZones&) = delete;
+
+ private:
+  [[maybe_unused]] const EngineState& engine_;
+};
 
 // The memory an engine lives in.
 Extent Workspace(const EngineState& engine);
