@@ -211,7 +211,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (int round = 0; round < 2; ++round) {
     const sf_params params = MakeParams(config, &input);
     const double scale = params.mode == SF_MODE_BENCHMARK ? 2 : config.n_scale;
-    const double n = scale * config.max_blur;
+    const bool subapertures = params.mode == SF_MODE_BLOCK ? params.rule != SF_RULE_PAPER
+                                                           : params.mode == SF_MODE_FRAME &&
+                                                                 params.rule == SF_RULE_SUBAPERTURE;
+    // At most 13 views along the radius stand for subapertures, however wide the blur is.
+    const double n = scale * (subapertures ? std::min(config.max_blur, 13.0) : config.max_blur);
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;
     if (config.streaming != 0 && input.Int(0, 1) == 1) {
       Stream(engine, config, params, pictures, out.get(), stride, &input);
