@@ -191,7 +191,7 @@ demo() {
   refocus middle
   refocus far
   program "put the three side by side: demo/sheet.png" \
-    sheet demo/sheet.png demo/near.png demo/middle.png demo/far.png --labels near,middle,far
+    sheet demo/near.png demo/middle.png demo/far.png --labels near,middle,far -o demo/sheet.png
 }
 
 # The unit tests under AddressSanitizer and UBSan with range checks; data sets are left out, they

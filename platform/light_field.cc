@@ -107,6 +107,17 @@ bool IsLightFieldFile(const std::string& name) {
   return name == kDisparityName;
 }
 
+std::vector<std::string> LightFieldFiles(const std::string& folder) {
+  std::vector<std::string> files;
+  for (int index = 0; index < SF_MAX_VIEWS; ++index) {
+    const std::string view = FindView(folder, index);
+    if (!view.empty()) files.push_back(view);
+  }
+  std::error_code error;
+  if (fs::exists(DisparityPath(folder), error)) files.push_back(DisparityPath(folder));
+  return files;
+}
+
 std::string CountViews(const std::string& folder, int* views) {
   const std::string error = CheckFolder(folder);
   if (!error.empty()) return error;

@@ -29,6 +29,9 @@ std::string ViewName(int index);
 
 std::string DisparityPath(const std::string& folder);
 
+// Every file that `folder` holds of a light field.
+std::vector<std::string> LightFieldFiles(const std::string& folder);
+
 // Whether the file of that name, in a folder, is taken for a part of its light field.
 bool IsLightFieldFile(const std::string& name);
 

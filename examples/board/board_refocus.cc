@@ -4,14 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "examples/board/camera.h"
 #include "examples/board/panel.h"
 #include "examples/command_line/options.h"
+#include "examples/command_line/program.h"
 #include "platform/clock.h"
 #include "platform/file.h"
 #include "platform/framebuffer.h"
@@ -42,12 +41,12 @@ struct Plan {
 
 constexpr int kLastLine = 100000;
 
-std::string ParseLine(const std::string& option, const std::string& text, int* line) {
+Error ParseLine(const std::string& option, const std::string& text, int* line) {
   return text.empty() ? "" : ParseWhole(option, text, 0, kLastLine, line);
 }
 
-std::string PlanLines(const Options& options, Plan* plan) {
-  std::string error;
+Error PlanLines(const Options& options, Plan* plan) {
+  Error error;
   PanelLines& lines = plan->lines;
   if (!options.encoder.empty()) {
     error = ParsePair("--encoder", options.encoder, ',', &lines.encoder_a, &lines.encoder_b);
@@ -56,18 +55,18 @@ std::string PlanLines(const Options& options, Plan* plan) {
   if (error.empty()) error = ParseLine("--shutter", options.shutter, &lines.shutter);
   if (error.empty()) error = ParseLine("--busy", options.busy, &plan->busy);
   if (!error.empty()) return error;
-  if (lines.shutter < 0) return Expected("--shutter", "the line of the shutter button", "none");
+  if (lines.shutter < 0) return Error::Usage("--shutter", "the line of the shutter button", "none");
   std::vector<int> all = lines.All();
   if (plan->busy >= 0) all.push_back(plan->busy);
   std::sort(all.begin(), all.end());
   const auto twice = std::adjacent_find(all.begin(), all.end());
   if (twice == all.end()) return "";
-  return Expected("lines", "a line for each control", std::to_string(*twice) + " twice");
+  return Error::Usage("lines", "a line for each control", std::to_string(*twice) + " twice");
 }
 
 // Everything that can be refused before the light field is read.
-std::string MakePlan(const Options& options, Plan* plan) {
-  std::string error = PlanLines(options, plan);
+Error MakePlan(const Options& options, Plan* plan) {
+  Error error = PlanLines(options, plan);
   if (error.empty()) {
     error = ParseWhole("--debounce", options.debounce, 0, 1000, &plan->debounce);
   }
@@ -86,18 +85,18 @@ std::string MakePlan(const Options& options, Plan* plan) {
   if (error.empty() && !options.out.empty()) error = CheckImageOutput(options.out);
   if (!error.empty()) return error;
   if (options.out.empty() && options.framebuffer.empty()) {
-    return Expected("--out", "a picture file to write, or --framebuffer", "neither");
+    return Error::Usage("--out", "a picture file to write, or --framebuffer", "neither");
   }
   if (options.active != "low" && options.active != "high") {
-    return Expected("--active", "low or high", "'" + options.active + "'");
+    return Error::Usage("--active", "low or high", "'" + options.active + "'");
   }
   if (options.mode != "block" && options.mode != "frame") {
-    return Expected("--mode", "block or frame", "'" + options.mode + "'");
+    return Error::Usage("--mode", "block or frame", "'" + options.mode + "'");
   }
   if (options.bias == "none") plan->bias = GpioBias::kAsIs;
   if (options.bias == "pull-down") plan->bias = GpioBias::kPullDown;
   if (options.bias == "pull-up" || plan->bias != GpioBias::kPullUp) return "";
-  return Expected("--bias", "pull-up, pull-down or none", "'" + options.bias + "'");
+  return Error::Usage("--bias", "pull-up, pull-down or none", "'" + options.bias + "'");
 }
 
 int64_t Nanoseconds() { return static_cast<int64_t>(Seconds() * 1e9); }
@@ -114,8 +113,8 @@ class Board {
       : options_(options), plan_(plan), camera_(plan.threads) {}
 
   // The lines are taken before the light field is read: their absence is known sooner.
-  std::string Open() {
-    std::string error = inputs_.Open(options_.chip, plan_.lines.All(), plan_.bias);
+  Error Open() {
+    Error error = inputs_.Open(options_.chip, plan_.lines.All(), plan_.bias);
     if (error.empty() && plan_.busy >= 0) error = busy_.Open(options_.chip, plan_.busy);
     if (error.empty()) {
       error =
@@ -126,10 +125,10 @@ class Board {
     focus_ = 0.5 * (camera_.nearest() + camera_.farthest());
     if (plan_.focus_given) {
       if (plan_.focus < camera_.farthest() || plan_.focus > camera_.nearest()) {
-        return Expected("--focus",
-                        "a disparity of the scene, " + Short(camera_.farthest()) + " to " +
-                            Short(camera_.nearest()),
-                        Short(plan_.focus));
+        return Error::Usage("--focus",
+                            "a disparity of the scene, " + Short(camera_.farthest()) + " to " +
+                                Short(camera_.nearest()),
+                            Short(plan_.focus));
       }
       focus_ = plan_.focus;
     }
@@ -140,9 +139,9 @@ class Board {
   }
 
   // Serves the controls until the wanted number of pictures is taken.
-  std::string Run() {
+  Error Run() {
     bool a = true, b = true;
-    std::string error;
+    Error error;
     if (plan_.lines.encoder_a >= 0) {
       error = inputs_.Read(plan_.lines.encoder_a, &a);
       if (error.empty()) error = inputs_.Read(plan_.lines.encoder_b, &b);
@@ -164,7 +163,7 @@ class Board {
   double aperture() const { return camera_.apertures()[aperture_]; }
   bool Finished() const { return plan_.pictures != 0 && taken_ >= plan_.pictures; }
 
-  std::string Act(const PanelActions& actions) {
+  Error Act(const PanelActions& actions) {
     if (!actions.any()) return "";
     focus_ =
         std::clamp(focus_ + actions.focus_steps * step_, camera_.farthest(), camera_.nearest());
@@ -174,22 +173,24 @@ class Board {
     return "";
   }
 
-  std::string SetBusy(bool high, bool* read_back) {
+  Error SetBusy(bool high, bool* read_back) {
     if (plan_.busy < 0) return "";
-    const std::string error = busy_.Set(high);
+    const Error error = busy_.Set(high);
     return error.empty() ? busy_.Read(read_back) : error;
   }
 
-  std::string TakePicture() {
+  Error TakePicture() {
     bool during = false, after = false;
-    std::string error = SetBusy(true, &during);
+    Error error = SetBusy(true, &during);
     if (!error.empty()) return error;
     const double start = Seconds();
     const sf_status status = camera_.Take(focus_, aperture());
     const double seconds = Seconds() - start;
     error = SetBusy(false, &after);
     if (!error.empty()) return error;
-    if (status != SF_OK) return Expected("picture", "a refocused one", sf_status_string(status));
+    if (status != SF_OK) {
+      return Error::Internal("picture", "a refocused one", sf_status_string(status));
+    }
     ++taken_;
     std::printf("picture %d: focus %g, aperture %g, %.3f ms", taken_, focus_, aperture(),
                 1e3 * seconds);
@@ -201,7 +202,7 @@ class Board {
 
   // A full disk must not end the camera.
   void Keep() {
-    std::string error;
+    Error error;
     if (!options_.framebuffer.empty()) {
       error = ShowOnFramebuffer(options_.framebuffer, camera_.picture());
     }
@@ -210,7 +211,7 @@ class Board {
       error = WriteImage(path, camera_.picture());
       if (error.empty()) std::printf("wrote %s\n", path.c_str());
     }
-    if (!error.empty()) std::fprintf(stderr, "board_refocus: %s\n", error.c_str());
+    if (!error.empty()) std::fprintf(stderr, "board_refocus: %s\n", error.line().c_str());
   }
 
   const Options& options_;
@@ -223,9 +224,9 @@ class Board {
   int taken_ = 0;
 };
 
-std::string List() {
+Error List() {
   std::vector<GpioChip> chips;
-  const std::string error = ListGpioChips(&chips);
+  const Error error = ListGpioChips(&chips);
   for (const GpioChip& chip : chips) {
     std::printf("%s: %s, %d lines\n", chip.name.c_str(), chip.label.c_str(), chip.lines);
   }
@@ -257,45 +258,31 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--framebuffer", options->framebuffer, "Linux framebuffer, such as /dev/fb0");
 }
 
-int Fail(const std::string& line) {
-  std::fprintf(stderr, "board_refocus: %s\n", line.c_str());
-  return 1;
-}
-
-int Main(int argc, char** argv) {
+Error Main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   CLI::App app("Refocuses a light field by knob and buttons on GPIO lines.", "board_refocus");
   Options options;
   AddOptions(&app, &options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    return Fail(Expected("command line", "what `board_refocus --help` lists", error.what()));
-  }
-  std::string error;
+  app.set_version_flag("--version", VersionText("board_refocus"));
+  app.footer(kExitCodes);
+  Error error;
+  if (!ParseCommandLine(&app, argc, argv, &error)) return error;
   Plan plan;
   if (options.list) {
     error = List();
   } else if (options.folder.empty()) {
-    error = Expected("DIR", "a light-field folder", "nothing");
+    error = Error::Usage("DIR", "a light-field folder", "nothing");
   } else {
     error = MakePlan(options, &plan);
     Board board(options, plan);
     if (error.empty()) error = board.Open();
     if (error.empty()) error = board.Run();
   }
-  return error.empty() ? 0 : Fail(error);
+  return error;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return Main(argc, argv);
-  } catch (const std::bad_alloc&) {
-    return Fail("memory: expected enough for these pictures, found too little");
-  } catch (const std::exception& error) {
-    return Fail(starfocus::Expected("board_refocus", "no internal failure", error.what()));
-  }
+  return RunProgram("board_refocus", [&] { return Main(argc, argv); });
 }

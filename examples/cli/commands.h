@@ -1,15 +1,16 @@
 // The subcommands of `starfocus`. Each adds itself to the command line and, when chosen, sets
-// `action`; an action returns an error line, empty for success.
+// `action`.
 #ifndef STARFOCUS_EXAMPLES_CLI_COMMANDS_H_
 #define STARFOCUS_EXAMPLES_CLI_COMMANDS_H_
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <string>
+
+#include "examples/command_line/error.h"
 
 namespace starfocus {
 
-using Action = std::function<std::string()>;
+using Action = std::function<Error()>;
 
 void AddSceneCommand(CLI::App* app, Action* action);
 void AddRefocusCommand(CLI::App* app, Action* action);
@@ -20,6 +21,8 @@ void AddInfoCommand(CLI::App* app, Action* action);
 void AddSheetCommand(CLI::App* app, Action* action);
 void AddStressCommand(CLI::App* app, Action* action);
 void AddAnalyzeCommand(CLI::App* app, Action* action);
+// To be added last: it tells of the others.
+void AddHelpCommand(CLI::App* app, Action* action);
 
 }  // namespace starfocus
 

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "platform/file.h"
 #include "platform/light_field.h"
 #include "starfocus/starfocus.h"
 
@@ -33,31 +32,31 @@ bool ReadNumber(const std::string& text, double* value) {
 
 }  // namespace
 
-std::string ParseNumber(const std::string& option, const std::string& text, double* value) {
-  return ReadNumber(text, value) ? "" : Expected(option, "a finite number", Quoted(text));
+Error ParseNumber(const std::string& option, const std::string& text, double* value) {
+  return ReadNumber(text, value) ? "" : Error::Usage(option, "a finite number", Quoted(text));
 }
 
-std::string ParseWhole(const std::string& option, const std::string& text, int low, int high,
-                       int* value) {
+Error ParseWhole(const std::string& option, const std::string& text, int low, int high,
+                 int* value) {
   if (ReadWhole(text, value) && *value >= low && *value <= high) return "";
-  return Expected(option,
-                  "a whole number from " + std::to_string(low) + " to " + std::to_string(high),
-                  Quoted(text));
+  return Error::Usage(option,
+                      "a whole number from " + std::to_string(low) + " to " + std::to_string(high),
+                      Quoted(text));
 }
 
-std::string ParsePair(const std::string& option, const std::string& text, char separator,
-                      int* first, int* second) {
+Error ParsePair(const std::string& option, const std::string& text, char separator, int* first,
+                int* second) {
   const size_t at = text.find(separator);
   if (at != std::string::npos && ReadWhole(text.substr(0, at), first) &&
       ReadWhole(text.substr(at + 1), second) && *first <= kMaxPictureSize &&
       *second <= kMaxPictureSize) {
     return "";
   }
-  return Expected(option, std::string("two whole numbers with '") + separator + "' between them",
-                  Quoted(text));
+  return Error::Usage(
+      option, std::string("two whole numbers with '") + separator + "' between them", Quoted(text));
 }
 
-std::string ParseRegion(const std::string& option, const std::string& text, sf_region* region) {
+Error ParseRegion(const std::string& option, const std::string& text, sf_region* region) {
   int values[4] = {};
   size_t begin = 0;
   for (int i = 0; i < 4; ++i) {
@@ -65,7 +64,7 @@ std::string ParseRegion(const std::string& option, const std::string& text, sf_r
     const bool size = i >= 2;
     if (begin > end || !ReadWhole(text.substr(begin, end - begin), &values[i]) ||
         values[i] > kMaxPictureSize || (size && values[i] == 0)) {
-      return Expected(option, "X,Y,W,H in whole pixels, W and H not 0", Quoted(text));
+      return Error::Usage(option, "X,Y,W,H in whole pixels, W and H not 0", Quoted(text));
     }
     begin = end + 1;
   }
@@ -73,20 +72,21 @@ std::string ParseRegion(const std::string& option, const std::string& text, sf_r
   return "";
 }
 
-std::string ParseAperture(const std::string& option, const std::string& text, double* value) {
+Error ParseAperture(const std::string& option, const std::string& text, double* value) {
   if (ReadNumber(text, value) && *value > 0 && *value <= 1) return "";
-  return Expected(option, "an aperture above 0 and at most 1", Quoted(text));
+  return Error::Usage(option, "an aperture above 0 and at most 1", Quoted(text));
 }
 
-std::string ParseScale(const std::string& option, const std::string& text, double* value) {
+Error ParseScale(const std::string& option, const std::string& text, double* value) {
   if (ReadNumber(text, value) && *value >= SF_MIN_N_SCALE && *value <= SF_MAX_N_SCALE) return "";
-  return Expected(option, "a factor from " + Short(SF_MIN_N_SCALE) + " to " + Short(SF_MAX_N_SCALE),
-                  Quoted(text));
+  return Error::Usage(option,
+                      "a factor from " + Short(SF_MIN_N_SCALE) + " to " + Short(SF_MAX_N_SCALE),
+                      Quoted(text));
 }
 
-std::string ParseViews(const std::string& option, const std::string& text, int* value) {
+Error ParseViews(const std::string& option, const std::string& text, int* value) {
   if (ReadWhole(text, value) && IsStarSet(*value)) return "";
-  return Expected(option, "17, 9, 5 or 1", Quoted(text));
+  return Error::Usage(option, "17, 9, 5 or 1", Quoted(text));
 }
 
 std::string Short(double value) {

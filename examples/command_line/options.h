@@ -1,36 +1,35 @@
-// Values of command-line options. Every function returns an error line naming the option, empty
-// for success.
+// Values of command-line options. The errors name the option.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 
 #include <string>
 
+#include "examples/command_line/error.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
 // A finite number, all of `text`.
-std::string ParseNumber(const std::string& option, const std::string& text, double* value);
+Error ParseNumber(const std::string& option, const std::string& text, double* value);
 
 // A whole number in [low, high].
-std::string ParseWhole(const std::string& option, const std::string& text, int low, int high,
-                       int* value);
+Error ParseWhole(const std::string& option, const std::string& text, int low, int high, int* value);
 
 // Two whole numbers from 0 to 65535 with `separator` between them.
-std::string ParsePair(const std::string& option, const std::string& text, char separator,
-                      int* first, int* second);
+Error ParsePair(const std::string& option, const std::string& text, char separator, int* first,
+                int* second);
 
 // X,Y,W,H: a rectangle of whole numbers, neither side 0.
-std::string ParseRegion(const std::string& option, const std::string& text, sf_region* region);
+Error ParseRegion(const std::string& option, const std::string& text, sf_region* region);
 
 // A radius above 0 and at most 1.
-std::string ParseAperture(const std::string& option, const std::string& text, double* value);
+Error ParseAperture(const std::string& option, const std::string& text, double* value);
 
 // A factor from SF_MIN_N_SCALE to SF_MAX_N_SCALE.
-std::string ParseScale(const std::string& option, const std::string& text, double* value);
+Error ParseScale(const std::string& option, const std::string& text, double* value);
 
 // 17, 9, 5 or 1.
-std::string ParseViews(const std::string& option, const std::string& text, int* value);
+Error ParseViews(const std::string& option, const std::string& text, int* value);
 
 // `value` with %g.
 std::string Short(double value);

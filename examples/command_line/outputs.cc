@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <set>
 
-#include "platform/file.h"
 #include "platform/light_field.h"
 
 namespace starfocus {
@@ -18,19 +17,38 @@ fs::path NameOf(const fs::path& path) {
   return name.has_filename() ? name : name.parent_path();  // "folder/"
 }
 
+// Files of a light field that stand elsewhere.
+std::vector<std::string> FindLinks(const std::string& folder) {
+  std::vector<std::string> links;
+  std::error_code ignored;
+  for (const std::string& path : LightFieldFiles(folder)) {
+    if (fs::is_symlink(path, ignored)) links.push_back(path);
+  }
+  return links;
+}
+
 }  // namespace
 
-std::string CheckApart(const std::vector<Output>& outputs,
-                       const std::vector<std::string>& folders) {
-  std::set<fs::path> inputs, names;
-  for (const std::string& folder : folders) inputs.insert(NameOf(folder));
+Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
+  std::set<fs::path> folders, files, names;
+  for (const std::string& folder : inputs.folders) {
+    folders.insert(NameOf(folder));
+    for (const std::string& path : FindLinks(folder)) files.insert(NameOf(path));
+  }
+  for (const std::string& path : inputs.files) {
+    if (!path.empty()) files.insert(NameOf(path));
+  }
   for (const Output& output : outputs) {
     const fs::path name = NameOf(output.path);
     if (!names.insert(name).second) {
-      return Expected(output.option, "a file of its own", output.path + ", which another one is");
+      return Error::Usage(output.option, "a file of its own",
+                          output.path + ", which another one is");
     }
-    if (inputs.count(name.parent_path()) != 0 && IsLightFieldFile(name.filename().string())) {
-      return Expected(output.option, "a file of its own", output.path + " of the light field");
+    if (files.count(name) != 0) {
+      return Error::Usage(output.option, "a file of its own", output.path + ", which is read");
+    }
+    if (folders.count(name.parent_path()) != 0 && IsLightFieldFile(name.filename().string())) {
+      return Error::Usage(output.option, "a file of its own", output.path + " of the light field");
     }
   }
   return "";

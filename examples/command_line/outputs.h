@@ -5,15 +5,22 @@
 #include <string>
 #include <vector>
 
+#include "examples/command_line/error.h"
+
 namespace starfocus {
 
 struct Output {
   std::string option, path;
 };
 
-// Whether each is a file of its own and belongs to no light field in `folders`. Returns an error
-// line, empty for success.
-std::string CheckApart(const std::vector<Output>& outputs, const std::vector<std::string>& folders);
+// What the same command reads.
+struct Inputs {
+  std::vector<std::string> folders;  // of light fields
+  std::vector<std::string> files;    // others; an empty name is none
+};
+
+// Whether each is a file of its own, and none of the inputs by any name or link.
+Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs);
 
 }  // namespace starfocus
 

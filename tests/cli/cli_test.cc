@@ -1,6 +1,5 @@
-// Runs the program STARFOCUS_PROGRAM (a definition of the build, or the environment variable).
+// The subcommands by their results and what they refuse.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include "platform/file.h"
 #include "platform/image_io.h"
 #include "platform/light_field.h"
+#include "tests/cli/call_program.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus {
@@ -19,52 +19,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Program() {
-  const char* program = std::getenv("STARFOCUS_PROGRAM");
-#ifdef STARFOCUS_PROGRAM
-  if (program == nullptr) program = STARFOCUS_PROGRAM;
-#endif
-  REQUIRE_MESSAGE(program != nullptr, "set STARFOCUS_PROGRAM to the program to test");
-  return program;
-}
-
-struct Outcome {
-  int code = -1;  // exit code; -1 when a signal ended the program
-  std::string out, err;
-};
-
-std::string Text(const std::string& path) {
-  Bytes bytes;
-  REQUIRE(ReadFile(path, &bytes) == "");
-  return std::string(bytes.begin(), bytes.end());
-}
-
-// Runs the program in `folder` with shell-quoted arguments.
-Outcome Call(const TempFolder& folder, const std::string& arguments) {
-  TempFolder logs;
-  const std::string command = "cd '" + folder.path() + "' && '" + Program() + "' " + arguments +
-                              " >'" + logs.file("out") + "' 2>'" + logs.file("err") + "'";
-  const int status = std::system(command.c_str());
-  Outcome outcome;
-  if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
-  outcome.out = Text(logs.file("out"));
-  outcome.err = Text(logs.file("err"));
-  return outcome;
-}
-
-// Exit code 1, one line on stderr that begins with the program, nothing on stdout, no new file.
+// Nothing on stdout, no new file, and exit code 2 where the error line is about the command line, 1
+// where it is about a file.
 void CheckRefused(const TempFolder& folder, const std::string& arguments,
                   const std::string& mention) {
   CAPTURE(arguments);
   const int before = folder.count();
   const Outcome outcome = Call(folder, arguments);
   CAPTURE(outcome.err);
-  CHECK(outcome.code == 1);
+  bool usage = false;
+  for (const char* what : {"-", "command line: ", "DIR: ", "COMMAND: "}) {
+    usage = usage || outcome.err.rfind("starfocus: " + std::string(what), 0) == 0;
+  }
+  CHECK(outcome.code == (usage ? 2 : 1));
   CHECK(outcome.out == "");
-  CHECK(outcome.err.rfind("starfocus: ", 0) == 0);
-  CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
-  CHECK(outcome.err.find(": expected ") != std::string::npos);
-  CHECK(outcome.err.find(", found ") != std::string::npos);
+  CheckErrorLine(outcome.err);
   CHECK(outcome.err.find(mention) != std::string::npos);
   CHECK(folder.count() == before);
 }
@@ -78,6 +47,10 @@ void Prepare(const TempFolder& folder) {
   for (const char* name : {"missing", "broken", "nan", "huge", "short"}) {
     fs::copy(folder.file("lf"), folder.file(name));
   }
+  fs::copy(folder.file("lf"), folder.file("linked"));
+  fs::rename(folder.file("linked/view_+1.0_+0.0.png"), folder.file("target.png"));
+  fs::create_symlink("../target.png", folder.file("linked/view_+1.0_+0.0.png"));
+  fs::create_symlink("../target.png", folder.file("linked/out.png"));
   fs::remove(folder.file("missing/view_-1.0_+0.0.png"));
   REQUIRE(WriteFile(folder.file("broken/view_-1.0_+0.0.png"), Bytes{1, 2, 3}) == "");
   FloatMap map;
@@ -149,6 +122,10 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o ./lf/../lf/view_+1.0_+1.0.jpg --focus 1", "light field"},
              {"refocus lf -o x.png --focus 1 --report lf/disparity.pfm", "light field"},
              {"refocus lf -o x.png --focus 1 --map lf/view_-1.0_+0.0.png", "light field"},
+             {"refocus linked -o target.png --focus 1", "which is read"},
+             {"refocus linked -o x.png --focus 1 --map ./target.png", "which is read"},
+             {"refocus linked -o linked/out.png --focus 1", "which is read"},
+             {"refocus lf -o x.png --focus 1 --timing t.json --report lf/../t.json", "--report"},
              {"refocus lf -o x.png --sweep 1:2", "--sweep"},
              {"refocus lf -o x.png --sweep 1:2:1", "--sweep"},
              {"refocus lf -o x.png --sweep 1:2:1001", "--sweep"},
@@ -227,11 +204,18 @@ TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
              {"video lf single -o out --focus 1", "5 views"},
              {"video lf --focus 900 -o out", "128"},
              {"video taken_002.png -o out --focus 1", "light-field folders"},
-             {"sheet x.png", "IMG"},
-             {"sheet x.tif small.png", ".tif"},
-             {"sheet x.png none.png", "none.png"},
-             {"sheet x.png small.png --labels a,b", "--labels"},
-             {"sheet x.png small.png --width 3", "--width"},
+             {"sheet -o x.png", "IMG"},
+             {"sheet -o x.tif small.png", ".tif"},
+             {"sheet small.png", "--output"},
+             {"sheet large.png small.png -o ./lf/../small.png", "which is read"},
+             {"sheet -o x.png none.png", "none.png"},
+             {"help lens", "lens"},
+             {"help --man --bash", "--bash"},
+             {"help refocus lens", "lens"},
+             {"calibrate --light-field lf -o lf/disparity.pfm", "light field"},
+             {"calibrate --check lf -o lf/view_+0.0_+0.0.png", "light field"},
+             {"sheet -o x.png small.png --labels a,b", "--labels"},
+             {"sheet -o x.png small.png --width 3", "--width"},
              {"analyze --max-blur 0", "--max-blur"},
              {"analyze --max-blur 129", "--max-blur"},
              {"analyze --max-blur 2.5", "--max-blur"},
@@ -299,6 +283,9 @@ TEST_CASE("cli: calibrate writes what refocus --timing takes") {
   CAPTURE(outcome.err);
   CHECK(outcome.code == 0);
   CHECK(outcome.out.find("per block") != std::string::npos);
+  // The agreement is told and not judged.
+  CHECK(outcome.out.find("R2 ") != std::string::npos);
+  CHECK(outcome.out.find("below") == std::string::npos);
   CHECK(Text(folder.file("timing.json")).find("\"block\"") != std::string::npos);
   CHECK(Call(folder, "refocus lf --focus 2 --timing timing.json -o a.png").code == 0);
   CHECK(fs::exists(folder.file("a.png")));
@@ -348,7 +335,8 @@ TEST_CASE("cli: refocus, stream, report, compare, info and sheet work together")
   CHECK(Call(folder, "refocus nan -o filled.png --focus-at 5,1 --fill-invalid").code == 0);
   CHECK(Call(folder, "info nan").out.find("5 views") != std::string::npos);
   CHECK(Call(folder, "info nan --json").out.find("\"invalid\":1,") != std::string::npos);
-  CHECK(Call(folder, "sheet sheet.png whole.png small.png --labels near,far --width 60").code == 0);
+  CHECK(Call(folder, "sheet -o sheet.png whole.png small.png --labels near,far --width 60").code ==
+        0);
   Image sheet;
   REQUIRE(ReadImage(folder.file("sheet.png"), &sheet) == "");
   CHECK(sheet.width <= 60);

@@ -34,18 +34,19 @@ std::string Write(const fs::path& folder, const Figure& figure, bool draw) {
   return WriteFile((folder / (figure.name + ".svg")).string(), picture);
 }
 
-std::string Run(const Options& options) {
+Error Run(const Options& options) {
   int max_blur = 0;
-  std::string error = ParseWhole("--max-blur", options.max_blur, 1, 128, &max_blur);
+  Error error = ParseWhole("--max-blur", options.max_blur, 1, 128, &max_blur);
   if (!error.empty()) return error;
   if (!options.folder.empty()) {
     std::error_code failure;
     fs::create_directories(options.folder, failure);
     if (failure) return Expected(options.folder, "a folder to write into", failure.message());
   }
+  std::string engine_error;
   std::vector<Figure> figures = {AnalyseTableOne(), AnalyseViewNumber(),
-                                 AnalyseSubapertures(max_blur), AnalyseEngine(&error)};
-  if (!error.empty() || options.folder.empty()) return error;
+                                 AnalyseSubapertures(max_blur), AnalyseEngine(&engine_error)};
+  if (!engine_error.empty() || options.folder.empty()) return engine_error;
   figures.push_back(DrawViewKernels());
   figures.push_back(DrawViewResponses());
   figures.push_back(DrawSubsampledBlurs());
@@ -68,8 +69,10 @@ void AddAnalyzeCommand(CLI::App* app, Action* action) {
       "analyze",
       "The paper's filter analysis (section III) from its definitions: Table I, Fig. 6, the rules "
       "(9) and (12), the rule for subapertures, and the kernels of the running engine");
-  command->add_option("-o,--output", options->folder,
-                      "Folder for CSV files and, with gnuplot, SVG drawings of Figs. 4, 5, 6, 8");
+  command
+      ->add_option("-o,--output", options->folder,
+                   "Folder for CSV files and, with gnuplot, SVG drawings of Figs. 4, 5, 6, 8")
+      ->type_name("DIR");
   command->add_option(
       "--max-blur", options->max_blur,
       "Largest blur radius of the rule for subapertures, 1 to 128 (default 40; 128 takes "

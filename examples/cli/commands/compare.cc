@@ -35,9 +35,9 @@ std::string SizeText(const Image& image) {
   return std::to_string(image.width) + "x" + std::to_string(image.height);
 }
 
-std::string Run(const Options& options) {
+Error Run(const Options& options) {
   Image a, b;
-  std::string error = ReadImage(options.first, &a);
+  Error error = ReadImage(options.first, &a);
   if (error.empty()) error = ReadImage(options.second, &b);
   if (!error.empty()) return error;
   if (a.width != b.width || a.height != b.height) {
@@ -66,8 +66,10 @@ void AddCompareCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "compare", "PSNR over all RGB samples and largest difference of two pictures");
-  command->add_option("A", options->first, "Picture")->required();
-  command->add_option("B", options->second, "Picture of the same size")->required();
+  command->add_option("A", options->first, "Picture")->type_name("FILE")->required();
+  command->add_option("B", options->second, "Picture of the same size")
+      ->type_name("FILE")
+      ->required();
   command->add_flag("--json", options->json, "Print JSON; an infinite PSNR is null");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }

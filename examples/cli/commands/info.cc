@@ -66,9 +66,9 @@ void PrintJson(const LightField& light_field, const sf_disparity_stats& stats,
   std::printf("%s\n", json.dump().c_str());
 }
 
-std::string Run(const Options& options) {
+Error Run(const Options& options) {
   LightField light_field;
-  const std::string error = LoadLightField(options.folder, 0, &light_field);
+  const Error error = LoadLightField(options.folder, 0, &light_field);
   if (!error.empty()) return error;
   const FloatMap& map = light_field.disparity;
   sf_disparity_stats stats = {};
@@ -93,7 +93,7 @@ void AddInfoCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "info", "Size, views, disparity range and histogram of a light-field folder");
-  command->add_option("DIR", options->folder, "Light-field folder")->required();
+  command->add_option("DIR", options->folder, "Light-field folder")->type_name("DIR")->required();
   command->add_flag("--json", options->json, "Print JSON; histogram bins go from min to max");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }

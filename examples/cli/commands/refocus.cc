@@ -40,14 +40,14 @@ std::string Numbered(const std::string& path, size_t index) {
       .string();
 }
 
-std::string CheckOutputs(const Options& options, const LensPlan& plan) {
+Error CheckOutputs(const Options& options, const LensPlan& plan) {
   std::vector<Output> outputs;
   if (options.sweep.empty()) outputs.push_back({"--output", options.out});
   for (size_t i = 0; i < plan.foci.size() && !options.sweep.empty(); ++i) {
     outputs.push_back({"--output", Numbered(options.out, i)});
   }
   if (!options.map.empty()) outputs.push_back({"--map", options.map});
-  std::string error = CheckImageOutput(options.out);
+  Error error = CheckImageOutput(options.out);
   for (size_t i = 0; i < outputs.size() && error.empty(); ++i) {
     error = CheckImageOutput(outputs[i].path);
   }
@@ -55,11 +55,11 @@ std::string CheckOutputs(const Options& options, const LensPlan& plan) {
     if (error.empty()) error = CheckOutputPath(options.report);
     outputs.push_back({"--report", options.report});
   }
-  return error.empty() ? CheckApart(outputs, {options.folder}) : error;
+  return error.empty() ? CheckApart(outputs, {{options.folder}, {options.lens.timing}}) : error;
 }
 
 // D0:D1:N.
-std::string ParseSweep(const std::string& text, std::vector<double>* foci) {
+Error ParseSweep(const std::string& text, std::vector<double>* foci) {
   const size_t first = text.find(':'), second = text.find(':', first + 1);
   double from = 0, to = 0;
   int count = 0;
@@ -67,7 +67,7 @@ std::string ParseSweep(const std::string& text, std::vector<double>* foci) {
       !ParseNumber("", text.substr(0, first), &from).empty() ||
       !ParseNumber("", text.substr(first + 1, second - first - 1), &to).empty() ||
       !ParseWhole("", text.substr(second + 1), 2, kMostPictures, &count).empty()) {
-    return Expected(
+    return Error::Usage(
         "--sweep",
         "D0:D1:N, two disparities and 2 to " + std::to_string(kMostPictures) + " pictures",
         "'" + text.substr(0, 60) + "'");
@@ -76,45 +76,45 @@ std::string ParseSweep(const std::string& text, std::vector<double>* foci) {
   return "";
 }
 
-std::string PlanFoci(const Options& options, LensPlan* plan) {
+Error PlanFoci(const Options& options, LensPlan* plan) {
   if (options.sweep.empty()) return PlanFocus(options.lens, plan);
   const bool focus = !options.lens.focus.empty(), pixel = !options.lens.focus_at.empty();
   if (focus || pixel || options.stream || !options.map.empty()) {
-    return Expected("--sweep", "no other focus, no --stream and no --map",
-                    focus            ? "--focus"
-                    : pixel          ? "--focus-at"
-                    : options.stream ? "--stream"
-                                     : "--map");
+    return Error::Usage("--sweep", "no other focus, no --stream and no --map",
+                        focus            ? "--focus"
+                        : pixel          ? "--focus-at"
+                        : options.stream ? "--stream"
+                                         : "--map");
   }
   plan->focus_option = "--sweep";
   return ParseSweep(options.sweep, &plan->foci);
 }
 
-std::string PlanRegion(const Options& options, LensPlan* plan) {
+Error PlanRegion(const Options& options, LensPlan* plan) {
   if (options.region.empty()) return "";
-  if (options.stream) return Expected("--region", "whole pictures in memory", "--stream");
+  if (options.stream) return Error::Usage("--region", "whole pictures in memory", "--stream");
   return ParseRegion("--region", options.region, &plan->region);
 }
 
 // Everything that can be refused before a file is read.
-std::string MakePlan(const Options& options, LensPlan* plan) {
-  std::string error = PlanFoci(options, plan);
+Error MakePlan(const Options& options, LensPlan* plan) {
+  Error error = PlanFoci(options, plan);
   if (error.empty()) error = CheckOutputs(options, *plan);
   if (error.empty()) error = PlanRegion(options, plan);
   return error.empty() ? PlanLens(options.lens, plan) : error;
 }
 
-std::string CheckRegion(const FloatMap& map, const Options& options, const sf_region& region) {
+Error CheckRegion(const FloatMap& map, const Options& options, const sf_region& region) {
   if (region.x + region.width <= map.width && region.y + region.height <= map.height) return "";
-  return Expected(
+  return Error::Usage(
       "--region",
       "pixels of the picture, " + std::to_string(map.width) + "x" + std::to_string(map.height),
       options.region);
 }
 
-std::string Load(const Options& options, LensPlan* plan, Loaded* loaded) {
+Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
   FloatMap* map = &loaded->light_field.disparity;
-  std::string error = LoadViews(options.folder, plan->views, &loaded->light_field);
+  Error error = LoadViews(options.folder, plan->views, &loaded->light_field);
   if (error.empty()) {
     error = PrepareDisparity(options.folder, options.lens.fill_invalid, map, &loaded->stats);
   }
@@ -127,7 +127,7 @@ std::string WriteReport(const Options& options, const std::string& text) {
   return WriteFile(options.report, Bytes(text.begin(), text.end()));
 }
 
-std::string RunOne(const Options& options, const EngineTask& one, double start) {
+Error RunOne(const Options& options, const EngineTask& one, double start) {
   EngineTask task = one;
   std::vector<sf_block> blocks;
   if (!options.map.empty()) {
@@ -137,7 +137,7 @@ std::string RunOne(const Options& options, const EngineTask& one, double start) 
   task.stream = options.stream;
   EngineRun run(task.threads, 1);
   EngineResult result;
-  std::string error = run.Start(options.folder, task);
+  Error error = run.Start(options.folder, task);
   if (error.empty()) error = run.Refocus(options.folder, task, &result);
   if (error.empty()) error = WriteImage(options.out, result.picture);
   if (error.empty() && !options.map.empty()) {
@@ -148,11 +148,11 @@ std::string RunOne(const Options& options, const EngineTask& one, double start) 
   return WriteReport(options, ReportText(task, result, Seconds() - start));
 }
 
-std::string RunSweep(const Options& options, const std::vector<double>& foci, EngineTask task,
-                     double start) {
+Error RunSweep(const Options& options, const std::vector<double>& foci, EngineTask task,
+               double start) {
   EngineRun run(task.threads, static_cast<int>(foci.size()));
   SeriesReport report;
-  std::string error = run.Start(options.folder, task);
+  Error error = run.Start(options.folder, task);
   if (error.empty()) error = run.Prepare(options.folder, task);
   for (size_t i = 0; i < foci.size() && error.empty(); ++i) {
     task.params.focus = foci[i];
@@ -166,11 +166,11 @@ std::string RunSweep(const Options& options, const std::vector<double>& foci, En
   return WriteReport(options, report.Text(Seconds() - start));
 }
 
-std::string Run(const Options& options) {
+Error Run(const Options& options) {
   const double start = Seconds();
   LensPlan plan;
   Loaded loaded;
-  std::string error = MakePlan(options, &plan);
+  Error error = MakePlan(options, &plan);
   if (error.empty()) error = Load(options, &plan, &loaded);
   if (!error.empty()) return error;
   const EngineTask task =
@@ -185,8 +185,9 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       app->add_subcommand("refocus", "The picture a lens focused at a disparity would have taken");
-  command->add_option("DIR", options->folder, "Light-field folder")->required();
+  command->add_option("DIR", options->folder, "Light-field folder")->type_name("DIR")->required();
   command->add_option("-o,--output", options->out, "Picture to write: .png, .ppm or .jpg")
+      ->type_name("FILE")
       ->required();
   AddLensOptions(command, &options->lens);
   command->add_option("--sweep", options->sweep,
@@ -195,9 +196,12 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   command->add_option("--region", options->region,
                       "X,Y,W,H: only that part of the picture, at its share of the time");
   command->add_flag("--stream", options->stream, "Row by row instead of whole pictures");
-  command->add_option("--map", options->map,
-                      "Picture to write: the blocks, red for L = 0, green for 1, blue for 2");
-  command->add_option("--report", options->report, "JSON file for figures of the run");
+  command
+      ->add_option("--map", options->map,
+                   "Picture to write: the blocks, red for L = 0, green for 1, blue for 2")
+      ->type_name("FILE");
+  command->add_option("--report", options->report, "JSON file for figures of the run")
+      ->type_name("FILE");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }
 

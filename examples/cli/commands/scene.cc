@@ -33,28 +33,28 @@ struct Plan {
   std::vector<Truth> truths;
 };
 
-std::string ParseTruth(const std::string& text, Truth* truth) {
+Error ParseTruth(const std::string& text, Truth* truth) {
   const size_t comma = text.find(',');
   if (comma == std::string::npos) {
-    return Expected("--truth", "D,U: disparity in focus and aperture", "'" + text + "'");
+    return Error::Usage("--truth", "D,U: disparity in focus and aperture", "'" + text + "'");
   }
-  const std::string error = ParseNumber("--truth", text.substr(0, comma), &truth->focus);
+  const Error error = ParseNumber("--truth", text.substr(0, comma), &truth->focus);
   if (!error.empty()) return error;
   if (truth->focus < -SF_MAX_DISPARITY || truth->focus > SF_MAX_DISPARITY) {
-    return Expected("--truth", "a disparity within +-500", "'" + text + "'");
+    return Error::Usage("--truth", "a disparity within +-500", "'" + text + "'");
   }
   return ParseAperture("--truth", text.substr(comma + 1), &truth->aperture);
 }
 
-std::string MakePlan(const Options& options, Plan* plan) {
+Error MakePlan(const Options& options, Plan* plan) {
   if (!MakeScene(options.name, &plan->scene)) {
-    return Expected("--name", "portrait, wires or ramp", "'" + options.name + "'");
+    return Error::Usage("--name", "portrait, wires or ramp", "'" + options.name + "'");
   }
-  std::string error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
+  Error error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
   if (!error.empty()) return error;
   if (plan->width < 1 || plan->height < 1 || int64_t(plan->width) * plan->height > kMostPixels) {
-    return Expected("--size", "WxH from 1x1 to " + std::to_string(kMostPixels) + " pixels",
-                    "'" + options.size + "'");
+    return Error::Usage("--size", "WxH from 1x1 to " + std::to_string(kMostPixels) + " pixels",
+                        "'" + options.size + "'");
   }
   error = ParseViews("--views", options.views, &plan->views);
   if (!error.empty()) return error;
@@ -72,7 +72,7 @@ std::string MakePlan(const Options& options, Plan* plan) {
 }
 
 // Views of an earlier, larger set or in another format would mix with the new ones.
-std::string CheckFolder(const std::string& folder, int views) {
+Error CheckFolder(const std::string& folder, int views) {
   std::error_code failure;
   if (fs::exists(folder, failure) && !fs::is_directory(folder, failure)) {
     return Expected(folder, "a folder or nothing", "a file");
@@ -106,9 +106,9 @@ std::string MetaText(const Plan& plan, const Renderer& renderer, const FloatMap&
   return text;
 }
 
-std::string Run(const Options& options) {
+Error Run(const Options& options) {
   Plan plan;
-  std::string error = MakePlan(options, &plan);
+  Error error = MakePlan(options, &plan);
   if (error.empty()) error = CheckFolder(options.folder, plan.views);
   if (!error.empty()) return error;
   ThreadRunner runner(plan.threads);
@@ -146,7 +146,7 @@ void AddSceneCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       app->add_subcommand("scene", "Ray-trace a light field with exact disparity into a folder");
-  command->add_option("DIR", options->folder, "Folder to write")->required();
+  command->add_option("DIR", options->folder, "Folder to write")->type_name("DIR")->required();
   command->add_option("--name", options->name, "portrait, wires or ramp")->capture_default_str();
   command->add_option("--size", options->size, "Width and height, WxH")->capture_default_str();
   command->add_option("--views", options->views, "17, 9, 5 or 1")->capture_default_str();

@@ -7,6 +7,7 @@
 #include "examples/cli/commands.h"
 #include "examples/cli/sheet/label.h"
 #include "examples/command_line/options.h"
+#include "examples/command_line/outputs.h"
 #include "platform/image_io.h"
 
 namespace starfocus {
@@ -73,8 +74,9 @@ Image Arrange(const std::vector<Image>& cells, const std::vector<std::string>& l
   return sheet;
 }
 
-std::string Run(const Options& options) {
-  std::string error = CheckImageOutput(options.out);
+Error Run(const Options& options) {
+  Error error = CheckImageOutput(options.out);
+  if (error.empty()) error = CheckApart({{"--output", options.out}}, {{}, options.pictures});
   if (!error.empty()) return error;
   const int count = static_cast<int>(options.pictures.size());
   int width = 0;
@@ -82,12 +84,12 @@ std::string Run(const Options& options) {
   if (!error.empty()) return error;
   const int cell_width = (width - kGap) / count - kGap;
   if (cell_width < 1) {
-    return Expected("--width", "at least " + std::to_string(count * (kGap + 1) + kGap),
-                    options.width);
+    return Error::Usage("--width", "at least " + std::to_string(count * (kGap + 1) + kGap),
+                        options.width);
   }
   if (!options.labels.empty() && options.labels.size() != options.pictures.size()) {
-    return Expected("--labels", std::to_string(count) + " labels, one for each picture",
-                    std::to_string(options.labels.size()));
+    return Error::Usage("--labels", std::to_string(count) + " labels, one for each picture",
+                        std::to_string(options.labels.size()));
   }
   std::vector<Image> cells;
   for (const std::string& path : options.pictures) {
@@ -104,8 +106,12 @@ std::string Run(const Options& options) {
 void AddSheetCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("sheet", "A contact sheet of pictures side by side");
-  command->add_option("OUT", options->out, "Picture to write: .png, .ppm or .jpg")->required();
-  command->add_option("IMG", options->pictures, "Pictures, from left to right")->required();
+  command->add_option("-o,--output", options->out, "Picture to write: .png, .ppm or .jpg")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("IMG", options->pictures, "Pictures, from left to right")
+      ->type_name("FILE")
+      ->required();
   command->add_option("--labels", options->labels, "A,B,...: text below each picture")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -32,18 +32,18 @@ const stress::Family* Find(const std::string& name) {
   return nullptr;
 }
 
-std::string ParseCount(const std::string& option, const std::string& text, uint64_t* value) {
+Error ParseCount(const std::string& option, const std::string& text, uint64_t* value) {
   *value = 0;
   if (text.empty() || text.size() > 19 || text.find_first_not_of("0123456789") < text.size()) {
-    return Expected(option, "a whole number", text);
+    return Error::Usage(option, "a whole number", text);
   }
   for (const char digit : text) *value = *value * 10 + static_cast<uint64_t>(digit - '0');
   return "";
 }
 
-std::string RepeatCase(const stress::Family& family, const std::string& text) {
+Error RepeatCase(const stress::Family& family, const std::string& text) {
   uint64_t number = 0;
-  const std::string error = ParseCount("--case", text, &number);
+  const Error error = ParseCount("--case", text, &number);
   if (!error.empty()) return error;
   const stress::Outcome outcome = stress::RunCase(family, number);
   if (!outcome.failure.empty()) return outcome.failure;
@@ -65,15 +65,15 @@ void Print(const stress::Report& report) {
   std::printf("\n");
 }
 
-std::string Run(const Options& options) {
+Error Run(const Options& options) {
   stress::Options wanted;
   const stress::Family* family = Find(options.family);
   if (family == nullptr && !(options.family.empty() && options.number.empty())) {
-    return Expected("--family", "one of " + Names(),
-                    options.family.empty() ? "none" : options.family);
+    return Error::Usage("--family", "one of " + Names(),
+                        options.family.empty() ? "none" : options.family);
   }
   if (!options.number.empty()) return RepeatCase(*family, options.number);
-  std::string error = ParseNumber("--seconds", options.seconds, &wanted.seconds);
+  Error error = ParseNumber("--seconds", options.seconds, &wanted.seconds);
   uint64_t seed = 0;
   if (error.empty()) error = ParseCount("--seed", options.seed, &seed);
   if (!error.empty()) return error;

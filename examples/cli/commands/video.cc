@@ -43,7 +43,7 @@ std::string FramePath(const std::string& folder, size_t index) {
 
 // The folders given, or those in the only one when it is no light field itself, but for hidden ones
 // and that of the output.
-std::string FindFrames(const Options& options, Video* video) {
+Error FindFrames(const Options& options, Video* video) {
   std::vector<std::string>& folders = video->folders;
   folders = options.folders;
   std::error_code error;
@@ -60,14 +60,14 @@ std::string FindFrames(const Options& options, Video* video) {
     if (folders.empty()) return Expected(options.folders[0], "light-field folders", "none");
   }
   if (folders.size() <= kMostFrames) return "";
-  return Expected("DIR", "at most " + std::to_string(kMostFrames) + " frames",
-                  std::to_string(folders.size()));
+  return Error::Usage("DIR", "at most " + std::to_string(kMostFrames) + " frames",
+                      std::to_string(folders.size()));
 }
 
-std::string CheckOutputs(const Options& options, const Video& video) {
+Error CheckOutputs(const Options& options, const Video& video) {
   std::error_code failure;
-  std::string error;
-  if (options.out.empty()) return Expected("--output", "a folder", "an empty name");
+  Error error;
+  if (options.out.empty()) return Error::Usage("--output", "a folder", "an empty name");
   if (fs::is_directory(options.out, failure)) {
     for (size_t i = 0; i < video.folders.size() && error.empty(); ++i) {
       error = CheckImageOutput(FramePath(options.out, i));
@@ -86,10 +86,10 @@ std::string CheckOutputs(const Options& options, const Video& video) {
     error = CheckOutputPath(options.report);
     outputs.push_back({"--report", options.report});
   }
-  return error.empty() ? CheckApart(outputs, video.folders) : error;
+  return error.empty() ? CheckApart(outputs, {video.folders, {options.lens.timing}}) : error;
 }
 
-std::string CheckSize(const std::string& folder, const FloatMap& map, const Video& video) {
+Error CheckSize(const std::string& folder, const FloatMap& map, const Video& video) {
   if (map.width == video.width && map.height == video.height) return "";
   return Expected(folder,
                   std::to_string(video.width) + "x" + std::to_string(video.height) +
@@ -98,8 +98,8 @@ std::string CheckSize(const std::string& folder, const FloatMap& map, const Vide
 }
 
 // Looks at all frames: their views and disparities.
-std::string Scan(const Options& options, LensPlan* plan, Video* video) {
-  std::string error = CountViews(video->folders[0], &video->views);
+Error Scan(const Options& options, LensPlan* plan, Video* video) {
+  Error error = CountViews(video->folders[0], &video->views);
   if (error.empty() && plan->views != 0) video->views = plan->views;
   for (size_t i = 0; i < video->folders.size() && error.empty(); ++i) {
     const std::string& folder = video->folders[i];
@@ -122,25 +122,24 @@ std::string Scan(const Options& options, LensPlan* plan, Video* video) {
   return error.empty() ? ChooseBlur(*plan, video->stats, &video->max_blur) : error;
 }
 
-std::string LoadFrame(const Options& options, const Video& video, size_t index,
-                      LightField* light_field) {
+Error LoadFrame(const Options& options, const Video& video, size_t index, LightField* light_field) {
   const std::string& folder = video.folders[index];
   sf_disparity_stats stats;
-  std::string error = LoadLightField(folder, video.views, light_field);
+  Error error = LoadLightField(folder, video.views, light_field);
   if (error.empty()) error = CheckSize(folder, light_field->disparity, video);
   if (!error.empty()) return error;
   return PrepareDisparity(folder, options.lens.fill_invalid, &light_field->disparity, &stats);
 }
 
-std::string RefocusFrames(const Options& options, const LensPlan& plan, const Video& video,
-                          SeriesReport* report) {
+Error RefocusFrames(const Options& options, const LensPlan& plan, const Video& video,
+                    SeriesReport* report) {
   EngineRun run(plan.threads, static_cast<int>(video.folders.size()));
   LightField now, before;
   Image picture;
   for (size_t i = 0; i < video.folders.size(); ++i) {
     const std::string &folder = video.folders[i], out = FramePath(options.out, i);
     std::swap(now, before);
-    std::string error = LoadFrame(options, video, i, &now);
+    Error error = LoadFrame(options, video, i, &now);
     if (!error.empty()) return error;
     const EngineTask task = MakeTask(plan, now, video.stats, video.max_blur, true);
     EngineResult result;
@@ -157,11 +156,11 @@ std::string RefocusFrames(const Options& options, const LensPlan& plan, const Vi
   return "";
 }
 
-std::string Run(const Options& options) {
+Error Run(const Options& options) {
   const double start = Seconds();
   LensPlan plan;
   Video video;
-  std::string error = PlanFocus(options.lens, &plan);
+  Error error = PlanFocus(options.lens, &plan);
   if (error.empty()) error = PlanLens(options.lens, &plan);
   if (error.empty()) error = FindFrames(options, &video);
   if (error.empty()) error = CheckOutputs(options, video);
@@ -187,12 +186,16 @@ void AddVideoCommand(CLI::App* app, Action* action) {
   command
       ->add_option("DIR", options->folders,
                    "Light-field folders of one size, or the folder of such folders by name")
+      ->type_name("DIR")
       ->required();
   command->add_option("-o,--output", options->out, "Folder for frame_0000.png, frame_0001.png, ...")
+      ->type_name("DIR")
       ->required();
   AddLensOptions(command, &options->lens);
-  command->add_option("--report", options->report,
-                      "JSON file for figures of every frame, reused blocks among them");
+  command
+      ->add_option("--report", options->report,
+                   "JSON file for figures of every frame, reused blocks among them")
+      ->type_name("FILE");
   command->footer(
       "--focus-at means the first frame. The frame modes choose N for the disparities of all "
       "frames.");

@@ -24,9 +24,17 @@ sf_light_field Rows(const LightField& light_field, int first) {
   return rows;
 }
 
-std::string Outcome(const std::string& where, sf_status status) {
+// What the engine could refuse, the program has looked at before; the address space alone limits
+// sizes beyond that.
+Error Outcome(const std::string& where, sf_status status) {
   if (status == SF_OK) return "";
-  return Expected(where, "a light field that the engine refocuses", sf_status_string(status));
+  if (status == SF_ERROR_TOO_LARGE) return OutOfMemory(where, "refocus it");
+  return Error::Internal(where, "a light field that the engine refocuses",
+                         sf_status_string(status));
+}
+
+Error NoMemory(const std::string& where, size_t bytes) {
+  return OutOfMemory(where, "refocus it (" + std::to_string(bytes) + " bytes at once)");
 }
 
 }  // namespace
@@ -54,31 +62,38 @@ EngineRun::EngineRun(int threads, int pictures)
     : runner_{ThreadRunner(threads), Progress("refocusing", pictures > 1 ? pictures : 0),
               pictures == 1} {}
 
-std::string EngineRun::Start(const std::string& where, const EngineTask& task) {
+Error EngineRun::Start(const std::string& where, const EngineTask& task) {
   sf_config config = task.config;
   config.max_workers = task.threads;
   config.streaming = task.stream ? 1 : 0;
-  return Outcome(where, MakeEngine(config, &workspace_, &workspace_bytes_, &engine_));
+  try {
+    return Outcome(where, MakeEngine(config, &workspace_, &workspace_bytes_, &engine_));
+  } catch (const std::bad_alloc&) {
+    return NoMemory(where, workspace_bytes_);
+  }
 }
 
-std::string EngineRun::Prepare(const std::string& where, const EngineTask& task) {
+Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
   sf_status status = sf_prepared_size(&task.config, &prepared_bytes_);
   if (status != SF_OK) return Outcome(where, status);
-  prepared_memory_.reset(::operator new (prepared_bytes_, std::align_val_t{SF_ALIGNMENT}));
+  try {
+    prepared_memory_.reset(::operator new (prepared_bytes_, std::align_val_t{SF_ALIGNMENT}));
+  } catch (const std::bad_alloc&) {
+    return NoMemory(where, prepared_bytes_);
+  }
   const sf_light_field rows = Rows(*task.light_field, 0);
   status = sf_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, ShownRunner::Run,
                       &runner_, &prepared_);
   return Outcome(where, status);
 }
 
-std::string EngineRun::Refocus(const std::string& where, const EngineTask& task,
-                               EngineResult* result) {
+Error EngineRun::Refocus(const std::string& where, const EngineTask& task, EngineResult* result) {
   return Run(where, task, nullptr, result);
 }
 
-std::string EngineRun::RefocusAfter(const std::string& where, const EngineTask& task,
-                                    const LightField& before, const Image& picture,
-                                    EngineResult* result) {
+Error EngineRun::RefocusAfter(const std::string& where, const EngineTask& task,
+                              const LightField& before, const Image& picture,
+                              EngineResult* result) {
   const sf_previous previous = {Rows(before, 0), picture.pixels.data(), picture.stride()};
   return Run(where, task, &previous, result);
 }
@@ -105,8 +120,8 @@ sf_status EngineRun::RunStream(const EngineTask& task, EngineResult* result) {
   return status;
 }
 
-std::string EngineRun::Run(const std::string& where, const EngineTask& task,
-                           const sf_previous* previous, EngineResult* result) {
+Error EngineRun::Run(const std::string& where, const EngineTask& task, const sf_previous* previous,
+                     EngineResult* result) {
   const sf_region& region = task.params.region;
   Image& out = result->picture;
   out = region.width > 0 ? Image(region.width, region.height)

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "examples/command_line/error.h"
 #include "platform/image.h"
 #include "platform/light_field.h"
 #include "platform/progress.h"
@@ -39,23 +40,23 @@ struct EngineResult {
   size_t prepared_bytes = 0;
 };
 
-// Refocuses one picture or several of one configuration, with a progress line. Errors are lines
-// about the `where` of the call, empty for success.
+// Refocuses one picture or several of one configuration, with a progress line. Errors are about the
+// `where` of the call.
 class EngineRun {
  public:
   EngineRun(int threads, int pictures);
 
   // Makes the engine; the task's config is that of all pictures.
-  std::string Start(const std::string& where, const EngineTask& task);
+  Error Start(const std::string& where, const EngineTask& task);
 
   // Prepares the task's light field for all further calls of Refocus.
-  std::string Prepare(const std::string& where, const EngineTask& task);
+  Error Prepare(const std::string& where, const EngineTask& task);
 
-  std::string Refocus(const std::string& where, const EngineTask& task, EngineResult* result);
+  Error Refocus(const std::string& where, const EngineTask& task, EngineResult* result);
 
   // As Refocus, after `before`, of which `picture` was made with the same params.
-  std::string RefocusAfter(const std::string& where, const EngineTask& task,
-                           const LightField& before, const Image& picture, EngineResult* result);
+  Error RefocusAfter(const std::string& where, const EngineTask& task, const LightField& before,
+                     const Image& picture, EngineResult* result);
 
  private:
   struct ShownRunner {
@@ -67,8 +68,8 @@ class EngineRun {
   };
 
   sf_status RunStream(const EngineTask& task, EngineResult* result);
-  std::string Run(const std::string& where, const EngineTask& task, const sf_previous* previous,
-                  EngineResult* result);
+  Error Run(const std::string& where, const EngineTask& task, const sf_previous* previous,
+            EngineResult* result);
 
   ShownRunner runner_;
   Workspace workspace_, prepared_memory_;

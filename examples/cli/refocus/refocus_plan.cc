@@ -13,34 +13,34 @@
 namespace starfocus {
 namespace {
 
-std::string ParseMode(const std::string& text, sf_mode* mode) {
+Error ParseMode(const std::string& text, sf_mode* mode) {
   for (size_t i = 0; i < std::size(kModeNames); ++i) {
     if (text != kModeNames[i]) continue;
     *mode = static_cast<sf_mode>(i);
     return "";
   }
-  return Expected("--mode", "block, frame, benchmark or blur", "'" + text + "'");
+  return Error::Usage("--mode", "block, frame, benchmark or blur", "'" + text + "'");
 }
 
-std::string ParseRule(const std::string& text, sf_rule* rule) {
+Error ParseRule(const std::string& text, sf_rule* rule) {
   if (text.empty()) return "";
   if (text != "paper" && text != "subaperture") {
-    return Expected("--rule", "paper or subaperture", "'" + text + "'");
+    return Error::Usage("--rule", "paper or subaperture", "'" + text + "'");
   }
   *rule = text == "paper" ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
   return "";
 }
 
-std::string ParseLargestBlock(const std::string& text, int* side) {
+Error ParseLargestBlock(const std::string& text, int* side) {
   if (text.empty()) return "";
-  const std::string range = ParseWhole("--largest-block", text, 32, 256, side);
+  const Error range = ParseWhole("--largest-block", text, 32, 256, side);
   if (range.empty() && (*side & (*side - 1)) == 0) return "";
-  return Expected("--largest-block", "32, 64, 128 or 256", "'" + text + "'");
+  return Error::Usage("--largest-block", "32, 64, 128 or 256", "'" + text + "'");
 }
 
 // Sets what block mode adds to the plan.
-std::string PlanBlocks(const LensOptions& options, LensPlan* plan) {
-  std::string error = ParseLargestBlock(options.largest_block, &plan->largest_block);
+Error PlanBlocks(const LensOptions& options, LensPlan* plan) {
+  Error error = ParseLargestBlock(options.largest_block, &plan->largest_block);
   if (!error.empty()) return error;
   error = ParseWhole("--max-layer", options.max_layer, 0, SF_LAYERS - 1, &plan->max_layer);
   if (error.empty()) {
@@ -72,7 +72,13 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
   command->add_option("--focus-at", options->focus_at, "X,Y: the disparity of that pixel");
   command->add_option("--aperture", options->aperture, "Radius, above 0 up to 1")
       ->capture_default_str();
-  command->add_option("--mode", options->mode, "block, frame, benchmark or blur")
+  command
+      ->add_option("--mode", options->mode,
+                   "In blocks of their own number of views, with one number for the whole frame, "
+                   "as a benchmark of twice the views that blur can show, or by blurring the "
+                   "centre view alone: this looks like a quick preview of the others but takes "
+                   "about ten times as long as block")
+      ->type_name("block|frame|benchmark|blur")
       ->capture_default_str();
   command->add_option("--views", options->views, "17, 9, 5 or 1; default: all of the folder");
   command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
@@ -80,10 +86,12 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
                     "Replace non-finite disparities by their nearest valid neighbour");
   command->add_option("--largest-block", options->largest_block,
                       "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128");
-  command->add_option(
-      "--rule", options->rule,
-      "paper or subaperture: how many views a blur needs, and whether they are rendered "
-      "line by line or show slices (default: paper in frame mode, else subaperture)");
+  command
+      ->add_option(
+          "--rule", options->rule,
+          "How many views a blur needs, and whether they are rendered line by line (paper) "
+          "or show slices; default: paper in frame mode, else subaperture")
+      ->type_name("paper|subaperture");
   command
       ->add_option("--n-scale", options->n_scale,
                    "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "
@@ -95,12 +103,14 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
       ->add_option("--deblocking", options->deblocking,
                    "0 to 255 grey levels: the largest step smoothed between layers; 0: off")
       ->capture_default_str();
-  command->add_option("--timing", options->timing,
-                      "JSON file that starfocus calibrate wrote; default: built in");
+  command
+      ->add_option("--timing", options->timing,
+                   "JSON file that starfocus calibrate wrote; default: built in")
+      ->type_name("FILE");
 }
 
-std::string PlanLens(const LensOptions& options, LensPlan* plan) {
-  std::string error = ParseAperture("--aperture", options.aperture, &plan->aperture);
+Error PlanLens(const LensOptions& options, LensPlan* plan) {
+  Error error = ParseAperture("--aperture", options.aperture, &plan->aperture);
   if (error.empty()) {
     error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
   }
@@ -113,10 +123,10 @@ std::string PlanLens(const LensOptions& options, LensPlan* plan) {
   return error.empty() ? PlanBlocks(options, plan) : error;
 }
 
-std::string PlanFocus(const LensOptions& options, LensPlan* plan) {
+Error PlanFocus(const LensOptions& options, LensPlan* plan) {
   if (options.focus.empty() == options.focus_at.empty()) {
-    return Expected("--focus", "either --focus D or --focus-at X,Y",
-                    options.focus.empty() ? "neither" : "both");
+    return Error::Usage("--focus", "either --focus D or --focus-at X,Y",
+                        options.focus.empty() ? "neither" : "both");
   }
   if (options.focus.empty()) {
     plan->focus_option = "--focus-at";
@@ -127,15 +137,15 @@ std::string PlanFocus(const LensOptions& options, LensPlan* plan) {
   return ParseNumber("--focus", options.focus, &plan->foci[0]);
 }
 
-std::string LoadViews(const std::string& folder, int views, LightField* light_field) {
+Error LoadViews(const std::string& folder, int views, LightField* light_field) {
   if (views != 0) {
     // A missing view of the set asked for is the option's fault when smaller sets are complete.
     int available = 0;
-    const std::string error = CountViews(folder, &available);
+    const Error error = CountViews(folder, &available);
     if (error.empty() && available < views) {
-      return Expected("--views",
-                      "at most " + std::to_string(available) + ", the views in " + folder,
-                      std::to_string(views));
+      return Error::Usage("--views",
+                          "at most " + std::to_string(available) + ", the views in " + folder,
+                          std::to_string(views));
     }
   }
   return LoadLightField(folder, views, light_field);
@@ -162,19 +172,19 @@ std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map
                   Short(stats->min) + " to " + Short(stats->max));
 }
 
-std::string ChooseFocus(const FloatMap& map, LensPlan* plan) {
+Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   if (!plan->foci.empty()) return "";
   if (plan->x >= map.width || plan->y >= map.height) {
-    return Expected("--focus-at",
-                    "a pixel of the picture, up to " + std::to_string(map.width - 1) + "," +
-                        std::to_string(map.height - 1),
-                    std::to_string(plan->x) + "," + std::to_string(plan->y));
+    return Error::Usage("--focus-at",
+                        "a pixel of the picture, up to " + std::to_string(map.width - 1) + "," +
+                            std::to_string(map.height - 1),
+                        std::to_string(plan->x) + "," + std::to_string(plan->y));
   }
   plan->foci = {map.at(plan->x, plan->y)};
   return "";
 }
 
-std::string ChooseBlur(const LensPlan& plan, const sf_disparity_stats& stats, double* max_blur) {
+Error ChooseBlur(const LensPlan& plan, const sf_disparity_stats& stats, double* max_blur) {
   double focus = plan.foci[0], range = 0;
   for (const double f : plan.foci) {
     const double r = std::max(std::fabs(stats.min - f), std::fabs(stats.max - f));
@@ -185,9 +195,10 @@ std::string ChooseBlur(const LensPlan& plan, const sf_disparity_stats& stats, do
   const double needed = plan.aperture * range;
   *max_blur = std::max(1.0, std::ceil(needed));
   if (needed <= SF_MAX_BLUR && std::fabs(focus) <= SF_MAX_FOCUS) return "";
-  return Expected(plan.focus_option, "blur radii up to " + Short(SF_MAX_BLUR) + " pixels",
-                  Short(needed) + " (aperture " + Short(plan.aperture) + ", focus " + Short(focus) +
-                      ", disparities " + Short(stats.min) + " to " + Short(stats.max) + ")");
+  return Error::Usage(plan.focus_option, "blur radii up to " + Short(SF_MAX_BLUR) + " pixels",
+                      Short(needed) + " (aperture " + Short(plan.aperture) + ", focus " +
+                          Short(focus) + ", disparities " + Short(stats.min) + " to " +
+                          Short(stats.max) + ")");
 }
 
 EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,

@@ -1,5 +1,5 @@
 // What `refocus` and `video` have in common: the options of a lens and an engine, and the light
-// field they are applied to. Functions return an error line, empty for success.
+// field they are applied to.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 
@@ -39,22 +39,22 @@ struct LensPlan {
 };
 
 // All that can be refused before a light field is read, but for the focus.
-std::string PlanLens(const LensOptions& options, LensPlan* plan);
+Error PlanLens(const LensOptions& options, LensPlan* plan);
 // --focus or --focus-at.
-std::string PlanFocus(const LensOptions& options, LensPlan* plan);
+Error PlanFocus(const LensOptions& options, LensPlan* plan);
 
 // Loads plan.views views.
-std::string LoadViews(const std::string& folder, int views, LightField* light_field);
+Error LoadViews(const std::string& folder, int views, LightField* light_field);
 
 // Fills holes of the folder's map if asked to, and measures it.
 std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map,
                              sf_disparity_stats* stats);
 
 // The disparity of the chosen pixel, if the focus depends on it.
-std::string ChooseFocus(const FloatMap& map, LensPlan* plan);
+Error ChooseFocus(const FloatMap& map, LensPlan* plan);
 
 // The largest blur radius of any focus, rounded up to whole pixels.
-std::string ChooseBlur(const LensPlan& plan, const sf_disparity_stats& stats, double* max_blur);
+Error ChooseBlur(const LensPlan& plan, const sf_disparity_stats& stats, double* max_blur);
 
 // The task of the first focus; with a clock when it is to be reported.
 EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,

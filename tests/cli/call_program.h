@@ -1,0 +1,61 @@
+// Runs the program STARFOCUS_PROGRAM (a definition of the build, or the environment variable).
+#ifndef STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
+#define STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "platform/file.h"
+#include "tests/support/temp_folder.h"
+
+namespace starfocus {
+
+inline std::string Program() {
+  const char* program = std::getenv("STARFOCUS_PROGRAM");
+#ifdef STARFOCUS_PROGRAM
+  if (program == nullptr) program = STARFOCUS_PROGRAM;
+#endif
+  REQUIRE_MESSAGE(program != nullptr, "set STARFOCUS_PROGRAM to the program to test");
+  return program;
+}
+
+struct Outcome {
+  int code = -1;  // exit code; -1 when a signal ended the program
+  std::string out, err;
+};
+
+inline std::string Text(const std::string& path) {
+  Bytes bytes;
+  REQUIRE(ReadFile(path, &bytes) == "");
+  return std::string(bytes.begin(), bytes.end());
+}
+
+// Runs the program in `folder` with shell-quoted arguments, after the shell's `before`.
+inline Outcome Call(const TempFolder& folder, const std::string& arguments,
+                    const std::string& before = "") {
+  TempFolder logs;
+  const std::string command =
+      "cd '" + folder.path() + "' && " + before + " exec '" + Program() + "' " + arguments;
+  const int status = std::system(
+      ("exec >'" + logs.file("out") + "' 2>'" + logs.file("err") + "'; " + command).c_str());
+  Outcome outcome;
+  if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
+  outcome.out = Text(logs.file("out"));
+  outcome.err = Text(logs.file("err"));
+  return outcome;
+}
+
+// One line on stderr that begins with the program and tells what was expected and found.
+inline void CheckErrorLine(const std::string& err) {
+  CHECK(err.rfind("starfocus: ", 0) == 0);
+  CHECK(err.find('\n') == err.size() - 1);
+  CHECK(err.find(": expected ") != std::string::npos);
+  CHECK(err.find(", found ") != std::string::npos);
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
