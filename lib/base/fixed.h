@@ -33,7 +33,8 @@
 // | hole's position      | int32  | 2^8     | +-66300 px                | 126 x                     |
 // | hole, layer 0        | int32  | 2^16    | [0, 255]                  | 128 x                     |
 // | hole, layer L        | int32  | 2^(4L)  | [0, 255], L <= 2          | 2^15 x                    |
-// | share of a mixture   | int32  | 2^10    | [0, 4/5], four of a pixel | 2.4 x in the sum of four  |
+// | share of a mixture   | int32  | 2^14    | [0, 4/5], four of a pixel | 1.6 x in its dividend      |
+// | share, line scans    | int32  | 2^10    | [0, 4/5], four of a pixel | 2.4 x in the sum of four  |
 // clang-format on
 //
 // Rounding: Round* rounds half up; a plain shift truncates towards minus infinity.
@@ -49,7 +50,7 @@ inline constexpr int kDisparityBits = 6;
 inline constexpr int kStepBits = 24;
 inline constexpr int kShiftBits = 8;
 inline constexpr int32_t kShiftOne = 1 << kShiftBits;
-inline constexpr int kShareBits = 10;
+inline constexpr int kShareBits = 14;
 inline constexpr int kMaxWeightBits = 24;
 inline constexpr int32_t kMaxWeight = 32767;
 

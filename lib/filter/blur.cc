@@ -1,5 +1,6 @@
 #include "lib/filter/blur.h"
 
+#include <cmath>
 #include <cstring>
 
 namespace starfocus {
@@ -9,9 +10,12 @@ constexpr int32_t kOne = 1 << kDisparityBits;
 constexpr int32_t kFineSteps = 8;     // per pixel
 constexpr int32_t kFineEnd = 4;       // pixels
 constexpr int32_t kCoarseSteps = 32;  // per octave's start
-// Samples per pixel and axis that integrate (4): more for kernels of few pixels, where 8 are wrong
-// by up to 3 gray levels.
-constexpr int32_t SamplesOf(int32_t radius) { return radius <= kFineEnd * kOne ? 16 : 8; }
+double Smaller(double a, double b) { return a < b ? a : b; }
+double Larger(double a, double b) { return a > b ? a : b; }
+
+// Lines of a pixel, and points of a line, that integrate (4). Kernels of few pixels have more.
+constexpr int32_t LinesOf(int32_t radius) { return radius <= kFineEnd * kOne ? 16 : 8; }
+constexpr int32_t kPoints = 8;
 
 // Radius of a step in 1 / kOne pixels.
 int32_t RadiusOfStep(int32_t step) {
@@ -25,22 +29,29 @@ int32_t SizeOfStep(int32_t step) {
   return step == 0 ? 0 : (RadiusOfStep(step) + kOne / 2 + kOne - 1) / kOne;
 }
 
-// Integral of (3) over the pixel (n, m), relative, for a radius in 1 / kOne pixels. IEEE arithmetic
-// without a library function, so the same everywhere.
+// Returns the integral of (3) over the pixel (n, m), relative, for a radius in 1 / kOne pixels. By
+// the midpoint rule along lines that end where the disc does: points of a square grid, each inside
+// or outside, are wrong by up to 1.6 gray levels where the aperture ends without having fallen off.
+// The arithmetic and the square root are IEEE's, and so the same everywhere.
 double PixelIntegral(int32_t n, int32_t m, int32_t radius, double fall_off) {
-  const double r = static_cast<double>(radius) / kOne;
-  const int32_t samples = SamplesOf(radius);
+  const double r = static_cast<double>(radius) / kOne, square = r * r;
+  const double low = Larger(m - 0.5, -r), high = Smaller(m + 0.5, r);
+  if (low >= high) return 0;
+  const int32_t lines = LinesOf(radius);
   double sum = 0;
-  for (int32_t a = 0; a < samples; ++a) {
-    for (int32_t b = 0; b < samples; ++b) {
-      const double x = n + (a + 0.5) / samples - 0.5, y = m + (b + 0.5) / samples - 0.5;
-      const double square = (x * x + y * y) / (r * r);
-      if (square > 1.0) continue;
-      const double ratio = fall_off / (square + fall_off);
-      sum += ratio * ratio;
+  for (int32_t line = 0; line < lines; ++line) {
+    const double y = low + (line + 0.5) / lines * (high - low), rim = std::sqrt(square - y * y);
+    const double from = Larger(n - 0.5, -rim), to = Smaller(n + 0.5, rim);
+    if (from >= to) continue;
+    double along = 0;
+    for (int32_t point = 0; point < kPoints; ++point) {
+      const double x = from + (point + 0.5) / kPoints * (to - from);
+      const double ratio = fall_off / ((x * x + y * y) / square + fall_off);
+      along += ratio * ratio;
     }
+    sum += along * (to - from);
   }
-  return sum;
+  return sum * (high - low) / lines;
 }
 
 int32_t OrbitOf(int32_t n, int32_t m) {

@@ -3,8 +3,6 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kShareOne = 1 << kShareBits;
-
 // Two colours whose squared distance is less than this tell no mixture apart: eight gray levels in
 // one channel. docs/constants.md has what these three were measured on.
 constexpr int64_t kLeastContrast = 64;
@@ -14,8 +12,9 @@ constexpr int64_t kNoise = 27;
 constexpr int64_t kContrastParts = 16;
 
 // Returns how much of `mixed` shows `near`, the rest being `far`: kShareBits, 0 when it is no
-// mixture. The
-// far surface has the pixel's centre, so that more than 4/5 says that `far` is something else.
+// mixture. The far surface has the pixel's centre, so that more than 4/5 says that `far` is
+// something else. The share is rounded down, so that to round it once more, to fewer bits, rounds
+// what it really is.
 int32_t ShareOf(const uint8_t* near, const uint8_t* far, const uint8_t* mixed) {
   int64_t along = 0, contrast = 0, distance = 0;
   for (int c = 0; c < 3; ++c) {
@@ -27,8 +26,8 @@ int32_t ShareOf(const uint8_t* near, const uint8_t* far, const uint8_t* mixed) {
   if (contrast < kLeastContrast || along <= 0 || 5 * along > 4 * contrast) return 0;
   const int64_t beside = distance * contrast - along * along;  // squared, times the contrast
   if (kContrastParts * beside > contrast * (kContrastParts * kNoise + contrast)) return 0;
-  return (static_cast<int32_t>(along) * (2 * kShareOne) + static_cast<int32_t>(contrast)) /
-         (2 * static_cast<int32_t>(contrast));
+  return static_cast<int32_t>((static_cast<uint32_t>(along) << kShareBits) /
+                              static_cast<uint32_t>(contrast));
 }
 
 // The point of the far surface in the captured view away from the nearer one, which lies farther

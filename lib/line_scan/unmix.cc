@@ -5,7 +5,9 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kShareOne = 1 << kShareBits;
+// Shares of mixtures are rounded to so many bits here: their squares, times colours, fit 32.
+constexpr int kWeightBits = 10;
+constexpr int32_t kShareOne = 1 << kWeightBits;
 
 // Blur radius, kShiftBits, up to which a surface counts as sharp. With a pixel more, where the
 // paper's subsampled layers begin, no outline shows (docs/constants.md).
@@ -35,9 +37,10 @@ class Unmixer {
       const int32_t strength = StrengthOf(Radius(near), Radius(disparity));
       if (strength <= 0) continue;
       const Mixture mixture = FindMixture(centre_, {x, y, side, disparity, near, kSurfaceStep});
-      const int32_t weight = mixture.share * AmountOf(mixture.share, strength);
+      const auto share = static_cast<int32_t>(RoundShift(mixture.share, kShareBits - kWeightBits));
+      const int32_t weight = share * AmountOf(share, strength);
       for (int c = 0; c < 3; ++c) sums[c] += weight * (mixture.far[c] - mixed[c]);
-      shares += mixture.share;
+      shares += share;
     }
     if (shares == 0) return;
     const int32_t unit = shares * kShareOne;
@@ -50,7 +53,7 @@ class Unmixer {
  private:
   int32_t Radius(int32_t disparity) const { return Abs(grid_.Shift(rim_, disparity)); }
 
-  // Returns how much of the pixel (kShareBits) is to become the far colour: all of it from a share
+  // Returns how much of the pixel (kWeightBits) is to become the far colour: all of it from a share
   // of a half on. Below that it is less, since what is taken away there is mostly missing from the
   // nearer surface's own pixels on the other side of the edge. It is less, too, where nothing would
   // show (StrengthOf).

@@ -75,32 +75,35 @@ double Difference(const test::Scene& scene, double focus, double aperture, int b
   return largest;
 }
 
-TEST_CASE("blur: flat disparity of many radii, random and black-and-white pictures") {
-  double largest = 0;
+// Flat disparities of many radii: random pictures, black-and-white ones, and a step between black
+// and white, which is the worst that a kernel's shape can meet.
+void CheckRadii(double theta) {
   for (const double r :
        {0.0, 0.05, 0.125, 0.4, 0.5, 0.5625, 0.625, 0.75, 0.875, 1.0,  1.3,  1.5, 1.75,
         2.0, 2.6,  3.0,   3.9, 4.0, 4.06,   5.0,   6.5,  8.0,   11.1, 16.0, 23.7}) {
     const float d = static_cast<float>(r);
     test::Scene scene = test::EmptyScene(37, 29, 1, d, d);
     test::Random random(17);
+    CAPTURE(r);
     for (const bool extreme : {false, true}) {
       for (uint8_t& sample : scene.pictures[0]) {
         sample = extreme ? uint8_t(random.Int(0, 1) * 255) : random.Byte();
       }
-      const double difference = Difference(scene, 0, 1, 32);
-      CAPTURE(r);
-      CHECK(difference <= 1);
-      largest = std::max(largest, difference);
+      CHECK(Difference(scene, 0, 1, 32, theta) <= 1);
     }
-    // A step between black and white: the worst a kernel's shape can meet.
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {
         std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(x < 15 || y > 20 ? 255 : 0));
       }
     }
-    CAPTURE(r);
-    CHECK(Difference(scene, 0, 1, 32) <= 1);
+    CHECK(Difference(scene, 0, 1, 32, theta) <= 1);
   }
+}
+
+TEST_CASE("blur: flat disparity of many radii") { CheckRadii(kTheta); }
+TEST_CASE("blur: the same by apertures without fall-off and with the most") {
+  CheckRadii(SF_MIN_THETA);
+  CheckRadii(SF_MAX_THETA);
 }
 
 TEST_CASE("blur: random disparity, focus, aperture, fall-off and block") {

@@ -1,0 +1,63 @@
+#include "tests/conformance/engine_blocks.h"
+
+#include <algorithm>
+
+#include "lib/engine/engine.h"
+
+namespace conformance {
+namespace {
+
+std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState& engine,
+                                                   const starfocus::Block& block) {
+  std::vector<reference::GatheredCell> cells;
+  if (!block.gathers) return cells;
+  constexpr int kSide = starfocus::kCellSize;
+  const int right = block.rect.x + block.rect.width, bottom = block.rect.y + block.rect.height;
+  for (int y = block.rect.y; y < bottom; y += kSide) {
+    for (int x = block.rect.x; x < right; x += kSide) {
+      if (engine.stripe.plan.gathered.At(x, y) == 0) continue;
+      cells.push_back({x, y, std::min(kSide, right - x), std::min(kSide, bottom - y)});
+    }
+  }
+  return cells;
+}
+
+// The engine tells of each block while the plan of its stripe is the one in memory.
+struct Visit {
+  const starfocus::EngineState* engine;
+  std::vector<reference::Block>* blocks;
+
+  static void Add(void* self, const sf_block* told) {
+    const auto& visit = *static_cast<const Visit*>(self);
+    const starfocus::EngineState& engine = *visit.engine;
+    const int side = engine.config.largest_block, column = told->x / side;
+    const starfocus::Block* const blocks =
+        engine.stripe.plan.blocks + size_t(column) * size_t(starfocus::MaxBlocks(side));
+    const starfocus::Block& b = *std::find_if(
+        blocks, blocks + engine.stripe.plan.counts[column],
+        [&](const auto& block) { return block.rect.x == told->x && block.rect.y == told->y; });
+    visit.blocks->push_back({b.rect.x, b.rect.y, b.rect.width, b.rect.height, b.layer, b.n,
+                             b.rendered.x, b.rendered.y, b.rendered.width, b.rendered.height,
+                             b.border.left, b.border.right, b.border.top, b.border.bottom,
+                             GatheredCells(engine, b)});
+  }
+};
+
+}  // namespace
+
+EngineResult RunEngine(const test::Scene& scene, const sf_params& params,
+                       const starfocus::simd::Kernels& kernels, test::Engine* engine) {
+  EngineResult result;
+  auto& state = *reinterpret_cast<starfocus::EngineState*>(engine->get());
+  state.kernels = &kernels;
+  Visit visit = {&state, &result.blocks};
+  sf_params told = params;
+  told.on_block = Visit::Add;
+  told.on_block_data = &visit;
+  test::Output out(scene.width, scene.height);
+  result.status = test::Refocus(engine, told, scene, &out, nullptr, nullptr, &result.report);
+  result.bytes = out.Tight();
+  return result;
+}
+
+}  // namespace conformance

@@ -1,0 +1,165 @@
+#include "tests/conformance/trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simd/kernels.h"
+#include "tests/conformance/engine_blocks.h"
+#include "tests/conformance/reference.h"
+#include "tests/conformance/reference_stack.h"
+
+namespace conformance {
+namespace {
+
+constexpr int kViews[] = {1, 5, 9, 17};
+constexpr const char* kModes[] = {"frame", "benchmark", "block"};
+
+double OneOf(std::initializer_list<double> values, test::Random* random) {
+  return values.begin()[random->Int(0, int(values.size()) - 1)];
+}
+
+// Every other pixel, or rectangle of pixels, is near.
+void Alternate(test::Scene* scene, test::Random* random) {
+  const int step_x = random->Int(1, 5), step_y = random->Int(1, 5);
+  for (int y = 0; y < scene->height; ++y) {
+    for (int x = 0; x < scene->width; ++x) {
+      const bool near = (x / step_x + y / step_y) % 2 == 1;
+      scene->Disparity(x, y) = near ? scene->disparity_max : scene->disparity_min;
+    }
+  }
+}
+
+// What is near has one colour, what is far another, in all views and but for a little noise: edges
+// whose pixels may be any mixture of both.
+void TwoColours(test::Scene* scene, test::Random* random) {
+  const int noise = 1 << random->Int(0, 6);
+  const float middle = 0.5F * (scene->disparity_min + scene->disparity_max);
+  uint8_t colours[2][3];
+  for (auto& colour : colours) {
+    for (uint8_t& level : colour) level = random->Byte();
+  }
+  for (int view = 0; view < scene->views(); ++view) {
+    for (int y = 0; y < scene->height; ++y) {
+      for (int x = 0; x < scene->width; ++x) {
+        const uint8_t* colour = colours[scene->Disparity(x, y) > middle ? 1 : 0];
+        for (int c = 0; c < 3; ++c) {
+          scene->Pixel(view, x, y)[c] =
+              uint8_t(std::clamp(colour[c] + random->Int(-noise, noise), 0, 255));
+        }
+      }
+    }
+  }
+}
+
+// All views show the same picture.
+void RepeatCentre(test::Scene* scene) {
+  for (auto& picture : scene->pictures) picture = scene->pictures[0];
+}
+
+test::Scene MakeScene(test::Random* random) {
+  const double depth =
+      OneOf({0, random->Real(0, 3), random->Real(0, 12), random->Real(0, 60)}, random);
+  const double low = random->Int(0, 9) == 0 ? random->Real(-400, 400) : random->Real(-9, 9);
+  test::Scene scene = test::EmptyScene(random->Int(1, 40), random->Int(1, 32),
+                                       kViews[random->Int(0, 3)], float(low), float(low + depth));
+  const int kind = random->Int(0, 4);
+  if (kind == 4) {
+    Alternate(&scene, random);
+  } else {
+    SetDepth(Depth(kind), &scene, random);
+  }
+  const int colours = random->Int(0, 3);
+  if (colours == 3) {
+    TwoColours(&scene, random);
+  } else {
+    SetColours(Colours(colours), &scene, random);
+  }
+  if (random->Int(0, 3) == 0) RepeatCentre(&scene);
+  return scene;
+}
+
+// A radius of few pixels as often as of many.
+double LargestRadius(bool wide, test::Random* random) {
+  const double part = random->Unit();
+  return (wide ? 40 : 6) * part * part;
+}
+
+void SetLens(Trial* trial, test::Random* random) {
+  const test::Scene& scene = trial->scene;
+  const double half = 0.5 * (double{scene.disparity_max} - scene.disparity_min);
+  const double centre = 0.5 * (double{scene.disparity_max} + scene.disparity_min);
+  const bool benchmark = random->Int(0, 5) == 0;
+  const double radius = LargestRadius(!benchmark, random);
+  double aperture = random->Int(0, 1) == 0 ? 1 : random->Real(0.02, 1);
+  if (aperture * half > radius) aperture = std::max(radius / half, 1e-3);
+  const double offset = std::max(0.0, radius / aperture - half);
+  const double focus = centre + (random->Int(0, 1) == 0 ? offset : -offset);
+  const sf_mode mode = benchmark                ? SF_MODE_BENCHMARK
+                       : random->Int(0, 3) == 0 ? SF_MODE_FRAME
+                                                : SF_MODE_BLOCK;
+  trial->params = test::Params(focus, aperture, mode);
+  trial->params.rule = random->Int(0, 3) == 0 ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
+}
+
+double RadiusOf(const Trial& trial) {
+  return trial.params.aperture *
+         std::max(std::fabs(trial.scene.disparity_min - trial.params.focus),
+                  std::fabs(trial.scene.disparity_max - trial.params.focus));
+}
+
+void SetConfig(Trial* trial, test::Random* random) {
+  const double radius = RadiusOf(*trial);
+  sf_config& config = trial->config;
+  config = test::ConfigFor(trial->scene, std::max(0.5, radius));
+  config.largest_block = random->Int(0, 3) == 0 ? 64 : 32;
+  config.max_layer = random->Int(0, SF_LAYERS - 1);
+  config.deblocking = 0;  // a decision by thresholds; deblock_test has it
+  config.skips = random->Int(0, 1);
+  config.gather = random->Int(0, 3) == 0 ? 0 : 1;
+  // A cheap or a dear block makes the partition fine or coarse.
+  if (random->Int(0, 1) == 0) config.timing.block = 1u << random->Int(0, 26);
+  if (random->Int(0, 1) == 0) {
+    config.theta =
+        OneOf({SF_MIN_THETA, SF_MAX_THETA, random->Real(SF_MIN_THETA, SF_MAX_THETA)}, random);
+  }
+  if (random->Int(0, 1) == 0) config.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
+}
+
+}  // namespace
+
+std::string Trial::Text() const {
+  char text[400];
+  std::snprintf(text, sizeof(text),
+                "%dx%d, %d views, %s, rule %d, disparity [%.9g, %.9g], focus %.9g, aperture %.9g, "
+                "block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u",
+                scene.width, scene.height, scene.views(), kModes[params.mode], params.rule,
+                double{scene.disparity_min}, double{scene.disparity_max}, params.focus,
+                params.aperture, config.largest_block, config.max_layer, config.theta,
+                config.n_scale, config.gather, config.timing.block);
+  return text;
+}
+
+Trial MakeTrial(uint64_t seed) {
+  test::Random random(seed);
+  Trial trial;
+  trial.scene = MakeScene(&random);
+  SetLens(&trial, &random);
+  SetConfig(&trial, &random);
+  return trial;
+}
+
+Distance Measure(const Trial& trial) {
+  test::Engine engine(trial.config);
+  REQUIRE(engine.status() == SF_OK);
+  const EngineResult result =
+      RunEngine(trial.scene, trial.params, starfocus::simd::ReferenceKernels(), &engine);
+  REQUIRE(result.status == SF_OK);
+  const starfocus::SliceLimits limits =
+      reference::LimitsOf(trial.config.largest_block, RadiusOf(trial));
+  const bool subapertures = trial.params.rule == SF_RULE_SUBAPERTURE;
+  return Compare(result.bytes,
+                 reference::RefocusBlocks(trial.scene, trial.params, trial.config.theta,
+                                          subapertures ? &limits : nullptr, result.blocks));
+}
+
+}  // namespace conformance

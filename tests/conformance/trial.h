@@ -1,0 +1,30 @@
+// Random light fields and lenses of all kinds, each known by its seed, on which the engine is held
+// to the double-precision reference.
+#ifndef STARFOCUS_TESTS_CONFORMANCE_TRIAL_H_
+#define STARFOCUS_TESTS_CONFORMANCE_TRIAL_H_
+
+#include <cstdint>
+#include <string>
+
+#include "starfocus/starfocus.h"
+#include "tests/conformance/conformance.h"
+#include "tests/support/test_scene.h"
+
+namespace conformance {
+
+struct Trial {
+  test::Scene scene;
+  sf_params params;
+  sf_config config;
+
+  std::string Text() const;
+};
+
+Trial MakeTrial(uint64_t seed);
+
+// How far the engine is from the reference, which is given the engine's partition.
+Distance Measure(const Trial& trial);
+
+}  // namespace conformance
+
+#endif  // STARFOCUS_TESTS_CONFORMANCE_TRIAL_H_
