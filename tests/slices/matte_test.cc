@@ -32,12 +32,13 @@ test::Scene Mixed(double near, double far, int views, bool transposed = false, i
   return scene;
 }
 
-std::vector<int> MiddleRow(const test::Scene& scene, double focus, bool transposed = false) {
+std::vector<int> MiddleRow(const test::Scene& scene, double focus, bool transposed = false,
+                           double aperture = 1) {
   sf_config config = test::ConfigFor(scene, 32);
   config.gather = 0;
   config.max_layer = 0;
   const test::Refocused picture =
-      test::RefocusScene(scene, config, test::Params(focus, 1, SF_MODE_BLOCK));
+      test::RefocusScene(scene, config, test::Params(focus, aperture, SF_MODE_BLOCK));
   std::vector<int> row;
   for (int k = 0; k < (transposed ? kHeight : kWidth); ++k) {
     const int x = transposed ? kWidth / 2 : k, y = transposed ? k : kHeight / 2;
@@ -78,6 +79,15 @@ TEST_CASE("matte: a defocused background is free of a sharp surface's part") {
   CHECK(std::abs(row[kEdge - 1] - 90) <= 1);  // the sharp end keeps its quarter
   for (int x = 4; x < kEdge - 1; ++x) CHECK(row[size_t(x)] == kFar);
   for (int x = kEdge; x < kWidth - 4; ++x) CHECK(row[size_t(x)] == kNear);
+}
+
+TEST_CASE("matte: surfaces must move against each other by more than a pixel") {
+  // Of four views along the radius the outermost lies at 128/123 of it: here at 1.
+  constexpr double kAperture = 123.0 / 128, kLeast = 1.0 / 64;
+  const std::vector<int> whole = MiddleRow(Mixed(0, -1, 5), 0, false, kAperture);
+  CHECK(whole[kEdge - 2] > kFar);
+  const std::vector<int> parted = MiddleRow(Mixed(0, -1 - kLeast, 5), 0, false, kAperture);
+  CHECK(parted[kEdge - 2] == kFar);
 }
 
 TEST_CASE("matte: what is no mixture, or nothing looks behind, is blurred as it is") {
