@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # Everything a newcomer does with starfocus: ./do help
 set -u
 cd "$(dirname "$0")" || exit 1
@@ -36,7 +37,7 @@ usage: ./do COMMAND
   count [record]  AArch64 instructions per pixel against tests/board/instruction_counts.txt
   size [write]   what boards need: code, stack and memory (write: into docs/boards.md)
   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
-  format  clang-format every source file
+  format  clang-format every source file, and name the licence in new ones
   help    this text
 
 Packages are installed with apt-get, as root or with sudo, and only when absent.
@@ -329,9 +330,13 @@ bench() {
 }
 
 format() {
+  local licence='SPDX-License-Identifier: Apache-2.0'
   command -v clang-format >/dev/null || fail "install the package clang-format first"
-  find lib simd platform examples tests \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' \) \
-    -exec clang-format -i {} +
+  sources() {
+    find lib simd platform examples tests \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' \) "$@"
+  }
+  sources -exec grep -L "$licence" {} + | while read -r file; do sed -i "1i // $licence" "$file"; done
+  sources -exec clang-format -i {} +
 }
 
 . toolchains/commands.sh

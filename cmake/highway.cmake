@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # starfocus_highway: Highway with the definitions every unit that names its targets must agree on.
 add_library(starfocus_highway INTERFACE)
 

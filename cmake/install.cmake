@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` puts where: headers, both libraries, their CMake package, the pkg-config
 # file, and the program with its manual page and completion.
 include(CMakePackageConfigHelpers)

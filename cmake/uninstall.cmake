@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cmake -DMANIFEST=… -P uninstall.cmake: removes the files that `cmake --install` listed there, and
 # the folders of starfocus that this leaves empty.
 cmake_minimum_required(VERSION 3.20)

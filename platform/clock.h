@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Monotonic time.
 #ifndef STARFOCUS_PLATFORM_CLOCK_H_
 #define STARFOCUS_PLATFORM_CLOCK_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a PNG or JPEG file says of its parts, checked before stb_image takes its word for it.
 #ifndef STARFOCUS_PLATFORM_CONTAINER_H_
 #define STARFOCUS_PLATFORM_CONTAINER_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Knobs and buttons from the edges of their lines: no I/O and no clock, so that every sequence of
 // edges can be tested.
 #ifndef STARFOCUS_PLATFORM_CONTROLS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole files in and out of memory.
 //
 // Every function of platform/ that can fail returns an error: empty for success, otherwise one

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A Linux framebuffer (/dev/fb0) as a place for pictures.
 #ifndef STARFOCUS_PLATFORM_FRAMEBUFFER_H_
 #define STARFOCUS_PLATFORM_FRAMEBUFFER_H_

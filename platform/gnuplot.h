@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drawings through the program gnuplot.
 #ifndef STARFOCUS_PLATFORM_GNUPLOT_H_
 #define STARFOCUS_PLATFORM_GNUPLOT_H_

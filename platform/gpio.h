@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // GPIO lines of Linux boards through libgpiod, which nothing else knows. Built only where libgpiod
 // (1.5 or newer, or 2.x) is found. A chip is named "gpiochip0", "/dev/gpiochip0" or "0"; lines are
 // offsets on their chip.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An 8-bit RGB picture in memory.
 #ifndef STARFOCUS_PLATFORM_IMAGE_H_
 #define STARFOCUS_PLATFORM_IMAGE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "platform/image_io.h"
 
 #include <stb/stb_image.h>

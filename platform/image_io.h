@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Picture files: PNG, PPM and JPEG to and from 8-bit RGB.
 #ifndef STARFOCUS_PLATFORM_IMAGE_IO_H_
 #define STARFOCUS_PLATFORM_IMAGE_IO_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light-field folder: view_<u>_<v>.png (or .ppm, .jpg) with u, v printed %+.1f, and
 // disparity.pfm with the disparity of the centre view.
 #ifndef STARFOCUS_PLATFORM_LIGHT_FIELD_H_

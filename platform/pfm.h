@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One-channel PFM files ("Pf"): 32-bit floats, rows from the bottom up, byte order by the sign of
 // the scale (negative: little endian).
 #ifndef STARFOCUS_PLATFORM_PFM_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the reader of pictures has to know of a PNG file beyond stb_image.
 #ifndef STARFOCUS_PLATFORM_PNG_H_
 #define STARFOCUS_PLATFORM_PNG_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Binary PPM and PGM pictures. stb_image reads them too, but takes a truncated file for a whole
 // one and ignores the largest value, so this format has a reader of its own.
 #ifndef STARFOCUS_PLATFORM_PPM_H_

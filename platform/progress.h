@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A progress line on stderr, shown only when stderr is a terminal.
 #ifndef STARFOCUS_PLATFORM_PROGRESS_H_
 #define STARFOCUS_PLATFORM_PROGRESS_H_

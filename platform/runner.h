@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A pool of persistent threads behind the engine's sf_runner callback.
 #ifndef STARFOCUS_PLATFORM_RUNNER_H_
 #define STARFOCUS_PLATFORM_RUNNER_H_

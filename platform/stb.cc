@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The implementation of stb_image and stb_image_write, apart from our own code because its JPEG
 // encoder shifts negative numbers, which the sanitizer build would stop at.
 #include "platform/stb_memory.h"

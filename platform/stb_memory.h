@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The memory of stb_image and stb_image_write.
 #ifndef STARFOCUS_PLATFORM_STB_MEMORY_H_
 #define STARFOCUS_PLATFORM_STB_MEMORY_H_

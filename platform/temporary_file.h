@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that are written under another name until they are whole.
 #ifndef STARFOCUS_PLATFORM_TEMPORARY_FILE_H_
 #define STARFOCUS_PLATFORM_TEMPORARY_FILE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The text header that PPM and PFM files share: tokens between white space, a single white-space
 // character before the data, comments from # to the end of the line.
 #ifndef STARFOCUS_PLATFORM_TEXT_HEADER_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fixed-point arithmetic that references of several families are defined by.
 #ifndef STARFOCUS_SIMD_ARITHMETIC_REF_H_
 #define STARFOCUS_SIMD_ARITHMETIC_REF_H_

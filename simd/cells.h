@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel that measures a cell, an 8x8 square of disparities, for the partition into blocks.
 #ifndef STARFOCUS_SIMD_CELLS_H_
 #define STARFOCUS_SIMD_CELLS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vectors of a group of kSliceLanes samples, and their masks as bits. Included once per target.
 #if defined(STARFOCUS_SIMD_CHUNK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_CHUNK_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // This file hides what differs between Highway versions and targets. Included once per target.
 #if defined(STARFOCUS_SIMD_COMPAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_COMPAT_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel that blurs by gathering: each pixel becomes the weighted mean of a disc around it.
 #ifndef STARFOCUS_SIMD_DISC_H_
 #define STARFOCUS_SIMD_DISC_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels over disparities: conversion to fixed point, and the ranges that they lie in.
 #ifndef STARFOCUS_SIMD_DISPARITIES_H_
 #define STARFOCUS_SIMD_DISPARITIES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vector code of finish_composite.h. Included once per target.
 #if defined(STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_

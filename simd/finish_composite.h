@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel that turns the sums of composited views into a picture's accumulators.
 #ifndef STARFOCUS_SIMD_FINISH_COMPOSITE_H_
 #define STARFOCUS_SIMD_FINISH_COMPOSITE_H_

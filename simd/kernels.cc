@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One table of kernels per SIMD target; Highway picks the best one of the machine.
 #include "simd/kernels.h"
 

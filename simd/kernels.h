@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of SIMD kernels. Each family has three files: `x.h` holds the contracts, `x_ref.cc` the
 // plain C++ that defines every result, and `x-inl.h` the vector code, which gives the same bits on
 // each target. Pointers need no more alignment than their type has; vector types never appear in a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that build a layered depth image: they find the depth edges of a field, and the surfaces
 // that those edges hide from the centre view.
 #ifndef STARFOCUS_SIMD_LAYERED_DEPTH_H_

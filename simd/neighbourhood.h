@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that look at the cells around a block or a cell: what of them its blur reaches, and what
 // of theirs reaches it.
 #ifndef STARFOCUS_SIMD_NEIGHBOURHOOD_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every buffer that a kernel works on must provide beyond its own samples.
 #ifndef STARFOCUS_SIMD_PADDING_H_
 #define STARFOCUS_SIMD_PADDING_H_

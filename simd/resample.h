@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that halve pictures into layers and bring layers back to full size.
 #ifndef STARFOCUS_SIMD_RESAMPLE_H_
 #define STARFOCUS_SIMD_RESAMPLE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel of the line scan: it splits lines of disparities into runs that move as one.
 #ifndef STARFOCUS_SIMD_RUNS_H_
 #define STARFOCUS_SIMD_RUNS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that make a slice: they select the surfaces whose disparity lies in the slice's range,
 // and spread them where one slice stands for a wide part of the lens.
 //

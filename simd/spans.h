@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that move stretches of a picture by a part of a pixel: they weigh two samples of the
 // source and add or store the result.
 #ifndef STARFOCUS_SIMD_SPANS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists the kernel tables of the machine's SIMD targets. Kept out of the engine's library: it
 // changes Highway's process-wide choice while it looks.
 #include <hwy/highway.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that composite slices, front to back, into the views of a tile: a column of kSliceLanes
 // pixels whose rows follow each other in memory.
 #ifndef STARFOCUS_SIMD_TILES_H_

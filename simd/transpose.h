@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel that turns rows of pixels into columns.
 #ifndef STARFOCUS_SIMD_TRANSPOSE_H_
 #define STARFOCUS_SIMD_TRANSPOSE_H_

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Android on 64-bit ARM, by the NDK's own toolchain file. Untested: no NDK where this was written.
 # Set ANDROID_NDK_HOME. Highway's headers come from a sysroot made by
 # "toolchains/sysroot.sh headers build/sysroot/headers"; only the library is built.

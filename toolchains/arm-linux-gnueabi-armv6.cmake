@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # ARMv6 without NEON (Raspberry Pi Zero and 1): scalar kernels. The C library is Debian's for the
 # soft-float ABI, which such a board's own system rarely has: run statically linked programs.
 set(CMAKE_SYSTEM_PROCESSOR armv6l)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # 32-bit boards with NEON (Raspberry Pi 2, BeagleBone, most ARMv7). Highway 1.0's detection always
 # chooses scalar here, hence static dispatch.
 set(CMAKE_SYSTEM_PROCESSOR armv7l)

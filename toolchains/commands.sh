@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The commands of ./do that build for boards; sourced by it.
 
 # board ARCHITECTURE: the compiler's Debian package, the emulator and the sysroot of a preset.

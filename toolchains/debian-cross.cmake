@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What the toolchain files of Debian's cross compilers share. Included by them after they have set
 #   STARFOCUS_TRIPLE       prefix of the compiler's programs
 #   STARFOCUS_ARCHITECTURE of sysroot.sh

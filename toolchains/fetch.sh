@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # fetch.sh ARCHITECTURE FOLDER PATTERN PACKAGE...: unpacks Debian packages of any architecture into
 # FOLDER, with those of their direct dependencies whose names match PATTERN (an extended regular
 # expression for the whole name). Nothing is done when FOLDER holds them already.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # 64-bit RISC-V: scalar kernels, as GCC 12 does not know the vector intrinsics Highway uses.
 # Debian 12 has a compiler for it but no packages, so the sysroot holds headers only.
 set(CMAKE_SYSTEM_PROCESSOR riscv64)

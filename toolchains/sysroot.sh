@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # sysroot.sh ARCHITECTURE FOLDER: unpacks the headers starfocus needs, and the target's own
 # libraries where Debian has them, for a cross build. ARCHITECTURE is Debian's (arm64, armhf, armel)
 # or "headers" for a target Debian has no packages of. Nothing of the host changes: see fetch.sh.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # WebAssembly with its SIMD, by the toolchain file that comes with the emscripten in the path. Only the
 # library is built. To link a program, Debian's emscripten wants NODE_PATH=/usr/share/nodejs.
 find_program(STARFOCUS_EMCC emcc)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // board_refocus: a refocusing camera on a board. A rotary encoder moves the focus plane, one button
 // changes the aperture, another takes the picture; an output line is high exactly while the engine
 // runs, for a scope or a power meter.

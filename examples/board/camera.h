@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light field in memory, ready to be refocused again and again without another allocation.
 #ifndef STARFOCUS_EXAMPLES_BOARD_CAMERA_H_
 #define STARFOCUS_EXAMPLES_BOARD_CAMERA_H_

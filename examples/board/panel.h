@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The camera's controls: a rotary encoder for the focus, a button for the aperture and one for the
 // shutter, from the edges of their lines. No I/O.
 #ifndef STARFOCUS_EXAMPLES_BOARD_PANEL_H_

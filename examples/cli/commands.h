@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The subcommands of `starfocus`. Each adds itself to the command line and, when chosen, sets
 // `action`.
 #ifndef STARFOCUS_EXAMPLES_CLI_COMMANDS_H_

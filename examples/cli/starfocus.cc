@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus: refocuses star-shaped light fields from the command line.
 #include <new>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What went wrong in a program, and whose it is.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_ERROR_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_ERROR_H_

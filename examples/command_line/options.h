@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values of command-line options. The errors name the option.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "examples/command_line/outputs.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files that a command is about to write, looked at together before any work.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OUTPUTS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OUTPUTS_H_

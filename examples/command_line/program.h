@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The main function of a program.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_PROGRAM_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_PROGRAM_H_

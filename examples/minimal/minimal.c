@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Refocuses a chequered picture whose disparity rises from left to right; writes minimal.ppm. */
 #include <starfocus/starfocus.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Short ways to describe surfaces.
 #ifndef STARFOCUS_EXAMPLES_SCENE_BUILDERS_H_
 #define STARFOCUS_EXAMPLES_SCENE_BUILDERS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Procedural patterns: deterministic noise from integer hashes. Only + - * /, floor and sqrt are
 // used, so that every IEEE machine makes the same pictures.
 #ifndef STARFOCUS_EXAMPLES_SCENE_NOISE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A person with a woollen hat in front of a room: near subject, objects in the middle, far wall.
 #include "examples/scene/builders.h"
 #include "examples/scene/textures.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures of a scene: captured views, disparity map and thin-lens ground truth. Output depends on
 // neither the number of threads nor the machine.
 #ifndef STARFOCUS_EXAMPLES_SCENE_RENDER_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Analytic scenes in disparity space.
 //
 // A scene is a set of surfaces in (x, y, d): centre-view position and disparity. It is laid out on

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scenes `wires` and `ramp`: hard cases for line scans, plain to look at.
 #include "examples/scene/builders.h"
 #include "examples/scene/textures.h"

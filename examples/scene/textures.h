@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The materials of the scenes. Every one is fine enough everywhere to show displaced pixels.
 #ifndef STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_
 #define STARFOCUS_EXAMPLES_SCENE_TEXTURES_H_

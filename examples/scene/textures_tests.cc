@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Test patterns of the scenes `wires` and `ramp`.
 #include <cmath>
 

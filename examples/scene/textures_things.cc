@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Walls, furniture, plants and lights.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The aperture filter (3): a lens's cosine fourth fall-off.
 #ifndef STARFOCUS_LIB_ANALYSIS_APERTURE_H_
 #define STARFOCUS_LIB_ANALYSIS_APERTURE_H_

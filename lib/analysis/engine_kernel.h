@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel of the running engine: its answer to one white pixel on a flat surface.
 #ifndef STARFOCUS_LIB_ANALYSIS_ENGINE_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_ENGINE_KERNEL_H_

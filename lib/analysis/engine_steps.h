@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The running engine's kernels beside the theory, and why they differ.
 #ifndef STARFOCUS_LIB_ANALYSIS_ENGINE_STEPS_H_
 #define STARFOCUS_LIB_ANALYSIS_ENGINE_STEPS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The resampling filters of the subsampled layers: a half-band sinc under a Kaiser window.
 #ifndef STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
 #define STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_

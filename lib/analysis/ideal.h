@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The discrete kernel of the ideal defocusing blur (4).
 #ifndef STARFOCUS_LIB_ANALYSIS_IDEAL_H_
 #define STARFOCUS_LIB_ANALYSIS_IDEAL_H_

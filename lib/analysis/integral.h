@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two integrals everything continuous is made from.
 #ifndef STARFOCUS_LIB_ANALYSIS_INTEGRAL_H_
 #define STARFOCUS_LIB_ANALYSIS_INTEGRAL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Discrete filter kernels and their squared differences.
 #ifndef STARFOCUS_LIB_ANALYSIS_KERNEL_H_
 #define STARFOCUS_LIB_ANALYSIS_KERNEL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Searches along one variable.
 #ifndef STARFOCUS_LIB_ANALYSIS_SEARCH_H_
 #define STARFOCUS_LIB_ANALYSIS_SEARCH_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How many views a blur radius needs by the paper's criteria (III-C, Fig. 6): what (9) rests on.
 #ifndef STARFOCUS_LIB_ANALYSIS_SELECTION_H_
 #define STARFOCUS_LIB_ANALYSIS_SELECTION_H_

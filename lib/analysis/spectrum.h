@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frequency responses of 1D kernels (Figs. 5 and 8).
 #ifndef STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_
 #define STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the engine's kernel should be, from its description: subapertures as line scans and slices
 // render them.
 #ifndef STARFOCUS_LIB_ANALYSIS_STAR_KERNEL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rule (9) redone for subapertures: how many views a blur radius needs when each stands for its
 // part of the lens.
 #ifndef STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Refocusing in the subsampled-by-two layer (paper, III-D): the equivalent blur, its error (10),
 // its aliasing (11) and the filters that minimise the error (Table I).
 #ifndef STARFOCUS_LIB_ANALYSIS_SUBSAMPLED_H_

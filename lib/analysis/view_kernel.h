@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel of refocusing by rendered views (5)-(7): the paper's with the triangular h, and that
 // of subapertures.
 #ifndef STARFOCUS_LIB_ANALYSIS_VIEW_KERNEL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measuring and mending whole disparity maps, before any engine exists.
 #include <cmath>
 

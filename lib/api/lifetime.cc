@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C ABI of an engine's life: defaults, sizes, init.
 #include <cstring>
 #include <new>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "lib/api/light_field.h"
 
 namespace starfocus {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light field in the caller's memory.
 #ifndef STARFOCUS_LIB_API_LIGHT_FIELD_H_
 #define STARFOCUS_LIB_API_LIGHT_FIELD_H_

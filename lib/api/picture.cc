@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C ABI for whole pictures and regions of them: checks, then stripe by stripe.
 #include <cstring>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What of a light field depends on no lens, in memory of its own: checked and converted disparities
 // and the layers of the centre view.
 #ifndef STARFOCUS_LIB_API_PREPARED_H_

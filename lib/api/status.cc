@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "starfocus/starfocus.h"
 
 const char* sf_status_string(sf_status status) {

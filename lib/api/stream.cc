@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The streaming half of the C ABI: rows in, finished rows out, through the engine's line rings.
 #include <cstring>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks of everything that comes from outside, before anything is written.
 #ifndef STARFOCUS_LIB_API_VALIDATE_H_
 #define STARFOCUS_LIB_API_VALIDATE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The aperture (3) sampled on the grid of rendered views, as integer weights.
 #ifndef STARFOCUS_LIB_BASE_APERTURE_H_
 #define STARFOCUS_LIB_BASE_APERTURE_H_

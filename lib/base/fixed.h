@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every fixed-point value of the engine: its scale, range and headroom, once.
 //
 // clang-format off

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rectangles, rows and ranges of addresses.
 #ifndef STARFOCUS_LIB_BASE_GEOMETRY_H_
 #define STARFOCUS_LIB_BASE_GEOMETRY_H_

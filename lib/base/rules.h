@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Selection rules of the paper: how many views a blur radius needs.
 #ifndef STARFOCUS_LIB_BASE_RULES_H_
 #define STARFOCUS_LIB_BASE_RULES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The grid of rendered views of one lens: N, the aperture's weights, and how far a pixel moves from
 // view to view.
 #ifndef STARFOCUS_LIB_BASE_VIEW_GRID_H_

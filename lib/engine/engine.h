@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An engine: what it is made of, by how long that lives.
 #ifndef STARFOCUS_LIB_ENGINE_ENGINE_H_
 #define STARFOCUS_LIB_ENGINE_ENGINE_H_

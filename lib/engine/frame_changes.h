@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which largest blocks depend on pixels that differ between two light fields.
 #ifndef STARFOCUS_LIB_ENGINE_FRAME_CHANGES_H_
 #define STARFOCUS_LIB_ENGINE_FRAME_CHANGES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Jobs for the caller's runner, which is not trusted to run each of them once.
 #ifndef STARFOCUS_LIB_ENGINE_JOBS_H_
 #define STARFOCUS_LIB_ENGINE_JOBS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One routine sizes the workspace and carves it: run with a null base it only counts.
 #ifndef STARFOCUS_LIB_ENGINE_LAYOUT_H_
 #define STARFOCUS_LIB_ENGINE_LAYOUT_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lens of a refocusing.
 #ifndef STARFOCUS_LIB_ENGINE_LENS_H_
 #define STARFOCUS_LIB_ENGINE_LENS_H_

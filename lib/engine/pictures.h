@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pictures of a call: views, layers and converted disparities, as windows onto them.
 #ifndef STARFOCUS_LIB_ENGINE_PICTURES_H_
 #define STARFOCUS_LIB_ENGINE_PICTURES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Columns of blocks, and how far around a stripe of them anything is read.
 #ifndef STARFOCUS_LIB_ENGINE_REACH_H_
 #define STARFOCUS_LIB_ENGINE_REACH_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One block: refocused at its layer and brought back to the picture.
 #ifndef STARFOCUS_LIB_ENGINE_REFOCUS_BLOCK_H_
 #define STARFOCUS_LIB_ENGINE_REFOCUS_BLOCK_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stripe loop's body: plans the blocks of one stripe, refocuses them and joins them.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/stripe_layers.h"
 
 #include "lib/engine/reach.h"

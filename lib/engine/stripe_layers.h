@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Layers 1 and 2 of the centre view around a stripe, as jobs for the runner.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_LAYERS_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_LAYERS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plan of a stripe: which largest blocks it needs, what their cells know, and the blocks each
 // is split into.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_PLAN_H_

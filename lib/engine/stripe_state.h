@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state of a stripe, and what the next one takes over from it.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_STATE_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_STATE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables that an engine makes once, by N.
 #ifndef STARFOCUS_LIB_ENGINE_TABLES_H_
 #define STARFOCUS_LIB_ENGINE_TABLES_H_

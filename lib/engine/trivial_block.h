@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Blocks whose picture is known without rendering their views, for the same bytes.
 #ifndef STARFOCUS_LIB_ENGINE_TRIVIAL_BLOCK_H_
 #define STARFOCUS_LIB_ENGINE_TRIVIAL_BLOCK_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What belongs to one worker: memory that its jobs use one after the other, and what it counts.
 #ifndef STARFOCUS_LIB_ENGINE_WORKER_H_
 #define STARFOCUS_LIB_ENGINE_WORKER_H_

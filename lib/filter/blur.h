@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Depth-dependent image blurring of the centre view alone (the paper's [13], [14]): the classical
 // rival, each output pixel the ideal kernel (4) of its own blur radius.
 #ifndef STARFOCUS_LIB_FILTER_BLUR_H_

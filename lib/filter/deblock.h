@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Layer-dependent deblocking (paper, V-C): linear interpolation across the boundaries of blocks of
 // different layers.
 #ifndef STARFOCUS_LIB_FILTER_DEBLOCK_H_

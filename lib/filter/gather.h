@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // 8x8 cells of one surface: every pixel gathered from the centre view with the ideal kernel (4) of
 // the blur around it. Where disparity hardly changes as far as the blur reaches, that is what all
 // views of the aperture together show.

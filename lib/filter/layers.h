@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Subsampled layers (paper, III-D and III-E): the centre view down once per stripe, and the
 // refocused blocks up again.
 #ifndef STARFOCUS_LIB_FILTER_LAYERS_H_

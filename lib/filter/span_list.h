@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spans waiting for a kernel, so that one call serves many views of a line.
 #ifndef STARFOCUS_LIB_FILTER_SPAN_LIST_H_
 #define STARFOCUS_LIB_FILTER_SPAN_LIST_H_

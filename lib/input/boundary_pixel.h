@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boundary pixels: on the far side of a depth edge a captured pixel is a mixture of both surfaces.
 #ifndef STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_
 #define STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The extended rectangle that a block is refocused from, as lines in the three orientations of the
 // star (paper, IV-B): rows, columns (90 degrees) and diagonals (the lossless 45 degree layout).
 #ifndef STARFOCUS_LIB_INPUT_FIELD_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The way from the window to the field of a block.
 #ifndef STARFOCUS_LIB_INPUT_LOAD_FIELD_H_
 #define STARFOCUS_LIB_INPUT_LOAD_FIELD_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What lies beyond the picture's edges, where captured views look.
 #ifndef STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_
 #define STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the renderers are asked for: all views of one rectangle.
 #ifndef STARFOCUS_LIB_INPUT_RENDER_JOB_H_
 #define STARFOCUS_LIB_INPUT_RENDER_JOB_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of all views and of the disparity map that a stripe needs, whether they lie in the
 // caller's pictures or in a ring of lines.
 #ifndef STARFOCUS_LIB_INPUT_WINDOW_H_

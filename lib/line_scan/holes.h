@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hole filling: the colours of what the centre view does not see, from the captured views.
 #ifndef STARFOCUS_LIB_LINE_SCAN_HOLES_H_
 #define STARFOCUS_LIB_LINE_SCAN_HOLES_H_

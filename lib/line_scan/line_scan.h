@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Center-based line scan (paper, IV-A): the surfaces and holes of one rendered view along a line,
 // in a single pass without z-buffer.
 #ifndef STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_

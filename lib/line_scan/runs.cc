@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "lib/line_scan/runs.h"
 
 #include "lib/base/fixed.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs of one disparity along a line: found once per line, shared by all its views.
 #ifndef STARFOCUS_LIB_LINE_SCAN_RUNS_H_
 #define STARFOCUS_LIB_LINE_SCAN_RUNS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns what a line scan finds into spans for the kernels.
 #ifndef STARFOCUS_LIB_LINE_SCAN_SPAN_SINK_H_
 #define STARFOCUS_LIB_LINE_SCAN_SPAN_SINK_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's primitive: one rectangle of the picture refocused with a given N at one layer, by
 // rendering the views of the aperture as types A, B and C of eight triangles (IV-B).
 #ifndef STARFOCUS_LIB_LINE_SCAN_TRIANGLES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boundary pixels (lib/input/boundary_pixel.h) of line scans.
 #ifndef STARFOCUS_LIB_LINE_SCAN_UNMIX_H_
 #define STARFOCUS_LIB_LINE_SCAN_UNMIX_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Variable-size block analysis (paper, V-A): what 8x8 cells know of the blur, and blocks made of
 // them.
 #ifndef STARFOCUS_LIB_PLAN_BLOCK_STATS_H_

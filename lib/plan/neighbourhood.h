@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What lies around cells within reach: the borders it gives to blocks, and which cells are smooth.
 #ifndef STARFOCUS_LIB_PLAN_NEIGHBOURHOOD_H_
 #define STARFOCUS_LIB_PLAN_NEIGHBOURHOOD_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Timing-based quadtree partition of a largest block (paper, V-B).
 #ifndef STARFOCUS_LIB_PLAN_PARTITION_H_
 #define STARFOCUS_LIB_PLAN_PARTITION_H_

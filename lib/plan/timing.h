@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The timing model (13)-(15).
 #ifndef STARFOCUS_LIB_PLAN_TIMING_H_
 #define STARFOCUS_LIB_PLAN_TIMING_H_

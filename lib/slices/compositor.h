@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The primitive of subapertures: one rectangle of the picture refocused as a stack of slices, which
 // each view of the aperture shows moved against each other, the nearer in front of the farther.
 #ifndef STARFOCUS_LIB_SLICES_COMPOSITOR_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slices: the parts of a scene within ranges of disparity so small that each moves as one from view
 // to view.
 #ifndef STARFOCUS_LIB_SLICES_DEPTH_SLICES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surfaces of a field, one behind the other: what the centre view sees, and behind it at depth
 // edges what captured views see there.
 #ifndef STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_

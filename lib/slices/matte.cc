@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "lib/slices/matte.h"
 
 #include "lib/input/boundary_pixel.h"

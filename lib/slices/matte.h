@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boundary pixels (lib/mixture.h) of slices.
 #ifndef STARFOCUS_LIB_SLICES_MATTE_H_
 #define STARFOCUS_LIB_SLICES_MATTE_H_

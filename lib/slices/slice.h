@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a slice is: a part of the scene within a range of disparity so small that it moves as one
 // from view to view.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_H_

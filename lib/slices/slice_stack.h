@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The slices of a rectangle, as all views of the aperture show them.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_STACK_H_
 #define STARFOCUS_LIB_SLICES_SLICE_STACK_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tile: kSliceLanes columns of a section, all views of which are composited while its slices are
 // in the nearest cache.
 #ifndef STARFOCUS_LIB_SLICES_TILE_H_

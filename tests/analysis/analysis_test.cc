@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The filter analysis against the paper's printed numbers.
 #include <doctest/doctest.h>
 

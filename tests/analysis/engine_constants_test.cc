@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The engine's constants against the analysis they come from. A failure names the figure of the
 // paper that moves: then the analysis, the figure and the documents change together, or the
 // constant is wrong.

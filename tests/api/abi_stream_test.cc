@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bad input and wrong order of the streaming functions.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bad input of every public function but the streaming ones: each illegal value gives its own
 // status, and nothing is written. Illegal values first, as callers meet them.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sf_refocus_after: the bytes of refocusing the frame alone, blocks reused where nothing changed.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* C99 program that knows only starfocus.h and links the shared library: refocuses a tiny constant
  * picture and expects it back. */
 #include <starfocus/starfocus.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measuring and filling disparity maps: bad input, then the rule against a plain search.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cmake -DNM=… -DLIBRARY=… -DHEADER=… -P exports_test.cmake
 # The shared library exports every SF_API function of the header and nothing else.
 cmake_minimum_required(VERSION 3.20)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus.hpp alone, without exceptions and RTTI, on the shared library.
 #include <cstdio>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prepared light fields: the bytes of sf_refocus for every lens, and bad input.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Regions of the picture: the bytes of the whole picture there, for their share of its work.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runners that break their contract: SF_ERROR_RUNNER, and nothing worse.
 #include <doctest/doctest.h>
 

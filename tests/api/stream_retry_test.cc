@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stream goes on after a runner that failed: the same pull again gives the bytes of a stream that
 // nothing happened to.
 #include <doctest/doctest.h>

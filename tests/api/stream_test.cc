@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows pushed and pulled give the bytes of the whole-picture call, in memory independent of the
 // picture's height.
 #include <doctest/doctest.h>

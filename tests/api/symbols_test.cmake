@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cmake -DNM=… -DLIBRARY=… -P symbols_test.cmake
 # What lib/ and simd/ need of the outside: memory copies, a few functions of C's <math.h>, the
 # compiler's own helpers and Highway's choice of target. Nothing of libstdc++ (exceptions, RTTI,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The integer weights against the aperture (3) in double.
 #include "lib/base/aperture.h"
 

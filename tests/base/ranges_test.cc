@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The run-time checks of fixed.h's table.
 #include <doctest/doctest.h>
 

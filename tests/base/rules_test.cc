@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The selection rules for N and the layer at, just below and just above every step.
 #include "lib/base/rules.h"
 

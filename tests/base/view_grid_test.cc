@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far pixels move from view to view, against u * (d - d_t) in double.
 #include "lib/base/view_grid.h"
 

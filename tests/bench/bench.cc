@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus-bench: run time against error. See studies.h for what it measures.
 #include <CLI/CLI.hpp>
 #include <cstdio>

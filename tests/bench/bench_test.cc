@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bench's own figures on pictures and numbers whose answers are known.
 #include <doctest/doctest.h>
 

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # A row of docs/constants.md: how near the pictures of a program come to ray-traced truth (wires,
 # leaves) and to the benchmark mode (stilllife), in dB, and millions of samples rendered at the last
 # focus of each scene. Change a constant, build, and compare with the row of the program before, whose

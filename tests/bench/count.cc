@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus-bench-count MODE: refocuses one small light field made in memory, once, so that
 // callgrind can count the instructions of sf_refocus. Prints the pixels and the SIMD target.
 #include <cmath>

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # Instructions per pixel of sf_refocus, counted by callgrind: the same on every run, so that a
 # slowdown shows without a clock. usage: count.sh BUILD-FOLDER check|record
 set -eu

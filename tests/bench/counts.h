@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instructions per pixel from the tracked baselines of `./do bench --check` and `./do count`.
 #ifndef STARFOCUS_TESTS_BENCH_COUNTS_H_
 #define STARFOCUS_TESTS_BENCH_COUNTS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The light fields of the bench: folders with what is known of their truth, and in-memory changes
 // of them for the sweeps.
 #ifndef STARFOCUS_TESTS_BENCH_FIELD_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where and with what the bench ran.
 #ifndef STARFOCUS_TESTS_BENCH_MACHINE_H_
 #define STARFOCUS_TESTS_BENCH_MACHINE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures several ways to make one picture against each other.
 #ifndef STARFOCUS_TESTS_BENCH_MEASURE_H_
 #define STARFOCUS_TESTS_BENCH_MEASURE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the bench makes of pictures and times.
 #ifndef STARFOCUS_TESTS_BENCH_METRICS_H_
 #define STARFOCUS_TESTS_BENCH_METRICS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What starfocus-bench-micro times beside the kernels themselves.
 #ifndef STARFOCUS_TESTS_BENCH_MICRO_H_
 #define STARFOCUS_TESTS_BENCH_MICRO_H_

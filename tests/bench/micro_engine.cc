@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of the engine between its kernels: line scan, deblocking and blur.
 #include <benchmark/benchmark.h>
 

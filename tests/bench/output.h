@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows as CSV and JSON.
 #ifndef STARFOCUS_TESTS_BENCH_OUTPUT_H_
 #define STARFOCUS_TESTS_BENCH_OUTPUT_H_

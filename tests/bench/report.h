@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The report: one HTML page with everything inside.
 #ifndef STARFOCUS_TESTS_BENCH_REPORT_H_
 #define STARFOCUS_TESTS_BENCH_REPORT_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of the report, each HTML.
 #ifndef STARFOCUS_TESTS_BENCH_REPORT_PARTS_H_
 #define STARFOCUS_TESTS_BENCH_REPORT_PARTS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs that blur one picture by a map, run without a shell and on one core.
 #include <fcntl.h>
 #include <spawn.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What else makes refocused pictures: plain shift-and-add of the captured views, written here, and
 // programs that blur one picture by a map, when they are installed.
 #ifndef STARFOCUS_TESTS_BENCH_RIVALS_H_

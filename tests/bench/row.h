@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One measurement: what was run and what came out.
 #ifndef STARFOCUS_TESTS_BENCH_ROW_H_
 #define STARFOCUS_TESTS_BENCH_ROW_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The processor's time of this process and the wall's.
 #ifndef STARFOCUS_TESTS_BENCH_STOPWATCH_H_
 #define STARFOCUS_TESTS_BENCH_STOPWATCH_H_

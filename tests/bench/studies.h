@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which pictures are measured, and how.
 #ifndef STARFOCUS_TESTS_BENCH_STUDIES_H_
 #define STARFOCUS_TESTS_BENCH_STUDIES_H_

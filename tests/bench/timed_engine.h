@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An engine with its memory, ready to refocus one picture again and again.
 #ifndef STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_
 #define STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_

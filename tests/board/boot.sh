@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # boot.sh STARFOCUS BOARD_REFOCUS FOLDER: boots Debian's arm64 kernel on QEMU's "virt" board
 # with the statically linked BOARD_REFOCUS of an aarch64 build and a small light field made by the
 # STARFOCUS of this machine. QEMU's power button presses the shutter on line 3 of the board's PL061

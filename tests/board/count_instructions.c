@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A plugin of QEMU's user emulators: counts the executed instructions, of all functions or only of
  * those whose symbol contains one of the given texts. The count repeats exactly, whatever the
  * machine is doing.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # The first process of the board that boot.sh emulates: runs board_refocus there and tells its
 # findings on the serial line, one "board: NAME VALUE" each.
 PATH=/bin

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // instruction_bench CASE simd|reference RUNS: refocuses RUNS times. What one refocusing costs is
 // the difference between the instructions of two runs and of one, as counted by
 // count_instructions.c: all that happens before the first is the same. `instruction_bench list`

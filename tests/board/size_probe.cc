@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints what the engine needs of a board's memory: `size_probe stack` the bytes of stack its calls
 // use, `size_probe workspace` a table of workspaces. For ./do size.
 #include <pthread.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the program STARFOCUS_PROGRAM (a definition of the build, or the environment variable).
 #ifndef STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
 #define STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The subcommands by their results and what they refuse.
 #include <doctest/doctest.h>
 

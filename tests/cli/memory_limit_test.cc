@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program with too little memory, by limits in small steps: it succeeds, or it says that it is
 // out of memory and leaves nothing behind.
 #include <doctest/doctest.h>

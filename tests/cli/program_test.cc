@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every subcommand has in common: exit codes, help, the version, and output that is lost.
 #include "examples/command_line/program.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Block mode against the double-precision reference given the engine's own partition: at most one
 // gray level apart anywhere, on every SIMD target.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the conformance tests share: the distance of bytes from the reference, and random scenes.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_CONFORMANCE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_CONFORMANCE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The engine against the double-precision reference: at most one gray level apart anywhere.
 #include "tests/conformance/conformance.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The method once more, whole pictures in double precision, written to be read: what the engine is
 // held to. Which pixel is visible where is decided on the engine's grid (disparity and focus to
 // 1/64, shifts to 1/256 of a pixel), everything about colours in double and unrounded.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference's ideal kernel (4) over pixels, for the blur mode and for what block mode gathers.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference's extended rectangle, and colours of captured views.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FIELD_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_FIELD_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference's parts that know one line: the lens, and which pixel a view shows where.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_LINE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_LINE_H_

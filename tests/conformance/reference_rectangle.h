@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference's rectangle by the paper's rule: one block's views rendered and summed.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_RECTANGLE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_RECTANGLE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference's rectangle by the rule of subapertures: one block as a stack of slices, which each
 // view shows moved against each other.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_STACK_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference's surfaces: what the pixels of an extended rectangle show, and what lies behind.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_SURFACES_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_SURFACES_H_

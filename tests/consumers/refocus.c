@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Refocuses the scene near and far through the C interface and prints both checksums. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same as refocus.c through the C++ wrapper.
 #include <cstdio>
 #include <initializer_list>

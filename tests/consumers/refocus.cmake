@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The program refocus of a consumer project, in its only LANGUAGE, and a target that lets it run, by the
 # emulator of a toolchain file if there is one, and keeps what it prints in the file sums.
 if(LANGUAGE STREQUAL "CXX")

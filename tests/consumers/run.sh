@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # run.sh BUILD KIND...: installs what was built in BUILD and builds small projects outside the tree
 # that use starfocus in each way there is. All of them must print the same checksums, those of a
 # program linked by hand with the library of BUILD.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A light field of five views that every consumer refocuses: a near square before a slope, all of
  * it in numbers that each machine holds exactly; and the checksum of what came out. */
 #ifndef STARFOCUS_TESTS_CONSUMERS_SCENE_H_

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # do_test.sh SOURCES: what ./do build says and does on machines that lack something. Their tools only
 # pretend, and neither has dpkg or apt-get.
 set -eu

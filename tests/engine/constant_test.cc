@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A constant picture comes out unchanged, bit for bit: every filter has unit gain exactly.
 #include <doctest/doctest.h>
 

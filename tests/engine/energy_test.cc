@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mean brightness stays where every rendered view is shifted by half a pixel.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checksums of refocused pictures, the same on every machine, SIMD target and compiler: the promise
 // of bit-exactness. golden.txt holds them; after an intended change of the engine's output
 //   ./do golden

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The engine never allocates: malloc and its relatives are interposed for this whole program and
 // counted while the engine works.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The carving of memory, and the sizes that it gives of engines and prepared light fields.
 #include "lib/engine/layout.h"
 

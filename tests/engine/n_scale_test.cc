@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sf_config.n_scale through the public ABI: which N it makes, that the other modes do not ask for
 // it, and that it trades time for error.
 #include <doctest/doctest.h>

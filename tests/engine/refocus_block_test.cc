@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A block refocused alone with the border that the analysis gives it, and with wider ones. Of one
 // flat surface nothing changes, at any layer. A gap between surfaces is filled from what is behind
 // it, which may lie beyond the border and land outside the block: there a little may.

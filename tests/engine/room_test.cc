@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A picture depends on its own lens: room that a configuration reserves for others changes no byte.
 #include <doctest/doctest.h>
 

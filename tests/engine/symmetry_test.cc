@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mirroring, transposing or turning the light field does the same to the refocused picture, when
 // the picture is whole blocks: exactly, but for turns with wide subapertures.
 #include "tests/support/symmetry.h"

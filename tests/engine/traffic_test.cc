@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What sf_report tells of bytes read of the light field.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Output bytes depend neither on the number of workers nor on the order of the jobs; engines in
 // several threads are independent.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The blur mode against an adaptive convolution in double precision with the ideal kernel (4).
 #include "lib/filter/blur.h"
 

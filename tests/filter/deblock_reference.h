@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Deblocking by the paper's words (V-C), a whole picture at once.
 #ifndef STARFOCUS_TESTS_FILTER_DEBLOCK_REFERENCE_H_
 #define STARFOCUS_TESTS_FILTER_DEBLOCK_REFERENCE_H_

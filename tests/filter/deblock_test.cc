@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Deblocking: boundaries made by hand, and stripes against the whole picture done at once by the
 // paper's words (V-C).
 #include "lib/filter/deblock.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What block mode gathers: cells that are smooth by the definition, blurred as the blur mode blurs
 // them, and nothing else.
 #include "lib/filter/gather.h"

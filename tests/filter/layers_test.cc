@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Subsampling and upsampling against the same separable filters in double precision.
 #include "lib/filter/layers.h"
 

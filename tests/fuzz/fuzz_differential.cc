@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What may be asked for in several ways, each of which must give the same bytes: the input draws
 // the configuration, the lens and the ways; pictures follow from a number of it.
 #include <cstdio>

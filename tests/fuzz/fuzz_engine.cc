@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C ABI with any configuration, parameters, sizes, strides and contents, whole and streamed.
 // Every buffer has exactly the bytes the interface asks for, on the heap, so that
 // AddressSanitizer sees what is read or written beside it.

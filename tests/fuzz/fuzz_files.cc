@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The readers of single files: PFM maps, and PNG, PPM and JPEG pictures.
 #include <sys/mman.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reader of light-field folders: which files are there, and what they hold.
 #include <unistd.h>
 

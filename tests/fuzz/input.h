@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws values from the bytes of a fuzzer.
 #ifndef STARFOCUS_TESTS_FUZZ_INPUT_H_
 #define STARFOCUS_TESTS_FUZZ_INPUT_H_

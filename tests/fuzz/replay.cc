@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs a fuzz target over folders of files: the seeds, and whatever crashed once.
 #include <cstdio>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What lies beyond the picture: a smaller picture of the same scene, refocused, is part of the
 // larger one where its side views saw enough, and what something nearer covers is not taken.
 #include "lib/input/picture_edge.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The runs of lines, as the engine finds them, into memory of exactly the size they need.
 #ifndef STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_
 #define STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_

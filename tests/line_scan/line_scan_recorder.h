@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sink that writes down what a line scan finds, and lines to scan.
 #ifndef STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_
 #define STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The line scan on hand-made lines, and what holds for every line on random ones.
 #include "lib/line_scan/line_scan.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs of one disparity along hand-made and random lines.
 #include "lib/line_scan/runs.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the span sink makes of surfaces, mixed pixels and holes with a rim.
 #include "lib/line_scan/span_sink.h"
 

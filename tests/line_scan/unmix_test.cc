@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boundary pixels in a field of one row of depth edges.
 #include "lib/line_scan/unmix.h"
 

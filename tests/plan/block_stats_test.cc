@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Block analysis against brute force: on random disparity maps, no pixel beyond a block's border
 // may have a blur that reaches the block or what a layer renders around it. The picture's edge
 // pixels repeat outside it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cells of a whole disparity map in memory, measured as the engine measures them.
 #ifndef STARFOCUS_TESTS_PLAN_MEASURED_CELLS_H_
 #define STARFOCUS_TESTS_PLAN_MEASURED_CELLS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The quadtree against all partitions there are, with the rules for layers and views and the timing
 // model applied anew.
 #include "lib/plan/partition.h"

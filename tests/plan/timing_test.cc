@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The timing model: views counted one by one, and a time that is linear in work and coefficients.
 #include "lib/plan/timing.h"
 

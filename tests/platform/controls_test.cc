@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Knob and buttons on sequences of edges: clean, bouncing and with edges lost.
 #include "platform/controls.h"
 

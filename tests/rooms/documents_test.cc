@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the documents name exists: files that they link to or cite, and names of the code.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rooms of the house, from the includes themselves: data flows one way through lib/, and no two
 // modules know each other.
 #include <doctest/doctest.h>

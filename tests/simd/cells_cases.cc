@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The case of the kernel of simd/cells.h.
 #include <algorithm>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cases of the kernels of simd/disparities.h.
 #include <algorithm>
 #include <cmath>

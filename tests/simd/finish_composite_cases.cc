@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The case of the kernel of simd/finish_composite.h.
 #include "tests/simd/kernel_cases.h"
 

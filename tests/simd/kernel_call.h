@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One call of a kernel, as kernels_test checks it and starfocus-bench-micro times it: the memory
 // that the kernel works on, what it may do there, and how it is called.
 #ifndef STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_

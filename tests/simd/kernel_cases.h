@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A case for each kernel: it makes calls of any size and contents for the test, and one call of
 // ordinary size for the bench.
 #ifndef STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the references of the kernels compute, worked out by hand. kernels_test.cc compares all
 // targets with them.
 #include <doctest/doctest.h>

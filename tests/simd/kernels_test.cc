@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every kernel on every SIMD target of this machine against its reference, and the engine on every
 // target.
 #include "simd/kernels.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cases of the kernels of simd/spans.h.
 #include "tests/simd/kernel_cases.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The picture of a stack of slices, where what it must be is known.
 #include <doctest/doctest.h>
 

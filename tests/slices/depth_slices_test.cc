@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the surfaces of a rectangle are cut into slices.
 #include "lib/slices/depth_slices.h"
 

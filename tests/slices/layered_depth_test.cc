@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What lies behind the visible surface of a field, and where it is read.
 #include "lib/slices/layered_depth.h"
 

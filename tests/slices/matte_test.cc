@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boundary pixels of slices, in a picture of one depth edge.
 #include "lib/slices/matte.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far slices reach: memory is laid out for the most that any lens may ask for.
 #include "lib/slices/slice_plane.h"
 

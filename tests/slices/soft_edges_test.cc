@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ends of near surfaces in the line scan, which lie between rendered pixels.
 #include <doctest/doctest.h>
 

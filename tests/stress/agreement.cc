@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Families of refocusings that must agree with each other.
 #include <algorithm>
 #include <cmath>

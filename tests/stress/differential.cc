@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The family of what may be asked for in several ways: whole, streamed, as a region, prepared, as
 // the frame after another; by used engines, and by ones whose runner failed before.
 #include "tests/stress/differential.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the ways of asking for a picture share.
 #ifndef STARFOCUS_TESTS_STRESS_DIFFERENTIAL_H_
 #define STARFOCUS_TESTS_STRESS_DIFFERENTIAL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames after frames, each against refocusing it alone.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows pushed and pulled in portions of any size, with bad rows, failing runners and new beginnings
 // in between.
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The families of stress cases.
 #ifndef STARFOCUS_TESTS_STRESS_FAMILIES_H_
 #define STARFOCUS_TESTS_STRESS_FAMILIES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Families of pictures whose result is known or bounded.
 #include <algorithm>
 #include <cmath>

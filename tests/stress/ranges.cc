@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/stress/ranges.h"
 
 #include "lib/base/fixed.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Listens to the engine's range checks, in builds that have them.
 #ifndef STARFOCUS_TESTS_STRESS_RANGES_H_
 #define STARFOCUS_TESTS_STRESS_RANGES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ways of running an engine. The bytes of a picture must not depend on any of them.
 #ifndef STARFOCUS_TESTS_STRESS_RIG_H_
 #define STARFOCUS_TESTS_STRESS_RIG_H_

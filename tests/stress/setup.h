@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A random refocusing: what the stress families are made of.
 #ifndef STARFOCUS_TESTS_STRESS_SETUP_H_
 #define STARFOCUS_TESTS_STRESS_SETUP_H_

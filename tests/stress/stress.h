@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tries to break the engine: families of random refocusings, each with a property that must hold.
 // A case is its family and a number, nothing else, so that every failure can be repeated.
 #ifndef STARFOCUS_TESTS_STRESS_STRESS_H_

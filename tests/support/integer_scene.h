@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light fields made with integers alone, the same on every machine and compiler: no rounding and no
 // order of evaluation enters. For checksums and instruction counts.
 #ifndef STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_

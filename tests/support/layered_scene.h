@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light fields for block mode: areas for every layer.
 #ifndef STARFOCUS_TESTS_SUPPORT_LAYERED_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_LAYERED_SCENE_H_

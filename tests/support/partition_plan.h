@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A random disparity map measured, and its partition planned anew: what the rules for layers and
 // views, gathering and the timing model give each block, and the costs of all partitions there are.
 #ifndef STARFOCUS_TESTS_SUPPORT_PARTITION_PLAN_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene refocused by an engine of its own: the picture and the report.
 #ifndef STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_
 #define STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernels of every SIMD target this program was built with and this machine runs.
 #ifndef STARFOCUS_TESTS_SUPPORT_SIMD_TARGETS_H_
 #define STARFOCUS_TESTS_SUPPORT_SIMD_TARGETS_H_

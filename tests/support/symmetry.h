@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The symmetries of the square, applied to pixels, captured views and light fields.
 #ifndef STARFOCUS_TESTS_SUPPORT_SYMMETRY_H_
 #define STARFOCUS_TESTS_SUPPORT_SYMMETRY_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests of the public interface share: deterministic random light fields, an engine with
 // its memory, whole-picture and streamed refocusing into a padded, poisoned picture.
 #ifndef STARFOCUS_TESTS_SUPPORT_TEST_SCENE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The running engine's kernels beside the theory.
 #include <algorithm>
 #include <cmath>

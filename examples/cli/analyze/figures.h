@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables and figures of the paper's section III, regenerated from its definitions.
 #ifndef STARFOCUS_EXAMPLES_CLI_ANALYZE_FIGURES_H_
 #define STARFOCUS_EXAMPLES_CLI_ANALYZE_FIGURES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Figs. 4, 5 and 8: 1D kernels and their frequency responses.
 #include <cmath>
 

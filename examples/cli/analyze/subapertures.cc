@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rule (9) redone for subapertures.
 #include <algorithm>
 #include <cmath>

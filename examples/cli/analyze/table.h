@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables of numbers as CSV files and as gnuplot drawings.
 #ifndef STARFOCUS_EXAMPLES_CLI_ANALYZE_TABLE_H_
 #define STARFOCUS_EXAMPLES_CLI_ANALYZE_TABLE_H_

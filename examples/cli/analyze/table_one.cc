@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Table I: the filters of subsampled refocusing, and the threshold of (12).
 #include <cmath>
 #include <cstdio>

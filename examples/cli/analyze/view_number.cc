@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fig. 6: SSE against N / r, and the thresholds of (9).
 #include <cstdio>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times single blocks of a light field, at any place, size, N and layer, through the engine's own
 // RefocusBlock.
 #ifndef STARFOCUS_EXAMPLES_CLI_CALIBRATE_BLOCK_BENCH_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses the blocks that are timed: as they occur when a scene is refocused, over all sizes and N.
 #ifndef STARFOCUS_EXAMPLES_CLI_CALIBRATE_BLOCK_SAMPLER_H_
 #define STARFOCUS_EXAMPLES_CLI_CALIBRATE_BLOCK_SAMPLER_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The measured times of one scene's blocks.
 #ifndef STARFOCUS_EXAMPLES_CLI_CALIBRATE_SCENE_TIMES_H_
 #define STARFOCUS_EXAMPLES_CLI_CALIBRATE_SCENE_TIMES_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Least squares for the timing model (14).
 #ifndef STARFOCUS_EXAMPLES_CLI_CALIBRATE_TIMING_FIT_H_
 #define STARFOCUS_EXAMPLES_CLI_CALIBRATE_TIMING_FIT_H_

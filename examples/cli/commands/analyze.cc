@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus analyze: the paper's filter analysis, and the engine's kernels beside it.
 #include <cstdio>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus calibrate: the timing model's coefficients on this machine.
 #include <cstdio>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus compare: how much two pictures differ.
 #include <cmath>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus help: what the command line takes, for people, the manual and the shell.
 #include <cstdio>
 #include <memory>

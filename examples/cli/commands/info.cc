@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus info: what a light-field folder holds.
 #include <cmath>
 #include <cstdio>

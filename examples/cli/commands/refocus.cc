@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus refocus: the picture of a lens focused elsewhere, or a row of them.
 #include <cstdio>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus scene: a ray-traced light field with exact disparity and ground truth.
 #include <cstdio>
 #include <filesystem>

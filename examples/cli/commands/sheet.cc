@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus sheet: pictures side by side.
 #include <algorithm>
 #include <cstdint>

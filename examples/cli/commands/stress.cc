@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus stress: tries to break the engine.
 #include "tests/stress/stress.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // starfocus video: light field after light field, refocusing what changed.
 #include <algorithm>
 #include <cstdio>

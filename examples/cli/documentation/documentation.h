@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is written about a command line from its own options, so that it cannot tell of others.
 #ifndef STARFOCUS_EXAMPLES_CLI_DOCUMENTATION_DOCUMENTATION_H_
 #define STARFOCUS_EXAMPLES_CLI_DOCUMENTATION_DOCUMENTATION_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Refocusing through the C ABI: workspace, entry path, time.
 #ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_ENGINE_RUN_H_
 #define STARFOCUS_EXAMPLES_CLI_ENGINE_ENGINE_RUN_H_

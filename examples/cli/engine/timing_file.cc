@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/engine/timing_file.h"
 
 #include "examples/cli/engine/timing_terms.h"

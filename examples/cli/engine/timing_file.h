@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Timing coefficients in JSON files: what `starfocus calibrate` writes and `refocus --timing`
 // reads.
 #ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_FILE_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The terms of the timing model, for whoever goes through them by name.
 #ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_TERMS_H_
 #define STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_TERMS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The partition of a refocusing, drawn over a picture.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_PARTITION_MAP_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_PARTITION_MAP_H_

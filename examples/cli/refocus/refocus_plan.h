@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `refocus` and `video` have in common: the options of a lens and an engine, and the light
 // field they are applied to.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The figures of refocusings, as JSON for --report.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_REPORT_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_REPORT_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/sheet/label.h"
 
 #include <stb/stb_easy_font.h>

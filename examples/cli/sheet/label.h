@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text on pictures.
 #ifndef STARFOCUS_EXAMPLES_CLI_SHEET_LABEL_H_
 #define STARFOCUS_EXAMPLES_CLI_SHEET_LABEL_H_

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* starfocus: refocusing for star-shaped sparse light fields. C ABI.
  *
  * Given 1, 5, 9 or 17 rectified 8-bit RGB views and the disparity map of the centre view, the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Thin C++17 wrapper of starfocus.h: owns the workspace, adds nothing else. Header-only; no
 // exceptions: every call returns an sf_status.
 #ifndef STARFOCUS_STARFOCUS_HPP_

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The version of starfocus that a program is compiled with; sf_version() tells the one it runs
  * with. These three numbers are the only place that holds it: the build reads them here. */
 #ifndef STARFOCUS_VERSION_H_
