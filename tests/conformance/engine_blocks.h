@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the engine makes of a light field, and the partition that it chose: what the reference,
 // which chooses none of its own, is given.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_ENGINE_BLOCKS_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // conformance_search FIRST COUNT: tries the trials of COUNT seeds from FIRST on, and prints those
 // in which the engine is more than one gray level from the double-precision reference.
 #define DOCTEST_CONFIG_IMPLEMENT

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random light fields and lenses of all kinds, each known by its seed, on which the engine is held
 // to the double-precision reference.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_TRIAL_H_

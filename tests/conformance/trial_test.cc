@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The engine against the double-precision reference on random trials: at most one gray level apart.
 #include "tests/conformance/trial.h"
 
