@@ -85,6 +85,9 @@ void SetColours(Colours colours, test::Scene* scene, test::Random* random) {
       if (colours == Colours::kSmooth) level += random->Int(-9, 9);
       if (colours == Colours::kExtreme) level = random->Int(0, 1) * 255;
       if (colours == Colours::kNoise) level = base + random->Int(-amplitude, amplitude);
+      if (colours == Colours::kPlainCentre && &picture != &scene->pictures[0]) {
+        level = base + random->Int(-amplitude, amplitude);
+      }
       level = std::clamp(level, 0, 255);
       sample = static_cast<uint8_t>(level);
     }
@@ -153,7 +156,7 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   // Pictures draw numbers of their own: a fuzzer's bytes would not last for them.
   test::Random fill(random->Next());
   SetDepth(static_cast<Depth>(random->Int(0, 6)), &setup.scene, &fill);
-  SetColours(static_cast<Colours>(random->Int(0, 2)), &setup.scene, &fill);
+  SetColours(static_cast<Colours>(random->Int(0, 3)), &setup.scene, &fill);
   return setup;
 }
 

@@ -13,7 +13,7 @@
 namespace starfocus::stress {
 
 enum class Depth { kFlat, kSlanted, kPiecewise, kNoisy, kAlternating, kSparse, kFramed };
-enum class Colours { kNoise, kExtreme, kSmooth };
+enum class Colours { kNoise, kExtreme, kSmooth, kPlainCentre };
 
 struct Setup {
   test::Scene scene;
