@@ -8,6 +8,11 @@
 #define HWY_DISABLED_TARGETS HWY_AVX3_DL
 #endif
 
+// Vectors emulated without SIMD, which clang has instead of single numbers, give other results.
+#ifndef HWY_BROKEN_EMU128
+#define HWY_BROKEN_EMU128 1
+#endif
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/kernels.cc"
 #include "hwy/foreach_target.h"  // must precede highway.h
