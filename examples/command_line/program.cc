@@ -12,7 +12,6 @@
 #include "platform/file.h"
 #include "platform/temporary_file.h"
 #include "starfocus/starfocus.h"
-#include "starfocus/version.h"
 
 namespace starfocus {
 namespace {
@@ -53,7 +52,7 @@ const char kExitCodes[] =
     "wrong, 70 for an error in the program itself.\n";
 
 std::string VersionText(const std::string& name) {
-  return name + " " SF_VERSION_STRING " (" + sf_simd_target() + ")";
+  return name + " " + sf_version() + " (" + sf_simd_target() + ")";
 }
 
 bool ParseCommandLine(CLI::App* app, int argc, char** argv, Error* error) {

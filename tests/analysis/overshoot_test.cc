@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far block mode leaves the range of its views, which starfocus.h tells: half-band filters of
+// layers 1 and 2 have negative taps, and a picture that is bright just there darkens a pixel most.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include "lib/analysis/engine_kernel.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::analysis::EngineKernel;
+using starfocus::analysis::EngineProbe;
+using starfocus::analysis::Kernel;
+
+constexpr int kSide = 128, kMiddle = 64, kLow = 60, kHigh = 200;
+
+EngineKernel Measure(double r, sf_rule rule, int layer) {
+  const EngineProbe probe = {r, r, SF_MODE_BLOCK, rule, layer};
+  EngineKernel measured = {Kernel(0), 0, 0, 0};
+  REQUIRE(starfocus::analysis::MeasureEngineKernel(probe, &measured) == SF_OK);
+  return measured;
+}
+
+// The sum of a kernel's negative taps: what the worst picture of contrast 1 overshoots by.
+double NegativeSum(Kernel kernel) {
+  double sum = 0;
+  for (int m = -kernel.radius(); m <= kernel.radius(); ++m) {
+    for (int n = -kernel.radius(); n <= kernel.radius(); ++n) sum -= std::min(0.0, kernel.at(n, m));
+  }
+  return sum;
+}
+
+// Refocuses the picture that is bright where the kernel around (x, y) is negative. Returns how far
+// the pixel there falls below the darker level, in parts of the contrast.
+double Undershoot(double r, sf_rule rule, int layer, Kernel kernel, int x, int y) {
+  test::Scene scene = test::EmptyScene(kSide, kSide, 1, float(r), float(r));
+  for (int v = 0; v < kSide; ++v) {
+    for (int u = 0; u < kSide; ++u) {
+      const int n = x - u, m = y - v;
+      const bool inside = std::max(std::abs(n), std::abs(m)) <= kernel.radius();
+      const bool bright = inside && kernel.at(n, m) < 0;
+      std::fill_n(scene.Pixel(0, u, v), 3, uint8_t(bright ? kHigh : kLow));
+    }
+  }
+  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  params.rule = rule;
+  sf_config config = test::ConfigFor(scene, r + 1);
+  config.max_layer = layer;
+  config.gather = 0;
+  config.largest_block = 128;
+  test::Engine engine(config);
+  test::Output out(kSide, kSide);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  int below = 0;
+  for (const uint8_t level : out.bytes) below = std::max(below, kLow - level);
+  return double(below) / (kHigh - kLow);
+}
+
+// The most that the kernels of these radii overshoot by, near where each layer begins, and that
+// pictures made for them do at all places on a layer's grid.
+double Worst(sf_rule rule, const std::vector<double>& radii) {
+  double worst = 0;
+  for (const double r : radii) {
+    const EngineKernel measured = Measure(r, rule, 2);
+    double worst_here = 0;
+    const int step = 1 << measured.layer;
+    for (int k = 0; k < step; ++k) {
+      worst_here = std::max(worst_here, Undershoot(r, rule, measured.layer, measured.kernel,
+                                                   kMiddle + k, kMiddle + k));
+    }
+    std::printf("rule %d, blur %.2f, layer %d: negative taps %.4f, undershoot %.4f\n", int(rule), r,
+                measured.layer, NegativeSum(measured.kernel), worst_here);
+    worst = std::max({worst, worst_here, NegativeSum(measured.kernel)});
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("overshoot: no picture leaves the range of its views by more than the header says") {
+  const double subapertures = Worst(SF_RULE_SUBAPERTURE, {7, 7.5, 8, 10, 24, 26, 30});
+  const double paper = Worst(SF_RULE_PAPER, {3, 3.25, 3.5, 4, 6, 6.5, 7, 8, 12, 13});
+  CHECK(subapertures <= 0.04);
+  CHECK(paper <= 0.13);
+  // Without layers no tap is negative but by rounding.
+  CHECK(NegativeSum(Measure(7.5, SF_RULE_SUBAPERTURE, 0).kernel) < 1e-3);
+}
