@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "lib/engine/engine.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 #include "tests/conformance/conformance.h"
+#include "tests/conformance/engine_blocks.h"
 #include "tests/conformance/reference.h"
 #include "tests/conformance/reference_stack.h"
 #include "tests/support/simd_targets.h"
@@ -34,64 +34,32 @@ struct Covered {
   int64_t gathered = 0;
 };
 
-std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState& engine,
-                                                   const starfocus::Block& block) {
-  std::vector<reference::GatheredCell> cells;
-  if (!block.gathers) return cells;
-  constexpr int kSide = starfocus::kCellSize;
-  const int right = block.rect.x + block.rect.width, bottom = block.rect.y + block.rect.height;
-  for (int y = block.rect.y; y < bottom; y += kSide) {
-    for (int x = block.rect.x; x < right; x += kSide) {
-      if (engine.stripe.plan.gathered.At(x, y) == 0) continue;
-      cells.push_back({x, y, std::min(kSide, right - x), std::min(kSide, bottom - y)});
+void Count(const std::vector<reference::Block>& blocks, Covered* covered) {
+  for (const reference::Block& block : blocks) {
+    covered->pixels[block.layer] += block.width * block.height;
+    for (const reference::GatheredCell& cell : block.gathered) {
+      covered->gathered += cell.width * cell.height;
     }
   }
-  return cells;
-}
-
-// The partition of a picture of a single stripe.
-std::vector<reference::Block> Partition(const starfocus::EngineState& engine, Covered* covered) {
-  std::vector<reference::Block> blocks;
-  const int side = engine.config.largest_block;
-  REQUIRE(engine.config.height <= side);
-  for (int column = 0; column * side < engine.config.width; ++column) {
-    for (int k = 0; k < engine.stripe.plan.counts[column]; ++k) {
-      const starfocus::Block& b =
-          engine.stripe.plan
-              .blocks[size_t(column) * size_t(starfocus::MaxBlocks(side)) + size_t(k)];
-      blocks.push_back({b.rect.x, b.rect.y, b.rect.width, b.rect.height, b.layer, b.n, b.rendered.x,
-                        b.rendered.y, b.rendered.width, b.rendered.height, b.border.left,
-                        b.border.right, b.border.top, b.border.bottom, GatheredCells(engine, b)});
-      for (const reference::GatheredCell& cell : blocks.back().gathered) {
-        covered->gathered += cell.width * cell.height;
-      }
-      covered->pixels[b.layer] += b.rect.width * b.rect.height;
-    }
-  }
-  return blocks;
 }
 
 Distance Check(const test::Scene& scene, const sf_params& params, const sf_config& config,
                Covered* covered) {
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
-  auto& state = *reinterpret_cast<starfocus::EngineState*>(engine.get());
-  test::Output out(scene.width, scene.height);
-  state.kernels = &starfocus::simd::ReferenceKernels();
-  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
-  const std::vector<reference::Block> blocks = Partition(state, covered);
-  const bool cells = params.rule == SF_RULE_SUBAPERTURE;
+  const EngineResult result =
+      RunEngine(scene, params, starfocus::simd::ReferenceKernels(), &engine);
+  REQUIRE(result.status == SF_OK);
+  Count(result.blocks, covered);
+  const bool subapertures = params.rule == SF_RULE_SUBAPERTURE;
   const double blur = params.aperture * std::max(config.disparity_max - params.focus,
                                                  params.focus - config.disparity_min);
   const starfocus::SliceLimits limits = reference::LimitsOf(config.largest_block, blur);
   const Distance distance = Compare(
-      out.Tight(),
-      reference::RefocusBlocks(scene, params, config.theta, cells ? &limits : nullptr, blocks));
+      result.bytes, reference::RefocusBlocks(scene, params, config.theta,
+                                             subapertures ? &limits : nullptr, result.blocks));
   for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
-    test::Output other(scene.width, scene.height);
-    state.kernels = kernels;
-    REQUIRE(test::Refocus(&engine, params, scene, &other) == SF_OK);
-    const bool same = other.bytes == out.bytes;
+    const bool same = RunEngine(scene, params, *kernels, &engine).bytes == result.bytes;
     CHECK_MESSAGE(same, kernels->name);
   }
   CAPTURE(scene.width);
