@@ -32,7 +32,7 @@ void FillGap(const MapLine& line, int32_t left, int32_t right) {
   }
 }
 
-// True when the line held a valid element.
+// Fills the gaps of a line. Returns whether it held a valid element.
 bool FillLine(const MapLine& line) {
   int32_t last = -1;
   for (int32_t k = 0; k <= line.length; ++k) {

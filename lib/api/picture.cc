@@ -14,7 +14,7 @@
 namespace starfocus {
 namespace {
 
-// Where a picture goes: rows of the region.
+// Where the rows of the region go.
 struct Output {
   uint8_t* data;
   size_t stride;
@@ -27,8 +27,8 @@ struct Output {
   }
 };
 
-// Rows of the stripes that the region needs; a stripe's first row is a multiple of the largest
-// block.
+// Returns the rows of the stripes that the region needs; a stripe's first row is a multiple of the
+// largest block.
 RowRange StripeRows(const EngineState& engine) {
   const Rect& region = engine.lens.region;
   const int32_t reach = JoinReach(engine.config, engine.lens);
@@ -37,7 +37,7 @@ RowRange StripeRows(const EngineState& engine) {
           Min(engine.config.height, region.y + region.height + reach)};
 }
 
-// Rows of the disparity map that the stripes may read.
+// Returns the rows of the disparity map that the stripes may read.
 RowRange MapRows(const EngineState& engine) {
   const RowRange stripes = StripeRows(engine);
   const int32_t side = engine.config.largest_block;
@@ -45,8 +45,8 @@ RowRange MapRows(const EngineState& engine) {
   return {Max(0, stripes.first - engine.lens.reach.rows), Min(engine.config.height, end)};
 }
 
-// All of them are checked before the first pixel is written. The last ones come first, so that the
-// ring is left with those that the first stripes read.
+// Checks the rows of the map that may be read, before the first pixel is written. The last ones
+// come first, so that the ring is left with those that the first stripes read.
 sf_status CheckDisparity(const sf_light_field& light_field, EngineState* engine) {
   const RowRange rows = MapRows(*engine);
   for (int32_t y = rows.last - 1; y >= rows.first; --y) {

@@ -38,7 +38,7 @@ sf_status ConvertMap(const EngineState& engine, const sf_light_field& light_fiel
   return SF_OK;
 }
 
-// Stripe by stripe in the engine's own planes, but for the pixels.
+// Makes the layers stripe by stripe, in the engine's own planes but for the pixels.
 sf_status MakeLayers(const Prepared& prepared, EngineState* engine, const Runner& runner) {
   LayerPlane own[SF_LAYERS];
   for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->pictures.layers[layer];
@@ -121,7 +121,8 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
     return SF_ERROR_OVERLAP;
   }
   e.stream.active = false;
-  // First into the engine's own ring, only to be checked: nothing is written when a row is bad.
+  // The map is converted into the engine's own ring first, only to be checked: the caller's memory
+  // stays as it is when a row is bad.
   status = starfocus::ConvertMap(e, *light_field, e.pictures.disparity);
   if (status != SF_OK) return status;
   new (memory) Prepared();

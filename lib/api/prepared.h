@@ -22,7 +22,7 @@ struct Prepared {
 // Whether an engine of `config` may refocus it.
 bool Fits(const Prepared& prepared, const sf_config& config);
 
-// The memory it lives in.
+// Returns the memory it lives in.
 Extent PreparedMemory(const Prepared& prepared);
 
 // Has the engine, whose views and lens are set, read its disparities and layers there.

@@ -16,7 +16,7 @@ bool AllZero(const uint32_t (&reserved)[kCount]) {
   return true;
 }
 
-// Rows as wide as `row_bytes`, all of them addressable.
+// Tells whether rows are as wide as `row_bytes`, and all of them addressable.
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
   return stride >= row_bytes &&
          (rows <= 1 || stride <= (PTRDIFF_MAX - row_bytes) / static_cast<size_t>(rows - 1));
@@ -32,7 +32,7 @@ sf_status CheckConfig(const sf_config& config) {
   if (!ValidSize(config.width) || !ValidSize(config.height)) return SF_ERROR_SIZE;
   const int32_t views = config.views;
   if (views != 1 && views != 5 && views != 9 && views != 17) return SF_ERROR_VIEWS;
-  // Written so that NaN fails.
+  // The comparison is written so that NaN fails.
   if (!(config.disparity_min >= -SF_MAX_DISPARITY && config.disparity_max <= SF_MAX_DISPARITY &&
         config.disparity_min <= config.disparity_max)) {
     return SF_ERROR_DISPARITY_RANGE;

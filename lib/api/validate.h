@@ -13,19 +13,19 @@ namespace starfocus {
 sf_status CheckConfig(const sf_config& config);
 sf_status CheckParams(const sf_params& params);
 
-// Memory to lay something out in.
+// Checks memory to lay something out in.
 sf_status CheckMemory(const void* memory);
 
-// A disparity map of its own.
+// Checks a disparity map by itself.
 sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height);
 
-// Pointers and strides of a light field of `config`.
+// Checks pointers and strides of a light field of `config`.
 sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field);
 
-// All 0, or inside the picture.
+// Checks that a region is all 0, or inside the picture.
 sf_status CheckRegion(const sf_config& config, const sf_region& region);
 
-// An output of `rows` rows of `width` pixels.
+// Checks an output of `rows` rows of `width` pixels.
 sf_status CheckOutput(int32_t width, int32_t rows, const uint8_t* out, size_t stride);
 
 }  // namespace starfocus

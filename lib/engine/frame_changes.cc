@@ -8,10 +8,10 @@
 namespace starfocus {
 namespace {
 
-// Pixels that are compared at once.
+// How many pixels are compared at once.
 constexpr int32_t kUnit = 16;
 
-// Stripes that depend on row y.
+// The stripes that depend on row y.
 struct StripeRange {
   int32_t first, last;
 };

@@ -30,7 +30,8 @@ struct Changes {
   }
 };
 
-// Stripes that the ring must hold when blocks of `side` depend on pixels up to `reach` away.
+// Returns how many stripes the ring must hold when blocks of `side` depend on pixels up to `reach`
+// away.
 int32_t ChangeStripes(int32_t side, int32_t reach);
 
 // Starts anew, for stripes from row y on.

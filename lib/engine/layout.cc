@@ -25,21 +25,21 @@ SpanMemory TakeSpans(size_t side, Carver* carver) {
   return memory;
 }
 
-// The largest N of the block and frame modes.
+// Returns the largest N of the block and frame modes.
 int32_t LargestN(const sf_config& config) {
-  // One more than (9) gives: radii are rounded up before it.
+  // It is one more than (9) gives, since radii are rounded up before it.
   return ScaleViews(ViewsByPaper(config.max_blur) + 1, config.n_scale);
 }
 int32_t LargestSubapertureN(const sf_config& config) {
   return ScaleViews(ViewsBySubaperture(config.max_blur + 1), config.n_scale);
 }
 
-// The largest N of slices.
+// Returns the largest N of slices.
 int32_t LargestSliceN(const sf_config& config) {
   return Max(LargestSubapertureN(config), ViewsOfBenchmark(config.max_blur));
 }
 
-// E and R of LineScanScratch, and the largest N; all but its sums.
+// Takes the memory of line scans: E and R of LineScanScratch, and the largest N.
 void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver,
               LineScanScratch* star) {
   LineScanScratch& scratch = *star;
@@ -67,7 +67,7 @@ void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver,
   scratch.spans = TakeSpans(extended, carver);
 }
 
-// What is found of a field before slices are made.
+// Takes the memory of what is found of a field before slices are made.
 void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   CompositorScratch& scratch = *stack;
   LayeredDepth& surfaces = scratch.surfaces;
@@ -85,8 +85,8 @@ void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   scratch.least_blur = carver->Take<int32_t>(extended);
 }
 
-// E and R of CompositorScratch, and the largest N. The pool is what is left of `bytes` for all, and
-// never less than what slices of the largest blur may take.
+// Takes the memory of slices: E and R of CompositorScratch, and the largest N. The pool is what is
+// left of `bytes` for all, and never less than what slices of the largest blur may take.
 CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_t max_n,
                                  size_t bytes, Carver* carver) {
   const auto rectangle = static_cast<size_t>(config.largest_block);
@@ -122,7 +122,8 @@ CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_
   return scratch;
 }
 
-// What one block after the other is rendered, or parted, in shares memory: only sums are handed on.
+// Blocks are rendered, or parted, one after the other, and only sums are handed on: all the rest of
+// a worker's memory is shared.
 Worker TakeWorker(const sf_config& config, Carver* carver) {
   const auto side = static_cast<size_t>(config.largest_block);
   const Reach reach = GetReach(config.max_blur);
@@ -181,7 +182,7 @@ void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->tables.blur_weights = carver->Take<uint16_t>(BlurWeightCount(config.max_blur));
 }
 
-// Planes of layers 1 and 2 around a stripe.
+// Takes the planes of layers 1 and 2 around a stripe.
 void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     LayerPlane& plane = engine->pictures.layers[layer];

@@ -44,7 +44,7 @@ class Carver {
   explicit Carver(void* base, size_t most = PTRDIFF_MAX, const ZoneVisitor* zones = nullptr)
       : base_(static_cast<uint8_t*>(base)), most_(most), zones_(zones) {}
 
-  // `count` times `times` of them.
+  // Takes `count` times `times` of them.
   template <class T>
   T* Take(size_t count, size_t times = 1) {
     T* piece = base_ == nullptr ? nullptr : reinterpret_cast<T*>(base_ + used_);
@@ -52,7 +52,7 @@ class Carver {
     return piece;
   }
 
-  // Of all pieces, or kTooLarge: those handed out by then lie anywhere.
+  // Returns the bytes of all pieces, or kTooLarge; the pieces handed out by then lie anywhere.
   size_t Bytes() const { return too_large_ ? kTooLarge : used_ > largest_ ? used_ : largest_; }
 
   // What is taken from here on shares memory with what was taken since `mark` was.
@@ -62,11 +62,11 @@ class Carver {
     largest_ = used_ > largest_ ? used_ : largest_;
     used_ = mark;
   }
-  // And behind all of it.
+  // What is taken from here on lies behind all of that.
   void GoOn() { used_ = used_ > largest_ ? used_ : largest_; }
 
  private:
-  // SIZE_MAX for all that is larger.
+  // Returns the product, or SIZE_MAX for all that is larger.
   static constexpr size_t Product(size_t a, size_t b) {
     return a != 0 && b > SIZE_MAX / a ? SIZE_MAX : a * b;
   }

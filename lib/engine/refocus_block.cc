@@ -27,7 +27,8 @@ void FinishPicture(const simd::Kernels& kernels, const Rect& rect, int shift,
   }
 }
 
-// From layer 2 to layer 1, with the margin that the next step reads, to the picture.
+// Brings the sums of a block to the picture: from layer 2 by way of layer 1, with the margin that
+// the next step reads.
 void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
                  const Plane<uint8_t>& out, const Worker& worker) {
   CheckSums(worker.sums, Samples(block.rendered), shift);
@@ -90,12 +91,13 @@ class Counting {
   Reads reads_;
 };
 
-// What of a block is rendered.
+// How much of a block is rendered.
 struct Rendered {
   uint64_t views, samples;
 };
 
-// Renders the block's views: by cells as a stack of slices, whose samples all count.
+// Renders the block's views. By the rule of subapertures they show a stack of slices, whose samples
+// all count.
 Rendered Render(const BlockInputs& in, const Block& block, RenderJob job, const Plane<uint8_t>& out,
                 Worker* worker) {
   const Counting counting(*job.window, worker);
@@ -131,7 +133,7 @@ void GatherCells(const BlockInputs& in, const Block& block, const Plane<uint8_t>
       GatherRectangle(job, &field, At(out, block.rect, 0), out.stride);
 }
 
-// What views give of a block: at layer 0 they need not be rendered for all of it.
+// The part of a block that views give: at layer 0 they need not be rendered for all of it.
 const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
 
 // A copied block has one view, the centre.
@@ -189,7 +191,7 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
     if (block.rendered.width > 0) {
       rendered = RefocusViews(in, block, out, worker);
     }
-    // After views, which know nothing of cells.
+    // Cells are gathered after views, which know nothing of them.
     if (block.gathers) GatherCells(in, block, out, worker);
   }
   sf_layer_report& report = worker->counts.layers[block.layer];

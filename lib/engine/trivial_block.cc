@@ -9,8 +9,8 @@ namespace starfocus {
 namespace {
 
 // In all views a pixel stays in its place, and its neighbour does not count, where
-// 2 |t| + L <= 1 (SubapertureWeight) for its shift t and cell L <= |t|; here in kShiftBits, less
-// one for rounding.
+// 2 |t| + L <= 1 (SubapertureWeight) for its shift t and subaperture L <= |t|; here in
+// kShiftBits, less one for rounding.
 constexpr int32_t kStill = kShiftOne / 3 - 1;
 
 // Disparity steps from pixel to pixel, as moved by the outermost view at layer 0, up to which a
@@ -18,7 +18,7 @@ constexpr int32_t kStill = kShiftOne / 3 - 1;
 // eighth of a pixel and the rounding of shifts add up to.
 constexpr int32_t kGentleStep = (1 << kDisparityBits) / 8;
 
-// What of the extended rectangle lies in the picture; never empty (LoadField).
+// The part of the extended rectangle that lies in the picture, which is never empty.
 struct Part {
   int32_t left, right, top, bottom;  // exclusive at the right and the bottom
 };
@@ -30,7 +30,7 @@ Part PartOf(const RenderJob& job) {
           Clamp(rect.y, 0, window.height - 1), Clamp(rect.y + rect.height, 1, window.height)};
 }
 
-// Disparities of a row of the layer, every 2^L-th of the picture's.
+// A row of the layer's disparities: every 2^L-th of the picture's.
 struct DisparityRow {
   const int16_t* row;
   int layer;

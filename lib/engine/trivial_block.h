@@ -10,7 +10,7 @@
 namespace starfocus {
 
 // Whether every view shows every pixel of the job's rectangle where the centre view does, so that
-// the rectangle is that of the centre view. At layer 0 only: others are resampled all the same.
+// the rectangle is that of the centre view. Only at layer 0: others are resampled all the same.
 bool NothingMoves(const RenderJob& job);
 
 // The colour of all that may splat into the job's rectangle, where no side view can show another in

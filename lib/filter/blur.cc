@@ -69,7 +69,7 @@ void ForEachOrbit(int32_t step, double fall_off, const Visit& visit) {
   }
 }
 
-// As MakeAperture: every orbit takes up the rounding of those before it, the centre the rest.
+// Every orbit takes up the rounding of those before it and the centre the rest, as in MakeAperture.
 void MakeKernel(int32_t step, double fall_off, uint16_t* weights, BlurKernel* kernel) {
   kernel->size = SizeOfStep(step);
   kernel->weights = weights;
@@ -101,7 +101,7 @@ void MakeKernel(int32_t step, double fall_off, uint16_t* weights, BlurKernel* ke
   Checked(ranges::kRemainder, given - one);
 }
 
-// Copies the extended rectangle, the picture's edge repeated.
+// Copies the extended rectangle and repeats the picture's edge around it.
 void LoadPixels(const BlurJob& job, uint8_t* rgb) {
   const int32_t width = job.rect.width + 2 * job.border;
   const Window& window = *job.window;

@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-// Whether units of these layers need joining.
+// Tells whether units of these layers need joining.
 bool Meet(int32_t before, int32_t after) {
   return before != after && before != kNoLayer && after != kNoLayer;
 }

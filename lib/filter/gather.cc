@@ -26,7 +26,7 @@ class Gather {
     LoadField(*job_.window, job_.rect, {border_, border_, border_, border_}, field_);
   }
 
-  // A row of cells, those side by side with the same kernel together.
+  // Filters a row of cells; those side by side that have the same kernel go together.
   void FilterCells(int32_t row, uint8_t* out, size_t out_stride) {
     const int32_t y = row * kCellSize, height = Min(kCellSize, job_.rect.height - y);
     for (int32_t column = 0; column < columns_;) {

@@ -27,7 +27,7 @@ void Part(const Kernels& kernels, const int16_t* in, int32_t pairs, int16_t* eve
 int16_t Sample(uint8_t byte) { return static_cast<int16_t>(byte << simd::kLayerBits); }
 int16_t Sample(int16_t sample) { return sample; }
 
-// Pairs [first, last) of both phases: all of them the same pixel of the picture's edge.
+// Fills pairs [first, last) of both phases with one pixel, that of the picture's edge.
 template <class T>
 void RepeatEdge(const T* pixel, int32_t first, int32_t last, const ResampleScratch& phases) {
   for (int32_t n = 3 * first; n < 3 * last; n += 3) {
@@ -47,8 +47,8 @@ void PartLine(const Kernels& kernels, const T* row, int32_t width, const PairRan
   RepeatEdge(row + 3 * (width - 1), right, pairs.Count(), phases);
 }
 
-// The vertical pass: `to->half` holds the rows from 2 * rows.first - 3 on, the picture's edge rows
-// repeated.
+// Filters along columns: `to->half` holds the rows from 2 * rows.first - 3 on, the picture's edge
+// rows repeated.
 void HalveRows(const Kernels& kernels, int32_t begin, int32_t end, LayerPlane* to) {
   const size_t count = 3 * static_cast<size_t>(end - begin);
   for (int32_t y = to->rows.first; y < to->rows.last; ++y) {
@@ -61,8 +61,8 @@ void HalveRows(const Kernels& kernels, int32_t begin, int32_t end, LayerPlane* t
   }
 }
 
-// From a plane of width x height pixels. The horizontal pass makes all rows that the layer's rows
-// are made of.
+// Subsamples a plane of width x height pixels, first along rows: of all that the layer's rows are
+// made of.
 template <class T>
 void Downsample(const Kernels& kernels, const Plane<const T>& from, int32_t width, int32_t height,
                 int32_t begin, int32_t end, const ResampleScratch& phases, LayerPlane* to) {
@@ -77,8 +77,8 @@ void Downsample(const Kernels& kernels, const Plane<const T>& from, int32_t widt
   HalveRows(kernels, begin, end, to);
 }
 
-// Pixels of `even` and `odd` in turn, `width` in all. Copies a fourth sample of each, which the
-// next pixel overwrites: one move instead of two.
+// Writes pixels of `even` and `odd` in turn, `width` in all. Copies a fourth sample of each, which
+// the next pixel overwrites: one move instead of two.
 void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t* out) {
   for (int32_t x = 0; x + 1 < width; x += 2, even += 3, odd += 3, out += 6) {
     std::memcpy(out, even, 4 * sizeof(*out));

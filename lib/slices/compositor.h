@@ -34,14 +34,16 @@ struct CompositorScratch {
   size_t pool_bytes;           // at least those of the limits; with more, sections are larger
 };
 
-// Parts of the largest rectangle.
+// How many parts the largest rectangle has.
 constexpr size_t SectionParts(size_t side) {
   constexpr size_t kRows = kLeastRows;
   return (side + kRows - 1) / kRows * (simd::SliceSamples(side) / simd::kSliceLanes);
 }
 
-// As RefocusRectangle, by slices cut as `rule` and `limits` say, of what is not `gathered` (null:
-// of all; at layer 0). Returns the pixels rendered in each view, over all slices.
+// Sums the weighted views over job.rect into `accumulators`, rows of 3 * width values with
+// grid.aperture.sum_bits fractional bits, by slices cut as `rule` and `limits` say. Cells that are
+// `gathered` (null: none; only at layer 0) are left out. Returns the pixels rendered in each view,
+// over all slices.
 uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
                             const GatherMap* gathered, CompositorScratch* scratch,
                             uint32_t* accumulators);

@@ -12,7 +12,7 @@ namespace {
 // None, half and twice as much were measured (docs/constants.md).
 constexpr int kOverlapParts = 10;
 
-// Pixels whose bins are looked at together: rows and columns.
+// Rows and columns of pixels whose bins are looked at together.
 constexpr int32_t kMarkedRows = 8;
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 
@@ -82,7 +82,8 @@ class SliceFinder {
     }
   }
 
-  // Of disparities [low, high]; most fall into bins that are marked.
+  // Marks the bins of those pixels whose disparities lie in [low, high]; most of them fall into
+  // bins that are marked already.
   void MarkPixels(int surface, const Rect& pixels, int32_t low, int32_t high) {
     if (low > high) return;
     const uint8_t *first = job_.bins + BinOf(low), *last = job_.bins + BinOf(high);
@@ -96,7 +97,7 @@ class SliceFinder {
     uint16_t within[kMarkedRows];
     job_.kernels->FindWithin(disparity, static_cast<size_t>(surfaces_.stride),
                              static_cast<size_t>(pixels.height), range, within);
-    // Copies, since marks might be part of anything.
+    // These are copies, since for the compiler a mark might change any member.
     uint8_t* const bins = job_.bins;
     const int32_t* const least_blur = job_.least_blur;
     const int32_t base = base_, bits = bin_bits_, focus = grid_.focus;
@@ -112,14 +113,14 @@ class SliceFinder {
     }
   }
 
-  // The lowest disparity of a bin.
+  // Returns the lowest disparity of a bin.
   int32_t LowOf(const uint8_t* bin) const {
     return base_ + (static_cast<int32_t>(bin - job_.bins) << bin_bits_);
   }
 
   int32_t BinOf(int32_t disparity) const { return (disparity - base_) >> bin_bits_; }
 
-  // How far the nearest of the pixels lies beyond the rect.
+  // Returns how far the nearest of the pixels lies beyond the rect.
   int32_t Beyond(const Rect& pixels) const {
     const Rect& rect = job_.rect;
     const int32_t x =
@@ -129,7 +130,7 @@ class SliceFinder {
     return Max(Max(x, y), 0);
   }
 
-  // Bins that a slice with this nearest bin may span.
+  // Returns how many bins a slice with this nearest bin may span.
   int32_t Span(int32_t bin, int coarser) const {
     const int32_t blur = Abs(grid_.Shift(grid_.step, base_ + (bin << bin_bits_)));
     const int64_t wider = Max(kSliceSharp, blur - kSliceSharp);
@@ -137,7 +138,8 @@ class SliceFinder {
     return static_cast<int32_t>(Limited(bins << coarser));
   }
 
-  // 0: too many, or too large.
+  // Cuts slices, each spanning 2^coarser times as much as the rule says. Returns how many, or 0
+  // when they are too many or too large.
   int32_t Cut(int coarser, Slice* slices) const {
     int32_t count = 0;
     const SliceLimits& limits = job_.limits;

@@ -13,10 +13,11 @@
 
 namespace starfocus {
 
-// What all slices of a rectangle together may take; beyond it they get coarser. They would cost
-// more than they add: samples of kLargeSlices of the largest rectangle, rows of kLargeTiles in
-// tiles, so that a narrow rectangle may have more slices than a wide one. And bytes of the least
-// section, since slices are in memory for a section of a rectangle at a time. docs/constants.md has
+// What all slices of a rectangle together may take; beyond it they get coarser. More would
+// cost more than they add. `samples` are those of kLargeSlices of the largest rectangle, `rows`
+// those of kLargeTiles in tiles, so that a narrow rectangle may have more slices than a wide one;
+// `bytes` are those of the least section, since slices are in memory for a section of a rectangle
+// at a time. docs/constants.md has
 // what half and twice of them cost and gain.
 struct SliceLimits {
   size_t samples, rows, bytes;

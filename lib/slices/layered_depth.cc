@@ -10,7 +10,7 @@ namespace {
 
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 
-// No surface behind a row's end, since kernels look at whole vectors.
+// Writes that there is no surface behind a row's end, where kernels look at whole vectors.
 void ClearChunk(int16_t* disparity) {
   for (int32_t k = 0; k < kChunk; ++k) disparity[k] = kNoSurface;
 }
@@ -30,7 +30,8 @@ class HiddenColours {
 
   HiddenColours(const Window& window, const Field& field) : window_(window), field_(field) {}
 
-  // Of the pixels k of which bit k is set. Behind one edge many are read one after the other.
+  // Reads the colours of the pixels k of which bit k is set. Behind one edge many follow each
+  // other.
   void Read(const HiddenChunk& chunk, uint32_t pixels) {
     while (pixels != 0) {
       const int32_t first = LowestBit(pixels);
@@ -51,7 +52,8 @@ class HiddenColours {
                                       : ReadStretch(chunk, k, LowestBit(sides));
   }
 
-  // At layer 0, as long as what the captured view shows follows each other there.
+  // Reads, at layer 0, pixels as long as they also follow each other in the captured view. Returns
+  // the first that does not.
   int32_t ReadPairs(const HiddenChunk& chunk, int32_t first, int32_t side) {
     const uint32_t source = chunk.source[first];
     const int dx = kSides[side][0], dy = kSides[side][1];
@@ -73,7 +75,8 @@ class HiddenColours {
     return end;
   }
 
-  // Of the same disparity.
+  // Reads pixels as long as they have the same disparity and source. Returns the first that has
+  // not.
   int32_t ReadStretch(const HiddenChunk& chunk, int32_t first, int32_t side) {
     int32_t end = first;
     do {
@@ -84,7 +87,7 @@ class HiddenColours {
     return end;
   }
 
-  // The mean of all sides.
+  // Reads pixel k from all of its sides, and takes their mean.
   void ReadMean(const HiddenChunk& chunk, int32_t k) {
     int32_t sums[3] = {0, 0, 0}, count = 0;
     ForEachBit(chunk.source[k] & 15, [&](int32_t side) {
@@ -99,7 +102,7 @@ class HiddenColours {
     weight[k] = 0;
   }
 
-  // Of `count` pixels from k on, of one disparity and source.
+  // Reads the colours of `count` pixels from k on, which have one disparity and source.
   void ReadSide(const HiddenChunk& chunk, int32_t k, int32_t count, int32_t side,
                 uint8_t* rgb) const {
     const int dx = kSides[side][0], dy = kSides[side][1];
@@ -177,7 +180,8 @@ class SurfaceFinder {
   uint8_t* Edges(int side, int32_t y) const { return surfaces_.edges[side] + surfaces_.At(0, y); }
   const int16_t* Row(int32_t y) const { return surfaces_.disparity[0] + surfaces_.At(0, y); }
 
-  // As FindEdges along a row, but from edge to edge: there are few.
+  // Does along a row what the kernel FindEdges does along columns, but from edge to edge: there are
+  // few.
   void FindEdgesOfRow(int32_t y) {
     const auto stride = static_cast<size_t>(surfaces_.stride);
     std::memset(Edges(0, y), 0, stride);
@@ -257,7 +261,7 @@ class SurfaceFinder {
     }
   }
 
-  // Of the `found` pixels of a chunk.
+  // Sets the colours of those pixels of a chunk that are `found`.
   void SetColours(int32_t x, int32_t y, int behind, uint32_t found) {
     const size_t at = surfaces_.At(x, y);
     colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + x},

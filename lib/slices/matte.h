@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary pixels (lib/mixture.h) of slices.
+// Boundary pixels (lib/input/boundary_pixel.h) of slices.
 #ifndef STARFOCUS_LIB_SLICES_MATTE_H_
 #define STARFOCUS_LIB_SLICES_MATTE_H_
 

@@ -33,14 +33,14 @@ simd::SliceTaps TapsOf(int32_t subaperture) {
 // too much and others too little. Mirrored shifts give mirrored parts, which is why trimmed ones
 // are of halves.
 SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
-  // In half units, from the first pixel's left end on.
+  // Lengths are in half units, from the first pixel's left end on.
   constexpr int32_t kHalves = 2 * kShiftOne;
   const int32_t start = 2 * shift - subaperture + kShiftOne, whole = start >> (kShiftBits + 1);
   const int32_t left = kHalves - (start & (kHalves - 1)), rest = 2 * subaperture - left;
   const auto part = [&](int32_t covered) {
     return static_cast<int16_t>(-(kFractionOne / 2 * covered / subaperture));
   };
-  // Of two surfaces side by side, how much the one is that covers `more` than the other.
+  // Returns how much of two pixels side by side lies in the one that covers `more` than the other.
   const auto share = [&](int32_t more) {
     return static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / subaperture));
   };
@@ -98,7 +98,7 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const LayeredDepth& sur
   return {~uint64_t{0}, 0};  // nobody looks closer at the few such rows
 }
 
-// Covers of what is spread by `reach` pixels.
+// Widens the covers of rows to what is spread by `reach` pixels.
 void SpreadCover(int32_t reach, const SlicePlane& placed) {
   constexpr int32_t kMost = simd::kMaxSpread;
   simd::SliceCover before[kMost] = {};  // of the rows above, unspread
@@ -115,7 +115,8 @@ void SpreadCover(int32_t reach, const SlicePlane& placed) {
   }
 }
 
-// Plane by plane: one is filtered along rows into memory of its own, and back along columns.
+// Spreads plane by plane: each is filtered along rows into memory of its own, and back along
+// columns.
 void Spread(const simd::Kernels& kernels, int16_t* filtered, const SlicePlane& placed) {
   const simd::SliceTaps taps = TapsOf(placed.subaperture);
   const size_t plane = placed.plane;
@@ -186,7 +187,7 @@ void PlaceTile(const SlicePlane& placed, int32_t x, const RowRange& seen, Shifte
                   rows * simd::kSliceLanes * sizeof(*shifted->samples));
     }
   };
-  // Rows that nothing moves to: composite reads those behind the last, too.
+  // Nothing moves to these rows, but Composite reads them, and those behind the last.
   clear(top, first);
   clear(end, last_row + static_cast<int32_t>(simd::kRowsAhead));
 }
@@ -199,7 +200,7 @@ void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed, const Sl
   if (first >= end) return;
   const auto row = static_cast<size_t>(first), count = static_cast<size_t>(end - first);
   uint8_t* near = shifted->near + row;
-  // The marks of the column of views before.
+  // The marks are those of the column of views before.
   std::memset(near - simd::kRowsAhead, 0, count + simd::kRowsAhead);
   const int16_t* from = placed.samples + row * 4 * placed.plane;
   kernels.ShiftSlice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction, count,

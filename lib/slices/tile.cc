@@ -69,7 +69,8 @@ class Tile {
     }
   }
 
-  // Of one slice, whose subaperture makes the rest of the fraction.
+  // Tells whether two offsets of one slice are alike: the slice's subaperture makes the rest of the
+  // fraction.
   static bool Same(const simd::SliceOffset& a, const simd::SliceOffset& b) {
     return a.whole == b.whole && a.fraction.edge == b.fraction.edge;
   }
