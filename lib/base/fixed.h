@@ -7,8 +7,8 @@
 // | disparity d          | int16  | 2^6     | +-500 px per unit u       | 2.3 % below +-511.98      |
 // | focus d_t            | int32  | 2^6     | +-10^6 px per unit u      | 33 x                      |
 // | step u_t / 2^L       | int64  | 2^24    | (0, 1]                    | only in products below    |
-// | step * (d - d_t)     | int64  | 2^30    | blur radius, +-129 px     | 2^26 x                    |
-// | shift s              | int32  | 2^8     | +-129 px                  | 2^16 x                    |
+// | step * (d - d_t)     | int64  | 2^30    | blur radius, +-134 px     | 2^26 x                    |
+// | shift s              | int32  | 2^8     | +-134 px                  | 2^16 x                    |
 // | blur radius of cells | uint16 | 2^6     | [0, 129] px               | 7.9 x                     |
 // | reach of cells       | int16  | 1       | [-8, 131] px              | 250 x                     |
 // | subaperture r / N    | int32  | 2^8     | [0, 1], clamped           | -                         |
@@ -69,7 +69,9 @@ inline constexpr int64_t kPixel = 1 << kShiftBits;
 inline constexpr int64_t kBlurEnd = 129;
 inline constexpr FixedRange kDisparity = {"disparity", -500 * 64, 500 * 64};
 inline constexpr FixedRange kFocus = {"focus", -1000000 * 64, 1000000 * 64};
-inline constexpr FixedRange kShift = {"shift", -kBlurEnd* kPixel, kBlurEnd* kPixel};
+// Views of N = 4 lie 128/123 of the radius out (LensInSubapertures).
+inline constexpr int64_t kShiftEnd = 134;
+inline constexpr FixedRange kShift = {"shift", -kShiftEnd* kPixel, kShiftEnd* kPixel};
 inline constexpr FixedRange kRadius = {"blur radius of a cell", 0, kBlurEnd << kDisparityBits};
 inline constexpr FixedRange kReach = {"reach of a cell", -8, kBlurEnd + 2};
 inline constexpr FixedRange kSubapertureWeight = {"interpolation weight", 0, kPixel / 2};
