@@ -57,7 +57,7 @@ test::Scene VariedScene(int width, int height, int views, float limit, test::Ran
       for (int x = x0; x < x1; ++x) put(x, y);
     }
   };
-  for (int piece = random->Int(0, 3); piece > 0; --piece) {
+  for (int piece = random->Int(0, 6); piece > 0; --piece) {
     const uint8_t colour[3] = {random->Byte(), random->Byte(), random->Byte()};
     rectangle([&](int x, int y) { std::copy_n(colour, 3, scene.Pixel(0, x, y)); });
   }
@@ -86,8 +86,9 @@ TEST_CASE("skips: the same bytes as with all the work done, in every mode") {
   sf_skipped sum = {};
   for (int round = 0; round < 400; ++round) {
     const float limit = float(random.Int(1, 6));
-    const test::Scene scene = VariedScene(random.Int(1, 200), random.Int(1, 120),
-                                          kViews[random.Int(0, 3)], limit, &random);
+    const int width = random.Int(1, 200), height = random.Int(1, 120);
+    const int views = kViews[random.Int(0, 3)];
+    const test::Scene scene = VariedScene(width, height, views, limit, &random);
     sf_config config = test::ConfigFor(scene, 20);
     config.largest_block = kBlocks[random.Int(0, 3)];
     config.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
