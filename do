@@ -246,9 +246,27 @@ consumers() {
 fuzz_target() {
   local work=build/fuzz/inputs/$1
   mkdir -p "$work"
-  step "fuzz-$1" "fuzzing $1" build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -seed=1 -max_len=1024 \
-    -timeout=30 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1"
-  printf '%s inputs\n' "$(sed -n 's/^stat::number_of_executed_units: *//p' "$LOGS/fuzz-$1.log")"
+  build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -seed=1 -max_len=1024 -timeout=30 \
+    -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1" \
+    >"$LOGS/fuzz-$1.log" 2>&1 && return
+  tail -n 40 "$LOGS/fuzz-$1.log"
+  echo "the fuzz target $1 failed; its whole log is $LOGS/fuzz-$1.log"
+  return 1
+}
+
+# fuzz_targets SECONDS: all of them, as many at a time as there are cores.
+fuzz_targets() {
+  local target running=() result=0
+  for target in $FUZZ_TARGETS; do
+    if [ ${#running[@]} -ge "$(nproc)" ]; then
+      wait "${running[0]}" || result=1
+      running=("${running[@]:1}")
+    fi
+    fuzz_target "$target" "$1" &
+    running+=($!)
+  done
+  for target in "${running[@]}"; do wait "$target" || result=1; done
+  return $result
 }
 
 fuzz() {
@@ -261,7 +279,11 @@ fuzz() {
     step build-fuzz "building the fuzz target $target" \
       cmake --build build/fuzz --parallel "$(nproc)" --target "starfocus_fuzz_$target"
   done
-  for target in $FUZZ_TARGETS; do fuzz_target "$target" "$1"; done
+  step fuzz "fuzzing $FUZZ_TARGETS" fuzz_targets "$1"
+  for target in $FUZZ_TARGETS; do
+    printf '%s: %s inputs\n' "$target" \
+      "$(sed -n 's/^stat::number_of_executed_units: *//p' "$LOGS/fuzz-$target.log")"
+  done
 }
 
 mutate() {

@@ -250,32 +250,6 @@ TEST_CASE("cli: scene writes what its name says, again the same bytes") {
   CHECK(light_field.width() == 20);
 }
 
-TEST_CASE("cli: analyze agrees with the paper and writes its tables") {
-  TempFolder folder;
-  const Outcome outcome = Call(
-      folder, STARFOCUS_EMULATED ? "analyze -o a/b --max-blur 4" : "analyze -o a/b --max-blur 12");
-  CHECK(outcome.code == 0);
-  CHECK(outcome.err == "");
-  for (const char* bad : {"DIFFERS", "FAILS", "MORE", "unexplained", "nan"}) {
-    CHECK(outcome.out.find(bad) == std::string::npos);
-  }
-  CHECK(outcome.out.find("agrees") != std::string::npos);
-  for (const char* name : {"table1", "fig4", "fig5a", "fig5b", "fig6", "fig6_points", "fig8",
-                           "subapertures", "engine"}) {
-    CAPTURE(name);
-    const std::string csv = Text(folder.file("a/b/" + std::string(name) + ".csv"));
-    CHECK(csv.find(",") != std::string::npos);
-    CHECK(csv.find("nan") == std::string::npos);
-  }
-  const bool drawn = outcome.out.find("gnuplot is missing") == std::string::npos;
-  for (const char* name : {"fig4", "fig5", "fig6", "fig8", "subapertures", "engine"}) {
-    CAPTURE(name);
-    const std::string path = folder.file("a/b/" + std::string(name) + ".svg");
-    CHECK(fs::exists(path) == drawn);
-    if (drawn) CHECK(Text(path).find("</svg>") != std::string::npos);
-  }
-}
-
 TEST_CASE("cli: calibrate writes what refocus --timing takes") {
   TempFolder folder;
   const std::string size = STARFOCUS_EMULATED ? "64x48" : "96x64";

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The subcommand analyze by its results. It takes longer than all others together, and so has a
+// program of its own.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/cli/call_program.h"
+#include "tests/support/temp_folder.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_CASE("cli: analyze agrees with the paper and writes its tables") {
+  TempFolder folder;
+  const Outcome outcome = Call(folder, "analyze -o a/b --max-blur 12");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err == "");
+  for (const char* bad : {"DIFFERS", "FAILS", "MORE", "unexplained", "nan"}) {
+    CHECK(outcome.out.find(bad) == std::string::npos);
+  }
+  CHECK(outcome.out.find("agrees") != std::string::npos);
+  for (const char* name : {"table1", "fig4", "fig5a", "fig5b", "fig6", "fig6_points", "fig8",
+                           "subapertures", "engine"}) {
+    CAPTURE(name);
+    const std::string csv = Text(folder.file("a/b/" + std::string(name) + ".csv"));
+    CHECK(csv.find(",") != std::string::npos);
+    CHECK(csv.find("nan") == std::string::npos);
+  }
+  const bool drawn = outcome.out.find("gnuplot is missing") == std::string::npos;
+  for (const char* name : {"fig4", "fig5", "fig6", "fig8", "subapertures", "engine"}) {
+    CAPTURE(name);
+    const std::string path = folder.file("a/b/" + std::string(name) + ".svg");
+    CHECK(fs::exists(path) == drawn);
+    if (drawn) CHECK(Text(path).find("</svg>") != std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace starfocus
