@@ -34,7 +34,7 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_FOCUS:
       return "focus is not finite or beyond 1e6";
     case SF_ERROR_APERTURE:
-      return "aperture is outside 0 (exclusive) to 1";
+      return "aperture is outside 0 to 1";
     case SF_ERROR_BLUR_TOO_LARGE:
       return "aperture times the distance of the disparity range from the focus exceeds max_blur";
     case SF_ERROR_STRIDE:
@@ -77,6 +77,10 @@ const char* sf_status_string(sf_status status) {
       return "the configuration needs more memory than this machine can address";
     case SF_ERROR_MEMORY:
       return "the heap has no memory for a workspace";
+    case SF_ERROR_POSITION:
+      return "position is outside the picture";
+    case SF_ERROR_F_STOP:
+      return "f-stop is not finite, or wider than the widest of the light field";
   }
   return "unknown status";
 }

@@ -66,7 +66,7 @@ sf_status CheckParams(const sf_params& params) {
   if (params.mode < SF_MODE_FRAME || params.mode > SF_MODE_BLUR) return SF_ERROR_MODE;
   if (params.rule < SF_RULE_DEFAULT || params.rule > SF_RULE_SUBAPERTURE) return SF_ERROR_RULE;
   if (!(params.focus >= -SF_MAX_FOCUS && params.focus <= SF_MAX_FOCUS)) return SF_ERROR_FOCUS;
-  if (!(params.aperture > 0.0 && params.aperture <= 1.0)) return SF_ERROR_APERTURE;
+  if (!(params.aperture >= 0.0 && params.aperture <= 1.0)) return SF_ERROR_APERTURE;
   return SF_OK;
 }
 

@@ -34,6 +34,9 @@ inline bool IsWhole(const sf_region& region) {
 // The rectangle that params ask for.
 Rect RegionOf(const sf_config& config, const sf_params& params);
 
+// Whether the picture is the centre view itself, in any mode.
+inline bool IsPinhole(const Lens& lens) { return lens.params.aperture == 0; }
+
 inline bool IsBlockMode(const Lens& lens) { return lens.params.mode == SF_MODE_BLOCK; }
 
 inline bool IsBenchmark(const Lens& lens) { return lens.params.mode == SF_MODE_BENCHMARK; }

@@ -136,7 +136,19 @@ void GatherCells(const BlockInputs& in, const Block& block, const Plane<uint8_t>
 // The part of a block that views give: at layer 0 they need not be rendered for all of it.
 const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
 
-// A copied block has one view, the centre.
+// Copies a part of the block from the centre view, which is its one view.
+Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>& out,
+                   Worker* worker) {
+  const uint64_t samples = Samples(rect);
+  CopyCentre(in.windows[0], rect, out);
+  worker->counts.centre_bytes += samples;
+  if (in.config->skips != 0) {
+    worker->counts.skipped.copied_blocks += 1;
+    worker->counts.skipped.copied_pixels += samples / 3;
+  }
+  return {1, samples};
+}
+
 Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                       Worker* worker) {
   const Aperture& aperture = ApertureOf(*in.tables, *in.lens, block.n);
@@ -150,19 +162,14 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const RenderJob job = {&in.windows[block.layer], &grid, in.kernels, block.rendered, block.border};
   if (in.config->skips == 0) return Render(in, block, job, out, worker);
   const Rect& rect = ViewsRect(block);
-  const uint64_t pixels = Samples(rect) / 3;
   // Slices have ends, which move a little even then.
   if (pinhole || (!UsesSubapertures(*in.lens) && NothingMoves(job))) {
-    CopyCentre(in.windows[0], rect, out);
-    worker->counts.centre_bytes += 3 * pixels;
-    worker->counts.skipped.copied_blocks += 1;
-    worker->counts.skipped.copied_pixels += pixels;
-    return {1, 3 * pixels};
+    return CopyBlock(in, rect, out, worker);
   }
   if (const uint8_t* colour = OneColour(job)) {
     FillColour(colour, rect, out);
     worker->counts.skipped.filled_blocks += 1;
-    worker->counts.skipped.filled_pixels += pixels;
+    worker->counts.skipped.filled_pixels += Samples(rect) / 3;
     return {0, 0};
   }
   return Render(in, block, job, out, worker);
@@ -184,7 +191,10 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
   const sf_clock clock = in.lens->params.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
   Rendered rendered = {1, 0};  // the centre, of a block gathered whole
-  if (in.lens->params.mode == SF_MODE_BLUR) {
+  if (IsPinhole(*in.lens)) {
+    // Copied also without skips: whatever else becomes of samples, none is to change here.
+    rendered = CopyBlock(in, block.rect, out, worker);
+  } else if (in.lens->params.mode == SF_MODE_BLUR) {
     BlurBlock(in, block, out, worker);
     rendered = {0, 0};
   } else {

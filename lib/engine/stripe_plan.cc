@@ -30,6 +30,9 @@ struct PlanJob {
   StripePlan plan;  // blocks, counts and gathered cells are the output
 };
 
+// Whether the picture decides how largest blocks are split.
+bool IsPartitioned(const Lens& lens) { return IsBlockMode(lens) && !IsPinhole(lens); }
+
 // The benchmark's fine slices of small blocks are fewer, and fit the memory that coarser ones have.
 constexpr int32_t kFineSide = 32;
 
@@ -50,7 +53,7 @@ Block WholeBlock(const PlanJob& job, const Rect& rect) {
   return block;
 }
 
-// Plans the frame modes and blur: blocks of one size, at layer 0.
+// Plans the frame modes, blur and pinholes: blocks of one size, at layer 0.
 void PlanWhole(const PlanJob& job, int32_t column) {
   const Lens& lens = *job.lens;
   const int32_t largest = job.plan.side;
@@ -72,7 +75,7 @@ void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
   const Lens& lens = *job.lens;
   plan.counts[column] = 0;
   if (plan.wanted[column] == 0) return;
-  if (!IsBlockMode(lens)) {
+  if (!IsPartitioned(lens)) {
     PlanWhole(job, column);
     return;
   }
@@ -232,7 +235,7 @@ sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engi
   const Lens& lens = engine->lens;
   StripeState& state = engine->stripe;
   const int32_t columns = state.plan.columns;
-  if (IsBlockMode(lens)) {
+  if (IsPartitioned(lens)) {
     state.plan.gathered.first_row = rows.y / kCellSize;
     const int32_t first_row = PlaceCells(rows, lens, &state);
     const MeasureJob job = {

@@ -45,7 +45,7 @@ TEST_CASE("stream: begin refuses what refocus refuses") {
   CHECK(begin([](sf_params* p) { p->reserved[3] = 1; }) == SF_ERROR_RESERVED);
   CHECK(begin([](sf_params* p) { p->mode = 99; }) == SF_ERROR_MODE);
   CHECK(begin([](sf_params* p) { p->focus = -2e6; }) == SF_ERROR_FOCUS);
-  CHECK(begin([](sf_params* p) { p->aperture = 0; }) == SF_ERROR_APERTURE);
+  CHECK(begin([](sf_params* p) { p->aperture = -0.1; }) == SF_ERROR_APERTURE);
   CHECK(begin([](sf_params* p) { p->focus = 6.5; }) == SF_ERROR_BLUR_TOO_LARGE);
 }
 

@@ -70,7 +70,9 @@ struct Field {
     std::vector<uint8_t> out(picture.size());
     int32_t rows = 0;
     const sf_previous previous = {field, picture.data(), 3 * kSize};
-    return engine->get() == nullptr && engine->workspace_bytes() == 0 &&
+    double focus = 0;
+    return engine->get() == nullptr && engine->FocusAt(field, 0, 0, &focus) == SF_ERROR_NULL &&
+           engine->workspace_bytes() == 0 &&
            engine->Refocus(params, field, out.data(), 3 * kSize) == SF_ERROR_NULL &&
            engine->RefocusAfter(params, field, previous, out.data(), 3 * kSize) == SF_ERROR_NULL &&
            engine->Prepare(field) == SF_ERROR_NULL &&
@@ -89,6 +91,9 @@ bool EveryCall() {
   bad.width = -1;
   if (engine.Init(bad) != SF_ERROR_SIZE || !f.IsEmpty(&engine)) return false;
   if (engine.Init(f.config) != SF_OK || engine.workspace_bytes() == 0) return false;
+  double focus = 0;
+  if (engine.FocusAt(f.field, kSize - 1, kSize - 1, &focus) != SF_OK || focus != 0.5) return false;
+  if (engine.FocusAt(f.field, kSize, 0, &focus) != SF_ERROR_POSITION) return false;
   return f.Refocuses(&engine) && engine.Prepare(f.field) == SF_OK && f.RefocusesPrepared(&engine) &&
          f.RefocusesAfter(&engine) && f.Streams(&engine);
 }

@@ -233,7 +233,7 @@ TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") 
   CHECK(counted == 0);
 }
 
-TEST_CASE("no heap call in measuring and filling disparity maps") {
+TEST_CASE("no heap call in measuring, filling and tapping disparity maps") {
   test::Scene scene = test::RandomScene(40, 30, 1, -3, 3, 6);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (int x = 0; x < 40; ++x) scene.Disparity(x, 11) = nan;
@@ -242,7 +242,10 @@ TEST_CASE("no heap call in measuring and filling disparity maps") {
   sf_disparity_stats stats;
   const sf_status measured = sf_measure_disparity(scene.disparity.data(), 160, 40, 30, &stats);
   const sf_status filled = sf_fill_disparity(scene.disparity.data(), 160, 40, 30);
+  double focus = 0;
+  const sf_status tapped = sf_focus_at(scene.disparity.data(), 160, 40, 30, 4, 4, &focus);
   CHECK(watch.Stop() == 0);
+  CHECK(tapped == SF_OK);
   CHECK(measured == SF_OK);
   CHECK(filled == SF_OK);
   CHECK(stats.invalid == 41);

@@ -77,7 +77,7 @@ typedef enum sf_status {
   SF_ERROR_WORKSPACE_ALIGNMENT = 12, /**< memory not aligned to SF_ALIGNMENT */
   SF_ERROR_MODE = 13,                /**< unknown mode */
   SF_ERROR_FOCUS = 14,               /**< focus not finite or beyond +-SF_MAX_FOCUS */
-  SF_ERROR_APERTURE = 15,            /**< aperture outside (0, 1] */
+  SF_ERROR_APERTURE = 15,            /**< aperture outside [0, 1] */
   SF_ERROR_BLUR_TOO_LARGE = 16,      /**< aperture * |disparity - focus| would exceed max_blur */
   SF_ERROR_STRIDE = 17,              /**< stride smaller than a row, or misaligned for float */
   SF_ERROR_NOT_FINITE = 18,          /**< disparity map holds NaN or infinity */
@@ -97,7 +97,9 @@ typedef enum sf_status {
   SF_ERROR_PREPARED = 32,    /**< prepared light field of another configuration */
   SF_ERROR_GATHER = 33,      /**< gather is not 0 or 1 */
   SF_ERROR_TOO_LARGE = 34,   /**< more memory needed than half of the machine's addresses */
-  SF_ERROR_MEMORY = 35       /**< of starfocus.hpp alone: no memory for a workspace */
+  SF_ERROR_MEMORY = 35,      /**< of starfocus.hpp alone: no memory for a workspace */
+  SF_ERROR_POSITION = 36,    /**< position outside the picture */
+  SF_ERROR_F_STOP = 37       /**< an f-stop not finite, or wider than the widest */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -234,7 +236,7 @@ typedef struct sf_params {
   uint32_t version;          /**< SF_ABI_VERSION, set by sf_params_init */
   int32_t mode;              /**< sf_mode; default SF_MODE_BLOCK */
   double focus;              /**< disparity d_t in focus, finite, |d_t| <= SF_MAX_FOCUS */
-  double aperture;           /**< aperture radius u_t, (0, 1]; default 1 */
+  double aperture;           /**< radius u_t, [0, 1]; 0: the centre view to the byte; default 1 */
   int32_t rule;              /**< sf_rule; SF_MODE_BLUR ignores it; default SF_RULE_DEFAULT */
   sf_clock clock;            /**< fills the report's times; null: they stay 0 */
   sf_block_visitor on_block; /**< null: nobody is told */
@@ -394,6 +396,20 @@ SF_API sf_status sf_measure_disparity(const float* disparity, size_t stride, int
  *  are filled from the nearest valid rows above and below by the same rule. SF_ERROR_ALL_INVALID
  * when no value is finite. */
 SF_API sf_status sf_fill_disparity(float* disparity, size_t stride, int32_t width, int32_t height);
+
+/** The focus for what is at pixel (x, y) of a disparity map, into *focus: the median of the pixels
+ *  up to 3 away whose disparities lie within 0.75 of that pixel's surface. Where none of its 8
+ *  neighbours lies within 0.75 of it, its value is taken for wrong, and the surface that most of
+ *  these pixels are of counts. SF_ERROR_POSITION when (x, y) is outside the map,
+ *  SF_ERROR_NOT_FINITE when one of these pixels is NaN or infinite; no other pixel is read. */
+SF_API sf_status sf_focus_at(const float* disparity, size_t stride, int32_t width, int32_t height,
+                             int32_t x, int32_t y, double* focus);
+
+/** The aperture of a lens stopped down to `f_stop`, widest / f_stop, into *aperture. `widest` is
+ *  the f-stop of aperture 1: the focal length over the diameter of the lens whose rim views (1, 0)
+ *  and (-1, 0) lie on. With 1, f-stops are relative to that lens.
+ *  SF_ERROR_F_STOP unless 0 < widest <= f_stop < infinity. */
+SF_API sf_status sf_aperture_of_f_stop(double f_stop, double widest, double* aperture);
 
 /** Name of the SIMD target the kernels run on here, e.g. "AVX2"; static storage. */
 SF_API const char* sf_simd_target(void);

@@ -93,6 +93,13 @@ class Engine {
     return sf_stream_pull(get(), out, out_stride, rows, runner, runner_data, written, report);
   }
 
+  // sf_focus_at of a light field of the configured size.
+  sf_status FocusAt(const sf_light_field& light_field, int32_t x, int32_t y, double* focus) const {
+    if (get() == nullptr) return SF_ERROR_NULL;
+    return sf_focus_at(light_field.disparity, light_field.disparity_stride, config_.width,
+                       config_.height, x, y, focus);
+  }
+
   sf_engine* get() const { return engine_.handle; }
   size_t workspace_bytes() const { return engine_.bytes; }
 

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lens in a photographer's words: focused on what is at a pixel, stopped down to an f-stop.
+#include <cmath>
+
+#include "lib/api/validate.h"
+#include "lib/base/fixed.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+namespace {
+
+// Pixels around the tap on each side: docs/constants.md.
+constexpr int32_t kAround = 3;
+constexpr int32_t kSide = 2 * kAround + 1;
+
+// Pixels whose disparities lie this near to one are of its surface: between two of them there is no
+// depth edge.
+constexpr double kNear = kSurfaceStep / 2.0 / (1 << kDisparityBits);
+
+struct Map {
+  const float* data;
+  size_t row_step;  // floats from row to row
+  int32_t width, height;
+
+  float At(int32_t x, int32_t y) const {
+    return data[static_cast<size_t>(y) * row_step + static_cast<size_t>(x)];
+  }
+};
+
+// The disparities around a pixel.
+struct Sorted {
+  float values[kSide * kSide];  // ascending
+  int32_t count = 0;
+
+  void Insert(float value) {
+    int32_t k = count++;
+    for (; k > 0 && values[k - 1] > value; --k) values[k] = values[k - 1];
+    values[k] = value;
+  }
+};
+
+// Returns false when one of them is not finite.
+bool SortAround(const Map& map, int32_t x, int32_t y, Sorted* sorted) {
+  for (int32_t row = Max(0, y - kAround); row <= Min(map.height - 1, y + kAround); ++row) {
+    for (int32_t column = Max(0, x - kAround); column <= Min(map.width - 1, x + kAround);
+         ++column) {
+      const float value = map.At(column, row);
+      if (!std::isfinite(value)) return false;
+      sorted->Insert(value);
+    }
+  }
+  return true;
+}
+
+// Indices from `first` up to, not including, `last`.
+struct Part {
+  int32_t first, last;
+  int32_t count() const { return last - first; }
+};
+
+// The part that is near `disparity`, which one at least must be.
+Part PartNear(const Sorted& sorted, double disparity) {
+  Part part = {0, 0};
+  while (part.first + 1 < sorted.count && sorted.values[part.first] < disparity - kNear) {
+    ++part.first;
+  }
+  part.last = part.first + 1;
+  while (part.last < sorted.count && sorted.values[part.last] <= disparity + kNear) ++part.last;
+  return part;
+}
+
+double Median(const Sorted& sorted, const Part& part) {
+  const float* middle = sorted.values + part.first + part.count() / 2;
+  return part.count() % 2 != 0 ? double{middle[0]} : (double{middle[-1]} + middle[0]) / 2;
+}
+
+// Whether a neighbour of the pixel is of its surface. A wire one pixel wide has such neighbours, a
+// wrong value has none.
+bool HasNeighbour(const Map& map, int32_t x, int32_t y) {
+  const double disparity = map.At(x, y);
+  for (int32_t row = Max(0, y - 1); row <= Min(map.height - 1, y + 1); ++row) {
+    for (int32_t column = Max(0, x - 1); column <= Min(map.width - 1, x + 1); ++column) {
+      const bool itself = column == x && row == y;
+      if (!itself && std::fabs(map.At(column, row) - disparity) <= kNear) return true;
+    }
+  }
+  return false;
+}
+
+// The disparity that most are near to; of several the smallest.
+double MostCommon(const Sorted& sorted) {
+  int32_t most = 0, best = 0;
+  for (int32_t k = 0; k < sorted.count; ++k) {
+    const int32_t count = PartNear(sorted, sorted.values[k]).count();
+    if (count <= most) continue;
+    most = count;
+    best = k;
+  }
+  return sorted.values[best];
+}
+
+}  // namespace
+}  // namespace starfocus
+
+sf_status sf_focus_at(const float* disparity, size_t stride, int32_t width, int32_t height,
+                      int32_t x, int32_t y, double* focus) {
+  if (focus == nullptr) return SF_ERROR_NULL;
+  const sf_status status = starfocus::CheckMap(disparity, stride, width, height);
+  if (status != SF_OK) return status;
+  if (x < 0 || x >= width || y < 0 || y >= height) return SF_ERROR_POSITION;
+  const starfocus::Map map = {disparity, stride / sizeof(float), width, height};
+  starfocus::Sorted sorted;
+  if (!starfocus::SortAround(map, x, y, &sorted)) return SF_ERROR_NOT_FINITE;
+  double surface =
+      starfocus::HasNeighbour(map, x, y) ? double{map.At(x, y)} : starfocus::MostCommon(sorted);
+  // Once more, since what is near the first median depends less on the noise of the pixel itself.
+  for (int round = 0; round < 2; ++round) {
+    surface = starfocus::Median(sorted, starfocus::PartNear(sorted, surface));
+  }
+  *focus = surface;
+  return SF_OK;
+}
+
+sf_status sf_aperture_of_f_stop(double f_stop, double widest, double* aperture) {
+  if (aperture == nullptr) return SF_ERROR_NULL;
+  // The comparison is written so that NaN fails.
+  if (!(widest > 0.0 && widest <= f_stop && std::isfinite(f_stop))) return SF_ERROR_F_STOP;
+  *aperture = widest / f_stop;
+  return SF_OK;
+}

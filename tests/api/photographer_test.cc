@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// The focus for what is at a pixel, and apertures by their f-stop.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+struct Map {
+  Map(int w, int h, float value, int padding = 0)
+      : width(w), height(h), row(size_t(w + padding)), values(row * size_t(h), value) {}
+  float& At(int x, int y) { return values[size_t(y) * row + size_t(x)]; }
+  double Focus(int x, int y) const {
+    double focus = -77;
+    REQUIRE(sf_focus_at(values.data(), 4 * row, width, height, x, y, &focus) == SF_OK);
+    return focus;
+  }
+
+  int width, height;
+  size_t row;
+  std::vector<float> values;
+};
+
+TEST_CASE("focus at: illegal arguments") {
+  Map map(5, 4, 1, 2);
+  double focus = -77;
+  const auto at = [&](const float* d, size_t stride, int w, int h, int x, int y) {
+    return sf_focus_at(d, stride, w, h, x, y, &focus);
+  };
+  const float* const d = map.values.data();
+  CHECK(at(nullptr, 28, 5, 4, 0, 0) == SF_ERROR_NULL);
+  CHECK(sf_focus_at(d, 28, 5, 4, 0, 0, nullptr) == SF_ERROR_NULL);
+  CHECK(at(d, 28, 0, 4, 0, 0) == SF_ERROR_SIZE);
+  CHECK(at(d, 28, 5, SF_MAX_SIZE + 1, 0, 0) == SF_ERROR_SIZE);
+  for (const size_t stride : {size_t{0}, size_t{16}, size_t{22}}) {
+    CHECK(at(d, stride, 5, 4, 0, 0) == SF_ERROR_STRIDE);
+  }
+  for (const int outside : {-1, 5, INT32_MIN, INT32_MAX}) {
+    CHECK(at(d, 28, 5, 4, outside, 0) == SF_ERROR_POSITION);
+    CHECK(at(d, 28, 5, 4, 0, outside) == SF_ERROR_POSITION);
+  }
+  CHECK(at(d, 28, 5, 4, 0, 4) == SF_ERROR_POSITION);
+  CHECK(focus == -77);
+}
+
+TEST_CASE("focus at: a value around the pixel that is not finite, and those that are not read") {
+  for (const float bad : {kNan, float(kInf), float(-kInf)}) {
+    Map map(30, 20, 2, 3);
+    for (int y = 0; y < 20; ++y) std::fill_n(&map.At(0, y) + 30, 3, bad);  // padding
+    map.At(12, 9) = bad;
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 30; ++x) {
+        const bool read = std::abs(x - 12) <= 3 && std::abs(y - 9) <= 3;
+        double focus = -77;
+        CHECK(sf_focus_at(map.values.data(), 4 * map.row, 30, 20, x, y, &focus) ==
+              (read ? SF_ERROR_NOT_FINITE : SF_OK));
+        CHECK(focus == (read ? -77 : 2));
+      }
+    }
+  }
+}
+
+TEST_CASE("focus at: the surface of the pixel, however little of it there is, up to its edge") {
+  Map map(24, 24, -4);
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 9; ++x) map.At(x, y) = 3;  // an object
+    map.At(16, y) = 8;                             // a wire
+  }
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 24; ++x) CHECK(map.Focus(x, y) == (x < 9 ? 3 : x == 16 ? 8 : -4));
+  }
+  Map one(1, 1, 2.5f);
+  CHECK(one.Focus(0, 0) == 2.5);
+}
+
+TEST_CASE("focus at: one wrong pixel is of the surface that most around it are of") {
+  Map map(20, 20, 1);
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 6; ++x) map.At(x, y) = 5;
+  }
+  for (const float wrong : {-400.0f, 9.0f, 3.0f}) {
+    for (const int x : {2, 4, 7, 12}) {
+      Map spoilt = map;
+      spoilt.At(x, 10) = wrong;
+      // Of the pixels up to 3 away from x = 4 more are of the object, from 7 on more are behind it.
+      CHECK(spoilt.Focus(x, 10) == (x < 6 ? 5 : 1));
+      CHECK(spoilt.Focus(x, 9) == (x < 6 ? 5 : 1));  // beside it
+    }
+  }
+  // Of two surfaces of one size, the farther.
+  Map two(2, 3, 0);
+  two.values = {4, 4, 50, 100, 1, 1};
+  CHECK(two.Focus(0, 1) == 1);
+}
+
+TEST_CASE("focus at: a slanted surface is focused where it was tapped") {
+  for (const float slope : {0.0625f, 0.25f, 0.5f, 1.0f}) {
+    Map map(40, 30, 0);
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 40; ++x) map.At(x, y) = slope * float(x - y);
+    }
+    for (int y = 3; y < 27; ++y) {
+      for (int x = 3; x < 37; ++x) CHECK(map.Focus(x, y) == slope * float(x - y));
+    }
+  }
+}
+
+TEST_CASE("focus at: noise is averaged out") {
+  test::Random random(5);
+  Map map(60, 60, 0);
+  for (float& value : map.values) {
+    double sum = 0;  // of twelve is normal enough, with variance 1
+    for (int k = 0; k < 12; ++k) sum += random.Unit();
+    value = 2 + 0.3f * float(sum - 6);
+  }
+  for (int x = 0; x < 60; ++x) map.At(x, 59) += 8;  // another surface
+  double squares = 0, worst = 0;
+  for (int y = 0; y < 59; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      const double error = map.Focus(x, y) - 2;
+      squares += error * error;
+      worst = std::max(worst, std::fabs(error));
+    }
+  }
+  CHECK(std::sqrt(squares / (59 * 60)) < 0.08);  // 0.3 of a pixel by itself
+  CHECK(worst < 0.5);
+}
+
+// The definition, plainly: sorted lists of what is near.
+double Expected(Map map, int x0, int y0) {
+  std::vector<double> around;
+  bool alone = true;
+  const double tapped = map.At(x0, y0);
+  const auto near = [&](double surface) {
+    std::vector<double> part;
+    for (const double d : around) {
+      if (std::fabs(d - surface) <= 0.75) part.push_back(d);
+    }
+    return part;
+  };
+  for (int y = std::max(0, y0 - 3); y <= std::min(map.height - 1, y0 + 3); ++y) {
+    for (int x = std::max(0, x0 - 3); x <= std::min(map.width - 1, x0 + 3); ++x) {
+      around.push_back(map.At(x, y));
+      const bool beside = std::max(std::abs(x - x0), std::abs(y - y0)) == 1;
+      alone = alone && !(beside && std::fabs(map.At(x, y) - tapped) <= 0.75);
+    }
+  }
+  std::sort(around.begin(), around.end());
+  double surface = tapped;
+  for (size_t k = 0, most = 0; alone && k < around.size(); ++k) {
+    if (near(around[k]).size() > most) most = near(around[k]).size(), surface = around[k];
+  }
+  for (int round = 0; round < 2; ++round) {
+    const std::vector<double> part = near(surface);
+    surface = (part[(part.size() - 1) / 2] + part[part.size() / 2]) / 2;
+  }
+  return surface;
+}
+
+TEST_CASE("focus at: random maps, as the definition says") {
+  test::Random random(6);
+  for (int round = 0; round < 300; ++round) {
+    Map map(random.Int(1, 12), random.Int(1, 12), 0, random.Int(0, 3));
+    const int steps = random.Int(1, 40);  // of 1/8: ties, and values just near enough
+    for (float& value : map.values) value = float(random.Int(0, steps)) / 8;
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) CHECK(map.Focus(x, y) == Expected(map, x, y));
+    }
+  }
+}
+
+TEST_CASE("f-stops: the aperture is the widest over the f-stop") {
+  const auto aperture = [](double f_stop, double widest) {
+    double u = -77;
+    REQUIRE(sf_aperture_of_f_stop(f_stop, widest, &u) == SF_OK);
+    return u;
+  };
+  CHECK(aperture(1, 1) == 1);
+  CHECK(aperture(4, 1) == 0.25);
+  CHECK(aperture(2.8, 1.4) == 0.5);
+  CHECK(aperture(0.5, 0.5) == 1);
+  CHECK(aperture(1e300, 1e-300) == 0);
+}
+
+TEST_CASE("f-stops: wider than the widest, or no f-stop at all") {
+  double u = -77;
+  const double nan = kNan;
+  const double bad[][2] = {{0.99, 1}, {1.4, 1.8}, {0, 1},     {-2, 1},     {nan, 1},
+                           {kInf, 1}, {2, 0},     {2, -1},    {2, nan},    {2, kInf},
+                           {0, 0},    {-1, -2},   {nan, nan}, {kInf, kInf}};
+  for (const auto& pair : bad) {
+    CHECK(sf_aperture_of_f_stop(pair[0], pair[1], &u) == SF_ERROR_F_STOP);
+  }
+  CHECK(sf_aperture_of_f_stop(2, 1, nullptr) == SF_ERROR_NULL);
+  CHECK(u == -77);
+}
+
+}  // namespace

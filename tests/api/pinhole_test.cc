@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Aperture 0: the centre view, byte for byte, in every mode and every way in.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/layered_scene.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kViews[] = {1, 5, 9, 17};
+constexpr sf_mode kModes[] = {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR};
+
+std::vector<uint8_t> CentreView(const test::Scene& scene, const sf_region& region) {
+  std::vector<uint8_t> pixels;
+  for (int y = region.y; y < region.y + region.height; ++y) {
+    const uint8_t* row = scene.Pixel(0, region.x, y);
+    pixels.insert(pixels.end(), row, row + 3 * region.width);
+  }
+  return pixels;
+}
+
+// Random pictures over a map of flat areas and edges, or of noise.
+test::Scene AnyScene(int width, int height, uint64_t seed) {
+  const int views = kViews[seed % 4];
+  if (seed % 3 == 0) return test::LayeredScene(width, height, views, 7, seed);
+  test::Random random(seed);
+  test::Scene scene = test::RandomScene(width, height, views, -7, 7, seed, int(seed % 5));
+  if (seed % 3 == 1) test::NoisyDisparity(&scene, &random);
+  return scene;
+}
+
+sf_config AnyConfig(const test::Scene& scene, test::Random* random) {
+  sf_config config = test::ConfigFor(scene, 20);
+  config.largest_block = 32 << random->Int(0, 3);
+  config.max_layer = random->Int(0, 2);
+  config.deblocking = random->Int(0, 1) * 255;
+  config.skips = random->Int(0, 1);
+  config.gather = random->Int(0, 1);
+  config.theta = random->Real(SF_MIN_THETA, SF_MAX_THETA);
+  config.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
+  config.streaming = 1;
+  return config;
+}
+
+sf_status Prepared(test::Engine* engine, const sf_config& config, const sf_params& params,
+                   const test::Scene& scene, test::Output* out) {
+  size_t bytes = 0;
+  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
+  uint8_t* const aligned =
+      memory.data() + SF_ALIGNMENT - reinterpret_cast<uintptr_t>(memory.data()) % SF_ALIGNMENT;
+  const sf_light_field field = scene.Field();
+  sf_prepared* prepared = nullptr;
+  REQUIRE(sf_prepare(engine->get(), &field, aligned, bytes, nullptr, nullptr, &prepared) == SF_OK);
+  return sf_refocus_prepared(engine->get(), &params, prepared, out->bytes.data(), out->stride,
+                             nullptr, nullptr, nullptr);
+}
+
+// The frame after one that differs in a patch of every view and of the map.
+sf_status After(test::Engine* engine, const sf_params& params, const test::Scene& scene,
+                test::Output* out) {
+  test::Scene before = scene;
+  for (int view = 0; view < scene.views(); ++view) before.Pixel(view, scene.width / 2, 0)[1] ^= 9;
+  before.Disparity(0, scene.height - 1) = 0;
+  test::Output before_out(scene.width, scene.height);
+  REQUIRE(test::Refocus(engine, params, before, &before_out) == SF_OK);
+  const sf_light_field field = scene.Field();
+  const sf_previous previous = {before.Field(), before_out.bytes.data(), before_out.stride};
+  return sf_refocus_after(engine->get(), &params, &field, &previous, out->bytes.data(), out->stride,
+                          nullptr, nullptr, nullptr);
+}
+
+TEST_CASE("pinhole: the centre view to the byte, by every mode, rule and way in") {
+  constexpr int kSizes[][2] = {{1, 1}, {3, 70}, {41, 31}, {64, 64}, {130, 67}, {97, 140}};
+  test::Random random(51);
+  uint64_t seed = 0;
+  for (const auto& size : kSizes) {
+    for (const sf_mode mode : kModes) {
+      const test::Scene scene = AnyScene(size[0], size[1], ++seed);
+      const sf_config config = AnyConfig(scene, &random);
+      test::Engine engine(config);
+      REQUIRE(engine.status() == SF_OK);
+      sf_params params = test::Params(random.Real(-9, 9), 0, mode);
+      params.rule = random.Int(0, 2);
+      // Blur may be as large as it likes where there is none.
+      if (seed % 4 == 0) params.focus = -SF_MAX_FOCUS;
+      CAPTURE(seed);
+      const std::vector<uint8_t> centre = CentreView(scene, {0, 0, size[0], size[1]});
+      test::Output whole(size[0], size[1], 5), streamed = whole, prepared = whole, after = whole;
+      REQUIRE(test::Refocus(&engine, params, scene, &whole) == SF_OK);
+      REQUIRE(test::Stream(&engine, params, scene, &streamed, 7, 5) == SF_OK);
+      REQUIRE(Prepared(&engine, config, params, scene, &prepared) == SF_OK);
+      REQUIRE(After(&engine, params, scene, &after) == SF_OK);
+      for (const test::Output* out : {&whole, &streamed, &prepared, &after}) {
+        const bool same = out->Tight() == centre;
+        CHECK(same);
+        CHECK(out->PaddingUntouched());
+      }
+      sf_region& region = params.region;
+      region = {size[0] / 3, size[1] / 4, size[0] - size[0] / 3, (size[1] + 3) / 4};
+      test::Output part(region.width, region.height);
+      REQUIRE(test::Refocus(&engine, params, scene, &part) == SF_OK);
+      const bool same = part.Tight() == CentreView(scene, region);
+      CHECK(same);
+    }
+  }
+}
+
+TEST_CASE("pinhole: the report tells of one copied view, and maps are checked all the same") {
+  test::Scene scene = test::LayeredScene(130, 67, 9, 7, 4);
+  for (const int skips : {0, 1}) {
+    for (const sf_mode mode : kModes) {
+      sf_config config = test::ConfigFor(scene, 20);
+      config.skips = skips;
+      test::Engine engine(config);
+      test::Output out(130, 67);
+      sf_report report = {};
+      sf_params params = test::Params(-SF_MAX_FOCUS, 0, mode);
+      params.rule = SF_RULE_PAPER;
+      REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
+      CHECK(report.r_max == 0);
+      CHECK(report.n == 0);
+      CHECK(report.rendered_views == 1);
+      CHECK(report.layers[0].pixels == 130 * 67);
+      CHECK(report.layers[0].views == report.layers[0].blocks);
+      CHECK(report.skipped.copied_pixels == (skips != 0 ? 130u * 67u : 0u));
+      CHECK(report.side_bytes == 0);
+    }
+  }
+  test::Engine engine(test::ConfigFor(scene, 20));
+  test::Output out(130, 67);
+  scene.Disparity(129, 66) = 7.5f;
+  CHECK(test::Refocus(&engine, test::Params(3, 0, SF_MODE_BLOCK), scene, &out) ==
+        SF_ERROR_DISPARITY);
+  CHECK(out.Untouched());
+}
+
+}  // namespace
