@@ -78,6 +78,11 @@ Error ParseAperture(const std::string& option, const std::string& text, double* 
   return Error::Usage(option, "an aperture above 0 and at most 1", Quoted(text));
 }
 
+Error ParsePercentage(const std::string& option, const std::string& text, double* value) {
+  if (ReadNumber(text, value) && *value >= 0 && *value <= 100) return "";
+  return Error::Usage(option, "a percentage from 0 to 100", Quoted(text));
+}
+
 Error ParseScale(const std::string& option, const std::string& text, double* value) {
   if (ReadNumber(text, value) && *value >= SF_MIN_N_SCALE && *value <= SF_MAX_N_SCALE) return "";
   return Error::Usage(option,

@@ -26,6 +26,9 @@ Error ParseRegion(const std::string& option, const std::string& text, sf_region*
 // A radius above 0 and at most 1.
 Error ParseAperture(const std::string& option, const std::string& text, double* value);
 
+// A number from 0 to 100.
+Error ParsePercentage(const std::string& option, const std::string& text, double* value);
+
 // A factor from SF_MIN_N_SCALE to SF_MAX_N_SCALE.
 Error ParseScale(const std::string& option, const std::string& text, double* value);
 

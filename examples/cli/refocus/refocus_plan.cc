@@ -39,6 +39,37 @@ Error ParseLargestBlock(const std::string& text, int* side) {
   return Error::Usage("--largest-block", "32, 64, 128 or 256", "'" + text + "'");
 }
 
+// --f-stop and --widest.
+Error ParseFStop(const LensOptions& options, double* aperture) {
+  double f_stop = 0, widest = 1;
+  Error error;
+  if (!options.widest.empty()) error = ParseNumber("--widest", options.widest, &widest);
+  if (error.empty() && widest <= 0) {
+    error = Error::Usage("--widest", "an f-stop above 0", "'" + options.widest + "'");
+  }
+  if (error.empty()) error = ParseNumber("--f-stop", options.f_stop, &f_stop);
+  if (!error.empty() || sf_aperture_of_f_stop(f_stop, widest, aperture) == SF_OK) return error;
+  return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(widest),
+                      "'" + options.f_stop + "'");
+}
+
+// --aperture or --f-stop, and what --strength leaves of it.
+Error PlanAperture(const LensOptions& options, double* aperture) {
+  if (!options.aperture.empty() && !options.f_stop.empty()) {
+    return Error::Usage("--f-stop", "either --aperture U or --f-stop N", "both");
+  }
+  if (!options.widest.empty() && options.f_stop.empty()) {
+    return Error::Usage("--widest", "--f-stop N beside it", "none");
+  }
+  Error error;
+  if (!options.aperture.empty()) error = ParseAperture("--aperture", options.aperture, aperture);
+  if (!options.f_stop.empty()) error = ParseFStop(options, aperture);
+  double strength = 0;
+  if (error.empty()) error = ParsePercentage("--strength", options.strength, &strength);
+  *aperture *= strength / 100;
+  return error;
+}
+
 // Sets what block mode adds to the plan.
 Error PlanBlocks(const LensOptions& options, LensPlan* plan) {
   Error error = ParseLargestBlock(options.largest_block, &plan->largest_block);
@@ -70,8 +101,19 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
 
 void AddLensOptions(CLI::App* command, LensOptions* options) {
   command->add_option("--focus", options->focus, "Disparity in focus");
-  command->add_option("--focus-at", options->focus_at, "X,Y: the disparity of that pixel");
-  command->add_option("--aperture", options->aperture, "Radius, above 0 up to 1")
+  command->add_option("--focus-at", options->focus_at,
+                      "X,Y: the disparity of what is at that pixel, the median of its surface "
+                      "there");
+  command->add_option("--aperture", options->aperture, "Radius, above 0 up to 1; default: 1");
+  command->add_option("--f-stop", options->f_stop,
+                      "The same as an f-stop, from the widest on: radius --widest / N");
+  command->add_option(
+      "--widest", options->widest,
+      "F-stop of radius 1: focal length over twice the distance of view (1, 0) from "
+      "the centre; default: 1, for f-stops relative to that radius");
+  command
+      ->add_option("--strength", options->strength,
+                   "0 to 100 percent of that radius; 0: the centre view to the byte")
       ->capture_default_str();
   command
       ->add_option("--mode", options->mode,
@@ -111,7 +153,7 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
 }
 
 Error PlanLens(const LensOptions& options, LensPlan* plan) {
-  Error error = ParseAperture("--aperture", options.aperture, &plan->aperture);
+  Error error = PlanAperture(options, &plan->aperture);
   if (error.empty()) {
     error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
   }
@@ -175,13 +217,16 @@ std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map
 
 Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   if (!plan->foci.empty()) return "";
-  if (plan->x >= map.width || plan->y >= map.height) {
+  double focus = 0;
+  // The map is a good one (PrepareDisparity): only the position may be wrong.
+  if (sf_focus_at(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height,
+                  plan->x, plan->y, &focus) != SF_OK) {
     return Error::Usage("--focus-at",
                         "a pixel of the picture, up to " + std::to_string(map.width - 1) + "," +
                             std::to_string(map.height - 1),
                         std::to_string(plan->x) + "," + std::to_string(plan->y));
   }
-  plan->foci = {map.at(plan->x, plan->y)};
+  plan->foci = {focus};
   return "";
 }
 

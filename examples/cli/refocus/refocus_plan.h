@@ -16,7 +16,8 @@ namespace starfocus {
 
 // As typed.
 struct LensOptions {
-  std::string focus, focus_at, aperture = "1", mode = "block", rule, views, threads = "1";
+  std::string focus, focus_at, aperture, f_stop, widest, strength = "100";
+  std::string mode = "block", rule, views, threads = "1";
   std::string largest_block, max_layer = "2", deblocking = "35", n_scale = "1", timing;
   bool fill_invalid = false;
 };
@@ -27,8 +28,8 @@ struct LensPlan {
   std::string focus_option;  // that the foci come from
   std::vector<double> foci;  // one, or those of a sweep; none while they depend on a pixel
   int x = 0, y = 0;          // that pixel
-  double aperture = 1;
-  sf_region region = {};  // all 0: the whole picture
+  double aperture = 1;       // at the strength asked for
+  sf_region region = {};     // all 0: the whole picture
   sf_mode mode = SF_MODE_BLOCK;
   sf_rule rule = SF_RULE_DEFAULT;
   int views = 0;  // 0: all there are
@@ -51,7 +52,7 @@ Error LoadViews(const std::string& folder, int views, LightField* light_field);
 std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map,
                              sf_disparity_stats* stats);
 
-// The disparity of the chosen pixel, if the focus depends on it.
+// The disparity of what is at the chosen pixel, if the focus depends on it.
 Error ChooseFocus(const FloatMap& map, LensPlan* plan);
 
 // The largest blur radius of any focus, rounded up to whole pixels.
