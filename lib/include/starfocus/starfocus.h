@@ -146,7 +146,8 @@ typedef struct sf_config {
   int32_t height;        /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
   int32_t views;         /**< captured views: 1, 5, 9 or 17 (see sf_view_position) */
   float disparity_min;   /**< smallest disparity any map may hold; with disparity_max it bounds the
-                              blur, and so N of the frame modes, in every entry path */
+                              blur, and so N of the frame modes and, beyond 32 pixels of blur, how
+                              finely scenes are cut, in every entry path */
   float disparity_max;   /**< largest disparity any map may hold, >= disparity_min */
   double max_blur;       /**< largest blur radius r = aperture * |d - focus| in pixels that will be
                               asked for, (0, SF_MAX_BLUR]; default 32. It reserves room and changes
