@@ -35,6 +35,7 @@ Bytes TakePalette(Bytes* png) {
   (*png)[kFirstChunk + 17] = kGrey;
   for (size_t at = kFirstChunk; at + 12 <= png->size();) {
     uint8_t* chunk = &(*png)[at];
+    if (IsChunk(chunk, "IEND")) break;  // what follows need not be chunks
     const size_t length = ReadBigEndian32(chunk);
     if (IsChunk(chunk, "PLTE")) palette.assign(chunk + 8, chunk + 8 + length);
     // The opacities of a palette mean nothing to grey levels: as a chunk of a name of its own they

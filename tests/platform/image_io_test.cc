@@ -262,6 +262,19 @@ TEST_CASE("image_io: a PNG palette is looked up, and an index beyond it refused"
   CHECK(image.pixels == Bytes(24, 99));
 }
 
+TEST_CASE("image_io: what follows the end of a PNG file is no part of it") {
+  const Bytes palette = {10, 20, 30, 40, 50, 60, 70, 80, 90};
+  Bytes png = MakePng(8, 1, 8, 3, palette, Bytes(8, 1));
+  AppendChunk("PLTE", Bytes(9, 200), &png);
+  AppendBigEndian32(1000, &png);  // the length of a chunk that isn't there
+  const Bytes name = FromText("PLTE");
+  png.insert(png.end(), name.begin(), name.end());
+  png.insert(png.end(), 4, 0);
+  Image image;
+  REQUIRE(ReadBytes(png, &image) == "");
+  CHECK(std::equal(&palette[3], &palette[6], image.row(0)));
+}
+
 TEST_CASE("image_io: a picture too large for its format says its size") {
   const struct {
     uint32_t width, height;
