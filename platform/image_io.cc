@@ -24,11 +24,13 @@ std::string SizeText(int64_t width, int64_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
+std::string Truncated(const std::string& path) {
+  return Expected(path, "an undamaged picture", "a truncated one");
+}
+
 std::string CheckWhole(const std::string& path, Container container) {
   if (container == Container::kWhole) return "";
-  if (container == Container::kTruncated) {
-    return Expected(path, "an undamaged picture", "a truncated one");
-  }
+  if (container == Container::kTruncated) return Truncated(path);
   if (container == Container::kBroken) {
     return Expected(path, "an undamaged picture", "a broken one (checksum or code table)");
   }
@@ -99,6 +101,14 @@ std::string DecodePng(const std::string& path, Bytes* bytes, Image* image) {
                             : DecodeStb(path, *bytes, image);
 }
 
+// Whether a JPEG file may hold a picture of this size: a unit of coded data has 32 by 32 pixels at
+// most, and takes a bit at least. stb_image would fill hundreds of megabytes for a file of a few
+// bytes first.
+bool CanHold(const Bytes& jpeg, int width, int height) {
+  constexpr int64_t kMostUnit = 32;
+  return (width / kMostUnit) * (height / kMostUnit) <= 8 * static_cast<int64_t>(jpeg.size());
+}
+
 std::string DecodeJpeg(const std::string& path, const Bytes& bytes, Image* image) {
   int width = 0, height = 0, channels = 0;
   {
@@ -109,7 +119,8 @@ std::string DecodeJpeg(const std::string& path, const Bytes& bytes, Image* image
     }
   }
   const std::string error = CheckSize(path, width, height);
-  return error.empty() ? DecodeStb(path, bytes, image) : error;
+  if (!error.empty()) return error;
+  return CanHold(bytes, width, height) ? DecodeStb(path, bytes, image) : Truncated(path);
 }
 
 std::string Decode(const std::string& path, Bytes* bytes, Image* image) {

@@ -145,6 +145,16 @@ TEST_CASE("image_io: a PNG chunk longer than its file is refused before it is re
   CHECK(ReadBytes(bytes, &image).find("truncated") != std::string::npos);
 }
 
+TEST_CASE("image_io: a JPEG too short for its size is refused before it is decoded") {
+  Bytes bytes = Written("a.jpg");
+  const uint8_t frame[] = {0xff, 0xc0};
+  const auto at = std::search(bytes.begin(), bytes.end(), frame, frame + 2);
+  REQUIRE(at != bytes.end());
+  for (int k = 5; k < 9; ++k) at[k] = 0x3f;  // height and width
+  Image image;
+  CHECK(ReadBytes(bytes, &image).find("truncated") != std::string::npos);
+}
+
 TEST_CASE("image_io: a JPEG table of more codes than it has room for is refused") {
   Bytes bytes = Written("a.jpg");
   Image image;
