@@ -48,6 +48,8 @@ void sf_config_init(sf_config* config) {
   config->n_scale = 1.0;
   config->skips = 1;
   config->gather = 1;
+  config->blades = 5;
+  config->ring_inner = 0.5F;
 }
 
 void sf_params_init(sf_params* params) {

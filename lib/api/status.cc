@@ -81,6 +81,18 @@ const char* sf_status_string(sf_status status) {
       return "position is outside the picture";
     case SF_ERROR_F_STOP:
       return "f-stop is not finite, or wider than the widest of the light field";
+    case SF_ERROR_SHAPE:
+      return "unknown aperture_shape";
+    case SF_ERROR_BLADES:
+      return "blades is outside 3 to 12";
+    case SF_ERROR_ROTATION:
+      return "rotation is outside -360 to 360 degrees";
+    case SF_ERROR_CURVATURE:
+      return "curvature is outside 0 to 1";
+    case SF_ERROR_RING:
+      return "ring_inner is outside 0 to 0.9";
+    case SF_ERROR_CATS_EYE:
+      return "cats_eye is outside 0 to 1";
   }
   return "unknown status";
 }

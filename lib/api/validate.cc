@@ -22,6 +22,22 @@ bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
          (rows <= 1 || stride <= (PTRDIFF_MAX - row_bytes) / static_cast<size_t>(rows - 1));
 }
 
+// All fields are checked, those of other shapes than the one asked for, too. The comparisons are
+// written so that NaN fails.
+sf_status CheckShape(const sf_config& config) {
+  if (config.aperture_shape < SF_SHAPE_FALL_OFF || config.aperture_shape > SF_SHAPE_RING) {
+    return SF_ERROR_SHAPE;
+  }
+  if (config.blades < SF_MIN_BLADES || config.blades > SF_MAX_BLADES) return SF_ERROR_BLADES;
+  if (!(config.rotation >= -360 && config.rotation <= 360)) return SF_ERROR_ROTATION;
+  if (!(config.curvature >= 0 && config.curvature <= 1)) return SF_ERROR_CURVATURE;
+  if (!(config.ring_inner >= 0 && config.ring_inner <= static_cast<float>(SF_MAX_RING_INNER))) {
+    return SF_ERROR_RING;
+  }
+  if (!(config.cats_eye >= 0 && config.cats_eye <= 1)) return SF_ERROR_CATS_EYE;
+  return SF_OK;
+}
+
 bool ValidSize(int32_t size) { return size >= 1 && size <= SF_MAX_SIZE; }
 
 }  // namespace
@@ -57,7 +73,7 @@ sf_status CheckConfig(const sf_config& config) {
   }
   if (config.skips != 0 && config.skips != 1) return SF_ERROR_SKIPS;
   if (config.gather != 0 && config.gather != 1) return SF_ERROR_GATHER;
-  return SF_OK;
+  return CheckShape(config);
 }
 
 sf_status CheckParams(const sf_params& params) {

@@ -2,6 +2,7 @@
 #include "lib/base/aperture.h"
 
 #include <cmath>
+#include <initializer_list>
 
 #include "lib/base/fixed.h"
 
@@ -16,79 +17,133 @@ uint64_t Relative(uint64_t square, uint64_t n_square, uint64_t fall_off) {
   return (ratio * ratio) >> 28;
 }
 
-constexpr int64_t Max64(int64_t a, int64_t b) { return a > b ? a : b; }
-
-// Returns how many different views (+-i, +-j), (+-j, +-i) are.
-uint32_t Orbit(int32_t i, int32_t j) {
-  if (i == 0) return 1;
-  return j == 0 || i == j ? 4 : 8;
+// Where the weight of view (i, j) is stored.
+size_t IndexOf(const Aperture& aperture, int32_t i, int32_t j) {
+  const int32_t n = aperture.n;
+  return static_cast<size_t>(aperture.full ? (i + n) * (2 * n + 1) + j + n : i * (i + 1) / 2 + j);
 }
 
-// Calls visit(i, j) for the views 0 <= j <= i <= last, i^2 + j^2 <= most, the centre last.
+// Calls visit(i, j, views) for the views i^2 + j^2 <= most, |i|, |j| <= last, that have weights of
+// their own, each with the number of views that share it.
 template <class Visit>
-void ForEachOrbit(int32_t last, int32_t most, const Visit& visit) {
-  for (int32_t i = last; i >= 0; --i) {
-    for (int32_t j = i; j >= 0; --j) {
-      if (i * i + j * j <= most) visit(i, j);
+void ForEachWeight(const Aperture& aperture, bool by_size, const Visit& visit) {
+  const int32_t last = aperture.last, most = aperture.most;
+  if (!aperture.full) {
+    ForEachOfOctant(last, by_size, [&](int32_t i, int32_t j) {
+      if (i * i + j * j <= most) visit(i, j, PointsOfOctant(i, j));
+    });
+    return;
+  }
+  for (int32_t i = -last; i <= last; ++i) {
+    for (int32_t j = -last; j <= last; ++j) {
+      if (i * i + j * j <= most) visit(i, j, 1);
     }
   }
 }
 
-// Makes the weights of the views (i, j), i^2 + j^2 <= most and i <= last, in proportion to their
-// light `light(i, j)`, 20 bits.
+// Makes the weights of the aperture's views in proportion to their light `light(i, j)`, 20 bits.
 template <class Light>
-Aperture Weigh(int32_t n, int32_t last, int32_t most, const Light& light, uint16_t* weights) {
-  for (size_t index = 0; index < ApertureSize(n); ++index) weights[index] = 0;
-  Aperture aperture;
-  aperture.n = n;
-  aperture.last = last;
-  aperture.most = most;
-  aperture.weights = weights;
-  uint64_t total = 0;
-  aperture.views = 0;
-  ForEachOrbit(last, most, [&](int32_t i, int32_t j) {
-    total += Orbit(i, j) * light(i, j);
-    aperture.views += static_cast<int32_t>(Orbit(i, j));
+void Weigh(bool by_size, const Light& light, uint16_t* weights, Aperture* aperture) {
+  const size_t size = aperture->full ? FullApertureSize(aperture->n) : ApertureSize(aperture->n);
+  for (size_t index = 0; index < size; ++index) weights[index] = 0;
+  aperture->weights = weights;
+  uint64_t total = 0, largest = 0;
+  aperture->views = 0;
+  ForEachWeight(*aperture, by_size, [&](int32_t i, int32_t j, int32_t views) {
+    const uint64_t one = light(i, j);
+    total += static_cast<uint64_t>(views) * one;
+    largest = one > largest ? one : largest;
+    aperture->views += views;
   });
-  // The largest sum for which the centre's weight, with a margin for the rounding of the others,
+  // The largest sum for which the largest weight, with a margin for the rounding of the others,
   // fits 15 bits.
-  const uint64_t centre = light(0, 0);
   int bits = kMaxWeightBits;
-  while (bits > 1 && (centre << bits) / total > static_cast<uint64_t>(kMaxWeight - 8)) --bits;
-  aperture.sum_bits = bits;
+  while (bits > 1 && (largest << bits) / total > static_cast<uint64_t>(kMaxWeight - 8)) --bits;
+  aperture->sum_bits = bits;
   // Each orbit takes up the rounding error of those before it; the centre, alone in its orbit,
-  // leaves none.
+  // leaves none, and neither does any view that shares its weight with no other.
   uint64_t wanted = 0;
   int64_t given = 0;
-  ForEachOrbit(last, most, [&](int32_t i, int32_t j) {
-    const int64_t orbit = Orbit(i, j);
-    wanted += static_cast<uint64_t>(orbit) * light(i, j);
+  ForEachWeight(*aperture, by_size, [&](int32_t i, int32_t j, int32_t views) {
+    wanted += static_cast<uint64_t>(views) * light(i, j);
     const auto target = static_cast<int64_t>((wanted << bits) / total);  // < 2^63
-    const int64_t weight = Max64(0, (target - given + orbit / 2) / orbit);
-    weights[i * (i + 1) / 2 + j] = static_cast<uint16_t>(Checked(ranges::kWeight, weight));
-    given += weight * orbit;
+    const int64_t weight = ShareOfPoints(target - given, views, by_size);
+    weights[IndexOf(*aperture, i, j)] =
+        static_cast<uint16_t>(Checked(ranges::kWeight, weight));
+    given += weight * views;
   });
   Checked(ranges::kRemainder, given - (int64_t{1} << bits));
-  return aperture;
+}
+
+// The points of a square grid in the subaperture around each view.
+constexpr int32_t kStep = 2, kPoints = kSubapertureUnits / kStep;
+
+// Calls visit(x, y) for the points of the subaperture around (i, j), kSubapertureUnits.
+template <class Visit>
+void ForEachPoint(int32_t i, int32_t j, const Visit& visit) {
+  for (int32_t a = 0; a < kPoints; ++a) {
+    for (int32_t b = 0; b < kPoints; ++b) {
+      visit(int64_t{kSubapertureUnits} * i + kStep * a + 1 - kSubapertureUnits / 2,
+            int64_t{kSubapertureUnits} * j + kStep * b + 1 - kSubapertureUnits / 2);
+    }
+  }
 }
 
 // Returns the light, 20 bits, that goes through the subaperture around (i, j) of a lens whose
-// radius is `radius` (kSubapertureUnits): summed over the points of a square grid.
+// radius is `radius` (kSubapertureUnits): summed over its points.
 uint64_t LightOfSubaperture(int32_t i, int32_t j, int32_t radius, uint32_t fall_off) {
-  constexpr int32_t kStep = 2, kPoints = kSubapertureUnits / kStep;
   const auto lens = static_cast<uint64_t>(radius) * static_cast<uint64_t>(radius);
   int bits = 0;  // that (3) does without
   while (lens >> bits >= uint64_t{1} << 18) ++bits;
   uint64_t light = 0;
-  for (int32_t a = 0; a < kPoints; ++a) {
-    for (int32_t b = 0; b < kPoints; ++b) {
-      const int64_t x = kSubapertureUnits * i + kStep * a + 1 - kSubapertureUnits / 2;
-      const int64_t y = kSubapertureUnits * j + kStep * b + 1 - kSubapertureUnits / 2;
-      const auto square = static_cast<uint64_t>(x * x + y * y);
-      if (square <= lens) light += Relative(square >> bits, lens >> bits, fall_off);
+  ForEachPoint(i, j, [&](int64_t x, int64_t y) {
+    const auto square = static_cast<uint64_t>(x * x + y * y);
+    if (square <= lens) light += Relative(square >> bits, lens >> bits, fall_off);
+  });
+  return light / (kPoints * kPoints);
+}
+
+// The same of an opening that is as bright everywhere.
+uint64_t LightThrough(int32_t i, int32_t j, int32_t radius, const Opening& opening) {
+  constexpr uint64_t kOne = uint64_t{1} << 20;
+  uint64_t inside = 0;
+  ForEachPoint(i, j, [&](int64_t x, int64_t y) {
+    inside += LetsThrough(opening, x, y, radius) ? 1 : 0;
+  });
+  return inside * kOne / (kPoints * kPoints);
+}
+
+// A polygon has no dents: where the corners of a subaperture are inside, all of it is.
+uint64_t LightThroughPolygon(int32_t i, int32_t j, int32_t radius, const Opening& opening) {
+  constexpr int32_t kHalf = kSubapertureUnits / 2;
+  for (const int32_t x : {kSubapertureUnits * i - kHalf, kSubapertureUnits * i + kHalf}) {
+    for (const int32_t y : {kSubapertureUnits * j - kHalf, kSubapertureUnits * j + kHalf}) {
+      if (!LetsThrough(opening, x, y, radius)) return LightThrough(i, j, radius, opening);
     }
   }
-  return light / (kPoints * kPoints);
+  return uint64_t{1} << 20;
+}
+
+void WeighSubapertures(const Opening& opening, uint16_t* weights, Aperture* aperture) {
+  const int32_t radius = aperture->radius;
+  if (opening.shape == SF_SHAPE_FALL_OFF) {
+    Weigh(false,
+          [&](int32_t i, int32_t j) { return LightOfSubaperture(i, j, radius, opening.fall_off); },
+          weights, aperture);
+  } else if (opening.shape == SF_SHAPE_POLYGON) {
+    Weigh(false,
+          [&](int32_t i, int32_t j) { return LightThroughPolygon(i, j, radius, opening); },
+          weights, aperture);
+  } else {
+    Weigh(opening.IsRing(),
+          [&](int32_t i, int32_t j) { return LightThrough(i, j, radius, opening); }, weights,
+          aperture);
+  }
+}
+
+// The weights of N = 0: all light comes from the centre view.
+void WeighCentre(uint16_t* weights, Aperture* aperture) {
+  Weigh(false, [](int32_t, int32_t) { return uint64_t{1} << 20; }, weights, aperture);
 }
 
 }  // namespace
@@ -98,23 +153,66 @@ uint32_t ApertureFallOff(double theta) {
   return static_cast<uint32_t>(65536.0 / (tangent * tangent) + 0.5);
 }
 
-Aperture MakeAperture(int32_t n, uint32_t fall_off, uint16_t* weights) {
-  const uint64_t n_square = n == 0 ? 1 : static_cast<uint64_t>(n) * static_cast<uint64_t>(n);
-  return Weigh(
-      n, n, n * n,
-      [&](int32_t i, int32_t j) {
-        return Relative(static_cast<uint64_t>(i * i + j * j), n_square, fall_off);
-      },
-      weights);
+Aperture MakeAperture(int32_t n, const Opening& opening, uint16_t* weights) {
+  Aperture aperture;
+  aperture.n = aperture.last = n;
+  aperture.most = n * n;
+  aperture.radius = kSubapertureUnits * n;
+  aperture.full = !opening.IsSymmetric();
+  if (n == 0) {
+    WeighCentre(weights, &aperture);
+  } else if (opening.shape == SF_SHAPE_FALL_OFF) {
+    const uint64_t n_square = static_cast<uint64_t>(n) * static_cast<uint64_t>(n);
+    Weigh(
+        false,
+        [&](int32_t i, int32_t j) {
+          return Relative(static_cast<uint64_t>(i * i + j * j), n_square, opening.fall_off);
+        },
+        weights, &aperture);
+  } else {
+    WeighSubapertures(opening, weights, &aperture);
+  }
+  return aperture;
 }
 
-Aperture MakeSubapertures(int32_t n, uint32_t fall_off, uint16_t* weights) {
-  if (n == 0) return MakeAperture(n, fall_off, weights);
-  const int32_t radius = LensInSubapertures(n), last = LastSubaperture(n);
-  Aperture aperture = Weigh(
-      n, last, MostOfSubapertures(n),
-      [&](int32_t i, int32_t j) { return LightOfSubaperture(i, j, radius, fall_off); }, weights);
+Aperture MakeSubapertures(int32_t n, const Opening& opening, uint16_t* weights) {
+  if (n == 0) return MakeAperture(n, opening, weights);
+  Aperture aperture;
+  aperture.n = n;
+  aperture.last = LastSubaperture(n);
+  aperture.most = MostOfSubapertures(n);
   aperture.extent = SubapertureExtent(n);
+  aperture.radius = LensInSubapertures(n);
+  aperture.full = !opening.IsSymmetric();
+  WeighSubapertures(opening, weights, &aperture);
+  return aperture;
+}
+
+Aperture MakeCatsEye(const Aperture& whole, const Opening& opening, const RimShift& shift,
+                     uint16_t* weights) {
+  const int64_t radius = whole.radius;
+  // Beyond this from the rim a subaperture is all on one side of it: half of its diagonal.
+  constexpr int64_t kNear = 23;
+  static_assert(2 * kNear * kNear >= kSubapertureUnits * kSubapertureUnits, "half a diagonal");
+  const auto light = [&](int32_t i, int32_t j) -> uint64_t {
+    const uint64_t light_of_all = uint64_t{whole.Weight(i, j)} << 5;
+    const int64_t x = int64_t{kSubapertureUnits} * i, y = int64_t{kSubapertureUnits} * j;
+    const int64_t dx = x - ((shift.x * radius) >> kOpeningBits);
+    const int64_t dy = y - ((shift.y * radius) >> kOpeningBits);
+    const int64_t square = dx * dx + dy * dy, inner = radius - kNear - 1, outer = radius + kNear + 2;
+    if (inner > 0 && square < inner * inner) return light_of_all;
+    if (light_of_all == 0 || square > outer * outer) return 0;
+    uint64_t inside = 0, both = 0;
+    ForEachPoint(i, j, [&](int64_t a, int64_t b) {
+      if (!LetsThrough(opening, a, b, radius)) return;
+      ++inside;
+      both += PassesRim(shift, a, b, radius) ? 1 : 0;
+    });
+    return inside == 0 ? 0 : light_of_all * both / inside;
+  };
+  Aperture aperture = whole;
+  aperture.full = true;
+  Weigh(false, light, weights, &aperture);
   return aperture;
 }
 

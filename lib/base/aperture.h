@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aperture (3) sampled on the grid of rendered views, as integer weights.
+// The aperture, (3) or another opening, sampled on the grid of rendered views, as integer weights.
 #ifndef STARFOCUS_LIB_BASE_APERTURE_H_
 #define STARFOCUS_LIB_BASE_APERTURE_H_
 
 #include <cstddef>
 #include <cstdint>
+
+#include "lib/base/opening.h"
 
 namespace starfocus {
 
@@ -20,10 +22,15 @@ struct Aperture {
   int sum_bits = 1;
   int32_t views = 1;
   double extent = 1;  // of the outermost views of subapertures, of the lens's radius
-  const uint16_t* weights = nullptr;  // of 0 <= j <= i <= n at index i (i + 1) / 2 + j
+  int32_t radius = 0;  // of the lens, kSubapertureUnits from view to view
+  // Of 0 <= j <= i <= n at index i (i + 1) / 2 + j, or, when `full`, of all i, j in [-n, n], columns
+  // i one after the other.
+  bool full = false;
+  const uint16_t* weights = nullptr;
 
   // Any i, j in [-n, n]; zero outside the disc.
   uint32_t Weight(int32_t i, int32_t j) const {
+    if (full) return weights[(i + n) * (2 * n + 1) + j + n];
     if (i < 0) i = -i;
     if (j < 0) j = -j;
     const int32_t high = i > j ? i : j, low = i > j ? j : i;
@@ -75,19 +82,31 @@ constexpr double LargestSubapertureExtent() {
   return largest;
 }
 
-// Number of weights an Aperture of n stores.
+// Number of weights an Aperture of n stores, of an octant or full.
 constexpr size_t ApertureSize(int32_t n) {
   return (static_cast<size_t>(n) + 1) * (static_cast<size_t>(n) + 2) / 2;
 }
+constexpr size_t FullApertureSize(int32_t n) {
+  return (2 * static_cast<size_t>(n) + 1) * (2 * static_cast<size_t>(n) + 1);
+}
+inline size_t ApertureSize(const Opening& opening, int32_t n) {
+  return opening.IsSymmetric() ? ApertureSize(n) : FullApertureSize(n);
+}
 
-// The views i^2 + j^2 <= N^2 as in a_{d,N} of (5). Fills weights[ApertureSize(n)]; fall_off as
-// ApertureFallOff gives; n in [0, kMaxViewsAlongRadius].
-Aperture MakeAperture(int32_t n, uint32_t fall_off, uint16_t* weights);
+// The views i^2 + j^2 <= N^2 as in a_{d,N} of (5); of openings other than (3) by what of the light
+// through the cell around each of them is let through. Fills weights[ApertureSize(opening, n)]; n in
+// [0, kMaxViewsAlongRadius]. Before what cat's eyes take.
+Aperture MakeAperture(int32_t n, const Opening& opening, uint16_t* weights);
 
 // Views that stand for their subapertures of a lens LensInSubapertures(n) wide, by what of its
 // light is theirs: of the subapertures that straddle its rim the part within. n in
 // [0, kMaxViewsAlongRadius]; 0 is the centre view alone.
-Aperture MakeSubapertures(int32_t n, uint32_t fall_off, uint16_t* weights);
+Aperture MakeSubapertures(int32_t n, const Opening& opening, uint16_t* weights);
+
+// What a rim behind the opening leaves of the light of `whole`, of N >= 1: all light together stays
+// as it is. Fills weights[FullApertureSize(n)].
+Aperture MakeCatsEye(const Aperture& whole, const Opening& opening, const RimShift& shift,
+                     uint16_t* weights);
 
 }  // namespace starfocus
 

@@ -132,6 +132,10 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const int32_t max_n = Max(LargestN(config), ViewsOfBenchmark(config.max_blur));
   const size_t first = carver->Mark();
   worker.sums = carver->Take<uint32_t>(3 * side * side);
+  if (config.cats_eye > 0) {
+    worker.aperture_weights =
+        carver->Take<uint16_t>(FullApertureSize(Max(max_n, LargestSubapertureN(config))));
+  }
   const size_t shared = carver->Mark();
   TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.line_scan);
   carver->Reuse(shared);
@@ -167,19 +171,22 @@ void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->tables.max_subaperture_n = LargestSubapertureN(config);
   const auto count = static_cast<size_t>(engine->tables.max_n) + 1;
   const auto subaperture_count = static_cast<size_t>(engine->tables.max_subaperture_n) + 1;
+  const Opening opening = OpeningOf(config);
   size_t weights = 0;
-  for (int32_t n = 0; n <= engine->tables.max_n; ++n) weights += ApertureSize(n);
-  for (int32_t n = 0; n <= engine->tables.max_subaperture_n; ++n) weights += ApertureSize(n);
+  for (int32_t n = 0; n <= engine->tables.max_n; ++n) weights += ApertureSize(opening, n);
+  for (int32_t n = 0; n <= engine->tables.max_subaperture_n; ++n) {
+    weights += ApertureSize(opening, n);
+  }
   engine->tables.apertures = carver->Take<Aperture>(count);
   engine->tables.subapertures = carver->Take<Aperture>(subaperture_count);
   engine->tables.aperture_weights = carver->Take<uint16_t>(weights);
   engine->tables.view_counts = carver->Take<ViewCounts>(count);
   engine->tables.subaperture_view_counts = carver->Take<ViewCounts>(subaperture_count);
   engine->tables.benchmark_weights =
-      carver->Take<uint16_t>(ApertureSize(ViewsOfBenchmark(config.max_blur)));
+      carver->Take<uint16_t>(ApertureSize(opening, ViewsOfBenchmark(config.max_blur)));
   engine->tables.blur_kernels =
       carver->Take<BlurKernel>(static_cast<size_t>(BlurStepCount(config.max_blur)));
-  engine->tables.blur_weights = carver->Take<uint16_t>(BlurWeightCount(config.max_blur));
+  engine->tables.blur_weights = carver->Take<uint16_t>(BlurWeightCount(opening, config.max_blur));
 }
 
 // Takes the planes of layers 1 and 2 around a stripe.

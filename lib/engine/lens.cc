@@ -20,8 +20,8 @@ Aperture FrameAperture(const sf_config& config, const Tables& tables, const Lens
   const bool subapertures = UsesSubapertures(lens);
   if (IsBenchmark(lens)) {
     const int32_t n = ViewsOfBenchmark(lens.r_max);
-    return subapertures ? MakeSubapertures(n, tables.fall_off, tables.benchmark_weights)
-                        : MakeAperture(n, tables.fall_off, tables.benchmark_weights);
+    return subapertures ? MakeSubapertures(n, tables.opening, tables.benchmark_weights)
+                        : MakeAperture(n, tables.opening, tables.benchmark_weights);
   }
   const int32_t n = subapertures ? ViewsBySubaperture(lens.r_max) : ViewsByPaper(lens.r_max);
   return (subapertures ? tables.subapertures : tables.apertures)[ScaleViews(n, config.n_scale)];

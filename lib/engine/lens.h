@@ -48,9 +48,11 @@ inline bool UsesSubapertures(const Lens& lens) {
   return (IsBlockMode(lens) || IsBenchmark(lens)) && rule != SF_RULE_PAPER;
 }
 
-// Whether smooth cells are gathered.
+// Whether smooth cells are gathered: the kernel for that knows no lens but those that an octant
+// tells.
 inline bool Gathers(const sf_config& config, const Lens& lens) {
-  return IsBlockMode(lens) && UsesSubapertures(lens) && config.gather != 0;
+  const bool octant = config.aperture_shape != SF_SHAPE_POLYGON && config.cats_eye == 0;
+  return IsBlockMode(lens) && UsesSubapertures(lens) && config.gather != 0 && octant;
 }
 
 // The aperture of a block with the rule's N.

@@ -154,7 +154,14 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const Aperture& aperture = ApertureOf(*in.tables, *in.lens, block.n);
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
   const bool pinhole = aperture.n == 0;
-  const Aperture& rendered = pinhole ? in.tables->apertures[1] : aperture;
+  const Aperture& whole = pinhole ? in.tables->apertures[1] : aperture;
+  const Opening& opening = in.tables->opening;
+  const bool cats_eye = opening.cats_eye > 0;
+  const Aperture rendered =
+      cats_eye ? MakeCatsEye(whole, opening,
+                             ShiftOfRim(opening, block.rect, in.config->width, in.config->height),
+                             worker->aperture_weights)
+               : whole;
   const double extent = UsesSubapertures(*in.lens) ? rendered.extent : 1;
   ViewGrid grid = MakeViewGrid(rendered, in.lens->params.focus, in.lens->params.aperture * extent,
                                block.layer, in.config->views == 17);

@@ -4,24 +4,24 @@
 namespace starfocus {
 
 void MakeTables(const sf_config& config, Tables* tables) {
-  tables->fall_off = ApertureFallOff(config.theta);
+  tables->opening = OpeningOf(config);
   uint16_t* weights = tables->aperture_weights;
   for (int32_t n = 0; n <= tables->max_n; ++n) {
-    tables->apertures[n] = MakeAperture(n, tables->fall_off, weights);
+    tables->apertures[n] = MakeAperture(n, tables->opening, weights);
     tables->view_counts[n] = CountViews(n);
-    weights += ApertureSize(n);
+    weights += ApertureSize(tables->opening, n);
   }
   for (int32_t n = 0; n <= tables->max_subaperture_n; ++n) {
-    tables->subapertures[n] = MakeSubapertures(n, tables->fall_off, weights);
+    tables->subapertures[n] = MakeSubapertures(n, tables->opening, weights);
     tables->subaperture_view_counts[n] = CountSubapertures(tables->subapertures[n]);
-    weights += ApertureSize(n);
+    weights += ApertureSize(tables->opening, n);
   }
   tables->blur_steps = 0;
 }
 
 void MakeBlurKernels(int32_t steps, Tables* tables) {
   if (steps <= tables->blur_steps) return;
-  MakeBlurKernels(tables->blur_steps, steps, tables->fall_off, tables->blur_weights,
+  MakeBlurKernels(tables->blur_steps, steps, tables->opening, tables->blur_weights,
                   tables->blur_kernels);
   tables->blur_steps = steps;
 }

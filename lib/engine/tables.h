@@ -13,7 +13,7 @@
 namespace starfocus {
 
 struct Tables {
-  uint32_t fall_off;  // ApertureFallOff(config.theta)
+  Opening opening;
   // Up to max_n by the paper's rule, up to max_subaperture_n by the rule of subapertures.
   int32_t max_n, max_subaperture_n;
   Aperture *apertures, *subapertures;

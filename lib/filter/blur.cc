@@ -30,73 +30,132 @@ int32_t SizeOfStep(int32_t step) {
   return step == 0 ? 0 : (RadiusOfStep(step) + kOne / 2 + kOne - 1) / kOne;
 }
 
-// Returns the integral of (3) over the pixel (n, m), relative, for a radius in 1 / kOne pixels. By
-// the midpoint rule along lines that end where the disc does: points of a square grid, each inside
-// or outside, are wrong by up to 1.6 gray levels where the aperture ends without having fallen off.
-// The arithmetic and the square root are IEEE's, and so the same everywhere.
-double PixelIntegral(int32_t n, int32_t m, int32_t radius, double fall_off) {
-  const double r = static_cast<double>(radius) / kOne, square = r * r;
+size_t WeightsOf(bool full, int32_t size) {
+  const auto n = static_cast<size_t>(size);
+  return full ? (2 * n + 1) * (2 * n + 1) : (n + 1) * (n + 2) / 2;
+}
+
+struct Interval {
+  double from, to;
+};
+
+// Returns the part of `x` where light comes through the polygon of radius r along the line at y:
+// between the zeros of a square for each edge, which bulges, or beyond the one of a straight edge.
+Interval WithinPolygon(const Opening& opening, double y, double r, Interval x) {
+  constexpr double kUnit = 1.0 / kOpeningOne;
+  const double square = opening.bulge * kUnit;
+  for (int32_t edge = 0; edge < opening.blades; ++edge) {
+    const double across = opening.normals[edge][0] * kUnit, up = opening.normals[edge][1] * kUnit;
+    const double slope = opening.slope * kUnit * r;
+    const double rest = square * y * y + slope * up * y - opening.limit * kUnit * r * r;
+    const double half = 0.5 * slope * across;  // square x^2 + 2 half x + rest <= 0
+    if (opening.bulge == 0) {
+      if (opening.normals[edge][0] > 0) x.to = Smaller(x.to, -rest / (2 * half));
+      if (opening.normals[edge][0] < 0) x.from = Larger(x.from, -rest / (2 * half));
+      if (opening.normals[edge][0] == 0 && rest > 0) x.to = x.from;
+      continue;
+    }
+    const double discriminant = half * half - square * rest;
+    if (discriminant <= 0) return {0, 0};
+    const double root = std::sqrt(discriminant);
+    // Neither zero is the difference of two numbers that are alike.
+    const double sum = half > 0 ? -half - root : -half + root;
+    const double other = sum == 0 ? 0 : rest / sum, zero = sum / square;
+    x.from = Larger(x.from, Smaller(zero, other));
+    x.to = Smaller(x.to, Larger(zero, other));
+  }
+  return x;
+}
+
+// Returns the integral of (3), or of an opening that is as bright everywhere, over the pixel (n, m),
+// relative, for a disc of radius r in pixels. By the midpoint rule along `lines` lines that end
+// where the opening does: points of a square grid, each inside or outside, are wrong by up to 1.6
+// gray levels where the aperture ends without having fallen off. The arithmetic and the square root
+// are IEEE's, and so the same everywhere.
+double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Opening& opening) {
+  const double square = r * r, fall_off = opening.fall_off / 65536.0;
   const double low = Larger(m - 0.5, -r), high = Smaller(m + 0.5, r);
   if (low >= high) return 0;
-  const int32_t lines = LinesOf(radius);
   double sum = 0;
   for (int32_t line = 0; line < lines; ++line) {
     const double y = low + (line + 0.5) / lines * (high - low), rim = std::sqrt(square - y * y);
-    const double from = Larger(n - 0.5, -rim), to = Smaller(n + 0.5, rim);
-    if (from >= to) continue;
-    double along = 0;
-    for (int32_t point = 0; point < kPoints; ++point) {
-      const double x = from + (point + 0.5) / kPoints * (to - from);
-      const double ratio = fall_off / ((x * x + y * y) / square + fall_off);
-      along += ratio * ratio;
+    Interval x = {Larger(n - 0.5, -rim), Smaller(n + 0.5, rim)};
+    if (opening.shape == SF_SHAPE_POLYGON) x = WithinPolygon(opening, y, r, x);
+    if (x.from >= x.to) continue;
+    double along = kPoints;
+    if (opening.shape == SF_SHAPE_FALL_OFF) {
+      along = 0;
+      for (int32_t point = 0; point < kPoints; ++point) {
+        const double at = x.from + (point + 0.5) / kPoints * (x.to - x.from);
+        const double ratio = fall_off / ((at * at + y * y) / square + fall_off);
+        along += ratio * ratio;
+      }
     }
-    sum += along * (to - from);
+    sum += along * (x.to - x.from);
   }
   return sum * (high - low) / lines;
 }
 
-int32_t OrbitOf(int32_t n, int32_t m) {
-  if (n == 0) return 1;
-  return m == 0 || m == n ? 4 : 8;
+// Of a radius in 1 / kOne pixels. A polygon's edges may lie along the lines and then end between two
+// of them: it has four times as many.
+double PixelIntegral(int32_t n, int32_t m, int32_t radius, const Opening& opening) {
+  const double r = static_cast<double>(radius) / kOne;
+  const int32_t lines = LinesOf(radius);
+  if (opening.shape == SF_SHAPE_POLYGON) return DiscIntegral(n, m, r, 4 * lines, opening);
+  const double whole = DiscIntegral(n, m, r, lines, opening);
+  if (!opening.IsRing() || opening.inner == 0) return whole;
+  const double hole = r * opening.inner / kOpeningOne;
+  return Larger(0, whole - DiscIntegral(n, m, hole, lines, opening));
 }
 
-// Calls visit(n, m, integral of (4)) for 0 <= m <= n <= size, the centre last.
+// Calls visit(n, m, how many pixels share the weight, integral of (4)) for the weights of a kernel
+// that are stored.
 template <class Visit>
-void ForEachOrbit(int32_t step, double fall_off, const Visit& visit) {
-  const int32_t radius = RadiusOfStep(step);
-  for (int32_t n = SizeOfStep(step); n >= 0; --n) {
-    for (int32_t m = n; m >= 0; --m) visit(n, m, PixelIntegral(n, m, radius, fall_off));
+void ForEachWeight(int32_t step, const Opening& opening, const Visit& visit) {
+  const int32_t radius = RadiusOfStep(step), size = SizeOfStep(step);
+  if (opening.IsSymmetric()) {
+    ForEachOfOctant(size, opening.IsRing(), [&](int32_t n, int32_t m) {
+      visit(n, m, PointsOfOctant(n, m), PixelIntegral(n, m, radius, opening));
+    });
+    return;
+  }
+  for (int32_t m = -size; m <= size; ++m) {
+    for (int32_t n = -size; n <= size; ++n) visit(n, m, 1, PixelIntegral(n, m, radius, opening));
   }
 }
 
-// Every orbit takes up the rounding of those before it and the centre the rest, as in MakeAperture.
-void MakeKernel(int32_t step, double fall_off, uint16_t* weights, BlurKernel* kernel) {
+// Every orbit takes up the rounding of those before it and the last one the rest, as in
+// MakeAperture.
+void MakeKernel(int32_t step, const Opening& opening, uint16_t* weights, BlurKernel* kernel) {
   kernel->size = SizeOfStep(step);
   kernel->weights = weights;
   kernel->sum_bits = 14;
+  kernel->full = !opening.IsSymmetric();
   if (step == 0) {
     weights[0] = 1 << 14;
     return;
   }
   double total = 0, largest = 0;
-  ForEachOrbit(step, fall_off, [&](int32_t n, int32_t m, double integral) {
-    total += OrbitOf(n, m) * integral;
-    largest = integral;  // the centre comes last
+  ForEachWeight(step, opening, [&](int32_t, int32_t, int32_t points, double integral) {
+    total += points * integral;
+    largest = Larger(largest, integral);
   });
   while (kernel->sum_bits < kMaxWeightBits &&
          largest / total * (2 << kernel->sum_bits) < kMaxWeight - 8) {
     ++kernel->sum_bits;
   }
-  const int32_t one = 1 << kernel->sum_bits;
+  const int32_t one = 1 << kernel->sum_bits, size = kernel->size;
   double wanted = 0;
   int32_t given = 0;
-  ForEachOrbit(step, fall_off, [&](int32_t n, int32_t m, double integral) {
-    const int32_t orbit = OrbitOf(n, m);
-    wanted += orbit * integral;
-    const auto target = n == 0 ? one : static_cast<int32_t>(wanted / total * one + 0.5);
-    const int32_t weight = Max(0, (target - given + orbit / 2) / orbit);
-    weights[n * (n + 1) / 2 + m] = static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
-    given += weight * orbit;
+  ForEachWeight(step, opening, [&](int32_t n, int32_t m, int32_t points, double integral) {
+    wanted += points * integral;
+    // What is wanted of all comes from the same sum as the total.
+    const auto target = wanted == total ? one : static_cast<int32_t>(wanted / total * one + 0.5);
+    const auto weight =
+        static_cast<int32_t>(ShareOfPoints(target - given, points, opening.IsRing()));
+    weights[kernel->full ? (m + size) * (2 * size + 1) + n + size : n * (n + 1) / 2 + m] =
+        static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
+    given += weight * points;
   });
   Checked(ranges::kRemainder, given - one);
 }
@@ -120,15 +179,16 @@ void LoadPixels(const BlurJob& job, uint8_t* rgb) {
   }
 }
 
-// Adds a kernel over `count` pixels of one radius; two weights side by side go in one span.
-void AddRun(const BlurKernel& kernel, const uint8_t* at, size_t stride, int32_t count,
-            SpanList* list) {
+// Adds a kernel over `count` pixels of one radius, turned by half a turn with `turned` -1; two
+// weights side by side go in one span.
+void AddRun(const BlurKernel& kernel, int32_t turned, const uint8_t* at, size_t stride,
+            int32_t count, SpanList* list) {
   const uint32_t samples = 3 * static_cast<uint32_t>(count);
   for (int32_t m = -kernel.size; m <= kernel.size; ++m) {
     const uint8_t* row = at + static_cast<ptrdiff_t>(m) * static_cast<ptrdiff_t>(stride);
     for (int32_t n = -kernel.size; n <= kernel.size; n += 2) {
-      const uint32_t weight = kernel.Weight(n, m);
-      const uint32_t next = n < kernel.size ? kernel.Weight(n + 1, m) : 0;
+      const uint32_t weight = kernel.Weight(turned * n, turned * m);
+      const uint32_t next = n < kernel.size ? kernel.Weight(turned * (n + 1), turned * m) : 0;
       if (weight + next == 0) continue;
       list->Add({row + 3 * static_cast<ptrdiff_t>(n), 0, samples, static_cast<uint16_t>(weight),
                  static_cast<uint16_t>(next), 3});
@@ -151,21 +211,19 @@ int32_t BlurStepCount(double max_blur) {
   return BlurStep(static_cast<int32_t>(max_blur * kOne) + 1) + 1;
 }
 
-size_t BlurWeightCount(double max_blur) {
+size_t BlurWeightCount(const Opening& opening, double max_blur) {
   size_t count = 0;
   for (int32_t step = 0; step < BlurStepCount(max_blur); ++step) {
-    const auto size = static_cast<size_t>(SizeOfStep(step));
-    count += (size + 1) * (size + 2) / 2;
+    count += WeightsOf(!opening.IsSymmetric(), SizeOfStep(step));
   }
   return count;
 }
 
-void MakeBlurKernels(int32_t first, int32_t last, uint32_t fall_off, uint16_t* weights,
+void MakeBlurKernels(int32_t first, int32_t last, const Opening& opening, uint16_t* weights,
                      BlurKernel* kernels) {
   for (int32_t step = 0; step < last; ++step) {
-    if (step >= first) MakeKernel(step, fall_off / 65536.0, weights, &kernels[step]);
-    const auto size = static_cast<size_t>(kernels[step].size);
-    weights += (size + 1) * (size + 2) / 2;
+    if (step >= first) MakeKernel(step, opening, weights, &kernels[step]);
+    weights += WeightsOf(kernels[step].full, kernels[step].size);
   }
 }
 
@@ -182,14 +240,15 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
     const auto step_at = [&](int32_t x) {
       return BlurStep(job.scale.Radius(Abs(disparity[x] - job.scale.focus)));
     };
+    const auto side_of = [&](int32_t x) { return disparity[x] < job.scale.focus ? -1 : 1; };
     for (int32_t x = 0; x < rect.width;) {
-      const int32_t begin = x, step = step_at(x);
-      while (++x < rect.width && step_at(x) == step) {
+      const int32_t begin = x, step = step_at(x), side = side_of(x);
+      while (++x < rect.width && step_at(x) == step && side_of(x) == side) {
       }
       const BlurKernel& kernel = job.kernels_of_radius[step];
       const size_t samples = 3 * static_cast<size_t>(x - begin);
       std::memset(scratch.accumulators, 0, samples * sizeof(uint32_t));
-      AddRun(kernel, row + 3 * begin, stride, x - begin, &list);
+      AddRun(kernel, side, row + 3 * begin, stride, x - begin, &list);
       list.Flush();
       CheckSums(scratch.accumulators, samples, kernel.sum_bits);
       job.kernels->Finish(scratch.accumulators, samples, kernel.sum_bits, out + 3 * begin);

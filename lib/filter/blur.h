@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/opening.h"
 #include "lib/filter/span_list.h"
 #include "lib/input/window.h"
 #include "lib/plan/block_stats.h"
@@ -18,25 +19,28 @@ namespace starfocus {
 int32_t BlurStep(int32_t radius);  // of a radius with kDisparityBits
 int32_t BlurStepCount(double max_blur);
 
-// The octant 0 <= m <= n of one kernel; weights sum to exactly 2^sum_bits over the plane and fit
-// 15 bits.
+// The octant 0 <= m <= n of one kernel, or, when `full`, all of it; weights sum to exactly
+// 2^sum_bits over the plane and fit 15 bits. What is farther than the focus sees it turned by half a
+// turn.
 struct BlurKernel {
   int32_t size;  // n of the outermost weights
   int sum_bits;
-  const uint16_t* weights;  // at n (n + 1) / 2 + m
+  bool full;
+  const uint16_t* weights;  // at n (n + 1) / 2 + m, or rows m one after the other
 
   uint32_t Weight(int32_t n, int32_t m) const {
+    if (full) return weights[(m + size) * (2 * size + 1) + n + size];
     const int32_t a = Abs(n), b = Abs(m), high = Max(a, b), low = Min(a, b);
     return weights[high * (high + 1) / 2 + low];
   }
 };
 
 // Weights that all kernels up to max_blur store together.
-size_t BlurWeightCount(double max_blur);
+size_t BlurWeightCount(const Opening& opening, double max_blur);
 
 // Makes the kernels of steps [first, last) behind those before, which must have been made;
-// kernels[BlurStepCount], weights[BlurWeightCount]. fall_off as ApertureFallOff gives.
-void MakeBlurKernels(int32_t first, int32_t last, uint32_t fall_off, uint16_t* weights,
+// kernels[BlurStepCount], weights[BlurWeightCount]. Cat's eyes are left out.
+void MakeBlurKernels(int32_t first, int32_t last, const Opening& opening, uint16_t* weights,
                      BlurKernel* kernels);
 
 struct BlurJob {

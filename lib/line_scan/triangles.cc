@@ -107,6 +107,11 @@ class Star {
     list.Flush();
   }
 
+  // The weight of view (i, j) of a field, in its orientation.
+  uint32_t WeightOf(const Field& field, int32_t i, int32_t j) const {
+    return field.transposed ? grid_.aperture.Weight(j, i) : grid_.aperture.Weight(i, j);
+  }
+
   // Adds types A and C along the rows of `field`, in the triangles on either side of that axis;
   // `other` is the same field in the other orientation.
   void AddViews(const Field& field, const Field& other, uint32_t* accumulators) {
@@ -211,7 +216,8 @@ class Star {
         const int32_t top = field.inner.y - rows.begin;
         const auto first = static_cast<uint32_t>(x * field.inner.height);
         if (across > 0) {
-          AddLine(rgb + 3 * top, field.inner.height, grid_.aperture.Weight(i, 0), 3 * first, &list);
+          AddLine(rgb + 3 * top, field.inner.height, WeightOf(field, sign * i, 0), 3 * first,
+                  &list);
         }
         if (scan) {
           AddColumn(line, count, last, {top, top + field.inner.height}, first, &holes, &list);
@@ -230,7 +236,7 @@ class Star {
     ScanLine(line, DirectionOf(holes.v), scratch_->line_runs, runs, grid_, part, 1, last, &sink,
              [&](int32_t j) {
                holes.j = j;
-               sink.SetWeight(grid_.aperture.Weight(holes.i, j));
+               sink.SetWeight(WeightOf(holes.field, holes.u * holes.i, holes.v * j));
                return scratch_->moves[j];
              });
   }
@@ -284,7 +290,7 @@ class Star {
       ScanLine(line, DirectionOf(sign), scratch_->line_runs, runs, grid_, {begin, end}, 1, last,
                &sink, [&](int32_t k) {
                  holes.i = holes.j = k;
-                 sink.SetWeight(grid_.aperture.Weight(k, k));
+                 sink.SetWeight(WeightOf(field, sign * k, across * k));
                  return scratch_->moves[k];
                });
     }

@@ -17,8 +17,9 @@ constexpr uint32_t kGroupSum = 58000;
 ViewWeights ScaleWeights(const Aperture& aperture) {
   ViewWeights weights = {&aperture, 0, 0};
   uint32_t largest = 0;
-  for (int32_t i = 0; i <= aperture.last; ++i) {
-    const int32_t last = weights.LastAcross(i);
+  // Columns on either side of the middle are alike but in full apertures.
+  for (int32_t i = aperture.full ? -aperture.last : 0; i <= aperture.last; ++i) {
+    const int32_t last = weights.LastAcross(Abs(i));
     for (int32_t first = -last; first <= last; first += kGroupViews) {
       uint32_t sum = 0, most = 0;
       for (int32_t j = first; j <= Min(first + kGroupViews - 1, last); ++j) {

@@ -99,7 +99,13 @@ typedef enum sf_status {
   SF_ERROR_TOO_LARGE = 34,   /**< more memory needed than half of the machine's addresses */
   SF_ERROR_MEMORY = 35,      /**< of starfocus.hpp alone: no memory for a workspace */
   SF_ERROR_POSITION = 36,    /**< position outside the picture */
-  SF_ERROR_F_STOP = 37       /**< an f-stop not finite, or wider than the widest */
+  SF_ERROR_F_STOP = 37,      /**< an f-stop not finite, or wider than the widest */
+  SF_ERROR_SHAPE = 39,       /**< unknown aperture_shape */
+  SF_ERROR_BLADES = 40,      /**< blades outside [3, SF_MAX_BLADES] */
+  SF_ERROR_ROTATION = 41,    /**< rotation outside [-360, 360] */
+  SF_ERROR_CURVATURE = 42,   /**< curvature outside [0, 1] */
+  SF_ERROR_RING = 43,        /**< ring_inner outside [0, SF_MAX_RING_INNER] */
+  SF_ERROR_CATS_EYE = 44     /**< cats_eye outside [0, 1] */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -122,6 +128,18 @@ SF_API size_t sf_params_size(void);
 #define SF_MAX_TIMING 100000000u
 #define SF_MIN_N_SCALE 0.5
 #define SF_MAX_N_SCALE 2.0
+#define SF_MIN_BLADES 3
+#define SF_MAX_BLADES 12
+#define SF_MAX_RING_INNER 0.9
+
+/** What the opening of the lens looks like, in the disc of radius u_t. */
+typedef enum sf_shape {
+  SF_SHAPE_FALL_OFF = 0, /**< the paper's (3): the disc, darker towards its rim by theta */
+  SF_SHAPE_DISC = 1,     /**< the disc, as bright everywhere */
+  SF_SHAPE_POLYGON = 2,  /**< of `blades` blades, `rotation` and `curvature`; its corners lie on the
+                            disc's rim */
+  SF_SHAPE_RING = 3      /**< the disc less one of radius `ring_inner`: a mirror lens */
+} sf_shape;
 
 /** Run-time model of a block, the paper's (14) with terms for what surrounds the line scan, in
  *  picoseconds; only ratios matter. It decides the partition of SF_MODE_BLOCK, and so its bytes:
@@ -170,7 +188,21 @@ typedef struct sf_config {
   int32_t gather; /**< 1, the default: by SF_RULE_SUBAPERTURE SF_MODE_BLOCK blurs the centre view
                      itself, with the kernel (4), where one surface is all that lies within reach;
                      0: it renders views there too */
-  uint32_t reserved[7]; /**< zero */
+  int16_t aperture_shape; /**< sf_shape; default SF_SHAPE_FALL_OFF. theta belongs to that alone, the
+                             fields below to the others. By a polygon's and with cats_eye nothing
+                             is gathered */
+  int16_t blades;   /**< of a polygon, [SF_MIN_BLADES, SF_MAX_BLADES]; default 5 */
+  float rotation;   /**< of a polygon in degrees, [-360, 360]; 0, the default: a corner at the top of
+                       the lens, (0, -1); more turns it clockwise, to the right */
+  float curvature;  /**< of a polygon's edges, the disc's radius over theirs, [0, 1]; default 0:
+                       straight; 1: the disc */
+  float ring_inner; /**< of a ring: radius of its hole over u_t, [0, SF_MAX_RING_INNER]; default
+                       0.5 */
+  float cats_eye;   /**< how far a second rim, as wide as the disc, lies beside the lens in radii, as
+                       it is seen from the picture's corners, [0, 1]; less towards the middle: light
+                       passes both. Pictures do not get darker by it, SF_MODE_BLUR does without it;
+                       default 0: there is none */
+  uint32_t reserved[2]; /**< zero */
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);

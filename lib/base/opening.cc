@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/base/opening.h"
+
+#include <cmath>
+
+#include "lib/base/aperture.h"
+
+namespace starfocus {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Nothing that is rounded here comes near a half by itself, so that a last digit that machines do
+// not agree on changes nothing.
+int32_t Round(double value) {
+  return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5));
+}
+
+// An edge is an arc through two corners of the unit circle, `curvature` over its radius: with `half`
+// of the angle between them, its circle's centre lies at cos(half) - sqrt(1 / curvature^2 -
+// sin(half)^2) along the edge's normal. Times the curvature, that has a limit for straight edges.
+void SetPolygon(const sf_config& config, Opening* opening) {
+  opening->blades = config.blades;
+  const double half = kPi / config.blades, sine = std::sin(half), cosine = std::cos(half);
+  const double curvature = config.curvature, turn = config.rotation * (kPi / 180);
+  const double root = std::sqrt(1 - curvature * curvature * sine * sine);
+  opening->bulge = Round(curvature);
+  opening->slope = Round(2 * (root - curvature * cosine));
+  opening->limit = Round(2 * cosine * root - curvature * (cosine * cosine - sine * sine));
+  for (int32_t edge = 0; edge < config.blades; ++edge) {
+    const double angle = turn + (2 * edge + 1) * half;
+    opening->normals[edge][0] = Round(std::sin(angle));
+    opening->normals[edge][1] = Round(-std::cos(angle));
+  }
+}
+
+}  // namespace
+
+Opening OpeningOf(const sf_config& config) {
+  Opening opening(ApertureFallOff(config.theta));
+  opening.shape = static_cast<sf_shape>(config.aperture_shape);
+  if (opening.shape == SF_SHAPE_POLYGON) SetPolygon(config, &opening);
+  if (opening.shape == SF_SHAPE_RING) opening.inner = Round(config.ring_inner);
+  opening.cats_eye = Round(config.cats_eye);
+  return opening;
+}
+
+bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius) {
+  const int64_t square = x * x + y * y;
+  if (square > radius * radius) return false;
+  if (opening.shape == SF_SHAPE_RING) {
+    const int64_t inner = opening.inner * radius;
+    return square << 2 * kOpeningBits >= inner * inner;
+  }
+  if (opening.shape != SF_SHAPE_POLYGON) return true;
+  const int64_t limit = (opening.limit * radius * radius - opening.bulge * square) << kOpeningBits;
+  for (int32_t edge = 0; edge < opening.blades; ++edge) {
+    const int64_t along = x * opening.normals[edge][0] + y * opening.normals[edge][1];
+    if (opening.slope * radius * along > limit) return false;
+  }
+  return true;
+}
+
+RimShift ShiftOfRim(const Opening& opening, const Rect& rect, int32_t width, int32_t height) {
+  const double diagonal = std::sqrt(static_cast<double>(width) * width +
+                                    static_cast<double>(height) * height);
+  // Both are even about the picture's middle, so that mirrored places have mirrored rims.
+  const auto shift = [&](int32_t doubled) {
+    return static_cast<int32_t>(-opening.cats_eye * (doubled / diagonal));
+  };
+  return {shift(2 * rect.x + rect.width - width), shift(2 * rect.y + rect.height - height)};
+}
+
+bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t radius) {
+  const int64_t dx = (x << kOpeningBits) - shift.x * radius;
+  const int64_t dy = (y << kOpeningBits) - shift.y * radius;
+  const int64_t whole = radius << kOpeningBits;
+  return dx * dx + dy * dy <= whole * whole;
+}
+
+}  // namespace starfocus

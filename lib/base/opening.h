@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The opening of a lens: where in its disc light comes through. Integers but for what is rounded
+// once, so that every machine makes the same weights of it.
+#ifndef STARFOCUS_LIB_BASE_OPENING_H_
+#define STARFOCUS_LIB_BASE_OPENING_H_
+
+#include <cstdint>
+
+#include "lib/base/geometry.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Fractional bits of what an opening is described by, in radii of the lens.
+inline constexpr int kOpeningBits = 14;
+inline constexpr int32_t kOpeningOne = 1 << kOpeningBits;
+inline constexpr int32_t kMaxBlades = 12;
+
+struct Opening {
+  // The paper's (3); fall_off as ApertureFallOff gives.
+  Opening(uint32_t square = 1 << 16) : fall_off(square) {}  // NOLINT: converts
+
+  sf_shape shape = SF_SHAPE_FALL_OFF;
+  uint32_t fall_off;    // of SF_SHAPE_FALL_OFF: cot^2(theta), 16 bits
+  int32_t inner = 0;    // of a ring: the radius of its hole
+  int32_t cats_eye = 0; // how far the rim behind the lens moves up to a corner of the picture
+  // Of a polygon: the points p of `bulge` |p|^2 + `slope` p * normal <= `limit` for the normal of
+  // each of its edges, which are arcs through the corners.
+  int32_t blades = 0;
+  int32_t normals[kMaxBlades][2] = {};
+  int32_t bulge = 0, slope = 0, limit = 0;
+
+  // Whether it is its own mirror image about both axes and both diagonals, so that an octant tells
+  // all of it. What cat's eyes leave of it isn't.
+  bool IsSymmetric() const { return shape != SF_SHAPE_POLYGON; }
+  // Whether the octant's centre may be dark.
+  bool IsRing() const { return shape == SF_SHAPE_RING; }
+};
+
+// The opening that a valid configuration asks for.
+Opening OpeningOf(const sf_config& config);
+
+// Whether light comes through at (x, y), of a lens whose radius is `radius`; all at most 2^14.
+bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius);
+
+// The centre of the rim behind the lens, as it is seen from a part of the picture: kOpeningBits.
+struct RimShift {
+  int32_t x = 0, y = 0;
+};
+
+// That of the pixels of `rect`: of those in its middle.
+RimShift ShiftOfRim(const Opening& opening, const Rect& rect, int32_t width, int32_t height);
+
+// Whether a point that the opening lets through passes the rim behind it as well.
+bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t radius);
+
+// Calls visit(i, j) for 0 <= j <= i <= last, the centre last; `by_size`: those that stand for eight
+// points of the plane before those that stand for four.
+template <class Visit>
+void ForEachOfOctant(int32_t last, bool by_size, const Visit& visit) {
+  const auto pass = [&](bool eight, bool others) {
+    for (int32_t i = last; i >= 0; --i) {
+      for (int32_t j = i; j >= 0; --j) {
+        const bool stands_for_eight = j != 0 && i != j;
+        if (stands_for_eight ? eight : others) visit(i, j);
+      }
+    }
+  };
+  if (by_size) pass(true, false);
+  pass(!by_size, true);
+}
+
+// Returns how many different points (+-i, +-j), (+-j, +-i) are.
+constexpr int32_t PointsOfOctant(int32_t i, int32_t j) {
+  if (i == 0) return 1;
+  return j == 0 || i == j ? 4 : 8;
+}
+
+// What is left of a whole for the points of an octant's (i, j), `points` of them, when `left` is
+// the share of these and what is owed from those before. An opening whose centre may be dark owes
+// only: nothing must be left for the centre to take back.
+constexpr int64_t ShareOfPoints(int64_t left, int64_t points, bool by_size) {
+  const int64_t share = (left + (by_size ? 0 : points / 2)) / points;
+  return share < 0 ? 0 : share;
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_BASE_OPENING_H_
