@@ -12,8 +12,7 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr int kViewGrid = 4;                        // samples of a pixel of a view, squared
-constexpr int kLensSamples = 256;                   // of a pixel of the ground truth
-constexpr double kCotSquared = 0.8818383898322281;  // cot^2(0.26 pi)
+constexpr int kLensSamples = 256;                   // of a pixel of the ground truth, about
 // cos and sin of the golden angle, and of 1/256 of a turn: sequences of directions come from
 // multiplying by them, which needs no library function.
 constexpr double kGoldenCos = -0.7373688780783197, kGoldenSin = 0.6754902942615238;
@@ -27,15 +26,21 @@ struct Point {
 
 Point Turn(Point p, Point by) { return {p.x * by.x - p.y * by.y, p.x * by.y + p.y * by.x}; }
 
-// Points on the unit disc with density (3): sunflower directions, radii by the inverse of the
-// distribution of the squared radius, whose density is proportional to 1 / (s + cot^2)^2.
-std::vector<Point> LensPoints() {
+// Points on the unit disc: sunflower directions, radii by the inverse of the distribution of the
+// squared radius, whose density is proportional to 1 / (s + cot^2)^2 with a fall-off (3). As many
+// more as are needed for kLensSamples of them to pass.
+std::vector<Point> LensPoints(const SceneOpening& opening) {
   std::vector<Point> points;
   Point direction = {1, 0};
-  const double at0 = 1 / kCotSquared, at1 = 1 / (1 + kCotSquared);
-  for (int k = 0; k < kLensSamples; ++k) {
-    const double share = (k + 0.5) / kLensSamples;
-    const double square = 1 / (at0 - share * (at0 - at1)) - kCotSquared;
+  const double fall_off = opening.fall_off();
+  const int count = static_cast<int>(kLensSamples / opening.LeastShare());
+  for (int k = 0; k < count; ++k) {
+    const double share = (k + 0.5) / count;
+    double square = share;
+    if (fall_off > 0) {
+      const double at0 = 1 / fall_off, at1 = 1 / (1 + fall_off);
+      square = 1 / (at0 - share * (at0 - at1)) - fall_off;
+    }
     const double radius = std::sqrt(square);
     points.push_back({direction.x * radius, direction.y * radius});
     direction = Turn(direction, {kGoldenCos, kGoldenSin});
@@ -64,6 +69,7 @@ struct Renderer::Lens {
   double aperture = 0;               // its radius; 0: a pinhole
   double focus = 0;                  // canvas units
   std::vector<Point> points, turns;  // of a lens that is no pinhole
+  const SceneOpening* opening = nullptr;
 };
 
 Renderer::Renderer(const Scene& scene, int width, int height, ThreadRunner* runner)
@@ -143,9 +149,14 @@ Color Renderer::LensPixel(const Lens& lens, const std::vector<size_t>& candidate
                           int y) const {
   const Point turn = lens.turns[Hash(x, y, 1) % lens.turns.size()];
   double dx = HashUnit(x, y, 2), dy = HashUnit(x, y, 3);
+  const double half = 0.5 * std::sqrt(double(width_) * width_ + double(height_) * height_);
+  const double from_x = (x - 0.5 * (width_ - 1)) / half, from_y = (y - 0.5 * (height_ - 1)) / half;
+  int count = 0;
   Color sum;
   for (const Point& point : lens.points) {
     const Point q = Turn(point, turn);
+    if (!lens.opening->Passes(q.x, q.y, from_x, from_y)) continue;
+    ++count;
     sum = sum + RayColor(lens, candidates, x + dx - 0.5, y + dy - 0.5, q.x * lens.aperture,
                          q.y * lens.aperture);
     dx += kR2X;
@@ -153,7 +164,7 @@ Color Renderer::LensPixel(const Lens& lens, const std::vector<size_t>& candidate
     if (dx >= 1) dx -= 1;
     if (dy >= 1) dy -= 1;
   }
-  return sum * (1.0 / kLensSamples);
+  return sum * (1.0 / count);
 }
 
 void Renderer::RenderTile(const Lens& lens, int x0, int y0, Image* image) const {
@@ -202,11 +213,13 @@ Image Renderer::View(double u, double v, Progress* progress) const {
   return Render(lens, progress);
 }
 
-Image Renderer::Truth(double focus, double aperture, Progress* progress) const {
+Image Renderer::Truth(double focus, double aperture, const SceneOpening& opening,
+                      Progress* progress) const {
   Lens lens;
   lens.focus = focus / scale_;
   lens.aperture = aperture;
-  lens.points = LensPoints();
+  lens.opening = &opening;
+  lens.points = LensPoints(opening);
   lens.turns = Turns();
   return Render(lens, progress);
 }

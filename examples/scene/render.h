@@ -4,6 +4,7 @@
 #ifndef STARFOCUS_EXAMPLES_SCENE_RENDER_H_
 #define STARFOCUS_EXAMPLES_SCENE_RENDER_H_
 
+#include "examples/scene/opening.h"
 #include "examples/scene/scene.h"
 #include "platform/image.h"
 #include "platform/pfm.h"
@@ -25,8 +26,8 @@ class Renderer {
   // Disparity of the centre view at pixel centres, in pixels per unit u.
   FloatMap Disparity() const;
 
-  // What a lens of radius `aperture` with density (3), theta = 0.26 pi, focused at `focus` sees.
-  Image Truth(double focus, double aperture, Progress* progress) const;
+  // What a lens of radius `aperture` with this opening, focused at `focus`, sees.
+  Image Truth(double focus, double aperture, const SceneOpening& opening, Progress* progress) const;
 
   // Pixel of a point of the canvas.
   void ToPixel(double x, double y, int* pixel_x, int* pixel_y) const;

@@ -248,7 +248,7 @@ TEST_CASE("constants: the width of the lens in subapertures") {
 
 // The kernels (4) that gather, and those of the blur mode up to as far.
 struct GatherKernels {
-  std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(kMaxGather));
+  std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(Opening(), kMaxGather));
   std::vector<BlurKernel> kernels =
       std::vector<BlurKernel>(static_cast<size_t>(BlurStepCount(kMaxGather)));
 

@@ -17,6 +17,12 @@ namespace {
 constexpr int kWidth = STARFOCUS_EMULATED ? 128 : 256, kHeight = kWidth * 3 / 4;
 const char* const kNames[] = {"portrait", "wires", "ramp"};
 
+SceneOpening DefaultOpening() {
+  sf_config config;
+  sf_config_init(&config);
+  return SceneOpening(config);
+}
+
 // Sample of view (u, v) where centre pixel (x, y) of disparity d appears, bilinear; -1 outside.
 double WarpedSample(const Image& view, double x, double y, int channel) {
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
@@ -89,8 +95,8 @@ TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
   REQUIRE(MakeScene("portrait", &scene));
   const Renderer renderer(scene, kWidth / 2, kHeight / 2, &runner);
   const Image centre = renderer.View(0, 0, nullptr);
-  CHECK(Psnr(centre, renderer.Truth(0.5, 1e-6, nullptr)) > 38);
-  CHECK(Psnr(centre, renderer.Truth(0.5, 1, nullptr)) < 32);
+  CHECK(Psnr(centre, renderer.Truth(0.5, 1e-6, DefaultOpening(), nullptr)) > 38);
+  CHECK(Psnr(centre, renderer.Truth(0.5, 1, DefaultOpening(), nullptr)) < 32);
 }
 
 TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
@@ -100,7 +106,7 @@ TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
   const Renderer renderer(scene, kWidth, kHeight, &runner);
   const FloatMap map = renderer.Disparity();
   const Image centre = renderer.View(0, 0, nullptr);
-  const Image truth = renderer.Truth(map.at(kWidth / 2, kHeight / 2), 1, nullptr);
+  const Image truth = renderer.Truth(map.at(kWidth / 2, kHeight / 2), 1, DefaultOpening(), nullptr);
   const auto band = [](const Image& image, int y) {
     Image rows(image.width, 1);
     std::copy(image.row(y), image.row(y) + image.stride(), rows.row(0));
@@ -118,7 +124,7 @@ TEST_CASE("scene: the same pictures for any number of threads") {
     REQUIRE(MakeScene(name, &scene));
     const Renderer a(scene, kOdd, 47, &one), b(scene, kOdd, 47, &three);
     CHECK(a.View(-0.5, 1, nullptr).pixels == b.View(-0.5, 1, nullptr).pixels);
-    CHECK(a.Truth(1, 0.8, nullptr).pixels == b.Truth(1, 0.8, nullptr).pixels);
+    CHECK(a.Truth(1, 0.8, DefaultOpening(), nullptr).pixels == b.Truth(1, 0.8, DefaultOpening(), nullptr).pixels);
     CHECK(a.Disparity().values == b.Disparity().values);
   }
 }

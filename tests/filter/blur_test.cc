@@ -149,7 +149,7 @@ TEST_CASE("blur: the size of blocks does not matter") {
 TEST_CASE("blur: kernels sum to exactly one, fit their types and fall off from the centre") {
   const double most = SF_MAX_BLUR;
   const int steps = starfocus::BlurStepCount(most);
-  std::vector<uint16_t> weights(starfocus::BlurWeightCount(most));
+  std::vector<uint16_t> weights(starfocus::BlurWeightCount(starfocus::Opening(), most));
   std::vector<starfocus::BlurKernel> kernels(static_cast<size_t>(steps));
   // In two parts, as an engine makes them when it is asked for more.
   const uint32_t fall_off = starfocus::ApertureFallOff(kTheta);

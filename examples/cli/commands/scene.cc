@@ -7,6 +7,7 @@
 
 #include "examples/cli/commands.h"
 #include "examples/command_line/options.h"
+#include "examples/command_line/shape.h"
 #include "examples/scene/render.h"
 #include "platform/image_io.h"
 #include "platform/light_field.h"
@@ -22,6 +23,7 @@ constexpr int64_t kMostPixels = int64_t{1} << 25;  // all views are held in memo
 struct Options {
   std::string folder, name = "portrait", size = "1024x768", views = "17", threads;
   std::vector<std::string> truths;
+  ShapeOptions shape;
 };
 
 struct Truth {
@@ -32,6 +34,7 @@ struct Plan {
   Scene scene;
   int width = 0, height = 0, views = 0, threads = 0;
   std::vector<Truth> truths;
+  sf_config shape;  // of the lens of the truths
 };
 
 Error ParseTruth(const std::string& text, Truth* truth) {
@@ -69,7 +72,8 @@ Error MakePlan(const Options& options, Plan* plan) {
     error = ParseTruth(text, &plan->truths.back());
     if (!error.empty()) return error;
   }
-  return "";
+  sf_config_init(&plan->shape);
+  return ParseShape(options.shape, &plan->shape);
 }
 
 // Views of an earlier, larger set or in another format would mix with the new ones.
@@ -90,7 +94,8 @@ Error CheckFolder(const std::string& folder, int views) {
   return "";
 }
 
-std::string MetaText(const Plan& plan, const Renderer& renderer, const FloatMap& disparity) {
+std::string MetaText(const Options& options, const Plan& plan, const Renderer& renderer,
+                     const FloatMap& disparity) {
   std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
   text += "size: " + std::to_string(plan.width) + "x" + std::to_string(plan.height) + "\n";
   text += "views: " + std::to_string(plan.views) + "\n";
@@ -103,7 +108,12 @@ std::string MetaText(const Plan& plan, const Renderer& renderer, const FloatMap&
   text +=
       "made by: starfocus scene; disparity.pfm is exact at pixel centres, in pixels per unit u\n"
       "convention: centre pixel (x, y) appears in view (u, v) at (x - u*d, y - v*d)\n"
-      "truth_dt<D>_ut<U>.png: thin-lens ground truth, aperture density (3) with theta 0.26 pi\n";
+      "truth_dt<D>_ut<U>" +
+      ShapeSuffix(options.shape) + ".png: thin-lens ground truth, " +
+      (plan.shape.aperture_shape == SF_SHAPE_FALL_OFF
+           ? "aperture density (3) with theta " + options.shape.theta + " pi"
+           : "aperture " + options.shape.shape) +
+      (plan.shape.cats_eye > 0 ? ", cat's eyes " + options.shape.cats_eye : "") + "\n";
   return text;
 }
 
@@ -114,6 +124,7 @@ Error Run(const Options& options) {
   if (!error.empty()) return error;
   ThreadRunner runner(plan.threads);
   const Renderer renderer(plan.scene, plan.width, plan.height, &runner);
+  const SceneOpening opening(plan.shape);
   LightField light_field;
   std::vector<Image> truths;
   {
@@ -126,17 +137,18 @@ Error Run(const Options& options) {
     }
     light_field.disparity = renderer.Disparity();
     for (const Truth& truth : plan.truths) {
-      truths.push_back(renderer.Truth(truth.focus, truth.aperture, &progress));
+      truths.push_back(renderer.Truth(truth.focus, truth.aperture, opening, &progress));
     }
   }
   error = SaveLightField(options.folder, light_field, &runner);
   for (size_t i = 0; i < truths.size() && error.empty(); ++i) {
     const std::string name =
-        "truth_dt" + Short(plan.truths[i].focus) + "_ut" + Short(plan.truths[i].aperture) + ".png";
+        "truth_dt" + Short(plan.truths[i].focus) + "_ut" + Short(plan.truths[i].aperture) +
+        ShapeSuffix(options.shape) + ".png";
     error = WriteImage((fs::path(options.folder) / name).string(), truths[i]);
   }
   if (!error.empty()) return error;
-  const std::string meta = MetaText(plan, renderer, light_field.disparity);
+  const std::string meta = MetaText(options, plan, renderer, light_field.disparity);
   return WriteFile((fs::path(options.folder) / "meta.txt").string(),
                    Bytes(meta.begin(), meta.end()));
 }
@@ -156,6 +168,7 @@ void AddSceneCommand(CLI::App* app, Action* action) {
                    "D,U: also the picture of a lens of aperture U focused at disparity D; "
                    "may be repeated")
       ->type_name("D,U ...");
+  AddShapeOptions(command, &options->shape);
   command->add_option("--threads", options->threads, "1 to 64; default: all of the machine");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }

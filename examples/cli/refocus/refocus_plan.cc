@@ -80,9 +80,7 @@ Error PlanBlocks(const LensOptions& options, LensPlan* plan) {
   }
   if (!error.empty()) return error;
   if (!options.timing.empty()) return ReadTiming(options.timing, &plan->timing);
-  sf_config defaults;
-  sf_config_init(&defaults);
-  plan->timing = defaults.timing;
+  plan->timing = plan->config.timing;
   return "";
 }
 
@@ -115,6 +113,7 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
       ->add_option("--strength", options->strength,
                    "0 to 100 percent of that radius; 0: the centre view to the byte")
       ->capture_default_str();
+  AddShapeOptions(command, &options->shape);
   command
       ->add_option("--mode", options->mode,
                    "In blocks of their own number of views, with one number for the whole frame, "
@@ -153,7 +152,9 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
 }
 
 Error PlanLens(const LensOptions& options, LensPlan* plan) {
+  sf_config_init(&plan->config);
   Error error = PlanAperture(options, &plan->aperture);
+  if (error.empty()) error = ParseShape(options.shape, &plan->config);
   if (error.empty()) {
     error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
   }
@@ -251,7 +252,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
                     const sf_disparity_stats& stats, double max_blur, bool reported) {
   EngineTask task;
   task.light_field = &light_field;
-  sf_config_init(&task.config);
+  task.config = plan.config;
   task.config.width = light_field.width();
   task.config.height = light_field.height();
   task.config.views = static_cast<int32_t>(light_field.views.size());

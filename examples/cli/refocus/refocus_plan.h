@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "examples/cli/engine/engine_run.h"
+#include "examples/command_line/shape.h"
 #include "platform/light_field.h"
 #include "starfocus/starfocus.h"
 
@@ -19,6 +20,7 @@ struct LensOptions {
   std::string focus, focus_at, aperture, f_stop, widest, strength = "100";
   std::string mode = "block", rule, views, threads = "1";
   std::string largest_block, max_layer = "2", deblocking = "35", n_scale = "1", timing;
+  ShapeOptions shape;
   bool fill_invalid = false;
 };
 
@@ -38,6 +40,7 @@ struct LensPlan {
   int max_layer = 0, deblocking = 0;
   double n_scale = 1;
   sf_timing timing = {};
+  sf_config config = {};  // the shape of the aperture, and defaults
 };
 
 // All that can be refused before a light field is read, but for the focus.

@@ -82,6 +82,21 @@ uint64_t LargestBlocks(const EngineTask& task, int side) {
   return count(region.x, region.width) * count(region.y, region.height);
 }
 
+nlohmann::ordered_json ShapeJson(const sf_config& config) {
+  constexpr const char* kNames[] = {"fall-off", "disc", "polygon", "ring"};
+  nlohmann::ordered_json json;
+  json["name"] = kNames[config.aperture_shape];
+  if (config.aperture_shape == SF_SHAPE_FALL_OFF) json["theta"] = config.theta;
+  if (config.aperture_shape == SF_SHAPE_POLYGON) {
+    json["blades"] = config.blades;
+    json["rotation"] = config.rotation;
+    json["curvature"] = config.curvature;
+  }
+  if (config.aperture_shape == SF_SHAPE_RING) json["inner"] = config.ring_inner;
+  json["cats_eye"] = config.cats_eye;
+  return json;
+}
+
 nlohmann::ordered_json ReportJson(const EngineTask& task, const EngineResult& result) {
   nlohmann::ordered_json json;
   json["mode"] = kModeNames[task.params.mode];
@@ -92,6 +107,7 @@ nlohmann::ordered_json ReportJson(const EngineTask& task, const EngineResult& re
   json["views"] = task.config.views;
   json["focus"] = task.params.focus;
   json["aperture"] = task.params.aperture;
+  json["shape"] = ShapeJson(task.config);
   json["n_scale"] = task.config.n_scale;
   json["r_max"] = result.report.r_max;
   json["N"] = result.report.n;

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/command_line/shape.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "examples/command_line/options.h"
+
+namespace starfocus {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+Error ShapeError(const std::string& text) {
+  return Error::Usage("--shape",
+                      "fall-off, disc, polygon:N[,ROTATION[,CURVATURE]] (3 to 12 blades, degrees "
+                      "within +-360, 0 to 1) or ring:INNER (0 to 0.9)",
+                      "'" + text.substr(0, 60) + "'");
+}
+
+// The numbers behind the colon, or nothing where one is none.
+std::vector<double> Numbers(const std::string& text) {
+  std::vector<double> numbers;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    double number = 0;
+    if (!ParseNumber("", text.substr(begin, end - begin), &number).empty()) return {};
+    numbers.push_back(number);
+    begin = end + 1;
+  }
+  return numbers;
+}
+
+bool SetPolygon(const std::vector<double>& numbers, sf_config* config) {
+  if (numbers.empty() || numbers.size() > 3) return false;
+  const double blades = numbers[0], rotation = numbers.size() > 1 ? numbers[1] : 0;
+  const double curvature = numbers.size() > 2 ? numbers[2] : 0;
+  if (blades < SF_MIN_BLADES || blades > SF_MAX_BLADES || blades != int(blades)) return false;
+  if (rotation < -360 || rotation > 360 || curvature < 0 || curvature > 1) return false;
+  config->aperture_shape = SF_SHAPE_POLYGON;
+  config->blades = static_cast<int16_t>(blades);
+  config->rotation = static_cast<float>(rotation);
+  config->curvature = static_cast<float>(curvature);
+  return true;
+}
+
+bool SetRing(const std::vector<double>& numbers, sf_config* config) {
+  if (numbers.size() != 1 || numbers[0] < 0 || numbers[0] > SF_MAX_RING_INNER) return false;
+  config->aperture_shape = SF_SHAPE_RING;
+  config->ring_inner = static_cast<float>(numbers[0]);
+  return true;
+}
+
+bool SetShape(const std::string& text, sf_config* config) {
+  const size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  if (colon == std::string::npos) {
+    config->aperture_shape = name == "disc" ? SF_SHAPE_DISC : SF_SHAPE_FALL_OFF;
+    return name == "disc" || name == "fall-off";
+  }
+  const std::vector<double> numbers = Numbers(text.substr(colon + 1));
+  if (name == "polygon") return SetPolygon(numbers, config);
+  return name == "ring" && SetRing(numbers, config);
+}
+
+}  // namespace
+
+void AddShapeOptions(CLI::App* command, ShapeOptions* options) {
+  command
+      ->add_option("--shape", options->shape,
+                   "The opening of the lens: darker towards its rim by --theta, a disc as bright "
+                   "everywhere, blades with a corner on top that ROTATION degrees turn clockwise "
+                   "and of edges that CURVATURE bends, 0 to 1, or a disc with a hole of INNER, 0 "
+                   "to 0.9 of its radius")
+      ->type_name("fall-off|disc|polygon:N[,ROTATION[,CURVATURE]]|ring:INNER")
+      ->capture_default_str();
+  command
+      ->add_option("--theta", options->theta,
+                   "0.05 to 0.45: the angle of the fall-off, as a part of pi")
+      ->capture_default_str();
+  command
+      ->add_option("--cats-eye", options->cats_eye,
+                   "0 to 1: how far a second rim moves into the opening towards the corners, in "
+                   "radii")
+      ->capture_default_str();
+}
+
+Error ParseShape(const ShapeOptions& options, sf_config* config) {
+  if (!SetShape(options.shape, config)) return ShapeError(options.shape);
+  double theta = 0, cats_eye = 0;
+  Error error = ParseNumber("--theta", options.theta, &theta);
+  if (!error.empty()) return error;
+  if (theta < 0.05 || theta > 0.45) {
+    return Error::Usage("--theta", "a part of pi from 0.05 to 0.45", "'" + options.theta + "'");
+  }
+  if (config->aperture_shape != SF_SHAPE_FALL_OFF && options.theta != ShapeOptions().theta) {
+    return Error::Usage("--theta", "--shape fall-off beside it", "'" + options.shape + "'");
+  }
+  // The ends of the range and the default are the library's to the last digit.
+  config->theta = theta * kPi;
+  if (config->theta < SF_MIN_THETA) config->theta = SF_MIN_THETA;
+  if (config->theta > SF_MAX_THETA) config->theta = SF_MAX_THETA;
+  error = ParseNumber("--cats-eye", options.cats_eye, &cats_eye);
+  if (!error.empty()) return error;
+  if (cats_eye < 0 || cats_eye > 1) {
+    return Error::Usage("--cats-eye", "a number from 0 to 1", "'" + options.cats_eye + "'");
+  }
+  config->cats_eye = static_cast<float>(cats_eye);
+  return "";
+}
+
+std::string ShapeSuffix(const ShapeOptions& options) {
+  const ShapeOptions defaults;
+  std::string suffix;
+  if (options.shape != defaults.shape) suffix += "_" + options.shape;
+  if (options.theta != defaults.theta) suffix += "_theta" + options.theta;
+  if (options.cats_eye != defaults.cats_eye) suffix += "_cats-eye" + options.cats_eye;
+  for (char& c : suffix) {
+    if (c == ':' || c == ',') c = '-';
+  }
+  return suffix;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options for the shape of an aperture.
+#ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_SHAPE_H_
+#define STARFOCUS_EXAMPLES_COMMAND_LINE_SHAPE_H_
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "examples/command_line/error.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// As typed.
+struct ShapeOptions {
+  std::string shape = "fall-off", theta = "0.26", cats_eye = "0";
+};
+
+void AddShapeOptions(CLI::App* command, ShapeOptions* options);
+
+// Sets what the options ask for in an initialised configuration.
+Error ParseShape(const ShapeOptions& options, sf_config* config);
+
+// What tells the shape from the default one in a file's name, "" for that.
+std::string ShapeSuffix(const ShapeOptions& options);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_COMMAND_LINE_SHAPE_H_
