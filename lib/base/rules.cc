@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/base/rules.h"
 
+#include <cstddef>
+
 namespace starfocus {
 namespace {
 
@@ -24,11 +26,20 @@ struct SubapertureStep {
 constexpr SubapertureStep kSubapertureSteps[] = {{0.5, 0}, {11, 4},  {25, 5},   {34, 6},  {49, 7},
                                                  {68, 9},  {83, 11}, {119, 12}, {128, 13}};
 
+constexpr int32_t kMoreViews = 6;
+
 // With subapertures the rest of the error is smaller, and so must that of layers be: against truth
 // on the portrait layer 2 from 8 or 16 up costs 0.2 to 0.35 dB and saves 4 % of the instructions,
 // layer 1 from 5 up 0.1 to 0.2 dB and saves up to 19 %. Layer 2 rounds silhouettes to four pixels.
 constexpr double kSubapertureLayerRadius = 7.0;
 constexpr double kSubapertureCoarseRadius = 24.0;
+
+// The smallest blur radii of layer 1 by the paper's rule and by that of subapertures, of each Demand;
+// of layer 2 they grow alike.
+struct LayerRadii {
+  double paper, subaperture;
+};
+constexpr LayerRadii kLayerRadii[] = {{kLayerRadius, kSubapertureLayerRadius}, {4, 12}, {5, 14}, {6, 16}};
 
 }  // namespace
 
@@ -38,13 +49,20 @@ int32_t ViewsByPaper(double r_max) {
   return Ceil(kUnderSampling * r_max);
 }
 
-int32_t ViewsBySubaperture(double r_max) {
+Demand DemandOf(const Opening& opening) {
+  if (opening.shape == SF_SHAPE_RING) return Demand::kRing;
+  if (opening.shape == SF_SHAPE_POLYGON || opening.cats_eye > 0) return Demand::kPolygon;
+  return opening.shape == SF_SHAPE_DISC ? Demand::kDisc : Demand::kFallOff;
+}
+
+int32_t ViewsBySubaperture(double r_max, Demand demand) {
   int32_t n = 0;
   for (const SubapertureStep& step : kSubapertureSteps) {
     n = step.n;
     if (r_max <= step.r_max) break;
   }
-  return n;
+  const bool more = demand == Demand::kPolygon || demand == Demand::kRing;
+  return more && n >= 4 && n < kMoreViews ? kMoreViews : n;
 }
 
 int32_t ScaleViews(int32_t n, double scale) {
@@ -55,14 +73,17 @@ int32_t ScaleViews(int32_t n, double scale) {
 
 int32_t ViewsOfBenchmark(double r_max) { return 2 * Ceil(r_max); }
 
-int32_t LayerByPaper(double r_min) {
-  if (r_min >= 2 * kLayerRadius) return 2;
-  return r_min >= kLayerRadius ? 1 : 0;
+int32_t LayerByPaper(double r_min, Demand demand) {
+  const double first = kLayerRadii[static_cast<size_t>(demand)].paper;
+  if (r_min >= 2 * first) return 2;
+  return r_min >= first ? 1 : 0;
 }
 
-int32_t LayerBySubaperture(double r_min, bool depth_edges) {
-  if (r_min >= kSubapertureCoarseRadius && !depth_edges) return 2;
-  return r_min >= kSubapertureLayerRadius ? 1 : 0;
+int32_t LayerBySubaperture(double r_min, bool depth_edges, Demand demand) {
+  const double first = kLayerRadii[static_cast<size_t>(demand)].subaperture;
+  const double coarse = kSubapertureCoarseRadius * first / kSubapertureLayerRadius;
+  if (r_min >= coarse && !depth_edges) return 2;
+  return r_min >= first ? 1 : 0;
 }
 
 }  // namespace starfocus

@@ -5,7 +5,14 @@
 
 #include <cstdint>
 
+#include "lib/base/opening.h"
+
 namespace starfocus {
+
+// How much an opening asks of views and layers: the sharper and the narrower its bright parts, the
+// more. What cat's eyes leave has corners as a polygon has.
+enum class Demand { kFallOff, kDisc, kPolygon, kRing };
+Demand DemandOf(const Opening& opening);
 
 // Views along the aperture radius by (9). r_max >= 0 in pixels; 0 needs the centre view alone.
 int32_t ViewsByPaper(double r_max);
@@ -17,7 +24,10 @@ int32_t ViewsByPaper(double r_max);
 //
 //   r_max <=  1/2   11   25   34   49   68   83  119  128
 //   N           0    4    5    6    7    9   11   12   13
-int32_t ViewsBySubaperture(double r_max);
+//
+// Polygons and rings have corners and narrow parts that show where they are blurred more than 11
+// px: they take kMoreViews up to 25 px, and 7 views up to 34 (docs/constants.md, Openings).
+int32_t ViewsBySubaperture(double r_max, Demand demand = Demand::kFallOff);
 
 // N of either rule times `scale` in [0.5, 2], rounded up; 0 and a scale of 1 change nothing.
 int32_t ScaleViews(int32_t n, double scale);
@@ -27,9 +37,10 @@ int32_t ViewsOfBenchmark(double r_max);
 
 // Subsampled layer, up to 2, for the smallest blur radius of a block in pixels: by (12), and the
 // more careful choice beside ViewsBySubaperture, for blocks that depth edges may splat into and
-// others.
-int32_t LayerByPaper(double r_min);
-int32_t LayerBySubaperture(double r_min, bool depth_edges);
+// others. Of openings that don't fall off, layers keep less: they begin at larger radii, where the
+// error (10) has come down to what it is at the first radius of the fall-off.
+int32_t LayerByPaper(double r_min, Demand demand = Demand::kFallOff);
+int32_t LayerBySubaperture(double r_min, bool depth_edges, Demand demand = Demand::kFallOff);
 
 // Largest blur radius, in pixels, of what is gathered instead of rendered view by view: the taps of
 // the gathering kernel grow with its square. Less is slower and less exact (docs/constants.md).

@@ -31,7 +31,8 @@ int32_t LargestN(const sf_config& config) {
   return ScaleViews(ViewsByPaper(config.max_blur) + 1, config.n_scale);
 }
 int32_t LargestSubapertureN(const sf_config& config) {
-  return ScaleViews(ViewsBySubaperture(config.max_blur + 1), config.n_scale);
+  return ScaleViews(ViewsBySubaperture(config.max_blur + 1, DemandOf(OpeningOf(config))),
+                    config.n_scale);
 }
 
 // Returns the largest N of slices.

@@ -23,7 +23,8 @@ Aperture FrameAperture(const sf_config& config, const Tables& tables, const Lens
     return subapertures ? MakeSubapertures(n, tables.opening, tables.benchmark_weights)
                         : MakeAperture(n, tables.opening, tables.benchmark_weights);
   }
-  const int32_t n = subapertures ? ViewsBySubaperture(lens.r_max) : ViewsByPaper(lens.r_max);
+  const int32_t n = subapertures ? ViewsBySubaperture(lens.r_max, DemandOf(tables.opening))
+                                 : ViewsByPaper(lens.r_max);
   return (subapertures ? tables.subapertures : tables.apertures)[ScaleViews(n, config.n_scale)];
 }
 

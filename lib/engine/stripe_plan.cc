@@ -34,7 +34,10 @@ struct PlanJob {
 bool IsPartitioned(const Lens& lens) { return IsBlockMode(lens) && !IsPinhole(lens); }
 
 // The benchmark's fine slices of small blocks are fewer, and fit the memory that coarser ones have.
+// Cat's eyes are those of a block's middle, and change towards its corners.
 constexpr int32_t kFineSide = 32;
+
+bool HasCatsEyes(const PlanJob& job) { return job.tables->opening.cats_eye > 0; }
 
 Block WholeBlock(const PlanJob& job, const Rect& rect) {
   const Lens& lens = *job.lens;
@@ -57,7 +60,8 @@ Block WholeBlock(const PlanJob& job, const Rect& rect) {
 void PlanWhole(const PlanJob& job, int32_t column) {
   const Lens& lens = *job.lens;
   const int32_t largest = job.plan.side;
-  const int32_t side = IsBenchmark(lens) && UsesSubapertures(lens) ? kFineSide : largest;
+  const bool fine = (IsBenchmark(lens) && UsesSubapertures(lens)) || HasCatsEyes(job);
+  const int32_t side = fine ? kFineSide : largest;
   const int32_t left = column * largest, right = Min(left + largest, job.config->width);
   const int32_t bottom = job.rows.y + job.rows.height;
   int32_t count = 0;
@@ -88,6 +92,8 @@ void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
   rules.max_n = subapertures ? job.tables->max_subaperture_n : job.tables->max_n;
   rules.subapertures = subapertures;
   rules.n_scale = job.config->n_scale;
+  rules.demand = DemandOf(job.tables->opening);
+  rules.largest_node = HasCatsEyes(job) ? kFineSide : plan.side;
   rules.gathers = Gathers(*job.config, lens);
   rules.scale = lens.scale;
   rules.timing = job.config->timing;

@@ -3,8 +3,6 @@
 
 #include <cstdlib>
 
-#include "lib/base/rules.h"
-
 namespace starfocus {
 namespace {
 
@@ -147,6 +145,7 @@ class Partition {
       block.layer = 0;
       block.gathers = true;
     }
+    if (NodeSide(level) > rules_.largest_node) block.cost = UINT64_MAX;
     uint64_t best = block.cost;
     if (level > 0) best = Smaller(best, ChildrenCost(level, column, row));
     node.best = best;
@@ -165,14 +164,14 @@ class Partition {
 
   int32_t Views(const BlockStats& stats, int32_t layer) const {
     const double r_max = static_cast<double>(stats.r_max) / (kRadiusOne * (1 << layer));
-    const int32_t n = rules_.subapertures ? ViewsBySubaperture(r_max) : ViewsByPaper(r_max);
+    const int32_t n = rules_.subapertures ? ViewsBySubaperture(r_max, rules_.demand) : ViewsByPaper(r_max);
     return ScaleViews(n, rules_.n_scale);
   }
 
   int32_t Layer(const BlockStats& stats) const {
     const double r_min = static_cast<double>(stats.r_min) / kRadiusOne;
-    if (!rules_.subapertures) return Min(LayerByPaper(r_min), rules_.max_layer);
-    return Min(LayerBySubaperture(r_min, stats.r_edge > 0), rules_.max_layer);
+    if (!rules_.subapertures) return Min(LayerByPaper(r_min, rules_.demand), rules_.max_layer);
+    return Min(LayerBySubaperture(r_min, stats.r_edge > 0, rules_.demand), rules_.max_layer);
   }
 
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "lib/base/rules.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/neighbourhood.h"
 #include "lib/plan/timing.h"
@@ -33,6 +34,8 @@ struct PartitionRules {
   int32_t max_n;
   bool subapertures;  // ViewsBySubaperture instead of (9)
   double n_scale;     // of their N
+  Demand demand;      // of the opening
+  int32_t largest_node;  // side of the largest block that is made
   bool gathers;       // smooth cells, with cells
   BlurScale scale;
   sf_timing timing;

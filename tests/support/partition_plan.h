@@ -68,6 +68,8 @@ struct Plan {
     rules.max_n = kMaxN;
     rules.subapertures = random->Int(0, 1) == 1;
     rules.gathers = rules.subapertures;
+    rules.demand = starfocus::Demand::kFallOff;
+    rules.largest_node = largest_block;
     rules.n_scale = (2 + 2 * rules.max_layer + rules.subapertures) / 4.0;
     rules.timing = starfocus::DefaultTiming();
     rules.views = views.data();

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/analysis/opening.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/analysis/aperture.h"
+#include "lib/analysis/subsampled.h"
+#include "lib/analysis/view_kernel.h"
+#include "lib/base/aperture.h"
+
+namespace starfocus::analysis {
+namespace {
+
+constexpr double kBetaDown = 1.28;  // kDownFilter's
+
+// Returns the share of the square of `side` around (u, v) that is open, by points of a grid where
+// its corners don't agree.
+double Share(const BrightOpening& opening, double u, double v, double side) {
+  constexpr int kPoints = 64;
+  int corners = 0;
+  for (const double du : {-0.5, 0.5}) {
+    for (const double dv : {-0.5, 0.5}) corners += opening.Contains(u + du * side, v + dv * side);
+  }
+  const double reach = side / std::sqrt(2.0), middle = std::hypot(u, v);
+  if (opening.inner == 0 && corners == 4) return 1;
+  if (middle - reach > 1) return 0;
+  int inside = 0;
+  for (int point = 0; point < kPoints * kPoints; ++point) {
+    const double du = (point % kPoints + 0.5) / kPoints - 0.5;
+    const double dv = (point / kPoints + 0.5) / kPoints - 0.5;
+    inside += opening.Contains(u + du * side, v + dv * side) ? 1 : 0;
+  }
+  return double(inside) / (kPoints * kPoints);
+}
+
+}  // namespace
+
+bool BrightOpening::Contains(double u, double v) const {
+  const double square = u * u + v * v;
+  if (square > 1 || square < inner * inner) return false;
+  for (int k = 0; k < blades; ++k) {
+    const double angle = (2 * k + 1) * kPi / blades;
+    if (u * std::sin(angle) - v * std::cos(angle) > std::cos(kPi / blades)) return false;
+  }
+  return true;
+}
+
+Kernel IdealKernel(double r, const BrightOpening& opening) {
+  Kernel kernel(static_cast<int>(std::ceil(r + 0.5)));
+  for (int n = -kernel.radius(); n <= kernel.radius(); ++n) {
+    for (int m = -kernel.radius(); m <= kernel.radius(); ++m) {
+      kernel.at(n, m) = Share(opening, n / r, m / r, 1 / r);
+    }
+  }
+  kernel.Scale(1 / kernel.Sum());
+  return kernel;
+}
+
+Kernel SubapertureKernel(double r, int n, const BrightOpening& opening) {
+  const double lens = double(LensInSubapertures(n)) / kSubapertureUnits;
+  const int last = LastSubaperture(n), most = MostOfSubapertures(n);
+  const double width = r / lens;  // of a subaperture, pixels
+  Kernel kernel(static_cast<int>(std::ceil(last * width + (width + 1) / 2)));
+  for (int i = -last; i <= last; ++i) {
+    for (int j = -last; j <= last; ++j) {
+      if (i * i + j * j > most) continue;
+      const double light = Share(opening, i / lens, j / lens, 1 / lens);
+      const double x = i * width, y = j * width, reach = (width + 1) / 2;
+      for (int k = int(std::ceil(x - reach)); k <= int(std::floor(x + reach)); ++k) {
+        for (int m = int(std::ceil(y - reach)); m <= int(std::floor(y + reach)); ++m) {
+          kernel.at(k, m) += light * Trapezoid(k - x, width) * Trapezoid(m - y, width);
+        }
+      }
+    }
+  }
+  kernel.Scale(1 / kernel.Sum());
+  return kernel;
+}
+
+double WorstOfSubapertures(int n, double r_min, double r_max, const BrightOpening& opening) {
+  double worst = 0;
+  for (double r = r_min; r <= r_max; r += 0.5) {
+    worst = std::max(worst,
+                     SquaredError(SubapertureKernel(r, n, opening), IdealKernel(r, opening)));
+  }
+  return worst;
+}
+
+double LayerError(double r, const BrightOpening& opening) {
+  return SquaredError(ThroughLayer(IdealKernel(r / 2, opening), kBetaDown),
+                      IdealKernel(r, opening));
+}
+
+}  // namespace starfocus::analysis
