@@ -25,8 +25,8 @@ int32_t ViewsByPaper(double r_max);
 //   r_max <=  1/2   11   25   34   49   68   83  119  128
 //   N           0    4    5    6    7    9   11   12   13
 //
-// Polygons and rings have corners and narrow parts that show where they are blurred more than 11
-// px: they take kMoreViews up to 25 px, and 7 views up to 34 (docs/constants.md, Openings).
+// Polygons and rings have corners and narrow parts: from 5 px on their N is 6 at least
+// (docs/constants.md, Openings).
 int32_t ViewsBySubaperture(double r_max, Demand demand = Demand::kFallOff);
 
 // N of either rule times `scale` in [0.5, 2], rounded up; 0 and a scale of 1 change nothing.

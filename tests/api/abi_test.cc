@@ -29,7 +29,7 @@ const BadConfig kBadConfigs[] = {
     {"version 0", [](sf_config* c) { c->version = 0; }, SF_ERROR_VERSION},
     {"version too new", [](sf_config* c) { c->version = SF_ABI_VERSION + 1; }, SF_ERROR_VERSION},
     {"reserved first", [](sf_config* c) { c->reserved[0] = 1; }, SF_ERROR_RESERVED},
-    {"reserved last", [](sf_config* c) { c->reserved[6] = 1; }, SF_ERROR_RESERVED},
+    {"reserved last", [](sf_config* c) { c->reserved[1] = 1; }, SF_ERROR_RESERVED},
     {"width 0", [](sf_config* c) { c->width = 0; }, SF_ERROR_SIZE},
     {"width -1", [](sf_config* c) { c->width = -1; }, SF_ERROR_SIZE},
     {"width too large", [](sf_config* c) { c->width = SF_MAX_SIZE + 1; }, SF_ERROR_SIZE},
@@ -96,6 +96,22 @@ const BadConfig kBadConfigs[] = {
     {"skips 2", [](sf_config* c) { c->skips = 2; }, SF_ERROR_SKIPS},
     {"gather -1", [](sf_config* c) { c->gather = -1; }, SF_ERROR_GATHER},
     {"gather 2", [](sf_config* c) { c->gather = 2; }, SF_ERROR_GATHER},
+    {"shape -1", [](sf_config* c) { c->aperture_shape = -1; }, SF_ERROR_SHAPE},
+    {"shape 4", [](sf_config* c) { c->aperture_shape = 4; }, SF_ERROR_SHAPE},
+    {"blades 2", [](sf_config* c) { c->blades = 2; }, SF_ERROR_BLADES},
+    {"blades 13", [](sf_config* c) { c->blades = 13; }, SF_ERROR_BLADES},
+    {"rotation below", [](sf_config* c) { c->rotation = -360.1F; }, SF_ERROR_ROTATION},
+    {"rotation above", [](sf_config* c) { c->rotation = 360.1F; }, SF_ERROR_ROTATION},
+    {"rotation NaN", [](sf_config* c) { c->rotation = kNanF; }, SF_ERROR_ROTATION},
+    {"curvature below", [](sf_config* c) { c->curvature = -0.01F; }, SF_ERROR_CURVATURE},
+    {"curvature above", [](sf_config* c) { c->curvature = 1.01F; }, SF_ERROR_CURVATURE},
+    {"curvature NaN", [](sf_config* c) { c->curvature = kNanF; }, SF_ERROR_CURVATURE},
+    {"ring below", [](sf_config* c) { c->ring_inner = -0.01F; }, SF_ERROR_RING},
+    {"ring above", [](sf_config* c) { c->ring_inner = 0.91F; }, SF_ERROR_RING},
+    {"ring NaN", [](sf_config* c) { c->ring_inner = kNanF; }, SF_ERROR_RING},
+    {"cat's eye below", [](sf_config* c) { c->cats_eye = -0.01F; }, SF_ERROR_CATS_EYE},
+    {"cat's eye above", [](sf_config* c) { c->cats_eye = 1.01F; }, SF_ERROR_CATS_EYE},
+    {"cat's eye NaN", [](sf_config* c) { c->cats_eye = kNanF; }, SF_ERROR_CATS_EYE},
 };
 
 struct BadParams {
@@ -228,6 +244,12 @@ TEST_CASE("configuration: defaults and limits are legal") {
   CHECK(config.skips == 1);
   CHECK(config.gather == 1);
   CHECK(config.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
+  CHECK(config.aperture_shape == SF_SHAPE_FALL_OFF);
+  CHECK(config.blades == 5);
+  CHECK(config.rotation == 0);
+  CHECK(config.curvature == 0);
+  CHECK(config.ring_inner == 0.5F);
+  CHECK(config.cats_eye == 0);
   for (uint32_t reserved : config.reserved) CHECK(reserved == 0);
   sf_params params;
   std::memset(&params, test::kPoison, sizeof params);
@@ -253,6 +275,14 @@ TEST_CASE("configuration: defaults and limits are legal") {
     config.theta = theta;
     CHECK(sf_workspace_size(&config, &bytes) == legal);
     CHECK((bytes > 0) == (legal == SF_OK));
+  }
+  config.curvature = config.cats_eye = 1;
+  config.ring_inner = static_cast<float>(SF_MAX_RING_INNER);
+  for (int shape = SF_SHAPE_FALL_OFF; shape <= SF_SHAPE_RING; ++shape) {
+    config.aperture_shape = static_cast<int16_t>(shape);
+    config.blades = shape % 2 == 0 ? SF_MIN_BLADES : SF_MAX_BLADES;
+    config.rotation = shape % 2 == 0 ? -360.0F : 360.0F;
+    CHECK(sf_workspace_size(&config, &bytes) == legal);
   }
   for (const double n_scale : {SF_MIN_N_SCALE, SF_MAX_N_SCALE}) {
     config.n_scale = n_scale;

@@ -56,7 +56,7 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
                                                  params.focus - config.disparity_min);
   const starfocus::SliceLimits limits = reference::LimitsOf(config.largest_block, blur);
   const Distance distance = Compare(
-      result.bytes, reference::RefocusBlocks(scene, params, config.theta,
+      result.bytes, reference::RefocusBlocks(scene, params, config,
                                              subapertures ? &limits : nullptr, result.blocks));
   for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
     const bool same = RunEngine(scene, params, *kernels, &engine).bytes == result.bytes;

@@ -26,12 +26,13 @@ LightField Load(const test::Scene& scene) {
   return field;
 }
 
-Lens MakeLens(const sf_params& params, double theta, int n, int layer, bool cells = false) {
+Lens MakeLens(const sf_params& params, const Opening& opening, int n, int layer,
+              bool cells = false) {
   Lens lens;
   lens.n = n;
   lens.most = n * n;
   lens.radius = params.aperture;
-  lens.theta = theta;
+  lens.opening = opening;
   lens.focus = RoundedTo64(params.focus);
   double extent = 1;
   if (cells) {
@@ -176,24 +177,19 @@ void Put(const Picture& from, int x0, int y0, int width, Result* result) {
 
 }  // namespace
 
-double ApertureDensity(double u, double v, double theta) {
-  const double cot2 = 1 / (std::tan(theta) * std::tan(theta));
-  const double denominator = u * u + v * v + cot2;
-  return cot2 * cot2 / (denominator * denominator);
-}
-
 int ViewsAlongRadius(double r_max, int mode) {
   if (mode == SF_MODE_BENCHMARK) return 2 * int(std::ceil(r_max));
   if (r_max < 4) return int(std::ceil(r_max));
   return std::max(4, int(std::ceil(0.787 * r_max)));
 }
 
-Result Refocus(const test::Scene& scene, const sf_params& params, double theta, int block) {
+Result Refocus(const test::Scene& scene, const sf_params& params, const Opening& opening,
+               int block) {
   const LightField field = Load(scene);
   const double r_max = params.aperture * std::max(std::fabs(scene.disparity_min - params.focus),
                                                   std::fabs(scene.disparity_max - params.focus));
   const int n = ViewsAlongRadius(r_max, params.mode), border = int(std::ceil(r_max)) + 2;
-  const Lens lens = MakeLens(params, theta, n, 0);
+  const Lens lens = MakeLens(params, opening, n, 0);
   Result result;
   result.n = n;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
@@ -232,7 +228,7 @@ Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& le
   }
   const int distance = std::abs((low + high) / 2 - lens.focus);
   const BlurKernel kernel =
-      MakeBlurKernel(NearestRadius(int(std::floor(lens.radius * distance))), lens.theta);
+      MakeBlurKernel(NearestRadius(int(std::floor(lens.radius * distance))), lens.opening);
   const Rectangle rectangle = {cell.x,      cell.y,      cell.width,  cell.height,
                                kernel.size, kernel.size, kernel.size, kernel.size};
   Picture extended = ExtendedRectangle(picture, rectangle);
@@ -255,7 +251,8 @@ Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& le
 
 }  // namespace
 
-std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,
+std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
+                                  const Opening& opening,
                                   const starfocus::SliceLimits* limits,
                                   const std::vector<Block>& blocks) {
   const LightField field = Load(scene);
@@ -266,7 +263,8 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   for (const Block& block : blocks) {
     const bool by_subaperture = limits != nullptr && block.n > 0;
-    const Lens lens = MakeLens(params, theta, block.n, block.layer, by_subaperture);
+    const Opening here = opening.At(block.x, block.y, block.width, block.height, scene.width, scene.height);
+    const Lens lens = MakeLens(params, here, block.n, block.layer, by_subaperture);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
         block.right,      block.top,        block.bottom};

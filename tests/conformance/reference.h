@@ -9,12 +9,10 @@
 
 #include "lib/slices/depth_slices.h"
 #include "starfocus/starfocus.h"
+#include "tests/conformance/reference_opening.h"
 #include "tests/support/test_scene.h"
 
 namespace reference {
-
-// (3) without its constant factor.
-double ApertureDensity(double u, double v, double theta);
 
 // Views along the aperture radius: (9), or 2 * ceil(r_max) for the benchmark.
 int ViewsAlongRadius(double r_max, int mode);
@@ -27,7 +25,8 @@ struct Result {
 
 // Refocuses the scene. `block` is the side of the blocks: runs of one shift start at the edge of a
 // block's extended rectangle, so that results depend on it.
-Result Refocus(const test::Scene& scene, const sf_params& params, double theta, int block);
+Result Refocus(const test::Scene& scene, const sf_params& params, const Opening& opening,
+               int block);
 
 // A cell of the picture that is gathered: blurred by the ideal kernel of its middle disparity.
 struct GatheredCell {
@@ -47,7 +46,8 @@ struct Block {
 // deblocking; unrounded,
 // 3 * width * height. `limits`: of slices, by the rule of subapertures; null: by the
 // paper's rule.
-std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params, double theta,
+std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
+                                  const Opening& opening,
                                   const starfocus::SliceLimits* limits,
                                   const std::vector<Block>& blocks);
 

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "tests/conformance/reference_opening.h"
+
 namespace reference {
 
 inline constexpr int kOne = 64;  // of disparities and radii
@@ -22,6 +24,7 @@ inline double NearestRadius(int radius) {
 
 // Integral of (3) over [x0, x1] x [y0, y1] of the unit disc's plane, by lines of y and the midpoint
 // rule along them, which ends on the disc's rim exactly.
+// `cot_square` 0: of a disc as bright everywhere.
 inline double Integral(double x0, double x1, double y0, double y1, double cot_square) {
   constexpr int kLines = 96, kPoints = 24;
   double sum = 0;
@@ -32,7 +35,7 @@ inline double Integral(double x0, double x1, double y0, double y1, double cot_sq
     if (from >= to) continue;
     for (int point = 0; point < kPoints; ++point) {
       const double x = from + (point + 0.5) / kPoints * (to - from);
-      const double ratio = cot_square / (x * x + y * y + cot_square);
+      const double ratio = cot_square == 0 ? 1 : cot_square / (x * x + y * y + cot_square);
       sum += ratio * ratio * (to - from) / kPoints;
     }
   }
@@ -48,19 +51,39 @@ struct BlurKernel {
   }
 };
 
-inline BlurKernel MakeBlurKernel(double r, double theta) {
+// The light of the opening's square [x0, x1] x [y0, y1]; a polygon's by points.
+inline double LightOf(const Opening& opening, double x0, double x1, double y0, double y1) {
+  const double tangent = std::tan(opening.theta);
+  if (opening.shape == SF_SHAPE_FALL_OFF) return Integral(x0, x1, y0, y1, 1 / (tangent * tangent));
+  if (opening.shape == SF_SHAPE_POLYGON) {
+    constexpr int kPoints = 60;
+    double sum = 0;
+    for (int point = 0; point < kPoints * kPoints; ++point) {
+      sum += opening.Density(x0 + (point % kPoints + 0.5) / kPoints * (x1 - x0),
+                             y0 + (point / kPoints + 0.5) / kPoints * (y1 - y0));
+    }
+    return sum / (kPoints * kPoints) * (x1 - x0) * (y1 - y0);
+  }
+  double light = Integral(x0, x1, y0, y1, 0);
+  const double r = opening.inner;
+  if (opening.shape == SF_SHAPE_RING && r > 0) {
+    light -= r * r * Integral(x0 / r, x1 / r, y0 / r, y1 / r, 0);
+  }
+  return light;
+}
+
+inline BlurKernel MakeBlurKernel(double r, const Opening& opening) {
   BlurKernel kernel;
   if (r == 0) {
     kernel.weights = {1};
     return kernel;
   }
-  const double cot_square = 1 / (std::tan(theta) * std::tan(theta));
   kernel.size = int(std::ceil(r + 0.5));
   double sum = 0;
   for (int m = -kernel.size; m <= kernel.size; ++m) {
     for (int n = -kernel.size; n <= kernel.size; ++n) {
       const double weight =
-          Integral((n - 0.5) / r, (n + 0.5) / r, (m - 0.5) / r, (m + 0.5) / r, cot_square);
+          LightOf(opening, (n - 0.5) / r, (n + 0.5) / r, (m - 0.5) / r, (m + 0.5) / r);
       kernel.weights.push_back(weight);
       sum += weight;
     }

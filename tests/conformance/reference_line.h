@@ -53,7 +53,7 @@ struct Lens {
   int most = 0;       // i^2 + j^2 of the views
   double cells = 0;   // radius in cells that views stand for; 0: they stand for points
   double radius = 0;  // u_t
-  double theta = 0;
+  Opening opening = 0.0;
   int focus = 0;     // d_t, 1/64
   int64_t step = 0;  // u_t / 2^layer, 2^-24
   int layer = 0;     // L
@@ -75,20 +75,14 @@ struct Lens {
   bool Half(int k) const { return 2 * k * radius <= n; }
   bool Contains(int i, int j) const { return i * i + j * j <= most; }
   double Density(int i, int j) const {
-    if (cells > 0) return DensityOfSubaperture(i, j);
-    return n == 0 ? 1 : ApertureDensity(double(i) / n, double(j) / n, theta);
+    if (n == 0) return 1;
+    const double passing = opening.cats_eye > 0 ? opening.Passing(i, j, Radius()) : 1;
+    // Openings that end sharply are sampled as the engine has them.
+    if (opening.shape != SF_SHAPE_FALL_OFF) return passing * opening.Mean(i, j, Radius(), 16);
+    if (cells > 0) return passing * opening.Mean(i, j, cells, 24);
+    return passing * ApertureDensity(double(i) / n, double(j) / n, opening.theta);
   }
-  // The mean of it over the cell; beyond the rim there is none.
-  double DensityOfSubaperture(int i, int j) const {
-    constexpr int kPoints = 24;
-    double sum = 0;
-    for (int point = 0; point < kPoints * kPoints; ++point) {
-      const double u = (i + (point % kPoints + 0.5) / kPoints - 0.5) / cells;
-      const double v = (j + (point / kPoints + 0.5) / kPoints - 0.5) / cells;
-      if (u * u + v * v <= 1) sum += ApertureDensity(u, v, theta);
-    }
-    return sum / (kPoints * kPoints);
-  }
+  double Radius() const { return cells > 0 ? cells : n; }
   // Largest j of the views (i, j) rendered from type A view i: below the diagonal.
   int LastAcross(int i) const {
     int j = std::max(0, i - 1);

@@ -8,6 +8,7 @@
 #include "tests/conformance/engine_blocks.h"
 #include "tests/conformance/reference.h"
 #include "tests/conformance/reference_stack.h"
+#include "tests/support/shapes.h"
 
 namespace conformance {
 namespace {
@@ -124,19 +125,21 @@ void SetConfig(Trial* trial, test::Random* random) {
         OneOf({SF_MIN_THETA, SF_MAX_THETA, random->Real(SF_MIN_THETA, SF_MAX_THETA)}, random);
   }
   if (random->Int(0, 1) == 0) config.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
+  if (random->Int(0, 1) == 0) test::RandomShape(&config, random);
 }
 
 }  // namespace
 
 std::string Trial::Text() const {
-  char text[400];
+  char text[500];
   std::snprintf(text, sizeof(text),
                 "%dx%d, %d views, %s, rule %d, disparity [%.9g, %.9g], focus %.9g, aperture %.9g, "
-                "block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u",
+                "block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u, %s",
                 scene.width, scene.height, scene.views(), kModes[params.mode], params.rule,
                 double{scene.disparity_min}, double{scene.disparity_max}, params.focus,
                 params.aperture, config.largest_block, config.max_layer, config.theta,
-                config.n_scale, config.gather, config.timing.block);
+                config.n_scale, config.gather, config.timing.block,
+                test::ShapeText(config).c_str());
   return text;
 }
 
@@ -159,7 +162,7 @@ Distance Measure(const Trial& trial) {
       reference::LimitsOf(trial.config.largest_block, RadiusOf(trial));
   const bool subapertures = trial.params.rule == SF_RULE_SUBAPERTURE;
   return Compare(result.bytes,
-                 reference::RefocusBlocks(trial.scene, trial.params, trial.config.theta,
+                 reference::RefocusBlocks(trial.scene, trial.params, trial.config,
                                           subapertures ? &limits : nullptr, result.blocks));
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -21,6 +22,7 @@ struct Trial {
   int levels = 0;  // of disparity, pixel by pixel at random
   double max_blur = 64, n_scale = 1;
   sf_rule rule = SF_RULE_DEFAULT;
+  uint64_t shape = 0;  // the seed of a random one, unless 0
   uint8_t color[3] = {0, 0, 0};
   uint64_t seed = 1;
 };
@@ -31,7 +33,7 @@ std::string Text(const Trial& t) {
          std::to_string(t.high) + "] focus " + std::to_string(t.focus) + " aperture " +
          std::to_string(t.aperture) + " mode " + std::to_string(t.mode) + " block " +
          std::to_string(t.block) + (t.noisy ? " noisy" : "") + " n_scale " +
-         std::to_string(t.n_scale) + " seed " + std::to_string(t.seed);
+         std::to_string(t.n_scale) + " shape " + std::to_string(t.shape) + " seed " + std::to_string(t.seed);
 }
 
 // Refocuses a picture of one colour; the number of samples that changed, -1 on error.
@@ -54,6 +56,8 @@ int Changed(const Trial& t) {
   config.largest_block = t.block;
   config.n_scale = t.n_scale;
   config.skips = 0;  // what is filled has passed no filter
+  test::Random shapes(t.shape);
+  if (t.shape != 0) test::RandomShape(&config, &shapes);
   test::Engine engine(config);
   test::Output out(t.width, t.height);
   sf_params params = test::Params(t.focus, t.aperture, t.mode);
@@ -104,6 +108,28 @@ TEST_CASE("constant: every N") {
         CHECK_MESSAGE(Changed(t) == 0, Text(t));
       }
     }
+  }
+}
+
+TEST_CASE("constant: through every shape of opening") {
+  Trial t;
+  t.width = 70;
+  t.height = 41;
+  t.color[0] = 255;
+  t.color[1] = 127;
+  t.color[2] = 1;
+  for (uint64_t shape = 1; shape <= (STARFOCUS_EMULATED ? 24 : 240); ++shape) {
+    test::Random random(shape + 7000);
+    t.shape = t.seed = shape;
+    t.views = random.Int(0, 1) == 0 ? 1 : 9;
+    t.mode = static_cast<sf_mode>(random.Int(SF_MODE_FRAME, SF_MODE_BLUR));
+    t.rule = static_cast<sf_rule>(random.Int(SF_RULE_DEFAULT, SF_RULE_SUBAPERTURE));
+    const double radius = random.Real(0.2, t.mode == SF_MODE_BENCHMARK ? 6 : 30);
+    t.low = static_cast<float>(-radius);
+    t.high = static_cast<float>(random.Real(-radius, radius));
+    t.n_scale = random.Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
+    t.block = 32 << random.Int(0, 2);
+    CHECK_MESSAGE(Changed(t) == 0, Text(t));
   }
 }
 

@@ -13,6 +13,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/integer_scene.h"
+#include "tests/support/shapes.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
@@ -37,6 +38,7 @@ struct Case {
   Lens lens;
   int block;
   int levels = 0, range = 0;  // of a LevelScene, if there are any
+  const test::NamedShape* shape = nullptr;  // of the lens, unless it is the default one
 };
 
 // Many disparities, of which slices of blurs up to `range` are cut.
@@ -61,7 +63,7 @@ std::vector<Case> Cases() {
       for (const Lens& lens : kLenses) {
         // Noise makes each view of a line its own; one lens of it is enough.
         if (depth == test::Depth::kNoise && &lens != &kLenses[1] && &lens != &kLenses[4]) continue;
-        Case one = {"", 97, 70, views, depth, lens, number % 2 == 0 ? 32 : 64, 0, 0};
+        Case one = {"", 97, 70, views, depth, lens, number % 2 == 0 ? 32 : 64};
         char name[80];
         std::snprintf(name, sizeof(name), "%d-%s-%s-%g-%g-%d", views,
                       kDepthNames[static_cast<int>(depth)], kModeNames[lens.mode], lens.focus,
@@ -82,6 +84,20 @@ std::vector<Case> Cases() {
                std::to_string(level.block);
     cases.push_back(one);
   }
+  // Either rule, modes with their own weights, and kernels.
+  for (const test::NamedShape& shape : test::kShapes) {
+    for (const Lens& lens : {kLenses[1], kLenses[3], kLenses[5], kLenses[6], kLenses[7]}) {
+      for (const int block : {32, 64}) {
+        Case one = {"", 97, 70, 5, test::Depth::kLayers, lens, block};
+        char name[80];
+        std::snprintf(name, sizeof(name), "%s-%s-%g-%d", shape.name, kModeNames[lens.mode],
+                      lens.focus, block);
+        one.name = name;
+        one.shape = &shape;
+        cases.push_back(one);
+      }
+    }
+  }
   return cases;
 }
 
@@ -98,6 +114,7 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   config.largest_block = one.block;
   config.gather = one.views != 9;  // views have their share, layers 1 and 2 with them
   if (one.levels > 0) config.n_scale = 0.5;
+  if (one.shape != nullptr) one.shape->Set(&config);
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::UseKernels(kernels, engine.get());

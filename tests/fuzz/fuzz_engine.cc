@@ -19,6 +19,16 @@ constexpr int kBlocks[] = {32, 64, 128, 256};
 // Rendered views times pixels that one input may ask for, so that inputs stay fast.
 constexpr double kMostWork = 300000;
 
+// Shapes from what another field drew: recorded inputs keep their meaning.
+void SetShape(int drawn, sf_config* config) {
+  config->aperture_shape = static_cast<int16_t>(drawn % 4);
+  config->blades = static_cast<int16_t>(3 + drawn % 10);
+  config->rotation = static_cast<float>(3 * drawn - 360);
+  config->curvature = static_cast<float>(drawn % 11) / 10;
+  config->ring_inner = static_cast<float>(drawn % 7) / 8;
+  config->cats_eye = drawn % 3 == 0 ? static_cast<float>(drawn % 9) / 8 : 0;
+}
+
 // Mostly valid; now and then any bytes at all in one field.
 sf_config MakeConfig(Input* input) {
   sf_config config;
@@ -44,6 +54,7 @@ sf_config MakeConfig(Input* input) {
   config.skips = config.deblocking % 4 != 0;
   config.gather = config.deblocking % 3 != 0;
   config.n_scale = 0.5 + 0.25 * (config.deblocking % 7);
+  if (config.deblocking % 2 == 0) SetShape(config.deblocking * 2 / 3, &config);
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);

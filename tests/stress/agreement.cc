@@ -75,6 +75,9 @@ Outcome Mirrors(test::Random* random) {
   setup.config.height = setup.scene.height;
   setup.config.largest_block = 32;
   setup.config.max_layer = 0;  // layers keep every second pixel, from the left and the top
+  // Polygons, and what cat's eyes leave, are not their own mirror images.
+  if (setup.config.aperture_shape == SF_SHAPE_POLYGON) setup.config.aperture_shape = SF_SHAPE_DISC;
+  setup.config.cats_eye = 0;
   test::Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1,
                              random->Int(0, 1) == 1};
   if (setup.params.mode != SF_MODE_BLUR && UsesSubapertures(setup.params))

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "tests/support/shapes.h"
+
 namespace starfocus::stress {
 namespace {
 
@@ -39,7 +41,7 @@ std::string Setup::Text() const {
          Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
          std::to_string(config.largest_block) + ", layers " + std::to_string(config.max_layer) +
          ", deblocking " + std::to_string(config.deblocking) + ", theta " + Number(config.theta) +
-         ", n_scale " + Number(config.n_scale) + (config.gather != 0 ? "" : ", nothing gathered");
+         ", n_scale " + Number(config.n_scale) + (config.gather != 0 ? "" : ", nothing gathered") + ", " + test::ShapeText(config);
 }
 
 double RandomRadius(double largest, test::Random* random) {
@@ -157,6 +159,7 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   test::Random fill(random->Next());
   SetDepth(static_cast<Depth>(random->Int(0, 6)), &setup.scene, &fill);
   SetColours(static_cast<Colours>(random->Int(0, 3)), &setup.scene, &fill);
+  if (fill.Int(0, 3) == 0) test::RandomShape(&setup.config, &fill);
   return setup;
 }
 

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a small white patch becomes through openings of every shape: the opening's picture, turned
+// by half a turn where the patch is nearer than the focus.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/shapes.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr int kSide = 96;
+
+struct Place {
+  int x = kSide / 2, y = kSide / 2;  // of the patch's middle
+};
+
+// Levels of a picture on which 3x3 pixels are white, all of it at disparity 0.
+struct Patch {
+  std::vector<int> levels;
+  Place place;
+
+  Patch(const test::NamedShape& shape, double focus, sf_mode mode, sf_rule rule, Place at)
+      : place(at) {
+    test::Scene scene = test::EmptyScene(kSide, kSide, 1, 0, 0);
+    for (int y = -1; y <= 1; ++y) {
+      for (int x = -1; x <= 1; ++x) std::fill_n(scene.Pixel(0, at.x + x, at.y + y), 3, 255);
+    }
+    sf_config config = test::ConfigFor(scene, std::abs(focus) + 1);
+    config.largest_block = 32;
+    shape.Set(&config);
+    test::Engine engine(config);
+    REQUIRE(engine.status() == SF_OK);
+    test::Output out(kSide, kSide);
+    sf_params params = test::Params(focus, 1, mode);
+    params.rule = rule;
+    REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) levels.push_back(*out.Pixel(x, y));
+    }
+  }
+
+  // At (x, y) from the patch.
+  int At(int x, int y) const {
+    x += place.x;
+    y += place.y;
+    return x < 0 || y < 0 || x >= kSide || y >= kSide ? 0 : levels[size_t(y * kSide + x)];
+  }
+  template <class Weight>
+  double Sum(const Weight& weight) const {
+    double sum = 0;
+    for (int y = -kSide; y < kSide; ++y) {
+      for (int x = -kSide; x < kSide; ++x) sum += At(x, y) * weight(x, y);
+    }
+    return sum;
+  }
+  double Light() const {
+    return Sum([](int, int) { return 1.0; });
+  }
+  // How unlike the picture is its image by turn(x, y), as a part of its light.
+  template <class Image>
+  double Unlike(const Image& image) const {
+    double sum = 0;
+    for (int y = -40; y <= 40; ++y) {
+      for (int x = -40; x <= 40; ++x) sum += std::abs(At(x, y) - image(x, y));
+    }
+    return sum / Light();
+  }
+};
+
+const test::NamedShape kRing = {"ring", SF_SHAPE_RING, 5, 0, 0, 0.6F, 0};
+const test::NamedShape kPentagon = {"pentagon", SF_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0};
+const test::NamedShape kCatsEye = {"cat's eye", SF_SHAPE_DISC, 5, 0, 0, 0.5F, 1};
+constexpr sf_mode kModes[] = {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK, SF_MODE_BLUR};
+
+TEST_CASE("shapes: the light of a patch stays, whatever the opening") {
+  for (const test::NamedShape& shape : test::kShapes) {
+    for (const sf_mode mode : kModes) {
+      CAPTURE(shape.name);
+      CAPTURE(mode);
+      const Patch patch(shape, 9, mode, SF_RULE_DEFAULT, {});
+      CHECK(patch.Light() == doctest::Approx(9 * 255).epsilon(0.03));
+    }
+  }
+}
+
+TEST_CASE("shapes: a ring's middle is dark") {
+  for (const sf_mode mode : kModes) {
+    CAPTURE(mode);
+    const Patch patch(kRing, -10, mode, SF_RULE_DEFAULT, {});
+    for (int y = -2; y <= 2; ++y) {
+      for (int x = -2; x <= 2; ++x) CHECK(patch.At(x, y) == 0);
+    }
+    CHECK(patch.At(8, 0) > 8);
+    CHECK(patch.At(0, -8) > 8);
+    CHECK(patch.At(-6, 6) > 8);
+  }
+}
+
+TEST_CASE("shapes: a pentagon is mirrored about its axis alone, and stands on its head when near") {
+  for (const sf_mode mode : kModes) {
+    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+      CAPTURE(mode);
+      CAPTURE(rule);
+      const Patch far(kPentagon, 10, mode, rule, {}), near(kPentagon, -10, mode, rule, {});
+      CHECK(far.Unlike([&](int x, int y) { return far.At(-x, y); }) < 0.03);
+      CHECK(far.Unlike([&](int x, int y) { return far.At(x, -y); }) > 0.1);
+      CHECK(far.Unlike([&](int x, int y) { return far.At(y, x); }) > 0.1);
+      CHECK(far.Unlike([&](int x, int y) { return near.At(-x, -y); }) < 0.03);
+      // Its corner is on top, its lowest edge at cos(36 degrees).
+      CHECK(far.Sum([](int, int y) { return y < -8 ? 1 : 0; }) > 10);
+      CHECK(far.Sum([](int, int y) { return y > 9 ? 1 : 0; }) <= 10);
+      CHECK(far.Sum([](int x, int) { return x; }) / far.Light() == doctest::Approx(0).epsilon(0.1));
+    }
+  }
+}
+
+TEST_CASE("shapes: all modes see the same opening") {
+  for (const test::NamedShape& shape : test::kShapes) {
+    if (shape.cats_eye > 0) continue;
+    for (const double focus : {6.0, -11.0}) {
+      const Patch ideal(shape, focus, SF_MODE_BLUR, SF_RULE_DEFAULT, {});
+      for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
+        for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+          CAPTURE(shape.name);
+          CAPTURE(focus);
+          CAPTURE(mode);
+          CAPTURE(rule);
+          const Patch patch(shape, focus, mode, rule, {});
+          CHECK(patch.Unlike([&](int x, int y) { return ideal.At(x, y); }) < 0.12);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("shapes: cat's eyes are cut on the side away from the picture's middle") {
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
+    for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+      CAPTURE(mode);
+      CAPTURE(rule);
+      for (const int side : {-1, 1}) {
+        const Place corner = {kSide / 2 + 32 * side, kSide / 2 - 32 * side};
+        const Patch far(kCatsEye, 10, mode, rule, corner), near(kCatsEye, -10, mode, rule, corner);
+        // What is nearer than the focus shows the opening turned by half a turn.
+        CHECK(far.Sum([&](int x, int) { return x * side; }) / far.Light() < -1.5);
+        CHECK(far.Sum([&](int, int y) { return -y * side; }) / far.Light() < -1.5);
+        CHECK(near.Sum([&](int x, int) { return x * side; }) / near.Light() > 1.5);
+        CHECK(near.Sum([&](int, int y) { return -y * side; }) / near.Light() > 1.5);
+      }
+      const Patch middle(kCatsEye, 10, mode, rule, {});
+      CHECK(std::fabs(middle.Sum([](int x, int y) { return std::abs(x) + std::abs(y) < 0 ? 0 : x; })) <
+            1.5 * middle.Light());
+    }
+  }
+}
+
+}  // namespace

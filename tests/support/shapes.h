@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Openings of lenses for tests: random ones, and one of each kind.
+#ifndef STARFOCUS_TESTS_SUPPORT_SHAPES_H_
+#define STARFOCUS_TESTS_SUPPORT_SHAPES_H_
+
+#include <cstdio>
+#include <string>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace test {
+
+// Any shape, with and without cat's eyes; ends of ranges as often as not.
+inline void RandomShape(sf_config* config, Random* random) {
+  const auto often_an_end = [&](double low, double high) {
+    const int end = random->Int(0, 3);
+    return static_cast<float>(end == 0 ? low : end == 1 ? high : random->Real(low, high));
+  };
+  config->aperture_shape = static_cast<int16_t>(random->Int(SF_SHAPE_FALL_OFF, SF_SHAPE_RING));
+  config->blades = static_cast<int16_t>(random->Int(SF_MIN_BLADES, SF_MAX_BLADES));
+  config->rotation = often_an_end(0, 360) - (random->Int(0, 1) == 0 ? 360.0F : 0.0F);
+  config->curvature = often_an_end(0, 1);
+  config->ring_inner = often_an_end(0, SF_MAX_RING_INNER);
+  if (random->Int(0, 2) == 0) config->cats_eye = often_an_end(0, 1);
+}
+
+inline std::string ShapeText(const sf_config& config) {
+  char text[120];
+  std::snprintf(text, sizeof(text),
+                "shape %d, blades %d, rotation %.9g, curvature %.9g, inner %.9g, cats_eye %.9g",
+                config.aperture_shape, config.blades, double{config.rotation},
+                double{config.curvature}, double{config.ring_inner}, double{config.cats_eye});
+  return text;
+}
+
+// A lens of each kind that is not the default one.
+struct NamedShape {
+  const char* name;
+  int shape, blades;
+  float rotation, curvature, inner, cats_eye;
+
+  void Set(sf_config* config) const {
+    config->aperture_shape = static_cast<int16_t>(shape);
+    config->blades = static_cast<int16_t>(blades);
+    config->rotation = rotation;
+    config->curvature = curvature;
+    config->ring_inner = inner;
+    config->cats_eye = cats_eye;
+  }
+};
+inline constexpr NamedShape kShapes[] = {
+    {"disc", SF_SHAPE_DISC, 5, 0, 0, 0.5F, 0},
+    {"pentagon", SF_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0},
+    {"curved-hexagon", SF_SHAPE_POLYGON, 6, 17.5F, 0.5F, 0.5F, 0},
+    {"ring", SF_SHAPE_RING, 5, 0, 0, 0.5F, 0},
+    {"cats-eye", SF_SHAPE_FALL_OFF, 5, 0, 0, 0.5F, 0.75F},
+    {"pentagon-cats-eye", SF_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0.5F}};
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_SHAPES_H_
