@@ -28,11 +28,13 @@ struct Patch {
   Patch(const test::NamedShape& shape, double focus, sf_mode mode, sf_rule rule, Place at)
       : place(at) {
     test::Scene scene = test::EmptyScene(kSide, kSide, 1, 0, 0);
+    std::fill(scene.pictures[0].begin(), scene.pictures[0].end(), uint8_t{0});
     for (int y = -1; y <= 1; ++y) {
       for (int x = -1; x <= 1; ++x) std::fill_n(scene.Pixel(0, at.x + x, at.y + y), 3, 255);
     }
     sf_config config = test::ConfigFor(scene, std::abs(focus) + 1);
     config.largest_block = 32;
+    config.max_layer = 0;  // layers smooth what is looked at here
     shape.Set(&config);
     test::Engine engine(config);
     REQUIRE(engine.status() == SF_OK);
@@ -154,8 +156,7 @@ TEST_CASE("shapes: cat's eyes are cut on the side away from the picture's middle
         CHECK(near.Sum([&](int, int y) { return -y * side; }) / near.Light() > 1.5);
       }
       const Patch middle(kCatsEye, 10, mode, rule, {});
-      CHECK(std::fabs(middle.Sum([](int x, int y) { return std::abs(x) + std::abs(y) < 0 ? 0 : x; })) <
-            1.5 * middle.Light());
+      CHECK(std::fabs(middle.Sum([](int x, int) { return x; })) < 1.5 * middle.Light());
     }
   }
 }
