@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/base/aperture.h"
 
-#include <cmath>
 #include <initializer_list>
 
 #include "lib/base/fixed.h"
@@ -147,11 +146,6 @@ void WeighCentre(uint16_t* weights, Aperture* aperture) {
 }
 
 }  // namespace
-
-uint32_t ApertureFallOff(double theta) {
-  const double tangent = std::tan(theta);
-  return static_cast<uint32_t>(65536.0 / (tangent * tangent) + 0.5);
-}
 
 Aperture MakeAperture(int32_t n, const Opening& opening, uint16_t* weights) {
   Aperture aperture;

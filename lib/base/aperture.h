@@ -10,9 +10,6 @@
 
 namespace starfocus {
 
-// cot^2(theta) with 16 fractional bits; theta in [0.05 pi, 0.45 pi] gives [0.025, 40].
-uint32_t ApertureFallOff(double theta);
-
 // Weights of the views (i, j), i^2 + j^2 <= most. All views together sum to exactly
 // 2^sum_bits, so that a constant picture comes out unchanged.
 struct Aperture {

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "lib/base/aperture.h"
-
 namespace starfocus {
 namespace {
 
@@ -16,25 +14,41 @@ int32_t Round(double value) {
   return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5));
 }
 
+struct Direction {
+  double sine, cosine;
+};
+
+// Of an angle, by the tangent of half of it.
+Direction DirectionOf(double angle) {
+  const double tangent = std::tan(angle / 2), square = tangent * tangent;
+  return {2 * tangent / (1 + square), (1 - square) / (1 + square)};
+}
+
 // An edge is an arc through two corners of the unit circle, `curvature` over its radius: with `half`
 // of the angle between them, its circle's centre lies at cos(half) - sqrt(1 / curvature^2 -
 // sin(half)^2) along the edge's normal. Times the curvature, that has a limit for straight edges.
 void SetPolygon(const sf_config& config, Opening* opening) {
   opening->blades = config.blades;
-  const double half = kPi / config.blades, sine = std::sin(half), cosine = std::cos(half);
+  const double half = kPi / config.blades;
+  const double sine = DirectionOf(half).sine, cosine = DirectionOf(half).cosine;
   const double curvature = config.curvature, turn = config.rotation * (kPi / 180);
   const double root = std::sqrt(1 - curvature * curvature * sine * sine);
   opening->bulge = Round(curvature);
   opening->slope = Round(2 * (root - curvature * cosine));
   opening->limit = Round(2 * cosine * root - curvature * (cosine * cosine - sine * sine));
   for (int32_t edge = 0; edge < config.blades; ++edge) {
-    const double angle = turn + (2 * edge + 1) * half;
-    opening->normals[edge][0] = Round(std::sin(angle));
-    opening->normals[edge][1] = Round(-std::cos(angle));
+    const Direction normal = DirectionOf(turn + (2 * edge + 1) * half);
+    opening->normals[edge][0] = Round(normal.sine);
+    opening->normals[edge][1] = Round(-normal.cosine);
   }
 }
 
 }  // namespace
+
+uint32_t ApertureFallOff(double theta) {
+  const double tangent = std::tan(theta);
+  return static_cast<uint32_t>(65536.0 / (tangent * tangent) + 0.5);
+}
 
 Opening OpeningOf(const sf_config& config) {
   Opening opening(ApertureFallOff(config.theta));

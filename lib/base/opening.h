@@ -16,6 +16,9 @@ inline constexpr int kOpeningBits = 14;
 inline constexpr int32_t kOpeningOne = 1 << kOpeningBits;
 inline constexpr int32_t kMaxBlades = 12;
 
+// cot^2(theta) with 16 fractional bits; theta in [0.05 pi, 0.45 pi] gives [0.025, 40].
+uint32_t ApertureFallOff(double theta);
+
 struct Opening {
   // The paper's (3); fall_off as ApertureFallOff gives.
   Opening(uint32_t square = 1 << 16) : fall_off(square) {}  // NOLINT: converts

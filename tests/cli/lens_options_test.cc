@@ -2,6 +2,7 @@
 // Options in a photographer's words, by the pictures that they give.
 #include <doctest/doctest.h>
 
+#include <set>
 #include <string>
 
 #include "platform/image_io.h"
@@ -53,6 +54,47 @@ TEST_CASE("cli: --focus-at takes the surface around the pixel, not the pixel") {
   CHECK(Text(folder.file("at.json")).find("\"focus\": 1.25") != std::string::npos);
   REQUIRE(Call(folder, "refocus lf -o d.png --focus 1.25").code == 0);
   CHECK(Text(folder.file("at.png")) == Text(folder.file("d.png")));
+}
+
+TEST_CASE("cli: shapes of the aperture change the picture and its truth, and the report says which") {
+  TempFolder folder;
+  REQUIRE(Call(folder, "scene lf --size 40x30 --views 5 --name wires --truth 1,1").code == 0);
+  const auto picture = [&](const std::string& options) {
+    CAPTURE(options);
+    REQUIRE(Call(folder, "refocus lf --focus -3 -o one.png --report one.json " + options).code == 0);
+    return Text(folder.file("one.png"));
+  };
+  const std::string plain = picture("");
+  for (const char* same : {"--shape fall-off", "--theta 0.26", "--cats-eye 0"}) {
+    CHECK(picture(same) == plain);
+  }
+  const auto reported = [&](const std::string& text) {
+    return Text(folder.file("one.json")).find(text) != std::string::npos;
+  };
+  std::set<std::string> pictures = {plain};
+  CHECK(pictures.insert(picture("--shape disc")).second);
+  CHECK(reported("\"name\": \"disc\""));
+  CHECK(pictures.insert(picture("--shape ring:0.75")).second);
+  CHECK(reported("\"inner\": 0.75"));
+  CHECK(pictures.insert(picture("--shape polygon:5")).second);
+  CHECK(pictures.insert(picture("--shape polygon:5,36")).second);
+  CHECK(reported("\"rotation\": 36"));
+  CHECK(pictures.insert(picture("--shape polygon:5,36,0.5")).second);
+  CHECK(reported("\"curvature\": 0.5"));
+  CHECK(picture("--shape polygon:5,-36,0.5") == picture("--shape polygon:5,36,0.5"));
+  CHECK(pictures.insert(picture("--theta 0.4")).second);
+  CHECK(pictures.insert(picture("--cats-eye 1")).second);
+  CHECK(reported("\"cats_eye\": 1"));
+  for (const char* range : {"--theta 0.05", "--theta 0.45", "--shape ring:0.9"}) picture(range);
+  for (const char* lens : {"--shape disc", "--shape polygon:5,12.5,0.5 --cats-eye 0.5"}) {
+    const std::string call = "scene lf --size 40x30 --views 5 --name wires --truth 1,1 ";
+    REQUIRE(Call(folder, call + lens).code == 0);
+  }
+  const std::string truth = Text(folder.file("lf/truth_dt1_ut1.png"));
+  CHECK(Text(folder.file("lf/truth_dt1_ut1_disc.png")) != truth);
+  CHECK(Text(folder.file("lf/truth_dt1_ut1_polygon-5-12.5-0.5_cats-eye0.5.png")) != truth);
+  const std::string meta = Text(folder.file("lf/meta.txt"));
+  CHECK(meta.find("aperture polygon:5,12.5,0.5, cat's eyes 0.5") != std::string::npos);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "lib/base/aperture.h"
 #include "starfocus/starfocus.h"
 #include "tests/conformance/reference_blur.h"
+#include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -22,23 +23,25 @@ namespace {
 using reference::kOne;
 static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
 
-// The blurred picture, unrounded.
-std::vector<double> Reference(const test::Scene& scene, const sf_params& params, double theta) {
+// The blurred picture, unrounded. What is farther than the focus sees kernels turned.
+std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
+                              const reference::Opening& opening) {
   std::map<double, reference::BlurKernel> kernels;
   std::vector<double> out;
   const int focus = int(std::floor(params.focus * kOne + 0.5));
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
-      const int distance = std::abs(int(std::floor(scene.Disparity(x, y) * kOne + 0.5f)) - focus);
+      const int signed_distance = int(std::floor(scene.Disparity(x, y) * kOne + 0.5f)) - focus;
+      const int distance = std::abs(signed_distance), side = signed_distance < 0 ? -1 : 1;
       const double r = reference::NearestRadius(int(std::floor(params.aperture * distance)));
-      if (kernels.count(r) == 0) kernels[r] = reference::MakeBlurKernel(r, theta);
+      if (kernels.count(r) == 0) kernels[r] = reference::MakeBlurKernel(r, opening);
       const reference::BlurKernel& kernel = kernels[r];
       double sums[3] = {0, 0, 0};
       for (int m = -kernel.size; m <= kernel.size; ++m) {
         for (int n = -kernel.size; n <= kernel.size; ++n) {
           const uint8_t* pixel = scene.Pixel(0, std::clamp(x + n, 0, scene.width - 1),
                                              std::clamp(y + m, 0, scene.height - 1));
-          for (int c = 0; c < 3; ++c) sums[c] += kernel.At(n, m) * pixel[c];
+          for (int c = 0; c < 3; ++c) sums[c] += kernel.At(side * n, side * m) * pixel[c];
         }
       }
       out.insert(out.end(), sums, sums + 3);
@@ -48,10 +51,11 @@ std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
 }
 
 std::vector<uint8_t> Blurred(const test::Scene& scene, double focus, double aperture, int block,
-                             double theta) {
+                             double theta, const test::NamedShape* shape = nullptr) {
   sf_config config = test::ConfigFor(scene, 40);
   config.largest_block = block;
   config.theta = theta;
+  if (shape != nullptr) shape->Set(&config);
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height, 3);
@@ -118,6 +122,31 @@ TEST_CASE("blur: random disparity, focus, aperture, fall-off and block") {
     CAPTURE(round);
     CAPTURE(theta);
     CHECK(Difference(scene, focus, aperture, 32 << random.Int(0, 3), theta) <= 1);
+  }
+}
+
+TEST_CASE("blur: through openings of other shapes, in front of the focus and behind it") {
+  for (const test::NamedShape& shape : test::kShapes) {
+    sf_config config;
+    sf_config_init(&config);
+    shape.Set(&config);
+    for (const double r : {0.5, 0.75, 1.0, 1.75, 3.0, 4.5, 8.0, 13.0}) {
+      CAPTURE(shape.name);
+      CAPTURE(r);
+      test::Random random(19);
+      test::Scene scene = test::EmptyScene(34, 26, 1, -2, 2);
+      for (uint8_t& sample : scene.pictures[0]) sample = uint8_t(random.Int(0, 1) * 255);
+      for (float& disparity : scene.disparity) disparity = random.Int(0, 1) == 0 ? -2.0F : 2.0F;
+      const double aperture = r < 1.5 ? r / 1.5 : 1, focus = r < 1.5 ? 0.5 : 2 - r;
+      const std::vector<uint8_t> got = Blurred(scene, focus, aperture, 32, kTheta, &shape);
+      const std::vector<double> expected =
+          Reference(scene, test::Params(focus, aperture, SF_MODE_BLUR), config);
+      double largest = 0;
+      for (size_t i = 0; i < got.size(); ++i) {
+        largest = std::max(largest, std::abs(got[i] - std::floor(expected[i] + 0.5)));
+      }
+      CHECK(largest <= 1);
+    }
   }
 }
 
