@@ -64,8 +64,12 @@ class Tile {
   void AddColumn(int32_t i) {
     const int32_t last = stack_.weights.LastAcross(Abs(i));
     for (int32_t n = 0; n < seen_; ++n) MoveSlice(seen_slices_[n], i, last);
-    for (int32_t first = -last; first <= last; first += kGroupViews) {
-      AddGroup(i, first, Min(first + kGroupViews - 1, last));
+    // Views that no light comes through are left out at either end.
+    int32_t first = -last, end = last;
+    while (first <= end && stack_.weights.Weight(i, first) == 0) ++first;
+    while (first <= end && stack_.weights.Weight(i, end) == 0) --end;
+    for (; first <= end; first += kGroupViews) {
+      AddGroup(i, first, Min(first + kGroupViews - 1, end));
     }
   }
 
