@@ -142,4 +142,43 @@ TEST_CASE("rules: layers from radius 7 and 24 on with cells, no layer 2 beside d
   CHECK(LayerBySubaperture(SF_MAX_BLUR, true) == 1);
 }
 
+TEST_CASE("rules: what openings demand, and that layers and more views follow") {
+  using starfocus::Demand;
+  using starfocus::Opening;
+  Opening opening;
+  CHECK(starfocus::DemandOf(opening) == Demand::kFallOff);
+  opening.shape = SF_SHAPE_DISC;
+  CHECK(starfocus::DemandOf(opening) == Demand::kDisc);
+  opening.shape = SF_SHAPE_POLYGON;
+  CHECK(starfocus::DemandOf(opening) == Demand::kPolygon);
+  opening.shape = SF_SHAPE_RING;
+  CHECK(starfocus::DemandOf(opening) == Demand::kRing);
+  opening.cats_eye = 1;
+  CHECK(starfocus::DemandOf(opening) == Demand::kRing);
+  opening.shape = SF_SHAPE_FALL_OFF;
+  CHECK(starfocus::DemandOf(opening) == Demand::kPolygon);
+  for (const double r : {0.0, 0.5, 0.6, 5.0, 11.0, 11.5, 25.0, 30.0, 34.5, 128.0}) {
+    CAPTURE(r);
+    CHECK(ViewsBySubaperture(r, Demand::kDisc) == ViewsBySubaperture(r));
+    const int least = r > 5 ? 6 : 0, plain = ViewsBySubaperture(r);
+    CHECK(ViewsBySubaperture(r, Demand::kPolygon) == (plain > least ? plain : least));
+    CHECK(ViewsBySubaperture(r, Demand::kRing) == ViewsBySubaperture(r, Demand::kPolygon));
+  }
+  constexpr struct {
+    Demand demand;
+    double paper, cells;
+  } kFirst[] = {{Demand::kDisc, 4, 12}, {Demand::kPolygon, 5, 14}, {Demand::kRing, 6, 16}};
+  for (const auto& first : kFirst) {
+    CHECK(LayerByPaper(Below(first.paper), first.demand) == 0);
+    CHECK(LayerByPaper(first.paper, first.demand) == 1);
+    CHECK(LayerByPaper(Below(2 * first.paper), first.demand) == 1);
+    CHECK(LayerByPaper(2 * first.paper, first.demand) == 2);
+    CHECK(LayerBySubaperture(Below(first.cells), false, first.demand) == 0);
+    CHECK(LayerBySubaperture(first.cells, true, first.demand) == 1);
+    CHECK(LayerBySubaperture(first.cells * 3.42, false, first.demand) == 1);
+    CHECK(LayerBySubaperture(first.cells * 3.43, false, first.demand) == 2);
+    CHECK(LayerBySubaperture(SF_MAX_BLUR, true, first.demand) == 1);
+  }
+}
+
 }  // namespace
