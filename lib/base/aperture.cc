@@ -40,11 +40,15 @@ void ForEachWeight(const Aperture& aperture, bool by_size, const Visit& visit) {
   }
 }
 
-// Makes the weights of the aperture's views in proportion to their light `light(i, j)`, 20 bits.
+void Clear(const Aperture& aperture, uint16_t* weights) {
+  const size_t size = aperture.full ? FullApertureSize(aperture.n) : ApertureSize(aperture.n);
+  for (size_t index = 0; index < size; ++index) weights[index] = 0;
+}
+
+// Makes the weights of the aperture's views, those of no view being clear, in proportion to their
+// light `light(i, j)`, 20 bits: which may be what lies there until then.
 template <class Light>
 void Weigh(bool by_size, const Light& light, uint16_t* weights, Aperture* aperture) {
-  const size_t size = aperture->full ? FullApertureSize(aperture->n) : ApertureSize(aperture->n);
-  for (size_t index = 0; index < size; ++index) weights[index] = 0;
   aperture->weights = weights;
   uint64_t total = 0, largest = 0;
   aperture->views = 0;
@@ -124,6 +128,7 @@ uint64_t LightThroughPolygon(int32_t i, int32_t j, int32_t radius, const Opening
 }
 
 void WeighSubapertures(const Opening& opening, uint16_t* weights, Aperture* aperture) {
+  Clear(*aperture, weights);
   const int32_t radius = aperture->radius;
   if (opening.shape == SF_SHAPE_FALL_OFF) {
     Weigh(false,
@@ -140,8 +145,36 @@ void WeighSubapertures(const Opening& opening, uint16_t* weights, Aperture* aper
   }
 }
 
+// How far from the middle of a subaperture its points lie at most: half of its diagonal.
+constexpr int64_t kNear = 23;
+static_assert(2 * kNear * kNear >= kSubapertureUnits * kSubapertureUnits / 2, "half a diagonal");
+
+// Returns the part of the light through the subaperture around (i, j) that passes the rim behind the
+// opening, of kPoints^2.
+uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const Opening& opening,
+                       const RimShift& shift) {
+  constexpr uint32_t kAll = kPoints * kPoints;
+  const int64_t radius = lens, outer = radius + kNear + 2, inner = radius - kNear - 2;
+  const int64_t x = int64_t{kSubapertureUnits} * i, y = int64_t{kSubapertureUnits} * j;
+  const int64_t dx = x - shift.x * radius / kOpeningOne, dy = y - shift.y * radius / kOpeningOne;
+  const int64_t square = dx * dx + dy * dy;
+  if (square > outer * outer) return 0;
+  if (inner > 0 && square < inner * inner) return kAll;
+  // Within the disc all points are those of an opening that has no edges there.
+  const bool plain = opening.shape == SF_SHAPE_FALL_OFF || opening.shape == SF_SHAPE_DISC;
+  const bool all = plain && inner > 0 && x * x + y * y < inner * inner;
+  uint32_t inside = 0, both = 0;
+  ForEachPoint(i, j, [&](int64_t a, int64_t b) {
+    const uint32_t open = all || LetsThrough(opening, a, b, radius) ? 1 : 0;
+    inside += open;
+    both += PassesRim(shift, a, b, radius) ? open : 0;
+  });
+  return inside == 0 ? 0 : kAll * both / inside;
+}
+
 // The weights of N = 0: all light comes from the centre view.
 void WeighCentre(uint16_t* weights, Aperture* aperture) {
+  Clear(*aperture, weights);
   Weigh(false, [](int32_t, int32_t) { return uint64_t{1} << 20; }, weights, aperture);
 }
 
@@ -156,6 +189,7 @@ Aperture MakeAperture(int32_t n, const Opening& opening, uint16_t* weights) {
   if (n == 0) {
     WeighCentre(weights, &aperture);
   } else if (opening.shape == SF_SHAPE_FALL_OFF) {
+    Clear(aperture, weights);
     const uint64_t n_square = static_cast<uint64_t>(n) * static_cast<uint64_t>(n);
     Weigh(
         false,
@@ -184,29 +218,17 @@ Aperture MakeSubapertures(int32_t n, const Opening& opening, uint16_t* weights) 
 
 Aperture MakeCatsEye(const Aperture& whole, const Opening& opening, const RimShift& shift,
                      uint16_t* weights) {
-  const int64_t radius = whole.radius;
-  // Beyond this from the rim a subaperture is all on one side of it: half of its diagonal.
-  constexpr int64_t kNear = 23;
-  static_assert(2 * kNear * kNear >= kSubapertureUnits * kSubapertureUnits, "half a diagonal");
-  const auto light = [&](int32_t i, int32_t j) -> uint64_t {
-    const uint64_t light_of_all = uint64_t{whole.Weight(i, j)} << 5;
-    const int64_t x = int64_t{kSubapertureUnits} * i, y = int64_t{kSubapertureUnits} * j;
-    const int64_t dx = x - ((shift.x * radius) >> kOpeningBits);
-    const int64_t dy = y - ((shift.y * radius) >> kOpeningBits);
-    const int64_t square = dx * dx + dy * dy, inner = radius - kNear - 1, outer = radius + kNear + 2;
-    if (inner > 0 && square < inner * inner) return light_of_all;
-    if (light_of_all == 0 || square > outer * outer) return 0;
-    uint64_t inside = 0, both = 0;
-    ForEachPoint(i, j, [&](int64_t a, int64_t b) {
-      if (!LetsThrough(opening, a, b, radius)) return;
-      ++inside;
-      both += PassesRim(shift, a, b, radius) ? 1 : 0;
-    });
-    return inside == 0 ? 0 : light_of_all * both / inside;
-  };
   Aperture aperture = whole;
   aperture.full = true;
-  Weigh(false, light, weights, &aperture);
+  Clear(aperture, weights);
+  ForEachWeight(aperture, false, [&](int32_t i, int32_t j, int32_t) {
+    weights[IndexOf(aperture, i, j)] =
+        static_cast<uint16_t>(2 * whole.Weight(i, j) * PassingPoints(i, j, whole.radius, opening, shift)
+                              / (kPoints * kPoints));
+  });
+  Weigh(
+      false, [&](int32_t i, int32_t j) { return weights[IndexOf(aperture, i, j)]; }, weights,
+      &aperture);
   return aperture;
 }
 

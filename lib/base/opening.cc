@@ -64,10 +64,11 @@ bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius) {
   if (square > radius * radius) return false;
   if (opening.shape == SF_SHAPE_RING) {
     const int64_t inner = opening.inner * radius;
-    return square << 2 * kOpeningBits >= inner * inner;
+    return square * kOpeningOne * kOpeningOne >= inner * inner;
   }
   if (opening.shape != SF_SHAPE_POLYGON) return true;
-  const int64_t limit = (opening.limit * radius * radius - opening.bulge * square) << kOpeningBits;
+  const int64_t limit =
+      (opening.limit * radius * radius - opening.bulge * square) * kOpeningOne;
   for (int32_t edge = 0; edge < opening.blades; ++edge) {
     const int64_t along = x * opening.normals[edge][0] + y * opening.normals[edge][1];
     if (opening.slope * radius * along > limit) return false;
@@ -83,13 +84,6 @@ RimShift ShiftOfRim(const Opening& opening, const Rect& rect, int32_t width, int
     return static_cast<int32_t>(-opening.cats_eye * (doubled / diagonal));
   };
   return {shift(2 * rect.x + rect.width - width), shift(2 * rect.y + rect.height - height)};
-}
-
-bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t radius) {
-  const int64_t dx = (x << kOpeningBits) - shift.x * radius;
-  const int64_t dy = (y << kOpeningBits) - shift.y * radius;
-  const int64_t whole = radius << kOpeningBits;
-  return dx * dx + dy * dy <= whole * whole;
 }
 
 }  // namespace starfocus

@@ -55,7 +55,12 @@ struct RimShift {
 RimShift ShiftOfRim(const Opening& opening, const Rect& rect, int32_t width, int32_t height);
 
 // Whether a point that the opening lets through passes the rim behind it as well.
-bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t radius);
+constexpr bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t radius) {
+  const int64_t dx = x * kOpeningOne - shift.x * radius;
+  const int64_t dy = y * kOpeningOne - shift.y * radius;
+  const int64_t whole = radius * kOpeningOne;
+  return dx * dx + dy * dy <= whole * whole;
+}
 
 // Calls visit(i, j) for 0 <= j <= i <= last, the centre last; `by_size`: those that stand for eight
 // points of the plane before those that stand for four.
