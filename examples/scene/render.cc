@@ -11,8 +11,8 @@ namespace starfocus {
 namespace {
 
 constexpr int kTile = 16;
-constexpr int kViewGrid = 4;                        // samples of a pixel of a view, squared
-constexpr int kLensSamples = 256;                   // of a pixel of the ground truth, about
+constexpr int kViewGrid = 4;       // samples of a pixel of a view, squared
+constexpr int kLensSamples = 256;  // of a pixel of the ground truth, about
 // cos and sin of the golden angle, and of 1/256 of a turn: sequences of directions come from
 // multiplying by them, which needs no library function.
 constexpr double kGoldenCos = -0.7373688780783197, kGoldenSin = 0.6754902942615238;

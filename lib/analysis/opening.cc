@@ -81,8 +81,8 @@ Kernel SubapertureKernel(double r, int n, const BrightOpening& opening) {
 double WorstOfSubapertures(int n, double r_min, double r_max, const BrightOpening& opening) {
   double worst = 0;
   for (double r = r_min; r <= r_max; r += 0.5) {
-    worst = std::max(worst,
-                     SquaredError(SubapertureKernel(r, n, opening), IdealKernel(r, opening)));
+    worst =
+        std::max(worst, SquaredError(SubapertureKernel(r, n, opening), IdealKernel(r, opening)));
   }
   return worst;
 }

@@ -10,8 +10,8 @@ namespace starfocus::analysis {
 
 // A part of the unit disc that is as bright everywhere.
 struct BrightOpening {
-  double inner = 0;   // radius of its hole
-  int blades = 0;     // of a regular polygon with straight edges and a corner at (0, -1); 0: a disc
+  double inner = 0;  // radius of its hole
+  int blades = 0;    // of a regular polygon with straight edges and a corner at (0, -1); 0: a disc
   bool Contains(double u, double v) const;
 };
 

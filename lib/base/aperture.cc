@@ -71,8 +71,7 @@ void Weigh(bool by_size, const Light& light, uint16_t* weights, Aperture* apertu
     wanted += static_cast<uint64_t>(views) * light(i, j);
     const auto target = static_cast<int64_t>((wanted << bits) / total);  // < 2^63
     const int64_t weight = ShareOfPoints(target - given, views, by_size);
-    weights[IndexOf(*aperture, i, j)] =
-        static_cast<uint16_t>(Checked(ranges::kWeight, weight));
+    weights[IndexOf(*aperture, i, j)] = static_cast<uint16_t>(Checked(ranges::kWeight, weight));
     given += weight * views;
   });
   Checked(ranges::kRemainder, given - (int64_t{1} << bits));
@@ -110,9 +109,8 @@ uint64_t LightOfSubaperture(int32_t i, int32_t j, int32_t radius, uint32_t fall_
 uint64_t LightThrough(int32_t i, int32_t j, int32_t radius, const Opening& opening) {
   constexpr uint64_t kOne = uint64_t{1} << 20;
   uint64_t inside = 0;
-  ForEachPoint(i, j, [&](int64_t x, int64_t y) {
-    inside += LetsThrough(opening, x, y, radius) ? 1 : 0;
-  });
+  ForEachPoint(i, j,
+               [&](int64_t x, int64_t y) { inside += LetsThrough(opening, x, y, radius) ? 1 : 0; });
   return inside * kOne / (kPoints * kPoints);
 }
 
@@ -131,17 +129,18 @@ void WeighSubapertures(const Opening& opening, uint16_t* weights, Aperture* aper
   Clear(*aperture, weights);
   const int32_t radius = aperture->radius;
   if (opening.shape == SF_SHAPE_FALL_OFF) {
-    Weigh(false,
-          [&](int32_t i, int32_t j) { return LightOfSubaperture(i, j, radius, opening.fall_off); },
-          weights, aperture);
+    Weigh(
+        false,
+        [&](int32_t i, int32_t j) { return LightOfSubaperture(i, j, radius, opening.fall_off); },
+        weights, aperture);
   } else if (opening.shape == SF_SHAPE_POLYGON) {
-    Weigh(false,
-          [&](int32_t i, int32_t j) { return LightThroughPolygon(i, j, radius, opening); },
-          weights, aperture);
+    Weigh(
+        false, [&](int32_t i, int32_t j) { return LightThroughPolygon(i, j, radius, opening); },
+        weights, aperture);
   } else {
-    Weigh(opening.IsRing(),
-          [&](int32_t i, int32_t j) { return LightThrough(i, j, radius, opening); }, weights,
-          aperture);
+    Weigh(
+        opening.IsRing(), [&](int32_t i, int32_t j) { return LightThrough(i, j, radius, opening); },
+        weights, aperture);
   }
 }
 
@@ -149,8 +148,8 @@ void WeighSubapertures(const Opening& opening, uint16_t* weights, Aperture* aper
 constexpr int64_t kNear = 23;
 static_assert(2 * kNear * kNear >= kSubapertureUnits * kSubapertureUnits / 2, "half a diagonal");
 
-// Returns the part of the light through the subaperture around (i, j) that passes the rim behind the
-// opening, of kPoints^2.
+// Returns the part of the light through the subaperture around (i, j) that passes the rim behind
+// the opening, of kPoints^2.
 uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const Opening& opening,
                        const RimShift& shift) {
   constexpr uint32_t kAll = kPoints * kPoints;
@@ -175,7 +174,8 @@ uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const Opening& openin
 // The weights of N = 0: all light comes from the centre view.
 void WeighCentre(uint16_t* weights, Aperture* aperture) {
   Clear(*aperture, weights);
-  Weigh(false, [](int32_t, int32_t) { return uint64_t{1} << 20; }, weights, aperture);
+  Weigh(
+      false, [](int32_t, int32_t) { return uint64_t{1} << 20; }, weights, aperture);
 }
 
 }  // namespace
@@ -222,9 +222,9 @@ Aperture MakeCatsEye(const Aperture& whole, const Opening& opening, const RimShi
   aperture.full = true;
   Clear(aperture, weights);
   ForEachWeight(aperture, false, [&](int32_t i, int32_t j, int32_t) {
-    weights[IndexOf(aperture, i, j)] =
-        static_cast<uint16_t>(2 * whole.Weight(i, j) * PassingPoints(i, j, whole.radius, opening, shift)
-                              / (kPoints * kPoints));
+    weights[IndexOf(aperture, i, j)] = static_cast<uint16_t>(
+        2 * whole.Weight(i, j) * PassingPoints(i, j, whole.radius, opening, shift) /
+        (kPoints * kPoints));
   });
   Weigh(
       false, [&](int32_t i, int32_t j) { return weights[IndexOf(aperture, i, j)]; }, weights,

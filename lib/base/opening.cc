@@ -10,9 +10,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 // Nothing that is rounded here comes near a half by itself, so that a last digit that machines do
 // not agree on changes nothing.
-int32_t Round(double value) {
-  return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5));
-}
+int32_t Round(double value) { return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5)); }
 
 struct Direction {
   double sine, cosine;
@@ -24,8 +22,8 @@ Direction DirectionOf(double angle) {
   return {2 * tangent / (1 + square), (1 - square) / (1 + square)};
 }
 
-// An edge is an arc through two corners of the unit circle, `curvature` over its radius: with `half`
-// of the angle between them, its circle's centre lies at cos(half) - sqrt(1 / curvature^2 -
+// An edge is an arc through two corners of the unit circle, `curvature` over its radius: with
+// `half` of the angle between them, its circle's centre lies at cos(half) - sqrt(1 / curvature^2 -
 // sin(half)^2) along the edge's normal. Times the curvature, that has a limit for straight edges.
 void SetPolygon(const sf_config& config, Opening* opening) {
   opening->blades = config.blades;
@@ -67,8 +65,7 @@ bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius) {
     return square * kOpeningOne * kOpeningOne >= inner * inner;
   }
   if (opening.shape != SF_SHAPE_POLYGON) return true;
-  const int64_t limit =
-      (opening.limit * radius * radius - opening.bulge * square) * kOpeningOne;
+  const int64_t limit = (opening.limit * radius * radius - opening.bulge * square) * kOpeningOne;
   for (int32_t edge = 0; edge < opening.blades; ++edge) {
     const int64_t along = x * opening.normals[edge][0] + y * opening.normals[edge][1];
     if (opening.slope * radius * along > limit) return false;
@@ -77,8 +74,8 @@ bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius) {
 }
 
 RimShift ShiftOfRim(const Opening& opening, const Rect& rect, int32_t width, int32_t height) {
-  const double diagonal = std::sqrt(static_cast<double>(width) * width +
-                                    static_cast<double>(height) * height);
+  const double diagonal =
+      std::sqrt(static_cast<double>(width) * width + static_cast<double>(height) * height);
   // Both are even about the picture's middle, so that mirrored places have mirrored rims.
   const auto shift = [&](int32_t doubled) {
     return static_cast<int32_t>(-opening.cats_eye * (doubled / diagonal));

@@ -24,9 +24,9 @@ struct Opening {
   Opening(uint32_t square = 1 << 16) : fall_off(square) {}  // NOLINT: converts
 
   sf_shape shape = SF_SHAPE_FALL_OFF;
-  uint32_t fall_off;    // of SF_SHAPE_FALL_OFF: cot^2(theta), 16 bits
-  int32_t inner = 0;    // of a ring: the radius of its hole
-  int32_t cats_eye = 0; // how far the rim behind the lens moves up to a corner of the picture
+  uint32_t fall_off;     // of SF_SHAPE_FALL_OFF: cot^2(theta), 16 bits
+  int32_t inner = 0;     // of a ring: the radius of its hole
+  int32_t cats_eye = 0;  // how far the rim behind the lens moves up to a corner of the picture
   // Of a polygon: the points p of `bulge` |p|^2 + `slope` p * normal <= `limit` for the normal of
   // each of its edges, which are arcs through the corners.
   int32_t blades = 0;

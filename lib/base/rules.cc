@@ -26,9 +26,9 @@ struct SubapertureStep {
 constexpr SubapertureStep kSubapertureSteps[] = {{0.5, 0}, {11, 4},  {25, 5},   {34, 6},  {49, 7},
                                                  {68, 9},  {83, 11}, {119, 12}, {128, 13}};
 
-// What openings with corners or narrow parts take beyond kMoreFrom px at least, by the error of their
-// subapertures there; with them up to that radius, too, the portrait is up to 0.3 dB farther from
-// truth.
+// What openings with corners or narrow parts take beyond kMoreFrom px at least, by the error of
+// their subapertures there; with them up to that radius, too, the portrait is up to 0.3 dB farther
+// from truth.
 constexpr int32_t kMoreViews = 6;
 constexpr double kMoreFrom = 5.0;
 
@@ -38,8 +38,8 @@ constexpr double kMoreFrom = 5.0;
 constexpr double kSubapertureLayerRadius = 7.0;
 constexpr double kSubapertureCoarseRadius = 24.0;
 
-// The smallest blur radii of layer 1 by the paper's rule and by that of subapertures, of each Demand;
-// of layer 2 they grow alike.
+// The smallest blur radii of layer 1 by the paper's rule and by that of subapertures, of each
+// Demand; of layer 2 they grow alike.
 struct LayerRadii {
   double paper, subaperture;
 };

@@ -29,14 +29,14 @@ struct FieldMemory {
   int16_t* disparity;  // E^2
 };
 
-// Every renderer leaves the weighted sums of a block in `sums`; but for these and weights all memory of a
-// worker is shared, since a worker does one thing at a time (layout.cc). R: largest side of a
-// rectangle.
+// Every renderer leaves the weighted sums of a block in `sums`; but for these and weights all
+// memory of a worker is shared, since a worker does one thing at a time (layout.cc). R: largest
+// side of a rectangle.
 struct Worker {
-  uint32_t* sums;     // 3 R^2
+  uint32_t* sums;              // 3 R^2
   uint16_t* aperture_weights;  // with cat's eyes: of a block, of the largest N
-  FieldMemory field;  // of blocks that are gathered, or blurred by depth
-  SpanMemory spans;   // of blocks blurred by depth
+  FieldMemory field;           // of blocks that are gathered, or blurred by depth
+  SpanMemory spans;            // of blocks blurred by depth
   LineScanScratch line_scan;
   CompositorScratch compositor;
   ResampleScratch resample;

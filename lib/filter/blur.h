@@ -20,8 +20,8 @@ int32_t BlurStep(int32_t radius);  // of a radius with kDisparityBits
 int32_t BlurStepCount(double max_blur);
 
 // The octant 0 <= m <= n of one kernel, or, when `full`, all of it; weights sum to exactly
-// 2^sum_bits over the plane and fit 15 bits. What is farther than the focus sees it turned by half a
-// turn.
+// 2^sum_bits over the plane and fit 15 bits. What is farther than the focus sees it turned by half
+// a turn.
 struct BlurKernel {
   int32_t size;  // n of the outermost weights
   int sum_bits;

@@ -164,7 +164,8 @@ class Partition {
 
   int32_t Views(const BlockStats& stats, int32_t layer) const {
     const double r_max = static_cast<double>(stats.r_max) / (kRadiusOne * (1 << layer));
-    const int32_t n = rules_.subapertures ? ViewsBySubaperture(r_max, rules_.demand) : ViewsByPaper(r_max);
+    const int32_t n =
+        rules_.subapertures ? ViewsBySubaperture(r_max, rules_.demand) : ViewsByPaper(r_max);
     return ScaleViews(n, rules_.n_scale);
   }
 

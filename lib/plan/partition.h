@@ -32,11 +32,11 @@ struct PartitionRules {
   int32_t largest_block;
   int32_t max_layer;
   int32_t max_n;
-  bool subapertures;  // ViewsBySubaperture instead of (9)
-  double n_scale;     // of their N
-  Demand demand;      // of the opening
+  bool subapertures;     // ViewsBySubaperture instead of (9)
+  double n_scale;        // of their N
+  Demand demand;         // of the opening
   int32_t largest_node;  // side of the largest block that is made
-  bool gathers;       // smooth cells, with cells
+  bool gathers;          // smooth cells, with cells
   BlurScale scale;
   sf_timing timing;
   const ViewCounts* views;  // by N, up to max_n

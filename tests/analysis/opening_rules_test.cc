@@ -32,7 +32,8 @@ int FirstRadius(const Layer& layer) {
   return r;
 }
 
-TEST_CASE("openings: layers begin where the error (10) is that of the fall-off at its first radius") {
+TEST_CASE(
+    "openings: layers begin where the error (10) is that of the fall-off at its first radius") {
   const double fall_off = SubsampledError(7, {1.28, kDefaultTheta});
   for (const Asked& asked : kAsked) {
     CAPTURE(asked.name);

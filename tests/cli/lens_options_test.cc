@@ -56,12 +56,14 @@ TEST_CASE("cli: --focus-at takes the surface around the pixel, not the pixel") {
   CHECK(Text(folder.file("at.png")) == Text(folder.file("d.png")));
 }
 
-TEST_CASE("cli: shapes of the aperture change the picture and its truth, and the report says which") {
+TEST_CASE(
+    "cli: shapes of the aperture change the picture and its truth, and the report says which") {
   TempFolder folder;
   REQUIRE(Call(folder, "scene lf --size 40x30 --views 5 --name wires --truth 1,1").code == 0);
   const auto picture = [&](const std::string& options) {
     CAPTURE(options);
-    REQUIRE(Call(folder, "refocus lf --focus -3 -o one.png --report one.json " + options).code == 0);
+    REQUIRE(Call(folder, "refocus lf --focus -3 -o one.png --report one.json " + options).code ==
+            0);
     return Text(folder.file("one.png"));
   };
   const std::string plain = picture("");

@@ -124,7 +124,8 @@ TEST_CASE("scene: the same pictures for any number of threads") {
     REQUIRE(MakeScene(name, &scene));
     const Renderer a(scene, kOdd, 47, &one), b(scene, kOdd, 47, &three);
     CHECK(a.View(-0.5, 1, nullptr).pixels == b.View(-0.5, 1, nullptr).pixels);
-    CHECK(a.Truth(1, 0.8, DefaultOpening(), nullptr).pixels == b.Truth(1, 0.8, DefaultOpening(), nullptr).pixels);
+    CHECK(a.Truth(1, 0.8, DefaultOpening(), nullptr).pixels ==
+          b.Truth(1, 0.8, DefaultOpening(), nullptr).pixels);
     CHECK(a.Disparity().values == b.Disparity().values);
   }
 }

@@ -252,8 +252,7 @@ Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& le
 }  // namespace
 
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
-                                  const Opening& opening,
-                                  const starfocus::SliceLimits* limits,
+                                  const Opening& opening, const starfocus::SliceLimits* limits,
                                   const std::vector<Block>& blocks) {
   const LightField field = Load(scene);
   const std::vector<Picture> layers = MakeLayers(field.at({0, 0}));
@@ -263,7 +262,8 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   for (const Block& block : blocks) {
     const bool by_subaperture = limits != nullptr && block.n > 0;
-    const Opening here = opening.At(block.x, block.y, block.width, block.height, scene.width, scene.height);
+    const Opening here =
+        opening.At(block.x, block.y, block.width, block.height, scene.width, scene.height);
     const Lens lens = MakeLens(params, here, block.n, block.layer, by_subaperture);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,

@@ -47,8 +47,7 @@ struct Block {
 // 3 * width * height. `limits`: of slices, by the rule of subapertures; null: by the
 // paper's rule.
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
-                                  const Opening& opening,
-                                  const starfocus::SliceLimits* limits,
+                                  const Opening& opening, const starfocus::SliceLimits* limits,
                                   const std::vector<Block>& blocks);
 
 }  // namespace reference

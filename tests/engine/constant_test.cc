@@ -33,7 +33,8 @@ std::string Text(const Trial& t) {
          std::to_string(t.high) + "] focus " + std::to_string(t.focus) + " aperture " +
          std::to_string(t.aperture) + " mode " + std::to_string(t.mode) + " block " +
          std::to_string(t.block) + (t.noisy ? " noisy" : "") + " n_scale " +
-         std::to_string(t.n_scale) + " shape " + std::to_string(t.shape) + " seed " + std::to_string(t.seed);
+         std::to_string(t.n_scale) + " shape " + std::to_string(t.shape) + " seed " +
+         std::to_string(t.seed);
 }
 
 // Refocuses a picture of one colour; the number of samples that changed, -1 on error.

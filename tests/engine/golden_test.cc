@@ -37,7 +37,7 @@ struct Case {
   test::Depth depth;
   Lens lens;
   int block;
-  int levels = 0, range = 0;  // of a LevelScene, if there are any
+  int levels = 0, range = 0;                // of a LevelScene, if there are any
   const test::NamedShape* shape = nullptr;  // of the lens, unless it is the default one
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a small white patch becomes through openings of every shape: the opening's picture, turned
 // by half a turn where the patch is nearer than the focus.
+#include "tests/support/shapes.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
-#include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 
 namespace {

@@ -41,7 +41,8 @@ std::string Setup::Text() const {
          Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
          std::to_string(config.largest_block) + ", layers " + std::to_string(config.max_layer) +
          ", deblocking " + std::to_string(config.deblocking) + ", theta " + Number(config.theta) +
-         ", n_scale " + Number(config.n_scale) + (config.gather != 0 ? "" : ", nothing gathered") + ", " + test::ShapeText(config);
+         ", n_scale " + Number(config.n_scale) + (config.gather != 0 ? "" : ", nothing gathered") +
+         ", " + test::ShapeText(config);
 }
 
 double RandomRadius(double largest, test::Random* random) {

@@ -142,9 +142,8 @@ Error Run(const Options& options) {
   }
   error = SaveLightField(options.folder, light_field, &runner);
   for (size_t i = 0; i < truths.size() && error.empty(); ++i) {
-    const std::string name =
-        "truth_dt" + Short(plan.truths[i].focus) + "_ut" + Short(plan.truths[i].aperture) +
-        ShapeSuffix(options.shape) + ".png";
+    const std::string name = "truth_dt" + Short(plan.truths[i].focus) + "_ut" +
+                             Short(plan.truths[i].aperture) + ShapeSuffix(options.shape) + ".png";
     error = WriteImage((fs::path(options.folder) / name).string(), truths[i]);
   }
   if (!error.empty()) return error;

@@ -191,17 +191,17 @@ typedef struct sf_config {
   int16_t aperture_shape; /**< sf_shape; default SF_SHAPE_FALL_OFF. theta belongs to that alone, the
                              fields below to the others. By a polygon's and with cats_eye nothing
                              is gathered */
-  int16_t blades;   /**< of a polygon, [SF_MIN_BLADES, SF_MAX_BLADES]; default 5 */
-  float rotation;   /**< of a polygon in degrees, [-360, 360]; 0, the default: a corner at the top of
-                       the lens, (0, -1); more turns it clockwise, to the right */
-  float curvature;  /**< of a polygon's edges, the disc's radius over theirs, [0, 1]; default 0:
-                       straight; 1: the disc */
+  int16_t blades;         /**< of a polygon, [SF_MIN_BLADES, SF_MAX_BLADES]; default 5 */
+  float rotation;  /**< of a polygon in degrees, [-360, 360]; 0, the default: a corner at the top of
+                      the lens, (0, -1); more turns it clockwise, to the right */
+  float curvature; /**< of a polygon's edges, the disc's radius over theirs, [0, 1]; default 0:
+                      straight; 1: the disc */
   float ring_inner; /**< of a ring: radius of its hole over u_t, [0, SF_MAX_RING_INNER]; default
                        0.5 */
-  float cats_eye;   /**< how far a second rim, as wide as the disc, lies beside the lens in radii, as
-                       it is seen from the picture's corners, [0, 1]; less towards the middle: light
-                       passes both. Pictures do not get darker by it, SF_MODE_BLUR does without it;
-                       default 0: there is none */
+  float cats_eye; /**< how far a second rim, as wide as the disc, lies beside the lens in radii, as
+                     it is seen from the picture's corners, [0, 1]; less towards the middle: light
+                     passes both. Pictures do not get darker by it, SF_MODE_BLUR does without it;
+                     default 0: there is none */
   uint32_t reserved[2]; /**< zero */
 } sf_config;
 
