@@ -96,22 +96,6 @@ const BadConfig kBadConfigs[] = {
     {"skips 2", [](sf_config* c) { c->skips = 2; }, SF_ERROR_SKIPS},
     {"gather -1", [](sf_config* c) { c->gather = -1; }, SF_ERROR_GATHER},
     {"gather 2", [](sf_config* c) { c->gather = 2; }, SF_ERROR_GATHER},
-    {"shape -1", [](sf_config* c) { c->aperture_shape = -1; }, SF_ERROR_SHAPE},
-    {"shape 4", [](sf_config* c) { c->aperture_shape = 4; }, SF_ERROR_SHAPE},
-    {"blades 2", [](sf_config* c) { c->blades = 2; }, SF_ERROR_BLADES},
-    {"blades 13", [](sf_config* c) { c->blades = 13; }, SF_ERROR_BLADES},
-    {"rotation below", [](sf_config* c) { c->rotation = -360.1F; }, SF_ERROR_ROTATION},
-    {"rotation above", [](sf_config* c) { c->rotation = 360.1F; }, SF_ERROR_ROTATION},
-    {"rotation NaN", [](sf_config* c) { c->rotation = kNanF; }, SF_ERROR_ROTATION},
-    {"curvature below", [](sf_config* c) { c->curvature = -0.01F; }, SF_ERROR_CURVATURE},
-    {"curvature above", [](sf_config* c) { c->curvature = 1.01F; }, SF_ERROR_CURVATURE},
-    {"curvature NaN", [](sf_config* c) { c->curvature = kNanF; }, SF_ERROR_CURVATURE},
-    {"ring below", [](sf_config* c) { c->ring_inner = -0.01F; }, SF_ERROR_RING},
-    {"ring above", [](sf_config* c) { c->ring_inner = 0.91F; }, SF_ERROR_RING},
-    {"ring NaN", [](sf_config* c) { c->ring_inner = kNanF; }, SF_ERROR_RING},
-    {"cat's eye below", [](sf_config* c) { c->cats_eye = -0.01F; }, SF_ERROR_CATS_EYE},
-    {"cat's eye above", [](sf_config* c) { c->cats_eye = 1.01F; }, SF_ERROR_CATS_EYE},
-    {"cat's eye NaN", [](sf_config* c) { c->cats_eye = kNanF; }, SF_ERROR_CATS_EYE},
 };
 
 struct BadParams {

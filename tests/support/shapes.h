@@ -26,7 +26,7 @@ inline void RandomShape(sf_config* config, Random* random) {
 }
 
 inline std::string ShapeText(const sf_config& config) {
-  char text[120];
+  char text[200];
   std::snprintf(text, sizeof(text),
                 "shape %d, blades %d, rotation %.9g, curvature %.9g, inner %.9g, cats_eye %.9g",
                 config.aperture_shape, config.blades, double{config.rotation},
