@@ -195,6 +195,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
       plan.around = starfocus::GetReach(r).cells;
       plan.rules.max_layer = max_layer;
       plan.rules.n_scale = 1;
+      plan.rules.demand = static_cast<starfocus::Demand>(random.Int(0, 3));
       const double exact = std::floor(r * 64) / 64;
       CAPTURE(exact);
       CAPTURE(max_layer);
@@ -210,12 +211,24 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
             CHECK(block.rendered.width == 0);
             continue;
           }
-          const int layer = std::min(LayerOf(subapertures, exact, false), max_layer);
+          const int layer =
+              std::min(LayerOf(subapertures, exact, false, plan.rules.demand), max_layer);
           CHECK(block.layer == layer);
-          CHECK(block.n == ViewsOf(subapertures, exact / (1 << layer)));
+          CHECK(block.n == ViewsOf(subapertures, exact / (1 << layer), plan.rules.demand));
         }
       }
     }
+  }
+}
+
+TEST_CASE("partition: no block is larger than the largest that is made") {
+  test::Random random(12);
+  Plan flat(256, 256, 128, 0.001, &random);
+  for (const int side : {16, 32, 64}) {
+    flat.rules.largest_node = side;
+    const std::vector<Block> blocks = flat.Partition(128, 0);
+    CHECK(blocks.size() == size_t(128 / side) * size_t(128 / side));
+    for (const Block& block : blocks) CHECK(block.rect.width == side);
   }
 }
 

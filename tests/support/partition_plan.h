@@ -68,7 +68,7 @@ struct Plan {
     rules.max_n = kMaxN;
     rules.subapertures = random->Int(0, 1) == 1;
     rules.gathers = rules.subapertures;
-    rules.demand = starfocus::Demand::kFallOff;
+    rules.demand = static_cast<starfocus::Demand>((width + rules.max_layer) % 4);
     rules.largest_node = largest_block;
     rules.n_scale = (2 + 2 * rules.max_layer + rules.subapertures) / 4.0;
     rules.timing = starfocus::DefaultTiming();
@@ -133,14 +133,18 @@ inline int LayerFrom(double r_min, double radius) {
 }
 
 // (12), or with wide subapertures only where less can go wrong: both layers later, and
-// silhouettes never rounded to four pixels.
-inline int LayerOf(bool subapertures, double r_min, bool silhouette) {
-  if (!subapertures) return LayerFrom(r_min, 3);
-  return r_min < 7 ? 0 : r_min < 24 || silhouette ? 1 : 2;
+// silhouettes never rounded to four pixels. Openings that end sharply have both later still.
+inline int LayerOf(bool subapertures, double r_min, bool silhouette, starfocus::Demand demand) {
+  constexpr double kPaper[] = {3, 4, 5, 6}, kCells[] = {7, 12, 14, 16};
+  const auto index = static_cast<size_t>(demand);
+  if (!subapertures) return LayerFrom(r_min, kPaper[index]);
+  const double first = kCells[index];
+  return r_min < first ? 0 : r_min < 24 * first / 7 || silhouette ? 1 : 2;
 }
 
-// (9), or what wide subapertures need.
-inline int ViewsOf(bool subapertures, double r_max) {
+// (9), or what wide subapertures need, those of polygons and rings more.
+inline int ViewsOf(bool subapertures, double r_max, starfocus::Demand demand) {
+  if (subapertures && demand >= starfocus::Demand::kPolygon && r_max > 5 && r_max <= 34) return 6;
   if (subapertures) {
     constexpr struct {
       double r_max;
@@ -193,8 +197,9 @@ inline void PlanRest(const Plan& plan, Block* block) {
     border.right = std::max(border.right, unit_x + kSmallestBlock + part.right - right);
     border.bottom = std::max(border.bottom, unit_y + kSmallestBlock + part.bottom - bottom);
   });
-  block->n = std::min(int(std::ceil(ViewsOf(true, r_max / kRadiusOne) * plan.rules.n_scale)),
-                      plan.rules.max_n);
+  block->n = std::min(
+      int(std::ceil(ViewsOf(true, r_max / kRadiusOne, plan.rules.demand) * plan.rules.n_scale)),
+      plan.rules.max_n);
   block->border = {border.left + 1, border.right + 1, border.top + 1, border.bottom + 1};
 }
 
@@ -225,10 +230,11 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   Block block = {};
   block.rect = {x, y, std::min(side, plan.rules.width - x), std::min(side, plan.rules.height - y)};
   const bool subapertures = plan.rules.subapertures;
-  block.layer = std::min(LayerOf(subapertures, stats.r_min / kRadiusOne, stats.r_edge > 0),
-                         plan.rules.max_layer);
+  block.layer =
+      std::min(LayerOf(subapertures, stats.r_min / kRadiusOne, stats.r_edge > 0, plan.rules.demand),
+               plan.rules.max_layer);
   const int scale = 1 << block.layer;
-  const int views = ViewsOf(subapertures, stats.r_max / (kRadiusOne * scale));
+  const int views = ViewsOf(subapertures, stats.r_max / (kRadiusOne * scale), plan.rules.demand);
   block.n = std::min(int(std::ceil(views * plan.rules.n_scale)), plan.rules.max_n);
   const int margin = kLayerMargin[block.layer] / scale;
   block.rendered = {x / scale - margin, y / scale - margin,
