@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Nothing that is rounded here comes near a half by itself, so that a last digit that machines do
-// not agree on changes nothing.
+// Machines may disagree about a tangent's last digit, as in ApertureFallOff; what is rounded here
+// would have to lie within that of a half to differ.
 int32_t Round(double value) { return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5)); }
 
 struct Direction {

@@ -14,14 +14,13 @@ namespace starfocus {
 // Fractional bits of what an opening is described by, in radii of the lens.
 inline constexpr int kOpeningBits = 14;
 inline constexpr int32_t kOpeningOne = 1 << kOpeningBits;
-inline constexpr int32_t kMaxBlades = 12;
 
 // cot^2(theta) with 16 fractional bits; theta in [0.05 pi, 0.45 pi] gives [0.025, 40].
 uint32_t ApertureFallOff(double theta);
 
 struct Opening {
-  // The paper's (3); fall_off as ApertureFallOff gives.
-  Opening(uint32_t square = 1 << 16) : fall_off(square) {}  // NOLINT: converts
+  // The paper's (3), of what ApertureFallOff gives: an opening that is nothing else.
+  Opening(uint32_t cot_square = 1 << 16) : fall_off(cot_square) {}  // NOLINT: converts
 
   sf_shape shape = SF_SHAPE_FALL_OFF;
   uint32_t fall_off;     // of SF_SHAPE_FALL_OFF: cot^2(theta), 16 bits
@@ -30,7 +29,7 @@ struct Opening {
   // Of a polygon: the points p of `bulge` |p|^2 + `slope` p * normal <= `limit` for the normal of
   // each of its edges, which are arcs through the corners.
   int32_t blades = 0;
-  int32_t normals[kMaxBlades][2] = {};
+  int32_t normals[SF_MAX_BLADES][2] = {};
   int32_t bulge = 0, slope = 0, limit = 0;
 
   // Whether it is its own mirror image about both axes and both diagonals, so that an octant tells
