@@ -65,16 +65,17 @@ constexpr bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t ra
 // points of the plane before those that stand for four.
 template <class Visit>
 void ForEachOfOctant(int32_t last, bool by_size, const Visit& visit) {
-  const auto pass = [&](bool eight, bool others) {
-    for (int32_t i = last; i >= 0; --i) {
-      for (int32_t j = i; j >= 0; --j) {
-        const bool stands_for_eight = j != 0 && i != j;
-        if (stands_for_eight ? eight : others) visit(i, j);
-      }
+  for (int32_t i = by_size ? last : 0; i > 1; --i) {
+    for (int32_t j = i - 1; j > 0; --j) visit(i, j);
+  }
+  for (int32_t i = last; i >= 0; --i) {
+    if (by_size) {
+      visit(i, i);
+      if (i > 0) visit(i, 0);
+      continue;
     }
-  };
-  if (by_size) pass(true, false);
-  pass(!by_size, true);
+    for (int32_t j = i; j >= 0; --j) visit(i, j);
+  }
 }
 
 // Returns how many different points (+-i, +-j), (+-j, +-i) are.

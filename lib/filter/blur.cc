@@ -72,6 +72,7 @@ Interval WithinPolygon(const Opening& opening, double y, double r, Interval x) {
 // where the opening does: points of a square grid, each inside or outside, are wrong by up to 1.6
 // gray levels where the aperture ends without having fallen off. The arithmetic and the square root
 // are IEEE's, and so the same everywhere.
+template <sf_shape kShape>
 double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Opening& opening) {
   const double square = r * r, fall_off = opening.fall_off / 65536.0;
   const double low = Larger(m - 0.5, -r), high = Smaller(m + 0.5, r);
@@ -80,16 +81,13 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Opening
   for (int32_t line = 0; line < lines; ++line) {
     const double y = low + (line + 0.5) / lines * (high - low), rim = std::sqrt(square - y * y);
     Interval x = {Larger(n - 0.5, -rim), Smaller(n + 0.5, rim)};
-    if (opening.shape == SF_SHAPE_POLYGON) x = WithinPolygon(opening, y, r, x);
+    if (kShape == SF_SHAPE_POLYGON) x = WithinPolygon(opening, y, r, x);
     if (x.from >= x.to) continue;
-    double along = kPoints;
-    if (opening.shape == SF_SHAPE_FALL_OFF) {
-      along = 0;
-      for (int32_t point = 0; point < kPoints; ++point) {
-        const double at = x.from + (point + 0.5) / kPoints * (x.to - x.from);
-        const double ratio = fall_off / ((at * at + y * y) / square + fall_off);
-        along += ratio * ratio;
-      }
+    double along = kShape == SF_SHAPE_FALL_OFF ? 0 : kPoints;
+    for (int32_t point = 0; kShape == SF_SHAPE_FALL_OFF && point < kPoints; ++point) {
+      const double at = x.from + (point + 0.5) / kPoints * (x.to - x.from);
+      const double ratio = fall_off / ((at * at + y * y) / square + fall_off);
+      along += ratio * ratio;
     }
     sum += along * (x.to - x.from);
   }
@@ -101,11 +99,16 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Opening
 double PixelIntegral(int32_t n, int32_t m, int32_t radius, const Opening& opening) {
   const double r = static_cast<double>(radius) / kOne;
   const int32_t lines = LinesOf(radius);
-  if (opening.shape == SF_SHAPE_POLYGON) return DiscIntegral(n, m, r, 4 * lines, opening);
-  const double whole = DiscIntegral(n, m, r, lines, opening);
+  if (opening.shape == SF_SHAPE_FALL_OFF) {
+    return DiscIntegral<SF_SHAPE_FALL_OFF>(n, m, r, lines, opening);
+  }
+  if (opening.shape == SF_SHAPE_POLYGON) {
+    return DiscIntegral<SF_SHAPE_POLYGON>(n, m, r, 4 * lines, opening);
+  }
+  const double whole = DiscIntegral<SF_SHAPE_DISC>(n, m, r, lines, opening);
   if (!opening.IsRing() || opening.inner == 0) return whole;
   const double hole = r * opening.inner / kOpeningOne;
-  return Larger(0, whole - DiscIntegral(n, m, hole, lines, opening));
+  return Larger(0, whole - DiscIntegral<SF_SHAPE_DISC>(n, m, hole, lines, opening));
 }
 
 // Calls visit(n, m, how many pixels share the weight, integral of (4)) for the weights of a kernel
@@ -179,20 +182,34 @@ void LoadPixels(const BlurJob& job, uint8_t* rgb) {
   }
 }
 
-// Adds a kernel over `count` pixels of one radius, turned by half a turn with `turned` -1; two
-// weights side by side go in one span.
-void AddRun(const BlurKernel& kernel, int32_t turned, const uint8_t* at, size_t stride,
-            int32_t count, SpanList* list) {
+// Adds a kernel of `weight(n, m)` over `count` pixels of one radius; two weights side by side go in
+// one span.
+template <class Weight>
+void AddRun(int32_t size, const Weight& weight, const uint8_t* at, size_t stride, int32_t count,
+            SpanList* list) {
   const uint32_t samples = 3 * static_cast<uint32_t>(count);
-  for (int32_t m = -kernel.size; m <= kernel.size; ++m) {
+  for (int32_t m = -size; m <= size; ++m) {
     const uint8_t* row = at + static_cast<ptrdiff_t>(m) * static_cast<ptrdiff_t>(stride);
-    for (int32_t n = -kernel.size; n <= kernel.size; n += 2) {
-      const uint32_t weight = kernel.Weight(turned * n, turned * m);
-      const uint32_t next = n < kernel.size ? kernel.Weight(turned * (n + 1), turned * m) : 0;
-      if (weight + next == 0) continue;
-      list->Add({row + 3 * static_cast<ptrdiff_t>(n), 0, samples, static_cast<uint16_t>(weight),
+    for (int32_t n = -size; n <= size; n += 2) {
+      const uint32_t first = weight(n, m), next = n < size ? weight(n + 1, m) : 0;
+      if (first + next == 0) continue;
+      list->Add({row + 3 * static_cast<ptrdiff_t>(n), 0, samples, static_cast<uint16_t>(first),
                  static_cast<uint16_t>(next), 3});
     }
+  }
+}
+
+// Adds it turned by half a turn with `side` -1.
+void AddKernel(const BlurKernel& kernel, int32_t side, const uint8_t* at, size_t stride,
+               int32_t count, SpanList* list) {
+  if (kernel.full) {
+    AddRun(
+        kernel.size, [&](int32_t n, int32_t m) { return kernel.Weight(side * n, side * m); }, at,
+        stride, count, list);
+  } else {
+    AddRun(
+        kernel.size, [&](int32_t n, int32_t m) { return kernel.OctantWeight(n, m); }, at, stride,
+        count, list);
   }
 }
 
@@ -233,6 +250,7 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
   const Rect& rect = job.rect;
   const size_t stride = 3 * static_cast<size_t>(rect.width + 2 * job.border);
   SpanList list(*job.kernels, scratch.spans, scratch.accumulators);
+  const bool turns = job.kernels_of_radius[0].full;
   for (int32_t y = 0; y < rect.height; ++y, out += out_stride) {
     const int16_t* disparity = job.window->disparity.Row(rect.y + y) + rect.x;
     const uint8_t* row = scratch.rgb + static_cast<size_t>(y + job.border) * stride +
@@ -240,7 +258,9 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
     const auto step_at = [&](int32_t x) {
       return BlurStep(job.scale.Radius(Abs(disparity[x] - job.scale.focus)));
     };
-    const auto side_of = [&](int32_t x) { return disparity[x] < job.scale.focus ? -1 : 1; };
+    const auto side_of = [&](int32_t x) {
+      return turns && disparity[x] < job.scale.focus ? -1 : 1;
+    };
     for (int32_t x = 0; x < rect.width;) {
       const int32_t begin = x, step = step_at(x), side = side_of(x);
       while (++x < rect.width && step_at(x) == step && side_of(x) == side) {
@@ -248,7 +268,7 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
       const BlurKernel& kernel = job.kernels_of_radius[step];
       const size_t samples = 3 * static_cast<size_t>(x - begin);
       std::memset(scratch.accumulators, 0, samples * sizeof(uint32_t));
-      AddRun(kernel, side, row + 3 * begin, stride, x - begin, &list);
+      AddKernel(kernel, side, row + 3 * begin, stride, x - begin, &list);
       list.Flush();
       CheckSums(scratch.accumulators, samples, kernel.sum_bits);
       job.kernels->Finish(scratch.accumulators, samples, kernel.sum_bits, out + 3 * begin);

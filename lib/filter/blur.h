@@ -29,7 +29,9 @@ struct BlurKernel {
   const uint16_t* weights;  // at n (n + 1) / 2 + m, or rows m one after the other
 
   uint32_t Weight(int32_t n, int32_t m) const {
-    if (full) return weights[(m + size) * (2 * size + 1) + n + size];
+    return full ? weights[(m + size) * (2 * size + 1) + n + size] : OctantWeight(n, m);
+  }
+  uint32_t OctantWeight(int32_t n, int32_t m) const {
     const int32_t a = Abs(n), b = Abs(m), high = Max(a, b), low = Min(a, b);
     return weights[high * (high + 1) / 2 + low];
   }
