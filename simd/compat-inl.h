@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// WeighPair returns a * wa + b * wb in 32-bit lanes, for a, b <= 255 and wa, wb <= 32767. It takes
+// WeighPair returns a * wa + b * wb in 32-bit lanes, for a, b, wa, wb <= 32767. It takes
 // one multiply-add of 16-bit pairs on x86 and two multiplications elsewhere.
 #undef STARFOCUS_HAVE_PAIR_MULTIPLY
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR

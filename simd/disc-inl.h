@@ -11,14 +11,14 @@
 
 #include "simd/compat-inl.h"
 #include "simd/disc.h"
-#include "simd/spans-inl.h"
+#include "simd/light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
 // DiscPairs holds a quarter of the disc, row by row, in pairs of columns that are multiplied
-// together.
+// together. A weight is that of all pixels that mirror each other there.
 struct DiscPairs {
   struct Pair {
     uint16_t first, second;
@@ -31,7 +31,9 @@ struct DiscPairs {
     for (int32_t y = 0; y <= disc.size; ++y) {
       const auto weight = [&](int32_t x) -> uint16_t {
         const int32_t high = x > y ? x : y, low = x > y ? y : x;
-        return x > disc.size ? uint16_t{0} : disc.weights[high * (high + 1) / 2 + low];
+        if (x > disc.size) return uint16_t{0};
+        const int bits = (x > 0 ? 1 : 0) + (y > 0 ? 1 : 0);
+        return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
       };
       int32_t last = disc.size;
       while (last >= 0 && weight(last) == 0) --last;
@@ -44,24 +46,29 @@ struct DiscPairs {
 inline constexpr size_t kDiscChunk = 192;  // samples filtered together
 inline constexpr size_t kDiscMargin = 3 * kMaxDisc;
 
-// Adds the samples of two rows that the disc weighs alike; the middle row comes alone.
-HWY_INLINE void AddRows(const uint8_t* above, const uint8_t* below, size_t count,
-                        uint16_t* HWY_RESTRICT sums) {
+// Stores the means of two rows that the disc weighs alike; the middle row comes alone.
+HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t count,
+                            uint16_t* HWY_RESTRICT means) {
+  if (above == below) {
+    std::memcpy(means, above, count * sizeof(*means));
+    return;
+  }
   const hn::ScalableTag<uint16_t> d16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  const hn::RebindToSigned<decltype(d16)> di16;
   for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
-    auto sum = hn::PromoteTo(d16, hn::LoadU(d8, above + n));
-    if (above != below) sum = hn::Add(sum, hn::PromoteTo(d16, hn::LoadU(d8, below + n)));
-    hn::StoreU(sum, d16, sums + n);
+    hn::StoreU(hn::AverageRound(hn::BitCast(d16, hn::LoadU(di16, above + n)),
+                                hn::BitCast(d16, hn::LoadU(di16, below + n))),
+               d16, means + n);
   }
 }
 
-// AddDiscRow adds a row of the disc to the accumulators. `sums` are those of AddRows.
+// AddDiscRow adds a row of the disc to the accumulators; `means` are those of AverageRows.
+// FinishDisc makes light of accumulators, divided by 2^bits and times 2^whole.
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
 
 // Accumulators stand in the order in which pairs of 16 bits are interleaved; FinishDisc knows it.
 HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
-                           const uint16_t* HWY_RESTRICT sums, size_t count,
+                           const uint16_t* HWY_RESTRICT means, size_t count,
                            uint32_t* HWY_RESTRICT accumulators) {
   const hn::ScalableTag<uint16_t> d16;
   const hn::RebindToSigned<decltype(d16)> di16;
@@ -69,15 +76,15 @@ HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
   const hn::RebindToSigned<decltype(d32)> di32;
   const size_t lanes = hn::Lanes(d16);
   for (size_t n = 0; n < count; n += lanes) {
-    const uint16_t* at = sums + n;
+    const uint16_t* at = means + n;
     auto low = hn::BitCast(di32, hn::LoadU(d32, accumulators + n));
     auto high = hn::BitCast(di32, hn::LoadU(d32, accumulators + n + lanes / 2));
     auto unused = hn::Zero(di32);
     for (ptrdiff_t k = 0; k < pair_count; ++k) {
       const ptrdiff_t x = 6 * k;
       auto first = hn::LoadU(d16, at + x);
-      if (k > 0) first = hn::Add(first, hn::LoadU(d16, at - x));
-      const auto second = hn::Add(hn::LoadU(d16, at + x + 3), hn::LoadU(d16, at - x - 3));
+      if (k > 0) first = hn::AverageRound(first, hn::LoadU(d16, at - x));
+      const auto second = hn::AverageRound(hn::LoadU(d16, at + x + 3), hn::LoadU(d16, at - x - 3));
       const auto weights =
           hn::BitCast(di16, hn::Set(d32, pairs[k].first | uint32_t{pairs[k].second} << 16));
       low = hn::ReorderWidenMulAccumulate(
@@ -91,42 +98,35 @@ HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
 }
 
 HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t count, int bits,
-                           uint8_t* HWY_RESTRICT out) {
+                           int whole, int16_t* HWY_RESTRICT light) {
   const hn::ScalableTag<uint32_t> d32;
   const hn::RebindToSigned<decltype(d32)> di32;
   const hn::Repartition<int16_t, decltype(d32)> d16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
   const auto half = hn::Set(d32, uint32_t{1} << (bits - 1));
   const auto value = [&](const uint32_t* sums) HWY_ATTR {
     return hn::BitCast(di32, hn::ShiftRightSame(hn::Add(hn::LoadU(d32, sums), half), bits));
   };
   for (size_t n = 0; n < count; n += lanes) {
-    const auto bytes = hn::DemoteTo(d8, hn::ReorderDemote2To(d16, value(accumulators + n),
-                                                             value(accumulators + n + lanes / 2)));
-    if (n + lanes <= count) {
-      hn::StoreU(bytes, d8, out + n);
-    } else {
-      uint8_t last[HWY_MAX_BYTES];
-      hn::StoreU(bytes, d8, last);
-      std::memcpy(out + n, last, count - n);
-    }
+    const auto both =
+        hn::ReorderDemote2To(d16, value(accumulators + n), value(accumulators + n + lanes / 2));
+    hn::StoreU(hn::ShiftLeftSame(both, whole), d16, light + n);
   }
 }
 
 #else
 
 HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
-                           const uint16_t* HWY_RESTRICT sums, size_t count,
+                           const uint16_t* HWY_RESTRICT means, size_t count,
                            uint32_t* HWY_RESTRICT accumulators) {
   const hn::ScalableTag<uint32_t> d32;
   const hn::Rebind<uint16_t, decltype(d32)> d16;
   const size_t lanes = hn::Lanes(d32);
   for (size_t n = 0; n < count; n += lanes) {
     const auto both = [&](const uint16_t* at, ptrdiff_t x) HWY_ATTR {
-      return hn::PromoteTo(d32, hn::Add(hn::LoadU(d16, at - x), hn::LoadU(d16, at + x)));
+      return hn::PromoteTo(d32, hn::AverageRound(hn::LoadU(d16, at - x), hn::LoadU(d16, at + x)));
     };
-    const uint16_t* at = sums + n;
+    const uint16_t* at = means + n;
     auto sum = hn::LoadU(d32, accumulators + n);
     sum = hn::Add(sum, WeighPair(d32, hn::PromoteTo(d32, hn::LoadU(d16, at)), both(at, 3),
                                  hn::Set(d32, pairs[0].first), hn::Set(d32, pairs[0].second)));
@@ -139,37 +139,49 @@ HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
 }
 
 HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t count, int bits,
-                           uint8_t* HWY_RESTRICT out) {
-  Finish(accumulators, count, bits, out);
+                           int whole, int16_t* HWY_RESTRICT light) {
+  const hn::ScalableTag<uint32_t> d32;
+  const hn::RebindToSigned<decltype(d32)> di32;
+  const hn::Rebind<int16_t, decltype(d32)> d16;
+  const auto half = hn::Set(d32, uint32_t{1} << (bits - 1));
+  for (size_t n = 0; n < count; n += hn::Lanes(d32)) {
+    const auto sum = hn::Add(hn::LoadU(d32, accumulators + n), half);
+    const auto value = hn::ShiftLeftSame(hn::ShiftRightSame(sum, bits), whole);
+    hn::StoreU(hn::DemoteTo(d16, hn::BitCast(di32, value)), d16, light + n);
+  }
 }
 
 #endif
 
-inline void FilterDisc(const uint8_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
-                       size_t rows, size_t count, uint8_t* HWY_RESTRICT out, size_t out_stride) {
+inline void FilterDisc(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
+                       const Encoding& encoding, size_t rows, size_t count,
+                       uint8_t* HWY_RESTRICT out, size_t out_stride) {
   constexpr size_t kSpare = HWY_MAX_BYTES;
   const DiscPairs quarter(disc);
+  const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
   const size_t margin = 3 * static_cast<size_t>(disc.size);
   // The second column of a pair may lie a pixel beyond the disc. Its weight is zero, but it is
   // read.
   uint16_t padded[3 + kDiscChunk + 2 * kDiscMargin + 3 + kSpare] = {};
-  uint16_t* const sums = padded + 3;
+  uint16_t* const means = padded + 3;
   uint32_t accumulators[kDiscChunk + kSpare];
+  int16_t light[kDiscChunk + kSpare];
   for (size_t begin = 0; begin < count; begin += kDiscChunk) {
     const size_t chunk = count - begin < kDiscChunk ? count - begin : kDiscChunk;
     for (size_t row = 0; row < rows; ++row) {
-      const uint8_t* middle = in + row * in_stride + begin;
+      const int16_t* middle = in + row * in_stride + begin;
       const DiscPairs::Pair* pairs = quarter.pairs;
       std::memset(accumulators, 0, sizeof(accumulators));
       for (int32_t y = 0; y <= disc.size; ++y) {
         if (quarter.counts[y] == 0) continue;
         const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
-        AddRows(middle - offset - margin, middle + offset - margin, chunk + 2 * margin, sums);
-        std::memset(sums + chunk + 2 * margin, 0, 3 * sizeof(*sums));
-        AddDiscRow(pairs, quarter.counts[y], sums + margin, chunk, accumulators);
+        AverageRows(middle - offset - margin, middle + offset - margin, chunk + 2 * margin, means);
+        std::memset(means + chunk + 2 * margin, 0, 3 * sizeof(*means));
+        AddDiscRow(pairs, quarter.counts[y], means + margin, chunk, accumulators);
         pairs += quarter.counts[y];
       }
-      FinishDisc(accumulators, chunk, disc.bits, out + row * out_stride + begin);
+      FinishDisc(accumulators, chunk, disc.bits + whole, whole, light);
+      Encode(light, chunk, encoding, out + row * out_stride + begin);
     }
   }
 }

@@ -1,28 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdlib>
-
 #include "simd/disc.h"
 
 namespace starfocus::simd::reference {
 namespace {
 
-uint32_t DiscWeight(const Disc& disc, int32_t x, int32_t y) {
-  const int32_t a = std::abs(x), b = std::abs(y), high = a > b ? a : b, low = a > b ? b : a;
-  return disc.weights[high * (high + 1) / 2 + low];
+int32_t Mean(int32_t a, int32_t b) { return (a + b + 1) >> 1; }
+
+// Returns the disc's sum around the sample at `at`.
+uint32_t DiscSum(const int16_t* at, ptrdiff_t stride, const Disc& disc) {
+  uint32_t sum = 0;
+  for (int32_t y = 0; y <= disc.size; ++y) {
+    for (int32_t x = 0; x <= disc.size; ++x) {
+      const int32_t high = x > y ? x : y, low = x > y ? y : x;
+      const auto column = [&](int32_t pixel) {
+        const int16_t* sample = at + 3 * ptrdiff_t{pixel};
+        return Mean(sample[-y * stride], sample[y * stride]);
+      };
+      const int32_t pixels = (x > 0 ? 2 : 1) * (y > 0 ? 2 : 1);
+      const int32_t weight = pixels * disc.weights[high * (high + 1) / 2 + low];
+      sum += static_cast<uint32_t>(weight * Mean(column(-x), column(x)));
+    }
+  }
+  return sum;
 }
 
 }  // namespace
 
-void FilterDisc(const uint8_t* in, size_t in_stride, const Disc& disc, size_t rows, size_t count,
-                uint8_t* out, size_t out_stride) {
+void FilterDisc(const int16_t* in, size_t in_stride, const Disc& disc, const Encoding& encoding,
+                size_t rows, size_t count, uint8_t* out, size_t out_stride) {
+  const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
+  const int bits = disc.bits + whole;
+  const uint32_t half = uint32_t{1} << bits >> 1;
   for (size_t row = 0; row < rows; ++row, in += in_stride, out += out_stride) {
     for (size_t n = 0; n < count; ++n) {
-      uint32_t sum = uint32_t{1} << disc.bits >> 1;
-      for (int32_t y = -disc.size; y <= disc.size; ++y) {
-        const uint8_t* at = in + n + y * static_cast<ptrdiff_t>(in_stride);
-        for (int32_t x = -disc.size; x <= disc.size; ++x) sum += DiscWeight(disc, x, y) * at[3 * x];
-      }
-      out[n] = static_cast<uint8_t>(sum >> disc.bits);
+      const uint32_t sum = DiscSum(in + n, static_cast<ptrdiff_t>(in_stride), disc);
+      const auto light = static_cast<int16_t>((sum + half) >> bits << whole);
+      Encode(&light, 1, encoding, out + n);
     }
   }
 }

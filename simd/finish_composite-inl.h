@@ -68,18 +68,19 @@ HWY_INLINE V64 DivideEven(D64 d64, CompositeVec sum, CompositeVec low, Composite
   return hn::BitCast(d64, hn::Min(hn::BitCast(di64, value), white));
 }
 
-HWY_INLINE void CopyMissing(const uint8_t* rgb, int bits, uint32_t* out) {
+HWY_INLINE void CopyMissing(const int16_t* centre, int bits, uint32_t* out) {
   const CompositeTag d32;
-  const hn::Rebind<uint8_t, CompositeTag> d8;
+  const hn::Rebind<uint16_t, CompositeTag> d16;
+  const auto* light = reinterpret_cast<const uint16_t*>(centre);
   const size_t lanes = hn::Lanes(d32);
   for (size_t n = 0; n < 3 * lanes; n += lanes) {
-    const auto value = hn::PromoteTo(d32, hn::LoadU(d8, rgb + n));
-    hn::StoreU(hn::ShiftLeftSame(value, bits), d32, out + n);
+    const auto value = hn::PromoteTo(d32, hn::LoadU(d16, light + n));
+    hn::StoreU(hn::ShiftLeftSame(value, bits - kLightBits), d32, out + n);
   }
 }
 
 // Finishes a vector of pixels.
-HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const int16_t* centre,
                             const CompositeFinish& finish, Inverses& inverses, uint32_t* out) {
   const CompositeTag d32;
   const hn::Repartition<uint64_t, CompositeTag> d64;
@@ -87,7 +88,7 @@ HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const uint8_t* r
   const auto covered = hn::LoadU(d32, sums + 3 * plane);
   const auto missing = hn::Lt(covered, hn::Set(d32, finish.least));
   if (hn::AllTrue(d32, missing)) {
-    CopyMissing(rgb, finish.bits, out);
+    CopyMissing(centre, finish.bits, out);
     return;
   }
   inverses.Load(covered);
@@ -109,21 +110,22 @@ HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const uint8_t* r
   if (hn::AllFalse(d32, missing)) return;
   for (size_t n = 0; n < hn::Lanes(d32); ++n) {
     if (sums[3 * plane + n] >= finish.least) continue;
-    for (size_t c = 0; c < 3; ++c) out[3 * n + c] = uint32_t{rgb[3 * n + c]} << finish.bits;
+    for (size_t c = 0; c < 3; ++c)
+      out[3 * n + c] = static_cast<uint32_t>(centre[3 * n + c]) << (finish.bits - kLightBits);
   }
 }
 
-inline void FinishComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+inline void FinishComposite(const uint32_t* sums, size_t plane, const int16_t* centre,
                             const CompositeFinish& finish, size_t count, uint32_t* out) {
   const size_t lanes = hn::Lanes(CompositeTag());
   Inverses inverses(finish.least);
   size_t n = 0;
   for (; n + lanes <= count; n += lanes) {
-    FinishGroup(sums + n, plane, rgb + 3 * n, finish, inverses, out + 3 * n);
+    FinishGroup(sums + n, plane, centre + 3 * n, finish, inverses, out + 3 * n);
   }
   if (n == count) return;
   uint32_t rest[3 * kSliceLanes];
-  FinishGroup(sums + n, plane, rgb + 3 * n, finish, inverses, rest);
+  FinishGroup(sums + n, plane, centre + 3 * n, finish, inverses, rest);
   std::memcpy(out + 3 * n, rest, 3 * (count - n) * sizeof(*out));
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/light.h"
 #include "simd/padding.h"
 
 namespace starfocus::simd {
@@ -14,7 +15,7 @@ namespace starfocus::simd {
 // fractional bits.
 struct CompositeFinish {
   uint32_t least;  // > 0
-  int bits;        // [1, 24]
+  int bits;        // [kLightBits, 24]
 };
 inline constexpr int kInverseBits = 48;
 
@@ -23,9 +24,9 @@ namespace reference {
 // Divides colours by coverage, of which sums[c * plane + n] are the planes: out[3 n + c] is
 // sums[c * plane + n] * (2^kInverseBits / covered) in units of 2^-bits, rounded halves up and 255
 // at most, where covered = sums[3 * plane + n] >= least; the division truncates. Elsewhere out[3 n
-// + c] is rgb[3 n + c] << bits. Sums are read in whole groups of kSliceLanes; nothing past out[3
-// count - 1] is written.
-void FinishComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+// + c] is the light centre[3 n + c] in the same units. Sums are read in whole groups of
+// kSliceLanes; nothing past out[3 count - 1] is written.
+void FinishComposite(const uint32_t* sums, size_t plane, const int16_t* centre,
                      const CompositeFinish& finish, size_t count, uint32_t* out);
 
 }  // namespace reference

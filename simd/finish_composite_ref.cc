@@ -3,7 +3,7 @@
 
 namespace starfocus::simd::reference {
 
-void FinishComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
+void FinishComposite(const uint32_t* sums, size_t plane, const int16_t* centre,
                      const CompositeFinish& finish, size_t count, uint32_t* out) {
   const int shift = kInverseBits - 8 - finish.bits;
   const uint64_t white = uint64_t{255} << finish.bits, half = uint64_t{1} << (shift - 1);
@@ -13,8 +13,9 @@ void FinishComposite(const uint32_t* sums, size_t plane, const uint8_t* rgb,
     const uint64_t inverse = missing ? 0 : (uint64_t{1} << kInverseBits) / covered;
     for (size_t c = 0; c < 3; ++c) {
       const uint64_t value = (sums[c * plane + n] * inverse + half) >> shift;
-      out[3 * n + c] = missing ? uint32_t{rgb[3 * n + c]} << finish.bits
-                               : static_cast<uint32_t>(value < white ? value : white);
+      out[3 * n + c] = missing
+                           ? static_cast<uint32_t>(centre[3 * n + c]) << (finish.bits - kLightBits)
+                           : static_cast<uint32_t>(value < white ? value : white);
     }
   }
 }

@@ -22,13 +22,13 @@
 #include "simd/disparities-inl.h"
 #include "simd/finish_composite-inl.h"
 #include "simd/layered_depth-inl.h"
+#include "simd/light-inl.h"
 #include "simd/neighbourhood-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
 #include "simd/spans-inl.h"
 #include "simd/tiles-inl.h"
-#include "simd/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

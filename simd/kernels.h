@@ -13,6 +13,7 @@
 #include "simd/disparities.h"
 #include "simd/finish_composite.h"
 #include "simd/layered_depth.h"
+#include "simd/light.h"
 #include "simd/neighbourhood.h"
 #include "simd/padding.h"
 #include "simd/resample.h"
@@ -20,13 +21,14 @@
 #include "simd/slices.h"
 #include "simd/spans.h"
 #include "simd/tiles.h"
-#include "simd/transpose.h"
 
 // All kernels. A kernel has one name: of its entry in the table, its reference, its vector code and
 // its test case. What this list names must exist under that name everywhere, or nothing compiles.
 #define STARFOCUS_KERNELS(KERNEL) \
   KERNEL(Accumulate)              \
   KERNEL(Blend)                   \
+  KERNEL(Decode)                  \
+  KERNEL(Encode)                  \
   KERNEL(Finish)                  \
   KERNEL(FilterDisc)              \
   KERNEL(ConvertDisparity)        \
@@ -47,7 +49,6 @@
   KERNEL(MeasureCell)             \
   KERNEL(ReachBlock)              \
   KERNEL(SurroundCells)           \
-  KERNEL(Transpose)               \
   KERNEL(WidenPhases)             \
   KERNEL(SplitPhases)             \
   KERNEL(Narrow)                  \

@@ -14,17 +14,17 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-inline void Split(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t plane,
-                  uint8_t* HWY_RESTRICT out) {
-  const hn::CappedTag<uint8_t, kSliceLanes> d8;
-  const size_t lanes = hn::Lanes(d8);
+inline void Split(const int16_t* HWY_RESTRICT rgb, size_t count, size_t plane,
+                  int16_t* HWY_RESTRICT out) {
+  const ChunkTag d16;
+  const size_t lanes = hn::Lanes(d16);
   size_t n = 0;
   for (; n + lanes <= count; n += lanes) {
-    hn::Vec<decltype(d8)> r, g, b;
-    hn::LoadInterleaved3(d8, rgb + 3 * n, r, g, b);
-    hn::StoreU(r, d8, out + n);
-    hn::StoreU(g, d8, out + plane + n);
-    hn::StoreU(b, d8, out + 2 * plane + n);
+    ChunkVec r, g, b;
+    hn::LoadInterleaved3(d16, rgb + 3 * n, r, g, b);
+    hn::StoreU(r, d16, out + n);
+    hn::StoreU(g, d16, out + plane + n);
+    hn::StoreU(b, d16, out + 2 * plane + n);
   }
   for (; n < count; ++n) {
     for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
@@ -250,23 +250,19 @@ inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   return chunks;
 }
 
-inline void Interpolate(const uint8_t* HWY_RESTRICT here, const uint8_t* HWY_RESTRICT next,
+inline void Interpolate(const int16_t* HWY_RESTRICT here, const int16_t* HWY_RESTRICT next,
                         const uint8_t* HWY_RESTRICT weight, size_t plane,
-                        uint8_t* HWY_RESTRICT out) {
-  const hn::CappedTag<uint16_t, kSliceLanes> d16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
-  const auto half = hn::Set(d16, uint16_t{128});
+                        int16_t* HWY_RESTRICT out) {
+  const ChunkTag d16;
+  const hn::Rebind<uint8_t, ChunkTag> d8;
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
-    hn::Vec<decltype(d8)> r, g, b, next_r, next_g, next_b;
-    hn::LoadInterleaved3(d8, here + 3 * n, r, g, b);
-    hn::LoadInterleaved3(d8, next + 3 * n, next_r, next_g, next_b);
-    const auto share = hn::PromoteTo(d16, hn::LoadU(d8, weight + n));
-    const auto store = [&](auto first, auto second, size_t c) HWY_ATTR {
-      const auto from = hn::PromoteTo(d16, first), to = hn::PromoteTo(d16, second);
-      // Products may wrap modulo 2^16: their sum fits.
-      const auto moved = hn::Mul(hn::Sub(to, from), share);
-      const auto sum = hn::Add(hn::Add(hn::ShiftLeft<8>(from), half), moved);
-      hn::StoreU(hn::TruncateTo(d8, hn::ShiftRight<8>(sum)), d8, out + c * plane + n);
+    ChunkVec r, g, b, next_r, next_g, next_b;
+    hn::LoadInterleaved3(d16, here + 3 * n, r, g, b);
+    hn::LoadInterleaved3(d16, next + 3 * n, next_r, next_g, next_b);
+    const auto share = hn::ShiftLeft<7>(hn::PromoteTo(d16, hn::LoadU(d8, weight + n)));
+    const auto store = [&](ChunkVec from, ChunkVec to, size_t c) HWY_ATTR {
+      const auto more = hn::MulFixedPoint15(hn::Sub(to, from), share);
+      hn::StoreU(hn::Add(from, more), d16, out + c * plane + n);
     };
     store(r, next_r, 0);
     store(g, next_g, 1);

@@ -83,7 +83,7 @@ namespace reference {
 
 // Parts pixels into planes: out[c * plane + n] = rgb[3 n + c] for n < count. Nothing else is
 // written.
-void Split(const uint8_t* rgb, size_t count, size_t plane, uint8_t* out);
+void Split(const int16_t* rgb, size_t count, size_t plane, int16_t* out);
 
 // Follows depth edges by one row, from the far row to the near one (or from column to column, or
 // backwards: the caller chooses what is near). For each pixel, moved[n] holds how many units of
@@ -112,10 +112,10 @@ void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t ste
 // `source` and `found` are unspecified.
 uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden);
 
-// Mixes each of kSliceLanes pixels from two: out[c * plane + n] =
-// (here[3 n + c] (256 - weight[n]) + next[3 n + c] weight[n]) / 256, rounded halves up.
-void Interpolate(const uint8_t* here, const uint8_t* next, const uint8_t* weight, size_t plane,
-                 uint8_t* out);
+// Mixes each of kSliceLanes pixels from two: out[c * plane + n] = here[3 n + c] +
+// (next[3 n + c] - here[3 n + c]) weight[n] / 256, the quotient rounded halves up.
+void Interpolate(const int16_t* here, const int16_t* next, const uint8_t* weight, size_t plane,
+                 int16_t* out);
 
 }  // namespace reference
 }  // namespace starfocus::simd

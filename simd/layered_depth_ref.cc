@@ -65,7 +65,7 @@ int16_t ChooseSurface(const HiddenSide* sides, int32_t x, int behind, int32_t un
 
 }  // namespace
 
-void Split(const uint8_t* rgb, size_t count, size_t plane, uint8_t* out) {
+void Split(const int16_t* rgb, size_t count, size_t plane, int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
     for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
   }
@@ -133,11 +133,11 @@ uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   return chunks;
 }
 
-void Interpolate(const uint8_t* here, const uint8_t* next, const uint8_t* weight, size_t plane,
-                 uint8_t* out) {
+void Interpolate(const int16_t* here, const int16_t* next, const uint8_t* weight, size_t plane,
+                 int16_t* out) {
   for (size_t n = 0; n < 3 * kSliceLanes; ++n) {
-    const int sum = here[n] * (256 - weight[n / 3]) + next[n] * weight[n / 3];
-    out[n % 3 * plane + n / 3] = static_cast<uint8_t>((sum + 128) >> 8);
+    const int32_t more = Product15(next[n] - here[n], weight[n / 3] << 7);
+    out[n % 3 * plane + n / 3] = static_cast<int16_t>(here[n] + more);
   }
 }
 

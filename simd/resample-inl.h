@@ -7,7 +7,7 @@
 #define STARFOCUS_SIMD_RESAMPLE_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
+#include "simd/light-inl.h"
 #include "simd/resample.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,7 +33,7 @@ using reference::WidenPhases;
 
 // Takes five pairs of pixels at once, which are 15 samples of each phase: a vector of the first 8
 // and one of the last 8. A byte becomes the high one of its lane, which is then shifted right.
-inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
+inline void ShiftPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
                         int16_t* HWY_RESTRICT odd) {
   constexpr uint8_t kZero = 0x80;
   alignas(16) static constexpr uint8_t kFirst[16] = {kZero, 0, kZero, 1, kZero, 2,  kZero, 6,
@@ -58,7 +58,25 @@ inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, int16_t* H
     widen(from + 3, first, odd + 3 * pair);
     widen(from + 14, odd_last, odd + 3 * pair + 7);
   });
-  if (!done) reference::WidenPhases(in, pairs, even, odd);
+  if (!done) reference::WidenPhases(in, pairs, {nullptr, nullptr}, even, odd);
+}
+
+inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, const Encoding& encoding,
+                        int16_t* HWY_RESTRICT even, int16_t* HWY_RESTRICT odd) {
+  if (encoding.light == nullptr) {
+    ShiftPhases(in, pairs, even, odd);
+    return;
+  }
+  const int16_t* HWY_RESTRICT light = encoding.light;
+  const auto sample = [&](uint8_t code) {
+    return static_cast<int16_t>((light[code] + 1) >> (kLightBits - kLayerBits));
+  };
+  for (; pairs != 0; --pairs, in += 6, even += 3, odd += 3) {
+    for (size_t c = 0; c < 3; ++c) {
+      even[c] = sample(in[c]);
+      odd[c] = sample(in[3 + c]);
+    }
+  }
 }
 
 // A fourth sample is copied with each pixel, and the next pixel overwrites it.
@@ -79,19 +97,25 @@ inline void SplitPhases(const int16_t* HWY_RESTRICT in, size_t pairs, int16_t* H
 
 #endif
 
-inline void Narrow(const int16_t* HWY_RESTRICT in, size_t count, uint8_t* HWY_RESTRICT out) {
+inline void Narrow(const int16_t* HWY_RESTRICT in, size_t count, const Encoding& encoding,
+                   uint8_t* HWY_RESTRICT out) {
+  if (encoding.entries != nullptr) {
+    for (size_t n = 0; n < count; ++n) {
+      out[n] = CodeOf(in[n] << (kLightBits - kLayerBits), encoding.entries);
+    }
+    return;
+  }
   const hn::ScalableTag<int16_t> d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const auto below_half = hn::Set(d16, int16_t{(1 << (kLayerBits - 1)) - 1});
   const auto one = hn::Set(d16, int16_t{1});
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
-    // Sums saturate, so that an int16 near its limit still rounds to 255.
     const auto value = hn::LoadU(d16, in + n);
     const auto odd = hn::And(hn::ShiftRight<kLayerBits>(value), one);
-    const auto sum = hn::SaturatedAdd(value, hn::Add(below_half, odd));
+    const auto sum = hn::Add(value, hn::Add(below_half, odd));
     hn::StoreU(hn::DemoteTo(d8, hn::ShiftRight<kLayerBits>(sum)), d8, out + n);
   });
-  if (!done) reference::Narrow(in, count, out);
+  if (!done) reference::Narrow(in, count, encoding, out);
 }
 
 inline void FinishLayer(const uint32_t* HWY_RESTRICT accumulators, size_t count, int shift,

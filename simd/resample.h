@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/light.h"
+
 namespace starfocus::simd {
 
 // Samples of layers have kLayerBits fractional bits. Those in range are [0, kLayerWhite]; filters
 // leave it by less than a fifth of white on either side.
-inline constexpr int kLayerBits = 6;
+inline constexpr int kLayerBits = kLightBits - 1;
 inline constexpr int16_t kLayerWhite = 255 << kLayerBits;
 
 // Taps of a symmetric half-band filter with kTapBits fractional bits. Its seven taps are `centre`
@@ -23,17 +25,19 @@ struct HalfBand {
 
 namespace reference {
 
-// Parts a line of pixels into even and odd ones, as samples: even[3 n + c] = in[6 n + c] <<
-// kLayerBits and odd[3 n + c] = in[6 n + 3 + c] << kLayerBits, for n < pairs. Nothing past `in` is
-// read, and nothing past the phases is written.
-void WidenPhases(const uint8_t* in, size_t pairs, int16_t* even, int16_t* odd);
+// Parts a line of codes into even and odd pixels, as samples: even[3 n + c] is the light of
+// in[6 n + c] and odd[3 n + c] that of in[6 n + 3 + c], rounded halves up, for n < pairs. Nothing
+// past `in` is read, and nothing past the phases is written.
+void WidenPhases(const uint8_t* in, size_t pairs, const Encoding& encoding, int16_t* even,
+                 int16_t* odd);
 
 // Does the same for samples, which stay as they are. One sample past the end of each phase may be
 // written.
 void SplitPhases(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd);
 
-// out[n] = in[n] rounded to a whole number, halves to even, and clamped to a byte.
-void Narrow(const int16_t* in, size_t count, uint8_t* out);
+// out[n] is the code of the sample in[n], which is in range; where light is the code itself, halves
+// are rounded to even.
+void Narrow(const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out);
 
 // Makes samples of accumulators: out[n] = (accumulators[n] + 2^(shift - 7)) >> (shift - 6). `shift`
 // lies in [7, 24], and results are in range.

@@ -11,11 +11,17 @@ int16_t RoundTaps(int32_t sum, int16_t low, int16_t high) {
 
 }  // namespace
 
-void WidenPhases(const uint8_t* in, size_t pairs, int16_t* even, int16_t* odd) {
+void WidenPhases(const uint8_t* in, size_t pairs, const Encoding& encoding, int16_t* even,
+                 int16_t* odd) {
+  const auto sample = [&](uint8_t code) {
+    int16_t light = 0;
+    Decode(&code, 1, encoding, &light);
+    return static_cast<int16_t>((light + 1) >> (kLightBits - kLayerBits));
+  };
   for (size_t n = 0; n < pairs; ++n) {
     for (size_t c = 0; c < 3; ++c) {
-      even[3 * n + c] = static_cast<int16_t>(in[6 * n + c] << kLayerBits);
-      odd[3 * n + c] = static_cast<int16_t>(in[6 * n + 3 + c] << kLayerBits);
+      even[3 * n + c] = sample(in[6 * n + c]);
+      odd[3 * n + c] = sample(in[6 * n + 3 + c]);
     }
   }
 }
@@ -29,11 +35,16 @@ void SplitPhases(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd) {
   }
 }
 
-void Narrow(const int16_t* in, size_t count, uint8_t* out) {
+void Narrow(const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
   for (size_t n = 0; n < count; ++n) {
+    if (encoding.entries != nullptr) {
+      const auto light = static_cast<int16_t>(in[n] << (kLightBits - kLayerBits));
+      Encode(&light, 1, encoding, out + n);
+      continue;
+    }
     const int odd = (in[n] >> kLayerBits) & 1;
     const int value = (in[n] + (1 << (kLayerBits - 1)) - 1 + odd) >> kLayerBits;
-    out[n] = static_cast<uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value);
+    out[n] = static_cast<uint8_t>(value);
   }
 }
 

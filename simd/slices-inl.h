@@ -49,7 +49,7 @@ HWY_INLINE void SelectFirst(const SurfaceRow& row, ChunkVec low, ChunkVec overla
     return;
   }
   for (size_t c = 0; c < 3; ++c) {
-    const auto value = hn::ShiftLeft<kSliceBits>(LoadBytes(row.rgb[0] + c * row.plane + n));
+    const auto value = hn::LoadU(d16, row.rgb[0] + c * row.plane + n);
     hn::StoreU(hn::IfThenElseZero(found, value), d16, out + c * plane + n);
   }
   hn::StoreU(hn::IfThenElseZero(found, hn::Set(d16, kSliceOne)), d16, out + 3 * plane + n);
@@ -84,14 +84,19 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, ChunkVec low, ChunkVec high, Ch
   const auto found = hn::Ne(together, hn::Zero(d16));
   cover.some = cover.some || !hn::AllFalse(d16, hn::And(found, counted));
   cover.all = cover.all && hn::AllFalse(d16, hn::And(hn::Ne(together, pixel), counted));
+  const auto whole = hn::Eq(front, pixel), shows = hn::Ne(behind, hn::Zero(d16));
+  // A whole pixel, of which 16 bits with sign hold no such part, takes no part of the product.
+  const auto parts = hn::ShiftLeft<15 - kSliceBits>(hn::IfThenZeroElse(whole, front));
   for (size_t c = 0; c < 3; ++c) {
     const size_t at = c * row.plane + n;
     // Colours of a surface that is not there were never written. They are masked, not multiplied by
     // zero, which valgrind would not see through.
-    const auto deepest = hn::IfThenElseZero(last, LoadBytes(row.rgb[2] + at));
-    const auto hidden = hn::IfThenElse(next, LoadBytes(row.rgb[1] + at), deepest);
-    const auto value = hn::Add(hn::Mul(LoadBytes(row.rgb[0] + at), front), hn::Mul(hidden, behind));
-    hn::StoreU(value, d16, to + c * plane);
+    const auto deepest = hn::IfThenElseZero(last, hn::LoadU(d16, row.rgb[2] + at));
+    const auto hidden =
+        hn::IfThenElseZero(shows, hn::IfThenElse(next, hn::LoadU(d16, row.rgb[1] + at), deepest));
+    const auto nearest_light = hn::LoadU(d16, row.rgb[0] + at);
+    const auto part = hn::MulFixedPoint15(hn::Sub(nearest_light, hidden), parts);
+    hn::StoreU(hn::IfThenElse(whole, nearest_light, hn::Add(hidden, part)), d16, to + c * plane);
   }
   // The whole pixel times 2^8 is one more than kSliceOne.
   const auto covered = hn::Sub(hn::ShiftLeft<8>(together), hn::ShiftRight<kSliceBits>(together));

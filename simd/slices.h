@@ -22,7 +22,7 @@ inline constexpr int16_t kSliceOne = 32767;
 // disparity of the others lies below any slice.
 struct SurfaceRow {
   const int16_t* disparity[kSurfaces];
-  const uint8_t* rgb[kSurfaces];  // three planes, `plane` bytes apart
+  const int16_t* rgb[kSurfaces];  // light in three planes, `plane` samples apart
   const uint8_t* share;           // how much of the pixel the first surface covers
   size_t plane;
   // Bit c tells whether the pixels of group c of kSliceLanes are to be looked at in full. In other
@@ -54,10 +54,11 @@ inline constexpr int32_t kMaxSpread = 3;
 
 namespace reference {
 
-// Selects what of the surfaces lies in the range, for each pixel n < count: the colour of the first
-// surface times its share, plus that of the next one in the range times the rest of the pixel, and
-// the coverage of both; zeros where there is none. Whole groups of kSliceLanes are read and
-// written; count is 64 groups at most. Returns what of each group is covered.
+// Selects what of the surfaces lies in the range, for each pixel n < count: the light of the first
+// surface by its share, plus that of the next one in the range by the rest of the pixel, and the
+// coverage of both; zeros where there is none. Of a pixel that both share, what the first one
+// changes is rounded halves up. Whole groups of kSliceLanes are read and written; count is 64
+// groups at most. Returns what of each group is covered.
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out);
 

@@ -25,8 +25,10 @@ SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t co
       const bool found = front + behind > 0, all = front + behind == kSliceWhole;
       for (size_t c = 0; c < 3; ++c) {
         const size_t at = c * row.plane + n;
-        const int value = front * row.rgb[0][at] + (behind > 0 ? behind * row.rgb[next][at] : 0);
-        out[c * plane + n] = static_cast<int16_t>(value);
+        const int16_t first = row.rgb[0][at], hidden = behind > 0 ? row.rgb[next][at] : int16_t{0};
+        const int32_t part = Product15(first - hidden, front << (15 - kSliceBits));
+        out[c * plane + n] =
+            front == kSliceWhole ? first : static_cast<int16_t>(front > 0 ? hidden + part : hidden);
       }
       out[3 * plane + n] = static_cast<int16_t>(((front + behind) << 8) - (all ? 1 : 0));
       if (n >= count) continue;

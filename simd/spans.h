@@ -12,7 +12,7 @@ namespace starfocus::simd {
 // A stretch of samples (R, G, B interleaved) that one source surface gives to a line. Sample n of
 // it has the value weight * source[n] + neighbour_weight * source[n + neighbour_offset].
 struct Span {
-  const uint8_t* source;
+  const int16_t* source;      // light (light.h)
   uint32_t target;            // the first sample in the target line
   uint32_t samples;           // > 0
   uint16_t weight;            // [0, 32767]
@@ -20,20 +20,19 @@ struct Span {
   int32_t neighbour_offset;   // in samples: whole pixels, mostly +3 or -3
 };
 
+// Fractional bits of the weights that Blend takes.
+inline constexpr int kBlendBits = 14;
+
 namespace reference {
 
 // Adds value n of each span to accumulators[target + n]. No sum exceeds 2^32 - 1.
 void Accumulate(const Span* spans, size_t count, uint32_t* accumulators);
 
-// Stores value n of each span, divided by 256, in line[target + n]. The weights of a span sum to
-// 256. Halves are rounded to the even neighbour: rounding them up would brighten pictures that are
-// shifted by half pixels by 1/4 gray level. Sources don't overlap the line, and nothing outside the
-// spans is written.
-void Blend(const Span* spans, size_t count, uint8_t* line);
-
-// Makes bytes of accumulators: out[n] = (accumulators[n] + 2^(shift - 1)) >> shift. `shift` lies in
-// [1, 24], and results fit a byte. Nothing past out[count - 1] is written.
-void Finish(const uint32_t* accumulators, size_t count, int shift, uint8_t* out);
+// Stores what each span shows in line[target + n]: of source[n] and source[n + neighbour_offset],
+// each by its weight. The weights of a span sum to 2^kBlendBits, the neighbour's being half of that
+// at most, and the difference that the neighbour makes is rounded halves up. Sources don't overlap
+// the line, and nothing outside the spans is written.
+void Blend(const Span* spans, size_t count, int16_t* line);
 
 }  // namespace reference
 }  // namespace starfocus::simd

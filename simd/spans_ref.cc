@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "simd/arithmetic_ref.h"
 #include "simd/spans.h"
 
 namespace starfocus::simd::reference {
 namespace {
 
+// Returns sample n of the source, or of the neighbour.
+int32_t SourceOf(const Span& span, uint32_t n) { return span.source[n]; }
+int32_t NeighbourOf(const Span& span, uint32_t n) {
+  return span.source[static_cast<ptrdiff_t>(n) + span.neighbour_offset];
+}
+
 uint32_t SpanValue(const Span& span, uint32_t n) {
-  uint32_t value = uint32_t{span.weight} * span.source[n];
+  uint32_t value = uint32_t{span.weight} * static_cast<uint32_t>(SourceOf(span, n));
   if (span.neighbour_weight != 0) {
-    value += uint32_t{span.neighbour_weight} *
-             span.source[static_cast<ptrdiff_t>(n) + span.neighbour_offset];
+    value += uint32_t{span.neighbour_weight} * static_cast<uint32_t>(NeighbourOf(span, n));
   }
   return value;
 }
 
-// Returns value / 256, rounded halves to the even neighbour.
-uint8_t RoundBlend(uint32_t value) {
-  return static_cast<uint8_t>((value + 127 + ((value >> 8) & 1)) >> 8);
+int16_t BlendValue(const Span& span, uint32_t n) {
+  const int32_t value = SourceOf(span, n);
+  if (span.neighbour_weight == 0) return static_cast<int16_t>(value);
+  const int32_t weight = span.neighbour_weight << (15 - kBlendBits);
+  return static_cast<int16_t>(value + Product15(NeighbourOf(span, n) - value, weight));
 }
 
 }  // namespace
@@ -28,18 +36,11 @@ void Accumulate(const Span* spans, size_t count, uint32_t* accumulators) {
   }
 }
 
-void Blend(const Span* spans, size_t count, uint8_t* line) {
+void Blend(const Span* spans, size_t count, int16_t* line) {
   for (size_t i = 0; i < count; ++i) {
     for (uint32_t n = 0; n < spans[i].samples; ++n) {
-      line[spans[i].target + n] = RoundBlend(SpanValue(spans[i], n));
+      line[spans[i].target + n] = BlendValue(spans[i], n);
     }
-  }
-}
-
-void Finish(const uint32_t* accumulators, size_t count, int shift, uint8_t* out) {
-  const uint32_t half = uint32_t{1} << (shift - 1);
-  for (size_t n = 0; n < count; ++n) {
-    out[n] = static_cast<uint8_t>((accumulators[n] + half) >> shift);
   }
 }
 

@@ -161,6 +161,14 @@ inline void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, siz
 
 using SliceVec = hn::Vec<TileTag>;
 
+// Returns sums of 16 bits divided by 2^bits, rounded halves up.
+HWY_INLINE SliceVec DividedSums(SliceVec value, int bits) {
+  const TileTag d;
+  const hn::RebindToUnsigned<TileTag> d16;
+  const auto half = hn::Set(d16, static_cast<uint16_t>(1 << bits >> 1));
+  return hn::BitCast(d, hn::ShiftRightSame(hn::Add(hn::BitCast(d16, value), half), bits));
+}
+
 // Adds values of 16 bits to sums of 32 bits, of `rows` at most.
 HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums) {
   const TileTag d;
@@ -324,6 +332,11 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
                          AddSums(b, more, to + 2 * kSliceLanes);
                          AddSums(a, more, to + 3 * kSliceLanes);
                        };
+  if (views.extra_bits != 0) {
+    for (SliceVec* value : {&r0, &g0, &b0, &a0, &r1, &g1, &b1, &a1}) {
+      *value = DividedSums(*value, views.extra_bits);
+    }
+  }
   add(r0, g0, b0, a0, rows, sums + n);
   if (rows > step) add(r1, g1, b1, a1, rows - step, sums + 4 * second + n);
 }

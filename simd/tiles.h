@@ -60,6 +60,7 @@ struct SliceViews {
   const uint8_t* shown;  // the slices that are seen, the nearest first
   size_t shown_count;    // kMaxSeen at most
   size_t row;            // the first row that is composited
+  int extra_bits;        // of the weights: their sums are divided by 2^extra_bits; [0, 4]
 };
 
 namespace reference {
@@ -76,7 +77,8 @@ void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t row
 // takes as much of the view's light as it covers, and gives as much of its colours. Of the last
 // light it gives the share that is left (up to a ninth of the weight too much), as if slices beside
 // each other covered different parts of a pixel. What is seen of rows is defined as for ShiftSlice.
-// Products (15 bits) are rounded halves up. No sum exceeds 2^32 - 1.
+// Products (15 bits) are rounded halves up, and so is what all views give together, divided by
+// 2^extra_bits. No sum exceeds 2^32 - 1.
 void Composite(const SliceViews& views, size_t rows, uint32_t* sums);
 
 }  // namespace reference

@@ -60,6 +60,7 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
   for (size_t y = 0; y < rows; ++y, sums += 4 * kSliceLanes) {
     const size_t row = views.row + y;
     for (size_t n = 0; n < kSliceLanes; ++n) {
+      uint32_t given[4] = {0, 0, 0, 0};
       for (size_t view = 0; view < views.views; ++view) {
         const int16_t weight = views.weights[view];
         int16_t light = kSliceOne;
@@ -77,10 +78,14 @@ void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
           for (size_t c = 0; c < 4; ++c) {
             const int16_t lit =
                 covered > light ? Product15(value(c), SliceShare(covered, light)) : value(c);
-            sums[n + c * kSliceLanes] += static_cast<uint32_t>(Product15(weight, lit));
+            given[c] += static_cast<uint32_t>(Product15(weight, lit));
           }
           light = static_cast<int16_t>(covered > light ? 0 : light - covered);
         }
+      }
+      const uint32_t half = uint32_t{1} << views.extra_bits >> 1;
+      for (size_t c = 0; c < 4; ++c) {
+        sums[n + c * kSliceLanes] += (given[c] + half) >> views.extra_bits;
       }
     }
   }

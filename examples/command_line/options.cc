@@ -95,6 +95,18 @@ Error ParseViews(const std::string& option, const std::string& text, int* value)
   return Error::Usage(option, "17, 9, 5 or 1", Quoted(text));
 }
 
+Error ParseTransfer(const std::string& option, const std::string& text, sf_transfer* value) {
+  if (text != "srgb" && text != "none") {
+    return Error::Usage(option, "srgb or none", "'" + text + "'");
+  }
+  *value = text == "srgb" ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
+  return "";
+}
+
+void AddTransferOption(CLI::App* command, const std::string& help, std::string* text) {
+  command->add_option("--transfer", *text, help)->type_name("srgb|none")->capture_default_str();
+}
+
 std::string Short(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%g", value);

@@ -3,6 +3,7 @@
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 
+#include <CLI/CLI.hpp>
 #include <string>
 
 #include "examples/command_line/error.h"
@@ -34,6 +35,10 @@ Error ParseScale(const std::string& option, const std::string& text, double* val
 
 // 17, 9, 5 or 1.
 Error ParseViews(const std::string& option, const std::string& text, int* value);
+
+// srgb or none.
+Error ParseTransfer(const std::string& option, const std::string& text, sf_transfer* value);
+void AddTransferOption(CLI::App* command, const std::string& help, std::string* text);
 
 // `value` with %g.
 std::string Short(double value);

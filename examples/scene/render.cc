@@ -72,11 +72,13 @@ struct Renderer::Lens {
   const SceneOpening* opening = nullptr;
 };
 
-Renderer::Renderer(const Scene& scene, int width, int height, ThreadRunner* runner)
+Renderer::Renderer(const Scene& scene, int width, int height, sf_transfer transfer,
+                   ThreadRunner* runner)
     : scene_(scene),
       width_(width),
       height_(height),
       scale_(std::min(width / kCanvasWidth, height / kCanvasHeight)),
+      curve_(transfer),
       runner_(runner) {
   const double reach = std::max(width, height) / scale_;
   for (const Surface& surface : scene.surfaces) bounds_.push_back(SurfaceBounds(surface, reach));
@@ -130,7 +132,7 @@ Color Renderer::RayColor(const Lens& lens, const std::vector<size_t>& candidates
   const Ray ray = {canvas_x - u * lens.focus, canvas_y - v * lens.focus, u, v};
   Hit hit;
   const Surface* surface = Trace(candidates, ray, &hit);
-  return surface == nullptr ? Color() : surface->paint(*surface, hit);
+  return surface == nullptr ? Color() : curve_.Decode(surface->paint(*surface, hit));
 }
 
 Color Renderer::ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x,
@@ -171,8 +173,8 @@ void Renderer::RenderTile(const Lens& lens, int x0, int y0, Image* image) const 
   const std::vector<size_t> candidates = Candidates(lens, x0, y0);
   for (int y = y0; y < std::min(y0 + kTile, height_); ++y) {
     for (int x = x0; x < std::min(x0 + kTile, width_); ++x) {
-      const Color color =
-          lens.aperture > 0 ? LensPixel(lens, candidates, x, y) : ViewPixel(lens, candidates, x, y);
+      const Color color = curve_.Encode(lens.aperture > 0 ? LensPixel(lens, candidates, x, y)
+                                                          : ViewPixel(lens, candidates, x, y));
       uint8_t* pixel = image->row(y) + 3 * x;
       pixel[0] = ToByte(color.r);
       pixel[1] = ToByte(color.g);

@@ -4,6 +4,7 @@
 #ifndef STARFOCUS_EXAMPLES_SCENE_RENDER_H_
 #define STARFOCUS_EXAMPLES_SCENE_RENDER_H_
 
+#include "examples/scene/light_curve.h"
 #include "examples/scene/opening.h"
 #include "examples/scene/scene.h"
 #include "platform/image.h"
@@ -15,7 +16,8 @@ namespace starfocus {
 
 class Renderer {
  public:
-  Renderer(const Scene& scene, int width, int height, ThreadRunner* runner);
+  // Pictures are means of light, as `transfer` has it.
+  Renderer(const Scene& scene, int width, int height, sf_transfer transfer, ThreadRunner* runner);
 
   // Progress counts rows, and rows of ground truth kTruthCost times; null for none.
   static constexpr int kTruthCost = 16;
@@ -38,7 +40,7 @@ class Renderer {
   // Indices of the surfaces that the tile at (x0, y0) may see, nearest first.
   std::vector<size_t> Candidates(const Lens& lens, int x0, int y0) const;
   const Surface* Trace(const std::vector<size_t>& candidates, const Ray& ray, Hit* hit) const;
-  // Colour seen from pixel position (x, y) through lens position (u, v).
+  // Light seen from pixel position (x, y) through lens position (u, v).
   Color RayColor(const Lens& lens, const std::vector<size_t>& candidates, double x, double y,
                  double u, double v) const;
   Color ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y) const;
@@ -52,6 +54,7 @@ class Renderer {
   const Scene& scene_;
   const int width_, height_;
   const double scale_;  // pixels per canvas unit
+  const LightCurve curve_;
   std::vector<Bounds> bounds_;
   ThreadRunner* const runner_;
 };

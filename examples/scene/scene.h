@@ -18,7 +18,7 @@ namespace starfocus {
 inline constexpr double kCanvasWidth = 1024, kCanvasHeight = 768;
 
 struct Color {
-  double r = 0, g = 0, b = 0;  // 0 .. 255
+  double r = 0, g = 0, b = 0;  // codes, 255 is white, more are clipped; or their light
 };
 inline Color operator+(Color p, Color q) { return {p.r + q.r, p.g + q.g, p.b + q.b}; }
 inline Color operator*(Color p, double k) { return {p.r * k, p.g * k, p.b * k}; }
@@ -81,12 +81,13 @@ struct Scene {
   std::vector<NamedPoint> points;  // near, middle, far
 };
 
-// "portrait", "wires" or "ramp"; false for any other name.
+// "portrait", "wires", "ramp" or "lamps"; false for any other name.
 bool MakeScene(const std::string& name, Scene* scene);
 
 Scene MakePortrait();
 Scene MakeWires();
 Scene MakeRamp();
+Scene MakeLamps();
 
 }  // namespace starfocus
 

@@ -97,6 +97,8 @@ bool MakeScene(const std::string& name, Scene* scene) {
     *scene = MakeWires();
   } else if (name == "ramp") {
     *scene = MakeRamp();
+  } else if (name == "lamps") {
+    *scene = MakeLamps();
   } else {
     return false;
   }

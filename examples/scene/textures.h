@@ -25,6 +25,7 @@ Color PaintBook(const Surface& s, const Hit& hit);   // spine with lettering
 Color PaintLandscape(const Surface& s, const Hit& hit);
 Color PaintBulb(const Surface& s, const Hit& hit);    // glows
 Color PaintMatter(const Surface& s, const Hit& hit);  // `color` with grain
+Color PaintLamp(const Surface& s, const Hit& hit);    // `color`, unlit, `second` at the rim
 
 // Test patterns.
 Color PaintChecker(const Surface& s, const Hit& hit);

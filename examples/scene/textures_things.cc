@@ -136,4 +136,9 @@ Color PaintMatter(const Surface& s, const Hit& hit) {
   return s.shape == Shape::kEllipsoid ? Lit(color, hit) : color;
 }
 
+Color PaintLamp(const Surface& s, const Hit& hit) {
+  const double out = (hit.lx / s.rx) * (hit.lx / s.rx) + (hit.ly / s.ry) * (hit.ly / s.ry);
+  return Mix(s.color, s.second, Smooth(0.4, 1, out));
+}
+
 }  // namespace starfocus

@@ -48,6 +48,7 @@ sf_config ConfigOf(int side, const EngineProbe& probe) {
   config.disparity_max = static_cast<float>(probe.r < 0 ? 0 : probe.r_max);
   config.max_blur = std::fmax(probe.r_max, 1);
   config.largest_block = kBlock;
+  config.transfer = SF_TRANSFER_NONE;
   config.gather = 0;  // the kernel of views is asked for
   config.max_layer = probe.layer;
   config.timing.block = SF_MAX_TIMING;  // one block is the cheapest
@@ -93,13 +94,19 @@ class Engine {
   sf_status status_ = SF_OK;
 };
 
+// Returns the fractional bits of the sums of a block at layer 0.
+int FractionOf(const EngineState& engine, const Aperture& aperture) {
+  return UsesSubapertures(engine.lens) ? kCompositeBits : aperture.sum_bits + kLightBits;
+}
+
 // Gray levels of the picture refocused last, before they are rounded to bytes.
 std::vector<double> ReadLevels(const Engine& measured) {
   const EngineState& engine = measured.state();
   const Block& block = engine.stripe.plan.blocks[0];
   const Worker& worker = engine.crew.workers[0];
   const Aperture& aperture = ApertureOf(engine.tables, engine.lens, block.n);
-  const double one = std::ldexp(1.0, block.layer == 0 ? aperture.sum_bits : simd::kLayerBits);
+  const double one =
+      std::ldexp(1.0, block.layer == 0 ? FractionOf(engine, aperture) : simd::kLayerBits);
   std::vector<double> levels(measured.out().size() / 3);
   for (size_t k = 0; k < levels.size(); ++k) {
     const double sample = block.layer == 0 ? worker.sums[3 * k] : worker.picture_samples[3 * k];

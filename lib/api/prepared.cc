@@ -19,10 +19,10 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
   p.disparity.stride = width;
   p.disparity.data = carver.Take<int16_t>(width, height);
   for (int layer = 1; layer <= config.max_layer; ++layer) {
-    Plane<uint8_t>& plane = p.layers[layer];
+    Plane<int16_t>& plane = p.layers[layer];
     plane.stride = 3 * static_cast<size_t>(LayerSize(config.width, layer));
     plane.data =
-        carver.Take<uint8_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
+        carver.Take<int16_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
   }
   return carver.Bytes();
 }
@@ -51,8 +51,8 @@ sf_status MakeLayers(const Prepared& prepared, EngineState* engine, const Runner
     MarkLayerColumns(engine->config, &engine->pictures);
     PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, &engine->pictures);
     for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
-      engine->pictures.layers[layer].rgb.rows = 0;
-      engine->pictures.layers[layer].rgb.data =
+      engine->pictures.layers[layer].samples.rows = 0;
+      engine->pictures.layers[layer].samples.data =
           prepared.layers[layer].Row(engine->pictures.layers[layer].rows.first);
     }
     status = FillLayers(engine->config, *engine->kernels, runner, &engine->crew, &engine->pictures);
@@ -68,7 +68,7 @@ bool Fits(const Prepared& prepared, const sf_config& config) {
   const sf_config& made = prepared.config;
   return made.width == config.width && made.height == config.height && made.views == config.views &&
          made.disparity_min == config.disparity_min && made.disparity_max == config.disparity_max &&
-         made.max_layer == config.max_layer;
+         made.max_layer == config.max_layer && made.transfer == config.transfer;
 }
 
 Extent PreparedMemory(const Prepared& prepared) {
@@ -80,8 +80,8 @@ void UsePrepared(const Prepared& prepared, EngineState* engine) {
   const Plane<int16_t>& disparity = prepared.disparity;
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
     engine->pictures.windows[layer].disparity = {disparity.data, disparity.stride, 0, 0};
-    const Plane<uint8_t>& plane = prepared.layers[layer];
-    if (layer > 0) engine->pictures.windows[layer].centre = {plane.data, plane.stride, 0, 0};
+    const Plane<int16_t>& plane = prepared.layers[layer];
+    if (layer > 0) engine->pictures.windows[layer].samples = {plane.data, plane.stride, 0, 0};
   }
   engine->pictures.prepared = true;
 }

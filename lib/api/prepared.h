@@ -16,7 +16,7 @@ struct Prepared {
   sf_config config;  // of the engine that made it
   sf_light_field light_field;
   Plane<int16_t> disparity;          // all rows
-  Plane<uint8_t> layers[SF_LAYERS];  // all rows of layers 1 to config.max_layer
+  Plane<int16_t> layers[SF_LAYERS];  // samples: all rows of layers 1 to config.max_layer
 };
 
 // Whether an engine of `config` may refocus it.

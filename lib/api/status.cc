@@ -69,8 +69,8 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_REGION:
       return "region is not inside the picture, or is given for streaming, which has none";
     case SF_ERROR_PREPARED:
-      return "prepared light field is of another size, number of views, disparity range or "
-             "max_layer";
+      return "prepared light field is of another size, number of views, disparity range, max_layer "
+             "or transfer";
     case SF_ERROR_GATHER:
       return "gather is not 0 or 1";
     case SF_ERROR_TOO_LARGE:
@@ -81,6 +81,8 @@ const char* sf_status_string(sf_status status) {
       return "position is outside the picture";
     case SF_ERROR_F_STOP:
       return "f-stop is not finite, or wider than the widest of the light field";
+    case SF_ERROR_TRANSFER:
+      return "transfer is not SF_TRANSFER_SRGB or SF_TRANSFER_NONE";
     case SF_ERROR_SHAPE:
       return "unknown aperture_shape";
     case SF_ERROR_BLADES:

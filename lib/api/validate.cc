@@ -73,6 +73,9 @@ sf_status CheckConfig(const sf_config& config) {
   }
   if (config.skips != 0 && config.skips != 1) return SF_ERROR_SKIPS;
   if (config.gather != 0 && config.gather != 1) return SF_ERROR_GATHER;
+  if (config.transfer != SF_TRANSFER_SRGB && config.transfer != SF_TRANSFER_NONE) {
+    return SF_ERROR_TRANSFER;
+  }
   return CheckShape(config);
 }
 

@@ -60,7 +60,7 @@ void Weigh(bool by_size, const Light& light, uint16_t* weights, Aperture* apertu
   });
   // The largest sum for which the largest weight, with a margin for the rounding of the others,
   // fits 15 bits.
-  int bits = kMaxWeightBits;
+  int bits = aperture->most_bits;
   while (bits > 1 && (largest << bits) / total > static_cast<uint64_t>(kMaxWeight - 8)) --bits;
   aperture->sum_bits = bits;
   // Each orbit takes up the rounding error of those before it; the centre, alone in its orbit,
@@ -209,6 +209,7 @@ Aperture MakeSubapertures(int32_t n, const Opening& opening, uint16_t* weights) 
   aperture.n = n;
   aperture.last = LastSubaperture(n);
   aperture.most = MostOfSubapertures(n);
+  aperture.most_bits = kMaxWeightBits;
   aperture.extent = SubapertureExtent(n);
   aperture.radius = LensInSubapertures(n);
   aperture.full = !opening.IsSymmetric();

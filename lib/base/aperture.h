@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/fixed.h"
 #include "lib/base/opening.h"
 
 namespace starfocus {
@@ -17,6 +18,7 @@ struct Aperture {
   int32_t last = 0;  // i of the outermost view (i, 0)
   int32_t most = 0;
   int sum_bits = 1;
+  int most_bits = kMaxLightBits;  // that they may be
   int32_t views = 1;
   double extent = 1;   // of the outermost views of subapertures, of the lens's radius
   int32_t radius = 0;  // of the lens, kSubapertureUnits from view to view

@@ -12,7 +12,8 @@
 // | blur radius of cells | uint16 | 2^6     | [0, 129] px               | 7.9 x                     |
 // | reach of cells       | int16  | 1       | [-8, 131] px              | 250 x                     |
 // | subaperture r / N    | int32  | 2^8     | [0, 1], clamped           | -                         |
-// | interpolation weight | int32  | 2^8     | [0, 1/2]                  | -                         |
+// | interpolation weight | int32  | 2^14    | [0, 1/2]                  | -                         |
+// | light                | int16  | 2^7     | [0, 255]: white is 32640  | 0.4 % below 2^15          |
 // | colour of a slice    | int16  | 2^7     | [0, 255], times coverage  | 0.4 % below 2^15          |
 // | coverage of a slice  | int16  | 2^15    | [0, 1]; 1 is 32767        | saturates                 |
 // | wide subaperture     | int32  | 2^8     | (1, 7], clamped           | -                         |
@@ -21,21 +22,22 @@
 // | weight of a view     | int16  | varies  | [0, 14500]                | 13 % below 2^14           |
 // | sums of a column     | uint16 | 2^8     | weights: 58000; 1/9 more  | 1 % below 2^16            |
 // | sums of slices       | uint32 | 2^8     | 58000 a column, N <= 41   | 800 x                     |
-// | two disc rows, +-x   | uint16 | 1       | [0, 1020], four pixels    | 64 x; signed multiplies   |
-// | blended pixel        | uint16 | 2^8     | [0, 255], + 1/2           | 0.2 % below 2^16          |
-// | aperture weight      | uint16 | 2^k     | [0, 32767], sum 2^k       | signed 16-bit multiplies  |
-// | blur kernel weight   | uint16 | 2^k     | [0, 32767], sum 2^k       | signed 16-bit multiplies  |
-// | accumulator          | uint32 | 2^k     | <= 255 * 2^k, k <= 24     | 0.4 % below 2^32          |
+// | mean of disc pixels  | uint16 | 2^7     | [0, 255], of two or four  | signed 16-bit multiplies  |
+// | their weight         | uint16 | 2^k     | [0, 32767], k <= 17       | signed 16-bit multiplies  |
+// | aperture weight      | uint16 | 2^k     | [0, 32767], k <= 17       | signed 16-bit multiplies  |
+// | of subapertures      | uint16 | 2^k     | [0, 32767], k <= 24       | signed 16-bit multiplies  |
+// | blur kernel weight   | uint16 | 2^k     | [0, 32767], k <= 17       | signed 16-bit multiplies  |
+// | accumulator          | uint32 | 2^(7+k) | [0, 255], k <= 17         | 0.4 % below 2^32          |
 // | layer sample         | int16  | 2^6     | [0, 255]                  | 2 x                       |
 // | two layer samples    | int16  | 2^6     | [0, 510]                  | 0.4 % below 511.98        |
 // | filtered along x     | int16  | 2^6     | [-39, 294]                | 74 % below 511            |
 // | sum of filter taps   | int32  | 2^20    | [-100, 410]: twice 1.33   | 5 x                       |
 // | upsampled along y    | int16  | 2^6     | [-43, 298]                | 71 % below 511            |
 // | hole's position      | int32  | 2^8     | +-66300 px                | 126 x                     |
-// | hole, layer 0        | int32  | 2^16    | [0, 255]                  | 128 x                     |
-// | hole, layer L        | int32  | 2^(4L)  | [0, 255], L <= 2          | 2^15 x                    |
+// | hole, layer 0        | int32  | 2^23    | [0, 255]                  | 0.4 % below 2^31          |
+// | hole, layer L        | int32  | 2^(7+4L)| [0, 255], L <= 2          | 2^8 x                     |
 // | share of a mixture   | int32  | 2^14    | [0, 4/5], four of a pixel | 1.6 x in its dividend      |
-// | share, line scans    | int32  | 2^10    | [0, 4/5], four of a pixel | 2.4 x in the sum of four  |
+// | share * light        | int32  | 2^21    | [0, 204], four of a pixel | 1.2 x in the sum of four  |
 // clang-format on
 //
 // Rounding: Round* rounds half up; a plain shift truncates towards minus infinity.
@@ -53,6 +55,8 @@ inline constexpr int kShiftBits = 8;
 inline constexpr int32_t kShiftOne = 1 << kShiftBits;
 inline constexpr int kShareBits = 14;
 inline constexpr int kMaxWeightBits = 24;
+// What weights of light may sum to in an accumulator.
+inline constexpr int kMaxLightBits = 17;
 inline constexpr int32_t kMaxWeight = 32767;
 
 // Two neighbouring pixels belong to one surface when their disparities differ by at most this.
@@ -74,15 +78,15 @@ inline constexpr int64_t kShiftEnd = 134;
 inline constexpr FixedRange kShift = {"shift", -kShiftEnd* kPixel, kShiftEnd* kPixel};
 inline constexpr FixedRange kRadius = {"blur radius of a cell", 0, kBlurEnd << kDisparityBits};
 inline constexpr FixedRange kReach = {"reach of a cell", -8, kBlurEnd + 2};
-inline constexpr FixedRange kSubapertureWeight = {"interpolation weight", 0, kPixel / 2};
+inline constexpr FixedRange kSubapertureWeight = {"interpolation weight", 0, 1 << 13};
 inline constexpr FixedRange kWeight = {"aperture weight", 0, kMaxWeight};
 inline constexpr FixedRange kBlurWeight = {"blur kernel weight", 0, kMaxWeight};
 inline constexpr FixedRange kFilteredAlongX = {"filtered along x", -39 * 64, 294 * 64};
 inline constexpr FixedRange kUpsampledAlongY = {"upsampled along y", -43 * 64, 298 * 64};
 inline constexpr FixedRange kLayerSample = {"layer sample", 0, 255 * 64};
 inline constexpr FixedRange kHolePosition = {"position of a hole", -66300 * kPixel, 66300 * kPixel};
-inline constexpr FixedRange kHolePixel = {"hole at layer 0", 0, 255 * kPixel* kPixel};
-inline constexpr FixedRange kUnmixed = {"unmixed pixel", 0, 255};
+inline constexpr FixedRange kHolePixel = {"hole at layer 0", 0, (255 << 7) * kPixel* kPixel};
+inline constexpr FixedRange kUnmixed = {"unmixed pixel", 0, 255 << 7};
 inline constexpr FixedRange kRemainder = {"weight left after all orbits", 0, 0};
 }  // namespace ranges
 

@@ -11,7 +11,7 @@ namespace {
 
 // Memory of a worker, where that is enough: slices are made in sections of what is left of it.
 constexpr size_t WorkerBytes(size_t side) {
-  constexpr size_t kPixelBytes = 256, kLeast = size_t{768} << 10;
+  constexpr size_t kPixelBytes = 320, kLeast = size_t{960} << 10;
   const size_t bytes = kPixelBytes * side * side;
   return bytes > kLeast ? bytes : kLeast;
 }
@@ -21,7 +21,7 @@ SpanMemory TakeSpans(size_t side, Carver* carver) {
   memory.span_capacity = 512;
   memory.spans = carver->Take<simd::Span>(memory.span_capacity);
   memory.pixel_capacity = 3 * 2 * side;
-  memory.pixels = carver->Take<uint8_t>(memory.pixel_capacity);
+  memory.pixels = carver->Take<int16_t>(memory.pixel_capacity);
   return memory;
 }
 
@@ -47,11 +47,11 @@ void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver,
   const size_t area = extended * extended;
   const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
   for (int k = 0; k < 2; ++k) {
-    scratch.field_rgb[k] = carver->Take<uint8_t>(extended * rgb_stride);
+    scratch.field_rgb[k] = carver->Take<int16_t>(extended * rgb_stride);
     scratch.field_disparity[k] = carver->Take<int16_t>(area);
   }
   scratch.column_sums = carver->Take<uint32_t>(3 * rectangle * rectangle);
-  scratch.diagonal_rgb = carver->Take<uint8_t>(3 * area);
+  scratch.diagonal_rgb = carver->Take<int16_t>(3 * area);
   scratch.diagonal_disparity = carver->Take<int16_t>(area);
   scratch.diagonal_offsets = carver->Take<uint32_t>(2 * extended);
   scratch.moves = carver->Take<int64_t>(max_n + 1);
@@ -61,9 +61,9 @@ void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver,
   scratch.runs = carver->Take<Run>(area);
   scratch.run_counts = carver->Take<int32_t>(extended);
   scratch.line_runs = carver->Take<Run>(extended);
-  scratch.strip_rgb = carver->Take<uint8_t>(3 * rectangle * kStripRows);
+  scratch.strip_rgb = carver->Take<int16_t>(3 * rectangle * kStripRows);
   scratch.view_disparity = carver->Take<int16_t>(rectangle * extended);
-  scratch.columns_rgb = carver->Take<uint8_t>(rectangle * rgb_stride);
+  scratch.columns_rgb = carver->Take<int16_t>(rectangle * rgb_stride);
   scratch.line_accumulators = carver->Take<uint32_t>(3 * extended);
   scratch.spans = TakeSpans(extended, carver);
 }
@@ -73,7 +73,7 @@ void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   CompositorScratch& scratch = *stack;
   LayeredDepth& surfaces = scratch.surfaces;
   const size_t row = simd::SliceSamples(extended);
-  scratch.field_rgb = carver->Take<uint8_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+  scratch.field_rgb = carver->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
   scratch.field_disparity = carver->Take<int16_t>(extended * extended);
   for (uint8_t*& edges : surfaces.edges) {
     edges = carver->Take<uint8_t>(extended * row + simd::kSliceLanes);
@@ -100,11 +100,11 @@ CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_
     // Looking behind a row's first pixels reads lanes before them, of which nothing is used.
     int16_t* before = carver->Take<int16_t>(simd::kSliceLanes + area);
     surfaces.disparity[k] = before == nullptr ? nullptr : before + simd::kSliceLanes;
-    surfaces.rgb[k] = carver->Take<uint8_t>(3 * area);
+    surfaces.rgb[k] = carver->Take<int16_t>(3 * area);
   }
   surfaces.share = carver->Take<uint8_t>(area);
   surfaces.hiding = carver->Take<uint64_t>(extended);
-  scratch.centre = carver->Take<uint8_t>(3 * rectangle * rectangle);
+  scratch.centre = carver->Take<int16_t>(3 * rectangle * rectangle);
   scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
   scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
   scratch.parts = carver->Take<SectionPart>(SectionParts(rectangle));
@@ -140,7 +140,7 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const size_t shared = carver->Mark();
   TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.line_scan);
   carver->Reuse(shared);
-  worker.field.rgb = carver->Take<uint8_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+  worker.field.rgb = carver->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
   worker.field.disparity = carver->Take<int16_t>(extended * extended);
   worker.spans = TakeSpans(extended, carver);
   carver->Reuse(shared);
@@ -195,11 +195,10 @@ void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     LayerPlane& plane = engine->pictures.layers[layer];
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
-    plane.half.stride = plane.rgb.stride = plane.samples.stride = 3 * width;
+    plane.half.stride = plane.samples.stride = 3 * width;
     const auto above = static_cast<size_t>(LayerRows(config, layer - 1));
     const auto rows = static_cast<size_t>(LayerRows(config, layer));
     plane.half.data = carver->Take<int16_t>(3 * width, above + 8);
-    plane.rgb.data = carver->Take<uint8_t>(3 * width, rows);
     plane.samples.data = carver->Take<int16_t>(3 * width, rows);
   }
 }

@@ -17,6 +17,7 @@ void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictur
     window.picture_width = config.width;
     window.picture_height = config.height;
     window.views = config.views;
+    window.transfer = &TransferOf(config.transfer);
     for (int view = 0; view < config.views; ++view) window.view[view] = views[view];
     window.disparity = {pictures->disparity.data, pictures->disparity.stride,
                         pictures->disparity.rows, 0};
@@ -42,7 +43,7 @@ sf_status ConvertDisparity(const sf_config& config, const simd::Kernels& kernels
 void ForgetLayers(const sf_config& config, Pictures* pictures) {
   // Layer 1 lies in rings, of as many rows as a stripe may need: what the stripe before made stays.
   LayerPlane& ring = pictures->layers[1];
-  ring.rgb.rows = ring.samples.rows = LayerRows(config, 1);
+  ring.samples.rows = LayerRows(config, 1);
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     pictures->layers[layer].rows = {0, 0};
     std::memset(pictures->needed[layer], 0, static_cast<size_t>(Columns(config)));

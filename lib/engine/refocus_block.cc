@@ -17,20 +17,23 @@ uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
   return out.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x);
 }
 
-void FinishPicture(const simd::Kernels& kernels, const Rect& rect, int shift,
-                   const Plane<uint8_t>& out, const Worker& worker) {
+const simd::Encoding& EncodingOf(const BlockInputs& in) { return in.windows[0].transfer->encoding; }
+
+void FinishPicture(const BlockInputs& in, const Rect& rect, int shift, const Plane<uint8_t>& out,
+                   const Worker& worker) {
   const size_t samples = 3 * static_cast<size_t>(rect.width);
   CheckSums(worker.sums, Samples(rect), shift);
   for (int32_t row = 0; row < rect.height; ++row) {
-    kernels.Finish(worker.sums + static_cast<size_t>(row) * samples, samples, shift,
-                   At(out, rect, row));
+    in.kernels->Finish(worker.sums + static_cast<size_t>(row) * samples, samples, shift,
+                       EncodingOf(in), At(out, rect, row));
   }
 }
 
 // Brings the sums of a block to the picture: from layer 2 by way of layer 1, with the margin that
 // the next step reads.
-void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
-                 const Plane<uint8_t>& out, const Worker& worker) {
+void FinishLayer(const BlockInputs& in, const Block& block, int shift, const Plane<uint8_t>& out,
+                 const Worker& worker) {
+  const simd::Kernels& kernels = *in.kernels;
   CheckSums(worker.sums, Samples(block.rendered), shift);
   kernels.FinishLayer(worker.sums, Samples(block.rendered), shift, worker.layer_samples);
   CheckAll(ranges::kLayerSample, worker.layer_samples, Samples(block.rendered));
@@ -49,7 +52,7 @@ void FinishLayer(const simd::Kernels& kernels, const Block& block, int shift,
   UpsampleByTwo(kernels, layer, margin, worker.upsample, picture);
   const size_t samples = 3 * static_cast<size_t>(block.rect.width);
   for (int32_t row = 0; row < block.rect.height; ++row) {
-    kernels.Narrow(picture.samples + static_cast<size_t>(row) * samples, samples,
+    kernels.Narrow(picture.samples + static_cast<size_t>(row) * samples, samples, EncodingOf(in),
                    At(out, block.rect, row));
   }
 }
@@ -103,6 +106,7 @@ Rendered Render(const BlockInputs& in, const Block& block, RenderJob job, const 
   const Counting counting(*job.window, worker);
   job.window = &counting.window();
   uint64_t samples = Samples(job.rect);
+  int shift = kCompositeBits;
   if (UsesSubapertures(*in.lens)) {
     const GatherMap* gathered = block.gathers ? in.gathered : nullptr;
     const SliceRule& rule = IsBenchmark(*in.lens) ? kFineSlices : kSlices;
@@ -110,12 +114,12 @@ Rendered Render(const BlockInputs& in, const Block& block, RenderJob job, const 
                                      &worker->compositor, worker->sums);
   } else {
     RefocusRectangle(job, &worker->line_scan, worker->sums);
+    shift = job.grid->aperture.sum_bits + kLightBits;
   }
-  const int shift = job.grid->aperture.sum_bits;
   if (block.layer == 0) {
-    FinishPicture(*in.kernels, job.rect, shift, out, *worker);
+    FinishPicture(in, job.rect, shift, out, *worker);
   } else {
-    FinishLayer(*in.kernels, block, shift, out, *worker);
+    FinishLayer(in, block, shift, out, *worker);
   }
   const auto views = static_cast<uint64_t>(ApertureOf(*in.tables, *in.lens, block.n).views);
   return {views, views * samples};
@@ -173,7 +177,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   if (pinhole || (!UsesSubapertures(*in.lens) && NothingMoves(job))) {
     return CopyBlock(in, rect, out, worker);
   }
-  if (const uint8_t* colour = OneColour(job)) {
+  uint8_t colour[3];
+  if (IsOneColour(job, colour)) {
     FillColour(colour, rect, out);
     worker->counts.skipped.filled_blocks += 1;
     worker->counts.skipped.filled_pixels += Samples(rect) / 3;

@@ -51,7 +51,9 @@ sf_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, const Runner&
         static_cast<uint64_t>(inside + (stripe.y > 0 ? map.columns : 0));
     return SF_OK;
   }
-  const JoinJob job = {{&map, out, config.width, config.height, stripe.y, config.deblocking},
+  const Transfer* transfer = engine->pictures.windows[0].transfer;
+  const JoinJob job = {{&map, out, config.width, config.height, stripe.y, config.deblocking,
+                        transfer, engine->kernels},
                        config.largest_block / kSmallestBlock,
                        {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)}};
   const sf_status status =

@@ -10,10 +10,10 @@ namespace {
 struct LayerJob {
   const sf_config* config;
   const simd::Kernels* kernels;
-  const Plane<const uint8_t>* picture;  // the centre view
-  const uint8_t* needed;                // ColumnNeed of the layer's columns
-  const LayerPlane* above;              // the layer that layer 2 is made of
-  const LayerPlane* to;                 // its planes are the output
+  const Window* picture;    // at layer 0
+  const uint8_t* needed;    // ColumnNeed of the layer's columns
+  const LayerPlane* above;  // the layer that layer 2 is made of
+  const LayerPlane* to;     // its planes are the output
 };
 
 template <int kLayer>
@@ -30,8 +30,7 @@ void Downsample(const LayerJob& job, int32_t index, Worker* worker) {
     const int32_t rows = missing.rows.last - missing.rows.first;
     worker->counts.centre_bytes +=
         3 * static_cast<uint64_t>((2 * (end - begin) + 5) * (2 * rows + 5));
-    DownsamplePicture(*job.kernels, *job.picture, job.config->width, job.config->height, begin, end,
-                      worker->resample, &missing);
+    DownsamplePicture(*job.kernels, *job.picture, begin, end, worker->resample, &missing);
   } else {
     DownsampleLayer(*job.kernels, *job.above, begin, end, worker->resample, &missing);
   }
@@ -87,11 +86,11 @@ void PlaceLayers(const RowRange& of_picture, Pictures* pictures) {
     const bool kept = layer == 1 && plane.rows.first <= inside.first;
     plane.known = kept ? Clamp(plane.rows.last, inside.first, inside.last) : inside.first;
     plane.rows = inside;
-    plane.rgb.first = plane.samples.first = plane.rows.first;
+    plane.samples.first = plane.rows.first;
     plane.half.first = 2 * plane.rows.first - 3;
     rows = {2 * rows.first - 3, 2 * rows.last + 3};
-    pictures->windows[layer].centre = {plane.rgb.data, plane.rgb.stride, plane.rgb.rows,
-                                       plane.rgb.first};
+    pictures->windows[layer].samples = {plane.samples.data, plane.samples.stride,
+                                        plane.samples.rows, plane.samples.first};
   }
 }
 
@@ -99,7 +98,7 @@ sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, cons
                      Crew* crew, Pictures* pictures) {
   const int32_t columns = Columns(config);
   const LayerPlane* layers = pictures->layers;
-  const Plane<const uint8_t>* picture = &pictures->windows[0].centre;
+  const Window* picture = &pictures->windows[0];
   sf_status status = SF_OK;
   if (AnyColumn(pictures->needed[1], columns)) {
     const LayerJob job = {&config, &kernels, picture, pictures->needed[1], nullptr, &layers[1]};

@@ -58,6 +58,21 @@ bool IsGentle(const Window& window, const Part& part) {
   return true;
 }
 
+// Whether all pixels of the part are alike.
+template <class Sample>
+bool IsUniform(const Plane<const Sample>& plane, const Part& part) {
+  const auto left = 3 * static_cast<ptrdiff_t>(part.left);
+  const Sample* first = plane.Row(part.top) + left;
+  constexpr size_t kPixel = 3 * sizeof(Sample);
+  const size_t bytes = kPixel * static_cast<size_t>(part.right - part.left);
+  for (int32_t y = part.top; y < part.bottom; ++y) {
+    const Sample* row = plane.Row(y) + left;
+    if (std::memcmp(row, first, kPixel) != 0) return false;
+    if (std::memcmp(row, row + 3, bytes - kPixel) != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool NothingMoves(const RenderJob& job) {
@@ -78,21 +93,27 @@ bool NothingMoves(const RenderJob& job) {
   return true;
 }
 
-const uint8_t* OneColour(const RenderJob& job) {
+bool IsOneColour(const RenderJob& job, uint8_t* colour) {
   const Window& window = *job.window;
   const Part part = PartOf(job);
-  const uint8_t* colour = window.centre.Row(part.top) + 3 * static_cast<ptrdiff_t>(part.left);
-  const size_t bytes = 3 * static_cast<size_t>(part.right - part.left);
-  for (int32_t y = part.top; y < part.bottom; ++y) {
-    const uint8_t* row = window.centre.Row(y) + 3 * static_cast<ptrdiff_t>(part.left);
-    if (std::memcmp(row, colour, 3) != 0) return nullptr;
-    if (std::memcmp(row, row + 3, bytes - 3) != 0) return nullptr;
+  int16_t light[3];
+  if (window.layer == 0) {
+    if (!IsUniform(window.centre, part)) return false;
+    std::memcpy(colour, window.centre.Row(part.top) + 3 * static_cast<ptrdiff_t>(part.left), 3);
+    job.kernels->Decode(colour, 3, window.transfer->encoding, light);
+  } else {
+    if (!IsUniform(window.samples, part)) return false;
+    const int16_t* sample = window.samples.Row(part.top) + 3 * static_cast<ptrdiff_t>(part.left);
+    job.kernels->Narrow(sample, 3, window.transfer->encoding, colour);
+    job.kernels->Decode(colour, 3, window.transfer->encoding, light);
+    // Samples of one colour are its light, rounded; else filters may leave the colour.
+    for (int c = 0; c < 3; ++c) {
+      if (sample[c] != (light[c] + 1) >> (kLightBits - simd::kLayerBits)) return false;
+    }
   }
   // The centre view alone fills holes with what lies around them.
-  if (window.views == 1) return colour;
-  return IsGentle(window, part) && ShowsBeyond(window, Extended(job.rect, job.border), colour)
-             ? colour
-             : nullptr;
+  if (window.views == 1) return true;
+  return IsGentle(window, part) && ShowsBeyond(window, Extended(job.rect, job.border), light);
 }
 
 }  // namespace starfocus

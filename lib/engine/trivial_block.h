@@ -13,9 +13,9 @@ namespace starfocus {
 // the rectangle is that of the centre view. Only at layer 0: others are resampled all the same.
 bool NothingMoves(const RenderJob& job);
 
-// The colour of all that may splat into the job's rectangle, where no side view can show another in
-// a hole; null where there is none. Three bytes of the centre view.
-const uint8_t* OneColour(const RenderJob& job);
+// Whether all that may splat into the job's rectangle has one colour, and no side view can show
+// another in a hole; colour[3] receives its codes.
+bool IsOneColour(const RenderJob& job, uint8_t* colour);
 
 }  // namespace starfocus
 

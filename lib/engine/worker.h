@@ -25,7 +25,7 @@ struct Counts {
 
 // The extended rectangle of a block in the centre view. E: largest side of one.
 struct FieldMemory {
-  uint8_t* rgb;        // E rows of RgbStride(E)
+  int16_t* rgb;        // light: E rows of RgbStride(E)
   int16_t* disparity;  // E^2
 };
 

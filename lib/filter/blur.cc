@@ -138,12 +138,13 @@ void MakeKernel(int32_t step, const Opening& opening, uint16_t* weights, BlurKer
     weights[0] = 1 << 14;
     return;
   }
-  double total = 0, largest = 0;
-  ForEachWeight(step, opening, [&](int32_t, int32_t, int32_t points, double integral) {
+  double total = 0, largest = 0;  // of pixels that simd::Disc weighs together
+  ForEachWeight(step, opening, [&](int32_t n, int32_t m, int32_t points, double integral) {
     total += points * integral;
-    largest = Larger(largest, integral);
+    const int32_t together = kernel->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
+    largest = Larger(largest, together * integral);
   });
-  while (kernel->sum_bits < kMaxWeightBits &&
+  while (kernel->sum_bits < kMaxLightBits &&
          largest / total * (2 << kernel->sum_bits) < kMaxWeight - 8) {
     ++kernel->sum_bits;
   }
@@ -164,7 +165,7 @@ void MakeKernel(int32_t step, const Opening& opening, uint16_t* weights, BlurKer
 }
 
 // Copies the extended rectangle and repeats the picture's edge around it.
-void LoadPixels(const BlurJob& job, uint8_t* rgb) {
+void LoadPixels(const BlurJob& job, int16_t* rgb) {
   const int32_t width = job.rect.width + 2 * job.border;
   const Window& window = *job.window;
   if (window.reads != nullptr) {
@@ -174,22 +175,24 @@ void LoadPixels(const BlurJob& job, uint8_t* rgb) {
   for (int32_t row = 0; row < job.rect.height + 2 * job.border; ++row) {
     const uint8_t* from =
         window.centre.Row(Clamp(job.rect.y - job.border + row, 0, window.height - 1));
-    uint8_t* to = rgb + 3 * static_cast<size_t>(row) * width;
-    for (int32_t column = 0; column < width; ++column) {
-      const int32_t x = Clamp(job.rect.x - job.border + column, 0, window.width - 1);
-      std::memcpy(to + 3 * column, from + 3 * x, 3);
-    }
+    int16_t* to = rgb + 3 * static_cast<size_t>(row) * width;
+    const int32_t left = job.rect.x - job.border;
+    const int32_t first = Clamp(-left, 0, width), last = Clamp(window.width - left, 0, width);
+    job.kernels->Decode(from + 3 * (left + first), 3 * static_cast<size_t>(last - first),
+                        window.transfer->encoding, to + 3 * first);
+    for (int32_t k = 0; k < 3 * first; ++k) to[k] = to[3 * first + k % 3];
+    for (int32_t k = 3 * last; k < 3 * width; ++k) to[k] = to[k - 3];
   }
 }
 
 // Adds a kernel of `weight(n, m)` over `count` pixels of one radius; two weights side by side go in
 // one span.
 template <class Weight>
-void AddRun(int32_t size, const Weight& weight, const uint8_t* at, size_t stride, int32_t count,
+void AddRun(int32_t size, const Weight& weight, const int16_t* at, size_t stride, int32_t count,
             SpanList* list) {
   const uint32_t samples = 3 * static_cast<uint32_t>(count);
   for (int32_t m = -size; m <= size; ++m) {
-    const uint8_t* row = at + static_cast<ptrdiff_t>(m) * static_cast<ptrdiff_t>(stride);
+    const int16_t* row = at + static_cast<ptrdiff_t>(m) * static_cast<ptrdiff_t>(stride);
     for (int32_t n = -size; n <= size; n += 2) {
       const uint32_t first = weight(n, m), next = n < size ? weight(n + 1, m) : 0;
       if (first + next == 0) continue;
@@ -200,7 +203,7 @@ void AddRun(int32_t size, const Weight& weight, const uint8_t* at, size_t stride
 }
 
 // Adds it turned by half a turn with `side` -1.
-void AddKernel(const BlurKernel& kernel, int32_t side, const uint8_t* at, size_t stride,
+void AddKernel(const BlurKernel& kernel, int32_t side, const int16_t* at, size_t stride,
                int32_t count, SpanList* list) {
   if (kernel.full) {
     AddRun(
@@ -253,7 +256,7 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
   const bool turns = job.kernels_of_radius[0].full;
   for (int32_t y = 0; y < rect.height; ++y, out += out_stride) {
     const int16_t* disparity = job.window->disparity.Row(rect.y + y) + rect.x;
-    const uint8_t* row = scratch.rgb + static_cast<size_t>(y + job.border) * stride +
+    const int16_t* row = scratch.rgb + static_cast<size_t>(y + job.border) * stride +
                          3 * static_cast<size_t>(job.border);
     const auto step_at = [&](int32_t x) {
       return BlurStep(job.scale.Radius(Abs(disparity[x] - job.scale.focus)));
@@ -270,8 +273,10 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
       std::memset(scratch.accumulators, 0, samples * sizeof(uint32_t));
       AddKernel(kernel, side, row + 3 * begin, stride, x - begin, &list);
       list.Flush();
-      CheckSums(scratch.accumulators, samples, kernel.sum_bits);
-      job.kernels->Finish(scratch.accumulators, samples, kernel.sum_bits, out + 3 * begin);
+      const int bits = kernel.sum_bits + kLightBits;
+      CheckSums(scratch.accumulators, samples, bits);
+      job.kernels->Finish(scratch.accumulators, samples, bits, job.window->transfer->encoding,
+                          out + 3 * begin);
     }
   }
 }

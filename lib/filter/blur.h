@@ -20,8 +20,8 @@ int32_t BlurStep(int32_t radius);  // of a radius with kDisparityBits
 int32_t BlurStepCount(double max_blur);
 
 // The octant 0 <= m <= n of one kernel, or, when `full`, all of it; weights sum to exactly
-// 2^sum_bits over the plane and fit 15 bits. What is farther than the focus sees it turned by half
-// a turn.
+// 2^sum_bits over the plane, and those of an octant that four pixels share, or two on an axis, fit
+// 15 bits together. What is farther than the focus sees it turned by half a turn.
 struct BlurKernel {
   int32_t size;  // n of the outermost weights
   int sum_bits;
@@ -55,7 +55,7 @@ struct BlurJob {
 };
 
 struct BlurScratch {
-  uint8_t* rgb;            // the extended rectangle, rows packed
+  int16_t* rgb;            // light of the extended rectangle, rows packed
   uint32_t* accumulators;  // 3 * rect.width
   SpanMemory spans;
 };

@@ -19,31 +19,39 @@ bool Close(const uint8_t* a, const uint8_t* b, int32_t beta) {
 
 // Filters the pixels q0, q1, ... on the lower layer's side of a boundary; `q` is `step` bytes from
 // pixel to pixel, away from the boundary, and p0 the pixel before it. `available`: pixels q has.
-void FilterLine(uint8_t* q, ptrdiff_t step, int32_t available, bool strong, int32_t beta) {
+void FilterLine(const DeblockJob& job, uint8_t* q, ptrdiff_t step, int32_t available, bool strong) {
   const uint8_t* p0 = q - step;
-  if (strong && available > 3 && Close(p0, q + 3 * step, beta)) {
+  const int16_t* light = job.transfer->light;
+  const auto code = [&](int32_t sum, int bits) {
+    const auto mean = static_cast<int16_t>((sum + (1 << bits >> 1)) >> bits);
+    uint8_t result;
+    job.kernels->Encode(&mean, 1, job.transfer->encoding, &result);
+    return result;
+  };
+  if (strong && available > 3 && Close(p0, q + 3 * step, job.beta)) {
     const uint8_t* q3 = q + 3 * step;
     for (int c = 0; c < 3; ++c) {
-      const int32_t p = p0[c], far = q3[c];
-      q[c] = static_cast<uint8_t>((3 * p + far + 2) >> 2);
-      q[step + c] = static_cast<uint8_t>((2 * p + 2 * far + 2) >> 2);
-      q[2 * step + c] = static_cast<uint8_t>((p + 3 * far + 2) >> 2);
+      const int32_t p = light[p0[c]], far = light[q3[c]];
+      q[c] = code(3 * p + far, 2);
+      q[step + c] = code(2 * p + 2 * far, 2);
+      q[2 * step + c] = code(p + 3 * far, 2);
     }
-  } else if (available > 1 && Close(p0, q + step, beta)) {
-    for (int c = 0; c < 3; ++c) q[c] = static_cast<uint8_t>((p0[c] + q[step + c] + 1) >> 1);
+  } else if (available > 1 && Close(p0, q + step, job.beta)) {
+    for (int c = 0; c < 3; ++c) q[c] = code(light[p0[c]] + light[q[step + c]], 1);
   }
 }
 
 // A boundary at `at`: a run of `count` pixels `along` bytes apart, at which units of layers before
 // and after meet `across` bytes apart. Room: pixels on either side that belong to the picture.
-void FilterBoundary(uint8_t* at, int32_t count, ptrdiff_t along, ptrdiff_t across, int32_t before,
-                    int32_t after, int32_t room_before, int32_t room_after, int32_t beta) {
+void FilterBoundary(const DeblockJob& job, uint8_t* at, int32_t count, ptrdiff_t along,
+                    ptrdiff_t across, int32_t before, int32_t after, int32_t room_before,
+                    int32_t room_after) {
   const bool lower_after = before > after;
   uint8_t* q = lower_after ? at : at - across;
   const ptrdiff_t step = lower_after ? across : -across;
   const int32_t available = lower_after ? room_after : room_before;
   const bool strong = Max(before, after) == 2;
-  for (int32_t k = 0; k < count; ++k, q += along) FilterLine(q, step, available, strong, beta);
+  for (int32_t k = 0; k < count; ++k, q += along) FilterLine(job, q, step, available, strong);
 }
 
 }  // namespace
@@ -62,9 +70,9 @@ void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end) {
       const int32_t before = map.At(column, row - 1), after = map.At(column, row);
       if (!Meet(before, after)) continue;
       const int32_t x = column * kSmallestBlock;
-      FilterBoundary(job.out.Row(y) + 3 * x, Min(kSmallestBlock, job.width - x), 3,
+      FilterBoundary(job, job.out.Row(y) + 3 * x, Min(kSmallestBlock, job.width - x), 3,
                      static_cast<ptrdiff_t>(job.out.stride), before, after, kSmallestBlock,
-                     Min(kSmallestBlock, job.height - y), job.beta);
+                     Min(kSmallestBlock, job.height - y));
     }
   }
 }
@@ -77,8 +85,8 @@ void DeblockColumns(const DeblockJob& job, int32_t first, int32_t last) {
       const int32_t before = map.At(column - 1, row), after = map.At(column, row);
       if (!Meet(before, after)) continue;
       const int32_t x = column * kSmallestBlock;
-      FilterBoundary(job.out.Row(y) + 3 * x, 1, 0, 3, before, after, kSmallestBlock,
-                     Min(kSmallestBlock, job.width - x), job.beta);
+      FilterBoundary(job, job.out.Row(y) + 3 * x, 1, 0, 3, before, after, kSmallestBlock,
+                     Min(kSmallestBlock, job.width - x));
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "lib/input/window.h"
+#include "simd/kernels.h"
 
 namespace starfocus {
 
@@ -42,7 +43,9 @@ struct DeblockJob {
   Plane<uint8_t> out;     // the picture's rows
   int32_t width, height;  // of the picture
   int32_t y;              // of the stripe's first row
-  int32_t beta;           // of (16) and (17)
+  int32_t beta;           // of (16) and (17), in codes
+  const Transfer* transfer;
+  const simd::Kernels* kernels;
 };
 
 // Boundaries between rows of units, at the top of the stripe (y > 0) and inside it, for columns

@@ -23,7 +23,7 @@ class Gather {
         border_ = Max(border_, job_.kernels_of_radius[StepOf(column, row)].size);
       }
     }
-    LoadField(*job_.window, job_.rect, {border_, border_, border_, border_}, field_);
+    LoadField(*job_.kernels, *job_.window, job_.rect, {border_, border_, border_, border_}, field_);
   }
 
   // Filters a row of cells; those side by side that have the same kernel go together.
@@ -41,8 +41,8 @@ class Gather {
       const int32_t width = Min(column * kCellSize, job_.rect.width) - x;
       job_.kernels->FilterDisc(field_->Rgb(border_ + x, border_ + y), RgbStride(field_->width),
                                {kernel.size, kernel.sum_bits, kernel.weights},
-                               static_cast<size_t>(height), 3 * static_cast<size_t>(width),
-                               out + 3 * x, out_stride);
+                               job_.window->transfer->encoding, static_cast<size_t>(height),
+                               3 * static_cast<size_t>(width), out + 3 * x, out_stride);
       pixels_ += static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
     }
   }

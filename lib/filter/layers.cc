@@ -17,34 +17,49 @@ struct PairRange {
   int32_t Count() const { return end - begin + 3; }
 };
 
-void Part(const Kernels& kernels, const uint8_t* in, int32_t pairs, int16_t* even, int16_t* odd) {
-  kernels.WidenPhases(in, static_cast<size_t>(pairs), even, odd);
-}
-void Part(const Kernels& kernels, const int16_t* in, int32_t pairs, int16_t* even, int16_t* odd) {
-  kernels.SplitPhases(in, static_cast<size_t>(pairs), even, odd);
-}
+// A row of the centre view, as codes.
+struct CodeRow {
+  const uint8_t* codes;
+  const Transfer& transfer;
 
-int16_t Sample(uint8_t byte) { return static_cast<int16_t>(byte << simd::kLayerBits); }
-int16_t Sample(int16_t sample) { return sample; }
-
-// Fills pairs [first, last) of both phases with one pixel, that of the picture's edge.
-template <class T>
-void RepeatEdge(const T* pixel, int32_t first, int32_t last, const ResampleScratch& phases) {
-  for (int32_t n = 3 * first; n < 3 * last; n += 3) {
-    for (int32_t c = 0; c < 3; ++c) phases.even[n + c] = phases.odd[n + c] = Sample(pixel[c]);
+  void Part(const Kernels& kernels, int32_t first, int32_t pairs, int16_t* even,
+            int16_t* odd) const {
+    kernels.WidenPhases(codes + 6 * first, static_cast<size_t>(pairs), transfer.encoding, even,
+                        odd);
   }
-}
+  int16_t Sample(int32_t n) const {
+    return static_cast<int16_t>((transfer.light[codes[n]] + 1) >> (kLightBits - simd::kLayerBits));
+  }
+};
+
+// A row of a layer.
+struct SampleRow {
+  const int16_t* samples;
+
+  void Part(const Kernels& kernels, int32_t first, int32_t pairs, int16_t* even,
+            int16_t* odd) const {
+    kernels.SplitPhases(samples + 6 * first, static_cast<size_t>(pairs), even, odd);
+  }
+  int16_t Sample(int32_t n) const { return samples[n]; }
+};
 
 // Parts a row of `width` pixels, repeating its edge pixels where the pairs leave it.
-template <class T>
-void PartLine(const Kernels& kernels, const T* row, int32_t width, const PairRange& pairs,
+template <class Row>
+void PartLine(const Kernels& kernels, const Row& row, int32_t width, const PairRange& pairs,
               const ResampleScratch& phases) {
   const int32_t first = Max(pairs.First(), 0);
   const int32_t last = Min(pairs.First() + pairs.Count(), width / 2);
   const int32_t left = first - pairs.First(), right = last - pairs.First();
-  RepeatEdge(row, 0, left, phases);
-  Part(kernels, row + 6 * first, last - first, phases.even + 3 * left, phases.odd + 3 * left);
-  RepeatEdge(row + 3 * (width - 1), right, pairs.Count(), phases);
+  row.Part(kernels, first, last - first, phases.even + 3 * left, phases.odd + 3 * left);
+  const auto repeat = [&](int32_t pixel, int32_t from, int32_t to) {
+    for (int32_t n = 3 * from; n < 3 * to; n += 3) {
+      for (int32_t c = 0; c < 3; ++c) {
+        phases.even[n + c] = phases.odd[n + c] = row.Sample(3 * pixel + c);
+      }
+    }
+  };
+  repeat(0, 0, left);
+  repeat(width - 1, right, pairs.Count());
 }
 
 // Filters along columns: `to->half` holds the rows from 2 * rows.first - 3 on, the picture's edge
@@ -57,20 +72,19 @@ void HalveRows(const Kernels& kernels, int32_t begin, int32_t end, LayerPlane* t
     kernels.FilterHalfBand(in, static_cast<ptrdiff_t>(to->half.stride), kDownFilter, count, 0,
                            kLayerWhite, samples);
     CheckAll(ranges::kLayerSample, samples, count);
-    kernels.Narrow(samples, count, to->rgb.Row(y) + 3 * begin);
   }
 }
 
 // Subsamples a plane of width x height pixels, first along rows: of all that the layer's rows are
 // made of.
-template <class T>
-void Downsample(const Kernels& kernels, const Plane<const T>& from, int32_t width, int32_t height,
+template <class RowAt>
+void Downsample(const Kernels& kernels, const RowAt& row_at, int32_t width, int32_t height,
                 int32_t begin, int32_t end, const ResampleScratch& phases, LayerPlane* to) {
   const PairRange pairs = {begin, end};
   const size_t count = 3 * static_cast<size_t>(end - begin);
   for (int32_t y = 2 * to->rows.first - 3; y < 2 * to->rows.last + 2; ++y) {
     int16_t* half = to->half.Row(y) + 3 * begin;
-    PartLine(kernels, from.Row(Clamp(y, 0, height - 1)), width, pairs, phases);
+    PartLine(kernels, row_at(Clamp(y, 0, height - 1)), width, pairs, phases);
     kernels.Halve(phases.even + 6, phases.odd + 6, kDownFilter, count, half);
     CheckAll(ranges::kFilteredAlongX, half, count);
   }
@@ -89,17 +103,16 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 
 }  // namespace
 
-void DownsamplePicture(const Kernels& kernels, const Plane<const uint8_t>& from, int32_t width,
-                       int32_t height, int32_t begin, int32_t end, const ResampleScratch& scratch,
-                       LayerPlane* to) {
-  Downsample(kernels, from, width, height, begin, end, scratch, to);
+void DownsamplePicture(const Kernels& kernels, const Window& picture, int32_t begin, int32_t end,
+                       const ResampleScratch& scratch, LayerPlane* to) {
+  const auto row = [&](int32_t y) { return CodeRow{picture.centre.Row(y), *picture.transfer}; };
+  Downsample(kernels, row, picture.width, picture.height, begin, end, scratch, to);
 }
 
 void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, int32_t begin, int32_t end,
                      const ResampleScratch& scratch, LayerPlane* to) {
-  const Plane<int16_t>& in = from.samples;
-  const Plane<const int16_t> samples = {in.data, in.stride, in.rows, in.first};
-  Downsample(kernels, samples, from.width, from.height, begin, end, scratch, to);
+  const auto row = [&](int32_t y) { return SampleRow{from.samples.Row(y)}; };
+  Downsample(kernels, row, from.width, from.height, begin, end, scratch, to);
 }
 
 void UpsampleByTwo(const Kernels& kernels, const LayerRect& in, int32_t first,

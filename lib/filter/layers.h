@@ -30,8 +30,7 @@ struct LayerPlane {
   int32_t width = 0, height = 0;  // of the whole layer
   RowRange rows = {0, 0};         // what is stored
   int32_t known = 0;              // rows before it are there, in columns the last stripe needed
-  Plane<uint8_t> rgb;             // what is refocused
-  Plane<int16_t> samples;         // the same, simd::kLayerBits, in range: what the next layer needs
+  Plane<int16_t> samples;         // simd::kLayerBits, in range
   Plane<int16_t> half;            // between the passes: subsampled along x only
 };
 
@@ -41,10 +40,9 @@ struct ResampleScratch {
   int16_t* odd;   // the same
 };
 
-// Subsamples columns [begin, end) of `to` for its rows from the pictures' rows (layer 1) ...
-void DownsamplePicture(const simd::Kernels& kernels, const Plane<const uint8_t>& from,
-                       int32_t width, int32_t height, int32_t begin, int32_t end,
-                       const ResampleScratch& scratch, LayerPlane* to);
+// Subsamples columns [begin, end) of `to` for its rows from the centre view's (layer 1) ...
+void DownsamplePicture(const simd::Kernels& kernels, const Window& picture, int32_t begin,
+                       int32_t end, const ResampleScratch& scratch, LayerPlane* to);
 // ... or from the layer above (layer 2). At most half a largest block of columns at once.
 void DownsampleLayer(const simd::Kernels& kernels, const LayerPlane& from, int32_t begin,
                      int32_t end, const ResampleScratch& scratch, LayerPlane* to);

@@ -14,8 +14,8 @@ namespace starfocus {
 struct SpanMemory {
   simd::Span* spans;
   size_t span_capacity;
-  uint8_t* pixels;
-  size_t pixel_capacity;  // bytes; at least one line
+  int16_t* pixels;
+  size_t pixel_capacity;  // samples; at least one line
 };
 
 class SpanList {
@@ -24,7 +24,7 @@ class SpanList {
   SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint32_t* accumulators)
       : SpanList(kernels, memory, accumulators, nullptr) {}
   // Spans are blended into a line.
-  SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint8_t* line)
+  SpanList(const simd::Kernels& kernels, const SpanMemory& memory, int16_t* line)
       : SpanList(kernels, memory, nullptr, line) {}
 
   // The next span, for the caller to fill in.
@@ -34,12 +34,12 @@ class SpanList {
   }
   void Add(const simd::Span& span) { *Next() = span; }
 
-  // Room for the colours of one span of a hole, which the caller adds next; bytes <=
+  // Room for the colours of one span of a hole, which the caller adds next; samples <=
   // pixel_capacity.
-  uint8_t* Pixels(size_t bytes) {
-    if (used_ + bytes > pixel_capacity_ || count_ == capacity_) Flush();
-    uint8_t* pixels = pixels_ + used_;
-    used_ += bytes;
+  int16_t* Pixels(size_t samples) {
+    if (used_ + samples > pixel_capacity_ || count_ == capacity_) Flush();
+    int16_t* pixels = pixels_ + used_;
+    used_ += samples;
     return pixels;
   }
 
@@ -57,7 +57,7 @@ class SpanList {
 
  private:
   SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint32_t* accumulators,
-           uint8_t* line)
+           int16_t* line)
       : kernels_(kernels),
         spans_(memory.spans),
         capacity_(memory.span_capacity),
@@ -69,10 +69,10 @@ class SpanList {
   const simd::Kernels& kernels_;
   simd::Span* const spans_;
   const size_t capacity_;
-  uint8_t* const pixels_;
+  int16_t* const pixels_;
   const size_t pixel_capacity_;
   uint32_t* const accumulators_;
-  uint8_t* const line_;
+  int16_t* const line_;
   size_t count_ = 0;
   size_t used_ = 0;
 };

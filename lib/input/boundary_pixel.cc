@@ -4,22 +4,30 @@
 namespace starfocus {
 namespace {
 
-// Two colours whose squared distance is less than this tell no mixture apart: eight gray levels in
-// one channel. docs/constants.md has what these three were measured on.
-constexpr int64_t kLeastContrast = 64;
+// Fractional bits of a 255th of white that colours are compared with: their products fit 64 bits.
+constexpr int kColourBits = 4;
+constexpr int64_t kSquareOne = 1 << (2 * kColourBits);
+// Two colours whose squared distance is less than this tell no mixture apart: eight 255ths of white
+// in one channel. docs/constants.md has what these three were measured on.
+constexpr int64_t kLeastContrast = 64 * kSquareOne;
 // Up to this distance from the line between the two colours a pixel is their mixture, squared: a
-// noise of three gray levels in each channel, and a sixteenth of their contrast's square.
-constexpr int64_t kNoise = 27;
+// noise of three 255ths of white in each channel, and a sixteenth of their contrast's square.
+constexpr int64_t kNoise = 27 * kSquareOne;
 constexpr int64_t kContrastParts = 16;
+
+int32_t Compared(int32_t light) {
+  return static_cast<int32_t>(RoundShift(light, kLightBits - kColourBits));
+}
 
 // Returns how much of `mixed` shows `near`, the rest being `far`: kShareBits, 0 when it is no
 // mixture. The far surface has the pixel's centre, so that more than 4/5 says that `far` is
 // something else. The share is rounded down, so that to round it once more, to fewer bits, rounds
 // what it really is.
-int32_t ShareOf(const uint8_t* near, const uint8_t* far, const uint8_t* mixed) {
+int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   int64_t along = 0, contrast = 0, distance = 0;
   for (int c = 0; c < 3; ++c) {
-    const int32_t whole = near[c] - far[c], part = mixed[c] - far[c];
+    const int64_t whole = Compared(near[c]) - Compared(far[c]);
+    const int64_t part = Compared(mixed[c]) - Compared(far[c]);
     along += part * whole;
     contrast += whole * whole;
     distance += part * part;
@@ -27,13 +35,13 @@ int32_t ShareOf(const uint8_t* near, const uint8_t* far, const uint8_t* mixed) {
   if (contrast < kLeastContrast || along <= 0 || 5 * along > 4 * contrast) return 0;
   const int64_t beside = distance * contrast - along * along;  // squared, times the contrast
   if (kContrastParts * beside > contrast * (kContrastParts * kNoise + contrast)) return 0;
-  return static_cast<int32_t>((static_cast<uint32_t>(along) << kShareBits) /
-                              static_cast<uint32_t>(contrast));
+  return static_cast<int32_t>((static_cast<uint64_t>(along) << kShareBits) /
+                              static_cast<uint64_t>(contrast));
 }
 
 // The point of the far surface in the captured view away from the nearer one, which lies farther
 // towards that there.
-void ReadFar(const Window& window, const BoundaryPixel& pixel, const uint8_t* mixed, uint8_t* far) {
+Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& mixed) {
   if (window.reads != nullptr) ++window.reads->side_colours;
   const int dx = pixel.side[0], dy = pixel.side[1];
   const bool half = window.views == 17;
@@ -44,11 +52,14 @@ void ReadFar(const Window& window, const BoundaryPixel& pixel, const uint8_t* mi
   int32_t sums[3];
   InterpolateCaptured(window, view, x, y, sums);
   // Halves are rounded towards the pixel, so that an inverted picture is decided on alike.
-  constexpr int32_t kHalf = 1 << (2 * kShiftBits - 1);
+  constexpr uint32_t kHalf = 1 << (2 * kShiftBits - 1);
+  Colour far;
   for (int c = 0; c < 3; ++c) {
     const bool up = (mixed[c] << (2 * kShiftBits)) > sums[c];
-    far[c] = static_cast<uint8_t>((sums[c] + kHalf - (up ? 0 : 1)) >> (2 * kShiftBits));
+    const uint32_t sum = static_cast<uint32_t>(sums[c]) + kHalf - (up ? 0 : 1);
+    far.rgb[c] = static_cast<int16_t>(sum >> (2 * kShiftBits));
   }
+  return far;
 }
 
 }  // namespace
@@ -56,12 +67,12 @@ void ReadFar(const Window& window, const BoundaryPixel& pixel, const uint8_t* mi
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const int32_t x = pixel.x, y = pixel.y;
   const int dx = pixel.side[0], dy = pixel.side[1];
-  const uint8_t* mixed = centre.Colour(x, y);
+  const Colour mixed = centre.ColourAt(x, y);
   const int32_t beyond = centre.Disparity(x + 2 * dx, y + 2 * dy);
   const int pure = Abs(beyond - pixel.near) <= pixel.step ? 2 : 1;
   Mixture mixture;
-  mixture.near = centre.Colour(x + pure * dx, y + pure * dy);
-  ReadFar(centre.window, pixel, mixed, mixture.far);
+  mixture.near = centre.ColourAt(x + pure * dx, y + pure * dy);
+  mixture.far = ReadFar(centre.window, pixel, mixed);
   mixture.share = ShareOf(mixture.near, mixture.far, mixed);
   return mixture;
 }

@@ -12,6 +12,13 @@
 
 namespace starfocus {
 
+// Light of R, G and B.
+struct Colour {
+  int16_t rgb[3];
+
+  int32_t operator[](int c) const { return rgb[c]; }
+};
+
 // The centre view at layer 0; beyond its edges it repeats them.
 struct CentreView {
   const Window& window;
@@ -20,9 +27,12 @@ struct CentreView {
     return window.disparity.Row(
         Clamp(y, 0, window.picture_height - 1))[Clamp(x, 0, window.picture_width - 1)];
   }
-  const uint8_t* Colour(int32_t x, int32_t y) const {
-    return window.centre.Row(Clamp(y, 0, window.height - 1)) +
-           3 * static_cast<ptrdiff_t>(Clamp(x, 0, window.width - 1));
+  // Light of a pixel.
+  Colour ColourAt(int32_t x, int32_t y) const {
+    const uint8_t* codes = window.centre.Row(Clamp(y, 0, window.height - 1)) +
+                           3 * static_cast<ptrdiff_t>(Clamp(x, 0, window.width - 1));
+    const int16_t* light = window.transfer->light;
+    return {{light[codes[0]], light[codes[1]], light[codes[2]]}};
   }
 };
 
@@ -37,8 +47,7 @@ struct BoundaryPixel {
 // share of 0: it is no mixture of them.
 struct Mixture {
   int32_t share;
-  const uint8_t* near;
-  uint8_t far[3];
+  Colour near, far;
 };
 
 // The near colour is that of the pixel behind the edge, or one pixel on where the surface goes on;

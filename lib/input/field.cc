@@ -7,9 +7,20 @@
 
 namespace starfocus {
 
-void TransposePixels(const simd::Kernels& kernels, const Field& from, Field* to) {
-  kernels.Transpose(from.rgb, RgbStride(from.width), static_cast<size_t>(from.height),
-                    static_cast<size_t>(from.width), to->rgb, RgbStride(to->width));
+void Transpose(const int16_t* in, size_t in_stride, int32_t rows, int32_t columns, int16_t* out,
+               size_t out_stride) {
+  for (int32_t row = 0; row < rows; ++row, in += in_stride, out += 3) {
+    const int16_t* from = in;
+    int16_t* to = out;
+    for (int32_t column = 0; column < columns; ++column, from += 3, to += out_stride) {
+      std::memcpy(to, from, 4 * sizeof(*to));
+    }
+  }
+}
+
+void TransposePixels(const Field& from, Field* to) {
+  Transpose(from.rgb, RgbStride(from.width), from.height, from.width, to->rgb,
+            RgbStride(to->width));
 }
 
 void TransposeDisparity(const Field& from, Field* to) {
@@ -44,10 +55,10 @@ void LoadDiagonals(const Field& field, bool anti, Diagonals* diagonals) {
   for (int32_t index = 0; index < Diagonals::Count(field); ++index) {
     const DiagonalLine line = GetDiagonal(field, anti, index);
     diagonals->offsets[index] = offset;
-    const uint8_t* from = field.Rgb(line.x, line.y);
+    const int16_t* from = field.Rgb(line.x, line.y);
     const int16_t* from_disparity = field.Disparity(line.x, line.y);
     for (int32_t t = 0; t < line.length; ++t, ++offset) {
-      std::memcpy(diagonals->rgb + 3 * size_t{offset}, from, 3);
+      std::memcpy(diagonals->rgb + 3 * size_t{offset}, from, 3 * sizeof(*from));
       diagonals->disparity[offset] = *from_disparity;
       from += rgb_step;
       from_disparity += step;

@@ -8,14 +8,18 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "simd/kernels.h"
 
 namespace starfocus {
 
-// Bytes from row to row of pixels that rows are transposed into.
-constexpr size_t RgbStride(int32_t width) {
-  return 3 * static_cast<size_t>(width) + simd::kTransposePadding;
-}
+// Samples from row to row of pixels that rows are transposed into: a pixel is copied with the
+// sample behind it.
+constexpr size_t RgbStride(int32_t width) { return 3 * static_cast<size_t>(width) + 1; }
+
+// Pixel `column` of row `row` of `in` becomes pixel `row` of row `column` of `out`. Strides are in
+// samples. A sample past the end of each row is read, and one past the end of each row of `out`
+// written, in the order of the rows of `in`: so a picture can be transposed in strips of rows.
+void Transpose(const int16_t* in, size_t in_stride, int32_t rows, int32_t columns, int16_t* out,
+               size_t out_stride);
 
 // A copy of the extended rectangle. Positions are oriented: in a transposed field x runs down the
 // picture and y across it.
@@ -24,10 +28,10 @@ struct Field {
   int32_t width = 0, height = 0;  // of the extended rectangle
   int32_t x = 0, y = 0;           // of its pixel (0, 0) in the picture
   Rect inner = {0, 0, 0, 0};      // the rectangle itself, in pixels of the field
-  uint8_t* rgb = nullptr;         // rows of RgbStride(width) bytes
+  int16_t* rgb = nullptr;         // light: rows of RgbStride(width) samples
   int16_t* disparity = nullptr;   // rows of `width`, kDisparityBits
 
-  uint8_t* Rgb(int32_t column, int32_t row) const {
+  int16_t* Rgb(int32_t column, int32_t row) const {
     return rgb + static_cast<size_t>(row) * RgbStride(width) + 3 * static_cast<size_t>(column);
   }
   int16_t* Disparity(int32_t column, int32_t row) const {
@@ -38,12 +42,12 @@ struct Field {
 
 // Rows become columns; to->disparity, or after it to->rgb, must be set and differ from `from`'s.
 void TransposeDisparity(const Field& from, Field* to);
-void TransposePixels(const simd::Kernels& kernels, const Field& from, Field* to);
+void TransposePixels(const Field& from, Field* to);
 
 // The diagonal lines of a field: direction (1, 1), or (1, -1) when anti.
 struct Diagonals {
   bool anti = false;
-  uint8_t* rgb = nullptr;  // all lines packed one after the other
+  int16_t* rgb = nullptr;  // all lines packed one after the other
   int16_t* disparity = nullptr;
   uint32_t* offsets = nullptr;  // pixels before each line; Count(field) of them
 

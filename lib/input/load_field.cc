@@ -9,20 +9,35 @@ namespace starfocus {
 namespace {
 
 // Fills what lies outside [first, last) of a row, which is not empty, with its ends.
-void RepeatEdges(int32_t first, int32_t last, int32_t width, uint8_t* rgb, int16_t* disparity) {
+void RepeatEdges(int32_t first, int32_t last, int32_t width, int16_t* rgb, int16_t* disparity) {
   for (int32_t column = 0; column < first; ++column) {
-    std::memcpy(rgb + 3 * column, rgb + 3 * first, 3);
+    std::memcpy(rgb + 3 * column, rgb + 3 * first, 3 * sizeof(*rgb));
     disparity[column] = disparity[first];
   }
   for (int32_t column = last; column < width; ++column) {
-    std::memcpy(rgb + 3 * column, rgb + 3 * (last - 1), 3);
+    std::memcpy(rgb + 3 * column, rgb + 3 * (last - 1), 3 * sizeof(*rgb));
     disparity[column] = disparity[last - 1];
+  }
+}
+
+// Writes the light of `count` pixels of the centre view from (x, y) on.
+void LoadLight(const simd::Kernels& kernels, const Window& window, int32_t x, int32_t y,
+               int32_t count, int16_t* rgb) {
+  const size_t samples = 3 * static_cast<size_t>(count);
+  if (window.layer == 0) {
+    kernels.Decode(window.centre.Row(y) + 3 * x, samples, window.transfer->encoding, rgb);
+    return;
+  }
+  const int16_t* from = window.samples.Row(y) + 3 * x;
+  for (size_t k = 0; k < samples; ++k) {
+    rgb[k] = static_cast<int16_t>(from[k] << (kLightBits - simd::kLayerBits));
   }
 }
 
 }  // namespace
 
-void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field) {
+void LoadField(const simd::Kernels& kernels, const Window& window, const Rect& rect,
+               const Border& border, Field* field) {
   field->transposed = false;
   field->width = border.left + rect.width + border.right;
   field->height = border.top + rect.height + border.bottom;
@@ -33,13 +48,11 @@ void LoadField(const Window& window, const Rect& rect, const Border& border, Fie
   const int32_t last = Clamp(window.width - field->x, 0, field->width);  // exclusive
   for (int32_t row = 0; row < field->height; ++row) {
     const int32_t y = Clamp(field->y + row, 0, window.height - 1);
-    uint8_t* rgb = field->Rgb(0, row);
+    int16_t* rgb = field->Rgb(0, row);
     int16_t* disparity = field->Disparity(0, row);
-    const uint8_t* from = window.centre.Row(y);
     const int16_t* from_disparity =
         window.disparity.Row(Min(y << window.layer, window.picture_height - 1));
-    std::memcpy(rgb + 3 * first, from + 3 * (field->x + first),
-                3 * static_cast<size_t>(last - first));
+    LoadLight(kernels, window, field->x + first, y, last - first, rgb + 3 * first);
     if (window.layer == 0) {
       std::memcpy(disparity + first, from_disparity + field->x + first,
                   sizeof(*disparity) * static_cast<size_t>(last - first));

@@ -6,12 +6,15 @@
 #include "lib/base/geometry.h"
 #include "lib/input/field.h"
 #include "lib/input/window.h"
+#include "simd/kernels.h"
 
 namespace starfocus {
 
 // Copies `rect` and its border from the window into field->rgb and ->disparity, which must be set.
+// Codes are decoded here: every sample of the centre view, once for all views of the aperture.
 // Pixels outside the picture repeat its edge, or show what side views see there (picture_edge.h).
-void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field);
+void LoadField(const simd::Kernels& kernels, const Window& window, const Rect& rect,
+               const Border& border, Field* field);
 
 }  // namespace starfocus
 

@@ -101,7 +101,7 @@ class Beyond {
     if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(seen);
     const int dx = edge.out[0], dy = edge.out[1], sign = moved < 0 ? -1 : 1;
     constexpr int32_t kAtOnce = 16;
-    uint8_t rgb[3 * kAtOnce];
+    int16_t rgb[3 * kAtOnce];
     for (int32_t first = 1; first <= seen; first += kAtOnce) {
       const int32_t count = Min(kAtOnce, seen + 1 - first);
       const int32_t x = (rect_.x + edge.column + first * dx) * kShiftOne - dx * Abs(moved);
@@ -118,28 +118,31 @@ class Beyond {
 
 // Writes the colours beyond an edge into a field, and repeats the last one farther away.
 struct Filler {
+  static constexpr size_t kBytes = 3 * sizeof(int16_t);  // of a pixel
   Field& field;
 
-  uint8_t* Rgb(const Edge& edge, int32_t k) const {
+  int16_t* Rgb(const Edge& edge, int32_t k) const {
     return field.Rgb(edge.column + k * edge.out[0], edge.row + k * edge.out[1]);
   }
-  void Colours(const Edge& edge, int32_t k, int32_t count, const uint8_t* rgb) {
-    for (const int32_t end = k + count; k < end; ++k, rgb += 3) std::memcpy(Rgb(edge, k), rgb, 3);
+  void Colours(const Edge& edge, int32_t k, int32_t count, const int16_t* rgb) {
+    for (const int32_t end = k + count; k < end; ++k, rgb += 3) {
+      std::memcpy(Rgb(edge, k), rgb, kBytes);
+    }
   }
   void All(const Edge& edge, int32_t last) {
     for (int32_t k = last + 1; k <= edge.beyond; ++k) {
-      std::memcpy(Rgb(edge, k), Rgb(edge, last), 3);
+      std::memcpy(Rgb(edge, k), Rgb(edge, last), kBytes);
     }
   }
 };
 
 // Tells whether the colours beyond all edges are one colour.
 struct Matcher {
-  const uint8_t* colour;
+  const int16_t* light;
   bool all = true;
 
-  void Colours(const Edge&, int32_t, int32_t count, const uint8_t* rgb) {
-    for (int32_t k = 0; k < count; ++k) all = all && std::memcmp(rgb + 3 * k, colour, 3) == 0;
+  void Colours(const Edge&, int32_t, int32_t count, const int16_t* rgb) {
+    for (int32_t k = 0; k < 3 * count; ++k) all = all && rgb[k] == light[k % 3];
   }
   void All(const Edge&, int32_t) {}
 };
@@ -152,9 +155,9 @@ void LookBeyond(const Window& window, Field* field) {
   Beyond(window, {field->x, field->y, field->width, field->height}, &filler).Look();
 }
 
-bool ShowsBeyond(const Window& window, const Rect& rect, const uint8_t* colour) {
+bool ShowsBeyond(const Window& window, const Rect& rect, const int16_t* light) {
   if (window.views == 1) return true;
-  Matcher matcher = {colour};
+  Matcher matcher = {light};
   Beyond(window, rect, &matcher).Look();
   return matcher.all;
 }

@@ -14,8 +14,8 @@ namespace starfocus {
 // repeats the last of them. Without side views, and beyond corners, nothing changes.
 void LookBeyond(const Window& window, Field* field);
 
-// Whether all that it would take from captured views for `rect` of the layer has this colour.
-bool ShowsBeyond(const Window& window, const Rect& rect, const uint8_t* colour);
+// Whether all that it would take from captured views for `rect` of the layer has this light.
+bool ShowsBeyond(const Window& window, const Rect& rect, const int16_t* light);
 
 }  // namespace starfocus
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/input/window.h"
 
-#include <cstring>
 #include <initializer_list>
 
 namespace starfocus {
@@ -28,6 +27,7 @@ constexpr int32_t Tap(int layer, int32_t k) { return (1 << layer) - Abs(k); }
 // A view that is read inside the picture only.
 struct Inside {
   const Plane<const uint8_t>& view;
+  const int16_t* light;  // of codes
 
   const uint8_t* Row(int32_t y) const { return view.Row(y); }
   static int32_t Column(int32_t x) { return 3 * x; }  // bytes
@@ -36,17 +36,24 @@ struct Inside {
 // A view whose outermost pixels go on beyond the picture.
 struct Endless {
   const Plane<const uint8_t>& view;
+  const int16_t* light;   // of codes
   int32_t right, bottom;  // last column and row
 
   const uint8_t* Row(int32_t y) const { return view.Row(Clamp(y, 0, bottom)); }
   int32_t Column(int32_t x) const { return 3 * Clamp(x, 0, right); }  // bytes
 };
 
+Endless EndlessView(const Window& window, int index) {
+  return {window.view[index], window.transfer->light, window.picture_width - 1,
+          window.picture_height - 1};
+}
+
 // Calls take(k, sum) for the samples of `count` places, sum having 2 * kShiftBits. Steps of (dx,
 // dy) pixels keep the weights of the four pixels around a place.
 template <class Pixels, class Take>
 void Interpolate(const Pixels& pixels, const CapturedLine& line, int32_t count, const Take& take) {
   const int32_t wx = line.x & (kShiftOne - 1), wy = line.y & (kShiftOne - 1);
+  const int16_t* light = pixels.light;
   const int32_t upper_left = (kShiftOne - wx) * (kShiftOne - wy);
   const int32_t upper_right = wx * (kShiftOne - wy);
   const int32_t lower_left = (kShiftOne - wx) * wy, lower_right = wx * wy;
@@ -55,8 +62,9 @@ void Interpolate(const Pixels& pixels, const CapturedLine& line, int32_t count, 
     const uint8_t *above = pixels.Row(row), *below = pixels.Row(row + 1);
     const int32_t left = pixels.Column(column), right = pixels.Column(column + 1);
     for (int k = 0; k < 3; ++k) {
-      const int32_t sum = above[left + k] * upper_left + above[right + k] * upper_right +
-                          below[left + k] * lower_left + below[right + k] * lower_right;
+      const int32_t sum =
+          light[above[left + k]] * upper_left + light[above[right + k]] * upper_right +
+          light[below[left + k]] * lower_left + light[below[right + k]] * lower_right;
       take(3 * p + k, Checked(ranges::kHolePixel, sum));
     }
   }
@@ -66,6 +74,7 @@ void Interpolate(const Pixels& pixels, const CapturedLine& line, int32_t count, 
 template <class Pixels, class Take>
 void InterpolateOnAxis(const Pixels& pixels, const CapturedLine& line, int32_t count,
                        const Take& take) {
+  const int16_t* light = pixels.light;
   const int32_t wx = line.x & (kShiftOne - 1), weight = wx + (line.y & (kShiftOne - 1));
   int32_t column = line.x >> kShiftBits, row = line.y >> kShiftBits;
   for (int32_t p = 0; p < count; ++p, column += line.dx, row += line.dy) {
@@ -74,14 +83,15 @@ void InterpolateOnAxis(const Pixels& pixels, const CapturedLine& line, int32_t c
     const uint8_t* next =
         wx != 0 ? above + pixels.Column(column + 1) : pixels.Row(row + 1) + pixels.Column(column);
     for (int k = 0; k < 3; ++k) {
-      const int32_t sum = here[k] * kShiftOne + (next[k] - here[k]) * weight;
+      const int32_t first = light[here[k]];
+      const int32_t sum = first * kShiftOne + (light[next[k]] - first) * weight;
       take(3 * p + k, Checked(ranges::kHolePixel, sum * kShiftOne));
     }
   }
 }
 
 template <int kLayer, class Pixels>
-void Subsample(const Pixels& pixels, int32_t x, int32_t y, uint8_t* rgb) {
+void Subsample(const Pixels& pixels, int32_t x, int32_t y, int16_t* rgb) {
   constexpr int32_t kReach = (1 << kLayer) - 1;
   int32_t sums[3] = {0, 0, 0};
   for (int32_t dy = -kReach; dy <= kReach; ++dy) {
@@ -89,15 +99,15 @@ void Subsample(const Pixels& pixels, int32_t x, int32_t y, uint8_t* rgb) {
     int32_t along[3] = {0, 0, 0};
     for (int32_t dx = -kReach; dx <= kReach; ++dx) {
       const uint8_t* from = row + pixels.Column(x + dx);
-      for (int k = 0; k < 3; ++k) along[k] += Tap(kLayer, dx) * from[k];
+      for (int k = 0; k < 3; ++k) along[k] += Tap(kLayer, dx) * pixels.light[from[k]];
     }
     for (int k = 0; k < 3; ++k) sums[k] += Tap(kLayer, dy) * along[k];
   }
-  for (int k = 0; k < 3; ++k) rgb[k] = static_cast<uint8_t>(RoundShift(sums[k], 4 * kLayer));
+  for (int k = 0; k < 3; ++k) rgb[k] = static_cast<int16_t>(RoundShift(sums[k], 4 * kLayer));
 }
 
 template <int kLayer, class Pixels>
-void SubsampleLine(const Pixels& pixels, const CapturedLine& line, int32_t count, uint8_t* rgb) {
+void SubsampleLine(const Pixels& pixels, const CapturedLine& line, int32_t count, int16_t* rgb) {
   for (int32_t p = 0; p < count; ++p, rgb += 3) {
     Subsample<kLayer>(pixels, line.x + line.dx * p, line.y + line.dy * p, rgb);
   }
@@ -106,7 +116,7 @@ void SubsampleLine(const Pixels& pixels, const CapturedLine& line, int32_t count
 // `line` is one of places at layer 0, else of whole pixels of the picture.
 template <class Pixels>
 void ReadLine(const Pixels& pixels, int layer, const CapturedLine& line, int32_t count,
-              uint8_t* rgb) {
+              int16_t* rgb) {
   if (layer == 2) {
     SubsampleLine<2>(pixels, line, count, rgb);
     return;
@@ -116,7 +126,8 @@ void ReadLine(const Pixels& pixels, int layer, const CapturedLine& line, int32_t
     return;
   }
   const auto take = [&](int32_t k, int32_t sum) {
-    rgb[k] = static_cast<uint8_t>((sum + (1 << (2 * kShiftBits - 1))) >> (2 * kShiftBits));
+    constexpr uint32_t kHalf = 1 << (2 * kShiftBits - 1);
+    rgb[k] = static_cast<int16_t>((static_cast<uint32_t>(sum) + kHalf) >> (2 * kShiftBits));
   };
   if (line.x % kShiftOne == 0 || line.y % kShiftOne == 0) {
     InterpolateOnAxis(pixels, line, count, take);
@@ -136,7 +147,7 @@ CapturedLine OfPicture(const CapturedLine& line, int layer) {
 }  // namespace
 
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
-                  uint8_t* rgb) {
+                  int16_t* rgb) {
   for (const int32_t last : {0, count - 1}) {
     Checked(ranges::kHolePosition, line.x + line.dx * last * kShiftOne);
     Checked(ranges::kHolePosition, line.y + line.dy * last * kShiftOne);
@@ -151,36 +162,40 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
   const int32_t right = window.picture_width - 1, bottom = window.picture_height - 1;
   if (Min(x, end_x) >= reach && Max(x, end_x) <= right - reach && Min(y, end_y) >= reach &&
       Max(y, end_y) <= bottom - reach) {
-    ReadLine(Inside{window.view[index]}, layer, from, count, rgb);
+    ReadLine(Inside{window.view[index], window.transfer->light}, layer, from, count, rgb);
   } else {
-    ReadLine(Endless{window.view[index], right, bottom}, layer, from, count, rgb);
+    ReadLine(EndlessView(window, index), layer, from, count, rgb);
   }
 }
 
 void PrefetchCaptured(const Window& window, int index, const CapturedLine& line) {
   const CapturedLine from = OfPicture(line, window.layer);
-  const Endless pixels = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+  const Endless pixels = EndlessView(window, index);
   const int32_t ahead = from.y + (kRowsAhead << window.layer);
   Prefetch(pixels.Row(ahead) + pixels.Column(from.x));
   Prefetch(pixels.Row(ahead + 1) + pixels.Column(from.x));
 }
 
 void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
-                  uint8_t* rgb) {
-  const Endless pixels = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+                  int16_t* rgb) {
+  const Endless pixels = EndlessView(window, index);
+  const int16_t* light = pixels.light;
   const uint8_t* row = pixels.Row(y);
   if (x >= 0 && x + count <= window.picture_width) {
     const uint8_t* ahead = pixels.Row(y + kRowsAhead);
     Prefetch(ahead + 3 * x);
     Prefetch(ahead + 3 * (x + count - 1));
-    std::memcpy(rgb, row + 3 * x, 3 * static_cast<size_t>(count));
+    for (int32_t k = 0; k < 3 * count; ++k) rgb[k] = light[row[3 * x + k]];
     return;
   }
-  for (int32_t p = 0; p < count; ++p) std::memcpy(rgb + 3 * p, row + pixels.Column(x + p), 3);
+  for (int32_t p = 0; p < count; ++p) {
+    const uint8_t* from = row + pixels.Column(x + p);
+    for (int k = 0; k < 3; ++k) rgb[3 * p + k] = light[from[k]];
+  }
 }
 
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {
-  const Endless pixels = {window.view[index], window.picture_width - 1, window.picture_height - 1};
+  const Endless pixels = EndlessView(window, index);
   InterpolateOnAxis(pixels,
                     {Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y), 0, 0}, 1,
                     [&](int32_t k, int32_t sum) { rgb[k] = sum; });

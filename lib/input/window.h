@@ -9,6 +9,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
+#include "lib/base/transfer.h"
 
 namespace starfocus {
 
@@ -25,9 +26,11 @@ struct Reads {
 struct Window {
   int32_t width = 0;  // of the layer
   int32_t height = 0;
-  int layer = 0;                // L
-  int32_t views = 0;            // 1, 5, 9 or 17
-  Plane<const uint8_t> centre;  // at the layer
+  int layer = 0;                       // L
+  int32_t views = 0;                   // 1, 5, 9 or 17
+  const Transfer* transfer = nullptr;  // of the codes of the pictures
+  Plane<const uint8_t> centre;         // codes; layer 0
+  Plane<const int16_t> samples;        // of the centre view, simd::kLayerBits; layers 1 and 2
   int32_t picture_width = 0;
   int32_t picture_height = 0;
   Plane<const uint8_t> view[kMaxViews];  // of the pictures
@@ -41,23 +44,23 @@ struct CapturedLine {
   int32_t x, y, dx, dy;
 };
 
-// The colours at the first `count` places of a line in captured view `index`, 3 bytes each; places
+// The light at the first `count` places of a line in captured view `index`, R, G and B each; places
 // outside the picture take the nearest pixel inside. Interpolated linearly at L = 0; at L > 0 a
 // binomial of 2^(L+1) - 1 taps per axis around the nearest pixel of the picture subsamples: what
 // shows in a hole of a defocused block is blurred by at least 3 pixels of the layer afterwards.
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
-                  uint8_t* rgb);
+                  int16_t* rgb);
 
 // Asks for what lies a little below the first place of a line: what is read in short pieces, row by
 // row, the processor does not foresee. Only time depends on it.
 void PrefetchCaptured(const Window& window, int index, const CapturedLine& line);
 
-// Copies `count` pixels of a captured view, from (x, y) of the picture on along its row; outside
-// the picture the nearest ones.
+// Copies the light of `count` pixels of a captured view, from (x, y) of the picture on along its
+// row; outside the picture the nearest ones.
 void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
-                  uint8_t* rgb);
+                  int16_t* rgb);
 
-// One such colour at L = 0 before it is rounded, 2 * kShiftBits; x or y is a whole pixel.
+// One such colour at L = 0 before it is rounded, with 2 * kShiftBits more; x or y is a whole pixel.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
 
 // Bytes that one such colour is made of.

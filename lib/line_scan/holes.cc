@@ -26,7 +26,7 @@ Offset OffsetOf(const HoleView& view, int sign, int64_t move, int32_t disparity)
 
 // Reads captured view (u, v), all in the orientation of the lines.
 void Read(const HoleView& view, int u, int v, const CapturedLine& line, int32_t count,
-          uint8_t* rgb) {
+          int16_t* rgb) {
   if (view.transposed) {
     ReadCaptured(*view.window, CapturedView(v, u, view.half), {line.y, line.x, line.dy, line.dx},
                  count, rgb);
@@ -35,35 +35,36 @@ void Read(const HoleView& view, int u, int v, const CapturedLine& line, int32_t 
   }
 }
 
-// Returns the square of the summed differences of R, G and B, at most 765^2.
-int32_t Difference(const uint8_t* a, const uint8_t* b) {
-  const int32_t sum = Abs(a[0] - b[0]) + Abs(a[1] - b[1]) + Abs(a[2] - b[2]);
+// Returns the square of the summed differences of R, G and B, at most (3 kLightWhite)^2.
+int64_t Difference(const int16_t* a, const int16_t* b) {
+  const int64_t sum = Abs(a[0] - b[0]) + Abs(a[1] - b[1]) + Abs(a[2] - b[2]);
   return sum * sum;
 }
 
 // The diagonal view is missing: of the two views beside it, the more a pixel looks like the
 // background the more it counts. This is nearly a choice, but without a jump, and transposing
 // the picture transposes the result.
-void MixNeighbours(const uint8_t* a, const uint8_t* b, const uint8_t* colour, uint8_t* out) {
-  const int32_t weight_a = Difference(b, colour) + 1, weight_b = Difference(a, colour) + 1;
-  const int32_t sum = weight_a + weight_b;
+void MixNeighbours(const int16_t* a, const int16_t* b, const int16_t* colour, int16_t* out) {
+  constexpr int64_t kLeast = 1 << (2 * kLightBits);  // decides where both are like the background
+  const int64_t weight_a = Difference(b, colour) + kLeast;
+  const int64_t weight_b = Difference(a, colour) + kLeast, sum = weight_a + weight_b;
   for (int c = 0; c < 3; ++c) {
-    out[c] = static_cast<uint8_t>((a[c] * weight_a + b[c] * weight_b + sum / 2) / sum);
+    out[c] = static_cast<int16_t>((a[c] * weight_a + b[c] * weight_b + sum / 2) / sum);
   }
 }
 
 }  // namespace
 
 void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t end,
-              int32_t disparity, const uint8_t* colour, uint8_t* out) {
+              int32_t disparity, const int16_t* colour, int16_t* out) {
   if (view.window->views == 1) {
-    for (int32_t p = begin; p < end; ++p, out += 3) std::memcpy(out, colour, 3);
+    for (int32_t p = begin; p < end; ++p, out += 3) std::memcpy(out, colour, 3 * sizeof(*out));
     return;
   }
   const Offset along = OffsetOf(view, view.u, view.move_u, disparity);
   const Offset across = OffsetOf(view, view.v, view.move_v, disparity);
   const bool diagonal = view.u != 0 && view.v != 0;
-  const auto read = [&](int u, int v, int32_t p, int32_t count, uint8_t* rgb) {
+  const auto read = [&](int u, int v, int32_t p, int32_t count, int16_t* rgb) {
     if (view.window->reads != nullptr) {
       view.window->reads->side_colours += static_cast<uint64_t>(count);
     }
@@ -77,7 +78,7 @@ void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t
     return;
   }
   constexpr int32_t kAtOnce = 16;
-  uint8_t horizontal[3 * kAtOnce];
+  int16_t horizontal[3 * kAtOnce];
   for (int32_t p = begin; p < end; p += kAtOnce) {
     const int32_t count = Min(kAtOnce, end - p);
     read(view.u, 0, p, count, horizontal);

@@ -32,7 +32,7 @@ struct HoleLine {
 // vertical neighbour, by how well each agrees with the visible background `colour`; with the centre
 // view alone the background is extended.
 void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t end,
-              int32_t disparity, const uint8_t* colour, uint8_t* out);
+              int32_t disparity, const int16_t* colour, int16_t* out);
 
 }  // namespace starfocus
 

@@ -14,7 +14,7 @@ namespace starfocus {
 
 // A line of the centre view (or of a type A view) with its disparity.
 struct Line {
-  const uint8_t* rgb;
+  const int16_t* rgb;  // light
   const int16_t* disparity;
   ptrdiff_t step;  // from one pixel's disparity to the next one's
   int32_t length;
@@ -40,14 +40,14 @@ struct SubapertureReciprocals {
 };
 inline constexpr SubapertureReciprocals kSubapertureReciprocals;
 
-// Weight of the neighbour (kShiftBits) in a subaperture of width L = `subaperture` (kShiftBits, at
-// most a pixel) for a sample t = `offset` away from its pixel's centre:
-// clamp((|t| - 1/2) / L + 1/2, 0, 1).
+// Weight of the neighbour (simd::kBlendBits) in a subaperture of width L = `subaperture`
+// (kShiftBits, at most a pixel) for a sample t = `offset` away from its pixel's centre: clamp((|t|
+// - 1/2) / L + 1/2, 0, 1).
 inline int32_t SubapertureWeight(int32_t offset, int32_t subaperture) {
   const int32_t twice = 2 * Abs(offset) - kShiftOne + subaperture;  // <= subaperture
   if (twice <= 0) return 0;
   const uint32_t scaled = static_cast<uint32_t>(twice) * kSubapertureReciprocals.of[subaperture];
-  return static_cast<int32_t>(Checked(ranges::kSubapertureWeight, (scaled + (1u << 15)) >> 16));
+  return static_cast<int32_t>(Checked(ranges::kSubapertureWeight, (scaled + (1u << 9)) >> 10));
 }
 
 // The surface whose end covers a part of a hole's outermost pixel, on the side where the scan goes
@@ -59,7 +59,7 @@ struct Rim {
 
 // Scans `line` for views, one after the other. Calls, in pixels of the line (never mirrored),
 //   sink.Surface(begin, end, source, neighbour, weight): rendered pixel p is line pixel
-//     source + (p - begin), and its neighbour at +-1 with `weight` (kShiftBits);
+//     source + (p - begin), and its neighbour at +-1 with `weight` (simd::kBlendBits);
 //   sink.Mix(p, source, other, weight): rendered pixel p is line pixel `source`, but `weight`
 //     (kShiftBits) of it is covered by, or lets shine through, line pixel `other`;
 //   sink.Hole(begin, end, pixel, rim): uncovered; what is behind continues the surface of the

@@ -15,7 +15,7 @@ namespace starfocus {
 struct SpanTarget {
   int32_t out_begin;   // the first rendered pixel
   uint32_t pixel;      // of the list's target, for that pixel
-  uint32_t weight;     // of each pixel: 256 when the list blends
+  uint32_t weight;     // of each pixel: 2^simd::kBlendBits when the list blends
   int16_t* disparity;  // receives the rendered view's disparity from out_begin on; null: not wanted
 };
 
@@ -32,8 +32,9 @@ class SpanSink {
   void SetWeight(uint32_t weight) { target_.weight = weight; }
 
   void Surface(int32_t begin, int32_t end, int32_t source, int32_t neighbour, int32_t weight) {
+    constexpr uint32_t kHalf = 1 << (simd::kBlendBits - 1);
     const uint32_t neighbour_weight =
-        (target_.weight * static_cast<uint32_t>(weight) + kShiftOne / 2) >> kShiftBits;
+        (target_.weight * static_cast<uint32_t>(weight) + kHalf) >> simd::kBlendBits;
     Add(begin, end, line_.rgb + 3 * static_cast<ptrdiff_t>(source), neighbour_weight,
         3 * neighbour);
     if (target_.disparity == nullptr) return;
@@ -52,15 +53,15 @@ class SpanSink {
   }
 
   void Hole(int32_t begin, int32_t end, int32_t pixel, const Rim& rim) {
-    uint8_t* pixels = list_->Pixels(3 * static_cast<size_t>(end - begin));
+    int16_t* pixels = list_->Pixels(3 * static_cast<size_t>(end - begin));
     const int16_t disparity = line_.disparity[pixel * line_.step];
     holes_.Fill(begin, end, disparity, line_.rgb + 3 * static_cast<ptrdiff_t>(pixel), pixels);
     const int32_t rim_at = rim.pixel < pixel ? begin : end - 1;
     if (rim.pixel >= 0) {
-      const uint8_t* colour = line_.rgb + 3 * static_cast<ptrdiff_t>(rim.pixel);
-      uint8_t* out = pixels + 3 * (rim_at - begin);
+      const int16_t* colour = line_.rgb + 3 * static_cast<ptrdiff_t>(rim.pixel);
+      int16_t* out = pixels + 3 * (rim_at - begin);
       for (int c = 0; c < 3; ++c) {
-        out[c] = static_cast<uint8_t>(
+        out[c] = static_cast<int16_t>(
             (out[c] * (kShiftOne - rim.covered) + colour[c] * rim.covered + kShiftOne / 2) >>
             kShiftBits);
       }
@@ -86,7 +87,7 @@ class SpanSink {
     std::memcpy(to + count - kAtOnce, from + count - kAtOnce, kBytes);
   }
 
-  void Add(int32_t begin, int32_t end, const uint8_t* source, uint32_t neighbour_weight,
+  void Add(int32_t begin, int32_t end, const int16_t* source, uint32_t neighbour_weight,
            int32_t neighbour_offset) {
     simd::Span* span = list_->Next();
     span->source = source;

@@ -13,7 +13,7 @@
 namespace starfocus {
 namespace {
 
-constexpr uint32_t kBlendOne = 256;
+constexpr uint32_t kBlendOne = 1 << simd::kBlendBits;
 
 Direction DirectionOf(int sign) {
   return sign > 0 ? Direction::kRightToLeft : Direction::kLeftToRight;
@@ -29,8 +29,8 @@ struct LineHoles {
   int32_t i, j;
   HoleLine line;
 
-  void Fill(int32_t begin, int32_t end, int32_t disparity, const uint8_t* colour,
-            uint8_t* out) const {
+  void Fill(int32_t begin, int32_t end, int32_t disparity, const int16_t* colour,
+            int16_t* out) const {
     const HoleView view = {job.window,
                            job.grid,
                            field.transposed,
@@ -51,14 +51,14 @@ class Star {
 
   void Refocus() {
     Field rows = MakeField(0);
-    LoadField(*job_.window, job_.rect, job_.border, &rows);
+    LoadField(*job_.kernels, *job_.window, job_.rect, job_.border, &rows);
     UnmixEdges(*job_.kernels, *job_.window, grid_, &rows);
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
     Clear(scratch_->column_sums);
     Field columns = MakeField(1);
     TransposeDisparity(rows, &columns);
     AddViews(rows, columns, scratch_->column_sums);
-    TransposePixels(*job_.kernels, rows, &columns);
+    TransposePixels(rows, &columns);
     Clear(sums_);
     AddCentre(rows);
     TypeB(rows, false);
@@ -88,10 +88,10 @@ class Star {
   SpanList Accumulating(uint32_t* accumulators) const {
     return SpanList(*job_.kernels, scratch_->spans, accumulators);
   }
-  SpanList Blending(uint8_t* line) const { return SpanList(*job_.kernels, scratch_->spans, line); }
+  SpanList Blending(int16_t* line) const { return SpanList(*job_.kernels, scratch_->spans, line); }
 
   // Adds `pixels` pixels with one weight.
-  static void AddLine(const uint8_t* rgb, int32_t pixels, uint32_t weight, uint32_t target,
+  static void AddLine(const int16_t* rgb, int32_t pixels, uint32_t weight, uint32_t target,
                       SpanList* list) {
     list->Add(
         {rgb, target, 3 * static_cast<uint32_t>(pixels), static_cast<uint16_t>(weight), 0, 0});
@@ -170,9 +170,8 @@ class Star {
         RenderRow(field, sign, i, rows.begin + row + k, target, &list);
       }
       list.Flush();
-      job_.kernels->Transpose(scratch_->strip_rgb, 3 * static_cast<size_t>(width),
-                              static_cast<size_t>(count), static_cast<size_t>(width),
-                              scratch_->columns_rgb + 3 * row, RgbStride(height));
+      Transpose(scratch_->strip_rgb, 3 * static_cast<size_t>(width), count, width,
+                scratch_->columns_rgb + 3 * row, RgbStride(height));
     }
   }
 
@@ -211,7 +210,7 @@ class Star {
         const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
                                               scratch_->line_runs)
                                    : 0;
-        uint8_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
+        int16_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
         const Line line = {rgb, scratch_->view_disparity + x, width, height};
         const int32_t top = field.inner.y - rows.begin;
         const auto first = static_cast<uint32_t>(x * field.inner.height);

@@ -15,15 +15,15 @@
 
 namespace starfocus {
 
-// Type A lines that are rendered before they are transposed together; a multiple of four.
+// Type A lines that are rendered before they are transposed together.
 inline constexpr int32_t kStripRows = 16;
 
 // Memory of one worker. E: largest side of an extended rectangle; R: of a rectangle. Every buffer
 // is followed by simd::kPadding bytes.
 struct LineScanScratch {
-  uint8_t* field_rgb[2];        // E rows of RgbStride(E): rows and columns
+  int16_t* field_rgb[2];        // E rows of RgbStride(E): rows and columns
   int16_t* field_disparity[2];  // E^2 each
-  uint8_t* diagonal_rgb;        // 3 E^2
+  int16_t* diagonal_rgb;        // 3 E^2
   int16_t* diagonal_disparity;  // E^2
   uint32_t* diagonal_offsets;   // 2 E
   int64_t* moves;               // N + 1: ViewGrid::Move of each view
@@ -31,16 +31,16 @@ struct LineScanScratch {
   Run* runs;                    // E^2: of all lines of a field
   int32_t* run_counts;          // E
   Run* line_runs;               // E: of one line
-  uint8_t* strip_rgb;           // 3 R kStripRows: type A lines before they are transposed
+  int16_t* strip_rgb;           // 3 R kStripRows: type A lines before they are transposed
   int16_t* view_disparity;      // R E: of the type A view, one line per row
-  uint8_t* columns_rgb;         // R rows of RgbStride(E): the type A view, one line per column
+  int16_t* columns_rgb;         // R rows of RgbStride(E): the type A view, one line per column
   uint32_t* column_sums;        // 3 R^2: of the pass over columns
   uint32_t* line_accumulators;  // 3 E
   SpanMemory spans;
 };
 
 // Sums the weighted views over job.rect into `sums`: rows of 3 * width values with
-// grid.aperture.sum_bits fractional bits. N > 0.
+// grid.aperture.sum_bits + kLightBits fractional bits. N > 0.
 void RefocusRectangle(const RenderJob& job, LineScanScratch* scratch, uint32_t* sums);
 
 }  // namespace starfocus

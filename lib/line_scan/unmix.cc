@@ -6,9 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Shares of mixtures are rounded to so many bits here: their squares, times colours, fit 32.
-constexpr int kWeightBits = 10;
-constexpr int32_t kShareOne = 1 << kWeightBits;
+constexpr int32_t kShareOne = 1 << kShareBits;
 
 // Blur radius, kShiftBits, up to which a surface counts as sharp. With a pixel more, where the
 // paper's subsampled layers begin, no outline shows (docs/constants.md).
@@ -28,25 +26,24 @@ class Unmixer {
 
   // Writes the far surface's colour of pixel (x, y): the mean over the depth edges beside it, each
   // by the share that the nearer surface has there.
-  void Unmix(int32_t x, int32_t y, uint8_t* out) const {
-    const uint8_t* mixed = centre_.Colour(x, y);
+  void Unmix(int32_t x, int32_t y, int16_t* out) const {
+    const Colour mixed = centre_.ColourAt(x, y);
     const int32_t disparity = centre_.Disparity(x, y);
-    int32_t sums[3] = {0, 0, 0}, shares = 0;
+    int64_t sums[3] = {0, 0, 0}, shares = 0;
     for (const auto& side : kSides) {
       const int32_t near = centre_.Disparity(x + side[0], y + side[1]);
       if (near - disparity <= kSurfaceStep) continue;
       const int32_t strength = StrengthOf(Radius(near), Radius(disparity));
       if (strength <= 0) continue;
       const Mixture mixture = FindMixture(centre_, {x, y, side, disparity, near, kSurfaceStep});
-      const auto share = static_cast<int32_t>(RoundShift(mixture.share, kShareBits - kWeightBits));
-      const int32_t weight = share * AmountOf(share, strength);
+      const int64_t weight = int64_t{mixture.share} * AmountOf(mixture.share, strength);
       for (int c = 0; c < 3; ++c) sums[c] += weight * (mixture.far[c] - mixed[c]);
-      shares += share;
+      shares += mixture.share;
     }
     if (shares == 0) return;
-    const int32_t unit = shares * kShareOne;
+    const int64_t unit = shares * kShareOne;
     for (int c = 0; c < 3; ++c) {
-      out[c] = static_cast<uint8_t>(
+      out[c] = static_cast<int16_t>(
           Checked(ranges::kUnmixed, (mixed[c] * unit + sums[c] + unit / 2) / unit));
     }
   }
@@ -54,7 +51,7 @@ class Unmixer {
  private:
   int32_t Radius(int32_t disparity) const { return Abs(grid_.Shift(rim_, disparity)); }
 
-  // Returns how much of the pixel (kWeightBits) is to become the far colour: all of it from a share
+  // Returns how much of the pixel (kShareBits) is to become the far colour: all of it from a share
   // of a half on. Below that it is less, since what is taken away there is mostly missing from the
   // nearer surface's own pixels on the other side of the edge. It is less, too, where nothing would
   // show (StrengthOf).

@@ -6,6 +6,7 @@
 #include "lib/base/view_grid.h"
 #include "lib/input/field.h"
 #include "lib/input/window.h"
+#include "simd/kernels.h"
 
 namespace starfocus {
 

@@ -122,8 +122,7 @@ class Section {
   // Gives what no slice covers the colour of what covers the rest. A pixel that hardly any view
   // shows is that of the centre view.
   void FinishRows(int32_t x, int32_t first, int32_t end) {
-    const simd::CompositeFinish finish = {stack_.weights.least_covered,
-                                          stack_.grid->aperture.sum_bits};
+    const simd::CompositeFinish finish = {stack_.weights.least_covered, kCompositeBits};
     for (int32_t row = first; row < end; ++row) {
       const size_t at = FirstSample(x, row);
       job_.kernels->FinishComposite(SumsOfRow(scratch_.sums, row), simd::kSliceLanes,
@@ -162,14 +161,14 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch) {
   Field field;
   field.rgb = scratch->field_rgb;
   field.disparity = scratch->field_disparity;
-  LoadField(*job.window, job.rect, job.border, &field);
+  LoadField(*job.kernels, *job.window, job.rect, job.border, &field);
   FindLayeredDepth(*job.kernels, *job.window, field, &scratch->surfaces);
   FindMatte(*job.kernels, *job.window, *job.grid, field, &scratch->surfaces);
   const Rect& inner = field.inner;
   const size_t row = 3 * static_cast<size_t>(inner.width);
   for (int32_t y = 0; y < inner.height; ++y) {
     std::memcpy(scratch->centre + static_cast<size_t>(y) * row, field.Rgb(inner.x, inner.y + y),
-                row);
+                row * sizeof(*scratch->centre));
   }
   return inner;
 }

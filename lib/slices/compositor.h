@@ -19,12 +19,12 @@ namespace starfocus {
 // the smaller of 2 N + 1 and kGroupViews. What slices are cut from is made of the field, and they
 // are made of surfaces when the field is no longer needed: the pool may share its memory.
 struct CompositorScratch {
-  uint8_t* field_rgb;          // E rows of RgbStride(E)
+  int16_t* field_rgb;          // light: E rows of RgbStride(E)
   int16_t* field_disparity;    // E^2
   LayeredDepth surfaces;       // E^2 each
   uint8_t* bins;               // kSliceBins
   int32_t* least_blur;         // E
-  uint8_t* centre;             // 3 R^2: the rectangle in the centre view
+  int16_t* centre;             // 3 R^2: light of the rectangle in the centre view
   simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1)
   int16_t* weights;            // G
   SectionPart* parts;          // of a rectangle
@@ -40,8 +40,11 @@ constexpr size_t SectionParts(size_t side) {
   return (side + kRows - 1) / kRows * (simd::SliceSamples(side) / simd::kSliceLanes);
 }
 
+// Fractional bits of what CompositeRectangle sums.
+inline constexpr int kCompositeBits = kMaxLightBits + kLightBits;
+
 // Sums the weighted views over job.rect into `accumulators`, rows of 3 * width values with
-// grid.aperture.sum_bits fractional bits, by slices cut as `rule` and `limits` say. Cells that are
+// kCompositeBits fractional bits, by slices cut as `rule` and `limits` say. Cells that are
 // `gathered` (null: none; only at layer 0) are left out. Returns the pixels rendered in each view,
 // over all slices.
 uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,

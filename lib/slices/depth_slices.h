@@ -37,7 +37,7 @@ inline constexpr size_t kLeastSlices = 5;
 //            (SliceBytes and TileBytes of 16 by 8 pixels)
 //
 // With less for blurs below 32 pixels, slices of narrow rectangles would get coarser: 0.1 to 0.5
-// dB. The bytes are what a worker of a mebibyte (blocks of 64; 768 KiB at 32) has for slices at 32.
+// dB. The bytes are what a worker has for slices at 32.
 SliceLimits LimitsOfSlices(int32_t side, double blur);
 
 // Ranges of disparity that are told apart: single ones up to a blur of 64 pixels at full aperture.

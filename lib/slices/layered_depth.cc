@@ -26,7 +26,8 @@ struct HiddenChunk {
 // The colours of hidden pixels, each between two pixels, as `interpolate` takes them.
 class HiddenColours {
  public:
-  uint8_t here[3 * kChunk] = {}, next[3 * kChunk] = {}, weight[kChunk] = {};
+  int16_t here[3 * kChunk] = {}, next[3 * kChunk] = {};
+  uint8_t weight[kChunk] = {};
 
   HiddenColours(const Window& window, const Field& field) : window_(window), field_(field) {}
 
@@ -91,26 +92,26 @@ class HiddenColours {
   void ReadMean(const HiddenChunk& chunk, int32_t k) {
     int32_t sums[3] = {0, 0, 0}, count = 0;
     ForEachBit(chunk.source[k] & 15, [&](int32_t side) {
-      uint8_t shown[3];
+      int16_t shown[3];
       ReadSide(chunk, k, 1, side, shown);
       for (int c = 0; c < 3; ++c) sums[c] += shown[c];
       ++count;
     });
     for (int c = 0; c < 3; ++c) {
-      here[3 * k + c] = static_cast<uint8_t>((sums[c] + count / 2) / count);
+      here[3 * k + c] = static_cast<int16_t>((sums[c] + count / 2) / count);
     }
     weight[k] = 0;
   }
 
   // Reads the colours of `count` pixels from k on, which have one disparity and source.
   void ReadSide(const HiddenChunk& chunk, int32_t k, int32_t count, int32_t side,
-                uint8_t* rgb) const {
+                int16_t* rgb) const {
     const int dx = kSides[side][0], dy = kSides[side][1];
     const uint32_t source = chunk.source[k];
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
     if (distance != 0) {
       std::memcpy(rgb, field_.Rgb(chunk.x + k + dx * distance, chunk.y + dy * distance),
-                  3 * static_cast<size_t>(count));
+                  3 * static_cast<size_t>(count) * sizeof(*rgb));
       return;
     }
     CountReads(count);

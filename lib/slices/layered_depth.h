@@ -27,7 +27,7 @@ struct LayeredDepth {
   int32_t width = 0, height = 0, stride = 0;
   size_t plane = 0;
   int16_t* disparity[simd::kSurfaces] = {};  // kDisparityBits
-  uint8_t* rgb[simd::kSurfaces] = {};
+  int16_t* rgb[simd::kSurfaces] = {};        // light
   uint8_t* share = nullptr;   // of the pixel that surface 0 covers, kSliceBits, or kSliceEnd
   int16_t low = 0, high = 0;  // disparities of the field
   // Pixels to the far side of the depth edge to the right, left, bottom and top that a pixel hides;

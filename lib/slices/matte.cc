@@ -49,8 +49,8 @@ class MatteFinder {
         far[c] += mixture.share * mixture.far[c];
       }
     }
-    uint8_t Mean(int32_t sum) const {
-      return static_cast<uint8_t>(Checked(ranges::kUnmixed, (sum + shares / 2) / shares));
+    int16_t Mean(int32_t sum) const {
+      return static_cast<int16_t>(Checked(ranges::kUnmixed, (sum + shares / 2) / shares));
     }
   };
 

@@ -12,7 +12,28 @@ constexpr uint32_t kLeastShare = 4;
 // share of the last light may be too large by, and for the rounding of each slice.
 constexpr uint32_t kGroupSum = 58000;
 
+// Returns the sum of the weights of views (i, first) to (i, last), or four times the largest.
+uint32_t GroupSum(const Aperture& aperture, int32_t i, int32_t first, int32_t last) {
+  uint32_t sum = 0, most = 0;
+  for (int32_t j = first; j <= last; ++j) {
+    const uint32_t weight = aperture.Weight(i, j);
+    sum += weight;
+    most = weight > most ? weight : most;
+  }
+  return 4 * most > sum ? 4 * most : sum;
+}
+
+constexpr int kMostExtraBits = 4;
+
 }  // namespace
+
+int ViewWeights::ExtraBits(int32_t i, int32_t first, int32_t last) const {
+  if (2 * aperture->last < kGroupViews) return 0;
+  const uint64_t sum = (GroupSum(*aperture, i, first, last) * scale) >> 16;
+  int bits = 0;
+  while (bits < kMostExtraBits && sum << (bits + 1) <= kGroupSum) ++bits;
+  return bits;
+}
 
 ViewWeights ScaleWeights(const Aperture& aperture) {
   ViewWeights weights = {&aperture, 0, 0};
@@ -21,13 +42,7 @@ ViewWeights ScaleWeights(const Aperture& aperture) {
   for (int32_t i = aperture.full ? -aperture.last : 0; i <= aperture.last; ++i) {
     const int32_t last = weights.LastAcross(Abs(i));
     for (int32_t first = -last; first <= last; first += kGroupViews) {
-      uint32_t sum = 0, most = 0;
-      for (int32_t j = first; j <= Min(first + kGroupViews - 1, last); ++j) {
-        const uint32_t weight = aperture.Weight(i, j);
-        sum += weight;
-        most = weight > most ? weight : most;
-      }
-      sum = 4 * most > sum ? 4 * most : sum;
+      const uint32_t sum = GroupSum(aperture, i, first, Min(first + kGroupViews - 1, last));
       largest = sum > largest ? sum : largest;
     }
   }

@@ -13,8 +13,9 @@
 
 namespace starfocus {
 
-// Views of a column that are summed in 16 bits: all of those that subapertures need.
-inline constexpr int32_t kGroupViews = 81;
+// Views of a column that are summed in 16 bits. Of more, and so smaller, weights products with
+// faint light would be rounded to nothing.
+inline constexpr int32_t kGroupViews = 16;
 
 // Weights of views as the kernels sum them: aperture weights times scale / 2^16.
 struct ViewWeights {
@@ -22,9 +23,13 @@ struct ViewWeights {
   uint64_t scale;          // 16 bits
   uint32_t least_covered;  // sums of less than this are no colour: what rounding adds would show
 
-  int16_t Weight(int32_t i, int32_t j) const {
-    return static_cast<int16_t>((aperture->Weight(i, j) * scale) >> 16);
+  int16_t Weight(int32_t i, int32_t j, int extra_bits) const {
+    return static_cast<int16_t>((aperture->Weight(i, j) * (scale << extra_bits)) >> 16);
   }
+
+  // Bits that the weights of views (i, first) to (i, last) can have more than the scale gives them:
+  // none with a group a column, where all are about as large.
+  int ExtraBits(int32_t i, int32_t first, int32_t last) const;
 
   // Largest j of the views (i, j).
   int32_t LastAcross(int32_t i) const {

@@ -65,11 +65,13 @@ class Tile {
     const int32_t last = stack_.weights.LastAcross(Abs(i));
     for (int32_t n = 0; n < seen_; ++n) MoveSlice(seen_slices_[n], i, last);
     // Views that no light comes through are left out at either end.
-    int32_t first = -last, end = last;
-    while (first <= end && stack_.weights.Weight(i, first) == 0) ++first;
-    while (first <= end && stack_.weights.Weight(i, end) == 0) --end;
-    for (; first <= end; first += kGroupViews) {
-      AddGroup(i, first, Min(first + kGroupViews - 1, end));
+    const Aperture& aperture = *stack_.weights.aperture;
+    int32_t begin = -last, end = last;
+    while (begin <= end && aperture.Weight(i, begin) == 0) ++begin;
+    while (begin <= end && aperture.Weight(i, end) == 0) --end;
+    for (int32_t group = -last; group <= end; group += kGroupViews) {
+      const int32_t first = Max(group, begin), most = Min(group + kGroupViews - 1, end);
+      if (first <= most) AddGroup(i, first, most);
     }
   }
 
@@ -95,8 +97,9 @@ class Tile {
 
   // Adds views (i, first) to (i, last).
   void AddGroup(int32_t i, int32_t first, int32_t last) {
+    const int extra_bits = stack_.weights.ExtraBits(i, first, last);
     for (int32_t j = first; j <= last; ++j) {
-      job_.weights[j - first] = stack_.weights.Weight(i, j);
+      job_.weights[j - first] = stack_.weights.Weight(i, j, extra_bits);
     }
     for (const SectionPart* part = parts_.first; part < parts_.end; ++part) {
       const simd::SliceViews views = {job_.weights,
@@ -106,7 +109,8 @@ class Tile {
                                       static_cast<size_t>(stack_.count),
                                       part->shown,
                                       static_cast<size_t>(part->count),
-                                      static_cast<size_t>(part->y)};
+                                      static_cast<size_t>(part->y),
+                                      extra_bits};
       job_.kernels->Composite(views, static_cast<size_t>(part->rows),
                               SumsOfRow(job_.sums, part->y));
     }

@@ -101,10 +101,10 @@ TEST_CASE("constants: the footprint of a view is its subaperture") {
     for (int32_t offset = -kShiftOne / 2; offset <= kShiftOne / 2; ++offset) {
       const double t = double(kShiftOne - std::abs(offset)) / kShiftOne;
       const double exact = Trapezoid(t, double(cell) / kShiftOne);
-      worst =
-          std::max(worst, std::fabs(SubapertureWeight(offset, cell) / double(kShiftOne) - exact));
+      const double weight = SubapertureWeight(offset, cell) / double(1 << simd::kBlendBits);
+      worst = std::max(worst, std::fabs(weight - exact));
     }
-    CHECK_MESSAGE(worst <= 0.5 / kShiftOne + 1e-12,
+    CHECK_MESSAGE(worst <= 1.0 / (1 << simd::kBlendBits),
                   "h of (6) moves for cells " << cell << "/256 px wide: the subapertures' table "
                                               << "and rule");
   }

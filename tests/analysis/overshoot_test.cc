@@ -51,6 +51,7 @@ double Undershoot(double r, sf_rule rule, int layer, Kernel kernel, int x, int y
   sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
   params.rule = rule;
   sf_config config = test::ConfigFor(scene, r + 1);
+  config.transfer = SF_TRANSFER_NONE;
   config.max_layer = layer;
   config.gather = 0;
   config.largest_block = 128;

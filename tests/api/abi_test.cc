@@ -29,7 +29,7 @@ const BadConfig kBadConfigs[] = {
     {"version 0", [](sf_config* c) { c->version = 0; }, SF_ERROR_VERSION},
     {"version too new", [](sf_config* c) { c->version = SF_ABI_VERSION + 1; }, SF_ERROR_VERSION},
     {"reserved first", [](sf_config* c) { c->reserved[0] = 1; }, SF_ERROR_RESERVED},
-    {"reserved last", [](sf_config* c) { c->reserved[1] = 1; }, SF_ERROR_RESERVED},
+    {"reserved last", [](sf_config* c) { c->reserved[5] = 1; }, SF_ERROR_RESERVED},
     {"width 0", [](sf_config* c) { c->width = 0; }, SF_ERROR_SIZE},
     {"width -1", [](sf_config* c) { c->width = -1; }, SF_ERROR_SIZE},
     {"width too large", [](sf_config* c) { c->width = SF_MAX_SIZE + 1; }, SF_ERROR_SIZE},
@@ -96,6 +96,8 @@ const BadConfig kBadConfigs[] = {
     {"skips 2", [](sf_config* c) { c->skips = 2; }, SF_ERROR_SKIPS},
     {"gather -1", [](sf_config* c) { c->gather = -1; }, SF_ERROR_GATHER},
     {"gather 2", [](sf_config* c) { c->gather = 2; }, SF_ERROR_GATHER},
+    {"transfer -1", [](sf_config* c) { c->transfer = -1; }, SF_ERROR_TRANSFER},
+    {"transfer 2", [](sf_config* c) { c->transfer = 2; }, SF_ERROR_TRANSFER},
 };
 
 struct BadParams {

@@ -117,7 +117,7 @@ TEST_CASE("prepared: what the documentation says of the memory") {
   const test::Scene scene = test::LayeredScene(1000, 800, 5, 7, 11);
   sf_config config = test::ConfigFor(scene, 20);
   const double pixels = 1000.0 * 800;
-  CHECK(double(Memory(config).bytes) / pixels == doctest::Approx(2.94).epsilon(0.01));
+  CHECK(double(Memory(config).bytes) / pixels == doctest::Approx(3.89).epsilon(0.01));
   config.max_layer = 0;
   CHECK(double(Memory(config).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
 }

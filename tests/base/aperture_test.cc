@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lib/base/fixed.h"
 #include "starfocus/starfocus.h"
 
 namespace {
@@ -104,7 +105,7 @@ TEST_CASE("aperture: weights follow (3), sum to a power of two and fit signed 16
       CHECK(outside == 0);
       CHECK(too_large == 0);
       // Half the weights' range is used, so that their rounding is as small as it can be.
-      if (aperture.sum_bits < 24) CHECK(aperture.Weight(0, 0) > 16000);
+      if (aperture.sum_bits < starfocus::kMaxLightBits) CHECK(aperture.Weight(0, 0) > 16000);
     }
   }
   MESSAGE("furthest from (3): " << furthest << ", the centre " << furthest_centre);

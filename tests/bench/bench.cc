@@ -17,6 +17,7 @@ namespace starfocus::bench {
 namespace {
 
 struct Options {
+  std::string transfer = "srgb";
   std::vector<std::string> folders;
   std::string csv, json, html, revision, sweep, x86_counts, arm_counts;
   Choice choice;
@@ -74,6 +75,7 @@ std::string Run(Options options) {
   for (size_t i = 0; i < options.folders.size() && error.empty(); ++i) {
     Field field;
     error = LoadField(options.folders[i], &field);
+    field.transfer = options.transfer == "none" ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
     if (error.empty()) error = MeasureField(field, options.choice, options.settings, &rows);
   }
   if (error.empty()) error = MeasureSweeps(options, &rows);
@@ -93,6 +95,8 @@ void AddOptions(CLI::App* app, Options* options) {
   Choice& choice = options->choice;
   Settings& settings = options->settings;
   app->add_option("DIRS", options->folders, "Light-field folders")->required();
+  app->add_option("--transfer", options->transfer, "That the truths were traced by")
+      ->check(CLI::IsMember({"srgb", "none"}));
   app->add_option("--csv", options->csv, "Table to write");
   app->add_option("--json", options->json, "The same as JSON");
   app->add_option("--html", options->html, "Report to write (drawn by gnuplot)");

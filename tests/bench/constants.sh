@@ -16,7 +16,8 @@ trap 'rm -rf "$work"' EXIT
 refocus() { # PROGRAM SCENE FOCUS OUT [OPTION...]
   local program=$1 scene=$2 focus=$3 out=$4
   shift 4
-  "$program" refocus "$data/$scene" -o "$out" --focus="$focus" --report "$work/report.json" "$@"
+  "$program" refocus "$data/$scene" -o "$out" --focus="$focus" --transfer none \
+    --report "$work/report.json" "$@"
 }
 psnr() { "$program" compare "$1" "$2" | sed 's/PSNR \([0-9.inf]*\).*/\1/'; }
 samples() {

@@ -23,6 +23,7 @@ struct Field {
   LightField data;
   float low = 0, high = 0;  // of the disparity map
   std::vector<Truth> truths;
+  sf_transfer transfer = SF_TRANSFER_SRGB;  // that the truths were traced by
 
   int views() const { return int(data.views.size()); }
   double pixels() const { return double(data.width()) * data.height(); }

@@ -45,7 +45,7 @@ int16_t DisparityAt(int x) { return int16_t((x / kSurface * 5 % 9 - 4) * 64 + x 
 // All views of one line, runs included, as type A lines are scanned. Bytes: disparities read once
 // a view, as the scan itself moves no pixels.
 void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
-  std::vector<uint8_t> rgb(3 * kPixels, 128);
+  std::vector<int16_t> rgb(3 * kPixels, 128);
   std::vector<int16_t> disparity(kPixels + simd::kPadding);
   for (int x = 0; x < kPixels; ++x) disparity[size_t(x)] = DisparityAt(x);
   std::vector<Run> runs(kPixels);
@@ -82,7 +82,14 @@ void Deblock(benchmark::State& state) {
   map.units = units.data();
   map.columns = kUnits;
   map.rows = kUnits;
-  const DeblockJob job = {&map, {picture.data(), 3 * kSide, 0, 0}, kSide, kSide, 0, 35};
+  const DeblockJob job = {&map,
+                          {picture.data(), 3 * kSide, 0, 0},
+                          kSide,
+                          kSide,
+                          0,
+                          35,
+                          &TransferOf(SF_TRANSFER_NONE),
+                          &simd::BestKernels()};
   for (auto _ : state) {
     DeblockRows(job, 0, kUnits);
     DeblockColumns(job, 0, kSide);

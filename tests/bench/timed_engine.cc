@@ -41,6 +41,7 @@ std::string Prepare(const Field& field, const Task& task, double focus, double a
   config.disparity_min = field.low;
   config.disparity_max = field.high;
   config.max_blur = std::max(1.0, std::ceil(field.LargestBlur(focus, aperture)));
+  config.transfer = field.transfer;
   config.max_layer = task.max_layer;
   config.largest_block = task.largest_block;
   config.n_scale = task.n_scale;

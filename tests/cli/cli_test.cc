@@ -208,6 +208,8 @@ TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
              {"scene new --size -4x4", "--size"},
              {"scene new --views 4", "--views"},
              {"scene new --threads 0", "--threads"},
+             {"scene new --transfer linear", "--transfer"},
+             {"refocus lf --focus 1 -o a.png --transfer SRGB", "--transfer"},
              {"scene new --truth 1", "--truth"},
              {"scene new --truth 1,0", "--truth"},
              {"scene new --truth nan,1", "--truth"},

@@ -2,6 +2,7 @@
 // Options in a photographer's words, by the pictures that they give.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -54,6 +55,44 @@ TEST_CASE("cli: --focus-at takes the surface around the pixel, not the pixel") {
   CHECK(Text(folder.file("at.json")).find("\"focus\": 1.25") != std::string::npos);
   REQUIRE(Call(folder, "refocus lf -o d.png --focus 1.25").code == 0);
   CHECK(Text(folder.file("at.png")) == Text(folder.file("d.png")));
+}
+
+double Psnr(const Image& a, const Image& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    sum += (double(a.pixels[i]) - b.pixels[i]) * (double(a.pixels[i]) - b.pixels[i]);
+  }
+  return 10 * std::log10(255.0 * 255 * double(a.pixels.size()) / sum);
+}
+
+TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values") {
+  TempFolder folder;
+  for (const char* traced : {"srgb", "none"}) {
+    REQUIRE(Call(folder, "scene lf --size 200x150 --views 5 --name lamps --truth 4,1 --transfer " +
+                             std::string(traced))
+                .code == 0);
+    CHECK(Text(folder.file("lf/meta.txt")).find(std::string("transfer: ") + traced) !=
+          std::string::npos);
+    Image truth;
+    REQUIRE(ReadImage(folder.file("lf/truth_dt4_ut1.png"), &truth) == "");
+    const auto psnr = [&](const std::string& transfer) {
+      REQUIRE(Call(folder, "refocus lf --focus 4 -o a.png --report a.json --transfer " + transfer)
+                  .code == 0);
+      CHECK(Text(folder.file("a.json")).find("\"transfer\": \"" + transfer + "\"") !=
+            std::string::npos);
+      Image picture;
+      REQUIRE(ReadImage(folder.file("a.png"), &picture) == "");
+      return Psnr(picture, truth);
+    };
+    const double srgb = psnr("srgb"), none = psnr("none");
+    CAPTURE(srgb);
+    CAPTURE(none);
+    CHECK((std::string(traced) == "srgb" ? srgb - none : none - srgb) > 3);
+    REQUIRE(Call(folder, "refocus lf --focus 4 -o b.png").code == 0);
+    const std::string other = Text(folder.file("b.png"));
+    REQUIRE(Call(folder, "refocus lf --focus 4 -o a.png --transfer srgb").code == 0);
+    CHECK(Text(folder.file("a.png")) == other);
+  }
 }
 
 TEST_CASE(

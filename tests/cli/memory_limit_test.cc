@@ -82,7 +82,7 @@ TEST_CASE("memory limits: one clear error each, or the right result" * doctest::
       return Text(folder.file(name)) == Text(folder.file(other));
     };
   };
-  CheckLimits(folder, start, "refocus lf --focus 2 -o a.png", 4000, "a.png",
+  CheckLimits(folder, start, "refocus lf --focus 2 -o a.png", 4500, "a.png",
               same("a.png", "right.png"));
   CheckLimits(folder, start, "refocus lf --focus 2 -o a.png --threads 8", 90000, "a.png",
               same("a.png", "right.png"));

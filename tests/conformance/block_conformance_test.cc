@@ -69,6 +69,7 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   CAPTURE(params.aperture);
   CAPTURE(params.rule);
   CAPTURE(config.max_layer);
+  CAPTURE(config.transfer);
   CAPTURE(config.largest_block);
   CHECK(distance.largest <= 1);
   if (distance.samples >= kEnoughSamples) CHECK(distance.mean() < kMeanLimit);
@@ -93,8 +94,11 @@ Distance CheckAll(const test::Scene& scene, double focus, double aperture, Cover
       sf_params params = test::Params(focus, aperture, SF_MODE_BLOCK);
       params.rule = rule;
       Covered here;
-      const Distance one = Check(scene, params, Config(scene, max_layer), &here);
-      all.Add(one);
+      for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+        sf_config config = Config(scene, max_layer);
+        config.transfer = transfer;
+        all.Add(Check(scene, params, config, &here));
+      }
       for (int layer = 0; layer < SF_LAYERS; ++layer) covered->pixels[layer] += here.pixels[layer];
       covered->gathered += here.gathered;
     }
@@ -215,7 +219,7 @@ TEST_CASE("block conformance: parts of the demo's scenes") {
   for (const char* name : {"portrait", "wires", "ramp"}) {
     starfocus::Scene drawn;
     REQUIRE(starfocus::MakeScene(name, &drawn));
-    const starfocus::Renderer renderer(drawn, kWidth, kHeight, &runner);
+    const starfocus::Renderer renderer(drawn, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
     starfocus::LightField field;
     for (int i = 0; i < 5; ++i) {
       double u = 0, v = 0;

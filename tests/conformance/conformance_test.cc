@@ -21,16 +21,14 @@ namespace {
 using namespace conformance;
 
 // Refocuses with both and checks their distance.
-Distance Check(const test::Scene& scene, const sf_params& params, int block, double theta) {
-  sf_config config = test::ConfigFor(scene, 16);
-  config.largest_block = block;
-  config.theta = theta;
+Distance Check(const test::Scene& scene, const sf_params& params, const sf_config& config) {
+  const int block = config.largest_block;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);
   sf_report report;
   REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == SF_OK);
-  const reference::Result expected = reference::Refocus(scene, params, theta, block);
+  const reference::Result expected = reference::Refocus(scene, params, config, block);
   CAPTURE(scene.width);
   CAPTURE(scene.height);
   CAPTURE(scene.views());
@@ -40,12 +38,26 @@ Distance Check(const test::Scene& scene, const sf_params& params, int block, dou
   CAPTURE(params.focus);
   CAPTURE(params.aperture);
   CAPTURE(block);
+  CAPTURE(config.transfer);
   CHECK(report.n == expected.n);
   CHECK(report.rendered_views == expected.views);
   const Distance distance = Compare(out.Tight(), expected.rgb);
   CHECK(distance.largest <= 1);
   if (distance.samples >= kEnoughSamples) CHECK(distance.mean() < kMeanLimit);
   return distance;
+}
+
+// By either transfer.
+Distance Check(const test::Scene& scene, const sf_params& params, int block, double theta) {
+  sf_config config = test::ConfigFor(scene, 16);
+  config.largest_block = block;
+  config.theta = theta;
+  Distance all;
+  for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+    config.transfer = transfer;
+    all.Add(Check(scene, params, config));
+  }
+  return all;
 }
 
 // Line scans: block_conformance_test has slices.

@@ -4,11 +4,12 @@
 #include "tests/conformance/reference_blur.h"
 #include "tests/conformance/reference_rectangle.h"
 #include "tests/conformance/reference_stack.h"
+#include "tests/support/transfer_curve.h"
 
 namespace reference {
 namespace {
 
-LightField Load(const test::Scene& scene) {
+LightField Load(const test::Scene& scene, int transfer) {
   LightField field;
   for (int view = 0; view < scene.views(); ++view) {
     double u = 0, v = 0;
@@ -17,7 +18,8 @@ LightField Load(const test::Scene& scene) {
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {
         const uint8_t* rgb = scene.Pixel(view, x, y);
-        picture.colours[picture.At(x, y)] = {double(rgb[0]), double(rgb[1]), double(rgb[2])};
+        Colour& colour = picture.colours[picture.At(x, y)];
+        for (size_t c = 0; c < 3; ++c) colour[c] = test::LightOf(rgb[c], transfer);
         picture.disparities[picture.At(x, y)] = RoundedTo64(scene.Disparity(x, y));
       }
     }
@@ -175,6 +177,11 @@ void Put(const Picture& from, int x0, int y0, int width, Result* result) {
   }
 }
 
+// Light becomes codes.
+void Encode(int transfer, Result* result) {
+  for (double& value : result->rgb) value = test::CodeOf(value, transfer);
+}
+
 }  // namespace
 
 int ViewsAlongRadius(double r_max, int mode) {
@@ -183,13 +190,13 @@ int ViewsAlongRadius(double r_max, int mode) {
   return std::max(4, int(std::ceil(0.787 * r_max)));
 }
 
-Result Refocus(const test::Scene& scene, const sf_params& params, const Opening& opening,
+Result Refocus(const test::Scene& scene, const sf_params& params, const sf_config& config,
                int block) {
-  const LightField field = Load(scene);
+  const LightField field = Load(scene, config.transfer);
   const double r_max = params.aperture * std::max(std::fabs(scene.disparity_min - params.focus),
                                                   std::fabs(scene.disparity_max - params.focus));
   const int n = ViewsAlongRadius(r_max, params.mode), border = int(std::ceil(r_max)) + 2;
-  const Lens lens = MakeLens(params, opening, n, 0);
+  const Lens lens = MakeLens(params, config, n, 0);
   Result result;
   result.n = n;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
@@ -209,6 +216,7 @@ Result Refocus(const test::Scene& scene, const sf_params& params, const Opening&
       Put(RefocusRectangle(field, field.at({0, 0}), lens, rectangle), x, y, scene.width, &result);
     }
   }
+  Encode(config.transfer, &result);
   return result;
 }
 
@@ -252,9 +260,9 @@ Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& le
 }  // namespace
 
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
-                                  const Opening& opening, const starfocus::SliceLimits* limits,
+                                  const sf_config& config, const starfocus::SliceLimits* limits,
                                   const std::vector<Block>& blocks) {
-  const LightField field = Load(scene);
+  const LightField field = Load(scene, config.transfer);
   const std::vector<Picture> layers = MakeLayers(field.at({0, 0}));
   const bool benchmark = params.mode == SF_MODE_BENCHMARK;
   const Slicing slicing = {limits, size_t(benchmark ? 32 : 16), benchmark ? 0.125 : 0.375};
@@ -263,7 +271,7 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
   for (const Block& block : blocks) {
     const bool by_subaperture = limits != nullptr && block.n > 0;
     const Opening here =
-        opening.At(block.x, block.y, block.width, block.height, scene.width, scene.height);
+        Opening(config).At(block.x, block.y, block.width, block.height, scene.width, scene.height);
     const Lens lens = MakeLens(params, here, block.n, block.layer, by_subaperture);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
@@ -280,6 +288,7 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
       Put(Gather(field, cell, lens), cell.x, cell.y, scene.width, &result);
     }
   }
+  Encode(config.transfer, &result);
   return result.rgb;
 }
 

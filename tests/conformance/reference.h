@@ -20,12 +20,13 @@ int ViewsAlongRadius(double r_max, int mode);
 struct Result {
   int n = 0;                // views along the aperture radius
   int views = 0;            // rendered
-  std::vector<double> rgb;  // unrounded, 3 * width * height
+  std::vector<double> rgb;  // codes, unrounded, 3 * width * height
 };
 
-// Refocuses the scene. `block` is the side of the blocks: runs of one shift start at the edge of a
-// block's extended rectangle, so that results depend on it.
-Result Refocus(const test::Scene& scene, const sf_params& params, const Opening& opening,
+// Refocuses the scene by the opening and the transfer of `config`. `block` is the side of the
+// blocks: runs of one shift start at the edge of a block's extended rectangle, so that results
+// depend on it.
+Result Refocus(const test::Scene& scene, const sf_params& params, const sf_config& config,
                int block);
 
 // A cell of the picture that is gathered: blurred by the ideal kernel of its middle disparity.
@@ -47,7 +48,7 @@ struct Block {
 // 3 * width * height. `limits`: of slices, by the rule of subapertures; null: by the
 // paper's rule.
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
-                                  const Opening& opening, const starfocus::SliceLimits* limits,
+                                  const sf_config& config, const starfocus::SliceLimits* limits,
                                   const std::vector<Block>& blocks);
 
 }  // namespace reference

@@ -22,15 +22,22 @@ inline double NearestRadius(int radius) {
   return std::floor(radius / unit + 0.5) * unit / kOne;
 }
 
+// Lines, or points along an axis, of a part of the unit disc: so many that the dark beside white is
+// right to a code of sRGB.
+inline int FinenessOf(double side) { return std::clamp(int(600 * side), 40, 600); }
+
 // Integral of (3) over [x0, x1] x [y0, y1] of the unit disc's plane, by lines of y and the midpoint
 // rule along them, which ends on the disc's rim exactly.
 // `cot_square` 0: of a disc as bright everywhere.
 inline double Integral(double x0, double x1, double y0, double y1, double cot_square) {
-  constexpr int kLines = 96, kPoints = 24;
+  constexpr int kPoints = 24;
+  y0 = std::max(y0, -1.0);
+  y1 = std::min(y1, 1.0);
+  if (y0 >= y1) return 0;
+  const int lines = FinenessOf(y1 - y0);
   double sum = 0;
-  for (int line = 0; line < kLines; ++line) {
-    const double y = y0 + (line + 0.5) / kLines * (y1 - y0);
-    if (std::abs(y) >= 1) continue;
+  for (int line = 0; line < lines; ++line) {
+    const double y = y0 + (line + 0.5) / lines * (y1 - y0);
     const double rim = std::sqrt(1 - y * y), from = std::max(x0, -rim), to = std::min(x1, rim);
     if (from >= to) continue;
     for (int point = 0; point < kPoints; ++point) {
@@ -39,7 +46,7 @@ inline double Integral(double x0, double x1, double y0, double y1, double cot_sq
       sum += ratio * ratio * (to - from) / kPoints;
     }
   }
-  return sum * (y1 - y0) / kLines;
+  return sum * (y1 - y0) / lines;
 }
 
 // (4), summing to 1.
@@ -56,13 +63,13 @@ inline double LightOf(const Opening& opening, double x0, double x1, double y0, d
   const double tangent = std::tan(opening.theta);
   if (opening.shape == SF_SHAPE_FALL_OFF) return Integral(x0, x1, y0, y1, 1 / (tangent * tangent));
   if (opening.shape == SF_SHAPE_POLYGON) {
-    constexpr int kPoints = 60;
+    const int points = FinenessOf(x1 - x0);
     double sum = 0;
-    for (int point = 0; point < kPoints * kPoints; ++point) {
-      sum += opening.Density(x0 + (point % kPoints + 0.5) / kPoints * (x1 - x0),
-                             y0 + (point / kPoints + 0.5) / kPoints * (y1 - y0));
+    for (int point = 0; point < points * points; ++point) {
+      sum += opening.Density(x0 + (point % points + 0.5) / points * (x1 - x0),
+                             y0 + (point / points + 0.5) / points * (y1 - y0));
     }
-    return sum / (kPoints * kPoints) * (x1 - x0) * (y1 - y0);
+    return sum / (points * points) * (x1 - x0) * (y1 - y0);
   }
   double light = Integral(x0, x1, y0, y1, 0);
   const double r = opening.inner;

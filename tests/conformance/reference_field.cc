@@ -20,14 +20,19 @@ Colour ReadPicture(const LightField& field, int u2, int v2, double x, double y) 
   return colour;
 }
 
+// Decisions are made on the engine's grid of light, 1/128, of which 1/16 are compared.
+double Compared(double light) { return std::floor(std::floor(light * 128 + 0.5) / 8 + 0.5) / 16; }
+
 // Where `mixed` lies from `far` to `near`; 0 when they are too similar, it is too far away from the
 // line between them, or beyond 4/5 of the way.
 double ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
   double along = 0, contrast = 0, distance = 0;
   for (size_t c = 0; c < 3; ++c) {
-    along += (mixed[c] - far[c]) * (near[c] - far[c]);
-    contrast += (near[c] - far[c]) * (near[c] - far[c]);
-    distance += (mixed[c] - far[c]) * (mixed[c] - far[c]);
+    const double whole = Compared(near[c]) - Compared(far[c]);
+    const double part = Compared(mixed[c]) - Compared(far[c]);
+    along += part * whole;
+    contrast += whole * whole;
+    distance += part * part;
   }
   if (contrast < 64 || along <= 0 || 5 * along > 4 * contrast) return 0;
   const double beside = distance * contrast - along * along;
@@ -57,10 +62,10 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
   result.far = ReadPicture(field, int(-side.x * 2 * distance), int(-side.y * 2 * distance),
                            x + side.x * distance * disparity / 64.0,
                            y + side.y * distance * disparity / 64.0);
-  // Whole levels, as captured colours are; halves towards the pixel.
+  // On the engine's grid of light; halves towards the pixel.
   for (size_t c = 0; c < 3; ++c) {
     double& far = result.far[c];
-    far = mixed[c] > far ? std::floor(far + 0.5) : std::ceil(far - 0.5);
+    far = (mixed[c] > far ? std::floor(128 * far + 0.5) : std::ceil(128 * far - 0.5)) / 128;
   }
   result.near = picture.colours[at(std::abs(picture.disparities[at(2)] - near) <= step ? 2 : 1)];
   result.share = ShareOf(result.near, result.far, mixed);

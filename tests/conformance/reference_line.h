@@ -64,10 +64,9 @@ struct Lens {
   int Shift(int k, int disparity) const {
     return int(Rounded(Move(k) * (disparity - focus), 24 + 6 - 8));
   }
-  // Width of the subaperture on the picture, r / N, at most a pixel.
-  double Cell(int disparity) const {
-    return std::min(1.0, radius / n * std::abs(disparity - focus) / (64.0 * (1 << layer)));
-  }
+  // Width of the subaperture on the picture, r / N, at most a pixel: as far as it moves from view
+  // to view.
+  double Cell(int disparity) const { return std::min(1.0, std::abs(Shift(1, disparity)) / 256.0); }
   // Within a run, disparities (1/64) range over a quarter pixel of displacement at the aperture's
   // rim, and never across the edge of a surface.
   int Spread() const { return int(std::min<int64_t>(kSurfaceStep, (int64_t{16} << 24) / step)); }

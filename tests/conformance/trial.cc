@@ -125,6 +125,7 @@ void SetConfig(Trial* trial, test::Random* random) {
         OneOf({SF_MIN_THETA, SF_MAX_THETA, random->Real(SF_MIN_THETA, SF_MAX_THETA)}, random);
   }
   if (random->Int(0, 1) == 0) config.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
+  config.transfer = random->Int(0, 1) == 0 ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
   if (random->Int(0, 1) == 0) test::RandomShape(&config, random);
 }
 
@@ -132,14 +133,14 @@ void SetConfig(Trial* trial, test::Random* random) {
 
 std::string Trial::Text() const {
   char text[500];
-  std::snprintf(text, sizeof(text),
-                "%dx%d, %d views, %s, rule %d, disparity [%.9g, %.9g], focus %.9g, aperture %.9g, "
-                "block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u, %s",
-                scene.width, scene.height, scene.views(), kModes[params.mode], params.rule,
-                double{scene.disparity_min}, double{scene.disparity_max}, params.focus,
-                params.aperture, config.largest_block, config.max_layer, config.theta,
-                config.n_scale, config.gather, config.timing.block,
-                test::ShapeText(config).c_str());
+  std::snprintf(
+      text, sizeof(text),
+      "%dx%d, %d views, %s, rule %d, disparity [%.9g, %.9g], focus %.9g, aperture %.9g, "
+      "block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u, transfer %d, %s",
+      scene.width, scene.height, scene.views(), kModes[params.mode], params.rule,
+      double{scene.disparity_min}, double{scene.disparity_max}, params.focus, params.aperture,
+      config.largest_block, config.max_layer, config.theta, config.n_scale, config.gather,
+      config.timing.block, config.transfer, test::ShapeText(config).c_str());
   return text;
 }
 

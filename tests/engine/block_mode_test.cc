@@ -392,7 +392,8 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
     s.block = 32 << random.Int(0, 1);
     s.max_layer = random.Int(0, 4) == 0 ? 1 : 2;
     s.deblocking = 0;
-    test::Engine engine(Config(s, scene));
+    const sf_config config = Config(s, scene);
+    test::Engine engine(config);
     REQUIRE(engine.status() == SF_OK);
     test::LayeredPicture picture(scene.width, scene.height);
     sf_params params = s.Params();
@@ -409,7 +410,7 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
     REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
     for (const int beta : {35, 255}) {
       picture.rgb = out.bytes;
-      test::DeblockPicture(&picture, beta);
+      test::DeblockPicture(&picture, beta, config.transfer);
       changed += picture.rgb != out.bytes;
       s.deblocking = beta;
       CAPTURE(Text(s, scene));

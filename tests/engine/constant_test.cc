@@ -22,6 +22,7 @@ struct Trial {
   int levels = 0;  // of disparity, pixel by pixel at random
   double max_blur = 64, n_scale = 1;
   sf_rule rule = SF_RULE_DEFAULT;
+  int transfer = SF_TRANSFER_SRGB;
   uint64_t shape = 0;  // the seed of a random one, unless 0
   uint8_t color[3] = {0, 0, 0};
   uint64_t seed = 1;
@@ -56,6 +57,7 @@ int Changed(const Trial& t) {
   sf_config config = test::ConfigFor(scene, t.max_blur);
   config.largest_block = t.block;
   config.n_scale = t.n_scale;
+  config.transfer = t.transfer;
   config.skips = 0;  // what is filled has passed no filter
   test::Random shapes(t.shape);
   if (t.shape != 0) test::RandomShape(&config, &shapes);
@@ -85,7 +87,10 @@ TEST_CASE("constant: every level") {
     for (int level = 0; level < 256; level += (views == 17 ? 1 : 15)) {
       std::fill(t.color, t.color + 3, static_cast<uint8_t>(level));
       t.seed = static_cast<uint64_t>(level) + 1;
-      CHECK_MESSAGE(Changed(t) == 0, Text(t) << " level " << level);
+      for (const int transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+        t.transfer = transfer;
+        CHECK_MESSAGE(Changed(t) == 0, Text(t) << " level " << level);
+      }
     }
   }
 }
@@ -106,6 +111,7 @@ TEST_CASE("constant: every N") {
         t.high = static_cast<float>(radius) / 2;
         t.mode = mode;
         t.seed = static_cast<uint64_t>(radius) + 100;
+        t.transfer = radius % 4 == 3 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
         CHECK_MESSAGE(Changed(t) == 0, Text(t));
       }
     }

@@ -52,6 +52,9 @@ Trial MakeTrial(uint64_t seed, sf_mode mode, sf_rule rule, bool any_theta) {
   trial.params = test::Params(random.Int(0, 1) == 0 ? range + radius : -radius, 1, mode);
   trial.params.rule = rule;
   trial.config = test::ConfigFor(trial.scene, radius + range + 1);
+  // What filters overshoot by is a part of the contrast of light.
+  const bool filtered = mode == SF_MODE_BLOCK;
+  trial.config.transfer = filtered || seed % 2 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
   if (any_theta) {
     trial.config.theta =
         random.Int(0, 1) == 0 ? SF_MAX_THETA : random.Real(SF_MIN_THETA, SF_MAX_THETA);

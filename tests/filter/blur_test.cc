@@ -17,6 +17,7 @@
 #include "tests/conformance/reference_blur.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/transfer_curve.h"
 
 namespace {
 
@@ -25,7 +26,7 @@ static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
 
 // The blurred picture, unrounded. What is farther than the focus sees kernels turned.
 std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
-                              const reference::Opening& opening) {
+                              const reference::Opening& opening, int transfer) {
   std::map<double, reference::BlurKernel> kernels;
   std::vector<double> out;
   const int focus = int(std::floor(params.focus * kOne + 0.5));
@@ -41,20 +42,22 @@ std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
         for (int n = -kernel.size; n <= kernel.size; ++n) {
           const uint8_t* pixel = scene.Pixel(0, std::clamp(x + n, 0, scene.width - 1),
                                              std::clamp(y + m, 0, scene.height - 1));
-          for (int c = 0; c < 3; ++c) sums[c] += kernel.At(side * n, side * m) * pixel[c];
+          for (int c = 0; c < 3; ++c)
+            sums[c] += kernel.At(side * n, side * m) * test::LightOf(pixel[c], transfer);
         }
       }
-      out.insert(out.end(), sums, sums + 3);
+      for (const double sum : sums) out.push_back(test::CodeOf(sum, transfer));
     }
   }
   return out;
 }
 
 std::vector<uint8_t> Blurred(const test::Scene& scene, double focus, double aperture, int block,
-                             double theta, const test::NamedShape* shape = nullptr) {
+                             double theta, int transfer, const test::NamedShape* shape = nullptr) {
   sf_config config = test::ConfigFor(scene, 40);
   config.largest_block = block;
   config.theta = theta;
+  config.transfer = transfer;
   if (shape != nullptr) shape->Set(&config);
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
@@ -67,15 +70,17 @@ std::vector<uint8_t> Blurred(const test::Scene& scene, double focus, double aper
 
 constexpr double kTheta = 0.26 * 3.14159265358979323846;
 
-// Largest difference from the rounded reference.
+// Largest difference from the rounded reference, by either transfer.
 double Difference(const test::Scene& scene, double focus, double aperture, int block,
                   double theta = kTheta) {
-  const std::vector<uint8_t> got = Blurred(scene, focus, aperture, block, theta);
-  const std::vector<double> expected =
-      Reference(scene, test::Params(focus, aperture, SF_MODE_BLUR), theta);
   double largest = 0;
-  for (size_t i = 0; i < got.size(); ++i) {
-    largest = std::max(largest, std::abs(got[i] - std::floor(expected[i] + 0.5)));
+  for (const int transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+    const std::vector<uint8_t> got = Blurred(scene, focus, aperture, block, theta, transfer);
+    const std::vector<double> expected =
+        Reference(scene, test::Params(focus, aperture, SF_MODE_BLUR), theta, transfer);
+    for (size_t i = 0; i < got.size(); ++i) {
+      largest = std::max(largest, std::abs(got[i] - std::floor(expected[i] + 0.5)));
+    }
   }
   return largest;
 }
@@ -138,9 +143,10 @@ TEST_CASE("blur: through openings of other shapes, in front of the focus and beh
       for (uint8_t& sample : scene.pictures[0]) sample = uint8_t(random.Int(0, 1) * 255);
       for (float& disparity : scene.disparity) disparity = random.Int(0, 1) == 0 ? -2.0F : 2.0F;
       const double aperture = r < 1.5 ? r / 1.5 : 1, focus = r < 1.5 ? 0.5 : 2 - r;
-      const std::vector<uint8_t> got = Blurred(scene, focus, aperture, 32, kTheta, &shape);
+      const std::vector<uint8_t> got =
+          Blurred(scene, focus, aperture, 32, kTheta, SF_TRANSFER_SRGB, &shape);
       const std::vector<double> expected =
-          Reference(scene, test::Params(focus, aperture, SF_MODE_BLUR), config);
+          Reference(scene, test::Params(focus, aperture, SF_MODE_BLUR), config, SF_TRANSFER_SRGB);
       double largest = 0;
       for (size_t i = 0; i < got.size(); ++i) {
         largest = std::max(largest, std::abs(got[i] - std::floor(expected[i] + 0.5)));
@@ -152,27 +158,28 @@ TEST_CASE("blur: through openings of other shapes, in front of the focus and beh
 
 TEST_CASE("blur: in focus it copies, and a constant stays") {
   const test::Scene sharp = test::RandomScene(41, 33, 1, 2.5f, 2.5f, 7);
-  CHECK(Blurred(sharp, 2.5, 1, 32, kTheta) == sharp.pictures[0]);
+  CHECK(Blurred(sharp, 2.5, 1, 32, kTheta, SF_TRANSFER_SRGB) == sharp.pictures[0]);
   for (int level = 0; level < 256; level += 5) {
     test::Scene scene = test::RandomScene(40, 35, 1, -9, 9, uint64_t(level) + 1);
     std::fill(scene.pictures[0].begin(), scene.pictures[0].end(), uint8_t(level));
-    CHECK(Blurred(scene, 0.3, 1, 64, kTheta) == scene.pictures[0]);
+    CHECK(Blurred(scene, 0.3, 1, 64, kTheta, SF_TRANSFER_SRGB) == scene.pictures[0]);
   }
 }
 
 TEST_CASE("blur: it looks at the centre view alone") {
   test::Scene scene = test::RandomScene(50, 40, 17, -4, 4, 19);
-  const std::vector<uint8_t> before = Blurred(scene, 1, 1, 32, kTheta);
+  const std::vector<uint8_t> before = Blurred(scene, 1, 1, 32, kTheta, SF_TRANSFER_SRGB);
   for (size_t view = 1; view < scene.pictures.size(); ++view) {
     std::fill(scene.pictures[view].begin(), scene.pictures[view].end(), uint8_t{9});
   }
-  CHECK(Blurred(scene, 1, 1, 32, kTheta) == before);
+  CHECK(Blurred(scene, 1, 1, 32, kTheta, SF_TRANSFER_SRGB) == before);
 }
 
 TEST_CASE("blur: the size of blocks does not matter") {
   const test::Scene scene = test::RandomScene(150, 90, 1, -6, 6, 20);
-  const std::vector<uint8_t> expected = Blurred(scene, 2, 1, 32, kTheta);
-  for (const int block : {64, 128, 256}) CHECK(Blurred(scene, 2, 1, block, kTheta) == expected);
+  const std::vector<uint8_t> expected = Blurred(scene, 2, 1, 32, kTheta, SF_TRANSFER_SRGB);
+  for (const int block : {64, 128, 256})
+    CHECK(Blurred(scene, 2, 1, block, kTheta, SF_TRANSFER_SRGB) == expected);
 }
 
 TEST_CASE("blur: kernels sum to exactly one, fit their types and fall off from the centre") {

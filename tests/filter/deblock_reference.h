@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "tests/support/transfer_curve.h"
+
 namespace test {
 
 constexpr int kUnit = 16;
@@ -40,11 +42,10 @@ inline bool Artificial(const uint8_t* a, const uint8_t* b, int beta) {
   return all;
 }
 
-inline int RoundedQuotient(int value, int by) { return (2 * value + by) / (2 * by); }
-
 // The line p0 | q0 q1 q2 q3 from (x, y) = p0 on in direction (dx, dy), as far as the picture goes.
 // Linear interpolation between p0 and q3 where p is of layer 2, else between p0 and q1.
-inline void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, int beta) {
+inline void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, int beta,
+                       int transfer) {
   const auto inside = [&](int k) {
     const int qx = x + dx * (k + 1), qy = y + dy * (k + 1);
     return qx >= 0 && qx < picture->width && qy >= 0 && qy < picture->height;
@@ -59,29 +60,34 @@ inline void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, in
     last = 1;
   }
   for (int c = 0; c < 3; ++c) {
-    const int from = p0[c], to = last > 0 ? q(last)[c] : 0;
+    // On the engine's grid of light, since the next line decides by what becomes of this one.
+    const auto light = [&](int code) { return std::floor(128 * LightOf(code, transfer) + 0.5); };
+    const double from = light(p0[c]), to = last > 0 ? light(q(last)[c]) : 0;
     for (int k = 0; k < last; ++k) {
-      const int mixed = from * (last - k) + to * (k + 1);
-      q(k)[c] = uint8_t(RoundedQuotient(mixed, last + 1));
+      const double mixed = std::floor((from * (last - k) + to * (k + 1)) / (last + 1) + 0.5);
+      q(k)[c] = uint8_t(CodeOf(mixed / 128, transfer) + 0.5);
     }
   }
 }
 
 // Two pixels on either side of a boundary: filters the side of the lower layer.
-inline void FilterPair(LayeredPicture* picture, int x0, int y0, int x1, int y1, int beta) {
+inline void FilterPair(LayeredPicture* picture, int x0, int y0, int x1, int y1, int beta,
+                       int transfer) {
   const int before = picture->LayerOf(x0, y0), after = picture->LayerOf(x1, y1);
-  if (before > after) FilterLine(picture, x0, y0, x1 - x0, y1 - y0, beta);
-  if (before < after) FilterLine(picture, x1, y1, x0 - x1, y0 - y1, beta);
+  if (before > after) FilterLine(picture, x0, y0, x1 - x0, y1 - y0, beta, transfer);
+  if (before < after) FilterLine(picture, x1, y1, x0 - x1, y0 - y1, beta, transfer);
 }
 
 // All horizontal boundaries of the picture, then all vertical ones.
-inline void DeblockPicture(LayeredPicture* picture, int beta) {
+inline void DeblockPicture(LayeredPicture* picture, int beta, int transfer) {
   for (int y = kUnit; y < picture->height; y += kUnit) {
-    for (int x = 0; x < picture->width; ++x) FilterPair(picture, x, y - 1, x, y, beta);
+    for (int x = 0; x < picture->width; ++x) {
+      FilterPair(picture, x, y - 1, x, y, beta, transfer);
+    }
   }
   for (int y = 0; y < picture->height; ++y) {
     for (int x = kUnit; x < picture->width; x += kUnit) {
-      FilterPair(picture, x - 1, y, x, y, beta);
+      FilterPair(picture, x - 1, y, x, y, beta, transfer);
     }
   }
 }

@@ -23,7 +23,7 @@ using test::DeblockPicture;
 using Picture = test::LayeredPicture;
 
 // As the engine does it: stripe by stripe, the columns of units in `parts` jobs from the right.
-void DeblockStripes(Picture* picture, int stripe_height, int parts, int beta) {
+void DeblockStripes(Picture* picture, int stripe_height, int parts, int beta, int transfer) {
   const int most_rows = stripe_height / kSmallestBlock;
   std::vector<uint8_t> units(size_t(picture->columns) * size_t(most_rows + 1), 0xEE);
   LayerMap map;
@@ -43,7 +43,9 @@ void DeblockStripes(Picture* picture, int stripe_height, int parts, int beta) {
                                        picture->width,
                                        picture->height,
                                        y,
-                                       beta};
+                                       beta,
+                                       &starfocus::TransferOf(transfer),
+                                       &starfocus::simd::BestKernels()};
     for (int part = parts - 1; part >= 0; --part) {
       starfocus::DeblockRows(job, map.columns * part / parts, map.columns * (part + 1) / parts);
     }
@@ -74,15 +76,17 @@ TEST_CASE("deblock: stripes give what the whole picture gives") {
     const Picture before = RandomPicture(width, height, &random);
     const int beta = std::vector<int>{1, 10, 35, 35, 255}[size_t(random.Int(0, 4))];
     Picture expected = before;
-    DeblockPicture(&expected, beta);
+    const int transfer = random.Int(0, 1) == 0 ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
+    DeblockPicture(&expected, beta, transfer);
     changed += expected.rgb != before.rgb;
     for (const int stripe : kStripes) {
       Picture got = before;
-      DeblockStripes(&got, stripe, random.Int(1, 3), beta);
+      DeblockStripes(&got, stripe, random.Int(1, 3), beta, transfer);
       CAPTURE(width);
       CAPTURE(height);
       CAPTURE(stripe);
       CAPTURE(beta);
+      CAPTURE(transfer);
       const bool same = got.rgb == expected.rgb;
       REQUIRE(same);
     }
@@ -103,7 +107,7 @@ std::vector<int> DeblockedRow(const std::vector<int>& levels, int before, int af
   }
   picture.layers[0] = uint8_t(before);
   if (picture.layers.size() > 1) picture.layers[1] = uint8_t(after);
-  DeblockStripes(&picture, vertical ? 16 : 32, 1, beta);
+  DeblockStripes(&picture, vertical ? 16 : 32, 1, beta, SF_TRANSFER_NONE);
   std::vector<int> out;
   for (int along = 0; along < length; ++along) {
     const uint8_t* first = vertical ? picture.Pixel(0, along) : picture.Pixel(along, 0);
@@ -181,9 +185,9 @@ TEST_CASE("deblock: every colour must meet the condition") {
     picture.layers = {2, 0};
     for (int x = 16; x < 32; ++x) picture.Pixel(x, 0)[c] = 140;
     Picture same = picture;
-    DeblockStripes(&picture, 32, 1, 40);
+    DeblockStripes(&picture, 32, 1, 40, SF_TRANSFER_NONE);
     CHECK(picture.rgb == same.rgb);
-    DeblockStripes(&picture, 32, 1, 41);
+    DeblockStripes(&picture, 32, 1, 41, SF_TRANSFER_NONE);
     CHECK(picture.rgb != same.rgb);
     CHECK(int(picture.Pixel(16, 0)[c]) == 110);
     CHECK(int(picture.Pixel(18, 0)[c]) == 130);
@@ -217,11 +221,11 @@ TEST_CASE("deblock: constant pictures and pictures of one unit stay") {
     Picture picture = RandomPicture(random.Int(1, 80), random.Int(1, 80), &random);
     std::fill(picture.rgb.begin(), picture.rgb.end(), uint8_t(round * 5));
     const std::vector<uint8_t> before = picture.rgb;
-    DeblockStripes(&picture, 32, 1, 255);
+    DeblockStripes(&picture, 32, 1, 255, SF_TRANSFER_NONE);
     CHECK(picture.rgb == before);
     Picture small = RandomPicture(random.Int(1, 16), random.Int(1, 16), &random);
     const std::vector<uint8_t> small_before = small.rgb;
-    DeblockStripes(&small, 32, 1, 255);
+    DeblockStripes(&small, 32, 1, 255, SF_TRANSFER_NONE);
     CHECK(small.rgb == small_before);
   }
 }

@@ -119,19 +119,26 @@ struct Layer {
     plane.height = LayerSize(picture_height, layer);
     plane.rows = {0, plane.height};
     const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
-    rgb.assign(stride * rows + kPadding, test::kPoison);
     samples.assign(stride * rows + kPadding, 0x7123);
     half.assign(stride * (2 * rows + 5) + kPadding, 0x7123);
-    plane.rgb = {rgb.data(), stride, 0, 0};
     plane.samples = {samples.data(), stride, 0, 0};
     plane.half = {half.data(), stride, 0, -3};
   }
   Layer(const Layer&) = delete;
 
   LayerPlane plane;
-  std::vector<uint8_t> rgb;
   std::vector<int16_t> samples, half;
 };
+
+// The centre view alone, whose light is its codes.
+starfocus::Window WindowOf(const std::vector<uint8_t>& picture, int width, int height) {
+  starfocus::Window window;
+  window.width = window.picture_width = width;
+  window.height = window.picture_height = height;
+  window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
+  window.centre = {picture.data(), 3 * size_t(width), 0, 0};
+  return window;
+}
 
 // Layers 1 and 2 of a picture as a stripe of largest blocks makes them.
 struct Layers {
@@ -141,7 +148,7 @@ struct Layers {
     std::vector<int16_t> line(3 * (size_t(largest_block) + 16) + kPadding);
     std::vector<int16_t> filtered = line;
     const starfocus::ResampleScratch scratch = {line.data(), filtered.data()};
-    const Plane<const uint8_t> from = {picture.data(), 3 * size_t(width), 0, 0};
+    const starfocus::Window from = WindowOf(picture, width, height);
     const int columns = (width + largest_block - 1) / largest_block;
     for (int layer = 1; layer <= 2; ++layer) {
       LayerPlane* to = layer == 1 ? &one.plane : &two.plane;
@@ -149,7 +156,7 @@ struct Layers {
         const int begin = index * (largest_block >> layer);
         const int end = index + 1 == columns ? to->width : begin + (largest_block >> layer);
         if (layer == 1) {
-          DownsamplePicture(kernels, from, width, height, begin, end, scratch, to);
+          DownsamplePicture(kernels, from, begin, end, scratch, to);
         } else {
           DownsampleLayer(kernels, one.plane, begin, end, scratch, to);
         }
@@ -192,20 +199,13 @@ std::vector<int16_t> UpByTwo(const Padded& in, int margin, int width, int height
   return out;
 }
 
-// Where the samples that go up again come from: the layer with its bits below the point, or the
-// whole gray levels that are refocused.
-enum Source { kSamples, kBytes };
-
 // One or two layers down and up again, as samples.
 std::vector<int16_t> DownAndUp(const std::vector<uint8_t>& picture, int width, int height,
-                               int layer, Source source, int largest_block,
+                               int layer, int largest_block,
                                const starfocus::simd::Kernels& kernels) {
   const Layers layers(picture, width, height, largest_block, kernels);
   const LayerPlane& plane = layer == 1 ? layers.one.plane : layers.two.plane;
-  const auto load = [&](int x, int y, int c) {
-    if (source == kBytes) return int16_t(plane.rgb.Row(y)[3 * x + c] << kLayerBits);
-    return plane.samples.Row(y)[3 * x + c];
-  };
+  const auto load = [&](int x, int y, int c) { return plane.samples.Row(y)[3 * x + c]; };
   constexpr int kMargin = 2;
   if (layer == 1) {
     const Padded one(plane.width, plane.height, width, height, kMargin, load);
@@ -257,7 +257,7 @@ struct Errors {
 };
 
 // Largest differences of down and up from double precision.
-Errors Compare(Source source) {
+Errors Compare() {
   test::Random random(13);
   Errors errors;
   constexpr int kSizes[] = {1, 2, 3, 4, 5, 7, 8, 15, 16, 17, 31, 33, 47, 70};
@@ -268,9 +268,9 @@ Errors Compare(Source source) {
         RandomPicture(width, height, Content(round % kContents), &random);
     for (int layer = 1; layer <= 2; ++layer) {
       const std::vector<int16_t> got =
-          DownAndUp(picture, width, height, layer, source, LargestBlock(&random), kernels);
+          DownAndUp(picture, width, height, layer, LargestBlock(&random), kernels);
       std::vector<uint8_t> levels(picture.size() + kPadding);
-      kernels.Narrow(got.data(), picture.size(), levels.data());
+      kernels.Narrow(got.data(), picture.size(), {nullptr, nullptr}, levels.data());
       const Image expected = ReferenceDownAndUp(picture, width, height, layer);
       for (size_t i = 0; i < picture.size(); ++i) {
         const double sample = std::ldexp(double(got[i]), -kLayerBits);
@@ -283,9 +283,8 @@ Errors Compare(Source source) {
   }
   char text[200];
   std::snprintf(text, sizeof(text),
-                "%s: one layer %.3f (whole levels %.0f), two layers %.3f (whole levels %.0f)",
-                source == kSamples ? "samples" : "bytes", errors.samples[1], errors.levels[1],
-                errors.samples[2], errors.levels[2]);
+                "one layer %.3f (whole levels %.0f), two layers %.3f (whole levels %.0f)",
+                errors.samples[1], errors.levels[1], errors.samples[2], errors.levels[2]);
   MESSAGE(std::string(text));
   return errors;
 }
@@ -309,42 +308,11 @@ TEST_CASE("layers: taps are those of the definition") {
 }
 
 TEST_CASE("layers: rounding of one and two layers down and up") {
-  const Errors errors = Compare(kSamples);
+  const Errors errors = Compare();
   CHECK(errors.samples[1] <= 0.25);
   CHECK(errors.samples[2] <= 0.5);
   CHECK(errors.levels[1] <= 1);
   CHECK(errors.levels[2] <= 1);
-}
-
-TEST_CASE("layers: with the layers rounded to the gray levels that are refocused") {
-  const Errors errors = Compare(kBytes);
-  CHECK(errors.samples[1] <= 1);
-  CHECK(errors.samples[2] <= 1);
-  CHECK(errors.levels[1] <= 1);
-  CHECK(errors.levels[2] <= 1);
-}
-
-TEST_CASE("layers: a layer holds the same picture as bytes and as samples") {
-  test::Random random(14);
-  for (int round = 0; round < 40; ++round) {
-    const int width = random.Int(1, 80), height = random.Int(1, 80);
-    const std::vector<uint8_t> picture =
-        RandomPicture(width, height, Content(round % kContents), &random);
-    const Layers layers(picture, width, height, LargestBlock(&random),
-                        starfocus::simd::BestKernels());
-    for (const LayerPlane* plane : {&layers.one.plane, &layers.two.plane}) {
-      bool same = true;
-      for (int y = 0; y < plane->height; ++y) {
-        for (int i = 0; i < 3 * plane->width; ++i) {
-          const int sample = plane->samples.Row(y)[i];
-          same = same && sample >= 0 && sample <= starfocus::simd::kLayerWhite;
-          // nearbyint rounds halves to even.
-          same = same && plane->rgb.Row(y)[i] == std::nearbyint(std::ldexp(sample, -kLayerBits));
-        }
-      }
-      CHECK(same);
-    }
-  }
 }
 
 TEST_CASE("layers: the columns may be made in any number of parts, on any target") {
@@ -356,7 +324,8 @@ TEST_CASE("layers: the columns may be made in any number of parts, on any target
     const Layers whole(picture, width, height, 512, starfocus::simd::ReferenceKernels());
     for (const int block : {32, 64, 128, 256}) {
       const Layers parts(picture, width, height, block, starfocus::simd::BestKernels());
-      const bool same = parts.one.rgb == whole.one.rgb && parts.two.rgb == whole.two.rgb;
+      const bool same =
+          parts.one.samples == whole.one.samples && parts.two.samples == whole.two.samples;
       CAPTURE(width);
       CAPTURE(block);
       CHECK(same);
@@ -376,10 +345,10 @@ TEST_CASE("layers: rows made alone are those of the whole layer") {
        {starfocus::RowRange{0, 1}, {5, 9}, {20, 33}, {layer_height - 2, layer_height}}) {
     Layer part(width, height, 1);
     part.plane.rows = rows;
-    part.plane.rgb.first = part.plane.samples.first = rows.first;
+    part.plane.samples.first = rows.first;
     part.plane.half.first = 2 * rows.first - 3;
-    DownsamplePicture(kernels, {picture.data(), 3 * size_t(width), 0, 0}, width, height, 0,
-                      part.plane.width, {line.data(), filtered.data()}, &part.plane);
+    DownsamplePicture(kernels, WindowOf(picture, width, height), 0, part.plane.width,
+                      {line.data(), filtered.data()}, &part.plane);
     for (int y = rows.first; y < rows.last; ++y) {
       CHECK(std::equal(part.plane.samples.Row(y), part.plane.samples.Row(y) + 3 * part.plane.width,
                        whole.one.plane.samples.Row(y)));
@@ -393,8 +362,7 @@ TEST_CASE("layers: constant pictures of every level stay, at every small size") 
     const int width = 1 + level % 13, height = 1 + level % 11;
     const std::vector<uint8_t> picture(3 * size_t(width) * size_t(height), uint8_t(level));
     for (int layer = 1; layer <= 2; ++layer) {
-      const std::vector<int16_t> got =
-          DownAndUp(picture, width, height, layer, kBytes, 32, kernels);
+      const std::vector<int16_t> got = DownAndUp(picture, width, height, layer, 32, kernels);
       const bool same = std::all_of(got.begin(), got.begin() + long(picture.size()),
                                     [&](int16_t sample) { return sample == level << kLayerBits; });
       CAPTURE(level);

@@ -54,6 +54,7 @@ sf_config MakeConfig(Input* input) {
   config.skips = config.deblocking % 4 != 0;
   config.gather = config.deblocking % 3 != 0;
   config.n_scale = 0.5 + 0.25 * (config.deblocking % 7);
+  config.transfer = config.deblocking % 5 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
   if (config.deblocking % 2 == 0) SetShape(config.deblocking * 2 / 3, &config);
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);

@@ -48,7 +48,8 @@ struct Recorder {
     begins.push_back(begin);
     for (int p = begin; p < end; ++p) {
       const int from = source + p - begin;
-      Show(p, Kind::kSurface, from, weight == 0 ? -1 : from + neighbour, weight);
+      Show(p, Kind::kSurface, from, weight == 0 ? -1 : from + neighbour,
+           int(starfocus::RoundShift(weight, starfocus::simd::kBlendBits - starfocus::kShiftBits)));
     }
   }
   void Mix(int p, int source, int other, int weight) {

@@ -124,8 +124,9 @@ TEST_CASE("line scan: weights of the subaperture") {
     for (int offset = -128; offset <= 128; ++offset) {
       const double t = std::abs(offset) / 256.0, width = cell / 256.0;
       const double exact = cell == 0 ? 0 : std::clamp((t - 0.5) / width + 0.5, 0.0, 1.0);
-      const double weight = starfocus::SubapertureWeight(offset, cell) / 256.0;
-      if (std::fabs(weight - exact) > 0.5001 / 256) {
+      constexpr double kOne = 1 << starfocus::simd::kBlendBits;
+      const double weight = starfocus::SubapertureWeight(offset, cell) / kOne;
+      if (std::fabs(weight - exact) > 1 / kOne) {
         CAPTURE(cell);
         CAPTURE(offset);
         CHECK(weight == doctest::Approx(exact));

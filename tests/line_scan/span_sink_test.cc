@@ -18,18 +18,23 @@ using starfocus::Rim;
 using starfocus::simd::kPadding;
 using starfocus::simd::Span;
 
+using starfocus::simd::kLightBits;
+
 constexpr int kLength = 12;
+constexpr uint32_t kBlendOne = 1 << starfocus::simd::kBlendBits;
+constexpr double kRounding = 0.5 / 128;  // of light
+constexpr int16_t kUntouched = 0x5A5A;
 
 // Fills a hole with one gray level, and remembers what it is behind.
 struct GrayHoles {
   int level;
   mutable int disparity = 0;
-  mutable uint8_t red = 0;
+  mutable int red = 0;  // of 255
 
-  void Fill(int32_t begin, int32_t end, int32_t behind, const uint8_t* colour, uint8_t* out) const {
-    std::fill_n(out, 3 * (end - begin), uint8_t(level));
+  void Fill(int32_t begin, int32_t end, int32_t behind, const int16_t* colour, int16_t* out) const {
+    std::fill_n(out, 3 * (end - begin), int16_t(level << kLightBits));
     disparity = behind;
-    red = colour[0];
+    red = colour[0] >> kLightBits;
   }
 };
 
@@ -39,7 +44,7 @@ struct Drawing {
 
   explicit Drawing(int level) : holes{level}, rgb(3 * kLength + kPadding) {
     for (int x = 0; x < kLength; ++x) {
-      for (int c = 0; c < 3; ++c) rgb[size_t(3 * x + c)] = uint8_t(20 * x + c);
+      for (int c = 0; c < 3; ++c) rgb[size_t(3 * x + c)] = int16_t((20 * x + c) << kLightBits);
       depths.push_back(int16_t(100 + x));
     }
   }
@@ -49,11 +54,11 @@ struct Drawing {
   void Run(uint32_t weight, const Draw& draw) {
     const starfocus::Line line = {rgb.data(), depths.data(), 1, kLength};
     std::vector<Span> spans(4);
-    std::vector<uint8_t> pixels(3 * kLength);
+    std::vector<int16_t> pixels(3 * kLength);
     const starfocus::SpanMemory memory = {spans.data(), spans.size(), pixels.data(), pixels.size()};
     const starfocus::simd::Kernels& kernels = starfocus::simd::ReferenceKernels();
-    const bool blends = weight == 256;
-    starfocus::SpanList list = blends ? starfocus::SpanList(kernels, memory, bytes.data())
+    const bool blends = weight == kBlendOne;
+    starfocus::SpanList list = blends ? starfocus::SpanList(kernels, memory, line_.data())
                                       : starfocus::SpanList(kernels, memory, sums.data());
     starfocus::SpanSink<GrayHoles> sink(
         line, {kBegin, 0, weight, blends ? disparity.data() : nullptr}, holes, &list);
@@ -61,14 +66,15 @@ struct Drawing {
     list.Flush();
   }
 
-  int Byte(int p) const { return bytes[size_t(3 * (p - kBegin))]; }
+  double Level(int p) const { return std::ldexp(line_[size_t(3 * (p - kBegin))], -kLightBits); }
+  bool Untouched(int p) const { return line_[size_t(3 * (p - kBegin))] == kUntouched; }
   int Disparity(int p) const { return disparity[size_t(p - kBegin)]; }
-  uint32_t Sum(int p) const { return sums[size_t(3 * (p - kBegin))]; }
+  double Sum(int p) const { return std::ldexp(sums[size_t(3 * (p - kBegin))], -kLightBits); }
 
   GrayHoles holes;
-  std::vector<uint8_t> rgb;
+  std::vector<int16_t> rgb;
   std::vector<int16_t> depths;
-  std::vector<uint8_t> bytes = std::vector<uint8_t>(3 * kLength + kPadding, test::kPoison);
+  std::vector<int16_t> line_ = std::vector<int16_t>(3 * kLength + kPadding, kUntouched);
   std::vector<int16_t> disparity = std::vector<int16_t>(kLength, 0x5A5A);
   std::vector<uint32_t> sums = std::vector<uint32_t>(3 * kLength + kPadding);
 };
@@ -79,14 +85,14 @@ TEST_CASE("span sink: a mixed pixel has parts of both, and the disparity of the 
       const auto draw = [&](auto* sink) { sink->Mix(5, 4, other, weight); };
       const double exact = 80 + (20.0 * other - 80) * weight / 256;
       Drawing blended(0);
-      blended.Run(256, draw);
+      blended.Run(kBlendOne, draw);
       CAPTURE(other);
       CAPTURE(weight);
-      CHECK(std::fabs(blended.Byte(5) - exact) <= 0.5);
+      CHECK(std::fabs(blended.Level(5) - exact) <= kRounding);
       CHECK(blended.Disparity(5) == 104);
       CHECK(blended.Disparity(4) == 0x5A5A);
-      CHECK(blended.Byte(4) == test::kPoison);
-      CHECK(blended.Byte(6) == test::kPoison);
+      CHECK(blended.Untouched(4));
+      CHECK(blended.Untouched(6));
       Drawing summed(0);
       summed.Run(1024, draw);
       CHECK(summed.Sum(5) == 1024 * exact);
@@ -103,7 +109,7 @@ TEST_CASE("span sink: a hole's rim lies where the scan goes on, and is the run's
     for (const int covered : {1, 127, 128, 129, 255}) {
       Drawing drawing(200);
       const auto draw = [&](auto* sink) { sink->Hole(4, 8, c.pixel, Rim{c.rim, covered}); };
-      drawing.Run(256, draw);
+      drawing.Run(kBlendOne, draw);
       CAPTURE(c.rim);
       CAPTURE(covered);
       CHECK(drawing.holes.disparity == 100 + c.pixel);
@@ -112,34 +118,34 @@ TEST_CASE("span sink: a hole's rim lies where the scan goes on, and is the run's
         const bool rim = p == c.at;
         const double exact = rim ? 200 + (20.0 * c.rim - 200) * covered / 256 : 200;
         CAPTURE(p);
-        CHECK(std::fabs(drawing.Byte(p) - exact) <= 0.5);
+        CHECK(std::fabs(drawing.Level(p) - exact) <= kRounding);
         CHECK(drawing.Disparity(p) == 100 + (rim && covered > 128 ? c.rim : c.pixel));
       }
-      CHECK(drawing.Byte(8) == test::kPoison);
+      CHECK(drawing.Untouched(8));
       Drawing summed(200);
       summed.Run(1024, draw);
-      CHECK(std::fabs(summed.Sum(c.at) / 1024.0 - drawing.Byte(c.at)) < 1e-9);
+      CHECK(std::fabs(summed.Sum(c.at) / 1024 - drawing.Level(c.at)) < 1e-9);
     }
   }
 }
 
 TEST_CASE("span sink: a hole without a rim, and a surface with its neighbours") {
   Drawing drawing(200);
-  drawing.Run(256, [](auto* sink) {
-    sink->Surface(3, 6, 4, -1, 64);
+  drawing.Run(kBlendOne, [](auto* sink) {
+    sink->Surface(3, 6, 4, -1, int(kBlendOne) / 4);
     sink->Hole(6, 8, 1, Rim{-1, 0});
     sink->Surface(8, 10, 9, 1, 0);
   });
   for (int p = 3; p < 6; ++p) {
-    CHECK(drawing.Byte(p) == 20 * (p + 1) - 5);
+    CHECK(drawing.Level(p) == 20 * (p + 1) - 5);
     CHECK(drawing.Disparity(p) == 100 + p + 1);
   }
   for (int p = 6; p < 8; ++p) {
-    CHECK(drawing.Byte(p) == 200);
+    CHECK(drawing.Level(p) == 200);
     CHECK(drawing.Disparity(p) == 101);
   }
   for (int p = 8; p < 10; ++p) {
-    CHECK(drawing.Byte(p) == 20 * (p + 1));
+    CHECK(drawing.Level(p) == 20 * (p + 1));
     CHECK(drawing.Disparity(p) == 100 + p + 1);
   }
 }

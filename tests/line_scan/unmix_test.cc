@@ -27,7 +27,7 @@ struct Greys {
 struct Scene {
   std::vector<uint8_t> centre, side;
   std::vector<int16_t> disparity;
-  std::vector<uint8_t> rgb;
+  std::vector<int16_t> rgb;
   Window window;
   Field field;
 
@@ -47,6 +47,7 @@ struct Scene {
     window.width = window.picture_width = kSize;
     window.height = window.picture_height = kSize;
     window.views = views;
+    window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
     window.centre = {centre.data(), 3 * kSize, 0, 0};
     for (int view = 1; view < views; ++view) window.view[view] = {side.data(), 3 * kSize, 0, 0};
     window.disparity = {disparity.data(), kSize, 0, 0};
@@ -58,14 +59,16 @@ struct Scene {
   std::vector<int> Unmixed(int layer = 0) {
     std::vector<int16_t> copy(disparity.size() + starfocus::simd::kPadding);
     field.disparity = copy.data();
-    starfocus::LoadField(window, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
+    starfocus::LoadField(starfocus::simd::BestKernels(), window, {4, 4, kSize - 8, kSize - 8},
+                         {4, 4, 4, 4}, &field);
     starfocus::Aperture aperture;
     aperture.n = aperture.last = 4;
     window.layer = layer;
     const ViewGrid grid = starfocus::MakeViewGrid(aperture, 0, 1, 0, false);
     starfocus::UnmixEdges(starfocus::simd::BestKernels(), window, grid, &field);
     std::vector<int> greys;
-    for (int x = 0; x < kSize; ++x) greys.push_back(*field.Rgb(x, kSize / 2));
+    for (int x = 0; x < kSize; ++x)
+      greys.push_back((*field.Rgb(x, kSize / 2) + 64) >> starfocus::kLightBits);
     return greys;
   }
 

@@ -18,11 +18,12 @@ size_t OctantIndex(int x, int y) {
   return size_t(high * (high + 1) / 2 + low);
 }
 
-// Any filter: weights of all sizes, rings of zeros outside, and as large a sum as may be.
+// Any filter: weights of all sizes, rings of zeros outside, and as large a sum as may be. Four
+// pixels that are weighed together sum to 15 bits at most.
 Disc MakeDisc(Draw* draw, KernelCall* call) {
   const int size = int(draw->Size(0, kMaxDisc, 4)), pixels = (2 * size + 1) * (2 * size + 1);
   const int used = draw->Rarely(2) ? draw->Int(0, size) : size;
-  const int largest = std::min(32767, (1 << 24) / pixels);
+  const int largest = std::min(32767 / 4, (1 << 17) / pixels);
   const int most = draw->Rarely(2) ? draw->Int(1, largest) : largest;
   std::vector<uint16_t> weights(OctantIndex(size, size) + 1);
   for (int y = 0; y <= size; ++y) {
@@ -48,17 +49,17 @@ void FilterDisc(Draw* draw, KernelCall* call) {
   const size_t rows = draw->Size(1, 4, kTimedSamples / 96), around = size_t(disc.size);
   const size_t width = count + 6 * around, stride = width + size_t(draw->Int(0, 4));
   const size_t out_stride = count + size_t(draw->Int(0, 7));
-  std::vector<uint8_t> picture((rows + 2 * around - 1) * stride + width);
-  for (uint8_t& byte : picture) byte = draw->Int(0, 2) == 0 ? 255 : draw->Byte();
-  const uint8_t* in = call->Input("in", picture, kPadding);
+  const int16_t* in =
+      call->Input("in", Light((rows + 2 * around - 1) * stride + width, draw), kPadding);
   for (size_t y = 0; y + 1 < rows + 2 * around; ++y) {
     call->Ignore(in + y * stride + width, stride - width);
   }
-  const uint8_t* first = in + around * stride + 3 * around;
+  const int16_t* first = in + around * stride + 3 * around;
+  const auto encoding = AnyEncoding(draw, call);
   auto* out = call->Output<uint8_t>("out", rows * out_stride);
   for (size_t y = 0; y < rows; ++y) call->Result(out + y * out_stride, count);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.FilterDisc(first, stride, disc, rows, count, out, out_stride);
+    kernels.FilterDisc(first, stride, disc, encoding, rows, count, out, out_stride);
     return 0;
   };
 }

@@ -13,7 +13,8 @@ using starfocus::simd::SliceSamples;
 void FinishComposite(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples / 3), whole = SliceSamples(count);
   const size_t plane = whole + draw->Size(0, 5, 0);
-  const CompositeFinish finish = {uint32_t(draw->Int(1, 90000)), draw->Int(1, 24)};
+  const CompositeFinish finish = {uint32_t(draw->Int(1, 90000)),
+                                  draw->Int(starfocus::simd::kLightBits, 24)};
   const uint32_t all = 4 * finish.least + uint32_t(draw->Int(0, 5));
   std::vector<uint32_t> values(3 * plane + whole);
   uint32_t covered = all;
@@ -33,11 +34,11 @@ void FinishComposite(Draw* draw, KernelCall* call) {
   for (size_t c = 0; c < 4; ++c) {
     call->Ignore(sums + c * plane + count, (c < 3 ? plane : whole) - count);
   }
-  const uint8_t* rgb = call->Input("rgb", Bytes(3 * count, draw), starfocus::simd::kPadding);
+  const int16_t* centre = call->Input("centre", Light(3 * count, draw), starfocus::simd::kPadding);
   auto* out = call->Output<uint32_t>("out", 3 * count);
   call->Result(out, 3 * count);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.FinishComposite(sums, plane, rgb, finish, count, out);
+    kernels.FinishComposite(sums, plane, centre, finish, count, out);
     return 0;
   };
   call->is_right = [=](uint64_t, Met* met) {

@@ -18,29 +18,29 @@ using starfocus::simd::CellMeasure;
 using starfocus::simd::Kernels;
 using starfocus::simd::kLayerWhite;
 using starfocus::simd::kRunLanes;
-using starfocus::simd::kTransposePadding;
 using starfocus::simd::ReferenceKernels;
 using starfocus::simd::RunMarks;
 using starfocus::simd::Span;
 
 TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand") {
-  const uint8_t source[] = {10, 20, 30, 40, 50, 60, 70, 80, 90};
-  const Span span = {source + 3, 1, 3, 192, 64, 3};
-  uint8_t line[5] = {1, 1, 1, 1, 1};
-  ReferenceKernels().Blend(&span, 1, line);
-  // (192 * 40 + 64 * 70) / 256 = 47.5: halves to even
-  const uint8_t blended[5] = {1, 48, 58, 68, 1};
+  const int16_t source[] = {10, 20, 30, 40, 50, 60, 70, 80, 32640};
+  const Span blend = {source + 3, 1, 3, 12288, 4096, 3};
+  int16_t line[5] = {1, 1, 1, 1, 1};
+  ReferenceKernels().Blend(&blend, 1, line);
+  // (3 * 40 + 70) / 4 = 47.5: halves up
+  const int16_t blended[5] = {1, 48, 58, 8205, 1};
   CHECK(std::memcmp(line, blended, sizeof(line)) == 0);
+  const Span span = {source + 3, 1, 3, 192, 64, 3};
   uint32_t sums[5] = {5, 5, 5, 5, 5};
   ReferenceKernels().Accumulate(&span, 1, sums);
   CHECK(sums[0] == 5);
   CHECK(sums[1] == 5 + 192 * 40 + 64 * 70);
-  CHECK(sums[3] == 5 + 192 * 60 + 64 * 90);
+  CHECK(sums[3] == 5 + 192 * 60 + 64 * 32640);
   CHECK(sums[4] == 5);
   const uint32_t wide[3] = {uint32_t{255} << 24, (7u << 24) + (1u << 23),
                             (7u << 24) + (1u << 23) - 1};
   uint8_t out[3];
-  ReferenceKernels().Finish(wide, 3, 24, out);
+  ReferenceKernels().Finish(wide, 3, 24, {nullptr, nullptr}, out);
   CHECK(int(out[0]) == 255);
   CHECK(int(out[1]) == 8);
   CHECK(int(out[2]) == 7);
@@ -48,18 +48,19 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
   std::vector<uint32_t> covered(stack, stack + 4 * 16);
   covered[3 * 16] = 12 << 16;
   covered[3 * 16 + 1] = 99;
-  const uint8_t centre[6] = {9, 9, 9, 5, 6, 7};
+  const int16_t centre[6] = {9 << 7, 9 << 7, 9 << 7, 5 << 7, 6 << 7, 7 << 7};
   uint32_t accumulators[6];
   ReferenceKernels().FinishComposite(covered.data(), 16, centre, {100, 16}, 2, accumulators);
   CHECK(accumulators[0] == 64 << 16);
   CHECK(accumulators[1] == 0);
   CHECK(accumulators[3] == 5 << 16);
   CHECK(accumulators[5] == 7 << 16);
-  const uint8_t rows[3][9] = {
-      {1, 0, 0, 2, 0, 0, 3, 0, 0}, {4, 0, 0, 50, 0, 0, 6, 0, 0}, {7, 0, 0, 8, 0, 0, 9, 0, 0}};
+  const int16_t rows[3][9] = {{128, 0, 0, 256, 0, 0, 384, 0, 0},
+                              {512, 0, 0, 6400, 0, 0, 768, 0, 0},
+                              {896, 0, 0, 1024, 0, 0, 1152, 0, 0}};
   const uint16_t ring[3] = {4, 2, 1};  // the centre, beside it, at the corners: 16 in all
   uint8_t disc[2] = {0, 77};
-  ReferenceKernels().FilterDisc(&rows[1][3], 9, {1, 4, ring}, 1, 1, disc, 9);
+  ReferenceKernels().FilterDisc(&rows[1][3], 9, {1, 4, ring}, {nullptr, nullptr}, 1, 1, disc, 9);
   CHECK(int(disc[0]) == (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9 + 8) / 16);
   CHECK(int(disc[1]) == 77);
   const float disparity[4] = {0.0078125f, -0.0078125f, -500, 500};
@@ -69,6 +70,33 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
   CHECK(converted[1] == 0);
   CHECK(converted[2] == -32000);
   CHECK(converted[3] == 32000);
+}
+
+TEST_CASE("kernel definitions: light and codes, by hand") {
+  int16_t table[256] = {};
+  for (int code = 0; code < 256; ++code) table[code] = int16_t(code * code / 2);
+  std::vector<uint16_t> entries(starfocus::simd::kEncodeEntries, 3 << 4);
+  entries[0] = (2 << 4) + 16 - 5;  // code 2 below 5, 3 from there on
+  const starfocus::simd::Encoding encoding = {table, entries.data()};
+  const uint8_t codes[3] = {0, 10, 255};
+  int16_t light[3];
+  ReferenceKernels().Decode(codes, 3, encoding, light);
+  CHECK(light[1] == 50);
+  CHECK(light[2] == 32512);
+  const int16_t levels[4] = {4, 5, 7, 32640};
+  uint8_t out[4];
+  ReferenceKernels().Encode(levels, 4, encoding, out);
+  CHECK(int(out[0]) == 2);
+  CHECK(int(out[1]) == 3);
+  CHECK(int(out[3]) == 3);
+  const uint32_t sums[2] = {(4 << 3) + 3, (4 << 3) + 4};  // just below 4.5, and 4.5
+  ReferenceKernels().Finish(sums, 2, 10, encoding, out);
+  CHECK(int(out[0]) == 2);
+  CHECK(int(out[1]) == 3);
+  const int16_t halves[2] = {(7 << 7) + 63, (7 << 7) + 64};
+  ReferenceKernels().Encode(halves, 2, {nullptr, nullptr}, out);
+  CHECK(int(out[0]) == 7);
+  CHECK(int(out[1]) == 8);
 }
 
 TEST_CASE("kernel definitions: ranges, by hand") {
@@ -85,7 +113,7 @@ TEST_CASE("kernel definitions: ranges, by hand") {
   CHECK(ranges[1].high == 32767);
 }
 
-TEST_CASE("kernel definitions: runs, cells and transposing, by hand") {
+TEST_CASE("kernel definitions: runs and cells, by hand") {
   // Two lines of five, read backwards, with limits that 10 reaches and 11 exceeds.
   const int16_t lines[5][2] = {{40, -32000}, {11, 32000}, {0, 31995}, {5, 31990}, {-5, 31989}};
   uint16_t starts[kRunLanes], edges[kRunLanes];
@@ -132,12 +160,6 @@ TEST_CASE("kernel definitions: runs, cells and transposing, by hand") {
     CHECK(measure.edges[along] == 0);
     CHECK(measure.slopes[along] == 3 * 15);
   }
-
-  const uint8_t in[2][7] = {{1, 2, 3, 4, 5, 6, 99}, {7, 8, 9, 10, 11, 12, 99}};
-  uint8_t out[2][6 + kTransposePadding] = {};
-  ReferenceKernels().Transpose(in[0], sizeof(in[0]), 2, 2, out[0], sizeof(out[0]));
-  const uint8_t transposed[2][6] = {{1, 2, 3, 7, 8, 9}, {4, 5, 6, 10, 11, 12}};
-  for (int k = 0; k < 2; ++k) CHECK(std::equal(transposed[k], transposed[k] + 6, out[k]));
 }
 
 // What is kept of a line filtered as a whole.
@@ -158,7 +180,7 @@ TEST_CASE("kernel definitions: halving is the half-band filter at every even pix
 TEST_CASE("kernel definitions: layers, by hand") {
   const uint8_t bytes[12] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 255};
   int16_t even[6], odd[6];
-  ReferenceKernels().WidenPhases(bytes, 2, even, odd);
+  ReferenceKernels().WidenPhases(bytes, 2, {nullptr, nullptr}, even, odd);
   const int16_t evens[6] = {64, 128, 192, 448, 512, 576};
   const int16_t odds[6] = {256, 320, 384, 640, 704, kLayerWhite};
   CHECK(std::memcmp(even, evens, sizeof(even)) == 0);

@@ -17,6 +17,7 @@
 
 namespace {
 
+using starfocus::simd::Encoding;
 using starfocus::simd::Kernels;
 using starfocus::simd::ReferenceKernels;
 
@@ -107,32 +108,32 @@ TEST_CASE("kernels: a case calls the kernel whose name it has") {
 // Kernels that do one thing each that they may not do.
 struct Spoilt {
   const char* complaint;
-  void (*narrow)(const int16_t* in, size_t count, uint8_t* out);
+  void (*narrow)(const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out);
 };
 constexpr Spoilt kSpoilt[] = {
     {"spoilt differs in out[0]",
-     [](const int16_t* in, size_t count, uint8_t* out) {
-       ReferenceKernels().Narrow(in, count, out);
+     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+       ReferenceKernels().Narrow(in, count, encoding, out);
        out[0] ^= 1;
      }},
     {"spoilt differs in out[0]",
-     [](const int16_t* in, size_t count, uint8_t* out) {
-       ReferenceKernels().Narrow(in, count, out);
+     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+       ReferenceKernels().Narrow(in, count, encoding, out);
        out[0] = uint8_t(out[0] + in[count]);  // which may hold anything
      }},
     {"spoilt writes where it may not: out[",
-     [](const int16_t* in, size_t count, uint8_t* out) {
-       ReferenceKernels().Narrow(in, count, out);
+     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+       ReferenceKernels().Narrow(in, count, encoding, out);
        out[count] ^= 1;
      }},
     {"spoilt writes where it may not: out[-1]",
-     [](const int16_t* in, size_t count, uint8_t* out) {
-       ReferenceKernels().Narrow(in, count, out);
+     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+       ReferenceKernels().Narrow(in, count, encoding, out);
        out[-1] ^= 1;
      }},
     {"spoilt writes where it may not: in[0]",
-     [](const int16_t* in, size_t count, uint8_t* out) {
-       ReferenceKernels().Narrow(in, count, out);
+     [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {
+       ReferenceKernels().Narrow(in, count, encoding, out);
        const_cast<int16_t*>(in)[0] ^= 1;
      }},
 };
@@ -160,7 +161,7 @@ TEST_CASE("kernels: what a kernel may not do is noticed") {
   }
   Kernels spoilt = ReferenceKernels();
   spoilt.name = "spoilt";
-  spoilt.Split = [](const uint8_t* rgb, size_t count, size_t plane, uint8_t* out) {
+  spoilt.Split = [](const int16_t* rgb, size_t count, size_t plane, int16_t* out) {
     ReferenceKernels().Split(rgb, count, plane, out);
     if (plane > count) out[count] ^= 1;  // between two planes
   };

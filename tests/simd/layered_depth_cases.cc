@@ -37,8 +37,8 @@ std::vector<int16_t> MovedRows(size_t rows, size_t whole, int step, Draw* draw) 
 
 void Split(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples / 3), plane = count + draw->Size(0, 9, 0);
-  const uint8_t* rgb = call->Input("rgb", Bytes(3 * count, draw), kPadding);
-  auto* out = call->Output<uint8_t>("out", 3 * plane);
+  const int16_t* rgb = call->Input("rgb", Light(3 * count, draw), kPadding);
+  auto* out = call->Output<int16_t>("out", 3 * plane);
   for (size_t c = 0; c < 3; ++c) call->Result(out + c * plane, count);
   call->run = [=](const Kernels& kernels) -> uint64_t {
     kernels.Split(rgb, count, plane, out);
@@ -296,11 +296,12 @@ void LookBehind(Draw* draw, KernelCall* call) {
 
 void Interpolate(Draw* draw, KernelCall* call) {
   const size_t groups = draw->Size(1, 3, kTimedSamples / 3 / kSliceLanes);
-  const size_t plane = groups * kSliceLanes + draw->Size(0, 9, 0), bytes = 3 * groups * kSliceLanes;
-  const uint8_t* here = call->Input("here", Bytes(bytes, draw));
-  const uint8_t* next = call->Input("next", Bytes(bytes, draw));
+  const size_t plane = groups * kSliceLanes + draw->Size(0, 9, 0);
+  const size_t samples = 3 * groups * kSliceLanes;
+  const int16_t* here = call->Input("here", Light(samples, draw));
+  const int16_t* next = call->Input("next", Light(samples, draw));
   const uint8_t* weight = call->Input("weight", Bytes(groups * kSliceLanes, draw));
-  auto* out = call->Output<uint8_t>("out", 3 * plane);
+  auto* out = call->Output<int16_t>("out", 3 * plane);
   for (size_t c = 0; c < 3; ++c) call->Result(out + c * plane, groups * kSliceLanes);
   call->run = [=](const Kernels& kernels) -> uint64_t {
     for (size_t n = 0; n < groups * kSliceLanes; n += kSliceLanes) {

@@ -64,9 +64,10 @@ void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
 void WidenPhases(Draw* draw, KernelCall* call) {
   const size_t pairs = draw->Length(0, kLongestSamples, kTimedSamples / 6);
   const uint8_t* in = call->Input("in", Bytes(6 * pairs, draw));
+  const auto encoding = AnyEncoding(draw, call);
   const Phases out(pairs, 0, call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.WidenPhases(in, pairs, out.even, out.odd);
+    kernels.WidenPhases(in, pairs, encoding, out.even, out.odd);
     return 0;
   };
 }
@@ -85,17 +86,18 @@ void Narrow(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);
   std::vector<int16_t> samples(count);
   for (int16_t& sample : samples) {
-    const int kind = draw->Int(0, 4), tie = 64 * draw->Int(-1, 256) + 32;
-    sample = kind == 0   ? INT16_MIN
-             : kind == 1 ? INT16_MAX
-             : kind == 2 ? int16_t(tie)
-                         : int16_t(draw->Next());
+    const int kind = draw->Int(0, 4), tie = 64 * draw->Int(0, 254) + 32;
+    sample = int16_t(kind == 0   ? 0
+                     : kind == 1 ? kLayerWhite
+                     : kind == 2 ? tie
+                                 : draw->Int(0, kLayerWhite));
   }
   const int16_t* in = call->Input("in", samples, kPadding);
+  const auto encoding = AnyEncoding(draw, call);
   auto* out = call->Output<uint8_t>("out", count);
   call->Result(out, count);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Narrow(in, count, out);
+    kernels.Narrow(in, count, encoding, out);
     return 0;
   };
 }

@@ -44,7 +44,7 @@ SurfaceRow MakeSurfaces(size_t count, Draw* draw, KernelCall* call) {
     std::vector<int16_t> disparities = Disparities(whole, draw);
     for (int16_t& d : disparities) d = k > 0 && draw->Int(0, 1) == 0 ? kNoSurface : d;
     const int16_t* disparity = call->Input("disparity", disparities);
-    const uint8_t* rgb = call->Input("rgb", Bytes(2 * row.plane + whole, draw));
+    const int16_t* rgb = call->Input("rgb", Light(2 * row.plane + whole, draw));
     for (size_t n = 0; n < whole; ++n) {
       const bool counts = n < count && (k == 0 || (row.hiding >> n / kSliceLanes & 1) != 0);
       if (!counts) call->Ignore(disparity + n, 1);

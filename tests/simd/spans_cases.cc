@@ -5,6 +5,7 @@
 namespace test::kernel_cases {
 namespace {
 
+using starfocus::simd::kBlendBits;
 using starfocus::simd::Kernels;
 using starfocus::simd::kPadding;
 using starfocus::simd::Span;
@@ -15,19 +16,20 @@ struct Spans {
 };
 
 // Spans that lie side by side in the target, with gaps of up to two samples, and their sources.
-// With `blend` their weights sum to 256.
+// With `blend` their weights sum to 2^kBlendBits, and the neighbour has half of that at most.
 Spans MakeSpans(bool blend, Draw* draw, KernelCall* call) {
   constexpr size_t kMargin = 8;  // neighbours, and odd places to start
   const size_t samples = draw->Length(1, kLongestBytes, 96);
   const size_t count = draw->Size(1, 5, kTimedSamples / 96);
-  const std::vector<uint8_t> bytes = Bytes(kMargin + samples + kMargin, draw);
-  const uint8_t* source = call->Input("source", bytes, kPadding) + kMargin;
+  const std::vector<int16_t> light = Light(kMargin + samples + kMargin, draw);
+  const int16_t* source = call->Input("source", light, kPadding) + kMargin;
   std::vector<Span> spans;
   uint32_t target = uint32_t(draw->Int(0, 5));
   for (size_t i = 0; i < count; ++i) {
     const int kind = draw->timed() ? 2 : draw->Int(0, 3);
-    const int one = blend ? 256 : draw->Int(0, 1) == 0 ? 32767 : draw->Int(0, 32767);
-    const int neighbour = kind == 0 ? 0 : kind == 1 ? one : draw->Int(0, one);
+    const int one = blend ? 1 << kBlendBits : draw->Int(0, 1) == 0 ? 32767 : draw->Int(0, 32767);
+    const int most = blend ? one / 2 : one;
+    const int neighbour = kind == 0 ? 0 : kind == 1 ? most : draw->Int(0, most);
     Span span;
     span.source = source + draw->Int(-3, 3);
     span.target = target;
@@ -64,28 +66,9 @@ void Accumulate(Draw* draw, KernelCall* call) {
 
 void Blend(Draw* draw, KernelCall* call) {
   const Spans spans = MakeSpans(true, draw, call);
-  auto* line = MakeTarget<uint8_t>("line", spans, call);
+  auto* line = MakeTarget<int16_t>("line", spans, call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
     kernels.Blend(spans.spans, spans.count, line);
-    return 0;
-  };
-}
-
-void Finish(Draw* draw, KernelCall* call) {
-  const size_t count = draw->Length(1, kLongestBytes, kTimedSamples);
-  const int shift = draw->Int(1, 24);
-  const uint32_t largest = uint32_t{255} << shift;
-  std::vector<uint32_t> sums(count);
-  for (uint32_t& sum : sums) {
-    const int kind = draw->Int(0, 4);
-    const uint32_t half = (uint32_t(draw->Int(0, 254)) << shift) + (1u << (shift - 1));
-    sum = kind == 0 ? largest : kind == 1 ? half : kind == 2 ? half - 1 : draw->Next() % largest;
-  }
-  const uint32_t* accumulators = call->Input("accumulators", sums, kPadding);
-  auto* out = call->Output<uint8_t>("out", count);
-  call->Result(out, count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Finish(accumulators, count, shift, out);
     return 0;
   };
 }

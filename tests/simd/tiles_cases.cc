@@ -147,7 +147,8 @@ SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {
           count,
           call->Input("shown", shown),
           shown.size(),
-          kSkipped};
+          kSkipped,
+          draw->Rarely(2) ? draw->Int(0, 4) : 0};
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ test::Scene HalfPlanes(double near, double far, int views) {
 std::vector<int> MiddleRow(const test::Scene& scene, double focus, sf_mode mode, int layers = 0) {
   sf_config config = test::ConfigFor(scene, 32);
   config.gather = 0;
+  config.transfer = SF_TRANSFER_NONE;
   config.max_layer = layers;
   sf_params params = test::Params(focus, 1, mode);
   params.rule = SF_RULE_SUBAPERTURE;
@@ -113,6 +114,7 @@ TEST_CASE("stack: where slices of a slope overlap, its end covers no more than e
   }
   sf_config config = test::ConfigFor(scene, 32);
   config.gather = 0;
+  config.transfer = SF_TRANSFER_NONE;
   config.max_layer = 0;
   const test::Refocused picture =
       test::RefocusScene(scene, config, test::Params(0, 1, SF_MODE_BLOCK));
@@ -161,7 +163,7 @@ TEST_CASE("stack: slices made section by section give the same picture") {
 }
 
 // But for red zones, between which nothing is shared.
-TEST_CASE("stack: a worker takes a mebibyte at blocks of 64 and blurs of 32" *
+TEST_CASE("stack: a worker takes 1.25 mebibytes at blocks of 64 and blurs of 32" *
           doctest::skip(starfocus::kRedZone > 0)) {
   size_t bytes[2];
   for (int workers = 1; workers <= 2; ++workers) {
@@ -170,7 +172,7 @@ TEST_CASE("stack: a worker takes a mebibyte at blocks of 64 and blurs of 32" *
     config.max_workers = workers;
     REQUIRE(sf_workspace_size(&config, &bytes[workers - 1]) == SF_OK);
   }
-  CHECK(bytes[1] - bytes[0] <= size_t{1} << 20);
+  CHECK(bytes[1] - bytes[0] <= size_t{5} << 18);
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ struct Scene {
   std::vector<int16_t> planes[3], rows[2];
   std::vector<uint16_t> sources[2];
   std::vector<starfocus::simd::StepBits> steps;
-  std::vector<uint8_t> colours[3], edges[4], share, rgb;
+  std::vector<uint8_t> edges[4], share;
+  std::vector<int16_t> colours[3], rgb;
   std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
   starfocus::Window window;
   LayeredDepth surfaces;
@@ -63,6 +64,7 @@ struct Scene {
   }
 
   void Find() {
+    window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
     window.centre = {centre.data(), 3 * kSize, 0, 0};
     window.disparity = {disparity.data(), kSize, 0, 0};
     for (int k = 0; k < 3; ++k) {
@@ -92,7 +94,8 @@ struct Scene {
     starfocus::Field field;
     field.rgb = rgb.data();
     field.disparity = copy.data();
-    starfocus::LoadField(window, {0, 0, kSize, kSize}, {0, 0, 0, 0}, &field);
+    starfocus::LoadField(starfocus::simd::BestKernels(), window, {0, 0, kSize, kSize}, {0, 0, 0, 0},
+                         &field);
     starfocus::FindLayeredDepth(starfocus::simd::BestKernels(), window, field, &surfaces);
   }
 
@@ -102,7 +105,8 @@ struct Scene {
     return found == kNoSurface ? -1000 : found / 64.0;
   }
   int Colour(int x, int y, int c, int surface = 1) const {
-    return surfaces.rgb[surface][size_t(c) * surfaces.plane + surfaces.At(x, y)];
+    const int light = surfaces.rgb[surface][size_t(c) * surfaces.plane + surfaces.At(x, y)];
+    return (light + 64) >> starfocus::kLightBits;
   }
 };
 

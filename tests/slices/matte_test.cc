@@ -37,6 +37,7 @@ std::vector<int> MiddleRow(const test::Scene& scene, double focus, bool transpos
                            double aperture = 1) {
   sf_config config = test::ConfigFor(scene, 32);
   config.gather = 0;
+  config.transfer = SF_TRANSFER_NONE;
   config.max_layer = 0;
   const test::Refocused picture =
       test::RefocusScene(scene, config, test::Params(focus, aperture, SF_MODE_BLOCK));
@@ -109,6 +110,7 @@ TEST_CASE("matte: where slices of a slope overlap, its end still covers a quarte
   }
   sf_config config = test::ConfigFor(scene, 32);
   config.gather = 0;
+  config.transfer = SF_TRANSFER_NONE;
   config.max_layer = 0;
   const test::Refocused picture =
       test::RefocusScene(scene, config, test::Params(0, 1, SF_MODE_BLOCK));

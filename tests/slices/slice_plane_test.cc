@@ -67,7 +67,8 @@ TEST_CASE("slice planes: a pixel behind another is shown wherever groups of pixe
   for (int behind = 0; behind < kWidth; ++behind) {
     std::vector<int16_t> near(kRoom, 0), far(kRoom, starfocus::kNoSurface), none = far;
     far[size_t(behind)] = -640;
-    std::vector<uint8_t> rgb(3 * kRoom, 255), share(kRoom, 128);
+    std::vector<int16_t> rgb(3 * kRoom, starfocus::kLightWhite);
+    std::vector<uint8_t> share(kRoom, 128);
     uint64_t hiding = uint64_t{1} << behind / int(starfocus::simd::kSliceLanes);
     starfocus::LayeredDepth surfaces;
     surfaces.width = surfaces.stride = kWidth;

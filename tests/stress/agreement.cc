@@ -8,13 +8,14 @@
 #include "tests/stress/rig.h"
 #include "tests/stress/setup.h"
 #include "tests/support/symmetry.h"
+#include "tests/support/transfer_curve.h"
 
 namespace starfocus::stress {
 namespace {
 
-// Gray levels by which any pixel of a flat scene may jump when the lens changes by a step of its
-// scale, by what changes with it.
-// Nothing but the radius, or N by the rule for subapertures: each view's weights slide.
+// 255ths of white by which any pixel of a flat scene may jump when the lens changes by a step of
+// its scale, by what changes with it. Nothing but the radius, or N by the rule for subapertures:
+// each view's weights slide.
 constexpr int kSmoothJump = 12;
 // N by (9), or by the benchmark: at r = 1 five views become thirteen, of kernels 1e-2 apart (Fig. 6
 // below N = 4); more where theta puts all weight in the middle or on the rim.
@@ -54,9 +55,14 @@ Outcome Fail(const Setup& setup, const std::string& what) {
   return {0, what + ": " + setup.Text()};
 }
 
-int LargestDifference(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
-  int largest = 0;
-  for (size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+// Of light, in 255ths of white.
+double LargestDifference(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b,
+                         int transfer) {
+  double largest = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    largest =
+        std::max(largest, std::fabs(test::LightOf(a[i], transfer) - test::LightOf(b[i], transfer)));
+  }
   return largest;
 }
 
@@ -137,14 +143,15 @@ Outcome Continuity(test::Random* random) {
   const std::vector<uint8_t> a = Refocused(setup, RandomVariant(random), &failure, &report_a);
   const std::vector<uint8_t> b = Refocused(other, RandomVariant(random), &failure, &report_b);
   if (!failure.empty()) return Fail(setup, failure);
-  const int jump = LargestDifference(a, b), most = MostJump(setup, report_a, report_b);
+  const double jump = LargestDifference(a, b, setup.config.transfer);
+  const int most = MostJump(setup, report_a, report_b);
   if (jump > most) {
     return Fail(setup, "jump of " + std::to_string(jump) + ", N " + std::to_string(report_a.n) +
                            " to " + std::to_string(report_b.n) + ", L " +
                            std::to_string(LayerOf(report_a)) + " to " +
                            std::to_string(LayerOf(report_b)));
   }
-  return {static_cast<double>(jump), ""};
+  return {jump, ""};
 }
 
 }  // namespace starfocus::stress

@@ -7,6 +7,7 @@
 #include "tests/stress/families.h"
 #include "tests/stress/rig.h"
 #include "tests/stress/setup.h"
+#include "tests/support/transfer_curve.h"
 
 namespace starfocus::stress {
 namespace {
@@ -72,6 +73,8 @@ Outcome CheckInversion(Setup setup, test::Random* random) {
       }
     }
   }
+  // Light is coded by a curve: the inverse of a picture is no inverse of its light.
+  if (setup.config.transfer != SF_TRANSFER_NONE) return {0, ""};
   Setup inverted = setup;
   Invert(&inverted);
   const std::vector<uint8_t> other = Refocused(inverted, RandomVariant(random), &failure);
@@ -214,6 +217,7 @@ Outcome Energy(test::Random* random) {
   const int margin = static_cast<int>(radius) + 16;
   const int side = 2 * margin + kPeriod;
   Setup setup = FlatSetup(side, side, radius, random);
+  setup.config.transfer = SF_TRANSFER_NONE;  // a mean of codes
   const int mean = random->Int(20, 235);
   // Room for what the layers' filters may overshoot: nothing is clipped.
   const int amplitude = std::max(1, static_cast<int>(std::min(mean, 255 - mean) / 1.8));
@@ -262,22 +266,23 @@ Outcome Steps(test::Random* random) {
   const std::vector<uint8_t> out = Refocused(setup, RandomVariant(random), &failure);
   if (!failure.empty()) return Fail(setup, failure);
   const bool positive = !MayResample(setup);
-  int over = 0;
+  const auto light = [&](int code) { return test::LightOf(code, setup.config.transfer); };
+  double over = 0;  // of light, but for what one code may be by rounding
   for (int k = 0; k < length; ++k) {
     const auto at = [&](int along) {
       return int{out[3 * size_t(upright ? along * across : along)]};
     };
-    over = std::max({over, low - at(k), at(k) - high});
+    if (positive && (at(k) < low || at(k) > high)) return Fail(setup, "a step overshoots");
+    over = std::max({over, light(low) - light(at(k) + 1), light(at(k) - 1) - light(high)});
     if (positive && k > 0 && at(k) < at(k - 1)) return Fail(setup, "a step falls");
   }
   const double radius =
       setup.params.aperture * std::fabs(scene.Disparity(0, 0) - setup.params.focus);
-  const double most = positive ? 0 : MostOvershoot(setup, radius) * (high - low) + 1;
-  if (over > most)
-    return Fail(setup, "overshoot of " + std::to_string(over) + " in a step of " +
-                           std::to_string(high - low));
-  // The last level may be rounding.
-  return {std::max(0, over - 1) / static_cast<double>(high - low), ""};
+  const double step = light(high) - light(low);
+  if (over > MostOvershoot(setup, radius) * step)
+    return Fail(setup,
+                "overshoot of " + std::to_string(over) + " in a step of " + std::to_string(step));
+  return {over / step, ""};
 }
 
 }  // namespace starfocus::stress

@@ -40,9 +40,10 @@ std::string Setup::Text() const {
          Number(config.disparity_max) + "], focus " + Number(params.focus) + ", aperture " +
          Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
          std::to_string(config.largest_block) + ", layers " + std::to_string(config.max_layer) +
-         ", deblocking " + std::to_string(config.deblocking) + ", theta " + Number(config.theta) +
-         ", n_scale " + Number(config.n_scale) + (config.gather != 0 ? "" : ", nothing gathered") +
-         ", " + test::ShapeText(config);
+         ", deblocking " + std::to_string(config.deblocking) + ", transfer " +
+         std::to_string(config.transfer) + ", theta " + Number(config.theta) + ", n_scale " +
+         Number(config.n_scale) + (config.gather != 0 ? "" : ", nothing gathered") + ", " +
+         test::ShapeText(config);
 }
 
 double RandomRadius(double largest, test::Random* random) {
@@ -129,6 +130,7 @@ void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
   if (random->Int(0, 1) == 0) setup->config.timing.block = 1u << random->Int(0, 26);
   FitBlur(setup);
   RandomMode(modes, setup, random);
+  setup->config.transfer = random->Int(0, 1) == 0 ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
 }
 
 Setup FlatSetup(int width, int height, double radius, test::Random* random) {

@@ -67,11 +67,9 @@ void BlockBench::HoldDisparity() {
 void BlockBench::HoldLayer(int layer) {
   LayerPlane& plane = engine_->pictures.layers[layer];
   const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
-  layer_rgb_[layer].resize(stride * rows + simd::kPadding);
   layer_samples_[layer].resize(stride * rows + simd::kPadding);
   layer_half_[layer].resize(stride * (2 * rows + 6) + simd::kPadding);
   plane.rows = {0, plane.height};
-  plane.rgb = {layer_rgb_[layer].data(), stride, 0, 0};
   plane.samples = {layer_samples_[layer].data(), stride, 0, 0};
   plane.half = {layer_half_[layer].data(), stride, 0, -3};
   const ResampleScratch& scratch = engine_->crew.workers[0].resample;
@@ -79,14 +77,14 @@ void BlockBench::HoldLayer(int layer) {
   for (int32_t begin = 0; begin < plane.width; begin += step) {
     const int32_t end = std::min(begin + step, plane.width);
     if (layer == 1) {
-      DownsamplePicture(*engine_->kernels, engine_->pictures.windows[0].centre,
-                        engine_->config.width, engine_->config.height, begin, end, scratch, &plane);
+      DownsamplePicture(*engine_->kernels, engine_->pictures.windows[0], begin, end, scratch,
+                        &plane);
     } else {
       DownsampleLayer(*engine_->kernels, engine_->pictures.layers[layer - 1], begin, end, scratch,
                       &plane);
     }
   }
-  engine_->pictures.windows[layer].centre = {plane.rgb.data, stride, 0, 0};
+  engine_->pictures.windows[layer].samples = {plane.samples.data, stride, 0, 0};
 }
 
 void BlockBench::Focus(const BlockTask& task) {

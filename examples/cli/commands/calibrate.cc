@@ -27,7 +27,7 @@ std::string Trace(const std::string& name, SceneTimes* times) {
   ThreadRunner runner(HardwareWorkers());
   Scene scene;
   MakeScene(name, &scene);
-  const Renderer renderer(scene, kWidth, kHeight, &runner);
+  const Renderer renderer(scene, kWidth, kHeight, SF_TRANSFER_SRGB, &runner);
   LightField light_field;
   {
     Progress progress("rendering " + name, int64_t{kHeight} * kViews);

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 constexpr int64_t kMostPixels = int64_t{1} << 25;  // all views are held in memory
 
 struct Options {
-  std::string folder, name = "portrait", size = "1024x768", views = "17", threads;
+  std::string folder, name = "portrait", size = "1024x768", views = "17", transfer = "srgb",
+                      threads;
   std::vector<std::string> truths;
   ShapeOptions shape;
 };
@@ -33,6 +34,7 @@ struct Truth {
 struct Plan {
   Scene scene;
   int width = 0, height = 0, views = 0, threads = 0;
+  sf_transfer transfer = SF_TRANSFER_SRGB;
   std::vector<Truth> truths;
   sf_config shape;  // of the lens of the truths
 };
@@ -52,7 +54,7 @@ Error ParseTruth(const std::string& text, Truth* truth) {
 
 Error MakePlan(const Options& options, Plan* plan) {
   if (!MakeScene(options.name, &plan->scene)) {
-    return Error::Usage("--name", "portrait, wires or ramp", "'" + options.name + "'");
+    return Error::Usage("--name", "portrait, wires, ramp or lamps", "'" + options.name + "'");
   }
   Error error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
   if (!error.empty()) return error;
@@ -61,6 +63,7 @@ Error MakePlan(const Options& options, Plan* plan) {
                         "'" + options.size + "'");
   }
   error = ParseViews("--views", options.views, &plan->views);
+  if (error.empty()) error = ParseTransfer("--transfer", options.transfer, &plan->transfer);
   if (!error.empty()) return error;
   plan->threads = HardwareWorkers();
   if (!options.threads.empty()) {
@@ -99,6 +102,7 @@ std::string MetaText(const Options& options, const Plan& plan, const Renderer& r
   std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
   text += "size: " + std::to_string(plan.width) + "x" + std::to_string(plan.height) + "\n";
   text += "views: " + std::to_string(plan.views) + "\n";
+  text += std::string("transfer: ") + (plan.transfer == SF_TRANSFER_NONE ? "none" : "srgb") + "\n";
   for (const NamedPoint& point : plan.scene.points) {
     int x, y;
     renderer.ToPixel(point.x, point.y, &x, &y);
@@ -123,7 +127,7 @@ Error Run(const Options& options) {
   if (error.empty()) error = CheckFolder(options.folder, plan.views);
   if (!error.empty()) return error;
   ThreadRunner runner(plan.threads);
-  const Renderer renderer(plan.scene, plan.width, plan.height, &runner);
+  const Renderer renderer(plan.scene, plan.width, plan.height, plan.transfer, &runner);
   const SceneOpening opening(plan.shape);
   LightField light_field;
   std::vector<Image> truths;
@@ -159,7 +163,8 @@ void AddSceneCommand(CLI::App* app, Action* action) {
   CLI::App* command =
       app->add_subcommand("scene", "Ray-trace a light field with exact disparity into a folder");
   command->add_option("DIR", options->folder, "Folder to write")->type_name("DIR")->required();
-  command->add_option("--name", options->name, "portrait, wires or ramp")->capture_default_str();
+  command->add_option("--name", options->name, "portrait, wires, ramp or lamps")
+      ->capture_default_str();
   command->add_option("--size", options->size, "Width and height, WxH")->capture_default_str();
   command->add_option("--views", options->views, "17, 9, 5 or 1")->capture_default_str();
   command
@@ -167,6 +172,8 @@ void AddSceneCommand(CLI::App* app, Action* action) {
                    "D,U: also the picture of a lens of aperture U focused at disparity D; "
                    "may be repeated")
       ->type_name("D,U ...");
+  AddTransferOption(command, "Pictures average light, coded as sRGB, or values as they are",
+                    &options->transfer);
   AddShapeOptions(command, &options->shape);
   command->add_option("--threads", options->threads, "1 to 64; default: all of the machine");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });

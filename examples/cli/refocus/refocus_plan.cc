@@ -122,6 +122,10 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
                    "about ten times as long as block")
       ->type_name("block|frame|benchmark|blur")
       ->capture_default_str();
+  AddTransferOption(command,
+                    "What codes of the pictures stand for: light coded as sRGB, which a lens adds, "
+                    "or values to be averaged as they are",
+                    &options->transfer);
   command->add_option("--views", options->views, "17, 9, 5 or 1; default: all of the folder");
   command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
   command->add_flag("--fill-invalid", options->fill_invalid,
@@ -163,6 +167,7 @@ Error PlanLens(const LensOptions& options, LensPlan* plan) {
   }
   if (error.empty()) error = ParseMode(options.mode, &plan->mode);
   if (error.empty()) error = ParseRule(options.rule, &plan->rule);
+  if (error.empty()) error = ParseTransfer("--transfer", options.transfer, &plan->transfer);
   if (error.empty()) error = ParseScale("--n-scale", options.n_scale, &plan->n_scale);
   return error.empty() ? PlanBlocks(options, plan) : error;
 }
@@ -264,6 +269,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.deblocking = plan.deblocking;
   task.config.timing = plan.timing;
   task.config.n_scale = plan.n_scale;
+  task.config.transfer = plan.transfer;
   sf_params_init(&task.params);
   task.params.mode = plan.mode;
   task.params.rule = plan.rule;

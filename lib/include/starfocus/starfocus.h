@@ -100,6 +100,7 @@ typedef enum sf_status {
   SF_ERROR_MEMORY = 35,      /**< of starfocus.hpp alone: no memory for a workspace */
   SF_ERROR_POSITION = 36,    /**< position outside the picture */
   SF_ERROR_F_STOP = 37,      /**< an f-stop not finite, or wider than the widest */
+  SF_ERROR_TRANSFER = 38,    /**< unknown transfer */
   SF_ERROR_SHAPE = 39,       /**< unknown aperture_shape */
   SF_ERROR_BLADES = 40,      /**< blades outside [3, SF_MAX_BLADES] */
   SF_ERROR_ROTATION = 41,    /**< rotation outside [-360, 360] */
@@ -157,32 +158,43 @@ typedef struct sf_timing {
   uint32_t hole;     /**< per pixel that a depth edge uncovers in the outermost view, 8 at most */
 } sf_timing;
 
+/** How the codes 0 to 255 of a picture stand for light, which is what a lens adds. Of one colour
+ * every code comes out as it went in. */
+typedef enum sf_transfer {
+  SF_TRANSFER_SRGB = 0, /**< the curve of sRGB (IEC 61966-2-1), as in pictures of cameras: codes are
+                             decoded to light of 15 bits as they are read, and light is coded where
+                             a picture is written */
+  SF_TRANSFER_NONE =
+      1 /**< light is the code itself: codes are averaged as they are (the paper's) */
+} sf_transfer;
+
 /** What a workspace is made for. Call sf_config_init first: it zeroes and sets the defaults. */
 typedef struct sf_config {
-  uint32_t version;      /**< SF_ABI_VERSION, set by sf_config_init */
-  int32_t width;         /**< pixels, [1, SF_MAX_SIZE] */
-  int32_t height;        /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
-  int32_t views;         /**< captured views: 1, 5, 9 or 17 (see sf_view_position) */
-  float disparity_min;   /**< smallest disparity any map may hold; with disparity_max it bounds the
-                              blur, and so N of the frame modes and, beyond 32 pixels of blur, how
-                              finely scenes are cut, in every entry path */
-  float disparity_max;   /**< largest disparity any map may hold, >= disparity_min */
-  double max_blur;       /**< largest blur radius r = aperture * |d - focus| in pixels that will be
-                              asked for, (0, SF_MAX_BLUR]; default 32. It reserves room and changes
-                              no picture */
-  int32_t largest_block; /**< side of the largest refocusing block in pixels: 32, 64, 128, 256, or
-                              0, the default: 128 from a width of 1536 on, else 64. For wide
-                              pictures 128 is up to an eighth faster; a worker's memory grows with
-                              the block's area, from 1 MiB at 64 on. sf_report has what 0 chose */
-  int32_t max_workers;   /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
-  int32_t streaming;  /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
-  double theta;       /**< fall-off of the aperture (3) in radians; default 0.26 pi */
-  int32_t max_layer;  /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
-  int32_t deblocking; /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
-  sf_timing timing;   /**< each coefficient <= SF_MAX_TIMING */
-  double n_scale;     /**< time against error: multiplies the N of either rule in SF_MODE_BLOCK and
-                           SF_MODE_FRAME, rounded up; the number of views grows with its square;
-                           [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
+  uint32_t version;    /**< SF_ABI_VERSION, set by sf_config_init */
+  int32_t width;       /**< pixels, [1, SF_MAX_SIZE] */
+  int32_t height;      /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
+  int32_t views;       /**< captured views: 1, 5, 9 or 17 (see sf_view_position) */
+  float disparity_min; /**< smallest disparity any map may hold; with disparity_max it bounds the
+                            blur, and so N of the frame modes and, beyond 32 pixels of blur, how
+                            finely scenes are cut, in every entry path */
+  float disparity_max; /**< largest disparity any map may hold, >= disparity_min */
+  double max_blur;     /**< largest blur radius r = aperture * |d - focus| in pixels that will be
+                            asked for, (0, SF_MAX_BLUR]; default 32. It reserves room and changes
+                            no picture */
+  int32_t
+      largest_block;   /**< side of the largest refocusing block in pixels: 32, 64, 128, 256, or
+                            0, the default: 128 from a width of 1536 on, else 64. For wide
+                            pictures 128 is up to an eighth faster; a worker's memory grows with
+                            the block's area, from 1.25 MiB at 64 on. sf_report has what 0 chose */
+  int32_t max_workers; /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
+  int32_t streaming;   /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
+  double theta;        /**< fall-off of the aperture (3) in radians; default 0.26 pi */
+  int32_t max_layer;   /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
+  int32_t deblocking;  /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
+  sf_timing timing;    /**< each coefficient <= SF_MAX_TIMING */
+  double n_scale;      /**< time against error: multiplies the N of either rule in SF_MODE_BLOCK and
+                            SF_MODE_FRAME, rounded up; the number of views grows with its square;
+                            [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
   int32_t skips;  /**< 1, the default: what sf_skipped counts is left out; 0: all is done, for the
                        same bytes */
   int32_t gather; /**< 1, the default: by SF_RULE_SUBAPERTURE SF_MODE_BLOCK blurs the centre view
@@ -202,7 +214,9 @@ typedef struct sf_config {
                      it is seen from the picture's corners, [0, 1]; less towards the middle: light
                      passes both. Pictures do not get darker by it, SF_MODE_BLUR does without it;
                      default 0: there is none */
-  uint32_t reserved[2]; /**< zero */
+  int32_t transfer;     /**< sf_transfer: how codes of the pictures stand for light; default
+                           SF_TRANSFER_SRGB */
+  uint32_t reserved[6]; /**< zero */
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);
@@ -362,7 +376,7 @@ SF_API sf_status sf_refocus(sf_engine* engine, const sf_params* params,
 typedef struct sf_prepared sf_prepared;
 
 /** Bytes that a prepared light field of `config` takes, into *bytes: 2 per pixel of the picture for
- *  disparities and about 0.94 for layers 1 and 2, as far as max_layer allows them. */
+ *  disparities and about 1.9 for layers 1 and 2, as far as max_layer allows them. */
 SF_API sf_status sf_prepared_size(const sf_config* config, size_t* bytes);
 
 /** Checks and converts the disparities and subsamples the centre view, once for many refocusings,
@@ -375,8 +389,8 @@ SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field
                             sf_prepared** prepared);
 
 /** As sf_refocus, with the same bytes, of a prepared light field; of this engine or of any of the
- *  same size, views, disparity range and max_layer (else SF_ERROR_PREPARED). Several engines may
- * use one at a time. */
+ *  same size, views, disparity range, max_layer and transfer (else SF_ERROR_PREPARED). Several
+ * engines may use one at a time. */
 SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                                      const sf_prepared* prepared, uint8_t* out, size_t out_stride,
                                      sf_runner runner, void* runner_data, sf_report* report);

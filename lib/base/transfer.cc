@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/base/transfer.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int kCodes = 256;
+
+constexpr double FifthRoot(double value) {
+  double root = 1;
+  for (int step = 0; step < 64; ++step) {
+    const double fourth = root * root * root * root;
+    root -= (fourth * root - value) / (5 * fourth);
+  }
+  return root;
+}
+
+// Returns the light of a code, of white. The compiler computes it, as IEEE has it: all machines
+// have the same tables.
+constexpr double LinearOf(double code) {
+  const double value = code / 255;
+  if (value <= 0.04045) return value / 12.92;
+  const double base = (value + 0.055) / 1.055, square = base * base;
+  return square * FifthRoot(square);
+}
+
+struct Tables {
+  int16_t srgb[kCodes] = {}, same[kCodes] = {};
+  uint16_t entries[simd::kEncodeEntries] = {};
+
+  constexpr Tables() {
+    for (int code = 0; code < kCodes; ++code) {
+      srgb[code] = static_cast<int16_t>(LinearOf(code) * kLightWhite + 0.5);
+      same[code] = static_cast<int16_t>(code << kLightBits);
+    }
+    int32_t code = 0, next = FirstOf(1);
+    for (int32_t entry = 0; entry < static_cast<int32_t>(simd::kEncodeEntries); ++entry) {
+      const int32_t level = entry * simd::kEncodeStep;
+      if (next <= level) next = FirstOf(++code + 1);
+      const int32_t rest = next - level;
+      const int32_t ends = rest < simd::kEncodeStep ? (1 << simd::kEncodeBits) - rest : 0;
+      entries[entry] = static_cast<uint16_t>((code << simd::kEncodeBits) + ends);
+    }
+  }
+
+  // Returns the least light that is nearer, in codes, to `code` than to the one before.
+  static constexpr int32_t FirstOf(int32_t code) {
+    const double light = LinearOf(code - 0.5) * kLightWhite;
+    const auto whole = static_cast<int32_t>(light);
+    return whole + (whole < light ? 1 : 0);
+  }
+};
+
+constexpr Tables kTables;
+constexpr Transfer kSrgb = {kTables.srgb, {kTables.srgb, kTables.entries}};
+constexpr Transfer kNone = {kTables.same, {nullptr, nullptr}};
+
+}  // namespace
+
+const Transfer& TransferOf(int32_t transfer) {
+  return transfer == SF_TRANSFER_NONE ? kNone : kSrgb;
+}
+
+}  // namespace starfocus
