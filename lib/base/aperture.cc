@@ -105,24 +105,29 @@ uint64_t LightOfSubaperture(int32_t i, int32_t j, int32_t radius, uint32_t fall_
   return light / (kPoints * kPoints);
 }
 
-// The same of an opening that is as bright everywhere.
-uint64_t LightThrough(int32_t i, int32_t j, int32_t radius, const Opening& opening) {
-  constexpr uint64_t kOne = uint64_t{1} << 20;
-  uint64_t inside = 0;
+// Returns how many points of the subaperture an opening lets through that is as bright everywhere.
+uint32_t OpenPoints(int32_t i, int32_t j, int32_t radius, const Opening& opening) {
+  uint32_t open = 0;
   ForEachPoint(i, j,
-               [&](int64_t x, int64_t y) { inside += LetsThrough(opening, x, y, radius) ? 1 : 0; });
-  return inside * kOne / (kPoints * kPoints);
+               [&](int64_t x, int64_t y) { open += LetsThrough(opening, x, y, radius) ? 1 : 0; });
+  return open;
 }
 
 // A polygon has no dents: where the corners of a subaperture are inside, all of it is.
-uint64_t LightThroughPolygon(int32_t i, int32_t j, int32_t radius, const Opening& opening) {
+uint32_t OpenPointsOfPolygon(int32_t i, int32_t j, int32_t radius, const Opening& opening) {
   constexpr int32_t kHalf = kSubapertureUnits / 2;
-  for (const int32_t x : {kSubapertureUnits * i - kHalf, kSubapertureUnits * i + kHalf}) {
-    for (const int32_t y : {kSubapertureUnits * j - kHalf, kSubapertureUnits * j + kHalf}) {
-      if (!LetsThrough(opening, x, y, radius)) return LightThrough(i, j, radius, opening);
+  const int64_t x = kSubapertureUnits * (i < 0 ? -i : i) + kHalf;
+  const int64_t y = kSubapertureUnits * (j < 0 ? -j : j) + kHalf;
+  const int64_t inscribed = int64_t{opening.inscribed} * radius;
+  if ((x * x + y * y) * kOpeningOne * kOpeningOne <= inscribed * inscribed) {
+    return kPoints * kPoints;
+  }
+  for (const int32_t column : {kSubapertureUnits * i - kHalf, kSubapertureUnits * i + kHalf}) {
+    for (const int32_t row : {kSubapertureUnits * j - kHalf, kSubapertureUnits * j + kHalf}) {
+      if (!LetsThrough(opening, column, row, radius)) return OpenPoints(i, j, radius, opening);
     }
   }
-  return uint64_t{1} << 20;
+  return kPoints * kPoints;
 }
 
 void WeighSubapertures(const Opening& opening, uint16_t* weights, Aperture* aperture) {
@@ -133,15 +138,18 @@ void WeighSubapertures(const Opening& opening, uint16_t* weights, Aperture* aper
         false,
         [&](int32_t i, int32_t j) { return LightOfSubaperture(i, j, radius, opening.fall_off); },
         weights, aperture);
-  } else if (opening.shape == SF_SHAPE_POLYGON) {
-    Weigh(
-        false, [&](int32_t i, int32_t j) { return LightThroughPolygon(i, j, radius, opening); },
-        weights, aperture);
-  } else {
-    Weigh(
-        opening.IsRing(), [&](int32_t i, int32_t j) { return LightThrough(i, j, radius, opening); },
-        weights, aperture);
+    return;
   }
+  ForEachWeight(*aperture, false, [&](int32_t i, int32_t j, int32_t) {
+    const uint32_t open = opening.shape == SF_SHAPE_POLYGON
+                              ? OpenPointsOfPolygon(i, j, radius, opening)
+                              : OpenPoints(i, j, radius, opening);
+    weights[IndexOf(*aperture, i, j)] = static_cast<uint16_t>(open);
+  });
+  Weigh(
+      opening.IsRing(),
+      [&](int32_t i, int32_t j) -> uint64_t { return weights[IndexOf(*aperture, i, j)]; }, weights,
+      aperture);
 }
 
 // How far from the middle of a subaperture its points lie at most: half of its diagonal.

@@ -39,6 +39,14 @@ void SetPolygon(const sf_config& config, Opening* opening) {
     opening->normals[edge][0] = Round(normal.sine);
     opening->normals[edge][1] = Round(-normal.cosine);
   }
+  // A point that far along a normal, which rounding makes a little longer than 1, is inside.
+  const auto is_inside = [&](int64_t radius) {
+    return opening->bulge * radius * radius + opening->slope * radius * (kOpeningOne + 1) <=
+           int64_t{opening->limit} * kOpeningOne * kOpeningOne;
+  };
+  for (int32_t bit = kOpeningOne / 2; bit > 0; bit /= 2) {
+    if (is_inside(opening->inscribed + bit)) opening->inscribed += bit;
+  }
 }
 
 }  // namespace

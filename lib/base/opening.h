@@ -31,6 +31,7 @@ struct Opening {
   int32_t blades = 0;
   int32_t normals[SF_MAX_BLADES][2] = {};
   int32_t bulge = 0, slope = 0, limit = 0;
+  int32_t inscribed = 0;  // radius of a disc in it: kOpeningBits, rounded down
 
   // Whether it is its own mirror image about both axes and both diagonals, so that an octant tells
   // all of it. What cat's eyes leave of it isn't.
