@@ -90,6 +90,11 @@ Error ParseScale(const std::string& option, const std::string& text, double* val
                       Quoted(text));
 }
 
+Error ParseHighlights(const std::string& option, const std::string& text, double* value) {
+  if (ReadNumber(text, value) && *value >= 1 && *value <= SF_MAX_HIGHLIGHTS) return "";
+  return Error::Usage(option, "a factor from 1 to " + Short(SF_MAX_HIGHLIGHTS), Quoted(text));
+}
+
 Error ParseViews(const std::string& option, const std::string& text, int* value) {
   if (ReadWhole(text, value) && IsStarSet(*value)) return "";
   return Error::Usage(option, "17, 9, 5 or 1", Quoted(text));

@@ -36,6 +36,9 @@ Error ParseScale(const std::string& option, const std::string& text, double* val
 // 17, 9, 5 or 1.
 Error ParseViews(const std::string& option, const std::string& text, int* value);
 
+// A factor from 1 to SF_MAX_HIGHLIGHTS.
+Error ParseHighlights(const std::string& option, const std::string& text, double* value);
+
 // srgb or none.
 Error ParseTransfer(const std::string& option, const std::string& text, sf_transfer* value);
 void AddTransferOption(CLI::App* command, const std::string& help, std::string* text);

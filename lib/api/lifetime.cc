@@ -48,6 +48,7 @@ void sf_config_init(sf_config* config) {
   config->n_scale = 1.0;
   config->skips = 1;
   config->gather = 1;
+  config->highlights = 1;
   config->blades = 5;
   config->ring_inner = 0.5F;
 }

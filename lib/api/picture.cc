@@ -128,8 +128,8 @@ void UsePrevious(const Request& request, EngineState* engine) {
   changes.width = config.width;
   changes.height = config.height;
   changes.side = engine->config.largest_block;
-  changes.centre_reach = engine->lens.reach.rows;
   changes.side_reach = SideReach(config, engine->report.r_max);
+  changes.centre_reach = HighlightReach(config) > 0 ? changes.side_reach : engine->lens.reach.rows;
   StartChanges(StripeRows(*engine).first, &changes);
 }
 

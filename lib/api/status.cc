@@ -95,6 +95,8 @@ const char* sf_status_string(sf_status status) {
       return "ring_inner is outside 0 to 0.9";
     case SF_ERROR_CATS_EYE:
       return "cats_eye is outside 0 to 1";
+    case SF_ERROR_HIGHLIGHTS:
+      return "highlights is outside 1 to 64";
   }
   return "unknown status";
 }

@@ -76,6 +76,9 @@ sf_status CheckConfig(const sf_config& config) {
   if (config.transfer != SF_TRANSFER_SRGB && config.transfer != SF_TRANSFER_NONE) {
     return SF_ERROR_TRANSFER;
   }
+  if (!(config.highlights >= 1 && config.highlights <= SF_MAX_HIGHLIGHTS)) {
+    return SF_ERROR_HIGHLIGHTS;
+  }
   return CheckShape(config);
 }
 

@@ -2,6 +2,7 @@
 #include "lib/engine/reach.h"
 
 #include "lib/base/fixed.h"
+#include "lib/input/excess.h"
 #include "lib/plan/block_stats.h"
 
 namespace starfocus {
@@ -36,12 +37,17 @@ int32_t LayerRows(const sf_config& config, int layer) {
   return rows;
 }
 
+int32_t HighlightReach(const sf_config& config) {
+  return config.highlights > 1 ? LampReach(LargestLamp(config.width)) : 0;
+}
+
 int32_t SideReach(const sf_config& config, double max_blur) {
   // A hole is read at most its disparity away from a place within the blur radius, by a filter of
   // 7 taps at most.
   const double disparity =
       MaxDouble(AbsDouble(config.disparity_min), AbsDouble(config.disparity_max));
-  return GetReach(max_blur).rows + CeilPixels(max_blur) + CeilPixels(disparity) + 8;
+  return GetReach(max_blur).rows + CeilPixels(max_blur) + CeilPixels(disparity) + 8 +
+         HighlightReach(config);
 }
 
 }  // namespace starfocus

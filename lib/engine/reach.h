@@ -25,6 +25,9 @@ inline int32_t Columns(const sf_config& config) {
 // Rows of a layer that a stripe may need.
 int32_t LayerRows(const sf_config& config, int layer);
 
+// Pixels around a highlight that decide what it stands for; 0 where that is nothing but white.
+int32_t HighlightReach(const sf_config& config);
+
 // Rows beyond a stripe that side views are read in, for blur up to a radius.
 int32_t SideReach(const sf_config& config, double max_blur);
 

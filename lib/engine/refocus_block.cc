@@ -4,7 +4,9 @@
 #include <cstring>
 
 #include "lib/engine/trivial_block.h"
+#include "lib/filter/add_excess.h"
 #include "lib/filter/gather.h"
+#include "lib/input/excess.h"
 
 namespace starfocus {
 namespace {
@@ -99,28 +101,61 @@ struct Rendered {
   uint64_t views, samples;
 };
 
-// Renders the block's views. By the rule of subapertures they show a stack of slices, whose samples
-// all count.
-Rendered Render(const BlockInputs& in, const Block& block, RenderJob job, const Plane<uint8_t>& out,
-                Worker* worker) {
+// Renders the views of a job into the worker's sums. By the rule of subapertures they show a stack
+// of slices, whose samples all count. Returns the samples of a view.
+uint64_t RenderSums(const BlockInputs& in, const Block& block, RenderJob job, Worker* worker) {
   const Counting counting(*job.window, worker);
   job.window = &counting.window();
-  uint64_t samples = Samples(job.rect);
-  int shift = kCompositeBits;
-  if (UsesSubapertures(*in.lens)) {
-    const GatherMap* gathered = block.gathers ? in.gathered : nullptr;
-    const SliceRule& rule = IsBenchmark(*in.lens) ? kFineSlices : kSlices;
-    samples = 3 * CompositeRectangle(job, rule, in.lens->slice_limits, gathered,
-                                     &worker->compositor, worker->sums);
-  } else {
+  if (!UsesSubapertures(*in.lens)) {
     RefocusRectangle(job, &worker->line_scan, worker->sums);
-    shift = job.grid->aperture.sum_bits + kLightBits;
+    return Samples(job.rect);
   }
+  const GatherMap* gathered = block.gathers ? in.gathered : nullptr;
+  const SliceRule& rule = IsBenchmark(*in.lens) ? kFineSlices : kSlices;
+  return 3 * CompositeRectangle(job, rule, in.lens->slice_limits, gathered, &worker->compositor,
+                                worker->sums);
+}
+
+// The fractional bits of the sums that RenderSums leaves.
+int SumBits(const BlockInputs& in, const RenderJob& job) {
+  return UsesSubapertures(*in.lens) ? kCompositeBits : job.grid->aperture.sum_bits + kLightBits;
+}
+
+ExcessSum ExcessOf(const BlockInputs& in) {
+  return {in.kernels, in.windows[0].transfer, ExcessFactor(in.config->highlights)};
+}
+
+// The pictures as a window of what highlights have beyond white.
+Window ExcessWindow(const BlockInputs& in) {
+  Window window = in.windows[0];
+  window.lamp = LargestLamp(in.config->width);
+  return window;
+}
+
+// Renders what highlights are beyond white, too, and adds it to the block. Returns the samples of a
+// view.
+uint64_t RenderExcess(const BlockInputs& in, const Block& block, RenderJob job,
+                      const Plane<uint8_t>& out, Worker* worker) {
+  const Window window = ExcessWindow(in);
+  job.window = &window;
+  const uint64_t samples = RenderSums(in, block, job, worker);
+  const size_t row_samples = 3 * static_cast<size_t>(job.rect.width);
+  for (int32_t row = 0; row < job.rect.height; ++row) {
+    AddExcess(ExcessOf(in), worker->sums + static_cast<size_t>(row) * row_samples, row_samples,
+              SumBits(in, job), At(out, job.rect, row));
+  }
+  return samples;
+}
+
+Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
+                const Plane<uint8_t>& out, Worker* worker) {
+  uint64_t samples = RenderSums(in, block, job, worker);
   if (block.layer == 0) {
-    FinishPicture(in, job.rect, shift, out, *worker);
+    FinishPicture(in, job.rect, SumBits(in, job), out, *worker);
   } else {
-    FinishLayer(in, block, shift, out, *worker);
+    FinishLayer(in, block, SumBits(in, job), out, *worker);
   }
+  if (block.has_highlights) samples += RenderExcess(in, block, job, out, worker);
   const auto views = static_cast<uint64_t>(ApertureOf(*in.tables, *in.lens, block.n).views);
   return {views, views * samples};
 }
@@ -171,7 +206,7 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
                                block.layer, in.config->views == 17);
   if (pinhole) grid.step = 0;
   const RenderJob job = {&in.windows[block.layer], &grid, in.kernels, block.rendered, block.border};
-  if (in.config->skips == 0) return Render(in, block, job, out, worker);
+  if (in.config->skips == 0 || block.has_highlights) return Render(in, block, job, out, worker);
   const Rect& rect = ViewsRect(block);
   // Slices have ends, which move a little even then.
   if (pinhole || (!UsesSubapertures(*in.lens) && NothingMoves(job))) {
@@ -189,11 +224,16 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
 
 void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                Worker* worker) {
-  const Counting counting(in.windows[0], worker);
-  const BlurJob job = {&counting.window(), in.lens->scale, in.tables->blur_kernels,
-                       in.kernels,         block.rect,     block.border.left};
   const BlurScratch scratch = {worker->field.rgb, worker->sums, worker->spans};
-  BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
+  const auto blur = [&](const Window& window, const ExcessSum& excess) {
+    const Counting counting(window, worker);
+    const BlurJob job = {
+        &counting.window(), in.lens->scale, in.tables->blur_kernels, in.kernels, block.rect,
+        block.border.left,  excess};
+    BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
+  };
+  blur(in.windows[0], {in.kernels, in.windows[0].transfer, 0});
+  if (block.has_highlights) blur(ExcessWindow(in), ExcessOf(in));
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 
 #include <cstring>
 
+#include "lib/engine/reach.h"
 #include "lib/engine/stripe_layers.h"
+#include "lib/input/excess.h"
 
 namespace starfocus {
 namespace {
@@ -26,6 +28,7 @@ struct PlanJob {
   const Tables* tables;
   const Lens* lens;
   const CellGrid* cells;
+  const Window* window;  // at layer 0
   Stripe rows;
   StripePlan plan;  // blocks, counts and gathered cells are the output
 };
@@ -39,6 +42,15 @@ constexpr int32_t kFineSide = 32;
 
 bool HasCatsEyes(const PlanJob& job) { return job.tables->opening.cats_eye > 0; }
 
+// Whether blocks in `rect` may show what highlights are beyond white: some view has any as far away
+// as blur and disparity bring them.
+bool HasHighlights(const PlanJob& job, const Rect& rect) {
+  const sf_config& config = *job.config;
+  if (!(config.highlights > 1)) return false;
+  const int32_t around = SideReach(config, job.lens->r_max) - HighlightReach(config);
+  return MayHaveHighlights(*job.window, Extended(rect, {around, around, around, around}));
+}
+
 Block WholeBlock(const PlanJob& job, const Rect& rect) {
   const Lens& lens = *job.lens;
   const bool subapertures = UsesSubapertures(lens);
@@ -48,7 +60,7 @@ Block WholeBlock(const PlanJob& job, const Rect& rect) {
   block.border = {border, border, border, border};
   block.layer = 0;
   block.n = lens.aperture.n;
-  block.gathers = false;
+  block.gathers = block.has_highlights = false;
   const ViewCounts views =
       subapertures ? CountSubapertures(lens.aperture) : CountViews(lens.aperture.n);
   block.cost = PredictTime(
@@ -64,11 +76,14 @@ void PlanWhole(const PlanJob& job, int32_t column) {
   const int32_t side = fine ? kFineSide : largest;
   const int32_t left = column * largest, right = Min(left + largest, job.config->width);
   const int32_t bottom = job.rows.y + job.rows.height;
+  const bool has_highlights =
+      !IsPinhole(lens) && HasHighlights(job, {left, job.rows.y, right - left, job.rows.height});
   int32_t count = 0;
   for (int32_t y = job.rows.y; y < bottom; y += side) {
     for (int32_t x = left; x < right; x += side) {
-      job.plan.BlocksOf(column)[count++] =
-          WholeBlock(job, {x, y, Min(side, right - x), Min(side, bottom - y)});
+      Block& block = job.plan.BlocksOf(column)[count++];
+      block = WholeBlock(job, {x, y, Min(side, right - x), Min(side, bottom - y)});
+      block.has_highlights = has_highlights;
     }
   }
   job.plan.counts[column] = count;
@@ -84,23 +99,28 @@ void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
     return;
   }
   const bool subapertures = UsesSubapertures(lens);
+  const int32_t left = column * plan.side;
+  const bool has_highlights = HasHighlights(
+      job, {left, job.rows.y, Min(plan.side, job.config->width - left), job.rows.height});
   PartitionRules rules;
   rules.width = job.config->width;
   rules.height = job.config->height;
   rules.largest_block = plan.side;
-  rules.max_layer = job.config->max_layer;
+  // What highlights are beyond white is in no layer, and is not gathered.
+  rules.max_layer = has_highlights ? 0 : job.config->max_layer;
+  rules.has_highlights = has_highlights;
   rules.max_n = subapertures ? job.tables->max_subaperture_n : job.tables->max_n;
   rules.subapertures = subapertures;
   rules.n_scale = job.config->n_scale;
   rules.demand = DemandOf(job.tables->opening);
   rules.largest_node = HasCatsEyes(job) ? kFineSide : plan.side;
-  rules.gathers = Gathers(*job.config, lens);
+  rules.gathers = !has_highlights && Gathers(*job.config, lens);
   rules.scale = lens.scale;
   rules.timing = job.config->timing;
   rules.views = subapertures ? job.tables->subaperture_view_counts : job.tables->view_counts;
   plan.counts[column] =
-      PartitionBlock(*job.kernels, rules, *job.cells, column * plan.side, job.rows.y,
-                     lens.reach.cells, worker->partition, plan.BlocksOf(column), plan.gathered);
+      PartitionBlock(*job.kernels, rules, *job.cells, left, job.rows.y, lens.reach.cells,
+                     worker->partition, plan.BlocksOf(column), plan.gathered);
 }
 
 void MeasureColumn(const MeasureJob& job, int32_t index, Worker*) {
@@ -251,7 +271,13 @@ sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engi
         RunJobs<MeasureJob, MeasureColumn>(job, columns, runner, &engine->crew);
     if (status != SF_OK) return status;
   }
-  const PlanJob job = {&engine->config, engine->kernels, &engine->tables, &lens, &state.cells, rows,
+  const PlanJob job = {&engine->config,
+                       engine->kernels,
+                       &engine->tables,
+                       &lens,
+                       &state.cells,
+                       &engine->pictures.windows[0],
+                       rows,
                        state.plan};
   const sf_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, runner, &engine->crew);
   if (status != SF_OK) return status;

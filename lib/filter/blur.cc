@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "lib/input/load_field.h"
+
 namespace starfocus {
 namespace {
 
@@ -173,13 +175,11 @@ void LoadPixels(const BlurJob& job, int16_t* rgb) {
         static_cast<uint64_t>(width) * static_cast<uint64_t>(job.rect.height + 2 * job.border);
   }
   for (int32_t row = 0; row < job.rect.height + 2 * job.border; ++row) {
-    const uint8_t* from =
-        window.centre.Row(Clamp(job.rect.y - job.border + row, 0, window.height - 1));
+    const int32_t y = Clamp(job.rect.y - job.border + row, 0, window.height - 1);
     int16_t* to = rgb + 3 * static_cast<size_t>(row) * width;
     const int32_t left = job.rect.x - job.border;
     const int32_t first = Clamp(-left, 0, width), last = Clamp(window.width - left, 0, width);
-    job.kernels->Decode(from + 3 * (left + first), 3 * static_cast<size_t>(last - first),
-                        window.transfer->encoding, to + 3 * first);
+    LoadLight(*job.kernels, window, left + first, y, last - first, to + 3 * first);
     for (int32_t k = 0; k < 3 * first; ++k) to[k] = to[3 * first + k % 3];
     for (int32_t k = 3 * last; k < 3 * width; ++k) to[k] = to[k - 3];
   }
@@ -275,6 +275,10 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
       list.Flush();
       const int bits = kernel.sum_bits + kLightBits;
       CheckSums(scratch.accumulators, samples, bits);
+      if (job.excess.factor != 0) {
+        AddExcess(job.excess, scratch.accumulators, samples, bits, out + 3 * begin);
+        continue;
+      }
       job.kernels->Finish(scratch.accumulators, samples, bits, job.window->transfer->encoding,
                           out + 3 * begin);
     }

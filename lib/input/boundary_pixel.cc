@@ -64,6 +64,18 @@ Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& m
 
 }  // namespace
 
+Colour CentreView::ColourAt(int32_t x, int32_t y) const {
+  const int32_t column = Clamp(x, 0, window.width - 1), row = Clamp(y, 0, window.height - 1);
+  Colour colour;
+  if (window.lamp > 0) {
+    ReadExcess(ViewOf(window, 0), column, row, colour.rgb);
+    return colour;
+  }
+  const uint8_t* codes = window.centre.Row(row) + 3 * static_cast<ptrdiff_t>(column);
+  for (int c = 0; c < 3; ++c) colour.rgb[c] = window.transfer->light[codes[c]];
+  return colour;
+}
+
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const int32_t x = pixel.x, y = pixel.y;
   const int dx = pixel.side[0], dy = pixel.side[1];
@@ -73,7 +85,13 @@ Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   Mixture mixture;
   mixture.near = centre.ColourAt(x + pure * dx, y + pure * dy);
   mixture.far = ReadFar(centre.window, pixel, mixed);
-  mixture.share = ShareOf(mixture.near, mixture.far, mixed);
+  if (centre.window.lamp > 0) {
+    Window light = centre.window;
+    light.lamp = 0;
+    mixture.share = FindMixture({light}, pixel).share;
+  } else {
+    mixture.share = ShareOf(mixture.near, mixture.far, mixed);
+  }
   return mixture;
 }
 

@@ -27,13 +27,8 @@ struct CentreView {
     return window.disparity.Row(
         Clamp(y, 0, window.picture_height - 1))[Clamp(x, 0, window.picture_width - 1)];
   }
-  // Light of a pixel.
-  Colour ColourAt(int32_t x, int32_t y) const {
-    const uint8_t* codes = window.centre.Row(Clamp(y, 0, window.height - 1)) +
-                           3 * static_cast<ptrdiff_t>(Clamp(x, 0, window.width - 1));
-    const int16_t* light = window.transfer->light;
-    return {{light[codes[0]], light[codes[1]], light[codes[2]]}};
-  }
+  // Light of a pixel, or its excess (window.lamp).
+  Colour ColourAt(int32_t x, int32_t y) const;
 };
 
 // A pixel and the depth edge beside it: a step of more than `step` up to `near`, kDisparityBits.
@@ -52,7 +47,8 @@ struct Mixture {
 
 // The near colour is that of the pixel behind the edge, or one pixel on where the surface goes on;
 // the far one is read from the captured view beside the centre in which the nearer surface has
-// moved out of the way. The window has such views.
+// moved out of the way. The window has such views. Of a window of excess the share is that of
+// light, and the colours are excess.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
 // Calls visit(column, row) for those pixels of a field at layer 0 that are farther away, by more

@@ -20,10 +20,15 @@ void RepeatEdges(int32_t first, int32_t last, int32_t width, int16_t* rgb, int16
   }
 }
 
-// Writes the light of `count` pixels of the centre view from (x, y) on.
+}  // namespace
+
 void LoadLight(const simd::Kernels& kernels, const Window& window, int32_t x, int32_t y,
                int32_t count, int16_t* rgb) {
   const size_t samples = 3 * static_cast<size_t>(count);
+  if (window.lamp > 0) {
+    for (int32_t p = 0; p < count; ++p) ReadExcess(ViewOf(window, 0), x + p, y, rgb + 3 * p);
+    return;
+  }
   if (window.layer == 0) {
     kernels.Decode(window.centre.Row(y) + 3 * x, samples, window.transfer->encoding, rgb);
     return;
@@ -33,8 +38,6 @@ void LoadLight(const simd::Kernels& kernels, const Window& window, int32_t x, in
     rgb[k] = static_cast<int16_t>(from[k] << (kLightBits - simd::kLayerBits));
   }
 }
-
-}  // namespace
 
 void LoadField(const simd::Kernels& kernels, const Window& window, const Rect& rect,
                const Border& border, Field* field) {

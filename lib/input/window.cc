@@ -21,6 +21,31 @@ constexpr ViewPosition kPositions[kMaxViews] = {
     {1, 0}, {-1, 0}, {0, 1},  {0, -1}, {1, 1},  {-1, 1}, {1, -1}, {-1, -1},
 };
 
+// The excess of pixel (x, y) of a view, whose outermost pixels go on beyond the picture.
+void ReadExcessBeyond(const Window& window, int index, int32_t x, int32_t y, int16_t* rgb) {
+  ReadExcess(ViewOf(window, index), Clamp(x, 0, window.picture_width - 1),
+             Clamp(y, 0, window.picture_height - 1), rgb);
+}
+
+// The excess at a place of layer 0, with 2 * kShiftBits more.
+void InterpolateExcess(const Window& window, int index, int32_t x, int32_t y, int32_t* sums) {
+  const int32_t wx = x & (kShiftOne - 1), wy = y & (kShiftOne - 1);
+  sums[0] = sums[1] = sums[2] = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int32_t right = k & 1, below = k >> 1;
+    const int32_t weight = (right != 0 ? wx : kShiftOne - wx) * (below != 0 ? wy : kShiftOne - wy);
+    if (weight == 0) continue;
+    int16_t rgb[3];
+    ReadExcessBeyond(window, index, (x >> kShiftBits) + right, (y >> kShiftBits) + below, rgb);
+    for (int c = 0; c < 3; ++c) sums[c] += rgb[c] * weight;
+  }
+}
+
+int16_t RoundPlace(int32_t sum) {
+  constexpr uint32_t kHalf = 1 << (2 * kShiftBits - 1);
+  return static_cast<int16_t>((static_cast<uint32_t>(sum) + kHalf) >> (2 * kShiftBits));
+}
+
 // Triangular taps 1 2 1 and 1 2 3 4 3 2 1 of layers 1 and 2; each sums to 4^L.
 constexpr int32_t Tap(int layer, int32_t k) { return (1 << layer) - Abs(k); }
 
@@ -125,10 +150,7 @@ void ReadLine(const Pixels& pixels, int layer, const CapturedLine& line, int32_t
     SubsampleLine<1>(pixels, line, count, rgb);
     return;
   }
-  const auto take = [&](int32_t k, int32_t sum) {
-    constexpr uint32_t kHalf = 1 << (2 * kShiftBits - 1);
-    rgb[k] = static_cast<int16_t>((static_cast<uint32_t>(sum) + kHalf) >> (2 * kShiftBits));
-  };
+  const auto take = [&](int32_t k, int32_t sum) { rgb[k] = RoundPlace(sum); };
   if (line.x % kShiftOne == 0 || line.y % kShiftOne == 0) {
     InterpolateOnAxis(pixels, line, count, take);
   } else {
@@ -153,6 +175,15 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
     Checked(ranges::kHolePosition, line.y + line.dy * last * kShiftOne);
   }
   const int layer = window.layer;
+  if (window.lamp > 0) {
+    for (int32_t p = 0; p < count; ++p, rgb += 3) {
+      int32_t sums[3];
+      InterpolateExcess(window, index, line.x + line.dx * p * kShiftOne,
+                        line.y + line.dy * p * kShiftOne, sums);
+      for (int c = 0; c < 3; ++c) rgb[c] = RoundPlace(sums[c]);
+    }
+    return;
+  }
   const CapturedLine from = layer == 0 ? line : OfPicture(line, layer);
   // Rows and columns that are read at the first and the last place.
   const int32_t x = layer == 0 ? line.x >> kShiftBits : from.x;
@@ -178,6 +209,10 @@ void PrefetchCaptured(const Window& window, int index, const CapturedLine& line)
 
 void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
                   int16_t* rgb) {
+  if (window.lamp > 0) {
+    for (int32_t p = 0; p < count; ++p) ReadExcessBeyond(window, index, x + p, y, rgb + 3 * p);
+    return;
+  }
   const Endless pixels = EndlessView(window, index);
   const int16_t* light = pixels.light;
   const uint8_t* row = pixels.Row(y);
@@ -195,6 +230,10 @@ void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t
 }
 
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {
+  if (window.lamp > 0) {
+    InterpolateExcess(window, index, x, y, rgb);
+    return;
+  }
   const Endless pixels = EndlessView(window, index);
   InterpolateOnAxis(pixels,
                     {Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y), 0, 0}, 1,
@@ -204,6 +243,23 @@ void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, 
 int32_t CapturedBytes(const Window& window) {
   const int32_t taps = window.layer == 0 ? 2 : 2 * (1 << window.layer) - 1;
   return 3 * taps * taps;
+}
+
+bool MayHaveHighlights(const Window& window, const Rect& rect) {
+  const int32_t left = Clamp(rect.x, 0, window.picture_width - 1);
+  const int32_t right = Clamp(rect.x + rect.width, left + 1, window.picture_width);
+  const int32_t top = Clamp(rect.y, 0, window.picture_height - 1);
+  const int32_t bottom = Clamp(rect.y + rect.height, top + 1, window.picture_height);
+  const int32_t samples = 3 * (right - left);
+  for (int32_t y = top; y < bottom; ++y) {
+    for (int32_t view = 0; view < window.views; ++view) {
+      const uint8_t* row = window.view[view].Row(y) + 3 * static_cast<ptrdiff_t>(left);
+      uint8_t brightest = 0;
+      for (int32_t k = 0; k < samples; ++k) brightest = row[k] > brightest ? row[k] : brightest;
+      if (brightest >= kFirstExcess) return true;
+    }
+  }
+  return false;
 }
 
 int CapturedView(int u, int v, bool half) {

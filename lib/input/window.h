@@ -10,6 +10,7 @@
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/base/transfer.h"
+#include "lib/input/excess.h"
 
 namespace starfocus {
 
@@ -36,6 +37,9 @@ struct Window {
   Plane<const uint8_t> view[kMaxViews];  // of the pictures
   Plane<const int16_t> disparity;        // of the pictures, kDisparityBits
   Reads* reads = nullptr;                // null: nobody counts
+  // Largest lamp in pixels (LargestLamp): what is read is then not light, but what highlights have
+  // of it beyond white, at layer 0. 0: light.
+  int32_t lamp = 0;
 };
 
 // Places one after the other in a captured view: the first at (x, y) of the layer, kShiftBits, each
@@ -62,6 +66,14 @@ void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t
 
 // One such colour at L = 0 before it is rounded, with 2 * kShiftBits more; x or y is a whole pixel.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
+
+// A captured view with the window's lamps.
+inline LampView ViewOf(const Window& window, int index) {
+  return {window.view[index], window.picture_width, window.picture_height, window.lamp};
+}
+
+// Whether any of the views has codes of kFirstExcess or more in the columns and rows of `rect`.
+bool MayHaveHighlights(const Window& window, const Rect& rect);
 
 // Bytes that one such colour is made of.
 int32_t CapturedBytes(const Window& window);

@@ -179,6 +179,7 @@ class Partition {
     const Rect& rect = block->rect;
     const int32_t layer = Layer(stats);
     block->gathers = false;
+    block->has_highlights = rules_.has_highlights;
     block->layer = layer;
     block->n = Min(Views(stats, layer), rules_.max_n);
     const int32_t margin = LayerMargin(layer);

@@ -20,11 +20,12 @@ struct Block {
   // Of views, at the layer: with the margin that upsampling reads; at layer 0 around the cells that
   // are not gathered, and empty when all are.
   Rect rendered;
-  Border border;  // of `rendered`, at the layer
-  int32_t layer;  // L
-  int32_t n;      // N
-  bool gathers;   // the cells of the map
-  uint64_t cost;  // predicted, picoseconds
+  Border border;        // of `rendered`, at the layer
+  int32_t layer;        // L
+  int32_t n;            // N
+  bool gathers;         // the cells of the map
+  bool has_highlights;  // views may show some: rendered twice
+  uint64_t cost;        // predicted, picoseconds
 };
 
 struct PartitionRules {
@@ -32,11 +33,12 @@ struct PartitionRules {
   int32_t largest_block;
   int32_t max_layer;
   int32_t max_n;
-  bool subapertures;     // ViewsBySubaperture instead of (9)
-  double n_scale;        // of their N
-  Demand demand;         // of the opening
-  int32_t largest_node;  // side of the largest block that is made
-  bool gathers;          // smooth cells, with cells
+  bool subapertures;            // ViewsBySubaperture instead of (9)
+  double n_scale;               // of their N
+  Demand demand;                // of the opening
+  int32_t largest_node;         // side of the largest block that is made
+  bool gathers;                 // smooth cells, with cells
+  bool has_highlights = false;  // of the blocks
   BlurScale scale;
   sf_timing timing;
   const ViewCounts* views;  // by N, up to max_n

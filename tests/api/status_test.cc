@@ -89,6 +89,8 @@ const char* WordsOf(sf_status status) {
       return "heap";
     case SF_ERROR_POSITION:
       return "position";
+    case SF_ERROR_HIGHLIGHTS:
+      return "highlights";
     case SF_ERROR_TRANSFER:
       return "SF_TRANSFER_SRGB or SF_TRANSFER_NONE";
     case SF_ERROR_F_STOP:

@@ -208,6 +208,8 @@ TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
              {"scene new --size -4x4", "--size"},
              {"scene new --views 4", "--views"},
              {"scene new --threads 0", "--threads"},
+             {"refocus lf --focus 1 -o a.png --highlights 0.5", "--highlights"},
+             {"refocus lf --focus 1 -o a.png --highlights 65", "--highlights"},
              {"scene new --transfer linear", "--transfer"},
              {"refocus lf --focus 1 -o a.png --transfer SRGB", "--transfer"},
              {"scene new --truth 1", "--truth"},

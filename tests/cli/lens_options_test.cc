@@ -95,6 +95,25 @@ TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values
   }
 }
 
+TEST_CASE("cli: clipped lamps are nearer to the truth as highlights") {
+  TempFolder folder;
+  REQUIRE(Call(folder, "scene lf --size 320x240 --views 5 --name lamps --truth 4,1").code == 0);
+  Image truth;
+  REQUIRE(ReadImage(folder.file("lf/truth_dt4_ut1.png"), &truth) == "");
+  const auto psnr = [&](const std::string& highlights) {
+    REQUIRE(Call(folder, "refocus lf --focus 4 -o a.png --report a.json --highlights " + highlights)
+                .code == 0);
+    CHECK(Text(folder.file("a.json")).find("\"highlights\": " + highlights) != std::string::npos);
+    Image picture;
+    REQUIRE(ReadImage(folder.file("a.png"), &picture) == "");
+    return Psnr(picture, truth);
+  };
+  const double clipped = psnr("1.0"), bright = psnr("3.0");
+  CAPTURE(clipped);
+  CAPTURE(bright);
+  CHECK(bright - clipped > 0.5);
+}
+
 TEST_CASE(
     "cli: shapes of the aperture change the picture and its truth, and the report says which") {
   TempFolder folder;

@@ -28,6 +28,64 @@ LightField Load(const test::Scene& scene, int transfer) {
   return field;
 }
 
+bool IsHighlight(const uint8_t* codes) {
+  return std::count_if(codes, codes + 3, [](uint8_t code) { return code >= 251; }) >= 2;
+}
+
+// How many highlights of the view follow each other along (dx, dy) through (x, y): any number where
+// they reach the picture's edge.
+int RunThrough(const test::Scene& scene, int view, int x, int y, int dx, int dy) {
+  int run = 1;
+  for (const int side : {1, -1}) {
+    for (int k = 1;; ++k) {
+      const int column = x + side * k * dx, row = y + side * k * dy;
+      if (column < 0 || column >= scene.width || row < 0 || row >= scene.height) return 1 << 20;
+      if (!IsHighlight(scene.Pixel(view, column, row))) break;
+      ++run;
+    }
+  }
+  return run;
+}
+
+bool HasHighlights(const test::Scene& scene) {
+  for (int view = 0; view < scene.views(); ++view) {
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) {
+        if (IsHighlight(scene.Pixel(view, x, y))) return true;
+      }
+    }
+  }
+  return false;
+}
+
+// What highlights have beyond white, of a clipped sample that is one white more.
+LightField LoadExcess(const test::Scene& scene, int transfer) {
+  LightField field = Load(scene, transfer);
+  const int lamp = std::clamp(scene.width / 32, 16, 128);
+  for (int view = 0; view < scene.views(); ++view) {
+    double u = 0, v = 0;
+    sf_view_position(view, &u, &v);
+    Picture& picture = field.at({int(2 * u), int(2 * v)});
+    picture.light = picture.colours;
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) {
+        const uint8_t* codes = scene.Pixel(view, x, y);
+        Colour& colour = picture.colours[picture.At(x, y)];
+        colour = {0, 0, 0};
+        if (!IsHighlight(codes)) continue;
+        const int run =
+            std::min(RunThrough(scene, view, x, y, 1, 0), RunThrough(scene, view, x, y, 0, 1));
+        const double share = std::clamp(2 - double(run) / lamp, 0.0, 1.0);
+        for (size_t c = 0; c < 3; ++c) {
+          const double step = std::max(0, codes[c] - 250) / 5.0;
+          colour[c] = 255 * step * step * share;
+        }
+      }
+    }
+  }
+  return field;
+}
+
 Lens MakeLens(const sf_params& params, const Opening& opening, int n, int layer,
               bool cells = false) {
   Lens lens;
@@ -177,9 +235,13 @@ void Put(const Picture& from, int x0, int y0, int width, Result* result) {
   }
 }
 
-// Light becomes codes.
-void Encode(int transfer, Result* result) {
-  for (double& value : result->rgb) value = test::CodeOf(value, transfer);
+// Light becomes codes, with what highlights add to it (nothing: empty).
+void Encode(const sf_config& config, const std::vector<double>& excess, Result* result) {
+  for (size_t i = 0; i < result->rgb.size(); ++i) {
+    double& value = result->rgb[i];
+    if (!excess.empty()) value = std::min(255.0, value + (config.highlights - 1) * excess[i]);
+    value = test::CodeOf(value, config.transfer);
+  }
 }
 
 }  // namespace
@@ -190,9 +252,31 @@ int ViewsAlongRadius(double r_max, int mode) {
   return std::max(4, int(std::ceil(0.787 * r_max)));
 }
 
+namespace {
+
+// All blocks of one size by the paper's rule.
+void RefocusFrame(const LightField& field, const Lens& lens, int border, int block,
+                  Result* result) {
+  const Picture& centre = field.at({0, 0});
+  for (int y = 0; y < centre.height; y += block) {
+    for (int x = 0; x < centre.width; x += block) {
+      const Rectangle rectangle = {x,
+                                   y,
+                                   std::min(block, centre.width - x),
+                                   std::min(block, centre.height - y),
+                                   border,
+                                   border,
+                                   border,
+                                   border};
+      Put(RefocusRectangle(field, centre, lens, rectangle), x, y, centre.width, result);
+    }
+  }
+}
+
+}  // namespace
+
 Result Refocus(const test::Scene& scene, const sf_params& params, const sf_config& config,
                int block) {
-  const LightField field = Load(scene, config.transfer);
   const double r_max = params.aperture * std::max(std::fabs(scene.disparity_min - params.focus),
                                                   std::fabs(scene.disparity_max - params.focus));
   const int n = ViewsAlongRadius(r_max, params.mode), border = int(std::ceil(r_max)) + 2;
@@ -203,20 +287,12 @@ Result Refocus(const test::Scene& scene, const sf_params& params, const sf_confi
   for (int j = -n; j <= n; ++j) {
     for (int i = -n; i <= n; ++i) result.views += lens.Contains(i, j);
   }
-  for (int y = 0; y < scene.height; y += block) {
-    for (int x = 0; x < scene.width; x += block) {
-      const Rectangle rectangle = {x,
-                                   y,
-                                   std::min(block, scene.width - x),
-                                   std::min(block, scene.height - y),
-                                   border,
-                                   border,
-                                   border,
-                                   border};
-      Put(RefocusRectangle(field, field.at({0, 0}), lens, rectangle), x, y, scene.width, &result);
-    }
+  Result excess = result;
+  RefocusFrame(Load(scene, config.transfer), lens, border, block, &result);
+  if (config.highlights > 1 && HasHighlights(scene)) {
+    RefocusFrame(LoadExcess(scene, config.transfer), lens, border, block, &excess);
   }
-  Encode(config.transfer, &result);
+  Encode(config, excess.rgb, &result);
   return result;
 }
 
@@ -259,19 +335,22 @@ Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& le
 
 }  // namespace
 
-std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
-                                  const sf_config& config, const starfocus::SliceLimits* limits,
-                                  const std::vector<Block>& blocks) {
-  const LightField field = Load(scene, config.transfer);
-  const std::vector<Picture> layers = MakeLayers(field.at({0, 0}));
+namespace {
+
+// Views, and cells that are gathered, of the blocks; with `excess` of those alone that may show
+// highlights, which are at layer 0 and gather nothing.
+void RefocusAll(const LightField& field, const sf_params& params, const sf_config& config,
+                const starfocus::SliceLimits* limits, const std::vector<Block>& blocks, bool excess,
+                Result* result) {
+  const Picture& centre = field.at({0, 0});
+  const std::vector<Picture> layers = MakeLayers(centre);
   const bool benchmark = params.mode == SF_MODE_BENCHMARK;
   const Slicing slicing = {limits, size_t(benchmark ? 32 : 16), benchmark ? 0.125 : 0.375};
-  Result result;
-  result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   for (const Block& block : blocks) {
+    if (excess && (block.layer > 0 || !block.gathered.empty())) continue;
     const bool by_subaperture = limits != nullptr && block.n > 0;
-    const Opening here =
-        Opening(config).At(block.x, block.y, block.width, block.height, scene.width, scene.height);
+    const Opening here = Opening(config).At(block.x, block.y, block.width, block.height,
+                                            centre.width, centre.height);
     const Lens lens = MakeLens(params, here, block.n, block.layer, by_subaperture);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
@@ -282,13 +361,27 @@ std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& par
                                    ? CompositeRectangle(field, layer, lens, rectangle, slicing)
                                    : RefocusRectangle(field, layer, lens, rectangle);
       Put(Finished(block, rendered), block.layer == 0 ? rectangle.x : block.x,
-          block.layer == 0 ? rectangle.y : block.y, scene.width, &result);
+          block.layer == 0 ? rectangle.y : block.y, centre.width, result);
     }
     for (const GatheredCell& cell : block.gathered) {
-      Put(Gather(field, cell, lens), cell.x, cell.y, scene.width, &result);
+      Put(Gather(field, cell, lens), cell.x, cell.y, centre.width, result);
     }
   }
-  Encode(config.transfer, &result);
+}
+
+}  // namespace
+
+std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
+                                  const sf_config& config, const starfocus::SliceLimits* limits,
+                                  const std::vector<Block>& blocks) {
+  Result result;
+  result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
+  Result excess = result;
+  RefocusAll(Load(scene, config.transfer), params, config, limits, blocks, false, &result);
+  if (config.highlights > 1 && HasHighlights(scene)) {
+    RefocusAll(LoadExcess(scene, config.transfer), params, config, limits, blocks, true, &excess);
+  }
+  Encode(config, excess.rgb, &result);
   return result.rgb;
 }
 

@@ -5,15 +5,16 @@ namespace reference {
 namespace {
 
 // Interpolated linearly; beyond the picture its edge goes on.
-Colour ReadPicture(const LightField& field, int u2, int v2, double x, double y) {
+Colour ReadPicture(const LightField& field, int u2, int v2, double x, double y,
+                   std::vector<Colour> Picture::*colours = &Picture::colours) {
   const Picture& picture = field.at({u2, v2});
   const int left = int(std::floor(x)), top = int(std::floor(y));
   Colour colour = {0, 0, 0};
   for (int row = top; row <= top + 1; ++row) {
     for (int column = left; column <= left + 1; ++column) {
       const double weight = (1 - std::fabs(x - column)) * (1 - std::fabs(y - row));
-      const Colour& pixel = picture.colours[picture.At(std::clamp(column, 0, picture.width - 1),
-                                                       std::clamp(row, 0, picture.height - 1))];
+      const Colour& pixel = (picture.*colours)[picture.At(std::clamp(column, 0, picture.width - 1),
+                                                          std::clamp(row, 0, picture.height - 1))];
       for (size_t c = 0; c < 3; ++c) colour[c] += weight * pixel[c];
     }
   }
@@ -56,19 +57,25 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
                       std::clamp(y + k * side.y, 0, picture.height - 1));
   };
   const int disparity = picture.disparities[at(0)], near = picture.disparities[at(1)];
-  const Colour& mixed = picture.colours[at(0)];
   const double distance = field.size() == 17 ? 0.5 : 1;
-  Mixed result;
-  result.far = ReadPicture(field, int(-side.x * 2 * distance), int(-side.y * 2 * distance),
-                           x + side.x * distance * disparity / 64.0,
-                           y + side.y * distance * disparity / 64.0);
-  // On the engine's grid of light; halves towards the pixel.
-  for (size_t c = 0; c < 3; ++c) {
-    double& far = result.far[c];
-    far = (mixed[c] > far ? std::floor(128 * far + 0.5) : std::ceil(128 * far - 0.5)) / 128;
-  }
-  result.near = picture.colours[at(std::abs(picture.disparities[at(2)] - near) <= step ? 2 : 1)];
-  result.share = ShareOf(result.near, result.far, mixed);
+  const auto mixed_of = [&](std::vector<Colour> Picture::*colours) {
+    const Colour& mixed = (picture.*colours)[at(0)];
+    Mixed result;
+    result.far = ReadPicture(field, int(-side.x * 2 * distance), int(-side.y * 2 * distance),
+                             x + side.x * distance * disparity / 64.0,
+                             y + side.y * distance * disparity / 64.0, colours);
+    // On the engine's grid of light; halves towards the pixel.
+    for (size_t c = 0; c < 3; ++c) {
+      double& far = result.far[c];
+      far = (mixed[c] > far ? std::floor(128 * far + 0.5) : std::ceil(128 * far - 0.5)) / 128;
+    }
+    result.near =
+        (picture.*colours)[at(std::abs(picture.disparities[at(2)] - near) <= step ? 2 : 1)];
+    result.share = ShareOf(result.near, result.far, mixed);
+    return result;
+  };
+  Mixed result = mixed_of(&Picture::colours);
+  if (!picture.light.empty()) result.share = mixed_of(&Picture::light).share;
   return result;
 }
 

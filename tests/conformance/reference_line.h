@@ -34,7 +34,8 @@ inline int RoundedTo64(double value) { return static_cast<int>(std::floor(value 
 // A view, rendered or captured, with its disparity (1/64) where it has one.
 struct Picture {
   int width = 0, height = 0;
-  std::vector<Colour> colours;
+  std::vector<Colour> colours;  // light, or what highlights have of it beyond white
+  std::vector<Colour> light;  // by which mixtures are told where colours are not light; else empty
   std::vector<int> disparities;
 
   Picture(int w, int h)

@@ -126,21 +126,24 @@ void SetConfig(Trial* trial, test::Random* random) {
   }
   if (random->Int(0, 1) == 0) config.n_scale = random->Real(SF_MIN_N_SCALE, SF_MAX_N_SCALE);
   config.transfer = random->Int(0, 1) == 0 ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
+  const int lamps = random->Int(0, 5);
+  if (lamps < 2) config.highlights = float(random->Real(1, lamps == 0 ? 4 : 16));
   if (random->Int(0, 1) == 0) test::RandomShape(&config, random);
 }
 
 }  // namespace
 
 std::string Trial::Text() const {
-  char text[500];
-  std::snprintf(
-      text, sizeof(text),
-      "%dx%d, %d views, %s, rule %d, disparity [%.9g, %.9g], focus %.9g, aperture %.9g, "
-      "block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u, transfer %d, %s",
-      scene.width, scene.height, scene.views(), kModes[params.mode], params.rule,
-      double{scene.disparity_min}, double{scene.disparity_max}, params.focus, params.aperture,
-      config.largest_block, config.max_layer, config.theta, config.n_scale, config.gather,
-      config.timing.block, config.transfer, test::ShapeText(config).c_str());
+  char text[600];
+  std::snprintf(text, sizeof(text),
+                "%dx%d, %d views, %s, rule %d, disparity [%.9g, %.9g], focus %.9g, aperture %.9g, "
+                "block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u, transfer "
+                "%d, highlights %.9g, %s",
+                scene.width, scene.height, scene.views(), kModes[params.mode], params.rule,
+                double{scene.disparity_min}, double{scene.disparity_max}, params.focus,
+                params.aperture, config.largest_block, config.max_layer, config.theta,
+                config.n_scale, config.gather, config.timing.block, config.transfer,
+                double{config.highlights}, test::ShapeText(config).c_str());
   return text;
 }
 
@@ -152,6 +155,8 @@ Trial MakeTrial(uint64_t seed) {
   SetConfig(&trial, &random);
   return trial;
 }
+
+int MostLevels(const Trial& trial) { return trial.config.highlights > 4 ? 2 : 1; }
 
 Distance Measure(const Trial& trial) {
   test::Engine engine(trial.config);

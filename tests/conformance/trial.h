@@ -23,6 +23,10 @@ struct Trial {
 
 Trial MakeTrial(uint64_t seed);
 
+// Gray levels that the engine may be from the reference: what highlights are beyond white is
+// rounded before it is multiplied.
+int MostLevels(const Trial& trial);
+
 // How far the engine is from the reference, which is given the engine's partition.
 Distance Measure(const Trial& trial);
 

@@ -54,6 +54,8 @@ sf_config MakeConfig(Input* input) {
   config.skips = config.deblocking % 4 != 0;
   config.gather = config.deblocking % 3 != 0;
   config.n_scale = 0.5 + 0.25 * (config.deblocking % 7);
+  if (config.deblocking % 7 == 1)
+    config.highlights = 1.0F + static_cast<float>(config.deblocking) / 8;
   config.transfer = config.deblocking % 5 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
   if (config.deblocking % 2 == 0) SetShape(config.deblocking * 2 / 3, &config);
   if (input->Rarely()) {

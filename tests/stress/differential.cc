@@ -40,6 +40,7 @@ Setup RandomCase(test::Random* random) {
   Setup setup = RandomSetup(kRegimes[std::min(random->Int(0, 4), random->Int(0, 4))], random);
   LimitWork(&setup);
   if (random->Int(0, 7) == 0) setup.config.largest_block = 0;  // the library's choice
+  if (random->Int(0, 3) == 0) setup.config.highlights = float(random->Real(1, SF_MAX_HIGHLIGHTS));
   if (random->Int(0, 3) == 0) {
     setup.config.max_blur =
         std::min(SF_MAX_BLUR, std::ceil(setup.config.max_blur) + random->Int(0, 8));

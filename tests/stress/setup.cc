@@ -41,9 +41,9 @@ std::string Setup::Text() const {
          Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
          std::to_string(config.largest_block) + ", layers " + std::to_string(config.max_layer) +
          ", deblocking " + std::to_string(config.deblocking) + ", transfer " +
-         std::to_string(config.transfer) + ", theta " + Number(config.theta) + ", n_scale " +
-         Number(config.n_scale) + (config.gather != 0 ? "" : ", nothing gathered") + ", " +
-         test::ShapeText(config);
+         std::to_string(config.transfer) + ", highlights " + Number(double{config.highlights}) +
+         ", theta " + Number(config.theta) + ", n_scale " + Number(config.n_scale) +
+         (config.gather != 0 ? "" : ", nothing gathered") + ", " + test::ShapeText(config);
 }
 
 double RandomRadius(double largest, test::Random* random) {

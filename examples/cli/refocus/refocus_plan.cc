@@ -126,6 +126,10 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
                     "What codes of the pictures stand for: light coded as sRGB, which a lens adds, "
                     "or values to be averaged as they are",
                     &options->transfer);
+  command
+      ->add_option("--highlights", options->highlights,
+                   "1 to 64: how many times white the lamps are that the pictures clip")
+      ->capture_default_str();
   command->add_option("--views", options->views, "17, 9, 5 or 1; default: all of the folder");
   command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
   command->add_flag("--fill-invalid", options->fill_invalid,
@@ -168,6 +172,9 @@ Error PlanLens(const LensOptions& options, LensPlan* plan) {
   if (error.empty()) error = ParseMode(options.mode, &plan->mode);
   if (error.empty()) error = ParseRule(options.rule, &plan->rule);
   if (error.empty()) error = ParseTransfer("--transfer", options.transfer, &plan->transfer);
+  if (error.empty()) {
+    error = ParseHighlights("--highlights", options.highlights, &plan->highlights);
+  }
   if (error.empty()) error = ParseScale("--n-scale", options.n_scale, &plan->n_scale);
   return error.empty() ? PlanBlocks(options, plan) : error;
 }
@@ -270,6 +277,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.timing = plan.timing;
   task.config.n_scale = plan.n_scale;
   task.config.transfer = plan.transfer;
+  task.config.highlights = static_cast<float>(plan.highlights);
   sf_params_init(&task.params);
   task.params.mode = plan.mode;
   task.params.rule = plan.rule;

@@ -20,7 +20,7 @@ struct LensOptions {
   std::string focus, focus_at, aperture, f_stop, widest, strength = "100";
   std::string mode = "block", rule, views, threads = "1";
   std::string largest_block, max_layer = "2", deblocking = "35", n_scale = "1", timing;
-  std::string transfer = "srgb";
+  std::string transfer = "srgb", highlights = "1";
   ShapeOptions shape;
   bool fill_invalid = false;
 };
@@ -41,6 +41,7 @@ struct LensPlan {
   int max_layer = 0, deblocking = 0;
   double n_scale = 1;
   sf_transfer transfer = SF_TRANSFER_SRGB;
+  double highlights = 1;
   sf_timing timing = {};
   sf_config config = {};  // the shape of the aperture, and defaults
 };

@@ -107,6 +107,7 @@ nlohmann::ordered_json ReportJson(const EngineTask& task, const EngineResult& re
   json["views"] = task.config.views;
   json["focus"] = task.params.focus;
   json["aperture"] = task.params.aperture;
+  json["highlights"] = task.config.highlights;
   json["transfer"] = task.config.transfer == SF_TRANSFER_NONE ? "none" : "srgb";
   json["shape"] = ShapeJson(task.config);
   json["n_scale"] = task.config.n_scale;

@@ -106,7 +106,8 @@ typedef enum sf_status {
   SF_ERROR_ROTATION = 41,    /**< rotation outside [-360, 360] */
   SF_ERROR_CURVATURE = 42,   /**< curvature outside [0, 1] */
   SF_ERROR_RING = 43,        /**< ring_inner outside [0, SF_MAX_RING_INNER] */
-  SF_ERROR_CATS_EYE = 44     /**< cats_eye outside [0, 1] */
+  SF_ERROR_CATS_EYE = 44,    /**< cats_eye outside [0, 1] */
+  SF_ERROR_HIGHLIGHTS = 45   /**< highlights outside [1, SF_MAX_HIGHLIGHTS] */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -129,6 +130,7 @@ SF_API size_t sf_params_size(void);
 #define SF_MAX_TIMING 100000000u
 #define SF_MIN_N_SCALE 0.5
 #define SF_MAX_N_SCALE 2.0
+#define SF_MAX_HIGHLIGHTS 64.0
 #define SF_MIN_BLADES 3
 #define SF_MAX_BLADES 12
 #define SF_MAX_RING_INNER 0.9
@@ -216,7 +218,13 @@ typedef struct sf_config {
                      default 0: there is none */
   int32_t transfer;     /**< sf_transfer: how codes of the pictures stand for light; default
                            SF_TRANSFER_SRGB */
-  uint32_t reserved[6]; /**< zero */
+  float highlights;     /**< how many times white the lamps are that pictures clip,
+                           [1, SF_MAX_HIGHLIGHTS]; default 1: as white as they look. Pixels two of whose
+                           codes are 251 or more count, the brighter the more, up to clipped ones; a
+                           blurred lamp becomes a bright disc of the lens with all of its light. White
+                           areas wider and higher than a 32nd of the picture's width (16 to 128 pixels)
+                           count less, from twice as much on not at all: walls do not glow */
+  uint32_t reserved[5]; /**< zero */
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Highlights: what clipped samples stand for beyond white (sf_config.highlights).
+#ifndef STARFOCUS_LIB_INPUT_EXCESS_H_
+#define STARFOCUS_LIB_INPUT_EXCESS_H_
+
+#include <cstdint>
+
+#include "lib/base/fixed.h"
+#include "lib/base/geometry.h"
+
+namespace starfocus {
+
+// Lamps are no larger than this, in pixels: a 32nd of the picture's width, 16 to 128. Highlights of
+// more are bright walls or sky, which are as white as they look.
+constexpr int32_t LargestLamp(int32_t width) { return Clamp(width / 32, 16, 128); }
+
+// Pixels around a highlight that decide whether it is a lamp.
+constexpr int32_t LampReach(int32_t lamp) { return 2 * lamp; }
+
+// A pixel is a highlight when two of its codes are at least kFirstExcess: nearly clipped are lamps
+// of any colour, and of saturated colours that are not so bright one code at most.
+inline constexpr int32_t kFirstExcess = 251;
+bool IsHighlight(const uint8_t* codes);
+
+// A captured view at layer 0, in which highlights of up to `lamp` pixels are lamps.
+struct LampView {
+  const Plane<const uint8_t>& codes;
+  int32_t width, height, lamp;
+};
+
+// The light that highlights have beyond white at pixel (x, y), inside the picture, for a clipped
+// sample one more white: it rises with the square of the code from kFirstExcess on. Zeros at other
+// pixels. All of it counts where the highlight is at most view.lamp pixels high or wide, less
+// beyond, and nothing from twice as many on, or where it goes on beyond the picture's edges.
+void ReadExcess(const LampView& view, int32_t x, int32_t y, int16_t* rgb);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_INPUT_EXCESS_H_

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// Highlights: lamps that pictures clip shine as bright as they were, walls stay as white as they
+// are.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "tests/support/refocused.h"
+#include "tests/support/transfer_curve.h"
+
+namespace {
+
+constexpr int kSide = 120;
+constexpr sf_mode kModes[] = {SF_MODE_BLOCK, SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLUR};
+
+// A dark flat picture with a white rectangle.
+test::Scene WhiteRect(int x0, int y0, int width, int height, int code = 255, int views = 1) {
+  test::Scene scene = test::EmptyScene(kSide, kSide, views, 0, 0);
+  for (int view = 0; view < views; ++view) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const bool lit = x >= x0 && x < x0 + width && y >= y0 && y < y0 + height;
+        std::fill_n(scene.Pixel(view, x, y), 3, uint8_t(lit ? code : 20));
+      }
+    }
+  }
+  return scene;
+}
+
+std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highlights,
+                             sf_mode mode = SF_MODE_BLOCK, sf_rule rule = SF_RULE_DEFAULT,
+                             sf_transfer transfer = SF_TRANSFER_SRGB) {
+  sf_config config = test::ConfigFor(scene, 20);
+  config.largest_block = 32;
+  config.max_layer = config.gather = 0;  // where highlights are there is neither
+  config.highlights = float(highlights);
+  config.transfer = transfer;
+  sf_params params = test::Params(blur, 1, mode);
+  params.rule = rule;
+  return test::RefocusScene(scene, config, params).rgb;
+}
+
+double LightIn(const std::vector<uint8_t>& picture, sf_transfer transfer) {
+  double sum = 0;
+  for (size_t i = 0; i < picture.size(); i += 3) sum += test::LightOf(picture[i], transfer);
+  return sum;
+}
+
+TEST_CASE("highlights: a lamp becomes a disc with all of its light") {
+  const test::Scene lamp = WhiteRect(58, 59, 3, 3);
+  for (const sf_transfer transfer : {SF_TRANSFER_SRGB, SF_TRANSFER_NONE}) {
+    for (const sf_mode mode : kModes) {
+      for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+        const auto light = [&](double highlights) {
+          return LightIn(Picture(lamp, 11, highlights, mode, rule, transfer), transfer);
+        };
+        CAPTURE(transfer);
+        CAPTURE(mode);
+        CAPTURE(rule);
+        const double clipped = light(1);
+        CHECK(light(4) - clipped == doctest::Approx(9 * 3 * 255).epsilon(0.04));
+        CHECK(light(8) - clipped == doctest::Approx(9 * 7 * 255).epsilon(0.04));
+      }
+    }
+  }
+}
+
+TEST_CASE("highlights: the more, the nearer a code is to clipped; none below 251") {
+  const auto light = [&](int code, double highlights) {
+    return LightIn(Picture(WhiteRect(58, 58, 4, 4, code), 10, highlights), SF_TRANSFER_SRGB);
+  };
+  double before = 0;
+  for (int code = 249; code <= 255; ++code) {
+    const double more = light(code, 4) - light(code, 1);
+    CAPTURE(code);
+    if (code < 251) {
+      CHECK(more == 0);
+    } else {
+      CHECK(more > before);
+    }
+    before = more;
+  }
+  // One clipped channel is a colour, not a lamp.
+  test::Scene red = WhiteRect(58, 58, 4, 4, 255);
+  for (int y = 58; y < 62; ++y) {
+    for (int x = 58; x < 62; ++x) red.Pixel(0, x, y)[1] = red.Pixel(0, x, y)[2] = 200;
+  }
+  const bool same = Picture(red, 10, 8) == Picture(red, 10, 1);
+  CHECK(same);
+}
+
+TEST_CASE("highlights: walls do not glow") {
+  struct Wall {
+    int x, y, width, height;
+  };
+  // Wider and higher than twice the largest lamp, 16 pixels here, or seen in part only.
+  for (const Wall& wall : {Wall{30, 40, 34, 33}, Wall{0, 0, 50, kSide}, Wall{0, 100, kSide, 20}}) {
+    const test::Scene scene = WhiteRect(wall.x, wall.y, wall.width, wall.height);
+    for (const double blur : {0.0, 3.0, 11.0}) {
+      CAPTURE(wall.x);
+      CAPTURE(blur);
+      const std::vector<uint8_t> plain = Picture(scene, blur, 1), bright = Picture(scene, blur, 16);
+      int most = 0;
+      for (size_t i = 0; i < plain.size(); ++i) {
+        most = std::max(most, std::abs(int(plain[i]) - int(bright[i])));
+      }
+      CHECK(most <= 1);  // views in place of gathered cells
+    }
+  }
+  // A tube is long in one direction only.
+  const test::Scene tube = WhiteRect(20, 60, 80, 4);
+  CHECK(LightIn(Picture(tube, 11, 4), SF_TRANSFER_SRGB) >
+        2 * LightIn(Picture(tube, 11, 1), SF_TRANSFER_SRGB));
+}
+
+TEST_CASE("highlights: a picture without any stays the same to the byte") {
+  for (const int views : {1, 5, 17}) {
+    test::Scene scene = test::RandomScene(70, 60, views, -4, 4, 77);
+    for (auto& picture : scene.pictures) {
+      for (uint8_t& sample : picture) sample = std::min(sample, uint8_t(250));
+    }
+    for (const sf_mode mode : kModes) {
+      CAPTURE(views);
+      CAPTURE(mode);
+      const bool same = Picture(scene, 3, 64, mode) == Picture(scene, 3, 1, mode);
+      CHECK(same);
+    }
+  }
+}
+
+TEST_CASE("highlights: rows that come one by one give the same bytes") {
+  for (const int views : {1, 5}) {
+    test::Scene scene = test::RandomScene(97, 150, views, -3, 5, 78);
+    for (int lamp = 0; lamp < 12; ++lamp) {
+      for (int view = 0; view < views; ++view) {
+        for (int y = 12 * lamp; y < 12 * lamp + 2 + lamp; ++y) {
+          std::fill_n(scene.Pixel(view, 5 + 6 * lamp, y), 3 * (1 + lamp % 4), uint8_t(255));
+        }
+      }
+    }
+    for (const sf_mode mode : kModes) {
+      sf_config config = test::ConfigFor(scene, 9);
+      config.largest_block = 32;
+      config.streaming = 1;
+      config.highlights = 6;
+      test::Engine engine(config);
+      REQUIRE(engine.status() == SF_OK);
+      const sf_params params = test::Params(-4, 1, mode);
+      test::Output whole(scene.width, scene.height), streamed(scene.width, scene.height);
+      REQUIRE(test::Refocus(&engine, params, scene, &whole) == SF_OK);
+      REQUIRE(test::Stream(&engine, params, scene, &streamed, 7, 5) == SF_OK);
+      CAPTURE(views);
+      CAPTURE(mode);
+      const bool same = streamed.bytes == whole.bytes;
+      CHECK(same);
+    }
+  }
+}
+
+}  // namespace
