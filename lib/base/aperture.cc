@@ -122,8 +122,10 @@ uint32_t OpenPointsOfPolygon(int32_t i, int32_t j, int32_t radius, const Opening
   if ((x * x + y * y) * kOpeningOne * kOpeningOne <= inscribed * inscribed) {
     return kPoints * kPoints;
   }
-  for (const int32_t column : {kSubapertureUnits * i - kHalf, kSubapertureUnits * i + kHalf}) {
-    for (const int32_t row : {kSubapertureUnits * j - kHalf, kSubapertureUnits * j + kHalf}) {
+  const int32_t middle_x = kSubapertureUnits * i, middle_y = kSubapertureUnits * j;
+  if (IsDark(opening, middle_x, middle_y, kHalf, radius)) return 0;
+  for (const int32_t column : {middle_x - kHalf, middle_x + kHalf}) {
+    for (const int32_t row : {middle_y - kHalf, middle_y + kHalf}) {
       if (!LetsThrough(opening, column, row, radius)) return OpenPoints(i, j, radius, opening);
     }
   }

@@ -81,6 +81,22 @@ bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius) {
   return true;
 }
 
+bool IsDark(const Opening& opening, int64_t x, int64_t y, int64_t half, int64_t radius) {
+  const auto nearest = [&](int64_t at) {
+    const int64_t distance = (at < 0 ? -at : at) - half;
+    return distance > 0 ? distance : 0;
+  };
+  const int64_t square = nearest(x) * nearest(x) + nearest(y) * nearest(y);
+  if (square > radius * radius) return true;
+  const int64_t limit = (opening.limit * radius * radius - opening.bulge * square) * kOpeningOne;
+  for (int32_t edge = 0; edge < opening.blades; ++edge) {
+    const int64_t across = opening.normals[edge][0], down = opening.normals[edge][1];
+    const int64_t less = half * ((across < 0 ? -across : across) + (down < 0 ? -down : down));
+    if (opening.slope * radius * (x * across + y * down - less) > limit) return true;
+  }
+  return false;
+}
+
 RimShift ShiftOfRim(const Opening& opening, const Rect& rect, int32_t width, int32_t height) {
   const double diagonal =
       std::sqrt(static_cast<double>(width) * width + static_cast<double>(height) * height);

@@ -46,6 +46,10 @@ Opening OpeningOf(const sf_config& config);
 // Whether light comes through at (x, y), of a lens whose radius is `radius`; all at most 2^14.
 bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius);
 
+// Whether a polygon surely lets no light through the square of points up to `half` beside (x, y)
+// and above and below it.
+bool IsDark(const Opening& opening, int64_t x, int64_t y, int64_t half, int64_t radius);
+
 // The centre of the rim behind the lens, as it is seen from a part of the picture: kOpeningBits.
 struct RimShift {
   int32_t x = 0, y = 0;
