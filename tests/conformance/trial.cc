@@ -156,7 +156,7 @@ Trial MakeTrial(uint64_t seed) {
   return trial;
 }
 
-int MostLevels(const Trial& trial) { return trial.config.highlights > 4 ? 2 : 1; }
+int MostLevels(const Trial& trial) { return trial.config.highlights > 1 ? 2 : 1; }
 
 Distance Measure(const Trial& trial) {
   test::Engine engine(trial.config);

@@ -23,8 +23,8 @@ struct Trial {
 
 Trial MakeTrial(uint64_t seed);
 
-// Gray levels that the engine may be from the reference: what highlights are beyond white is
-// rounded before it is multiplied.
+// Gray levels that the engine may be from the reference: highlights are added to codes, which are
+// rounded before and after it.
 int MostLevels(const Trial& trial);
 
 // How far the engine is from the reference, which is given the engine's partition.
