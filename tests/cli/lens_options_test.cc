@@ -68,7 +68,7 @@ double Psnr(const Image& a, const Image& b) {
 TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values") {
   TempFolder folder;
   for (const char* traced : {"srgb", "none"}) {
-    REQUIRE(Call(folder, "scene lf --size 200x150 --views 5 --name lamps --truth 4,1 --transfer " +
+    REQUIRE(Call(folder, "scene lf --size 120x90 --views 5 --name lamps --truth 4,1 --transfer " +
                              std::string(traced))
                 .code == 0);
     CHECK(Text(folder.file("lf/meta.txt")).find(std::string("transfer: ") + traced) !=
@@ -97,7 +97,7 @@ TEST_CASE("cli: lamps are nearer to the truth as light, values to that of values
 
 TEST_CASE("cli: clipped lamps are nearer to the truth as highlights") {
   TempFolder folder;
-  REQUIRE(Call(folder, "scene lf --size 320x240 --views 5 --name lamps --truth 4,1").code == 0);
+  REQUIRE(Call(folder, "scene lf --size 160x120 --views 5 --name lamps --truth 4,1").code == 0);
   Image truth;
   REQUIRE(ReadImage(folder.file("lf/truth_dt4_ut1.png"), &truth) == "");
   const auto psnr = [&](const std::string& highlights) {
