@@ -94,9 +94,9 @@ Distance CheckAll(const test::Scene& scene, double focus, double aperture, Cover
       sf_params params = test::Params(focus, aperture, SF_MODE_BLOCK);
       params.rule = rule;
       Covered here;
-      // Layer 1 alone by values, layer 2 in light, no layer by both.
+      // Values at every layer, light without layers and at the smallest one.
       for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
-        if (max_layer == (transfer == SF_TRANSFER_NONE ? 2 : 1)) continue;
+        if (transfer == SF_TRANSFER_SRGB && max_layer == 1) continue;
         sf_config config = Config(scene, max_layer);
         config.transfer = transfer;
         all.Add(Check(scene, params, config, &here));

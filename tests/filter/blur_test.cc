@@ -28,6 +28,8 @@ static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
 std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
                               const reference::Opening& opening, int transfer) {
   std::map<double, reference::BlurKernel> kernels;
+  double light[256];
+  for (int code = 0; code < 256; ++code) light[code] = test::LightOf(code, transfer);
   std::vector<double> out;
   const int focus = int(std::floor(params.focus * kOne + 0.5));
   for (int y = 0; y < scene.height; ++y) {
@@ -42,8 +44,8 @@ std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
         for (int n = -kernel.size; n <= kernel.size; ++n) {
           const uint8_t* pixel = scene.Pixel(0, std::clamp(x + n, 0, scene.width - 1),
                                              std::clamp(y + m, 0, scene.height - 1));
-          for (int c = 0; c < 3; ++c)
-            sums[c] += kernel.At(side * n, side * m) * test::LightOf(pixel[c], transfer);
+          const double weight = kernel.At(side * n, side * m);
+          for (int c = 0; c < 3; ++c) sums[c] += weight * light[pixel[c]];
         }
       }
       for (const double sum : sums) out.push_back(test::CodeOf(sum, transfer));
@@ -94,8 +96,6 @@ void CheckRadii(double theta) {
     const float d = static_cast<float>(r);
     test::Scene scene = test::EmptyScene(37, 29, 1, d, d);
     test::Random random(17);
-    if (STARFOCUS_EMULATED && r != 0.5625 && r != 3.0 && r != 8.0)
-      continue;  // the reference is slow
     CAPTURE(r);
     for (const bool extreme : {false, true}) {
       for (uint8_t& sample : scene.pictures[0]) {
