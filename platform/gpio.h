@@ -37,8 +37,8 @@ class GpioInputs {
   std::string Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias);
   // Level of a line now.
   std::string Read(int line, bool* high);
-  // Waits for edges; empty after `timeout` milliseconds without one (-1: no limit). In the order
-  // of their times. The kernel drops edges when more than 16 per line wait.
+  // Waits for edges; empty after `timeout` milliseconds without one (-1: no limit). They come in
+  // the order of their times. The kernel drops edges when more than 16 per line wait.
   std::string Wait(int timeout, std::vector<GpioEdge>* edges);
 
  private:

@@ -114,8 +114,7 @@ std::vector<std::string> LightFieldFiles(const std::string& folder) {
     const std::string view = FindView(folder, index);
     if (!view.empty()) files.push_back(view);
   }
-  std::error_code error;
-  if (fs::exists(DisparityPath(folder), error)) files.push_back(DisparityPath(folder));
+  if (HasDisparity(folder)) files.push_back(DisparityPath(folder));
   return files;
 }
 
@@ -140,25 +139,36 @@ std::string ReadDisparity(const std::string& folder, FloatMap* map) {
   return error.empty() ? ReadPfm(path, map) : error;
 }
 
-std::string LoadLightField(const std::string& folder, int views, LightField* light_field) {
+bool HasDisparity(const std::string& folder) {
+  std::error_code error;
+  return fs::exists(DisparityPath(folder), error);
+}
+
+std::string LoadCaptured(const std::string& folder, int views, std::vector<Image>* captured) {
   int chosen = 0;
   std::string error = ChooseViews(folder, views, &chosen);
   if (!error.empty()) return error;
-  LightField result;
-  result.views.resize(size_t(chosen));
+  std::vector<Image> result(static_cast<size_t>(chosen));
   for (int i = 0; i < chosen; ++i) {
     const std::string path = FindView(folder, i);
-    Image& view = result.views[size_t(i)];
+    Image& view = result[size_t(i)];
     error = CheckPlainFile(path);
     if (error.empty()) error = ReadImage(path, &view);
     if (!error.empty()) return error;
-    const Image& centre = result.views[0];
+    const Image& centre = result[0];
     if (view.width != centre.width || view.height != centre.height) {
       return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
                       SizeText(view.width, view.height));
     }
   }
-  error = ReadDisparity(folder, &result.disparity);
+  *captured = std::move(result);
+  return "";
+}
+
+std::string LoadLightField(const std::string& folder, int views, LightField* light_field) {
+  LightField result;
+  std::string error = LoadCaptured(folder, views, &result.views);
+  if (error.empty()) error = ReadDisparity(folder, &result.disparity);
   if (!error.empty()) return error;
   const Image& centre = result.views[0];
   if (result.width() != centre.width || result.height() != centre.height) {

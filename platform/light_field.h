@@ -42,8 +42,14 @@ std::string CountViews(const std::string& folder, int* views);
 
 std::string ReadDisparity(const std::string& folder, FloatMap* map);
 
-// Loads the largest complete set, or only the first `views` views when views is not 0. All sizes
-// must agree.
+// Whether the folder has a disparity map; it may be a bad one.
+bool HasDisparity(const std::string& folder);
+
+// Loads the views of the largest complete set, or only the first `views` ones when views is not 0.
+// All sizes must agree.
+std::string LoadCaptured(const std::string& folder, int views, std::vector<Image>* captured);
+
+// Loads these views and the disparity map, of the same size.
 std::string LoadLightField(const std::string& folder, int views, LightField* light_field);
 
 // Makes the folder if needed and writes PNG views, several at a time on `runner`, and the disparity

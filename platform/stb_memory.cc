@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-// In front of every piece of memory: its neighbours in the list of this thread.
+// What stands in front of every piece of memory: its neighbours in the list of this thread.
 struct alignas(std::max_align_t) Piece {
   Piece *next, *previous;
 };

@@ -57,11 +57,14 @@ inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTR
   }
 }
 
-// What the four sides show behind a group of pixels; that of side k is set if bit k of `some` is.
-// It is kept in memory, since some vectors have no size at compile time.
+// Edges that are looked behind: the next one of each side, and those behind its far side.
+inline constexpr int kEdges = 8;
+
+// What edges show behind a group of pixels; edge k, on side k % 4, is set if bit k of `some` is. It
+// is kept in memory, since some vectors have no size at compile time.
 struct ChunkSides {
   uint32_t some;
-  int16_t rank[4][kSliceLanes], disparity[4][kSliceLanes], half[4][kSliceLanes];
+  int16_t rank[kEdges][kSliceLanes], disparity[kEdges][kSliceLanes], half[kEdges][kSliceLanes];
 };
 
 // Finds the lanes whose place behind the pixel is covered in the view that moves by a pixel per
@@ -95,15 +98,48 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, V d
   return hn::MaskFromVec(covered);
 }
 
-// Sides are numbered as in DepthRow::edges.
-HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, ChunkSides* sides) {
+// Pixels from one to the next towards a side.
+HWY_INLINE ptrdiff_t StepOf(const DepthRow& row, int side) {
+  const ptrdiff_t along = side < 2 ? 1 : row.stride;
+  return side % 2 == 0 ? along : -along;
+}
+
+// Finds the distances of a group of pixels to what the far side of their edge hides in turn.
+// Returns whether there are any: most far sides hide nothing.
+HWY_INLINE bool FollowEdges(const DepthRow& row, int side, size_t chunk,
+                            uint8_t* HWY_RESTRICT distances) {
+  const ptrdiff_t step = StepOf(row, side);
+  const uint8_t* const edges = row.edges[side] + chunk;
+  const int16_t* const pixels = row.disparity + chunk;
+  constexpr auto kLanes = static_cast<ptrdiff_t>(kSliceLanes);
+  uint32_t some = 0;
+  for (ptrdiff_t k = 0; k < kLanes; ++k) some |= distances[k] = edges[k + step * edges[k]];
+  if (some == 0) return false;
+  bool any = false;
+  for (ptrdiff_t k = 0; k < kLanes; ++k) {
+    const int32_t more = distances[k], distance = edges[k] + more;
+    distances[k] = 0;
+    if (more == 0 || distance > kMostDistance) continue;
+    const int32_t depth = pixels[k] - pixels[k + step * distance];
+    const int32_t room = (depth < INT16_MAX ? depth : INT16_MAX) >> row.unit_bits;
+    if (distance - 1 > room) continue;
+    distances[k] = static_cast<uint8_t>(distance);
+    any = true;
+  }
+  return any;
+}
+
+// Looks behind an edge of each pixel, at these distances, and writes it as edge `index`. Sides are
+// numbered as in DepthRow::edges.
+HWY_INLINE void LookBehindSide(const DepthRow& row, size_t chunk, const uint8_t* distances,
+                               int index, ChunkSides* sides) {
   const ChunkTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
-  const ptrdiff_t along = side < 2 ? 1 : row.stride, step = side % 2 == 0 ? along : -along;
+  const int side = index % 4;
+  const ptrdiff_t step = StepOf(row, side);
   const int32_t unit = 1 << row.unit_bits, vertical = side == 2 ? row.below : row.above;
-  int16_t* const behind = sides->disparity[side];
+  int16_t* const behind = sides->disparity[index];
   const int16_t* const pixels = row.disparity + chunk;
-  const uint8_t* const distances = row.edges[side] + chunk;
   for (ptrdiff_t k = 0; k < static_cast<ptrdiff_t>(kSliceLanes); ++k) {
     behind[k] = pixels[k + step * distances[k]];
   }
@@ -142,8 +178,8 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, Chun
     }
     const auto far = hn::IfThenElseZero(unseen, hn::Set(d16, kUnseen));
     const auto rank = hn::IfThenElse(hides, hn::Add(distance, far), hn::Set(d16, kNoRank));
-    hn::StoreU(rank, d16, sides->rank[side] + k);
-    hn::StoreU(hn::VecFromMask(d16, half), d16, sides->half[side] + k);
+    hn::StoreU(rank, d16, sides->rank[index] + k);
+    hn::StoreU(hn::VecFromMask(d16, half), d16, sides->half[index] + k);
   }
 }
 
@@ -151,13 +187,14 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, int side, size_t chunk, Chun
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V disparity) {
   auto source = hn::Zero(d16);
-  for (int side = 0; side < 4; ++side) {
-    if ((sides.some >> side & 1) == 0) continue;
-    const auto same = hn::And(hn::Eq(hn::LoadU(d16, sides.rank[side] + k), best),
-                              hn::Eq(hn::LoadU(d16, sides.disparity[side] + k), disparity));
+  for (int edge = 0; edge < kEdges; ++edge) {
+    if ((sides.some >> edge & 1) == 0) continue;
+    const auto same = hn::And(hn::Eq(hn::LoadU(d16, sides.rank[edge] + k), best),
+                              hn::Eq(hn::LoadU(d16, sides.disparity[edge] + k), disparity));
+    const int side = edge % 4;
     const auto bit = hn::Set(d16, static_cast<int16_t>(1 << side));
     const auto half_bit = hn::Set(d16, static_cast<int16_t>(1 << (side + kSourceHalf)));
-    const auto bits = hn::Or(bit, hn::And(half_bit, hn::LoadU(d16, sides.half[side] + k)));
+    const auto bits = hn::Or(bit, hn::And(half_bit, hn::LoadU(d16, sides.half[edge] + k)));
     source = hn::Or(source, hn::IfThenElseZero(same, bits));
   }
   const auto unseen = hn::Gt(best, hn::Set(d16, int16_t{kUnseen}));
@@ -178,12 +215,12 @@ HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t ch
     auto above = nothing;
     for (int surface = 0; surface < kSurfaces - 1; ++surface) {
       auto best = none, disparity = nothing;
-      for (int side = 0; side < 4; ++side) {
-        if ((sides.some >> side & 1) == 0) continue;
-        const auto far = hn::LoadU(d16, sides.disparity[side] + k);
+      for (int edge = 0; edge < kEdges; ++edge) {
+        if ((sides.some >> edge & 1) == 0) continue;
+        const auto far = hn::LoadU(d16, sides.disparity[edge] + k);
         const auto step = hn::SaturatedSub(hn::Max(far, above), hn::Min(far, above));
         const auto other = surface == 0 ? hn::Eq(far, far) : hn::Gt(step, unit);
-        const auto rank = hn::IfThenElse(other, hn::LoadU(d16, sides.rank[side] + k), none);
+        const auto rank = hn::IfThenElse(other, hn::LoadU(d16, sides.rank[edge] + k), none);
         const auto same = hn::Eq(rank, best);
         const auto nearest = hn::IfThenElse(same, hn::Max(disparity, far), disparity);
         disparity = hn::IfThenElse(hn::Lt(rank, best), far, nearest);
@@ -243,7 +280,12 @@ inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
       continue;
     }
     for (int side = 0; side < 4; ++side) {
-      if ((sides.some >> side & 1) != 0) LookBehindSide(row, side, chunk, &sides);
+      if ((sides.some >> side & 1) == 0) continue;
+      LookBehindSide(row, chunk, row.edges[side] + chunk, side, &sides);
+      uint8_t next[kSliceLanes];
+      if (!FollowEdges(row, side, chunk, next)) continue;
+      sides.some |= 16u << side;
+      LookBehindSide(row, chunk, next, 4 + side, &sides);
     }
     if (ChooseSurfaces(sides, row.unit_bits, chunk, hidden)) chunks |= bit;
   }

@@ -55,7 +55,8 @@ struct DepthRow {
   bool side_views;       // whether there are views beside the centre view
   bool half_views;       // whether there are also such at half distance
   // The distance of each pixel to the far side of its edges, 0 where there is no edge: to the
-  // right, left, bottom and top, as FindEdges gives them. None points out of the field.
+  // right, left, bottom and top, as FindEdges gives them. None points out of the field. Rows lie
+  // `stride` apart, like those of disparities.
   const uint8_t* edges[4];
 };
 
@@ -78,6 +79,9 @@ inline constexpr int kSourceHalf = 4, kSourceDistance = 8;
 // A side's rank is the distance of its edge in pixels, and this more if no view shows what lies
 // behind it. The lowest rank gives the surface; a side without an edge has the rank kNoRank.
 inline constexpr int16_t kUnseen = 256, kNoRank = INT16_MAX;
+
+// The largest distance of an edge in pixels: it fits a byte.
+inline constexpr int32_t kMostDistance = UINT8_MAX;
 
 namespace reference {
 
@@ -103,13 +107,16 @@ void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps);
 void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t step,
                  uint16_t* beside);
 
-// Finds up to two surfaces behind each pixel of a row. The first one is that beyond the edge of
-// lowest rank, the nearer one if two sides have the same rank; the second is chosen likewise from
-// the sides whose surface differs from the first by more than 2^unit_bits. A view shows the place
-// behind a pixel if nothing before it moves there: no pixel towards that side is nearer by more
-// than half a 2^unit_bits and moves, in that view, to less than 3/4 of a pixel from the place.
-// Returns which groups of kSliceLanes have hidden surfaces, the first in bit 0. In the others
-// `source` and `found` are unspecified.
+// Finds up to two surfaces behind each pixel of a row, of those beyond the edges of all sides. What
+// the far side of an edge hides in turn, beyond the edge that is its own, lies behind the pixel
+// too, if it is kMostDistance away at most and no farther than a view at distance 1 can look: by
+// its depth behind the pixel. The first surface is that beyond the edge of lowest rank, the nearer
+// one if two sides have the same rank; the second is chosen likewise from the sides whose surface
+// differs from the first by more than 2^unit_bits. A view shows the place behind a pixel if nothing
+// before it moves there: no pixel towards that side is nearer by more than half a 2^unit_bits and
+// moves, in that view, to less than 3/4 of a pixel from the place. Returns which groups of
+// kSliceLanes have hidden surfaces, the first in bit 0. In the others `source` and `found` are
+// unspecified.
 uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden);
 
 // Mixes each of kSliceLanes pixels from two: out[c * plane + n] = here[3 n + c] +

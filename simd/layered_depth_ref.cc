@@ -25,10 +25,25 @@ bool IsCovered(const int16_t* at, ptrdiff_t step, int32_t room, int16_t disparit
   return false;
 }
 
-HiddenSide LookBehindSide(const DepthRow& row, int32_t x, int side) {
-  const int32_t distance = row.edges[side][x], unit = 1 << row.unit_bits;
-  if (distance == 0) return {kNoRank, kNoSurface, false};
+// Edges that are followed on each side: the next one, and the one behind its far side.
+constexpr int kEdges = 2;
+
+// Returns the distance of the far side of an edge of pixel x, 0 if it has none.
+int DistanceOf(const DepthRow& row, int32_t x, int side, ptrdiff_t step, int edge) {
+  const uint8_t* first = row.edges[side] + x;
+  if (edge == 0 || *first == 0) return *first;
+  const int more = first[step * *first], distance = *first + more;
+  if (more == 0 || distance > kMostDistance) return 0;
+  const int16_t* here = row.disparity + x;
+  const int depth = Saturated(*here - here[step * distance]) >> row.unit_bits;
+  return distance - 1 <= depth ? distance : 0;
+}
+
+HiddenSide LookBehindSide(const DepthRow& row, int32_t x, int side, int edge) {
+  const int32_t unit = 1 << row.unit_bits;
   const ptrdiff_t along = side < 2 ? 1 : row.stride, step = side % 2 == 0 ? along : -along;
+  const int32_t distance = DistanceOf(row, x, side, step, edge);
+  if (distance == 0) return {kNoRank, kNoSurface, false};
   const int32_t rooms[4] = {row.width - 1 - x, x, row.below, row.above};
   const int16_t* at = row.disparity + x;
   const int16_t disparity = at[step * distance];
@@ -46,7 +61,7 @@ HiddenSide LookBehindSide(const DepthRow& row, int32_t x, int side) {
 int16_t ChooseSurface(const HiddenSide* sides, int32_t x, int behind, int32_t unit, int16_t above,
                       const HiddenRow& hidden) {
   const HiddenSide* best = nullptr;
-  for (const HiddenSide* side = sides; side < sides + 4; ++side) {
+  for (const HiddenSide* side = sides; side < sides + 4 * kEdges; ++side) {
     if (side->rank == kNoRank) continue;
     if (behind > 0 && std::abs(side->disparity - above) <= unit) continue;
     const bool before = best == nullptr || side->rank < best->rank ||
@@ -54,9 +69,10 @@ int16_t ChooseSurface(const HiddenSide* sides, int32_t x, int behind, int32_t un
     if (before) best = side;
   }
   int source = 0;
-  for (int k = 0; best != nullptr && k < 4; ++k) {
+  for (int k = 0; best != nullptr && k < 4 * kEdges; ++k) {
     if (sides[k].rank != best->rank || sides[k].disparity != best->disparity) continue;
-    source |= 1 << k | (sides[k].half ? 1 << (kSourceHalf + k) : 0);
+    const int side = k % 4;
+    source |= 1 << side | (sides[k].half ? 1 << (kSourceHalf + side) : 0);
     if (best->rank > kUnseen) source |= (best->rank - kUnseen) << kSourceDistance;
   }
   hidden.source[behind][x] = static_cast<uint16_t>(source);
@@ -113,10 +129,12 @@ void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t ste
 uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   uint64_t chunks = 0;
   for (int32_t x = 0; x < static_cast<int32_t>(SliceSamples(static_cast<size_t>(row.width))); ++x) {
-    HiddenSide sides[4];
+    HiddenSide sides[4 * kEdges];
     bool end = false;
     for (int side = 0; side < 4; ++side) {
-      sides[side] = LookBehindSide(row, x, side);
+      for (int edge = 0; edge < kEdges; ++edge) {
+        sides[4 * edge + side] = LookBehindSide(row, x, side, edge);
+      }
       end = end || row.edges[side][x] == 1;
     }
     hidden.share[x] = end ? kSliceEnd : static_cast<uint8_t>(kSliceWhole);

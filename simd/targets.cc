@@ -5,31 +5,40 @@
 
 #include <cstring>
 
+#include "simd/depth_kernels.h"
 #include "simd/kernels.h"
 
 namespace starfocus::simd {
 
+namespace {
+
+// Table `index` of those that `best` returns for the targets of this machine.
+template <class Table>
+const Table* TableOfTarget(const Table& (*best)(), size_t index) {
 #ifdef HWY_COMPILE_ONLY_STATIC
-
-const Kernels* KernelsOfTarget(size_t index) { return index == 0 ? &BestKernels() : nullptr; }
-
+  return index == 0 ? &best() : nullptr;
 #else
-
-const Kernels* KernelsOfTarget(size_t index) {
-  const Kernels* found = nullptr;
+  const Table* found = nullptr;
   // Highway numbers better targets lower. One that was not compiled falls back to a worse one,
   // which comes up again as itself.
   for (int64_t rest = hwy::SupportedTargets(); rest != 0 && found == nullptr; rest &= rest - 1) {
     hwy::SetSupportedTargetsForTest(rest & -rest);
-    const Kernels* kernels = &BestKernels();
+    const Table* kernels = &best();
     const bool itself = std::strcmp(kernels->name, hwy::TargetName(rest & -rest)) == 0;
     if (itself && index-- == 0) found = kernels;
   }
   hwy::SetSupportedTargetsForTest(0);
   return found;
+#endif
 }
 
-#endif
+}  // namespace
+
+const Kernels* KernelsOfTarget(size_t index) { return TableOfTarget(BestKernels, index); }
+
+const DepthKernels* DepthKernelsOfTarget(size_t index) {
+  return TableOfTarget(BestDepthKernels, index);
+}
 
 const Kernels* FindKernels(const char* name) {
   const Kernels* kernels = nullptr;

@@ -271,6 +271,15 @@ HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
                     excess, light, r, g, b, a);
 }
 
+// Adds the light of `rows` rows of a vector to their sums.
+HWY_INLINE void AddLight(SliceVec r, SliceVec g, SliceVec b, SliceVec a, size_t rows,
+                         uint32_t* HWY_RESTRICT sums) {
+  AddSums(r, rows, sums);
+  AddSums(g, rows, sums + kSliceLanes);
+  AddSums(b, rows, sums + 2 * kSliceLanes);
+  AddSums(a, rows, sums + 3 * kSliceLanes);
+}
+
 // A slice that is seen, and where the first view shows it.
 struct SeenSlice {
   TileSlice slice;
@@ -325,20 +334,13 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
       if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
     }
   }
-  const auto add = [&](SliceVec r, SliceVec g, SliceVec b, SliceVec a, size_t more, uint32_t* to)
-                       HWY_ATTR {
-                         AddSums(r, more, to);
-                         AddSums(g, more, to + kSliceLanes);
-                         AddSums(b, more, to + 2 * kSliceLanes);
-                         AddSums(a, more, to + 3 * kSliceLanes);
-                       };
   if (views.extra_bits != 0) {
     for (SliceVec* value : {&r0, &g0, &b0, &a0, &r1, &g1, &b1, &a1}) {
       *value = DividedSums(*value, views.extra_bits);
     }
   }
-  add(r0, g0, b0, a0, rows, sums + n);
-  if (rows > step) add(r1, g1, b1, a1, rows - step, sums + 4 * second + n);
+  AddLight(r0, g0, b0, a0, rows, sums + n);
+  if (rows > step) AddLight(r1, g1, b1, a1, rows - step, sums + 4 * second + n);
 }
 
 inline void Composite(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRICT sums) {

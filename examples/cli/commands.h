@@ -15,6 +15,7 @@ using Action = std::function<Error()>;
 
 void AddSceneCommand(CLI::App* app, Action* action);
 void AddRefocusCommand(CLI::App* app, Action* action);
+void AddDisparityCommand(CLI::App* app, Action* action);
 void AddVideoCommand(CLI::App* app, Action* action);
 void AddCalibrateCommand(CLI::App* app, Action* action);
 void AddCompareCommand(CLI::App* app, Action* action);

@@ -21,6 +21,7 @@ Error Run(int argc, char** argv) {
   Action action;
   AddSceneCommand(&app, &action);
   AddRefocusCommand(&app, &action);
+  AddDisparityCommand(&app, &action);
   AddVideoCommand(&app, &action);
   AddCalibrateCommand(&app, &action);
   AddCompareCommand(&app, &action);

@@ -79,8 +79,8 @@ Color PaintGlaze(const Surface& s, const Hit& hit) {
 Color PaintLeaf(const Surface& s, const Hit& hit) {
   const double rib = std::fabs(hit.ly);
   const double vein = Triangle(hit.lx - 1.1 * rib, 15 * s.scale);
-  const double cells = Grain(hit, 5, s.seed);
-  Color color = Mix(s.color, s.second, Smooth(0.72, 1, vein)) * (0.62 + 0.75 * cells);
+  const double grain = Grain(hit, 5, s.seed);
+  Color color = Mix(s.color, s.second, Smooth(0.72, 1, vein)) * (0.62 + 0.75 * grain);
   if (rib < 1.6) color = s.second;
   const double fold = hit.ly > 0 ? 0.82 : 1.08;  // the halves face different ways
   return color * fold;

@@ -64,7 +64,8 @@ std::string Explain(const EngineStep& step) {
   if (step.apart > kExplained[step.layer]) {
     return "unexplained: not the kernel the engine is meant to have";
   }
-  // Of the causes, from the most to the least fundamental, the first that suffices.
+  // The causes are asked from the most to the least fundamental one, and the first that suffices is
+  // told.
   const double r = std::fabs(step.r);
   if (MakeLayerTheory(r, step.layer).error > kThreshold) {
     return "the layers' filters: the ideal kernel through them exceeds it too";

@@ -10,7 +10,8 @@
 namespace starfocus::analysis {
 
 // What theory says of blur radius r refocused at layer L: SSE against the ideal kernel (4) at r of
-// the ideal kernel at r / 2^L through the layers, (10), and its aliasing, (11). Both 0 at layer 0.
+// the ideal kernel at r / 2^L through the layers, (10), and its aliasing, (11). Both are 0 at layer
+// 0.
 struct LayerTheory {
   double error;
   double aliasing;

@@ -10,7 +10,7 @@ namespace starfocus::analysis {
 // (4) for blur radius r >= 0 in pixels; exact to about 1e-12. r = 0 is the unit impulse.
 Kernel IdealKernel(double r, double theta);
 
-// The same with the 1D aperture.
+// The ideal kernel of the 1D aperture, as exact.
 Kernel1 IdealKernel1(double r, double theta);
 
 }  // namespace starfocus::analysis

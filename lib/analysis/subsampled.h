@@ -43,8 +43,8 @@ struct Optimum {
 };
 Optimum Optimise(double r);
 
-// The same with beta_D in steps of 0.01 and theta in steps of 0.01 pi. The paper does not state its
-// steps; these give all printed digits of Table I, which the free optimum does not.
+// Returns the optimum with beta_D in steps of 0.01 and theta in steps of 0.01 pi. The paper does
+// not state its steps; these give all printed digits of Table I, which the free optimum does not.
 Optimum OptimiseOnGrid(double r);
 
 // The r at which (10), with the filters that are best there, falls to `threshold`; (12) takes the

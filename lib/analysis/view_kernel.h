@@ -21,7 +21,7 @@ enum class Rim { kIncluded, kExcluded };
 // along either axis.
 Kernel ViewKernel(double r, int n, double theta, double width, Rim rim = Rim::kIncluded);
 
-// With the triangular h of the paper.
+// Returns the kernel with the triangular h of the paper.
 Kernel PaperKernel(double r, int n, double theta, Rim rim = Rim::kIncluded);
 
 // What of the light of a lens goes through the subaperture around each of its views (i, j).

@@ -43,7 +43,8 @@ sf_status MakeLayers(const Prepared& prepared, EngineState* engine, const Runner
   LayerPlane own[SF_LAYERS];
   for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->pictures.layers[layer];
   const int32_t height = engine->config.height, side = engine->config.largest_block;
-  // Layers end beyond the picture.
+  // Layers end beyond the picture (LayerSize), by fewer than so many of its pixels; PlaceLayers
+  // leaves out what lies beyond them.
   constexpr int32_t kBeyond = 16;
   sf_status status = SF_OK;
   for (int32_t y = 0; y < height && status == SF_OK; y += side) {

@@ -16,12 +16,6 @@ bool AllZero(const uint32_t (&reserved)[kCount]) {
   return true;
 }
 
-// Tells whether rows are as wide as `row_bytes`, and all of them addressable.
-bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
-  return stride >= row_bytes &&
-         (rows <= 1 || stride <= (PTRDIFF_MAX - row_bytes) / static_cast<size_t>(rows - 1));
-}
-
 // All fields are checked, those of other shapes than the one asked for, too. The comparisons are
 // written so that NaN fails.
 sf_status CheckShape(const sf_config& config) {
@@ -108,14 +102,25 @@ sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t
   return SF_OK;
 }
 
-sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field) {
-  for (int view = 0; view < config.views; ++view) {
+bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
+  return stride >= row_bytes &&
+         (rows <= 1 || stride <= (PTRDIFF_MAX - row_bytes) / static_cast<size_t>(rows - 1));
+}
+
+sf_status CheckViews(int32_t views, int32_t width, int32_t height,
+                     const sf_light_field& light_field) {
+  for (int view = 0; view < views; ++view) {
     if (light_field.views[view].data == nullptr) return SF_ERROR_NULL;
-    if (!ValidStride(light_field.views[view].stride, 3 * static_cast<size_t>(config.width),
-                     config.height)) {
+    if (!ValidStride(light_field.views[view].stride, 3 * static_cast<size_t>(width), height)) {
       return SF_ERROR_STRIDE;
     }
   }
+  return SF_OK;
+}
+
+sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field) {
+  const sf_status status = CheckViews(config.views, config.width, config.height, light_field);
+  if (status != SF_OK) return status;
   return CheckMap(light_field.disparity, light_field.disparity_stride, config.width, config.height);
 }
 

@@ -19,6 +19,13 @@ sf_status CheckMemory(const void* memory);
 // Checks a disparity map by itself.
 sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height);
 
+// Tells whether rows are as wide as `row_bytes`, and all of them addressable.
+bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
+
+// Checks pointers and strides of the views of a light field.
+sf_status CheckViews(int32_t views, int32_t width, int32_t height,
+                     const sf_light_field& light_field);
+
 // Checks pointers and strides of a light field of `config`.
 sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field);
 

@@ -22,8 +22,8 @@ struct Aperture {
   int32_t views = 1;
   double extent = 1;   // of the outermost views of subapertures, of the lens's radius
   int32_t radius = 0;  // of the lens, kSubapertureUnits from view to view
-  // Of 0 <= j <= i <= n at index i (i + 1) / 2 + j, or, when `full`, of all i, j in [-n, n],
-  // columns i one after the other.
+  // Weights hold those of the views 0 <= j <= i <= n at index i (i + 1) / 2 + j, or, when `full`,
+  // those of all i, j in [-n, n], columns i one after the other.
   bool full = false;
   const uint16_t* weights = nullptr;
 
@@ -93,8 +93,8 @@ inline size_t ApertureSize(const Opening& opening, int32_t n) {
 }
 
 // The views i^2 + j^2 <= N^2 as in a_{d,N} of (5); of openings other than (3) by what of the light
-// through the cell around each of them is let through. Fills weights[ApertureSize(opening, n)]; n
-// in [0, kMaxViewsAlongRadius]. Before what cat's eyes take.
+// through the subaperture around each of them is let through. Fills weights[ApertureSize(opening,
+// n)]; n in [0, kMaxViewsAlongRadius]. Before what cat's eyes take.
 Aperture MakeAperture(int32_t n, const Opening& opening, uint16_t* weights);
 
 // Views that stand for their subapertures of a lens LensInSubapertures(n) wide, by what of its

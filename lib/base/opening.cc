@@ -16,7 +16,7 @@ struct Direction {
   double sine, cosine;
 };
 
-// Of an angle, by the tangent of half of it.
+// Returns the direction of an angle, computed by the tangent of half of it.
 Direction DirectionOf(double angle) {
   const double tangent = std::tan(angle / 2), square = tangent * tangent;
   return {2 * tangent / (1 + square), (1 - square) / (1 + square)};

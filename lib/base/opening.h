@@ -26,15 +26,15 @@ struct Opening {
   uint32_t fall_off;     // of SF_SHAPE_FALL_OFF: cot^2(theta), 16 bits
   int32_t inner = 0;     // of a ring: the radius of its hole
   int32_t cats_eye = 0;  // how far the rim behind the lens moves up to a corner of the picture
-  // Of a polygon: the points p of `bulge` |p|^2 + `slope` p * normal <= `limit` for the normal of
+  // A polygon has the points p of `bulge` |p|^2 + `slope` p * normal <= `limit` for the normal of
   // each of its edges, which are arcs through the corners.
   int32_t blades = 0;
   int32_t normals[SF_MAX_BLADES][2] = {};
   int32_t bulge = 0, slope = 0, limit = 0;
   int32_t inscribed = 0;  // radius of a disc in it: kOpeningBits, rounded down
 
-  // Whether it is its own mirror image about both axes and both diagonals, so that an octant tells
-  // all of it. What cat's eyes leave of it isn't.
+  // Whether the opening is its own mirror image about both axes and both diagonals, so that an
+  // octant tells all of it. What cat's eyes leave of it isn't.
   bool IsSymmetric() const { return shape != SF_SHAPE_POLYGON; }
   // Whether the octant's centre may be dark.
   bool IsRing() const { return shape == SF_SHAPE_RING; }

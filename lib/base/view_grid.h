@@ -19,7 +19,7 @@ struct ViewGrid {
   int32_t half_views = 0;  // views |i| <= half_views take holes from the views at half distance
   int32_t spread = 0;      // disparity range of a run, kDisparityBits
 
-  // Of the outermost views along the axes.
+  // Number of the outermost view along an axis.
   int32_t n() const { return aperture.last; }
 
   // u of view i in pixels of the layer per unit of disparity, kStepBits; i in [0, N], N > 0.

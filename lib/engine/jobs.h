@@ -1,59 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs for the caller's runner, which is not trusted to run each of them once.
+// Jobs of an engine: each gets the memory of its worker.
 #ifndef STARFOCUS_LIB_ENGINE_JOBS_H_
 #define STARFOCUS_LIB_ENGINE_JOBS_H_
 
-#include <atomic>
 #include <cstdint>
 
+#include "lib/base/jobs.h"
 #include "lib/engine/worker.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-// Who runs the jobs; a null function: the calling thread.
-struct Runner {
-  sf_runner run;
-  void* data;
-};
-
-using JobFunction = void (*)(const void* data, int32_t index, Worker* worker);
-
-// The set of jobs that a runner has been given. It lies in the workspace, so that a job called too
-// late finds it closed. Words instead of bytes: some machines have no atomic bytes.
-struct JobSet {
-  JobFunction function = nullptr;
-  const void* data = nullptr;
-  int32_t count = 0;
-  std::atomic<uint32_t>* progress = nullptr;        // of each job; there is room for MaxJobs
-  std::atomic<uint32_t> busy[SF_MAX_WORKERS] = {};  // 1: a job has that worker's memory
-  std::atomic<uint32_t> open{0};                    // 1: the runner has not returned yet
-  std::atomic<uint32_t> misused{0};                 // 1: a call was refused
-};
-
 // The workers' memory, and the jobs that use it.
 struct Crew {
   Worker* workers = nullptr;
-  int32_t max_workers = 1;
-  JobSet jobs;
+  JobSet jobs;  // there is room for MaxJobs
 };
 
 // Most jobs of any set of an engine.
 int32_t MaxJobs(const sf_config& config);
 
-// Runs function(data, index, memory of a worker) for all indices in [0, count), count > 0. SF_OK,
-// or SF_ERROR_RUNNER when the runner failed or did not run each of them exactly once. No job runs
-// any more afterwards, whatever the runner does.
-sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const Runner& runner,
-                    Crew* crew);
-
-// The same of kJob, whose data are its input and say where its output goes.
+// Runs kJob(data, index, memory of a worker) for all indices as RunJobSet does: its data are its
+// input and say where its output goes.
 template <class Data, void (*kJob)(const Data&, int32_t, Worker*)>
 sf_status RunJobs(const Data& data, int32_t count, const Runner& runner, Crew* crew) {
-  const JobFunction function = [](const void* job_data, int32_t index, Worker* worker) {
-    kJob(*static_cast<const Data*>(job_data), index, worker);
+  struct Set {
+    const Data& data;
+    Worker* workers;
   };
-  return RunJobSet(function, &data, count, runner, crew);
+  const Set set = {data, crew->workers};
+  const JobFunction function = [](const void* of, int32_t index, int32_t worker) {
+    const Set& jobs = *static_cast<const Set*>(of);
+    kJob(jobs.data, index, &jobs.workers[worker]);
+  };
+  return RunJobSet(function, &set, count, runner, &crew->jobs);
 }
 
 }  // namespace starfocus

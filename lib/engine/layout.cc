@@ -2,9 +2,6 @@
 #include "lib/engine/layout.h"
 
 #include "lib/base/rules.h"
-#ifdef STARFOCUS_RED_ZONES
-#include <sanitizer/asan_interface.h>
-#endif
 
 namespace starfocus {
 namespace {
@@ -261,7 +258,7 @@ size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
   TakeRows(config, &carver, &e);
   TakeLayers(config, &carver, &e);
   TakeStripe(config, &carver, &e);
-  e.crew.max_workers = config.max_workers;
+  e.crew.jobs.max_workers = config.max_workers;
   e.crew.jobs.progress = carver.Take<std::atomic<uint32_t>>(static_cast<size_t>(MaxJobs(config)));
   e.crew.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
@@ -286,16 +283,8 @@ size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
 }
 
 #ifdef STARFOCUS_RED_ZONES
-RedZones::RedZones(const EngineState& engine) : engine_(engine) {
-  VisitZones(engine, [](const void* base, size_t offset, size_t bytes) {
-    ASAN_POISON_MEMORY_REGION(static_cast<const uint8_t*>(base) + offset, bytes);
-  });
-}
-RedZones::~RedZones() {
-  VisitZones(engine_, [](const void* base, size_t offset, size_t bytes) {
-    ASAN_UNPOISON_MEMORY_REGION(static_cast<const uint8_t*>(base) + offset, bytes);
-  });
-}
+RedZones::RedZones(const EngineState& engine) : engine_(engine) { VisitZones(engine, PoisonZone); }
+RedZones::~RedZones() { VisitZones(engine_, UnpoisonZone); }
 #else
 RedZones::RedZones(const EngineState& engine) : engine_(engine) {}
 RedZones::~RedZones() = default;

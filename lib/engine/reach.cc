@@ -26,7 +26,7 @@ Reach GetReach(double max_blur) {
   Reach reach;
   reach.border = CeilPixels(max_blur) + kCellSize + 2;
   reach.cells = (splat + kCellSize - 1) / kCellSize + 1;
-  // And the taps of two downsampling filters.
+  // 16 rows are what the taps of two downsampling filters read beyond that.
   reach.rows = (reach.cells + 1) * kCellSize + 16;
   return reach;
 }

@@ -23,8 +23,8 @@ void RefocusColumn(const RefocusJob& job, int32_t column, Worker* worker) {
   }
 }
 
-// Joins blocks of different layers. Of boundaries between rows job `index` has a column of largest
-// blocks, of those between columns the next kSmallestBlock of the rows that are finished.
+// Joins blocks of different layers. Between rows, job `index` joins the boundaries of a column of
+// largest blocks; between columns, those in the next kSmallestBlock of the rows that are finished.
 struct JoinJob {
   DeblockJob deblock;
   int32_t units;  // columns of units of a largest block

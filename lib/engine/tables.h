@@ -14,7 +14,8 @@ namespace starfocus {
 
 struct Tables {
   Opening opening;
-  // Up to max_n by the paper's rule, up to max_subaperture_n by the rule of subapertures.
+  // There are apertures of every N up to max_n by the paper's rule, and up to max_subaperture_n by
+  // the rule of subapertures.
   int32_t max_n, max_subaperture_n;
   Aperture *apertures, *subapertures;
   uint16_t* aperture_weights;  // of both

@@ -70,10 +70,10 @@ Interval WithinPolygon(const Opening& opening, double y, double r, Interval x) {
 }
 
 // Returns the integral of (3), or of an opening that is as bright everywhere, over the pixel (n,
-// m), relative, for a disc of radius r in pixels. By the midpoint rule along `lines` lines that end
-// where the opening does: points of a square grid, each inside or outside, are wrong by up to 1.6
-// gray levels where the aperture ends without having fallen off. The arithmetic and the square root
-// are IEEE's, and so the same everywhere.
+// m), relative, for a disc of radius r in pixels. It goes by the midpoint rule along `lines` lines
+// that end where the opening does: points of a square grid, each inside or outside, are wrong by up
+// to 1.6 gray levels where the aperture ends without having fallen off. The arithmetic and the
+// square root are IEEE's, and so the same everywhere.
 template <sf_shape kShape>
 double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Opening& opening) {
   const double square = r * r, fall_off = opening.fall_off / 65536.0;
@@ -96,8 +96,8 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Opening
   return sum * (high - low) / lines;
 }
 
-// Of a radius in 1 / kOne pixels. A polygon's edges may lie along the lines and then end between
-// two of them: it has four times as many.
+// Returns that integral for a radius in 1 / kOne pixels. A polygon's edges may lie along the lines
+// and then end between two of them, so that it has four times as many.
 double PixelIntegral(int32_t n, int32_t m, int32_t radius, const Opening& opening) {
   const double r = static_cast<double>(radius) / kOne;
   const int32_t lines = LinesOf(radius);

@@ -19,7 +19,7 @@ inline constexpr int32_t kDeblockReach = 3;
 // Rows at the end of a stripe that wait for the next one: what a boundary below them reads.
 inline constexpr int32_t kDeblockRows = kDeblockReach + 1;
 
-// Of units that are not refocused: nothing is joined to them.
+// The layer of units that are not refocused; nothing is joined to them.
 inline constexpr uint8_t kNoLayer = 0xFF;
 
 // The layer of every 16x16 unit of the stripe before (its last row of units) and of this one.

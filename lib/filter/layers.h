@@ -43,7 +43,8 @@ struct ResampleScratch {
 // Subsamples columns [begin, end) of `to` for its rows from the centre view's (layer 1) ...
 void DownsamplePicture(const simd::Kernels& kernels, const Window& picture, int32_t begin,
                        int32_t end, const ResampleScratch& scratch, LayerPlane* to);
-// ... or from the layer above (layer 2). At most half a largest block of columns at once.
+// ... or from the layer above (layer 2). It takes at most half a largest block of columns at
+// once.
 void DownsampleLayer(const simd::Kernels& kernels, const LayerPlane& from, int32_t begin,
                      int32_t end, const ResampleScratch& scratch, LayerPlane* to);
 

@@ -158,7 +158,8 @@ void ReadLine(const Pixels& pixels, int layer, const CapturedLine& line, int32_t
   }
 }
 
-// At a layer one rounding from 1 / kShiftOne of its pixels to the picture's.
+// Returns a line of a layer in the picture's pixels: the start, in 1 / kShiftOne of the layer's, is
+// rounded once.
 CapturedLine OfPicture(const CapturedLine& line, int layer) {
   const int bits = kShiftBits - layer;
   return {static_cast<int32_t>(RoundShift(line.x, bits)),

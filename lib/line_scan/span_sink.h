@@ -24,11 +24,11 @@ struct SpanTarget {
 template <class Holes>
 class SpanSink {
  public:
-  // With target.disparity, line.step is 1.
+  // When target.disparity is given, line.step has to be 1.
   SpanSink(const Line& line, const SpanTarget& target, const Holes& holes, SpanList* list)
       : line_(line), target_(target), holes_(holes), list_(list) {}
 
-  // Of the pixels that follow.
+  // Sets the weight of the pixels that follow.
   void SetWeight(uint32_t weight) { target_.weight = weight; }
 
   void Surface(int32_t begin, int32_t end, int32_t source, int32_t neighbour, int32_t weight) {

@@ -47,7 +47,7 @@ struct BlurScale {
   int32_t Radius(int32_t distance) const {
     return static_cast<int32_t>(Checked(ranges::kRadius, (step * distance) >> kStepBits));
   }
-  // The same, rounded up: 0 only for what is in focus.
+  // The blur radius rounded up, which is 0 only for what is in focus.
   int32_t RadiusAbove(int32_t distance) const {
     return static_cast<int32_t>((step * distance + (int64_t{1} << kStepBits) - 1) >> kStepBits);
   }

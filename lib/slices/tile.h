@@ -20,7 +20,7 @@ struct SectionPart {
   uint8_t shown[kMaxSlices];
 };
 
-// Of the light of a pixel: R, G, B and what is covered.
+// A pixel of light has sums of R, G, B and of what is covered.
 inline constexpr size_t kPixelSums = 4;
 
 // What all tiles of a section share. G: the smaller of 2 N + 1 and kGroupViews.

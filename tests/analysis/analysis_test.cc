@@ -81,8 +81,8 @@ TEST_CASE("analysis: view-interpolation kernels tend to their limits") {
   }
   // Where views lie whole pixels apart boxes on whole pixels are exact.
   for (const int n : {4, 5, 6}) {
-    for (const int cell : {1, 2, 3, 5}) {
-      const double r = cell * double(LensInSubapertures(n)) / kSubapertureUnits;
+    for (const int width : {1, 2, 3, 5}) {
+      const double r = width * double(LensInSubapertures(n)) / kSubapertureUnits;
       CAPTURE(r);
       CHECK(SquaredError(StarKernel(r, n, kTheta, Subapertures::kWide),
                          SubapertureKernel(r, n, kTheta)) < 1e-12);

@@ -96,17 +96,18 @@ TEST_CASE("constants: aperture weights are a_{d,N} of (5)") {
 }
 
 TEST_CASE("constants: the footprint of a view is its subaperture") {
-  for (const int32_t cell : {1, 13, 64, 128, 200, 256}) {
+  for (const int32_t width : {1, 13, 64, 128, 200, 256}) {
     double worst = 0;
     for (int32_t offset = -kShiftOne / 2; offset <= kShiftOne / 2; ++offset) {
       const double t = double(kShiftOne - std::abs(offset)) / kShiftOne;
-      const double exact = Trapezoid(t, double(cell) / kShiftOne);
-      const double weight = SubapertureWeight(offset, cell) / double(1 << simd::kBlendBits);
+      const double exact = Trapezoid(t, double(width) / kShiftOne);
+      const double weight = SubapertureWeight(offset, width) / double(1 << simd::kBlendBits);
       worst = std::max(worst, std::fabs(weight - exact));
     }
     CHECK_MESSAGE(worst <= 1.0 / (1 << simd::kBlendBits),
-                  "h of (6) moves for cells " << cell << "/256 px wide: the subapertures' table "
-                                              << "and rule");
+                  "h of (6) moves for subapertures " << width
+                                                     << "/256 px wide: the subapertures' table "
+                                                     << "and rule");
   }
 }
 
@@ -203,7 +204,7 @@ TEST_CASE("constants: the running engine has the kernel it is described by") {
   }
 }
 
-TEST_CASE("constants: the engine's cells keep the threshold at every radius that N serves") {
+TEST_CASE("constants: the engine's subapertures keep the threshold at every radius that N serves") {
   for (const double r_max : {11.0, 25.0, 34.0, 40.0}) {
     const int n = ViewsBySubaperture(r_max);
     double worst = 0, worst_r = 0;

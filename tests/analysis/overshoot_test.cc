@@ -11,6 +11,7 @@
 
 #include "lib/analysis/engine_kernel.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/transfer_curve.h"
 
 namespace {
 
@@ -37,8 +38,9 @@ double NegativeSum(Kernel kernel) {
 }
 
 // Refocuses the picture that is bright where the kernel around (x, y) is negative. Returns how far
-// the pixel there falls below the darker level, in parts of the contrast.
-double Undershoot(double r, sf_rule rule, int layer, Kernel kernel, int x, int y) {
+// the pixel there falls below the darker level, in parts of the contrast of light.
+double Undershoot(double r, sf_rule rule, int layer, sf_transfer transfer, Kernel kernel, int x,
+                  int y) {
   test::Scene scene = test::EmptyScene(kSide, kSide, 1, float(r), float(r));
   for (int v = 0; v < kSide; ++v) {
     for (int u = 0; u < kSide; ++u) {
@@ -51,16 +53,17 @@ double Undershoot(double r, sf_rule rule, int layer, Kernel kernel, int x, int y
   sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
   params.rule = rule;
   sf_config config = test::ConfigFor(scene, r + 1);
-  config.transfer = SF_TRANSFER_NONE;
+  config.transfer = transfer;
   config.max_layer = layer;
   config.gather = 0;
   config.largest_block = 128;
   test::Engine engine(config);
   test::Output out(kSide, kSide);
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
-  int below = 0;
-  for (const uint8_t level : out.bytes) below = std::max(below, kLow - level);
-  return double(below) / (kHigh - kLow);
+  const auto light = [&](int level) { return test::LightOf(level, transfer); };
+  int darkest = kLow;
+  for (const uint8_t level : out.bytes) darkest = std::min(darkest, int(level));
+  return (light(kLow) - light(darkest)) / (light(kHigh) - light(kLow));
 }
 
 // The most that the kernels of these radii overshoot by, near where each layer begins, and that
@@ -72,8 +75,10 @@ double Worst(sf_rule rule, const std::vector<double>& radii) {
     double worst_here = 0;
     const int step = 1 << measured.layer;
     for (int k = 0; k < step; ++k) {
-      worst_here = std::max(worst_here, Undershoot(r, rule, measured.layer, measured.kernel,
-                                                   kMiddle + k, kMiddle + k));
+      for (const sf_transfer transfer : {SF_TRANSFER_NONE, SF_TRANSFER_SRGB}) {
+        worst_here = std::max(worst_here, Undershoot(r, rule, measured.layer, transfer,
+                                                     measured.kernel, kMiddle + k, kMiddle + k));
+      }
     }
     std::printf("rule %d, blur %.2f, layer %d: negative taps %.4f, undershoot %.4f\n", int(rule), r,
                 measured.layer, NegativeSum(measured.kernel), worst_here);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=… -DLIBRARY=… -DHEADER=… -P exports_test.cmake
-# The shared library exports every SF_API function of the header and nothing else.
+# cmake -DNM=… -DLIBRARY=… -DHEADERS=… -P exports_test.cmake
+# The shared library exports every SF_API function of the headers and nothing else.
 cmake_minimum_required(VERSION 3.20)
 execute_process(COMMAND "${NM}" -D --defined-only "${LIBRARY}"
                 OUTPUT_VARIABLE listing RESULT_VARIABLE result)
@@ -8,7 +8,12 @@ if(NOT result EQUAL 0)
   message(FATAL_ERROR "nm failed on ${LIBRARY}")
 endif()
 
-file(READ "${HEADER}" header)
+file(GLOB files "${HEADERS}/*.h")
+set(header "")
+foreach(file IN LISTS files)
+  file(READ "${file}" text)
+  string(APPEND header "${text}")
+endforeach()
 string(REGEX MATCHALL "SF_API [^;(]*sf_[a-z_]+\\(" declarations "${header}")
 set(expected "")
 foreach(declaration IN LISTS declarations)
@@ -17,7 +22,7 @@ foreach(declaration IN LISTS declarations)
 endforeach()
 list(LENGTH expected count)
 if(count LESS 10)
-  message(FATAL_ERROR "only ${count} declarations found in ${HEADER}")
+  message(FATAL_ERROR "only ${count} declarations found in ${HEADERS}")
 endif()
 
 set(exported "")

@@ -183,7 +183,7 @@ TEST_CASE("aperture: subapertures have the light of their part of the lens") {
       CHECK(subapertures.last > 0);
       CHECK(views == subapertures.views);
       CHECK(sum == std::ldexp(1.0, subapertures.sum_bits));
-      // A box blurs a rim cell's light over more than the part within.
+      // A box blurs a rim subaperture's light over more than the part within.
       CHECK(squares / sum == doctest::Approx(exact / light)
                                  .epsilon(n < 4    ? 0.25
                                           : n < 13 ? 0.06

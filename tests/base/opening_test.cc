@@ -73,9 +73,9 @@ TEST_CASE("opening: all weights sum to a power of two, and none is beyond its ty
     std::vector<uint16_t> rest(starfocus::FullApertureSize(n));
     CAPTURE(test::ShapeText(config));
     CAPTURE(n);
-    for (const bool cells : {false, true}) {
-      const Aperture whole = cells ? starfocus::MakeSubapertures(n, opening, weights.data())
-                                   : starfocus::MakeAperture(n, opening, weights.data());
+    for (const bool wide : {false, true}) {
+      const Aperture whole = wide ? starfocus::MakeSubapertures(n, opening, weights.data())
+                                  : starfocus::MakeAperture(n, opening, weights.data());
       const auto check = [&](const Aperture& aperture) {
         const auto weight = [&](int i, int j) { return aperture.Weight(i, j); };
         CHECK(Total(n, weight) == int64_t{1} << aperture.sum_bits);

@@ -129,7 +129,7 @@ TEST_CASE("rules: layers from radius 3 and 6 on by (12)") {
   CHECK(LayerByPaper(SF_MAX_BLUR) == 2);
 }
 
-TEST_CASE("rules: layers from radius 7 and 24 on with cells, no layer 2 beside depth edges") {
+TEST_CASE("rules: layers from radius 7 and 24 on by subapertures, no layer 2 beside depth edges") {
   CHECK(LayerBySubaperture(0, false) == 0);
   CHECK(LayerBySubaperture(Below(7), false) == 0);
   CHECK(LayerBySubaperture(7, false) == 1);
@@ -166,17 +166,17 @@ TEST_CASE("rules: what openings demand, and that layers and more views follow") 
   }
   constexpr struct {
     Demand demand;
-    double paper, cells;
+    double paper, subaperture;
   } kFirst[] = {{Demand::kDisc, 4, 12}, {Demand::kPolygon, 5, 14}, {Demand::kRing, 6, 16}};
   for (const auto& first : kFirst) {
     CHECK(LayerByPaper(Below(first.paper), first.demand) == 0);
     CHECK(LayerByPaper(first.paper, first.demand) == 1);
     CHECK(LayerByPaper(Below(2 * first.paper), first.demand) == 1);
     CHECK(LayerByPaper(2 * first.paper, first.demand) == 2);
-    CHECK(LayerBySubaperture(Below(first.cells), false, first.demand) == 0);
-    CHECK(LayerBySubaperture(first.cells, true, first.demand) == 1);
-    CHECK(LayerBySubaperture(first.cells * 3.42, false, first.demand) == 1);
-    CHECK(LayerBySubaperture(first.cells * 3.43, false, first.demand) == 2);
+    CHECK(LayerBySubaperture(Below(first.subaperture), false, first.demand) == 0);
+    CHECK(LayerBySubaperture(first.subaperture, true, first.demand) == 1);
+    CHECK(LayerBySubaperture(first.subaperture * 3.42, false, first.demand) == 1);
+    CHECK(LayerBySubaperture(first.subaperture * 3.43, false, first.demand) == 2);
     CHECK(LayerBySubaperture(SF_MAX_BLUR, true, first.demand) == 1);
   }
 }

@@ -161,7 +161,7 @@ TEST_CASE("block conformance: the benchmark's slices") {
   CHECK(covered.pixels[1] + covered.pixels[2] + covered.gathered == 0);
 }
 
-TEST_CASE("block conformance: largest cells, smallest and single blocks") {
+TEST_CASE("block conformance: largest subapertures, smallest and single blocks") {
   test::Random random(52);
   Distance all;
   Covered covered;
@@ -181,7 +181,7 @@ TEST_CASE("block conformance: largest cells, smallest and single blocks") {
       }
     }
   }
-  Tell("cells and partitions", all, covered);
+  Tell("subapertures and partitions", all, covered);
 }
 
 TEST_CASE("block conformance: more slices than fit, widest subapertures") {
@@ -190,7 +190,7 @@ TEST_CASE("block conformance: more slices than fit, widest subapertures") {
     double focus, max_blur;
   };
   // Surfaces blurred on both sides of the focus, in more slices than there are and in more than
-  // memory has room for; and an aperture whose cells are almost as wide as they are spread.
+  // memory has room for; and an aperture whose subapertures are almost as wide as they are spread.
   constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
   test::Random random(53);
   Distance all;

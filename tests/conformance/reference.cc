@@ -87,7 +87,7 @@ LightField LoadExcess(const test::Scene& scene, int transfer) {
 }
 
 Lens MakeLens(const sf_params& params, const Opening& opening, int n, int layer,
-              bool cells = false) {
+              bool wide = false) {
   Lens lens;
   lens.n = n;
   lens.most = n * n;
@@ -95,13 +95,13 @@ Lens MakeLens(const sf_params& params, const Opening& opening, int n, int layer,
   lens.opening = opening;
   lens.focus = RoundedTo64(params.focus);
   double extent = 1;
-  if (cells) {
-    // Views up to 5/32 of a cell beyond the rim.
-    lens.cells = n == 1 ? 1 : n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
-    const double farthest = lens.cells + 5 / 32.0;
+  if (wide) {
+    // Views up to 5/32 of a subaperture beyond the rim.
+    lens.subapertures = n == 1 ? 1 : n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
+    const double farthest = lens.subapertures + 5 / 32.0;
     lens.n = int(farthest);
     lens.most = int(farthest * farthest);
-    extent = lens.n / lens.cells;
+    extent = lens.n / lens.subapertures;
   }
   const auto step = int64_t(params.aperture * extent * (1 << 24));
   lens.step = std::max<int64_t>(1, Rounded(2 * step, 1 + layer));
@@ -311,8 +311,8 @@ Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& le
     }
   }
   const int distance = std::abs((low + high) / 2 - lens.focus);
-  const BlurKernel kernel =
-      MakeBlurKernel(NearestRadius(int(std::floor(lens.radius * distance))), lens.opening);
+  const BlurKernel& kernel =
+      BlurKernelOf(NearestRadius(int(std::floor(lens.radius * distance))), lens.opening);
   const Rectangle rectangle = {cell.x,      cell.y,      cell.width,  cell.height,
                                kernel.size, kernel.size, kernel.size, kernel.size};
   Picture extended = ExtendedRectangle(picture, rectangle);
@@ -332,10 +332,6 @@ Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& le
   }
   return to;
 }
-
-}  // namespace
-
-namespace {
 
 // Views, and cells that are gathered, of the blocks; with `excess` of those alone that may show
 // highlights, which are at layer 0 and gather nothing.

@@ -4,8 +4,10 @@
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "tests/conformance/reference_opening.h"
@@ -60,8 +62,7 @@ struct BlurKernel {
 
 // The light of the opening's square [x0, x1] x [y0, y1]; a polygon's by points.
 inline double LightOf(const Opening& opening, double x0, double x1, double y0, double y1) {
-  const double tangent = std::tan(opening.theta);
-  if (opening.shape == SF_SHAPE_FALL_OFF) return Integral(x0, x1, y0, y1, 1 / (tangent * tangent));
+  if (opening.shape == SF_SHAPE_FALL_OFF) return Integral(x0, x1, y0, y1, opening.cot2);
   if (opening.shape == SF_SHAPE_POLYGON) {
     const int points = FinenessOf(x1 - x0);
     double sum = 0;
@@ -97,6 +98,25 @@ inline BlurKernel MakeBlurKernel(double r, const Opening& opening) {
   }
   for (double& weight : kernel.weights) weight /= sum;
   return kernel;
+}
+
+// The kernel of MakeBlurKernel, made once for all calls that ask for it; good until the next call.
+inline const BlurKernel& BlurKernelOf(double r, const Opening& opening) {
+  static std::map<std::array<double, 7>, BlurKernel> kernels;
+  constexpr size_t kMost = 1000;
+  const std::array<double, 7> key = {r,
+                                     opening.theta,
+                                     double(opening.shape),
+                                     double(opening.blades),
+                                     opening.rotation,
+                                     opening.curvature,
+                                     opening.inner};
+  auto found = kernels.find(key);
+  if (found == kernels.end()) {
+    if (kernels.size() >= kMost) kernels.clear();
+    found = kernels.emplace(key, MakeBlurKernel(r, opening)).first;
+  }
+  return found->second;
 }
 
 }  // namespace reference

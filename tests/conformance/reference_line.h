@@ -50,10 +50,10 @@ using LightField = std::map<std::pair<int, int>, Picture>;
 
 // The lens: N views along its radius, and how far pixels move in them.
 struct Lens {
-  int n = 0;          // outermost view
-  int most = 0;       // i^2 + j^2 of the views
-  double cells = 0;   // radius in cells that views stand for; 0: they stand for points
-  double radius = 0;  // u_t
+  int n = 0;                // outermost view
+  int most = 0;             // i^2 + j^2 of the views
+  double subapertures = 0;  // radius in those that views stand for; 0: they stand for points
+  double radius = 0;        // u_t
   Opening opening = 0.0;
   int focus = 0;     // d_t, 1/64
   int64_t step = 0;  // u_t / 2^layer, 2^-24
@@ -67,7 +67,9 @@ struct Lens {
   }
   // Width of the subaperture on the picture, r / N, at most a pixel: as far as it moves from view
   // to view.
-  double Cell(int disparity) const { return std::min(1.0, std::abs(Shift(1, disparity)) / 256.0); }
+  double Subaperture(int disparity) const {
+    return std::min(1.0, std::abs(Shift(1, disparity)) / 256.0);
+  }
   // Within a run, disparities (1/64) range over a quarter pixel of displacement at the aperture's
   // rim, and never across the edge of a surface.
   int Spread() const { return int(std::min<int64_t>(kSurfaceStep, (int64_t{16} << 24) / step)); }
@@ -79,10 +81,10 @@ struct Lens {
     const double passing = opening.cats_eye > 0 ? opening.Passing(i, j, Radius()) : 1;
     // Openings that end sharply are sampled as the engine has them.
     if (opening.shape != SF_SHAPE_FALL_OFF) return passing * opening.Mean(i, j, Radius(), 16);
-    if (cells > 0) return passing * opening.Mean(i, j, cells, 24);
-    return passing * ApertureDensity(double(i) / n, double(j) / n, opening.theta);
+    if (subapertures > 0) return passing * opening.Mean(i, j, subapertures, 24);
+    return passing * ApertureDensity(double(i) / n, double(j) / n, opening.cot2);
   }
-  double Radius() const { return cells > 0 ? cells : n; }
+  double Radius() const { return subapertures > 0 ? subapertures : n; }
   // Largest j of the views (i, j) rendered from type A view i: below the diagonal.
   int LastAcross(int i) const {
     int j = std::max(0, i - 1);
@@ -216,16 +218,16 @@ class LineScan {
     filled_ = std::min(filled_, begin);
   }
 
-  // The source lies t away from the rendered pixel's centre; its cell of width L gives the
+  // The source lies t away from the rendered pixel's centre; its subaperture of width L gives the
   // neighbour on that side clamp((|t| - 1/2) / L + 1/2, 0, 1). None across the edge of a surface.
   void SetSurface(int p, const LineRun& run) {
     if (!Inside(p)) return;
     Owner owner = {false, p + Whole(run), p + Whole(run), 0};
-    const double t = Offset(run), cell = lens_.Cell(run.disparity);
+    const double t = Offset(run), width = lens_.Subaperture(run.disparity);
     const int neighbour = owner.source + (t > 0 ? 1 : -1);
-    if (cell > 0 && Inside(neighbour) && OneSurface(owner.source, neighbour)) {
+    if (width > 0 && Inside(neighbour) && OneSurface(owner.source, neighbour)) {
       owner.other = neighbour;
-      owner.share = std::clamp((std::fabs(t) - 0.5) / cell + 0.5, 0.0, 1.0);
+      owner.share = std::clamp((std::fabs(t) - 0.5) / width + 0.5, 0.0, 1.0);
     }
     owners_[size_t(p)] = owner;
   }

@@ -3,15 +3,15 @@
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_OPENING_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_OPENING_H_
 
+#include <array>
 #include <cmath>
 
 #include "starfocus/starfocus.h"
 
 namespace reference {
 
-// (3) without its constant factor.
-inline double ApertureDensity(double u, double v, double theta) {
-  const double cot2 = 1 / (std::tan(theta) * std::tan(theta));
+// (3) without its constant factor; `cot2` is the squared cotangent of theta.
+inline double ApertureDensity(double u, double v, double cot2) {
   const double denominator = u * u + v * v + cot2;
   return cot2 * cot2 / (denominator * denominator);
 }
@@ -23,15 +23,35 @@ struct Opening {
   double rotation = 0, curvature = 0, inner = 0, cats_eye = 0;
   double rim_x = 0, rim_y = 0;  // where the rim behind the lens is seen
 
-  Opening(double angle) : theta(angle) {}  // NOLINT: the plain lens is its theta
-  Opening(const sf_config& config)         // NOLINT: a lens is its configuration
+  // An edge of the polygon: the normal's direction, and the centre of its circle along it.
+  struct Edge {
+    double x, y, centre;
+  };
+  std::array<Edge, SF_MAX_BLADES> edges = {};
+  double cot2;  // of theta
+
+  Opening(double angle)  // NOLINT: the plain lens is its theta
+      : theta(angle), cot2(1 / (std::tan(theta) * std::tan(theta))) {}
+  Opening(const sf_config& config)  // NOLINT: a lens is its configuration
       : theta(config.theta),
         shape(config.aperture_shape),
         blades(config.blades),
         rotation(config.rotation),
         curvature(config.curvature),
         inner(config.ring_inner),
-        cats_eye(config.cats_eye) {}
+        cats_eye(config.cats_eye),
+        cot2(1 / (std::tan(theta) * std::tan(theta))) {
+    const double half = Half(), r = 1 / curvature, sine = std::sin(half);
+    for (int k = 0; k < blades; ++k) {
+      const double angle = rotation * kPi / 180 + (2 * k + 1) * half;
+      edges[size_t(k)] = {std::sin(angle), -std::cos(angle),
+                          std::cos(half) - std::sqrt(r * r - sine * sine)};
+    }
+  }
+
+  static constexpr double kPi = 3.14159265358979323846;
+  // Half of the angle between two corners.
+  double Half() const { return kPi / blades; }
 
   // The same with the rim that the middle of a block sees.
   Opening At(double x, double y, double block_width, double block_height, double width,
@@ -45,17 +65,15 @@ struct Opening {
 
   // Inside of the circles through two corners each, or of the lines.
   bool InPolygon(double u, double v) const {
-    const double pi = 3.14159265358979323846, half = pi / blades;
+    const double straight = curvature == 0 ? std::cos(Half()) : 0;
     for (int k = 0; k < blades; ++k) {
-      const double angle = rotation * pi / 180 + (2 * k + 1) * half;
-      const double x = std::sin(angle), y = -std::cos(angle);
+      const Edge& edge = edges[size_t(k)];
       if (curvature == 0) {
-        if (u * x + v * y > std::cos(half)) return false;
+        if (u * edge.x + v * edge.y > straight) return false;
         continue;
       }
-      const double r = 1 / curvature, sine = std::sin(half);
-      const double centre = std::cos(half) - std::sqrt(r * r - sine * sine);
-      if (std::hypot(u - centre * x, v - centre * y) > r) return false;
+      const double across = u - edge.centre * edge.x, down = v - edge.centre * edge.y;
+      if (across * across + down * down > 1 / (curvature * curvature)) return false;
     }
     return true;
   }
@@ -63,23 +81,23 @@ struct Opening {
   double Density(double u, double v) const {
     const double square = u * u + v * v;
     if (square > 1) return 0;
-    if (shape == SF_SHAPE_FALL_OFF) return ApertureDensity(u, v, theta);
+    if (shape == SF_SHAPE_FALL_OFF) return ApertureDensity(u, v, cot2);
     if (shape == SF_SHAPE_RING) return square >= inner * inner;
     return shape == SF_SHAPE_DISC || InPolygon(u, v) ? 1 : 0;
   }
 
-  // The mean density over the cell around (i, j) of a lens that is `cells` of them wide, by
+  // The mean density over the subaperture around (i, j) of a lens that is `width` of them wide, by
   // `points` squared.
-  double Mean(int i, int j, double cells, int points) const {
+  double Mean(int i, int j, double width, int points) const {
     double sum = 0;
-    ForEachPoint(i, j, cells, points, [&](double u, double v) { sum += Density(u, v); });
+    ForEachPoint(i, j, width, points, [&](double u, double v) { sum += Density(u, v); });
     return sum / (points * points);
   }
 
-  // The part of the cell's open points that the rim behind lets through.
-  double Passing(int i, int j, double cells) const {
+  // The part of the subaperture's open points that the rim behind lets through.
+  double Passing(int i, int j, double width) const {
     int open = 0, both = 0;
-    ForEachPoint(i, j, cells, 16, [&](double u, double v) {
+    ForEachPoint(i, j, width, 16, [&](double u, double v) {
       if (Density(u, v) == 0) return;
       ++open;
       both += std::hypot(u - rim_x, v - rim_y) <= 1;
@@ -89,10 +107,10 @@ struct Opening {
 
  private:
   template <class Visit>
-  static void ForEachPoint(int i, int j, double cells, int points, const Visit& visit) {
+  static void ForEachPoint(int i, int j, double width, int points, const Visit& visit) {
     for (int point = 0; point < points * points; ++point) {
-      visit((i + (point % points + 0.5) / points - 0.5) / cells,
-            (j + (point / points + 0.5) / points - 0.5) / cells);
+      visit((i + (point % points + 0.5) / points - 0.5) / width,
+            (j + (point / points + 0.5) / points - 0.5) / width);
     }
   }
 };

@@ -145,16 +145,20 @@ class Views {
 Picture RefocusRectangle(const LightField& field, const Picture& centre, const Lens& lens,
                          const Rectangle& rectangle) {
   double total = 0;
+  std::vector<double> densities;
   for (int j = -lens.n; j <= lens.n; ++j) {
     for (int i = -lens.n; i <= lens.n; ++i) {
-      if (lens.Contains(i, j)) total += lens.Density(i, j);
+      if (!lens.Contains(i, j)) continue;
+      densities.push_back(lens.Density(i, j));
+      total += densities.back();
     }
   }
   Views views(field, centre, lens, rectangle);
   Picture sum(rectangle.width, rectangle.height);
+  auto density = densities.begin();
   for (int j = -lens.n; j <= lens.n; ++j) {
     for (int i = -lens.n; i <= lens.n; ++i) {
-      if (lens.Contains(i, j)) views.Add(i, j, lens.Density(i, j) / total, &sum);
+      if (lens.Contains(i, j)) views.Add(i, j, *density++ / total, &sum);
     }
   }
   return sum;

@@ -111,8 +111,9 @@ class RangeFinder {
     starfocus::SliceLimits all = {};
     for (const Range& range : ranges) {
       const int rim = std::abs(lens_.Shift(lens_.n, range.Disparity()));
-      const int cell = std::abs(lens_.Shift(1, range.Disparity()));
-      const auto reach = size_t(starfocus::SliceReach(rim, cell)), height = size_t(rect_.height);
+      const int subaperture = std::abs(lens_.Shift(1, range.Disparity()));
+      const auto reach = size_t(starfocus::SliceReach(rim, subaperture)),
+                 height = size_t(rect_.height);
       all.samples += SamplesOf(size_t(rect_.width), height, reach);
       all.rows += TileRowsOf(height, reach);
       all.bytes += LeastBytesOf(reach);
@@ -191,8 +192,8 @@ Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
       }
     }
   }
-  const double cell = std::abs(lens.Shift(1, range.Disparity())) / 256.0;
-  const double box = std::min(cell, 2.0 * starfocus::simd::kMaxSpread + 1);
+  const double width = std::abs(lens.Shift(1, range.Disparity())) / 256.0;
+  const double box = std::min(width, 2.0 * starfocus::simd::kMaxSpread + 1);
   return box > kWidestBox ? Spread(Spread(plane, box, 1, 0), box, 0, 1) : plane;
 }
 
@@ -217,24 +218,24 @@ struct Offset {
   }
 };
 
-// Of view k along an axis. An aperture's cell of one to three pixels covers what it does of pixels;
+// Of view k along an axis. A subaperture of one to three pixels covers what it does of pixels;
 // a narrower one less of the pixels on either side of it than interpolation.
 Offset OffsetOf(const Lens& lens, int k, int disparity) {
   const int shift = (k < 0 ? -1 : 1) * (k == 0 ? 0 : lens.Shift(std::abs(k), disparity));
   const double moved = shift / 256.0;
-  const double cell = std::max(1, std::abs(lens.Shift(1, disparity))) / 256.0;
-  if (cell > 1 && cell <= kWidestBox) {
-    const double left = moved - cell / 2 + 0.5, right = moved + cell / 2 + 0.5;
+  const double width = std::max(1, std::abs(lens.Shift(1, disparity))) / 256.0;
+  if (width > 1 && width <= kWidestBox) {
+    const double left = moved - width / 2 + 0.5, right = moved + width / 2 + 0.5;
     Offset box = {int(std::floor(left)), {}, 0};
     for (int x = box.first; x < right; ++x) {
-      box.parts.push_back((std::min(right, x + 1.0) - std::max(left, double(x))) / cell);
+      box.parts.push_back((std::min(right, x + 1.0) - std::max(left, double(x))) / width);
     }
     if (box.parts.size() == 2) box.inside = box.parts[1];
     return box;
   }
   const double whole = std::floor(moved), edge = moved - whole;
   if (edge == 0) return {int(whole), {1}, 0};
-  const double inside = cell >= 1 ? edge : std::clamp((edge - 0.5) / cell + 0.5, 0.0, 1.0);
+  const double inside = width >= 1 ? edge : std::clamp((edge - 0.5) / width + 0.5, 0.0, 1.0);
   return {int(whole), {1 - edge, edge}, inside};
 }
 
@@ -275,11 +276,17 @@ class Stack {
             MovedAlongX(planes_[k], OffsetOf(lens_, i, ranges_[k].Disparity()), rect_.width));
       }
       for (int j = -lens_.n; j <= lens_.n; ++j) {
-        if (lens_.Contains(i, j)) AddView(column, j, lens_.Density(i, j));
+        if (!lens_.Contains(i, j)) continue;
+        const double density = lens_.Density(i, j);
+        AddView(column, j, density);
+        total_ += density;
       }
     }
     return sum_;
   }
+
+  // What their weights sum to.
+  double total() const { return total_; }
 
  private:
   void AddView(const std::vector<Plane>& column, int j, double weight) {
@@ -309,6 +316,7 @@ class Stack {
   const Rectangle& rect_;
   std::vector<Plane> planes_;
   Plane sum_;
+  double total_ = 0;
 };
 
 }  // namespace
@@ -328,10 +336,6 @@ Picture CompositeRectangle(const LightField& field, const Picture& centre, const
   const std::vector<Range> ranges = RangeFinder(map, lens, rectangle, slicing).Find();
   Stack stack(map, ranges, lens, rectangle);
   const Plane& sum = stack.AddViews();
-  double total = 0;
-  for (int j = -lens.n; j <= lens.n; ++j) {
-    for (int i = -lens.n; i <= lens.n; ++i) total += lens.Contains(i, j) ? lens.Density(i, j) : 0;
-  }
   Picture picture(rectangle.width, rectangle.height);
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
@@ -339,7 +343,7 @@ Picture CompositeRectangle(const LightField& field, const Picture& centre, const
       const Light& light = sum.At(x, y);
       Colour& colour = picture.colours[picture.At(x, y)];
       colour = extended.colours[extended.At(x + rectangle.left, y + rectangle.top)];
-      if (4 * light[3] < total) continue;
+      if (4 * light[3] < stack.total()) continue;
       for (size_t c = 0; c < 3; ++c) colour[c] = std::min(255.0, light[c] / light[3]);
     }
   }

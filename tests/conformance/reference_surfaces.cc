@@ -117,25 +117,47 @@ class SurfaceFinder {
     }
   }
 
-  // The nearest depth edge in that direction counts, where the pixel hides the edge's far side from
-  // the centre view and a view at distance 1 can look that far behind it.
-  void LookBehind(int x, int y, const Direction& towards, std::vector<Background>* found) const {
-    const int here = Disparity(x, y);
-    for (int k = 0;; ++k) {
-      const int far_x = x + (k + 1) * towards.x, far_y = y + (k + 1) * towards.y;
-      if (!extended_.Inside(far_x, far_y)) return;
+  // Whether a pixel hides from the centre view what lies `distance` pixels away beyond an edge, and
+  // a view at distance 1 can look that far behind it.
+  bool Hides(int here, int far, int distance) const {
+    return IsEdge(here, far) && (distance - 1) * unit_ <= here - far;
+  }
+
+  // The distance of the far side of the nearest depth edge in that direction, if the pixel hides
+  // it; else 0.
+  int NextEdge(int x, int y, const Direction& towards) const {
+    for (int k = 1;; ++k) {
+      const int far_x = x + k * towards.x, far_y = y + k * towards.y;
+      if (!extended_.Inside(far_x, far_y)) return 0;
       const int far = Disparity(far_x, far_y);
-      if (!IsEdge(Disparity(x + k * towards.x, y + k * towards.y), far)) continue;
-      if (!IsEdge(here, far) || k * unit_ > here - far) return;
-      Background background = {towards, k + 1, far, 0};
-      if (field_.size() > 1 && !IsCovered(x, y, background, 2)) {
-        background.captured = 2;
-      } else if (field_.size() == 17 && !IsCovered(x, y, background, 1)) {
-        background.captured = 1;
-      }
-      found->push_back(background);
-      return;
+      if (!IsEdge(Disparity(far_x - towards.x, far_y - towards.y), far)) continue;
+      return Hides(Disparity(x, y), far, k) ? k : 0;
     }
+  }
+
+  // Behind a pixel lies what its edge in that direction hides, and what the far side of that edge
+  // hides in turn, if a view can look that far behind the pixel.
+  void LookBehind(int x, int y, const Direction& towards, std::vector<Background>* found) const {
+    const int next = NextEdge(x, y, towards);
+    if (next == 0) return;
+    AddBackground(x, y, towards, next, found);
+    const int more = NextEdge(x + next * towards.x, y + next * towards.y, towards);
+    const int second = next + more;
+    if (more == 0 || second > starfocus::simd::kMostDistance) return;
+    const int far = Disparity(x + second * towards.x, y + second * towards.y);
+    if (Hides(Disparity(x, y), far, second)) AddBackground(x, y, towards, second, found);
+  }
+
+  void AddBackground(int x, int y, const Direction& towards, int distance,
+                     std::vector<Background>* found) const {
+    const int far = Disparity(x + distance * towards.x, y + distance * towards.y);
+    Background background = {towards, distance, far, 0};
+    if (field_.size() > 1 && !IsCovered(x, y, background, 2)) {
+      background.captured = 2;
+    } else if (field_.size() == 17 && !IsCovered(x, y, background, 1)) {
+      background.captured = 1;
+    }
+    found->push_back(background);
   }
 
   // Whether a nearer pixel, by more than half a pixel, comes to lie within 3/4 of a pixel of the

@@ -125,7 +125,13 @@ TEST_CASE("constant: through every shape of opening") {
   t.color[0] = 255;
   t.color[1] = 127;
   t.color[2] = 1;
-  for (uint64_t shape = 1; shape <= (STARFOCUS_EMULATED ? 24 : 240); ++shape) {
+  // Sanitizers look at what a shape makes the engine do, which a quarter of them do too.
+#if defined(__SANITIZE_ADDRESS__)
+  constexpr uint64_t kShapes = 60;
+#else
+  constexpr uint64_t kShapes = STARFOCUS_EMULATED ? 24 : 240;
+#endif
+  for (uint64_t shape = 1; shape <= kShapes; ++shape) {
     test::Random random(shape + 7000);
     t.shape = t.seed = shape;
     t.views = random.Int(0, 1) == 0 ? 1 : 9;

@@ -124,7 +124,8 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   test::UseKernels(kernels, engine.get());
   test::Output out(scene.width, scene.height);
   sf_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
-  // Cells keep layer 2 away from depth edges: either rule has its share of the cases.
+  // The rule of subapertures keeps layer 2 away from depth edges: either rule has its share of the
+  // cases.
   if (one.block == 32) params.rule = SF_RULE_PAPER;
   if (one.levels > 0) params.rule = SF_RULE_SUBAPERTURE;
   sf_report report = {};

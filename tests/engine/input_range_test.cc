@@ -8,7 +8,9 @@
 #include <cstdio>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/transfer_curve.h"
 
 namespace {
 
@@ -37,7 +39,10 @@ struct Trial {
   int low, high;
 };
 
-Trial MakeTrial(uint64_t seed, sf_mode mode, sf_rule rule, bool any_theta) {
+// What a trial draws beside the default fall-off.
+enum class Openings { kDefault, kAnyTheta, kAnyShape };
+
+Trial MakeTrial(uint64_t seed, sf_mode mode, sf_rule rule, Openings openings) {
   constexpr int kViews[] = {1, 5, 9, 17};
   test::Random random(seed);
   Trial trial;
@@ -52,20 +57,20 @@ Trial MakeTrial(uint64_t seed, sf_mode mode, sf_rule rule, bool any_theta) {
   trial.params = test::Params(random.Int(0, 1) == 0 ? range + radius : -radius, 1, mode);
   trial.params.rule = rule;
   trial.config = test::ConfigFor(trial.scene, radius + range + 1);
-  // What filters overshoot by is a part of the contrast of light.
-  const bool filtered = mode == SF_MODE_BLOCK;
-  trial.config.transfer = filtered || seed % 2 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
-  if (any_theta) {
+  trial.config.transfer = seed % 2 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+  if (openings == Openings::kAnyTheta) {
     trial.config.theta =
         random.Int(0, 1) == 0 ? SF_MAX_THETA : random.Real(SF_MIN_THETA, SF_MAX_THETA);
   }
+  if (openings == Openings::kAnyShape) test::RandomShape(&trial.config, &random);
   return trial;
 }
 
 // How far a picture leaves the range of its views.
 struct Beyond {
   int levels = 0;
-  double contrast = 0;  // in parts of the difference of the two levels, less one level of rounding
+  double contrast =
+      0;  // in parts of the difference of both levels' light, less a level of rounding
 };
 
 // Refocuses the trial and widens `worst` by it.
@@ -74,23 +79,34 @@ void Widen(const Trial& trial, Beyond* worst) {
   REQUIRE(engine.status() == SF_OK);
   test::Output out(trial.scene.width, trial.scene.height);
   REQUIRE(test::Refocus(&engine, trial.params, trial.scene, &out) == SF_OK);
-  int beyond = 0;
+  int below = 0, above = 0;
   for (const uint8_t level : out.bytes) {
-    beyond = std::max({beyond, trial.low - level, level - trial.high});
+    below = std::max(below, trial.low - level);
+    above = std::max(above, level - trial.high);
   }
-  worst->levels = std::max(worst->levels, beyond);
-  worst->contrast = std::max(worst->contrast, double(beyond - 1) / (trial.high - trial.low));
+  worst->levels = std::max({worst->levels, below, above});
+  const auto light = [&](int level) { return test::LightOf(level, trial.config.transfer); };
+  const double contrast = light(trial.high) - light(trial.low);
+  if (below > 0) {
+    const double less = light(trial.low) - light(trial.low - below + 1);
+    worst->contrast = std::max(worst->contrast, less / contrast);
+  }
+  if (above > 0) {
+    const double more = light(trial.high + above - 1) - light(trial.high);
+    worst->contrast = std::max(worst->contrast, more / contrast);
+  }
 }
 
-Beyond WorstOf(sf_mode mode, sf_rule rule, bool any_theta) {
+Beyond WorstOf(sf_mode mode, sf_rule rule, Openings openings) {
   const uint64_t kTrials = STARFOCUS_EMULATED ? 30 : mode == SF_MODE_BLOCK ? 300 : 60;
   Beyond worst;
   for (uint64_t seed = 1; seed <= kTrials; ++seed) {
     CAPTURE(seed);
-    Widen(MakeTrial(seed, mode, rule, any_theta), &worst);
+    Widen(MakeTrial(seed, mode, rule, openings), &worst);
   }
-  std::printf("mode %d, rule %d, %s theta: %d levels, %.3f of the contrast\n", int(mode), int(rule),
-              any_theta ? "any" : "default", worst.levels, worst.contrast);
+  constexpr const char* kNames[] = {"default opening", "any theta", "any shape"};
+  std::printf("mode %d, rule %d, %s: %d levels, %.3f of the contrast\n", int(mode), int(rule),
+              kNames[int(openings)], worst.levels, worst.contrast);
   return worst;
 }
 
@@ -99,14 +115,18 @@ Beyond WorstOf(sf_mode mode, sf_rule rule, bool any_theta) {
 TEST_CASE("input range: frame modes stay within the levels of the views") {
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK}) {
     for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
-      CHECK(WorstOf(mode, rule, true).levels == 0);
+      for (const Openings openings : {Openings::kAnyTheta, Openings::kAnyShape}) {
+        CHECK(WorstOf(mode, rule, openings).levels == 0);
+      }
     }
   }
 }
 
 TEST_CASE("input range: subsampled blocks overshoot by no more than the header says") {
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, false).contrast <= 0.04);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, true).contrast <= 0.04);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, false).contrast <= 0.13);
-  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, true).contrast <= 0.4);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, Openings::kDefault).contrast <= 0.04);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, Openings::kAnyTheta).contrast <= 0.04);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_SUBAPERTURE, Openings::kAnyShape).contrast <= 0.04);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kDefault).contrast <= 0.13);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kAnyTheta).contrast <= 0.4);
+  CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kAnyShape).contrast <= 0.4);
 }

@@ -105,7 +105,7 @@ TEST_CASE("symmetry: also in benchmark mode and on noisy disparity") {
   for (const Symmetry& s : kTurns) Check(s, scene, lines);
 }
 
-// Cells up to several pixels wide, over flat, slanted and noisy surfaces.
+// Subapertures up to several pixels wide, over flat, slanted and noisy surfaces.
 TEST_CASE("symmetry: mirrors with wide subapertures") {
   for (const int views : {17, 5, 1}) {
     test::Scene scene = test::RandomScene(64, 32, views, -3, 8, 35);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,6 @@ static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
 // The blurred picture, unrounded. What is farther than the focus sees kernels turned.
 std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
                               const reference::Opening& opening, int transfer) {
-  std::map<double, reference::BlurKernel> kernels;
   double light[256];
   for (int code = 0; code < 256; ++code) light[code] = test::LightOf(code, transfer);
   std::vector<double> out;
@@ -37,8 +35,7 @@ std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
       const int signed_distance = int(std::floor(scene.Disparity(x, y) * kOne + 0.5f)) - focus;
       const int distance = std::abs(signed_distance), side = signed_distance < 0 ? -1 : 1;
       const double r = reference::NearestRadius(int(std::floor(params.aperture * distance)));
-      if (kernels.count(r) == 0) kernels[r] = reference::MakeBlurKernel(r, opening);
-      const reference::BlurKernel& kernel = kernels[r];
+      const reference::BlurKernel& kernel = reference::BlurKernelOf(r, opening);
       double sums[3] = {0, 0, 0};
       for (int m = -kernel.size; m <= kernel.size; ++m) {
         for (int n = -kernel.size; n <= kernel.size; ++n) {

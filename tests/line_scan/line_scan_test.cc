@@ -120,14 +120,14 @@ TEST_CASE("line scan: no neighbour across an edge inside a stretch") {
 }
 
 TEST_CASE("line scan: weights of the subaperture") {
-  for (int cell = 0; cell <= 256; ++cell) {
+  for (int width = 0; width <= 256; ++width) {
     for (int offset = -128; offset <= 128; ++offset) {
-      const double t = std::abs(offset) / 256.0, width = cell / 256.0;
-      const double exact = cell == 0 ? 0 : std::clamp((t - 0.5) / width + 0.5, 0.0, 1.0);
+      const double t = std::abs(offset) / 256.0, L = width / 256.0;
+      const double exact = width == 0 ? 0 : std::clamp((t - 0.5) / L + 0.5, 0.0, 1.0);
       constexpr double kOne = 1 << starfocus::simd::kBlendBits;
-      const double weight = starfocus::SubapertureWeight(offset, cell) / kOne;
+      const double weight = starfocus::SubapertureWeight(offset, width) / kOne;
       if (std::fabs(weight - exact) > 1 / kOne) {
-        CAPTURE(cell);
+        CAPTURE(width);
         CAPTURE(offset);
         CHECK(weight == doctest::Approx(exact));
       }
@@ -143,12 +143,12 @@ TEST_CASE("line scan: the neighbour lies on the side the surface comes from") {
       const Shown shown = Record(line, grid, view, Direction::kRightToLeft, 0, 12).pixels[6];
       const double shift = disparity * view / 4;
       const double t = shift - std::floor(shift + 0.5),
-                   cell = std::min(1.0, std::fabs(disparity) / 4);
+                   width = std::min(1.0, std::fabs(disparity) / 4);
       CAPTURE(view);
       CAPTURE(disparity);
       CHECK(shown.source == 6 + int(std::floor(shift + 0.5)));
       CHECK(shown.weight / 256.0 ==
-            doctest::Approx(std::clamp((std::fabs(t) - 0.5) / cell + 0.5, 0.0, 1.0)).epsilon(0.1));
+            doctest::Approx(std::clamp((std::fabs(t) - 0.5) / width + 0.5, 0.0, 1.0)).epsilon(0.1));
       if (shown.weight != 0) CHECK(shown.other == shown.source + (t > 0 ? 1 : -1));
     }
   }

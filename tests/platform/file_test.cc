@@ -116,6 +116,7 @@ int EndBySignal(int signal, const Work& work) {
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
+    ::signal(signal, SIG_DFL);  // whoever started the test may ignore it, as nohup does
     TemporaryFile::RemoveOnSignals();
     work([&] { return write(ends[1], "x", 1) == 1; });
     _exit(0);

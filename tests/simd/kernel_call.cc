@@ -7,9 +7,7 @@
 
 namespace test {
 
-using starfocus::simd::Kernels;
-
-uint8_t* KernelCall::AddRegion(const char* name, size_t value_size, size_t first, size_t size,
+uint8_t* CallMemory::AddRegion(const char* name, size_t value_size, size_t first, size_t size,
                                Role role) {
   Region region;
   region.name = name;
@@ -23,7 +21,7 @@ uint8_t* KernelCall::AddRegion(const char* name, size_t value_size, size_t first
   return regions_.back().bytes.get();
 }
 
-void KernelCall::MarkBytes(const uint8_t* first, size_t size, Role role) {
+void CallMemory::MarkBytes(const uint8_t* first, size_t size, Role role) {
   for (Region& region : regions_) {
     const uint8_t* const begin = region.bytes.get();
     if (first < begin || first + size > begin + region.size) continue;
@@ -33,7 +31,7 @@ void KernelCall::MarkBytes(const uint8_t* first, size_t size, Role role) {
   throw std::logic_error("a case marks memory that its call does not have");
 }
 
-size_t KernelCall::Bytes() const {
+size_t CallMemory::Bytes() const {
   size_t bytes = 0;
   for (const Region& region : regions_) {
     bytes += size_t(std::count(region.roles.begin(), region.roles.end(), Role::kInput));
@@ -44,7 +42,7 @@ size_t KernelCall::Bytes() const {
 
 // The first byte that is not as it must be: what the reference left of results, and what was there
 // before the call of all else.
-std::string KernelCall::Compare(const std::string& who) const {
+std::string CallMemory::Compare(const std::string& who) const {
   for (const Region& region : regions_) {
     for (size_t i = 0; i < region.size; ++i) {
       const Role role = region.roles[i];
@@ -63,18 +61,18 @@ std::string KernelCall::Compare(const std::string& who) const {
   return "";
 }
 
-std::string KernelCall::Check(const std::vector<const Kernels*>& tables, Met* met) {
-  const Kernels& reference = starfocus::simd::ReferenceKernels();
+std::string CallMemory::CheckRuns(const NamedRun& reference, const std::vector<NamedRun>& others,
+                                  Met* met) {
   for (Region& region : regions_) {
     region.before.assign(region.bytes.get(), region.bytes.get() + region.size);
   }
-  const uint64_t returned = run(reference);
+  const uint64_t returned = reference.run();
   for (Region& region : regions_) {
     region.expected.assign(region.bytes.get(), region.bytes.get() + region.size);
   }
   if (is_right && !is_right(returned, met)) return "the reference breaks the contract";
   std::string wrong = Compare("the reference");
-  for (const Kernels* kernels : tables) {
+  for (const NamedRun& other : others) {
     if (!wrong.empty()) break;
     for (Region& region : regions_) {
       for (size_t i = 0; i < region.size; ++i) {
@@ -82,9 +80,9 @@ std::string KernelCall::Check(const std::vector<const Kernels*>& tables, Met* me
         region.bytes[i] = region.before[i];
       }
     }
-    const uint64_t got = run(*kernels);
-    wrong = got == returned ? Compare(kernels->name)
-                            : std::string(kernels->name) + " returns " + std::to_string(got) +
+    const uint64_t got = other.run();
+    wrong = got == returned ? Compare(other.name)
+                            : std::string(other.name) + " returns " + std::to_string(got) +
                                   " instead of " + std::to_string(returned);
   }
   return wrong;

@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "simd/depth_kernels.h"
 #include "simd/kernels.h"
 #include "tests/support/test_scene.h"
 
@@ -49,11 +50,12 @@ class Draw : public Random {
 // How often the calls of a kernel met something that they must meet.
 using Met = std::map<std::string, int64_t>;
 
-class KernelCall {
+// The memory of a call.
+class CallMemory {
  public:
-  explicit KernelCall(Draw* draw) : random_(draw->Next()) {}
-  KernelCall(const KernelCall&) = delete;
-  KernelCall& operator=(const KernelCall&) = delete;
+  explicit CallMemory(Draw* draw) : random_(draw->Next()) {}
+  CallMemory(const CallMemory&) = delete;
+  CallMemory& operator=(const CallMemory&) = delete;
 
   // The values in memory of their own, in which no kernel may write. `padding` bytes follow, which
   // may hold anything; memory ends behind them, so that the sanitizers notice who reads on.
@@ -87,19 +89,23 @@ class KernelCall {
     Mark(first, count, Role::kFree);
   }
 
-  // Calls the kernel of that table and returns what it returns.
-  std::function<uint64_t(const starfocus::simd::Kernels&)> run;
-
   // Optional: looks at the results of the reference, which returned that, and tells whether they
   // are right by the kernel's contract; may free what the contract leaves open then.
   std::function<bool(uint64_t returned, Met*)> is_right;
 
-  // Runs the reference, and then the kernels of each table on the same memory. Returns the first
-  // thing that is wrong, or nothing. To be called once.
-  std::string Check(const std::vector<const starfocus::simd::Kernels*>& tables, Met* met);
-
   // Bytes that a call reads and writes, each counted once.
   size_t Bytes() const;
+
+ protected:
+  // A table's name, and the call of its kernel.
+  struct NamedRun {
+    const char* name;
+    std::function<uint64_t()> run;
+  };
+
+  // Runs the reference, and then the others on the same memory. Returns the first thing that is
+  // wrong, or nothing. To be called once.
+  std::string CheckRuns(const NamedRun& reference, const std::vector<NamedRun>& others, Met* met);
 
  private:
   enum class Role : uint8_t { kUntouched, kInput, kIgnored, kResult, kFree };
@@ -135,6 +141,29 @@ class KernelCall {
   Random random_;
   std::vector<Region> regions_;
 };
+
+// A call of a kernel of some kind of table.
+template <class Table>
+class CallOf : public CallMemory {
+ public:
+  using CallMemory::CallMemory;
+
+  // Calls the kernel of that table and returns what it returns.
+  std::function<uint64_t(const Table&)> run;
+
+  // Checks the kernels of each table against those of the reference.
+  std::string Check(const Table& reference, const std::vector<const Table*>& tables, Met* met) {
+    const auto of = [this](const Table& table) {
+      return NamedRun{table.name, [this, &table] { return run(table); }};
+    };
+    std::vector<NamedRun> others;
+    for (const Table* table : tables) others.push_back(of(*table));
+    return CheckRuns(of(reference), others, met);
+  }
+};
+
+using KernelCall = CallOf<starfocus::simd::Kernels>;
+using DepthCall = CallOf<starfocus::simd::DepthKernels>;
 
 }  // namespace test
 

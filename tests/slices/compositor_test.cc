@@ -66,7 +66,7 @@ TEST_CASE("stack: a blurred surface falls off evenly in front of one in focus") 
     for (int x = 1; x < kWidth; ++x) {
       CAPTURE(x);
       CHECK(row[size_t(x)] <= row[size_t(x - 1)]);
-      // No band: a cell is at most a sixth of the blur wide, but for the sharpest.
+      // No band: a subaperture is at most a sixth of the blur wide, but for the sharpest.
       if (radius > 3) CHECK(row[size_t(x - 1)] - row[size_t(x)] <= 300 / radius);
       if (x < kEdge - radius - 2) CHECK(row[size_t(x)] == 255);
       if (x > kEdge + radius + 2) CHECK(row[size_t(x)] == 0);

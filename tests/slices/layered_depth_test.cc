@@ -186,6 +186,29 @@ TEST_CASE("surfaces: two of them behind a third") {
   CHECK(scene.Behind(18, 20, 2) == 0);
 }
 
+TEST_CASE("surfaces: an edge behind an edge is followed") {
+  // A strip before a wall, 6 pixels behind it, and before the strip what is 3 pixels nearer.
+  for (const int start : {16, 13, 12}) {
+    Scene scene(5);
+    scene.Fill(0, kSize, 0, kSize, -5, 10);
+    scene.Fill(start, 20, 0, kSize, 1, 40);
+    scene.Fill(20, kSize, 0, kSize, 4, 90);
+    scene.Find();
+    CAPTURE(start);
+    for (int x = 20; x < 28; ++x) {
+      CAPTURE(x);
+      CHECK(scene.Behind(x, 20) == (x < 24 ? 1 : -1000));
+      // The strip's last pixel hides the wall up to 6 pixels away, and this pixel up to 9.
+      const bool shown = x < 24 && start >= 13 && x - start <= 9;
+      CHECK(scene.Behind(x, 20, 2) == (shown ? -5 : -1000));
+    }
+    if (start < 16) continue;
+    // The view to the left sees the wall five pixels further left, beside the strip.
+    CHECK(scene.Colour(20, 20, 2, 2) == 2);
+    CHECK(scene.Colour(20, 20, 0, 2) == 15);
+  }
+}
+
 TEST_CASE("surfaces: slopes of up to three quarters of a pixel hide nothing") {
   for (const double slope : {0.0, 0.25, 0.75, -0.75}) {
     Scene scene(5);

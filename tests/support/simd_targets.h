@@ -7,16 +7,17 @@
 #include <vector>
 
 #include "lib/engine/engine.h"
+#include "simd/depth_kernels.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 
 namespace test {
 
 // Targets 0, 1, ... of `target`, at least one: a test that would run on none must not pass.
-inline std::vector<const starfocus::simd::Kernels*> ListTargets(
-    const starfocus::simd::Kernels* (*target)(size_t index)) {
-  std::vector<const starfocus::simd::Kernels*> all;
-  while (const starfocus::simd::Kernels* kernels = target(all.size())) all.push_back(kernels);
+template <class Table>
+std::vector<const Table*> ListTargets(const Table* (*target)(size_t index)) {
+  std::vector<const Table*> all;
+  while (const Table* kernels = target(all.size())) all.push_back(kernels);
   if (all.empty()) throw std::runtime_error("no SIMD target of this program runs on this machine");
   return all;
 }
@@ -24,6 +25,9 @@ inline std::vector<const starfocus::simd::Kernels*> ListTargets(
 // Best first.
 inline std::vector<const starfocus::simd::Kernels*> SimdTargets() {
   return ListTargets(starfocus::simd::KernelsOfTarget);
+}
+inline std::vector<const starfocus::simd::DepthKernels*> DepthTargets() {
+  return ListTargets(starfocus::simd::DepthKernelsOfTarget);
 }
 
 // Makes an engine use other kernels than the machine's best. Undone by sf_init.

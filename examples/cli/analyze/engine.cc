@@ -16,8 +16,6 @@ namespace {
 
 using namespace analysis;
 
-constexpr int kLargest = 40;
-
 // What one series of steps measures.
 struct Series {
   sf_mode mode;
@@ -25,6 +23,7 @@ struct Series {
   int layer;
   double r_max;      // 0: r itself
   double increment;  // of r
+  int largest;       // r
 };
 
 const char* NameOf(sf_rule rule) { return rule == SF_RULE_PAPER ? "paper" : "subaperture"; }
@@ -60,10 +59,11 @@ double LeastRadius(sf_rule rule, int layer) {
 // Measures one series in the direction of `sign`, from the least r that its layer is used at.
 std::string Measure(const Series& series, int sign, Table* table, Table* layers) {
   const double least = LeastRadius(series.rule, series.layer);
-  const int count = static_cast<int>((kLargest - least) / series.increment);
+  if (least > series.largest) return "";
+  const int count = static_cast<int>((series.largest - least) / series.increment);
   std::printf("  layer %d, rule %s, r = %g to %d%s\n", series.layer, NameOf(series.rule),
-              least == 0 ? 0 : sign * least, sign * kLargest,
-              series.r_max > 0 ? " in a picture whose r_max is 40" : "");
+              least == 0 ? 0 : sign * least, sign * series.largest,
+              series.r_max > 0 ? " in a picture whose r_max is that" : "");
   Progress progress("the engine's kernels", count);
   std::vector<Stretch> stretches;
   double apart = 0, aliasing = 0, aliasing_r = 0;
@@ -116,7 +116,7 @@ std::string Panel(const std::string& title, const std::string& table, const std:
 
 // The tables of one rule.
 struct RuleTables {
-  Table engine, r40, engine_layers, layers;
+  Table engine, r_max, engine_layers, layers;
 };
 
 RuleTables MakeTables(sf_rule rule) {
@@ -124,7 +124,7 @@ RuleTables MakeTables(sf_rule rule) {
   const std::vector<std::string> columns = {
       "r",         "L",     "rule",  "N", "sse_engine", "sse_star", "sse_subapertures",
       "sse_paper", "apart", "reason"};
-  return {Table("engine" + suffix, columns), Table("engine_r40" + suffix, columns),
+  return {Table("engine" + suffix, columns), Table("engine_rmax" + suffix, columns),
           Table("engine_layers" + suffix, columns),
           Table("layers" + suffix, {"r", "L", "rule", "N", "sse_engine", "sse_theory",
                                     "alias_engine", "alias_theory"})};
@@ -132,34 +132,36 @@ RuleTables MakeTables(sf_rule rule) {
 
 }  // namespace
 
-Figure AnalyseEngine(std::string* error) {
+Figure AnalyseEngine(int largest, std::string* error) {
   Figure figure = {"engine", 860, 1240, {}, ""};
   std::printf("The running engine: SSE of its kernels against (4), and why where above 1e-3\n");
   for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
     RuleTables tables = MakeTables(rule);
     for (int layer = 0; layer < SF_LAYERS; ++layer) {
-      const Series series = {SF_MODE_BLOCK, rule, layer, 0, 1.0 / 8};
+      const Series series = {SF_MODE_BLOCK, rule, layer, 0, 1.0 / 8, largest};
       Table* table = layer == 0 ? &tables.engine : &tables.engine_layers;
       for (const int sign : {1, -1}) {
         if (error->empty()) *error = Measure(series, sign, table, &tables.layers);
       }
     }
-    const Series series = {SF_MODE_FRAME, rule, 0, kLargest, 1.0 / 2};
-    if (error->empty()) *error = Measure(series, 1, &tables.r40, &tables.layers);
-    for (const Table& table : {tables.engine, tables.r40, tables.engine_layers, tables.layers}) {
+    const Series series = {SF_MODE_FRAME, rule, 0, double(largest), 1.0 / 2, largest};
+    if (error->empty()) *error = Measure(series, 1, &tables.r_max, &tables.layers);
+    for (const Table& table : {tables.engine, tables.r_max, tables.engine_layers, tables.layers}) {
       figure.tables.push_back(table);
     }
   }
   std::printf("\n");
+  const std::string to = std::to_string(largest), range = "-" + to + ":" + to;
   figure.commands =
       "set multiplot layout 4,1 title 'Kernels of the running engine'\n"
       "set logscale y\nset format y '%.0e'\nset yrange [1e-7:0.2]\n"
       "set ylabel 'SSE (8)'\nset xlabel 'r = d - d_t'\n"
       "set arrow 1 from graph 0, first 1e-3 to graph 1, first 1e-3 nohead dt 2 lc rgb '#888888'\n" +
-      Panel("layer 0, N from (9) at |r|", "engine", "-40:40") +
-      Panel("layer 0, N by the rule for subapertures at |r|", "engine_subapertures", "-40:40") +
-      Panel("layer 0, N = 32 by (9), as for r_max = 40", "engine_r40", "0:40") +
-      "set title 'layers, N by the rule for subapertures'\nset xrange [0:40]\n"
+      Panel("layer 0, N from (9) at |r|", "engine", range) +
+      Panel("layer 0, N by the rule for subapertures at |r|", "engine_subapertures", range) +
+      Panel("layer 0, N by (9) for r_max = " + to, "engine_rmax", "0:" + to) +
+      "set title 'layers, N by the rule for subapertures'\nset xrange [0:" + to +
+      "]\n"
       "plot for [L=1:2] $layers_subapertures using (column(2) == L && $1 > 0 ? $1 : NaN):6 with "
       "lines lt "
       "L "

@@ -21,8 +21,9 @@ Figure DrawSubsampledBlurs();  // Fig. 8
 // The subapertures' table and rule, for blur radii up to max_blur.
 Figure AnalyseSubapertures(double max_blur);
 
-// The running engine's kernels; *error is set when it could not be run.
-Figure AnalyseEngine(std::string* error);
+// The running engine's kernels of blur radii up to `largest`; *error is set when it could not be
+// run.
+Figure AnalyseEngine(int largest, std::string* error);
 
 }  // namespace starfocus
 

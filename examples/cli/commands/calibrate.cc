@@ -7,6 +7,7 @@
 
 #include "examples/cli/calibrate/scene_times.h"
 #include "examples/cli/commands.h"
+#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/timing_file.h"
 #include "examples/command_line/outputs.h"
 #include "examples/scene/render.h"
@@ -41,9 +42,9 @@ std::string Trace(const std::string& name, SceneTimes* times) {
   return times->Open(name, std::move(light_field));
 }
 
-std::string Load(const std::string& folder, SceneTimes* times) {
+Error Load(const std::string& folder, SceneTimes* times) {
   LightField light_field;
-  const std::string error = LoadLightField(folder, 0, &light_field);
+  Error error = LoadOrEstimate(folder, 0, 1, &light_field);
   return error.empty() ? times->Open(folder, std::move(light_field)) : error;
 }
 

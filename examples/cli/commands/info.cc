@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
+#include "examples/cli/disparity/estimate_run.h"
 #include "examples/command_line/options.h"
 #include "platform/light_field.h"
 #include "starfocus/starfocus.h"
@@ -69,7 +70,7 @@ void PrintJson(const LightField& light_field, const sf_disparity_stats& stats,
 
 Error Run(const Options& options) {
   LightField light_field;
-  const Error error = LoadLightField(options.folder, 0, &light_field);
+  const Error error = LoadOrEstimate(options.folder, 0, 1, &light_field);
   if (!error.empty()) return error;
   const FloatMap& map = light_field.disparity;
   sf_disparity_stats stats = {};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
+#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/engine_run.h"
 #include "examples/cli/refocus/partition_map.h"
 #include "examples/cli/refocus/refocus_plan.h"
@@ -23,7 +24,7 @@ constexpr int kMostPictures = 1000;  // of a sweep: three digits
 struct Options {
   std::string folder, out, report, map, region, sweep;
   LensOptions lens;
-  bool stream = false;
+  bool stream = false, repair = false;
 };
 
 struct Loaded {
@@ -115,7 +116,11 @@ Error CheckRegion(const FloatMap& map, const Options& options, const sf_region& 
 
 Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
   FloatMap* map = &loaded->light_field.disparity;
-  Error error = LoadViews(options.folder, plan->views, &loaded->light_field);
+  const bool given = HasDisparity(options.folder);  // another one is made of the views already
+  Error error = LoadViews(options.folder, *plan, &loaded->light_field);
+  if (error.empty() && options.repair && given) {
+    error = RepairDisparity(options.folder, plan->threads, &loaded->light_field, nullptr);
+  }
   if (error.empty()) {
     error = PrepareDisparity(options.folder, options.lens.fill_invalid, map, &loaded->stats);
   }
@@ -197,6 +202,9 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   command->add_option("--region", options->region,
                       "X,Y,W,H: only that part of the picture, at its share of the time");
   command->add_flag("--stream", options->stream, "Row by row instead of whole pictures");
+  command->add_flag("--repair", options->repair,
+                    "Repair the disparity map first, by the side views or, of one view, its "
+                    "colours: wrong or blurred edges, noise, unknown values");
   command
       ->add_option("--map", options->map,
                    "Picture to write: the blocks, red for L = 0, green for 1, blue for 2")

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/timing_file.h"
 #include "examples/cli/refocus/refocus_report.h"
 #include "examples/command_line/options.h"
@@ -95,9 +96,8 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
   return "";
 }
 
-}  // namespace
-
-void AddLensOptions(CLI::App* command, LensOptions* options) {
+// The lens: where it is focused, and its opening.
+void AddOpticsOptions(CLI::App* command, LensOptions* options) {
   command->add_option("--focus", options->focus, "Disparity in focus");
   command->add_option("--focus-at", options->focus_at,
                       "X,Y: the disparity of what is at that pixel, the median of its surface "
@@ -114,6 +114,12 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
                    "0 to 100 percent of that radius; 0: the centre view to the byte")
       ->capture_default_str();
   AddShapeOptions(command, &options->shape);
+}
+
+}  // namespace
+
+void AddLensOptions(CLI::App* command, LensOptions* options) {
+  AddOpticsOptions(command, options);
   command
       ->add_option("--mode", options->mode,
                    "In blocks of their own number of views, with one number for the whole frame, "
@@ -193,18 +199,18 @@ Error PlanFocus(const LensOptions& options, LensPlan* plan) {
   return ParseNumber("--focus", options.focus, &plan->foci[0]);
 }
 
-Error LoadViews(const std::string& folder, int views, LightField* light_field) {
-  if (views != 0) {
+Error LoadViews(const std::string& folder, const LensPlan& plan, LightField* light_field) {
+  if (plan.views != 0) {
     // A missing view of the set asked for is the option's fault when smaller sets are complete.
     int available = 0;
     const Error error = CountViews(folder, &available);
-    if (error.empty() && available < views) {
+    if (error.empty() && available < plan.views) {
       return Error::Usage("--views",
                           "at most " + std::to_string(available) + ", the views in " + folder,
-                          std::to_string(views));
+                          std::to_string(plan.views));
     }
   }
-  return LoadLightField(folder, views, light_field);
+  return LoadOrEstimate(folder, plan.views, plan.threads, light_field);
 }
 
 std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map,

@@ -51,8 +51,8 @@ Error PlanLens(const LensOptions& options, LensPlan* plan);
 // --focus or --focus-at.
 Error PlanFocus(const LensOptions& options, LensPlan* plan);
 
-// Loads plan.views views.
-Error LoadViews(const std::string& folder, int views, LightField* light_field);
+// Loads plan.views views of a folder and its map, or estimates one.
+Error LoadViews(const std::string& folder, const LensPlan& plan, LightField* light_field);
 
 // Fills holes of the folder's map if asked to, and measures it.
 std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map,

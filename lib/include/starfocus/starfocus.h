@@ -251,9 +251,11 @@ typedef enum sf_mode {
                             rule says whether views show fine slices or are rendered line by line */
   SF_MODE_BLOCK = 2,     /**< blocks of variable size, each with its own N and layer (section V).
                             Half-band filters of layers 1 and 2 overshoot: a picture may leave the
-                            range of its views by 4 % of that range by the rule of subapertures and
-                            13 % by the paper's, 4 and 40 % with other thetas than the default; it
-                            never leaves [0, 255]. The other modes stay within the range */
+                            range of its views' light by 4 % of that range by the rule of
+                            subapertures and 13 % by the paper's, 4 and 40 % through other openings
+                            than the default. In codes of SF_TRANSFER_SRGB that is more where it is
+                            dark: 4 % of white are the codes up to 56. No picture leaves [0, 255].
+                            The other modes stay within the range */
   SF_MODE_BLUR = 3 /**< the centre view alone, blurred by (4): up to ten times the time of blocks */
 } sf_mode;
 

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus disparity: a disparity map from captured views.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "examples/cli/commands.h"
+#include "examples/cli/disparity/estimate_run.h"
+#include "examples/command_line/options.h"
+#include "examples/command_line/outputs.h"
+#include "platform/clock.h"
+#include "platform/image_io.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+namespace {
+
+struct Options {
+  std::string folder, out, confidence, range, views, threads = "1";
+  bool repair = false;
+};
+
+struct Plan {
+  std::string map, picture;
+  bool has_range = false;
+  DisparityRange range;
+  int views = 0, threads = 1;
+};
+
+// MIN:MAX.
+Error ParseRange(const std::string& text, DisparityRange* range) {
+  const size_t colon = text.find(':');
+  double low = 0, high = 0;
+  const bool numbers = colon != std::string::npos &&
+                       ParseNumber("", text.substr(0, colon), &low).empty() &&
+                       ParseNumber("", text.substr(colon + 1), &high).empty();
+  if (!numbers || !(low >= -SF_MAX_DISPARITY && low <= high && high <= SF_MAX_DISPARITY)) {
+    return Error::Usage("--range", "MIN:MAX, disparities within +-" + Short(SF_MAX_DISPARITY),
+                        "'" + text.substr(0, 60) + "'");
+  }
+  *range = {static_cast<float>(low), static_cast<float>(high)};
+  return "";
+}
+
+Error PlanOutputs(const Options& options, Plan* plan) {
+  plan->map = options.out.empty() ? DisparityPath(options.folder) : options.out;
+  if (std::filesystem::path(plan->map).extension() != ".pfm") {
+    return Error::Usage("--output", "a name that ends in .pfm", plan->map);
+  }
+  plan->picture = std::filesystem::path(plan->map).replace_extension(".png").string();
+  if (options.repair && options.out.empty()) {
+    return Error::Usage("--repair", "another map to write, by --output", "none");
+  }
+  if (options.repair && !options.range.empty()) {
+    return Error::Usage("--repair", "no --range: the map has one", options.range.substr(0, 60));
+  }
+  if (options.out.empty() && HasDisparity(options.folder)) {
+    return Expected(plan->map, "no map yet, or another name by --output", "one");
+  }
+  std::vector<Output> outputs = {{"--output", plan->picture}};
+  if (!options.out.empty()) outputs.push_back({"--output", plan->map});
+  if (!options.confidence.empty()) outputs.push_back({"--confidence", options.confidence});
+  Error error = CheckOutputPath(plan->map);
+  if (error.empty()) error = CheckImageOutput(plan->picture);
+  if (error.empty() && !options.confidence.empty()) error = CheckImageOutput(options.confidence);
+  return error.empty() ? CheckApart(outputs, {{options.folder}, {}}) : error;
+}
+
+Error MakePlan(const Options& options, Plan* plan) {
+  Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
+  if (error.empty() && !options.views.empty()) {
+    error = ParseViews("--views", options.views, &plan->views);
+    if (error.empty() && plan->views == 1 && !options.repair) {
+      error = Error::Usage("--views", "17, 9 or 5: one view alone shows no disparity", "1");
+    }
+  }
+  plan->has_range = !options.range.empty();
+  if (error.empty() && plan->has_range) error = ParseRange(options.range, &plan->range);
+  return error.empty() ? PlanOutputs(options, plan) : error;
+}
+
+// The map as a picture: the nearest is white.
+Image Draw(const FloatMap& map) {
+  const auto ends = std::minmax_element(map.values.begin(), map.values.end());
+  const float low = *ends.first, range = *ends.second - low;
+  Image picture(map.width, map.height);
+  for (size_t i = 0; i < map.values.size(); ++i) {
+    const float place = range > 0 ? (map.values[i] - low) / range : 0;
+    std::fill_n(picture.pixels.begin() + static_cast<ptrdiff_t>(3 * i), 3,
+                static_cast<uint8_t>(place * 255 + 0.5F));
+  }
+  return picture;
+}
+
+// Estimates the map of a folder; says what was looked for.
+Error EstimateFolder(const Options& options, Plan* plan, const std::vector<Image>& views,
+                     DisparityEstimate* estimate) {
+  if (views.size() == 1) {
+    return Expected(options.folder, "5, 9 or 17 views: one alone shows no disparity", "1");
+  }
+  Error error;
+  if (!plan->has_range) error = FindRange(options.folder, views, plan->threads, &plan->range);
+  if (!error.empty()) return error;
+  return EstimateDisparity(options.folder, views, plan->range, plan->threads, estimate);
+}
+
+// Repairs the map of a folder.
+Error RepairFolder(const Options& options, Plan* plan, LightField* light_field,
+                   DisparityEstimate* estimate) {
+  const Error error =
+      RepairDisparity(options.folder, plan->threads, light_field, &estimate->confidence);
+  if (!error.empty()) return error;
+  estimate->map = std::move(light_field->disparity);
+  const auto ends = std::minmax_element(estimate->map.values.begin(), estimate->map.values.end());
+  plan->range = {*ends.first, *ends.second};
+  return "";
+}
+
+Error WriteMap(const Options& options, const Plan& plan, const DisparityEstimate& estimate) {
+  Error error = WriteImage(plan.picture, Draw(estimate.map));
+  if (error.empty() && !options.confidence.empty()) {
+    error = WriteImage(options.confidence, estimate.confidence);
+  }
+  return error.empty() ? WritePfm(plan.map, estimate.map) : error;
+}
+
+Error Run(const Options& options) {
+  Plan plan;
+  LightField light_field;
+  Error error = MakePlan(options, &plan);
+  if (error.empty()) {
+    error = options.repair ? LoadLightField(options.folder, plan.views, &light_field)
+                           : LoadCaptured(options.folder, plan.views, &light_field.views);
+  }
+  if (!error.empty()) return error;
+  const double start = Seconds();
+  DisparityEstimate estimate;
+  error = options.repair ? RepairFolder(options, &plan, &light_field, &estimate)
+                         : EstimateFolder(options, &plan, light_field.views, &estimate);
+  const double seconds = Seconds() - start;
+  if (error.empty()) error = WriteMap(options, plan, estimate);
+  if (!error.empty()) return error;
+  const double megapixels = 1e-6 * estimate.map.width * estimate.map.height;
+  const size_t count = light_field.views.size();
+  std::printf("%s: %s to %s %s %zu view%s, %.1f s, %.1f s per megapixel\n", plan.map.c_str(),
+              Short(plan.range.min).c_str(), Short(plan.range.max).c_str(),
+              options.repair ? "repaired by" : "looked for in", count, count == 1 ? "" : "s",
+              seconds, seconds / megapixels);
+  return "";
+}
+
+}  // namespace
+
+void AddDisparityCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "disparity", "Estimate the disparity map of a light field from its views, or repair its map");
+  command->add_option("DIR", options->folder, "Light-field folder")->type_name("DIR")->required();
+  command
+      ->add_option("-o,--output", options->out,
+                   "Map to write, .pfm, and beside it a picture of it, .png, in which near is "
+                   "bright; default: disparity.pfm in DIR, if there is none")
+      ->type_name("FILE");
+  command
+      ->add_option("--confidence", options->confidence,
+                   "Picture to write: how sure each pixel is, black where not at all")
+      ->type_name("FILE");
+  command->add_flag("--repair", options->repair,
+                    "Repair the folder's map by the views instead: edges that lie beside those of "
+                    "the picture or are blurred, noise; needs --output");
+  command->add_option("--range", options->range,
+                      "MIN:MAX, the disparities to look for; default: those found in small "
+                      "pictures, up to an eighth of the width");
+  command->add_option("--views", options->views,
+                      "17, 9 or 5, 1 as well of a repair; default: all of the folder");
+  command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
+  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+}
+
+}  // namespace starfocus

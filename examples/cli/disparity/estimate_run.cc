@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/cli/disparity/estimate_run.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "examples/cli/engine/engine_run.h"
+#include "examples/command_line/options.h"
+#include "platform/file.h"
+#include "platform/progress.h"
+#include "platform/runner.h"
+#include "starfocus/depth.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int kSmallWidth = 256;      // of the pictures that a range is found in
+constexpr int kPhases = 3;            // sets of jobs of an estimate
+constexpr int kRepairPhases = 6;      // and of a repair
+constexpr int kLeastConfidence = 48;  // what less is sure of strays at edges and on flat walls
+constexpr double kStrays = 0.0005;    // the share of pixels at either end that may be wrong
+
+struct ShownRunner {
+  ThreadRunner pool;
+  Progress progress;
+
+  static int Run(void* data, sf_job job, void* job_data, int32_t count) {
+    ShownRunner* self = static_cast<ShownRunner*>(data);
+    const int status = ThreadRunner::Run(&self->pool, job, job_data, count);
+    self->progress.Step();
+    return status;
+  }
+};
+
+// Estimates the map, or repairs the given one unless that is null.
+Error MakeMap(const std::string& where, const std::vector<Image>& views, const FloatMap* given,
+              const DisparityRange& range, ShownRunner* runner, FloatMap* map,
+              std::vector<uint8_t>* confidence) {
+  const Image& centre = views[0];
+  const char* task = given == nullptr ? "estimate its disparities" : "repair its disparities";
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  config.width = centre.width;
+  config.height = centre.height;
+  config.views = static_cast<int32_t>(views.size());
+  config.disparity_min = range.min;
+  config.disparity_max = range.max;
+  config.max_workers = runner->pool.workers();
+  size_t bytes = 0;
+  sf_status status =
+      given == nullptr ? sf_estimate_size(&config, &bytes) : sf_repair_size(&config, &bytes);
+  if (status == SF_ERROR_TOO_LARGE) return OutOfMemory(where, task);
+  if (status == SF_OK) {
+    const Workspace workspace(::operator new (bytes, std::align_val_t{SF_ALIGNMENT}));
+    sf_light_field light_field = {};
+    for (size_t i = 0; i < views.size(); ++i) {
+      light_field.views[i] = {views[i].row(0), views[i].stride()};
+    }
+    const auto width = size_t(centre.width), pixels = width * size_t(centre.height);
+    map->width = centre.width;
+    map->height = centre.height;
+    map->values.resize(pixels);
+    confidence->resize(pixels);
+    if (given != nullptr) {
+      light_field.disparity = given->values.data();
+      light_field.disparity_stride = sizeof(float) * width;
+    }
+    const auto make = given == nullptr ? sf_estimate_disparity : sf_repair_disparity;
+    status = make(&config, &light_field, map->values.data(), sizeof(float) * width,
+                  confidence->data(), width, workspace.get(), bytes, ShownRunner::Run, runner);
+  }
+  if (status == SF_OK) return "";
+  return Error::Internal(where, "views whose disparities it can make", sf_status_string(status));
+}
+
+// The picture at 1 / factor of its size, each pixel the mean of factor * factor ones.
+Image Shrink(const Image& picture, int factor) {
+  Image small(std::max(1, picture.width / factor), std::max(1, picture.height / factor));
+  for (int y = 0; y < small.height; ++y) {
+    for (int k = 0; k < 3 * small.width; ++k) {
+      const int x = k / 3 * factor, c = k % 3;
+      int sum = 0, count = 0;
+      for (int row = y * factor; row < std::min((y + 1) * factor, picture.height); ++row) {
+        for (int column = x; column < std::min(x + factor, picture.width); ++column) {
+          sum += picture.row(row)[3 * column + c];
+          ++count;
+        }
+      }
+      small.row(y)[k] = static_cast<uint8_t>((sum + count / 2) / count);
+    }
+  }
+  return small;
+}
+
+// A confidence as a gray picture of the size of `centre`.
+void Show(const std::vector<uint8_t>& confidence, const Image& centre, Image* picture) {
+  *picture = Image(centre.width, centre.height);
+  for (size_t i = 0; i < confidence.size(); ++i) {
+    std::fill_n(picture->pixels.begin() + static_cast<ptrdiff_t>(3 * i), 3, confidence[i]);
+  }
+}
+
+}  // namespace
+
+Error FindRange(const std::string& where, const std::vector<Image>& views, int threads,
+                DisparityRange* range) {
+  const int factor = (views[0].width + kSmallWidth - 1) / kSmallWidth;
+  std::vector<Image> small;
+  for (const Image& view : views) small.push_back(Shrink(view, factor));
+  const float most = std::min(static_cast<float>(small[0].width) / 8,
+                              static_cast<float>(SF_MAX_DISPARITY) / static_cast<float>(factor));
+  ShownRunner runner{ThreadRunner(threads), Progress("looking for the disparities", kPhases)};
+  FloatMap map;
+  std::vector<uint8_t> confidence;
+  const Error error = MakeMap(where, small, nullptr, {-most, most}, &runner, &map, &confidence);
+  if (!error.empty()) return error;
+  std::vector<float> sure;
+  for (size_t i = 0; i < map.values.size(); ++i) {
+    if (confidence[i] >= kLeastConfidence) sure.push_back(map.values[i]);
+  }
+  if (sure.empty()) sure.push_back(0);  // one colour: whatever its disparity
+  std::sort(sure.begin(), sure.end());
+  const auto strays = static_cast<size_t>(kStrays * static_cast<double>(sure.size()));
+  // A pixel more at either end, of the small pictures: what strays may be has its neighbours there.
+  const float low = std::max(sure[strays] - 1, -most);
+  const float high = std::min(sure[sure.size() - 1 - strays] + 1, most);
+  *range = {low * static_cast<float>(factor), high * static_cast<float>(factor)};
+  return "";
+}
+
+Error EstimateDisparity(const std::string& where, const std::vector<Image>& views,
+                        const DisparityRange& range, int threads, DisparityEstimate* estimate) {
+  ShownRunner runner{ThreadRunner(threads), Progress("estimating disparities", kPhases)};
+  std::vector<uint8_t> confidence;
+  const Error error = MakeMap(where, views, nullptr, range, &runner, &estimate->map, &confidence);
+  if (error.empty()) Show(confidence, views[0], &estimate->confidence);
+  return error;
+}
+
+Error RepairDisparity(const std::string& folder, int threads, LightField* light_field,
+                      Image* confidence) {
+  const FloatMap& given = light_field->disparity;
+  sf_disparity_stats stats = {};
+  const sf_status status = sf_measure_disparity(
+      given.values.data(), sizeof(float) * size_t(given.width), given.width, given.height, &stats);
+  if (status != SF_OK || stats.invalid == int64_t{given.width} * given.height) {
+    return Expected(DisparityPath(folder), "a disparity map with a value", "none");
+  }
+  const auto most = static_cast<float>(SF_MAX_DISPARITY);
+  if (stats.min < -most || stats.max > most) {
+    return Expected(DisparityPath(folder), "disparities within +-" + Short(most),
+                    Short(stats.min) + " to " + Short(stats.max));
+  }
+  // What blurs a map takes its peaks off.
+  const DisparityRange range = {std::max(stats.min - 1, -most), std::min(stats.max + 1, most)};
+  ShownRunner runner{ThreadRunner(threads), Progress("repairing disparities", kRepairPhases)};
+  FloatMap map;
+  std::vector<uint8_t> sure;
+  const Error error = MakeMap(folder, light_field->views, &given, range, &runner, &map, &sure);
+  if (!error.empty()) return error;
+  if (confidence != nullptr) Show(sure, light_field->views[0], confidence);
+  light_field->disparity = std::move(map);
+  return "";
+}
+
+Error LoadOrEstimate(const std::string& folder, int views, int threads, LightField* light_field) {
+  if (HasDisparity(folder)) return LoadLightField(folder, views, light_field);
+  LightField result;
+  Error error = LoadCaptured(folder, views, &result.views);
+  if (!error.empty()) return error;
+  if (result.views.size() == 1) {
+    return Expected(DisparityPath(folder), "a disparity map, as one view alone shows none",
+                    "no file");
+  }
+  DisparityRange range;
+  error = FindRange(folder, result.views, threads, &range);
+  if (!error.empty()) return error;
+  std::fprintf(stderr, "%s: no map: disparities from %s to %s are estimated from %zu views\n",
+               DisparityPath(folder).c_str(), Short(range.min).c_str(), Short(range.max).c_str(),
+               result.views.size());
+  DisparityEstimate estimate;
+  error = EstimateDisparity(folder, result.views, range, threads, &estimate);
+  if (!error.empty()) return error;
+  result.disparity = std::move(estimate.map);
+  *light_field = std::move(result);
+  return "";
+}
+
+}  // namespace starfocus

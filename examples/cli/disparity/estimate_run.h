@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Disparity maps from captured views, through the C ABI: the range of disparities where nobody says
+// it, workspace, progress.
+#ifndef STARFOCUS_EXAMPLES_CLI_DISPARITY_ESTIMATE_RUN_H_
+#define STARFOCUS_EXAMPLES_CLI_DISPARITY_ESTIMATE_RUN_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "examples/command_line/error.h"
+#include "platform/light_field.h"
+
+namespace starfocus {
+
+struct DisparityRange {
+  float min = 0, max = 0;
+};
+
+struct DisparityEstimate {
+  FloatMap map;
+  Image confidence;  // gray: 0 unknown, 255 sure (sf_estimate_disparity)
+};
+
+// Finds the range of disparities of 5, 9 or 17 views, as far as an eighth of the picture's width:
+// that of an estimate of small pictures, and a little more.
+Error FindRange(const std::string& where, const std::vector<Image>& views, int threads,
+                DisparityRange* range);
+
+// Estimates the map, with a progress line. Errors are about `where`.
+Error EstimateDisparity(const std::string& where, const std::vector<Image>& views,
+                        const DisparityRange& range, int threads, DisparityEstimate* estimate);
+
+// Repairs the map of a light field by its views. `confidence` may be null. Errors are about the
+// folder.
+Error RepairDisparity(const std::string& folder, int threads, LightField* light_field,
+                      Image* confidence);
+
+// As LoadLightField; a map that the folder doesn't have is estimated from the views that are
+// loaded, and a line on stderr says so.
+Error LoadOrEstimate(const std::string& folder, int views, int threads, LightField* light_field);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_DISPARITY_ESTIMATE_RUN_H_

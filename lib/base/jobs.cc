@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/base/jobs.h"
+
+namespace starfocus {
+namespace {
+
+enum Progress : uint32_t { kWaiting, kTaken, kDone };
+
+// Takes a job and runs it; false when it has been taken before or does not exist.
+bool TakeJob(JobSet* set, int32_t index, int32_t worker) {
+  if (index < 0 || index >= set->count) return false;
+  std::atomic<uint32_t>& progress = set->progress[index];
+  if (progress.exchange(kTaken) != kWaiting) return false;
+  set->function(set->data, index, worker);
+  progress.store(kDone);
+  return true;
+}
+
+// The sf_job. Whoever has a worker's memory reads the set, which changes only while nobody has any.
+void CallJob(void* data, int32_t index, int32_t worker) {
+  JobSet& set = *static_cast<JobSet*>(data);
+  if (worker < 0 || worker >= set.max_workers || set.busy[worker].exchange(1) != 0) {
+    set.misused.store(1);
+    return;
+  }
+  if (set.open.load() != 0 && !TakeJob(&set, index, worker)) set.misused.store(1);
+  set.busy[worker].store(0);
+}
+
+// Whether every job of the set was run once. Jobs that still run, although the runner has returned,
+// are waited for: they use memory of the call.
+bool Close(JobSet* set) {
+  set->open.store(0);
+  for (int32_t worker = 0; worker < set->max_workers; ++worker) {
+    while (set->busy[worker].load() != 0) {
+    }
+  }
+  bool all = set->misused.load() == 0;
+  for (int32_t index = 0; index < set->count; ++index) {
+    all = all && set->progress[index].load() == kDone;
+  }
+  return all;
+}
+
+}  // namespace
+
+sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const Runner& runner,
+                    JobSet* set) {
+  if (runner.run == nullptr) {
+    for (int32_t index = 0; index < count; ++index) function(data, index, 0);
+    return SF_OK;
+  }
+  set->function = function;
+  set->data = data;
+  set->count = count;
+  for (int32_t index = 0; index < count; ++index) {
+    set->progress[index].store(kWaiting, std::memory_order_relaxed);
+  }
+  set->misused.store(0);
+  set->open.store(1);
+  const int result = runner.run(runner.data, CallJob, set, count);
+  const bool all = Close(set);
+  return result == 0 && all ? SF_OK : SF_ERROR_RUNNER;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jobs for the caller's runner, which is not trusted to run each of them once.
+#ifndef STARFOCUS_LIB_BASE_JOBS_H_
+#define STARFOCUS_LIB_BASE_JOBS_H_
+
+#include <atomic>
+#include <cstdint>
+
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Who runs the jobs; a null function: the calling thread.
+struct Runner {
+  sf_runner run;
+  void* data;
+};
+
+// A job; no other one has that worker's memory meanwhile.
+using JobFunction = void (*)(const void* data, int32_t index, int32_t worker);
+
+// The set of jobs that a runner has been given. It lies in the workspace, so that a job called too
+// late finds it closed. Words instead of bytes: some machines have no atomic bytes.
+struct JobSet {
+  JobFunction function = nullptr;
+  const void* data = nullptr;
+  int32_t count = 0;
+  int32_t max_workers = 1;
+  std::atomic<uint32_t>* progress = nullptr;        // of each job of the largest set
+  std::atomic<uint32_t> busy[SF_MAX_WORKERS] = {};  // 1: a job has that worker's memory
+  std::atomic<uint32_t> open{0};                    // 1: the runner has not returned yet
+  std::atomic<uint32_t> misused{0};                 // 1: a call was refused
+};
+
+// Runs function(data, index, worker) for all indices in [0, count), count > 0. SF_OK, or
+// SF_ERROR_RUNNER when the runner failed or did not run each of them exactly once. No job runs any
+// more afterwards, whatever the runner does.
+sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const Runner& runner,
+                    JobSet* set);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_BASE_JOBS_H_

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/depth/colour_map.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kPixel = 1 << kDisparityBits;
+constexpr int16_t kUnknown = INT16_MIN;
+// What differs by up to this is as flat as surfaces are; blurred edges are steeper.
+constexpr int32_t kFlat = kPixel / 2;
+// Of 25 pixels this many are as flat at a corner, and no more than 5 on a ramp.
+constexpr int32_t kLeastFlat = 8;
+constexpr int32_t kFlatRadius = 2;
+// Noise that no one sees in a refocused picture.
+constexpr int32_t kLeastNoise = 6;
+// Neighbours of one colour count this much when noise is averaged.
+constexpr int32_t kMostWeight = 64;
+
+// Rounds halves away from zero.
+int16_t ToFixed(float disparity) {
+  const float scaled = disparity * kPixel;
+  return static_cast<int16_t>(scaled < 0 ? scaled - 0.5F : scaled + 0.5F);
+}
+
+// Fills unknown pixels of a row. Returns whether it has any known one.
+bool FillRow(int32_t width, int16_t* row) {
+  int32_t last = -1;
+  for (int32_t x = 0; x <= width; ++x) {
+    if (x < width && row[x] == kUnknown) continue;
+    if (x == width && last < 0) return false;
+    for (int32_t k = last + 1; k < x; ++k) {
+      const int32_t before = k - last, after = x - k;
+      const bool left =
+          last >= 0 && (x == width || before < after || (before == after && row[last] < row[x]));
+      row[k] = left ? row[last] : row[x];
+    }
+    last = x;
+  }
+  return true;
+}
+
+// Fills rows [first, end), which lie between two known ones or at the picture's edge.
+void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map) {
+  const auto width = static_cast<size_t>(plan.width);
+  for (int32_t y = first; y < end; ++y) {
+    const int32_t before = first == 0 ? INT32_MAX : y - first + 1;
+    const int32_t after = end == plan.height ? INT32_MAX : end - y;
+    int16_t* row = map + static_cast<size_t>(y) * width;
+    const int16_t* above = map + static_cast<size_t>(first - 1) * width;
+    const int16_t* below = map + static_cast<size_t>(end) * width;
+    if (before != after) {
+      std::memcpy(row, before < after ? above : below, width * sizeof(int16_t));
+      continue;
+    }
+    for (size_t x = 0; x < width; ++x) row[x] = above[x] < below[x] ? above[x] : below[x];
+  }
+}
+
+// What a pixel alone says: 0 on a ramp or unknown, 1 at a step, otherwise more than is asked for.
+uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
+  if (!std::isfinite(GivenAt(map.light_field, y)[x])) return 0;
+  const int32_t own = map.disparity[map.At(x, y)];
+  const Rect around = Widened(map.plan, {x, y, 1, 1}, kFlatRadius);
+  int32_t flat = 0;
+  bool step = false;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const int32_t difference = Abs(map.disparity[map.At(column, row)] - own);
+      flat += difference <= kFlat ? 1 : 0;
+      step |= difference > kSurfaceStep && Abs(row - y) + Abs(column - x) == 1;
+    }
+  }
+  if (25 * flat < kLeastFlat * around.width * around.height) return 0;
+  return step ? 1 : kDoubtReach + 1;
+}
+
+// Carries doubts on to the pixels that come later in a scan of the region, or earlier.
+void CarryOn(const Rect& region, int32_t direction, uint8_t* doubt) {
+  const int32_t width = region.width, height = region.height, area = width * height;
+  for (int32_t k = 0; k < area; ++k) {
+    const int32_t at = direction > 0 ? k : area - 1 - k;
+    const int32_t x = at % width, y = at / width;
+    int32_t least = doubt[at];
+    const auto look = [&](int32_t dx, int32_t dy) {
+      const int32_t column = x - direction * dx, row = y - direction * dy;
+      if (column < 0 || column >= width || row < 0 || row >= height) return;
+      least = Min(least, doubt[row * width + column] + 1);
+    };
+    look(1, 0);
+    look(1, 1);
+    look(0, 1);
+    look(-1, 1);
+    doubt[at] = static_cast<uint8_t>(least);
+  }
+}
+
+// Whether a pixel beside a step is of a surface that has no core here. One that has grown on all
+// sides has one within that distance of each of its pixels, so this one has not grown.
+bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int32_t x, int32_t y) {
+  const int32_t own = map.disparity[map.At(x, y)];
+  const Rect around = Widened(map.plan, {x, y, 1, 1}, kDisplacement);
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    const uint8_t* doubts = doubt + (row - region.y) * region.width - region.x;
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const int32_t difference = Abs(map.disparity[map.At(column, row)] - own);
+      if (doubts[column] > kDisplacement && difference <= kPixel) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void ReadMap(const EstimatePlan& plan, const sf_light_field& light_field, int16_t* disparity) {
+  const ColourMap map = {plan, light_field, disparity};
+  int32_t unknown = 0;  // rows before this one that wait for the next one
+  for (int32_t y = 0; y < plan.height; ++y) {
+    int16_t* row = disparity + map.At(0, y);
+    const float* given = GivenAt(light_field, y);
+    for (int32_t x = 0; x < plan.width; ++x) {
+      row[x] = std::isfinite(given[x]) ? ToFixed(given[x]) : kUnknown;
+    }
+    if (!FillRow(plan.width, row)) {
+      ++unknown;
+      continue;
+    }
+    FillRows(plan, y - unknown, y, disparity);
+    unknown = 0;
+  }
+  FillRows(plan, plan.height - unknown, plan.height, disparity);
+}
+
+int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity) {
+  constexpr int32_t kMost = 1023;  // stands for all above, too
+  uint32_t counts[kMost + 1] = {};
+  const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
+  size_t total = 0;
+  for (size_t y = 1; y + 1 < height; ++y) {
+    for (size_t x = 1; x + 1 < width; ++x) {
+      const int16_t* d = disparity + y * width + x;
+      const int32_t others = *(d - 1) + *(d + 1) + *(d - width) + *(d + width);
+      ++counts[Min(Abs(others - 4 * *d), kMost)];
+      ++total;
+    }
+  }
+  int32_t median = 0;
+  for (size_t below = counts[0]; 2 * below < total; below += counts[median]) ++median;
+  // Of normal noise the median is 0.6745 times sqrt(20) times its standard deviation.
+  const int32_t noise = median / 3;
+  return noise > kLeastNoise ? noise : 0;
+}
+
+void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
+                int16_t* smooth) {
+  const int32_t radius = smoothing.radius, step = smoothing.step;
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const size_t own = map.At(x, y);
+      const uint8_t* colour = map.Pixel(x, y);
+      int32_t sum = 0, weights = 0;  // 49 weights of 64 times 2^15 are below 2^27
+      for (int32_t row = y - radius; row <= y + radius; row += step) {
+        if (row < 0 || row >= map.plan.height) continue;
+        const int16_t* disparities = map.disparity + map.At(0, row);
+        const uint8_t* colours = map.Pixel(0, row);
+        for (int32_t column = x - radius; column <= x + radius; column += step) {
+          if (column < 0 || column >= map.plan.width) continue;
+          if (Abs(disparities[column] - map.disparity[own]) > smoothing.tolerance) continue;
+          const int32_t difference = ColourDifference(colour, colours + 3 * column);
+          const int32_t weight = Max(1, kMostWeight - difference);
+          sum += weight * disparities[column];
+          weights += weight;
+        }
+      }
+      smooth[own] =
+          static_cast<int16_t>((2 * sum + (sum < 0 ? -weights : weights)) / (2 * weights));
+    }
+  }
+}
+
+void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt) {
+  const Rect region = Widened(map.plan, tile, kDoubtMargin);
+  uint8_t* at = scratch;
+  for (int32_t y = region.y; y < region.y + region.height; ++y) {
+    for (int32_t x = region.x; x < region.x + region.width; ++x) *at++ = DoubtAt(map, x, y);
+  }
+  CarryOn(region, 1, scratch);
+  CarryOn(region, -1, scratch);
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const uint8_t found = scratch[(y - region.y) * region.width + x - region.x];
+      const bool beside = found >= 1 && found <= kDisplacement;
+      const bool thin = beside && IsThin(map, region, scratch, x, y);
+      doubt[map.At(x, y)] = thin ? uint8_t{kThinDoubt} : found;
+    }
+  }
+}
+
+}  // namespace starfocus

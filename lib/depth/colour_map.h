@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A given disparity map as it is before colours are asked: in fixed point, unknown pixels filled
+// for a start, noise measured and smoothed, and how far each pixel is from where the map may be
+// wrong.
+#ifndef STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
+#define STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
+
+#include <cstdint>
+
+#include "lib/base/fixed.h"
+#include "lib/depth/estimate_plan.h"
+#include "lib/depth/map_rows.h"
+
+namespace starfocus {
+
+// Beyond this many pixels from a step or a ramp the map is taken for right.
+inline constexpr int32_t kDoubtReach = 5;
+// Steps are displaced by this many pixels at most.
+inline constexpr int32_t kDisplacement = 3;
+inline constexpr int32_t kThinDoubt = kDisplacement + 1;
+inline constexpr int32_t kDoubtMargin = kDoubtReach + 1 + kDisplacement;
+
+// Returns the difference of two pixels' colours: hue and saturation count four times as much as
+// brightness does, which shading changes as well.
+inline int32_t ColourDifference(const uint8_t* a, const uint8_t* b) {
+  const int32_t red = a[0] - b[0], green = a[1] - b[1], blue = a[2] - b[2];
+  return Abs(red + green + blue) / 4 + Abs(red - green) + Abs(green - blue) + Abs(blue - red);
+}
+
+// A map that jobs read: the picture, what was given, and rows of `width` 16-bit disparities.
+struct ColourMap {
+  const EstimatePlan& plan;
+  const sf_light_field& light_field;
+  const int16_t* disparity;
+
+  const uint8_t* Pixel(int32_t x, int32_t y) const {
+    const sf_plane& view = light_field.views[0];
+    return static_cast<const uint8_t*>(view.data) + static_cast<size_t>(y) * view.stride +
+           3 * static_cast<size_t>(x);
+  }
+  size_t At(int32_t x, int32_t y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
+  }
+};
+
+// Converts light_field.disparity, of which one pixel at least is finite. The others get the nearest
+// one of their row, or the nearest row that has one; of two that are as near the farther surface.
+void ReadMap(const EstimatePlan& plan, const sf_light_field& light_field, int16_t* disparity);
+
+// Returns the standard deviation of the map's noise, kDisparityBits: from the median of what a
+// pixel differs from the mean of its neighbours, so that edges don't count. 0 if there is hardly
+// any.
+int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity);
+
+// Averages the map over neighbours within `radius`, every `step`th pixel, whose disparities are
+// within `tolerance`; those of one colour count most. Fills `tile` of `smooth`.
+struct Smoothing {
+  int32_t radius, step, tolerance;
+};
+void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
+                int16_t* smooth);
+
+// Fills `tile` of `doubt`: 0 on ramps and where nothing was given, 1 at steps, and so on up to
+// kDoubtReach + 1; kThinDoubt where a surface is too thin to have grown by as much as steps are
+// displaced. `scratch` has room for the tile and kDoubtMargin pixels around.
+void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/depth/colour_repair.h"
+
+#include <cmath>
+#include <new>
+
+#include "lib/base/carver.h"
+#include "lib/base/fixed.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kPixel = 1 << kDisparityBits;
+// A choice within this of the map's disparity is the map's.
+constexpr int32_t kSameSurface = kPixel;
+// What must be gained together by the changed pixels within the radius: a change of one or two
+// pixels is rather a speckle of the surface than the edge of another.
+constexpr int32_t kGainRadius = 3, kLeastGain = 60;
+// Paths that the sums of choices are of.
+constexpr int32_t kPaths = 4;
+// Changed pixels get the mean of the surface around them; those beside steps count little.
+constexpr int32_t kMeanRadius = 5, kSureWeight = 4;
+
+struct ColourJob {
+  const ColourMap& map;
+  const MapOutput& output;
+  const Smoothing& smoothing;
+  int16_t* smooth;
+  int16_t* chosen;
+  ColourMemory* memory;
+};
+
+const ColourJob& JobOf(const void* data) { return *static_cast<const ColourJob*>(data); }
+
+void SmoothMap(const void* data, int32_t index, int32_t) {
+  const ColourJob& job = JobOf(data);
+  SmoothTile(job.map, job.smoothing, TileOf(job.map.plan, index), job.smooth);
+}
+
+void DoubtTile(const void* data, int32_t index, int32_t worker) {
+  const ColourJob& job = JobOf(data);
+  MeasureDoubt(job.map, TileOf(job.map.plan, index), job.memory->workers[worker].doubt,
+               job.memory->doubt);
+}
+
+// Chooses among a pixel's disparities, which cost least in sum.
+void Choose(const ColourJob& job, size_t at, const Choices& choices) {
+  const int32_t given = job.map.disparity[at];
+  int32_t best = 0, own = 0;
+  for (int32_t k = 1; k < choices.count; ++k) {
+    if (choices.sum[k] < choices.sum[best]) best = k;
+    if (Abs(choices.disparity[k] - given) < Abs(choices.disparity[own] - given)) own = k;
+  }
+  int32_t margin = kPaths * UINT8_MAX;
+  for (int32_t k = 0; k < choices.count; ++k) {
+    if (Abs(choices.disparity[k] - choices.disparity[best]) <= kSurfaceStep) continue;
+    margin = Min(margin, choices.sum[k] - choices.sum[best]);
+  }
+  const bool same = Abs(choices.disparity[best] - given) <= kSameSurface;
+  job.chosen[at] = same ? static_cast<int16_t>(given) : choices.disparity[best];
+  job.memory->gain[at] =
+      same ? int16_t{0} : static_cast<int16_t>(choices.cost[own] - choices.cost[best]);
+  job.memory->certainty[at] = static_cast<uint8_t>(margin / kPaths);
+}
+
+void ChooseTile(const void* data, int32_t index, int32_t worker) {
+  const ColourJob& job = JobOf(data);
+  const ColourTileMemory& memory = job.memory->workers[worker];
+  const Rect tile = TileOf(job.map.plan, index);
+  if (tile.width == 0 || tile.height == 0) return;
+  const Rect region = Widened(job.map.plan, tile, kTileMargin);
+  WeighChoices(job.map, job.memory->doubt, region, memory.paths, memory.choices);
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const Choices* row = memory.choices + (y - region.y) * region.width;
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      Choose(job, job.map.At(x, y), row[x - region.x]);
+    }
+  }
+}
+
+bool Differs(const ColourJob& job, size_t at) { return job.chosen[at] != job.map.disparity[at]; }
+
+// Whether enough is gained around a pixel of which something else than the map says was chosen.
+bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
+  const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kGainRadius);
+  int32_t gain = 0;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      gain += job.memory->gain[job.map.At(column, row)];
+    }
+  }
+  return gain >= kLeastGain;
+}
+
+// The mean of the map's pixels around (x, y) that are of the surface chosen there.
+float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
+  const int32_t own = job.chosen[job.map.At(x, y)];
+  const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kMeanRadius);
+  int32_t sum = 0, weights = 0;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const size_t at = job.map.At(column, row);
+      const int32_t doubt = job.memory->doubt[at];
+      if (doubt == 0 || Abs(job.map.disparity[at] - own) > kPixel) continue;
+      const int32_t weight = doubt > kDisplacement ? kSureWeight : 1;
+      sum += weight * job.map.disparity[at];
+      weights += weight;
+    }
+  }
+  if (weights == 0) return static_cast<float>(own) / kPixel;
+  return static_cast<float>(sum) / static_cast<float>(weights * kPixel);
+}
+
+void WritePixel(const ColourJob& job, int32_t x, int32_t y) {
+  const size_t at = job.map.At(x, y), row = static_cast<size_t>(y), column = static_cast<size_t>(x);
+  const float given = GivenAt(job.map.light_field, y)[x];
+  const bool known = std::isfinite(given), differs = Differs(job, at);
+  const bool changes = !known || (differs && IsGainsaid(job, x, y));
+  const bool noisy = job.map.disparity != job.memory->maps[0];
+  const float kept = noisy ? static_cast<float>(job.map.disparity[at]) / kPixel : given;
+  job.output.disparity[row * job.output.stride + column] =
+      changes ? job.output.Clamped(MeanOfSurface(job, x, y)) : kept;
+  if (job.output.confidence == nullptr) return;
+  job.output.confidence[row * job.output.confidence_stride + column] =
+      differs && !changes ? uint8_t{0} : job.memory->certainty[at];
+}
+
+void WriteTile(const void* data, int32_t index, int32_t) {
+  const ColourJob& job = JobOf(data);
+  const Rect tile = TileOf(job.map.plan, index);
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) WritePixel(job, x, y);
+  }
+}
+
+ColourTileMemory TakeTile(const EstimatePlan& plan, Carver* carver) {
+  size_t width = 0, area = 0;
+  for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {
+    const Rect region = Widened(plan, TileOf(plan, tile), kTileMargin);
+    const auto columns = static_cast<size_t>(region.width);
+    width = columns > width ? columns : width;
+    const size_t pixels = columns * static_cast<size_t>(region.height);
+    area = pixels > area ? pixels : area;
+  }
+  ColourTileMemory memory;
+  memory.choices = carver->Take<Choices>(area);
+  memory.paths = carver->Take<ChoicePath>(width);
+  memory.doubt = carver->Take<uint8_t>(area);
+  return memory;
+}
+
+}  // namespace
+
+size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* base,
+                          ColourMemory** memory) {
+  Carver carver(base);
+  const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
+  *memory = carver.Take<ColourMemory>(1);
+  const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
+  auto* progress = carver.Take<std::atomic<uint32_t>>(tiles);
+  int16_t* maps[3];
+  for (int16_t*& map : maps) map = carver.Take<int16_t>(width, height);
+  auto* gain = carver.Take<int16_t>(width, height);
+  auto* doubt = carver.Take<uint8_t>(width, height);
+  auto* certainty = carver.Take<uint8_t>(width, height);
+  auto* workers = carver.Take<ColourTileMemory>(static_cast<size_t>(max_workers));
+  if (base != nullptr) {
+    ColourMemory& made = *new (*memory) ColourMemory();
+    made.jobs.max_workers = max_workers;
+    made.jobs.progress = progress;
+    for (int k = 0; k < 3; ++k) made.maps[k] = maps[k];
+    made.gain = gain;
+    made.doubt = doubt;
+    made.certainty = certainty;
+    made.workers = workers;
+  }
+  for (int32_t worker = 0; worker < max_workers; ++worker) {
+    const ColourTileMemory tile = TakeTile(plan, &carver);
+    if (base != nullptr) workers[worker] = tile;
+  }
+  return carver.Bytes();
+}
+
+sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
+                         const Runner& runner, const MapOutput& output, ColourMemory* memory) {
+  int16_t* const* maps = memory->maps;
+  ReadMap(plan, light_field, maps[0]);
+  const int32_t noise = MeasureNoise(plan, maps[0]);
+  const ColourMap given = {plan, light_field, maps[0]}, half = {plan, light_field, maps[1]};
+  const ColourMap map = {plan, light_field, maps[noise > 0 ? 2 : 0]};
+  // Within three standard deviations first; what that leaves is a third as noisy.
+  const Smoothing first = {3, 1, 3 * noise}, second = {4, 2, 3 * noise / 2};
+  const struct {
+    JobFunction function;
+    ColourJob job;
+  } phases[] = {
+      {SmoothMap, {given, output, first, maps[1], nullptr, memory}},
+      {SmoothMap, {half, output, second, maps[2], nullptr, memory}},
+      {DoubtTile, {map, output, second, nullptr, nullptr, memory}},
+      {ChooseTile, {map, output, second, nullptr, maps[1], memory}},
+      {WriteTile, {map, output, second, nullptr, maps[1], memory}},
+  };
+  for (const auto& phase : phases) {
+    if (phase.function == SmoothMap && noise == 0) continue;
+    const sf_status status =
+        RunJobSet(phase.function, &phase.job, plan.columns * plan.rows, runner, &memory->jobs);
+    if (status != SF_OK) return status;
+  }
+  return SF_OK;
+}
+
+}  // namespace starfocus

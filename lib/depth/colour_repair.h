@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Repairs the disparity map of a single view by its colours: what the paper's section VII-A asks a
+// bilateral weighted median for. Near steps and on ramps of the map the surfaces around compete for
+// each pixel, by hue, saturation and brightness; noise is averaged within surfaces.
+#ifndef STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
+#define STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/base/jobs.h"
+#include "lib/depth/colour_choices.h"
+#include "lib/depth/estimate.h"
+
+namespace starfocus {
+
+// What a worker needs for a tile.
+struct ColourTileMemory {
+  Choices* choices;
+  ChoicePath* paths;  // a row
+  uint8_t* doubt;
+};
+
+// Maps have the picture's size, disparities kDisparityBits.
+struct ColourMemory {
+  JobSet jobs;
+  int16_t* maps[3];  // the given one, of noise half smoothed, smoothed; later what is chosen
+  int16_t* gain;     // how much less a pixel's choice costs than the map's, 0 where it is the same
+  uint8_t* doubt;    // of MeasureDoubt
+  uint8_t* certainty;  // how much more another surface costs than the chosen one, on each path
+  ColourTileMemory* workers;
+};
+
+// Lays out the memory at `base` (aligned to SF_ALIGNMENT), or counts when base is null. Returns the
+// bytes used, or kTooLarge. Of the plan only size and tiles are read, here and below.
+size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* base,
+                          ColourMemory** memory);
+
+// Repairs light_field.disparity, of which one pixel at least is finite, into `output`, by the
+// centre view alone. Pixels that no colour gainsays keep their disparity to the bit unless the map
+// is noisy; unknown ones (NaN, infinite) get one. Confidence is 255 where nothing is in doubt, and
+// 0 where colours gainsay the map too weakly. SF_OK, or SF_ERROR_RUNNER.
+sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
+                         const Runner& runner, const MapOutput& output, ColourMemory* memory);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Estimates the disparities of a light field's centre view: a sweep over all of them, twice. The
+// first one takes the views on one side of each pixel; what it finds tells which views see a pixel,
+// and these alone are asked by the second one.
+#ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_H_
+#define STARFOCUS_LIB_DEPTH_ESTIMATE_H_
+
+#include "lib/depth/estimate_memory.h"
+#include "lib/depth/map_rows.h"
+#include "simd/depth_kernels.h"
+
+namespace starfocus {
+
+// SF_OK, or SF_ERROR_RUNNER.
+sf_status Estimate(const EstimatePlan& plan, const sf_light_field& light_field,
+                   const simd::DepthKernels& kernels, const Runner& runner, const MapOutput& output,
+                   EstimateMemory* memory);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_DEPTH_ESTIMATE_H_

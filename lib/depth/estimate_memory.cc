@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/depth/estimate_memory.h"
+
+#include <new>
+
+#include "lib/base/fixed.h"
+#include "simd/paths.h"
+
+namespace starfocus {
+namespace {
+
+// Returns the largest sides of a tile with its margin.
+Rect LargestRegion(const EstimatePlan& plan) {
+  Rect largest = {0, 0, 0, 0};
+  for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {
+    const Rect region = Widened(plan, TileOf(plan, tile), kTileMargin);
+    largest.width = Max(largest.width, region.width);
+    largest.height = Max(largest.height, region.height);
+  }
+  return largest;
+}
+
+TileMemory TakeTile(const EstimatePlan& plan, const Rect& region, Carver* carver) {
+  TileMemory tile = {};
+  const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
+  const size_t area = width * height, places = simd::PathLabels(static_cast<size_t>(plan.labels));
+  const auto side_views = static_cast<size_t>(plan.side_views());
+  const auto beyond = 2 * static_cast<size_t>(plan.reach) + 1;
+  Patches& patches = tile.patches;
+  patches.stride = simd::SliceSamples(width + beyond) + simd::kPadding;
+  patches.plane = patches.stride * (height + beyond);
+  patches.rgb = carver->Take<uint8_t>(patches.plane, 3 * (side_views + 1));
+  patches.highest = carver->Take<int16_t>(patches.plane, side_views);
+  tile.row_stride = simd::SliceSamples(width);
+  tile.cost = carver->Take<uint8_t>(area, places);
+  tile.prior = plan.repairs ? carver->Take<uint8_t>(area, places) : nullptr;
+  tile.sum = carver->Take<int16_t>(area, places);
+  for (int k = 0; k < 2; ++k) {
+    int16_t* path = carver->Take<int16_t>(width * places + 1);
+    tile.path[k] = path == nullptr ? nullptr : path + 1;
+    tile.least[k] = carver->Take<int16_t>(width);
+  }
+  tile.jump = carver->Take<int16_t>(width);
+  tile.differences = carver->Take<uint8_t>(tile.row_stride, side_views);
+  tile.label_rows = carver->Take<uint8_t>(tile.row_stride, simd::kSliceLanes);
+  tile.choice = carver->Take<int16_t>(width);
+  tile.margin = carver->Take<uint8_t>(width);
+  return tile;
+}
+
+}  // namespace
+
+size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
+                      EstimateMemory** memory, const ZoneVisitor* zones) {
+  Carver carver(base, PTRDIFF_MAX, zones);
+  const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
+  *memory = carver.Take<EstimateMemory>(1);
+  const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
+  auto* progress = carver.Take<std::atomic<uint32_t>>(tiles);
+  auto* first = carver.Take<int16_t>(width, height);
+  auto* second = carver.Take<int16_t>(width, height);
+  auto* certainty = carver.Take<uint8_t>(width, height);
+  int16_t* of_given[3] = {};
+  for (int16_t*& map : of_given) map = plan.repairs ? carver.Take<int16_t>(width, height) : nullptr;
+  TileCount* counts = plan.repairs ? carver.Take<TileCount>(tiles) : nullptr;
+  auto* workers = carver.Take<TileMemory>(static_cast<size_t>(max_workers));
+  if (base != nullptr) {
+    EstimateMemory& made = *new (*memory) EstimateMemory();
+    made.jobs.max_workers = max_workers;
+    made.jobs.progress = progress;
+    made.first = first;
+    made.second = second;
+    made.certainty = certainty;
+    made.given = of_given[0];
+    made.trusted = of_given[1];
+    made.evidence = of_given[2];
+    made.counts = counts;
+    made.workers = workers;
+  }
+  const Rect region = LargestRegion(plan);
+  for (int32_t worker = 0; worker < max_workers; ++worker) {
+    const TileMemory tile = TakeTile(plan, region, &carver);
+    if (base != nullptr) workers[worker] = tile;
+  }
+  return carver.Bytes();
+}
+
+EstimateZones::EstimateZones(const EstimatePlan& plan, int32_t max_workers, void* base)
+    : plan_(plan), max_workers_(max_workers), base_(base) {
+  Visit({PoisonZone, base});
+}
+
+EstimateZones::~EstimateZones() { Visit({UnpoisonZone, base_}); }
+
+void EstimateZones::Visit(const ZoneVisitor& visitor) const {
+  if (kRedZone == 0) return;
+  EstimateMemory* counted = nullptr;
+  LayOutEstimate(plan_, max_workers_, nullptr, &counted, &visitor);
+}
+
+}  // namespace starfocus

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The memory of an estimate: maps of the whole picture, and what each worker needs for a tile. One
+// routine sizes and carves it.
+#ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_MEMORY_H_
+#define STARFOCUS_LIB_DEPTH_ESTIMATE_MEMORY_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/base/carver.h"
+#include "lib/base/jobs.h"
+#include "lib/depth/estimate_plan.h"
+
+namespace starfocus {
+
+// Rectangles of all views around a tile, one plane after the other; outside the picture its nearest
+// pixels. Pixel (x, y) of the picture lies at (y - top) * stride + x - left of each plane.
+struct Patches {
+  int32_t left, top, rows;
+  size_t stride, plane;  // samples
+  uint8_t* rgb;          // planes R, G, B of the centre, then of each side view in the plan's order
+  // Of each side view the highest disparity that it is known to show at a pixel, INT16_MAX outside
+  // the picture: a lower one is hidden there.
+  int16_t* highest;
+  bool all_seen;  // nothing is known to be hidden, and all of the rectangle lies in the picture
+
+  size_t At(int32_t x, int32_t y) const {
+    return static_cast<size_t>(y - top) * stride + static_cast<size_t>(x - left);
+  }
+  const uint8_t* Plane(int32_t view, int32_t colour) const {
+    return rgb + static_cast<size_t>(3 * view + colour) * plane;
+  }
+};
+
+// What a worker needs for one tile.
+struct TileMemory {
+  Patches patches;
+  uint8_t* cost;         // of each pixel and label, PathLabels apart
+  uint8_t* prior;        // as cost: what a given map says; null when there is none
+  int16_t* sum;          // of paths, as cost
+  int16_t* path[2];      // of a row of pixels, one number before the first
+  int16_t* least[2];     // of each of them
+  int16_t* jump;         // of a row
+  uint8_t* differences;  // rows of all side views
+  uint8_t* label_rows;   // rows of a group of labels
+  int16_t* choice;       // a row
+  uint8_t* margin;       // a row
+  size_t row_stride;     // samples of a row of these
+};
+
+// Pixels of a tile of a given map.
+struct TileCount {
+  int32_t rough;    // that aren't trusted
+  int32_t differs;  // that the sweeps gainsay
+};
+
+struct EstimateMemory {
+  JobSet jobs;
+  int16_t* first;      // disparities of the whole picture, kDisparityBits: with all views trusted
+  int16_t* second;     // those with hidden views left out
+  uint8_t* certainty;  // of the second
+  // Of a map that is repaired, null otherwise; kNoSurface where it is unknown.
+  int16_t* given;     // its disparities
+  int16_t* trusted;   // those of places where it is smooth
+  TileCount* counts;  // of each tile
+  int32_t least_evidence;
+  int16_t* evidence;  // how much better the views fit the second map than the given one
+  TileMemory* workers;
+};
+
+// Lays out the memory at `base` (aligned to SF_ALIGNMENT), or counts when base is null. Returns the
+// bytes used, or kTooLarge.
+size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
+                      EstimateMemory** memory, const ZoneVisitor* zones = nullptr);
+
+// Makes the red zones of the memory of an estimate or repair at `base` ones that nobody may touch,
+// as long as the object lives (lib/base/carver.h).
+class EstimateZones {
+ public:
+  EstimateZones(const EstimatePlan& plan, int32_t max_workers, void* base);
+  ~EstimateZones();
+  EstimateZones(const EstimateZones&) = delete;
+  EstimateZones& operator=(const EstimateZones&) = delete;
+
+ private:
+  void Visit(const ZoneVisitor& visitor) const;
+
+  const EstimatePlan& plan_;
+  int32_t max_workers_;
+  void* base_;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_DEPTH_ESTIMATE_MEMORY_H_

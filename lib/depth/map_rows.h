@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where disparities come from and go to.
+#ifndef STARFOCUS_LIB_DEPTH_MAP_ROWS_H_
+#define STARFOCUS_LIB_DEPTH_MAP_ROWS_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Where a map goes. Disparities are clamped to [lowest, highest]; confidence may be null.
+struct MapOutput {
+  float* disparity;
+  size_t stride;  // floats
+  float lowest, highest;
+  uint8_t* confidence;
+  size_t confidence_stride;
+
+  float Clamped(float value) const {
+    return value < lowest ? lowest : value > highest ? highest : value;
+  }
+};
+
+// Row y of the given map.
+inline const float* GivenAt(const sf_light_field& light_field, int32_t y) {
+  return light_field.disparity +
+         static_cast<size_t>(y) * (light_field.disparity_stride / sizeof(float));
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_DEPTH_MAP_ROWS_H_

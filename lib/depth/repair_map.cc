@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/depth/repair_map.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "lib/base/fixed.h"
+#include "lib/depth/estimate_clean.h"
+#include "simd/disparities.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kPixel = 1 << kDisparityBits;
+// Neighbours of one surface differ by this at most; wider slopes are edges that were blurred.
+constexpr int32_t kMostSlope = kPixel / 2;
+// Disparities within this of each other are of one surface when they are averaged.
+constexpr int32_t kSameSurface = 38;
+// What differs by less is the given disparity.
+constexpr int32_t kSame = kPixel / 4;
+constexpr int32_t kMeanRadius = 3, kEvidenceRadius = 2;
+// Costs (simd::kCostScale times gray levels) that the pixels around a change must have together: as
+// much as eight pixels that fit 7.5 gray levels worse. Much more, and nothing for less than another
+// surface, where a map is right but for what is hard to see: where fewer pixels than kRightPercent
+// of those at edges differ.
+constexpr int32_t kLeastEvidence = 240, kRightEvidence = 1600;
+constexpr int32_t kRightPercent = 18, kWrongPercent = 22;
+
+size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
+  return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
+}
+
+bool IsTrusted(const EstimatePlan& plan, const int16_t* given, int32_t x, int32_t y) {
+  const Rect around = Widened(plan, {x, y, 1, 1}, 1);
+  int32_t low = INT16_MAX, high = INT16_MIN;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const int32_t d = given[IndexOf(plan, column, row)];
+      if (d == simd::kNoSurface) return false;
+      low = Min(low, d);
+      high = Max(high, d);
+    }
+  }
+  return high - low <= kMostSlope;
+}
+
+struct Mean {
+  int32_t sum = 0, count = 0;
+
+  void Add(int32_t value) {
+    sum += value;
+    ++count;
+  }
+  // Halves away from 0.
+  int32_t Value() const { return (2 * sum + (sum < 0 ? -count : count)) / (2 * count); }
+};
+
+// The mean around pixel (x, y) of the surface at disparity `own`.
+int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y,
+                      int32_t own) {
+  const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
+  Mean trusted, found;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const size_t at = IndexOf(plan, column, row);
+      if (std::abs(memory.second[at] - own) > kSameSurface) continue;
+      found.Add(memory.second[at]);
+      const int32_t d = memory.trusted[at];
+      if (d != simd::kNoSurface && std::abs(d - own) <= kSameSurface) trusted.Add(d);
+    }
+  }
+  return trusted.count > 0 ? trusted.Value() : found.Value();
+}
+
+// Whether the map is smooth next to nowhere around pixel (x, y): it is noise, or a wide slope in
+// place of an edge, which there is no reason to keep.
+bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
+  const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
+  int32_t smooth = 0;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      smooth += memory.trusted[IndexOf(plan, column, row)] != simd::kNoSurface;
+    }
+  }
+  return 4 * smooth < around.width * around.height;
+}
+
+}  // namespace
+
+void ReadGiven(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& tile,
+               int16_t* given) {
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const float* row = GivenAt(light_field, y);
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      given[IndexOf(plan, x, y)] = std::isfinite(row[x])
+                                       ? static_cast<int16_t>(std::lrint(row[x] * kPixel))
+                                       : simd::kNoSurface;
+    }
+  }
+}
+
+void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
+                 int16_t* trusted) {
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const size_t at = IndexOf(plan, x, y);
+      trusted[at] = IsTrusted(plan, given, x, y) ? given[at] : simd::kNoSurface;
+    }
+  }
+}
+
+void EvenOut(const EstimatePlan& plan, const sf_plane& centre, const Rect& tile,
+             const EstimateMemory& memory, int16_t* evened) {
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const size_t at = IndexOf(plan, x, y);
+      const int32_t given = memory.given[at], trusted = memory.trusted[at];
+      evened[at] = static_cast<int16_t>(given);
+      if (trusted != simd::kNoSurface && std::abs(trusted - memory.second[at]) <= kSame) continue;
+      const int32_t own = WithoutStray(plan, centre, memory.second, x, y);
+      const int32_t mean = MeanOfSurface(plan, memory, x, y, own);
+      if (given != simd::kNoSurface && std::abs(given - mean) <= kSame) continue;
+      evened[at] = static_cast<int16_t>(mean);
+    }
+  }
+}
+
+bool Differs(const EstimateMemory& memory, size_t at) {
+  return memory.given[at] == simd::kNoSurface ||
+         std::abs(memory.first[at] - memory.given[at]) > kPixel / 2;
+}
+
+TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory) {
+  TileCount count = {};
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const size_t at = IndexOf(plan, x, y);
+      count.rough += memory.trusted[at] == simd::kNoSurface;
+      count.differs += Differs(memory, at);
+    }
+  }
+  return count;
+}
+
+int32_t LeastEvidence(const EstimatePlan& plan, const EstimateMemory& memory) {
+  int64_t rough = 1, differs = 0;
+  for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {
+    rough += memory.counts[tile].rough;
+    differs += memory.counts[tile].differs;
+  }
+  const int64_t percent = 100 * differs / rough;
+  if (percent <= kRightPercent) return kRightEvidence;
+  if (percent >= kWrongPercent) return kLeastEvidence;
+  const auto beyond = static_cast<int32_t>(kWrongPercent - percent);
+  return kLeastEvidence +
+         (kRightEvidence - kLeastEvidence) * beyond / (kWrongPercent - kRightPercent);
+}
+
+bool IsChanged(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
+  const size_t own = IndexOf(plan, x, y);
+  if (memory.given[own] == simd::kNoSurface) return true;
+  if (!Differs(memory, own)) {
+    return memory.least_evidence < kRightEvidence && memory.first[own] != memory.given[own];
+  }
+  if (IsRough(plan, memory, x, y)) return true;
+  const Rect around = Widened(plan, {x, y, 1, 1}, kEvidenceRadius);
+  int32_t evidence = 0;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const size_t at = IndexOf(plan, column, row);
+      if (Differs(memory, at)) evidence += memory.evidence[at];
+    }
+  }
+  return evidence >= memory.least_evidence;
+}
+
+}  // namespace starfocus

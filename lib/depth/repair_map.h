@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The given map of a repair: which of its pixels are trusted, and which of them are changed.
+#ifndef STARFOCUS_LIB_DEPTH_REPAIR_MAP_H_
+#define STARFOCUS_LIB_DEPTH_REPAIR_MAP_H_
+
+#include <cstdint>
+
+#include "lib/depth/estimate.h"
+
+namespace starfocus {
+
+// Converts the given disparities of a tile to kDisparityBits; kNoSurface where they are not finite.
+void ReadGiven(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& tile,
+               int16_t* given);
+
+// Pixels are trusted whose 3x3 neighbours are known and of one surface: what blurs or scales a map
+// makes slopes of its edges, and noise is no surface. Others become kNoSurface.
+void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
+                 int16_t* trusted);
+
+// Writes the disparity of each pixel of a tile: the given one where memory.second agrees; otherwise
+// the mean of trusted ones around it of the same surface, or that of memory.second there, of which
+// strays are left out by the colours of the centre view.
+void EvenOut(const EstimatePlan& plan, const sf_plane& centre, const Rect& tile,
+             const EstimateMemory& memory, int16_t* evened);
+
+// Whether memory.first is another surface than the given one at pixel `at`, or that is unknown.
+bool Differs(const EstimateMemory& memory, size_t at);
+
+// Counts the pixels of a tile whose evened map is finished.
+TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory);
+
+// The evidence that changes need: the less of the edges of the map the sweeps gainsay, the more it
+// is trusted.
+int32_t LeastEvidence(const EstimatePlan& plan, const EstimateMemory& memory);
+
+// Whether pixel (x, y) gets the disparity of memory.first: where it differs little, and where the
+// evidence of all pixels around that differ is strong enough. Single pixels that differ are
+// more often mistaken than right.
+bool IsChanged(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_DEPTH_REPAIR_MAP_H_

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/depth/sweep.h"
+
+#include "lib/depth/estimate_cost.h"
+#include "lib/depth/estimate_patch.h"
+#include "lib/depth/estimate_paths.h"
+#include "lib/depth/map_prior.h"
+
+namespace starfocus {
+namespace {
+
+void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker) {
+  const bool first = seeing == Seeing::kOneSide;
+  const EstimatePlan plan = first && sweep.plan.repairs ? CoarsePlan(sweep.plan) : sweep.plan;
+  EstimateMemory& memory = *sweep.memory;
+  TileMemory& tile = memory.workers[worker];
+  const Rect tile_rect = TileOf(plan, index);
+  if (tile_rect.width == 0 || tile_rect.height == 0) return;
+  const Rect region = Widened(plan, tile_rect, kTileMargin);
+  LoadPatches(plan, sweep.light_field, region, &tile.patches);
+  if (first) {
+    MarkOutside(plan, &tile.patches);
+  } else {
+    MarkHidden(plan, memory.first, &tile.patches);
+  }
+  MeasureCosts(plan, region, seeing, sweep.kernels, &tile);
+  if (plan.repairs) AddMapPrior(plan, region, memory.trusted, sweep.kernels, &tile);
+  AddAllPaths(plan, region, sweep.kernels, &tile);
+  ChooseDisparities(plan, region, tile_rect, sweep.kernels, tile,
+                    first ? memory.first : memory.second, first ? nullptr : memory.certainty);
+  if (plan.repairs && !first) WeighEvidence(plan, region, tile_rect, tile, &memory);
+}
+
+}  // namespace
+
+void SweepOneSide(const void* data, int32_t index, int32_t worker) {
+  SweepTile(*static_cast<const Sweep*>(data), Seeing::kOneSide, index, worker);
+}
+
+void SweepAllViews(const void* data, int32_t index, int32_t worker) {
+  SweepTile(*static_cast<const Sweep*>(data), Seeing::kAll, index, worker);
+}
+
+}  // namespace starfocus

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps of one view repaired by its colours: what is right stays, and what is displaced comes back.
+#include "lib/depth/colour_repair.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+#include <new>
+#include <vector>
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// A picture and its map.
+struct Photo {
+  int width, height;
+  std::vector<uint8_t> rgb;
+  std::vector<float> map;
+
+  Photo(int w, int h)
+      : width(w), height(h), rgb(3 * size_t(w) * size_t(h), 90), map(size_t(w) * size_t(h)) {}
+  size_t At(int x, int y) const { return size_t(y) * size_t(width) + size_t(x); }
+  float& Map(int x, int y) { return map[At(x, y)]; }
+  void Paint(int x, int y, int r, int g, int b) {
+    uint8_t* pixel = rgb.data() + 3 * At(x, y);
+    pixel[0] = uint8_t(r), pixel[1] = uint8_t(g), pixel[2] = uint8_t(b);
+  }
+};
+
+struct Repaired {
+  std::vector<float> map;
+  std::vector<uint8_t> confidence;
+};
+
+// Runs jobs backwards, each on another of three workers than the one before.
+int RunBackwards(void*, sf_job job, void* data, int32_t count) {
+  for (int32_t k = count - 1; k >= 0; --k) job(data, k, k % 3);
+  return 0;
+}
+
+Repaired Repair(const Photo& photo, int workers = 1) {
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  config.width = photo.width;
+  config.height = photo.height;
+  const starfocus::EstimatePlan plan = starfocus::MakePlan(config);
+  starfocus::ColourMemory* memory = nullptr;
+  const size_t bytes = starfocus::LayOutColourRepair(plan, workers, nullptr, &memory);
+  void* base = ::operator new(bytes, std::align_val_t(SF_ALIGNMENT));
+  std::memset(base, 0xA5, bytes);
+  starfocus::LayOutColourRepair(plan, workers, base, &memory);
+  sf_light_field field = {};
+  const auto width = size_t(photo.width);
+  field.views[0] = {photo.rgb.data(), 3 * width};
+  field.disparity = photo.map.data();
+  field.disparity_stride = width * sizeof(float);
+  Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
+  const starfocus::Runner runner = {workers > 1 ? RunBackwards : nullptr, nullptr};
+  const starfocus::MapOutput output = {result.map.data(),        width, -500, 500,
+                                       result.confidence.data(), width};
+  CHECK(RepairByColour(plan, field, runner, output, memory) == SF_OK);
+  ::operator delete(base, std::align_val_t(SF_ALIGNMENT));
+  return result;
+}
+
+bool SameBits(const std::vector<float>& a, const std::vector<float>& b) {
+  return std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+// A disc of one colour before a wall of another, both speckled; the map's disc is `grown` wider.
+Photo MakeDisc(int grown, float near = 6, float far = -4) {
+  Photo photo(300, 130);
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      const double distance = std::hypot(x - 151.3, y - 66.2);
+      const int speckle = (x * 7 + y * 13 + x * y % 11) % 17;
+      if (distance < 40) {
+        photo.Paint(x, y, 190 + speckle, 80 + speckle, 40);
+      } else {
+        photo.Paint(x, y, 60, 90 + speckle, 150 + speckle);
+      }
+      photo.Map(x, y) = distance < 40 + grown ? near : far;
+    }
+  }
+  return photo;
+}
+
+// Counts what is of another surface: up to a pixel is the same one.
+int CountWrong(const std::vector<float>& map, const Photo& truth) {
+  int wrong = 0;
+  for (size_t k = 0; k < map.size(); ++k) wrong += std::abs(map[k] - truth.map[k]) > 1.02F;
+  return wrong;
+}
+
+TEST_CASE("colour repair: an edge displaced by three pixels comes back to the colours' edge") {
+  const Photo truth = MakeDisc(0);
+  for (const int grown : {3, -3}) {
+    const Photo photo = MakeDisc(grown);
+    CAPTURE(grown);
+    CHECK(CountWrong(photo.map, truth) > 600);
+    CHECK(CountWrong(Repair(photo).map, truth) < 8);
+  }
+}
+
+TEST_CASE("colour repair: a ramp between two surfaces becomes a step") {
+  const Photo truth = MakeDisc(0);
+  Photo photo = truth;
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      const double inside = (46 - std::hypot(x - 151.3, y - 66.2)) / 12;
+      photo.Map(x, y) = float(-4 + 10 * std::clamp(inside, 0.0, 1.0));
+    }
+  }
+  CHECK(CountWrong(photo.map, truth) > 1800);
+  CHECK(CountWrong(Repair(photo).map, truth) < 20);
+}
+
+TEST_CASE("colour repair: a right map stays to the bit, with steps, planes and fractions") {
+  const Photo disc = MakeDisc(0, 6.0123F, -3.987F);
+  CHECK(SameBits(Repair(disc).map, disc.map));
+  Photo plane = MakeDisc(0);
+  for (int y = 0; y < plane.height; ++y) {
+    for (int x = 0; x < plane.width; ++x) plane.Map(x, y) = 0.013F * float(x) - 0.07F * float(y);
+  }
+  CHECK(SameBits(Repair(plane).map, plane.map));
+}
+
+TEST_CASE(
+    "colour repair: a picture of one colour gainsays no map, and nobody is sure at its steps") {
+  Photo photo = MakeDisc(0);
+  std::fill(photo.rgb.begin(), photo.rgb.end(), uint8_t{77});
+  const Repaired repaired = Repair(photo);
+  CHECK(CountWrong(repaired.map, photo) < 60);  // corners of the round step
+  CHECK(repaired.confidence[photo.At(5, 5)] == 255);
+  CHECK(repaired.confidence[photo.At(151, 26)] < 100);
+}
+
+TEST_CASE("colour repair: noise is averaged within surfaces") {
+  const Photo truth = MakeDisc(0);
+  Photo photo = truth;
+  uint32_t state = 7;
+  for (float& d : photo.map) {
+    float sum = -6;  // twelve uniform numbers make a normal one
+    for (int k = 0; k < 12; ++k) {
+      state = state * 1664525 + 1013904223;
+      sum += float(state >> 8) / float(1 << 24);
+    }
+    d += sum;
+  }
+  const Repaired repaired = Repair(photo);
+  double before = 0, after = 0;
+  for (size_t k = 0; k < truth.map.size(); ++k) {
+    before += std::pow(photo.map[k] - truth.map[k], 2);
+    after += std::pow(repaired.map[k] - truth.map[k], 2);
+  }
+  CHECK(after < before / 20);
+}
+
+TEST_CASE("colour repair: unknown pixels get the disparity of their colour's surface") {
+  const Photo truth = MakeDisc(0);
+  Photo photo = truth;
+  for (int y = 20; y < 40; ++y) {
+    for (int x = 130; x < 150; ++x) {
+      photo.Map(x, y) = x % 3 == 0 ? kNan : x % 3 == 1 ? kInfinity : -kInfinity;
+    }
+  }
+  const Repaired repaired = Repair(photo);
+  CHECK(CountWrong(repaired.map, truth) < 8);
+  for (const float d : repaired.map) CHECK(std::isfinite(d));
+}
+
+TEST_CASE("colour repair: one known pixel is enough, wherever it is") {
+  for (const int at : {0, 17, 34}) {
+    Photo photo(7, 5);
+    std::fill(photo.map.begin(), photo.map.end(), kNan);
+    photo.map[size_t(at)] = 2.5F;
+    for (const float d : Repair(photo).map) CHECK(d == 2.5F);
+  }
+}
+
+TEST_CASE("colour repair: mirrored pictures have mirrored maps") {
+  Photo photo = MakeDisc(3);
+  for (int x = 40; x < 90; ++x) photo.Map(x, 60 + x % 3) = kNan;
+  for (int x = 100; x < 112; ++x) photo.Map(x, 100) += float(x % 5);
+  const Repaired plain = Repair(photo);
+  for (const bool across : {false, true}) {
+    const auto mirror = [&](const Photo& from, int x, int y) {
+      return across ? from.At(from.width - 1 - x, y) : from.At(x, from.height - 1 - y);
+    };
+    Photo mirrored = photo;
+    for (int y = 0; y < photo.height; ++y) {
+      for (int x = 0; x < photo.width; ++x) {
+        const size_t to = photo.At(x, y), from = mirror(photo, x, y);
+        mirrored.map[to] = photo.map[from];
+        std::memcpy(mirrored.rgb.data() + 3 * to, photo.rgb.data() + 3 * from, 3);
+      }
+    }
+    const Repaired other = Repair(mirrored);
+    int different = 0;
+    for (int y = 0; y < photo.height; ++y) {
+      for (int x = 0; x < photo.width; ++x) {
+        const size_t to = photo.At(x, y), from = mirror(photo, x, y);
+        different += other.map[to] != plain.map[from];
+        different += other.confidence[to] != plain.confidence[from];
+      }
+    }
+    CHECK(different == 0);
+  }
+}
+
+TEST_CASE("colour repair: the same bytes in any order and for any number of workers") {
+  Photo photo = MakeDisc(3);
+  const Repaired one = Repair(photo), three = Repair(photo, 3);
+  CHECK(SameBits(one.map, three.map));
+  CHECK(one.confidence == three.confidence);
+}
+
+TEST_CASE("colour repair: pixels beside steps are doubted, but not those of thin surfaces") {
+  Photo photo(60, 40);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 60; ++x) photo.Map(x, y) = (x >= 15 && x < 20) || x >= 40 ? 9.0F : 0.0F;
+  }
+  std::vector<int16_t> fixed(photo.map.size());
+  for (size_t k = 0; k < fixed.size(); ++k) fixed[k] = int16_t(64 * photo.map[k]);
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  config.width = 60, config.height = 40;
+  const starfocus::EstimatePlan plan = starfocus::MakePlan(config);
+  sf_light_field field = {};
+  field.disparity = photo.map.data();
+  field.disparity_stride = 60 * sizeof(float);
+  std::vector<uint8_t> scratch(fixed.size()), doubt(fixed.size());
+  starfocus::MeasureDoubt({plan, field, fixed.data()}, {0, 0, 60, 40}, scratch.data(),
+                          doubt.data());
+  const int expected[] = {1, 2, 3, 4, 5, 6, 6};
+  for (int k = 0; k < 7; ++k) {
+    CHECK(doubt[photo.At(40 + k, 20)] == expected[k]);
+    CHECK(doubt[photo.At(39 - k, 20)] == expected[k]);
+  }
+  for (int x = 15; x < 20; ++x) CHECK(doubt[photo.At(x, 20)] == starfocus::kThinDoubt);
+}
+
+TEST_CASE("colour repair: pictures of few pixels") {
+  for (const int width : {1, 2, 3, 5, 16, 33}) {
+    for (const int height : {1, 2, 4, 17}) {
+      Photo photo(width, height);
+      for (size_t k = 0; k < photo.map.size(); ++k) {
+        photo.map[k] = float(int(k * k % 23) - 11) * 45.0F;
+        photo.rgb[3 * k] = uint8_t(k * 37);
+      }
+      for (const float d : Repair(photo).map) CHECK(std::abs(d) <= 500);
+    }
+  }
+}
+
+}  // namespace

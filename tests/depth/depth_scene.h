@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light fields of planes whose disparities are known, for tests of maps.
+#ifndef STARFOCUS_TESTS_DEPTH_DEPTH_SCENE_H_
+#define STARFOCUS_TESTS_DEPTH_DEPTH_SCENE_H_
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <new>
+#include <vector>
+
+#include "starfocus/depth.h"
+#include "tests/support/test_scene.h"
+
+namespace test {
+
+// Views of planes that face the camera, or lean: each pixel is that of the highest disparity there.
+struct PlaneScene {
+  int width = 96, height = 64, views = 17;
+  double near_left = 30, near_right = 62, near = 5, far = -3, lean = 0;  // of the far one by x
+
+  // Any texture without period, 0 to 255.
+  static double Texture(double x, double y, int surface, int c) {
+    const double a = std::sin(0.9 * x + 0.31 * y + surface + c) + std::sin(0.37 * x - 0.83 * y + c);
+    const double b = std::sin(0.171 * x * (1 + 0.01 * y) + 1.3 * y) * std::cos(0.53 * y - c);
+    return std::clamp(128 + 50 * a + 40 * b, 0.0, 255.0);
+  }
+  bool IsNear(double x) const { return x >= near_left && x < near_right; }
+  double DisparityAt(int x) const { return IsNear(x) ? near : far + lean * x; }
+
+  uint8_t Pixel(double u, double v, int x, int y, int c) const {
+    double at = x + u * near;
+    if (IsNear(at)) return uint8_t(Texture(at, y + v * near, 1, c) + 0.5);
+    at = (x + u * far) / (1 - u * lean);  // at - u * (far + lean * at) = x
+    return uint8_t(Texture(at, y + v * (far + lean * at), 2, c) + 0.5);
+  }
+};
+
+struct PlaneField {
+  int width = 0, height = 0;
+  std::vector<std::vector<uint8_t>> views;
+
+  sf_light_field Get() const {
+    sf_light_field field = {};
+    for (size_t k = 0; k < views.size(); ++k) {
+      field.views[k] = {views[k].data(), 3 * size_t(width)};
+    }
+    return field;
+  }
+};
+
+inline PlaneField RenderPlanes(const PlaneScene& scene) {
+  PlaneField field = {scene.width, scene.height, {}};
+  for (int k = 0; k < scene.views; ++k) {
+    double u = 0, v = 0;
+    sf_view_position(k, &u, &v);
+    std::vector<uint8_t> view;
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < 3 * scene.width; ++x) view.push_back(scene.Pixel(u, v, x / 3, y, x % 3));
+    }
+    field.views.push_back(view);
+  }
+  return field;
+}
+
+inline sf_depth_config ConfigOf(const PlaneField& field, float low, float high) {
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  config.width = field.width;
+  config.height = field.height;
+  config.views = int32_t(field.views.size());
+  config.disparity_min = low;
+  config.disparity_max = high;
+  return config;
+}
+
+// Memory that holds anything.
+struct Memory {
+  explicit Memory(size_t size)
+      : bytes(size), data(::operator new (size, std::align_val_t{SF_ALIGNMENT})) {
+    std::memset(data, kPoison, size);
+  }
+  ~Memory() { ::operator delete (data, std::align_val_t{SF_ALIGNMENT}); }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+
+  size_t bytes;
+  void* data;
+};
+
+inline double ShareOff(const PlaneScene& scene, const std::vector<float>& disparity, double by) {
+  int off = 0;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      const float found = disparity[size_t(y) * size_t(scene.width) + size_t(x)];
+      off += !(std::fabs(found - scene.DisparityAt(x)) <= by);
+    }
+  }
+  return double(off) / (scene.width * scene.height);
+}
+
+// The light field mirrored at the x or the y axis.
+inline PlaneField MirroredField(const PlaneField& field, bool across) {
+  PlaneField mirrored = field;
+  for (int k = 0; k < int(field.views.size()); ++k) {
+    double u = 0, v = 0;
+    sf_view_position(k, &u, &v);
+    int from = 0;
+    for (int other = 0; other < int(field.views.size()); ++other) {
+      double a = 0, b = 0;
+      sf_view_position(other, &a, &b);
+      if (a == (across ? -u : u) && b == (across ? v : -v)) from = other;
+    }
+    for (int y = 0; y < field.height; ++y) {
+      for (int x = 0; x < field.width; ++x) {
+        const int to_x = across ? field.width - 1 - x : x, to_y = across ? y : field.height - 1 - y;
+        for (int c = 0; c < 3; ++c) {
+          mirrored.views[size_t(k)][size_t(3 * (to_y * field.width + to_x) + c)] =
+              field.views[size_t(from)][size_t(3 * (y * field.width + x) + c)];
+        }
+      }
+    }
+  }
+  return mirrored;
+}
+
+// Jobs backwards, by two workers in turns.
+inline int RunBackwards(void*, sf_job job, void* data, int32_t count) {
+  for (int32_t index = count - 1; index >= 0; --index) job(data, index, index % 2);
+  return 0;
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_DEPTH_DEPTH_SCENE_H_

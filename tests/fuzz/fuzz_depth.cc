@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Estimating and repairing maps with any configuration, sizes, strides and contents. Every buffer
+// has exactly the bytes the interface asks for, on the heap, so that AddressSanitizer sees what is
+// read or written beside it.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "starfocus/depth.h"
+#include "tests/fuzz/input.h"
+
+namespace {
+
+using starfocus::fuzz::Input;
+
+constexpr int kViews[] = {5, 9, 17};
+
+// Mostly valid; now and then any bytes at all in one field.
+sf_depth_config MakeConfig(Input* input) {
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  const int side = input->Rarely() ? 200 : 24;
+  config.width = input->Int(1, side);
+  config.height = input->Int(1, side);
+  config.views = kViews[input->Int(0, 2)];
+  const double most = input->Rarely() ? SF_MAX_DISPARITY : 12;
+  const double a = input->Real(-most, most), b = input->Real(-most, most);
+  config.disparity_min = static_cast<float>(std::min(a, b));
+  config.disparity_max = static_cast<float>(std::max(a, b));
+  config.max_workers = input->Rarely() ? SF_MAX_WORKERS : 1;
+  if (input->Rarely()) {
+    uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
+    input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
+  }
+  return config;
+}
+
+// Rows of any stride with nothing behind the last one.
+template <class T>
+struct Rows {
+  Rows(size_t width, int32_t height, Input* input)
+      : stride(width + static_cast<size_t>(input->Int(0, 5))),
+        count(stride * static_cast<size_t>(height - 1) + width),
+        values(new T[count]()) {}
+
+  size_t stride, count;
+  std::unique_ptr<T[]> values;
+};
+
+void FillPicture(Input* input, Rows<uint8_t>* picture) {
+  uint8_t step[16];
+  input->Bytes(step, sizeof(step));
+  for (size_t i = 0; i < picture->count; ++i) {
+    picture->values[i] = static_cast<uint8_t>(step[i % 16] + (i >> 4) * step[0]);
+  }
+}
+
+void FillMap(const sf_depth_config& config, Input* input, Rows<float>* map) {
+  uint8_t levels[32];
+  input->Bytes(levels, sizeof(levels));
+  const auto length = static_cast<size_t>(input->Int(1, 40));
+  const float range = config.disparity_max - config.disparity_min;
+  for (size_t i = 0; i < map->count; ++i) {
+    const float level = static_cast<float>(levels[i / length % 32]) / 255.0F;
+    map->values[i] = std::clamp(config.disparity_min + range * level, config.disparity_min,
+                                config.disparity_max);
+  }
+  while (input->Rarely()) {
+    map->values[input->Value<uint32_t>() % map->count] = input->Value<float>();
+  }
+}
+
+// Every value that is written lies in the range, but for what a repair keeps.
+void CheckMap(const sf_depth_config& config, const Rows<float>& map) {
+  for (int32_t y = 0; y < config.height; ++y) {
+    for (int32_t x = 0; x < config.width; ++x) {
+      const float value = map.values[static_cast<size_t>(y) * map.stride + static_cast<size_t>(x)];
+      if (!(value >= config.disparity_min && value <= config.disparity_max)) std::abort();
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  Input input(data, size);
+  const sf_depth_config config = MakeConfig(&input);
+  const bool repairs = input.Int(0, 1) == 1;
+  size_t bytes = 0;
+  const auto size_of = repairs ? sf_repair_size : sf_estimate_size;
+  if (size_of(&config, &bytes) != SF_OK || bytes > (size_t{300} << 20)) return 0;
+  if (int64_t{config.width} * config.height > 20000) return 0;
+  void* workspace = nullptr;
+  if (posix_memalign(&workspace, SF_ALIGNMENT, bytes) != 0) return 0;
+  const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
+  sf_light_field field = {};
+  std::vector<Rows<uint8_t>> pictures;
+  const auto width = static_cast<size_t>(config.width);
+  for (int view = 0; view < config.views; ++view) {
+    pictures.emplace_back(3 * width, config.height, &input);
+    FillPicture(&input, &pictures.back());
+    field.views[view] = {pictures.back().values.get(), pictures.back().stride};
+  }
+  Rows<float> given(width, config.height, &input), map(width, config.height, &input);
+  Rows<uint8_t> sure(width, config.height, &input);
+  FillMap(config, &input, &given);
+  field.disparity = given.values.get();
+  field.disparity_stride = given.stride * sizeof(float);
+  const auto make = repairs ? sf_repair_disparity : sf_estimate_disparity;
+  const sf_status status = make(&config, &field, map.values.get(), map.stride * sizeof(float),
+                                input.Rarely() ? nullptr : sure.values.get(), sure.stride,
+                                workspace, bytes, nullptr, nullptr);
+  if (status == SF_OK) CheckMap(config, map);
+  // Only a map may still be wrong.
+  if (status != SF_OK &&
+      !(repairs && (status == SF_ERROR_DISPARITY || status == SF_ERROR_ALL_INVALID))) {
+    std::abort();
+  }
+  return 0;
+}

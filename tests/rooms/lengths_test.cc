@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files and functions are as short as CONTRIBUTING.md asks.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kFileLines = 500, kFunctionLines = 60;
+
+std::vector<std::string> Lines(const fs::path& path) {
+  std::vector<std::string> lines;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<fs::path> Sources(const std::vector<std::string>& folders) {
+  std::vector<fs::path> found;
+  for (const std::string& folder : folders) {
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(fs::path(STARFOCUS_SOURCE_DIR) / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension == ".h" || extension == ".hpp" || extension == ".c" || extension == ".cc") {
+        found.push_back(entry.path());
+      }
+    }
+  }
+  return found;
+}
+
+// First lines of functions longer than `limit`. As clang-format lays them out, a function or member
+// ends in a line that is a brace alone, and begins at the last line before it that is indented as
+// little. Lines that only name a case are a list, and don't count.
+std::vector<std::string> FindLong(const std::vector<std::string>& lines, size_t limit) {
+  const std::regex type("\\s*(typedef|template|struct|class|enum|union|namespace)\\b.*");
+  const std::regex one_case("\\s*case [A-Za-z_0-9:]+:");
+  std::vector<std::string> found;
+  for (size_t end = 0; end < lines.size(); ++end) {
+    const size_t indent = lines[end].find('}');
+    if (indent > 2 || lines[end].size() != indent + 1) continue;
+    size_t count = 1, begin = end;
+    do {
+      if (begin-- == 0) break;
+      count += std::regex_match(lines[begin], one_case) ? 0 : 1;
+    } while (lines[begin].find_first_not_of(' ') != indent);
+    if (begin < end && count > limit && !std::regex_match(lines[begin], type)) {
+      found.push_back(lines[begin]);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("lengths: no file has more than 500 lines") {
+  const std::vector<fs::path> sources = Sources({"lib", "simd", "platform", "examples", "tests"});
+  REQUIRE(sources.size() > 300);
+  for (const fs::path& path : sources) {
+    CHECK_MESSAGE(Lines(path).size() <= kFileLines, path.string());
+  }
+}
+
+TEST_CASE("lengths: no function has more than 60 lines") {
+  for (const fs::path& path : Sources({"lib", "simd", "platform", "examples"})) {
+    for (const std::string& line : FindLong(Lines(path), kFunctionLines)) {
+      FAIL_CHECK(path.string() << ": " << line);
+    }
+  }
+}
+
+TEST_CASE("lengths: long functions are seen, and lists of cases are none") {
+  const auto body = [](const std::string& head, const std::string& line, const std::string& close) {
+    std::vector<std::string> lines = {head};
+    lines.insert(lines.end(), 20, line);
+    lines.push_back(close);
+    return lines;
+  };
+  CHECK(FindLong(body("int Sum(int a) {", "  ++a;", "}"), 21).size() == 1);
+  CHECK(FindLong(body("int Sum(int a) {", "  ++a;", "}"), 22).empty());
+  CHECK(FindLong(body("  int Sum(int a) const {", "    ++a;", "  }"), 21).size() == 1);
+  CHECK(FindLong(body("const char* Name(int a) {", "    case SF_OK:", "}"), 21).empty());
+  CHECK(FindLong(body("struct Sum {", "  int a;", "}"), 21).empty());
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every depth kernel on every SIMD target of this machine against its reference, and what the
+// references compute, by hand.
+#include "simd/depth_kernels.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/simd/depth_cases.h"
+#include "tests/support/simd_targets.h"
+
+namespace {
+
+using starfocus::simd::BestDepthKernels;
+using starfocus::simd::DepthKernels;
+using starfocus::simd::kNoLabel;
+using starfocus::simd::MatchRow;
+using starfocus::simd::PathLabels;
+using starfocus::simd::PathRow;
+using starfocus::simd::ReferenceDepthKernels;
+
+TEST_CASE("depth kernels: every target gives the bits of the reference and writes nothing else") {
+  constexpr int kRounds = STARFOCUS_EMULATED ? 150 : 1000;
+  const std::vector<const DepthKernels*> targets = test::DepthTargets();
+  CHECK(targets[0] == &BestDepthKernels());
+  uint64_t seed = 0;
+  for (const test::DepthCase& one : test::kDepthCases) {
+    const std::string name = one.kernel;
+    CAPTURE(name);
+    test::Met met;
+    ++seed;
+    for (int round = 0; round < kRounds; ++round) {
+      test::Draw draw = test::Draw::ForTest(seed, round);
+      test::DepthCall call(&draw);
+      one.make(&draw, &call);
+      const std::string wrong = call.Check(ReferenceDepthKernels(), targets, &met);
+      CAPTURE(round);
+      REQUIRE_MESSAGE(wrong.empty(), wrong);
+    }
+    for (const auto& what : met) {
+      CAPTURE(what.first);
+      CHECK(what.second > kRounds / 50);
+    }
+  }
+}
+
+TEST_CASE("depth kernels: differences of pixels between pixels, by hand") {
+  const uint8_t view[] = {10, 20, 99, 30, 50, 99}, centre[] = {25, 0}, black[6] = {};
+  MatchRow row = {{view, black, black}, 3, {centre, black, black}, 64, 32};
+  uint8_t difference[16];
+  // Down a quarter: 15, 27.5 (28) and 99; across a half: 21.5 (22) and 63.5 (64, cut off at 60).
+  ReferenceDepthKernels().MatchView(row, 2, difference);
+  CHECK(int(difference[0]) == 3);
+  CHECK(int(difference[1]) == 60);
+}
+
+TEST_CASE("depth kernels: who sees a pixel stands in for who doesn't, by hand") {
+  const int16_t highest_a[] = {5, 6, 5, 6}, highest_b[] = {5, 5, 6, 6};
+  uint8_t a[16] = {1, 2, 3, 4}, b[16] = {11, 12, 13, 14};
+  ReferenceDepthKernels().StandIn(highest_a, highest_b, 5, 4, a, b);
+  const int as[] = {1, 12, 3, 48}, bs[] = {11, 12, 3, 48};
+  for (int n = 0; n < 4; ++n) {
+    CHECK(int(a[n]) == as[n]);
+    CHECK(int(b[n]) == bs[n]);
+  }
+}
+
+TEST_CASE(
+    "depth kernels: a hidden view counts little, and more where none sees the pixel, by hand") {
+  const int16_t rows[4][4] = {{5, 6, 6, 6}, {5, 6, 6, 5}, {5, 5, 6, 5}, {5, 6, 6, 5}};
+  uint8_t values[4][16] = {{60, 60, 60, 3}, {50, 50, 50, 50}, {40, 40, 40, 40}, {2, 2, 2, 2}};
+  const int16_t* highest[] = {rows[0], rows[1], rows[2], rows[3]};
+  uint8_t* differences[] = {values[0], values[1], values[2], values[3]};
+  ReferenceDepthKernels().LimitHidden(highest, 5, 4, 4, differences);
+  const int expected[4][4] = {{60, 18, 27, 3}, {50, 18, 27, 50}, {40, 40, 27, 40}, {2, 2, 2, 2}};
+  for (int k = 0; k < 4; ++k) {
+    for (int n = 0; n < 4; ++n) CHECK(int(values[k][n]) == expected[k][n]);
+  }
+}
+
+TEST_CASE("depth kernels: what a map says spreads to neighbours, by hand") {
+  uint8_t row[2][3][16];
+  for (auto& line : row) {
+    for (auto& pixel : line) {
+      for (uint8_t& prior : pixel) prior = starfocus::simd::kMostPrior;
+    }
+  }
+  row[0][1][7] = 0;  // the middle pixel of the row before
+  const DepthKernels& kernels = ReferenceDepthKernels();
+  kernels.SpreadPrior({row[1][2], row[0][2], 16, -1, 3});
+  CHECK(int(row[1][2][7]) == 4);
+  CHECK(int(row[1][1][7]) == 3);
+  CHECK(int(row[1][0][7]) == 4);
+  CHECK(int(row[1][1][6]) == 24);
+}
+
+TEST_CASE("depth kernels: costs of views on one side, and of all, by hand") {
+  const uint8_t values[16] = {60, 60, 60, 60, 6, 9, 15, 60, 60, 60, 60, 60, 0, 3, 9, 60};
+  const uint8_t* rows[16];
+  for (int k = 0; k < 16; ++k) rows[k] = values + k;
+  uint8_t cost[16];
+  const DepthKernels& kernels = ReferenceDepthKernels();
+  kernels.LeastSide(rows, 8, 2, 1, cost);
+  CHECK(int(cost[0]) == 42 * 171 / 256);  // arms 4, 5 and 6 of both rings
+  kernels.LeastSide(rows + 4, 8, 1, 1, cost);
+  CHECK(int(cost[0]) == 2 * 30 * 171 / 256);
+  kernels.LeastSide(rows + 3, 4, 1, 1, cost);
+  CHECK(int(cost[0]) == 3 * 15 * 171 / 256);
+  kernels.MeanCost(rows + 12, 4, 1, cost);
+  CHECK(int(cost[0]) == 72);
+}
+
+TEST_CASE("depth kernels: a path goes on from the one before, by hand") {
+  constexpr size_t kLabels = 4, kPlaces = PathLabels(kLabels);
+  uint8_t cost[kPlaces] = {1, 2, 3, 4};
+  int16_t before[1 + kPlaces] = {0, 7, 90, 500, 33};
+  for (size_t l = kLabels; l < kPlaces; ++l) before[1 + l] = kNoLabel;
+  const int16_t before_least = 7, jump = 100;
+  int16_t path[kPlaces], least = 0, sum[kPlaces] = {10, 20, 30, 40};
+  const PathRow row = {cost, before + 1, &before_least, &jump, path, &least, sum};
+  ReferenceDepthKernels().AddPaths(row, kLabels, 1, 1);
+  // From label 0 at no cost; to label 1 by a slope of 24; from 3 at 26; to 2 by 26 + 24.
+  const int expected[kLabels] = {1, 2 + 24, 3 + 50, 4 + 26};
+  for (size_t l = 0; l < kLabels; ++l) CHECK(path[l] == expected[l]);
+  CHECK(path[kLabels] == kNoLabel);
+  CHECK(sum[3] == 70);
+  CHECK(least == 1);
+}
+
+TEST_CASE("depth kernels: the label of the least sum, by hand") {
+  constexpr size_t kLabels = 5, kPlaces = PathLabels(kLabels);
+  int16_t sum[3 * kPlaces] = {80, 60, 20, 40, 420};
+  const int16_t second[kLabels] = {3, 9, 9, 3, 3}, third[kLabels] = {50, 40, 30, 20, 10};
+  for (size_t l = 0; l < kLabels; ++l) {
+    sum[kPlaces + l] = second[l];
+    sum[2 * kPlaces + l] = third[l];
+  }
+  int16_t choice[3];
+  uint8_t margin[3];
+  ReferenceDepthKernels().ChooseLabels(sum, kLabels, 3, choice, margin);
+  CHECK(choice[0] == 2 * 64 + 32 * (40 - 20) / 40);
+  CHECK(int(margin[0]) == (80 - 20) / 8);
+  CHECK(choice[1] == 0);
+  CHECK(int(margin[1]) == 0);
+  CHECK(choice[2] == 4 * 64);
+  CHECK(int(margin[2]) == 2);
+}
+
+}  // namespace

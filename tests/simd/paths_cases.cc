@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simd/paths.h"
+#include "tests/simd/depth_cases.h"
+
+namespace test::depth_cases {
+namespace {
+
+using starfocus::simd::DepthKernels;
+using starfocus::simd::kNoLabel;
+using starfocus::simd::kPadding;
+using starfocus::simd::kSlopeCost;
+using starfocus::simd::PathLabels;
+using starfocus::simd::PathRow;
+
+constexpr int kMostLabels = 70, kTimedLabels = 55, kMostCost = 240, kMostJump = 1000;
+
+// A path as the kernel writes it, with its least.
+int16_t FillPath(size_t labels, Draw* draw, int16_t* path) {
+  const int least = draw->Int(0, 240);
+  for (size_t l = 0; l < PathLabels(labels); ++l) {
+    path[l] = l < labels ? int16_t(least + draw->Int(0, kMostJump + kMostCost)) : kNoLabel;
+  }
+  path[draw->Int(0, int(labels) - 1)] = int16_t(least);
+  return int16_t(least);
+}
+
+// Pixels of a row, in memory from left to right.
+struct Line {
+  size_t labels, count;
+  ptrdiff_t step;
+
+  size_t places() const { return PathLabels(labels); }
+  // Where the first pixel on the path lies.
+  size_t first() const { return step > 0 ? 0 : count - 1; }
+};
+
+// What the path of a row goes on from: nothing, the row before, or this row's pixel before.
+enum class From { kNothing, kRowBefore, kPixelBefore };
+
+}  // namespace
+
+void AddPaths(Draw* draw, DepthCall* call) {
+  Line line = {};
+  line.labels = draw->Length(1, kMostLabels, kTimedLabels);
+  line.count = draw->Size(1, 9, 64);
+  line.step = draw->Int(0, 1) == 0 ? 1 : -1;
+  const size_t labels = line.labels, count = line.count, places = line.places();
+  const ptrdiff_t step = line.step;
+  const From from = draw->timed() ? From::kRowBefore : From(draw->Int(0, 2));
+  std::vector<uint8_t> costs(count * places);
+  for (uint8_t& cost : costs) cost = uint8_t(draw->Int(0, kMostCost));
+  std::vector<int16_t> jumps(count), before(1 + count * places), before_least(count);
+  for (int16_t& jump : jumps) jump = int16_t(draw->Int(kSlopeCost, kMostJump));
+  for (size_t k = 0; k < count; ++k) {
+    before_least[k] = FillPath(labels, draw, &before[1 + k * places]);
+  }
+  PathRow row = {};
+  row.cost = call->Input("cost", costs, kPadding) + line.first() * places;
+  row.jump = call->Input("jump", jumps) + line.first();
+  // One pixel more on both sides, of which the paths of this row may go on.
+  int16_t* path = call->Output<int16_t>("path", 1 + (count + 2) * places) + 1 + places;
+  int16_t* least = call->Output<int16_t>("least", count + 2) + 1;
+  int16_t* sum = call->Output<int16_t>("sum", count * places);
+  for (size_t k = 0; k < count * places; ++k) sum[k] = int16_t(draw->Int(0, 30000));
+  call->Result(path, count * places);
+  call->Result(least, count);
+  for (size_t k = 0; k < count; ++k) {
+    call->Result(sum + k * places, labels);
+    call->Free(sum + k * places + labels, places - labels);
+  }
+  row.path = path + line.first() * places;
+  row.least = least + line.first();
+  row.sum = sum + line.first() * places;
+  if (from == From::kRowBefore) {
+    row.before = call->Input("before", before, kPadding) + 1 + line.first() * places;
+    row.before_least = call->Input("before_least", before_least) + line.first();
+  } else if (from == From::kPixelBefore) {
+    int16_t* start = row.path - step * ptrdiff_t(places);
+    row.least[-step] = FillPath(labels, draw, start);
+    row.before = start;
+    row.before_least = row.least - step;
+  }
+  call->run = [=](const DepthKernels& kernels) -> uint64_t {
+    kernels.AddPaths(row, labels, step, count);
+    return 0;
+  };
+}
+
+void ChooseLabels(Draw* draw, DepthCall* call) {
+  const size_t labels = draw->Length(1, kMostLabels, kTimedLabels);
+  const size_t count = draw->Size(1, 5, 64), places = PathLabels(labels);
+  const int most = draw->Int(0, 2) == 0 ? 3 : draw->Int(0, 1) == 0 ? 300 : 12000;
+  std::vector<int16_t> sums(count * places);
+  for (int16_t& sum : sums) sum = int16_t(draw->Int(0, most));
+  const int16_t* sum = call->Input("sum", sums, kPadding);
+  for (size_t n = 0; n < count; ++n) call->Ignore(sum + n * places + labels, places - labels);
+  int16_t* choice = call->Output<int16_t>("choice", count);
+  uint8_t* margin = call->Output<uint8_t>("margin", count);
+  call->Result(choice, count);
+  call->Result(margin, count);
+  call->run = [=](const DepthKernels& kernels) -> uint64_t {
+    kernels.ChooseLabels(sum, labels, count, choice, margin);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    for (size_t n = 0; n < count; ++n) {
+      const int label = (choice[n] + 32) >> 6;
+      if (label < 0 || label >= int(labels)) return false;
+      ++(*met)[choice[n] % 64 == 0 ? "at a label" : "between labels"];
+      ++(*met)[margin[n] == 255 ? "sure" : "not sure"];
+    }
+    return true;
+  };
+}
+
+}  // namespace test::depth_cases
