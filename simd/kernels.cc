@@ -21,6 +21,7 @@
 #include "simd/disc-inl.h"
 #include "simd/disparities-inl.h"
 #include "simd/finish_composite-inl.h"
+#include "simd/hidden_fill-inl.h"
 #include "simd/layered_depth-inl.h"
 #include "simd/light-inl.h"
 #include "simd/neighbourhood-inl.h"

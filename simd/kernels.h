@@ -12,6 +12,7 @@
 #include "simd/disc.h"
 #include "simd/disparities.h"
 #include "simd/finish_composite.h"
+#include "simd/hidden_fill.h"
 #include "simd/layered_depth.h"
 #include "simd/light.h"
 #include "simd/neighbourhood.h"
@@ -40,6 +41,9 @@
   KERNEL(BesideSteps)             \
   KERNEL(LookBehind)              \
   KERNEL(Interpolate)             \
+  KERNEL(TakeFarthest)            \
+  KERNEL(SmoothFar)               \
+  KERNEL(PutFarthest)             \
   KERNEL(SelectSlice)             \
   KERNEL(SpreadSlice)             \
   KERNEL(ShiftSlice)              \

@@ -65,11 +65,26 @@ void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver,
   scratch.spans = TakeSpans(extended, carver);
 }
 
-// Takes the memory of what is found of a field before slices are made.
+// Takes the memory of FillHidden.
+FillScratch TakeFill(size_t extended, Carver* carver) {
+  const size_t stride = FillStride(extended), behind = kFillStep;
+  FillScratch fill;
+  fill.disparity = carver->Take<int16_t>(extended * stride + behind);
+  fill.rgb = carver->Take<int16_t>(3 * extended * stride + behind);
+  fill.saved = carver->Take<int16_t>(3 * size_t{kFillStep + 1} * stride + behind);
+  fill.source = carver->Take<uint16_t>(extended * stride);
+  fill.farthest = carver->Take<uint8_t>(extended);
+  return fill;
+}
+
+// Takes the memory of what is found of a field before slices are made. Its surfaces are filled when
+// the field is no longer needed.
 void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   CompositorScratch& scratch = *stack;
   LayeredDepth& surfaces = scratch.surfaces;
   const size_t row = simd::SliceSamples(extended);
+  for (uint16_t*& sources : surfaces.sources) sources = carver->Take<uint16_t>(extended * row);
+  const size_t field = carver->Mark();
   scratch.field_rgb = carver->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
   scratch.field_disparity = carver->Take<int16_t>(extended * extended);
   for (uint8_t*& edges : surfaces.edges) {
@@ -78,9 +93,10 @@ void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   surfaces.moved = carver->Take<int16_t>(row);
   surfaces.behind = carver->Take<int16_t>(row);
   surfaces.steps = carver->Take<simd::StepBits>(row / simd::kSliceLanes);
-  for (uint16_t*& sources : surfaces.sources) sources = carver->Take<uint16_t>(row);
   scratch.bins = carver->Take<uint8_t>(kSliceBins);
   scratch.least_blur = carver->Take<int32_t>(extended);
+  carver->Reuse(field);
+  scratch.fill = TakeFill(extended, carver);
 }
 
 // Takes the memory of slices: E and R of CompositorScratch, and the largest N. The pool is what is

@@ -39,6 +39,14 @@ int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
                               static_cast<uint64_t>(contrast));
 }
 
+// The pixel beside it, away from the nearer surface, if it is of the same surface, else the pixel
+// itself: that is no mixture.
+Colour ReadBeside(const CentreView& centre, const BoundaryPixel& pixel, const Colour& mixed) {
+  const int32_t x = pixel.x - pixel.side[0], y = pixel.y - pixel.side[1];
+  const bool same = Abs(centre.Disparity(x, y) - pixel.disparity) <= pixel.step;
+  return same ? centre.ColourAt(x, y) : mixed;
+}
+
 // The point of the far surface in the captured view away from the nearer one, which lies farther
 // towards that there.
 Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& mixed) {
@@ -84,7 +92,8 @@ Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const int pure = Abs(beyond - pixel.near) <= pixel.step ? 2 : 1;
   Mixture mixture;
   mixture.near = centre.ColourAt(x + pure * dx, y + pure * dy);
-  mixture.far = ReadFar(centre.window, pixel, mixed);
+  mixture.far = centre.window.views == 1 ? ReadBeside(centre, pixel, mixed)
+                                         : ReadFar(centre.window, pixel, mixed);
   if (centre.window.lamp > 0) {
     Window light = centre.window;
     light.lamp = 0;

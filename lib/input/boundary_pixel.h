@@ -47,8 +47,8 @@ struct Mixture {
 
 // The near colour is that of the pixel behind the edge, or one pixel on where the surface goes on;
 // the far one is read from the captured view beside the centre in which the nearer surface has
-// moved out of the way. The window has such views. Of a window of excess the share is that of
-// light, and the colours are excess.
+// moved out of the way; without such views it is that of the pixel on the other side. Of a window
+// of excess the share is that of light, and the colours are excess.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
 // Calls visit(column, row) for those pixels of a field at layer 0 that are farther away, by more

@@ -170,6 +170,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch) {
     std::memcpy(scratch->centre + static_cast<size_t>(y) * row, field.Rgb(inner.x, inner.y + y),
                 row * sizeof(*scratch->centre));
   }
+  FillHidden(*job.kernels, job.window->layer, scratch->fill, &scratch->surfaces);
   return inner;
 }
 

@@ -10,6 +10,7 @@
 #include "lib/input/render_job.h"
 #include "lib/plan/block_stats.h"
 #include "lib/slices/depth_slices.h"
+#include "lib/slices/hidden_fill.h"
 #include "lib/slices/slice_plane.h"
 #include "lib/slices/tile.h"
 
@@ -22,6 +23,7 @@ struct CompositorScratch {
   int16_t* field_rgb;          // light: E rows of RgbStride(E)
   int16_t* field_disparity;    // E^2
   LayeredDepth surfaces;       // E^2 each
+  FillScratch fill;            // of the surfaces; the field is no longer needed
   uint8_t* bins;               // kSliceBins
   int32_t* least_blur;         // E
   int16_t* centre;             // 3 R^2: light of the rectangle in the centre view

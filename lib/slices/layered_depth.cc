@@ -40,6 +40,9 @@ class HiddenColours {
     }
   }
 
+  // Whether a pixel's colour was repeated, since no view shows what is behind it.
+  bool Repeats() const { return repeats_; }
+
  private:
   // Reads pixel k and those after it that are read with it. Returns the first that is not.
   int32_t ReadFrom(const HiddenChunk& chunk, int32_t k) {
@@ -104,12 +107,12 @@ class HiddenColours {
   }
 
   // Reads the colours of `count` pixels from k on, which have one disparity and source.
-  void ReadSide(const HiddenChunk& chunk, int32_t k, int32_t count, int32_t side,
-                int16_t* rgb) const {
+  void ReadSide(const HiddenChunk& chunk, int32_t k, int32_t count, int32_t side, int16_t* rgb) {
     const int dx = kSides[side][0], dy = kSides[side][1];
     const uint32_t source = chunk.source[k];
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
     if (distance != 0) {
+      repeats_ = true;
       std::memcpy(rgb, field_.Rgb(chunk.x + k + dx * distance, chunk.y + dy * distance),
                   3 * static_cast<size_t>(count) * sizeof(*rgb));
       return;
@@ -138,6 +141,7 @@ class HiddenColours {
 
   const Window& window_;
   const Field& field_;
+  bool repeats_ = false;
 };
 
 class SurfaceFinder {
@@ -160,6 +164,7 @@ class SurfaceFinder {
     StartColumns(0, 3);
     for (int32_t y = 1; y < height; ++y) FindEdgesOfColumns(y, y - 1, 3);
     for (int32_t y = 0; y < height; ++y) FindRow(y);
+    surfaces_.repeats = colours_.Repeats();
   }
 
  private:
@@ -248,7 +253,7 @@ class SurfaceFinder {
     for (int side = 0; side < 4; ++side) row.edges[side] = Edges(side, y);
     uint16_t found[simd::kSurfaces - 1][kMaxChunks];
     const simd::HiddenRow hidden = {{surfaces_.disparity[1] + at, surfaces_.disparity[2] + at},
-                                    {surfaces_.sources[0], surfaces_.sources[1]},
+                                    {surfaces_.sources[0] + at, surfaces_.sources[1] + at},
                                     {found[0], found[1]},
                                     surfaces_.share + at};
     const uint64_t chunks = kernels_.LookBehind(row, hidden);
@@ -265,7 +270,7 @@ class SurfaceFinder {
   // Sets the colours of those pixels of a chunk that are `found`.
   void SetColours(int32_t x, int32_t y, int behind, uint32_t found) {
     const size_t at = surfaces_.At(x, y);
-    colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + x},
+    colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + at},
                   found);
     kernels_.Interpolate(colours_.here, colours_.next, colours_.weight, surfaces_.plane,
                          surfaces_.rgb[behind] + at);

@@ -35,7 +35,10 @@ struct LayeredDepth {
   uint8_t* edges[4] = {};
   int16_t *moved = nullptr, *behind = nullptr;  // of FindEdges: a row
   simd::StepBits* steps = nullptr;              // of FindSteps: a row
-  uint16_t* sources[simd::kSurfaces - 1] = {};  // of LookBehind: a row
+  // Where the colour of each pixel of the hidden surfaces was found, as LookBehind tells it; only
+  // where `hiding` has them.
+  uint16_t* sources[simd::kSurfaces - 1] = {};
+  bool repeats = false;        // whether the colour of any pixel is one that is repeated
   uint64_t* hiding = nullptr;  // of each row: in which kSliceLanes there is more than surface 0
 
   size_t At(int32_t x, int32_t y) const {

@@ -84,7 +84,7 @@ class MatteFinder {
 
 void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                const Field& field, LayeredDepth* surfaces) {
-  if (window.layer != 0 || window.views == 1) return;
+  if (window.layer != 0) return;
   MatteFinder finder(window, grid, field, surfaces);
   ForEachBesideEdge(kernels, window, field, kDepthEdge,
                     [&](int32_t column, int32_t row) { finder.FindPixel(column, row); });

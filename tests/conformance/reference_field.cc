@@ -61,13 +61,18 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
   const auto mixed_of = [&](std::vector<Colour> Picture::*colours) {
     const Colour& mixed = (picture.*colours)[at(0)];
     Mixed result;
-    result.far = ReadPicture(field, int(-side.x * 2 * distance), int(-side.y * 2 * distance),
-                             x + side.x * distance * disparity / 64.0,
-                             y + side.y * distance * disparity / 64.0, colours);
-    // On the engine's grid of light; halves towards the pixel.
-    for (size_t c = 0; c < 3; ++c) {
-      double& far = result.far[c];
-      far = (mixed[c] > far ? std::floor(128 * far + 0.5) : std::ceil(128 * far - 0.5)) / 128;
+    if (field.size() == 1) {
+      const bool same = std::abs(picture.disparities[at(-1)] - disparity) <= step;
+      result.far = (picture.*colours)[at(same ? -1 : 0)];
+    } else {
+      result.far = ReadPicture(field, int(-side.x * 2 * distance), int(-side.y * 2 * distance),
+                               x + side.x * distance * disparity / 64.0,
+                               y + side.y * distance * disparity / 64.0, colours);
+      // On the engine's grid of light; halves towards the pixel.
+      for (size_t c = 0; c < 3; ++c) {
+        double& far = result.far[c];
+        far = (mixed[c] > far ? std::floor(128 * far + 0.5) : std::ceil(128 * far - 0.5)) / 128;
+      }
     }
     result.near =
         (picture.*colours)[at(std::abs(picture.disparities[at(2)] - near) <= step ? 2 : 1)];

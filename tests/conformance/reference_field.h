@@ -30,7 +30,8 @@ void LookBeyond(const LightField& field, const Picture& picture, int layer, cons
 // What a pixel (x, y) of the centre view is a mixture of that lies beside a depth edge, a step of
 // more than `step` (1/64) up to the side: how much of it shows the near surface (0: it is no
 // mixture), and the colours of both. The far one is what the captured view that looks behind the
-// near surface shows of the pixel.
+// near surface shows of the pixel; without captured views it is the pixel on the other side, if it
+// is of the same surface.
 struct Mixed {
   double share;
   Colour near, far;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "simd/kernels.h"
+#include "tests/conformance/reference_fill.h"
 
 namespace reference {
 namespace {
@@ -68,7 +69,7 @@ class SurfaceFinder {
   void Part(int x, int y, std::vector<Surface>* surfaces) const {
     const bool outermost =
         x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1;
-    if (lens_.layer != 0 || field_.size() == 1 || outermost) return;
+    if (lens_.layer != 0 || outermost) return;
     if (!field_.at({0, 0}).Inside(x0_ + x, y0_ + y)) return;
     Surface near = {INT16_MIN, {0, 0, 0}, 0}, far = {Disparity(x, y), {0, 0, 0}};
     double shares = 0;
@@ -108,6 +109,13 @@ class SurfaceFinder {
           *std::min_element(backgrounds.begin(), backgrounds.end(),
                             [](const Background& a, const Background& b) { return a.Before(b); });
       surfaces.push_back({best.disparity, MeanColour(x, y, best, backgrounds)});
+      if (best.captured == 0) {
+        surfaces.back().repeated = best.distance;
+        for (const Background& other : backgrounds) {
+          const bool ties = other.SameRank(best) && other.disparity == best.disparity;
+          if (ties) surfaces.back().towards.push_back(other.towards);
+        }
+      }
       // Within a pixel of disparity it is the same surface.
       const auto same = [&](const Background& other) {
         return std::abs(other.disparity - best.disparity) <= unit_;
@@ -212,7 +220,9 @@ class SurfaceFinder {
 
 SurfaceMap FindLayeredDepth(const LightField& field, const Picture& extended, const Lens& lens,
                             int x0, int y0) {
-  return SurfaceFinder(field, extended, lens, x0, y0).Find();
+  SurfaceMap map = SurfaceFinder(field, extended, lens, x0, y0).Find();
+  FillHidden(64 << lens.layer, &map);
+  return map;
 }
 
 }  // namespace reference

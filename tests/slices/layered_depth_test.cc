@@ -8,107 +8,14 @@
 #include <cstdlib>
 #include <vector>
 
-#include "lib/input/load_field.h"
-#include "tests/support/test_scene.h"
+#include "tests/slices/layered_scene.h"
 
 namespace {
 
-using starfocus::kNoSurface;
+using Scene = test::LayeredScene;
 using starfocus::LayeredDepth;
-
-constexpr int kSize = 40;
-constexpr int kStride = 48;  // SliceSamples
-constexpr int kChunk = int(starfocus::simd::kSliceLanes);
-constexpr int kArea = kStride * kSize + 16;
-
-// A disparity map in pixels per unit, the centre view in one grey level, captured views that say
-// where they are read: R holds x, G holds y and B the view.
-struct Scene {
-  std::vector<int16_t> disparity = std::vector<int16_t>(kSize * kSize);
-  std::vector<uint8_t> centre = std::vector<uint8_t>(3 * kSize * kSize);
-  std::vector<uint8_t> side[SF_MAX_VIEWS];
-  std::vector<int16_t> planes[3], rows[2];
-  std::vector<uint16_t> sources[2];
-  std::vector<starfocus::simd::StepBits> steps;
-  std::vector<uint8_t> edges[4], share;
-  std::vector<int16_t> colours[3], rgb;
-  std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
-  starfocus::Window window;
-  LayeredDepth surfaces;
-  starfocus::Reads reads;
-
-  explicit Scene(int views) {
-    for (int view = 1; view < views; ++view) {
-      side[view].resize(3 * kSize * kSize);
-      for (int at = 0; at < kSize * kSize; ++at) {
-        uint8_t* pixel = &side[view][size_t(3 * at)];
-        pixel[0] = uint8_t(at % kSize);
-        pixel[1] = uint8_t(at / kSize);
-        pixel[2] = uint8_t(view);
-      }
-      window.view[view] = {side[view].data(), 3 * kSize, 0, 0};
-    }
-    window.width = window.picture_width = window.height = window.picture_height = kSize;
-    window.views = views;
-    window.reads = &reads;
-  }
-
-  void Set(int x, int y, double pixels, int grey) {
-    disparity[size_t(y * kSize + x)] = int16_t(64 * pixels);
-    std::fill_n(&centre[size_t(3 * (y * kSize + x))], 3, uint8_t(grey));
-  }
-  void Fill(int x0, int x1, int y0, int y1, double pixels, int grey) {
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) Set(x, y, pixels, grey);
-    }
-  }
-
-  void Find() {
-    window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
-    window.centre = {centre.data(), 3 * kSize, 0, 0};
-    window.disparity = {disparity.data(), kSize, 0, 0};
-    for (int k = 0; k < 3; ++k) {
-      planes[k].assign(kArea + 2 * kChunk, 0);
-      colours[k].assign(3 * kArea, 0);
-      surfaces.disparity[k] = planes[k].data() + kChunk;
-      surfaces.rgb[k] = colours[k].data();
-    }
-    for (int k = 0; k < 4; ++k) {
-      edges[k].assign(kArea, 0);
-      surfaces.edges[k] = edges[k].data();
-    }
-    for (std::vector<int16_t>& row : rows) row.assign(kStride, 0);
-    for (int k = 0; k < 2; ++k) {
-      sources[k].assign(kStride, 0);
-      surfaces.sources[k] = sources[k].data();
-    }
-    steps.resize(kStride / kChunk);
-    surfaces.steps = steps.data();
-    share.assign(kArea, 0);
-    surfaces.share = share.data();
-    surfaces.moved = rows[0].data();
-    surfaces.behind = rows[1].data();
-    surfaces.hiding = hiding.data();
-    rgb.assign(starfocus::RgbStride(kSize) * kSize, 0);
-    std::vector<int16_t> copy(kSize * kSize + starfocus::simd::kPadding);
-    starfocus::Field field;
-    field.rgb = rgb.data();
-    field.disparity = copy.data();
-    starfocus::LoadField(starfocus::simd::BestKernels(), window, {0, 0, kSize, kSize}, {0, 0, 0, 0},
-                         &field);
-    starfocus::FindLayeredDepth(starfocus::simd::BestKernels(), window, field, &surfaces);
-  }
-
-  // In pixels per unit; -1000: no surface.
-  double Behind(int x, int y, int surface = 1) const {
-    const int16_t found = surfaces.disparity[surface][surfaces.At(x, y)];
-    return found == kNoSurface ? -1000 : found / 64.0;
-  }
-  int Colour(int x, int y, int c, int surface = 1) const {
-    const int light = surfaces.rgb[surface][size_t(c) * surfaces.plane + surfaces.At(x, y)];
-    return (light + 64) >> starfocus::kLightBits;
-  }
-};
+using test::kArea;
+using test::kSize;
 
 TEST_CASE("surfaces: behind a near square lies what captured views see beside its edges") {
   for (const int views : {5, 9, 17}) {

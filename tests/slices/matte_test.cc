@@ -77,10 +77,13 @@ TEST_CASE("matte: a defocused surface ends a quarter of a pixel further out, wit
 }
 
 TEST_CASE("matte: a defocused background is free of a sharp surface's part") {
-  const std::vector<int> row = MiddleRow(Mixed(0, -6, 5), 0);
-  CHECK(std::abs(row[kEdge - 1] - 90) <= 1);  // the sharp end keeps its quarter
-  for (int x = 4; x < kEdge - 1; ++x) CHECK(row[size_t(x)] == kFar);
-  for (int x = kEdge; x < kWidth - 4; ++x) CHECK(row[size_t(x)] == kNear);
+  for (const int views : {1, 5}) {  // with one view the pixel beside it tells the far colour
+    const std::vector<int> row = MiddleRow(Mixed(0, -6, views), 0);
+    CAPTURE(views);
+    CHECK(std::abs(row[kEdge - 1] - 90) <= 1);  // the sharp end keeps its quarter
+    for (int x = 4; x < kEdge - 1; ++x) CHECK(row[size_t(x)] == kFar);
+    for (int x = kEdge; x < kWidth - 4; ++x) CHECK(row[size_t(x)] == kNear);
+  }
 }
 
 TEST_CASE("matte: surfaces must move against each other by more than a pixel") {
@@ -92,13 +95,20 @@ TEST_CASE("matte: surfaces must move against each other by more than a pixel") {
   CHECK(parted[kEdge - 2] == kFar);
 }
 
-TEST_CASE("matte: what is no mixture, or nothing looks behind, is blurred as it is") {
-  // Brighter than the near surface: not between both.
-  const std::vector<int> odd = MiddleRow(Mixed(0, -6, 5, false, 255), 0);
-  CHECK(odd[kEdge - 4] > kFar);
-  const std::vector<int> alone = MiddleRow(Mixed(0, -6, 1), 0);
-  CHECK(alone[kEdge - 1] < 90);
-  CHECK(alone[kEdge - 4] > kFar);
+TEST_CASE("matte: what is no mixture is blurred as it is") {
+  for (const int views : {1, 5}) {  // brighter than the near surface: not between both
+    const std::vector<int> odd = MiddleRow(Mixed(0, -6, views, false, 255), 0);
+    CAPTURE(views);
+    CHECK(odd[kEdge - 4] > kFar);
+  }
+}
+
+TEST_CASE("matte: with one view a pixel beside another surface is blurred as it is") {
+  test::Scene scene = Mixed(0, -6, 1);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kEdge - 1; ++x) scene.Disparity(x, y) = -3;
+  }
+  CHECK(MiddleRow(scene, 0)[kEdge - 1] < 80);
 }
 
 TEST_CASE("matte: where slices of a slope overlap, its end still covers a quarter") {

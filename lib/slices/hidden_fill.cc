@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/slices/hidden_fill.h"
+
+#include <cstring>
+
+#include "lib/base/fixed.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+
+class HiddenFiller {
+ public:
+  HiddenFiller(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
+               LayeredDepth* surfaces)
+      : kernels_(kernels),
+        scratch_(scratch),
+        surfaces_(*surfaces),
+        stride_(FillStride(static_cast<size_t>(surfaces->width))),
+        unit_(static_cast<int16_t>(1 << (kDisparityBits + layer))) {}
+
+  void Fill() {
+    const int32_t height = surfaces_.height;
+    for (int32_t y = 0; y < height; ++y) TakeRow(y);
+    Separate(RowAt(height));
+    for (int32_t y = 0; y < height; ++y) TakeSources(y);
+    for (int32_t step = kFillStep; step > 0; step /= 2) {
+      for (int32_t y = 0; y < height; ++y) {
+        if (Takes(y, step)) SmoothRow(y, step);
+      }
+    }
+    for (int32_t y = 0; y < height; ++y) {
+      if (scratch_.farthest[y] != 0) PutRow(y);
+    }
+  }
+
+ private:
+  static size_t Column(int32_t x) { return static_cast<size_t>(kFillStep + x); }
+  size_t RowAt(int32_t y) const { return static_cast<size_t>(y) * stride_; }
+  int16_t* Colours(int32_t y) const { return scratch_.rgb + 3 * RowAt(y); }
+  int16_t* Saved(int32_t y, int32_t step) const {
+    return scratch_.saved + 3 * RowAt(y % (step + 1));
+  }
+  simd::FarRow FarOf(int32_t y) const {
+    const size_t at = RowAt(y) + Column(0);
+    return {scratch_.disparity + at, Colours(y) + Column(0), scratch_.source + at, stride_};
+  }
+
+  bool Takes(int32_t y, int32_t step) const { return step <= 2 * scratch_.farthest[y]; }
+
+  // Writes that there are no surfaces between two rows.
+  void Separate(size_t at) const {
+    for (size_t x = 0; x < Column(0); ++x) scratch_.disparity[at + x] = kNoSurface;
+  }
+
+  void TakeRow(int32_t y) {
+    const size_t at = surfaces_.At(0, y);
+    simd::SourcedRow row = {};
+    for (int k = 0; k < simd::kSurfaces; ++k) {
+      row.surfaces.disparity[k] = surfaces_.disparity[k] + at;
+      row.surfaces.rgb[k] = surfaces_.rgb[k] + at;
+      if (k > 0) row.source[k - 1] = surfaces_.sources[k - 1] + at;
+    }
+    row.surfaces.share = surfaces_.share + at;
+    row.surfaces.plane = surfaces_.plane;
+    row.surfaces.hiding = surfaces_.hiding[y];
+    const int32_t farthest =
+        kernels_.TakeFarthest(row, static_cast<size_t>(surfaces_.width), FarOf(y));
+    Separate(RowAt(y));
+    scratch_.farthest[y] = static_cast<uint8_t>(farthest);
+  }
+
+  void PutRow(int32_t y) {
+    for (int k = 1; k < simd::kSurfaces; ++k) {
+      const size_t at = surfaces_.At(0, y);
+      kernels_.PutFarthest(FarOf(y), surfaces_.disparity[k] + at, surfaces_.hiding[y],
+                           surfaces_.plane, surfaces_.rgb[k] + at);
+    }
+  }
+
+  // Takes the sources of the pixels of a row that are repeated.
+  void TakeSources(int32_t y) {
+    if (scratch_.farthest[y] == 0) return;
+    const uint16_t* const sources = scratch_.source + RowAt(y) + Column(0);
+    int32_t first = 0;
+    for (uint64_t chunks = surfaces_.hiding[y]; chunks != 0; chunks >>= 1, first += kChunk) {
+      if ((chunks & 1) == 0) continue;
+      for (int32_t x = first; x < first + kChunk; ++x) {
+        if (sources[x] != 0) TakeSource(x, y, sources[x]);
+      }
+    }
+  }
+
+  // Takes the colour of the pixel that is repeated, or the mean over the sides, if it is known and
+  // of the same surface on all of them.
+  void TakeSource(int32_t x, int32_t y, uint32_t source) {
+    const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
+    const int16_t disparity = scratch_.disparity[RowAt(y) + Column(x)];
+    int32_t sums[3] = {0, 0, 0}, count = 0;
+    bool same = true;
+    ForEachBit(source & 15, [&](int32_t side) {
+      const int32_t row = y + distance * kSides[side][1];
+      const size_t column = Column(x + distance * kSides[side][0]), there = RowAt(row) + column;
+      same = same && scratch_.source[there] == 0 && scratch_.disparity[there] == disparity;
+      for (size_t c = 0; c < 3; ++c) sums[c] += Colours(row)[c * stride_ + column];
+      ++count;
+    });
+    if (!same) return;
+    for (size_t c = 0; c < 3; ++c) {
+      Colours(y)[c * stride_ + Column(x)] = static_cast<int16_t>((sums[c] + count / 2) / count);
+    }
+  }
+
+  // Smooths a row from what it and those around it were before the step. It is saved until the row
+  // a step below has read it. Beyond the surfaces it stands in for its neighbours.
+  void SmoothRow(int32_t y, int32_t step) {
+    const int32_t above = y >= step ? y - step : y, below = y + step;
+    const int32_t next = below < surfaces_.height ? below : y;
+    int16_t* const row = Colours(y);
+    int16_t* const here = Saved(y, step);
+    std::memcpy(here, row, 3 * stride_ * sizeof(*row));
+    simd::FarRows rows = {};
+    rows.disparity[0] = scratch_.disparity + RowAt(above) + Column(0);
+    rows.disparity[1] = scratch_.disparity + RowAt(y) + Column(0);
+    rows.disparity[2] = scratch_.disparity + RowAt(next) + Column(0);
+    rows.rgb[0] = (Takes(above, step) ? Saved(above, step) : Colours(above)) + Column(0);
+    rows.rgb[1] = here + Column(0);
+    rows.rgb[2] = (next == y ? here : Colours(next)) + Column(0);
+    rows.source = scratch_.source + RowAt(y) + Column(0);
+    rows.plane = stride_;
+    kernels_.SmoothFar(rows, unit_, step, static_cast<size_t>(surfaces_.width), row + Column(0));
+  }
+
+  const simd::Kernels& kernels_;
+  const FillScratch& scratch_;
+  LayeredDepth& surfaces_;
+  const size_t stride_;
+  const int16_t unit_;  // disparity that a pixel of the layer is at distance 1
+};
+
+}  // namespace
+
+void FillHidden(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
+                LayeredDepth* surfaces) {
+  if (surfaces->repeats) HiddenFiller(kernels, layer, scratch, surfaces).Fill();
+}
+
+}  // namespace starfocus

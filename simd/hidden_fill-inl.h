@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vector code of hidden_fill.h. Included once per target.
+#if defined(STARFOCUS_SIMD_HIDDEN_FILL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_HIDDEN_FILL_INL_H_
+#undef STARFOCUS_SIMD_HIDDEN_FILL_INL_H_
+#else
+#define STARFOCUS_SIMD_HIDDEN_FILL_INL_H_
+#endif
+
+#include "simd/chunk-inl.h"
+#include "simd/hidden_fill.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+// The farthest surface of a group of pixels: masks tell which of the hidden ones it is.
+HWY_INLINE int32_t TakeHidden(const SourcedRow& row, size_t n, const FarRow& far) {
+  const ChunkTag d16;
+  const hn::RebindToUnsigned<ChunkTag> du16;
+  const hn::Rebind<uint8_t, ChunkTag> d8;
+  const SurfaceRow& from = row.surfaces;
+  const auto nothing = hn::Set(d16, kNoSurface);
+  const auto first = hn::LoadU(d16, from.disparity[0] + n);
+  const auto second = hn::LoadU(d16, from.disparity[1] + n);
+  const auto third = hn::LoadU(d16, from.disparity[2] + n);
+  const auto is_second = hn::And(hn::Ne(second, nothing), hn::Lt(second, first));
+  const auto upper = hn::IfThenElse(is_second, second, first);
+  const auto is_third = hn::And(hn::Ne(third, nothing), hn::Lt(third, upper));
+  hn::StoreU(hn::IfThenElse(is_third, third, upper), d16, far.disparity + n);
+  for (size_t c = 0; c < 3; ++c) {
+    const size_t at = c * from.plane + n;
+    const auto hidden = hn::IfThenElse(is_second, hn::LoadU(d16, from.rgb[1] + at),
+                                       hn::LoadU(d16, from.rgb[0] + at));
+    const auto colour = hn::IfThenElse(is_third, hn::LoadU(d16, from.rgb[2] + at), hidden);
+    hn::StoreU(colour, d16, far.rgb + c * far.plane + n);
+  }
+  const auto share = hn::PromoteTo(d16, hn::LoadU(d8, from.share + n));
+  const auto whole = hn::Or(hn::Eq(share, hn::Set(d16, kSliceWhole)),
+                            hn::Eq(share, hn::Set(d16, int16_t{kSliceEnd})));
+  const auto of_second = hn::BitCast(d16, hn::LoadU(du16, row.source[0] + n));
+  const auto of_third = hn::BitCast(d16, hn::LoadU(du16, row.source[1] + n));
+  const auto behind = hn::IfThenElse(whole, of_third, of_second);
+  const auto before = hn::IfThenElseZero(hn::And(is_second, whole), of_second);
+  const auto source = hn::BitCast(du16, hn::IfThenElse(is_third, behind, before));
+  const auto distance = hn::ShiftRight<kSourceDistance>(source);
+  const auto repeated = hn::Ne(distance, hn::Zero(du16));
+  hn::StoreU(hn::IfThenElseZero(repeated, source), du16, far.source + n);
+  return hn::GetLane(hn::MaxOfLanes(d16, hn::BitCast(d16, distance)));
+}
+
+inline int32_t TakeFarthest(const SourcedRow& row, size_t count, const FarRow& far) {
+  const ChunkTag d16;
+  const hn::RebindToUnsigned<ChunkTag> du16;
+  const SurfaceRow& from = row.surfaces;
+  int32_t most = 0;
+  for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
+    if ((from.hiding >> (n / kSliceLanes) & 1) != 0) {
+      const int32_t distance = TakeHidden(row, n, far);
+      most = distance > most ? distance : most;
+      continue;
+    }
+    hn::StoreU(hn::LoadU(d16, from.disparity[0] + n), d16, far.disparity + n);
+    hn::StoreU(hn::Zero(du16), du16, far.source + n);
+    for (size_t c = 0; c < 3; ++c) {
+      hn::StoreU(hn::LoadU(d16, from.rgb[0] + c * from.plane + n), d16,
+                 far.rgb + c * far.plane + n);
+    }
+  }
+  return most;
+}
+
+inline void PutFarthest(const FarRow& far, const int16_t* HWY_RESTRICT disparity, uint64_t hiding,
+                        size_t plane, int16_t* HWY_RESTRICT rgb) {
+  const ChunkTag d16;
+  const hn::RebindToUnsigned<ChunkTag> du16;
+  for (size_t chunk = 0; hiding != 0; hiding >>= 1, chunk += kSliceLanes) {
+    if ((hiding & 1) == 0) continue;
+    for (size_t n = chunk; n < chunk + kSliceLanes; n += hn::Lanes(d16)) {
+      const auto source = hn::BitCast(d16, hn::LoadU(du16, far.source + n));
+      const auto same = hn::Eq(hn::LoadU(d16, disparity + n), hn::LoadU(d16, far.disparity + n));
+      const auto puts = hn::And(same, hn::Ne(source, hn::Zero(d16)));
+      if (hn::AllFalse(d16, puts)) continue;
+      for (size_t c = 0; c < 3; ++c) {
+        int16_t* out = rgb + c * plane + n;
+        const auto colour = hn::LoadU(d16, far.rgb + c * far.plane + n);
+        hn::StoreU(hn::IfThenElse(puts, colour, hn::LoadU(d16, out)), d16, out);
+      }
+    }
+  }
+}
+
+inline void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t count,
+                      int16_t* HWY_RESTRICT rgb) {
+  const ChunkTag d16;
+  const hn::RebindToUnsigned<ChunkTag> du16;
+  const auto most = hn::Set(d16, unit), least = hn::Set(d16, static_cast<int16_t>(-unit));
+  const auto short_of = hn::Set(d16, static_cast<int16_t>((step - 1) / 2));  // 2 n < step
+  const auto mean = [&](ChunkVec a, ChunkVec b) HWY_ATTR {
+    return hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, a), hn::BitCast(du16, b)));
+  };
+  for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
+    const auto distance = hn::ShiftRight<kSourceDistance>(hn::LoadU(du16, rows.source + n));
+    const auto takes = hn::Gt(hn::BitCast(d16, distance), short_of);
+    if (hn::AllFalse(d16, takes)) continue;
+    const auto disparity = hn::LoadU(d16, rows.disparity[1] + n);
+    const auto is_other = [&](const int16_t* at) HWY_ATTR {
+      const auto less = hn::SaturatedSub(disparity, hn::LoadU(d16, at));
+      return hn::Or(hn::Gt(less, most), hn::Gt(least, less));
+    };
+    const auto left = is_other(rows.disparity[1] + n - step);
+    const auto right = is_other(rows.disparity[1] + n + step);
+    const auto above = is_other(rows.disparity[0] + n);
+    const auto below = is_other(rows.disparity[2] + n);
+    for (size_t c = 0; c < 3; ++c) {
+      const int16_t* at = rows.rgb[1] + c * rows.plane + n;
+      const auto here = hn::LoadU(d16, at);
+      const auto across = mean(hn::IfThenElse(left, here, hn::LoadU(d16, at - step)),
+                               hn::IfThenElse(right, here, hn::LoadU(d16, at + step)));
+      const auto upper = hn::LoadU(d16, rows.rgb[0] + c * rows.plane + n);
+      const auto lower = hn::LoadU(d16, rows.rgb[2] + c * rows.plane + n);
+      const auto down =
+          mean(hn::IfThenElse(above, here, upper), hn::IfThenElse(below, here, lower));
+      const auto smooth = mean(here, mean(across, down));
+      int16_t* out = rgb + c * rows.plane + n;
+      hn::StoreU(hn::IfThenElse(takes, smooth, hn::LoadU(d16, out)), d16, out);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif
