@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measuring and mending whole disparity maps, before any engine exists.
-#include <cmath>
-
 #include "lib/api/validate.h"
+#include "lib/base/gaps.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -17,33 +16,7 @@ struct MapLine {
   float& operator[](int32_t k) const { return data[static_cast<size_t>(k) * step]; }
 };
 
-// Fills the gap (left, right) between valid elements; -1 and length stand for none. Between two,
-// the farther surface goes on: what is unknown beside an edge is mostly what the edge hides.
-void FillGap(const MapLine& line, int32_t left, int32_t right) {
-  if (left < 0 && right >= line.length) return;
-  for (int32_t k = left + 1; k < right; ++k) {
-    if (left < 0) {
-      line[k] = line[right];
-    } else if (right >= line.length) {
-      line[k] = line[left];
-    } else {
-      line[k] = line[left] < line[right] ? line[left] : line[right];
-    }
-  }
-}
-
-// Fills the gaps of a line. Returns whether it held a valid element.
-bool FillLine(const MapLine& line) {
-  int32_t last = -1;
-  for (int32_t k = 0; k <= line.length; ++k) {
-    if (k < line.length && !std::isfinite(line[k])) continue;
-    FillGap(line, last, k);
-    last = k;
-  }
-  bool valid = false;
-  for (int32_t k = 0; k < line.length && !valid; ++k) valid = std::isfinite(line[k]);
-  return valid;
-}
+void FillLine(const MapLine& line) { FillGaps(line, line.length, IsFinite); }
 
 }  // namespace
 }  // namespace starfocus
@@ -59,7 +32,7 @@ sf_status sf_measure_disparity(const float* disparity, size_t stride, int32_t wi
     const float* row = disparity + static_cast<size_t>(y) * (stride / sizeof(float));
     for (int32_t x = 0; x < width; ++x) {
       const float d = row[x];
-      if (!std::isfinite(d)) {
+      if (!starfocus::IsFinite(d)) {
         ++found.invalid;
       } else if (!any) {
         found.min = found.max = d;

@@ -50,8 +50,10 @@ RowRange MapRows(const EngineState& engine) {
 sf_status CheckDisparity(const sf_light_field& light_field, EngineState* engine) {
   const RowRange rows = MapRows(*engine);
   for (int32_t y = rows.last - 1; y >= rows.first; --y) {
-    const sf_status status = ReadDisparity(DisparityRow(light_field, y), y, engine);
+    int32_t unknown = 0;
+    const sf_status status = ReadDisparity(DisparityRow(light_field, y), y, engine, &unknown);
     if (status != SF_OK) return status;
+    engine->report.unknown_pixels += static_cast<uint64_t>(unknown);
   }
   engine->pictures.disparity_rows = Min(rows.last, rows.first + engine->pictures.disparity.rows);
   return SF_OK;
@@ -99,7 +101,8 @@ sf_status ReadRows(const sf_light_field& light_field, int32_t y, EngineState* en
       Min(engine->config.height, y + engine->config.largest_block + engine->lens.reach.rows);
   for (; engine->pictures.disparity_rows < needed; ++engine->pictures.disparity_rows) {
     const int32_t row = engine->pictures.disparity_rows;
-    const sf_status status = ReadDisparity(DisparityRow(light_field, row), row, engine);
+    int32_t unknown = 0;  // counted when the row was checked
+    const sf_status status = ReadDisparity(DisparityRow(light_field, row), row, engine, &unknown);
     if (status != SF_OK) return status;
   }
   return SF_OK;
@@ -125,6 +128,7 @@ void UsePrevious(const Request& request, EngineState* engine) {
   changes.now = request.light_field;
   // Depth-dependent blur is that of the centre view.
   changes.views = request.params->mode == SF_MODE_BLUR ? 1 : config.views;
+  changes.fills = config.fill_unknown != 0;
   changes.width = config.width;
   changes.height = config.height;
   changes.side = engine->config.largest_block;

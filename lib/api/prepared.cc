@@ -31,8 +31,9 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
 sf_status ConvertMap(const EngineState& engine, const sf_light_field& light_field,
                      const Plane<int16_t>& to) {
   for (int32_t y = 0; y < engine.config.height; ++y) {
-    const sf_status status =
-        ConvertDisparity(engine.config, *engine.kernels, DisparityRow(light_field, y), to.Row(y));
+    int32_t unknown = 0;
+    const sf_status status = ConvertDisparity(engine.config, *engine.kernels,
+                                              DisparityRow(light_field, y), to.Row(y), &unknown);
     if (status != SF_OK) return status;
   }
   return SF_OK;

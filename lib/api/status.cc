@@ -66,6 +66,8 @@ const char* sf_status_string(sf_status status) {
       return "n_scale is outside 0.5 to 2";
     case SF_ERROR_SKIPS:
       return "skips is not 0 or 1";
+    case SF_ERROR_FILL:
+      return "fill_unknown is not 0 or 1";
     case SF_ERROR_REGION:
       return "region is not inside the picture, or is given for streaming, which has none";
     case SF_ERROR_PREPARED:

@@ -25,9 +25,11 @@ bool StripeWaiting(const EngineState& engine) {
 
 sf_status PushRow(const sf_light_field& light_field, int32_t row, EngineState* engine) {
   const size_t offset = static_cast<size_t>(row);
+  int32_t unknown = 0;
   const sf_status status =
-      ReadDisparity(DisparityRow(light_field, row), engine->stream.pushed, engine);
+      ReadDisparity(DisparityRow(light_field, row), engine->stream.pushed, engine, &unknown);
   if (status != SF_OK) return status;
+  engine->report.unknown_pixels += static_cast<uint64_t>(unknown);
   for (int view = 0; view < engine->config.views; ++view) {
     const sf_plane& plane = light_field.views[view];
     std::memcpy(engine->rings[view].Row(engine->stream.pushed), plane.data + offset * plane.stride,

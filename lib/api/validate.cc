@@ -66,6 +66,7 @@ sf_status CheckConfig(const sf_config& config) {
     return SF_ERROR_N_SCALE;
   }
   if (config.skips != 0 && config.skips != 1) return SF_ERROR_SKIPS;
+  if (config.fill_unknown != 0 && config.fill_unknown != 1) return SF_ERROR_FILL;
   if (config.gather != 0 && config.gather != 1) return SF_ERROR_GATHER;
   if (config.transfer != SF_TRANSFER_SRGB && config.transfer != SF_TRANSFER_NONE) {
     return SF_ERROR_TRANSFER;

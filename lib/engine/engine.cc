@@ -45,9 +45,10 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   return SF_OK;
 }
 
-sf_status ReadDisparity(const float* row, int32_t y, EngineState* engine) {
+sf_status ReadDisparity(const float* row, int32_t y, EngineState* engine, int32_t* unknown) {
   engine->report.disparity_bytes += sizeof(float) * static_cast<uint64_t>(engine->config.width);
-  return ConvertDisparity(engine->config, *engine->kernels, row, engine->pictures.disparity.Row(y));
+  return ConvertDisparity(engine->config, *engine->kernels, row, engine->pictures.disparity.Row(y),
+                          unknown);
 }
 
 void TakeCounts(EngineState* engine) {

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
+#include "lib/base/gaps.h"
 
 namespace starfocus {
 namespace {
@@ -31,41 +32,67 @@ bool AllFlagged(const Changes& changes, const StripeRange& stripes) {
   return true;
 }
 
-// Compares row y of `pixel_bytes` a pixel and flags the blocks that depend on what differs.
-void CompareRow(const Changes& changes, const void* a, const void* b, size_t pixel_bytes, int32_t y,
-                int32_t reach) {
-  const auto* before = static_cast<const uint8_t*>(a);
-  const auto* now = static_cast<const uint8_t*>(b);
-  const StripeRange stripes = StripesOf(changes, y, reach);
-  if (AllFlagged(changes, stripes) ||
-      std::memcmp(before, now, pixel_bytes * static_cast<size_t>(changes.width)) == 0) {
-    return;
+// A row of both pictures, `pixel_bytes` a pixel.
+struct RowPair {
+  const void *before, *now;
+  size_t pixel_bytes;
+
+  // Whether pixels [first, end) differ.
+  bool Differs(int32_t first, int32_t end) const {
+    const size_t offset = pixel_bytes * static_cast<size_t>(first);
+    return std::memcmp(static_cast<const uint8_t*>(before) + offset,
+                       static_cast<const uint8_t*>(now) + offset,
+                       pixel_bytes * static_cast<size_t>(end - first)) != 0;
   }
-  int32_t flagged = -1;  // last column of this row's
+};
+
+// Compares row y and flags the blocks that depend on what differs. widen(&first, &end) may add
+// pixels that change with those of [first, end).
+template <class Widen>
+void CompareRow(const Changes& changes, const RowPair& rows, int32_t y, int32_t reach,
+                const Widen& widen) {
+  const StripeRange stripes = StripesOf(changes, y, reach);
+  if (AllFlagged(changes, stripes) || !rows.Differs(0, changes.width)) return;
+  int32_t flagged = -1;  // last column of this row's, beyond which filled pixels may still change
   for (int32_t x = 0; x < changes.width; x += kUnit) {
-    const int32_t first = Max(0, x - reach) / changes.side;
-    const int32_t last = Min(changes.width - 1, x + kUnit - 1 + reach) / changes.side;
-    if (last == flagged) continue;
-    const size_t offset = pixel_bytes * static_cast<size_t>(x);
-    const size_t bytes = pixel_bytes * static_cast<size_t>(Min(kUnit, changes.width - x));
-    if (std::memcmp(before + offset, now + offset, bytes) == 0) continue;
-    flagged = last;
+    int32_t left = x, right = Min(x + kUnit, changes.width);
+    const int32_t column = Min(changes.width - 1, right - 1 + reach) / changes.side;
+    if (column == flagged && !changes.fills) continue;
+    if (!rows.Differs(left, right)) continue;
+    widen(&left, &right);
+    const int32_t first = Max(0, left - reach) / changes.side;
+    flagged = Min(changes.width - 1, right - 1 + reach) / changes.side;
     for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
-      std::memset(changes.Flags(stripe) + first, 1, static_cast<size_t>(last - first + 1));
+      std::memset(changes.Flags(stripe) + first, 1, static_cast<size_t>(flagged - first + 1));
     }
   }
+}
+
+// Compares row y of the maps. What is filled changes with the known values beside the gap.
+void CompareMaps(const Changes& changes, int32_t y) {
+  const auto row = static_cast<size_t>(y);
+  const sf_light_field &a = *changes.before, &b = *changes.now;
+  const float* const before = a.disparity + row * (a.disparity_stride / sizeof(float));
+  const float* const now = b.disparity + row * (b.disparity_stride / sizeof(float));
+  const auto is_filled = [&](int32_t x) {
+    return changes.fills && (!IsFinite(before[x]) || !IsFinite(now[x]));
+  };
+  CompareRow(changes, {before, now, sizeof(float)}, y, changes.centre_reach,
+             [&](int32_t* first, int32_t* end) {
+               while (*first > 0 && is_filled(*first - 1)) --*first;
+               while (*end < changes.width && is_filled(*end)) ++*end;
+             });
 }
 
 void CompareViews(const Changes& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
   const sf_light_field &a = *changes.before, &b = *changes.now;
-  CompareRow(changes, a.disparity + row * (a.disparity_stride / sizeof(float)),
-             b.disparity + row * (b.disparity_stride / sizeof(float)), sizeof(float), y,
-             changes.centre_reach);
+  CompareMaps(changes, y);
   for (int32_t view = 0; view < changes.views; ++view) {
-    CompareRow(changes, a.views[view].data + row * a.views[view].stride,
-               b.views[view].data + row * b.views[view].stride, 3, y,
-               view == 0 ? changes.centre_reach : changes.side_reach);
+    CompareRow(changes,
+               {a.views[view].data + row * a.views[view].stride,
+                b.views[view].data + row * b.views[view].stride, 3},
+               y, view == 0 ? changes.centre_reach : changes.side_reach, [](int32_t*, int32_t*) {});
   }
 }
 

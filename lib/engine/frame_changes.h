@@ -20,6 +20,7 @@ struct Changes {
   int32_t width, height, side;       // of the picture and its largest blocks
   int32_t columns;                   // of largest blocks
   int32_t centre_reach, side_reach;  // pixels around a block that it may depend on
+  bool fills;                        // whether unknown disparities are filled along their row
   int32_t rows;                      // compared so far
   int32_t known;                     // stripes whose flags are set up
   uint8_t* flags = nullptr;          // ring of stripes, by column: 1 where something changed

@@ -4,9 +4,42 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
+#include "lib/base/gaps.h"
 #include "lib/engine/reach.h"
 
 namespace starfocus {
+namespace {
+
+int32_t CountUnknown(const float* row, int32_t width) {
+  int32_t count = 0;
+  for (int32_t x = 0; x < width; ++x) count += IsFinite(row[x]) ? 0 : 1;
+  return count;
+}
+
+// Converts the finite values of a row; the others become kNoSurface. Returns whether all of them
+// lie in the configured range.
+bool ConvertKnown(const sf_config& config, const simd::Kernels& kernels, const float* row,
+                  int16_t* out) {
+  for (int32_t x = 0, end = 0; x < config.width; x = end) {
+    for (; x < config.width && !IsFinite(row[x]); ++x) out[x] = simd::kNoSurface;
+    for (end = x; end < config.width && IsFinite(row[end]);) ++end;
+    if (end > x && !kernels.ConvertDisparity(row + x, static_cast<size_t>(end - x),
+                                             config.disparity_min, config.disparity_max, out + x)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Fills what is unknown in a row, as sf_config.fill_unknown says.
+void FillRow(const sf_config& config, const simd::Kernels& kernels, int16_t* row) {
+  if (FillGaps(row, config.width, [](int16_t value) { return value != simd::kNoSurface; })) return;
+  kernels.ConvertDisparity(&config.disparity_min, 1, config.disparity_min, config.disparity_max,
+                           row);
+  for (int32_t x = 1; x < config.width; ++x) row[x] = row[0];
+}
+
+}  // namespace
 
 void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictures* pictures) {
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
@@ -28,13 +61,15 @@ void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictur
 }
 
 sf_status ConvertDisparity(const sf_config& config, const simd::Kernels& kernels, const float* row,
-                           int16_t* out) {
+                           int16_t* out, int32_t* unknown) {
   const auto width = static_cast<size_t>(config.width);
+  *unknown = 0;
   if (!kernels.ConvertDisparity(row, width, config.disparity_min, config.disparity_max, out)) {
-    for (size_t x = 0; x < width; ++x) {
-      if (!(row[x] - row[x] == 0.0f)) return SF_ERROR_NOT_FINITE;
-    }
-    return SF_ERROR_DISPARITY;
+    *unknown = CountUnknown(row, config.width);
+    if (*unknown == 0) return SF_ERROR_DISPARITY;
+    if (config.fill_unknown == 0) return SF_ERROR_NOT_FINITE;
+    if (!ConvertKnown(config, kernels, row, out)) return SF_ERROR_DISPARITY;
+    FillRow(config, kernels, out);
   }
   CheckAll(ranges::kDisparity, out, width);
   return SF_OK;

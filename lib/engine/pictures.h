@@ -28,9 +28,10 @@ struct Pictures {
 // Points the windows at the views, which are whole pictures or line rings.
 void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictures* pictures);
 
-// Converts a disparity row to `out`, checking that it lies in the configured range.
+// Converts a disparity row to `out`, checking that it lies in the configured range, and fills what
+// is unknown if sf_config.fill_unknown says so: of how many pixels goes into *unknown.
 sf_status ConvertDisparity(const sf_config& config, const simd::Kernels& kernels, const float* row,
-                           int16_t* out);
+                           int16_t* out, int32_t* unknown);
 
 // Forgets the layers' rows, which are of another picture, or of which not all were made.
 void ForgetLayers(const sf_config& config, Pictures* pictures);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,12 +29,15 @@ int LargestBlocks(const test::Scene& scene, int side) {
   return ((scene.width + side - 1) / side) * ((scene.height + side - 1) / side);
 }
 
-// Something small happens: a pixel or patch of one view, or of the disparity map.
-void Change(test::Scene* scene, test::Random* random) {
+// Something small happens: a pixel or patch of one view, or of the disparity map, which may become
+// unknown.
+void Change(test::Scene* scene, bool unknown, test::Random* random) {
   const int x0 = random->Int(0, scene->width - 1), y0 = random->Int(0, scene->height - 1);
   const int side = random->Int(0, 1) * random->Int(0, 12);
   const int view = random->Int(-1, scene->views() - 1);
-  const float d = float(random->Real(scene->disparity_min, scene->disparity_max));
+  const bool forget = unknown && random->Int(0, 1) == 0;
+  const float d = forget ? std::numeric_limits<float>::quiet_NaN()
+                         : float(random->Real(scene->disparity_min, scene->disparity_max));
   for (int y = y0; y <= std::min(y0 + side, scene->height - 1); ++y) {
     for (int x = x0; x <= std::min(x0 + side, scene->width - 1); ++x) {
       if (view < 0) {
@@ -58,7 +62,7 @@ void CheckFrames(test::Scene scene, const sf_config& config, const sf_params& pa
     CAPTURE(frame);
     const test::Scene before = scene;
     const int changes = random->Int(0, 3);
-    for (int k = 0; k < changes; ++k) Change(&scene, random);
+    for (int k = 0; k < changes; ++k) Change(&scene, config.fill_unknown != 0, random);
     test::Output expected(width, height, 2), out(width, height, 2);
     sf_report report = {}, whole = {};
     REQUIRE(After(&engine, params, scene, before, before_out, &out, &report) == SF_OK);
@@ -96,6 +100,25 @@ TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change 
       params.region.height = random.Int(1, height - params.region.y);
     }
     CheckFrames(scene, config, params, 6, &random);
+  }
+}
+
+TEST_CASE("after: filled pixels change with the known ones beside the gap") {
+  test::Random random(93);
+  for (int round = 0; round < 16; ++round) {
+    CAPTURE(round);
+    const int width = random.Int(100, 500), height = random.Int(40, 120);
+    test::Scene scene =
+        test::RandomScene(width, height, round % 2 == 0 ? 1 : 5, -3, 3, 40 + uint64_t(round));
+    for (int y = 0; y < height; ++y) {
+      const int first = random.Int(0, width - 1), last = random.Int(first, width - 1);
+      for (int x = first; x <= last; ++x)
+        scene.Disparity(x, y) = std::numeric_limits<float>::infinity();
+    }
+    sf_config config = test::ConfigFor(scene, 8);
+    config.largest_block = 32;
+    config.fill_unknown = 1;
+    CheckFrames(scene, config, test::Params(random.Real(-3, 3), 0.5, SF_MODE_BLOCK), 8, &random);
   }
 }
 

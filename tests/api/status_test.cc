@@ -81,6 +81,8 @@ const char* WordsOf(sf_status status) {
       return "region";
     case SF_ERROR_PREPARED:
       return "prepared light field";
+    case SF_ERROR_FILL:
+      return "fill_unknown";
     case SF_ERROR_GATHER:
       return "gather";
     case SF_ERROR_TOO_LARGE:

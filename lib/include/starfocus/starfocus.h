@@ -107,7 +107,8 @@ typedef enum sf_status {
   SF_ERROR_CURVATURE = 42,   /**< curvature outside [0, 1] */
   SF_ERROR_RING = 43,        /**< ring_inner outside [0, SF_MAX_RING_INNER] */
   SF_ERROR_CATS_EYE = 44,    /**< cats_eye outside [0, 1] */
-  SF_ERROR_HIGHLIGHTS = 45   /**< highlights outside [1, SF_MAX_HIGHLIGHTS] */
+  SF_ERROR_HIGHLIGHTS = 45,  /**< highlights outside [1, SF_MAX_HIGHLIGHTS] */
+  SF_ERROR_FILL = 46         /**< fill_unknown is not 0 or 1 */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -216,15 +217,21 @@ typedef struct sf_config {
                      it is seen from the picture's corners, [0, 1]; less towards the middle: light
                      passes both. Pictures do not get darker by it, SF_MODE_BLUR does without it;
                      default 0: there is none */
-  int32_t transfer;     /**< sf_transfer: how codes of the pictures stand for light; default
-                           SF_TRANSFER_SRGB */
-  float highlights;     /**< how many times white the lamps are that pictures clip,
-                           [1, SF_MAX_HIGHLIGHTS]; default 1: as white as they look. Pixels two of whose
-                           codes are 251 or more count, the brighter the more, up to clipped ones; a
-                           blurred lamp becomes a bright disc of the lens with all of its light. White
-                           areas wider and higher than a 32nd of the picture's width (16 to 128 pixels)
-                           count less, from twice as much on not at all: walls do not glow */
-  uint32_t reserved[5]; /**< zero */
+  int32_t transfer; /**< sf_transfer: how codes of the pictures stand for light; default
+                       SF_TRANSFER_SRGB */
+  float highlights; /**< how many times white the lamps are that pictures clip,
+                       [1, SF_MAX_HIGHLIGHTS]; default 1: as white as they look. Pixels two of whose
+                       codes are 251 or more count, the brighter the more, up to clipped ones; a
+                       blurred lamp becomes a bright disc of the lens with all of its light. White
+                       areas wider and higher than a 32nd of the picture's width (16 to 128 pixels)
+                       count less, from twice as much on not at all: walls do not glow */
+  int32_t
+      fill_unknown; /**< 1: NaN and infinite values of disparity maps are unknown, and along their
+                       row the known value next to them goes on, of one on either side that of
+                       the farther surface; a row without any is at disparity_min. 0, the
+                       default: they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds
+                       what the views show there, and sf_fill_disparity fills whole maps */
+  uint32_t reserved[4]; /**< zero */
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);
@@ -369,7 +376,9 @@ typedef struct sf_report {
   uint64_t
       gathered_pixels; /**< SF_MODE_BLOCK by the rule of subapertures: blurred as a whole, since one
                             surface is all that lies within reach; no view is rendered there */
-  uint64_t reused_blocks; /**< sf_refocus_after: largest blocks of which nothing was refocused */
+  uint64_t reused_blocks;  /**< sf_refocus_after: largest blocks of which nothing was refocused */
+  uint64_t unknown_pixels; /**< values that sf_config.fill_unknown filled, in the rows of the map
+                                that were read; none of a prepared light field */
 } sf_report;
 
 /** Refocuses whole pictures, or the params' region of them: `out` points to its first pixel, and
