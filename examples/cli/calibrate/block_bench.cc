@@ -54,7 +54,8 @@ void BlockBench::HoldDisparity() {
   engine_->pictures.disparity = {disparity_.data(), size_t(map.width), 0, 0};
   for (int y = 0; y < map.height; ++y) {
     // The range is the map's own, so that no value can be outside.
-    ReadDisparity(map.values.data() + size_t(y) * size_t(map.width), y, engine_);
+    int32_t unknown = 0;  // there are none
+    ReadDisparity(map.values.data() + size_t(y) * size_t(map.width), y, engine_, &unknown);
   }
   Plane<const uint8_t> views[kMaxViews];
   for (size_t i = 0; i < light_field_->views.size(); ++i) {
