@@ -10,6 +10,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -82,7 +83,7 @@ void CheckFrames(test::Scene scene, const sf_config& config, const sf_params& pa
 
 TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change a little") {
   test::Random random(91);
-  for (int round = 0; round < 32; ++round) {
+  for (int round = 0; round < test::Rounds(32); ++round) {
     CAPTURE(round);
     const int width = random.Int(1, 300), height = random.Int(1, 260);
     const test::Scene scene =
@@ -105,7 +106,7 @@ TEST_CASE("after: the bytes of the frame alone, in every mode, as frames change 
 
 TEST_CASE("after: filled pixels change with the known ones beside the gap") {
   test::Random random(93);
-  for (int round = 0; round < 16; ++round) {
+  for (int round = 0; round < test::Rounds(16); ++round) {
     CAPTURE(round);
     const int width = random.Int(100, 500), height = random.Int(40, 120);
     test::Scene scene =

@@ -98,8 +98,9 @@ void CheckRetries(const test::Scene& scene, const sf_params& params, int gather)
   const bool all_layers = params.mode == SF_MODE_BLOCK && params.rule == SF_RULE_SUBAPERTURE;
   for (const sf_layer_report& layer : expected.report.layers)
     CHECK((!all_layers || layer.blocks > 0));
-  int failed = 0;
-  for (int set = 0; set < never.sets; ++set) {
+  constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator needs twenty times as long
+  int failed = 0, tried = 0;
+  for (int set = 0; set < never.sets; set += kStep, ++tried) {
     CAPTURE(set);
     Failing failing = {set, set % 3 == 0 ? 2 : 1};
     const Streamed streamed = Stream(config, params, scene, set % 2 == 0 ? kHeight : 7, &failing);
@@ -109,7 +110,7 @@ void CheckRetries(const test::Scene& scene, const sf_params& params, int gather)
     CHECK(streamed.out.PaddingUntouched());
     CheckEqual(streamed.report, expected.report);
   }
-  CHECK(failed >= never.sets);
+  CHECK(failed >= tried);
 }
 
 TEST_CASE("stream: a pull after one whose runner failed repeats its rows, with the same report") {

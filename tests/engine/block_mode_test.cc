@@ -20,6 +20,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/filter/deblock_reference.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/rounds.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/symmetry.h"
 #include "tests/support/test_scene.h"
@@ -146,7 +147,7 @@ TEST_CASE("block: rows give the bytes of whole pictures, at every kind of size")
 
 TEST_CASE("block: rows give the bytes of whole pictures in blur mode and on noise") {
   test::Random random(32);
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < test::Rounds(12); ++round) {
     test::Scene scene = test::RandomScene(random.Int(1, 90), random.Int(30, 120),
                                           kViews[random.Int(0, 3)], -4, 4, uint64_t(round) + 60);
     if (round % 2 == 0) test::NoisyDisparity(&scene, &random);
@@ -173,7 +174,7 @@ int RunThreads(void* workers, sf_job job, void* data, int32_t count) {
 
 TEST_CASE("block: 1, 2 and 7 workers give the bytes of no runner at all") {
   test::Random random(33);
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < test::Rounds(12); ++round) {
     const test::Scene scene = test::LayeredScene(random.Int(90, 240), random.Int(30, 140),
                                                  kViews[round % 4], 8, uint64_t(round) + 100);
     Setup s = RandomSetup(&random, 8);
@@ -196,7 +197,7 @@ TEST_CASE("block: 1, 2 and 7 workers give the bytes of no runner at all") {
 TEST_CASE("block: every SIMD target gives the bytes of the plain kernels") {
   test::Random random(34);
   const std::vector<const starfocus::simd::Kernels*> targets = test::SimdTargets();
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < test::Rounds(12); ++round) {
     const test::Scene scene = test::LayeredScene(random.Int(1, 120), random.Int(1, 100),
                                                  kViews[round % 4], 7, uint64_t(round) + 200);
     Setup s = RandomSetup(&random, 7);
@@ -214,7 +215,7 @@ TEST_CASE("block: every SIMD target gives the bytes of the plain kernels") {
 
 TEST_CASE("block: constant pictures stay, bit for bit") {
   test::Random random(35);
-  for (int round = 0; round < 256; ++round) {
+  for (int round = 0; round < test::Rounds(256); ++round) {
     const float limit = random.Int(0, 2) == 0 ? 16.0f : 6.0f;
     test::Scene scene = test::LayeredScene(random.Int(1, 100), random.Int(1, 80), kViews[round % 4],
                                            limit, uint64_t(round) + 300);
@@ -283,7 +284,7 @@ struct Told {
 
 TEST_CASE("block: the blocks told of tile the picture once and are those of the report") {
   test::Random random(36);
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < test::Rounds(20); ++round) {
     const test::Scene scene =
         test::LayeredScene(random.Int(1, 200), random.Int(1, 150), 5, 8, uint64_t(round) + 400);
     Setup s = RandomSetup(&random, 8);
@@ -385,7 +386,7 @@ TEST_CASE("block: agrees with the benchmark on a slanted plane") {
 TEST_CASE("block: deblocking does to the picture at once what it does to stripes") {
   test::Random random(39);
   int changed = 0;
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < test::Rounds(40); ++round) {
     const test::Scene scene = test::LayeredScene(random.Int(20, 200), random.Int(40, 200),
                                                  kViews[round % 4], 8, uint64_t(round) + 600);
     Setup s = RandomSetup(&random, 8);
@@ -418,7 +419,7 @@ TEST_CASE("block: deblocking does to the picture at once what it does to stripes
       CHECK(same);
     }
   }
-  CHECK(changed > 20);
+  CHECK(changed > test::Rounds(20));
 }
 
 TEST_CASE("block: an engine that is used again gives what a fresh one gives") {
@@ -429,7 +430,7 @@ TEST_CASE("block: an engine that is used again gives what a fresh one gives") {
   test::Engine engine(Config(s, scene));
   REQUIRE(engine.status() == SF_OK);
   constexpr sf_mode kModes[] = {SF_MODE_BLOCK, SF_MODE_BLUR, SF_MODE_FRAME, SF_MODE_BENCHMARK};
-  for (int round = 0; round < 16; ++round) {
+  for (int round = 0; round < test::Rounds(16); ++round) {
     s.focus = random.Real(-9, 9);
     s.mode = kModes[random.Int(0, 3)];
     test::Output out(scene.width, scene.height);
@@ -442,7 +443,7 @@ TEST_CASE("block: an engine that is used again gives what a fresh one gives") {
 
 TEST_CASE("block: mirrored light fields of whole blocks give mirrored pictures at layer 0") {
   test::Random random(38);
-  for (int round = 0; round < 24; ++round) {
+  for (int round = 0; round < test::Rounds(24); ++round) {
     const int block = kBlocks[random.Int(0, 1)];
     const int width = block * random.Int(1, 3), height = block * random.Int(1, 2);
     test::Scene scene =

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -38,7 +39,7 @@ std::vector<uint8_t> Picture(const sf_config& config, const sf_params& params,
 
 TEST_CASE("room: larger blurs, rows and workers that are reserved change no picture") {
   test::Random random(11);
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < test::Rounds(60); ++round) {
     const float range = static_cast<float>(random.Real(2, 40));
     const int side = random.Int(0, 2) == 0 ? 96 : 32 << random.Int(0, 1);
     const test::Scene scene = Levels(side, random.Int(5, 16), range, &random);
