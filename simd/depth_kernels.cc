@@ -14,8 +14,9 @@
 #define HWY_TARGET_INCLUDE "simd/depth_kernels.cc"
 #include "hwy/foreach_target.h"  // must precede highway.h
 #include "hwy/highway.h"
-#include "simd/match-inl.h"
+#include "simd/label_costs-inl.h"
 #include "simd/paths-inl.h"
+#include "simd/planes-inl.h"
 #include "simd/prior-inl.h"
 
 HWY_BEFORE_NAMESPACE();

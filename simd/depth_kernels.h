@@ -6,19 +6,18 @@
 
 #include <cstddef>
 
-#include "simd/match.h"
+#include "simd/label_costs.h"
 #include "simd/paths.h"
+#include "simd/planes.h"
 #include "simd/prior.h"
 
 // All of them, as STARFOCUS_KERNELS (simd/kernels.h).
 #define STARFOCUS_DEPTH_KERNELS(KERNEL) \
-  KERNEL(MatchView)                     \
-  KERNEL(StandIn)                       \
-  KERNEL(LimitHidden)                   \
-  KERNEL(LeastSide)                     \
-  KERNEL(MeanCost)                      \
-  KERNEL(GatherLabels)                  \
+  KERNEL(SplitRow)                      \
+  KERNEL(InterpolateRow)                \
+  KERNEL(CostLabels)                    \
   KERNEL(AddPaths)                      \
+  KERNEL(FindJumps)                     \
   KERNEL(ChooseLabels)                  \
   KERNEL(SpreadPrior)                   \
   KERNEL(AddPrior)

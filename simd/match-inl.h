@@ -27,90 +27,70 @@ HWY_INLINE void StoreNarrow(MatchVec values, uint8_t* at) {
   hn::StoreU(hn::DemoteTo(MatchBytes(), hn::BitCast(d16, values)), MatchBytes(), at);
 }
 
-// Returns what lies `part` 128ths of the way from a to b.
-HWY_INLINE MatchVec Between(MatchVec a, MatchVec b, int32_t part) {
-  const MatchTag du16;
-  const auto first = hn::Set(du16, static_cast<uint16_t>(128 - part));
-  const auto second = hn::Set(du16, static_cast<uint16_t>(part));
-  const auto sum = hn::Add(hn::Mul(a, first), hn::Mul(b, second));
-  return hn::ShiftRight<7>(hn::Add(sum, hn::Set(du16, uint16_t{64})));
+// Pixels that are matched at a time, and in how many the code below is given.
+inline constexpr size_t kMatchPixels = 32;
+using ByteTag = hn::CappedTag<uint8_t, kMatchPixels>;
+
+HWY_INLINE hn::Vec<ByteTag> ApartAt(const uint8_t* a, const uint8_t* b) {
+  const ByteTag d8;
+  const auto of_a = hn::LoadU(d8, a), of_b = hn::LoadU(d8, b);
+  return hn::Or(hn::SaturatedSub(of_a, of_b), hn::SaturatedSub(of_b, of_a));
 }
 
-// Returns the view at n for whole or broken moves; the compiler leaves out what is not needed.
-template <bool kAcross, bool kDown>
-HWY_INLINE MatchVec SampleView(const uint8_t* view, const MatchRow& row) {
-  const size_t stride = row.view_stride;
-  auto left = LoadWide(view);
-  if (kDown) left = Between(left, LoadWide(view + stride), row.down);
-  if (!kAcross) return left;
-  auto right = LoadWide(view + 1);
-  if (kDown) right = Between(right, LoadWide(view + stride + 1), row.down);
-  return Between(left, right, row.across);
-}
-
-template <bool kAcross, bool kDown>
-HWY_INLINE void MatchMoved(const MatchRow& row, size_t count, uint8_t* HWY_RESTRICT difference) {
-  const MatchTag du16;
-  const auto most = hn::Set(du16, uint16_t{kMostDifference});
-  for (size_t n = 0; n < count; n += hn::Lanes(du16)) {
-    auto sum = hn::Zero(du16);
-    for (int c = 0; c < 3; ++c) {
-      const auto view = SampleView<kAcross, kDown>(row.view[c] + n, row);
-      const auto centre = LoadWide(row.centre[c] + n);
-      sum = hn::Add(sum, hn::Sub(hn::Max(view, centre), hn::Min(view, centre)));
-    }
-    StoreNarrow(hn::Min(sum, most), difference + n);
+HWY_INLINE void MatchView(const uint8_t* centre, const uint8_t* view, size_t plane, size_t count,
+                          uint8_t* HWY_RESTRICT difference) {
+  const ByteTag d8;
+  const auto most = hn::Set(d8, uint8_t{kMostDifference});
+  for (size_t n = 0; n < count; n += hn::Lanes(d8)) {
+    const auto red = ApartAt(centre + n, view + n);
+    const auto green = ApartAt(centre + plane + n, view + plane + n);
+    const auto blue = ApartAt(centre + 2 * plane + n, view + 2 * plane + n);
+    const auto sum = hn::SaturatedAdd(hn::SaturatedAdd(red, green), blue);
+    hn::StoreU(hn::Min(sum, most), d8, difference + n);
   }
 }
 
-inline void MatchView(const MatchRow& row, size_t count, uint8_t* HWY_RESTRICT difference) {
-  if (row.across == 0) {
-    if (row.down == 0) return MatchMoved<false, false>(row, count, difference);
-    return MatchMoved<false, true>(row, count, difference);
-  }
-  if (row.down == 0) return MatchMoved<true, false>(row, count, difference);
-  MatchMoved<true, true>(row, count, difference);
+// Whether the label is among those that are hidden.
+HWY_INLINE hn::Mask<ByteTag> IsHidden(hn::Vec<ByteTag> hidden, hn::Vec<ByteTag> after_label) {
+  return hn::Eq(hn::Max(hidden, after_label), hidden);
 }
 
-inline void StandIn(const int16_t* HWY_RESTRICT highest_a, const int16_t* HWY_RESTRICT highest_b,
-                    int16_t limit, size_t count, uint8_t* HWY_RESTRICT a, uint8_t* HWY_RESTRICT b) {
-  const ChunkTag d16;
-  const MatchTag du16;
-  const auto most = hn::Set(d16, limit);
-  const auto unknown = hn::Set(d16, int16_t{kUnknownDifference});
-  for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
-    const auto hidden_a = hn::Gt(hn::LoadU(d16, highest_a + n), most);
-    const auto hidden_b = hn::Gt(hn::LoadU(d16, highest_b + n), most);
-    if (hn::AllFalse(d16, hn::Or(hidden_a, hidden_b))) continue;
-    const auto of_a = hn::BitCast(d16, LoadWide(a + n)), of_b = hn::BitCast(d16, LoadWide(b + n));
-    const auto both = hn::And(hidden_a, hidden_b);
-    const auto new_a = hn::IfThenElse(hidden_a, of_b, of_a);
-    const auto new_b = hn::IfThenElse(hidden_b, of_a, of_b);
-    StoreNarrow(hn::BitCast(du16, hn::IfThenElse(both, unknown, new_a)), a + n);
-    StoreNarrow(hn::BitCast(du16, hn::IfThenElse(both, unknown, new_b)), b + n);
+HWY_INLINE void StandIn(const uint8_t* HWY_RESTRICT hidden_a, const uint8_t* HWY_RESTRICT hidden_b,
+                        uint8_t label, size_t count, uint8_t* HWY_RESTRICT a,
+                        uint8_t* HWY_RESTRICT b) {
+  const ByteTag d8;
+  const auto after_label = hn::Set(d8, static_cast<uint8_t>(label + 1));
+  const auto unknown = hn::Set(d8, uint8_t{kUnknownDifference});
+  for (size_t n = 0; n < count; n += hn::Lanes(d8)) {
+    const auto by_a = IsHidden(hn::LoadU(d8, hidden_a + n), after_label);
+    const auto by_b = IsHidden(hn::LoadU(d8, hidden_b + n), after_label);
+    if (hn::AllFalse(d8, hn::Or(by_a, by_b))) continue;
+    const auto of_a = hn::LoadU(d8, a + n), of_b = hn::LoadU(d8, b + n);
+    const auto both = hn::And(by_a, by_b);
+    hn::StoreU(hn::IfThenElse(both, unknown, hn::IfThenElse(by_a, of_b, of_a)), d8, a + n);
+    hn::StoreU(hn::IfThenElse(both, unknown, hn::IfThenElse(by_b, of_a, of_b)), d8, b + n);
   }
 }
 
-inline void LimitHidden(const int16_t* const* highest, int16_t limit, size_t views, size_t count,
-                        uint8_t* const* differences) {
-  const ChunkTag d16;
-  const auto bound = hn::Set(d16, limit);
-  const auto of_hidden = hn::Set(d16, int16_t{kHiddenDifference});
-  const auto of_unseen = hn::Set(d16, int16_t{kUnseenDifference});
-  for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
-    auto least = hn::LoadU(d16, highest[0] + n), most = least;
+HWY_INLINE void LimitHidden(const uint8_t* const* hidden, uint8_t label, size_t views, size_t count,
+                            uint8_t* const* differences) {
+  const ByteTag d8;
+  const auto after_label = hn::Set(d8, static_cast<uint8_t>(label + 1));
+  const auto of_hidden = hn::Set(d8, uint8_t{kHiddenDifference});
+  const auto of_unseen = hn::Set(d8, uint8_t{kUnseenDifference});
+  for (size_t n = 0; n < count; n += hn::Lanes(d8)) {
+    auto least = hn::LoadU(d8, hidden[0] + n), most = least;
     for (size_t k = 1; k < views; ++k) {
-      const auto value = hn::LoadU(d16, highest[k] + n);
+      const auto value = hn::LoadU(d8, hidden[k] + n);
       least = hn::Min(least, value);
       most = hn::Max(most, value);
     }
-    if (hn::AllFalse(d16, hn::Gt(most, bound))) continue;
-    const auto at_most = hn::IfThenElse(hn::Gt(least, bound), of_unseen, of_hidden);
+    if (hn::AllFalse(d8, IsHidden(most, after_label))) continue;
+    const auto at_most = hn::IfThenElse(IsHidden(least, after_label), of_unseen, of_hidden);
     for (size_t k = 0; k < views; ++k) {
-      const auto hidden = hn::Gt(hn::LoadU(d16, highest[k] + n), bound);
-      const auto known = hn::BitCast(d16, LoadWide(differences[k] + n));
-      const auto limited = hn::IfThenElse(hidden, hn::Min(known, at_most), known);
-      StoreNarrow(hn::BitCast(MatchTag(), limited), differences[k] + n);
+      const auto by = IsHidden(hn::LoadU(d8, hidden[k] + n), after_label);
+      const auto known = hn::LoadU(d8, differences[k] + n);
+      hn::StoreU(hn::IfThenElse(by, hn::Min(known, at_most), known), d8, differences[k] + n);
     }
   }
 }
@@ -121,8 +101,22 @@ HWY_INLINE MatchVec ArmAt(const uint8_t* const* differences, size_t arms, size_t
   return rings == 1 ? outer : hn::Add(outer, LoadWide(differences[arms + k] + n));
 }
 
-inline void LeastSide(const uint8_t* const* differences, size_t arms, size_t rings, size_t count,
-                      uint8_t* HWY_RESTRICT cost) {
+// Four views: twice the sum of two, which is (3 * 171 * sum) >> 8.
+HWY_INLINE void LeastSideOfFour(const uint8_t* const* differences, size_t count,
+                                uint8_t* HWY_RESTRICT cost) {
+  const ByteTag d8;
+  for (size_t n = 0; n < count; n += hn::Lanes(d8)) {
+    const auto a = hn::LoadU(d8, differences[0] + n), b = hn::LoadU(d8, differences[1] + n);
+    const auto c = hn::LoadU(d8, differences[2] + n), d = hn::LoadU(d8, differences[3] + n);
+    const auto least =
+        hn::Min(hn::Min(hn::Add(a, b), hn::Add(b, c)), hn::Min(hn::Add(c, d), hn::Add(d, a)));
+    hn::StoreU(hn::Add(least, least), d8, cost + n);
+  }
+}
+
+HWY_INLINE void LeastSide(const uint8_t* const* differences, size_t arms, size_t rings,
+                          size_t count, uint8_t* HWY_RESTRICT cost) {
+  if (arms * rings == 4) return LeastSideOfFour(differences, count, cost);
   const MatchTag du16;
   const int scale = (rings == 1 ? (arms == 4 ? 3 : 2) : 1) * 171;
   const auto factor = hn::Set(du16, static_cast<uint16_t>(scale));
@@ -144,8 +138,19 @@ inline void LeastSide(const uint8_t* const* differences, size_t arms, size_t rin
   }
 }
 
-inline void MeanCost(const uint8_t* const* differences, size_t views, size_t count,
-                     uint8_t* HWY_RESTRICT cost) {
+HWY_INLINE void SumOfFour(const uint8_t* const* differences, size_t count,
+                          uint8_t* HWY_RESTRICT cost) {
+  const ByteTag d8;
+  for (size_t n = 0; n < count; n += hn::Lanes(d8)) {
+    auto sum = hn::LoadU(d8, differences[0] + n);
+    for (size_t k = 1; k < 4; ++k) sum = hn::Add(sum, hn::LoadU(d8, differences[k] + n));
+    hn::StoreU(sum, d8, cost + n);
+  }
+}
+
+HWY_INLINE void MeanCost(const uint8_t* const* differences, size_t views, size_t count,
+                         uint8_t* HWY_RESTRICT cost) {
+  if (views == 4) return SumOfFour(differences, count, cost);
   const MatchTag du16;
   for (size_t n = 0; n < count; n += hn::Lanes(du16)) {
     auto sum = hn::Zero(du16);
@@ -156,7 +161,45 @@ inline void MeanCost(const uint8_t* const* differences, size_t views, size_t cou
   }
 }
 
-using reference::GatherLabels;
+#if HWY_TARGET != HWY_SCALAR
+// Rows i, i + 4, i + 8 and i + 12 of 16 become rows 4 i to 4 i + 3 of 16, in which the samples of
+// all four lie one behind the other. Twice that is a transposition.
+HWY_INLINE void ShuffleFour(const uint8_t* HWY_RESTRICT rows, size_t stride, size_t count,
+                            size_t to_stride, uint8_t* HWY_RESTRICT to) {
+  const hn::CappedTag<uint8_t, kSliceLanes> d8;
+  const auto a = hn::LoadU(d8, rows), b = hn::LoadU(d8, rows + 4 * stride);
+  const auto c = hn::LoadU(d8, rows + 8 * stride), d = hn::LoadU(d8, rows + 12 * stride);
+  const auto low_ac = hn::InterleaveLower(d8, a, c), high_ac = hn::InterleaveUpper(d8, a, c);
+  const auto low_bd = hn::InterleaveLower(d8, b, d), high_bd = hn::InterleaveUpper(d8, b, d);
+  if (count > 0) hn::StoreU(hn::InterleaveLower(d8, low_ac, low_bd), d8, to);
+  if (count > 1) hn::StoreU(hn::InterleaveUpper(d8, low_ac, low_bd), d8, to + to_stride);
+  if (count > 2) hn::StoreU(hn::InterleaveLower(d8, high_ac, high_bd), d8, to + 2 * to_stride);
+  if (count > 3) hn::StoreU(hn::InterleaveUpper(d8, high_ac, high_bd), d8, to + 3 * to_stride);
+}
+#endif
+
+// Turns rows of kMatchPixels costs of one label each into pixels of kSliceLanes labels each, which
+// lie `places` apart.
+HWY_INLINE void GatherLabels(const uint8_t* HWY_RESTRICT rows, size_t count,
+                             uint8_t* HWY_RESTRICT pixels, size_t places) {
+#if HWY_TARGET == HWY_SCALAR
+  for (size_t n = 0; n < count; ++n) {
+    for (size_t k = 0; k < kSliceLanes; ++k) pixels[n * places + k] = rows[k * kMatchPixels + n];
+  }
+#else
+  for (size_t n = 0; n < count; n += kSliceLanes) {
+    uint8_t half[kSliceLanes * kSliceLanes];
+    for (size_t i = 0; i < 4; ++i) {
+      ShuffleFour(rows + n + i * kMatchPixels, kMatchPixels, 4, kSliceLanes,
+                  half + 4 * i * kSliceLanes);
+    }
+    for (size_t i = 0; i < 4 && n + 4 * i < count; ++i) {
+      ShuffleFour(half + i * kSliceLanes, kSliceLanes, count - n - 4 * i, places,
+                  pixels + (n + 4 * i) * places);
+    }
+  }
+#endif
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd

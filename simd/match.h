@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels that compare captured views with the centre view, for one disparity and a row of pixels
-// at a time. Rows of `count` samples are read and written in whole groups of kSliceLanes.
+// What the kernel that compares captured views with the centre view (label_costs.h) is made of:
+// one disparity of a row of pixels each. The vector code reads and writes whole groups of
+// kSliceLanes samples.
 #ifndef STARFOCUS_SIMD_MATCH_H_
 #define STARFOCUS_SIMD_MATCH_H_
 
@@ -18,35 +19,29 @@ inline constexpr int kMostDifference = 60;
 inline constexpr int kUnknownDifference = 48;
 // The most that a view counts which is taken not to see the pixel, and when no view does.
 inline constexpr int kHiddenDifference = 18, kUnseenDifference = 27;
+// Labels that something nearer hides at a place of a view are the first ones, and told by their
+// number; this is where the view ends.
+inline constexpr uint8_t kViewEnds = 255;
 // The costs of a disparity are differences of views times this, [0, 240].
 inline constexpr int kCostScale = 4;
 
-// Where a row of pixels is seen in another view: at the pixels of `view`, `across` to the right and
-// `down` to the next row, both [0, 128) in 128ths of a pixel.
-struct MatchRow {
-  const uint8_t* view[3];    // R, G and B; the next row lies view_stride behind
-  size_t view_stride;        // bytes
-  const uint8_t* centre[3];  // R, G and B
-  int32_t across, down;
-};
-
 namespace reference {
 
-// difference[n] becomes that of pixel n of the centre and the view interpolated there, bilinearly,
-// with one rounding (halves up) after each direction; kMostDifference at most. Of a view pixel
-// `count` is read, too, and the next row.
-void MatchView(const MatchRow& row, size_t count, uint8_t* difference);
+// difference[n] becomes that of pixel n of the centre and of a view, kMostDifference at most; of
+// both, G and B lie `plane` samples behind R and G.
+void MatchView(const uint8_t* centre, const uint8_t* view, size_t plane, size_t count,
+               uint8_t* difference);
 
 // A view that does not see a pixel is stood in for by the one opposite. The first view sees
-// pixel n when highest_a[n] <= limit, the other one when highest_b[n] <= limit; the difference of
+// pixel n when hidden_a[n] <= label, the other one when hidden_b[n] <= label; the difference of
 // the one that doesn't becomes that of the one that does, and both kUnknownDifference when neither
 // does.
-void StandIn(const int16_t* highest_a, const int16_t* highest_b, int16_t limit, size_t count,
+void StandIn(const uint8_t* hidden_a, const uint8_t* hidden_b, uint8_t label, size_t count,
              uint8_t* a, uint8_t* b);
 
-// Views that do not see pixel n, highest[k][n] > limit, tell little of it: their differences become
+// Views that do not see pixel n, hidden[k][n] > label, tell little of it: their differences become
 // kHiddenDifference at most, or kUnseenDifference where none of the views sees it.
-void LimitHidden(const int16_t* const* highest, int16_t limit, size_t views, size_t count,
+void LimitHidden(const uint8_t* const* hidden, uint8_t label, size_t views, size_t count,
                  uint8_t* const* differences);
 
 // The cost by the views on one side of the pixel, whichever side fits best: what hides a pixel has
@@ -59,12 +54,6 @@ void LeastSide(const uint8_t* const* differences, size_t arms, size_t rings, siz
 
 // cost[n] is the mean over all views times kCostScale, rounded down; views is 4, 8 or 16.
 void MeanCost(const uint8_t* const* differences, size_t views, size_t count, uint8_t* cost);
-
-// Turns rows of one disparity each into pixels of kSliceLanes disparities each:
-// pixels[n * pixel_stride + k] = rows[k * row_stride + n], k < kSliceLanes, n < count. Nothing else
-// is written.
-void GatherLabels(const uint8_t* rows, size_t row_stride, size_t count, uint8_t* pixels,
-                  size_t pixel_stride);
 
 }  // namespace reference
 }  // namespace starfocus::simd

@@ -2,46 +2,38 @@
 #include "simd/match.h"
 
 namespace starfocus::simd::reference {
-namespace {
 
-int Between(int a, int b, int part) { return (a * (128 - part) + b * part + 64) >> 7; }
-
-}  // namespace
-
-void MatchView(const MatchRow& row, size_t count, uint8_t* difference) {
+void MatchView(const uint8_t* centre, const uint8_t* view, size_t plane, size_t count,
+               uint8_t* difference) {
   for (size_t n = 0; n < count; ++n) {
     int sum = 0;
-    for (int c = 0; c < 3; ++c) {
-      const uint8_t* above = row.view[c] + n;
-      const uint8_t* below = above + row.view_stride;
-      const int left = Between(above[0], below[0], row.down);
-      const int right = Between(above[1], below[1], row.down);
-      const int apart = Between(left, right, row.across) - row.centre[c][n];
+    for (size_t c = 0; c < 3; ++c) {
+      const int apart = view[n + c * plane] - centre[n + c * plane];
       sum += apart < 0 ? -apart : apart;
     }
     difference[n] = static_cast<uint8_t>(sum < kMostDifference ? sum : kMostDifference);
   }
 }
 
-void StandIn(const int16_t* highest_a, const int16_t* highest_b, int16_t limit, size_t count,
+void StandIn(const uint8_t* hidden_a, const uint8_t* hidden_b, uint8_t label, size_t count,
              uint8_t* a, uint8_t* b) {
   for (size_t n = 0; n < count; ++n) {
-    const bool by_a = highest_a[n] <= limit, by_b = highest_b[n] <= limit;
+    const bool by_a = hidden_a[n] <= label, by_b = hidden_b[n] <= label;
     const uint8_t of_a = a[n], of_b = b[n];
     a[n] = by_a ? of_a : by_b ? of_b : uint8_t{kUnknownDifference};
     b[n] = by_b ? of_b : by_a ? of_a : uint8_t{kUnknownDifference};
   }
 }
 
-void LimitHidden(const int16_t* const* highest, int16_t limit, size_t views, size_t count,
+void LimitHidden(const uint8_t* const* hidden, uint8_t label, size_t views, size_t count,
                  uint8_t* const* differences) {
   for (size_t n = 0; n < count; ++n) {
     bool seen = false;
-    for (size_t k = 0; k < views; ++k) seen = seen || highest[k][n] <= limit;
+    for (size_t k = 0; k < views; ++k) seen = seen || hidden[k][n] <= label;
     const uint8_t most = seen ? kHiddenDifference : kUnseenDifference;
     for (size_t k = 0; k < views; ++k) {
       uint8_t& difference = differences[k][n];
-      if (highest[k][n] > limit && difference > most) difference = most;
+      if (hidden[k][n] > label && difference > most) difference = most;
     }
   }
 }
@@ -67,14 +59,6 @@ void MeanCost(const uint8_t* const* differences, size_t views, size_t count, uin
     size_t sum = 0;
     for (size_t k = 0; k < views; ++k) sum += differences[k][n];
     cost[n] = static_cast<uint8_t>(sum * kCostScale / views);
-  }
-}
-
-void GatherLabels(const uint8_t* rows, size_t row_stride, size_t count, uint8_t* pixels,
-                  size_t pixel_stride) {
-  for (size_t n = 0; n < count; ++n) {
-    for (size_t k = 0; k < kSliceLanes; ++k)
-      pixels[n * pixel_stride + k] = rows[k * row_stride + n];
   }
 }
 

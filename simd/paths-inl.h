@@ -19,67 +19,94 @@ HWY_INLINE ChunkVec LoadCost(const uint8_t* at) {
   return hn::PromoteTo(d16, hn::LoadU(hn::Rebind<uint8_t, ChunkTag>(), at));
 }
 
-// What a pixel's path adds to the costs of labels from l on. The label before the first one is what
-// lies before it in memory, and doesn't count.
-HWY_INLINE ChunkVec OnwardFrom(const int16_t* before, size_t l, ChunkVec least, ChunkVec jump) {
-  const ChunkTag d16;
-  const auto none = hn::Set(d16, kNoLabel);
-  auto lower = hn::LoadU(d16, before + l - 1);
-  if (l == 0) lower = hn::IfThenElse(hn::FirstN(d16, 1), none, lower);
-  const auto sides = hn::Min(lower, hn::LoadU(d16, before + l + 1));
-  const auto sloping = hn::SaturatedAdd(hn::Sub(sides, least), hn::Set(d16, kSlopeCost));
-  return hn::Min(hn::Min(hn::Sub(hn::LoadU(d16, before + l), least), sloping), jump);
-}
-
-template <bool kBegin>
+template <bool kAdds>
 HWY_INLINE void AddPathsOf(const PathRow& row, size_t labels, ptrdiff_t step, size_t count) {
   const ChunkTag d16;
-  const size_t places = PathLabels(labels);
-  const auto none = hn::Set(d16, kNoLabel);
+  const size_t lanes = hn::Lanes(d16), places = PathLabels(labels);
+  // Vectors that are labels alone, and those of the next one that are.
+  const size_t whole = labels / lanes * lanes;
+  const auto is_label = hn::FirstN(d16, labels - whole);
+  const auto none = hn::Set(d16, kNoLabel), slope = hn::Set(d16, kSlopeCost);
   for (size_t k = 0; k < count; ++k) {
     const ptrdiff_t pixel = static_cast<ptrdiff_t>(k) * step;
     const ptrdiff_t at = pixel * static_cast<ptrdiff_t>(places);
     const uint8_t* cost = row.cost + at;
+    const int16_t* before = row.before + at;
     int16_t* path = row.path + at;
     int16_t* sum = row.sum + at;
-    const auto before_least = hn::Set(d16, kBegin ? int16_t{0} : row.before_least[pixel]);
-    const auto jump = hn::Set(d16, kBegin ? int16_t{0} : row.jump[pixel]);
+    const auto before_least = hn::Set(d16, row.before_least[pixel]);
+    const auto jump = hn::Add(hn::Set(d16, row.jump[pixel]), before_least);
+    const auto path_at = [&](size_t l) HWY_ATTR {
+      const auto sides = hn::Min(hn::LoadU(d16, before + l - 1), hn::LoadU(d16, before + l + 1));
+      const auto sloping = hn::Min(hn::SaturatedAdd(sides, slope), jump);
+      const auto onward = hn::Min(hn::LoadU(d16, before + l), sloping);
+      return hn::Add(hn::Sub(onward, before_least), LoadCost(cost + l));
+    };
     auto least = none;
-    for (size_t l = 0; l < places; l += hn::Lanes(d16)) {
-      auto value = LoadCost(cost + l);
-      if (!kBegin) value = hn::Add(value, OnwardFrom(row.before + at, l, before_least, jump));
-      if (l + hn::Lanes(d16) > labels) {
-        value = hn::IfThenElse(hn::FirstN(d16, l < labels ? labels - l : 0), value, none);
-      }
+    size_t l = 0;
+    for (; l < whole; l += lanes) {
+      const auto value = path_at(l);
       hn::StoreU(value, d16, path + l);
-      hn::StoreU(hn::Add(hn::LoadU(d16, sum + l), value), d16, sum + l);
+      hn::StoreU(kAdds ? hn::Add(hn::LoadU(d16, sum + l), value) : value, d16, sum + l);
       least = hn::Min(least, value);
+    }
+    const auto last = hn::IfThenElse(is_label, path_at(l), none);
+    hn::StoreU(last, d16, path + l);
+    hn::StoreU(kAdds ? hn::SaturatedAdd(hn::LoadU(d16, sum + l), last) : last, d16, sum + l);
+    least = hn::Min(least, last);
+    for (l += lanes; l < places; l += lanes) {
+      hn::StoreU(none, d16, path + l);
+      if (!kAdds) hn::StoreU(none, d16, sum + l);
     }
     row.least[pixel] = hn::GetLane(hn::MinOfLanes(d16, least));
   }
 }
 
 inline void AddPaths(const PathRow& row, size_t labels, ptrdiff_t step, size_t count) {
-  if (row.before == nullptr) {
+  if (row.adds) {
     AddPathsOf<true>(row, labels, step, count);
   } else {
     AddPathsOf<false>(row, labels, step, count);
   }
 }
 
-// Returns the first of the labels with the least sum.
-HWY_INLINE size_t BestLabel(const int16_t* sum, size_t labels) {
-  const ChunkTag d16;
-  auto least = hn::Set(d16, kNoLabel), where = hn::Zero(d16);
-  for (size_t l = 0; l < labels; l += hn::Lanes(d16)) {
-    const auto counted = hn::FirstN(d16, labels - l);
-    const auto value = hn::IfThenElse(counted, hn::LoadU(d16, sum + l), hn::Set(d16, kNoLabel));
-    where = hn::IfThenElse(hn::Lt(value, least), hn::Iota(d16, static_cast<int16_t>(l)), where);
-    least = hn::Min(least, value);
+inline void FindJumps(const uint8_t* pixels, const uint8_t* before, size_t plane, size_t count,
+                      int16_t* HWY_RESTRICT jump) {
+  // All further differences cost least.
+  constexpr int kFar = kLargestJump * kSimilarColours / kLeastJump - kSimilarColours + 1;
+  int16_t jumps[kFar + 1];
+  for (int apart = 0; apart < kFar; ++apart) {
+    jumps[apart] = static_cast<int16_t>(kLargestJump * kSimilarColours / (kSimilarColours + apart));
   }
-  const auto of_all = hn::Set(d16, hn::GetLane(hn::MinOfLanes(d16, least)));
-  const auto first = hn::IfThenElse(hn::Eq(least, of_all), where, hn::Set(d16, kNoLabel));
-  return static_cast<size_t>(hn::GetLane(hn::MinOfLanes(d16, first)));
+  jumps[kFar] = kLeastJump;
+  const hn::CappedTag<uint8_t, kSliceLanes> d8;
+  const auto apart_at = [&](size_t at) HWY_ATTR {
+    const auto a = hn::LoadU(d8, pixels + at), b = hn::LoadU(d8, before + at);
+    return hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a));
+  };
+  for (size_t n = 0; n < count; n += hn::Lanes(d8)) {
+    const auto two = hn::SaturatedAdd(apart_at(n), apart_at(n + plane));
+    const auto sum = hn::SaturatedAdd(two, apart_at(n + 2 * plane));
+    HWY_ALIGN uint8_t apart[kSliceLanes];
+    hn::Store(hn::Min(sum, hn::Set(d8, uint8_t{kFar})), d8, apart);
+    const size_t here = count - n < hn::Lanes(d8) ? count - n : hn::Lanes(d8);
+    for (size_t k = 0; k < here; ++k) jump[n + k] = jumps[apart[k]];
+  }
+}
+
+// Returns the first of the labels with the least sum, which becomes *least_sum.
+HWY_INLINE size_t BestLabel(const int16_t* sum, size_t labels, int16_t* least_sum) {
+  const ChunkTag d16;
+  auto least = hn::LoadU(d16, sum);
+  for (size_t l = hn::Lanes(d16); l < labels; l += hn::Lanes(d16)) {
+    least = hn::Min(least, hn::LoadU(d16, sum + l));
+  }
+  *least_sum = hn::GetLane(hn::MinOfLanes(d16, least));
+  const auto of_all = hn::Set(d16, *least_sum);
+  for (size_t l = 0;; l += hn::Lanes(d16)) {
+    const auto found = hn::FindFirstTrue(d16, hn::Eq(hn::LoadU(d16, sum + l), of_all));
+    if (found >= 0) return l + static_cast<size_t>(found);
+  }
 }
 
 // Returns the least sum of the labels 2 or more away from `best`, or kNoLabel.
@@ -92,8 +119,7 @@ HWY_INLINE int16_t LeastAway(const int16_t* sum, size_t labels, size_t best) {
   for (size_t l = 0; l < labels; l += hn::Lanes(d16)) {
     const auto label = hn::Iota(d16, static_cast<int16_t>(l));
     const auto beside = hn::And(hn::Gt(label, low), hn::Lt(label, high));
-    const auto counted = hn::AndNot(beside, hn::FirstN(d16, labels - l));
-    least = hn::Min(least, hn::IfThenElse(counted, hn::LoadU(d16, sum + l), none));
+    least = hn::Min(least, hn::IfThenElse(beside, none, hn::LoadU(d16, sum + l)));
   }
   return hn::GetLane(hn::MinOfLanes(d16, least));
 }
@@ -101,15 +127,17 @@ HWY_INLINE int16_t LeastAway(const int16_t* sum, size_t labels, size_t best) {
 inline void ChooseLabels(const int16_t* HWY_RESTRICT sum, size_t labels, size_t count,
                          int16_t* HWY_RESTRICT choice, uint8_t* HWY_RESTRICT margin) {
   for (size_t n = 0; n < count; ++n, sum += PathLabels(labels)) {
-    const size_t best = BestLabel(sum, labels);
-    const int other = (LeastAway(sum, labels, best) - sum[best]) / 8;
+    int16_t least = 0;
+    const size_t best = BestLabel(sum, labels, &least);
     int refined = 0;
     if (best > 0 && best + 1 < labels) {
-      const int left = sum[best - 1] - sum[best], right = sum[best + 1] - sum[best];
+      const int left = sum[best - 1] - least, right = sum[best + 1] - least;
       const int most = left > right ? left : right;
       if (most > 0) refined = (left - right) * (1 << (kChoiceBits - 1)) / most;
     }
     choice[n] = static_cast<int16_t>((static_cast<int>(best) << kChoiceBits) + refined);
+    if (margin == nullptr) continue;
+    const int other = (LeastAway(sum, labels, best) - least) / 8;
     margin[n] = static_cast<uint8_t>(other < 255 ? other : 255);
   }
 }

@@ -30,17 +30,30 @@ void AddPaths(const PathRow& row, size_t labels, ptrdiff_t step, size_t count) {
     const ptrdiff_t at = pixel * static_cast<ptrdiff_t>(places);
     int least = kNoLabel;
     for (size_t l = 0; l < labels; ++l) {
-      int path = row.cost[at + static_cast<ptrdiff_t>(l)];
-      if (row.before != nullptr) {
-        path += Onward(row.before + at, row.before_least[pixel], row.jump[pixel], l, labels);
-      }
+      const int path = row.cost[at + static_cast<ptrdiff_t>(l)] +
+                       Onward(row.before + at, row.before_least[pixel], row.jump[pixel], l, labels);
       row.path[at + static_cast<ptrdiff_t>(l)] = static_cast<int16_t>(path);
       int16_t& sum = row.sum[at + static_cast<ptrdiff_t>(l)];
-      sum = static_cast<int16_t>(sum + path);
+      sum = static_cast<int16_t>(row.adds ? sum + path : path);
       least = Least(least, path);
     }
-    for (size_t l = labels; l < places; ++l) row.path[at + static_cast<ptrdiff_t>(l)] = kNoLabel;
+    for (size_t l = labels; l < places; ++l) {
+      row.path[at + static_cast<ptrdiff_t>(l)] = row.sum[at + static_cast<ptrdiff_t>(l)] = kNoLabel;
+    }
     row.least[pixel] = static_cast<int16_t>(least);
+  }
+}
+
+void FindJumps(const uint8_t* pixels, const uint8_t* before, size_t plane, size_t count,
+               int16_t* jump) {
+  for (size_t n = 0; n < count; ++n) {
+    int apart = 0;
+    for (size_t c = 0; c < 3; ++c) {
+      const int by = pixels[n + c * plane] - before[n + c * plane];
+      apart += by < 0 ? -by : by;
+    }
+    const int cost = kLargestJump * kSimilarColours / (kSimilarColours + apart);
+    jump[n] = static_cast<int16_t>(cost > kLeastJump ? cost : kLeastJump);
   }
 }
 
@@ -56,6 +69,7 @@ void ChooseLabels(const int16_t* sum, size_t labels, size_t count, int16_t* choi
     int refined = 0;
     if (best > 0 && best + 1 < labels) refined = Refine(sum[best - 1], sum[best], sum[best + 1]);
     choice[n] = static_cast<int16_t>((static_cast<int>(best) << kChoiceBits) + refined);
+    if (margin == nullptr) continue;
     margin[n] = static_cast<uint8_t>(Least((other - sum[best]) / 8, 255));
   }
 }

@@ -16,32 +16,40 @@ namespace HWY_NAMESPACE {
 
 using PriorTag = hn::CappedTag<uint8_t, kSliceLanes>;
 
-// The ways to labels of neighbours; one that is not there has kMostPrior, as far as can be.
-HWY_INLINE hn::Vec<PriorTag> WayFrom(const uint8_t* from, size_t l, uint8_t way) {
+HWY_INLINE hn::Vec<PriorTag> WayFrom(const uint8_t* from, uint8_t way) {
   const PriorTag d8;
-  if (from == nullptr) return hn::Set(d8, kMostPrior);
-  return hn::SaturatedAdd(hn::LoadU(d8, from + l), hn::Set(d8, way));
+  return hn::SaturatedAdd(hn::LoadU(d8, from), hn::Set(d8, way));
 }
 
-inline void SpreadPrior(const PriorRow& row) {
+// A neighbour that isn't there is stood in for by one from which the way is shorter.
+template <bool kBefore>
+HWY_INLINE void SpreadPriorOf(const PriorRow& row) {
   const PriorTag d8;
-  const auto places = static_cast<ptrdiff_t>(row.places);
-  const ptrdiff_t next = row.step * places;
+  const ptrdiff_t next = row.step * static_cast<ptrdiff_t>(row.places);
   for (size_t k = 0; k < row.count; ++k) {
     const ptrdiff_t at = static_cast<ptrdiff_t>(k) * next;
     uint8_t* prior = row.prior + at;
-    const uint8_t* before = row.before == nullptr ? nullptr : row.before + at;
-    const uint8_t* beside = k > 0 ? prior - next : nullptr;
-    const uint8_t* behind = before != nullptr && k > 0 ? before - next : nullptr;
-    const uint8_t* ahead = before != nullptr && k + 1 < row.count ? before + next : nullptr;
+    const uint8_t* beside = k > 0 ? prior - next : prior;
+    const uint8_t* before = kBefore ? row.before + at : nullptr;
+    const uint8_t* behind = kBefore && k > 0 ? before - next : before;
+    const uint8_t* ahead = kBefore && k + 1 < row.count ? before + next : before;
     for (size_t l = 0; l < row.places; l += hn::Lanes(d8)) {
-      const auto straight =
-          hn::Min(WayFrom(beside, l, kBesideCost), WayFrom(before, l, kBesideCost));
-      const auto diagonal =
-          hn::Min(WayFrom(behind, l, kDiagonalCost), WayFrom(ahead, l, kDiagonalCost));
-      const auto least = hn::Min(straight, diagonal);
-      hn::StoreU(hn::Min(hn::LoadU(d8, prior + l), least), d8, prior + l);
+      auto least = hn::Min(hn::LoadU(d8, prior + l), WayFrom(beside + l, kBesideCost));
+      if (kBefore) {
+        const auto diagonal = hn::Min(hn::LoadU(d8, behind + l), hn::LoadU(d8, ahead + l));
+        least = hn::Min(least, WayFrom(before + l, kBesideCost));
+        least = hn::Min(least, hn::SaturatedAdd(diagonal, hn::Set(d8, kDiagonalCost)));
+      }
+      hn::StoreU(least, d8, prior + l);
     }
+  }
+}
+
+inline void SpreadPrior(const PriorRow& row) {
+  if (row.before != nullptr) {
+    SpreadPriorOf<true>(row);
+  } else {
+    SpreadPriorOf<false>(row);
   }
 }
 

@@ -52,7 +52,8 @@ void WriteTile(const void* data, int32_t index, int32_t) {
 sf_status Estimate(const EstimatePlan& plan, const sf_light_field& light_field,
                    const simd::DepthKernels& kernels, const Runner& runner, const MapOutput& output,
                    EstimateMemory* memory) {
-  const EstimateJob job = {{plan, light_field, kernels, memory}, output};
+  const EstimateJob job = {{plan, light_field, kernels, memory, output.confidence != nullptr},
+                           output};
   const int32_t tiles = plan.columns * plan.rows;
   constexpr JobFunction kPhases[] = {SweepFirst, SweepSecond, WriteTile};
   for (const JobFunction phase : kPhases) {

@@ -16,26 +16,36 @@ constexpr int32_t kMostVotes = (2 * kRadius + 1) * (2 * kRadius + 1);
 constexpr int32_t kStray = 1 << (kDisparityBits - 2);
 constexpr int32_t kVote = 64, kHalving = 14;
 
+// Disparities with weights; places that aren't taken weigh nothing.
 struct Votes {
+  static constexpr int32_t kPlaces = (kMostVotes + 7) / 8 * 8;  // whole vectors
+
   int32_t count = 0, weight = 0;
-  int16_t disparity[kMostVotes];  // ascending
-  int16_t of[kMostVotes];         // their weights
+  int16_t disparity[kPlaces] = {};
+  int16_t of[kPlaces] = {};
 
   void Add(int16_t d, int32_t vote) {
-    int32_t at = count++;
-    for (; at > 0 && disparity[at - 1] > d; --at) {
-      disparity[at] = disparity[at - 1];
-      of[at] = of[at - 1];
-    }
-    disparity[at] = d;
-    of[at] = static_cast<int16_t>(vote);
+    disparity[count] = d;
+    of[count++] = static_cast<int16_t>(vote);
     weight += vote;
   }
 
-  int16_t Median() const {
-    int32_t below = 0, at = 0;
-    while (2 * (below + of[at]) < weight) below += of[at++];
-    return disparity[at];
+  // The least disparity which no more than half of the weight lies above.
+  int16_t Median(int32_t low, int32_t high) const {
+    while (low < high) {
+      const int32_t middle = (low + high) >> 1;
+      const auto most = static_cast<int16_t>(middle);
+      int16_t below = 0;
+      for (int32_t k = 0; k < kPlaces; ++k) {
+        below = static_cast<int16_t>(below + (disparity[k] <= most ? of[k] : int16_t{0}));
+      }
+      if (2 * below < weight) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return static_cast<int16_t>(low);
   }
 };
 
@@ -43,16 +53,21 @@ int32_t Apart(const uint8_t* a, const uint8_t* b) {
   return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
 }
 
-// Whether no disparity around a pixel differs from its own by more than kStray: their median can't
-// either.
-bool IsSmooth(const EstimatePlan& plan, const int16_t* map, const Rect& around, int32_t own) {
+struct Range {
+  int32_t low, high;
+};
+
+// The disparities around a pixel.
+Range RangeOf(const EstimatePlan& plan, const int16_t* map, const Rect& around) {
+  Range range = {INT16_MAX, INT16_MIN};
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     const int16_t* disparity = map + static_cast<size_t>(row) * static_cast<size_t>(plan.width);
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      if (std::abs(disparity[column] - own) > kStray) return false;
+      range.low = Min(range.low, disparity[column]);
+      range.high = Max(range.high, disparity[column]);
     }
   }
-  return true;
+  return range;
 }
 
 }  // namespace
@@ -62,7 +77,9 @@ int16_t WithoutStray(const EstimatePlan& plan, const sf_plane& centre, const int
   const Rect around = Widened(plan, {x, y, 1, 1}, kRadius);
   const int16_t own =
       map[static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x)];
-  if (IsSmooth(plan, map, around, own)) return own;
+  const Range range = RangeOf(plan, map, around);
+  // No median of what is within kStray is further away.
+  if (range.low >= own - kStray && range.high <= own + kStray) return own;
   const uint8_t* here = centre.data + static_cast<size_t>(y) * centre.stride + 3 * x;
   Votes votes;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
@@ -74,7 +91,7 @@ int16_t WithoutStray(const EstimatePlan& plan, const sf_plane& centre, const int
       if (vote > 0) votes.Add(disparity[column], vote);
     }
   }
-  const int16_t median = votes.Median();
+  const int16_t median = votes.Median(range.low, range.high);
   return std::abs(own - median) > kStray ? median : own;
 }
 

@@ -13,7 +13,7 @@ namespace {
 Rect LargestRegion(const EstimatePlan& plan) {
   Rect largest = {0, 0, 0, 0};
   for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {
-    const Rect region = Widened(plan, TileOf(plan, tile), kTileMargin);
+    const Rect region = RegionOf(plan, tile);
     largest.width = Max(largest.width, region.width);
     largest.height = Max(largest.height, region.height);
   }
@@ -29,22 +29,22 @@ TileMemory TakeTile(const EstimatePlan& plan, const Rect& region, Carver* carver
   Patches& patches = tile.patches;
   patches.stride = simd::SliceSamples(width + beyond) + simd::kPadding;
   patches.plane = patches.stride * (height + beyond);
-  patches.rgb = carver->Take<uint8_t>(patches.plane, 3 * (side_views + 1));
-  patches.highest = carver->Take<int16_t>(patches.plane, side_views);
-  tile.row_stride = simd::SliceSamples(width);
+  patches.rgb =
+      carver->Take<uint8_t>(patches.plane, 3 * (static_cast<size_t>(plan.AllPhases()) + 1));
+  patches.split = carver->Take<uint8_t>(patches.stride, 2 * 3);
+  patches.hidden = carver->Take<uint8_t>(patches.plane, side_views);
   tile.cost = carver->Take<uint8_t>(area, places);
   tile.prior = plan.repairs ? carver->Take<uint8_t>(area, places) : nullptr;
   tile.sum = carver->Take<int16_t>(area, places);
   for (int k = 0; k < 2; ++k) {
-    int16_t* path = carver->Take<int16_t>(width * places + 1);
-    tile.path[k] = path == nullptr ? nullptr : path + 1;
-    tile.least[k] = carver->Take<int16_t>(width);
+    int16_t* path = carver->Take<int16_t>((width + 2) * places + 1);
+    tile.path[k] = path == nullptr ? nullptr : path + places + 1;
+    int16_t* least = carver->Take<int16_t>(width + 2);
+    tile.least[k] = least == nullptr ? nullptr : least + 1;
   }
   tile.jump = carver->Take<int16_t>(width);
-  tile.differences = carver->Take<uint8_t>(tile.row_stride, side_views);
-  tile.label_rows = carver->Take<uint8_t>(tile.row_stride, simd::kSliceLanes);
+  tile.moves = carver->Take<simd::ViewMove>(static_cast<size_t>(plan.labels), side_views);
   tile.choice = carver->Take<int16_t>(width);
-  tile.margin = carver->Take<uint8_t>(width);
   return tile;
 }
 
@@ -62,6 +62,7 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
   auto* certainty = carver.Take<uint8_t>(width, height);
   int16_t* of_given[3] = {};
   for (int16_t*& map : of_given) map = plan.repairs ? carver.Take<int16_t>(width, height) : nullptr;
+  uint8_t* swept = plan.repairs ? carver.Take<uint8_t>(width, height) : nullptr;
   TileCount* counts = plan.repairs ? carver.Take<TileCount>(tiles) : nullptr;
   auto* workers = carver.Take<TileMemory>(static_cast<size_t>(max_workers));
   if (base != nullptr) {
@@ -74,13 +75,17 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
     made.given = of_given[0];
     made.trusted = of_given[1];
     made.evidence = of_given[2];
+    made.doubt = certainty;
+    made.swept = swept;
     made.counts = counts;
     made.workers = workers;
   }
   const Rect region = LargestRegion(plan);
   for (int32_t worker = 0; worker < max_workers; ++worker) {
     const TileMemory tile = TakeTile(plan, region, &carver);
-    if (base != nullptr) workers[worker] = tile;
+    if (base == nullptr) continue;
+    workers[worker] = tile;
+    workers[worker].swept = swept;
   }
   return carver.Bytes();
 }

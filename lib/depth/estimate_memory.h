@@ -10,6 +10,7 @@
 #include "lib/base/carver.h"
 #include "lib/base/jobs.h"
 #include "lib/depth/estimate_plan.h"
+#include "simd/label_costs.h"
 
 namespace starfocus {
 
@@ -18,34 +19,35 @@ namespace starfocus {
 struct Patches {
   int32_t left, top, rows;
   size_t stride, plane;  // samples
-  uint8_t* rgb;          // planes R, G, B of the centre, then of each side view in the plan's order
-  // Of each side view the highest disparity that it is known to show at a pixel, INT16_MAX outside
-  // the picture: a lower one is hidden there.
-  int16_t* highest;
-  bool all_seen;  // nothing is known to be hidden, and all of the rectangle lies in the picture
+  // Planes R, G, B of the centre, then of each side view in the plan's order: moved by the parts of
+  // a pixel that labels move it by, those of EstimatePlan::Phases one after the other.
+  uint8_t* rgb;
+  uint8_t* split;  // two rows of R, G, B, while planes are made
+  // Of each side view how many labels something nearer hides that it is known to show at a pixel,
+  // simd::kViewEnds outside the picture.
+  uint8_t* hidden;
+  bool ends;      // not all of the rectangle lies in the picture
+  bool all_seen;  // it does, and nothing is known to be hidden
 
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y - top) * stride + static_cast<size_t>(x - left);
   }
-  const uint8_t* Plane(int32_t view, int32_t colour) const {
-    return rgb + static_cast<size_t>(3 * view + colour) * plane;
-  }
+  // The centre's plane.
+  const uint8_t* Centre(int32_t colour) const { return rgb + static_cast<size_t>(colour) * plane; }
 };
 
 // What a worker needs for one tile.
 struct TileMemory {
   Patches patches;
-  uint8_t* cost;         // of each pixel and label, PathLabels apart
-  uint8_t* prior;        // as cost: what a given map says; null when there is none
-  int16_t* sum;          // of paths, as cost
-  int16_t* path[2];      // of a row of pixels, one number before the first
-  int16_t* least[2];     // of each of them
-  int16_t* jump;         // of a row
-  uint8_t* differences;  // rows of all side views
-  uint8_t* label_rows;   // rows of a group of labels
-  int16_t* choice;       // a row
-  uint8_t* margin;       // a row
-  size_t row_stride;     // samples of a row of these
+  uint8_t* cost;          // of each pixel and label, PathLabels apart
+  uint8_t* prior;         // as cost: what a given map says; null when there is none
+  int16_t* sum;           // of paths, as cost
+  int16_t* path[2];       // of a row of pixels, and one pixel more on both sides
+  int16_t* least[2];      // of each of them, and one more on both sides
+  int16_t* jump;          // of a row
+  simd::ViewMove* moves;  // of each side view, for each label
+  int16_t* choice;        // a row
+  const uint8_t* swept;   // EstimateMemory::swept
 };
 
 // Pixels of a tile of a given map.
@@ -62,6 +64,8 @@ struct EstimateMemory {
   // Of a map that is repaired, null otherwise; kNoSurface where it is unknown.
   int16_t* given;     // its disparities
   int16_t* trusted;   // those of places where it is smooth
+  uint8_t* doubt;     // which pixels are in doubt (swept.h): in certainty's memory, which is free
+  uint8_t* swept;     // 1 where the sweeps look, 0 elsewhere; null: everywhere
   TileCount* counts;  // of each tile
   int32_t least_evidence;
   int16_t* evidence;  // how much better the views fit the second map than the given one

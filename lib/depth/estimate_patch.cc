@@ -10,16 +10,47 @@ namespace {
 
 int32_t Inside(int32_t at, int32_t length) { return Max(0, Min(at, length - 1)); }
 
-// Splits a row of the picture into planes; beyond its ends they go on as they end.
-void CopyRow(const uint8_t* row, int32_t picture_width, const Patches& patches, uint8_t* out) {
+// Splits a row of the picture into rows of the planes; beyond its ends they go on as they end.
+void SplitPictureRow(const uint8_t* row, int32_t picture_width, const Patches& patches,
+                     const simd::DepthKernels& kernels, uint8_t* out) {
   const auto stride = static_cast<int32_t>(patches.stride);
   const int32_t first = Min(Max(0, -patches.left), stride);
   const int32_t last = Max(first, Min(stride, picture_width - patches.left));
-  for (size_t c = 0; c < 3; ++c, out += patches.plane) {
-    const uint8_t* from = row + 3 * (patches.left + first) + static_cast<int32_t>(c);
-    for (int32_t k = first; k < last; ++k, from += 3) out[k] = *from;
+  kernels.SplitRow(row + 3 * (patches.left + first), static_cast<size_t>(last - first),
+                   patches.stride, out + first);
+  for (size_t c = 0; c < 3; ++c, out += stride) {
     std::fill_n(out, first, row[c]);
     std::fill(out + last, out + stride, row[3 * static_cast<size_t>(picture_width - 1) + c]);
+  }
+}
+
+// A view whose planes are made: moved by parts of a pixel, 128ths.
+struct MovedView {
+  const sf_plane& picture;
+  int32_t moves;
+  int32_t across[4], down[4];
+};
+
+// Makes the planes of a view, those of each move from `out` on.
+void MakePlanes(const MovedView& view, const EstimatePlan& plan, const simd::DepthKernels& kernels,
+                const Patches& patches, uint8_t* out) {
+  // One sample more is read at the end of a row. Nothing is looked for so far to the right.
+  const size_t stride = patches.stride, count = stride - simd::kSliceLanes;
+  for (int32_t row = 0; row <= patches.rows; ++row) {
+    uint8_t* next = patches.split + static_cast<size_t>(row % 2) * 3 * stride;
+    const int32_t y = Inside(patches.top + row, plan.height);
+    SplitPictureRow(view.picture.data + static_cast<size_t>(y) * view.picture.stride, plan.width,
+                    patches, kernels, next);
+    if (row == 0) continue;
+    const uint8_t* here = patches.split + static_cast<size_t>((row - 1) % 2) * 3 * stride;
+    for (int32_t k = 0; k < view.moves; ++k) {
+      for (size_t c = 0; c < 3; ++c) {
+        uint8_t* to = out + (3 * static_cast<size_t>(k) + c) * patches.plane +
+                      static_cast<size_t>(row - 1) * stride;
+        kernels.InterpolateRow(here + c * stride, next + c * stride, view.across[k], view.down[k],
+                               count, to);
+      }
+    }
   }
 }
 
@@ -30,64 +61,115 @@ Rect PartInside(const EstimatePlan& plan, const Patches& patches) {
   return {x, y, right - x, Min(patches.top + patches.rows, plan.height) - y};
 }
 
-// Enters what the pixels of a row of the map hide of a view.
-void HideBehindRow(const SideView& view, const int16_t* map, int32_t y, const Rect& from,
-                   const Rect& inside, const Patches& patches, int16_t* highest) {
-  for (int32_t x = from.x; x < from.x + from.width; ++x) {
+// A view shows a pixel when nothing there is nearer than this beyond it, kDisparityBits: estimates
+// of one surface differ by less.
+constexpr int32_t kSurfaceDepth = 1 << kDisparityBits;
+
+// How many labels a pixel at disparity d hides.
+uint8_t HiddenBehind(const EstimatePlan& plan, int32_t d) {
+  const int32_t beyond = Max(d - kSurfaceDepth - plan.low, 0) + plan.step - 1;
+  const int32_t labels = plan.step == kLabelStep ? beyond / kLabelStep : beyond / plan.step;
+  return static_cast<uint8_t>(Min(labels, plan.labels));
+}
+
+// Enters what the pixels of row y of the map, x in [from, to), hide of a view within `inside`. The
+// compiler leaves out moves in directions that the view has none in.
+template <bool kAcross, bool kDown>
+void HideBehindRow(const EstimatePlan& plan, const SideView& view, const int16_t* map, int32_t y,
+                   int32_t from, int32_t to, const Rect& inside, const Patches& patches,
+                   uint8_t* hidden) {
+  const auto columns = static_cast<uint32_t>(inside.width);
+  const auto rows = static_cast<uint32_t>(inside.height);
+  hidden += patches.At(inside.x, inside.y);
+  int32_t last = plan.low;
+  uint8_t behind = HiddenBehind(plan, last);
+  for (int32_t x = from; x < to; ++x) {
     const int32_t d = map[x];
-    const int32_t to_x = x + WholeMove(MoveAcross(view, d));
-    const int32_t to_y = y + WholeMove(MoveDown(view, d));
-    if (to_x < inside.x || to_x >= inside.x + inside.width || to_y < inside.y ||
-        to_y >= inside.y + inside.height) {
-      continue;
-    }
-    int16_t& here = highest[patches.At(to_x, to_y)];
-    here = std::max(here, static_cast<int16_t>(d));
+    const int32_t across = kAcross ? WholeMove(MoveAcross(view, d)) : 0;
+    const int32_t down = kDown ? WholeMove(MoveDown(view, d)) : 0;
+    const auto column = static_cast<uint32_t>(x + across - inside.x);
+    const auto row = static_cast<uint32_t>(y + down - inside.y);
+    if ((kAcross && column >= columns) || (kDown && row >= rows)) continue;
+    if (d != last) behind = HiddenBehind(plan, last = d);
+    uint8_t& here = hidden[row * patches.stride + column];
+    here = std::max(here, behind);
   }
+}
+
+// The part of a view that labels of the region's pixels can lie in, and what may hide it.
+Rect WithReach(const EstimatePlan& plan, const SideView& view, const Rect& rect) {
+  const Rect across = Widened(plan, rect, view.u2 != 0 ? plan.reach : 0);
+  const Rect down = Widened(plan, rect, view.v2 != 0 ? plan.reach : 0);
+  return {across.x, down.y, across.width, down.height};
 }
 
 }  // namespace
 
 void LoadPatches(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& region,
-                 Patches* patches) {
+                 const simd::DepthKernels& kernels, Patches* patches) {
   patches->left = region.x - plan.reach;
   patches->top = region.y - plan.reach;
   patches->rows = region.height + 2 * plan.reach + 1;
-  for (int32_t view = 0; view <= plan.side_views(); ++view) {
-    const sf_plane& picture = light_field.views[view == 0 ? 0 : plan.side[view - 1].index];
-    for (int32_t row = 0; row < patches->rows; ++row) {
-      const int32_t y = Inside(patches->top + row, plan.height);
-      uint8_t* out = patches->rgb + 3 * static_cast<size_t>(view) * patches->plane +
-                     static_cast<size_t>(row) * patches->stride;
-      CopyRow(picture.data + static_cast<size_t>(y) * picture.stride, plan.width, *patches, out);
+  MakePlanes({light_field.views[0], 1, {}, {}}, plan, kernels, *patches, patches->rgb);
+  uint8_t* planes = patches->rgb + 3 * patches->plane;
+  for (int32_t k = 0; k < plan.side_views(); ++k) {
+    const SideView& side = plan.side[k];
+    MovedView view = {light_field.views[side.index], plan.Phases(side), {}, {}};
+    for (int32_t phase = 0; phase < view.moves; ++phase) {
+      view.across[phase] = MoveAcross(side, plan.Disparity(phase)) & 127;
+      view.down[phase] = MoveDown(side, plan.Disparity(phase)) & 127;
+    }
+    MakePlanes(view, plan, kernels, *patches, planes);
+    planes += 3 * static_cast<size_t>(view.moves) * patches->plane;
+  }
+}
+
+void FindMoves(const EstimatePlan& plan, const Patches& patches, simd::ViewMove* moves) {
+  const auto stride = static_cast<int32_t>(patches.stride);
+  const auto plane = static_cast<int32_t>(patches.plane);
+  for (int32_t l = 0; l < plan.labels; ++l) {
+    const int32_t d = plan.Disparity(l);
+    int32_t first = 1;  // of the view's planes
+    for (int32_t k = 0; k < plan.side_views(); ++k) {
+      const SideView& side = plan.side[k];
+      const int32_t across = MoveAcross(side, d), down = MoveDown(side, d);
+      const int32_t phases = plan.Phases(side);
+      const int32_t at = 3 * (first + l % phases) * plane + (down >> 7) * stride + (across >> 7);
+      *moves++ = {at, k * plane + WholeMove(down) * stride + WholeMove(across)};
+      first += phases;
     }
   }
 }
 
 void MarkOutside(const EstimatePlan& plan, Patches* patches) {
   const Rect inside = PartInside(plan, *patches);
-  patches->all_seen =
-      inside.height == patches->rows && static_cast<size_t>(inside.width) == patches->stride;
+  patches->ends =
+      inside.height < patches->rows || static_cast<size_t>(inside.width) < patches->stride;
+  patches->all_seen = !patches->ends;
   const auto rows = static_cast<size_t>(patches->rows);
   for (int32_t view = 0; view < plan.side_views(); ++view) {
-    int16_t* highest = patches->highest + static_cast<size_t>(view) * patches->plane;
-    std::fill_n(highest, rows * patches->stride, int16_t{INT16_MAX});
+    uint8_t* hidden = patches->hidden + static_cast<size_t>(view) * patches->plane;
+    std::fill_n(hidden, rows * patches->stride, simd::kViewEnds);
     for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
-      std::fill_n(highest + patches->At(inside.x, y), inside.width, int16_t{INT16_MIN});
+      std::fill_n(hidden + patches->At(inside.x, y), inside.width, uint8_t{0});
     }
   }
 }
 
-void MarkHidden(const EstimatePlan& plan, const int16_t* map, Patches* patches) {
+void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region,
+                Patches* patches) {
   MarkOutside(plan, patches);
   patches->all_seen = false;
-  const Rect inside = PartInside(plan, *patches);
-  const Rect from = Widened(plan, inside, plan.reach);
-  for (int32_t view = 0; view < plan.side_views(); ++view) {
-    int16_t* highest = patches->highest + static_cast<size_t>(view) * patches->plane;
+  for (int32_t k = 0; k < plan.side_views(); ++k) {
+    const SideView& view = plan.side[k];
+    const Rect inside = WithReach(plan, view, region), from = WithReach(plan, view, inside);
+    uint8_t* hidden = patches->hidden + static_cast<size_t>(k) * patches->plane;
+    const auto hide = view.v2 == 0   ? HideBehindRow<true, false>
+                      : view.u2 == 0 ? HideBehindRow<false, true>
+                                     : HideBehindRow<true, true>;
     for (int32_t y = from.y; y < from.y + from.height; ++y) {
-      HideBehindRow(plan.side[view], map + static_cast<size_t>(y) * static_cast<size_t>(plan.width),
-                    y, from, inside, *patches, highest);
+      hide(plan, view, map + static_cast<size_t>(y) * static_cast<size_t>(plan.width), y, from.x,
+           from.x + from.width, inside, *patches, hidden);
     }
   }
 }

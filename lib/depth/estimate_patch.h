@@ -4,20 +4,24 @@
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_PATCH_H_
 
 #include "lib/depth/estimate_memory.h"
+#include "simd/depth_kernels.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-// Copies all views around `region`, as far as disparities reach.
+// Makes the planes of all views around `region`, as far as disparities reach.
 void LoadPatches(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& region,
-                 Patches* patches);
+                 const simd::DepthKernels& kernels, Patches* patches);
+
+// Fills in where the patches show each label in each side view.
+void FindMoves(const EstimatePlan& plan, const Patches& patches, simd::ViewMove* moves);
 
 // Where views end, nothing else is known to be hidden: the first estimate.
 void MarkOutside(const EstimatePlan& plan, Patches* patches);
 
 // What the pixels of a map (width * height disparities) hide of the views when each of them is
-// where its disparity says.
-void MarkHidden(const EstimatePlan& plan, const int16_t* map, Patches* patches);
+// where its disparity says: wherever pixels of the region can lie.
+void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region, Patches* patches);
 
 }  // namespace starfocus
 

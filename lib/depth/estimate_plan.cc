@@ -2,14 +2,13 @@
 #include "lib/depth/estimate_plan.h"
 
 #include <cmath>
+#include <cstdlib>
 
 #include "lib/base/fixed.h"
 #include "lib/input/window.h"
 
 namespace starfocus {
 namespace {
-
-constexpr int32_t kStep = 1 << (kDisparityBits - 1);  // half a pixel
 
 // Directions in the order of their angles; every other one is along an axis.
 constexpr int8_t kDirections[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
@@ -39,6 +38,19 @@ int32_t TileBegin(int32_t length, int32_t count, int32_t k) {
 
 }  // namespace
 
+int32_t EstimatePlan::Phases(const SideView& view) const {
+  const int32_t move = step * Max(std::abs(view.u2), std::abs(view.v2));
+  int32_t phases = 1;
+  while (phases * move % 128 != 0) phases *= 2;
+  return phases;
+}
+
+int32_t EstimatePlan::AllPhases() const {
+  int32_t phases = 0;
+  for (int32_t view = 0; view < side_views(); ++view) phases += Phases(side[view]);
+  return phases;
+}
+
 EstimatePlan MakePlan(const sf_depth_config& config) {
   EstimatePlan plan = {};
   plan.width = config.width;
@@ -48,7 +60,7 @@ EstimatePlan MakePlan(const sf_depth_config& config) {
   const auto high = static_cast<int32_t>(std::ceil(config.disparity_max * kScale));
   const int32_t range = high - plan.low;
   const int32_t least = (range + kMostLabels - 2) / (kMostLabels - 1);
-  plan.step = least > kStep ? least : kStep;
+  plan.step = Max(1, (least + kLabelStep - 1) / kLabelStep) * kLabelStep;
   plan.labels = (range + plan.step - 1) / plan.step + 1;
   const int32_t last = plan.Disparity(plan.labels - 1);
   const int32_t farthest = -plan.low > last ? -plan.low : last;
@@ -74,6 +86,10 @@ Rect TileOf(const EstimatePlan& plan, int32_t index) {
   const int32_t y = TileBegin(plan.height, plan.rows, row);
   return {x, y, TileBegin(plan.width, plan.columns, column + 1) - x,
           TileBegin(plan.height, plan.rows, row + 1) - y};
+}
+
+Rect RegionOf(const EstimatePlan& plan, int32_t index) {
+  return Widened(plan, TileOf(plan, index), plan.repairs ? kRepairMargin : kTileMargin);
 }
 
 Rect Widened(const EstimatePlan& plan, const Rect& rect, int32_t margin) {

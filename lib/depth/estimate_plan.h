@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "starfocus/depth.h"
 
@@ -14,10 +15,13 @@ namespace starfocus {
 
 // Tiles are half to one and a half times this wide and high. What lies around a tile decides on its
 // pixels, too: paths that begin further away hardly matter.
-inline constexpr int32_t kTileSide = 256;
+inline constexpr int32_t kTileSide = 256, kMostTileSide = 3 * kTileSide / 2;
 inline constexpr int32_t kTileMargin = 32;
+// What a given map says is enough nearer by.
+inline constexpr int32_t kRepairMargin = 12;
 
-inline constexpr int32_t kMostLabels = 128;
+inline constexpr int32_t kLabelStep = 1 << (kDisparityBits - 1);  // half a pixel
+inline constexpr int32_t kMostLabels = 129;
 inline constexpr int32_t kMostSideViews = SF_MAX_VIEWS - 1;
 
 // A captured view beside the centre; its position in halves of a unit.
@@ -28,7 +32,7 @@ struct SideView {
 
 struct EstimatePlan {
   int32_t width, height;
-  int32_t low, step;  // disparity of label 0 and between labels, kDisparityBits
+  int32_t low, step;  // disparity of label 0 and between labels, kDisparityBits; whole half pixels
   int32_t labels;
   int32_t reach;        // pixels that a disparity moves by at most, and one
   int32_t arms, rings;  // side views: arms in the order of their angles, of the outer ring first
@@ -40,6 +44,10 @@ struct EstimatePlan {
   int32_t side_views() const { return arms * rings; }
   // Label l's disparity.
   int32_t Disparity(int32_t l) const { return low + l * step; }
+  // The labels after which a view's moves are by the same part of a pixel again: 1, 2 or 4.
+  int32_t Phases(const SideView& view) const;
+  // Those of all side views.
+  int32_t AllPhases() const;
 };
 
 EstimatePlan MakePlan(const sf_depth_config& config);
@@ -50,6 +58,8 @@ EstimatePlan CoarsePlan(const EstimatePlan& plan);
 
 // The part of the picture that tile `index` of columns * rows is.
 Rect TileOf(const EstimatePlan& plan, int32_t index);
+// What is swept for it: the tile and what lies around.
+Rect RegionOf(const EstimatePlan& plan, int32_t index);
 // The rectangle with `margin` more on all sides, as far as the picture goes.
 Rect Widened(const EstimatePlan& plan, const Rect& rect, int32_t margin);
 
@@ -57,9 +67,7 @@ Rect Widened(const EstimatePlan& plan, const Rect& rect, int32_t margin);
 inline int32_t MoveAcross(const SideView& view, int32_t d) { return -view.u2 * d; }
 inline int32_t MoveDown(const SideView& view, int32_t d) { return -view.v2 * d; }
 // The same in whole pixels; halves round towards zero, so that mirrored moves stay mirrored.
-inline int32_t WholeMove(int32_t move) {
-  return move >= 0 ? (move + 63) >> 7 : -((63 - move) >> 7);
-}
+inline int32_t WholeMove(int32_t move) { return (move + 63 + (move < 0 ? 1 : 0)) >> 7; }
 
 }  // namespace starfocus
 

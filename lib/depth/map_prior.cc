@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lib/base/fixed.h"
+#include "lib/depth/swept.h"
 #include "simd/disparities.h"
 #include "simd/paths.h"
 
@@ -13,7 +14,7 @@ namespace {
 // Labels this near to a trusted disparity are its own, kDisparityBits.
 constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
 
-// Sets the prior of one pixel by itself: nothing for the labels of its disparity.
+// Enters the prior of one pixel by itself: nothing for the labels of its disparity.
 void SeedPrior(const EstimatePlan& plan, int32_t d, size_t places, uint8_t* prior) {
   std::fill_n(prior, places, simd::kMostPrior);
   if (d == simd::kNoSurface) return;
@@ -36,45 +37,73 @@ void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* tr
   const size_t places = simd::PathLabels(static_cast<size_t>(plan.labels));
   const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
   const size_t row_places = width * places;
+  // Spreads the prior of a row, along it in direction `step`.
+  const auto spread = [&](size_t y, bool goes_on, ptrdiff_t step, ptrdiff_t from) {
+    uint8_t* prior = tile->prior + y * row_places;
+    const ptrdiff_t before = from * static_cast<ptrdiff_t>(row_places);
+    const uint8_t* swept = tile->swept + (region.y + static_cast<ptrdiff_t>(y) + from) * plan.width;
+    ForRuns(plan, tile->swept, region.y + static_cast<int32_t>(y), region.x,
+            region.x + region.width, [&](int32_t begin, int32_t end) {
+              // What was not swept tells nothing.
+              for (int32_t x = begin; goes_on && x < end; ++x) {
+                if (swept[x] != 0) continue;
+                std::fill_n(prior + before + (x - region.x) * static_cast<ptrdiff_t>(places),
+                            places, simd::kMostPrior);
+              }
+              uint8_t* first =
+                  prior + static_cast<size_t>((step > 0 ? begin : end - 1) - region.x) * places;
+              kernels.SpreadPrior({first, goes_on ? first + before : nullptr, places, step,
+                                   static_cast<size_t>(end - begin)});
+            });
+  };
   for (size_t y = 0; y < height; ++y) {
     uint8_t* prior = tile->prior + y * row_places;
-    const size_t from = (static_cast<size_t>(region.y) + y) * static_cast<size_t>(plan.width) +
-                        static_cast<size_t>(region.x);
-    for (size_t x = 0; x < width; ++x) {
-      SeedPrior(plan, trusted[from + x], places, prior + x * places);
-    }
+    const auto row = static_cast<size_t>(region.y) + y;
+    const int16_t* disparity = trusted + row * static_cast<size_t>(plan.width);
+    ForRuns(plan, tile->swept, static_cast<int32_t>(row), region.x, region.x + region.width,
+            [&](int32_t begin, int32_t end) {
+              for (int32_t x = begin; x < end; ++x) {
+                SeedPrior(plan, disparity[x], places,
+                          prior + static_cast<size_t>(x - region.x) * places);
+              }
+            });
     // Forwards along this row by what lies above, and backwards by the row alone.
-    const uint8_t* above = y > 0 ? prior - row_places : nullptr;
-    kernels.SpreadPrior({prior, above, places, 1, width});
-    kernels.SpreadPrior({prior + row_places - places, nullptr, places, -1, width});
+    spread(y, y > 0, 1, -1);
+    spread(y, false, -1, 0);
   }
   for (size_t y = height; y-- > 0;) {
-    uint8_t* last = tile->prior + (y + 1) * row_places - places;
-    const uint8_t* below = y + 1 < height ? last + row_places : nullptr;
-    kernels.SpreadPrior({last, below, places, -1, width});
-    kernels.SpreadPrior({tile->prior + y * row_places, nullptr, places, 1, width});
+    spread(y, y + 1 < height, -1, 1);
+    spread(y, false, 1, 0);
+    ForRuns(plan, tile->swept, region.y + static_cast<int32_t>(y), region.x,
+            region.x + region.width, [&](int32_t begin, int32_t end) {
+              const size_t at = y * row_places + static_cast<size_t>(begin - region.x) * places;
+              kernels.AddPrior(tile->prior + at, static_cast<size_t>(end - begin) * places,
+                               tile->cost + at);
+            });
   }
-  kernels.AddPrior(tile->prior, height * row_places, tile->cost);
 }
 
 void WeighEvidence(const EstimatePlan& plan, const Rect& region, const Rect& tile_rect,
                    const TileMemory& tile, EstimateMemory* memory) {
   const size_t places = simd::PathLabels(static_cast<size_t>(plan.labels));
+  const auto weigh = [&](int32_t x, int32_t y) {
+    const size_t at =
+        static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
+    const int32_t given = memory->given[at];
+    memory->evidence[at] = 0;
+    if (given == simd::kNoSurface) return;
+    const size_t pixel = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width) +
+                         static_cast<size_t>(x - region.x);
+    const uint8_t* cost = tile.cost + pixel * places;
+    const uint8_t* prior = tile.prior + pixel * places;
+    const int32_t was = LabelOf(plan, given), is = LabelOf(plan, memory->second[at]);
+    memory->evidence[at] = static_cast<int16_t>((cost[was] - prior[was]) - (cost[is] - prior[is]));
+  };
   for (int32_t y = tile_rect.y; y < tile_rect.y + tile_rect.height; ++y) {
-    for (int32_t x = tile_rect.x; x < tile_rect.x + tile_rect.width; ++x) {
-      const size_t at =
-          static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
-      const int32_t given = memory->given[at];
-      memory->evidence[at] = 0;
-      if (given == simd::kNoSurface) continue;
-      const size_t pixel = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width) +
-                           static_cast<size_t>(x - region.x);
-      const uint8_t* cost = tile.cost + pixel * places;
-      const uint8_t* prior = tile.prior + pixel * places;
-      const int32_t was = LabelOf(plan, given), is = LabelOf(plan, memory->second[at]);
-      memory->evidence[at] =
-          static_cast<int16_t>((cost[was] - prior[was]) - (cost[is] - prior[is]));
-    }
+    ForRuns(plan, tile.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
+            [&](int32_t begin, int32_t end) {
+              for (int32_t x = begin; x < end; ++x) weigh(x, y);
+            });
   }
 }
 

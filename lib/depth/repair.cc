@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/depth/repair.h"
 
-#include <cmath>
-#include <cstdlib>
+#include <algorithm>
 
 #include "lib/base/fixed.h"
 #include "lib/depth/repair_map.h"
 #include "lib/depth/sweep.h"
+#include "lib/depth/swept.h"
 
 namespace starfocus {
 namespace {
@@ -21,12 +21,20 @@ const RepairJob& JobOf(const void* data) { return *static_cast<const RepairJob*>
 // Converts a tile of the given map.
 void ReadTile(const void* data, int32_t index, int32_t) {
   const Sweep& sweep = JobOf(data).sweep;
-  ReadGiven(sweep.plan, sweep.light_field, TileOf(sweep.plan, index), sweep.memory->given);
+  ReadGiven(sweep.plan, sweep.light_field, TileOf(sweep.plan, index), sweep.memory);
 }
 
 void TrustTile(const void* data, int32_t index, int32_t) {
   const Sweep& sweep = JobOf(data).sweep;
-  FindTrusted(sweep.plan, TileOf(sweep.plan, index), sweep.memory->given, sweep.memory->trusted);
+  const Rect tile = TileOf(sweep.plan, index);
+  FindTrusted(sweep.plan, tile, sweep.memory->given, sweep.memory->trusted);
+  FindDoubts(sweep.plan, sweep.light_field, tile, sweep.memory);
+}
+
+void MarkTile(const void* data, int32_t index, int32_t worker) {
+  const Sweep& sweep = JobOf(data).sweep;
+  FindSwept(sweep.plan, TileOf(sweep.plan, index), sweep.memory->workers[worker].cost,
+            sweep.memory);
 }
 
 void SweepFirst(const void* data, int32_t index, int32_t worker) {
@@ -42,6 +50,7 @@ void ValueTile(const void* data, int32_t index, int32_t) {
   const Sweep& sweep = JobOf(data).sweep;
   const Rect tile = TileOf(sweep.plan, index);
   EvenOut(sweep.plan, sweep.light_field.views[0], tile, *sweep.memory, sweep.memory->first);
+  if (sweep.rates) RateUnswept(sweep.plan, sweep.light_field.views[0], tile, sweep.memory);
   sweep.memory->counts[index] = CountTile(sweep.plan, tile, *sweep.memory);
 }
 
@@ -52,21 +61,24 @@ void WriteTile(const void* data, int32_t index, int32_t) {
   const Rect tile = TileOf(sweep.plan, index);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const auto row = static_cast<size_t>(y);
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const auto column = static_cast<size_t>(x);
-      constexpr float kPixel = 1.0F / (1 << kDisparityBits);
-      const bool changes = IsChanged(sweep.plan, *sweep.memory, x, y);
-      const size_t at = row * static_cast<size_t>(sweep.plan.width) + column;
-      output.disparity[row * output.stride + column] =
-          changes ? output.Clamped(static_cast<float>(sweep.memory->first[at]) * kPixel)
-                  : GivenAt(sweep.light_field, y)[column];
-      if (output.confidence == nullptr) continue;
-      // What was gainsaid too weakly to be changed nobody is sure of.
-      const bool doubted = !changes && Differs(*sweep.memory, at);
-      output.confidence[row * output.confidence_stride + column] =
-          doubted ? 0 : sweep.memory->certainty[at];
-    }
+    std::copy_n(GivenAt(sweep.light_field, y) + tile.x, tile.width,
+                output.disparity + row * output.stride + tile.x);
+    if (output.confidence == nullptr) continue;
+    std::copy_n(sweep.memory->certainty + row * static_cast<size_t>(sweep.plan.width) + tile.x,
+                tile.width, output.confidence + row * output.confidence_stride + tile.x);
   }
+  ForSwept(sweep.plan, sweep.memory->swept, tile, [&](int32_t x, int32_t y) {
+    const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
+    const size_t at = row * static_cast<size_t>(sweep.plan.width) + column;
+    if (IsChanged(sweep.plan, *sweep.memory, x, y)) {
+      constexpr float kPixel = 1.0F / (1 << kDisparityBits);
+      output.disparity[row * output.stride + column] =
+          output.Clamped(static_cast<float>(sweep.memory->first[at]) * kPixel);
+    } else if (output.confidence != nullptr && Differs(*sweep.memory, at)) {
+      // What was gainsaid too weakly to be changed nobody is sure of.
+      output.confidence[row * output.confidence_stride + column] = 0;
+    }
+  });
 }
 
 }  // namespace
@@ -74,8 +86,9 @@ void WriteTile(const void* data, int32_t index, int32_t) {
 sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
                  const simd::DepthKernels& kernels, const Runner& runner, const MapOutput& output,
                  EstimateMemory* memory) {
-  const RepairJob job = {{plan, light_field, kernels, memory}, output};
-  constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, SweepFirst,
+  const RepairJob job = {{plan, light_field, kernels, memory, output.confidence != nullptr},
+                         output};
+  constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, MarkTile, SweepFirst,
                                      SweepSecond, ValueTile, WriteTile};
   for (const JobFunction phase : kPhases) {
     if (phase == WriteTile) memory->least_evidence = LeastEvidence(plan, *memory);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/depth/repair_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
 #include "lib/depth/estimate_clean.h"
+#include "lib/depth/swept.h"
 #include "simd/disparities.h"
 
 namespace starfocus {
@@ -30,18 +32,25 @@ size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
   return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
 }
 
-bool IsTrusted(const EstimatePlan& plan, const int16_t* given, int32_t x, int32_t y) {
-  const Rect around = Widened(plan, {x, y, 1, 1}, 1);
-  int32_t low = INT16_MAX, high = INT16_MIN;
-  for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const int32_t d = given[IndexOf(plan, column, row)];
-      if (d == simd::kNoSurface) return false;
-      low = Min(low, d);
-      high = Max(high, d);
-    }
+// Disparities above, at and below each pixel of a row: the least and the largest of them.
+struct Columns {
+  int16_t low[kMostTileSide + 2], high[kMostTileSide + 2];
+
+  void Copy(int32_t from, int32_t to) {
+    low[to] = low[from];
+    high[to] = high[from];
   }
-  return high - low <= kMostSlope;
+};
+
+// Fills columns [begin, end) from the disparities `at` of a row; the next rows lie `above` before
+// and `below` behind.
+void FindColumns(const int16_t* at, ptrdiff_t above, ptrdiff_t below, int32_t begin, int32_t end,
+                 Columns* columns) {
+  for (int32_t k = begin; k < end; ++k) {
+    const int16_t up = at[k - above], here = at[k], down = at[k + below];
+    columns->low[k] = std::min(std::min(up, down), here);
+    columns->high[k] = std::max(std::max(up, down), here);
+  }
 }
 
 struct Mean {
@@ -88,41 +97,54 @@ bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, 
 }  // namespace
 
 void ReadGiven(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& tile,
-               int16_t* given) {
+               EstimateMemory* memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const float* row = GivenAt(light_field, y);
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      given[IndexOf(plan, x, y)] = std::isfinite(row[x])
-                                       ? static_cast<int16_t>(std::lrint(row[x] * kPixel))
-                                       : simd::kNoSurface;
+      const size_t at = IndexOf(plan, x, y);
+      memory->given[at] = std::isfinite(row[x]) ? static_cast<int16_t>(std::lrint(row[x] * kPixel))
+                                                : simd::kNoSurface;
+      memory->first[at] = memory->second[at] = memory->given[at];
+      memory->evidence[at] = 0;
     }
   }
 }
 
 void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
                  int16_t* trusted) {
+  Columns columns;
+  // Column 0 is the one left of the tile. Beyond the picture there are none.
+  const int32_t begin = tile.x > 0 ? 0 : 1,
+                end = tile.width + (tile.x + tile.width < plan.width ? 2 : 1);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = IndexOf(plan, x, y);
-      trusted[at] = IsTrusted(plan, given, x, y) ? given[at] : simd::kNoSurface;
+    const ptrdiff_t above = y > 0 ? plan.width : 0, below = y + 1 < plan.height ? plan.width : 0;
+    FindColumns(given + IndexOf(plan, tile.x, y) - 1, above, below, begin, end, &columns);
+    if (begin > 0) columns.Copy(1, 0);
+    if (end < tile.width + 2) columns.Copy(tile.width, tile.width + 1);
+    const int16_t* from = given + IndexOf(plan, tile.x, y);
+    int16_t* to = trusted + IndexOf(plan, tile.x, y);
+    const int16_t *low = columns.low, *high = columns.high;
+    for (int32_t k = 0; k < tile.width; ++k) {
+      const int16_t least = std::min(std::min(low[k], low[k + 2]), low[k + 1]);
+      const int16_t most = std::max(std::max(high[k], high[k + 2]), high[k + 1]);
+      const bool smooth = (least != simd::kNoSurface) & (most <= least + kMostSlope);
+      to[k] = smooth ? from[k] : simd::kNoSurface;
     }
   }
 }
 
 void EvenOut(const EstimatePlan& plan, const sf_plane& centre, const Rect& tile,
              const EstimateMemory& memory, int16_t* evened) {
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = IndexOf(plan, x, y);
-      const int32_t given = memory.given[at], trusted = memory.trusted[at];
-      evened[at] = static_cast<int16_t>(given);
-      if (trusted != simd::kNoSurface && std::abs(trusted - memory.second[at]) <= kSame) continue;
-      const int32_t own = WithoutStray(plan, centre, memory.second, x, y);
-      const int32_t mean = MeanOfSurface(plan, memory, x, y, own);
-      if (given != simd::kNoSurface && std::abs(given - mean) <= kSame) continue;
-      evened[at] = static_cast<int16_t>(mean);
-    }
-  }
+  ForSwept(plan, memory.swept, tile, [&](int32_t x, int32_t y) {
+    const size_t at = IndexOf(plan, x, y);
+    const int32_t given = memory.given[at], trusted = memory.trusted[at];
+    evened[at] = static_cast<int16_t>(given);
+    if (trusted != simd::kNoSurface && std::abs(trusted - memory.second[at]) <= kSame) return;
+    const int32_t own = WithoutStray(plan, centre, memory.second, x, y);
+    const int32_t mean = MeanOfSurface(plan, memory, x, y, own);
+    if (given != simd::kNoSurface && std::abs(given - mean) <= kSame) return;
+    evened[at] = static_cast<int16_t>(mean);
+  });
 }
 
 bool Differs(const EstimateMemory& memory, size_t at) {
@@ -132,13 +154,11 @@ bool Differs(const EstimateMemory& memory, size_t at) {
 
 TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory) {
   TileCount count = {};
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = IndexOf(plan, x, y);
-      count.rough += memory.trusted[at] == simd::kNoSurface;
-      count.differs += Differs(memory, at);
-    }
-  }
+  ForSwept(plan, memory.swept, tile, [&](int32_t x, int32_t y) {
+    const size_t at = IndexOf(plan, x, y);
+    count.rough += memory.trusted[at] == simd::kNoSurface;
+    count.differs += Differs(memory, at);
+  });
   return count;
 }
 

@@ -16,18 +16,20 @@ void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker)
   TileMemory& tile = memory.workers[worker];
   const Rect tile_rect = TileOf(plan, index);
   if (tile_rect.width == 0 || tile_rect.height == 0) return;
-  const Rect region = Widened(plan, tile_rect, kTileMargin);
-  LoadPatches(plan, sweep.light_field, region, &tile.patches);
+  const Rect region = RegionOf(plan, index);
+  LoadPatches(plan, sweep.light_field, region, sweep.kernels, &tile.patches);
+  FindMoves(plan, tile.patches, tile.moves);
   if (first) {
     MarkOutside(plan, &tile.patches);
   } else {
-    MarkHidden(plan, memory.first, &tile.patches);
+    MarkHidden(plan, memory.first, region, &tile.patches);
   }
   MeasureCosts(plan, region, seeing, sweep.kernels, &tile);
   if (plan.repairs) AddMapPrior(plan, region, memory.trusted, sweep.kernels, &tile);
   AddAllPaths(plan, region, sweep.kernels, &tile);
   ChooseDisparities(plan, region, tile_rect, sweep.kernels, tile,
-                    first ? memory.first : memory.second, first ? nullptr : memory.certainty);
+                    first ? memory.first : memory.second,
+                    first || !sweep.rates ? nullptr : memory.certainty);
   if (plan.repairs && !first) WeighEvidence(plan, region, tile_rect, tile, &memory);
 }
 

@@ -13,6 +13,7 @@ struct Sweep {
   const sf_light_field& light_field;
   const simd::DepthKernels& kernels;
   EstimateMemory* memory;
+  bool rates;  // whether anybody asks for certainty
 };
 
 // Fills memory->first of tile `index`, by the views on one side of each pixel. A JobFunction, whose

@@ -10,18 +10,22 @@
 #include <string>
 #include <vector>
 
+#include "simd/depth_kernels.h"
 #include "simd/kernels.h"
+#include "tests/simd/depth_cases.h"
 #include "tests/simd/kernel_cases.h"
 
 namespace {
 
+using starfocus::simd::DepthKernels;
 using starfocus::simd::Kernels;
 
-void Register(const test::KernelCase& one, const Kernels* kernels) {
+template <class Case, class Table>
+void Register(const Case& one, const Table* kernels) {
   const std::string name = std::string(one.kernel) + "/" + kernels->name;
   benchmark::RegisterBenchmark(name.c_str(), [kernels, &one](benchmark::State& state) {
     test::Draw draw = test::Draw::ForBench();
-    test::KernelCall call(&draw);
+    test::CallOf<Table> call(&draw);
     one.make(&draw, &call);
     // Sums grow with every pass; their overflow changes no time.
     for (auto _ : state) benchmark::DoNotOptimize(call.run(*kernels));
@@ -58,6 +62,14 @@ int main(int argc, char** argv) {
   tables.push_back(&starfocus::simd::ReferenceKernels());
   for (const test::KernelCase& one : test::kKernelCases) {
     for (const Kernels* kernels : tables) Register(one, kernels);
+  }
+  std::vector<const DepthKernels*> depth_tables;
+  while (const auto* kernels = starfocus::simd::DepthKernelsOfTarget(depth_tables.size())) {
+    depth_tables.push_back(kernels);
+  }
+  depth_tables.push_back(&starfocus::simd::ReferenceDepthKernels());
+  for (const test::DepthCase& one : test::kDepthCases) {
+    for (const DepthKernels* kernels : depth_tables) Register(one, kernels);
   }
   for (const Kernels* kernels : tables) starfocus::bench::RegisterLineScan(kernels);
   starfocus::bench::RegisterDeblocking();

@@ -128,6 +128,22 @@ TEST_CASE("repair: pictures of one colour gainsay nothing") {
   CHECK(RepairField(field, given, ConfigOf(field, kLow, kHigh)).disparity == given);
 }
 
+TEST_CASE("repair: what nothing gainsays is as sure as the picture is different a pixel away") {
+  const PlaneScene scene;
+  PlaneField field = RenderPlanes(scene);
+  // 7 gray levels across in each colour, and 4 down.
+  for (auto& view : field.views) {
+    for (int at = 0; at < int(view.size()); ++at) {
+      const int x = at / 3 % field.width, y = at / 3 / field.width;
+      view[size_t(at)] = uint8_t(100 + 7 * (x % 2) + 4 * (y % 2));
+    }
+  }
+  const std::vector<float> still(size_t(scene.width * scene.height), 0.0F);
+  const Repaired repaired = RepairField(field, still, ConfigOf(field, kLow, kHigh));
+  CHECK(repaired.disparity == still);
+  for (const uint8_t sure : repaired.confidence) REQUIRE(int(sure) == 4 * (3 * 7 + 3 * 4) / 2);
+}
+
 TEST_CASE("repair: what is unknown gets the disparity that the views show") {
   PlaneScene scene;
   const PlaneField field = RenderPlanes(scene);

@@ -17,7 +17,6 @@ namespace {
 using starfocus::simd::BestDepthKernels;
 using starfocus::simd::DepthKernels;
 using starfocus::simd::kNoLabel;
-using starfocus::simd::MatchRow;
 using starfocus::simd::PathLabels;
 using starfocus::simd::PathRow;
 using starfocus::simd::ReferenceDepthKernels;
@@ -47,20 +46,57 @@ TEST_CASE("depth kernels: every target gives the bits of the reference and write
   }
 }
 
-TEST_CASE("depth kernels: differences of pixels between pixels, by hand") {
-  const uint8_t view[] = {10, 20, 99, 30, 50, 99}, centre[] = {25, 0}, black[6] = {};
-  MatchRow row = {{view, black, black}, 3, {centre, black, black}, 64, 32};
-  uint8_t difference[16];
-  // Down a quarter: 15, 27.5 (28) and 99; across a half: 21.5 (22) and 63.5 (64, cut off at 60).
-  ReferenceDepthKernels().MatchView(row, 2, difference);
-  CHECK(int(difference[0]) == 3);
+TEST_CASE("depth kernels: samples between pixels, and how much pixels differ, by hand") {
+  const uint8_t row[] = {10, 20, 99}, next[] = {30, 50, 99};
+  uint8_t sample[16];
+  // Down a quarter: 15, 27.5 (28) and 99; across a half: 21.5 (22) and 63.5 (64).
+  ReferenceDepthKernels().InterpolateRow(row, next, 64, 32, 2, sample);
+  CHECK(int(sample[0]) == 22);
+  CHECK(int(sample[1]) == 64);
+  // Two pixels, in planes.
+  const uint8_t view[] = {22, 64, 5, 0, 0, 0}, centre[] = {25, 0, 3, 0, 1, 0};
+  uint8_t difference[2];
+  starfocus::simd::reference::MatchView(centre, view, 2, 2, difference);
+  CHECK(int(difference[0]) == 3 + 2 + 1);
   CHECK(int(difference[1]) == 60);
 }
 
+TEST_CASE("depth kernels: what labels cost, by hand") {
+  // One pixel at 100, four views, two labels.
+  const uint8_t planes[3 * 3] = {100, 107, 160, 100, 100, 100, 100, 100, 100};
+  // The second label of the views on one side, 0 and 1, is seen at 107; others at 160.
+  const starfocus::simd::ViewMove moves[] = {{0, 0}, {2, 0}, {2, 0}, {2, 0},
+                                             {1, 1}, {1, 0}, {2, 0}, {2, 0}};
+  uint8_t cost[16];
+  starfocus::simd::LabelRow costs = {};
+  costs.pixels = planes;
+  costs.plane = 3;
+  costs.moves = moves;
+  costs.labels = 2;
+  costs.arms = 4;
+  costs.rings = 1;
+  costs.one_side = true;
+  ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
+  CHECK(int(cost[0]) == 2 * 60);
+  CHECK(int(cost[1]) == 4 * 7);
+  costs.one_side = false;
+  ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
+  CHECK(int(cost[1]) == 7 + 7 + 60 + 60);
+  // The first view does not see the second label: the one opposite stands in for it.
+  uint8_t hidden[] = {1, 2};
+  costs.hidden = hidden;
+  ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
+  CHECK(int(cost[1]) == 60 + 7 + 60 + 60);
+  // Not when only the first one is hidden there.
+  hidden[1] = 1;
+  ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
+  CHECK(int(cost[1]) == 7 + 7 + 60 + 60);
+}
+
 TEST_CASE("depth kernels: who sees a pixel stands in for who doesn't, by hand") {
-  const int16_t highest_a[] = {5, 6, 5, 6}, highest_b[] = {5, 5, 6, 6};
+  const uint8_t hidden_a[] = {5, 6, 5, 6}, hidden_b[] = {5, 5, 6, 6};
   uint8_t a[16] = {1, 2, 3, 4}, b[16] = {11, 12, 13, 14};
-  ReferenceDepthKernels().StandIn(highest_a, highest_b, 5, 4, a, b);
+  starfocus::simd::reference::StandIn(hidden_a, hidden_b, 5, 4, a, b);
   const int as[] = {1, 12, 3, 48}, bs[] = {11, 12, 3, 48};
   for (int n = 0; n < 4; ++n) {
     CHECK(int(a[n]) == as[n]);
@@ -70,11 +106,11 @@ TEST_CASE("depth kernels: who sees a pixel stands in for who doesn't, by hand") 
 
 TEST_CASE(
     "depth kernels: a hidden view counts little, and more where none sees the pixel, by hand") {
-  const int16_t rows[4][4] = {{5, 6, 6, 6}, {5, 6, 6, 5}, {5, 5, 6, 5}, {5, 6, 6, 5}};
+  const uint8_t rows[4][4] = {{5, 6, 6, 6}, {5, 6, 6, 5}, {5, 5, 6, 5}, {5, 6, 6, 5}};
   uint8_t values[4][16] = {{60, 60, 60, 3}, {50, 50, 50, 50}, {40, 40, 40, 40}, {2, 2, 2, 2}};
-  const int16_t* highest[] = {rows[0], rows[1], rows[2], rows[3]};
+  const uint8_t* hidden[] = {rows[0], rows[1], rows[2], rows[3]};
   uint8_t* differences[] = {values[0], values[1], values[2], values[3]};
-  ReferenceDepthKernels().LimitHidden(highest, 5, 4, 4, differences);
+  starfocus::simd::reference::LimitHidden(hidden, 5, 4, 4, differences);
   const int expected[4][4] = {{60, 18, 27, 3}, {50, 18, 27, 50}, {40, 40, 27, 40}, {2, 2, 2, 2}};
   for (int k = 0; k < 4; ++k) {
     for (int n = 0; n < 4; ++n) CHECK(int(values[k][n]) == expected[k][n]);
@@ -102,14 +138,13 @@ TEST_CASE("depth kernels: costs of views on one side, and of all, by hand") {
   const uint8_t* rows[16];
   for (int k = 0; k < 16; ++k) rows[k] = values + k;
   uint8_t cost[16];
-  const DepthKernels& kernels = ReferenceDepthKernels();
-  kernels.LeastSide(rows, 8, 2, 1, cost);
+  starfocus::simd::reference::LeastSide(rows, 8, 2, 1, cost);
   CHECK(int(cost[0]) == 42 * 171 / 256);  // arms 4, 5 and 6 of both rings
-  kernels.LeastSide(rows + 4, 8, 1, 1, cost);
+  starfocus::simd::reference::LeastSide(rows + 4, 8, 1, 1, cost);
   CHECK(int(cost[0]) == 2 * 30 * 171 / 256);
-  kernels.LeastSide(rows + 3, 4, 1, 1, cost);
+  starfocus::simd::reference::LeastSide(rows + 3, 4, 1, 1, cost);
   CHECK(int(cost[0]) == 3 * 15 * 171 / 256);
-  kernels.MeanCost(rows + 12, 4, 1, cost);
+  starfocus::simd::reference::MeanCost(rows + 12, 4, 1, cost);
   CHECK(int(cost[0]) == 72);
 }
 
@@ -120,7 +155,7 @@ TEST_CASE("depth kernels: a path goes on from the one before, by hand") {
   for (size_t l = kLabels; l < kPlaces; ++l) before[1 + l] = kNoLabel;
   const int16_t before_least = 7, jump = 100;
   int16_t path[kPlaces], least = 0, sum[kPlaces] = {10, 20, 30, 40};
-  const PathRow row = {cost, before + 1, &before_least, &jump, path, &least, sum};
+  const PathRow row = {cost, before + 1, &before_least, &jump, path, &least, sum, true};
   ReferenceDepthKernels().AddPaths(row, kLabels, 1, 1);
   // From label 0 at no cost; to label 1 by a slope of 24; from 3 at 26; to 2 by 26 + 24.
   const int expected[kLabels] = {1, 2 + 24, 3 + 50, 4 + 26};

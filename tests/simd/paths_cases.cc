@@ -6,6 +6,8 @@ namespace test::depth_cases {
 namespace {
 
 using starfocus::simd::DepthKernels;
+using starfocus::simd::kLargestJump;
+using starfocus::simd::kLeastJump;
 using starfocus::simd::kNoLabel;
 using starfocus::simd::kPadding;
 using starfocus::simd::kSlopeCost;
@@ -34,8 +36,8 @@ struct Line {
   size_t first() const { return step > 0 ? 0 : count - 1; }
 };
 
-// What the path of a row goes on from: nothing, the row before, or this row's pixel before.
-enum class From { kNothing, kRowBefore, kPixelBefore };
+// What the path of a row goes on from: the row before, or this row's pixel before.
+enum class From { kRowBefore, kPixelBefore };
 
 }  // namespace
 
@@ -46,10 +48,10 @@ void AddPaths(Draw* draw, DepthCall* call) {
   line.step = draw->Int(0, 1) == 0 ? 1 : -1;
   const size_t labels = line.labels, count = line.count, places = line.places();
   const ptrdiff_t step = line.step;
-  const From from = draw->timed() ? From::kRowBefore : From(draw->Int(0, 2));
+  const From from = draw->timed() ? From::kRowBefore : From(draw->Int(0, 1));
   std::vector<uint8_t> costs(count * places);
   for (uint8_t& cost : costs) cost = uint8_t(draw->Int(0, kMostCost));
-  std::vector<int16_t> jumps(count), before(1 + count * places), before_least(count);
+  std::vector<int16_t> jumps(count), before(1 + count * places, kNoLabel), before_least(count);
   for (int16_t& jump : jumps) jump = int16_t(draw->Int(kSlopeCost, kMostJump));
   for (size_t k = 0; k < count; ++k) {
     before_least[k] = FillPath(labels, draw, &before[1 + k * places]);
@@ -61,13 +63,15 @@ void AddPaths(Draw* draw, DepthCall* call) {
   int16_t* path = call->Output<int16_t>("path", 1 + (count + 2) * places) + 1 + places;
   int16_t* least = call->Output<int16_t>("least", count + 2) + 1;
   int16_t* sum = call->Output<int16_t>("sum", count * places);
-  for (size_t k = 0; k < count * places; ++k) sum[k] = int16_t(draw->Int(0, 30000));
+  row.adds = draw->timed() || draw->Int(0, 3) > 0;
+  for (size_t k = 0; k < count * places; ++k) {
+    sum[k] = k % places < labels ? int16_t(draw->Int(0, 30000)) : kNoLabel;
+  }
+  for (size_t k = 0; k <= count + 2; ++k)
+    path[ptrdiff_t(k * places) - ptrdiff_t(places) - 1] = kNoLabel;
   call->Result(path, count * places);
   call->Result(least, count);
-  for (size_t k = 0; k < count; ++k) {
-    call->Result(sum + k * places, labels);
-    call->Free(sum + k * places + labels, places - labels);
-  }
+  call->Result(sum, count * places);
   row.path = path + line.first() * places;
   row.least = least + line.first();
   row.sum = sum + line.first() * places;
@@ -86,18 +90,45 @@ void AddPaths(Draw* draw, DepthCall* call) {
   };
 }
 
+void FindJumps(Draw* draw, DepthCall* call) {
+  const size_t count = draw->Length(1, 70, 320), plane = count + draw->Size(0, 9, 0);
+  const int least = draw->Int(0, 1) == 0 ? 0 : 240;
+  const auto pixels = [&] {
+    std::vector<uint8_t> planes(2 * plane + count);
+    for (uint8_t& sample : planes) sample = uint8_t(draw->Int(least, 255));
+    return call->Input("pixels", planes, kPadding);
+  };
+  const uint8_t* here = pixels();
+  const uint8_t* before = pixels();
+  int16_t* jump = call->Output<int16_t>("jump", count);
+  call->Result(jump, count);
+  call->run = [=](const DepthKernels& kernels) -> uint64_t {
+    kernels.FindJumps(here, before, plane, count, jump);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    for (size_t n = 0; n < count; ++n) {
+      ++(*met)[jump[n] == kLeastJump ? "other colours" : "alike"];
+      if (jump[n] < kLeastJump || jump[n] > kLargestJump) return false;
+    }
+    return true;
+  };
+}
+
 void ChooseLabels(Draw* draw, DepthCall* call) {
   const size_t labels = draw->Length(1, kMostLabels, kTimedLabels);
   const size_t count = draw->Size(1, 5, 64), places = PathLabels(labels);
   const int most = draw->Int(0, 2) == 0 ? 3 : draw->Int(0, 1) == 0 ? 300 : 12000;
   std::vector<int16_t> sums(count * places);
-  for (int16_t& sum : sums) sum = int16_t(draw->Int(0, most));
+  for (size_t k = 0; k < sums.size(); ++k) {
+    sums[k] = k % places < labels ? int16_t(draw->Int(0, most)) : kNoLabel;
+  }
   const int16_t* sum = call->Input("sum", sums, kPadding);
-  for (size_t n = 0; n < count; ++n) call->Ignore(sum + n * places + labels, places - labels);
   int16_t* choice = call->Output<int16_t>("choice", count);
-  uint8_t* margin = call->Output<uint8_t>("margin", count);
+  const bool rates = draw->timed() || draw->Int(0, 3) > 0;
+  uint8_t* margin = rates ? call->Output<uint8_t>("margin", count) : nullptr;
   call->Result(choice, count);
-  call->Result(margin, count);
+  if (rates) call->Result(margin, count);
   call->run = [=](const DepthKernels& kernels) -> uint64_t {
     kernels.ChooseLabels(sum, labels, count, choice, margin);
     return 0;
@@ -107,7 +138,7 @@ void ChooseLabels(Draw* draw, DepthCall* call) {
       const int label = (choice[n] + 32) >> 6;
       if (label < 0 || label >= int(labels)) return false;
       ++(*met)[choice[n] % 64 == 0 ? "at a label" : "between labels"];
-      ++(*met)[margin[n] == 255 ? "sure" : "not sure"];
+      if (rates) ++(*met)[margin[n] == 255 ? "sure" : "not sure"];
     }
     return true;
   };

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kSmallWidth = 256;      // of the pictures that a range is found in
 constexpr int kPhases = 3;            // sets of jobs of an estimate
-constexpr int kRepairPhases = 6;      // and of a repair
+constexpr int kRepairPhases = 7;      // and of a repair
 constexpr int kLeastConfidence = 48;  // what less is sure of strays at edges and on flat walls
 constexpr double kStrays = 0.0005;    // the share of pixels at either end that may be wrong
 
@@ -32,7 +32,7 @@ struct ShownRunner {
   }
 };
 
-// Estimates the map, or repairs the given one unless that is null.
+// Estimates the map, or repairs the given one unless that is null. `confidence` may be null.
 Error MakeMap(const std::string& where, const std::vector<Image>& views, const FloatMap* given,
               const DisparityRange& range, ShownRunner* runner, FloatMap* map,
               std::vector<uint8_t>* confidence) {
@@ -60,14 +60,15 @@ Error MakeMap(const std::string& where, const std::vector<Image>& views, const F
     map->width = centre.width;
     map->height = centre.height;
     map->values.resize(pixels);
-    confidence->resize(pixels);
+    if (confidence != nullptr) confidence->resize(pixels);
     if (given != nullptr) {
       light_field.disparity = given->values.data();
       light_field.disparity_stride = sizeof(float) * width;
     }
     const auto make = given == nullptr ? sf_estimate_disparity : sf_repair_disparity;
     status = make(&config, &light_field, map->values.data(), sizeof(float) * width,
-                  confidence->data(), width, workspace.get(), bytes, ShownRunner::Run, runner);
+                  confidence == nullptr ? nullptr : confidence->data(), width, workspace.get(),
+                  bytes, ShownRunner::Run, runner);
   }
   if (status == SF_OK) return "";
   return Error::Internal(where, "views whose disparities it can make", sf_status_string(status));
@@ -156,7 +157,8 @@ Error RepairDisparity(const std::string& folder, int threads, LightField* light_
   ShownRunner runner{ThreadRunner(threads), Progress("repairing disparities", kRepairPhases)};
   FloatMap map;
   std::vector<uint8_t> sure;
-  const Error error = MakeMap(folder, light_field->views, &given, range, &runner, &map, &sure);
+  const Error error = MakeMap(folder, light_field->views, &given, range, &runner, &map,
+                              confidence == nullptr ? nullptr : &sure);
   if (!error.empty()) return error;
   if (confidence != nullptr) Show(sure, light_field->views[0], confidence);
   light_field->disparity = std::move(map);

@@ -23,9 +23,9 @@ typedef struct sf_depth_config {
   int32_t views;        /**< captured views: 5, 9 or 17 (see sf_view_position), 1 as well of a
                              repair; default 5 */
   float disparity_min;  /**< disparities are looked for from here */
-  float disparity_max;  /**< to here, both within +-SF_MAX_DISPARITY; in steps of half a pixel, of a
-                             127th of the range if that is wider than 63.5; between two steps what
-                             fits best is found */
+  float disparity_max;  /**< to here, both within +-SF_MAX_DISPARITY; in steps of half a pixel, of
+                             a pixel or more, 128 at most, if the range is wider than 64; between
+                             two steps what fits best is found */
   int32_t max_workers;  /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
   uint32_t reserved[8]; /**< zero */
 } sf_depth_config;
@@ -33,7 +33,8 @@ typedef struct sf_depth_config {
 SF_API void sf_depth_config_init(sf_depth_config* config);
 
 /** Bytes of workspace of sf_estimate_disparity into *bytes: 5 for each pixel of the picture, and
- * for each worker up to 1.2 MB for each pixel of the range and about 20 MB. */
+ * for each worker up to 1.2 MB for each pixel of the range and about 10, 20 or 45 MB with 5, 9 or
+ * 17 views. */
 SF_API sf_status sf_estimate_size(const sf_depth_config* config, size_t* bytes);
 
 /** Estimates the disparity of each pixel of the centre view from all views: what makes them agree,
@@ -52,8 +53,8 @@ SF_API sf_status sf_estimate_disparity(const sf_depth_config* config,
                                        void* workspace, size_t bytes, sf_runner runner,
                                        void* runner_data);
 
-/** Bytes of workspace of sf_repair_disparity into *bytes: 11 for each pixel of the picture, and for
- *  each worker half as much again as sf_estimate_size has. */
+/** Bytes of workspace of sf_repair_disparity into *bytes: 12 for each pixel of the picture, and for
+ *  each worker about as much as sf_estimate_size has. */
 SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
 
 /** Repairs light_field's disparity map, whose edges lie beside those of the picture, are blurred or
@@ -63,8 +64,9 @@ SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
  *  noisy); NaN and infinite values are unknown, and get one. Every finite
  * value of the given map lies in the configured range (else SF_ERROR_DISPARITY), which may be
  * wider; SF_ERROR_ALL_INVALID when none is finite. `confidence` is 0 also where the views
- * contradict the value that was kept, but too weakly. Outputs must not overlap the given map,
- * either. */
+ * contradict the value that was kept, but too weakly; where nothing contradicts it, and no step of
+ * the map is near, it tells how much the centre view differs a pixel away, in the same unit.
+ * Outputs must not overlap the given map, either. */
 SF_API sf_status sf_repair_disparity(const sf_depth_config* config,
                                      const sf_light_field* light_field, float* disparity,
                                      size_t stride, uint8_t* confidence, size_t confidence_stride,

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/depth/swept.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "lib/base/fixed.h"
+#include "simd/disparities.h"
+#include "simd/match.h"
+
+namespace starfocus {
+namespace {
+
+// A pixel doesn't fit a side of the views whose differences, summed over R, G and B, are more than
+// this in the mean.
+constexpr int32_t kMostMisfit = 20;
+// Every other pixel in every other row is tested, and so many of the 5x5 around one must fit badly.
+constexpr int32_t kLeastMisfits = 2, kMisfitRadius = 2;
+constexpr uint8_t kMisfit = 1, kDoubt = 2;
+// Whether column or row `at` of `length` is tested: alike in a mirrored picture.
+bool IsTested(int32_t at, int32_t length) { return (std::abs(2 * at - (length - 1)) & 2) == 0; }
+
+// Returns how much a pixel differs from the view's place (x, y), in 128ths of a pixel:
+// simd::kMostDifference where the view ends before.
+int32_t Misfit(const EstimatePlan& plan, const sf_plane& view, int32_t x, int32_t y,
+               const uint8_t* pixel) {
+  const int32_t column = x >> 7, row = y >> 7, across = x & 127, down = y & 127;
+  const int32_t right = across > 0 ? 3 : 0, below = down > 0 ? 1 : 0;
+  if (column < 0 || 3 * column + right >= 3 * plan.width || row < 0 || row + below >= plan.height) {
+    return simd::kMostDifference;
+  }
+  const uint8_t* at = view.data + static_cast<size_t>(row) * view.stride + 3 * column;
+  const uint8_t* next = at + static_cast<size_t>(below) * view.stride;
+  int32_t misfit = 0;
+  for (int32_t c = 0; c < 3; ++c) {
+    const auto between = [&](const uint8_t* from) {
+      return from[c] * 128 + (from[c + right] - from[c]) * across;
+    };
+    int32_t value = between(at) * 128;
+    if (down != 0) value += (between(next) - between(at)) * down;
+    misfit += std::abs(((value + (1 << 13)) >> 14) - pixel[c]);
+  }
+  return Min(misfit, simd::kMostDifference);
+}
+
+// Whether the views on one side of pixel (x, y), whichever, show it at disparity d.
+bool Fits(const EstimatePlan& plan, const sf_light_field& light_field, int32_t x, int32_t y,
+          int32_t d) {
+  const sf_plane& centre = light_field.views[0];
+  const uint8_t* pixel = centre.data + static_cast<size_t>(y) * centre.stride + 3 * x;
+  const int32_t along = plan.arms == 4 ? 2 : 3;  // as for simd::LabelRow
+  int32_t misfit[8];
+  for (int32_t arm = 0; arm < plan.arms + along - 1; ++arm) {
+    if (arm < plan.arms) {
+      const SideView& side = plan.side[arm];
+      misfit[arm] = Misfit(plan, light_field.views[side.index], 128 * x + MoveAcross(side, d),
+                           128 * y + MoveDown(side, d), pixel);
+    }
+    if (arm < along - 1) continue;
+    int32_t sum = 0;
+    for (int32_t k = 0; k < along; ++k) sum += misfit[(arm - k) % plan.arms];
+    if (sum <= along * kMostMisfit) return true;
+  }
+  return false;
+}
+
+// How much two pixels differ, simd::kMostDifference at most.
+int32_t Apart(const uint8_t* a, const uint8_t* b) {
+  const int32_t sum = std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+  return Min(sum, simd::kMostDifference);
+}
+
+// Whether enough pixels around one that fits badly do so, too.
+bool IsGainsaid(const EstimatePlan& plan, const uint8_t* doubt, int32_t x, int32_t y) {
+  const Rect around = Widened(plan, {x, y, 1, 1}, kMisfitRadius);
+  int32_t misfits = 0;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    const uint8_t* from = doubt + static_cast<size_t>(row) * static_cast<size_t>(plan.width);
+    for (int32_t k = around.x; k < around.x + around.width; ++k) misfits += from[k] == kMisfit;
+  }
+  return misfits >= kLeastMisfits;
+}
+
+// A row of a tile and what lies around it; beyond the picture nothing is in doubt.
+using DoubtRow = uint8_t[kMostTileSide + 2 * kSweptRadius];
+
+// Fills `row` with 1 where row y is in doubt, `left` of the tile before its first pixel.
+void ReadDoubts(const EstimatePlan& plan, const uint8_t* doubt, const Rect& around, int32_t y,
+                uint8_t* row) {
+  const uint8_t* from = doubt + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+  for (int32_t x = around.x; x < around.x + around.width; ++x) {
+    const uint8_t own = from[x];
+    row[x - around.x] = own == kDoubt || (own == kMisfit && IsGainsaid(plan, doubt, x, y));
+  }
+}
+
+}  // namespace
+
+void FindDoubts(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& tile,
+                EstimateMemory* memory) {
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+    const int16_t* trusted = memory->trusted + row;
+    uint8_t* doubt = memory->doubt + row;
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      doubt[x] = trusted[x] == simd::kNoSurface ? kDoubt : uint8_t{0};
+    }
+    if (!IsTested(y, plan.height)) continue;
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      if (doubt[x] != 0 || !IsTested(x, plan.width)) continue;
+      if (!Fits(plan, light_field, x, y, trusted[x])) doubt[x] = kMisfit;
+    }
+  }
+}
+
+void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
+               EstimateMemory* memory) {
+  const Rect around = Widened(plan, tile, kSweptRadius);
+  const auto width = static_cast<size_t>(plan.width), stride = static_cast<size_t>(tile.width);
+  DoubtRow row = {};
+  uint8_t* inside = row + kSweptRadius - (tile.x - around.x);
+  // What has anything in doubt around it in its row.
+  for (int32_t y = 0; y < around.height; ++y) {
+    ReadDoubts(plan, memory->doubt, around, around.y + y, inside);
+    uint8_t* near = scratch + static_cast<size_t>(y) * stride;
+    std::fill_n(near, stride, uint8_t{0});
+    for (size_t k = 0; k <= 2 * kSweptRadius; ++k) {
+      for (size_t x = 0; x < stride; ++x) near[x] |= row[k + x];
+    }
+  }
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    uint8_t* swept = memory->swept + static_cast<size_t>(y) * width + tile.x;
+    std::fill_n(swept, tile.width, uint8_t{0});
+    const int32_t first = Max(around.y, y - kSweptRadius);
+    const int32_t last = Min(around.y + around.height - 1, y + kSweptRadius);
+    for (int32_t from = first; from <= last; ++from) {
+      const uint8_t* near = scratch + static_cast<size_t>(from - around.y) * stride;
+      for (size_t x = 0; x < stride; ++x) swept[x] |= near[x];
+    }
+  }
+}
+
+void RateUnswept(const EstimatePlan& plan, const sf_plane& centre, const Rect& tile,
+                 EstimateMemory* memory) {
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+    const uint8_t* line = centre.data + static_cast<size_t>(y) * centre.stride;
+    const auto stride = static_cast<ptrdiff_t>(centre.stride);
+    // At an end of the picture the other neighbour is taken twice.
+    const ptrdiff_t down = y + 1 < plan.height ? stride : y > 0 ? -stride : 0;
+    const ptrdiff_t up = y > 0 ? -stride : down;
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const size_t at = row + static_cast<size_t>(x);
+      if (memory->swept[at] != 0) continue;
+      const uint8_t* pixel = line + 3 * x;
+      const ptrdiff_t right = x + 1 < plan.width ? 3 : x > 0 ? -3 : 0, left = x > 0 ? -3 : right;
+      const int32_t across = Min(Apart(pixel, pixel + left), Apart(pixel, pixel + right));
+      const int32_t along = Min(Apart(pixel, pixel + up), Apart(pixel, pixel + down));
+      memory->certainty[at] = static_cast<uint8_t>(simd::kCostScale * (across + along) / 2);
+    }
+  }
+}
+
+}  // namespace starfocus

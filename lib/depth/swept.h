@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which pixels of a given map the sweeps look at: those around steps and noise of the map, and
+// around what the views gainsay. All others keep their disparity.
+#ifndef STARFOCUS_LIB_DEPTH_SWEPT_H_
+#define STARFOCUS_LIB_DEPTH_SWEPT_H_
+
+#include <cstdint>
+#include <cstring>
+
+#include "lib/depth/estimate_memory.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Pixels this near to one in doubt are looked at. Further away it tells nothing (simd::kMostPrior).
+inline constexpr int32_t kSweptRadius = 5;
+
+// Enters whether each pixel of a tile is in doubt; memory->trusted of it is known.
+void FindDoubts(const EstimatePlan& plan, const sf_light_field& light_field, const Rect& tile,
+                EstimateMemory* memory);
+
+// Enters which pixels of a tile are swept; the doubts of all tiles are known. `scratch` has a
+// byte for each pixel of the tile widened by kSweptRadius.
+void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
+               EstimateMemory* memory);
+
+// Enters the certainty of the pixels of a tile that were not swept: how much the centre view
+// differs a pixel away, across and along, which is how much worse views fit a pixel nearer or
+// further away.
+void RateUnswept(const EstimatePlan& plan, const sf_plane& centre, const Rect& tile,
+                 EstimateMemory* memory);
+
+// Calls act(begin, end) for each run of pixels of row y in [from, to) that are swept, from left to
+// right: for all of them as one when `swept` is null.
+template <class Act>
+void ForRuns(const EstimatePlan& plan, const uint8_t* swept, int32_t y, int32_t from, int32_t to,
+             const Act& act) {
+  if (swept == nullptr) return act(from, to);
+  const uint8_t* row = swept + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+  const auto find = [&](int32_t x, int value) {
+    const void* at = std::memchr(row + x, value, static_cast<size_t>(to - x));
+    return at == nullptr ? to : static_cast<int32_t>(static_cast<const uint8_t*>(at) - row);
+  };
+  for (int32_t x = from; x < to;) {
+    const int32_t begin = find(x, 1);
+    if (begin == to) return;
+    x = find(begin, 0);
+    act(begin, x);
+  }
+}
+
+// Calls act(x, y) for each pixel of a rectangle that is swept.
+template <class Act>
+void ForSwept(const EstimatePlan& plan, const uint8_t* swept, const Rect& rect, const Act& act) {
+  for (int32_t y = rect.y; y < rect.y + rect.height; ++y) {
+    ForRuns(plan, swept, y, rect.x, rect.x + rect.width, [&](int32_t begin, int32_t end) {
+      for (int32_t x = begin; x < end; ++x) act(x, y);
+    });
+  }
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_DEPTH_SWEPT_H_

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which pixels of a given map the sweeps look at.
+#include "lib/depth/swept.h"
+
+#include <doctest/doctest.h>
+
+#include <utility>
+#include <vector>
+
+#include "lib/depth/repair_map.h"
+#include "tests/depth/depth_scene.h"
+
+namespace {
+
+using starfocus::EstimateMemory;
+using starfocus::EstimatePlan;
+using starfocus::kSweptRadius;
+using test::PlaneScene;
+
+// Whether each pixel of a scene is swept when its map is `given`.
+std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& given) {
+  const test::PlaneField field = RenderPlanes(scene);
+  EstimatePlan plan = starfocus::MakePlan(ConfigOf(field, -6, 8));
+  plan.repairs = true;
+  EstimateMemory* memory = nullptr;
+  const test::Memory bytes(starfocus::LayOutEstimate(plan, 1, nullptr, &memory));
+  starfocus::LayOutEstimate(plan, 1, bytes.data, &memory);
+  sf_light_field light_field = field.Get();
+  light_field.disparity = given.data();
+  light_field.disparity_stride = sizeof(float) * size_t(scene.width);
+  const int tiles = plan.columns * plan.rows;
+  for (int k = 0; k < tiles; ++k) ReadGiven(plan, light_field, TileOf(plan, k), memory);
+  for (int k = 0; k < tiles; ++k) {
+    FindTrusted(plan, TileOf(plan, k), memory->given, memory->trusted);
+    FindDoubts(plan, light_field, TileOf(plan, k), memory);
+  }
+  for (int k = 0; k < tiles; ++k) FindSwept(plan, TileOf(plan, k), memory->workers[0].cost, memory);
+  return {memory->swept, memory->swept + given.size()};
+}
+
+std::vector<float> MapOf(const PlaneScene& scene) {
+  std::vector<float> map;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) map.push_back(float(scene.DisparityAt(x)));
+  }
+  return map;
+}
+
+TEST_CASE("swept: around the steps of a map that is right, and nowhere else, across tiles") {
+  PlaneScene scene;
+  scene.width = 400;
+  scene.near_left = 130;
+  scene.near_right = 262;
+  for (const int views : {5, 9, 17}) {
+    scene.views = views;
+    const std::vector<uint8_t> swept = SweptOf(scene, MapOf(scene));
+    for (int x = 0; x < scene.width; ++x) {
+      // The pixels on both sides of a step aren't trusted.
+      const bool near = (x >= 129 - kSweptRadius && x <= 130 + kSweptRadius) ||
+                        (x >= 261 - kSweptRadius && x <= 262 + kSweptRadius);
+      CAPTURE(x);
+      for (int y = 0; y < scene.height; ++y) {
+        REQUIRE(int(swept[size_t(y * scene.width + x)]) == int(near));
+      }
+    }
+  }
+}
+
+TEST_CASE("swept: what the views gainsay, however smooth it is") {
+  PlaneScene scene;
+  scene.near_left = scene.near_right = 0;
+  std::vector<float> given = MapOf(scene);
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 40; x < 80; ++x) given[size_t(y * scene.width + x)] += 2.5F;
+  }
+  const std::vector<uint8_t> swept = SweptOf(scene, given);
+  int inside = 0, outside = 0;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 50; x < 70; ++x) inside += swept[size_t(y * scene.width + x)];
+    for (int x = 0; x < 30; ++x) outside += swept[size_t(y * scene.width + x)];
+  }
+  CHECK(inside > scene.height * 20 * 9 / 10);
+  CHECK(outside == 0);
+}
+
+TEST_CASE("swept: runs are those of the mask, as far as the row is looked at") {
+  EstimatePlan plan = {};
+  plan.width = 8;
+  const uint8_t swept[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1, 0, 1, 1};
+  std::vector<std::pair<int, int>> runs;
+  const auto add = [&](int begin, int end) { runs.emplace_back(begin, end); };
+  starfocus::ForRuns(plan, swept, 1, 1, 7, add);
+  CHECK(runs == std::vector<std::pair<int, int>>{{1, 2}, {4, 5}, {6, 7}});
+  runs.clear();
+  starfocus::ForRuns(plan, swept, 1, 2, 4, add);
+  CHECK(runs.empty());
+  starfocus::ForRuns(plan, nullptr, 1, 2, 4, add);
+  CHECK(runs == std::vector<std::pair<int, int>>{{2, 4}});
+}
+
+}  // namespace

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vector>
+
+#include "simd/label_costs.h"
+#include "tests/simd/depth_cases.h"
+
+namespace test::depth_cases {
+namespace {
+
+using starfocus::simd::DepthKernels;
+using starfocus::simd::kCostScale;
+using starfocus::simd::kMostDifference;
+using starfocus::simd::kPadding;
+using starfocus::simd::kViewEnds;
+using starfocus::simd::LabelRow;
+using starfocus::simd::SliceSamples;
+using starfocus::simd::ViewMove;
+
+constexpr int kMostLabels = 40, kTimedLabels = 44, kLongest = 70, kTimed = 320;
+// Pixels that labels move views by at most.
+constexpr int kReach = 5;
+
+}  // namespace
+
+void CostLabels(Draw* draw, DepthCall* call) {
+  const size_t count = draw->Length(1, kLongest, kTimed);
+  LabelRow row = {};
+  row.labels = draw->Size(1, kMostLabels, kTimedLabels);
+  const int set = draw->timed() ? 0 : draw->Int(0, 2);
+  row.arms = set == 0 ? 4 : 8;
+  row.rings = set == 2 ? 2 : 1;
+  row.one_side = draw->Int(0, 1) == 0;
+  row.limits = draw->timed() || draw->Int(0, 1) == 0;
+  row.ends = !draw->timed() && draw->Int(0, 1) == 0;
+  const size_t views = row.arms * row.rings;
+  // Alike pictures as well: differences are cut off where others are.
+  const int least = draw->Int(0, 1) == 0 ? 0 : 225;
+  row.plane = count + 2 * kReach;
+  std::vector<uint8_t> planes(3 * (views + 1) * row.plane);
+  for (uint8_t& value : planes) value = uint8_t(draw->Int(least, 255));
+  row.pixels = call->Input("planes", planes, kPadding) + kReach;
+  // What is hidden, and now and then in all views, which by chance is rare with many of them.
+  std::vector<uint8_t> hidden(views * row.plane);
+  const int least_hidden = draw->Rarely(3) ? int(row.labels) / 2 : 0;
+  for (uint8_t& value : hidden) {
+    value = draw->Int(0, 5) == 0 && row.ends ? kViewEnds
+                                             : uint8_t(draw->Int(least_hidden, int(row.labels)));
+  }
+  if (!draw->Rarely(4)) row.hidden = call->Input("hidden", hidden, kPadding) + kReach;
+  std::vector<ViewMove> moves(row.labels * views);
+  for (size_t k = 0; k < moves.size(); ++k) {
+    const int by = draw->Int(-kReach, kReach), view = int(k % views), plane = int(row.plane);
+    moves[k] = {3 * (view + 1) * plane + by, view * plane + by};
+  }
+  row.moves = call->Input("moves", moves);
+  const size_t places = SliceSamples(row.labels) + 16 * draw->Size(0, 1, 0);
+  uint8_t* cost = call->Output<uint8_t>("cost", count * places);
+  for (size_t n = 0; n < count; ++n) {
+    call->Result(cost + n * places, row.labels);
+    call->Free(cost + n * places + row.labels, SliceSamples(row.labels) - row.labels);
+  }
+  call->run = [=](const DepthKernels& kernels) -> uint64_t {
+    kernels.CostLabels(row, count, places, cost);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    for (size_t n = 0; n < count * places; ++n) {
+      if (n % places >= row.labels) continue;
+      if (cost[n] > kMostDifference * kCostScale) return false;
+      ++(*met)[cost[n] == kMostDifference * kCostScale ? "cut off" : "whole"];
+    }
+    return true;
+  };
+}
+
+}  // namespace test::depth_cases

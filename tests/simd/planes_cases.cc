@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "simd/planes.h"
+#include "tests/simd/depth_cases.h"
+
+namespace test::depth_cases {
+namespace {
+
+using starfocus::simd::DepthKernels;
+using starfocus::simd::kPadding;
+using starfocus::simd::SliceSamples;
+
+constexpr int kTimed = 512, kLongest = 2 * 64 + 3;
+
+std::vector<uint8_t> Samples(size_t count, Draw* draw) {
+  std::vector<uint8_t> samples(count);
+  for (uint8_t& sample : samples) sample = draw->Byte();
+  return samples;
+}
+
+}  // namespace
+
+void SplitRow(Draw* draw, DepthCall* call) {
+  const size_t count = draw->Length(0, kLongest, kTimed), stride = count + draw->Size(0, 9, 0);
+  const uint8_t* rgb = call->Input("rgb", Samples(3 * count, draw));
+  uint8_t* plane = call->Output<uint8_t>("planes", 3 * stride);
+  for (size_t c = 0; c < 3; ++c) call->Result(plane + c * stride, count);
+  call->run = [=](const DepthKernels& kernels) -> uint64_t {
+    kernels.SplitRow(rgb, count, stride, plane);
+    return 0;
+  };
+}
+
+void InterpolateRow(Draw* draw, DepthCall* call) {
+  const size_t count = draw->Length(1, kLongest, kTimed);
+  const int32_t across = draw->Int(0, 2) == 0 ? 0 : draw->Int(0, 127);
+  const int32_t down = draw->Int(0, 2) == 0 ? 0 : draw->Int(0, 127);
+  const uint8_t* row = call->Input("row", Samples(count + 1, draw), kPadding);
+  const uint8_t* next = call->Input("next", Samples(count + 1, draw), kPadding);
+  uint8_t* out = call->Output<uint8_t>("out", SliceSamples(count));
+  call->Result(out, count);
+  call->Free(out + count, SliceSamples(count) - count);
+  call->run = [=](const DepthKernels& kernels) -> uint64_t {
+    kernels.InterpolateRow(row, next, across, down, count, out);
+    return 0;
+  };
+  // Between the four around it.
+  call->is_right = [=](uint64_t, Met*) {
+    for (size_t n = 0; n < count; ++n) {
+      const auto range = std::minmax({row[n], row[n + 1], next[n], next[n + 1]});
+      if (out[n] < range.first || out[n] > range.second) return false;
+    }
+    return true;
+  };
+}
+
+}  // namespace test::depth_cases
