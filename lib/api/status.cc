@@ -99,6 +99,8 @@ const char* sf_status_string(sf_status status) {
       return "cats_eye is outside 0 to 1";
     case SF_ERROR_HIGHLIGHTS:
       return "highlights is outside 1 to 64";
+    case SF_ERROR_CANCELLED:
+      return "the progress function cancelled the call; the output is incomplete";
   }
   return "unknown status";
 }

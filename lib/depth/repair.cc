@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 #include "lib/base/fixed.h"
 #include "lib/depth/repair_map.h"
@@ -77,7 +78,9 @@ sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
   const RepairJob job = {{plan, light_field, kernels, memory}, output};
   constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, SweepFirst,
                                      SweepSecond, ValueTile, WriteTile};
+  int32_t done = 0;
   for (const JobFunction phase : kPhases) {
+    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(std::size(kPhases)));
     if (phase == WriteTile) memory->least_evidence = LeastEvidence(plan, *memory);
     const sf_status status =
         RunJobSet(phase, &job, plan.columns * plan.rows, runner, &memory->jobs);

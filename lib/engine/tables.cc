@@ -19,11 +19,12 @@ void MakeTables(const sf_config& config, Tables* tables) {
   tables->blur_steps = 0;
 }
 
-void MakeBlurKernels(int32_t steps, Tables* tables) {
-  if (steps <= tables->blur_steps) return;
-  MakeBlurKernels(tables->blur_steps, steps, tables->opening, tables->blur_weights,
-                  tables->blur_kernels);
-  tables->blur_steps = steps;
+sf_status MakeBlurKernels(int32_t steps, Watch* watch, Tables* tables) {
+  for (int32_t& made = tables->blur_steps; made < steps; ++made) {
+    if (!watch->Ask()) return SF_ERROR_CANCELLED;
+    MakeBlurKernels(made, made + 1, tables->opening, tables->blur_weights, tables->blur_kernels);
+  }
+  return SF_OK;
 }
 
 }  // namespace starfocus

@@ -270,6 +270,8 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
       }
       const BlurKernel& kernel = job.kernels_of_radius[step];
       const size_t samples = 3 * static_cast<size_t>(x - begin);
+      const int64_t points = (2 * kernel.size + 1) * (2 * kernel.size + 1);
+      if (!GoesOn(job.patience, points * static_cast<int64_t>(samples))) return;
       std::memset(scratch.accumulators, 0, samples * sizeof(uint32_t));
       AddKernel(kernel, side, row + 3 * begin, stride, x - begin, &list);
       list.Flush();

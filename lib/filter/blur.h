@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/opening.h"
+#include "lib/base/watch.h"
 #include "lib/filter/add_excess.h"
 #include "lib/filter/span_list.h"
 #include "lib/input/window.h"
@@ -52,8 +53,9 @@ struct BlurJob {
   const BlurKernel* kernels_of_radius;
   const simd::Kernels* kernels;
   Rect rect;
-  int32_t border;    // largest kernel size in the picture
-  ExcessSum excess;  // with a factor the window's excess is added to `out`
+  int32_t border;      // largest kernel size in the picture
+  ExcessSum excess;    // with a factor the window's excess is added to `out`
+  Patience* patience;  // once it ends, `out` is left half made
 };
 
 struct BlurScratch {

@@ -117,7 +117,7 @@ class Star {
   void AddViews(const Field& field, const Field& other, uint32_t* accumulators) {
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
-      for (int32_t i = 1; i <= grid_.n(); ++i) {
+      for (int32_t i = 1; i <= grid_.n() && GoesOn(job_.patience, 0); ++i) {
         const int32_t last = LastAcross(i);
         const Rows rows = RowsFor(field, last);
         RenderTypeA(field, sign, i, rows);
@@ -163,6 +163,7 @@ class Star {
     const int32_t width = field.inner.width, height = rows.end - rows.begin;
     for (int32_t row = 0; row < height; row += kStripRows) {
       const int32_t count = Min(kStripRows, height - row);
+      if (!GoesOn(job_.patience, 3 * int64_t{count} * field.width)) return;
       SpanList list = Blending(scratch_->strip_rgb);
       for (int32_t k = 0; k < count; ++k) {
         const SpanTarget target = {field.inner.x, static_cast<uint32_t>(k * width), kBlendOne,
@@ -207,6 +208,7 @@ class Star {
                          0,
                          {field.x + field.inner.x, field.y + rows.begin, 0, 1}};
       for (int32_t x = 0; x < width; ++x, ++holes.line.x) {
+        if (!GoesOn(job_.patience, 3 * int64_t{height} * (last + 1))) return;
         const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
                                               scratch_->line_runs)
                                    : 0;
@@ -267,6 +269,7 @@ class Star {
       const int32_t begin = Max(Max(0, inner.x - at.x), top);
       const int32_t end = Min(Min(at.length, inner.x + inner.width - at.x), top + inner.height);
       if (begin >= end) continue;
+      if (!GoesOn(job_.patience, 6 * int64_t{at.length} * last)) return;
       AddDiagonal(field, diagonals, at, index, begin, end, last);
     }
   }

@@ -144,8 +144,8 @@ TEST_CASE("runner: sf_prepare refuses a runner that skips a job") {
   const sf_light_field field = f.scene.Field();
   Runner bad = {kMisuses[2].run, 1};
   sf_prepared* prepared = reinterpret_cast<sf_prepared*>(aligned);
-  CHECK(sf_prepare(engine.get(), &field, aligned, bytes, Runner::Run, &bad, &prepared) ==
-        SF_ERROR_RUNNER);
+  CHECK(sf_prepare(engine.get(), &field, aligned, bytes, nullptr, nullptr, Runner::Run, &bad,
+                   &prepared) == SF_ERROR_RUNNER);
   CHECK(prepared == nullptr);
 }
 

@@ -220,7 +220,7 @@ TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") 
   HeapWatch watch;
   sf_prepared* prepared = nullptr;
   const sf_status made = sf_prepare(holder.get(), &field, memory.workspace(), memory.bytes(),
-                                    nullptr, nullptr, &prepared);
+                                    nullptr, nullptr, nullptr, nullptr, &prepared);
   const sf_status again = sf_refocus_prepared(holder.get(), &params, prepared, out.bytes.data(),
                                               out.stride, nullptr, nullptr, nullptr);
   const sf_status part = sf_refocus(holder.get(), &params, &field, out.bytes.data(), out.stride,

@@ -200,8 +200,8 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
   if (posix_memalign(&memory, SF_ALIGNMENT, bytes) != 0) return;
   const std::unique_ptr<void, void (*)(void*)> owner(memory, std::free);
   sf_prepared* prepared = nullptr;
-  const sf_status status =
-      sf_prepare(engine, &pictures.field, memory, bytes, nullptr, nullptr, &prepared);
+  const sf_status status = sf_prepare(engine, &pictures.field, memory, bytes, nullptr, nullptr,
+                                      nullptr, nullptr, &prepared);
   if (status != SF_OK) return;
   sf_refocus_prepared(engine, &params, prepared, out, stride, nullptr, nullptr, &report);
 }

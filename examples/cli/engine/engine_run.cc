@@ -83,8 +83,8 @@ Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
     return NoMemory(where, prepared_bytes_);
   }
   const sf_light_field rows = Rows(*task.light_field, 0);
-  status = sf_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, ShownRunner::Run,
-                      &runner_, &prepared_);
+  status = sf_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, nullptr, nullptr,
+                      ShownRunner::Run, &runner_, &prepared_);
   return Outcome(where, status);
 }
 

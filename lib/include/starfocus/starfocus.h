@@ -108,7 +108,8 @@ typedef enum sf_status {
   SF_ERROR_RING = 43,        /**< ring_inner outside [0, SF_MAX_RING_INNER] */
   SF_ERROR_CATS_EYE = 44,    /**< cats_eye outside [0, 1] */
   SF_ERROR_HIGHLIGHTS = 45,  /**< highlights outside [1, SF_MAX_HIGHLIGHTS] */
-  SF_ERROR_FILL = 46         /**< fill_unknown is not 0 or 1 */
+  SF_ERROR_FILL = 46,        /**< fill_unknown is not 0 or 1 */
+  SF_ERROR_CANCELLED = 47    /**< the caller's progress function said so; output is incomplete */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
@@ -289,6 +290,17 @@ typedef void (*sf_block_visitor)(void* data, const sf_block* block);
 /** A clock in nanoseconds, from any start; called from the runner's threads. */
 typedef uint64_t (*sf_clock)(void);
 
+/** Is told that `rows_done` of `rows` rows are made, and says whether to go on: 0 to go on,
+ * anything else to cancel. The call then ends with SF_ERROR_CANCELLED as soon as all of its threads
+ * have noticed, and nobody is asked again. What it was to write is unspecified then; the engine is
+ * as if it had not been called (of streams see sf_stream_pull). Within a call rows_done never
+ * becomes less; the last time it is `rows`. The function is called after every half a million
+ * samples or so, a fraction of a millisecond on a desktop, and at every job, so that it should look
+ * at a flag and return: without a runner by the thread of the call, with a runner by whichever of
+ * its threads runs a job, but never by two at a time. It must not call anything with the same
+ * engine or memory. */
+typedef int (*sf_progress)(void* data, int32_t rows_done, int32_t rows);
+
 /** A rectangle of the picture, in pixels. */
 typedef struct sf_region {
   int32_t x, y;          /**< its left and top pixel, >= 0 */
@@ -306,6 +318,8 @@ typedef struct sf_params {
   sf_block_visitor on_block; /**< null: nobody is told */
   void* on_block_data;       /**< passed to on_block */
   sf_region region;          /**< what sf_refocus writes; streaming: all 0; default all 0 */
+  sf_progress progress;      /**< of the rows of the picture or region; null: nobody is asked */
+  void* progress_data;       /**< passed to progress */
   uint32_t reserved[4];      /**< zero */
 } sf_params;
 
@@ -402,10 +416,12 @@ SF_API sf_status sf_prepared_size(const sf_config* config, size_t* bytes);
  * in `memory` (`bytes` long, aligned to SF_ALIGNMENT), which stays the caller's. The refocusings
  * read the pictures of the light field again: what light_field points to must stay as it is until
  * the last one, the structure itself need not. `memory` must overlap neither it nor the workspace.
- *  runner as in sf_refocus. *prepared is null on error. */
+ *  progress (null: nobody is asked) and its data as in sf_params, runner as in sf_refocus.
+ * *prepared is null on error; `memory` is unspecified after SF_ERROR_CANCELLED and SF_ERROR_RUNNER.
+ */
 SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
-                            size_t bytes, sf_runner runner, void* runner_data,
-                            sf_prepared** prepared);
+                            size_t bytes, sf_progress progress, void* progress_data,
+                            sf_runner runner, void* runner_data, sf_prepared** prepared);
 
 /** As sf_refocus, with the same bytes, of a prepared light field; of this engine or of any of the
  *  same size, views, disparity range, max_layer and transfer (else SF_ERROR_PREPARED). Several
@@ -415,7 +431,7 @@ SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                                      sf_runner runner, void* runner_data, sf_report* report);
 
 /** A light field of the same configuration and what was made of it with the same params (but for
- *  their clock and visitor). */
+ *  their clock, visitor and progress). */
 typedef struct sf_previous {
   sf_light_field light_field; /**< only compared */
   const uint8_t* out; /**< the picture, or region, that sf_refocus or sf_refocus_after wrote */
@@ -440,9 +456,12 @@ SF_API sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_f
 
 /** Writes up to `rows` next finished rows to out; *written may be 0 until more rows are pushed.
  *  runner as in sf_refocus. report may be null; it is complete once the last row is written. After
- *  SF_ERROR_RUNNER the rows counted by *written are good, and the next pull goes on behind them: it
- *  tells sf_params.on_block again of blocks that had been left half done, but the report counts
- *  them once (only centre_bytes may grow: what was read in vain is read again). */
+ *  SF_ERROR_RUNNER and SF_ERROR_CANCELLED the rows counted by *written are good, and the stream
+ *  stays: the next pull goes on behind them, sf_stream_begin and every other call with the engine
+ *  end it. That pull tells sf_params.on_block again of blocks that had been left half done, but the
+ *  report counts them once (only centre_bytes may grow: what was read in vain is read again).
+ *  sf_params.progress is told of the rows that are made, also by the pulls before, of the whole
+ *  picture's, and only by pulls that make any. */
 SF_API sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
                                 sf_runner runner, void* runner_data, int32_t* written,
                                 sf_report* report);
