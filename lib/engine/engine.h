@@ -30,6 +30,8 @@ struct EngineState {
   sf_config config;
   const simd::Kernels* kernels;
   Tables tables;
+  sf_allocator allocator = {};      // of the memory; without functions: the caller's own
+  size_t bytes = 0;                 // of that, from the allocator
   Crew crew;                        // the workers' memory
   Plane<uint8_t> rings[kMaxViews];  // with streaming: rows that were pushed
 

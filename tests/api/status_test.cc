@@ -88,7 +88,7 @@ const char* WordsOf(sf_status status) {
     case SF_ERROR_TOO_LARGE:
       return "can address";
     case SF_ERROR_MEMORY:
-      return "heap";
+      return "there is no memory";
     case SF_ERROR_POSITION:
       return "position";
     case SF_ERROR_HIGHLIGHTS:

@@ -10,7 +10,7 @@
  *   1. sf_config_init, fill the fields in, sf_workspace_size.
  *   2. Allocate that many bytes, aligned to SF_ALIGNMENT, and sf_init. The engine lives in that
  *      memory: it never allocates, owns nothing else and needs no destructor. Free the memory when
- *      no call is running.
+ *      no call is running. Or sf_create, which has an allocator do that, and sf_destroy.
  *   3. sf_refocus with whole pictures, or sf_stream_begin / sf_stream_push / sf_stream_pull with
  *      rows. Both give the same bytes. For many pictures of one light field there is sf_prepare,
  *      for a part of one sf_params.region, for frames of a video sf_refocus_after.
@@ -21,7 +21,7 @@
  * strides are in bytes and may exceed the row length.
  *
  * Threads: an engine is used by one call at a time; several engines are independent. The engine
- * starts no threads; it hands jobs to the caller's runner. Output bytes depend on neither the
+ * starts no threads; it hands jobs to the caller's runner, for which starfocus/pool.h is one. Output bytes depend on neither the
  * runner, the number of workers, the SIMD target nor the way the rows come in.
  *
  * Errors: every function checks all its arguments before it writes anything but its own state.
@@ -97,7 +97,7 @@ typedef enum sf_status {
   SF_ERROR_PREPARED = 32,    /**< prepared light field of another configuration */
   SF_ERROR_GATHER = 33,      /**< gather is not 0 or 1 */
   SF_ERROR_TOO_LARGE = 34,   /**< more memory needed than half of the machine's addresses */
-  SF_ERROR_MEMORY = 35,      /**< of starfocus.hpp alone: no memory for a workspace */
+  SF_ERROR_MEMORY = 35,      /**< an allocator, or that of starfocus.hpp, has no memory */
   SF_ERROR_POSITION = 36,    /**< position outside the picture */
   SF_ERROR_F_STOP = 37,      /**< an f-stop not finite, or wider than the widest */
   SF_ERROR_TRANSFER = 38,    /**< unknown transfer */
@@ -121,10 +121,10 @@ SF_API uint32_t sf_abi_version(void);
 /** SF_VERSION_STRING the library was built with, e.g. "0.1.0"; static storage. */
 SF_API const char* sf_version(void);
 
-/** sizeof(sf_config) and sizeof(sf_params) in the library. A binding to another language declares
- *  these structures itself, and checks with these that it has them right. */
-SF_API size_t sf_config_size(void);
-SF_API size_t sf_params_size(void);
+/** Size in bytes of a structure of starfocus.h or depth.h in the library, by its name, such as
+ *  "sf_config"; 0 when it has no structure of that name. A binding to another language declares
+ *  structures itself, and checks with this that it has each of them right. */
+SF_API size_t sf_struct_size(const char* name);
 
 #define SF_MIN_THETA 0.15707963267948966 /**< 0.05 pi */
 #define SF_MAX_THETA 1.413716694115407   /**< 0.45 pi */
@@ -252,6 +252,26 @@ typedef struct sf_engine sf_engine;
  *  caller's and must outlive the engine's use. *engine is null on error. */
 SF_API sf_status sf_init(const sf_config* config, void* workspace, size_t bytes,
                          sf_engine** engine);
+
+/** Where sf_create takes memory from. */
+typedef struct sf_allocator {
+  void* data; /**< passed to both */
+  /** Returns `bytes` of memory aligned to `alignment`, SF_ALIGNMENT, or null when there are none. */
+  void* (*allocate)(void* data, size_t bytes, size_t alignment);
+  /** Takes back what allocate gave, with the same `bytes`; never null. */
+  void (*release)(void* data, void* memory, size_t bytes);
+} sf_allocator;
+
+/** sf_workspace_size and sf_init in one: makes an engine in memory that it takes from `allocator`
+ *  (null: malloc and free), in one piece, and that sf_destroy gives back. Nothing else ever
+ *  allocates. *engine is null on error: one of those two functions', SF_ERROR_MEMORY when there is no
+ *  memory, SF_ERROR_NULL when a function of the allocator is null. */
+SF_API sf_status sf_create(const sf_config* config, const sf_allocator* allocator,
+                           sf_engine** engine);
+
+/** Ends an engine of sf_create's, in which no call may be running, and gives its memory back. Of null
+ *  and of engines of sf_init's, whose memory is the caller's, it does nothing. */
+SF_API void sf_destroy(sf_engine* engine);
 
 typedef enum sf_mode {
   SF_MODE_FRAME = 0,     /**< one N for the whole picture, from (9) */
