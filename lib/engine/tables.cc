@@ -20,11 +20,11 @@ void MakeTables(const sf_config& config, Tables* tables) {
 }
 
 sf_status MakeBlurKernels(int32_t steps, Watch* watch, Tables* tables) {
-  for (int32_t& made = tables->blur_steps; made < steps; ++made) {
-    if (!watch->Ask()) return SF_ERROR_CANCELLED;
-    MakeBlurKernels(made, made + 1, tables->opening, tables->blur_weights, tables->blur_kernels);
-  }
-  return SF_OK;
+  if (steps <= tables->blur_steps) return SF_OK;
+  Patience patience(watch);
+  tables->blur_steps = MakeBlurKernels(tables->blur_steps, steps, tables->opening, &patience,
+                                       tables->blur_weights, tables->blur_kernels);
+  return tables->blur_steps == steps ? SF_OK : SF_ERROR_CANCELLED;
 }
 
 }  // namespace starfocus
