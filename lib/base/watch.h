@@ -49,16 +49,20 @@ class Patience {
   Patience() = default;
   explicit Patience(Watch* watch) : watch_(watch) {}
 
-  // Counts about so many samples read, filtered or added up. Returns whether to go on.
+  // Counts about so many samples read, filtered or added up. Returns whether to go on; no once, it is
+  // no until the next call.
   bool Spend(int64_t samples) {
-    if (watch_ == nullptr) return true;
     left_ -= samples;
-    if (left_ > 0) return !watch_->IsCancelled();
-    left_ = kSamples;
-    return watch_->Ask();
+    return left_ > 0 || Ask();
   }
 
  private:
+  bool Ask() {
+    const bool goes_on = watch_ == nullptr || watch_->Ask();
+    left_ = goes_on ? kSamples : 0;
+    return goes_on;
+  }
+
   // A fraction of a millisecond's on a desktop, a millisecond's on a board.
   static constexpr int64_t kSamples = 1 << 19;
 

@@ -115,9 +115,10 @@ class Star {
   // Adds types A and C along the rows of `field`, in the triangles on either side of that axis;
   // `other` is the same field in the other orientation.
   void AddViews(const Field& field, const Field& other, uint32_t* accumulators) {
+    const int64_t samples = 3 * int64_t{field.width} * field.height;  // of a type A view
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
-      for (int32_t i = 1; i <= grid_.n() && GoesOn(job_.patience, 0); ++i) {
+      for (int32_t i = 1; i <= grid_.n() && GoesOn(job_.patience, samples); ++i) {
         const int32_t last = LastAcross(i);
         const Rows rows = RowsFor(field, last);
         RenderTypeA(field, sign, i, rows);
@@ -163,7 +164,6 @@ class Star {
     const int32_t width = field.inner.width, height = rows.end - rows.begin;
     for (int32_t row = 0; row < height; row += kStripRows) {
       const int32_t count = Min(kStripRows, height - row);
-      if (!GoesOn(job_.patience, 3 * int64_t{count} * field.width)) return;
       SpanList list = Blending(scratch_->strip_rgb);
       for (int32_t k = 0; k < count; ++k) {
         const SpanTarget target = {field.inner.x, static_cast<uint32_t>(k * width), kBlendOne,
