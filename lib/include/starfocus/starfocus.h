@@ -21,8 +21,9 @@
  * strides are in bytes and may exceed the row length.
  *
  * Threads: an engine is used by one call at a time; several engines are independent. The engine
- * starts no threads; it hands jobs to the caller's runner, for which starfocus/pool.h is one. Output bytes depend on neither the
- * runner, the number of workers, the SIMD target nor the way the rows come in.
+ * starts no threads; it hands jobs to the caller's runner, for which starfocus/pool.h is one.
+ * Output bytes depend on neither the runner, the number of workers, the SIMD target nor the way the
+ * rows come in.
  *
  * Errors: every function checks all its arguments before it writes anything but its own state.
  */
@@ -197,7 +198,7 @@ SF_API sf_status sf_init(const sf_config* config, void* workspace, size_t bytes,
 /** Where sf_create takes memory from. */
 typedef struct sf_allocator {
   void* data; /**< passed to both */
-  /** Returns `bytes` of memory aligned to `alignment`, SF_ALIGNMENT, or null when there are none. */
+  /** Returns `bytes` of memory aligned to `alignment`, SF_ALIGNMENT, or null without any. */
   void* (*allocate)(void* data, size_t bytes, size_t alignment);
   /** Takes back what allocate gave, with the same `bytes`; never null. */
   void (*release)(void* data, void* memory, size_t bytes);
@@ -205,13 +206,13 @@ typedef struct sf_allocator {
 
 /** sf_workspace_size and sf_init in one: makes an engine in memory that it takes from `allocator`
  *  (null: malloc and free), in one piece, and that sf_destroy gives back. Nothing else ever
- *  allocates. *engine is null on error: one of those two functions', SF_ERROR_MEMORY when there is no
- *  memory, SF_ERROR_NULL when a function of the allocator is null. */
+ *  allocates. *engine is null on error: one of those two functions', SF_ERROR_MEMORY when there is
+ * no memory, SF_ERROR_NULL when a function of the allocator is null. */
 SF_API sf_status sf_create(const sf_config* config, const sf_allocator* allocator,
                            sf_engine** engine);
 
-/** Ends an engine of sf_create's, in which no call may be running, and gives its memory back. Of null
- *  and of engines of sf_init's, whose memory is the caller's, it does nothing. */
+/** Ends an engine of sf_create's, in which no call may be running, and gives its memory back. Of
+ * null and of engines of sf_init's, whose memory is the caller's, it does nothing. */
 SF_API void sf_destroy(sf_engine* engine);
 
 typedef enum sf_mode {
