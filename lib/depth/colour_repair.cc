@@ -2,7 +2,6 @@
 #include "lib/depth/colour_repair.h"
 
 #include <cmath>
-#include <iterator>
 #include <new>
 
 #include "lib/base/carver.h"
@@ -203,7 +202,7 @@ sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_f
   };
   int32_t done = 0;
   for (const auto& phase : phases) {
-    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(std::size(phases)));
+    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof phases / sizeof *phases));
     if (phase.function == SmoothMap && noise == 0) continue;
     const sf_status status =
         RunJobSet(phase.function, &phase.job, plan.columns * plan.rows, runner, &memory->jobs);

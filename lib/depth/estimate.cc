@@ -2,7 +2,6 @@
 #include "lib/depth/estimate.h"
 
 #include <cstdlib>
-#include <iterator>
 
 #include "lib/base/fixed.h"
 #include "lib/depth/estimate_clean.h"
@@ -58,7 +57,7 @@ sf_status Estimate(const EstimatePlan& plan, const sf_light_field& light_field,
   constexpr JobFunction kPhases[] = {SweepFirst, SweepSecond, WriteTile};
   int32_t done = 0;
   for (const JobFunction phase : kPhases) {
-    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(std::size(kPhases)));
+    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof kPhases / sizeof *kPhases));
     const sf_status status = RunJobSet(phase, &job, tiles, runner, &memory->jobs);
     if (status != SF_OK) return status;
   }

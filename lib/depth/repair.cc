@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <iterator>
 
 #include "lib/base/fixed.h"
 #include "lib/depth/repair_map.h"
@@ -80,7 +79,7 @@ sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
                                      SweepSecond, ValueTile, WriteTile};
   int32_t done = 0;
   for (const JobFunction phase : kPhases) {
-    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(std::size(kPhases)));
+    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof kPhases / sizeof *kPhases));
     if (phase == WriteTile) memory->least_evidence = LeastEvidence(plan, *memory);
     const sf_status status =
         RunJobSet(phase, &job, plan.columns * plan.rows, runner, &memory->jobs);
