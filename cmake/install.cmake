@@ -5,8 +5,11 @@ include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/starfocus")
 
 install(DIRECTORY lib/include/starfocus TYPE INCLUDE FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
-# One set of targets a library: each is of use without the other.
-foreach(kind static shared)
+if(TARGET starfocus_pool)
+  install(DIRECTORY platform/pool/include/starfocus TYPE INCLUDE)
+endif()
+# One set of targets a library: each is of use without the others.
+foreach(kind static shared pool)
   if(TARGET starfocus_${kind})
     install(TARGETS starfocus_${kind} EXPORT starfocus_${kind})
     install(EXPORT starfocus_${kind} FILE starfocus-${kind}-targets.cmake NAMESPACE starfocus::
@@ -39,6 +42,11 @@ endif()
 configure_file(cmake/starfocus.pc.in package/starfocus.pc @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/package/starfocus.pc"
   DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+if(TARGET starfocus_pool)
+  configure_file(cmake/starfocus-pool.pc.in package/starfocus-pool.pc @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/package/starfocus-pool.pc"
+    DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+endif()
 
 if(TARGET starfocus)
   install(TARGETS starfocus)

@@ -34,13 +34,17 @@ void Progress::Step(int64_t steps) {
 
 void Progress::Show(double now) {
   shown_ = now;
-  if (total_ > 0) {
-    const double percent = 100.0 * static_cast<double>(done_) / static_cast<double>(total_);
-    std::fprintf(stderr, "\r\x1b[K%s: %.0f %%", what_.c_str(), percent);
-  } else {
-    std::fprintf(stderr, "\r\x1b[K%s: %.1f s", what_.c_str(), now - start_);
-  }
+  const double percent = 100.0 * static_cast<double>(done_) / static_cast<double>(total_);
+  std::fprintf(stderr, "\r\x1b[K%s: %.0f %%", what_.c_str(), percent);
   std::fflush(stderr);
+}
+
+int PictureProgress::Tell(void* data, int32_t rows_done, int32_t rows) {
+  PictureProgress& self = *static_cast<PictureProgress*>(data);
+  const auto steps = static_cast<int32_t>(int64_t{kSteps} * rows_done / rows);
+  self.progress_.Step(steps - self.steps_);
+  self.steps_ = rows_done < rows ? steps : 0;  // the next picture begins
+  return 0;
 }
 
 }  // namespace starfocus

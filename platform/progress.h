@@ -6,12 +6,13 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <utility>
 
 namespace starfocus {
 
 class Progress {
  public:
-  // `total` steps make 100 %; with total 0 the line shows the seconds gone by.
+  // `total` steps make 100 %.
   Progress(std::string what, int64_t total);
   ~Progress();  // wipes the line
   Progress(const Progress&) = delete;
@@ -29,6 +30,22 @@ class Progress {
   std::mutex mutex_;
   int64_t done_ = 0;
   double shown_ = 0;  // time of the last update; 0 before the first
+};
+
+// The line of pictures, or maps, that the library makes one after the other.
+class PictureProgress {
+ public:
+  PictureProgress(std::string what, int pictures)
+      : progress_(std::move(what), int64_t{kSteps} * pictures) {}
+
+  // The sf_progress, whose data is the PictureProgress; never cancels.
+  static int Tell(void* data, int32_t rows_done, int32_t rows);
+
+ private:
+  static constexpr int32_t kSteps = 1000;  // of a picture
+
+  Progress progress_;
+  int32_t steps_ = 0;  // that were told of this picture
 };
 
 }  // namespace starfocus

@@ -149,6 +149,16 @@ sf_status CheckCall(const DepthCall& call, bool repairs, const MapOutput& output
   return CheckGivenApart(config, light_field, {begin, begin + needed}, output);
 }
 
+// Makes a map under the watch of the caller's progress function.
+template <class Make>
+sf_status Watched(const sf_depth_config& config, Watch* watch, const Make& make) {
+  watch->Begin(config.progress, config.progress_data, 0, config.height);
+  const sf_status status = make();
+  if (status != SF_OK) return status;
+  watch->SetRows(config.height);
+  return watch->Ask() ? SF_OK : SF_ERROR_CANCELLED;
+}
+
 // Estimates, or repairs.
 sf_status MakeMap(const DepthCall& call, bool repairs, const MapOutput& output,
                   const Runner& runner) {
@@ -156,14 +166,17 @@ sf_status MakeMap(const DepthCall& call, bool repairs, const MapOutput& output,
   if (call.config->views == 1) {
     ColourMemory* memory = nullptr;
     LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
-    return RepairByColour(plan, *call.light_field, runner, output, memory);
+    return Watched(*call.config, &memory->jobs.watch,
+                   [&] { return RepairByColour(plan, *call.light_field, runner, output, memory); });
   }
   EstimateMemory* memory = nullptr;
   LayOutEstimate(plan, call.config->max_workers, call.workspace, &memory);
   const EstimateZones zones(plan, call.config->max_workers, call.workspace);
   const simd::DepthKernels& kernels = simd::BestDepthKernels();
-  if (repairs) return Repair(plan, *call.light_field, kernels, runner, output, memory);
-  return Estimate(plan, *call.light_field, kernels, runner, output, memory);
+  return Watched(*call.config, &memory->jobs.watch, [&] {
+    return repairs ? Repair(plan, *call.light_field, kernels, runner, output, memory)
+                   : Estimate(plan, *call.light_field, kernels, runner, output, memory);
+  });
 }
 
 // Checks a call and does it. The output is as the caller says: its stride in bytes, without a

@@ -6,6 +6,7 @@
 #include "lib/api/validate.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
+#include "starfocus/depth.h"
 #include "starfocus/starfocus.h"
 
 using starfocus::EngineState;
@@ -23,6 +24,13 @@ sf_config Choose(const sf_config& config) {
   return chosen;
 }
 
+bool AreEqual(const char* a, const char* b) {
+  for (; *a == *b; ++a, ++b) {
+    if (*a == 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 }  // namespace starfocus
 
@@ -30,9 +38,26 @@ uint32_t sf_abi_version(void) { return SF_ABI_VERSION; }
 
 const char* sf_version(void) { return SF_VERSION_STRING; }
 
-size_t sf_config_size(void) { return sizeof(sf_config); }
-
-size_t sf_params_size(void) { return sizeof(sf_params); }
+size_t sf_struct_size(const char* name) {
+  struct Entry {
+    const char* name;
+    size_t size;
+  };
+#define SIZE_OF(type) \
+  { #type, sizeof(type) }
+  constexpr Entry kSizes[] = {
+      SIZE_OF(sf_allocator),       SIZE_OF(sf_block),        SIZE_OF(sf_config),
+      SIZE_OF(sf_depth_config),    SIZE_OF(sf_layer_report), SIZE_OF(sf_light_field),
+      SIZE_OF(sf_disparity_stats), SIZE_OF(sf_params),       SIZE_OF(sf_plane),
+      SIZE_OF(sf_previous),        SIZE_OF(sf_region),       SIZE_OF(sf_report),
+      SIZE_OF(sf_skipped),         SIZE_OF(sf_timing)};
+#undef SIZE_OF
+  if (name == nullptr) return 0;
+  for (const Entry& entry : kSizes) {
+    if (starfocus::AreEqual(entry.name, name)) return entry.size;
+  }
+  return 0;
+}
 
 void sf_config_init(sf_config* config) {
   if (config == nullptr) return;

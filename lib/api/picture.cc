@@ -45,11 +45,15 @@ RowRange MapRows(const EngineState& engine) {
   return {Max(0, stripes.first - engine.lens.reach.rows), Min(engine.config.height, end)};
 }
 
+// The calling thread's, outside of jobs.
+Patience* OwnPatience(EngineState* engine) { return &engine->crew.workers[0].patience; }
+
 // Checks the rows of the map that may be read, before the first pixel is written. The last ones
 // come first, so that the ring is left with those that the first stripes read.
 sf_status CheckDisparity(const sf_light_field& light_field, EngineState* engine) {
   const RowRange rows = MapRows(*engine);
   for (int32_t y = rows.last - 1; y >= rows.first; --y) {
+    if (!OwnPatience(engine)->Spend(engine->config.width)) return SF_ERROR_CANCELLED;
     int32_t unknown = 0;
     const sf_status status = ReadDisparity(DisparityRow(light_field, y), y, engine, &unknown);
     if (status != SF_OK) return status;
@@ -142,22 +146,26 @@ sf_status RefocusStripes(const Request& request, EngineState* engine) {
   const RowRange stripes = StripeRows(*engine);
   const Output out = {request.out, request.out_stride, engine->lens.region};
   const bool direct = IsWhole(request.params->region) && request.previous == nullptr;
+  Watch& watch = engine->crew.jobs.watch;
   for (int32_t y = stripes.first; y < stripes.last; y += side) {
     sf_status status =
         request.prepared != nullptr ? SF_OK : ReadRows(*request.light_field, y, engine);
     if (status != SF_OK) return status;
-    if (request.previous != nullptr) CompareRows(y, &engine->stripe.changes);
+    if (request.previous != nullptr) {
+      status = CompareRows(y, OwnPatience(engine), &engine->stripe.changes);
+      if (status != SF_OK) return status;
+    }
     status = direct ? RefocusStripe(engine, y, {out.data, out.stride, 0, 0}, request.runner)
                     : RefocusIntoBuffer(engine, y, request.runner);
     if (status != SF_OK) return status;
-    if (direct) continue;
     // The stripe after the last one changes nothing of the region.
     const int32_t region_end = out.region.y + out.region.height;
     const int32_t end =
         y + side >= stripes.last ? region_end : Min(FinishedRows(engine->config, y), region_end);
-    WriteRows(*engine, y, end, request.previous, out);
+    if (!direct) WriteRows(*engine, y, end, request.previous, out);
+    watch.SetRows(Max(0, end - out.region.y));
   }
-  return SF_OK;
+  return watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
 }
 
 sf_status CheckPictures(const Request& request, const Rect& region, const sf_config& config) {
@@ -203,6 +211,9 @@ sf_status Refocus(const Request& request, EngineState* engine, sf_report* report
   sf_status status = CheckRequest(request, *engine);
   if (status != SF_OK) return status;
   engine->stream.active = false;
+  const sf_params& params = *request.params;
+  engine->crew.jobs.watch.Begin(params.progress, params.progress_data, 0,
+                                RegionOf(engine->config, params).height);
   status = SetLens(*request.params, engine);
   if (status != SF_OK) return status;
   SetPictures(*request.light_field, engine);

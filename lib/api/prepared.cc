@@ -31,6 +31,7 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
 sf_status ConvertMap(const EngineState& engine, const sf_light_field& light_field,
                      const Plane<int16_t>& to) {
   for (int32_t y = 0; y < engine.config.height; ++y) {
+    if (!engine.crew.workers[0].patience.Spend(engine.config.width)) return SF_ERROR_CANCELLED;
     int32_t unknown = 0;
     const sf_status status = ConvertDisparity(engine.config, *engine.kernels,
                                               DisparityRow(light_field, y), to.Row(y), &unknown);
@@ -57,6 +58,7 @@ sf_status MakeLayers(const Prepared& prepared, EngineState* engine, const Runner
       engine->pictures.layers[layer].samples.data =
           prepared.layers[layer].Row(engine->pictures.layers[layer].rows.first);
     }
+    engine->crew.jobs.watch.SetRows(y);
     status = FillLayers(engine->config, *engine->kernels, runner, &engine->crew, &engine->pictures);
   }
   for (int layer = 0; layer < SF_LAYERS; ++layer) engine->pictures.layers[layer] = own[layer];
@@ -105,7 +107,8 @@ sf_status sf_prepared_size(const sf_config* config, size_t* bytes) {
 }
 
 sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
-                     size_t bytes, sf_runner runner, void* runner_data, sf_prepared** prepared) {
+                     size_t bytes, sf_progress progress, void* progress_data, sf_runner runner,
+                     void* runner_data, sf_prepared** prepared) {
   if (prepared == nullptr) return SF_ERROR_NULL;
   *prepared = nullptr;
   if (engine == nullptr || light_field == nullptr) return SF_ERROR_NULL;
@@ -123,6 +126,8 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
     return SF_ERROR_OVERLAP;
   }
   e.stream.active = false;
+  starfocus::Watch& watch = e.crew.jobs.watch;
+  watch.Begin(progress, progress_data, 0, e.config.height);
   // The map is converted into the engine's own ring first, only to be checked: the caller's memory
   // stays as it is when a row is bad.
   status = starfocus::ConvertMap(e, *light_field, e.pictures.disparity);
@@ -135,6 +140,9 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
   if (status != SF_OK) return status;
   starfocus::SetPictures(*light_field, &e);
   status = starfocus::MakeLayers(*made, &e, {runner, runner_data});
-  if (status == SF_OK) *prepared = reinterpret_cast<sf_prepared*>(made);
-  return status;
+  if (status != SF_OK) return status;
+  watch.SetRows(e.config.height);
+  if (!watch.Ask()) return SF_ERROR_CANCELLED;
+  *prepared = reinterpret_cast<sf_prepared*>(made);
+  return SF_OK;
 }

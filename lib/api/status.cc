@@ -78,7 +78,7 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_TOO_LARGE:
       return "the configuration needs more memory than this machine can address";
     case SF_ERROR_MEMORY:
-      return "the heap has no memory for a workspace";
+      return "there is no memory for the engine";
     case SF_ERROR_POSITION:
       return "position is outside the picture";
     case SF_ERROR_F_STOP:
@@ -99,6 +99,8 @@ const char* sf_status_string(sf_status status) {
       return "cats_eye is outside 0 to 1";
     case SF_ERROR_HIGHLIGHTS:
       return "highlights is outside 1 to 64";
+    case SF_ERROR_CANCELLED:
+      return "the progress function cancelled the call; the output is incomplete";
   }
   return "unknown status";
 }

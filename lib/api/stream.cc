@@ -53,11 +53,15 @@ int32_t CopyRows(EngineState* engine, uint8_t* out, size_t out_stride, int32_t r
 
 sf_status RefocusNext(EngineState* engine, const Runner& runner) {
   Stream& stream = engine->stream;
+  const sf_params& params = engine->lens.params;
+  Watch& watch = engine->crew.jobs.watch;
+  watch.Begin(params.progress, params.progress_data, stream.finished, engine->config.height);
   const sf_status status = RefocusIntoBuffer(engine, stream.next, runner);
   if (status != SF_OK) return status;
   stream.finished = FinishedRows(engine->config, stream.next);
   stream.next += engine->config.largest_block;
-  return SF_OK;
+  watch.SetRows(stream.finished);
+  return watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
 }
 
 }  // namespace
@@ -73,6 +77,7 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   if (e.config.streaming == 0) return SF_ERROR_STATE;
   if (!starfocus::IsWhole(params->region)) return SF_ERROR_REGION;
   e.stream = starfocus::Stream();
+  e.crew.jobs.watch.Begin(params->progress, params->progress_data, 0, e.config.height);
   status = starfocus::SetLens(*params, &e);
   if (status != SF_OK) return status;
   starfocus::Plane<const uint8_t> views[starfocus::kMaxViews];

@@ -6,12 +6,18 @@ namespace {
 
 enum Progress : uint32_t { kWaiting, kTaken, kDone };
 
+void RunJob(int32_t index, int32_t worker, JobSet* set) {
+  if (!set->watch.Ask()) return;
+  set->function(set->data, index, worker);
+  set->watch.CountJob();
+}
+
 // Takes a job and runs it; false when it has been taken before or does not exist.
 bool TakeJob(JobSet* set, int32_t index, int32_t worker) {
   if (index < 0 || index >= set->count) return false;
   std::atomic<uint32_t>& progress = set->progress[index];
   if (progress.exchange(kTaken) != kWaiting) return false;
-  set->function(set->data, index, worker);
+  RunJob(index, worker, set);
   progress.store(kDone);
   return true;
 }
@@ -46,13 +52,14 @@ bool Close(JobSet* set) {
 
 sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const Runner& runner,
                     JobSet* set) {
-  if (runner.run == nullptr) {
-    for (int32_t index = 0; index < count; ++index) function(data, index, 0);
-    return SF_OK;
-  }
   set->function = function;
   set->data = data;
   set->count = count;
+  set->watch.BeginJobs(count);
+  if (runner.run == nullptr) {
+    for (int32_t index = 0; index < count; ++index) RunJob(index, 0, set);
+    return set->watch.IsCancelled() ? SF_ERROR_CANCELLED : SF_OK;
+  }
   for (int32_t index = 0; index < count; ++index) {
     set->progress[index].store(kWaiting, std::memory_order_relaxed);
   }
@@ -60,6 +67,8 @@ sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const
   set->open.store(1);
   const int result = runner.run(runner.data, CallJob, set, count);
   const bool all = Close(set);
+  // A runner may have left jobs out because it knows.
+  if (set->watch.IsCancelled()) return SF_ERROR_CANCELLED;
   return result == 0 && all ? SF_OK : SF_ERROR_RUNNER;
 }
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "lib/base/watch.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -19,8 +20,9 @@ struct Runner {
 // A job; no other one has that worker's memory meanwhile.
 using JobFunction = void (*)(const void* data, int32_t index, int32_t worker);
 
-// The set of jobs that a runner has been given. It lies in the workspace, so that a job called too
-// late finds it closed. Words instead of bytes: some machines have no atomic bytes.
+// The set of jobs that a runner has been given, and the watch over all sets of a call. It lies in
+// the workspace, so that a job called too late finds it closed. Words instead of bytes: some
+// machines have no atomic bytes.
 struct JobSet {
   JobFunction function = nullptr;
   const void* data = nullptr;
@@ -30,9 +32,11 @@ struct JobSet {
   std::atomic<uint32_t> busy[SF_MAX_WORKERS] = {};  // 1: a job has that worker's memory
   std::atomic<uint32_t> open{0};                    // 1: the runner has not returned yet
   std::atomic<uint32_t> misused{0};                 // 1: a call was refused
+  Watch watch;
 };
 
-// Runs function(data, index, worker) for all indices in [0, count), count > 0. SF_OK, or
+// Runs function(data, index, worker) for all indices in [0, count), count > 0, and asks the watch
+// before each. SF_OK; SF_ERROR_CANCELLED, with jobs left out, once the watch has heard no; or
 // SF_ERROR_RUNNER when the runner failed or did not run each of them exactly once. No job runs any
 // more afterwards, whatever the runner does.
 sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const Runner& runner,

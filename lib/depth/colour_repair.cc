@@ -200,7 +200,9 @@ sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_f
       {ChooseTile, {map, output, second, nullptr, maps[1], memory}},
       {WriteTile, {map, output, second, nullptr, maps[1], memory}},
   };
+  int32_t done = 0;
   for (const auto& phase : phases) {
+    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof phases / sizeof *phases));
     if (phase.function == SmoothMap && noise == 0) continue;
     const sf_status status =
         RunJobSet(phase.function, &phase.job, plan.columns * plan.rows, runner, &memory->jobs);

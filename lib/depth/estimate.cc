@@ -56,7 +56,9 @@ sf_status Estimate(const EstimatePlan& plan, const sf_light_field& light_field,
                            output};
   const int32_t tiles = plan.columns * plan.rows;
   constexpr JobFunction kPhases[] = {SweepFirst, SweepSecond, WriteTile};
+  int32_t done = 0;
   for (const JobFunction phase : kPhases) {
+    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof kPhases / sizeof *kPhases));
     const sf_status status = RunJobSet(phase, &job, tiles, runner, &memory->jobs);
     if (status != SF_OK) return status;
   }

@@ -90,7 +90,9 @@ sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
                          output};
   constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, MarkTile, SweepFirst,
                                      SweepSecond, ValueTile, WriteTile};
+  int32_t done = 0;
   for (const JobFunction phase : kPhases) {
+    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof kPhases / sizeof *kPhases));
     if (phase == WriteTile) memory->least_evidence = LeastEvidence(plan, *memory);
     const sf_status status =
         RunJobSet(phase, &job, plan.columns * plan.rows, runner, &memory->jobs);

@@ -30,6 +30,8 @@ struct EngineState {
   sf_config config;
   const simd::Kernels* kernels;
   Tables tables;
+  sf_allocator allocator = {};      // of the memory; without functions: the caller's own
+  size_t bytes = 0;                 // of that, from the allocator
   Crew crew;                        // the workers' memory
   Plane<uint8_t> rings[kMaxViews];  // with streaming: rows that were pushed
 
@@ -43,8 +45,9 @@ struct EngineState {
   StripeState stripe;
 };
 
-// Sets up the lens for params and forgets all of the refocusing before. Returns
-// SF_ERROR_BLUR_TOO_LARGE or SF_OK. The other fields of params must have been checked.
+// Sets up the lens for params, watched by the crew's watch, and forgets all of the refocusing
+// before. Returns SF_ERROR_BLUR_TOO_LARGE, SF_ERROR_CANCELLED or SF_OK. The other fields of params
+// must have been checked.
 sf_status SetLens(const sf_params& params, EngineState* engine);
 
 // Converts row y of the disparity map into the ring and counts what was read. Returns the status of

@@ -114,7 +114,7 @@ void StartChanges(int32_t y, Changes* changes) {
   changes->known = Max(0, changes->rows - reach) / changes->side;
 }
 
-void CompareRows(int32_t y, Changes* changes) {
+sf_status CompareRows(int32_t y, Patience* patience, Changes* changes) {
   const int32_t reach = LargestReach(*changes);
   const int32_t end = Min(changes->height, y + 2 * changes->side + reach);
   for (; changes->rows < end; ++changes->rows) {
@@ -122,8 +122,11 @@ void CompareRows(int32_t y, Changes* changes) {
     for (; changes->known <= last; ++changes->known) {
       std::memset(changes->Flags(changes->known), 0, static_cast<size_t>(changes->columns));
     }
+    const int64_t samples = int64_t{3} * changes->width * changes->views;
+    if (!patience->Spend(samples)) return SF_ERROR_CANCELLED;
     CompareViews(*changes, changes->rows);
   }
+  return SF_OK;
 }
 
 bool HasChanged(const Changes& changes, const Rect& rect) {

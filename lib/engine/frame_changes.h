@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
+#include "lib/base/watch.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -39,8 +40,8 @@ int32_t ChangeStripes(int32_t side, int32_t reach);
 void StartChanges(int32_t y, Changes* changes);
 
 // Compares all rows that blocks of the stripe at row y, and of those before and after it, depend
-// on.
-void CompareRows(int32_t y, Changes* changes);
+// on. Returns SF_OK or SF_ERROR_CANCELLED.
+sf_status CompareRows(int32_t y, Patience* patience, Changes* changes);
 
 // Whether a largest block that has pixels in `rect`, or less than a stripe away from those last
 // compared, has changed.

@@ -279,7 +279,9 @@ size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
   e.crew.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
     const Worker taken = TakeWorker(config, &carver);
-    if (*engine != nullptr) e.crew.workers[worker] = taken;
+    if (*engine == nullptr) continue;
+    e.crew.workers[worker] = taken;
+    e.crew.workers[worker].patience = Patience(&e.crew.jobs.watch);
   }
   return carver.Bytes();
 }

@@ -36,7 +36,8 @@ Rect RegionOf(const sf_config& config, const sf_params& params) {
   return {region.x, region.y, region.width, region.height};
 }
 
-sf_status MakeLens(const sf_config& config, const sf_params& params, Tables* tables, Lens* lens) {
+sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watch, Tables* tables,
+                   Lens* lens) {
   const double r_max = LargestBlur(config, params);
   if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
   lens->params = params;
@@ -49,7 +50,8 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Tables* tab
   lens->scale = {grid.focus, grid.step};
   const bool gathers = Gathers(config, *lens);
   if (params.mode == SF_MODE_BLUR || gathers) {
-    MakeBlurKernels(BlurStepCount(gathers && r_max > kMaxGather ? kMaxGather : r_max), tables);
+    const double largest = gathers && r_max > kMaxGather ? kMaxGather : r_max;
+    return MakeBlurKernels(BlurStepCount(largest), watch, tables);
   }
   return SF_OK;
 }

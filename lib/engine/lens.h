@@ -7,6 +7,7 @@
 
 #include "lib/base/aperture.h"
 #include "lib/base/geometry.h"
+#include "lib/base/watch.h"
 #include "lib/engine/reach.h"
 #include "lib/engine/tables.h"
 #include "lib/filter/deblock.h"
@@ -74,8 +75,10 @@ inline int32_t JoinReach(const sf_config& config, const Lens& lens) {
 }
 
 // Makes the lens for params, and the tables that it needs and that are not there yet. Returns
-// SF_ERROR_BLUR_TOO_LARGE or SF_OK. The other fields of params must have been checked.
-sf_status MakeLens(const sf_config& config, const sf_params& params, Tables* tables, Lens* lens);
+// SF_ERROR_BLUR_TOO_LARGE, SF_ERROR_CANCELLED or SF_OK. The other fields of params must have been
+// checked.
+sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watch, Tables* tables,
+                   Lens* lens);
 
 }  // namespace starfocus
 

@@ -139,6 +139,7 @@ uint64_t RenderExcess(const BlockInputs& in, const Block& block, RenderJob job,
   const Window window = ExcessWindow(in);
   job.window = &window;
   const uint64_t samples = RenderSums(in, block, job, worker);
+  if (!worker->patience.Spend(0)) return 0;
   const size_t row_samples = 3 * static_cast<size_t>(job.rect.width);
   for (int32_t row = 0; row < job.rect.height; ++row) {
     AddExcess(ExcessOf(in), worker->sums + static_cast<size_t>(row) * row_samples, row_samples,
@@ -150,6 +151,7 @@ uint64_t RenderExcess(const BlockInputs& in, const Block& block, RenderJob job,
 Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
                 const Plane<uint8_t>& out, Worker* worker) {
   uint64_t samples = RenderSums(in, block, job, worker);
+  if (!worker->patience.Spend(0)) return {0, 0};  // of sums that nobody has finished
   if (block.layer == 0) {
     FinishPicture(in, job.rect, SumBits(in, job), out, *worker);
   } else {
@@ -167,7 +169,7 @@ void GatherCells(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   field.disparity = worker->field.disparity;
   const Counting counting(in.windows[0], worker);
   const GatherJob job = {&counting.window(),      in.cells,   in.gathered, in.lens->scale,
-                         in.tables->blur_kernels, in.kernels, block.rect};
+                         in.tables->blur_kernels, in.kernels, block.rect,  &worker->patience};
   worker->counts.gathered_pixels +=
       GatherRectangle(job, &field, At(out, block.rect, 0), out.stride);
 }
@@ -205,7 +207,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   ViewGrid grid = MakeViewGrid(rendered, in.lens->params.focus, in.lens->params.aperture * extent,
                                block.layer, in.config->views == 17);
   if (pinhole) grid.step = 0;
-  const RenderJob job = {&in.windows[block.layer], &grid, in.kernels, block.rendered, block.border};
+  const RenderJob job = {&in.windows[block.layer], &grid,        in.kernels,
+                         block.rendered,           block.border, &worker->patience};
   if (in.config->skips == 0 || block.has_highlights) return Render(in, block, job, out, worker);
   const Rect& rect = ViewsRect(block);
   // Slices have ends, which move a little even then.
@@ -229,7 +232,7 @@ void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& 
     const Counting counting(window, worker);
     const BlurJob job = {
         &counting.window(), in.lens->scale, in.tables->blur_kernels, in.kernels, block.rect,
-        block.border.left,  excess};
+        block.border.left,  excess,         &worker->patience};
     BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
   };
   blur(in.windows[0], {in.kernels, in.windows[0].transfer, 0});

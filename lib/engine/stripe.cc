@@ -19,7 +19,10 @@ struct RefocusJob {
 
 void RefocusColumn(const RefocusJob& job, int32_t column, Worker* worker) {
   for (int32_t k = 0; k < job.plan->counts[column]; ++k) {
-    RefocusBlock(job.in, job.plan->BlocksOf(column)[k], job.out, worker);
+    const Block& block = job.plan->BlocksOf(column)[k];
+    // What is read and filtered whatever becomes of the block; renderers count what they do.
+    if (!worker->patience.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
+    RefocusBlock(job.in, block, job.out, worker);
   }
 }
 

@@ -20,8 +20,9 @@ int32_t FinishedRows(const sf_config& config, int32_t y);
 
 // Refocuses what the lens's region needs of the stripe that starts at row y, a multiple of the
 // largest block; stripes come one after the other. All rows within reach are in the windows; `out`
-// holds the stripe's rows and the kDeblockRows before it. SF_OK, or SF_ERROR_RUNNER: `out` is then
-// half made, and the engine as it was, so that the stripe can be refocused again.
+// holds the stripe's rows and the kDeblockRows before it. SF_OK, SF_ERROR_RUNNER or
+// SF_ERROR_CANCELLED: `out` is then half made, and the engine as it was, so that the stripe can be
+// refocused again.
 sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& out,
                         const Runner& runner);
 

@@ -25,7 +25,8 @@ void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pic
 // keeps those that are there.
 void PlaceLayers(const RowRange& of_picture, Pictures* pictures);
 
-// Subsamples into the marked columns of placed layers. Returns SF_OK or SF_ERROR_RUNNER.
+// Subsamples into the marked columns of placed layers. Returns SF_OK, SF_ERROR_RUNNER or
+// SF_ERROR_CANCELLED.
 sf_status FillLayers(const sf_config& config, const simd::Kernels& kernels, const Runner& runner,
                      Crew* crew, Pictures* pictures);
 

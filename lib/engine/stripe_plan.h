@@ -22,7 +22,8 @@ struct Stripe {
 bool ChooseColumns(const Stripe& rows, EngineState* engine);
 
 // Measures cells, splits the largest blocks, drops blocks that nothing asked for depends on, and
-// tells the caller of the others. Returns SF_OK or SF_ERROR_RUNNER.
+// tells the caller of the others. Returns SF_OK, SF_ERROR_RUNNER or
+// SF_ERROR_CANCELLED.
 sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engine);
 
 }  // namespace starfocus

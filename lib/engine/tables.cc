@@ -19,11 +19,12 @@ void MakeTables(const sf_config& config, Tables* tables) {
   tables->blur_steps = 0;
 }
 
-void MakeBlurKernels(int32_t steps, Tables* tables) {
-  if (steps <= tables->blur_steps) return;
-  MakeBlurKernels(tables->blur_steps, steps, tables->opening, tables->blur_weights,
-                  tables->blur_kernels);
-  tables->blur_steps = steps;
+sf_status MakeBlurKernels(int32_t steps, Watch* watch, Tables* tables) {
+  if (steps <= tables->blur_steps) return SF_OK;
+  Patience patience(watch);
+  tables->blur_steps = MakeBlurKernels(tables->blur_steps, steps, tables->opening, &patience,
+                                       tables->blur_weights, tables->blur_kernels);
+  return tables->blur_steps == steps ? SF_OK : SF_ERROR_CANCELLED;
 }
 
 }  // namespace starfocus

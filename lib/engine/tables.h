@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "lib/base/aperture.h"
+#include "lib/base/watch.h"
 #include "lib/filter/blur.h"
 #include "lib/plan/timing.h"
 #include "starfocus/starfocus.h"
@@ -29,8 +30,9 @@ struct Tables {
 // Makes all but the blur kernels; the arrays must be set.
 void MakeTables(const sf_config& config, Tables* tables);
 
-// Makes the blur kernels of steps up to `steps` that are not there yet.
-void MakeBlurKernels(int32_t steps, Tables* tables);
+// Makes the blur kernels of steps up to `steps` that are not there yet. Returns SF_OK or
+// SF_ERROR_CANCELLED; those that were made stay.
+sf_status MakeBlurKernels(int32_t steps, Watch* watch, Tables* tables);
 
 }  // namespace starfocus
 

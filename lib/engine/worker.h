@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "lib/base/watch.h"
 #include "lib/filter/blur.h"
 #include "lib/filter/layers.h"
 #include "lib/line_scan/triangles.h"
@@ -46,6 +47,7 @@ struct Worker {
   int16_t* picture_samples;  // 3 R^2: the block at layer 0
   PartitionScratch partition;
   Counts counts;
+  Patience patience;
 };
 
 }  // namespace starfocus

@@ -19,6 +19,8 @@ double Larger(double a, double b) { return a > b ? a : b; }
 // Lines of a pixel, and points of a line, that integrate (4). Kernels of few pixels have more.
 constexpr int32_t LinesOf(int32_t radius) { return radius <= kFineEnd * kOne ? 16 : 8; }
 constexpr int32_t kPoints = 8;
+// An integral takes as long as so many samples of other work.
+constexpr int32_t kIntegralSamples = 256;
 
 // Radius of a step in 1 / kOne pixels.
 int32_t RadiusOfStep(int32_t step) {
@@ -114,38 +116,42 @@ double PixelIntegral(int32_t n, int32_t m, int32_t radius, const Opening& openin
 }
 
 // Calls visit(n, m, how many pixels share the weight, integral of (4)) for the weights of a kernel
-// that are stored.
+// that are stored. Returns whether patience lasted to the end.
 template <class Visit>
-void ForEachWeight(int32_t step, const Opening& opening, const Visit& visit) {
+bool ForEachWeight(int32_t step, const Opening& opening, Patience* patience, const Visit& visit) {
   const int32_t radius = RadiusOfStep(step), size = SizeOfStep(step);
   if (opening.IsSymmetric()) {
     ForEachOfOctant(size, opening.IsRing(), [&](int32_t n, int32_t m) {
       visit(n, m, PointsOfOctant(n, m), PixelIntegral(n, m, radius, opening));
     });
-    return;
+    return GoesOn(patience, int64_t{kIntegralSamples} * size * size / 2);
   }
   for (int32_t m = -size; m <= size; ++m) {
+    if (!GoesOn(patience, int64_t{kIntegralSamples} * (2 * size + 1))) return false;
     for (int32_t n = -size; n <= size; ++n) visit(n, m, 1, PixelIntegral(n, m, radius, opening));
   }
+  return true;
 }
 
-// Every orbit takes up the rounding of those before it and the last one the rest, as in
-// MakeAperture.
-void MakeKernel(int32_t step, const Opening& opening, uint16_t* weights, BlurKernel* kernel) {
+// Returns whether patience lasted to the end. Every orbit takes up the rounding of those before it
+// and the last one the rest, as in MakeAperture.
+bool MakeKernel(int32_t step, const Opening& opening, Patience* patience, uint16_t* weights,
+                BlurKernel* kernel) {
   kernel->size = SizeOfStep(step);
   kernel->weights = weights;
   kernel->sum_bits = 14;
   kernel->full = !opening.IsSymmetric();
   if (step == 0) {
     weights[0] = 1 << 14;
-    return;
+    return true;
   }
   double total = 0, largest = 0;  // of pixels that simd::Disc weighs together
-  ForEachWeight(step, opening, [&](int32_t n, int32_t m, int32_t points, double integral) {
+  const auto add = [&](int32_t n, int32_t m, int32_t points, double integral) {
     total += points * integral;
     const int32_t together = kernel->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
     largest = Larger(largest, together * integral);
-  });
+  };
+  if (!ForEachWeight(step, opening, patience, add)) return false;
   while (kernel->sum_bits < kMaxLightBits &&
          largest / total * (2 << kernel->sum_bits) < kMaxWeight - 8) {
     ++kernel->sum_bits;
@@ -153,7 +159,7 @@ void MakeKernel(int32_t step, const Opening& opening, uint16_t* weights, BlurKer
   const int32_t one = 1 << kernel->sum_bits, size = kernel->size;
   double wanted = 0;
   int32_t given = 0;
-  ForEachWeight(step, opening, [&](int32_t n, int32_t m, int32_t points, double integral) {
+  const auto give = [&](int32_t n, int32_t m, int32_t points, double integral) {
     wanted += points * integral;
     // What is wanted of all comes from the same sum as the total.
     const auto target = wanted == total ? one : static_cast<int32_t>(wanted / total * one + 0.5);
@@ -162,8 +168,10 @@ void MakeKernel(int32_t step, const Opening& opening, uint16_t* weights, BlurKer
     weights[kernel->full ? (m + size) * (2 * size + 1) + n + size : n * (n + 1) / 2 + m] =
         static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
     given += weight * points;
-  });
+  };
+  if (!ForEachWeight(step, opening, patience, give)) return false;
   Checked(ranges::kRemainder, given - one);
+  return true;
 }
 
 // Copies the extended rectangle and repeats the picture's edge around it.
@@ -239,12 +247,13 @@ size_t BlurWeightCount(const Opening& opening, double max_blur) {
   return count;
 }
 
-void MakeBlurKernels(int32_t first, int32_t last, const Opening& opening, uint16_t* weights,
-                     BlurKernel* kernels) {
+int32_t MakeBlurKernels(int32_t first, int32_t last, const Opening& opening, Patience* patience,
+                        uint16_t* weights, BlurKernel* kernels) {
   for (int32_t step = 0; step < last; ++step) {
-    if (step >= first) MakeKernel(step, opening, weights, &kernels[step]);
+    if (step >= first && !MakeKernel(step, opening, patience, weights, &kernels[step])) return step;
     weights += WeightsOf(kernels[step].full, kernels[step].size);
   }
+  return last;
 }
 
 void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
@@ -270,6 +279,8 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
       }
       const BlurKernel& kernel = job.kernels_of_radius[step];
       const size_t samples = 3 * static_cast<size_t>(x - begin);
+      const int64_t points = (2 * kernel.size + 1) * (2 * kernel.size + 1);
+      if (!GoesOn(job.patience, points * static_cast<int64_t>(samples))) return;
       std::memset(scratch.accumulators, 0, samples * sizeof(uint32_t));
       AddKernel(kernel, side, row + 3 * begin, stride, x - begin, &list);
       list.Flush();

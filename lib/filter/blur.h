@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/opening.h"
+#include "lib/base/watch.h"
 #include "lib/filter/add_excess.h"
 #include "lib/filter/span_list.h"
 #include "lib/input/window.h"
@@ -41,10 +42,11 @@ struct BlurKernel {
 // Weights that all kernels up to max_blur store together.
 size_t BlurWeightCount(const Opening& opening, double max_blur);
 
-// Makes the kernels of steps [first, last) behind those before, which must have been made;
-// kernels[BlurStepCount], weights[BlurWeightCount]. Cat's eyes are left out.
-void MakeBlurKernels(int32_t first, int32_t last, const Opening& opening, uint16_t* weights,
-                     BlurKernel* kernels);
+// Makes the kernels of steps [first, last), first <= last, behind those before, which must have
+// been made; kernels[BlurStepCount], weights[BlurWeightCount]. Cat's eyes are left out. Returns
+// `last`, or the step that patience (null: it lasts) ended at.
+int32_t MakeBlurKernels(int32_t first, int32_t last, const Opening& opening, Patience* patience,
+                        uint16_t* weights, BlurKernel* kernels);
 
 struct BlurJob {
   const Window* window;
@@ -52,8 +54,9 @@ struct BlurJob {
   const BlurKernel* kernels_of_radius;
   const simd::Kernels* kernels;
   Rect rect;
-  int32_t border;    // largest kernel size in the picture
-  ExcessSum excess;  // with a factor the window's excess is added to `out`
+  int32_t border;      // largest kernel size in the picture
+  ExcessSum excess;    // with a factor the window's excess is added to `out`
+  Patience* patience;  // once it ends, `out` is left half made
 };
 
 struct BlurScratch {

@@ -39,6 +39,8 @@ class Gather {
       }
       const BlurKernel& kernel = job_.kernels_of_radius[step];
       const int32_t width = Min(column * kCellSize, job_.rect.width) - x;
+      const int64_t points = (2 * kernel.size + 1) * (2 * kernel.size + 1);
+      if (!GoesOn(job_.patience, 3 * points * width * height)) return;
       job_.kernels->FilterDisc(field_->Rgb(border_ + x, border_ + y), RgbStride(field_->width),
                                {kernel.size, kernel.sum_bits, kernel.weights},
                                job_.window->transfer->encoding, static_cast<size_t>(height),

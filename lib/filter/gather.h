@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/rules.h"
+#include "lib/base/watch.h"
 #include "lib/filter/blur.h"
 #include "lib/input/field.h"
 #include "lib/plan/block_stats.h"
@@ -25,7 +26,8 @@ struct GatherJob {
   BlurScale scale;
   const BlurKernel* kernels_of_radius;
   const simd::Kernels* kernels;
-  Rect rect;  // its corner a multiple of kCellSize
+  Rect rect;           // its corner a multiple of kCellSize
+  Patience* patience;  // once it ends, `out` is left half made
 };
 
 // Gathers the cells of the map in job.rect into `out`, whose first row is the rectangle's; `field`

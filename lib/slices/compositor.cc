@@ -30,10 +30,10 @@ class Section {
   uint64_t Refocus() {
     int16_t* const tile_memory = PlaceSlices();
     const uint64_t pixels = FindParts();
-    const TileJob job = {job_.kernels,     &stack_,     planes_,
-                         scratch_.weights, tile_memory, scratch_.sums};
+    const TileJob job = {job_.kernels, &stack_,       planes_,      scratch_.weights,
+                         tile_memory,  scratch_.sums, job_.patience};
     const SectionPart *part = scratch_.parts, *last = part + parts_;
-    for (int32_t x = 0; x < rect_.width; x += kChunk) {
+    for (int32_t x = 0; x < rect_.width && GoesOn(job_.patience, 0); x += kChunk) {
       TileParts tile = {x, part, part};
       while (tile.end < last && tile.end->x == x) ++tile.end;
       part = tile.end;

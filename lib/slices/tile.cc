@@ -17,7 +17,10 @@ class Tile {
   void Composite() {
     FindRows();
     PlaceSlices();
-    for (int32_t i = -stack_.grid->n(); i <= stack_.grid->n(); ++i) AddColumn(i);
+    for (int32_t i = -stack_.grid->n(); i <= stack_.grid->n(); ++i) {
+      if (!GoesOn(job_.patience, samples_ * (2 * stack_.weights.LastAcross(Abs(i)) + 1))) return;
+      AddColumn(i);
+    }
   }
 
  private:
@@ -31,6 +34,7 @@ class Tile {
         rows.last = part->y + part->rows;
       }
       const size_t sums = kPixelSums * static_cast<size_t>(part->rows * kChunk);
+      samples_ += static_cast<int64_t>(sums) * part->count;
       std::memset(SumsOfRow(job_.sums, part->y), 0, sums * sizeof(*job_.sums));
     }
     for (int32_t k = 0; k < stack_.count; ++k) {
@@ -119,6 +123,7 @@ class Tile {
   const TileJob& job_;
   const SliceStack& stack_;
   const TileParts& parts_;
+  int64_t samples_ = 0;  // of a view, of all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
   RowRange rows_[kMaxSlices];          // of the section, of the parts that see a slice

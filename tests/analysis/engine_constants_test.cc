@@ -254,8 +254,8 @@ struct GatherKernels {
       std::vector<BlurKernel>(static_cast<size_t>(BlurStepCount(kMaxGather)));
 
   GatherKernels() {
-    MakeBlurKernels(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), weights.data(),
-                    kernels.data());
+    MakeBlurKernels(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), nullptr,
+                    weights.data(), kernels.data());
   }
   // Of a radius with kDisparityBits.
   const BlurKernel& Of(int32_t r) const { return kernels[static_cast<size_t>(BlurStep(r))]; }

@@ -67,5 +67,13 @@ int main(void) {
   if (!memory) return Fail("malloc", SF_ERROR_NULL);
   result = Run(&config, Align(memory), bytes);
   free(memory);
-  return result;
+  if (result) return result;
+  {
+    sf_engine* engine = NULL;
+    if (sf_struct_size("sf_config") != sizeof config) return Fail("sf_struct_size", SF_ERROR_SIZE);
+    status = sf_create(&config, NULL, &engine);
+    if (status != SF_OK) return Fail("sf_create", status);
+    sf_destroy(engine);
+  }
+  return 0;
 }

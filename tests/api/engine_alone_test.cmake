@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DNM=… -DPROGRAM=… -DWITH=… -P engine_alone_test.cmake
-# A static program that only refocuses holds nothing of lib/depth; one that makes maps does.
+# A static program that only refocuses, in memory of its own, holds nothing of lib/depth and nothing of
+# sf_create's; one that makes maps has the former.
 cmake_minimum_required(VERSION 3.20)
 
 function(has_depth program found)
@@ -17,6 +18,10 @@ endfunction()
 
 has_depth("${PROGRAM}" alone)
 has_depth("${WITH}" with)
+execute_process(COMMAND "${NM}" "${PROGRAM}" OUTPUT_VARIABLE listing)
+if(listing MATCHES "sf_create" OR NOT listing MATCHES "sf_init")
+  message(SEND_ERROR "${PROGRAM} gives its memory to sf_init, but holds sf_create")
+endif()
 if(alone)
   message(SEND_ERROR "${PROGRAM} only refocuses, but holds what makes disparity maps")
 endif()

@@ -4,16 +4,50 @@
 
 #include <cstdint>
 #include <cstring>
+#include <fstream>
+#include <regex>
 #include <string>
+#include <vector>
 
+#include "starfocus/depth.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/version.h"
 #include "tests/support/test_scene.h"
 
-TEST_CASE("version and sizes are those of the headers") {
+TEST_CASE("the version is that of the headers") {
   CHECK(sf_version() == std::string(SF_VERSION_STRING));
-  CHECK(sf_config_size() == sizeof(sf_config));
-  CHECK(sf_params_size() == sizeof(sf_params));
+}
+
+// The structures that a header defines.
+std::vector<std::string> StructuresOf(const std::string& header) {
+  std::ifstream file(std::string(STARFOCUS_SOURCE_DIR) + "/lib/include/starfocus/" + header);
+  std::vector<std::string> names;
+  const std::regex begin("typedef struct (sf_[a-z_]+) \\{.*");
+  std::smatch found;
+  for (std::string line; std::getline(file, line);) {
+    if (std::regex_match(line, found, begin)) names.push_back(found[1]);
+  }
+  return names;
+}
+
+TEST_CASE("sizes are those of the headers, of every structure") {
+  CHECK(sf_struct_size("sf_config") == sizeof(sf_config));
+  CHECK(sf_struct_size("sf_params") == sizeof(sf_params));
+  CHECK(sf_struct_size("sf_report") == sizeof(sf_report));
+  CHECK(sf_struct_size("sf_depth_config") == sizeof(sf_depth_config));
+  size_t structures = 0;
+  for (const char* header : {"starfocus.h", "depth.h"}) {
+    for (const std::string& name : StructuresOf(header)) {
+      CAPTURE(name);
+      CHECK(sf_struct_size(name.c_str()) > 0);
+      ++structures;
+    }
+  }
+  CHECK(structures >= 14);
+  for (const char* name : {"", "sf_", "sf_confi", "sf_configs", "sf_engine"}) {
+    CHECK(sf_struct_size(name) == 0);
+  }
+  CHECK(sf_struct_size(nullptr) == 0);
 }
 
 TEST_CASE("defaults are those that the header tells") {
@@ -50,6 +84,7 @@ TEST_CASE("defaults are those that the header tells") {
   CHECK(params.focus == 0);
   CHECK(!params.clock);
   CHECK(!params.on_block);
+  CHECK(!params.progress);
   CHECK(params.region.width == 0);
   for (uint32_t reserved : params.reserved) CHECK(reserved == 0);
 }

@@ -55,7 +55,8 @@ sf_status Prepared(test::Engine* engine, const sf_config& config, const sf_param
       memory.data() + SF_ALIGNMENT - reinterpret_cast<uintptr_t>(memory.data()) % SF_ALIGNMENT;
   const sf_light_field field = scene.Field();
   sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(engine->get(), &field, aligned, bytes, nullptr, nullptr, &prepared) == SF_OK);
+  REQUIRE(sf_prepare(engine->get(), &field, aligned, bytes, nullptr, nullptr, nullptr, nullptr,
+                     &prepared) == SF_OK);
   return sf_refocus_prepared(engine->get(), &params, prepared, out->bytes.data(), out->stride,
                              nullptr, nullptr, nullptr);
 }

@@ -35,8 +35,8 @@ class Memory {
 sf_prepared* Prepare(test::Engine* engine, const test::Scene& scene, Memory* memory) {
   const sf_light_field field = scene.Field();
   sf_prepared* prepared = nullptr;
-  REQUIRE(sf_prepare(engine->get(), &field, memory->get(), memory->bytes, nullptr, nullptr,
-                     &prepared) == SF_OK);
+  REQUIRE(sf_prepare(engine->get(), &field, memory->get(), memory->bytes, nullptr, nullptr, nullptr,
+                     nullptr, &prepared) == SF_OK);
   return prepared;
 }
 
@@ -139,7 +139,8 @@ TEST_CASE("prepared: bad input") {
   none.disparity = nullptr;
   const auto prepare = [&](sf_engine* e, const sf_light_field* f, void* at, size_t size) {
     sf_prepared* prepared = reinterpret_cast<sf_prepared*>(&scene);
-    const sf_status status = sf_prepare(e, f, at, size, nullptr, nullptr, &prepared);
+    const sf_status status =
+        sf_prepare(e, f, at, size, nullptr, nullptr, nullptr, nullptr, &prepared);
     CHECK((prepared == nullptr) == (status != SF_OK));
     return status;
   };
@@ -148,8 +149,8 @@ TEST_CASE("prepared: bad input") {
   CHECK(prepare(engine.get(), nullptr, at, memory.bytes) == SF_ERROR_NULL);
   CHECK(prepare(engine.get(), &none, at, memory.bytes) == SF_ERROR_NULL);
   CHECK(prepare(engine.get(), &field, nullptr, memory.bytes) == SF_ERROR_NULL);
-  CHECK(sf_prepare(engine.get(), &field, at, memory.bytes, nullptr, nullptr, nullptr) ==
-        SF_ERROR_NULL);
+  CHECK(sf_prepare(engine.get(), &field, at, memory.bytes, nullptr, nullptr, nullptr, nullptr,
+                   nullptr) == SF_ERROR_NULL);
   CHECK(prepare(engine.get(), &field, at, memory.bytes - 1) == SF_ERROR_WORKSPACE_SMALL);
   CHECK(prepare(engine.get(), &field, at + 8, memory.bytes) == SF_ERROR_WORKSPACE_ALIGNMENT);
   CHECK(prepare(engine.get(), &field, engine.workspace(), memory.bytes) == SF_ERROR_OVERLAP);
@@ -205,8 +206,8 @@ TEST_CASE("prepared: a runner's failure is reported") {
   const sf_light_field field = scene.Field();
   sf_prepared* prepared = nullptr;
   const sf_runner fail = [](void*, sf_job, void*, int32_t) { return 1; };
-  CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, fail, nullptr, &prepared) ==
-        SF_ERROR_RUNNER);
+  CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, nullptr, nullptr, fail,
+                   nullptr, &prepared) == SF_ERROR_RUNNER);
   CHECK(prepared == nullptr);
   // The engine goes on as before.
   const sf_prepared* again = Prepare(&engine, scene, &memory);
@@ -226,7 +227,8 @@ TEST_CASE("prepared: a bad map is refused before anything is written") {
       scene.Disparity(49, row) = bad;
       const sf_light_field field = scene.Field();
       sf_prepared* prepared = nullptr;
-      CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, nullptr, nullptr,
+      CHECK(sf_prepare(engine.get(), &field, memory.get(), memory.bytes, nullptr, nullptr, nullptr,
+                       nullptr,
                        &prepared) == (bad == bad ? SF_ERROR_DISPARITY : SF_ERROR_NOT_FINITE));
       CHECK(std::equal(before.begin(), before.end(), memory.get()));
     }

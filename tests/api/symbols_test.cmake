@@ -2,7 +2,8 @@
 # cmake -DNM=… -DLIBRARY=… -P symbols_test.cmake
 # What lib/ and simd/ need of the outside: memory copies, a few functions of C's <math.h>, the
 # compiler's own helpers and Highway's choice of target. Nothing of libstdc++ (exceptions, RTTI,
-# streams, operator new), no heap and no I/O.
+# streams, operator new), no I/O, and no heap but for what sf_create takes where it is given no allocator,
+# in a unit of its own.
 cmake_minimum_required(VERSION 3.20)
 execute_process(COMMAND "${NM}" -P "${LIBRARY}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
@@ -12,8 +13,14 @@ endif()
 set(defined "")
 set(needed "")
 string(REPLACE "\n" ";" lines "${listing}")
+set(unit "")
+set(heap "")
 foreach(line IN LISTS lines)
-  if(line MATCHES "^([^ ]+) [Uw]")
+  if(line MATCHES "\\[?([a-z_]+)\\.cc\\.o(bj)?\\]?:$")
+    set(unit "${CMAKE_MATCH_1}")
+  elseif(unit STREQUAL "create" AND line MATCHES "^_?(malloc|free) U")
+    list(APPEND heap "${CMAKE_MATCH_1}")
+  elseif(line MATCHES "^([^ ]+) [Uw]")
     list(APPEND needed "${CMAKE_MATCH_1}")
   elseif(line MATCHES "^([^ ]+) [A-Za-z]")
     list(APPEND defined "${CMAKE_MATCH_1}")
@@ -34,5 +41,9 @@ foreach(name IN LISTS needed)
     message(SEND_ERROR "needs more than the library may: ${name}")
   endif()
 endforeach()
+list(SORT heap)
+if(NOT heap STREQUAL "free;malloc")
+  message(SEND_ERROR "the unit of sf_create needs of the heap: ${heap}")
+endif()
 list(JOIN needed " " text)
 message(STATUS "needed: ${text}")

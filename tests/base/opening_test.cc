@@ -140,7 +140,7 @@ TEST_CASE("opening: kernels that blur sum to exactly one through any shape") {
     const Opening opening = starfocus::OpeningOf(config);
     std::vector<uint16_t> weights(starfocus::BlurWeightCount(opening, kMost));
     std::vector<starfocus::BlurKernel> kernels(static_cast<size_t>(steps));
-    starfocus::MakeBlurKernels(0, steps, opening, weights.data(), kernels.data());
+    starfocus::MakeBlurKernels(0, steps, opening, nullptr, weights.data(), kernels.data());
     int wrong = 0;
     for (const starfocus::BlurKernel& kernel : kernels) {
       wrong += Total(kernel.size, [&](int n, int m) { return kernel.Weight(n, m); }) !=

@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Refocuses the scene near and far through the C interface and prints both checksums. */
+/* Refocuses the scene near and far through the C interface and prints both checksums. WITH_POOL: on
+ * threads of the package's pool. */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "scene.h"
+#ifdef WITH_POOL
+#include <starfocus/pool.h>
+#endif
 
 #if defined(HWY_COMPILE_ONLY_STATIC) || defined(HWY_COMPILE_ALL_ATTAINABLE) || \
     defined(HWY_SHARED_DEFINE) || defined(STARFOCUS_CHECK_RANGES)
@@ -19,11 +23,20 @@ int main(void) {
   sf_config config;
   sf_params params;
   sf_engine* engine = NULL;
+  sf_runner runner = NULL;
+  void* runner_data = NULL;
   sf_status status;
   size_t bytes = 0, i;
   char* memory;
   sf_config_init(&config);
   ConfigureFor(&config);
+#ifdef WITH_POOL
+  sf_pool* const pool = sf_pool_create(3);
+  if (!pool) return 1;
+  config.max_workers = sf_pool_workers(pool);
+  runner = sf_pool_run;
+  runner_data = pool;
+#endif
   status = sf_workspace_size(&config, &bytes);
   memory = (char*)malloc(bytes + SF_ALIGNMENT);
   if (!memory) return 1;
@@ -34,10 +47,13 @@ int main(void) {
   sf_params_init(&params);
   for (i = 0; status == SF_OK && i < sizeof foci / sizeof *foci; ++i) {
     params.focus = foci[i];
-    status = sf_refocus(engine, &params, &field, out, kStride, NULL, NULL, NULL);
+    status = sf_refocus(engine, &params, &field, out, kStride, runner, runner_data, NULL);
     if (status == SF_OK) printf("%08x\n", (unsigned)Checksum(out, sizeof out));
   }
   free(memory);
+#ifdef WITH_POOL
+  sf_pool_destroy(pool);
+#endif
   if (status != SF_OK) fprintf(stderr, "refocus: %s\n", sf_status_string(status));
   return status != SF_OK;
 }

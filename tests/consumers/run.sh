@@ -72,6 +72,10 @@ package() {
     project "CMake package, C, $kind" cmake_package -DLANGUAGE=C -DKIND=$kind \
       -DCMAKE_PREFIX_PATH="$prefix"
   done
+  for kind in shared static; do
+    project "CMake package, C, $kind, pool" cmake_package -DLANGUAGE=C -DKIND=$kind -DWITH_POOL=ON \
+      -DCMAKE_PREFIX_PATH="$prefix"
+  done
   project 'CMake package, C++' cmake_package -DLANGUAGE=CXX -DCMAKE_PREFIX_PATH="$prefix"
 
   # The prefix may be moved; without the shared library, pkg-config --static finds the other.
@@ -83,6 +87,8 @@ package() {
   mkdir "$work/aside"
   mv "$folder"/libstarfocus.so* "$work/aside"
   program 'pkg-config --static, C99' $(pkg-config --static --cflags --libs starfocus)
+  program 'pkg-config --static, C99, pool' -DWITH_POOL \
+    $(pkg-config --static --cflags --libs starfocus-pool)
   mv "$work"/aside/* "$folder"
 
   mv "$work/moved" "$prefix"

@@ -205,6 +205,35 @@ TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and c
   for (const sf_layer_report& layer : report.layers) CHECK(layer.blocks > 0);
 }
 
+TEST_CASE(
+    "no heap call in creating an engine in an allocator's memory, nor where it is cancelled") {
+  const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
+  const sf_config config = test::ConfigFor(scene, 16);
+  test::Engine holder(config);  // only its memory is used
+  const sf_allocator allocator = {holder.workspace(),
+                                  [](void* memory, size_t, size_t) { return memory; },
+                                  [](void*, void*, size_t) {}};
+  sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+  params.progress = [](void* data, int32_t, int32_t) { return ++*static_cast<int*>(data) / 30; };
+  int progress_calls = 0;
+  params.progress_data = &progress_calls;
+  const sf_light_field field = scene.Field();
+  test::Output out(160, 96);
+
+  HeapWatch watch;
+  sf_engine* engine = nullptr;
+  const sf_status made = sf_create(&config, &allocator, &engine);
+  const sf_status cancelled =
+      sf_refocus(engine, &params, &field, out.bytes.data(), out.stride, nullptr, nullptr, nullptr);
+  sf_destroy(engine);
+  const int counted = watch.Stop();
+
+  CHECK(made == SF_OK);
+  CHECK(cancelled == SF_ERROR_CANCELLED);
+  CHECK(progress_calls == 30);
+  CHECK(counted == 0);
+}
+
 TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") {
   const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
   const sf_config config = test::ConfigFor(scene, 16);
@@ -220,7 +249,7 @@ TEST_CASE("no heap call in preparing, regions and refocusing what is prepared") 
   HeapWatch watch;
   sf_prepared* prepared = nullptr;
   const sf_status made = sf_prepare(holder.get(), &field, memory.workspace(), memory.bytes(),
-                                    nullptr, nullptr, &prepared);
+                                    nullptr, nullptr, nullptr, nullptr, &prepared);
   const sf_status again = sf_refocus_prepared(holder.get(), &params, prepared, out.bytes.data(),
                                               out.stride, nullptr, nullptr, nullptr);
   const sf_status part = sf_refocus(holder.get(), &params, &field, out.bytes.data(), out.stride,

@@ -189,8 +189,8 @@ TEST_CASE("blur: kernels sum to exactly one, fit their types and fall off from t
   std::vector<starfocus::BlurKernel> kernels(static_cast<size_t>(steps));
   // In two parts, as an engine makes them when it is asked for more.
   const uint32_t fall_off = starfocus::ApertureFallOff(kTheta);
-  starfocus::MakeBlurKernels(0, steps / 3, fall_off, weights.data(), kernels.data());
-  starfocus::MakeBlurKernels(steps / 3, steps, fall_off, weights.data(), kernels.data());
+  starfocus::MakeBlurKernels(0, steps / 3, fall_off, nullptr, weights.data(), kernels.data());
+  starfocus::MakeBlurKernels(steps / 3, steps, fall_off, nullptr, weights.data(), kernels.data());
   for (int step = 0; step < steps; ++step) {
     const starfocus::BlurKernel& kernel = kernels[size_t(step)];
     CAPTURE(step);

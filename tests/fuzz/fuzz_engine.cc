@@ -84,6 +84,14 @@ sf_params MakeParams(const sf_config& config, Input* input) {
                      input->Int(0, config.width), input->Int(0, config.height)};
   }
   if (input->Rarely()) params.reserved[input->Int(0, 3)] = input->Value<uint32_t>();
+  if (input->Rarely()) {
+    static int32_t left;  // calls of progress before the one that cancels
+    left = input->Int(0, 100);
+    params.progress = [](void* data, int32_t, int32_t) -> int {
+      return (*static_cast<int32_t*>(data))-- == 0;
+    };
+    params.progress_data = &left;
+  }
   return params;
 }
 
@@ -168,8 +176,8 @@ void Stream(sf_engine* engine, const sf_config& config, const sf_params& params,
     const int count = RowCount(config.height - pulled, input);
     const sf_status status =
         sf_stream_pull(engine, rest, stride, count, nullptr, nullptr, &moved, nullptr);
-    if (status != SF_OK) return;
-    pulled += moved;
+    if (status != SF_OK && status != SF_ERROR_CANCELLED) return;
+    pulled += moved;  // a stream that was cancelled goes on
     if (!input->Rarely()) continue;
     if (sf_stream_begin(engine, &params) != SF_OK) return;
     pushed = pulled = 0;
@@ -200,8 +208,8 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
   if (posix_memalign(&memory, SF_ALIGNMENT, bytes) != 0) return;
   const std::unique_ptr<void, void (*)(void*)> owner(memory, std::free);
   sf_prepared* prepared = nullptr;
-  const sf_status status =
-      sf_prepare(engine, &pictures.field, memory, bytes, nullptr, nullptr, &prepared);
+  const sf_status status = sf_prepare(engine, &pictures.field, memory, bytes, nullptr, nullptr,
+                                      nullptr, nullptr, &prepared);
   if (status != SF_OK) return;
   sf_refocus_prepared(engine, &params, prepared, out, stride, nullptr, nullptr, &report);
 }

@@ -139,8 +139,8 @@ std::string Prepared(const Asked& asked, test::Random* random) {
   sf_prepared* prepared = nullptr;
   const sf_light_field field = asked.setup.scene.Field();
   status = Retried(&maker, random, [&] {
-    return sf_prepare(maker.get(), &field, memory.get(), bytes, maker.runner(), maker.runner_data(),
-                      &prepared);
+    return sf_prepare(maker.get(), &field, memory.get(), bytes, nullptr, nullptr, maker.runner(),
+                      maker.runner_data(), &prepared);
   });
   if (status != SF_OK) return std::string("preparing: ") + sf_status_string(status);
   const bool part = random->Int(0, 1) == 0;

@@ -25,7 +25,7 @@ struct Options {
 };
 
 std::string Trace(const std::string& name, SceneTimes* times) {
-  ThreadRunner runner(HardwareWorkers());
+  ThreadRunner runner(sf_pool_cores());
   Scene scene;
   MakeScene(name, &scene);
   const Renderer renderer(scene, kWidth, kHeight, SF_TRANSFER_SRGB, &runner);

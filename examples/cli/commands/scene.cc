@@ -65,7 +65,7 @@ Error MakePlan(const Options& options, Plan* plan) {
   error = ParseViews("--views", options.views, &plan->views);
   if (error.empty()) error = ParseTransfer("--transfer", options.transfer, &plan->transfer);
   if (!error.empty()) return error;
-  plan->threads = HardwareWorkers();
+  plan->threads = sf_pool_cores();
   if (!options.threads.empty()) {
     error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
     if (!error.empty()) return error;

@@ -15,26 +15,20 @@ namespace starfocus {
 namespace {
 
 constexpr int kSmallWidth = 256;      // of the pictures that a range is found in
-constexpr int kPhases = 3;            // sets of jobs of an estimate
-constexpr int kRepairPhases = 7;      // and of a repair
 constexpr int kLeastConfidence = 48;  // what less is sure of strays at edges and on flat walls
 constexpr double kStrays = 0.0005;    // the share of pixels at either end that may be wrong
 
-struct ShownRunner {
-  ThreadRunner pool;
-  Progress progress;
+// Who makes a map, with a progress line.
+struct Maker {
+  Maker(int threads, const char* what) : pool(threads), progress(what, 1) {}
 
-  static int Run(void* data, sf_job job, void* job_data, int32_t count) {
-    ShownRunner* self = static_cast<ShownRunner*>(data);
-    const int status = ThreadRunner::Run(&self->pool, job, job_data, count);
-    self->progress.Step();
-    return status;
-  }
+  ThreadRunner pool;
+  PictureProgress progress;
 };
 
 // Estimates the map, or repairs the given one unless that is null. `confidence` may be null.
 Error MakeMap(const std::string& where, const std::vector<Image>& views, const FloatMap* given,
-              const DisparityRange& range, ShownRunner* runner, FloatMap* map,
+              const DisparityRange& range, Maker* maker, FloatMap* map,
               std::vector<uint8_t>* confidence) {
   const Image& centre = views[0];
   const char* task = given == nullptr ? "estimate its disparities" : "repair its disparities";
@@ -45,7 +39,9 @@ Error MakeMap(const std::string& where, const std::vector<Image>& views, const F
   config.views = static_cast<int32_t>(views.size());
   config.disparity_min = range.min;
   config.disparity_max = range.max;
-  config.max_workers = runner->pool.workers();
+  config.max_workers = maker->pool.workers();
+  config.progress = PictureProgress::Tell;
+  config.progress_data = &maker->progress;
   size_t bytes = 0;
   sf_status status =
       given == nullptr ? sf_estimate_size(&config, &bytes) : sf_repair_size(&config, &bytes);
@@ -68,7 +64,7 @@ Error MakeMap(const std::string& where, const std::vector<Image>& views, const F
     const auto make = given == nullptr ? sf_estimate_disparity : sf_repair_disparity;
     status = make(&config, &light_field, map->values.data(), sizeof(float) * width,
                   confidence == nullptr ? nullptr : confidence->data(), width, workspace.get(),
-                  bytes, ShownRunner::Run, runner);
+                  bytes, ThreadRunner::Run, &maker->pool);
   }
   if (status == SF_OK) return "";
   return Error::Internal(where, "views whose disparities it can make", sf_status_string(status));
@@ -110,10 +106,10 @@ Error FindRange(const std::string& where, const std::vector<Image>& views, int t
   for (const Image& view : views) small.push_back(Shrink(view, factor));
   const float most = std::min(static_cast<float>(small[0].width) / 8,
                               static_cast<float>(SF_MAX_DISPARITY) / static_cast<float>(factor));
-  ShownRunner runner{ThreadRunner(threads), Progress("looking for the disparities", kPhases)};
+  Maker maker(threads, "looking for the disparities");
   FloatMap map;
   std::vector<uint8_t> confidence;
-  const Error error = MakeMap(where, small, nullptr, {-most, most}, &runner, &map, &confidence);
+  const Error error = MakeMap(where, small, nullptr, {-most, most}, &maker, &map, &confidence);
   if (!error.empty()) return error;
   std::vector<float> sure;
   for (size_t i = 0; i < map.values.size(); ++i) {
@@ -131,9 +127,9 @@ Error FindRange(const std::string& where, const std::vector<Image>& views, int t
 
 Error EstimateDisparity(const std::string& where, const std::vector<Image>& views,
                         const DisparityRange& range, int threads, DisparityEstimate* estimate) {
-  ShownRunner runner{ThreadRunner(threads), Progress("estimating disparities", kPhases)};
+  Maker maker(threads, "estimating disparities");
   std::vector<uint8_t> confidence;
-  const Error error = MakeMap(where, views, nullptr, range, &runner, &estimate->map, &confidence);
+  const Error error = MakeMap(where, views, nullptr, range, &maker, &estimate->map, &confidence);
   if (error.empty()) Show(confidence, views[0], &estimate->confidence);
   return error;
 }
@@ -154,10 +150,10 @@ Error RepairDisparity(const std::string& folder, int threads, LightField* light_
   }
   // What blurs a map takes its peaks off.
   const DisparityRange range = {std::max(stats.min - 1, -most), std::min(stats.max + 1, most)};
-  ShownRunner runner{ThreadRunner(threads), Progress("repairing disparities", kRepairPhases)};
+  Maker maker(threads, "repairing disparities");
   FloatMap map;
   std::vector<uint8_t> sure;
-  const Error error = MakeMap(folder, light_field->views, &given, range, &runner, &map,
+  const Error error = MakeMap(folder, light_field->views, &given, range, &maker, &map,
                               confidence == nullptr ? nullptr : &sure);
   if (!error.empty()) return error;
   if (confidence != nullptr) Show(sure, light_field->views[0], confidence);

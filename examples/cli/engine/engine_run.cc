@@ -52,16 +52,8 @@ sf_status MakeEngine(const sf_config& config, Workspace* workspace, size_t* byte
   return sf_init(&config, workspace->get(), *bytes, engine);
 }
 
-int EngineRun::ShownRunner::Run(void* data, sf_job job, void* job_data, int32_t count) {
-  ShownRunner* self = static_cast<ShownRunner*>(data);
-  const int status = ThreadRunner::Run(&self->pool, job, job_data, count);
-  if (self->batches) self->progress.Step();
-  return status;
-}
-
 EngineRun::EngineRun(int threads, int pictures)
-    : runner_{ThreadRunner(threads), Progress("refocusing", pictures > 1 ? pictures : 0),
-              pictures == 1} {}
+    : runner_(threads), progress_("refocusing", pictures) {}
 
 Error EngineRun::Start(const std::string& where, const EngineTask& task) {
   sf_config config = task.config;
@@ -83,8 +75,8 @@ Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
     return NoMemory(where, prepared_bytes_);
   }
   const sf_light_field rows = Rows(*task.light_field, 0);
-  status = sf_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, ShownRunner::Run,
-                      &runner_, &prepared_);
+  status = sf_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, nullptr, nullptr,
+                      ThreadRunner::Run, &runner_, &prepared_);
   return Outcome(where, status);
 }
 
@@ -99,9 +91,10 @@ Error EngineRun::RefocusAfter(const std::string& where, const EngineTask& task,
   return Run(where, task, &previous, result);
 }
 
-sf_status EngineRun::RunStream(const EngineTask& task, EngineResult* result) {
+sf_status EngineRun::RunStream(const EngineTask& task, const sf_params& params,
+                               EngineResult* result) {
   Image* out = &result->picture;
-  sf_status status = sf_stream_begin(engine_, &task.params);
+  sf_status status = sf_stream_begin(engine_, &params);
   int pushed = 0, pulled = 0;
   while (status == SF_OK && pulled < out->height) {
     int32_t consumed = 0, written = 0;
@@ -113,8 +106,8 @@ sf_status EngineRun::RunStream(const EngineTask& task, EngineResult* result) {
     }
     if (status != SF_OK) break;
     status = sf_stream_pull(engine_, out->row(pulled), out->stride(),
-                            std::min(kStreamRows, out->height - pulled), ShownRunner::Run, &runner_,
-                            &written, &result->report);
+                            std::min(kStreamRows, out->height - pulled), ThreadRunner::Run,
+                            &runner_, &written, &result->report);
     pulled += written;
     if (status == SF_OK && consumed == 0 && written == 0) return SF_ERROR_STATE;
   }
@@ -130,22 +123,24 @@ Error EngineRun::Run(const std::string& where, const EngineTask& task, const sf_
   result->workspace_bytes = workspace_bytes_;
   result->prepared_bytes = prepared_bytes_;
   const sf_light_field rows = Rows(*task.light_field, 0);
+  sf_params params = task.params;
+  params.progress = PictureProgress::Tell;
+  params.progress_data = &progress_;
   const double start = Seconds();
   sf_status status = SF_OK;
   if (task.stream) {
-    status = RunStream(task, result);
+    status = RunStream(task, params, result);
   } else if (previous != nullptr) {
-    status = sf_refocus_after(engine_, &task.params, &rows, previous, out.pixels.data(),
-                              out.stride(), ShownRunner::Run, &runner_, &result->report);
+    status = sf_refocus_after(engine_, &params, &rows, previous, out.pixels.data(), out.stride(),
+                              ThreadRunner::Run, &runner_, &result->report);
   } else if (prepared_ != nullptr) {
-    status = sf_refocus_prepared(engine_, &task.params, prepared_, out.pixels.data(), out.stride(),
-                                 ShownRunner::Run, &runner_, &result->report);
+    status = sf_refocus_prepared(engine_, &params, prepared_, out.pixels.data(), out.stride(),
+                                 ThreadRunner::Run, &runner_, &result->report);
   } else {
-    status = sf_refocus(engine_, &task.params, &rows, out.pixels.data(), out.stride(),
-                        ShownRunner::Run, &runner_, &result->report);
+    status = sf_refocus(engine_, &params, &rows, out.pixels.data(), out.stride(), ThreadRunner::Run,
+                        &runner_, &result->report);
   }
   result->seconds = Seconds() - start;
-  if (!runner_.batches) runner_.progress.Step();
   return Outcome(where, status);
 }
 

@@ -60,19 +60,12 @@ class EngineRun {
                      const Image& picture, EngineResult* result);
 
  private:
-  struct ShownRunner {
-    ThreadRunner pool;
-    Progress progress;
-    bool batches;  // every batch of jobs is a step of the progress, not every picture
-
-    static int Run(void* data, sf_job job, void* job_data, int32_t count);
-  };
-
-  sf_status RunStream(const EngineTask& task, EngineResult* result);
+  sf_status RunStream(const EngineTask& task, const sf_params& params, EngineResult* result);
   Error Run(const std::string& where, const EngineTask& task, const sf_previous* previous,
             EngineResult* result);
 
-  ShownRunner runner_;
+  ThreadRunner runner_;
+  PictureProgress progress_;
   Workspace workspace_, prepared_memory_;
   size_t workspace_bytes_ = 0, prepared_bytes_ = 0;
   sf_engine* engine_ = nullptr;

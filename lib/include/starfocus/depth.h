@@ -27,6 +27,11 @@ typedef struct sf_depth_config {
                              a pixel or more, 128 at most, if the range is wider than 64; between
                              two steps what fits best is found */
   int32_t max_workers;  /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
+  sf_progress progress; /**< of the rows of the map, by all that they take; null, the default:
+                           nobody is asked. As in sf_params, but asked between tiles of the picture
+                           alone, which take longer; after SF_ERROR_CANCELLED the outputs and the
+                             workspace are unspecified */
+  void* progress_data;  /**< passed to progress */
   uint32_t reserved[8]; /**< zero */
 } sf_depth_config;
 

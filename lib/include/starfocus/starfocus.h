@@ -10,7 +10,7 @@
  *   1. sf_config_init, fill the fields in, sf_workspace_size.
  *   2. Allocate that many bytes, aligned to SF_ALIGNMENT, and sf_init. The engine lives in that
  *      memory: it never allocates, owns nothing else and needs no destructor. Free the memory when
- *      no call is running.
+ *      no call is running. Or sf_create, which has an allocator do that, and sf_destroy.
  *   3. sf_refocus with whole pictures, or sf_stream_begin / sf_stream_push / sf_stream_pull with
  *      rows. Both give the same bytes. For many pictures of one light field there is sf_prepare,
  *      for a part of one sf_params.region, for frames of a video sf_refocus_after.
@@ -21,8 +21,9 @@
  * strides are in bytes and may exceed the row length.
  *
  * Threads: an engine is used by one call at a time; several engines are independent. The engine
- * starts no threads; it hands jobs to the caller's runner. Output bytes depend on neither the
- * runner, the number of workers, the SIMD target nor the way the rows come in.
+ * starts no threads; it hands jobs to the caller's runner, for which starfocus/pool.h is one.
+ * Output bytes depend on neither the runner, the number of workers, the SIMD target nor the way the
+ * rows come in.
  *
  * Errors: every function checks all its arguments before it writes anything but its own state.
  */
@@ -32,16 +33,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "starfocus/status.h"
 #include "starfocus/version.h"
 
 #ifdef __cplusplus
 extern "C" {
-#endif
-
-#if defined(__GNUC__)
-#define SF_API __attribute__((visibility("default")))
-#else
-#define SF_API
 #endif
 
 /** Grows whenever a public structure or the meaning of a call changes. */
@@ -61,69 +57,16 @@ extern "C" {
 /** Largest number of workers. */
 #define SF_MAX_WORKERS 64
 
-typedef enum sf_status {
-  SF_OK = 0,
-  SF_ERROR_NULL = 1,            /**< a pointer that must be given is null */
-  SF_ERROR_VERSION = 2,         /**< structure not initialised by its init function */
-  SF_ERROR_RESERVED = 3,        /**< a reserved field is not zero */
-  SF_ERROR_SIZE = 4,            /**< width or height outside [1, SF_MAX_SIZE] */
-  SF_ERROR_VIEWS = 5,           /**< number of views is not 1, 5, 9 or 17 */
-  SF_ERROR_DISPARITY_RANGE = 6, /**< configured disparity range not finite, reversed or too large */
-  SF_ERROR_MAX_BLUR = 7,        /**< max_blur outside (0, SF_MAX_BLUR] */
-  SF_ERROR_BLOCK = 8,           /**< largest_block is not 0, 32, 64, 128 or 256 */
-  SF_ERROR_WORKERS = 9,         /**< max_workers outside [1, SF_MAX_WORKERS] */
-  SF_ERROR_THETA = 10,          /**< theta outside [SF_MIN_THETA, SF_MAX_THETA] */
-  SF_ERROR_WORKSPACE_SMALL = 11,     /**< memory smaller than its size function says */
-  SF_ERROR_WORKSPACE_ALIGNMENT = 12, /**< memory not aligned to SF_ALIGNMENT */
-  SF_ERROR_MODE = 13,                /**< unknown mode */
-  SF_ERROR_FOCUS = 14,               /**< focus not finite or beyond +-SF_MAX_FOCUS */
-  SF_ERROR_APERTURE = 15,            /**< aperture outside [0, 1] */
-  SF_ERROR_BLUR_TOO_LARGE = 16,      /**< aperture * |disparity - focus| would exceed max_blur */
-  SF_ERROR_STRIDE = 17,              /**< stride smaller than a row, or misaligned for float */
-  SF_ERROR_NOT_FINITE = 18,          /**< disparity map holds NaN or infinity */
-  SF_ERROR_DISPARITY = 19,   /**< disparity map holds a value outside the configured range */
-  SF_ERROR_STATE = 20,       /**< streaming call without sf_stream_begin or streaming = 1 */
-  SF_ERROR_COUNT = 21,       /**< row count negative, or more rows than the picture has */
-  SF_ERROR_RUNNER = 22,      /**< the runner failed or misused its jobs; output is incomplete */
-  SF_ERROR_OVERLAP = 23,     /**< output overlaps an input or the workspace */
-  SF_ERROR_ALL_INVALID = 24, /**< disparity map without a single finite value */
-  SF_ERROR_LAYER = 25,       /**< max_layer is not 0, 1 or 2 */
-  SF_ERROR_DEBLOCKING = 26,  /**< deblocking outside [0, 255] */
-  SF_ERROR_TIMING = 27,      /**< a timing coefficient beyond SF_MAX_TIMING */
-  SF_ERROR_RULE = 28,        /**< unknown rule */
-  SF_ERROR_N_SCALE = 29,     /**< n_scale outside [SF_MIN_N_SCALE, SF_MAX_N_SCALE] */
-  SF_ERROR_SKIPS = 30,       /**< skips is not 0 or 1 */
-  SF_ERROR_REGION = 31,      /**< region outside the picture, or a streaming call with a region */
-  SF_ERROR_PREPARED = 32,    /**< prepared light field of another configuration */
-  SF_ERROR_GATHER = 33,      /**< gather is not 0 or 1 */
-  SF_ERROR_TOO_LARGE = 34,   /**< more memory needed than half of the machine's addresses */
-  SF_ERROR_MEMORY = 35,      /**< of starfocus.hpp alone: no memory for a workspace */
-  SF_ERROR_POSITION = 36,    /**< position outside the picture */
-  SF_ERROR_F_STOP = 37,      /**< an f-stop not finite, or wider than the widest */
-  SF_ERROR_TRANSFER = 38,    /**< unknown transfer */
-  SF_ERROR_SHAPE = 39,       /**< unknown aperture_shape */
-  SF_ERROR_BLADES = 40,      /**< blades outside [3, SF_MAX_BLADES] */
-  SF_ERROR_ROTATION = 41,    /**< rotation outside [-360, 360] */
-  SF_ERROR_CURVATURE = 42,   /**< curvature outside [0, 1] */
-  SF_ERROR_RING = 43,        /**< ring_inner outside [0, SF_MAX_RING_INNER] */
-  SF_ERROR_CATS_EYE = 44,    /**< cats_eye outside [0, 1] */
-  SF_ERROR_HIGHLIGHTS = 45,  /**< highlights outside [1, SF_MAX_HIGHLIGHTS] */
-  SF_ERROR_FILL = 46         /**< fill_unknown is not 0 or 1 */
-} sf_status;
-
-/** One English sentence for a status; never null, static storage. */
-SF_API const char* sf_status_string(sf_status status);
-
 /** SF_ABI_VERSION the library was built with. */
 SF_API uint32_t sf_abi_version(void);
 
 /** SF_VERSION_STRING the library was built with, e.g. "0.1.0"; static storage. */
 SF_API const char* sf_version(void);
 
-/** sizeof(sf_config) and sizeof(sf_params) in the library. A binding to another language declares
- *  these structures itself, and checks with these that it has them right. */
-SF_API size_t sf_config_size(void);
-SF_API size_t sf_params_size(void);
+/** Size in bytes of a structure of starfocus.h or depth.h in the library, by its name, such as
+ *  "sf_config"; 0 when it has no structure of that name. A binding to another language declares
+ *  structures itself, and checks with this that it has each of them right. */
+SF_API size_t sf_struct_size(const char* name);
 
 #define SF_MIN_THETA 0.15707963267948966 /**< 0.05 pi */
 #define SF_MAX_THETA 1.413716694115407   /**< 0.45 pi */
@@ -252,6 +195,26 @@ typedef struct sf_engine sf_engine;
 SF_API sf_status sf_init(const sf_config* config, void* workspace, size_t bytes,
                          sf_engine** engine);
 
+/** Where sf_create takes memory from. */
+typedef struct sf_allocator {
+  void* data; /**< passed to both */
+  /** Returns `bytes` of memory aligned to `alignment`, SF_ALIGNMENT, or null without any. */
+  void* (*allocate)(void* data, size_t bytes, size_t alignment);
+  /** Takes back what allocate gave, with the same `bytes`; never null. */
+  void (*release)(void* data, void* memory, size_t bytes);
+} sf_allocator;
+
+/** sf_workspace_size and sf_init in one: makes an engine in memory that it takes from `allocator`
+ *  (null: malloc and free), in one piece, and that sf_destroy gives back. Nothing else ever
+ *  allocates. *engine is null on error: one of those two functions', SF_ERROR_MEMORY when there is
+ * no memory, SF_ERROR_NULL when a function of the allocator is null. */
+SF_API sf_status sf_create(const sf_config* config, const sf_allocator* allocator,
+                           sf_engine** engine);
+
+/** Ends an engine of sf_create's, in which no call may be running, and gives its memory back. Of
+ * null and of engines of sf_init's, whose memory is the caller's, it does nothing. */
+SF_API void sf_destroy(sf_engine* engine);
+
 typedef enum sf_mode {
   SF_MODE_FRAME = 0,     /**< one N for the whole picture, from (9) */
   SF_MODE_BENCHMARK = 1, /**< one N = 2 * ceil(r_max): the paper's objective quality benchmark; the
@@ -289,6 +252,17 @@ typedef void (*sf_block_visitor)(void* data, const sf_block* block);
 /** A clock in nanoseconds, from any start; called from the runner's threads. */
 typedef uint64_t (*sf_clock)(void);
 
+/** Is told that `rows_done` of `rows` rows are made, and says whether to go on: 0 to go on,
+ * anything else to cancel. The call then ends with SF_ERROR_CANCELLED as soon as all of its threads
+ * have noticed, and nobody is asked again. What it was to write is unspecified then; the engine is
+ * as if it had not been called (of streams see sf_stream_pull). Within a call rows_done never
+ * becomes less; the last time it is `rows`. The function is called after every half a million
+ * samples or so, a fraction of a millisecond on a desktop, and at every job, so that it should look
+ * at a flag and return: without a runner by the thread of the call, with a runner by whichever of
+ * its threads runs a job, but never by two at a time. It must not call anything with the same
+ * engine or memory. */
+typedef int (*sf_progress)(void* data, int32_t rows_done, int32_t rows);
+
 /** A rectangle of the picture, in pixels. */
 typedef struct sf_region {
   int32_t x, y;          /**< its left and top pixel, >= 0 */
@@ -306,6 +280,8 @@ typedef struct sf_params {
   sf_block_visitor on_block; /**< null: nobody is told */
   void* on_block_data;       /**< passed to on_block */
   sf_region region;          /**< what sf_refocus writes; streaming: all 0; default all 0 */
+  sf_progress progress;      /**< of the rows of the picture or region; null: nobody is asked */
+  void* progress_data;       /**< passed to progress */
   uint32_t reserved[4];      /**< zero */
 } sf_params;
 
@@ -402,10 +378,12 @@ SF_API sf_status sf_prepared_size(const sf_config* config, size_t* bytes);
  * in `memory` (`bytes` long, aligned to SF_ALIGNMENT), which stays the caller's. The refocusings
  * read the pictures of the light field again: what light_field points to must stay as it is until
  * the last one, the structure itself need not. `memory` must overlap neither it nor the workspace.
- *  runner as in sf_refocus. *prepared is null on error. */
+ *  progress (null: nobody is asked) and its data as in sf_params, runner as in sf_refocus.
+ * *prepared is null on error; `memory` is unspecified after SF_ERROR_CANCELLED and SF_ERROR_RUNNER.
+ */
 SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
-                            size_t bytes, sf_runner runner, void* runner_data,
-                            sf_prepared** prepared);
+                            size_t bytes, sf_progress progress, void* progress_data,
+                            sf_runner runner, void* runner_data, sf_prepared** prepared);
 
 /** As sf_refocus, with the same bytes, of a prepared light field; of this engine or of any of the
  *  same size, views, disparity range, max_layer and transfer (else SF_ERROR_PREPARED). Several
@@ -415,7 +393,7 @@ SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                                      sf_runner runner, void* runner_data, sf_report* report);
 
 /** A light field of the same configuration and what was made of it with the same params (but for
- *  their clock and visitor). */
+ *  their clock, visitor and progress). */
 typedef struct sf_previous {
   sf_light_field light_field; /**< only compared */
   const uint8_t* out; /**< the picture, or region, that sf_refocus or sf_refocus_after wrote */
@@ -440,9 +418,12 @@ SF_API sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_f
 
 /** Writes up to `rows` next finished rows to out; *written may be 0 until more rows are pushed.
  *  runner as in sf_refocus. report may be null; it is complete once the last row is written. After
- *  SF_ERROR_RUNNER the rows counted by *written are good, and the next pull goes on behind them: it
- *  tells sf_params.on_block again of blocks that had been left half done, but the report counts
- *  them once (only centre_bytes may grow: what was read in vain is read again). */
+ *  SF_ERROR_RUNNER and SF_ERROR_CANCELLED the rows counted by *written are good, and the stream
+ *  stays: the next pull goes on behind them, sf_stream_begin and every other call with the engine
+ *  end it. That pull tells sf_params.on_block again of blocks that had been left half done, but the
+ *  report counts them once (only centre_bytes may grow: what was read in vain is read again).
+ *  sf_params.progress is told of the rows that are made, also by the pulls before, of the whole
+ *  picture's, and only by pulls that make any. */
 SF_API sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
                                 sf_runner runner, void* runner_data, int32_t* written,
                                 sf_report* report);

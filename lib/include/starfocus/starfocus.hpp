@@ -60,7 +60,8 @@ class Engine {
   // short. One prepared before is freed first, so that there are never two: after an error there is
   // none, and RefocusPrepared returns SF_ERROR_NULL.
   sf_status Prepare(const sf_light_field& light_field, sf_runner runner = nullptr,
-                    void* runner_data = nullptr) {
+                    void* runner_data = nullptr, sf_progress progress = nullptr,
+                    void* progress_data = nullptr) {
     prepared_ = Owned<sf_prepared>();
     if (get() == nullptr) return SF_ERROR_NULL;
     size_t bytes = 0;
@@ -68,8 +69,8 @@ class Engine {
     if (status != SF_OK) return status;
     Owned<sf_prepared> fresh(bytes);
     if (fresh.memory == nullptr) return SF_ERROR_MEMORY;
-    status = sf_prepare(get(), &light_field, fresh.memory.get(), bytes, runner, runner_data,
-                        &fresh.handle);
+    status = sf_prepare(get(), &light_field, fresh.memory.get(), bytes, progress, progress_data,
+                        runner, runner_data, &fresh.handle);
     if (status == SF_OK) prepared_ = std::move(fresh);
     return status;
   }

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C ABI of engines in memory of an allocator's. The library's only calls of the heap are here,
+// in a unit of its own, so that a static program that gives its memory links none.
+#include <cstdint>
+#include <cstdlib>
+
+#include "lib/engine/engine.h"
+#include "starfocus/starfocus.h"
+
+using starfocus::EngineState;
+
+namespace starfocus {
+namespace {
+
+// The heap's memory is aligned by hand, since not every C library has a function for that: before
+// what is given out lies what malloc gave.
+void* AllocateFromHeap(void*, size_t bytes, size_t alignment) {
+  if (bytes > SIZE_MAX - alignment) return nullptr;
+  void* const memory = std::malloc(bytes + alignment);
+  if (memory == nullptr) return nullptr;
+  const uintptr_t begin = reinterpret_cast<uintptr_t>(memory) / alignment * alignment + alignment;
+  reinterpret_cast<void**>(begin)[-1] = memory;
+  return reinterpret_cast<void*>(begin);
+}
+
+void ReleaseToHeap(void*, void* memory, size_t) { std::free(static_cast<void**>(memory)[-1]); }
+
+}  // namespace
+}  // namespace starfocus
+
+sf_status sf_create(const sf_config* config, const sf_allocator* allocator, sf_engine** engine) {
+  if (engine == nullptr) return SF_ERROR_NULL;
+  *engine = nullptr;
+  const sf_allocator heap = {nullptr, starfocus::AllocateFromHeap, starfocus::ReleaseToHeap};
+  const sf_allocator& from = allocator != nullptr ? *allocator : heap;
+  if (from.allocate == nullptr || from.release == nullptr) return SF_ERROR_NULL;
+  size_t bytes = 0;
+  sf_status status = sf_workspace_size(config, &bytes);
+  if (status != SF_OK) return status;
+  void* const memory = from.allocate(from.data, bytes, SF_ALIGNMENT);
+  if (memory == nullptr) return SF_ERROR_MEMORY;
+  status = sf_init(config, memory, bytes, engine);
+  if (status != SF_OK) {
+    from.release(from.data, memory, bytes);
+    return status;
+  }
+  EngineState& made = *reinterpret_cast<EngineState*>(*engine);
+  made.allocator = from;
+  made.bytes = bytes;
+  return SF_OK;
+}
+
+void sf_destroy(sf_engine* engine) {
+  if (engine == nullptr) return;
+  const EngineState& state = *reinterpret_cast<EngineState*>(engine);
+  if (state.allocator.release == nullptr) return;
+  // The engine ends with its memory, where the allocator is kept as well.
+  const sf_allocator allocator = state.allocator;
+  allocator.release(allocator.data, engine, state.bytes);
+}

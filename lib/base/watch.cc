@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/base/watch.h"
+
+namespace starfocus {
+
+void Watch::Begin(sf_progress progress, void* data, int32_t done, int32_t rows) {
+  progress_ = progress;
+  data_ = data;
+  rows_ = rows;
+  cancelled_.store(0);
+  SetRows(done);
+}
+
+void Watch::SetRows(int32_t done) {
+  done_ = next_ = done;
+  BeginJobs(1);
+}
+
+void Watch::SetPart(int32_t part, int32_t parts) {
+  done_ = static_cast<int32_t>(int64_t{rows_} * part / parts);
+  next_ = static_cast<int32_t>(int64_t{rows_} * (part + 1) / parts);
+  BeginJobs(1);
+}
+
+void Watch::BeginJobs(int32_t jobs) {
+  jobs_ = jobs;
+  jobs_done_.store(0, std::memory_order_relaxed);
+}
+
+bool Watch::Ask() {
+  if (progress_ == nullptr) return true;
+  if (IsCancelled()) return false;
+  if (asking_.exchange(1) != 0) return true;
+  // Whoever was asking may have heard no meanwhile. Jobs done are read here, by one thread at a
+  // time, so that they do not become fewer.
+  if (!IsCancelled()) {
+    const int64_t jobs_done = jobs_done_.load(std::memory_order_relaxed);
+    const auto more = static_cast<int32_t>((next_ - done_) * jobs_done / jobs_);
+    if (progress_(data_, done_ + more, rows_) != 0) cancelled_.store(1);
+  }
+  asking_.store(0);
+  return !IsCancelled();
+}
+
+}  // namespace starfocus

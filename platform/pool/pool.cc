@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pool, on POSIX threads: C++ whose run time a C program does not link.
+#include "starfocus/pool.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "platform/pool/big_cores.h"
+
+namespace {
+
+// Longer than the engine's own work between two batches, shorter than a thread may waste.
+constexpr int64_t kPatience = 100000;  // ns
+
+int64_t Now() {
+  timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return int64_t{now.tv_sec} * 1000000000 + now.tv_nsec;
+}
+
+// Looks for `ready` until it is true or patience ends.
+template <class Ready>
+void LookFor(const Ready& ready) {
+  const int64_t end = Now() + kPatience;
+  while (!ready() && Now() < end) sched_yield();
+}
+
+// Holds a mutex while it lives.
+class Lock {
+ public:
+  explicit Lock(pthread_mutex_t* mutex) : mutex_(mutex) { pthread_mutex_lock(mutex_); }
+  ~Lock() { pthread_mutex_unlock(mutex_); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  pthread_mutex_t* const mutex_;
+};
+
+struct Batch {
+  sf_job job;
+  void* data;
+  int32_t count;
+};
+
+struct Thread {
+  sf_pool* pool;
+  pthread_t id;
+  int32_t worker;
+};
+
+}  // namespace
+
+// A batch follows the one before within microseconds, less than it takes to wake a thread, so who
+// has nothing to do looks again for a while, giving way to other threads, before it sleeps.
+struct sf_pool {
+  int32_t threads = 0;  // started
+  Thread started[SF_MAX_WORKERS - 1];
+  starfocus::CoreSet cores;  // that threads run on; empty: any
+
+  pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;  // held for a whole batch
+  Batch batch = {nullptr, nullptr, 0};
+  // Jobs of the batch that nobody has taken. Whoever takes one may read the batch until that job
+  // counts as done.
+  std::atomic<int32_t> left{0};
+  std::atomic<int32_t> undone{0};
+  std::atomic<int32_t> stop{0};
+
+  // Who sleeps says so before the last look at the above; who changes that looks here afterwards.
+  std::atomic<int32_t> idle{0};                       // threads at `wake`
+  std::atomic<int32_t> waiting{0};                    // 1: the caller, at `finished`
+  pthread_mutex_t sleep = PTHREAD_MUTEX_INITIALIZER;  // of both
+  pthread_cond_t wake = PTHREAD_COND_INITIALIZER;
+  pthread_cond_t finished = PTHREAD_COND_INITIALIZER;
+
+  bool IsCalled() const { return left > 0 || stop != 0; }
+  bool IsDone() const { return undone == 0; }
+};
+
+namespace {
+
+void Work(sf_pool* pool, int32_t worker) {
+  int32_t left = pool->left;
+  while (left > 0) {
+    if (!pool->left.compare_exchange_weak(left, left - 1)) continue;
+    pool->batch.job(pool->batch.data, pool->batch.count - left, worker);
+    if (--pool->undone == 0 && pool->waiting != 0) {
+      // The caller is asleep, or will look again once it has the lock.
+      { const Lock lock(&pool->sleep); }
+      pthread_cond_signal(&pool->finished);
+    }
+    left = pool->left;
+  }
+}
+
+void* Serve(void* data) {
+  const Thread& thread = *static_cast<const Thread*>(data);
+  sf_pool* const pool = thread.pool;
+  if (pool->cores.Count() > 0) starfocus::RunOn(pool->cores);
+  while (pool->stop == 0) {
+    LookFor([pool] { return pool->IsCalled(); });
+    if (!pool->IsCalled()) {
+      const Lock lock(&pool->sleep);
+      ++pool->idle;
+      while (!pool->IsCalled()) pthread_cond_wait(&pool->wake, &pool->sleep);
+      --pool->idle;
+    }
+    Work(pool, thread.worker);
+  }
+  return nullptr;
+}
+
+void WaitForAll(sf_pool* pool) {
+  LookFor([pool] { return pool->IsDone(); });
+  if (pool->IsDone()) return;
+  const Lock lock(&pool->sleep);
+  pool->waiting = 1;
+  while (!pool->IsDone()) pthread_cond_wait(&pool->finished, &pool->sleep);
+  pool->waiting = 0;
+}
+
+int32_t Clamp(int64_t value) {
+  if (value < 1) return 1;
+  return value > SF_MAX_WORKERS ? SF_MAX_WORKERS : static_cast<int32_t>(value);
+}
+
+int32_t CountCores(const starfocus::CoreSet& big) {
+  const int count = big.Count();
+  return Clamp(count > 0 ? count : sysconf(_SC_NPROCESSORS_ONLN));
+}
+
+}  // namespace
+
+int32_t sf_pool_cores(void) { return CountCores(starfocus::BigCores()); }
+
+sf_pool* sf_pool_create(int32_t workers) {
+  void* const memory = std::malloc(sizeof(sf_pool));
+  if (memory == nullptr) return nullptr;
+  sf_pool* const pool = new (memory) sf_pool();
+  const starfocus::CoreSet big = starfocus::BigCores();
+  const int32_t wanted = workers <= 0 ? CountCores(big) : Clamp(workers);
+  if (wanted <= big.Count()) pool->cores = big;
+  for (int32_t worker = 1; worker < wanted; ++worker) {
+    Thread& thread = pool->started[pool->threads];
+    thread.pool = pool;
+    thread.worker = worker;
+    if (pthread_create(&thread.id, nullptr, Serve, &thread) != 0) break;
+    ++pool->threads;
+  }
+  return pool;
+}
+
+int32_t sf_pool_workers(const sf_pool* pool) { return pool == nullptr ? 0 : pool->threads + 1; }
+
+int sf_pool_run(void* data, sf_job job, void* job_data, int32_t count) {
+  if (data == nullptr || job == nullptr || count < 0) return 1;
+  sf_pool* const pool = static_cast<sf_pool*>(data);
+  const Lock turn(&pool->turn);
+  pool->batch = {job, job_data, count};
+  pool->undone = count;
+  pool->left = count;
+  if (count > 1 && pool->idle > 0) {
+    { const Lock lock(&pool->sleep); }
+    pthread_cond_broadcast(&pool->wake);
+  }
+  Work(pool, 0);
+  WaitForAll(pool);
+  return 0;
+}
+
+void sf_pool_destroy(sf_pool* pool) {
+  if (pool == nullptr) return;
+  {
+    const Lock lock(&pool->sleep);
+    pool->stop = 1;
+  }
+  pthread_cond_broadcast(&pool->wake);
+  for (int32_t thread = 0; thread < pool->threads; ++thread) {
+    pthread_join(pool->started[thread].id, nullptr);
+  }
+  pthread_mutex_destroy(&pool->turn);
+  pthread_mutex_destroy(&pool->sleep);
+  pthread_cond_destroy(&pool->wake);
+  pthread_cond_destroy(&pool->finished);
+  pool->~sf_pool();
+  std::free(pool);
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/base/watch.h"
+
+#include <doctest/doctest.h>
+
+#include <thread>
+#include <vector>
+
+namespace starfocus {
+namespace {
+
+// What is asked, and the answer.
+struct Caller {
+  std::vector<int32_t> done;
+  int answer = 0;
+
+  static int Progress(void* data, int32_t rows_done, int32_t) {
+    Caller& self = *static_cast<Caller*>(data);
+    self.done.push_back(rows_done);
+    return self.answer;
+  }
+};
+
+TEST_CASE(
+    "patience: work is counted, however it is cut up, and asked after half a million samples") {
+  for (const int64_t at_once : {1, 1000, 1 << 19, 1 << 25}) {
+    CAPTURE(at_once);
+    Caller caller;
+    Watch watch;
+    watch.Begin(Caller::Progress, &caller, 0, 10);
+    Patience patience(&watch);
+    constexpr int64_t kWork = 1 << 26;
+    for (int64_t work = 0; work < kWork; work += at_once) {
+      if (!patience.Spend(at_once)) FAIL("asked nobody who says no");
+    }
+    const int64_t most = at_once > 1 << 19 ? at_once : 1 << 19;
+    const auto asked = int64_t(caller.done.size());
+    CHECK(2 * most * asked >= kWork);
+    constexpr int64_t kOften = kWork >> 19;
+    CHECK(asked <= kOften);
+  }
+}
+
+TEST_CASE("patience: no is no for all of a call, and forgotten in the next") {
+  Caller caller;
+  caller.answer = 1;
+  Watch watch;
+  watch.Begin(Caller::Progress, &caller, 0, 10);
+  Patience one(&watch), other(&watch);
+  CHECK(one.Spend(1));
+  CHECK(!one.Spend(1 << 20));
+  CHECK(!one.Spend(0));
+  CHECK(!other.Spend(1 << 20));
+  CHECK(!watch.Ask());
+  CHECK(watch.IsCancelled());
+  CHECK(caller.done.size() == 1);
+  caller.answer = 0;
+  watch.Begin(Caller::Progress, &caller, 0, 10);
+  CHECK(!watch.IsCancelled());
+  CHECK(one.Spend(0));
+  CHECK(other.Spend(1 << 20));
+}
+
+TEST_CASE("patience: without anybody to ask work goes on") {
+  Watch watch;
+  Patience nobody, watched(&watch);
+  for (int i = 0; i < 3; ++i) {
+    CHECK(nobody.Spend(1 << 25));
+    CHECK(watched.Spend(1 << 25));
+    CHECK(GoesOn(nullptr, 1 << 25));
+  }
+}
+
+// Asks from another thread while it is asked.
+struct Nested {
+  Watch* watch;
+  int calls = 0;
+  bool other = false;  // what the other thread was told
+
+  static int Progress(void* data, int32_t, int32_t) {
+    Nested& self = *static_cast<Nested*>(data);
+    if (++self.calls > 1) return 1;
+    std::thread([&self] { self.other = self.watch->Ask(); }).join();
+    return 0;
+  }
+};
+
+TEST_CASE("watch: while a thread asks, others go on without asking") {
+  Watch watch;
+  Nested nested{&watch};
+  watch.Begin(Nested::Progress, &nested, 0, 10);
+  CHECK(watch.Ask());
+  CHECK(nested.other);
+  CHECK(nested.calls == 1);
+  CHECK(!watch.Ask());
+  CHECK(nested.calls == 2);
+}
+
+TEST_CASE("watch: rows of parts are made as the jobs of their set are") {
+  Caller caller;
+  Watch watch;
+  watch.Begin(Caller::Progress, &caller, 0, 100);
+  for (int part = 0; part < 3; ++part) {
+    watch.SetPart(part, 3);
+    watch.BeginJobs(4);
+    for (int job = 0; job < 4; ++job) {
+      watch.Ask();
+      watch.CountJob();
+    }
+  }
+  watch.SetRows(100);
+  watch.Ask();
+  CHECK(caller.done == std::vector<int32_t>{0, 8, 16, 24, 33, 41, 49, 57, 66, 74, 83, 91, 100});
+}
+
+}  // namespace
+}  // namespace starfocus

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A progress function that checks how it is called, and cancels when a test wants it to.
+#ifndef STARFOCUS_TESTS_SUPPORT_WATCH_H_
+#define STARFOCUS_TESTS_SUPPORT_WATCH_H_
+
+#include <atomic>
+#include <cstdint>
+
+namespace test {
+
+struct Watch {
+  static constexpr int kNever = -1;
+
+  explicit Watch(int cancel_at = kNever) : stop(cancel_at) {}
+
+  int stop;       // the call that cancels
+  int calls = 0;  // so far; written by one thread at a time, or `clashes` tells
+  int32_t done = 0, rows = 0;
+  int full = 0;      // calls with all rows
+  int back = 0;      // calls with fewer rows than before, or more than there are
+  int too_late = 0;  // calls after the one that cancelled
+  std::atomic<int> inside{0}, clashes{0};
+
+  static int Progress(void* data, int32_t rows_done, int32_t rows) {
+    Watch& self = *static_cast<Watch*>(data);
+    if (self.inside.fetch_add(1) != 0) ++self.clashes;
+    if (rows_done < self.done || rows_done > rows) ++self.back;
+    if (self.rows != 0 && self.rows != rows) ++self.back;
+    if (rows_done == rows) ++self.full;
+    self.done = rows_done;
+    self.rows = rows;
+    if (self.stop != kNever && self.calls > self.stop) ++self.too_late;
+    const bool cancels = self.calls++ == self.stop;
+    self.inside.fetch_sub(1);
+    return cancels ? 1 : 0;
+  }
+
+  // Whether all calls so far were as promised.
+  bool Good() const { return back == 0 && too_late == 0 && clashes == 0; }
+  bool Ended() const { return Good() && done == rows && full == 1; }
+};
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_WATCH_H_
