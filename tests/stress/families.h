@@ -24,6 +24,9 @@ Outcome SideViews(test::Random* random);
 Outcome Continuity(test::Random* random);
 Outcome Differential(test::Random* random);
 
+// Disparity maps: planes that must stay, and ways to ask for a map that must agree.
+Outcome Maps(test::Random* random);
+
 }  // namespace starfocus::stress
 
 #endif  // STARFOCUS_TESTS_STRESS_FAMILIES_H_

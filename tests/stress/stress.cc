@@ -23,6 +23,7 @@ const std::vector<Family>& Families() {
       {"side-views", "gray levels (flat scenes at disparity 0 read no side view)", 4, SideViews},
       {"continuity", "gray levels per step of 1/64 in focus, 1/256 in aperture", 6, Continuity},
       {"differential", "gray levels between ways to ask for a picture", 9, Differential},
+      {"maps", "pixels (maps agree to the bit)", 2, Maps},
   };
   return families;
 }

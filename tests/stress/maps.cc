@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// The family of disparity maps: estimates and repairs of pictures for which something is known.
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "starfocus/depth.h"
+#include "tests/stress/families.h"
+#include "tests/stress/rig.h"
+
+namespace starfocus::stress {
+namespace {
+
+constexpr int kViews[] = {1, 5, 9, 17};
+constexpr float kMost = 6;     // disparities lie within it
+constexpr int kPlaneMost = 4;  // and of planes within this
+
+struct Map {
+  sf_status status = SF_OK;
+  std::vector<float> disparity;
+  std::vector<uint8_t> confidence;
+
+  bool operator==(const Map& other) const {
+    const size_t bytes = sizeof(float) * disparity.size();
+    return status == other.status && confidence == other.confidence &&
+           std::memcmp(disparity.data(), other.disparity.data(), bytes) == 0;
+  }
+};
+
+// What is asked for: a light field whose map is to be repaired, or estimated.
+struct Question {
+  test::Scene scene;
+  bool repairs = true;
+
+  std::string Text(const char* what) const {
+    char text[120];
+    std::snprintf(text, sizeof(text), "%s: %s of %dx%d, %d views", what,
+                  repairs ? "repair" : "estimate", scene.width, scene.height, scene.views());
+    return text;
+  }
+};
+
+int RunBackwards(void*, sf_job job, void* data, int32_t count) {
+  for (int32_t i = count; i-- > 0;) job(data, i, i % 3);
+  return 0;
+}
+
+Map Make(const Question& question, sf_runner runner, test::Random* random) {
+  const test::Scene& scene = question.scene;
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  config.width = scene.width;
+  config.height = scene.height;
+  config.views = scene.views();
+  config.disparity_min = -kMost;
+  config.disparity_max = kMost;
+  config.max_workers = runner == nullptr ? 1 : 3;
+  size_t bytes = 0;
+  Map map;
+  map.status = (question.repairs ? sf_repair_size : sf_estimate_size)(&config, &bytes);
+  if (map.status != SF_OK) return map;
+  const Memory memory(bytes, random->Int(0, 256), random);
+  const auto width = static_cast<size_t>(scene.width);
+  map.disparity.assign(width * static_cast<size_t>(scene.height), 0);
+  map.confidence.assign(map.disparity.size(), 0);
+  const sf_light_field field = scene.Field();
+  const auto make = question.repairs ? sf_repair_disparity : sf_estimate_disparity;
+  map.status = make(&config, &field, map.disparity.data(), sizeof(float) * width,
+                    map.confidence.data(), width, memory.get(), bytes, runner, nullptr);
+  return map;
+}
+
+// A picture of noise in one plane, which every view shows moved by whole pixels.
+void DrawPlane(int disparity, test::Random* random, test::Scene* scene) {
+  const int margin = std::abs(disparity), stride = scene->width + 2 * margin;
+  const std::vector<uint8_t> noise =
+      test::RandomBytes(3 * size_t(stride) * size_t(scene->height + 2 * margin), random);
+  for (int view = 0; view < scene->views(); ++view) {
+    double u = 0, v = 0;
+    sf_view_position(view, &u, &v);
+    const int left = margin + int(u * disparity), top = margin + int(v * disparity);
+    for (int y = 0; y < scene->height; ++y) {
+      std::memcpy(scene->Pixel(view, 0, y),
+                  &noise[3 * (size_t(top + y) * size_t(stride) + size_t(left))],
+                  3 * size_t(scene->width));
+    }
+  }
+}
+
+// What is in one plane stays there to the bit, and so does the map of a picture of one colour, of
+// which views tell nothing.
+Outcome CheckPlane(Question* question, test::Random* random) {
+  test::Scene& scene = question->scene;
+  const bool blank = random->Int(0, 1) == 0;
+  const int disparity = 2 * random->Int(-kPlaneMost / 2, kPlaneMost / 2);
+  if (blank) {
+    const uint8_t level = random->Byte();
+    for (auto& picture : scene.pictures) picture.assign(picture.size(), level);
+  } else {
+    DrawPlane(disparity, random, &scene);
+  }
+  for (float& value : scene.disparity) value = float(disparity);
+  const Map map = Make(*question, nullptr, random);
+  if (map.status != SF_OK) return {0, question->Text(sf_status_string(map.status))};
+  for (const float value : map.disparity) {
+    if (value != float(disparity)) return {0, question->Text("a plane did not stay one")};
+  }
+  return {};
+}
+
+// Mirrored left and right: views at +u and -u change places.
+test::Scene Mirrored(const test::Scene& scene) {
+  test::Scene mirrored = scene;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      mirrored.Disparity(scene.width - 1 - x, y) = scene.Disparity(x, y);
+      for (int view = 0; view < scene.views(); ++view) {
+        std::memcpy(mirrored.Pixel(view, scene.width - 1 - x, y), scene.Pixel(view, x, y), 3);
+      }
+    }
+  }
+  for (int a = 1; a < scene.views(); ++a) {
+    double u = 0, v = 0, other_u = 0, other_v = 0;
+    sf_view_position(a, &u, &v);
+    for (int b = a + 1; b < scene.views(); ++b) {
+      sf_view_position(b, &other_u, &other_v);
+      if (other_u == -u && other_v == v)
+        std::swap(mirrored.pictures[size_t(a)], mirrored.pictures[size_t(b)]);
+    }
+  }
+  return mirrored;
+}
+
+// Any picture, any map: the mirrored light field has the mirrored map, and neither workers nor what
+// the memory holds matter.
+Outcome CheckAgreement(Question* question, test::Random* random) {
+  test::Scene& scene = question->scene;
+  scene =
+      test::RandomScene(scene.width, scene.height, scene.views(), -kMost, kMost, random->Next());
+  if (random->Int(0, 1) == 0) test::NoisyDisparity(&scene, random);
+  if (question->repairs && random->Int(0, 2) == 0) {
+    const int64_t count = int64_t{scene.width} * scene.height / 8;
+    for (int64_t k = 0; k < count; ++k) {
+      scene.Disparity(random->Int(0, scene.width - 1), random->Int(0, scene.height - 1)) =
+          std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  const Map map = Make(*question, nullptr, random);
+  if (map.status == SF_ERROR_ALL_INVALID) return {};
+  if (map.status != SF_OK) return {0, question->Text(sf_status_string(map.status))};
+  if (!(Make(*question, RunBackwards, random) == map)) {
+    return {0, question->Text("workers change the map")};
+  }
+  const Question mirrored = {Mirrored(scene), question->repairs};
+  const Map other = Make(mirrored, nullptr, random);
+  if (other.status != SF_OK) return {0, mirrored.Text(sf_status_string(other.status))};
+  double largest = 0;
+  const auto width = static_cast<size_t>(scene.width);
+  for (size_t n = 0; n < map.disparity.size(); ++n) {
+    const size_t m = n / width * width + (width - 1 - n % width);
+    largest = std::max(largest, double(std::abs(map.disparity[n] - other.disparity[m])));
+  }
+  if (largest > 0) return {0, question->Text("the mirrored map differs")};
+  return {};
+}
+
+}  // namespace
+
+Outcome Maps(test::Random* random) {
+  Question question;
+  const int views = kViews[random->Int(0, 3)];
+  question.repairs = views == 1 || random->Int(0, 2) > 0;
+  const bool plane = question.repairs && random->Int(0, 2) == 0;
+  // Of a picture that is no larger than its disparity, views above and below show nothing.
+  const int least = plane ? 2 * kPlaneMost + 1 : 1;
+  question.scene =
+      test::EmptyScene(random->Int(least, 90), random->Int(least, 60), views, -kMost, kMost);
+  return plane ? CheckPlane(&question, random) : CheckAgreement(&question, random);
+}
+
+}  // namespace starfocus::stress
