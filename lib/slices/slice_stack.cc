@@ -24,15 +24,27 @@ uint32_t GroupSum(const Aperture& aperture, int32_t i, int32_t first, int32_t la
 }
 
 constexpr int kMostExtraBits = 4;
+constexpr int kMuchSmaller = 4;
+constexpr uint64_t kMostAlike = 16;
 
 }  // namespace
 
+int32_t ViewWeights::LastAlike(int32_t i, int32_t first, int32_t last) const {
+  uint32_t least = UINT32_MAX, most = 0;
+  for (int32_t j = first; j <= last; ++j) {
+    const uint32_t weight = aperture->Weight(i, j);
+    least = weight < least ? weight : least;
+    most = weight > most ? weight : most;
+    if (j > first && most > kMostAlike * uint64_t{least}) return j - 1;
+  }
+  return last;
+}
+
 int ViewWeights::ExtraBits(int32_t i, int32_t first, int32_t last) const {
-  if (2 * aperture->last < kGroupViews) return 0;
   const uint64_t sum = (GroupSum(*aperture, i, first, last) * scale) >> 16;
   int bits = 0;
   while (bits < kMostExtraBits && sum << (bits + 1) <= kGroupSum) ++bits;
-  return bits;
+  return 2 * aperture->last < kGroupViews && bits < kMuchSmaller ? 0 : bits;
 }
 
 ViewWeights ScaleWeights(const Aperture& aperture) {

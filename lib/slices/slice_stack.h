@@ -27,8 +27,13 @@ struct ViewWeights {
     return static_cast<int16_t>((aperture->Weight(i, j) * (scale << extra_bits)) >> 16);
   }
 
+  // Returns the last j of the views from (i, first) to at most (i, last) whose weights are alike:
+  // no one is more than sixteen times another. Steep openings have views of much less weight than
+  // the middle one; summed with it, their products with faint light would be rounded to nothing.
+  int32_t LastAlike(int32_t i, int32_t first, int32_t last) const;
+
   // Bits that the weights of views (i, first) to (i, last) can have more than the scale gives them:
-  // none with a group a column, where all are about as large.
+  // none with a group a column, unless all are much smaller.
   int ExtraBits(int32_t i, int32_t first, int32_t last) const;
 
   // Largest j of the views (i, j).

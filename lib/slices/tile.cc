@@ -74,8 +74,13 @@ class Tile {
     while (begin <= end && aperture.Weight(i, begin) == 0) ++begin;
     while (begin <= end && aperture.Weight(i, end) == 0) --end;
     for (int32_t group = -last; group <= end; group += kGroupViews) {
-      const int32_t first = Max(group, begin), most = Min(group + kGroupViews - 1, end);
-      if (first <= most) AddGroup(i, first, most);
+      const int32_t most = Min(group + kGroupViews - 1, end);
+      for (int32_t first = Max(group, begin); first <= most;) {
+        const int32_t alike = stack_.weights.LastAlike(i, first, most);
+        if (aperture.Weight(i, first) != 0)
+          AddGroup(i, first, alike);  // else no light comes through
+        first = alike + 1;
+      }
     }
   }
 

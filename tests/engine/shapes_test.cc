@@ -93,6 +93,27 @@ TEST_CASE("shapes: the light of a patch stays, whatever the opening") {
   }
 }
 
+TEST_CASE("shapes: dark codes stay through openings whose views weigh much more in the middle") {
+  constexpr int kWidth = 40, kHeight = 12, kEdge = 28;
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, 0, 0);
+  sf_config config = test::ConfigFor(scene, 4);
+  config.theta = 1.41;
+  for (const sf_mode mode : kModes) {
+    for (int code = 1; code < 40; ++code) {
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x)
+          std::fill_n(scene.Pixel(0, x, y), 3, x < kEdge ? code : 249);
+      }
+      test::Engine engine(config);
+      test::Output out(kWidth, kHeight);
+      REQUIRE(test::Refocus(&engine, test::Params(2.4, 1, mode), scene, &out) == SF_OK);
+      CAPTURE(mode);
+      CAPTURE(code);
+      CHECK(int{*out.Pixel(10, 6)} == code);
+    }
+  }
+}
+
 TEST_CASE("shapes: a ring's middle is dark") {
   for (const sf_mode mode : kModes) {
     CAPTURE(mode);
