@@ -24,35 +24,44 @@ uint32_t GroupSum(const Aperture& aperture, int32_t i, int32_t first, int32_t la
 }
 
 constexpr int kMostExtraBits = 4;
-constexpr int kMuchSmaller = 4;
-constexpr uint64_t kMostAlike = 16;
+constexpr int kNoLight = 99;
+
+// Returns how many times a weight must be multiplied by sixteen to exceed the largest one.
+int RankOf(uint32_t weight, uint32_t most) {
+  int rank = 0;
+  for (uint64_t times = weight; times << kMostExtraBits <= most; ++rank) {
+    if (times == 0) return kNoLight;
+    times <<= kMostExtraBits;
+  }
+  return rank;
+}
 
 }  // namespace
 
 int32_t ViewWeights::LastAlike(int32_t i, int32_t first, int32_t last) const {
-  uint32_t least = UINT32_MAX, most = 0;
-  for (int32_t j = first; j <= last; ++j) {
-    const uint32_t weight = aperture->Weight(i, j);
-    least = weight < least ? weight : least;
-    most = weight > most ? weight : most;
-    if (j > first && most > kMostAlike * uint64_t{least}) return j - 1;
-  }
-  return last;
+  const int rank = RankOf(aperture->Weight(i, first), most);
+  int32_t j = first;
+  while (j < last && RankOf(aperture->Weight(i, j + 1), most) == rank) ++j;
+  return j;
 }
 
 int ViewWeights::ExtraBits(int32_t i, int32_t first, int32_t last) const {
   const uint64_t sum = (GroupSum(*aperture, i, first, last) * scale) >> 16;
   int bits = 0;
   while (bits < kMostExtraBits && sum << (bits + 1) <= kGroupSum) ++bits;
-  return 2 * aperture->last < kGroupViews && bits < kMuchSmaller ? 0 : bits;
+  const bool large = RankOf(aperture->Weight(i, first), most) == 0;
+  return 2 * aperture->last < kGroupViews && large ? 0 : bits;
 }
 
 ViewWeights ScaleWeights(const Aperture& aperture) {
-  ViewWeights weights = {&aperture, 0, 0};
+  ViewWeights weights = {&aperture, 0, 0, 0};
   uint32_t largest = 0;
   // Columns on either side of the middle are alike but in full apertures.
   for (int32_t i = aperture.full ? -aperture.last : 0; i <= aperture.last; ++i) {
     const int32_t last = weights.LastAcross(Abs(i));
+    for (int32_t j = -last; j <= last; ++j) {
+      weights.most = aperture.Weight(i, j) > weights.most ? aperture.Weight(i, j) : weights.most;
+    }
     for (int32_t first = -last; first <= last; first += kGroupViews) {
       const uint32_t sum = GroupSum(aperture, i, first, Min(first + kGroupViews - 1, last));
       largest = sum > largest ? sum : largest;

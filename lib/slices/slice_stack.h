@@ -21,6 +21,7 @@ inline constexpr int32_t kGroupViews = 16;
 struct ViewWeights {
   const Aperture* aperture;
   uint64_t scale;          // 16 bits
+  uint32_t most;           // the aperture's largest weight
   uint32_t least_covered;  // sums of less than this are no colour: what rounding adds would show
 
   int16_t Weight(int32_t i, int32_t j, int extra_bits) const {
@@ -28,12 +29,13 @@ struct ViewWeights {
   }
 
   // Returns the last j of the views from (i, first) to at most (i, last) whose weights are alike:
-  // no one is more than sixteen times another. Steep openings have views of much less weight than
-  // the middle one; summed with it, their products with faint light would be rounded to nothing.
+  // of the same power of sixteen below the aperture's largest. Steep openings have views of much
+  // less weight than the middle one; summed with it, their products with faint light would be
+  // rounded to nothing.
   int32_t LastAlike(int32_t i, int32_t first, int32_t last) const;
 
   // Bits that the weights of views (i, first) to (i, last) can have more than the scale gives them:
-  // none with a group a column, unless all are much smaller.
+  // none with a group a column, unless all are of a lower power of sixteen.
   int ExtraBits(int32_t i, int32_t first, int32_t last) const;
 
   // Largest j of the views (i, j).
