@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/watch.h"
 
@@ -112,12 +113,13 @@ sf_params Watched(sf_params params, Watch* watch) {
   return params;
 }
 
-// Cancels at every call there is, after each of which the same engine must make the picture of a
-// fresh one. Returns the calls of the entry.
+// Cancels at every call there is (of slow builds at the first ones and some of the others), after
+// each of which the same engine must make the picture of a fresh one. Returns the calls of the
+// entry.
 int CheckEntry(const Fixture& f, const Entry& entry) {
   test::Engine engine(f.config);
   int stop = 0;
-  for (;; ++stop) {
+  for (;; stop += test::kSlow && stop >= 10 ? 7 : 1) {
     CAPTURE(stop);
     Watch watch(stop);
     test::Output out(kWidth, kHeight, 5);

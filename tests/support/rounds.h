@@ -9,6 +9,13 @@ namespace test {
 // of them. The bytes are those of this machine, where all are done, natively and under sanitizers.
 constexpr int Rounds(int all) { return STARFOCUS_EMULATED ? (all + 3) / 4 : all; }
 
+// Whether this build takes much longer than a native one: emulated, or checking every range.
+#ifdef STARFOCUS_CHECK_RANGES
+inline constexpr bool kSlow = true;
+#else
+inline constexpr bool kSlow = STARFOCUS_EMULATED;
+#endif
+
 }  // namespace test
 
 #endif  // STARFOCUS_TESTS_SUPPORT_ROUNDS_H_
