@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "simd/depth_kernels.h"
+#include "simd/image_kernels.h"
 #include "simd/kernels.h"
 
 namespace starfocus::simd {
@@ -38,6 +39,10 @@ const Kernels* KernelsOfTarget(size_t index) { return TableOfTarget(BestKernels,
 
 const DepthKernels* DepthKernelsOfTarget(size_t index) {
   return TableOfTarget(BestDepthKernels, index);
+}
+
+const ImageKernels* ImageKernelsOfTarget(size_t index) {
+  return TableOfTarget(BestImageKernels, index);
 }
 
 const Kernels* FindKernels(const char* name) {

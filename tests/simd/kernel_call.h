@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "simd/depth_kernels.h"
+#include "simd/image_kernels.h"
 #include "simd/kernels.h"
 #include "tests/support/test_scene.h"
 
@@ -164,6 +165,7 @@ class CallOf : public CallMemory {
 
 using KernelCall = CallOf<starfocus::simd::Kernels>;
 using DepthCall = CallOf<starfocus::simd::DepthKernels>;
+using ImageCall = CallOf<starfocus::simd::ImageKernels>;
 
 }  // namespace test
 

@@ -8,6 +8,7 @@
 
 #include "lib/engine/engine.h"
 #include "simd/depth_kernels.h"
+#include "simd/image_kernels.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 
@@ -28,6 +29,9 @@ inline std::vector<const starfocus::simd::Kernels*> SimdTargets() {
 }
 inline std::vector<const starfocus::simd::DepthKernels*> DepthTargets() {
   return ListTargets(starfocus::simd::DepthKernelsOfTarget);
+}
+inline std::vector<const starfocus::simd::ImageKernels*> ImageTargets() {
+  return ListTargets(starfocus::simd::ImageKernelsOfTarget);
 }
 
 // Makes an engine use other kernels than the machine's best. Undone by sf_init.

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vector code of depth_values.h. Included once per target.
+#if defined(STARFOCUS_SIMD_DEPTH_VALUES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_DEPTH_VALUES_INL_H_
+#undef STARFOCUS_SIMD_DEPTH_VALUES_INL_H_
+#else
+#define STARFOCUS_SIMD_DEPTH_VALUES_INL_H_
+#endif
+
+#include "simd/compat-inl.h"
+#include "simd/depth_values.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+using DepthTag = hn::ScalableTag<float>;
+using DepthBits = hn::RebindToSigned<DepthTag>;
+
+// Both are whole numbers that a float holds.
+template <class T>
+HWY_INLINE size_t WidenNumbers(const T* HWY_RESTRICT values, size_t count, float* HWY_RESTRICT z) {
+  const DepthTag df;
+  const DepthBits d32;
+  const hn::Rebind<T, DepthTag> dvalue;
+  const size_t lanes = hn::Lanes(df);
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    const auto wide = hn::PromoteTo(d32, hn::LoadU(dvalue, values + n));
+    hn::StoreU(hn::ConvertTo(df, wide), df, z + n);
+  }
+  return n;
+}
+
+inline void BytesToDepth(const uint8_t* HWY_RESTRICT values, size_t count, float* HWY_RESTRICT z) {
+  const size_t n = WidenNumbers(values, count, z);
+  reference::BytesToDepth(values + n, count - n, z + n);
+}
+
+inline void WordsToDepth(const uint16_t* HWY_RESTRICT values, size_t count, float* HWY_RESTRICT z) {
+  const size_t n = WidenNumbers(values, count, z);
+  reference::WordsToDepth(values + n, count - n, z + n);
+}
+
+inline void HalvesToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
+                          float* HWY_RESTRICT z) {
+  const DepthTag df;
+  const DepthBits d32;
+  const hn::Rebind<uint16_t, DepthTag> d16;
+  const size_t lanes = hn::Lanes(df);
+  const auto nan = hn::Set(d32, 0x7FC00000);
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    const auto half = hn::PromoteTo(d32, hn::LoadU(d16, values + n));
+    const auto magnitude = hn::And(half, hn::Set(d32, 0x7FFF));
+    const auto sign = hn::ShiftLeft<16>(hn::Sub(half, magnitude));
+    // Exponents of single precision are 112 higher. No number below passes for one that some
+    // machines take for 0.
+    const auto normal = hn::Add(hn::ShiftLeft<13>(magnitude), hn::Set(d32, 112 << 23));
+    const auto small =
+        hn::BitCast(d32, hn::Mul(hn::ConvertTo(df, magnitude), hn::Set(df, 1.0f / (1 << 24))));
+    const auto bits = hn::IfThenElse(hn::Lt(magnitude, hn::Set(d32, 1 << 10)), small, normal);
+    const auto infinite = hn::Gt(magnitude, hn::Set(d32, 0x7BFF));
+    hn::StoreU(hn::BitCast(df, hn::IfThenElse(infinite, nan, hn::Or(bits, sign))), df, z + n);
+  }
+  reference::HalvesToDepth(values + n, count - n, z + n);
+}
+
+// One way of the two: `scaled` is scale * z or scale / z.
+template <class Scaled>
+HWY_INLINE uint32_t ConvertDepths(const float* HWY_RESTRICT z, size_t count, const DepthRule& rule,
+                                  const Scaled& scaled, int16_t* HWY_RESTRICT out) {
+  const DepthTag df;
+  const DepthBits d32;
+  const hn::Rebind<int16_t, DepthTag> d16;
+  const size_t lanes = hn::Lanes(df);
+  const auto offset = hn::Set(df, rule.offset), invalid = hn::Set(df, rule.invalid);
+  const auto low = hn::Set(df, rule.low), high = hn::Set(df, rule.high);
+  const auto none = hn::Set(d32, int32_t{kNoSurface});
+  uint32_t flags = 0;
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    const auto value = hn::LoadU(df, z + n);
+    const auto disparity = hn::Add(scaled(value), offset);
+    const auto inside = hn::And(hn::Ge(disparity, low), hn::Le(disparity, high));
+    const auto steps =
+        hn::Floor(hn::Add(hn::Mul(disparity, hn::Set(df, 64.0f)), hn::Set(df, 0.5f)));
+    auto result = hn::ConvertTo(d32, hn::IfThenElseZero(inside, steps));
+    // Whether something differs from NaN is not the same on all targets.
+    const auto is_invalid = hn::Eq(value, invalid);
+    if (!hn::AllTrue(df, hn::AndNot(is_invalid, inside))) {
+      const auto finite = hn::Eq(hn::Sub(disparity, disparity), hn::Zero(df));
+      const auto known = hn::AndNot(is_invalid, finite);
+      if (!hn::AllTrue(df, known)) flags |= kUnknownDepth;
+      if (!hn::AllFalse(df, hn::AndNot(inside, known))) flags |= kDepthOutside;
+      result = hn::IfThenElse(hn::RebindMask(d32, known), result, none);
+    }
+    hn::StoreU(hn::DemoteTo(d16, result), d16, out + n);
+  }
+  return flags | reference::DepthToDisparity(z + n, count - n, rule, out + n);
+}
+
+inline uint32_t DepthToDisparity(const float* HWY_RESTRICT z, size_t count, const DepthRule& rule,
+                                 int16_t* HWY_RESTRICT out) {
+  const auto scale = hn::Set(DepthTag(), rule.scale);
+  if (!rule.reciprocal) {
+    return ConvertDepths(
+        z, count, rule, [&](hn::Vec<DepthTag> value) HWY_ATTR { return hn::Mul(scale, value); },
+        out);
+  }
+#if HWY_ARCH_ARM_V7  // Its vectors have no division, only approximations.
+  return reference::DepthToDisparity(z, count, rule, out);
+#else
+  return ConvertDepths(
+      z, count, rule, [&](hn::Vec<DepthTag> value) HWY_ATTR { return hn::Div(scale, value); }, out);
+#endif
+}
+
+inline void BlendRows(const int16_t* HWY_RESTRICT a, const int16_t* HWY_RESTRICT b, size_t count,
+                      uint32_t share, int16_t* HWY_RESTRICT out) {
+  const hn::ScalableTag<int16_t> d16;
+  const size_t lanes = hn::Lanes(d16);
+  const auto step = hn::Set(d16, kBlendStep), down = hn::Set(d16, int16_t{-kBlendStep});
+  const auto weight = hn::Set(d16, static_cast<int16_t>(share));
+  const auto half = hn::Set(d16, int16_t{128});
+  const int16_t* nearer = share < kColumnOne / 2 ? a : b;
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    const auto from = hn::LoadU(d16, a + n);
+    const auto difference = hn::SaturatedSub(hn::LoadU(d16, b + n), from);
+    const auto apart = hn::Or(hn::Gt(difference, step), hn::Lt(difference, down));
+    // Where they are apart the product is of no use.
+    const auto product = hn::Mul(difference, weight);
+    const auto between = hn::Add(from, hn::ShiftRight<8>(hn::Add(product, half)));
+    hn::StoreU(hn::IfThenElse(apart, hn::LoadU(d16, nearer + n), between), d16, out + n);
+  }
+  reference::BlendRows(a + n, b + n, count - n, share, out + n);
+}
+
+inline void SpreadRow(const int32_t* HWY_RESTRICT pairs, const uint32_t* HWY_RESTRICT columns,
+                      size_t count, uint32_t first, int16_t* HWY_RESTRICT out) {
+  const hn::ScalableTag<int32_t> d32;
+  const hn::Rebind<int16_t, decltype(d32)> d16;
+  const hn::RebindToUnsigned<decltype(d32)> du32;
+  const size_t lanes = hn::Lanes(d32);
+  const auto start = hn::Set(d32, static_cast<int32_t>(first));
+  const auto step = hn::Set(d32, int32_t{kBlendStep}), half = hn::Set(d32, 128);
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    const auto column = hn::BitCast(d32, hn::LoadU(du32, columns + n));
+    const auto at = hn::Sub(hn::ShiftRight<kColumnBits>(column), start);
+    const auto share = hn::And(column, hn::Set(d32, int32_t{kColumnOne - 1}));
+    const auto pair = hn::GatherIndex(d32, pairs, at);
+    const auto left = hn::ShiftRight<16>(hn::ShiftLeft<16>(pair));
+    const auto right = hn::ShiftRight<16>(pair);
+    const auto difference = hn::Sub(right, left);
+    const auto product = hn::Add(hn::Mul(share, difference), half);
+    const auto between = hn::Add(left, hn::ShiftRight<8>(product));
+    const auto nearer = hn::IfThenElse(hn::Lt(share, half), left, right);
+    const auto apart = hn::Gt(hn::Abs(difference), step);
+    hn::StoreU(hn::DemoteTo(d16, hn::IfThenElse(apart, nearer, between)), d16, out + n);
+  }
+  reference::SpreadRow(pairs, columns + n, count - n, first, out + n);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vector code of pixels.h. Included once per target.
+#if defined(STARFOCUS_SIMD_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_PIXELS_INL_H_
+#undef STARFOCUS_SIMD_PIXELS_INL_H_
+#else
+#define STARFOCUS_SIMD_PIXELS_INL_H_
+#endif
+
+#include "simd/compat-inl.h"
+#include "simd/pixels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+inline void PixelsToRgb(const uint8_t* HWY_RESTRICT pixels, size_t count, const PixelOrder& order,
+                        uint8_t* HWY_RESTRICT rgb) {
+  const hn::ScalableTag<uint8_t> d8;
+  const size_t lanes = hn::Lanes(d8);
+  size_t n = 0;
+  // The last pixel is left to the reference, which reads no fourth byte.
+  for (; n + lanes < count; n += lanes) {
+    hn::Vec<decltype(d8)> a, b, c;
+    if (order.step == 3) {
+      hn::LoadInterleaved3(d8, pixels + 3 * n, a, b, c);
+    } else {
+      hn::Vec<decltype(d8)> unused;
+      hn::LoadInterleaved4(d8, pixels + 4 * n, a, b, c, unused);
+    }
+    if (order.blue_first) {
+      hn::StoreInterleaved3(c, b, a, d8, rgb + 3 * n);
+    } else {
+      hn::StoreInterleaved3(a, b, c, d8, rgb + 3 * n);
+    }
+  }
+  reference::PixelsToRgb(pixels + order.step * n, count - n, order, rgb + 3 * n);
+}
+
+inline void RgbToPixels(const uint8_t* HWY_RESTRICT rgb, size_t count, const PixelOrder& order,
+                        uint8_t* HWY_RESTRICT pixels) {
+  const hn::ScalableTag<uint8_t> d8;
+  const size_t lanes = hn::Lanes(d8);
+  const auto opaque = hn::Set(d8, uint8_t{255});
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) {
+    hn::Vec<decltype(d8)> r, g, b;
+    hn::LoadInterleaved3(d8, rgb + 3 * n, r, g, b);
+    const auto first = order.blue_first ? b : r, third = order.blue_first ? r : b;
+    if (order.step == 3) {
+      hn::StoreInterleaved3(first, g, third, d8, pixels + 3 * n);
+    } else {
+      hn::StoreInterleaved4(first, g, third, opaque, d8, pixels + 4 * n);
+    }
+  }
+  reference::RgbToPixels(rgb + 3 * n, count - n, order, pixels + order.step * n);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif

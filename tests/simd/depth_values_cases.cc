@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cases of the kernels of simd/depth_values.h.
+#include <cmath>
+#include <limits>
+
+#include "simd/depth_values.h"
+#include "tests/simd/image_cases.h"
+
+namespace test::image_cases {
+namespace {
+
+using starfocus::simd::DepthRule;
+using starfocus::simd::ImageKernels;
+using starfocus::simd::kBlendStep;
+using starfocus::simd::kColumnOne;
+using starfocus::simd::kDepthOutside;
+using starfocus::simd::kNoSurface;
+using starfocus::simd::kUnknownDepth;
+
+constexpr int kLongest = 2 * 32 + 35;
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+std::vector<uint16_t> Words(size_t count, Draw* draw) {
+  std::vector<uint16_t> words(count);
+  for (uint16_t& word : words) word = uint16_t(draw->Next());
+  return words;
+}
+
+// Disparities of 6 fractional bits near each other, far from each other, and unknown ones.
+std::vector<int16_t> Row(size_t count, Draw* draw) {
+  std::vector<int16_t> row(count);
+  int value = draw->Int(-2000, 2000);
+  for (int16_t& element : row) {
+    value += draw->Int(0, 3) == 0 ? draw->Int(-4000, 4000) : draw->Int(-kBlendStep, kBlendStep);
+    value = std::clamp(value, -32000, 32000);
+    element = draw->Rarely(12) ? kNoSurface : int16_t(value);
+  }
+  return row;
+}
+
+DepthRule AnyRule(Draw* draw) {
+  DepthRule rule = {};
+  rule.reciprocal = draw->Int(0, 1) != 0;
+  rule.scale = float(rule.reciprocal ? draw->Real(-30000, 30000) : draw->Real(-0.02, 0.02));
+  rule.offset = draw->Int(0, 2) == 0 ? 0 : float(draw->Real(-5, 5));
+  rule.invalid = draw->Int(0, 1) == 0 ? kNan : float(1000 * draw->Int(0, 3));
+  rule.high = float(draw->Int(0, 1) == 0 ? 500 : 30);
+  rule.low = -rule.high;
+  return rule;
+}
+
+// Values whose disparity is allowed, but for some in calls that have any.
+std::vector<float> Values(size_t count, const DepthRule& rule, Draw* draw) {
+  const float bad[] = {kNan, kInfinity, -kInfinity, 0.0f, -0.0f, 1e-42f, 3e38f, 1e6f};
+  const bool spoilt = draw->Rarely(3), invalid = draw->Rarely(2);
+  std::vector<float> values(count);
+  for (float& z : values) {
+    const float disparity = float(draw->Real(rule.low, rule.high)) - rule.offset;
+    z = rule.reciprocal ? rule.scale / disparity : disparity / rule.scale;
+    if (!(std::fabs(z) < 1e30f)) z = 1000;
+    if (invalid && draw->Int(0, 5) == 0) z = rule.invalid;
+    if (spoilt && draw->Int(0, 9) == 0) z = bad[draw->Int(0, 7)];
+  }
+  return values;
+}
+
+template <class T>
+void WidenCase(const std::vector<T>& all, void (*ImageKernels::*kernel)(const T*, size_t, float*),
+               ImageCall* call) {
+  const size_t count = all.size();
+  const T* values = call->Input("values", all);
+  float* z = call->Output<float>("z", count);
+  call->Result(z, count);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    (kernels.*kernel)(values, count, z);
+    return 0;
+  };
+}
+
+}  // namespace
+
+void BytesToDepth(Draw* draw, ImageCall* call) {
+  WidenCase(RandomBytes(draw->Length(1, kLongest, 1024), draw), &ImageKernels::BytesToDepth, call);
+}
+
+void WordsToDepth(Draw* draw, ImageCall* call) {
+  WidenCase(Words(draw->Length(1, kLongest, 1024), draw), &ImageKernels::WordsToDepth, call);
+}
+
+void HalvesToDepth(Draw* draw, ImageCall* call) {
+  WidenCase(Words(draw->Length(1, kLongest, 1024), draw), &ImageKernels::HalvesToDepth, call);
+}
+
+void DepthToDisparity(Draw* draw, ImageCall* call) {
+  const DepthRule rule = AnyRule(draw);
+  const std::vector<float> all = Values(draw->Length(1, kLongest, 1024), rule, draw);
+  const size_t count = all.size();
+  const float* z = call->Input("z", all);
+  int16_t* out = call->Output<int16_t>("out", count);
+  call->Result(out, count);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    return kernels.DepthToDisparity(z, count, rule, out);
+  };
+  call->is_right = [=](uint64_t flags, Met* met) {
+    ++(*met)[(flags & kUnknownDepth) != 0 ? "unknown" : "all known"];
+    ++(*met)[(flags & kDepthOutside) != 0 ? "outside" : "inside"];
+    for (size_t n = 0; n < count; ++n) {
+      const float d = (rule.reciprocal ? rule.scale / z[n] : rule.scale * z[n]) + rule.offset;
+      const bool known = z[n] != rule.invalid && std::isfinite(d);
+      if (known && (d < rule.low || d > rule.high)) {
+        call->Free(out + n, 1);
+        if ((flags & kDepthOutside) == 0) return false;
+      } else if (known ? std::fabs(out[n] - 64.0 * double(d)) > 0.51 : out[n] != kNoSurface) {
+        return false;
+      }
+    }
+    return true;
+  };
+}
+
+void BlendRows(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongest, 1024);
+  const auto share = uint32_t(draw->Int(0, kColumnOne - 1));
+  const std::vector<int16_t> first = Row(count, draw);
+  std::vector<int16_t> second = first;
+  for (int16_t& value : second) {
+    if (value != kNoSurface && draw->Int(0, 3) != 0) {
+      value =
+          int16_t(std::clamp(value + draw->Int(-kBlendStep - 2, kBlendStep + 2), -32000, 32000));
+    } else if (draw->Int(0, 1) == 0) {
+      value = int16_t(draw->Int(-32000, 32000));
+    }
+  }
+  const int16_t* a = call->Input("a", first);
+  const int16_t* b = call->Input("b", second);
+  int16_t* out = call->Output<int16_t>("out", count);
+  call->Result(out, count);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    kernels.BlendRows(a, b, count, share, out);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    for (size_t n = 0; n < count; ++n) {
+      const bool apart = std::abs(a[n] - b[n]) > kBlendStep;
+      ++(*met)[apart ? "nearer" : "between"];
+      if (out[n] < std::min(a[n], b[n]) || out[n] > std::max(a[n], b[n])) return false;
+      if (apart && out[n] != (share < kColumnOne / 2 ? a[n] : b[n])) return false;
+    }
+    return true;
+  };
+}
+
+void SpreadRow(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongest, 1024), small = draw->Size(1, int(count), 256);
+  const auto first = uint32_t(draw->Int(0, 5000));
+  const std::vector<int16_t> row = Row(small + 1, draw);
+  std::vector<int32_t> both(small);
+  for (size_t k = 0; k < small; ++k) {
+    both[k] = int32_t(uint32_t(uint16_t(row[k])) | uint32_t(uint16_t(row[k + 1])) << 16);
+  }
+  std::vector<uint32_t> places(count);
+  for (uint32_t& place : places) {
+    place = (first + uint32_t(draw->Int(0, int(small) - 1))) * kColumnOne +
+            uint32_t(draw->Int(0, kColumnOne - 1));
+  }
+  const int32_t* pairs = call->Input("pairs", both);
+  const uint32_t* columns = call->Input("columns", places);
+  int16_t* out = call->Output<int16_t>("out", count);
+  call->Result(out, count);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    kernels.SpreadRow(pairs, columns, count, first, out);
+    return 0;
+  };
+}
+
+}  // namespace test::image_cases

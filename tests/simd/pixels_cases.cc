@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cases of the kernels of simd/pixels.h.
+#include "simd/pixels.h"
+#include "tests/simd/image_cases.h"
+
+namespace test::image_cases {
+namespace {
+
+using starfocus::simd::ImageKernels;
+using starfocus::simd::PixelOrder;
+
+constexpr int kLongest = 2 * 64 + 67;
+
+PixelOrder AnyOrder(Draw* draw) { return {size_t(draw->Int(3, 4)), draw->Int(0, 1) != 0}; }
+
+}  // namespace
+
+void PixelsToRgb(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongest, 1024);
+  const PixelOrder order = AnyOrder(draw);
+  // Memory ends with the colours of the last pixel.
+  const uint8_t* pixels = call->Input("pixels", RandomBytes(order.step * (count - 1) + 3, draw));
+  uint8_t* rgb = call->Output<uint8_t>("rgb", 3 * count);
+  call->Result(rgb, 3 * count);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    kernels.PixelsToRgb(pixels, count, order, rgb);
+    return 0;
+  };
+}
+
+void RgbToPixels(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongest, 1024);
+  const PixelOrder order = AnyOrder(draw);
+  const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
+  uint8_t* pixels = call->Output<uint8_t>("pixels", order.step * count);
+  call->Result(pixels, order.step * count);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    kernels.RgbToPixels(rgb, count, order, pixels);
+    return 0;
+  };
+}
+
+}  // namespace test::image_cases

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cases of the kernels of simd/yuv.h.
+#include "simd/yuv.h"
+#include "tests/simd/image_cases.h"
+
+namespace test::image_cases {
+namespace {
+
+using starfocus::simd::ImageKernels;
+using starfocus::simd::YuvMatrix;
+
+constexpr int kLongest = 2 * 64 + 67;  // pixels: two of the widest vectors, with all tails
+
+// Coefficients as large as any that are used, and larger.
+YuvMatrix AnyMatrix(Draw* draw) {
+  YuvMatrix m = {};
+  m.black = int16_t(16 * draw->Int(0, 1));
+  m.y = int16_t(draw->Int(16384, 19100));
+  m.rv = int16_t(draw->Int(11000, 15000));
+  m.gu = int16_t(draw->Int(-4000, 0));
+  m.gv = int16_t(draw->Int(-7000, 0));
+  m.bu = int16_t(draw->Int(14000, 17400));
+  const int most = m.black == 0 ? 32768 : 30000;  // white is 255 at most
+  m.yr = int16_t(draw->Int(6000, 9798));
+  m.yb = int16_t(draw->Int(2000, 3735));
+  m.yg = int16_t(draw->Int(0, 1) == 0 ? most - m.yr - m.yb : draw->Int(12000, 16000));
+  m.ub = int16_t(draw->Int(14000, 16384));
+  m.ug = int16_t(-draw->Int(9000, 12000));
+  m.ur = int16_t(-m.ub - m.ug);
+  m.vr = int16_t(draw->Int(14000, 16384));
+  m.vg = int16_t(-draw->Int(11000, 14000));
+  m.vb = int16_t(-m.vr - m.vg);
+  return m;
+}
+
+std::vector<uint8_t> Codes(size_t count, Draw* draw) { return RandomBytes(count, draw); }
+
+}  // namespace
+
+void YuvToRgb(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongest, 1024), half = (count + 1) / 2;
+  const YuvMatrix m = AnyMatrix(draw);
+  const uint8_t* y = call->Input("y", Codes(count, draw));
+  const uint8_t* u = call->Input("u", Codes(half, draw));
+  const uint8_t* v = call->Input("v", Codes(half, draw));
+  uint8_t* rgb = call->Output<uint8_t>("rgb", 3 * count);
+  call->Result(rgb, 3 * count);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    kernels.YuvToRgb(y, u, v, count, m, rgb);
+    return 0;
+  };
+}
+
+void RgbToLuma(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongest, 1024);
+  const YuvMatrix m = AnyMatrix(draw);
+  const uint8_t* rgb = call->Input("rgb", Codes(3 * count, draw));
+  uint8_t* y = call->Output<uint8_t>("y", count);
+  call->Result(y, count);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    kernels.RgbToLuma(rgb, count, m, y);
+    return 0;
+  };
+}
+
+void RgbToChroma(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongest, 1024), half = (count + 1) / 2;
+  const YuvMatrix m = AnyMatrix(draw);
+  const uint8_t* upper = call->Input("upper", Codes(3 * count, draw));
+  const uint8_t* lower = call->Input("lower", Codes(3 * count, draw));
+  uint8_t* u = call->Output<uint8_t>("u", half);
+  uint8_t* v = call->Output<uint8_t>("v", half);
+  call->Result(u, half);
+  call->Result(v, half);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    kernels.RgbToChroma(upper, lower, count, m, u, v);
+    return 0;
+  };
+}
+
+void SplitPairs(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongest, 1024);
+  const uint8_t* pairs = call->Input("pairs", Codes(2 * count, draw));
+  uint8_t* first = call->Output<uint8_t>("first", count);
+  uint8_t* second = call->Output<uint8_t>("second", count);
+  call->Result(first, count);
+  call->Result(second, count);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    kernels.SplitPairs(pairs, count, first, second);
+    return 0;
+  };
+}
+
+void JoinPairs(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongest, 1024);
+  const uint8_t* first = call->Input("first", Codes(count, draw));
+  const uint8_t* second = call->Input("second", Codes(count, draw));
+  uint8_t* pairs = call->Output<uint8_t>("pairs", 2 * count);
+  call->Result(pairs, 2 * count);
+  call->run = [=](const ImageKernels& kernels) -> uint64_t {
+    kernels.JoinPairs(first, second, count, pairs);
+    return 0;
+  };
+}
+
+}  // namespace test::image_cases
