@@ -9,7 +9,7 @@ LOGS=build/log
 PROGRAM=$BUILD/starfocus
 PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
-FUZZ_TARGETS="engine depth files folder differential"
+FUZZ_TARGETS="engine depth images files folder differential"
 export LC_ALL=C.UTF-8
 
 help() {

@@ -4,6 +4,7 @@
 
 #include "lib/api/light_field.h"
 #include "lib/api/prepared.h"
+#include "lib/api/stripe_rows.h"
 #include "lib/api/validate.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
@@ -26,27 +27,6 @@ struct Output {
            3 * static_cast<size_t>(x - region.x);
   }
 };
-
-// Returns the rows of the stripes that the region needs; a stripe's first row is a multiple of the
-// largest block.
-RowRange StripeRows(const EngineState& engine) {
-  const Rect& region = engine.lens.region;
-  const int32_t reach = JoinReach(engine.config, engine.lens);
-  const int32_t side = engine.config.largest_block;
-  return {Max(0, region.y - reach) / side * side,
-          Min(engine.config.height, region.y + region.height + reach)};
-}
-
-// Returns the rows of the disparity map that the stripes may read.
-RowRange MapRows(const EngineState& engine) {
-  const RowRange stripes = StripeRows(engine);
-  const int32_t side = engine.config.largest_block;
-  const int32_t end = (stripes.last + side - 1) / side * side + engine.lens.reach.rows;
-  return {Max(0, stripes.first - engine.lens.reach.rows), Min(engine.config.height, end)};
-}
-
-// The calling thread's, outside of jobs.
-Patience* OwnPatience(EngineState* engine) { return &engine->crew.workers[0].patience; }
 
 // Checks the rows of the map that may be read, before the first pixel is written. The last ones
 // come first, so that the ring is left with those that the first stripes read.
@@ -260,6 +240,7 @@ sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                               sf_runner runner, void* runner_data, sf_report* report) {
   if (engine == nullptr || params == nullptr || prepared == nullptr) return SF_ERROR_NULL;
   const auto* p = reinterpret_cast<const starfocus::Prepared*>(prepared);
+  if (p->images != nullptr) return SF_ERROR_PREPARED;
   return starfocus::Refocus(
       {params, &p->light_field, p, nullptr, out, out_stride, {runner, runner_data}},
       reinterpret_cast<EngineState*>(engine), report);

@@ -10,23 +10,6 @@
 namespace starfocus {
 namespace {
 
-size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) {
-  Carver carver(base);
-  *prepared = carver.Take<Prepared>(1);
-  Prepared counted;  // stands in for **prepared while counting
-  Prepared& p = *prepared == nullptr ? counted : **prepared;
-  const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
-  p.disparity.stride = width;
-  p.disparity.data = carver.Take<int16_t>(width, height);
-  for (int layer = 1; layer <= config.max_layer; ++layer) {
-    Plane<int16_t>& plane = p.layers[layer];
-    plane.stride = 3 * static_cast<size_t>(LayerSize(config.width, layer));
-    plane.data =
-        carver.Take<int16_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
-  }
-  return carver.Bytes();
-}
-
 // Converts the map into rows of `to`.
 sf_status ConvertMap(const EngineState& engine, const sf_light_field& light_field,
                      const Plane<int16_t>& to) {
@@ -40,14 +23,47 @@ sf_status ConvertMap(const EngineState& engine, const sf_light_field& light_fiel
   return SF_OK;
 }
 
-// Makes the layers stripe by stripe, in the engine's own planes but for the pixels.
-sf_status MakeLayers(const Prepared& prepared, EngineState* engine, const Runner& runner) {
+}  // namespace
+
+size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) {
+  Carver carver(base);
+  *prepared = carver.Take<Prepared>(1);
+  Prepared counted;  // stands in for **prepared while counting
+  Prepared& p = *prepared == nullptr ? counted : **prepared;
+  const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
+  if (config.images != 0) p.images = carver.Take<sf_image_field>(1);
+  p.disparity.stride = width;
+  p.disparity.data = carver.Take<int16_t>(width, height);
+  for (int layer = 1; layer <= config.max_layer; ++layer) {
+    Plane<int16_t>& plane = p.layers[layer];
+    plane.stride = 3 * static_cast<size_t>(LayerSize(config.width, layer));
+    plane.data =
+        carver.Take<int16_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
+  }
+  return carver.Bytes();
+}
+
+sf_status CheckPreparedMemory(const EngineState& engine, const void* memory, size_t bytes,
+                              Extent* extent) {
+  const sf_status status = CheckMemory(memory);
+  if (status != SF_OK) return status;
+  Prepared* counted = nullptr;
+  const size_t needed = LayOutPrepared(engine.config, nullptr, &counted);
+  if (needed == kTooLarge) return SF_ERROR_TOO_LARGE;
+  if (bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
+  *extent = ExtentOf(memory, 0, 1, needed);
+  return Overlaps(*extent, Workspace(engine)) ? SF_ERROR_OVERLAP : SF_OK;
+}
+
+sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Runner& runner,
+                     EngineState* engine) {
   LayerPlane own[SF_LAYERS];
   for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->pictures.layers[layer];
   const int32_t height = engine->config.height, side = engine->config.largest_block;
   // Layers end beyond the picture (LayerSize), by fewer than so many of its pixels; PlaceLayers
   // leaves out what lies beyond them.
   constexpr int32_t kBeyond = 16;
+  RowRange read = {0, 0};
   sf_status status = SF_OK;
   for (int32_t y = 0; y < height && status == SF_OK; y += side) {
     ForgetLayers(engine->config, &engine->pictures);  // those of the stripe before lie elsewhere
@@ -59,14 +75,18 @@ sf_status MakeLayers(const Prepared& prepared, EngineState* engine, const Runner
           prepared.layers[layer].Row(engine->pictures.layers[layer].rows.first);
     }
     engine->crew.jobs.watch.SetRows(y);
+    if (source.read != nullptr) {
+      // The filters' taps reach as far below the stripe.
+      read = {read.last, Min(height, y + side + kBeyond)};
+      status = source.read(source.field, read, prepared.disparity, runner, engine);
+      if (status != SF_OK) break;
+    }
     status = FillLayers(engine->config, *engine->kernels, runner, &engine->crew, &engine->pictures);
   }
   for (int layer = 0; layer < SF_LAYERS; ++layer) engine->pictures.layers[layer] = own[layer];
   ForgetLayers(engine->config, &engine->pictures);
   return status;
 }
-
-}  // namespace
 
 bool Fits(const Prepared& prepared, const sf_config& config) {
   const sf_config& made = prepared.config;
@@ -114,17 +134,10 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
   if (engine == nullptr || light_field == nullptr) return SF_ERROR_NULL;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   sf_status status = starfocus::CheckLightField(e.config, *light_field);
-  if (status == SF_OK) status = starfocus::CheckMemory(memory);
+  starfocus::Extent extent;
+  if (status == SF_OK) status = starfocus::CheckPreparedMemory(e, memory, bytes, &extent);
   if (status != SF_OK) return status;
-  Prepared* made = nullptr;
-  const size_t needed = starfocus::LayOutPrepared(e.config, nullptr, &made);
-  if (needed == starfocus::kTooLarge) return SF_ERROR_TOO_LARGE;
-  if (bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
-  const starfocus::Extent extent = starfocus::ExtentOf(memory, 0, 1, needed);
-  if (starfocus::Overlaps(extent, starfocus::Workspace(e)) ||
-      starfocus::OverlapsLightField(extent, e.config, *light_field)) {
-    return SF_ERROR_OVERLAP;
-  }
+  if (starfocus::OverlapsLightField(extent, e.config, *light_field)) return SF_ERROR_OVERLAP;
   e.stream.active = false;
   starfocus::Watch& watch = e.crew.jobs.watch;
   watch.Begin(progress, progress_data, 0, e.config.height);
@@ -133,13 +146,15 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
   status = starfocus::ConvertMap(e, *light_field, e.pictures.disparity);
   if (status != SF_OK) return status;
   new (memory) Prepared();
+  Prepared* made = nullptr;
   starfocus::LayOutPrepared(e.config, memory, &made);
+  made->images = nullptr;
   made->config = e.config;
   made->light_field = *light_field;
   status = starfocus::ConvertMap(e, *light_field, made->disparity);
   if (status != SF_OK) return status;
   starfocus::SetPictures(*light_field, &e);
-  status = starfocus::MakeLayers(*made, &e, {runner, runner_data});
+  status = starfocus::MakeLayers(*made, {nullptr, nullptr}, {runner, runner_data}, &e);
   if (status != SF_OK) return status;
   watch.SetRows(e.config.height);
   if (!watch.Ask()) return SF_ERROR_CANCELLED;

@@ -44,12 +44,11 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_DISPARITY:
       return "disparity map holds a value outside the configured disparity range";
     case SF_ERROR_STATE:
-      return "streaming is not 0 or 1, or a streaming call came without sf_stream_begin";
+      return "streaming is not 0 or 1, or a call lacks sf_stream_begin or images = 1";
     case SF_ERROR_COUNT:
       return "row count is negative or beyond the picture's last row";
     case SF_ERROR_RUNNER:
-      return "the runner failed, or ran its jobs not exactly once each by valid workers; the "
-             "output is incomplete";
+      return "the runner failed, or ran jobs not once each by valid workers; output is incomplete";
     case SF_ERROR_OVERLAP:
       return "output overlaps an input or the workspace";
     case SF_ERROR_ALL_INVALID:
@@ -68,11 +67,23 @@ const char* sf_status_string(sf_status status) {
       return "skips is not 0 or 1";
     case SF_ERROR_FILL:
       return "fill_unknown is not 0 or 1";
+    case SF_ERROR_IMAGES:
+      return "images is not 0 or 1";
+    case SF_ERROR_FORMAT:
+      return "unknown format, matrix or range of an image";
+    case SF_ERROR_PIXEL_STRIDE:
+      return "bytes from pixel to pixel are none that the image's format allows";
+    case SF_ERROR_DEPTH_TYPE:
+      return "unknown type or meaning of a depth map, or has_invalid is not 0 or 1";
+    case SF_ERROR_DEPTH_SCALE:
+      return "scale or offset of a depth map is not finite, or scale is 0";
+    case SF_ERROR_DEPTH_SIZE:
+      return "depth map is larger than the picture, or has no values";
     case SF_ERROR_REGION:
       return "region is not inside the picture, or is given for streaming, which has none";
     case SF_ERROR_PREPARED:
-      return "prepared light field is of another size, number of views, disparity range, max_layer "
-             "or transfer";
+      return "prepared light field is of another kind, size, views, disparities, max_layer or "
+             "transfer";
     case SF_ERROR_GATHER:
       return "gather is not 0 or 1";
     case SF_ERROR_TOO_LARGE:

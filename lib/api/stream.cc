@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The streaming half of the C ABI: rows in, finished rows out, through the engine's line rings.
+#include "lib/api/stream.h"
+
 #include <cstring>
 
 #include "lib/api/light_field.h"
@@ -13,16 +15,6 @@
 namespace starfocus {
 namespace {
 
-// Input rows that the next stripe reads.
-int32_t NeededRows(const EngineState& engine) {
-  return Min(engine.config.height, engine.stream.next + engine.config.largest_block +
-                                       SideReach(engine.config, engine.config.max_blur));
-}
-
-bool StripeWaiting(const EngineState& engine) {
-  return engine.stream.written < engine.stream.finished;
-}
-
 sf_status PushRow(const sf_light_field& light_field, int32_t row, EngineState* engine) {
   const size_t offset = static_cast<size_t>(row);
   int32_t unknown = 0;
@@ -35,6 +27,8 @@ sf_status PushRow(const sf_light_field& light_field, int32_t row, EngineState* e
     std::memcpy(engine->rings[view].Row(engine->stream.pushed), plane.data + offset * plane.stride,
                 3 * static_cast<size_t>(engine->config.width));
   }
+  const Plane<uint8_t>& alpha = engine->images.alpha;
+  if (alpha.data != nullptr) std::memset(alpha.Row(engine->stream.pushed), 255, alpha.stride);
   ++engine->stream.pushed;
   return SF_OK;
 }
@@ -51,6 +45,17 @@ int32_t CopyRows(EngineState* engine, uint8_t* out, size_t out_stride, int32_t r
   return copied;
 }
 
+}  // namespace
+
+int32_t NeededRows(const EngineState& engine) {
+  return Min(engine.config.height,
+             engine.stream.next + engine.config.largest_block + StreamReach(engine.config));
+}
+
+bool StripeWaiting(const EngineState& engine) {
+  return engine.stream.written < engine.stream.finished;
+}
+
 sf_status RefocusNext(EngineState* engine, const Runner& runner) {
   Stream& stream = engine->stream;
   const sf_params& params = engine->lens.params;
@@ -64,7 +69,6 @@ sf_status RefocusNext(EngineState* engine, const Runner& runner) {
   return watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
 }
 
-}  // namespace
 }  // namespace starfocus
 
 using starfocus::EngineState;

@@ -27,6 +27,7 @@ void Add(const Counts& counts, sf_report* report) {
   report->centre_bytes += counts.centre_bytes;
   report->side_bytes += counts.side_bytes;
   report->gathered_pixels += counts.gathered_pixels;
+  report->unknown_pixels += counts.unknown_pixels;
 }
 
 }  // namespace

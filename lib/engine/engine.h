@@ -25,6 +25,14 @@ struct Stream {
   int32_t written = 0;   // output rows the caller has pulled
 };
 
+// What images need besides the ring of the centre view's rows.
+struct ImageMemory {
+  uint32_t* columns = nullptr;  // of the picture, in a depth map
+  int32_t map_width = 0;        // of that map; 0: there was none yet
+  uint8_t* odd_row = nullptr;   // of the output: a row whose chroma waits for the one below
+  Plane<uint8_t> alpha;         // with streaming: ring of the centre view's
+};
+
 struct EngineState {
   // For the engine's life:
   sf_config config;
@@ -34,6 +42,7 @@ struct EngineState {
   size_t bytes = 0;                 // of that, from the allocator
   Crew crew;                        // the workers' memory
   Plane<uint8_t> rings[kMaxViews];  // with streaming: rows that were pushed
+  ImageMemory images;               // and rings[0]: of images
 
   // For one refocusing:
   Lens lens;

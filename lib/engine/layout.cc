@@ -246,11 +246,22 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
                                                    static_cast<size_t>(side / kSmallestBlock + 1));
 }
 
+// Takes what images need; `rows` are those of a ring.
+void TakeImages(const sf_config& config, int32_t rows, Carver* carver, ImageMemory* images) {
+  const auto width = static_cast<size_t>(config.width);
+  images->columns = carver->Take<uint32_t>(width);
+  images->odd_row = carver->Take<uint8_t>(3 * width);
+  if (config.streaming == 0) return;
+  // Alpha is read when finished rows are written, which may be those of a stripe before.
+  images->alpha.rows = rows + config.largest_block + kDeblockRows;
+  images->alpha.stride = width;
+  images->alpha.data = carver->Take<uint8_t>(width, static_cast<size_t>(images->alpha.rows));
+}
+
 void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = config.streaming != 0;
-  const int32_t beyond =
-      streaming ? SideReach(config, config.max_blur) : GetReach(config.max_blur).rows;
+  const int32_t beyond = streaming ? StreamReach(config) : GetReach(config.max_blur).rows;
   const int32_t rows = config.largest_block + 2 * beyond;
   engine->pictures.disparity.rows = rows;
   engine->pictures.disparity.stride = width;
@@ -258,12 +269,13 @@ void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->stripe.out =
       carver->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
   engine->stripe.last_rows = carver->Take<uint8_t>(3 * width, kDeblockRows);
-  if (!streaming) return;
-  for (int view = 0; view < config.views; ++view) {
+  const int rings = streaming ? config.views : config.images;
+  for (int view = 0; view < rings; ++view) {
     engine->rings[view].rows = rows;
     engine->rings[view].stride = 3 * width;
     engine->rings[view].data = carver->Take<uint8_t>(3 * width, static_cast<size_t>(rows));
   }
+  if (config.images != 0) TakeImages(config, rows, carver, &engine->images);
 }
 
 size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {

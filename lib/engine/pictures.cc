@@ -31,14 +31,6 @@ bool ConvertKnown(const sf_config& config, const simd::Kernels& kernels, const f
   return true;
 }
 
-// Fills what is unknown in a row, as sf_config.fill_unknown says.
-void FillRow(const sf_config& config, const simd::Kernels& kernels, int16_t* row) {
-  if (FillGaps(row, config.width, [](int16_t value) { return value != simd::kNoSurface; })) return;
-  kernels.ConvertDisparity(&config.disparity_min, 1, config.disparity_min, config.disparity_max,
-                           row);
-  for (int32_t x = 1; x < config.width; ++x) row[x] = row[0];
-}
-
 }  // namespace
 
 void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictures* pictures) {
@@ -51,6 +43,7 @@ void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictur
     window.picture_height = config.height;
     window.views = config.views;
     window.transfer = &TransferOf(config.transfer);
+    window.reader = nullptr;
     for (int view = 0; view < config.views; ++view) window.view[view] = views[view];
     window.disparity = {pictures->disparity.data, pictures->disparity.stride,
                         pictures->disparity.rows, 0};
@@ -58,6 +51,17 @@ void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictur
     pictures->layers[layer].height = window.height;
   }
   pictures->windows[0].centre = views[0];
+}
+
+int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row) {
+  int32_t unknown = 0;
+  for (int32_t x = 0; x < config.width; ++x) unknown += row[x] == simd::kNoSurface ? 1 : 0;
+  const auto is_known = [](int16_t value) { return value != simd::kNoSurface; };
+  if (unknown == 0 || FillGaps(row, config.width, is_known)) return unknown;
+  kernels.ConvertDisparity(&config.disparity_min, 1, config.disparity_min, config.disparity_max,
+                           row);
+  for (int32_t x = 1; x < config.width; ++x) row[x] = row[0];
+  return unknown;
 }
 
 sf_status ConvertDisparity(const sf_config& config, const simd::Kernels& kernels, const float* row,
@@ -69,7 +73,7 @@ sf_status ConvertDisparity(const sf_config& config, const simd::Kernels& kernels
     if (*unknown == 0) return SF_ERROR_DISPARITY;
     if (config.fill_unknown == 0) return SF_ERROR_NOT_FINITE;
     if (!ConvertKnown(config, kernels, row, out)) return SF_ERROR_DISPARITY;
-    FillRow(config, kernels, out);
+    FillUnknown(config, kernels, out);
   }
   CheckAll(ranges::kDisparity, out, width);
   return SF_OK;

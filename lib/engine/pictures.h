@@ -25,13 +25,17 @@ struct Pictures {
   bool prepared;                 // disparities and layers of the windows are a prepared field's
 };
 
-// Points the windows at the views, which are whole pictures or line rings.
+// Points the windows at the views, which are whole pictures or line rings. There is no reader.
 void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictures* pictures);
 
 // Converts a disparity row to `out`, checking that it lies in the configured range, and fills what
 // is unknown if sf_config.fill_unknown says so: of how many pixels goes into *unknown.
 sf_status ConvertDisparity(const sf_config& config, const simd::Kernels& kernels, const float* row,
                            int16_t* out, int32_t* unknown);
+
+// Fills what is unknown (kNoSurface) in a converted row, as sf_config.fill_unknown says. Returns
+// how many pixels that is.
+int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row);
 
 // Forgets the layers' rows, which are of another picture, or of which not all were made.
 void ForgetLayers(const sf_config& config, Pictures* pictures);

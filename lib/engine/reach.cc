@@ -41,6 +41,11 @@ int32_t HighlightReach(const sf_config& config) {
   return config.highlights > 1 ? LampReach(LargestLamp(config.width)) : 0;
 }
 
+int32_t StreamReach(const sf_config& config) {
+  const int32_t reach = SideReach(config, config.max_blur);
+  return config.images != 0 ? reach + reach % 2 : reach;
+}
+
 int32_t SideReach(const sf_config& config, double max_blur) {
   // A hole is read at most its disparity away from a place within the blur radius, by a filter of
   // 7 taps at most.

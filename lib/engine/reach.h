@@ -31,6 +31,11 @@ int32_t HighlightReach(const sf_config& config);
 // Rows beyond a stripe that side views are read in, for blur up to a radius.
 int32_t SideReach(const sf_config& config, double max_blur);
 
+// Returns how many rows beyond a stripe are pushed before it is refocused, and kept after that:
+// what side views may be read in, and of images, of which two rows share their chroma, an even
+// number.
+int32_t StreamReach(const sf_config& config);
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_ENGINE_REACH_H_

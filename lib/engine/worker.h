@@ -22,6 +22,7 @@ struct Counts {
   uint64_t centre_bytes;
   uint64_t side_bytes;
   uint64_t gathered_pixels;
+  uint64_t unknown_pixels;  // of images' depth maps
 };
 
 // The extended rectangle of a block in the centre view. E: largest side of one.

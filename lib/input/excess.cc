@@ -16,6 +16,13 @@ int32_t ExcessOf(uint8_t code) {
   return kLightWhite * step * step / (kSteps * kSteps);
 }
 
+// The codes of a pixel, in the view or in `own`.
+const uint8_t* CodesAt(const LampView& view, int32_t x, int32_t y, uint8_t* own) {
+  if (view.reader == nullptr) return view.codes.Row(y) + 3 * static_cast<ptrdiff_t>(x);
+  view.reader->Read(view.index, x, y, 1, own);
+  return own;
+}
+
 // How many highlights follow each other through (x, y) along (dx, dy) and backwards, LampReach at
 // most: as many also where they reach the picture's edge.
 int32_t RunThrough(const LampView& view, int32_t x, int32_t y, int32_t dx, int32_t dy) {
@@ -27,7 +34,8 @@ int32_t RunThrough(const LampView& view, int32_t x, int32_t y, int32_t dx, int32
       column += side * dx;
       row += side * dy;
       if (column < 0 || column >= view.width || row < 0 || row >= view.height) return most;
-      if (!IsHighlight(view.codes.Row(row) + 3 * static_cast<ptrdiff_t>(column))) break;
+      uint8_t own[3];
+      if (!IsHighlight(CodesAt(view, column, row, own))) break;
       if (++run >= most) return most;
     }
   }
@@ -43,7 +51,8 @@ bool IsHighlight(const uint8_t* codes) {
 }
 
 void ReadExcess(const LampView& view, int32_t x, int32_t y, int16_t* rgb) {
-  const uint8_t* codes = view.codes.Row(y) + 3 * static_cast<ptrdiff_t>(x);
+  uint8_t own[3];
+  const uint8_t* codes = CodesAt(view, x, y, own);
   rgb[0] = rgb[1] = rgb[2] = 0;
   if (!IsHighlight(codes)) return;
   int32_t run = RunThrough(view, x, y, 1, 0);

@@ -7,6 +7,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
+#include "lib/input/code_reader.h"
 
 namespace starfocus {
 
@@ -24,8 +25,10 @@ bool IsHighlight(const uint8_t* codes);
 
 // A captured view at layer 0, in which highlights of up to `lamp` pixels are lamps.
 struct LampView {
-  const Plane<const uint8_t>& codes;
+  const Plane<const uint8_t>& codes;  // without a reader
   int32_t width, height, lamp;
+  const CodeReader* reader;  // null: there is none
+  int index;                 // of the view, for the reader
 };
 
 // The light that highlights have beyond white at pixel (x, y), inside the picture, for a clipped

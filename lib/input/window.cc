@@ -73,6 +73,38 @@ Endless EndlessView(const Window& window, int index) {
           window.picture_height - 1};
 }
 
+// A small part of a view that a reader gives, as a picture of its own. Of pixels beyond the view's
+// edges it has the outermost ones, so that it goes on beyond its own as the view does.
+class Patch {
+ public:
+  static constexpr int32_t kMost = 1024;  // pixels
+
+  // `rect`, of at most kMost pixels, may lie anywhere.
+  Patch(const Window& window, int index, const Rect& rect) : light_(window.transfer->light) {
+    x_ = Clamp(rect.x, 0, window.picture_width - 1);
+    y_ = Clamp(rect.y, 0, window.picture_height - 1);
+    width_ = Clamp(rect.x + rect.width, x_ + 1, window.picture_width) - x_;
+    height_ = Clamp(rect.y + rect.height, y_ + 1, window.picture_height) - y_;
+    codes_ = {pixels_, 3 * static_cast<size_t>(width_), 0, 0};
+    for (int32_t row = 0; row < height_; ++row) {
+      window.reader->Read(index, x_, y_ + row, width_,
+                          pixels_ + 3 * static_cast<ptrdiff_t>(row) * width_);
+    }
+  }
+  Patch(const Patch&) = delete;
+  Patch& operator=(const Patch&) = delete;
+
+  int32_t x() const { return x_; }  // of its first pixel, in the view
+  int32_t y() const { return y_; }
+  Endless Pixels() const { return {codes_, light_, width_ - 1, height_ - 1}; }
+
+ private:
+  const int16_t* light_;
+  int32_t x_, y_, width_, height_;
+  Plane<const uint8_t> codes_;
+  uint8_t pixels_[3 * kMost];
+};
+
 // Calls take(k, sum) for the samples of `count` places, sum having 2 * kShiftBits. Steps of (dx,
 // dy) pixels keep the weights of the four pixels around a place.
 template <class Pixels, class Take>
@@ -167,6 +199,63 @@ CapturedLine OfPicture(const CapturedLine& line, int layer) {
           line.dy * (1 << layer)};
 }
 
+// The pixels that are read for `count` places of a line, which is one of ReadLine.
+Rect PixelsOf(int layer, const CapturedLine& line, int32_t count) {
+  const int32_t bits = layer == 0 ? kShiftBits : 0;
+  const int32_t before = layer == 0 ? 0 : (1 << layer) - 1, after = layer == 0 ? 1 : before;
+  const int32_t x = line.x >> bits, y = line.y >> bits;
+  const int32_t across = line.dx * (count - 1), down = line.dy * (count - 1);
+  return {x + Min(0, across) - before, y + Min(0, down) - before, Abs(across) + before + after + 1,
+          Abs(down) + before + after + 1};
+}
+
+// ReadLine of views that a reader gives, patch by patch.
+void ReadPatches(const Window& window, int index, CapturedLine line, int32_t count, int16_t* rgb) {
+  const int layer = window.layer;
+  const int32_t pixel = layer == 0 ? kShiftOne : 1;
+  while (count > 0) {
+    int32_t some = count;
+    Rect rect = PixelsOf(layer, line, some);
+    while (int64_t{rect.width} * rect.height > Patch::kMost) {
+      some = (some + 1) / 2;
+      rect = PixelsOf(layer, line, some);
+    }
+    const Patch patch(window, index, rect);
+    ReadLine(patch.Pixels(), layer,
+             {line.x - patch.x() * pixel, line.y - patch.y() * pixel, line.dx, line.dy}, some, rgb);
+    line.x += line.dx * some * pixel;
+    line.y += line.dy * some * pixel;
+    count -= some;
+    rgb += 3 * some;
+  }
+}
+
+// Copies pixels of a row that may lie beyond the picture's edges.
+void CopyPixels(const Endless& pixels, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
+  const uint8_t* row = pixels.Row(y);
+  for (int32_t p = 0; p < count; ++p) {
+    const uint8_t* from = row + pixels.Column(x + p);
+    for (int k = 0; k < 3; ++k) rgb[3 * p + k] = pixels.light[from[k]];
+  }
+}
+
+bool IsBright(const uint8_t* codes, int32_t pixels) {
+  uint8_t brightest = 0;
+  for (int32_t k = 0; k < 3 * pixels; ++k) brightest = codes[k] > brightest ? codes[k] : brightest;
+  return brightest >= kFirstExcess;
+}
+
+// IsBright of pixels of a row of a view that a reader gives.
+bool IsBrightRow(const Window& window, int view, int32_t x, int32_t y, int32_t pixels) {
+  uint8_t codes[3 * Patch::kMost];
+  for (int32_t done = 0; done < pixels; done += Patch::kMost) {
+    const int32_t some = Min(Patch::kMost, pixels - done);
+    window.reader->Read(view, x + done, y, some, codes);
+    if (IsBright(codes, some)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
@@ -186,6 +275,10 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
     return;
   }
   const CapturedLine from = layer == 0 ? line : OfPicture(line, layer);
+  if (window.reader != nullptr) {
+    ReadPatches(window, index, from, count, rgb);
+    return;
+  }
   // Rows and columns that are read at the first and the last place.
   const int32_t x = layer == 0 ? line.x >> kShiftBits : from.x;
   const int32_t y = layer == 0 ? line.y >> kShiftBits : from.y;
@@ -201,6 +294,7 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
 }
 
 void PrefetchCaptured(const Window& window, int index, const CapturedLine& line) {
+  if (window.reader != nullptr) return;
   const CapturedLine from = OfPicture(line, window.layer);
   const Endless pixels = EndlessView(window, index);
   const int32_t ahead = from.y + (kRowsAhead << window.layer);
@@ -214,6 +308,14 @@ void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t
     for (int32_t p = 0; p < count; ++p) ReadExcessBeyond(window, index, x + p, y, rgb + 3 * p);
     return;
   }
+  if (window.reader != nullptr) {
+    for (int32_t p = 0; p < count; p += Patch::kMost) {
+      const int32_t some = Min(Patch::kMost, count - p);
+      const Patch patch(window, index, {x + p, y, some, 1});
+      CopyPixels(patch.Pixels(), x + p - patch.x(), 0, some, rgb + 3 * p);
+    }
+    return;
+  }
   const Endless pixels = EndlessView(window, index);
   const int16_t* light = pixels.light;
   const uint8_t* row = pixels.Row(y);
@@ -224,10 +326,7 @@ void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t
     for (int32_t k = 0; k < 3 * count; ++k) rgb[k] = light[row[3 * x + k]];
     return;
   }
-  for (int32_t p = 0; p < count; ++p) {
-    const uint8_t* from = row + pixels.Column(x + p);
-    for (int k = 0; k < 3; ++k) rgb[3 * p + k] = light[from[k]];
-  }
+  CopyPixels(pixels, x, y, count, rgb);
 }
 
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {
@@ -235,10 +334,16 @@ void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, 
     InterpolateExcess(window, index, x, y, rgb);
     return;
   }
-  const Endless pixels = EndlessView(window, index);
-  InterpolateOnAxis(pixels,
-                    {Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y), 0, 0}, 1,
-                    [&](int32_t k, int32_t sum) { rgb[k] = sum; });
+  const auto take = [&](int32_t k, int32_t sum) { rgb[k] = sum; };
+  const CapturedLine place = {Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y),
+                              0, 0};
+  if (window.reader == nullptr) {
+    InterpolateOnAxis(EndlessView(window, index), place, 1, take);
+    return;
+  }
+  const Patch patch(window, index, PixelsOf(0, place, 1));
+  InterpolateOnAxis(patch.Pixels(), {x - patch.x() * kShiftOne, y - patch.y() * kShiftOne, 0, 0}, 1,
+                    take);
 }
 
 int32_t CapturedBytes(const Window& window) {
@@ -251,13 +356,13 @@ bool MayHaveHighlights(const Window& window, const Rect& rect) {
   const int32_t right = Clamp(rect.x + rect.width, left + 1, window.picture_width);
   const int32_t top = Clamp(rect.y, 0, window.picture_height - 1);
   const int32_t bottom = Clamp(rect.y + rect.height, top + 1, window.picture_height);
-  const int32_t samples = 3 * (right - left);
   for (int32_t y = top; y < bottom; ++y) {
     for (int32_t view = 0; view < window.views; ++view) {
-      const uint8_t* row = window.view[view].Row(y) + 3 * static_cast<ptrdiff_t>(left);
-      uint8_t brightest = 0;
-      for (int32_t k = 0; k < samples; ++k) brightest = row[k] > brightest ? row[k] : brightest;
-      if (brightest >= kFirstExcess) return true;
+      const bool bright =
+          window.reader != nullptr
+              ? IsBrightRow(window, view, left, y, right - left)
+              : IsBright(window.view[view].Row(y) + 3 * static_cast<ptrdiff_t>(left), right - left);
+      if (bright) return true;
     }
   }
   return false;

@@ -10,6 +10,7 @@
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/base/transfer.h"
+#include "lib/input/code_reader.h"
 #include "lib/input/excess.h"
 
 namespace starfocus {
@@ -34,7 +35,8 @@ struct Window {
   Plane<const int16_t> samples;        // of the centre view, simd::kLayerBits; layers 1 and 2
   int32_t picture_width = 0;
   int32_t picture_height = 0;
-  Plane<const uint8_t> view[kMaxViews];  // of the pictures
+  Plane<const uint8_t> view[kMaxViews];  // of the pictures, without a reader
+  const CodeReader* reader = nullptr;    // of the views; null: they lie in view[]
   Plane<const int16_t> disparity;        // of the pictures, kDisparityBits
   Reads* reads = nullptr;                // null: nobody counts
   // Largest lamp in pixels (LargestLamp): what is read is then not light, but what highlights have
@@ -69,7 +71,8 @@ void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, 
 
 // A captured view with the window's lamps.
 inline LampView ViewOf(const Window& window, int index) {
-  return {window.view[index], window.picture_width, window.picture_height, window.lamp};
+  return {window.view[index], window.picture_width, window.picture_height,
+          window.lamp,        window.reader,        index};
 }
 
 // Whether any of the views has codes of kFirstExcess or more in the columns and rows of `rect`.

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=… -DPROGRAM=… -DWITH=… -P engine_alone_test.cmake
-# A static program that only refocuses, in memory of its own, holds nothing of lib/depth and nothing of
-# sf_create's; one that makes maps has the former.
+# cmake -DNM=… -DPROGRAM=… -DWITH=… -DIMAGES=… -P engine_alone_test.cmake
+# A static program that only refocuses R, G, B, in memory of its own, holds nothing of lib/depth,
+# nothing of what converts images and nothing of sf_create's; one that makes maps has the first,
+# one that refocuses images the second.
 cmake_minimum_required(VERSION 3.20)
 
 function(has_depth program found)
@@ -15,6 +16,17 @@ function(has_depth program found)
     set(${found} FALSE PARENT_SCOPE)
   endif()
 endfunction()
+
+foreach(name "sf_refocus_images" "ImageKernels" "ReadCodes" "YuvToRgb" "ReadDepthRow")
+  execute_process(COMMAND "${NM}" -C "${PROGRAM}" OUTPUT_VARIABLE listing)
+  if(listing MATCHES "${name}")
+    message(SEND_ERROR "${PROGRAM} only refocuses R, G, B, but holds ${name}")
+  endif()
+  execute_process(COMMAND "${NM}" -C "${IMAGES}" OUTPUT_VARIABLE listing)
+  if(NOT listing MATCHES "${name}")
+    message(SEND_ERROR "${IMAGES} refocuses images, but has no ${name}: wrong names here")
+  endif()
+endforeach()
 
 has_depth("${PROGRAM}" alone)
 has_depth("${WITH}" with)

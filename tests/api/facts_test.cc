@@ -36,14 +36,14 @@ TEST_CASE("sizes are those of the headers, of every structure") {
   CHECK(sf_struct_size("sf_report") == sizeof(sf_report));
   CHECK(sf_struct_size("sf_depth_config") == sizeof(sf_depth_config));
   size_t structures = 0;
-  for (const char* header : {"starfocus.h", "depth.h"}) {
+  for (const char* header : {"starfocus.h", "depth.h", "image.h"}) {
     for (const std::string& name : StructuresOf(header)) {
       CAPTURE(name);
       CHECK(sf_struct_size(name.c_str()) > 0);
       ++structures;
     }
   }
-  CHECK(structures >= 14);
+  CHECK(structures >= 18);
   for (const char* name : {"", "sf_", "sf_confi", "sf_configs", "sf_engine"}) {
     CHECK(sf_struct_size(name) == 0);
   }
@@ -59,6 +59,7 @@ TEST_CASE("defaults are those that the header tells") {
   CHECK(config.largest_block == 0);
   CHECK(config.max_workers == 1);
   CHECK(config.streaming == 0);
+  CHECK(config.images == 0);
   CHECK(config.max_layer == 2);
   CHECK(config.deblocking == 35);
   CHECK(config.n_scale == 1);

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/image_field.h"
 #include "tests/support/test_scene.h"
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -164,6 +165,37 @@ TEST_CASE("no heap call in size query, init, refocusing and streaming") {
       CHECK(counted == 0);
     }
   }
+}
+
+TEST_CASE("no heap call of images") {
+  test::Random random(3);
+  const test::Scene scene = test::RandomScene(70, 50, 5, -3, 3, 5);
+  test::ImageKind nv12;
+  nv12.format = SF_FORMAT_NV12;
+  const test::ImageField field = test::MakeImageField(
+      scene, {nv12}, test::MakeDepth(scene, 35, 25, SF_DEPTH_U16, SF_DEPTH_RECIPROCAL, 0), &random);
+  sf_config config = test::ImageConfig(field, 16);
+  config.streaming = 1;
+  test::Engine engine(config);
+  test::ImageMemory image(70, 50, nv12);
+  const sf_image_field images = field.Field();
+  const sf_image_out out = image.Out();
+  const sf_params params = test::Params(1.25, 0.9, SF_MODE_BLOCK);
+  int32_t taken = 0, given = 0;
+  HeapWatch watch;
+  const sf_status refocused =
+      sf_refocus_images(engine.get(), &params, &images, &out, nullptr, nullptr, nullptr);
+  const sf_status begun = sf_stream_begin(engine.get(), &params);
+  const sf_status pushed = sf_stream_push_images(engine.get(), &images, 50, &taken);
+  const sf_status pulled =
+      sf_stream_pull_images(engine.get(), &out, 50, nullptr, nullptr, &given, nullptr);
+  const int counted = watch.Stop();
+  CHECK(refocused == SF_OK);
+  CHECK(begun == SF_OK);
+  CHECK(pushed == SF_OK);
+  CHECK(pulled == SF_OK);
+  CHECK(given == 50);
+  CHECK(counted == 0);
 }
 
 TEST_CASE("no heap call in block mode with all layers, deblocking, visitor and clock") {

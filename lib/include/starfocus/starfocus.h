@@ -174,6 +174,7 @@ typedef struct sf_config {
                        the farther surface; a row without any is at disparity_min. 0, the
                        default: they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds
                        what the views show there, and sf_fill_disparity fills whole maps */
+  int32_t images;   /**< 1 reserves rows for the calls of starfocus/image.h; default 0 */
   uint32_t reserved[4]; /**< zero */
 } sf_config;
 

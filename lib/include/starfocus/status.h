@@ -31,10 +31,11 @@ typedef enum sf_status {
   SF_ERROR_FOCUS = 14,               /**< focus not finite or beyond +-SF_MAX_FOCUS */
   SF_ERROR_APERTURE = 15,            /**< aperture outside [0, 1] */
   SF_ERROR_BLUR_TOO_LARGE = 16,      /**< aperture * |disparity - focus| would exceed max_blur */
-  SF_ERROR_STRIDE = 17,              /**< stride smaller than a row, or misaligned for float */
+  SF_ERROR_STRIDE = 17,              /**< stride smaller than a row, or misaligned */
   SF_ERROR_NOT_FINITE = 18,          /**< disparity map holds NaN or infinity */
   SF_ERROR_DISPARITY = 19,   /**< disparity map holds a value outside the configured range */
-  SF_ERROR_STATE = 20,       /**< streaming call without sf_stream_begin or streaming = 1 */
+  SF_ERROR_STATE = 20,       /**< streaming call without sf_stream_begin or streaming = 1, or one of
+                                images without images = 1 */
   SF_ERROR_COUNT = 21,       /**< row count negative, or more rows than the picture has */
   SF_ERROR_RUNNER = 22,      /**< the runner failed or misused its jobs; output is incomplete */
   SF_ERROR_OVERLAP = 23,     /**< output overlaps an input or the workspace */
@@ -61,7 +62,13 @@ typedef enum sf_status {
   SF_ERROR_CATS_EYE = 44,    /**< cats_eye outside [0, 1] */
   SF_ERROR_HIGHLIGHTS = 45,  /**< highlights outside [1, SF_MAX_HIGHLIGHTS] */
   SF_ERROR_FILL = 46,        /**< fill_unknown is not 0 or 1 */
-  SF_ERROR_CANCELLED = 47    /**< the caller's progress function said so; output is incomplete */
+  SF_ERROR_CANCELLED = 47,   /**< the caller's progress function said so; output is incomplete */
+  SF_ERROR_IMAGES = 48,      /**< images is not 0 or 1 */
+  SF_ERROR_FORMAT = 49,      /**< unknown format, matrix or range of an image */
+  SF_ERROR_PIXEL_STRIDE = 50, /**< pixel_stride is none of the image's format */
+  SF_ERROR_DEPTH_TYPE = 51,   /**< a depth map of unknown type, meaning or has_invalid */
+  SF_ERROR_DEPTH_SCALE = 52,  /**< scale or offset of a depth map not finite, or scale 0 */
+  SF_ERROR_DEPTH_SIZE = 53    /**< depth map larger than the picture, or empty */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/api/image_output.h"
+
+#include <cstring>
+
+#include "lib/api/stripe_rows.h"
+#include "lib/base/fixed.h"
+
+namespace starfocus {
+namespace {
+
+// Converts pairs of the image's rows: job `index` of `jobs` has as many as the others, but for one.
+struct PairsJob {
+  const ImageOutput* out;
+  Plane<uint8_t> from;
+  const uint8_t* odd_row;  // of the pair that the rows before have begun
+  RowRange rows;           // of the image
+  int32_t jobs;
+};
+
+const uint8_t* RowOf(const PairsJob& job, int32_t y) {
+  if (y < job.rows.first) return job.odd_row;
+  const Rect& rect = job.out->rect;
+  return job.from.Row(rect.y + y) + 3 * static_cast<size_t>(rect.x);
+}
+
+void WritePair(const PairsJob& job, int32_t upper) {
+  const ImageOutput& out = *job.out;
+  const RowRange rows = {Max(upper, job.rows.first), Min(upper + 2, job.rows.last)};
+  for (int32_t y = rows.first; y < rows.last; ++y) {
+    WriteCodes(*out.kernels, RowOf(job, y), out.rect.width, y, out.image);
+    if (out.image.has_alpha && out.alpha.rows.data != nullptr) {
+      CopyAlpha(out.alpha, out.rect.x, out.rect.y + y, out.rect.width, y, out.image);
+    }
+  }
+  const int32_t lower = Min(upper + 1, out.rect.height - 1);
+  if (!out.image.is_yuv || lower >= rows.last) return;
+  WriteChroma(*out.kernels, RowOf(job, upper), RowOf(job, lower), out.rect.width, upper, out.image);
+}
+
+void WritePairs(const PairsJob& job, int32_t index, Worker* worker) {
+  const RowRange pairs = PartOf({job.rows.first / 2, (job.rows.last + 1) / 2}, index, job.jobs);
+  for (int32_t pair = pairs.first; pair < pairs.last; ++pair) {
+    if (!worker->patience.Spend(6 * int64_t{job.out->rect.width})) return;
+    WritePair(job, 2 * pair);
+  }
+}
+
+}  // namespace
+
+sf_status WriteImageRows(const ImageOutput& out, const Plane<uint8_t>& from, const RowRange& rows,
+                         const Runner& runner, EngineState* engine) {
+  if (rows.first >= rows.last) return SF_OK;
+  const RowRange inside = {rows.first - out.rect.y, rows.last - out.rect.y};
+  const int32_t pairs = (inside.last + 1) / 2 - inside.first / 2;
+  const int32_t jobs = Min(MaxJobs(engine->config), pairs);
+  const PairsJob job = {&out, from, engine->images.odd_row, inside, jobs};
+  const sf_status status = RunJobs<PairsJob, WritePairs>(job, jobs, runner, &engine->crew);
+  if (inside.last % 2 != 0 && inside.last < out.rect.height) {
+    std::memcpy(engine->images.odd_row, RowOf(job, inside.last - 1),
+                3 * static_cast<size_t>(out.rect.width));
+  }
+  return status;
+}
+
+}  // namespace starfocus

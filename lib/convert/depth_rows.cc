@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/convert/depth_rows.h"
+
+#include <limits>
+
+#include "lib/base/fixed.h"
+
+namespace starfocus {
+namespace {
+
+static_assert(simd::kBlendStep == kSurfaceStep, "one surface is one surface");
+
+// Rows are converted in pieces of so many values, which lie on the stack. Pixels of a picture lie
+// between no more values than their own number and one: no map is larger than the picture.
+constexpr int32_t kPiece = 256, kPixels = kPiece - 1;
+
+// Converts `count` <= kPiece values from column x of row y of the map on. Returns DepthFlags.
+uint32_t ConvertValues(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x,
+                       int32_t y, int32_t count, int16_t* out) {
+  const sf_depth_map& map = depth.map;
+  const auto values = static_cast<size_t>(count);
+  const uint8_t* row = static_cast<const uint8_t*>(map.data) + static_cast<size_t>(y) * map.stride +
+                       static_cast<size_t>(x) * DepthBytes(map.type);
+  if (map.type == SF_DEPTH_FLOAT) {
+    return kernels.DepthToDisparity(reinterpret_cast<const float*>(row), values, depth.rule, out);
+  }
+  float z[kPiece];
+  if (map.type == SF_DEPTH_U8) {
+    kernels.BytesToDepth(row, values, z);
+  } else if (map.type == SF_DEPTH_U16) {
+    kernels.WordsToDepth(reinterpret_cast<const uint16_t*>(row), values, z);
+  } else {
+    kernels.HalvesToDepth(reinterpret_cast<const uint16_t*>(row), values, z);
+  }
+  return kernels.DepthToDisparity(z, values, depth.rule, out);
+}
+
+// Returns where the middle of place k of `size` lies among the middles of `small` values.
+uint32_t PlaceOf(int64_t k, int64_t size, int64_t small) {
+  constexpr int64_t kOne = simd::kColumnOne, kHalf = kOne / 2;
+  const int64_t place = kHalf * (2 * k + 1) * small / size - kHalf, last = kOne * (small - 1);
+  return static_cast<uint32_t>(place < 0 ? 0 : place > last ? last : place);
+}
+
+// Writes `count` <= kPixels pixels, from column x on, of a row that lies at `place` of the map.
+uint32_t ReadPiece(const simd::ImageKernels& kernels, const DepthSource& depth, uint32_t place,
+                   int32_t x, int32_t count, int16_t* out) {
+  const uint32_t* columns = depth.columns + x;
+  const uint32_t first = columns[0] >> simd::kColumnBits;
+  const uint32_t last = columns[count - 1] >> simd::kColumnBits;
+  const auto left = static_cast<int32_t>(first),
+             upper = static_cast<int32_t>(place >> simd::kColumnBits);
+  const int32_t values = Min(static_cast<int32_t>(last) + 2, depth.map.width) - left;
+  const uint32_t share = place % simd::kColumnOne;
+  int16_t rows[2][kPiece], row[kPiece + 1];
+  uint32_t flags = ConvertValues(kernels, depth, left, upper, values, rows[0]);
+  if (share != 0) flags |= ConvertValues(kernels, depth, left, upper + 1, values, rows[1]);
+  kernels.BlendRows(rows[0], rows[share != 0 ? 1 : 0], static_cast<size_t>(values), share, row);
+  row[values] = row[values - 1];
+  int32_t pairs[kPiece];
+  for (int32_t k = 0; k < values; ++k) {
+    pairs[k] = static_cast<int32_t>(uint32_t{static_cast<uint16_t>(row[k])} |
+                                    uint32_t{static_cast<uint16_t>(row[k + 1])} << 16);
+  }
+  kernels.SpreadRow(pairs, columns, static_cast<size_t>(count), first, out);
+  return flags;
+}
+
+}  // namespace
+
+void FillColumns(int32_t width, int32_t map_width, uint32_t* columns) {
+  for (int32_t x = 0; x < width; ++x) columns[x] = PlaceOf(x, width, map_width);
+}
+
+DepthSource MakeDepthSource(const sf_config& config, const sf_depth_map& map,
+                            const uint32_t* columns) {
+  const float invalid =
+      map.has_invalid != 0 ? map.invalid : std::numeric_limits<float>::quiet_NaN();
+  const simd::DepthRule rule = {map.scale,
+                                map.offset,
+                                invalid,
+                                map.meaning == SF_DEPTH_RECIPROCAL,
+                                config.disparity_min,
+                                config.disparity_max};
+  return {map, rule, config.width, config.height, columns};
+}
+
+size_t DepthBytes(int32_t type) {
+  return type == SF_DEPTH_FLOAT ? sizeof(float) : type == SF_DEPTH_U8 ? 1 : sizeof(uint16_t);
+}
+
+uint32_t PlaceOfRow(const DepthSource& depth, int32_t y) {
+  return PlaceOf(y, depth.height, depth.map.height);
+}
+
+uint32_t CheckDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t map_y) {
+  uint32_t flags = 0;
+  for (int32_t x = 0; x < depth.map.width; x += kPiece) {
+    int16_t unused[kPiece];
+    flags |= ConvertValues(kernels, depth, x, map_y, Min(kPiece, depth.map.width - x), unused);
+  }
+  return flags;
+}
+
+uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,
+                      int16_t* out) {
+  const uint32_t place = PlaceOfRow(depth, y);
+  const bool is_row = depth.map.width == depth.width && place % simd::kColumnOne == 0;
+  uint32_t flags = 0;
+  for (int32_t x = 0; x < depth.width; x += kPixels) {
+    const int32_t count = Min(kPixels, depth.width - x);
+    flags |= is_row
+                 ? ConvertValues(kernels, depth, x,
+                                 static_cast<int32_t>(place >> simd::kColumnBits), count, out + x)
+                 : ReadPiece(kernels, depth, place, x, count, out + x);
+  }
+  return flags;
+}
+
+}  // namespace starfocus

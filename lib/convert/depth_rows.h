@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of depth maps as rows of a picture's disparities.
+#ifndef STARFOCUS_LIB_CONVERT_DEPTH_ROWS_H_
+#define STARFOCUS_LIB_CONVERT_DEPTH_ROWS_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/image_kernels.h"
+#include "starfocus/image.h"
+
+namespace starfocus {
+
+// A depth map for a picture.
+struct DepthSource {
+  sf_depth_map map;
+  simd::DepthRule rule;
+  int32_t width, height;    // of the picture
+  const uint32_t* columns;  // of the picture, in the map (simd::SpreadRow)
+};
+
+// Fills in where each column of pictures of that width lies in the map.
+void FillColumns(int32_t width, int32_t map_width, uint32_t* columns);
+
+// Returns the map for pictures of `config`, with the columns that FillColumns made.
+DepthSource MakeDepthSource(const sf_config& config, const sf_depth_map& map,
+                            const uint32_t* columns);
+
+// Returns the bytes of a value.
+size_t DepthBytes(int32_t type);
+
+// Returns where row y of the picture lies in the map: the upper row times kColumnOne, and the share
+// of the lower one.
+uint32_t PlaceOfRow(const DepthSource& depth, int32_t y);
+
+// Looks at a row of the map. Returns simd::DepthFlags.
+uint32_t CheckDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t map_y);
+
+// Writes the disparities of row y of the picture, kDisparityBits; unknown ones are kNoSurface.
+// Returns simd::DepthFlags of the values they were made of.
+uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,
+                      int16_t* out);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_CONVERT_DEPTH_ROWS_H_

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images of any format as what their bytes are: pixels of three colours, or luma and chroma.
+#ifndef STARFOCUS_LIB_CONVERT_IMAGE_PLANES_H_
+#define STARFOCUS_LIB_CONVERT_IMAGE_PLANES_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "lib/convert/yuv_matrix.h"
+#include "starfocus/image.h"
+
+namespace starfocus {
+
+// The planes of an image; Byte is const where it is read. Pixels of R, G, B have planes[0] alone,
+// `step` bytes from pixel to pixel; else planes are luma, U and V, whose samples are `step` apart.
+template <class Byte>
+struct ImagePlanes {
+  bool is_yuv, blue_first, has_alpha;
+  size_t step;
+  const simd::YuvMatrix* matrix;
+  Byte* planes[3];
+  size_t strides[3];
+
+  Byte* Pixel(int32_t x, int32_t y) const {
+    return planes[0] + static_cast<size_t>(y) * strides[0] + static_cast<size_t>(x) * step;
+  }
+  Byte* Luma(int32_t x, int32_t y) const {
+    return planes[0] + static_cast<size_t>(y) * strides[0] + static_cast<size_t>(x);
+  }
+  // The sample of chroma plane 1 or 2 for pixel (x, y).
+  Byte* Chroma(int plane, int32_t x, int32_t y) const {
+    return planes[plane] + static_cast<size_t>(y / 2) * strides[plane] +
+           static_cast<size_t>(x / 2) * step;
+  }
+};
+
+using ImageSource = ImagePlanes<const uint8_t>;
+using ImageTarget = ImagePlanes<uint8_t>;
+
+constexpr bool IsYuv(int32_t format) { return format >= SF_FORMAT_NV12; }
+constexpr bool IsPaired(int32_t format) {
+  return format == SF_FORMAT_NV12 || format == SF_FORMAT_NV21;
+}
+constexpr bool HasAlpha(int32_t format) {
+  return format == SF_FORMAT_RGBX || format == SF_FORMAT_BGRX;
+}
+
+// Returns what pixel_stride 0 stands for.
+constexpr int32_t LeastStep(int32_t format) {
+  if (!IsYuv(format)) return HasAlpha(format) ? 4 : 3;
+  return IsPaired(format) ? 2 : 1;
+}
+
+// Returns the planes of an sf_image or sf_image_out that has been checked.
+template <class Image>
+auto PlanesOf(const Image& image) {
+  ImagePlanes<std::remove_pointer_t<std::decay_t<decltype(image.planes[0])>>> of = {};
+  const int32_t format = image.format;
+  of.is_yuv = IsYuv(format);
+  of.blue_first = format == SF_FORMAT_BGR || format == SF_FORMAT_BGRX;
+  of.has_alpha = HasAlpha(format);
+  of.step = static_cast<size_t>(image.pixel_stride != 0 ? image.pixel_stride : LeastStep(format));
+  if (of.is_yuv) of.matrix = &kYuvMatrices[image.matrix][image.range];
+  for (int plane = 0; plane < 3; ++plane) {
+    of.planes[plane] = image.planes[plane];
+    of.strides[plane] = image.strides[plane];
+  }
+  if (IsPaired(format)) {
+    const int u = format == SF_FORMAT_NV12 ? 0 : 1;
+    of.planes[1] = image.planes[1] + u;
+    of.planes[2] = image.planes[1] + 1 - u;
+    of.strides[2] = of.strides[1];
+  }
+  return of;
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_CONVERT_IMAGE_PLANES_H_

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/convert/image_rows.h"
+
+#include <cstring>
+
+#include "lib/base/fixed.h"
+
+namespace starfocus {
+namespace {
+
+// Rows are converted in pieces of so many chroma samples, which lie on the stack.
+constexpr int32_t kPiece = 256;
+
+// Whether samples of U and V lie in pairs; *first is the plane whose samples come first.
+template <class Byte>
+bool ArePairs(const ImagePlanes<Byte>& image, int* first) {
+  if (image.step != 2 || image.strides[1] != image.strides[2]) return false;
+  const auto u = reinterpret_cast<uintptr_t>(image.planes[1]);
+  const auto v = reinterpret_cast<uintptr_t>(image.planes[2]);
+  *first = u < v ? 1 : 2;
+  return u + 1 == v || v + 1 == u;
+}
+
+// Up to kPiece chroma samples beside each other: in place, or copied.
+class ChromaSamples {
+ public:
+  ChromaSamples(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
+                int32_t count) {
+    const auto samples = static_cast<size_t>(count);
+    int first = 1;
+    if (image.step == 1) {
+      u_ = image.Chroma(1, x, y);
+      v_ = image.Chroma(2, x, y);
+    } else if (ArePairs(image, &first)) {
+      kernels.SplitPairs(image.Chroma(first, x, y), samples, samples_[first - 1],
+                         samples_[2 - first]);
+    } else {
+      for (int plane = 1; plane <= 2; ++plane) {
+        const uint8_t* from = image.Chroma(plane, x, y);
+        for (size_t k = 0; k < samples; ++k) samples_[plane - 1][k] = from[k * image.step];
+      }
+    }
+  }
+  const uint8_t* u() const { return u_; }
+  const uint8_t* v() const { return v_; }
+
+ private:
+  uint8_t samples_[2][kPiece];
+  const uint8_t *u_ = samples_[0], *v_ = samples_[1];
+};
+
+void ReadYuv(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
+             int32_t count, uint8_t* rgb) {
+  for (const int32_t end = x + count; x < end;) {
+    // The second of the two pixels of a chroma sample comes first alone.
+    const int32_t piece = x % 2 != 0 ? 1 : Min(2 * kPiece, end - x);
+    const ChromaSamples chroma(kernels, image, x, y, (piece + 1) / 2);
+    kernels.YuvToRgb(image.Luma(x, y), chroma.u(), chroma.v(), static_cast<size_t>(piece),
+                     *image.matrix, rgb);
+    x += piece;
+    rgb += 3 * piece;
+  }
+}
+
+bool IsPacked(const simd::PixelOrder& order) { return order.step == 3 && !order.blue_first; }
+
+// Pixels as far apart as no kernel writes them.
+void WritePixels(const uint8_t* rgb, size_t count, const ImageTarget& image, uint8_t* pixels) {
+  const size_t red = image.blue_first ? 2 : 0;
+  for (size_t n = 0; n < count; ++n, rgb += 3, pixels += image.step) {
+    pixels[red] = rgb[0];
+    pixels[1] = rgb[1];
+    pixels[2 - red] = rgb[2];
+    if (image.has_alpha) pixels[3] = 255;
+  }
+}
+
+}  // namespace
+
+void ReadCodes(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
+               int32_t count, uint8_t* rgb) {
+  if (image.is_yuv) {
+    ReadYuv(kernels, image, x, y, count, rgb);
+    return;
+  }
+  const uint8_t* pixels = image.Pixel(x, y);
+  const simd::PixelOrder order = {image.step, image.blue_first};
+  if (IsPacked(order)) {
+    std::memcpy(rgb, pixels, 3 * static_cast<size_t>(count));
+  } else if (image.step <= 4) {
+    kernels.PixelsToRgb(pixels, static_cast<size_t>(count), order, rgb);
+  } else {
+    simd::reference::PixelsToRgb(pixels, static_cast<size_t>(count), order, rgb);
+  }
+}
+
+void WriteCodes(const simd::ImageKernels& kernels, const uint8_t* rgb, int32_t width, int32_t y,
+                const ImageTarget& image) {
+  const auto count = static_cast<size_t>(width);
+  if (image.is_yuv) {
+    kernels.RgbToLuma(rgb, count, *image.matrix, image.Luma(0, y));
+    return;
+  }
+  uint8_t* pixels = image.Pixel(0, y);
+  const simd::PixelOrder order = {image.step, image.blue_first};
+  if (IsPacked(order)) {
+    std::memcpy(pixels, rgb, 3 * count);
+  } else if (image.step == (image.has_alpha ? 4 : 3)) {
+    kernels.RgbToPixels(rgb, count, order, pixels);
+  } else {
+    WritePixels(rgb, count, image, pixels);
+  }
+}
+
+void WriteChroma(const simd::ImageKernels& kernels, const uint8_t* upper, const uint8_t* lower,
+                 int32_t width, int32_t y, const ImageTarget& image) {
+  int first = 1;
+  const bool pairs = ArePairs(image, &first);
+  for (int32_t x = 0; x < width; x += 2 * kPiece) {
+    const auto piece = static_cast<size_t>(Min(2 * kPiece, width - x)), samples = (piece + 1) / 2;
+    const size_t at = 3 * static_cast<size_t>(x);
+    uint8_t own[2][kPiece];
+    const bool in_place = image.step == 1;
+    kernels.RgbToChroma(upper + at, lower + at, piece, *image.matrix,
+                        in_place ? image.Chroma(1, x, y) : own[0],
+                        in_place ? image.Chroma(2, x, y) : own[1]);
+    if (pairs) {
+      kernels.JoinPairs(own[first - 1], own[2 - first], samples, image.Chroma(first, x, y));
+    } else if (!in_place) {
+      for (int plane = 1; plane <= 2; ++plane) {
+        uint8_t* out = image.Chroma(plane, x, y);
+        for (size_t k = 0; k < samples; ++k) out[k * image.step] = own[plane - 1][k];
+      }
+    }
+  }
+}
+
+AlphaSource AlphaOf(const ImageSource& image) {
+  if (!image.has_alpha) return {};
+  return {{image.planes[0] + 3, image.strides[0], 0, 0}, image.step};
+}
+
+void CopyAlpha(const AlphaSource& from, int32_t x, int32_t y, int32_t count, int32_t to_y,
+               const ImageTarget& to) {
+  const uint8_t* alpha = from.rows.Row(y) + static_cast<size_t>(x) * from.step;
+  uint8_t* out = to.Pixel(0, to_y) + 3;
+  for (size_t n = 0; n < static_cast<size_t>(count); ++n) {
+    out[n * to.step] = alpha[n * from.step];
+  }
+}
+
+}  // namespace starfocus

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of images to and from codes R, G, B.
+#ifndef STARFOCUS_LIB_CONVERT_IMAGE_ROWS_H_
+#define STARFOCUS_LIB_CONVERT_IMAGE_ROWS_H_
+
+#include <cstdint>
+
+#include "lib/base/geometry.h"
+#include "lib/convert/image_planes.h"
+#include "simd/image_kernels.h"
+
+namespace starfocus {
+
+// Writes the codes of `count` pixels from (x, y) on.
+void ReadCodes(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
+               int32_t count, uint8_t* rgb);
+
+// Writes the first `width` pixels of row y, but for chroma; alpha becomes 255.
+void WriteCodes(const simd::ImageKernels& kernels, const uint8_t* rgb, int32_t width, int32_t y,
+                const ImageTarget& image);
+
+// Writes the chroma of rows y and y + 1, y being even; `lower` is `upper` for a last row.
+void WriteChroma(const simd::ImageKernels& kernels, const uint8_t* upper, const uint8_t* lower,
+                 int32_t width, int32_t y, const ImageTarget& image);
+
+// Alpha of a picture, `step` bytes from pixel to pixel; without rows there is none.
+struct AlphaSource {
+  Plane<const uint8_t> rows;
+  size_t step = 0;
+};
+
+// Returns the alpha of an image, which may have none.
+AlphaSource AlphaOf(const ImageSource& image);
+
+// Copies alpha of `count` pixels from (x, y) on to the first ones of row `to_y`; both have some.
+void CopyAlpha(const AlphaSource& from, int32_t x, int32_t y, int32_t count, int32_t to_y,
+               const ImageTarget& to);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_CONVERT_IMAGE_ROWS_H_

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* starfocus: pictures and depth maps as cameras have them.
+ *
+ * These calls do what those of starfocus.h do, of pictures in other formats and of other maps than
+ * rows of R, G, B and of float disparities. Rows are converted as they are read and written;
+ * nothing is copied whole. The bytes are those of converting everything first, by the formulas
+ * below, refocusing, and converting the result.
+ *
+ * An engine for them is configured with sf_config.images = 1; else they return SF_ERROR_STATE. A
+ * static program that calls none of them holds nothing of them.
+ *
+ * Codes have 8 bits: light is a table of them. Formats of 10 and 16 bits are not supported.
+ */
+#ifndef STARFOCUS_IMAGE_H_
+#define STARFOCUS_IMAGE_H_
+
+#include "starfocus/starfocus.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Largest pixel_stride of R, G, B. */
+#define SF_MAX_PIXEL_STRIDE 256
+
+/** Where the bytes of a picture lie; those of R, G, B by their order in memory, those of luma Y and
+ *  chroma U (Cb), V (Cr) by the names of libyuv. Chroma has half the width and height of the
+ *  picture, rounded up: a sample belongs to 2 x 2 pixels, at the right and bottom edges of odd
+ *  sizes to those that there are. */
+typedef enum sf_format {
+  SF_FORMAT_RGB = 0,        /**< planes[0]: R, G, B */
+  SF_FORMAT_BGR = 1,        /**< planes[0]: B, G, R */
+  SF_FORMAT_RGBX = 2,       /**< planes[0]: R, G, B and a byte that is carried through: alpha */
+  SF_FORMAT_BGRX = 3,       /**< planes[0]: B, G, R and a byte that is carried through: alpha */
+  SF_FORMAT_NV12 = 4,       /**< planes[0]: Y; planes[1]: U, V */
+  SF_FORMAT_NV21 = 5,       /**< planes[0]: Y; planes[1]: V, U */
+  SF_FORMAT_I420 = 6,       /**< planes[0]: Y; planes[1]: U; planes[2]: V */
+  SF_FORMAT_YUV_420_888 = 7 /**< as I420, chroma samples 1 or 2 bytes apart (pixel_stride): what
+                                 Android's cameras give */
+} sf_format;
+
+/** How luma and chroma are made of R, G, B. With Kr, Kb = 0.299, 0.114 or 0.2126, 0.0722 and
+ *  Kg = 1 - Kr - Kb, Y' = Kr R + Kg G + Kb B, U' = (B - Y') / (2 - 2 Kb), V' = (R - Y') /
+ *  (2 - 2 Kr). */
+typedef enum sf_matrix {
+  SF_MATRIX_BT601 = 0, /**< ITU-R BT.601: libyuv's I420 (limited range) and J420 (full range) */
+  SF_MATRIX_BT709 = 1  /**< ITU-R BT.709: libyuv's H420 (limited range) and F420 (full range) */
+} sf_matrix;
+
+/** Which codes Y', U' and V' have. */
+typedef enum sf_range {
+  SF_RANGE_LIMITED = 0, /**< Y = 16 + Y' 219 / 255; U, V = 128 + U', V' 224 / 255 */
+  SF_RANGE_FULL = 1     /**< Y = Y'; U, V = 128 + U', V': what JPEG and Android's cameras have */
+} sf_range;
+
+/** A picture that is read. All zero but for planes and strides it is one of R, G, B.
+ *
+ *  Conversion is in integers, the same on every machine. P(a, c) is (a c + 2^14) >> 15 (arithmetic
+ *  shifts round down) and [x] is x rounded to the nearest integer, halves away from 0.
+ *  To R, G, B: of limited range y0 = 16, p = 255 / 219, q = 255 / 224, else y0 = 0, p = q = 1; with
+ *  the chroma sample that the pixel belongs to,
+ *    L = P(128 (Y - y0), [2^14 p]), u = 256 (U - 128), v = 256 (V - 128),
+ *    R = (L + P(v, [2^13 q (2 - 2 Kr)]) + 32) >> 6,
+ *    G = (L + P(u, [-2^13 q (2 - 2 Kb) Kb / Kg]) + P(v, [-2^13 q (2 - 2 Kr) Kr / Kg]) + 32) >> 6,
+ *    B = (L + P(u, [2^13 q (2 - 2 Kb)]) + 32) >> 6, each clamped to [0, 255].
+ *  From R, G, B: with w = 2^15 / p, h = 2^15 / q / 2,
+ *    Y = y0 + ((P(128 R, w_r) + P(128 G, w_g) + P(128 B, w_b) + 64) >> 7), w_r = [w Kr],
+ *    w_b = [w Kb], w_g = [w] - w_r - w_b; and of the sums R, G, B of 2 x 2 pixels, of which odd
+ *    sizes repeat the last column or row,
+ *    U = 128 + ((P(32 R, u_r) + P(32 G, u_g) + P(32 B, u_b) + 64) >> 7), clamped to [0, 255],
+ *    u_b = [h], u_r = [-h Kr / (1 - Kb)], u_g = -u_r - u_b; V likewise with v_r = [h],
+ *    v_b = [-h Kb / (1 - Kr)], v_g = -v_r - v_b. */
+typedef struct sf_image {
+  int32_t format;       /**< sf_format */
+  int32_t matrix;       /**< sf_matrix; of R, G, B not looked at */
+  int32_t range;        /**< sf_range; of R, G, B not looked at */
+  int32_t pixel_stride; /**< bytes from pixel to pixel of R, G, B: at least 3, or 4 with alpha, at
+                             most SF_MAX_PIXEL_STRIDE; or from sample to sample of chroma: 1 or
+                             2 of YUV_420_888, else what the format says. 0: the least that the
+                             format allows */
+  const uint8_t* planes[3]; /**< first bytes; those that the format has not are not looked at */
+  size_t strides[3];        /**< bytes from row to row of each, as long as a row at least */
+} sf_image;
+
+/** A picture that is written; only bytes of its pixels are. Its fields are those of sf_image. */
+typedef struct sf_image_out {
+  int32_t format;
+  int32_t matrix;
+  int32_t range;
+  int32_t pixel_stride;
+  uint8_t* planes[3];
+  size_t strides[3];
+} sf_image_out;
+
+/** Type of the values of a depth map. */
+typedef enum sf_depth_type {
+  SF_DEPTH_FLOAT = 0, /**< 32-bit IEEE float */
+  SF_DEPTH_U16 = 1,   /**< 16-bit unsigned integer */
+  SF_DEPTH_U8 = 2,    /**< 8-bit unsigned integer */
+  SF_DEPTH_HALF = 3   /**< 16-bit IEEE float */
+} sf_depth_type;
+
+/** What a value z of a depth map means. */
+typedef enum sf_depth_meaning {
+  SF_DEPTH_LINEAR = 0,    /**< disparity = scale * z + offset */
+  SF_DEPTH_RECIPROCAL = 1 /**< disparity = scale / z + offset: z is a distance. With rectified views
+                               whose outermost ones lie B from the centre, and the focal length f in
+                               pixels, scale = f * B in the unit of z, and offset = 0 */
+} sf_depth_meaning;
+
+/** A map of the centre view's depth, as large as the picture or smaller in width, height or both.
+ *
+ *  Disparities are computed in single precision, each operation rounded, must lie in the configured
+ *  range (else SF_ERROR_DISPARITY), and are rounded to D = floor(64 disparity + 1/2). Those that
+ *  are not finite, and those of invalid values, are unknown: see sf_config.fill_unknown, without
+ *  which they are SF_ERROR_NOT_FINITE; rows of the picture are filled, not of the map.
+ *
+ *  A smaller map is interpolated between its values along surfaces and never across their edges.
+ *  Of a picture W pixels wide and a map w wide, column x of the picture lies at
+ *  p = floor(128 (2x + 1) w / W) - 128 of the map in 256ths, limited to [0, 256 (w - 1)]; rows
+ *  likewise. First between the rows, then between the columns, the value at a share s (256ths) of
+ *  the way from D0 to D1 is D0 + ((s (D1 - D0) + 128) >> 8) where |D1 - D0| <= 96 (a pixel and a
+ *  half), and else that of the nearer one: D0 for s < 128, otherwise D1. Unknown is far from all.
+ */
+typedef struct sf_depth_map {
+  const void* data; /**< first value, aligned for its type */
+  size_t stride;    /**< bytes from row to row, as long as a row at least, multiple of the type */
+  int32_t width;    /**< in [1, width of the picture] */
+  int32_t height;   /**< in [1, height of the picture] */
+  int32_t type;     /**< sf_depth_type */
+  int32_t meaning;  /**< sf_depth_meaning */
+  float scale;      /**< finite, not 0 */
+  float offset;     /**< finite */
+  int32_t has_invalid; /**< 1: `invalid` stands for an unknown depth; 0: no value does */
+  float invalid;       /**< compared with z */
+} sf_depth_map;
+
+/** A light field of images. All have the configured width and height; formats may differ. */
+typedef struct sf_image_field {
+  sf_image views[SF_MAX_VIEWS]; /**< the configured number, in the order of sf_view_position */
+  sf_depth_map depth;           /**< of the centre view */
+} sf_image_field;
+
+/** As sf_refocus. The alpha of `out` is that of the centre view, 255 if that has none. An output of
+ *  a region is a picture of its own: its chroma is that of its own 2 x 2 pixels, wherever the
+ * region lies. The images are only read, during the call; no plane of `out` may overlap any of
+ * them, the depth map or the workspace. Side views are converted pixel by pixel where they are
+ * read, which is beside depth edges and beyond the picture's edges only. */
+SF_API sf_status sf_refocus_images(sf_engine* engine, const sf_params* params,
+                                   const sf_image_field* field, const sf_image_out* out,
+                                   sf_runner runner, void* runner_data, sf_report* report);
+
+/** As sf_prepare, of images; sf_prepared_size has the bytes. sf_refocus_prepared_images alone
+ *  takes what it makes. The structure `field` need not stay, what it points to must. */
+SF_API sf_status sf_prepare_images(sf_engine* engine, const sf_image_field* field, void* memory,
+                                   size_t bytes, sf_progress progress, void* progress_data,
+                                   sf_runner runner, void* runner_data, sf_prepared** prepared);
+
+/** As sf_refocus_images, with the same bytes, of what sf_prepare_images made. */
+SF_API sf_status sf_refocus_prepared_images(sf_engine* engine, const sf_params* params,
+                                            const sf_prepared* prepared, const sf_image_out* out,
+                                            sf_runner runner, void* runner_data, sf_report* report);
+
+/** As sf_stream_push, of images: planes point to the next rows. The depth map is the whole one,
+ *  the same in all calls. Rows that share chroma come together: where a view has some, `rows` is
+ *  even but at the picture's end (else SF_ERROR_COUNT), and so is *consumed. All rows of all views
+ *  are converted. The engine is configured with streaming = 1, too. */
+SF_API sf_status sf_stream_push_images(sf_engine* engine, const sf_image_field* field, int32_t rows,
+                                       int32_t* consumed);
+
+/** As sf_stream_pull, into an image whose planes point to the next rows; `rows` is even where they
+ *  share chroma, but at the picture's end. Rows pushed by either call may be pulled by either. */
+SF_API sf_status sf_stream_pull_images(sf_engine* engine, const sf_image_out* out, int32_t rows,
+                                       sf_runner runner, void* runner_data, int32_t* written,
+                                       sf_report* report);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* STARFOCUS_IMAGE_H_ */

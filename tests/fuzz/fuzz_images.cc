@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images and depth maps of any format, size, stride and contents. Every plane has exactly the bytes
+// that the interface asks for, on the heap, so that AddressSanitizer sees what is read or written
+// beside it.
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "starfocus/image.h"
+#include "tests/fuzz/input.h"
+
+namespace {
+
+using starfocus::fuzz::Input;
+
+struct Size {
+  int32_t width, height;
+};
+
+// Memory of the planes.
+using Planes = std::vector<std::unique_ptr<uint8_t[]>>;
+
+uint8_t* TakePlane(int32_t rows, size_t row_bytes, Input* input, size_t* stride, Planes* planes) {
+  *stride = row_bytes + static_cast<size_t>(input->Int(0, 9));
+  const size_t bytes = *stride * static_cast<size_t>(rows - 1) + row_bytes;
+  planes->emplace_back(new uint8_t[bytes]);
+  uint8_t step[8];
+  input->Bytes(step, sizeof(step));
+  for (size_t k = 0; k < bytes; ++k) {
+    planes->back()[k] = static_cast<uint8_t>(step[k % 8] + (k >> 3) * step[0]);
+  }
+  return planes->back().get();
+}
+
+sf_image_out MakeImage(const Size& size, Input* input, Planes* planes) {
+  sf_image_out image = {};
+  image.format = input->Int(SF_FORMAT_RGB, SF_FORMAT_YUV_420_888);
+  image.matrix = input->Int(0, 1);
+  image.range = input->Int(0, 1);
+  const auto width = static_cast<size_t>(size.width), columns = (width + 1) / 2;
+  const int32_t rows = (size.height + 1) / 2;
+  if (image.format < SF_FORMAT_NV12) {
+    const bool alpha = image.format == SF_FORMAT_RGBX || image.format == SF_FORMAT_BGRX;
+    image.pixel_stride = input->Int(alpha ? 4 : 3, 7);
+    const size_t row_bytes =
+        (width - 1) * static_cast<size_t>(image.pixel_stride) + (alpha ? 4 : 3);
+    image.planes[0] = TakePlane(size.height, row_bytes, input, &image.strides[0], planes);
+    return image;
+  }
+  image.planes[0] = TakePlane(size.height, width, input, &image.strides[0], planes);
+  const bool pairs = image.format == SF_FORMAT_NV12 || image.format == SF_FORMAT_NV21;
+  if (image.format == SF_FORMAT_YUV_420_888) image.pixel_stride = input->Int(1, 2);
+  const auto step = static_cast<size_t>(std::max(image.pixel_stride, 1));
+  const size_t row_bytes = pairs ? 2 * columns : (columns - 1) * step + 1;
+  for (int plane = 1; plane <= (pairs ? 1 : 2); ++plane) {
+    image.planes[plane] = TakePlane(rows, row_bytes, input, &image.strides[plane], planes);
+  }
+  return image;
+}
+
+sf_image AsImage(const sf_image_out& out) {
+  return {out.format,
+          out.matrix,
+          out.range,
+          out.pixel_stride,
+          {out.planes[0], out.planes[1], out.planes[2]},
+          {out.strides[0], out.strides[1], out.strides[2]}};
+}
+
+// Values of any bytes: most maps have unknown ones, and ones outside of the range.
+sf_depth_map MakeDepth(const Size& size, Input* input, Planes* planes) {
+  constexpr size_t kBytes[] = {4, 2, 1, 2};
+  sf_depth_map map = {};
+  map.width = input->Int(1, size.width);
+  map.height = input->Int(1, size.height);
+  map.type = input->Int(0, 3);
+  map.meaning = input->Int(0, 1);
+  constexpr double kScales[] = {1, 0.0002, 0.05, 1};
+  map.scale = input->Rarely() ? input->Value<float>()
+                              : static_cast<float>(input->Real(-1, 1) * kScales[map.type]);
+  map.offset = input->Rarely() ? input->Value<float>() : static_cast<float>(input->Real(-9, 9));
+  map.has_invalid = input->Int(0, 1);
+  map.invalid = input->Value<float>();
+  const size_t bytes = kBytes[map.type];
+  const auto row = static_cast<size_t>(map.width);
+  map.stride = bytes * (row + static_cast<size_t>(input->Int(0, 3)));
+  size_t unused = 0;
+  map.data = TakePlane(1, map.stride * static_cast<size_t>(map.height - 1) + bytes * row, input,
+                       &unused, planes);
+  return map;
+}
+
+sf_status StreamAll(sf_engine* engine, const sf_params& params, const sf_image_field& field,
+                    const sf_image_out& out, const Size& size) {
+  int32_t consumed = 0, written = 0;
+  sf_status status = sf_stream_begin(engine, &params);
+  if (status != SF_OK) return status;
+  status = sf_stream_push_images(engine, &field, size.height, &consumed);
+  if (status != SF_OK) return status;
+  return sf_stream_pull_images(engine, &out, size.height, nullptr, nullptr, &written, nullptr);
+}
+
+// What well-formed images may still be refused for.
+bool MayBe(sf_status status) {
+  return status == SF_OK || status == SF_ERROR_DISPARITY || status == SF_ERROR_NOT_FINITE ||
+         status == SF_ERROR_DEPTH_SCALE || status == SF_ERROR_BLUR_TOO_LARGE;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  Input input(data, size);
+  sf_config config;
+  sf_config_init(&config);
+  const Size picture = {input.Int(1, 90), input.Int(1, 70)};
+  config.width = picture.width, config.height = picture.height;
+  config.views = input.Int(0, 1) == 0 ? 1 : 5;
+  config.disparity_min = -14, config.disparity_max = 14, config.max_blur = 16;
+  config.images = 1, config.largest_block = 32;
+  config.streaming = input.Int(0, 1);
+  config.fill_unknown = input.Rarely() ? 0 : 1;
+  config.highlights = input.Rarely() ? 4 : 1;
+  sf_params params;
+  sf_params_init(&params);
+  params.focus = input.Real(-2, 2);
+  params.mode = input.Rarely() ? SF_MODE_BLUR : SF_MODE_BLOCK;
+  size_t bytes = 0;
+  if (sf_workspace_size(&config, &bytes) != SF_OK) std::abort();
+  void* workspace = nullptr;
+  if (posix_memalign(&workspace, SF_ALIGNMENT, bytes) != 0) return 0;
+  const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
+  sf_engine* engine = nullptr;
+  if (sf_init(&config, workspace, bytes, &engine) != SF_OK) std::abort();
+  Planes planes;
+  sf_image_field field = {};
+  for (int view = 0; view < config.views; ++view) {
+    field.views[view] = AsImage(MakeImage(picture, &input, &planes));
+  }
+  field.depth = MakeDepth(picture, &input, &planes);
+  const sf_image_out out = MakeImage(picture, &input, &planes);
+  const sf_status status = config.streaming != 0 ? StreamAll(engine, params, field, out, picture)
+                                                 : sf_refocus_images(engine, &params, &field, &out,
+                                                                     nullptr, nullptr, nullptr);
+  if (!MayBe(status)) std::abort();
+  return 0;
+}

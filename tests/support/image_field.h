@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light fields of images, and the same converted first.
+#ifndef STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
+#define STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
+
+#include <vector>
+
+#include "tests/support/image_scene.h"
+#include "tests/support/layered_scene.h"
+
+namespace test {
+
+struct ImageField {
+  std::vector<ImageMemory> views;
+  DepthMemory depth;
+  Scene converted;  // by the definitions; what the engine is to see
+
+  sf_image_field Field(int row = 0) const {
+    sf_image_field field = {};
+    for (size_t k = 0; k < views.size(); ++k) field.views[k] = views[k].In(row);
+    field.depth = depth.map;
+    return field;
+  }
+  uint8_t Alpha(int x, int y) const {
+    ImageMemory& centre = const_cast<ImageMemory&>(views[0]);
+    return centre.kind().HasAlpha() ? *centre.Colour(x, y, 3) : 255;
+  }
+  // `out` converted to an image of the same size, whose pixel (0, 0) is (x, y) of the picture.
+  ImageMemory Converted(const Output& out, const ImageKind& kind, int x = 0, int y = 0) const {
+    ImageMemory image(out.width, out.height, kind);
+    PutPicture(
+        out.bytes.data(), out.stride,
+        [&](int column, int row) { return Alpha(x + column, y + row); }, &image);
+    return image;
+  }
+};
+
+// The range of disparities is a little wider than the scene's, for maps of few bits.
+inline ImageField MakeImageField(const Scene& scene, const std::vector<ImageKind>& kinds,
+                                 DepthMemory depth, Random* random) {
+  ImageField field;
+  field.converted = EmptyScene(scene.width, scene.height, scene.views(), scene.disparity_min - 0.5f,
+                               scene.disparity_max + 0.5f);
+  for (int view = 0; view < scene.views(); ++view) {
+    ImageMemory image(scene.width, scene.height, kinds[size_t(view) % kinds.size()]);
+    PutPicture(
+        scene.Pixel(view, 0, 0), scene.stride, [&](int, int) { return random->Byte(); }, &image);
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) {
+        GetPixel(&image, x, y, field.converted.Pixel(view, x, y));
+      }
+    }
+    field.views.push_back(std::move(image));
+  }
+  field.depth = std::move(depth);
+  field.converted.disparity = ConvertDepth(&field.depth, scene.width, scene.height);
+  return field;
+}
+
+inline sf_config ImageConfig(const ImageField& field, double max_blur = 20) {
+  sf_config config = ConfigFor(field.converted, max_blur);
+  config.images = 1;
+  return config;
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
