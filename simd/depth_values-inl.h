@@ -102,15 +102,15 @@ HWY_INLINE uint32_t ConvertDepths(const float* HWY_RESTRICT z, size_t count, con
 
 inline uint32_t DepthToDisparity(const float* HWY_RESTRICT z, size_t count, const DepthRule& rule,
                                  int16_t* HWY_RESTRICT out) {
+#if HWY_ARCH_ARM_V7  // Its vectors take the smallest numbers for 0, and approximate divisions.
+  return reference::DepthToDisparity(z, count, rule, out);
+#else
   const auto scale = hn::Set(DepthTag(), rule.scale);
   if (!rule.reciprocal) {
     return ConvertDepths(
         z, count, rule, [&](hn::Vec<DepthTag> value) HWY_ATTR { return hn::Mul(scale, value); },
         out);
   }
-#if HWY_ARCH_ARM_V7  // Its vectors have no division, only approximations.
-  return reference::DepthToDisparity(z, count, rule, out);
-#else
   return ConvertDepths(
       z, count, rule, [&](hn::Vec<DepthTag> value) HWY_ATTR { return hn::Div(scale, value); }, out);
 #endif
