@@ -40,11 +40,12 @@ cross_build() {
 # Whatever SIMD targets and vector lengths the emulator has must give the tracked checksums, and
 # every kernel the reference's results.
 golden_by_sve_length() {
-  cross_build aarch64-max starfocus_golden_test starfocus_kernels_test starfocus_depth_kernels_test
+  cross_build aarch64-max starfocus_golden_test starfocus_kernels_test starfocus_depth_kernels_test \
+    starfocus_image_kernels_test
   local bytes name
   for bytes in 16 32 64; do
     printf 'SVE registers of %d bytes:\n' $bytes
-    for name in kernels depth_kernels golden; do
+    for name in kernels depth_kernels image_kernels golden; do
       qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
         -E LD_LIBRARY_PATH=build/sysroot/arm64/usr/lib/aarch64-linux-gnu \
         build/aarch64-max/tests/${name}_test --no-intro=true >"$LOGS/$name-$bytes.log" 2>&1 ||
