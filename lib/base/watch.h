@@ -20,16 +20,16 @@ class Watch {
 
   // Says that the rows up to `done` are made.
   void SetRows(int32_t done);
-  // Says that the next set of jobs is part `part` of `parts` of what all rows take. Its rows are made
-  // as its jobs are.
+  // Says that the next set of jobs is part `part` of `parts` of what all rows take. Its rows are
+  // made as its jobs are.
   void SetPart(int32_t part, int32_t parts);
 
   // The same from a set's jobs: `jobs` are begun, and one is done.
   void BeginJobs(int32_t jobs);
   void CountJob() { jobs_done_.fetch_add(1, std::memory_order_relaxed); }
 
-  // Asks the caller whether to go on, unless another thread is doing so. Once he has said no, nobody
-  // is asked any more, and it is no for all.
+  // Asks the caller whether to go on, unless another thread is doing so. Once he has said no,
+  // nobody is asked any more, and it is no for all.
   bool Ask();
 
   bool IsCancelled() const { return cancelled_.load(std::memory_order_relaxed) != 0; }
@@ -49,8 +49,8 @@ class Patience {
   Patience() = default;
   explicit Patience(Watch* watch) : watch_(watch) {}
 
-  // Counts about so many samples read, filtered or added up. Returns whether to go on; no once, it is
-  // no until the next call.
+  // Counts about so many samples read, filtered or added up. Returns whether to go on; no once, it
+  // is no until the next call.
   bool Spend(int64_t samples) {
     left_ -= samples;
     return left_ > 0 || Ask();
