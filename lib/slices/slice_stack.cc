@@ -24,12 +24,12 @@ uint32_t GroupSum(const Aperture& aperture, int32_t i, int32_t first, int32_t la
 }
 
 constexpr int kMostExtraBits = 4;
-constexpr int kNoLight = 99;
+constexpr int kNoLight = 99;  // the rank of weight 0
 
-// Returns how many times a weight must be multiplied by sixteen to exceed the largest one.
-int RankOf(uint32_t weight, uint32_t most) {
+// Returns how many times a weight can be multiplied by sixteen without exceeding the largest one.
+int RankOf(uint32_t weight, uint32_t largest) {
   int rank = 0;
-  for (uint64_t times = weight; times << kMostExtraBits <= most; ++rank) {
+  for (uint64_t times = weight; times << kMostExtraBits <= largest; ++rank) {
     if (times == 0) return kNoLight;
     times <<= kMostExtraBits;
   }
@@ -39,9 +39,9 @@ int RankOf(uint32_t weight, uint32_t most) {
 }  // namespace
 
 int32_t ViewWeights::LastAlike(int32_t i, int32_t first, int32_t last) const {
-  const int rank = RankOf(aperture->Weight(i, first), most);
+  const int rank = RankOf(aperture->Weight(i, first), largest);
   int32_t j = first;
-  while (j < last && RankOf(aperture->Weight(i, j + 1), most) == rank) ++j;
+  while (j < last && RankOf(aperture->Weight(i, j + 1), largest) == rank) ++j;
   return j;
 }
 
@@ -49,7 +49,7 @@ int ViewWeights::ExtraBits(int32_t i, int32_t first, int32_t last) const {
   const uint64_t sum = (GroupSum(*aperture, i, first, last) * scale) >> 16;
   int bits = 0;
   while (bits < kMostExtraBits && sum << (bits + 1) <= kGroupSum) ++bits;
-  const bool large = RankOf(aperture->Weight(i, first), most) == 0;
+  const bool large = RankOf(aperture->Weight(i, first), largest) == 0;
   return 2 * aperture->last < kGroupViews && large ? 0 : bits;
 }
 
@@ -60,7 +60,8 @@ ViewWeights ScaleWeights(const Aperture& aperture) {
   for (int32_t i = aperture.full ? -aperture.last : 0; i <= aperture.last; ++i) {
     const int32_t last = weights.LastAcross(Abs(i));
     for (int32_t j = -last; j <= last; ++j) {
-      weights.most = aperture.Weight(i, j) > weights.most ? aperture.Weight(i, j) : weights.most;
+      const uint32_t weight = aperture.Weight(i, j);
+      weights.largest = weight > weights.largest ? weight : weights.largest;
     }
     for (int32_t first = -last; first <= last; first += kGroupViews) {
       const uint32_t sum = GroupSum(aperture, i, first, Min(first + kGroupViews - 1, last));

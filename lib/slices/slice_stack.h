@@ -21,7 +21,7 @@ inline constexpr int32_t kGroupViews = 16;
 struct ViewWeights {
   const Aperture* aperture;
   uint64_t scale;          // 16 bits
-  uint32_t most;           // the aperture's largest weight
+  uint32_t largest;        // weight of the aperture
   uint32_t least_covered;  // sums of less than this are no colour: what rounding adds would show
 
   int16_t Weight(int32_t i, int32_t j, int extra_bits) const {

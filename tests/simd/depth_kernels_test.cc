@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/simd/check_kernels.h"
 #include "tests/simd/depth_cases.h"
 #include "tests/support/simd_targets.h"
 
@@ -22,28 +23,9 @@ using starfocus::simd::PathRow;
 using starfocus::simd::ReferenceDepthKernels;
 
 TEST_CASE("depth kernels: every target gives the bits of the reference and writes nothing else") {
-  constexpr int kRounds = STARFOCUS_EMULATED ? 150 : 1000;
-  const std::vector<const DepthKernels*> targets = test::DepthTargets();
-  CHECK(targets[0] == &BestDepthKernels());
-  uint64_t seed = 0;
-  for (const test::DepthCase& one : test::kDepthCases) {
-    const std::string name = one.kernel;
-    CAPTURE(name);
-    test::Met met;
-    ++seed;
-    for (int round = 0; round < kRounds; ++round) {
-      test::Draw draw = test::Draw::ForTest(seed, round);
-      test::DepthCall call(&draw);
-      one.make(&draw, &call);
-      const std::string wrong = call.Check(ReferenceDepthKernels(), targets, &met);
-      CAPTURE(round);
-      REQUIRE_MESSAGE(wrong.empty(), wrong);
-    }
-    for (const auto& what : met) {
-      CAPTURE(what.first);
-      CHECK(what.second > kRounds / 50);
-    }
-  }
+  CHECK(test::DepthTargets()[0] == &BestDepthKernels());
+  test::CheckKernels<test::DepthCall>(test::kDepthCases, ReferenceDepthKernels(),
+                                      test::DepthTargets());
 }
 
 TEST_CASE("depth kernels: samples between pixels, and how much pixels differ, by hand") {

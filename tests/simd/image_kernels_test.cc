@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/simd/check_kernels.h"
 #include "tests/simd/image_cases.h"
 #include "tests/support/simd_targets.h"
 
@@ -22,28 +23,9 @@ using starfocus::simd::kNoSurface;
 using starfocus::simd::ReferenceImageKernels;
 
 TEST_CASE("image kernels: every target gives the bits of the reference and writes nothing else") {
-  constexpr int kRounds = STARFOCUS_EMULATED ? 200 : 1000;
-  const std::vector<const ImageKernels*> targets = test::ImageTargets();
-  CHECK(targets[0] == &BestImageKernels());
-  uint64_t seed = 0;
-  for (const test::ImageCase& one : test::kImageCases) {
-    const std::string name = one.kernel;
-    CAPTURE(name);
-    test::Met met;
-    ++seed;
-    for (int round = 0; round < kRounds; ++round) {
-      test::Draw draw = test::Draw::ForTest(seed, round);
-      test::ImageCall call(&draw);
-      one.make(&draw, &call);
-      const std::string wrong = call.Check(ReferenceImageKernels(), targets, &met);
-      CAPTURE(round);
-      REQUIRE_MESSAGE(wrong.empty(), wrong);
-    }
-    for (const auto& what : met) {
-      CAPTURE(what.first);
-      CHECK(what.second > kRounds / 50);
-    }
-  }
+  CHECK(test::ImageTargets()[0] == &BestImageKernels());
+  test::CheckKernels<test::ImageCall>(test::kImageCases, ReferenceImageKernels(),
+                                      test::ImageTargets());
 }
 
 TEST_CASE("image kernels: half floats, all of them, on every target") {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/simd/check_kernels.h"
 #include "tests/simd/kernel_cases.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
@@ -37,28 +38,7 @@ TEST_CASE("kernels: a test that would run on no SIMD target fails") {
 }
 
 TEST_CASE("kernels: every target gives the bits of the reference and writes nothing else") {
-  constexpr int kRounds = STARFOCUS_EMULATED ? 150 : 1000;
-  const std::vector<const Kernels*> targets = test::SimdTargets();
-  uint64_t seed = 0;
-  for (const test::KernelCase& one : test::kKernelCases) {
-    const std::string name = one.kernel;
-    CAPTURE(name);
-    test::Met met;
-    ++seed;
-    for (int round = 0; round < kRounds; ++round) {
-      test::Draw draw = test::Draw::ForTest(seed, round);
-      test::KernelCall call(&draw);
-      one.make(&draw, &call);
-      const std::string wrong = call.Check(ReferenceKernels(), targets, &met);
-      CAPTURE(round);
-      REQUIRE_MESSAGE(wrong.empty(), wrong);
-    }
-    // What the calls must meet, they met often enough.
-    for (const auto& what : met) {
-      CAPTURE(what.first);
-      CHECK(what.second > kRounds / 50);
-    }
-  }
+  test::CheckKernels<test::KernelCall>(test::kKernelCases, ReferenceKernels(), test::SimdTargets());
 }
 
 TEST_CASE("kernels: the bench's calls are right, too") {

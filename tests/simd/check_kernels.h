@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the kernels of every table are checked for.
+#ifndef STARFOCUS_TESTS_SIMD_CHECK_KERNELS_H_
+#define STARFOCUS_TESTS_SIMD_CHECK_KERNELS_H_
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/simd/kernel_call.h"
+
+namespace test {
+
+// Calls each kernel of a table with random arguments, on every target: all give the bits of the
+// reference and write nothing else. Call is what a case makes.
+template <class Call, class Cases, class Table>
+void CheckKernels(const Cases& cases, const Table& reference,
+                  const std::vector<const Table*>& targets) {
+  constexpr int kRounds = STARFOCUS_EMULATED ? 200 : 1000;
+  uint64_t seed = 0;
+  for (const auto& one : cases) {
+    const std::string name = one.kernel;
+    CAPTURE(name);
+    Met met;
+    ++seed;
+    for (int round = 0; round < kRounds; ++round) {
+      Draw draw = Draw::ForTest(seed, round);
+      Call call(&draw);
+      one.make(&draw, &call);
+      const std::string wrong = call.Check(reference, targets, &met);
+      CAPTURE(round);
+      REQUIRE_MESSAGE(wrong.empty(), wrong);
+    }
+    // What the calls must meet, they met often enough.
+    for (const auto& what : met) {
+      CAPTURE(what.first);
+      CHECK(what.second > kRounds / 50);
+    }
+  }
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SIMD_CHECK_KERNELS_H_
