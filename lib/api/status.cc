@@ -14,7 +14,7 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_SIZE:
       return "width or height is outside 1 to 65535";
     case SF_ERROR_VIEWS:
-      return "number of views is not 1, 5, 9 or 17";
+      return "number of views is not 1, 5, 9 or 17, or with positions not 1 to 17";
     case SF_ERROR_DISPARITY_RANGE:
       return "disparity range is not finite, reversed, or beyond 500 pixels";
     case SF_ERROR_MAX_BLUR:
@@ -79,6 +79,10 @@ const char* sf_status_string(sf_status status) {
       return "scale or offset of a depth map is not finite, or scale is 0";
     case SF_ERROR_DEPTH_SIZE:
       return "depth map is larger than the picture, or has no values";
+    case SF_ERROR_VIEW_POSITIONS:
+      return "positions of views are not finite, beyond 1, alike, or do not begin with (0, 0)";
+    case SF_ERROR_STAR:
+      return "SF_RULE_PAPER needs the star of sf_view_position: 1, 5, 9 or 17 views";
     case SF_ERROR_REGION:
       return "region is not inside the picture, or is given for streaming, which has none";
     case SF_ERROR_PREPARED:

@@ -3,6 +3,7 @@
 
 #include "lib/base/rules.h"
 #include "lib/base/view_grid.h"
+#include "lib/base/view_set.h"
 #include "lib/filter/blur.h"
 
 namespace starfocus {
@@ -41,6 +42,9 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   const double r_max = LargestBlur(config, params);
   if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
   lens->params = params;
+  if (params.rule == SF_RULE_DEFAULT && !HasStar(config)) {
+    lens->params.rule = SF_RULE_SUBAPERTURE;
+  }
   lens->region = RegionOf(config, params);
   lens->r_max = r_max;
   lens->reach = GetReach(r_max);

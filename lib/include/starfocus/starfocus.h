@@ -104,6 +104,12 @@ typedef struct sf_timing {
   uint32_t hole;     /**< per pixel that a depth edge uncovers in the outermost view, 8 at most */
 } sf_timing;
 
+/** Where a captured view lies, in units of u. */
+typedef struct sf_position {
+  double u; /**< grows to the right */
+  double v; /**< grows downwards */
+} sf_position;
+
 /** How the codes 0 to 255 of a picture stand for light, which is what a lens adds. Of one colour
  * every code comes out as it went in. */
 typedef enum sf_transfer {
@@ -119,7 +125,8 @@ typedef struct sf_config {
   uint32_t version;    /**< SF_ABI_VERSION, set by sf_config_init */
   int32_t width;       /**< pixels, [1, SF_MAX_SIZE] */
   int32_t height;      /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
-  int32_t views;       /**< captured views: 1, 5, 9 or 17 (see sf_view_position) */
+  int32_t views;       /**< captured views: 1, 5, 9 or 17 (see sf_view_position), or with positions
+                            any number from 1 to SF_MAX_VIEWS; default 5 */
   float disparity_min; /**< smallest disparity any map may hold; with disparity_max it bounds the
                             blur, and so N of the frame modes and, beyond 32 pixels of blur, how
                             finely scenes are cut, in every entry path */
@@ -176,6 +183,12 @@ typedef struct sf_config {
                        what the views show there, and sf_fill_disparity fills whole maps */
   int32_t images;   /**< 1 reserves rows for the calls of starfocus/image.h; default 0 */
   uint32_t reserved[4]; /**< zero */
+  sf_position positions[SF_MAX_VIEWS]; /**< where the `views` captured views lie: each coordinate in
+                                          [-1, 1], all of them different by 1/16384 or more, the first
+                                          one (0, 0). All 0, the default: where sf_view_position
+                                          tells. What lies behind an edge is read from the best view
+                                          that sees it, and filled where none does. SF_RULE_PAPER and
+                                          starfocus/depth.h need the star */
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);
@@ -232,8 +245,9 @@ typedef enum sf_mode {
 
 /** How many views a blur radius needs. */
 typedef enum sf_rule {
-  SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME, SF_RULE_SUBAPERTURE for the others */
-  SF_RULE_PAPER = 1,   /**< (9): views at most a pixel or so apart, rendered line by line (IV) */
+  SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME of a star, else SF_RULE_SUBAPERTURE */
+  SF_RULE_PAPER = 1,   /**< (9): views at most a pixel or so apart, rendered line by line (IV); needs
+                            the star of sf_view_position, else SF_ERROR_STAR */
   SF_RULE_SUBAPERTURE = 2 /**< each view stands for its subaperture, however wide, and shows
                          slices of the scene */
 } sf_rule;
@@ -296,7 +310,8 @@ typedef struct sf_plane {
 
 /** A light field. All views have the configured width and height. */
 typedef struct sf_light_field {
-  sf_plane views[SF_MAX_VIEWS]; /**< the configured number, in the order of sf_view_position */
+  sf_plane views[SF_MAX_VIEWS]; /**< the configured number, in the order of sf_view_position or
+                                     sf_config.positions */
   const float* disparity;       /**< disparity of the centre view, aligned for float */
   size_t disparity_stride;      /**< bytes from row to row, >= 4 * width, multiple of 4 */
 } sf_light_field;
