@@ -120,7 +120,7 @@ HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewL
     if (column + x <= -lanes || column + x >= row.width) break;
     const auto here = hn::LoadU(d16, at + y * row.stride + x);
     const auto place = hn::Add(columns, hn::Set(d16, static_cast<int16_t>(x)));
-    const auto inside = hn::And(hn::Ge(place, hn::Zero(d16)),
+    const auto inside = hn::And(hn::Gt(place, hn::Set(d16, -1)),
                                 hn::Lt(place, hn::Set(d16, static_cast<int16_t>(row.width))));
     const auto near = hn::And(hn::Gt(here, nearer), hn::Lt(hn::Sub(here, start), end));
     covered = hn::Or(covered, hn::VecFromMask(d16, hn::And(near, inside)));

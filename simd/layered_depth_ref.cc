@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
+#include <initializer_list>
 
 #include "simd/arithmetic_ref.h"
 #include "simd/layered_depth.h"

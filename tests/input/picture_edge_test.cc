@@ -13,6 +13,7 @@
 #include "lib/input/load_field.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/refocused.h"
+#include "tests/support/star_views.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -133,7 +134,7 @@ struct Row {
     }
     window.width = window.picture_width = kWidth;
     window.height = window.picture_height = kHeight;
-    window.views = views;
+    test::SetStar(views, &window);
     window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
     window.centre = window.view[0];
     disparity.assign(kWidth * kHeight, 0);
