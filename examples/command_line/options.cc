@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "platform/light_field.h"
+#include "platform/image.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -30,6 +30,9 @@ bool ReadNumber(const std::string& text, double* value) {
   *value = std::strtod(text.c_str(), &end);
   return *end == '\0' && std::isfinite(*value);
 }
+
+// As names of files have it.
+double RoundPosition(double value) { return std::round(value * 1e4) / 1e4; }
 
 }  // namespace
 
@@ -95,9 +98,35 @@ Error ParseHighlights(const std::string& option, const std::string& text, double
   return Error::Usage(option, "a factor from 1 to " + Short(SF_MAX_HIGHLIGHTS), Quoted(text));
 }
 
-Error ParseViews(const std::string& option, const std::string& text, int* value) {
-  if (ReadWhole(text, value) && IsStarSet(*value)) return "";
-  return Error::Usage(option, "17, 9, 5 or 1", Quoted(text));
+Error ParseViews(const std::string& option, const std::string& text, Positions* positions) {
+  int star = 0;
+  if (ReadWhole(text, &star) && IsStarSet(star)) {
+    *positions = StarPositions(star);
+    return "";
+  }
+  const auto wrong = [&](const std::string& expected) {
+    return Error::Usage(option, expected, Quoted(text));
+  };
+  positions->clear();
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(':', begin), text.size());
+    const size_t comma = text.find(',', begin);
+    sf_position position = {};
+    if (comma >= end || !ReadNumber(text.substr(begin, comma - begin), &position.u) ||
+        !ReadNumber(text.substr(comma + 1, end - comma - 1), &position.v)) {
+      return wrong("17, 9, 5 or 1, or positions U,V:U,V");
+    }
+    position = {RoundPosition(position.u), RoundPosition(position.v)};
+    if (std::fabs(position.u) > 1 || std::fabs(position.v) > 1) return wrong("positions within +-1");
+    for (const sf_position& other : *positions) {
+      if (SamePosition(other, position)) return wrong("positions that differ");
+    }
+    positions->push_back(position);
+    begin = end + 1;
+  }
+  if (!SamePosition(positions->front(), {0, 0})) return wrong("the centre view, 0,0, first");
+  if (positions->size() <= SF_MAX_VIEWS) return "";
+  return wrong("at most " + std::to_string(SF_MAX_VIEWS) + " views");
 }
 
 Error ParseTransfer(const std::string& option, const std::string& text, sf_transfer* value) {
