@@ -93,7 +93,8 @@ Looks ChooseLooks(const ViewSet& views) {
     LookView* const on = looks.on[side];
     for (int32_t k = 1; k < views.count; ++k) {
       Rating rating = Rate(views.at[k], kSides[side]);
-      LookView view = {static_cast<int8_t>(k), rating.merit > 0, views.at[k]};
+      if (rating.merit <= 0) continue;
+      LookView view = {static_cast<int8_t>(k), views.at[k]};
       for (int place = 0; place < kLooks; ++place) {
         if (on[place].view != 0 && !rating.Before(best[place])) continue;
         const Rating next = best[place];

@@ -21,10 +21,9 @@ struct ViewPosition {
   int16_t u, v;
 };
 
-// A captured view that looks behind edges on a side of a pixel; view 0 stands for none.
+// A captured view beside the centre one; view 0 stands for none.
 struct LookView {
   int8_t view;
-  bool faces;  // whether it lies on that side, within 63 degrees: it shows what an edge there hides
   ViewPosition at;
 };
 
@@ -61,10 +60,11 @@ sf_status FindViews(const sf_config& config, ViewSet* views);
 // Whether the views of a configuration, which was checked, are those of sf_view_position.
 bool HasStar(const sf_config& config);
 
-// Chooses the views that look behind edges on each side. A view is one of a side's if it lies
-// nearer to that side's direction than to any other; of these the farthest out come first, as far
-// as they lie on the side's axis: they look behind more. Where there are none, those on the
-// diagonals and beyond stand in.
+// Chooses the views that look behind edges on each side: those that lie nearer to its direction
+// than to any other. Of these the farthest out come first, as far as they lie on the side's axis:
+// they look behind more. Where there are none, those on the diagonals stand in, and others up to 63
+// degrees from the axis. What views farther beside it or on the other side show behind an edge is
+// mostly something else (docs/constants.md).
 Looks ChooseLooks(const ViewSet& views);
 
 // A distance of the centre view's pixels, kDisparityBits or any other, as a view at `position` of

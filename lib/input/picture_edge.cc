@@ -76,7 +76,7 @@ class Beyond {
     // Nearer surfaces go on where views look over the edge, those behind the focus where views on
     // the other side do.
     const LookView& look = window_.looks.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
-    if (!look.faces) return;
+    if (look.view == 0) return;
     const Place moved = {Moved(look.at.u, disparity), Moved(look.at.v, disparity)};
     const int32_t along = edge.out()[0] != 0 ? moved.x : moved.y;
     int32_t seen = Min(edge.beyond, Abs(along) >> kShiftBits);
