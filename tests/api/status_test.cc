@@ -26,7 +26,7 @@ const char* WordsOf(sf_status status) {
     case SF_ERROR_SIZE:
       return "width or height";
     case SF_ERROR_VIEWS:
-      return "1, 5, 9 or 17";
+      return "number of views";
     case SF_ERROR_DISPARITY_RANGE:
       return "range is not finite";
     case SF_ERROR_MAX_BLUR:
@@ -90,7 +90,11 @@ const char* WordsOf(sf_status status) {
     case SF_ERROR_MEMORY:
       return "there is no memory";
     case SF_ERROR_POSITION:
-      return "position";
+      return "position is";
+    case SF_ERROR_VIEW_POSITIONS:
+      return "positions of views";
+    case SF_ERROR_STAR:
+      return "sf_view_position";
     case SF_ERROR_HIGHLIGHTS:
       return "highlights";
     case SF_ERROR_TRANSFER:

@@ -112,7 +112,13 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1 --strength half", "--strength"},
              {"refocus lf -o x.png --focus 1 --mode fast", "--mode"},
              {"refocus lf -o x.png --focus 1 --views 3", "--views"},
-             {"refocus lf -o x.png --focus 1 --views 9", "at most 5"},
+             {"refocus lf -o x.png --focus 1 --views 9", "5 in lf"},
+             {"refocus lf -o x.png --focus 1 --views 0,0:0.5,0", "view_+0.5_+0.0"},
+             {"refocus lf -o x.png --focus 1 --views 1,0:0,0", "0,0, first"},
+             {"refocus lf -o x.png --focus 1 --views 0,0:1,0:1,0", "differ"},
+             {"refocus lf -o x.png --focus 1 --views 0,0:2,0", "within +-1"},
+             {"refocus lf -o x.png --focus 1 --views 0,0:", "U,V"},
+             {"refocus lf -o x.png --focus 1 --views 0,0:1,0 --rule paper", "star"},
              {"refocus lf -o x.png --focus 1 --views -1", "--views"},
              {"refocus lf -o x.png --focus 1 --threads 0", "--threads"},
              {"refocus lf -o x.png --focus 1 --threads 65", "--threads"},
@@ -283,7 +289,7 @@ TEST_CASE("cli: scene writes what its name says, again the same bytes") {
   // The same set may be written over.
   CHECK(Call(folder, "scene a --size 20x10 --views 9").code == 0);
   LightField light_field;
-  CHECK(LoadLightField(folder.file("a"), 0, &light_field) == "");
+  CHECK(LoadLightField(folder.file("a"), {}, &light_field) == "");
   CHECK(light_field.width() == 20);
 }
 
