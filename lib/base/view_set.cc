@@ -30,17 +30,20 @@ bool Convert(double value, int16_t* converted) {
 struct Rating {
   bool own;       // whether it lies nearer to the side's direction than to any other
   int32_t merit;  // how far out, less for what it lies beside the axis
+  ViewPosition at;
 
+  // The order in which views are given decides nothing.
   bool Before(const Rating& other) const {
     if (own != other.own) return own;
-    return merit > other.merit;
+    if (merit != other.merit) return merit > other.merit;
+    return at.u != other.at.u ? at.u < other.at.u : at.v < other.at.v;
   }
 };
 
 Rating Rate(const ViewPosition& at, const int8_t* side) {
   const int32_t along = at.u * side[0] + at.v * side[1];
   const int32_t across = Abs(at.u * side[1] - at.v * side[0]);
-  return {across < along, 2 * along - across};
+  return {across < along, 2 * along - across, at};
 }
 
 }  // namespace

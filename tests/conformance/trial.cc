@@ -131,6 +131,16 @@ void SetConfig(Trial* trial, test::Random* random) {
   if (random->Int(0, 1) == 0) test::RandomShape(&config, random);
 }
 
+// Puts the views of some of the trials without a star's rule anywhere.
+void SetPositions(Trial* trial, test::Random* random) {
+  if (trial->params.rule == SF_RULE_PAPER || random->Int(0, 1) == 0) return;
+  std::vector<std::vector<uint8_t>>& pictures = trial->scene.pictures;
+  if (pictures.size() > 1 && random->Int(0, 1) == 0) pictures.resize(size_t(random->Int(2, 4)));
+  trial->config.views = trial->scene.views();
+  test::RandomPositions(&trial->scene, random);
+  std::copy(trial->scene.positions.begin(), trial->scene.positions.end(), trial->config.positions);
+}
+
 }  // namespace
 
 std::string Trial::Text() const {
@@ -153,6 +163,7 @@ Trial MakeTrial(uint64_t seed) {
   trial.scene = MakeScene(&random);
   SetLens(&trial, &random);
   SetConfig(&trial, &random);
+  SetPositions(&trial, &random);
   return trial;
 }
 
