@@ -1,6 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "starfocus/starfocus.h"
 
+namespace {
+
+// Those of starfocus/image.h.
+const char* StringOfImages(sf_status status) {
+  switch (status) {
+    case SF_ERROR_IMAGES:
+      return "images is not 0 or 1";
+    case SF_ERROR_FORMAT:
+      return "unknown format, matrix or range of an image";
+    case SF_ERROR_PIXEL_STRIDE:
+      return "bytes from pixel to pixel are none that the image's format allows";
+    case SF_ERROR_DEPTH_TYPE:
+      return "unknown type or meaning of a depth map, or has_invalid is not 0 or 1";
+    case SF_ERROR_DEPTH_SCALE:
+      return "scale or offset of a depth map is not finite, or scale is 0";
+    case SF_ERROR_DEPTH_SIZE:
+      return "depth map is larger than the picture, or has no values";
+    default:
+      return "unknown status";
+  }
+}
+
+}  // namespace
+
 const char* sf_status_string(sf_status status) {
   switch (status) {
     case SF_OK:
@@ -67,18 +91,6 @@ const char* sf_status_string(sf_status status) {
       return "skips is not 0 or 1";
     case SF_ERROR_FILL:
       return "fill_unknown is not 0 or 1";
-    case SF_ERROR_IMAGES:
-      return "images is not 0 or 1";
-    case SF_ERROR_FORMAT:
-      return "unknown format, matrix or range of an image";
-    case SF_ERROR_PIXEL_STRIDE:
-      return "bytes from pixel to pixel are none that the image's format allows";
-    case SF_ERROR_DEPTH_TYPE:
-      return "unknown type or meaning of a depth map, or has_invalid is not 0 or 1";
-    case SF_ERROR_DEPTH_SCALE:
-      return "scale or offset of a depth map is not finite, or scale is 0";
-    case SF_ERROR_DEPTH_SIZE:
-      return "depth map is larger than the picture, or has no values";
     case SF_ERROR_VIEW_POSITIONS:
       return "positions of views are not finite, beyond 1, alike, or do not begin with (0, 0)";
     case SF_ERROR_STAR:
@@ -116,6 +128,7 @@ const char* sf_status_string(sf_status status) {
       return "highlights is outside 1 to 64";
     case SF_ERROR_CANCELLED:
       return "the progress function cancelled the call; the output is incomplete";
+    default:
+      return StringOfImages(status);
   }
-  return "unknown status";
 }

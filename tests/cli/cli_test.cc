@@ -52,7 +52,7 @@ void Prepare(const TempFolder& folder) {
   fs::rename(folder.file("linked/view_+1.0_+0.0.png"), folder.file("target.png"));
   fs::create_symlink("../target.png", folder.file("linked/view_+1.0_+0.0.png"));
   fs::create_symlink("../target.png", folder.file("linked/out.png"));
-  fs::remove(folder.file("missing/view_-1.0_+0.0.png"));
+  fs::remove(folder.file("missing/view_+0.0_+0.0.png"));
   REQUIRE(WriteFile(folder.file("broken/view_-1.0_+0.0.png"), Bytes{1, 2, 3}) == "");
   FloatMap map;
   REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
@@ -191,7 +191,7 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf extra -o x.png --focus 1", "extra"},
              {"refocus none -o x.png --focus 1", "none"},
              {"refocus text.png -o x.png --focus 1", "text.png"},
-             {"refocus missing -o x.png --focus 1", "view_-1.0_+0.0"},
+             {"refocus missing -o x.png --focus 1", "view_+0.0_+0.0"},
              {"refocus broken -o x.png --focus 1", "view_-1.0_+0.0.png"},
              {"refocus nan -o x.png --focus 1", "first at 5,1"},
              {"refocus huge -o x.png --focus 1", "disparity.pfm"},
@@ -232,7 +232,7 @@ TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
              {"compare lf lf", "lf"},
              {"info", "DIR"},
              {"info none", "none"},
-             {"info missing", "view_-1.0_+0.0"},
+             {"info missing", "view_+0.0_+0.0"},
              {"info short", "disparity.pfm"},
              {"video lf", "--output"},
              {"video lf -o out", "--focus"},

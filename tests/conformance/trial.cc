@@ -131,16 +131,6 @@ void SetConfig(Trial* trial, test::Random* random) {
   if (random->Int(0, 1) == 0) test::RandomShape(&config, random);
 }
 
-// Puts the views of some of the trials without a star's rule anywhere.
-void SetPositions(Trial* trial, test::Random* random) {
-  if (trial->params.rule == SF_RULE_PAPER || random->Int(0, 1) == 0) return;
-  std::vector<std::vector<uint8_t>>& pictures = trial->scene.pictures;
-  if (pictures.size() > 1 && random->Int(0, 1) == 0) pictures.resize(size_t(random->Int(2, 4)));
-  trial->config.views = trial->scene.views();
-  test::RandomPositions(&trial->scene, random);
-  std::copy(trial->scene.positions.begin(), trial->scene.positions.end(), trial->config.positions);
-}
-
 }  // namespace
 
 std::string Trial::Text() const {
@@ -154,16 +144,23 @@ std::string Trial::Text() const {
                 params.aperture, config.largest_block, config.max_layer, config.theta,
                 config.n_scale, config.gather, config.timing.block, config.transfer,
                 double{config.highlights}, test::ShapeText(config).c_str());
-  return text;
+  std::string all = text;
+  for (const sf_position& at : scene.positions) {
+    std::snprintf(text, sizeof(text), ", view (%.9g, %.9g)", at.u, at.v);
+    all += text;
+  }
+  return all;
 }
 
-Trial MakeTrial(uint64_t seed) {
+Trial MakeTrial(uint64_t seed, bool anywhere) {
   test::Random random(seed);
   Trial trial;
   trial.scene = MakeScene(&random);
   SetLens(&trial, &random);
   SetConfig(&trial, &random);
-  SetPositions(&trial, &random);
+  if (anywhere && trial.params.rule != SF_RULE_PAPER) {
+    test::RandomViews(&trial.scene, &trial.config, &random);
+  }
   return trial;
 }
 

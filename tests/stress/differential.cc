@@ -52,6 +52,9 @@ Setup RandomCase(test::Random* random) {
       *coefficient = random->Int(0, 2) == 0 ? 0 : random->Next() % (SF_MAX_TIMING + 1);
     }
   }
+  if (setup.params.rule != SF_RULE_PAPER && random->Int(0, 2) == 0) {
+    test::RandomViews(&setup.scene, &setup.config, random);
+  }
   return setup;
 }
 
