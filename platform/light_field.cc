@@ -32,8 +32,7 @@ struct SaveJob {
 
   static void Run(void* data, int32_t index, int32_t) {
     SaveJob* self = static_cast<SaveJob*>(data);
-    const std::string path =
-        Join(self->folder, ViewName(self->positions[size_t(index)]) + ".png");
+    const std::string path = Join(self->folder, ViewName(self->positions[size_t(index)]) + ".png");
     self->errors[size_t(index)] = WriteImage(path, self->light_field.views[size_t(index)]);
   }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files of captured views in a folder: view_<u>_<v>.png (or .ppm, .jpg) with u and v as decimal
-// numbers with a sign; or im0.png and im1.png of a stereo pair, as the Middlebury data sets have it.
+// numbers with a sign; or im0.png and im1.png of a stereo pair, as the Middlebury data sets have
+// it.
 #ifndef STARFOCUS_PLATFORM_VIEW_FILES_H_
 #define STARFOCUS_PLATFORM_VIEW_FILES_H_
 

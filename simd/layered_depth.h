@@ -85,9 +85,9 @@ struct HiddenRow {
 
 // A source tells where the colour of a hidden surface is found, and is 0 where there is no surface.
 // Bit k tells whether side k (right, left, bottom, top) shows it; the colour is the mean of those
-// sides. Bit kSourceSecond + k tells that only that side's second view shows it. If no view shows it,
-// the bits from kSourceDistance on are the distance of the pixel that is repeated
-// instead, else 0.
+// sides. Bit kSourceSecond + k tells that only that side's second view shows it. If no view shows
+// it, the bits from kSourceDistance on are the distance of the pixel that is repeated instead, else
+// 0.
 inline constexpr int kSourceSecond = 4, kSourceDistance = 8;
 
 // A side's rank is the distance of its edge in pixels, and this more if no view shows what lies
@@ -127,8 +127,8 @@ void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t ste
 // its depth behind the pixel. The first surface is that beyond the edge of lowest rank, the nearer
 // one if two sides have the same rank; the second is chosen likewise from the sides whose surface
 // differs from the first by more than 2^unit_bits. A view shows the place behind a pixel if nothing
-// before it moves there: no pixel of the ViewLook is nearer by more than half a unit of the view's and
-// moves, in that view, to less than 3/4 of a pixel from the place. Returns which groups of
+// before it moves there: no pixel of the ViewLook is nearer by more than half a unit of the view's
+// and moves, in that view, to less than 3/4 of a pixel from the place. Returns which groups of
 // kSliceLanes have hidden surfaces, the first in bit 0. In the others `source` and `found` are
 // unspecified.
 uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden);

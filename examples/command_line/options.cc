@@ -117,7 +117,8 @@ Error ParseViews(const std::string& option, const std::string& text, Positions* 
       return wrong("17, 9, 5 or 1, or positions U,V:U,V");
     }
     position = {RoundPosition(position.u), RoundPosition(position.v)};
-    if (std::fabs(position.u) > 1 || std::fabs(position.v) > 1) return wrong("positions within +-1");
+    if (std::fabs(position.u) > 1 || std::fabs(position.v) > 1)
+      return wrong("positions within +-1");
     for (const sf_position& other : *positions) {
       if (SamePosition(other, position)) return wrong("positions that differ");
     }

@@ -8,8 +8,8 @@ namespace {
 
 constexpr int16_t kOne = kViewOne, kHalf = kViewOne / 2;
 constexpr ViewPosition kStar[kMaxViews] = {
-    {0, 0},        {kOne, 0},     {-kOne, 0},     {0, kOne},      {0, -kOne},   {kOne, kOne},
-    {-kOne, kOne}, {kOne, -kOne}, {-kOne, -kOne}, {kHalf, 0},     {-kHalf, 0},  {0, kHalf},
+    {0, 0},        {kOne, 0},      {-kOne, 0},      {0, kOne},       {0, -kOne},       {kOne, kOne},
+    {-kOne, kOne}, {kOne, -kOne},  {-kOne, -kOne},  {kHalf, 0},      {-kHalf, 0},      {0, kHalf},
     {0, -kHalf},   {kHalf, kHalf}, {-kHalf, kHalf}, {kHalf, -kHalf}, {-kHalf, -kHalf},
 };
 
@@ -30,12 +30,14 @@ bool Convert(double value, int16_t* converted) {
 struct Rating {
   bool own;       // whether it lies nearer to the side's direction than to any other
   int32_t merit;  // how far out, less for what it lies beside the axis
+  int32_t across;
   ViewPosition at;
 
   // The order in which views are given decides nothing.
   bool Before(const Rating& other) const {
     if (own != other.own) return own;
     if (merit != other.merit) return merit > other.merit;
+    if (across != other.across) return across < other.across;
     return at.u != other.at.u ? at.u < other.at.u : at.v < other.at.v;
   }
 };
@@ -43,7 +45,7 @@ struct Rating {
 Rating Rate(const ViewPosition& at, const int8_t* side) {
   const int32_t along = at.u * side[0] + at.v * side[1];
   const int32_t across = Abs(at.u * side[1] - at.v * side[0]);
-  return {across < along, 2 * along - across, at};
+  return {across < along, 2 * along - across, across, at};
 }
 
 }  // namespace

@@ -96,9 +96,8 @@ Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const int pure = Abs(beyond - pixel.near) <= pixel.step ? 2 : 1;
   Mixture mixture;
   mixture.near = centre.ColourAt(x + pure * dx, y + pure * dy);
-  mixture.far = LookAway(centre.window, pixel).view != 0
-                    ? ReadFar(centre.window, pixel, mixed)
-                    : ReadBeside(centre, pixel, mixed);
+  mixture.far = LookAway(centre.window, pixel).view != 0 ? ReadFar(centre.window, pixel, mixed)
+                                                         : ReadBeside(centre, pixel, mixed);
   if (centre.window.lamp > 0) {
     Window light = centre.window;
     light.lamp = 0;

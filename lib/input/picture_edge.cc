@@ -96,8 +96,7 @@ class Beyond {
   // How many of the `seen` pixels beyond the edge lie before the first that, in the captured view,
   // a nearer pixel inside the picture comes within 3/4 of a pixel of. Surfaces of positive
   // disparity are seen from the side on which nearer ones move farther away.
-  int32_t Uncovered(const Edge& edge, const LookView& look, int32_t disparity,
-                    int32_t seen) const {
+  int32_t Uncovered(const Edge& edge, const LookView& look, int32_t disparity, int32_t seen) const {
     const int layer = window_.layer;
     const int32_t unit = int32_t{1} << (kDisparityBits + layer);
     const int32_t width = Part::Inside(window_.picture_width, layer);

@@ -187,8 +187,7 @@ void ReadLine(const Pixels& pixels, int layer, const CapturedLine& line, int32_t
     SubsampleLine<1>(pixels, line, count, rgb);
     return;
   }
-  InterpolateLine(pixels, line, count,
-                  [&](int32_t k, int32_t sum) { rgb[k] = RoundPlace(sum); });
+  InterpolateLine(pixels, line, count, [&](int32_t k, int32_t sum) { rgb[k] = RoundPlace(sum); });
 }
 
 // Returns a line of a layer in the picture's pixels: the start, in 1 / kShiftOne of the layer's, is

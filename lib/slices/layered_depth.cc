@@ -123,9 +123,9 @@ class HiddenColours {
     CountReads(count);
     const LookView& look = LookOf(side, source);
     const int16_t disparity = chunk.disparity[k];
-    const CapturedLine line = {
-        (field_.x + chunk.x + k) * kShiftOne - Moved(look.at.u, disparity),
-        (field_.y + chunk.y) * kShiftOne - Moved(look.at.v, disparity), 1, 0};
+    const CapturedLine line = {(field_.x + chunk.x + k) * kShiftOne - Moved(look.at.u, disparity),
+                               (field_.y + chunk.y) * kShiftOne - Moved(look.at.v, disparity), 1,
+                               0};
     PrefetchCaptured(window_, look.view, line);
     ReadCaptured(window_, look.view, line, count, rgb);
   }

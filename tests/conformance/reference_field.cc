@@ -66,7 +66,8 @@ std::vector<Position> LooksOn(const LightField& field, const Direction& side) {
   }
   std::vector<Position> looks = near.empty() ? far : near;
   std::stable_sort(looks.begin(), looks.end(), [&](const Position& a, const Position& b) {
-    return 2 * along(a) - across(a) > 2 * along(b) - across(b);
+    const int first = 2 * along(a) - across(a), second = 2 * along(b) - across(b);
+    return first != second ? first > second : across(a) < across(b);
   });
   if (looks.size() > 2) looks.resize(2);
   return looks;
@@ -212,8 +213,8 @@ void LookBeyond(const LightField& field, const Picture& picture, int layer, cons
       const std::vector<Position> looks = LooksOn(field, side);
       if (looks.empty()) continue;
       const auto [u, v] = looks[0];
-      const int seen = SeenBeyond(picture, layer, edge_x, edge_y, out,
-                                  std::abs(out.x != 0 ? u : v), disparity);
+      const int seen =
+          SeenBeyond(picture, layer, edge_x, edge_y, out, std::abs(out.x != 0 ? u : v), disparity);
       const int k = std::min(seen, std::abs(x - edge_x) + std::abs(y - edge_y));
       if (seen == 0) continue;
       extended->colours[extended->At(column, row)] =

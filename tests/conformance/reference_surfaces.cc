@@ -179,7 +179,8 @@ class SurfaceFinder {
     if (unit > starfocus::simd::kMostUnit) return true;
     const auto along = [&](int m, int axis) {
       const int steps = std::abs(axis) * kViewUnit;  // of m / size, rounded to parts of kViewUnit
-      const int slant = std::abs(axis) == size ? kViewUnit : int((int64_t{steps} + size / 2) / size);
+      const int slant =
+          std::abs(axis) == size ? kViewUnit : int((int64_t{steps} + size / 2) / size);
       return int(std::floor(double(m) * (axis < 0 ? -slant : slant) / kViewUnit + 0.5));
     };
     for (int m = 0;; ++m) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // conformance_search FIRST COUNT: tries the trials of COUNT seeds from FIRST on, each with a star
-// and with views anywhere, and prints those in which the engine is more gray levels than they may be from the double-precision reference.
+// and with views anywhere, and prints those in which the engine is more gray levels than they may
+// be from the double-precision reference.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 

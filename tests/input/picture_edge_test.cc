@@ -196,6 +196,21 @@ TEST_CASE("beyond: the view that looks out over an edge, as far as it does") {
   }
 }
 
+TEST_CASE("beyond: a pair looks out over one edge, as far as its second view moves") {
+  for (const int unit : {-10, 10}) {
+    Row scene(17);
+    test::SetPositions({{0.5, 0}}, &scene.window);
+    scene.Fill(0, kWidth, unit);
+    const std::vector<int> row = scene.Load();
+    for (int k = 1; k <= kBorder; ++k) {
+      CAPTURE(unit);
+      CAPTURE(k);
+      CHECK(row[size_t(kBorder - k)] == (unit < 0 ? 101 : 0));
+      CHECK(row[size_t(kBorder + kWidth - 1 + k)] == (unit > 0 ? 101 : kWidth - 1));
+    }
+  }
+}
+
 TEST_CASE("beyond: nothing is taken from under a nearer surface, nor behind it") {
   Row scene(5);
   scene.Fill(0, kWidth, -6);

@@ -10,11 +10,11 @@ namespace {
 using starfocus::simd::DepthRow;
 using starfocus::simd::HiddenRow;
 using starfocus::simd::Kernels;
+using starfocus::simd::kMostUnit;
 using starfocus::simd::kNoSurface;
 using starfocus::simd::kPadding;
-using starfocus::simd::kSliceLanes;
-using starfocus::simd::kMostUnit;
 using starfocus::simd::kSlantBits;
+using starfocus::simd::kSliceLanes;
 using starfocus::simd::kSurfaces;
 using starfocus::simd::SliceSamples;
 using starfocus::simd::StepBits;

@@ -74,8 +74,8 @@ Error MakePlan(const Options& options, Plan* plan) {
   if (error.empty() && !options.views.empty()) {
     error = ParseViews("--views", options.views, &plan->views);
     if (error.empty() && StarWithin(plan->views) == 1 && !options.repair) {
-      error = Error::Usage("--views", "17, 9 or 5: other views show no disparity here",
-                           options.views);
+      error =
+          Error::Usage("--views", "17, 9 or 5: other views show no disparity here", options.views);
     }
   }
   plan->has_range = !options.range.empty();

@@ -134,7 +134,8 @@ Error Run(const Options& options) {
   LightField light_field;
   std::vector<Image> truths;
   {
-    const int64_t pictures = int64_t(plan.views.size()) + Renderer::kTruthCost * int64_t(plan.truths.size());
+    const int64_t pictures =
+        int64_t(plan.views.size()) + Renderer::kTruthCost * int64_t(plan.truths.size());
     Progress progress("rendering", plan.height * pictures);
     light_field.positions = plan.views;
     for (const sf_position& view : plan.views) {
@@ -168,7 +169,8 @@ void AddSceneCommand(CLI::App* app, Action* action) {
       ->capture_default_str();
   command->add_option("--size", options->size, "Width and height, WxH")->capture_default_str();
   command
-      ->add_option("--views", options->views, "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0")
+      ->add_option("--views", options->views,
+                   "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0")
       ->capture_default_str();
   command
       ->add_option("--truth", options->truths,

@@ -37,8 +37,8 @@ Error FindRange(const std::string& where, const LightField& light_field, int thr
 Error EstimateDisparity(const std::string& where, const LightField& light_field,
                         const DisparityRange& range, int threads, DisparityEstimate* estimate);
 
-// Repairs the map of a light field by the star among its views, which may be the centre alone. `confidence` may be null. Errors are about the
-// folder.
+// Repairs the map of a light field by the star among its views, which may be the centre alone.
+// `confidence` may be null. Errors are about the folder.
 Error RepairDisparity(const std::string& folder, int threads, LightField* light_field,
                       Image* confidence);
 

@@ -149,7 +149,9 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
       ->add_option("--highlights", options->highlights,
                    "1 to 64: how many times white the lamps are that the pictures clip")
       ->capture_default_str();
-  command->add_option("--views", options->views, "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder");
+  command->add_option(
+      "--views", options->views,
+      "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder");
   command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
   command->add_flag("--fill-invalid", options->fill_invalid,
                     "Replace non-finite disparities by their nearest valid neighbour");

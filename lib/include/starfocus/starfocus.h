@@ -182,13 +182,13 @@ typedef struct sf_config {
                        default: they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds
                        what the views show there, and sf_fill_disparity fills whole maps */
   int32_t images;   /**< 1 reserves rows for the calls of starfocus/image.h; default 0 */
-  uint32_t reserved[4]; /**< zero */
+  uint32_t reserved[4];                /**< zero */
   sf_position positions[SF_MAX_VIEWS]; /**< where the `views` captured views lie: each coordinate in
-                                          [-1, 1], all of them different by 1/16384 or more, the first
-                                          one (0, 0). All 0, the default: where sf_view_position
-                                          tells. What lies behind an edge is read from the best view
-                                          that sees it, and filled where none does. SF_RULE_PAPER and
-                                          starfocus/depth.h need the star */
+                                          [-1, 1], all of them different by 1/16384 or more, the
+                                          first one (0, 0). All 0, the default: where
+                                          sf_view_position tells. What lies behind an edge is read
+                                          from the best view that sees it, and filled where none
+                                          does. SF_RULE_PAPER and starfocus/depth.h need the star */
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);
@@ -246,8 +246,8 @@ typedef enum sf_mode {
 /** How many views a blur radius needs. */
 typedef enum sf_rule {
   SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME of a star, else SF_RULE_SUBAPERTURE */
-  SF_RULE_PAPER = 1,   /**< (9): views at most a pixel or so apart, rendered line by line (IV); needs
-                            the star of sf_view_position, else SF_ERROR_STAR */
+  SF_RULE_PAPER = 1, /**< (9): views at most a pixel or so apart, rendered line by line (IV); needs
+                          the star of sf_view_position, else SF_ERROR_STAR */
   SF_RULE_SUBAPERTURE = 2 /**< each view stands for its subaperture, however wide, and shows
                          slices of the scene */
 } sf_rule;
