@@ -64,4 +64,8 @@ class BuildWheel(bdist_wheel):
         return "py3", "none", super().get_tag()[2]
 
 
-setup(version=version(), cmdclass={"build_py": BuildPackage, "bdist_wheel": BuildWheel})
+# What is made on the way stays out of the source tree.
+PARTS = ROOT / "build/python-package"
+PARTS.mkdir(parents=True, exist_ok=True)
+setup(version=version(), cmdclass={"build_py": BuildPackage, "bdist_wheel": BuildWheel},
+      options={"build": {"build_base": str(PARTS)}, "egg_info": {"egg_base": str(PARTS)}})
