@@ -21,12 +21,6 @@ namespace {
 // An engine with its threads. Java's side sees to it that one call at a time uses it, apart from what
 // is atomic.
 struct Session {
-  ~Session() {
-    std::free(prepared_memory);
-    sf_destroy(engine);
-    sf_pool_destroy(pool);
-  }
-
   sf_config config = {};
   sf_pool* pool = nullptr;
   sf_engine* engine = nullptr;
@@ -34,6 +28,14 @@ struct Session {
   sf_prepared* prepared = nullptr;
   std::atomic<int> cancelled{0}, rows_done{0};
 };
+
+// The library is to need no C++ run time, hence no delete; nor does a session need a destructor.
+void End(Session* session) {
+  std::free(session->prepared_memory);
+  sf_destroy(session->engine);
+  sf_pool_destroy(session->pool);
+  std::free(session);
+}
 
 Session* From(jlong handle) { return reinterpret_cast<Session*>(handle); }
 
@@ -149,22 +151,23 @@ STARFOCUS_NATIVE(void, initialize__Ldev_starfocus_Parameters_2)
 }
 
 STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
-  auto* const session = new (std::nothrow) Session;
-  if (session == nullptr) {
+  void* const memory = std::malloc(sizeof(Session));
+  if (memory == nullptr) {
     ThrowStatus(env, SF_ERROR_MEMORY);
     return 0;
   }
+  auto* const session = new (memory) Session;
   sf_config_init(&session->config);
   if (ReadFields(env, configuration, kConfigFields, std::size(kConfigFields), &session->config)) {
     const sf_status status = Start(session);
     if (status == SF_OK) return reinterpret_cast<jlong>(session);
     ThrowStatus(env, status);
   }
-  delete session;
+  End(session);
   return 0;
 }
 
-STARFOCUS_NATIVE(void, destroy)(JNIEnv*, jclass, jlong handle) { delete From(handle); }
+STARFOCUS_NATIVE(void, destroy)(JNIEnv*, jclass, jlong handle) { End(From(handle)); }
 
 STARFOCUS_NATIVE(void, refocus)
 (JNIEnv* env, jclass, jlong handle, jobjectArray views, jobject depth, jobject parameters,
