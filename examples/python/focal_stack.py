@@ -25,7 +25,7 @@ print(f"{len(views)} views of {width} x {height}, disparities {disparity.min():.
 # %% One engine for all pictures; preparing does once what is the same for every focus.
 refocuser = starfocus.Refocuser.for_light_field(views, disparity)
 prepared = refocuser.prepare(views, disparity)
-foci = np.quantile(disparity, [0.98, 0.5, 0.02])
+foci = np.linspace(disparity.max(), disparity.min(), 3)
 stack = [prepared.refocus(focus=focus) for focus in foci]
 
 figure, axes = plt.subplots(1, 4, figsize=(16, 3.6), constrained_layout=True)
@@ -59,7 +59,7 @@ for mode in (starfocus.Mode.BLOCK, starfocus.Mode.BLUR, starfocus.Mode.BENCHMARK
     left.plot(apertures, seconds, "o-", label=mode.name.lower())
     if mode is not starfocus.Mode.BENCHMARK:
         right.plot(apertures, errors, "o-", label=mode.name.lower())
-left.set(xlabel="aperture", ylabel="seconds", title=f"{refocuser.workers} workers")
+left.set(xlabel="aperture", ylabel="seconds", yscale="log", title=f"{refocuser.workers} workers")
 right.set(xlabel="aperture", ylabel="PSNR against the benchmark, dB")
 left.legend()
 right.legend()
