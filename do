@@ -376,7 +376,8 @@ format() {
   local licence='SPDX-License-Identifier: Apache-2.0'
   command -v clang-format >/dev/null || fail "install the package clang-format first"
   sources() {
-    find lib simd platform examples tests \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' \) "$@"
+    find lib simd platform examples tests \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' -o \
+      -name '*.java' \) "$@"
   }
   sources -exec grep -L "$licence" {} + | while read -r file; do sed -i "1i // $licence" "$file"; done
   sources -exec clang-format -i {} +

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* camera OUT.ppm: refocuses 12 megapixels while five sensors deliver them, NV12 rows in, rows of R, G, B
- * out. No picture is ever whole, so that all of it takes less than 64 MiB; says how much, and how long. */
+/* camera OUT.ppm: refocuses 12 megapixels while five sensors deliver them, NV12 rows in, rows of R,
+ * G, B out. No picture is ever whole, so that all of it takes less than 64 MiB; says how much, and
+ * how long. */
 #define _POSIX_C_SOURCE 200112L
 #include <starfocus/image.h>
 #include <starfocus/pool.h>
@@ -30,12 +31,14 @@ static sf_status MakeEngine(sf_pool* pool, sf_engine** engine) {
   config.width = kWidth, config.height = kHeight, config.views = kCameras;
   config.disparity_min = kWall, config.disparity_max = kBall, config.max_blur = kBall - kWall;
   config.streaming = 1, config.images = 1;
-  config.largest_block = 64; /* wide pictures would get 128, and four times the memory of a worker */
+  config.largest_block =
+      64; /* wide pictures would get 128, and four times the memory of a worker */
   config.max_workers = sf_pool_workers(pool);
   return sf_create(&config, NULL, engine);
 }
 
-/* What the sensors have delivered from row `first` of these rows on, with the depth of the picture. */
+/* What the sensors have delivered from row `first` of these rows on, with the depth of the picture.
+ */
 static sf_image_field FieldFrom(int first) {
   sf_image_field field;
   int i;
@@ -116,7 +119,8 @@ int main(int count, char** arguments) {
   getrusage(RUSAGE_SELF, &usage);
   printf("%d x %d, %d views: %.2f s, of which the sensors took %.2f s\n", kWidth, kHeight, kCameras,
          seconds, sensor_seconds);
-  printf("peak memory %.1f MiB, checksum %08x\n", (double)usage.ru_maxrss / 1024, (unsigned)checksum);
+  printf("peak memory %.1f MiB, checksum %08x\n", (double)usage.ru_maxrss / 1024,
+         (unsigned)checksum);
   if (status != SF_OK) fprintf(stderr, "camera: %s\n", sf_status_string(status));
   if (failed) fprintf(stderr, "camera: '%s' could not be written\n", arguments[1]);
   sf_pool_destroy(pool);

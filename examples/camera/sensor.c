@@ -19,7 +19,8 @@ static int SeenByFirst(int x, int y, int u, int v, int* seen_x, int* seen_y) {
   return is_ball;
 }
 
-/* Chequers on the ball, stripes and white tiles on the wall, with a grain that is the same in all views. */
+/* Chequers on the ball, stripes and white tiles on the wall, with a grain that is the same in all
+ * views. */
 static uint8_t LumaAt(int x, int y, int u, int v) {
   int seen_x, seen_y, grain;
   const int is_ball = SeenByFirst(x, y, u, v, &seen_x, &seen_y);

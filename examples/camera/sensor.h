@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Five cameras that look at a ball before a wall, and a smaller depth sensor: what they deliver is made
- * up, row by row, as it is asked for. */
+/* Five cameras that look at a ball before a wall, and a smaller depth sensor: what they deliver is
+ * made up, row by row, as it is asked for. */
 #ifndef STARFOCUS_EXAMPLES_CAMERA_SENSOR_H_
 #define STARFOCUS_EXAMPLES_CAMERA_SENSOR_H_
 

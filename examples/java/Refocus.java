@@ -16,7 +16,10 @@ import java.nio.file.Path;
 import java.util.Locale;
 import javax.imageio.ImageIO;
 
-/** Refocus FOLDER FOCUS OUT.ppm: refocuses a light field of five views, such as `starfocus scene --views 5` makes. */
+/**
+ * Refocus FOLDER FOCUS OUT.ppm: refocuses a light field of five views, such as `starfocus scene
+ * --views 5` makes.
+ */
 public final class Refocus {
   private static final int VIEWS = 5;
 
@@ -70,7 +73,10 @@ public final class Refocus {
     return pixels;
   }
 
-  /** Its header is three lines; its rows are the lowest first, in the byte order that the scale's sign tells. */
+  /**
+   * Its header is three lines; its rows are the lowest first, in the byte order that the scale's
+   * sign tells.
+   */
   private static ByteBuffer readPfm(Path path, int width, int height) throws IOException {
     final byte[] bytes = Files.readAllBytes(path);
     final int first = bytes.length - 4 * width * height;

@@ -13,14 +13,16 @@ import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
 
 /**
- * AndroidTest DOUBLE: the routes of Bitmap and HardwareBuffer over doubles of Android's classes and of
- * the NDK's functions, which are in the library DOUBLE. At aperture 0 the picture is the centre view.
+ * AndroidTest DOUBLE: the routes of Bitmap and HardwareBuffer over doubles of Android's classes and
+ * of the NDK's functions, which are in the library DOUBLE. At aperture 0 the picture is the centre
+ * view.
  */
 public final class AndroidTest {
   private static final int WIDTH = 50, HEIGHT = 31;
 
   private static void check(boolean holds, String what) {
-    if (!holds) throw new AssertionError(what);
+    if (!holds)
+      throw new AssertionError(what);
   }
 
   private static void refocus(Image view, Image out) {
@@ -68,7 +70,7 @@ public final class AndroidTest {
     for (int i = 0; i < camera.memory.capacity(); ++i) camera.memory.put(i, (byte) 128);
     for (int i = 0; i < 64 * HEIGHT; ++i) camera.memory.put(i, (byte) (i % 64 * 5));
     try (LockedHardwareBuffer view = new LockedHardwareBuffer(camera, false);
-        LockedHardwareBuffer out = new LockedHardwareBuffer(screen, true)) {
+         LockedHardwareBuffer out = new LockedHardwareBuffer(screen, true)) {
       check(view.image.format == Image.YUV_420_888 && view.image.pixelStride == 2, "the format");
       refocus(view.image, out.image);
     }

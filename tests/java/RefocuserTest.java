@@ -18,7 +18,8 @@ public final class RefocuserTest {
 
   private static void check(boolean holds, String what) {
     ++checks;
-    if (holds) return;
+    if (holds)
+      return;
     ++failures;
     System.err.println("failed: " + what);
   }
@@ -140,13 +141,13 @@ public final class RefocuserTest {
     final ByteBuffer v = chroma.duplicate();
     v.position(1);
     // As Android has it: U and V two bytes apart, each a byte short of half the plane.
-    final Image camera = new Image(Image.YUV_420_888, new ByteBuffer[] {luma, chroma, v},
-        new int[] {WIDTH, WIDTH, WIDTH});
+    final Image camera = new Image(
+        Image.YUV_420_888, new ByteBuffer[] {luma, chroma, v}, new int[] {WIDTH, WIDTH, WIDTH});
     camera.pixelStride = 2;
     camera.range = Image.FULL;
     final ByteBuffer outLuma = bytes(WIDTH * HEIGHT), outChroma = bytes(WIDTH * HEIGHT / 2);
-    final Image result = new Image(Image.NV12, new ByteBuffer[] {outLuma, outChroma},
-        new int[] {WIDTH, WIDTH});
+    final Image result =
+        new Image(Image.NV12, new ByteBuffer[] {outLuma, outChroma}, new int[] {WIDTH, WIDTH});
     result.range = Image.FULL;
     final ByteBuffer millimetres = bytes(2 * 40 * 30);
     for (int i = 0; i < 40 * 30; ++i) millimetres.putShort(2 * i, (short) (i % 7 == 0 ? 0 : 500));
@@ -168,7 +169,8 @@ public final class RefocuserTest {
     final Parameters parameters = new Parameters();
     final int bytes = 3 * WIDTH * HEIGHT;
     try (Refocuser refocuser = new Refocuser(configuration())) {
-      checkThrows(IllegalArgumentException.class, "expected a buffer of 57600 bytes at least, found 57599",
+      checkThrows(IllegalArgumentException.class,
+          "expected a buffer of 57600 bytes at least, found 57599",
           () -> refocuser.refocus(field(picture()), parameters, out(bytes(bytes - 1))));
       checkThrows(IllegalArgumentException.class, "view 0, plane 0: expected a buffer of",
           () -> refocuser.refocus(field(bytes(bytes - 1)), parameters, out(bytes(bytes))));
@@ -180,24 +182,35 @@ public final class RefocuserTest {
       early.limit(bytes - 1);
       checkThrows(IllegalArgumentException.class, "view 0, plane 0: expected a buffer of",
           () -> refocuser.prepare(field(early)));
-      checkThrows(IllegalArgumentException.class, "direct",
-          () -> out(ByteBuffer.allocate(bytes)));
+      checkThrows(IllegalArgumentException.class, "direct", () -> out(ByteBuffer.allocate(bytes)));
       checkThrows(IllegalArgumentException.class, "writable",
-          () -> refocuser.refocus(field(picture()), parameters, out(bytes(bytes).asReadOnlyBuffer())));
+          ()
+              -> refocuser.refocus(
+                  field(picture()), parameters, out(bytes(bytes).asReadOnlyBuffer())));
       checkThrows(IllegalArgumentException.class, "depth: expected a buffer of",
-          () -> refocuser.refocus(new LightField(new Image[] {out(picture())},
-              new DepthMap(DepthMap.FLOAT, bytes(4 * WIDTH * HEIGHT - 1), 4 * WIDTH, WIDTH, HEIGHT)),
-              parameters, out(bytes(bytes))));
+          ()
+              -> refocuser.refocus(new LightField(new Image[] {out(picture())},
+                                       new DepthMap(DepthMap.FLOAT, bytes(4 * WIDTH * HEIGHT - 1),
+                                           4 * WIDTH, WIDTH, HEIGHT)),
+                  parameters, out(bytes(bytes))));
       checkThrows(IllegalArgumentException.class, "views: expected 1, found 0",
-          () -> refocuser.refocus(new LightField(new Image[0], depth(ramp())), parameters, out(bytes(bytes))));
+          ()
+              -> refocuser.refocus(
+                  new LightField(new Image[0], depth(ramp())), parameters, out(bytes(bytes))));
       checkThrows(IllegalArgumentException.class, "expected 2 planes, found 1",
-          () -> refocuser.refocus(field(picture()), parameters, new Image(Image.NV12, bytes(bytes), WIDTH)));
+          ()
+              -> refocuser.refocus(
+                  field(picture()), parameters, new Image(Image.NV12, bytes(bytes), WIDTH)));
       checkThrows(IllegalArgumentException.class, "stride of 0 or more, found -1",
-          () -> refocuser.refocus(field(picture()), parameters, new Image(Image.RGB, bytes(bytes), -1)));
+          ()
+              -> refocuser.refocus(
+                  field(picture()), parameters, new Image(Image.RGB, bytes(bytes), -1)));
       checkThrows(NullPointerException.class, "parameters",
           () -> refocuser.refocus(field(picture()), null, out(bytes(bytes))));
       checkThrows(StarfocusException.class, "stride",
-          () -> refocuser.refocus(field(picture()), parameters, new Image(Image.RGB, bytes(bytes), 7)));
+          ()
+              -> refocuser.refocus(
+                  field(picture()), parameters, new Image(Image.RGB, bytes(bytes), 7)));
       parameters.regionX = WIDTH;
       parameters.regionWidth = parameters.regionHeight = 1;
       checkThrows(StarfocusException.class, "region",
@@ -222,8 +235,7 @@ public final class RefocuserTest {
     checkThrows(IllegalStateException.class, "closed",
         () -> closed.refocus(field(picture()), new Parameters(), out(bytes(3 * WIDTH * HEIGHT))));
     check(Refocuser.focusAt(depth(ramp()), WIDTH / 2, 10) < 0.5, "focus at a pixel");
-    checkThrows(StarfocusException.class, "",
-        () -> Refocuser.focusAt(depth(ramp()), WIDTH, 10));
+    checkThrows(StarfocusException.class, "", () -> Refocuser.focusAt(depth(ramp()), WIDTH, 10));
   }
 
   private static void anotherThreadCallsOff() throws InterruptedException {
@@ -248,7 +260,8 @@ public final class RefocuserTest {
         refocuser.cancel();
         work.join(1);
       }
-      check(thrown[0] instanceof StarfocusException && ((StarfocusException) thrown[0]).isCancelled(),
+      check(
+          thrown[0] instanceof StarfocusException && ((StarfocusException) thrown[0]).isCancelled(),
           "a call is called off by another thread: " + thrown[0]);
       parameters.mode = Parameters.MODE_BLOCK;
       parameters.focus = 1;
@@ -265,7 +278,8 @@ public final class RefocuserTest {
     buffersAreChecked();
     configurationsAndStatesAreChecked();
     anotherThreadCallsOff();
-    if (failures == 0) System.out.println(checks + " checks");
+    if (failures == 0)
+      System.out.println(checks + " checks");
     System.exit(failures == 0 ? 0 : 1);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Doubles of the NDK's functions of bitmaps and hardware buffers, over the Java classes beside this file.
-// One hardware buffer is locked at a time.
+// Doubles of the NDK's functions of bitmaps and hardware buffers, over the Java classes beside this
+// file. One hardware buffer is locked at a time.
 #include <android/bitmap.h>
 #include <android/hardware_buffer.h>
 #include <android/hardware_buffer_jni.h>
@@ -20,8 +20,7 @@ void AddLock(JNIEnv* env, jobject object, int change) {
 }
 
 char* Memory(JNIEnv* env, jobject object, const char* name) {
-  const jfieldID id =
-      env->GetFieldID(env->GetObjectClass(object), name, "Ljava/nio/ByteBuffer;");
+  const jfieldID id = env->GetFieldID(env->GetObjectClass(object), name, "Ljava/nio/ByteBuffer;");
   return static_cast<char*>(env->GetDirectBufferAddress(env->GetObjectField(object, id)));
 }
 
@@ -70,8 +69,9 @@ int AHardwareBuffer_lockPlanes(AHardwareBuffer*, uint64_t, int32_t, const ARect*
   const auto pixel = static_cast<uint32_t>(Get(current, locked, "pixelStride"));
   const bool is_yuv = Get(current, locked, "format") == AHARDWAREBUFFER_FORMAT_Y8Cb8Cr8_420;
   char* const chroma = memory + row * static_cast<uint32_t>(Get(current, locked, "height"));
-  *planes = {is_yuv ? 3u : 1u,
-             {{memory, is_yuv ? 1 : pixel, row}, {chroma, pixel, row}, {chroma + 1, pixel, row}, {}}};
+  *planes = {
+      is_yuv ? 3u : 1u,
+      {{memory, is_yuv ? 1 : pixel, row}, {chroma, pixel, row}, {chroma + 1, pixel, row}, {}}};
   return 0;
 }
 

@@ -28,7 +28,8 @@ extern "C" JNIEXPORT jobject JNICALL Java_dev_starfocus_android_LockedBitmap_loc
   return buffer;
 }
 
-extern "C" JNIEXPORT void JNICALL
-Java_dev_starfocus_android_LockedBitmap_unlock(JNIEnv* env, jclass, jobject bitmap) {
+extern "C" JNIEXPORT void JNICALL Java_dev_starfocus_android_LockedBitmap_unlock(JNIEnv* env,
+                                                                                 jclass,
+                                                                                 jobject bitmap) {
   AndroidBitmap_unlockPixels(env, bitmap);
 }

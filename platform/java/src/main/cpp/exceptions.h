@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Java exceptions thrown from native code. After one is thrown the native method returns to Java, where
-// it takes effect.
+// Java exceptions thrown from native code. After one is thrown the native method returns to Java,
+// where it takes effect.
 #ifndef STARFOCUS_PLATFORM_JAVA_EXCEPTIONS_H_
 #define STARFOCUS_PLATFORM_JAVA_EXCEPTIONS_H_
 

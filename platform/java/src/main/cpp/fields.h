@@ -19,8 +19,8 @@ struct Field {
   size_t offset;  // in the C structure
 };
 
-// Copies the fields of `count` entries of a table from the object into the structure, or back. False
-// when the object has not got one of them: an exception is pending then.
+// Copies the fields of `count` entries of a table from the object into the structure, or back.
+// False when the object has not got one of them: an exception is pending then.
 bool ReadFields(JNIEnv* env, jobject object, const Field* fields, size_t count, void* structure);
 bool WriteFields(JNIEnv* env, const void* structure, const Field* fields, size_t count,
                  jobject object);

@@ -43,7 +43,8 @@ PlaneSize SizeOf(const sf_image& image, int plane, int64_t width, int64_t height
   return {(height + 1) / 2, row};
 }
 
-// The address of a direct buffer that holds rows `stride` bytes apart; null with an exception pending.
+// The address of a direct buffer that holds rows `stride` bytes apart; null with an exception
+// pending.
 void* AddressOf(JNIEnv* env, jobject buffer, const char* what, PlaneSize size, int64_t stride) {
   void* const address = buffer == nullptr ? nullptr : env->GetDirectBufferAddress(buffer);
   if (address == nullptr) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Java's images and depth maps as the library's: direct buffers, looked at where they are, each as long
-// as what is said to be in it.
+// Java's images and depth maps as the library's: direct buffers, looked at where they are, each as
+// long as what is said to be in it.
 #ifndef STARFOCUS_PLATFORM_JAVA_PICTURES_H_
 #define STARFOCUS_PLATFORM_JAVA_PICTURES_H_
 

@@ -18,8 +18,8 @@
 namespace starfocus {
 namespace {
 
-// An engine with its threads. Java's side sees to it that one call at a time uses it, apart from what
-// is atomic.
+// An engine with its threads. Java's side sees to it that one call at a time uses it, apart from
+// what is atomic.
 struct Session {
   sf_config config = {};
   sf_pool* pool = nullptr;
@@ -39,8 +39,8 @@ void End(Session* session) {
 
 Session* From(jlong handle) { return reinterpret_cast<Session*>(handle); }
 
-// Java is not called back, for which threads of the pool would have to be attached: whoever wants to
-// know asks.
+// Java is not called back, for which threads of the pool would have to be attached: whoever wants
+// to know asks.
 int Tell(void* data, int32_t rows_done, int32_t) {
   auto* const session = static_cast<Session*>(data);
   session->rows_done.store(rows_done, std::memory_order_relaxed);

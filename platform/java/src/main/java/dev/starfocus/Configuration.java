@@ -2,8 +2,9 @@
 package dev.starfocus;
 
 /**
- * What a {@link Refocuser} is made for: fields of the C structure sf_config, of which starfocus.h has the units and ranges.
- * They begin with its defaults; width, height and the range of disparities must be filled in.
+ * What a {@link Refocuser} is made for: fields of the C structure sf_config, of which starfocus.h
+ * has the units and ranges. They begin with its defaults; width, height and the range of
+ * disparities must be filled in.
  */
 public final class Configuration {
   public static final int SHAPE_FALL_OFF = 0, SHAPE_DISC = 1, SHAPE_POLYGON = 2, SHAPE_RING = 3;

@@ -4,8 +4,8 @@ package dev.starfocus;
 import java.nio.ByteBuffer;
 
 /**
- * Depths of the centre view in a direct buffer of the machine's byte order, as large as the picture or smaller: the C structure
- * sf_depth_map of image.h.
+ * Depths of the centre view in a direct buffer of the machine's byte order, as large as the picture
+ * or smaller: the C structure sf_depth_map of image.h.
  */
 public final class DepthMap {
   public static final int FLOAT = 0, U16 = 1, U8 = 2, HALF = 3;

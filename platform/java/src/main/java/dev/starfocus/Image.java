@@ -4,8 +4,9 @@ package dev.starfocus;
 import java.nio.ByteBuffer;
 
 /**
- * A picture in direct buffers, which are read and written where they are: the C structure sf_image of image.h. A plane begins at
- * its buffer's position and ends before its limit, as they are when the image is made.
+ * A picture in direct buffers, which are read and written where they are: the C structure sf_image
+ * of image.h. A plane begins at its buffer's position and ends before its limit, as they are when
+ * the image is made.
  */
 public final class Image {
   public static final int RGB = 0, BGR = 1, RGBX = 2, BGRX = 3;
@@ -19,7 +20,10 @@ public final class Image {
   public int matrix = BT601;
   /** LIMITED, the default, or FULL, as Android's cameras have it. */
   public int range = LIMITED;
-  /** Bytes between pixels of R, G, B, or chroma samples; 0, the default: the least that the format allows. */
+  /**
+   * Bytes between pixels of R, G, B, or chroma samples; 0, the default: the least that the format
+   * allows.
+   */
   public int pixelStride;
 
   final ByteBuffer[] planes;

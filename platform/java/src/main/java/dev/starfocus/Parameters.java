@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 package dev.starfocus;
 
-/** What to render: fields of the C structure sf_params, of which starfocus.h has the units and ranges. */
+/**
+ * What to render: fields of the C structure sf_params, of which starfocus.h has the units and
+ * ranges.
+ */
 public final class Parameters {
   public static final int MODE_FRAME = 0, MODE_BENCHMARK = 1, MODE_BLOCK = 2, MODE_BLUR = 3;
   public static final int RULE_DEFAULT = 0, RULE_PAPER = 1, RULE_SUBAPERTURE = 2;

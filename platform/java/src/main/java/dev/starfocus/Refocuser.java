@@ -4,12 +4,13 @@ package dev.starfocus;
 import java.util.Objects;
 
 /**
- * An engine for light fields of one configuration. It takes memory when it is made and when a light field is prepared, and
- * gives it back in {@link #close}. Calls of several threads take turns; {@link #cancel} and {@link #rowsDone} are for other
- * threads than the one that refocuses.
+ * An engine for light fields of one configuration. It takes memory when it is made and when a light
+ * field is prepared, and gives it back in {@link #close}. Calls of several threads take turns;
+ * {@link #cancel} and {@link #rowsDone} are for other threads than the one that refocuses.
  *
- * <p>What is wrong is told by StarfocusException, and by IllegalArgumentException for buffers that are not direct or
- * smaller than what is in them. Bytes of pictures depend neither on the machine nor on the number of workers.
+ * <p>What is wrong is told by StarfocusException, and by IllegalArgumentException for buffers that
+ * are not direct or smaller than what is in them. Bytes of pictures depend neither on the machine
+ * nor on the number of workers.
  */
 public final class Refocuser implements AutoCloseable {
   /** Guards the session against its end while another thread asks or cancels. */
@@ -39,19 +40,21 @@ public final class Refocuser implements AutoCloseable {
 
   /** As {@link #refocus} of the light field that was prepared last, with the same bytes. */
   public synchronized void refocusPrepared(Parameters parameters, Image out) {
-    if (prepared == null) throw new IllegalStateException("Refocuser: no light field is prepared");
+    if (prepared == null)
+      throw new IllegalStateException("Refocuser: no light field is prepared");
     Objects.requireNonNull(parameters, "parameters");
     out.checkWritable();
     Native.refocusPrepared(open(), parameters, out);
   }
 
   /**
-   * Ends the call that another thread is in, within milliseconds, by a StarfocusException that is cancelled. Without such a
-   * call nothing happens.
+   * Ends the call that another thread is in, within milliseconds, by a StarfocusException that is
+   * cancelled. Without such a call nothing happens.
    */
   public void cancel() {
     synchronized (life) {
-      if (session != 0) Native.cancel(session);
+      if (session != 0)
+        Native.cancel(session);
     }
   }
 
@@ -71,7 +74,8 @@ public final class Refocuser implements AutoCloseable {
       session = 0;
     }
     prepared = null;
-    if (ended != 0) Native.destroy(ended);
+    if (ended != 0)
+      Native.destroy(ended);
   }
 
   /** The focus for what is at a pixel of a map of FLOAT and LINEAR disparities, such as a tap. */
@@ -90,7 +94,8 @@ public final class Refocuser implements AutoCloseable {
   }
 
   private long open() {
-    if (session == 0) throw new IllegalStateException("Refocuser: it has been closed");
+    if (session == 0)
+      throw new IllegalStateException("Refocuser: it has been closed");
     return session;
   }
 }

@@ -7,8 +7,9 @@ import dev.starfocus.Refocuser;
 import java.nio.ByteBuffer;
 
 /**
- * The pixels of a Bitmap of ARGB_8888 where they are, as an {@link Image} of R, G, B and alpha, to be read or written until it is
- * closed. Colours are taken as they are stored: those of transparent pixels are multiplied by alpha.
+ * The pixels of a Bitmap of ARGB_8888 where they are, as an {@link Image} of R, G, B and alpha, to
+ * be read or written until it is closed. Colours are taken as they are stored: those of transparent
+ * pixels are multiplied by alpha.
  */
 public final class LockedBitmap implements AutoCloseable {
   static {
@@ -27,7 +28,8 @@ public final class LockedBitmap implements AutoCloseable {
   /** Gives the pixels back; the image must not be used any more. */
   @Override
   public void close() {
-    if (bitmap != null) unlock(bitmap);
+    if (bitmap != null)
+      unlock(bitmap);
     bitmap = null;
   }
 

@@ -8,9 +8,10 @@ import java.nio.ByteBuffer;
 import java.util.Arrays;
 
 /**
- * What a HardwareBuffer holds where it is, as an {@link Image}, to be read or written until it is closed. It has been made for
- * that (USAGE_CPU_READ_OFTEN, USAGE_CPU_WRITE_OFTEN) and is of RGBA_8888, RGBX_8888, RGB_888 or YCBCR_420_888; of that the image
- * has full range and BT.601, what Android's cameras give.
+ * What a HardwareBuffer holds where it is, as an {@link Image}, to be read or written until it is
+ * closed. It has been made for that (USAGE_CPU_READ_OFTEN, USAGE_CPU_WRITE_OFTEN) and is of
+ * RGBA_8888, RGBX_8888, RGB_888 or YCBCR_420_888; of that the image has full range and BT.601, what
+ * Android's cameras give.
  */
 public final class LockedHardwareBuffer implements AutoCloseable {
   static {
@@ -25,17 +26,21 @@ public final class LockedHardwareBuffer implements AutoCloseable {
     final ByteBuffer[] planes = new ByteBuffer[3];
     final int[] strides = new int[3], formatAndPixelStride = new int[2];
     final int count = lock(buffer, written, planes, strides, formatAndPixelStride);
-    image = new Image(formatAndPixelStride[0], Arrays.copyOf(planes, count),
-        Arrays.copyOf(strides, count));
+    image = new Image(
+        formatAndPixelStride[0], Arrays.copyOf(planes, count), Arrays.copyOf(strides, count));
     image.pixelStride = formatAndPixelStride[1];
     image.range = Image.FULL;
     this.buffer = buffer;
   }
 
-  /** Gives the memory back and waits until what was written is there; the image must not be used any more. */
+  /**
+   * Gives the memory back and waits until what was written is there; the image must not be used
+   * any more.
+   */
   @Override
   public void close() {
-    if (buffer != null) unlock(buffer);
+    if (buffer != null)
+      unlock(buffer);
     buffer = null;
   }
 
