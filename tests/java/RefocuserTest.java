@@ -254,9 +254,10 @@ public final class RefocuserTest {
           thrown[0] = error;
         }
       });
+      work.setDaemon(true);
       work.start();
       // A call that has not begun is not called off, so that it takes more than one try.
-      while (work.isAlive()) {
+      for (int tries = 0; work.isAlive() && tries < 10000; ++tries) {
         refocuser.cancel();
         work.join(1);
       }
