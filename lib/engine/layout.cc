@@ -136,6 +136,19 @@ CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_
   return scratch;
 }
 
+// Takes the memory that a column of largest blocks is subsampled in.
+void TakeResample(const sf_config& config, Carver* carver, ResampleScratch* resample) {
+  // The last column has what a layer has beyond the picture, a pixel or two.
+  const auto side = config.largest_block;
+  const auto columns = static_cast<size_t>(Max(side / 2 + 1, TapsOfLayer(side / 4 + 2)));
+  const int32_t above_two = TapsOfLayer(LayerRows(config, 2));
+  const auto rows = static_cast<size_t>(TapsOfLayer(Max(LayerRows(config, 1), above_two)));
+  resample->even = carver->Take<int16_t>(3 * (columns + 3));
+  resample->odd = carver->Take<int16_t>(3 * (columns + 3));
+  resample->half = carver->Take<int16_t>(3 * columns, rows);
+  resample->above = carver->Take<int16_t>(3 * columns, static_cast<size_t>(above_two));
+}
+
 // Blocks are rendered, or parted, one after the other, and only sums are handed on: all the rest of
 // a worker's memory is shared.
 Worker TakeWorker(const sf_config& config, Carver* carver) {
@@ -169,8 +182,7 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   worker.middle_samples = carver->Take<int16_t>(3 * half * half);
   worker.picture_samples = carver->Take<int16_t>(3 * side * side);
   carver->Reuse(shared);
-  worker.resample.even = carver->Take<int16_t>(3 * half);
-  worker.resample.odd = carver->Take<int16_t>(3 * half);
+  TakeResample(config, carver, &worker.resample);
   carver->Reuse(shared);
   worker.partition.nodes =
       carver->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
@@ -205,14 +217,12 @@ void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
 
 // Takes the planes of layers 1 and 2 around a stripe.
 void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
-  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+  for (int layer = 1; layer <= config.max_layer; ++layer) {
     LayerPlane& plane = engine->pictures.layers[layer];
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
-    plane.half.stride = plane.samples.stride = 3 * width;
-    const auto above = static_cast<size_t>(LayerRows(config, layer - 1));
-    const auto rows = static_cast<size_t>(LayerRows(config, layer));
-    plane.half.data = carver->Take<int16_t>(3 * width, above + 8);
-    plane.samples.data = carver->Take<int16_t>(3 * width, rows);
+    plane.samples.stride = 3 * width;
+    plane.samples.data =
+        carver->Take<int16_t>(3 * width, static_cast<size_t>(LayerRows(config, layer)));
   }
 }
 
@@ -224,7 +234,7 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->stripe.cells.rows = (config.height + kCellSize - 1) / kCellSize;
   engine->stripe.cells.cells =
       carver->Take<Cell>(static_cast<size_t>(engine->stripe.cells.columns) *
-                         static_cast<size_t>(side / kCellSize + 2 * reach.cells + 2));
+                         static_cast<size_t>(side / kCellSize + 2 * reach.cells + 1));
   engine->stripe.plan.side = side;
   engine->stripe.plan.columns = static_cast<int32_t>(blocks);
   engine->stripe.plan.wanted = carver->Take<uint8_t>(blocks);
