@@ -141,15 +141,14 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
 
 sf_status RefocusIntoBuffer(EngineState* engine, int32_t y, const Runner& runner) {
   const Plane<uint8_t> rows = BufferRows(*engine, y);
+  uint8_t* const ends = rows.Row(y + engine->config.largest_block - kDeblockRows);
   uint8_t* const last_rows = engine->stripe.last_rows;
   const size_t bytes = kDeblockRows * rows.stride;
   // The last rows of the stripe before may still change, and anew when a stripe that failed is
   // refocused again.
-  std::memcpy(rows.Row(y - kDeblockRows), last_rows, bytes);
+  std::memcpy(rows.Row(y - kDeblockRows), last_rows != nullptr ? last_rows : ends, bytes);
   const sf_status status = RefocusStripe(engine, y, rows, runner);
-  if (status == SF_OK) {
-    std::memcpy(last_rows, rows.Row(y + engine->config.largest_block - kDeblockRows), bytes);
-  }
+  if (status == SF_OK && last_rows != nullptr) std::memcpy(last_rows, ends, bytes);
   return status;
 }
 
