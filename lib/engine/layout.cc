@@ -292,24 +292,25 @@ size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
 }
 
 #ifdef STARFOCUS_RED_ZONES
-void VisitZones(const EngineState& engine, void (*visit)(const void*, size_t, size_t)) {
-  const ZoneVisitor zones = {visit, &engine};
+void VisitZones(EngineState* engine, void (*visit)(void*, size_t, size_t)) {
+  const PieceVisitor zones = {visit, engine};
   EngineState* counted = nullptr;
-  Carve(engine.config, Carver(nullptr, PTRDIFF_MAX, &zones), &counted);
+  LayOut(engine->config, nullptr, &counted, &zones);
 }
 #endif
 
 }  // namespace
 
-size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
-  return Carve(config, Carver(base), engine);
+size_t LayOut(const sf_config& config, void* base, EngineState** engine,
+              const PieceVisitor* pieces) {
+  return Carve(config, Carver(base, PTRDIFF_MAX, pieces), engine);
 }
 
 #ifdef STARFOCUS_RED_ZONES
-RedZones::RedZones(const EngineState& engine) : engine_(engine) { VisitZones(engine, PoisonZone); }
+RedZones::RedZones(EngineState* engine) : engine_(engine) { VisitZones(engine, PoisonZone); }
 RedZones::~RedZones() { VisitZones(engine_, UnpoisonZone); }
 #else
-RedZones::RedZones(const EngineState& engine) : engine_(engine) {}
+RedZones::RedZones(EngineState* engine) : engine_(engine) {}
 RedZones::~RedZones() = default;
 #endif
 

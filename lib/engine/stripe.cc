@@ -118,7 +118,7 @@ int32_t FinishedRows(const sf_config& config, int32_t y) {
 
 sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& out,
                         const Runner& runner) {
-  const RedZones zones(*engine);
+  const RedZones zones(engine);
   const sf_config& config = engine->config;
   const Stripe stripe = {y, Min(config.largest_block, config.height - y)};
   const sf_report report = engine->report;
