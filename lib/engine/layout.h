@@ -14,8 +14,8 @@
 namespace starfocus {
 
 // Lays out an engine for a valid configuration at `base` (aligned to SF_ALIGNMENT), or counts when
-// base is null. Returns the bytes used, or kTooLarge; *engine is null when counting. `pieces` (null:
-// nobody) is told of what is taken.
+// base is null. Returns the bytes used, or kTooLarge; *engine is null when counting. `pieces`
+// (null: nobody) is told of what is taken.
 size_t LayOut(const sf_config& config, void* base, EngineState** engine,
               const PieceVisitor* pieces = nullptr);
 

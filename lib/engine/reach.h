@@ -11,10 +11,10 @@ namespace starfocus {
 
 // How far beyond a stripe of blocks anything may be read, for blur up to a radius.
 struct Reach {
-  int32_t border = 0;                    // pixels: largest border of a block
-  int32_t cells = 0;                     // how many cells away a pixel may splat from
-  int32_t layer_rows[SF_LAYERS] = {};    // of layers 1 and 2
-  int32_t rows = 0;  // picture rows of the centre view and the disparity map
+  int32_t border = 0;                  // pixels: largest border of a block
+  int32_t cells = 0;                   // how many cells away a pixel may splat from
+  int32_t layer_rows[SF_LAYERS] = {};  // of layers 1 and 2
+  int32_t rows = 0;                    // picture rows of the centre view and the disparity map
 };
 Reach GetReach(double max_blur);
 

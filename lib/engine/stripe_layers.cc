@@ -10,9 +10,9 @@ namespace {
 struct LayerJob {
   const sf_config* config;
   const simd::Kernels* kernels;
-  const Window* picture;          // at layer 0
-  const uint8_t* const* needed;   // ColumnNeed of the layers' columns
-  const LayerPlane* layers;       // their planes are the output
+  const Window* picture;         // at layer 0
+  const uint8_t* const* needed;  // ColumnNeed of the layers' columns
+  const LayerPlane* layers;      // their planes are the output
 };
 
 void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Worker* worker) {

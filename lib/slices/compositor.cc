@@ -20,9 +20,9 @@ struct Rectangle {
   uint32_t* accumulators;
 };
 
-// The light of the rectangle's row in the centre view, 3 * width samples, lies in the second half of
-// the row's accumulators until these are written, from left to right: what lies behind 3 * n of them
-// begins at pixel 2 n - width, which is not behind pixel n.
+// The light of the rectangle's row in the centre view, 3 * width samples, lies in the second half
+// of the row's accumulators until these are written, from left to right: what lies behind 3 * n of
+// them begins at pixel 2 n - width, which is not behind pixel n.
 int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
   return reinterpret_cast<int16_t*>(accumulators) + 3 * static_cast<size_t>(width);
 }
@@ -201,7 +201,8 @@ void CutSlices(const RenderJob& job, const SliceRule& rule, const SliceLimits& l
 // The reaches of a stack's slices, of which follows what a section of them takes.
 class StackSize {
  public:
-  explicit StackSize(const SliceStack& stack) : count_(stack.count), views_(2 * stack.grid->n() + 1) {
+  explicit StackSize(const SliceStack& stack)
+      : count_(stack.count), views_(2 * stack.grid->n() + 1) {
     for (int32_t k = 0; k < count_; ++k) {
       SlicePlane placed;
       PlaceSlice(*stack.grid, stack.slices[k].disparity, {0, 0, 0, 0}, &placed);
@@ -222,8 +223,8 @@ class StackSize {
   }
 
   // About the work of making the slices of a rectangle in so many sections across and down, in
-  // pixels that are copied into slices: a row costs as much as 48 of them besides, and to move eight
-  // into a tile for a column of views as much as one.
+  // pixels that are copied into slices: a row costs as much as 48 of them besides, and to move
+  // eight into a tile for a column of views as much as one.
   uint64_t Work(const Rect& rect, int32_t across, int32_t down) const {
     const auto width = static_cast<size_t>(rect.width), height = static_cast<size_t>(rect.height);
     uint64_t pixels = 0;
@@ -259,7 +260,8 @@ Rect ChooseSection(const SliceStack& stack, const Rect& rect, size_t pool_bytes)
       height -= kLeastRows;
       continue;
     }
-    const uint64_t work = size.Work(rect, (rect.width + width - 1) / width, (rect.height + height - 1) / height);
+    const uint64_t work =
+        size.Work(rect, (rect.width + width - 1) / width, (rect.height + height - 1) / height);
     if (work < least_work) {
       least_work = work;
       section.width = width;
