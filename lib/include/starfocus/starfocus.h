@@ -116,31 +116,31 @@ typedef enum sf_transfer {
 
 /** What a workspace is made for. Call sf_config_init first: it zeroes and sets the defaults. */
 typedef struct sf_config {
-  uint32_t version;      /**< SF_ABI_VERSION, set by sf_config_init */
-  int32_t width;         /**< pixels, [1, SF_MAX_SIZE] */
-  int32_t height;        /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
-  int32_t views;         /**< captured views: 1, 5, 9 or 17 (see sf_view_position) */
-  float disparity_min;   /**< smallest disparity any map may hold; with disparity_max it bounds the
-                              blur, and so N of the frame modes and, beyond 32 pixels of blur, how
-                              finely scenes are cut, in every entry path */
-  float disparity_max;   /**< largest disparity any map may hold, >= disparity_min */
-  double max_blur;       /**< largest blur radius r = aperture * |d - focus| in pixels that will be
-                              asked for, (0, SF_MAX_BLUR]; default 32. It reserves room and changes
-                              no picture */
-  int32_t largest_block; /**< side of the largest refocusing block in pixels: 32, 64, 128, 256, or
-                              0, the default: 128 from a width of 1536 on, else 64. For wide
-                              pictures 128 is up to an eighth faster; a worker's memory grows with
-                              the block and the blur: 0.6 MiB at 32 and a blur of 8, 1.15 MiB at 64
-                              and 32, 3.3 MiB at 128 and 32. sf_report has what 0 chose */
-  int32_t max_workers;   /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
-  int32_t streaming;  /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
-  double theta;       /**< fall-off of the aperture (3) in radians; default 0.26 pi */
-  int32_t max_layer;  /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
-  int32_t deblocking; /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
-  sf_timing timing;   /**< each coefficient <= SF_MAX_TIMING */
-  double n_scale;     /**< time against error: multiplies the N of either rule in SF_MODE_BLOCK and
-                           SF_MODE_FRAME, rounded up; the number of views grows with its square;
-                           [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
+  uint32_t version;    /**< SF_ABI_VERSION, set by sf_config_init */
+  int32_t width;       /**< pixels, [1, SF_MAX_SIZE] */
+  int32_t height;      /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
+  int32_t views;       /**< captured views: 1, 5, 9 or 17 (see sf_view_position) */
+  float disparity_min; /**< smallest disparity any map may hold; with disparity_max it bounds the
+                            blur, and so N of the frame modes and, beyond 32 pixels of blur, how
+                            finely scenes are cut, in every entry path */
+  float disparity_max; /**< largest disparity any map may hold, >= disparity_min */
+  double max_blur;     /**< largest blur radius r = aperture * |d - focus| in pixels that will be
+                            asked for, (0, SF_MAX_BLUR]; default 32. It reserves room and changes
+                            no picture */
+  int32_t
+      largest_block;   /**< side of the largest refocusing block in pixels: 32, 64, 128, 256, or
+                            0, the default: 128 from a width of 1536 on, else 64. For wide
+                            pictures 128 is up to an eighth faster; a worker's memory grows with
+                            the block's area, from 1.15 MiB at 64 on. sf_report has what 0 chose */
+  int32_t max_workers; /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
+  int32_t streaming;   /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
+  double theta;        /**< fall-off of the aperture (3) in radians; default 0.26 pi */
+  int32_t max_layer;   /**< largest subsampled layer L of SF_MODE_BLOCK: 0, 1 or 2; default 2 */
+  int32_t deblocking;  /**< beta of (16), (17) in gray levels, [0, 255]; 0: off; default 35 */
+  sf_timing timing;    /**< each coefficient <= SF_MAX_TIMING */
+  double n_scale;      /**< time against error: multiplies the N of either rule in SF_MODE_BLOCK and
+                            SF_MODE_FRAME, rounded up; the number of views grows with its square;
+                            [SF_MIN_N_SCALE, SF_MAX_N_SCALE]; default 1 */
   int32_t skips;  /**< 1, the default: what sf_skipped counts is left out; 0: all is done, for the
                        same bytes */
   int32_t gather; /**< 1, the default: by SF_RULE_SUBAPERTURE SF_MODE_BLOCK blurs the centre view
