@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 
 #include "platform/file.h"
@@ -18,7 +19,8 @@ namespace fs = std::filesystem;
 constexpr int kStarSets[] = {1, 5, 9, 17};
 constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg"};
 constexpr const char* kPair[] = {"im0.png", "im1.png"};  // at (0, 0) and (1, 0)
-constexpr double kAlike = 5e-5;                          // half of a name's last decimal
+constexpr double kDecimals = 1e4;                        // of a name's numbers
+constexpr double kAlike = 0.5 / kDecimals;
 
 // "+0.5" and so on; of whole numbers one decimal stays.
 std::string CoordinateText(double value) {
@@ -48,9 +50,13 @@ bool ReadName(const std::string& name, sf_position* position, size_t* extension)
   for (*extension = 0; *extension < std::size(kExtensions); ++*extension) {
     if (name.compare(end, kExtension, kExtensions[*extension]) == 0) break;
   }
-  return *extension < std::size(kExtensions) && middle < end &&
-         ReadCoordinate(name, kBegin, middle, &position->u) &&
-         ReadCoordinate(name, middle + 1, end, &position->v);
+  double u = 0, v = 0;
+  if (*extension == std::size(kExtensions) || middle >= end ||
+      !ReadCoordinate(name, kBegin, middle, &u) || !ReadCoordinate(name, middle + 1, end, &v)) {
+    return false;
+  }
+  *position = RoundedPosition(u, v);
+  return true;
 }
 
 std::string CheckFolder(const std::string& folder) {
@@ -133,6 +139,10 @@ bool AreStar(const Positions& positions) {
   if (!IsStarSet(views)) return false;
   const Positions star = StarPositions(views);
   return std::equal(star.begin(), star.end(), positions.begin(), SamePosition);
+}
+
+sf_position RoundedPosition(double u, double v) {
+  return {std::round(u * kDecimals) / kDecimals, std::round(v * kDecimals) / kDecimals};
 }
 
 bool SamePosition(const sf_position& a, const sf_position& b) {

@@ -29,6 +29,9 @@ bool IsStarSet(int views);
 // Whether these are the first ones of sf_view_position, in their order.
 bool AreStar(const Positions& positions);
 
+// A position as names of files tell it: of four decimals.
+sf_position RoundedPosition(double u, double v);
+
 // Whether the two are one view's, up to what names of files tell.
 bool SamePosition(const sf_position& a, const sf_position& b);
 

@@ -31,8 +31,21 @@ bool ReadNumber(const std::string& text, double* value) {
   return *end == '\0' && std::isfinite(*value);
 }
 
-// As names of files have it.
-double RoundPosition(double value) { return std::round(value * 1e4) / 1e4; }
+// U,V.
+bool ReadPosition(const std::string& text, sf_position* position) {
+  const size_t comma = text.find(',');
+  double u = 0, v = 0;
+  if (comma == std::string::npos || !ReadNumber(text.substr(0, comma), &u) ||
+      !ReadNumber(text.substr(comma + 1), &v)) {
+    return false;
+  }
+  *position = RoundedPosition(u, v);
+  return true;
+}
+
+bool IsFar(const sf_position& position) {
+  return std::fabs(position.u) > 1 || std::fabs(position.v) > 1;
+}
 
 }  // namespace
 
@@ -110,15 +123,11 @@ Error ParseViews(const std::string& option, const std::string& text, Positions* 
   positions->clear();
   for (size_t begin = 0; begin <= text.size();) {
     const size_t end = std::min(text.find(':', begin), text.size());
-    const size_t comma = text.find(',', begin);
     sf_position position = {};
-    if (comma >= end || !ReadNumber(text.substr(begin, comma - begin), &position.u) ||
-        !ReadNumber(text.substr(comma + 1, end - comma - 1), &position.v)) {
+    if (!ReadPosition(text.substr(begin, end - begin), &position)) {
       return wrong("17, 9, 5 or 1, or positions U,V:U,V");
     }
-    position = {RoundPosition(position.u), RoundPosition(position.v)};
-    if (std::fabs(position.u) > 1 || std::fabs(position.v) > 1)
-      return wrong("positions within +-1");
+    if (IsFar(position)) return wrong("positions within +-1");
     for (const sf_position& other : *positions) {
       if (SamePosition(other, position)) return wrong("positions that differ");
     }

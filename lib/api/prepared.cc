@@ -4,6 +4,7 @@
 #include <new>
 
 #include "lib/api/light_field.h"
+#include "lib/base/view_set.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/stripe_layers.h"
 
@@ -90,7 +91,7 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Ru
 
 bool Fits(const Prepared& prepared, const sf_config& config) {
   const sf_config& made = prepared.config;
-  return made.width == config.width && made.height == config.height && made.views == config.views &&
+  return made.width == config.width && made.height == config.height && SameViews(made, config) &&
          made.disparity_min == config.disparity_min && made.disparity_max == config.disparity_max &&
          made.max_layer == config.max_layer && made.transfer == config.transfer;
 }

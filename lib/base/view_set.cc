@@ -91,6 +91,15 @@ bool HasStar(const sf_config& config) {
   return FindViews(config, &views) == SF_OK && views.star;
 }
 
+bool SameViews(const sf_config& a, const sf_config& b) {
+  ViewSet first, second;
+  FindViews(a, &first);
+  FindViews(b, &second);
+  bool same = first.count == second.count;
+  for (int32_t k = 0; same && k < first.count; ++k) same = SamePosition(first.at[k], second.at[k]);
+  return same;
+}
+
 Looks ChooseLooks(const ViewSet& views) {
   Looks looks;
   for (int side = 0; side < kSideCount; ++side) {

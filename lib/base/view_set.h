@@ -60,6 +60,9 @@ sf_status FindViews(const sf_config& config, ViewSet* views);
 // Whether the views of a configuration, which was checked, are those of sf_view_position.
 bool HasStar(const sf_config& config);
 
+// Whether two configurations, which were checked, have the same views in the same order.
+bool SameViews(const sf_config& a, const sf_config& b);
+
 // Chooses the views that look behind edges on each side: those that lie nearer to its direction
 // than to any other. Of these the farthest out come first, as far as they lie on the side's axis:
 // they look behind more. Where there are none, those on the diagonals stand in, and others up to 63

@@ -48,10 +48,21 @@ void WriteMap(const std::string& path, int side, Input* input) {
   Write(path, header + std::string(static_cast<size_t>(8 * side), '\0'), input);
 }
 
-// That of the star, or one anywhere, which may be too far out or another's.
-sf_position PositionOf(int view, Input* input) {
-  if (!input->Rarely()) return starfocus::StarPositions(SF_MAX_VIEWS)[static_cast<size_t>(view)];
-  return {input->Int(-120, 120) / 100.0, input->Int(-10, 10) / 10.0};
+// Of a view of the star, of one anywhere, which may be too far out or another's, or what only
+// begins as a view's.
+std::string NameOf(int view, Input* input) {
+  if (!input->Rarely()) {
+    return starfocus::ViewName(starfocus::StarPositions(SF_MAX_VIEWS)[static_cast<size_t>(view)]);
+  }
+  if (!input->Rarely()) {
+    return starfocus::ViewName({input->Int(-120, 120) / 100.0, input->Int(-10, 10) / 10.0});
+  }
+  constexpr char kLetters[] = "+-_.0123456789e";
+  std::string name = "view_";
+  for (int left = input->Int(1, 14); left > 0; --left) {
+    name += kLetters[input->Value<uint8_t>() % (sizeof(kLetters) - 1)];
+  }
+  return name;
 }
 
 }  // namespace
@@ -65,7 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (int view = 0; view < views; ++view) {
     if (input.Rarely()) continue;
     const char* extension = kExtensions[input.Rarely() ? input.Int(0, 2) : 1];
-    written.push_back(folder.file(starfocus::ViewName(PositionOf(view, &input)) + extension));
+    written.push_back(folder.file(NameOf(view, &input) + extension));
     WriteView(written.back(), input.Rarely() ? input.Int(1, 4) : side, &input);
   }
   if (!input.Rarely()) {

@@ -134,6 +134,41 @@ public final class RefocuserTest {
     }
   }
 
+  /** Of views that each have other bytes, given in this order, at these positions. */
+  private static ByteBuffer refocusedFrom(int[] order, double[] positions) {
+    final Image[] views = new Image[order.length];
+    for (int k = 0; k < order.length; ++k) {
+      final ByteBuffer pixels = picture();
+      for (int i = 0; i < pixels.capacity(); ++i) pixels.put(i, (byte) (pixels.get(i) + order[k]));
+      views[k] = new Image(Image.RGB, pixels, 3 * WIDTH);
+    }
+    final Configuration configuration = configuration();
+    configuration.views = order.length;
+    configuration.positions = positions;
+    final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT);
+    try (Refocuser refocuser = new Refocuser(configuration)) {
+      refocuser.refocus(new LightField(views, depth(ramp())), new Parameters(), out(pixels));
+    }
+    return pixels;
+  }
+
+  private static void viewsLieWhereTheyAreSaidTo() {
+    final ByteBuffer star = refocusedFrom(new int[] {0, 1, 2, 3, 4}, null);
+    check(star.equals(refocusedFrom(
+              new int[] {0, 2, 1, 4, 3}, new double[] {0, 0, -1, 0, 1, 0, 0, -1, 0, 1})),
+        "the star by its positions, in another order, gives its bytes");
+    final ByteBuffer pair = refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1, 0});
+    check(!pair.equals(star), "a pair is no star");
+    check(!pair.equals(refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 0.5, 0})),
+        "a pair half as far apart is another");
+    checkThrows(IllegalArgumentException.class, "positions: expected 4 numbers, found 3",
+        () -> refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1}));
+    checkThrows(StarfocusException.class, "positions of views",
+        () -> refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1.5, 0}));
+    checkThrows(
+        StarfocusException.class, "number of views", () -> refocusedFrom(new int[] {0, 1}, null));
+  }
+
   private static void chromaOfACameraComesBack() {
     final ByteBuffer luma = bytes(WIDTH * HEIGHT), chroma = bytes(WIDTH * HEIGHT / 2);
     for (int i = 0; i < luma.capacity(); ++i) luma.put(i, (byte) 90);
@@ -275,6 +310,7 @@ public final class RefocuserTest {
   public static void main(String[] arguments) throws InterruptedException {
     defaultsAreTheLibrarys();
     everyWayGivesTheSameBytes();
+    viewsLieWhereTheyAreSaidTo();
     chromaOfACameraComesBack();
     buffersAreChecked();
     configurationsAndStatesAreChecked();

@@ -142,6 +142,14 @@ TEST_CASE("light_field: views too far out, twice at one position, or too many ar
   REQUIRE(WriteImage(twice, Image(4, 4)) == "");
   CHECK(Contains(LoadLightField(folder.path(), {}, &back), "view_+1.00_+0.0"));
   fs::remove(twice);
+  // Alike to four decimals, though not next to each other by u and v.
+  const std::string close[] = {"view_+0.30001_+0.4.png", "view_+0.30002_+0.1.png",
+                               "view_+0.30003_+0.4.png"};
+  for (const std::string& name : close) {
+    REQUIRE(WriteImage(folder.file(name), Image(4, 4)) == "");
+  }
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "different positions"));
+  for (const std::string& name : close) fs::remove(folder.file(name));
   REQUIRE(WriteImage(folder.file("view_+0.2_+0.0.png"), Image(4, 4)) == "");
   CHECK(Contains(LoadLightField(folder.path(), {}, &back), "at most 17 views"));
   CHECK(LoadLightField(folder.path(), StarPositions(17), &back) != "");

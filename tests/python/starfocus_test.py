@@ -51,6 +51,13 @@ class Bytes(unittest.TestCase):
                          transfer=starfocus.Transfer.NONE)
         np.testing.assert_array_equal(five.refocus(VIEWS, DISPARITY, focus=1), expected)
 
+    def test_a_pair_and_an_l_give_the_program_s_bytes(self):
+        for positions in ([(0, 0), (1, 0)], [(0, 0), (0, -1), (-1, 0)]):
+            views, disparity = starfocus.read_light_field(FOLDER, positions)
+            engine = starfocus.Refocuser.for_light_field(views, disparity, positions=np.array(positions))
+            expected = by_program("--focus", "1", "--views", ":".join(f"{u},{v}" for u, v in positions))
+            np.testing.assert_array_equal(engine.refocus(views, disparity, focus=1), expected)
+
     def test_the_focus_at_a_pixel_is_the_program_s(self):
         focus = starfocus.focus_at(DISPARITY, WIDTH // 2, HEIGHT // 2)
         made = refocuser().refocus(VIEWS, DISPARITY, focus=focus)

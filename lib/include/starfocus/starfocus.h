@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* starfocus: refocusing for star-shaped sparse light fields. C ABI.
+/* starfocus: refocusing for sparse light fields. C ABI.
  *
- * Given 1, 5, 9 or 17 rectified 8-bit RGB views and the disparity map of the centre view, the
- * engine computes the picture that a lens of aperture radius `aperture`, focused at disparity
- * `focus`, would have taken (Huang et al., "Fast Physically-Correct Refocusing for Sparse Light
- * Fields Using Block-Based Multi-Rate View Interpolation"; equations are cited as in the paper).
+ * Given 1 to 17 rectified 8-bit RGB views, those of the paper's star or any others such as a stereo
+ * pair, and the disparity map of the centre view, the engine computes the picture that a lens of
+ * aperture radius `aperture`, focused at disparity `focus`, would have taken (Huang et al., "Fast
+ * Physically-Correct Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View
+ * Interpolation"; equations are cited as in the paper).
  *
  * Use:
  *   1. sf_config_init, fill the fields in, sf_workspace_size.
@@ -15,10 +16,10 @@
  *      rows. Both give the same bytes. For many pictures of one light field there is sf_prepare,
  *      for a part of one sf_params.region, for frames of a video sf_refocus_after.
  *
- * Conventions: u grows to the right, v downwards; the outermost views lie at |u|, |v| = 1.
- * Disparity d is in pixels per unit u, larger is nearer: a point seen at (x, y) in the centre view
- * is seen at (x - u*d, y - v*d) in view (u, v). Pictures are rows of interleaved R, G, B bytes;
- * strides are in bytes and may exceed the row length.
+ * Conventions: u grows to the right, v downwards; no view lies beyond |u|, |v| = 1, where the
+ * star's outermost ones are. Disparity d is in pixels per unit u, larger is nearer: a point seen at
+ * (x, y) in the centre view is seen at (x - u*d, y - v*d) in view (u, v). Pictures are rows of
+ * interleaved R, G, B bytes; strides are in bytes and may exceed the row length.
  *
  * Threads: an engine is used by one call at a time; several engines are independent. The engine
  * starts no threads; it hands jobs to the caller's runner, for which starfocus/pool.h is one.
@@ -184,16 +185,16 @@ typedef struct sf_config {
   int32_t images;   /**< 1 reserves rows for the calls of starfocus/image.h; default 0 */
   uint32_t reserved[4];                /**< zero */
   sf_position positions[SF_MAX_VIEWS]; /**< where the `views` captured views lie: each coordinate in
-                                          [-1, 1], all of them different by 1/16384 or more, the
-                                          first one (0, 0). All 0, the default: where
-                                          sf_view_position tells. What lies behind an edge is read
-                                          from the best view that sees it, and filled where none
-                                          does. SF_RULE_PAPER and starfocus/depth.h need the star */
+                                          [-1, 1], rounded to 1/16384, no two alike, the first one
+                                          (0, 0). All 0, the default: where sf_view_position
+                                          tells. What lies behind an edge is read from the best
+                                          view that sees it, and filled where none does.
+                                          SF_RULE_PAPER and starfocus/depth.h need the star */
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);
 
-/** Position (u, v) of captured view `index`; views of 1, 5 and 9 are the first of the 17:
+/** Position (u, v) of view `index` of the star; those of 1, 5 and 9 are the first of the 17:
  *  0 centre; 1-4 (+1,0) (-1,0) (0,+1) (0,-1); 5-8 (+1,+1) (-1,+1) (+1,-1) (-1,-1); 9-16 the same
  *  eight at half the distance. False when index is outside [0, SF_MAX_VIEWS) or u or v is null. */
 SF_API int sf_view_position(int32_t index, double* u, double* v);
@@ -402,8 +403,8 @@ SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field
                             sf_runner runner, void* runner_data, sf_prepared** prepared);
 
 /** As sf_refocus, with the same bytes, of a prepared light field; of this engine or of any of the
- *  same size, views, disparity range, max_layer and transfer (else SF_ERROR_PREPARED). Several
- * engines may use one at a time. */
+ *  same size, views and positions, disparity range, max_layer and transfer (else
+ *  SF_ERROR_PREPARED). Several engines may use one at a time. */
 SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                                      const sf_prepared* prepared, uint8_t* out, size_t out_stride,
                                      sf_runner runner, void* runner_data, sf_report* report);

@@ -69,8 +69,8 @@ typedef enum sf_status {
   SF_ERROR_DEPTH_TYPE = 51,     /**< a depth map of unknown type, meaning or has_invalid */
   SF_ERROR_DEPTH_SCALE = 52,    /**< scale or offset of a depth map not finite, or scale 0 */
   SF_ERROR_DEPTH_SIZE = 53,     /**< depth map larger than the picture, or empty */
-  SF_ERROR_VIEW_POSITIONS = 54, /**< a position beyond 1, two alike, or the first one not (0, 0) */
-  SF_ERROR_STAR = 55            /**< SF_RULE_PAPER without the views of sf_view_position */
+  SF_ERROR_VIEW_POSITIONS = 55, /**< a position beyond 1, two alike, or the first one not (0, 0) */
+  SF_ERROR_STAR = 56            /**< SF_RULE_PAPER without the views of sf_view_position */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */

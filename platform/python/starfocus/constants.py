@@ -127,3 +127,5 @@ class Status(IntEnum):
     DEPTH_TYPE = 51
     DEPTH_SCALE = 52
     DEPTH_SIZE = 53
+    VIEW_POSITIONS = 55
+    STAR = 56

@@ -12,7 +12,8 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _abi
-from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, light_field, output, pointer, stride_of)
+from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, light_field, output, pointer,
+                     positions_of, stride_of)
 from ._abi import library
 from .constants import Mode, Rule
 from .errors import check
@@ -28,9 +29,11 @@ class Refocuser:
 
     Args:
         width, height: of the pictures, in pixels.
-        views: 1, 5, 9 or 17, in the order of `view_positions`.
+        views: 1, 5, 9 or 17, in the order of `view_positions`; with positions any number up to 17.
         disparity_min, disparity_max: what values disparity maps may hold, in pixels per unit of u.
         workers: threads that refocus; 0: one for each big core of the machine.
+        positions: (u, v) of each view where they are not those of `view_positions`, from -1 to 1, the centre
+            (0, 0) first: `[(0, 0), (1, 0)]` of a stereo pair.
         config: other fields of sf_config (starfocus.h) by their names, such as `max_blur`, `aperture_shape`,
             `transfer`, `highlights`, `fill_unknown`, or `images=1` for `refocus_images`.
 
@@ -39,15 +42,18 @@ class Refocuser:
     """
 
     def __init__(self, width: int, height: int, views: int = 5, *, disparity_min: float,
-                 disparity_max: float, workers: int = 0, **config: Any):
+                 disparity_max: float, workers: int = 0, positions: Any = None, **config: Any):
         self._config = _abi.Config()
         library.sf_config_init(byref(self._config))
-        known = {field[0] for field in _abi.Config._fields_} - {"version", "reserved", "max_workers"}
+        known = {field[0] for field in _abi.Config._fields_} - {"version", "reserved", "max_workers",
+                                                                         "positions"}
         for name, value in {**config, "width": width, "height": height, "views": views,
                             "disparity_min": disparity_min, "disparity_max": disparity_max}.items():
             if name not in known:
                 raise TypeError(f"Refocuser: unknown field of the configuration '{name}'")
             setattr(self._config, name, value)
+        if positions is not None:
+            self._config.positions = positions_of(positions, views)
         self._pool = Pool(workers)
         self._config.max_workers = self._pool.workers
         engine = ctypes.c_void_p()

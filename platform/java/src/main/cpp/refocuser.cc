@@ -85,6 +85,23 @@ constexpr Field kParamsFields[] = {
     {"regionHeight", FieldType::kInt32, offsetof(sf_params, region.height)},
 };
 
+// The positions of views, if there are any; false with an exception pending.
+bool ReadPositions(JNIEnv* env, jobject configuration, sf_config* config) {
+  const auto positions =
+      static_cast<jdoubleArray>(ReadObject(env, configuration, "positions", "[D"));
+  if (positions == nullptr) return !env->ExceptionCheck();
+  if (config->views < 1 || config->views > SF_MAX_VIEWS) return true;  // the library refuses that
+  const jsize found = env->GetArrayLength(positions), expected = 2 * config->views;
+  if (found != expected) {
+    ThrowArgument(env, "positions: expected %d numbers, found %d", int{expected}, int{found});
+    return false;
+  }
+  double places[2 * SF_MAX_VIEWS];
+  env->GetDoubleArrayRegion(positions, 0, expected, places);
+  for (int k = 0; k < config->views; ++k) config->positions[k] = {places[2 * k], places[2 * k + 1]};
+  return true;
+}
+
 // What to render and where to; false with an exception pending.
 bool ReadTask(JNIEnv* env, Session* session, jobject parameters, jobject out, sf_params* params,
               sf_image_out* image) {
@@ -158,7 +175,8 @@ STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
   }
   auto* const session = new (memory) Session;
   sf_config_init(&session->config);
-  if (ReadFields(env, configuration, kConfigFields, std::size(kConfigFields), &session->config)) {
+  if (ReadFields(env, configuration, kConfigFields, std::size(kConfigFields), &session->config) &&
+      ReadPositions(env, configuration, &session->config)) {
     const sf_status status = Start(session);
     if (status == SF_OK) return reinterpret_cast<jlong>(session);
     ThrowStatus(env, status);
