@@ -50,7 +50,8 @@ class Scene:
 
     def refocused(self, views):
         """The file of the picture that these views give."""
-        self.call("refocus", self.folder, "-o", self.out, f"--focus={self.focus}", "--transfer", "none", "--views", views)
+        self.call("refocus", self.folder, "-o", self.out, f"--focus={self.focus}", "--transfer", "none",
+                  "--views", views)
         return self.out
 
     def print_rows(self):
@@ -64,8 +65,9 @@ class Scene:
             without, five = read(self.refocused(others))[1], pictures["star of 5"]
             pixels = [k for k in every if five[3 * k:3 * k + 3] != without[3 * k:3 * k + 3]]
             one, pair, star = (decibels(pictures[which], self.truth, pixels) for which in ("one", name, "star of 5"))
-            print(f"|   {name}, {100 * len(pixels) / len(every):.1f} % of the pixels | {one:.2f} | {pair:.2f} | {star:.2f} | "
-                  f"{(pair - one) / (star - one):.2f} |", flush=True)
+            share, gain = 100 * len(pixels) / len(every), (pair - one) / (star - one)
+            print(f"|   {name}, {share:.1f} % of the pixels | {one:.2f} | {pair:.2f} | {star:.2f} | {gain:.2f} |",
+                  flush=True)
 
 
 def main():

@@ -45,8 +45,8 @@ class Refocuser:
                  disparity_max: float, workers: int = 0, positions: Any = None, **config: Any):
         self._config = _abi.Config()
         library.sf_config_init(byref(self._config))
-        known = {field[0] for field in _abi.Config._fields_} - {"version", "reserved", "max_workers",
-                                                                         "positions"}
+        set_below = {"version", "reserved", "max_workers", "positions"}
+        known = {field[0] for field in _abi.Config._fields_} - set_below
         for name, value in {**config, "width": width, "height": height, "views": views,
                             "disparity_min": disparity_min, "disparity_max": disparity_max}.items():
             if name not in known:
