@@ -26,26 +26,31 @@ bool Convert(double value, int16_t* converted) {
   return true;
 }
 
+// Views at least so many times as far beside the side's axis as along it are no help.
+constexpr int32_t kTooFarBeside = 8;
+
 // How well a view looks behind edges on a side.
 struct Rating {
-  bool own;       // whether it lies nearer to the side's direction than to any other
-  int32_t merit;  // how far out, less for what it lies beside the axis
-  int32_t across;
+  int32_t along, across;  // how far it lies towards the side, and beside the axis
   ViewPosition at;
+
+  bool Helps() const { return across < kTooFarBeside * along; }
+  // Whether it lies nearer to the side's direction than to any other.
+  bool Own() const { return across < along; }
+  // How far out it lies, less for what it lies beside the axis.
+  int32_t Merit() const { return 2 * along - across; }
 
   // The order in which views are given decides nothing.
   bool Before(const Rating& other) const {
-    if (own != other.own) return own;
-    if (merit != other.merit) return merit > other.merit;
+    if (Own() != other.Own()) return Own();
+    if (Merit() != other.Merit()) return Merit() > other.Merit();
     if (across != other.across) return across < other.across;
     return at.u != other.at.u ? at.u < other.at.u : at.v < other.at.v;
   }
 };
 
 Rating Rate(const ViewPosition& at, const int8_t* side) {
-  const int32_t along = at.u * side[0] + at.v * side[1];
-  const int32_t across = Abs(at.u * side[1] - at.v * side[0]);
-  return {across < along, 2 * along - across, across, at};
+  return {at.u * side[0] + at.v * side[1], Abs(at.u * side[1] - at.v * side[0]), at};
 }
 
 }  // namespace
@@ -107,7 +112,7 @@ Looks ChooseLooks(const ViewSet& views) {
     LookView* const on = looks.on[side];
     for (int32_t k = 1; k < views.count; ++k) {
       Rating rating = Rate(views.at[k], kSides[side]);
-      if (rating.merit <= 0) continue;
+      if (!rating.Helps()) continue;
       LookView view = {static_cast<int8_t>(k), views.at[k]};
       for (int place = 0; place < kLooks; ++place) {
         if (on[place].view != 0 && !rating.Before(best[place])) continue;
@@ -121,7 +126,7 @@ Looks ChooseLooks(const ViewSet& views) {
       }
     }
     for (int place = 1; place < kLooks; ++place) {
-      if (best[place].own != best[0].own) on[place] = {};
+      if (best[place].Own() != best[0].Own()) on[place] = {};
     }
   }
   return looks;

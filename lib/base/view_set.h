@@ -65,9 +65,9 @@ bool SameViews(const sf_config& a, const sf_config& b);
 
 // Chooses the views that look behind edges on each side: those that lie nearer to its direction
 // than to any other. Of these the farthest out come first, as far as they lie on the side's axis:
-// they look behind more. Where there are none, those on the diagonals stand in, and others up to 63
-// degrees from the axis. What views farther beside it or on the other side show behind an edge is
-// mostly something else (docs/constants.md).
+// they look behind more. Where there are none, others up to 83 degrees from the axis stand in:
+// they look behind what is thin or slanted, and those farther beside it behind next to nothing
+// (docs/constants.md).
 Looks ChooseLooks(const ViewSet& views);
 
 // A distance of the centre view's pixels, kDisparityBits or any other, as a view at `position` of

@@ -67,12 +67,12 @@ TEST_CASE("views: a pair looks to one side, an L to two, a row twice to either")
         Sides{{4, 3}, {1, 2}, {}, {}});
 }
 
-TEST_CASE("views: diagonal ones stand in where none is nearer to the side") {
+TEST_CASE("views: others stand in where none is nearer to the side") {
   CHECK(LooksOf(Config({{0, 0}, {1, 1}})) == Sides{{1}, {}, {1}, {}});
   CHECK(LooksOf(Config({{0, 0}, {1, 1}, {0.5, 0}})) == Sides{{2}, {}, {1}, {}});
-  // Up to twice as far beside the axis as along it.
-  CHECK(LooksOf(Config({{0, 0}, {0.5, 0.9}})) == Sides{{1}, {}, {1}, {}});
-  CHECK(LooksOf(Config({{0, 0}, {0.5, 1}})) == Sides{{}, {}, {1}, {}});
+  // Up to eight times as far beside the axis as along it.
+  CHECK(LooksOf(Config({{0, 0}, {0.13, 1}})) == Sides{{1}, {}, {1}, {}});
+  CHECK(LooksOf(Config({{0, 0}, {0.125, 1}})) == Sides{{}, {}, {1}, {}});
   // Of several the two that lie farthest out along the axis.
   CHECK(LooksOf(Config({{0, 0}, {0.4, 0}, {1, 0.1}, {0.9, -0.8}, {0.8, 0}}))[0] ==
         std::vector<int>{2, 4});
@@ -91,7 +91,8 @@ TEST_CASE("views: the order in which they are given decides nothing") {
     return found;
   };
   const auto before = chosen();
-  CHECK(before == std::vector<std::pair<double, double>>{{0.75, 0}, {1, -0.5}, {-0.2, 0.6}});
+  CHECK(before == std::vector<std::pair<double, double>>{
+                      {0.75, 0}, {1, -0.5}, {-0.2, 0.6}, {-0.2, 0.6}, {1, -0.5}});
   for (int turn = 0; turn < 4; ++turn) {
     std::swap(positions[1], positions[size_t(2 + turn % 3)]);
     CHECK(chosen() == before);

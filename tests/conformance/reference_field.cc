@@ -62,7 +62,7 @@ std::vector<Position> LooksOn(const LightField& field, const Direction& side) {
   std::vector<Position> near, far;
   for (const auto& [at, picture] : field) {
     if (across(at) < along(at)) near.push_back(at);
-    if (across(at) < 2 * along(at)) far.push_back(at);
+    if (across(at) < 8 * along(at)) far.push_back(at);
   }
   std::vector<Position> looks = near.empty() ? far : near;
   std::stable_sort(looks.begin(), looks.end(), [&](const Position& a, const Position& b) {

@@ -49,7 +49,7 @@ using Position = std::pair<int, int>;
 Colour Read(const LightField& field, int layer, const Position& view, double x, double y);
 
 // The captured views that look behind depth edges on a side, two at most. They lie within 45
-// degrees of its direction; where none does, within the angle of tangent 2. The best is farthest
+// degrees of its direction; where none does, within the angle of tangent 8. The best is farthest
 // out by twice its way towards the side less its way beside it; of equal ones, that with the least
 // way beside it, the least u, the least v.
 std::vector<Position> LooksOn(const LightField& field, const Direction& side);
