@@ -218,7 +218,7 @@ Error CheckRule(const std::string& folder, const LensPlan& plan, const Positions
   if (plan.rule != SF_RULE_PAPER || plan.mode == SF_MODE_BLUR || AreStar(views)) {
     return "";
   }
-  return Error::Usage("--rule", "subaperture: by the paper's rule 1, 5, 9 or 17 views of a star",
+  return Error::Usage("--rule", "subaperture, as paper needs a star of 1, 5, 9 or 17 views",
                       "paper for the " + std::to_string(views.size()) + " views of " + folder);
 }
 
