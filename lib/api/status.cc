@@ -79,6 +79,8 @@ const char* sf_status_string(sf_status status) {
       return "scale or offset of a depth map is not finite, or scale is 0";
     case SF_ERROR_DEPTH_SIZE:
       return "depth map is larger than the picture, or has no values";
+    case SF_ERROR_PREVIEW:
+      return "previews is outside 0 to 3, or the light field was not prepared for that shift";
     case SF_ERROR_REGION:
       return "region is not inside the picture, or is given for streaming, which has none";
     case SF_ERROR_PREPARED:

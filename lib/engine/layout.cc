@@ -283,11 +283,7 @@ size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
   EngineState counted;  // stands in for *engine while counting
   EngineState& e = *engine == nullptr ? counted : **engine;
   TakeTables(config, &carver, &e);
-  TakeRows(config, &carver, &e);
-  TakeLayers(config, &carver, &e);
-  TakeStripe(config, &carver, &e);
   e.crew.jobs.max_workers = config.max_workers;
-  e.crew.jobs.progress = carver.Take<std::atomic<uint32_t>>(static_cast<size_t>(MaxJobs(config)));
   e.crew.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
     const Worker taken = TakeWorker(config, &carver);
@@ -295,6 +291,11 @@ size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
     e.crew.workers[worker] = taken;
     e.crew.workers[worker].patience = Patience(&e.crew.jobs.watch);
   }
+  // What grows with the picture comes last: LayOut for a smaller one leaves all else in place.
+  TakeRows(config, &carver, &e);
+  TakeLayers(config, &carver, &e);
+  TakeStripe(config, &carver, &e);
+  e.crew.jobs.progress = carver.Take<std::atomic<uint32_t>>(static_cast<size_t>(MaxJobs(config)));
   return carver.Bytes();
 }
 
@@ -310,6 +311,13 @@ void VisitZones(const EngineState& engine, void (*visit)(const void*, size_t, si
 
 size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
   return Carve(config, Carver(base), engine);
+}
+
+void LayOutAnew(const sf_config& config, EngineState* engine) {
+  EngineState* same = nullptr;
+  Carve(config, Carver(engine), &same);
+  engine->config = config;
+  engine->images.map_width = 0;
 }
 
 #ifdef STARFOCUS_RED_ZONES

@@ -68,7 +68,9 @@ typedef enum sf_status {
   SF_ERROR_PIXEL_STRIDE = 50, /**< pixel_stride is none of the image's format */
   SF_ERROR_DEPTH_TYPE = 51,   /**< a depth map of unknown type, meaning or has_invalid */
   SF_ERROR_DEPTH_SCALE = 52,  /**< scale or offset of a depth map not finite, or scale 0 */
-  SF_ERROR_DEPTH_SIZE = 53    /**< depth map larger than the picture, or empty */
+  SF_ERROR_DEPTH_SIZE = 53,   /**< depth map larger than the picture, or empty */
+  SF_ERROR_PREVIEW = 54       /**< previews outside [0, SF_MAX_PREVIEW], or a shift that the light
+                                 field was not prepared for */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */
