@@ -29,6 +29,14 @@ const uint8_t* CodesOf(const Window& window, int view, const Part& part, int32_t
   return room;
 }
 
+void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sums) {
+  if (is_first) {
+    for (size_t n = 0; n < samples; ++n) sums[n] = static_cast<uint32_t>(light[n]);
+  } else {
+    for (size_t n = 0; n < samples; ++n) sums[n] += static_cast<uint32_t>(light[n]);
+  }
+}
+
 // Returns false when the caller cancels.
 bool ReduceView(const ReduceJob& job, int view, const Part& part, Worker* worker) {
   const EngineState& engine = *job.engine;
@@ -44,9 +52,7 @@ bool ReduceView(const ReduceJob& job, int view, const Part& part, Worker* worker
     for (int shift = 1; shift <= job.previews; ++shift) {
       uint32_t* const sums = worker->sums + 3 * shift * engine.config.largest_block;
       const int32_t row = y & ((1 << shift) - 1);
-      for (size_t n = 0; n < samples; ++n) {
-        sums[n] = (row == 0 ? 0 : sums[n]) + static_cast<uint32_t>(light[n]);
-      }
+      AddLight(light, samples, row == 0, sums);
       if (row + 1 < 1 << shift && y + 1 < engine.config.height) continue;
       MeanOfBlocks(sums, part.width, row + 1, shift, mean);
       engine.kernels->Encode(
