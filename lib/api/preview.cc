@@ -75,8 +75,7 @@ sf_status WriteRows(const void* out, const Plane<uint8_t>& from, const RowRange&
   const Rect& rect = picture.rect;
   for (int32_t y = rows.first; y < rows.last; ++y) {
     std::memcpy(picture.data + static_cast<size_t>(y - rect.y) * picture.stride,
-                from.Row(y) + 3 * static_cast<size_t>(rect.x),
-                3 * static_cast<size_t>(rect.width));
+                from.Row(y) + 3 * static_cast<size_t>(rect.x), 3 * static_cast<size_t>(rect.width));
   }
   return SF_OK;
 }
@@ -141,6 +140,6 @@ sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
   const starfocus::Picture picture = {out, out_stride, starfocus::PreviewRect(request, e)};
   status = starfocus::CheckPicture(picture, request, e);
   if (status != SF_OK) return status;
-  return starfocus::RefocusPreview(request, {starfocus::WriteRows, &picture},
-                                   {runner, runner_data}, &e, report);
+  return starfocus::RefocusPreview(request, {starfocus::WriteRows, &picture}, {runner, runner_data},
+                                   &e, report);
 }

@@ -55,9 +55,9 @@ bool ReduceView(const ReduceJob& job, int view, const Part& part, Worker* worker
       AddLight(light, samples, row == 0, sums);
       if (row + 1 < 1 << shift && y + 1 < engine.config.height) continue;
       MeanOfBlocks(sums, part.width, row + 1, shift, mean);
-      engine.kernels->Encode(
-          mean, 3 * static_cast<size_t>(ReducedSize(part.width, shift)), encoding,
-          job.fields[shift].views[view].Row(y >> shift) + 3 * (part.x >> shift));
+      engine.kernels->Encode(mean, 3 * static_cast<size_t>(ReducedSize(part.width, shift)),
+                             encoding,
+                             job.fields[shift].views[view].Row(y >> shift) + 3 * (part.x >> shift));
     }
   }
   return true;

@@ -43,7 +43,8 @@ uint8_t MeanSample(const uint8_t* rgb, size_t stride, int width, int height, int
   int64_t sum = 0, count = 0;
   for (int row = y << shift; row < std::min(height, (y + 1) << shift); ++row) {
     for (int column = x << shift; column < std::min(width, (x + 1) << shift); ++column, ++count) {
-      sum += starfocus::TransferOf(transfer).light[rgb[size_t(row) * stride + size_t(3 * column + c)]];
+      sum +=
+          starfocus::TransferOf(transfer).light[rgb[size_t(row) * stride + size_t(3 * column + c)]];
     }
   }
   return CodeOf(sum, count, transfer);
@@ -163,7 +164,7 @@ double Psnr(const test::Output& got, const test::Output& full, int shift, int32_
 
 TEST_CASE("preview: the bytes of the light field that the definition reduces") {
   test::Random random(231);
-  constexpr int kSizes[][2] = {{1, 1},   {1, 70},  {90, 1},    {31, 33},   {65, 63},
+  constexpr int kSizes[][2] = {{1, 1},    {1, 70},   {90, 1},    {31, 33},   {65, 63},
                                {100, 37}, {67, 190}, {129, 128}, {150, 141}, {203, 90}};
   int round = 0;
   for (const auto& size : kSizes) {
@@ -436,9 +437,8 @@ TEST_CASE("preview: making one is told of and called off as preparing is, and a 
   const sf_light_field field = scene.Field();
   const auto prepare = [&](test::Watch* watch, sf_runner runner) {
     sf_prepared* made = nullptr;
-    const sf_status status =
-        sf_prepare(prepared.engine.get(), &field, prepared.at, prepared.bytes,
-                   test::Watch::Progress, watch, runner, nullptr, &made);
+    const sf_status status = sf_prepare(prepared.engine.get(), &field, prepared.at, prepared.bytes,
+                                        test::Watch::Progress, watch, runner, nullptr, &made);
     CHECK((made == nullptr) == (status != SF_OK));
     return status;
   };
