@@ -84,8 +84,7 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_REGION:
       return "region is not inside the picture, or is given for streaming, which has none";
     case SF_ERROR_PREPARED:
-      return "prepared light field is of another kind, size, views, disparities, max_layer or "
-             "transfer";
+      return "prepared light field is of another kind, size, views, range, max_layer or transfer";
     case SF_ERROR_GATHER:
       return "gather is not 0 or 1";
     case SF_ERROR_TOO_LARGE:
