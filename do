@@ -24,7 +24,8 @@ usage: ./do COMMAND
           no test notices; --sample N of them (50); --help tells the rest
   fuzz [SECONDS]  run every fuzz target that long (60), new inputs kept in build/fuzz/inputs
   consumers [KIND...]  build and run projects outside the tree that use starfocus: package, source,
-          m32, wasm (all of them) or the preset of a board that was built
+          m32, wasm, python, java, swift (all of them), the preset of a board that was built, or
+          java-aarch64, emulated
   build   install what is missing, build Release into build/release (the program:
           build/release/starfocus; cmake --install build/release puts it where it is found)
   bench   time and error of every mode, with a report: build/bench/report.html
@@ -96,6 +97,7 @@ has() {
     qemu-system-arm) command -v qemu-system-aarch64 ;;
     emscripten) command -v emcc ;;
     nodejs) command -v node ;;
+    openjdk-*) command -v javac && command -v jar ;;
     g++-*-linux-*) command -v "${1#g++-}-g++" ;;
     libhwy-dev) has_header hwy/highway.h ;;
     libstb-dev) has_header stb/stb_image.h ;;
@@ -223,21 +225,40 @@ check() {
     $PROGRAM stress --seconds 30 --family differential
 }
 
+# What the Java test on an emulated board needs: the library, and a Java for it.
+java_aarch64() {
+  prepare_board aarch64
+  step java-aarch64 "fetching Java for aarch64" \
+    toolchains/fetch.sh arm64 build/sysroot/java-arm64 zlib1g openjdk-17-jre-headless
+  cross_build aarch64 starfocus_jni
+}
+
 # consumers [KIND...]: projects outside the tree that use starfocus as others do.
 consumers() {
-  local kind target
+  local kind target targets='starfocus starfocus_shared' python=python3
   if [ $# = 0 ]; then
-    set -- package source wasm
+    set -- package source wasm python java swift
     [ "$(uname -m)" != x86_64 ] || set -- "$@" m32
   fi
   for kind in "$@"; do
     case "$kind" in
       m32) PACKAGES="$PACKAGES libc6-dev-i386 lib32stdc++-12-dev" ;;
       wasm) PACKAGES="$PACKAGES emscripten nodejs" ;;
+      python)
+        for target in numpy pip venv setuptools wheel pil matplotlib; do python="$python python3-$target"; done
+        PACKAGES="$PACKAGES $python"
+        targets="$targets starfocus_python"
+        ;;
+      java*)
+        PACKAGES="$PACKAGES openjdk-17-jdk-headless python3 zip android-platform-frameworks-native-headers"
+        targets="$targets starfocus_jni"
+        ;;
+      swift) PACKAGES="$PACKAGES clang" ;;
     esac
   done
   install_missing
-  for target in starfocus starfocus_shared; do build $target; done
+  case " $* " in *' java-aarch64 '*) java_aarch64 ;; esac
+  for target in $targets; do build $target; done
   tests/consumers/run.sh $BUILD "$@" || exit 1
 }
 
@@ -355,7 +376,8 @@ format() {
   local licence='SPDX-License-Identifier: Apache-2.0'
   command -v clang-format >/dev/null || fail "install the package clang-format first"
   sources() {
-    find lib simd platform examples tests \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' \) "$@"
+    find lib simd platform examples tests \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' -o \
+      -name '*.java' \) "$@"
   }
   sources -exec grep -L "$licence" {} + | while read -r file; do sed -i "1i // $licence" "$file"; done
   sources -exec clang-format -i {} +

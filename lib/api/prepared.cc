@@ -69,9 +69,9 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Ru
   RowRange read = {0, 0};
   sf_status status = SF_OK;
   for (int32_t y = 0; y < height && status == SF_OK; y += side) {
-    ForgetLayers(engine->config, &engine->pictures);  // those of the stripe before lie elsewhere
+    ForgetLayers(engine->config, &engine->pictures);
     MarkLayerColumns(engine->config, &engine->pictures);
-    PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, &engine->pictures);
+    PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, Reach(), &engine->pictures);
     for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
       engine->pictures.layers[layer].samples.rows = 0;
       engine->pictures.layers[layer].samples.data =

@@ -8,15 +8,15 @@
 namespace starfocus {
 
 #ifdef STARFOCUS_RED_ZONES
-void PoisonZone(const void* base, size_t offset, size_t bytes) {
-  ASAN_POISON_MEMORY_REGION(static_cast<const uint8_t*>(base) + offset, bytes);
+void PoisonZone(void* base, size_t, size_t end) {
+  ASAN_POISON_MEMORY_REGION(static_cast<uint8_t*>(base) + end - kRedZone, kRedZone);
 }
-void UnpoisonZone(const void* base, size_t offset, size_t bytes) {
-  ASAN_UNPOISON_MEMORY_REGION(static_cast<const uint8_t*>(base) + offset, bytes);
+void UnpoisonZone(void* base, size_t, size_t end) {
+  ASAN_UNPOISON_MEMORY_REGION(static_cast<uint8_t*>(base) + end - kRedZone, kRedZone);
 }
 #else
-void PoisonZone(const void*, size_t, size_t) {}
-void UnpoisonZone(const void*, size_t, size_t) {}
+void PoisonZone(void*, size_t, size_t) {}
+void UnpoisonZone(void*, size_t, size_t) {}
 #endif
 
 }  // namespace starfocus

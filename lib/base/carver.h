@@ -31,22 +31,24 @@ inline constexpr size_t kRedZone = 1024;
 inline constexpr size_t kRedZone = 0;
 #endif
 
-// Is told of each red zone: bytes before it, and its size.
-struct ZoneVisitor {
-  void (*visit)(const void* data, size_t offset, size_t bytes);
-  const void* data;
+// Is told of each piece, in the order they are taken: the bytes before it, and those up to its end,
+// which are more by it, its padding and its red zone.
+struct PieceVisitor {
+  void (*visit)(void* data, size_t begin, size_t end);
+  void* data;
 };
 
-// Poisons a red zone of the memory at `base`, or makes it memory again; nothing in other builds.
-void PoisonZone(const void* base, size_t offset, size_t bytes);
-void UnpoisonZone(const void* base, size_t offset, size_t bytes);
+// Poisons the red zone that ends `end` bytes behind `base`, or makes it memory again; nothing in
+// other builds.
+void PoisonZone(void* base, size_t begin, size_t end);
+void UnpoisonZone(void* base, size_t begin, size_t end);
 
 // Hands out aligned pieces of a block of memory, each followed by simd::kPadding bytes, as long as
 // all of them together take `most` bytes: no object is larger than half of the addresses.
 class Carver {
  public:
-  explicit Carver(void* base, size_t most = PTRDIFF_MAX, const ZoneVisitor* zones = nullptr)
-      : base_(static_cast<uint8_t*>(base)), most_(most), zones_(zones) {}
+  explicit Carver(void* base, size_t most = PTRDIFF_MAX, const PieceVisitor* pieces = nullptr)
+      : base_(static_cast<uint8_t*>(base)), most_(most), pieces_(pieces) {}
 
   // Takes `count` times `times` of them.
   template <class T>
@@ -80,8 +82,9 @@ class Carver {
     if (left < kExtra || bytes > left - kExtra) {
       too_large_ = true;
     } else {
+      const size_t begin = used_;
       used_ += (bytes + kExtra) / SF_ALIGNMENT * SF_ALIGNMENT;
-      if (zones_ != nullptr) zones_->visit(zones_->data, used_ - kRedZone, kRedZone);
+      if (pieces_ != nullptr) pieces_->visit(pieces_->data, begin, used_);
     }
   }
 
@@ -90,7 +93,7 @@ class Carver {
 
   uint8_t* base_;
   size_t most_;
-  const ZoneVisitor* zones_;
+  const PieceVisitor* pieces_;
   size_t used_ = 0, largest_ = 0;
   bool too_large_ = false;
 };

@@ -51,8 +51,8 @@ TileMemory TakeTile(const EstimatePlan& plan, const Rect& region, Carver* carver
 }  // namespace
 
 size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
-                      EstimateMemory** memory, const ZoneVisitor* zones) {
-  Carver carver(base, PTRDIFF_MAX, zones);
+                      EstimateMemory** memory, const PieceVisitor* pieces) {
+  Carver carver(base, PTRDIFF_MAX, pieces);
   const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
   *memory = carver.Take<EstimateMemory>(1);
   const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
@@ -97,7 +97,7 @@ EstimateZones::EstimateZones(const EstimatePlan& plan, int32_t max_workers, void
 
 EstimateZones::~EstimateZones() { Visit({UnpoisonZone, base_}); }
 
-void EstimateZones::Visit(const ZoneVisitor& visitor) const {
+void EstimateZones::Visit(const PieceVisitor& visitor) const {
   if (kRedZone == 0) return;
   EstimateMemory* counted = nullptr;
   LayOutEstimate(plan_, max_workers_, nullptr, &counted, &visitor);

@@ -75,7 +75,7 @@ struct EstimateMemory {
 // Lays out the memory at `base` (aligned to SF_ALIGNMENT), or counts when base is null. Returns the
 // bytes used, or kTooLarge.
 size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
-                      EstimateMemory** memory, const ZoneVisitor* zones = nullptr);
+                      EstimateMemory** memory, const PieceVisitor* pieces = nullptr);
 
 // Makes the red zones of the memory of an estimate or repair at `base` ones that nobody may touch,
 // as long as the object lives (lib/base/carver.h).
@@ -87,7 +87,7 @@ class EstimateZones {
   EstimateZones& operator=(const EstimateZones&) = delete;
 
  private:
-  void Visit(const ZoneVisitor& visitor) const;
+  void Visit(const PieceVisitor& visitor) const;
 
   const EstimatePlan& plan_;
   int32_t max_workers_;

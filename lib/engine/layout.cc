@@ -6,13 +6,6 @@
 namespace starfocus {
 namespace {
 
-// Memory of a worker, where that is enough: slices are made in sections of what is left of it.
-constexpr size_t WorkerBytes(size_t side) {
-  constexpr size_t kPixelBytes = 320, kLeast = size_t{960} << 10;
-  const size_t bytes = kPixelBytes * side * side;
-  return bytes > kLeast ? bytes : kLeast;
-}
-
 SpanMemory TakeSpans(size_t side, Carver* carver) {
   SpanMemory memory;
   memory.span_capacity = 512;
@@ -99,14 +92,11 @@ void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   scratch.fill = TakeFill(extended, carver);
 }
 
-// Takes the memory of slices: E and R of CompositorScratch, and the largest N. The pool is what is
-// left of `bytes` for all, and never less than what slices of the largest blur may take.
+// Takes the memory of slices: E of CompositorScratch, and the largest N.
 CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_t max_n,
-                                 size_t bytes, Carver* carver) {
+                                 Carver* carver) {
   const auto rectangle = static_cast<size_t>(config.largest_block);
-  const auto reach = static_cast<size_t>(LargestSliceReach(config.max_blur));
   CompositorScratch scratch;
-  const size_t first = carver->Mark();
   LayeredDepth& surfaces = scratch.surfaces;
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
@@ -117,23 +107,30 @@ CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_
   }
   surfaces.share = carver->Take<uint8_t>(area);
   surfaces.hiding = carver->Take<uint64_t>(extended);
-  scratch.centre = carver->Take<int16_t>(3 * rectangle * rectangle);
   scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
   scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
   scratch.parts = carver->Take<SectionPart>(SectionParts(rectangle));
   scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rectangle);
-  scratch.filtered =
-      carver->Take<int16_t>((rectangle + 2 * reach) * PlaneSamples(rectangle, reach));
-  const size_t field = carver->Mark(), used = field - first;
+  const size_t field = carver->Mark();
   TakeField(extended, carver, &scratch);
   carver->Reuse(field);
-  // Less what rounding to SF_ALIGNMENT may add.
-  const size_t others = used + simd::kPadding + 2 * SF_ALIGNMENT;
-  const size_t left = bytes > others ? bytes - others : 0;
-  const size_t least = LimitsOfSlices(config.largest_block, config.max_blur).bytes;
-  scratch.pool_bytes = left > least ? left : least;
+  scratch.pool_bytes =
+      LeastPool(LimitsOfSlices(config.largest_block, config.max_blur).bytes, config.max_blur);
   scratch.pool = carver->Take<uint8_t>(scratch.pool_bytes);
   return scratch;
+}
+
+// Takes the memory that a column of largest blocks is subsampled in.
+void TakeResample(const sf_config& config, Carver* carver, ResampleScratch* resample) {
+  // The last column has what a layer has beyond the picture, a pixel or two.
+  const auto side = config.largest_block;
+  const auto columns = static_cast<size_t>(Max(side / 2 + 1, TapsOfLayer(side / 4 + 2)));
+  const int32_t above_two = TapsOfLayer(LayerRows(config, 2));
+  const auto rows = static_cast<size_t>(TapsOfLayer(Max(LayerRows(config, 1), above_two)));
+  resample->even = carver->Take<int16_t>(3 * (columns + 3));
+  resample->odd = carver->Take<int16_t>(3 * (columns + 3));
+  resample->half = carver->Take<int16_t>(3 * columns, rows);
+  resample->above = carver->Take<int16_t>(3 * columns, static_cast<size_t>(above_two));
 }
 
 // Blocks are rendered, or parted, one after the other, and only sums are handed on: all the rest of
@@ -144,7 +141,6 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   Worker worker = {};
   const size_t extended = side + 2 * static_cast<size_t>(reach.border);
   const int32_t max_n = Max(LargestN(config), ViewsOfBenchmark(config.max_blur));
-  const size_t first = carver->Mark();
   worker.sums = carver->Take<uint32_t>(3 * side * side);
   if (config.cats_eye > 0) {
     worker.aperture_weights =
@@ -157,8 +153,8 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   worker.field.disparity = carver->Take<int16_t>(extended * extended);
   worker.spans = TakeSpans(extended, carver);
   carver->Reuse(shared);
-  worker.compositor = TakeCompositor(config, extended, static_cast<size_t>(LargestSliceN(config)),
-                                     WorkerBytes(side) - (shared - first) - sizeof(Worker), carver);
+  worker.compositor =
+      TakeCompositor(config, extended, static_cast<size_t>(LargestSliceN(config)), carver);
   carver->Reuse(shared);
   // A rendered rectangle is at most half a block and 4 pixels wide.
   const size_t half = side / 2 + 8;
@@ -169,8 +165,7 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   worker.middle_samples = carver->Take<int16_t>(3 * half * half);
   worker.picture_samples = carver->Take<int16_t>(3 * side * side);
   carver->Reuse(shared);
-  worker.resample.even = carver->Take<int16_t>(3 * half);
-  worker.resample.odd = carver->Take<int16_t>(3 * half);
+  TakeResample(config, carver, &worker.resample);
   carver->Reuse(shared);
   worker.partition.nodes =
       carver->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
@@ -205,14 +200,12 @@ void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
 
 // Takes the planes of layers 1 and 2 around a stripe.
 void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
-  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+  for (int layer = 1; layer <= config.max_layer; ++layer) {
     LayerPlane& plane = engine->pictures.layers[layer];
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
-    plane.half.stride = plane.samples.stride = 3 * width;
-    const auto above = static_cast<size_t>(LayerRows(config, layer - 1));
-    const auto rows = static_cast<size_t>(LayerRows(config, layer));
-    plane.half.data = carver->Take<int16_t>(3 * width, above + 8);
-    plane.samples.data = carver->Take<int16_t>(3 * width, rows);
+    plane.samples.stride = 3 * width;
+    plane.samples.data =
+        carver->Take<int16_t>(3 * width, static_cast<size_t>(LayerRows(config, layer)));
   }
 }
 
@@ -224,7 +217,7 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->stripe.cells.rows = (config.height + kCellSize - 1) / kCellSize;
   engine->stripe.cells.cells =
       carver->Take<Cell>(static_cast<size_t>(engine->stripe.cells.columns) *
-                         static_cast<size_t>(side / kCellSize + 2 * reach.cells + 2));
+                         static_cast<size_t>(side / kCellSize + 2 * reach.cells + 1));
   engine->stripe.plan.side = side;
   engine->stripe.plan.columns = static_cast<int32_t>(blocks);
   engine->stripe.plan.wanted = carver->Take<uint8_t>(blocks);
@@ -268,7 +261,7 @@ void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->pictures.disparity.data = carver->Take<int16_t>(width, static_cast<size_t>(rows));
   engine->stripe.out =
       carver->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
-  engine->stripe.last_rows = carver->Take<uint8_t>(3 * width, kDeblockRows);
+  if (streaming) engine->stripe.last_rows = carver->Take<uint8_t>(3 * width, kDeblockRows);
   const int rings = streaming ? config.views : config.images;
   for (int view = 0; view < rings; ++view) {
     engine->rings[view].rows = rows;
@@ -300,17 +293,18 @@ size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
 }
 
 #ifdef STARFOCUS_RED_ZONES
-void VisitZones(const EngineState& engine, void (*visit)(const void*, size_t, size_t)) {
-  const ZoneVisitor zones = {visit, &engine};
+void VisitZones(EngineState* engine, void (*visit)(void*, size_t, size_t)) {
+  const PieceVisitor zones = {visit, engine};
   EngineState* counted = nullptr;
-  Carve(engine.config, Carver(nullptr, PTRDIFF_MAX, &zones), &counted);
+  LayOut(engine->config, nullptr, &counted, &zones);
 }
 #endif
 
 }  // namespace
 
-size_t LayOut(const sf_config& config, void* base, EngineState** engine) {
-  return Carve(config, Carver(base), engine);
+size_t LayOut(const sf_config& config, void* base, EngineState** engine,
+              const PieceVisitor* pieces) {
+  return Carve(config, Carver(base, PTRDIFF_MAX, pieces), engine);
 }
 
 void LayOutAnew(const sf_config& config, EngineState* engine) {
@@ -321,10 +315,10 @@ void LayOutAnew(const sf_config& config, EngineState* engine) {
 }
 
 #ifdef STARFOCUS_RED_ZONES
-RedZones::RedZones(const EngineState& engine) : engine_(engine) { VisitZones(engine, PoisonZone); }
+RedZones::RedZones(EngineState* engine) : engine_(engine) { VisitZones(engine, PoisonZone); }
 RedZones::~RedZones() { VisitZones(engine_, UnpoisonZone); }
 #else
-RedZones::RedZones(const EngineState& engine) : engine_(engine) {}
+RedZones::RedZones(EngineState* engine) : engine_(engine) {}
 RedZones::~RedZones() = default;
 #endif
 

@@ -14,8 +14,10 @@
 namespace starfocus {
 
 // Lays out an engine for a valid configuration at `base` (aligned to SF_ALIGNMENT), or counts when
-// base is null. Returns the bytes used, or kTooLarge; *engine is null when counting.
-size_t LayOut(const sf_config& config, void* base, EngineState** engine);
+// base is null. Returns the bytes used, or kTooLarge; *engine is null when counting. `pieces`
+// (null: nobody) is told of what is taken.
+size_t LayOut(const sf_config& config, void* base, EngineState** engine,
+              const PieceVisitor* pieces = nullptr);
 
 // Lays an engine out anew for pictures that are no larger than those that its memory was made for:
 // `config` differs from that engine's in its size and range of disparities alone, and does not
@@ -26,13 +28,13 @@ void LayOutAnew(const sf_config& config, EngineState* engine);
 // long as the object lives: the memory is the caller's and may become something else afterwards.
 class RedZones {
  public:
-  explicit RedZones(const EngineState& engine);
+  explicit RedZones(EngineState* engine);
   ~RedZones();
   RedZones(const RedZones&) = delete;
   RedZones& operator=(const RedZones&) = delete;
 
  private:
-  [[maybe_unused]] const EngineState& engine_;
+  [[maybe_unused]] EngineState* const engine_;
 };
 
 // The memory an engine lives in.

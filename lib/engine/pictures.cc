@@ -80,10 +80,9 @@ sf_status ConvertDisparity(const sf_config& config, const simd::Kernels& kernels
 }
 
 void ForgetLayers(const sf_config& config, Pictures* pictures) {
-  // Layer 1 lies in rings, of as many rows as a stripe may need: what the stripe before made stays.
-  LayerPlane& ring = pictures->layers[1];
-  ring.samples.rows = LayerRows(config, 1);
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
+    // A ring of as many rows as a stripe may need: what the stripe before made stays.
+    pictures->layers[layer].samples.rows = LayerRows(config, layer);
     pictures->layers[layer].rows = {0, 0};
     std::memset(pictures->needed[layer], 0, static_cast<size_t>(Columns(config)));
   }

@@ -3,6 +3,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/input/excess.h"
+#include "lib/input/picture_edge.h"
 #include "lib/plan/block_stats.h"
 
 namespace starfocus {
@@ -17,24 +18,40 @@ double AbsDouble(double value) { return value < 0 ? -value : value; }
 
 double MaxDouble(double a, double b) { return a > b ? a : b; }
 
+// A hole is read at most its disparity away from a place within the blur radius, by a filter of 7
+// taps at most.
+int32_t DisplacedReach(const sf_config& config, double max_blur) {
+  const double disparity =
+      MaxDouble(AbsDouble(config.disparity_min), AbsDouble(config.disparity_max));
+  return CeilPixels(max_blur) + CeilPixels(disparity) + 8;
+}
+
 }  // namespace
 
 Reach GetReach(double max_blur) {
+  const int32_t blur = CeilPixels(max_blur);
   // A cell reaches at most r and half a pixel of rounding beyond itself, or a layer's margin more;
   // its pixels then lie less than a cell further away.
-  const int32_t splat = CeilPixels(max_blur) + 1 + kLayerMargin[2];
+  const int32_t splat = blur + 1 + kLayerMargin[2];
   Reach reach;
-  reach.border = CeilPixels(max_blur) + kCellSize + 2;
+  reach.border = blur + kCellSize + 2;
   reach.cells = (splat + kCellSize - 1) / kCellSize + 1;
-  // 16 rows are what the taps of two downsampling filters read beyond that.
-  reach.rows = (reach.cells + 1) * kCellSize + 16;
+  // Cells look at the row next to theirs.
+  reach.rows = Max(kLookBack, reach.cells * kCellSize + 1);
+  for (int layer = 1; layer < SF_LAYERS; ++layer) {
+    // Borders of blocks are whole cells (ReachBlock). Their last one begins within the splat.
+    const int32_t border = (blur + kLayerMargin[layer]) / kCellSize * kCellSize + kCellSize;
+    int32_t rows = (border >> layer) + 1;  // with the neighbour of a subaperture
+    reach.layer_rows[layer] = rows;
+    // The taps of each downsampling filter read 3 rows beyond.
+    for (int above = layer; above > 0; --above) rows = 2 * rows + 3;
+    reach.rows = Max(reach.rows, rows);
+  }
   return reach;
 }
 
 int32_t LayerRows(const sf_config& config, int layer) {
-  int32_t rows = config.largest_block + 2 * GetReach(config.max_blur).rows;
-  for (; layer > 0; --layer) rows = rows / 2 + 4;
-  return rows;
+  return (config.largest_block >> layer) + 2 * GetReach(config.max_blur).layer_rows[layer];
 }
 
 int32_t HighlightReach(const sf_config& config) {
@@ -46,13 +63,15 @@ int32_t StreamReach(const sf_config& config) {
   return config.images != 0 ? reach + reach % 2 : reach;
 }
 
+int32_t HighlightsAround(const sf_config& config, double max_blur) {
+  return (GetReach(max_blur).cells + 1) * kCellSize + 16 + DisplacedReach(config, max_blur);
+}
+
 int32_t SideReach(const sf_config& config, double max_blur) {
-  // A hole is read at most its disparity away from a place within the blur radius, by a filter of
-  // 7 taps at most.
-  const double disparity =
-      MaxDouble(AbsDouble(config.disparity_min), AbsDouble(config.disparity_max));
-  return GetReach(max_blur).rows + CeilPixels(max_blur) + CeilPixels(disparity) + 8 +
-         HighlightReach(config);
+  const int32_t highlights = HighlightReach(config);
+  if (highlights > 0) return HighlightsAround(config, max_blur) + highlights;
+  const int32_t rows = GetReach(max_blur).rows;
+  return config.views == 1 ? rows : rows + DisplacedReach(config, max_blur);
 }
 
 }  // namespace starfocus

@@ -11,9 +11,10 @@ namespace starfocus {
 
 // How far beyond a stripe of blocks anything may be read, for blur up to a radius.
 struct Reach {
-  int32_t border;  // pixels: largest border of a block
-  int32_t cells;   // how many cells away a pixel may splat from
-  int32_t rows;    // picture rows of the centre view and the disparity map
+  int32_t border = 0;                  // pixels: largest border of a block
+  int32_t cells = 0;                   // how many cells away a pixel may splat from
+  int32_t layer_rows[SF_LAYERS] = {};  // of layers 1 and 2
+  int32_t rows = 0;                    // picture rows of the centre view and the disparity map
 };
 Reach GetReach(double max_blur);
 
@@ -28,12 +29,15 @@ int32_t LayerRows(const sf_config& config, int layer);
 // Pixels around a highlight that decide what it stands for; 0 where that is nothing but white.
 int32_t HighlightReach(const sf_config& config);
 
-// Rows beyond a stripe that side views are read in, for blur up to a radius.
+// How far around a block highlights count as its own. It decides how blocks are split, and so the
+// bytes of pictures: as far as blur and disparity bring them, and somewhat farther.
+int32_t HighlightsAround(const sf_config& config, double max_blur);
+
+// Rows beyond a stripe that any view is read in, for blur up to a radius.
 int32_t SideReach(const sf_config& config, double max_blur);
 
 // Returns how many rows beyond a stripe are pushed before it is refocused, and kept after that:
-// what side views may be read in, and of images, of which two rows share their chroma, an even
-// number.
+// what views may be read in, and of images, of which two rows share their chroma, an even number.
 int32_t StreamReach(const sf_config& config);
 
 }  // namespace starfocus

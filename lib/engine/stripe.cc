@@ -73,8 +73,7 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, const R
   const Lens& lens = engine->lens;
   sf_status status = PlanStripe(stripe, runner, engine);
   if (status == SF_OK && IsBlockMode(lens) && !engine->pictures.prepared) {
-    const int32_t around = (lens.reach.cells + 1) * kCellSize;
-    PlaceLayers({stripe.y - around, stripe.y + stripe.height + around}, &engine->pictures);
+    PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.reach, &engine->pictures);
     status = FillLayers(config, *engine->kernels, runner, &engine->crew, &engine->pictures);
   }
   if (status != SF_OK) return status;
@@ -119,7 +118,7 @@ int32_t FinishedRows(const sf_config& config, int32_t y) {
 
 sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& out,
                         const Runner& runner) {
-  const RedZones zones(*engine);
+  const RedZones zones(engine);
   const sf_config& config = engine->config;
   const Stripe stripe = {y, Min(config.largest_block, config.height - y)};
   const sf_report report = engine->report;
@@ -142,15 +141,14 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
 
 sf_status RefocusIntoBuffer(EngineState* engine, int32_t y, const Runner& runner) {
   const Plane<uint8_t> rows = BufferRows(*engine, y);
+  uint8_t* const ends = rows.Row(y + engine->config.largest_block - kDeblockRows);
   uint8_t* const last_rows = engine->stripe.last_rows;
   const size_t bytes = kDeblockRows * rows.stride;
   // The last rows of the stripe before may still change, and anew when a stripe that failed is
   // refocused again.
-  std::memcpy(rows.Row(y - kDeblockRows), last_rows, bytes);
+  std::memcpy(rows.Row(y - kDeblockRows), last_rows != nullptr ? last_rows : ends, bytes);
   const sf_status status = RefocusStripe(engine, y, rows, runner);
-  if (status == SF_OK) {
-    std::memcpy(last_rows, rows.Row(y + engine->config.largest_block - kDeblockRows), bytes);
-  }
+  if (status == SF_OK && last_rows != nullptr) std::memcpy(last_rows, ends, bytes);
   return status;
 }
 

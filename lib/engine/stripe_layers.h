@@ -5,6 +5,7 @@
 
 #include "lib/engine/jobs.h"
 #include "lib/engine/pictures.h"
+#include "lib/engine/reach.h"
 #include "lib/plan/partition.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
@@ -21,9 +22,9 @@ void MarkLayerColumns(const sf_config& config, Pictures* pictures);
 // Marks the columns that `block` reads.
 void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pictures);
 
-// Makes room in the layers and their windows for the rows that rows `of_picture` subsample to, and
-// keeps those that are there.
-void PlaceLayers(const RowRange& of_picture, Pictures* pictures);
+// Makes room in the layers and their windows for the rows that rows `of_picture` subsample to and
+// `reach` has beyond them, and keeps those that are there.
+void PlaceLayers(const RowRange& of_picture, const Reach& reach, Pictures* pictures);
 
 // Subsamples into the marked columns of placed layers. Returns SF_OK, SF_ERROR_RUNNER or
 // SF_ERROR_CANCELLED.

@@ -47,7 +47,7 @@ bool HasCatsEyes(const PlanJob& job) { return job.tables->opening.cats_eye > 0; 
 bool HasHighlights(const PlanJob& job, const Rect& rect) {
   const sf_config& config = *job.config;
   if (!(config.highlights > 1)) return false;
-  const int32_t around = SideReach(config, job.lens->r_max) - HighlightReach(config);
+  const int32_t around = HighlightsAround(config, job.lens->r_max);
   return MayHaveHighlights(*job.window, Extended(rect, {around, around, around, around}));
 }
 
@@ -166,8 +166,7 @@ int32_t PlaceCells(const Stripe& stripe, const Lens& lens, StripeState* state) {
   }
   plan.all_measured = all;
   cells.first_row = first;
-  // A smallest block may hang over the picture's last row of cells.
-  cells.last_row = Min(cells.rows, last + lens.reach.cells + 2);
+  cells.last_row = Min(cells.rows, last + lens.reach.cells + 1);
   return known;
 }
 

@@ -32,10 +32,12 @@ struct StripePlan {
 struct StripeState {
   CellGrid cells;  // of the stripe, and as far around it as pixels splat
   StripePlan plan;
-  LayerMap map;        // which layer each unit has, for deblocking
-  Changes changes;     // which blocks differ from the light field before
-  uint8_t* out;        // kDeblockRows and a stripe, packed
-  uint8_t* last_rows;  // the last kDeblockRows of the stripe before, as it left them
+  LayerMap map;     // which layer each unit has, for deblocking
+  Changes changes;  // which blocks differ from the light field before
+  uint8_t* out;     // kDeblockRows and a stripe, packed
+  // With streaming: the last kDeblockRows of the stripe before, as it left them. Else null: what
+  // fails is not gone on with, so that they can stay where they are.
+  uint8_t* last_rows;
 };
 
 }  // namespace starfocus

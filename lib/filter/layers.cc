@@ -62,33 +62,63 @@ void PartLine(const Kernels& kernels, const Row& row, int32_t width, const PairR
   repeat(width - 1, right, pairs.Count());
 }
 
-// Filters along columns: `to->half` holds the rows from 2 * rows.first - 3 on, the picture's edge
-// rows repeated.
-void HalveRows(const Kernels& kernels, int32_t begin, int32_t end, LayerPlane* to) {
-  const size_t count = 3 * static_cast<size_t>(end - begin);
-  for (int32_t y = to->rows.first; y < to->rows.last; ++y) {
-    const int16_t* in = to->half.Row(2 * y) + 3 * begin;
-    int16_t* samples = to->samples.Row(y) + 3 * begin;
-    kernels.FilterHalfBand(in, static_cast<ptrdiff_t>(to->half.stride), kDownFilter, count, 0,
-                           kLayerWhite, samples);
+// Columns [begin, end) of rows of a layer.
+struct LayerPart {
+  int32_t begin, end;
+  RowRange rows;
+  Plane<int16_t> samples;  // of the whole layer
+
+  size_t RowSamples() const { return 3 * static_cast<size_t>(end - begin); }
+};
+
+// Filters along columns: `half` holds the rows from 2 * rows.first - 3 on, packed, the edge rows of
+// what they are made of repeated.
+void HalveRows(const Kernels& kernels, const int16_t* half, const LayerPart& to) {
+  const size_t count = to.RowSamples();
+  half += 3 * count;
+  for (int32_t y = to.rows.first; y < to.rows.last; ++y, half += 2 * count) {
+    int16_t* samples = to.samples.Row(y) + 3 * to.begin;
+    kernels.FilterHalfBand(half, static_cast<ptrdiff_t>(count), kDownFilter, count, 0, kLayerWhite,
+                           samples);
     CheckAll(ranges::kLayerSample, samples, count);
   }
 }
 
-// Subsamples a plane of width x height pixels, first along rows: of all that the layer's rows are
+// Subsamples a plane of width x height pixels, first along rows: of all that the part's rows are
 // made of.
 template <class RowAt>
 void Downsample(const Kernels& kernels, const RowAt& row_at, int32_t width, int32_t height,
-                int32_t begin, int32_t end, const ResampleScratch& phases, LayerPlane* to) {
-  const PairRange pairs = {begin, end};
-  const size_t count = 3 * static_cast<size_t>(end - begin);
-  for (int32_t y = 2 * to->rows.first - 3; y < 2 * to->rows.last + 2; ++y) {
-    int16_t* half = to->half.Row(y) + 3 * begin;
-    PartLine(kernels, row_at(Clamp(y, 0, height - 1)), width, pairs, phases);
-    kernels.Halve(phases.even + 6, phases.odd + 6, kDownFilter, count, half);
+                const ResampleScratch& scratch, const LayerPart& to) {
+  const PairRange pairs = {to.begin, to.end};
+  const size_t count = to.RowSamples();
+  int16_t* half = scratch.half;
+  for (int32_t y = 2 * to.rows.first - 3; y < 2 * to.rows.last + 2; ++y, half += count) {
+    PartLine(kernels, row_at(Clamp(y, 0, height - 1)), width, pairs, scratch);
+    kernels.Halve(scratch.even + 6, scratch.odd + 6, kDownFilter, count, half);
     CheckAll(ranges::kFilteredAlongX, half, count);
   }
-  HalveRows(kernels, begin, end, to);
+  HalveRows(kernels, scratch.half, to);
+}
+
+void DownsampleOnce(const Kernels& kernels, const Window& picture, const ResampleScratch& scratch,
+                    const LayerPart& to) {
+  const auto row = [&](int32_t y) { return CodeRow{picture.centre.Row(y), *picture.transfer}; };
+  Downsample(kernels, row, picture.picture_width, picture.picture_height, scratch, to);
+}
+
+void DownsampleTwice(const Kernels& kernels, const Window& picture, const ResampleScratch& scratch,
+                     const LayerPart& to) {
+  const int32_t width = LayerSize(picture.picture_width, 1);
+  const int32_t height = LayerSize(picture.picture_height, 1);
+  const PairRange pairs = {to.begin, to.end};
+  LayerPart above;
+  above.begin = Max(2 * pairs.First(), 0);
+  above.end = Min(2 * (pairs.First() + pairs.Count()), width);
+  above.rows = {Max(2 * to.rows.first - 3, 0), Min(2 * to.rows.last + 2, height)};
+  above.samples = {scratch.above - 3 * above.begin, above.RowSamples(), 0, above.rows.first};
+  DownsampleOnce(kernels, picture, scratch, above);
+  const auto row = [&](int32_t y) { return SampleRow{above.samples.Row(y)}; };
+  Downsample(kernels, row, width, height, scratch, to);
 }
 
 // Writes pixels of `even` and `odd` in turn, `width` in all. Copies a fourth sample of each, which
@@ -103,16 +133,14 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 
 }  // namespace
 
-void DownsamplePicture(const Kernels& kernels, const Window& picture, int32_t begin, int32_t end,
-                       const ResampleScratch& scratch, LayerPlane* to) {
-  const auto row = [&](int32_t y) { return CodeRow{picture.centre.Row(y), *picture.transfer}; };
-  Downsample(kernels, row, picture.width, picture.height, begin, end, scratch, to);
-}
-
-void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, int32_t begin, int32_t end,
-                     const ResampleScratch& scratch, LayerPlane* to) {
-  const auto row = [&](int32_t y) { return SampleRow{from.samples.Row(y)}; };
-  Downsample(kernels, row, from.width, from.height, begin, end, scratch, to);
+void DownsamplePicture(const Kernels& kernels, const Window& picture, int32_t layer, int32_t begin,
+                       int32_t end, const ResampleScratch& scratch, LayerPlane* to) {
+  const LayerPart part = {begin, end, to->rows, to->samples};
+  if (layer == 1) {
+    DownsampleOnce(kernels, picture, scratch, part);
+  } else {
+    DownsampleTwice(kernels, picture, scratch, part);
+  }
 }
 
 void UpsampleByTwo(const Kernels& kernels, const LayerRect& in, int32_t first,

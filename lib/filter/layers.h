@@ -31,22 +31,22 @@ struct LayerPlane {
   RowRange rows = {0, 0};         // what is stored
   int32_t known = 0;              // rows before it are there, in columns the last stripe needed
   Plane<int16_t> samples;         // simd::kLayerBits, in range
-  Plane<int16_t> half;            // between the passes: subsampled along x only
 };
 
-// Memory of a worker for resampling: a line parted into its even and its odd pixels.
+// Pixels along an axis of what `pixels` of a layer are made of, by the 7 taps of a filter.
+constexpr int32_t TapsOfLayer(int32_t pixels) { return 2 * pixels + 5; }
+
+// Memory of a worker for subsampling at most C columns and R rows of layer 1 at once.
 struct ResampleScratch {
-  int16_t* even;  // 3 (half a largest block + 2 + 4) samples
-  int16_t* odd;   // the same
+  int16_t *even, *odd;  // a line parted into its even and its odd pixels: 3 (C + 3) samples each
+  int16_t* half;        // subsampled along x only: 3 C TapsOfLayer(R) samples
+  int16_t* above;       // what layer 2 is made of: 3 C R samples of layer 1
 };
 
-// Subsamples columns [begin, end) of `to` for its rows from the centre view's (layer 1) ...
-void DownsamplePicture(const simd::Kernels& kernels, const Window& picture, int32_t begin,
-                       int32_t end, const ResampleScratch& scratch, LayerPlane* to);
-// ... or from the layer above (layer 2). It takes at most half a largest block of columns at
-// once.
-void DownsampleLayer(const simd::Kernels& kernels, const LayerPlane& from, int32_t begin,
-                     int32_t end, const ResampleScratch& scratch, LayerPlane* to);
+// Subsamples columns [begin, end) of layer 1 or 2 for the rows of `to` from the centre view. Of
+// layer 2 these are made of TapsOfLayer as many columns and rows of layer 1.
+void DownsamplePicture(const simd::Kernels& kernels, const Window& picture, int32_t layer,
+                       int32_t begin, int32_t end, const ResampleScratch& scratch, LayerPlane* to);
 
 // Samples of a rectangle of a layer.
 struct LayerRect {

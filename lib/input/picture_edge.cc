@@ -8,11 +8,6 @@
 namespace starfocus {
 namespace {
 
-// How many pixels of the picture, from its edge on, are looked at for what may cover a pixel beyond
-// it: no more than the rows that are kept around a stripe. On scenes whose disparities differ by
-// less, fewer give the same pictures (docs/constants.md).
-constexpr int32_t kLookBack = 32;
-
 // The part of a rectangle of the layer that lies in the picture, in pixels of the rectangle; right
 // and bottom are exclusive.
 struct Part {

@@ -8,6 +8,11 @@
 
 namespace starfocus {
 
+// How many pixels of the picture, from its edge on, are looked at for what may cover a pixel beyond
+// it: no more than the rows that are kept around a stripe. On scenes whose disparities differ by
+// less, fewer give the same pictures (docs/constants.md).
+inline constexpr int32_t kLookBack = 32;
+
 // Where a field repeats an edge of the picture, the edge's surface goes on instead: pixels as far
 // beyond the edge as its disparity moves it from unit to unit take their colour from the captured
 // view that shows them, up to where something nearer covers them there. What lies farther away

@@ -36,10 +36,14 @@ void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t
   }
 }
 
+uint8_t SpanOf(int32_t reach) {
+  return static_cast<uint8_t>(Checked(ranges::kReach, reach) + kCellSize);
+}
+
 // Stores the reach of a cell whose pixels all reach equally far.
 void StoreSides(int32_t reach, Cell* cell) {
   for (int side = 0; side < 4; ++side) {
-    cell->reach[side] = static_cast<int16_t>(Checked(ranges::kReach, reach));
+    cell->span[side] = SpanOf(reach);
     cell->inside[side] = static_cast<uint8_t>(Min(reach, kCellSize));
   }
 }
@@ -52,10 +56,8 @@ void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
     const int32_t distance = Farthest(lows[k], highs[k], scale.focus);
     const int32_t reach = ReachOf(scale.RadiusAbove(distance));
     const int32_t beyond_low = reach - k, beyond_high = reach - (kCellSize - 1 - k);
-    cell->reach[low] =
-        static_cast<int16_t>(Max(cell->reach[low], Checked(ranges::kReach, beyond_low)));
-    cell->reach[high] =
-        static_cast<int16_t>(Max(cell->reach[high], Checked(ranges::kReach, beyond_high)));
+    cell->span[low] = Max(cell->span[low], SpanOf(beyond_low));
+    cell->span[high] = Max(cell->span[high], SpanOf(beyond_high));
     if (beyond_low > 0) cell->inside[low] = static_cast<uint8_t>(Max(cell->inside[low], k + 1));
     if (beyond_high > 0) {
       cell->inside[high] = static_cast<uint8_t>(Max(cell->inside[high], kCellSize - k));
@@ -101,7 +103,6 @@ class CellRow {
     if (reach == ReachOf(scale_.RadiusAbove(nearest))) {
       StoreSides(reach, &cell);
     } else {
-      for (int16_t& side : cell.reach) side = INT16_MIN;
       MeasureSides(scale_, found.column_low, found.column_high, kLeft, kRight, &cell);
       MeasureSides(scale_, found.row_low, found.row_high, kTop, kBottom, &cell);
     }

@@ -29,11 +29,14 @@ struct Cell {
   uint16_t r_min, r_max;  // rounded down, up
   int16_t low, high;      // disparities, kDisparityBits
   uint16_t r_edge;        // of the nearer surface at any depth edge here, 0: none
-  // How many pixels beyond its left, right, top and bottom edge the cell splats (<= 0: not at all),
-  // and how deep inside lie the pixels that do.
-  int16_t reach[4];
+  // How many pixels from its right, left, bottom and top edge on the cell splats to the left,
+  // right, top and bottom, and how deep inside lie the pixels that splat beyond it.
+  uint8_t span[4];
   uint8_t inside[4];
   uint16_t slopes[2], edges[2], gaps[2];  // Content along rows and along columns
+
+  // How many pixels beyond an edge it splats; <= 0: not at all.
+  int32_t Reach(size_t side) const { return span[side] - kCellSize; }
 };
 
 enum Side { kLeft, kRight, kTop, kBottom };

@@ -11,7 +11,8 @@ namespace {
 void StorePlanes(const Cell& cell, bool outside, size_t plane, int16_t* out) {
   const auto reach = static_cast<int16_t>(ReachOf(cell.r_max));
   for (size_t side = 0; side < 4; ++side) {
-    out[(simd::kReachLeft + side) * plane] = outside ? reach : cell.reach[side];
+    const auto beyond = static_cast<int16_t>(cell.Reach(side));
+    out[(simd::kReachLeft + side) * plane] = outside ? reach : beyond;
     out[(simd::kInsideLeft + side) * plane] = outside ? int16_t{kCellSize} : cell.inside[side];
   }
   out[simd::kReachPlane * plane] = reach;

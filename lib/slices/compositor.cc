@@ -20,6 +20,13 @@ struct Rectangle {
   uint32_t* accumulators;
 };
 
+// The light of the rectangle's row in the centre view, 3 * width samples, lies in the second half
+// of the row's accumulators until these are written, from left to right: what lies behind 3 * n of
+// them begins at pixel 2 n - width, which is not behind pixel n.
+int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
+  return reinterpret_cast<int16_t*>(accumulators) + 3 * static_cast<size_t>(width);
+}
+
 // A part of the rectangle of which slices are in memory.
 class Section {
  public:
@@ -45,7 +52,7 @@ class Section {
 
  private:
   // Makes the slices of the section, one behind the other in the pool. Returns the memory behind
-  // them.
+  // them, where a plane is filtered before.
   int16_t* PlaceSlices() {
     const Rect rect = {stack_.inner.x + rect_.x, stack_.inner.y + rect_.y, rect_.width,
                        rect_.height};
@@ -56,12 +63,14 @@ class Section {
       const auto rows = static_cast<size_t>(placed.rows);
       placed.cover = reinterpret_cast<simd::SliceCover*>(next);
       placed.samples = reinterpret_cast<int16_t*>(next + CoverBytes(rows)) + kChunk;
-      FillSlice(*job_.kernels, scratch_.surfaces, stack_.slices[k], rect, scratch_.filtered,
-                placed);
       next += SliceBytes(static_cast<size_t>(rect.width), static_cast<size_t>(rect.height),
                          static_cast<size_t>(placed.reach));
     }
-    return reinterpret_cast<int16_t*>(next);
+    int16_t* const behind = reinterpret_cast<int16_t*>(next);
+    for (int32_t k = 0; k < stack_.count; ++k) {
+      FillSlice(*job_.kernels, scratch_.surfaces, stack_.slices[k], rect, behind, planes_[k]);
+    }
+    return behind;
   }
 
   bool IsGathered(const SectionPart& part) const {
@@ -123,11 +132,14 @@ class Section {
   // shows is that of the centre view.
   void FinishRows(int32_t x, int32_t first, int32_t end) {
     const simd::CompositeFinish finish = {stack_.weights.least_covered, kCompositeBits};
+    const size_t columns = Columns(x), left = 3 * static_cast<size_t>(rect_.x + x);
+    int16_t centre[3 * kChunk + simd::kPadding / sizeof(int16_t)] = {};
     for (int32_t row = first; row < end; ++row) {
       const size_t at = FirstSample(x, row);
-      job_.kernels->FinishComposite(SumsOfRow(scratch_.sums, row), simd::kSliceLanes,
-                                    scratch_.centre + at, finish, Columns(x),
-                                    all_.accumulators + at);
+      std::memcpy(centre, CentreRow(all_.accumulators + at - left, job_.rect.width) + left,
+                  3 * columns * sizeof(*centre));
+      job_.kernels->FinishComposite(SumsOfRow(scratch_.sums, row), simd::kSliceLanes, centre,
+                                    finish, columns, all_.accumulators + at);
     }
   }
 
@@ -155,9 +167,9 @@ class Section {
   int32_t parts_ = 0;
 };
 
-// Finds the surfaces of the rectangle and copies its centre view. Returns the rectangle in pixels
-// of the surfaces.
-Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch) {
+// Finds the surfaces of the rectangle and copies its centre view to where CentreRow has it. Returns
+// the rectangle in pixels of the surfaces.
+Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
   Field field;
   field.rgb = scratch->field_rgb;
   field.disparity = scratch->field_disparity;
@@ -167,8 +179,8 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch) {
   const Rect& inner = field.inner;
   const size_t row = 3 * static_cast<size_t>(inner.width);
   for (int32_t y = 0; y < inner.height; ++y) {
-    std::memcpy(scratch->centre + static_cast<size_t>(y) * row, field.Rgb(inner.x, inner.y + y),
-                row * sizeof(*scratch->centre));
+    std::memcpy(CentreRow(accumulators + static_cast<size_t>(y) * row, inner.width),
+                field.Rgb(inner.x, inner.y + y), row * sizeof(*field.rgb));
   }
   FillHidden(*job.kernels, job.window->layer, scratch->fill, &scratch->surfaces);
   return inner;
@@ -186,33 +198,76 @@ void CutSlices(const RenderJob& job, const SliceRule& rule, const SliceLimits& l
   stack->offsets = scratch->offsets;
 }
 
-size_t PoolBytes(const SliceStack& stack, const Rect& section) {
-  const auto width = static_cast<size_t>(section.width);
-  const auto height = static_cast<size_t>(section.height);
-  size_t bytes = 0;
-  for (int32_t k = 0; k < stack.count; ++k) {
-    SlicePlane placed;
-    PlaceSlice(*stack.grid, stack.slices[k].disparity, section, &placed);
-    const auto reach = static_cast<size_t>(placed.reach);
-    bytes += SliceBytes(width, height, reach) + TileBytes(height, reach);
-  }
-  return bytes;
-}
-
-// Returns the size of the largest section of which all slices fit into the pool, by halving the
-// rectangle.
-Rect ChooseSection(const SliceStack& stack, const Rect& rect, size_t pool_bytes) {
-  Rect section = {0, 0, rect.width, rect.height};
-  const auto half = [](int32_t side, int32_t least) {
-    return ((side + 1) / 2 + least - 1) / least * least;
-  };
-  while (PoolBytes(stack, section) > pool_bytes) {
-    const bool least_rows = section.height <= kLeastRows;
-    if (section.width > kLeastColumns && (least_rows || section.width >= section.height)) {
-      section.width = half(section.width, kLeastColumns);
-    } else {
-      section.height = half(section.height, kLeastRows);
+// The reaches of a stack's slices, of which follows what a section of them takes.
+class StackSize {
+ public:
+  explicit StackSize(const SliceStack& stack)
+      : count_(stack.count), views_(2 * stack.grid->n() + 1) {
+    for (int32_t k = 0; k < count_; ++k) {
+      SlicePlane placed;
+      PlaceSlice(*stack.grid, stack.slices[k].disparity, {0, 0, 0, 0}, &placed);
+      reach_[k] = static_cast<size_t>(placed.reach);
     }
+  }
+
+  // Bytes of the pool.
+  size_t Bytes(size_t width, size_t height) const {
+    size_t slices = 0, tiles = 0, filtered = 0;
+    for (int32_t k = 0; k < count_; ++k) {
+      slices += SliceBytes(width, height, reach_[k]);
+      tiles += TileBytes(height, reach_[k]);
+      const size_t plane = FilteredBytes(width, height, reach_[k]);
+      if (plane > filtered) filtered = plane;
+    }
+    return slices + (filtered > tiles ? filtered : tiles);
+  }
+
+  // About the work of making the slices of a rectangle in so many sections across and down, in
+  // pixels that are copied into slices: a row costs as much as 48 of them besides, and to move
+  // eight into a tile for a column of views as much as one.
+  uint64_t Work(const Rect& rect, int32_t across, int32_t down) const {
+    const auto width = static_cast<size_t>(rect.width), height = static_cast<size_t>(rect.height);
+    uint64_t pixels = 0;
+    for (int32_t k = 0; k < count_; ++k) {
+      const size_t columns =
+          width + static_cast<size_t>(across) * (2 * reach_[k] + 2 * simd::kSliceLanes + 48);
+      pixels += (height + static_cast<size_t>(down) * ShiftedRows(0, reach_[k])) *
+                (columns + static_cast<size_t>(views_) * width / 8);
+    }
+    return pixels;
+  }
+
+ private:
+  int32_t count_, views_;
+  size_t reach_[kMaxSlices];
+};
+
+int32_t RoundUp(int32_t size, int32_t least) { return (size + least - 1) / least * least; }
+
+// Returns the size of sections of which all slices fit into the pool: of the one that is least work
+// for the whole rectangle.
+Rect ChooseSection(const SliceStack& stack, const Rect& rect, size_t pool_bytes) {
+  const StackSize size(stack);
+  if (size.Bytes(static_cast<size_t>(rect.width), static_cast<size_t>(rect.height)) <= pool_bytes) {
+    return {0, 0, rect.width, rect.height};
+  }
+  Rect section = {0, 0, kLeastColumns, kLeastRows};
+  uint64_t least_work = UINT64_MAX;
+  // The wider a section is, the lower it has to be.
+  int32_t width = kLeastColumns, height = RoundUp(rect.height, kLeastRows);
+  while (width < rect.width + kLeastColumns && height > 0) {
+    if (size.Bytes(static_cast<size_t>(width), static_cast<size_t>(height)) > pool_bytes) {
+      height -= kLeastRows;
+      continue;
+    }
+    const uint64_t work =
+        size.Work(rect, (rect.width + width - 1) / width, (rect.height + height - 1) / height);
+    if (work < least_work) {
+      least_work = work;
+      section.width = width;
+      section.height = height;
+    }
+    width += kLeastColumns;
   }
   return section;
 }
@@ -225,7 +280,7 @@ uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const S
   SliceStack stack;
   stack.grid = job.grid;
   stack.weights = ScaleWeights(job.grid->aperture);
-  stack.inner = LoadSurfaces(job, scratch);
+  stack.inner = LoadSurfaces(job, scratch, accumulators);
   CutSlices(job, rule, limits, scratch, &stack);
   const Rectangle all = {&job, gathered, &stack, scratch, accumulators};
   const Rect largest = ChooseSection(stack, job.rect, scratch->pool_bytes);

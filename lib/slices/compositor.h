@@ -26,15 +26,23 @@ struct CompositorScratch {
   FillScratch fill;            // of the surfaces; the field is no longer needed
   uint8_t* bins;               // kSliceBins
   int32_t* least_blur;         // E
-  int16_t* centre;             // 3 R^2: light of the rectangle in the centre view
   simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1)
   int16_t* weights;            // G
   SectionPart* parts;          // of a rectangle
   uint32_t* sums;              // kPixelSums of the pixels of a tile
-  int16_t* filtered;           // a plane of SliceSize(R, R, E - R)
-  uint8_t* pool;               // slices of a section, their covers, and a tile
-  size_t pool_bytes;           // at least those of the limits; with more, sections are larger
+  uint8_t* pool;               // slices of a section, their covers, and what LeastPool says
+  size_t pool_bytes;           // at least LeastPool; with more, sections are larger
 };
+
+// The least bytes of a pool: slices of the least section and their tiles, which the limits of any
+// blur radius up to `max_blur` leave room for. A plane is filtered where the tiles are afterwards,
+// and may take more than the tile of one slice.
+constexpr size_t LeastPool(size_t limit, double max_blur) {
+  const auto reach = static_cast<size_t>(LargestSliceReach(max_blur));
+  const size_t filtered = FilteredBytes(kLeastColumns, kLeastRows, reach);
+  const size_t tile = TileBytes(kLeastRows, reach);
+  return limit + (filtered > tile ? filtered - tile : 0);
+}
 
 // How many parts the largest rectangle has.
 constexpr size_t SectionParts(size_t side) {

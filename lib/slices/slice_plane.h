@@ -81,6 +81,10 @@ constexpr size_t CoverBytes(size_t rows) {
 constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
   return SliceSize(width, height, reach) * sizeof(int16_t) + CoverBytes(height + 2 * reach);
 }
+// Bytes of a plane of it while it is filtered.
+constexpr size_t FilteredBytes(size_t width, size_t height, size_t reach) {
+  return (height + 2 * reach) * PlaneSamples(width, reach) * sizeof(int16_t);
+}
 constexpr size_t TileBytes(size_t height, size_t reach) {
   return ShiftedRows(height, reach) * (4 * simd::kSliceLanes * sizeof(int16_t) + 1);
 }

@@ -322,7 +322,8 @@ TEST_CASE("images: calls are watched, and cancelled wherever they ask") {
   const sf_image_field images = field.Field();
   PreparedMemory memory(config);
   sf_prepared* prepared = nullptr;
-  for (int stop = 0; stop < watch.calls; stop += 3) {
+  // What a call has worked since it last asked counts for the next call, which may ask once less.
+  for (int stop = 0; stop + 1 < watch.calls; stop += 3) {
     test::Watch stops(stop);
     params.progress_data = &stops;
     ImageMemory image(200, 150, kind);

@@ -219,7 +219,8 @@ TEST_CASE("progress: of a region its rows are told") {
   REQUIRE(test::Refocus(&engine, params, f.scene, &out) == SF_OK);
   CHECK(watch.Ended());
   CHECK(watch.rows == 41);
-  for (int stop = 0; stop < watch.calls; ++stop) {
+  // What a call has worked since it last asked counts for the next call, which may ask once less.
+  for (int stop = 0; stop + 1 < watch.calls; ++stop) {
     Watch cancels(stop);
     params.progress_data = &cancels;
     CHECK(test::Refocus(&engine, params, f.scene, &out) == SF_ERROR_CANCELLED);

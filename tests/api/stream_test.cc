@@ -134,4 +134,27 @@ TEST_CASE("stream: a picture of 20,000 rows goes through the workspace of one of
   CHECK(streamed.bytes == whole.bytes);
 }
 
+// With one view rings hold just the rows that blocks at layers 1 and 2 are made of.
+TEST_CASE("stream: rings hold all that layers are made of, up to the largest blur") {
+  for (int radius = 1; radius <= 16; ++radius) {
+    test::Scene scene = test::RandomScene(48, 200, 1, 0, float(radius), 70 + uint64_t(radius));
+    for (float& disparity : scene.disparity) disparity = float(radius);
+    sf_config config = test::ConfigFor(scene, radius);
+    config.largest_block = 32;
+    sf_params params = test::Params(0, 1, SF_MODE_BLOCK);
+    params.rule = SF_RULE_PAPER;
+    test::Output whole(48, 200), streamed(48, 200);
+    test::Engine whole_engine(config);
+    sf_report report = {};
+    REQUIRE(test::Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &report) ==
+            SF_OK);
+    CHECK(report.layers[radius < 3 ? 0 : radius < 6 ? 1 : 2].pixels == 48 * 200);
+    config.streaming = 1;
+    test::Engine engine(config);
+    REQUIRE(test::Stream(&engine, params, scene, &streamed, 50, 50) == SF_OK);
+    CAPTURE(radius);
+    CHECK(streamed.bytes == whole.bytes);
+  }
+}
+
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints what the engine needs of a board's memory: `size_probe stack` the bytes of stack its calls
-// use, `size_probe workspace` a table of workspaces. For ./do size.
+// use, `size_probe workspace` a table of workspaces, `size_probe parts` one of what they are for.
+// For ./do size.
 #include <pthread.h>
 
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/memory_parts.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -117,16 +119,7 @@ void PrintStack() {
 }
 
 size_t WorkspaceKilobytes(int width, int height, int views, int block, double blur, int streaming) {
-  sf_config config;
-  sf_config_init(&config);
-  config.width = width;
-  config.height = height;
-  config.views = views;
-  config.disparity_min = -16;
-  config.disparity_max = 16;
-  config.max_blur = blur;
-  config.largest_block = block;
-  config.streaming = streaming;
+  const sf_config config = test::BoardConfig(width, height, views, block, blur, streaming);
   size_t bytes = 0;
   Check(sf_workspace_size(&config, &bytes) == SF_OK, "sf_workspace_size");
   return (bytes + 1023) / 1024;
@@ -166,11 +159,73 @@ void PrintWorkspace() {
   }
 }
 
+// A row for each part, a column for each of a few configurations.
+class PartsTable {
+ public:
+  PartsTable() {
+    const struct {
+      const char* name;
+      sf_config config;
+    } kColumns[] = {
+        {"VGA, 1 streamed view, 32, 8", test::BoardConfig(640, 480, 1, 32, 8, 1)},
+        {"VGA, 5 streamed views, 64, 32", test::BoardConfig(640, 480, 5, 64, 32, 1)},
+        {"Full HD, whole pictures, 64, 32", test::BoardConfig(1920, 1080, 17, 64, 32, 0)},
+        {"the same, 128, 128", test::BoardConfig(1920, 1080, 17, 128, 128, 0)}};
+    std::printf("| |");
+    for (const auto& column : kColumns) {
+      std::printf(" %s |", column.name);
+      columns_.push_back(test::MeasureParts(column.config));
+      Check(!columns_.back().empty(), "measuring the parts");
+    }
+    std::printf("\n|---|");
+    for (size_t k = 0; k < columns_.size(); ++k) std::printf("--:|");
+    std::printf("\n");
+  }
+
+  void Print() const {
+    const std::vector<test::MemoryPart>& streamed = columns_[0];  // has all parts
+    for (const test::MemoryPart& part : streamed) {
+      if (!part.shared) PrintPart(part.name, "%.1f");
+    }
+    PrintRow("what a worker does one after the other", "%.1f",
+             [](const auto& parts) { return test::SumOf(parts).shared; });
+    for (const test::MemoryPart& part : streamed) {
+      if (part.shared) PrintPart(part.name, "(%.1f)");
+    }
+    PrintRow("**all**", "**%.1f**", [](const auto& parts) { return test::SumOf(parts).all; });
+  }
+
+ private:
+  template <class BytesOf>
+  void PrintRow(const char* name, const char* format, const BytesOf& bytes_of) const {
+    std::printf("| %s |", name);
+    for (const auto& parts : columns_) {
+      char text[40] = "";
+      const size_t bytes = bytes_of(parts);
+      if (bytes > 0) std::snprintf(text, sizeof(text), format, static_cast<double>(bytes) / 1024);
+      std::printf(" %s |", text);
+    }
+    std::printf("\n");
+  }
+
+  void PrintPart(const char* name, const char* format) const {
+    PrintRow(name, format, [name](const std::vector<test::MemoryPart>& parts) {
+      for (const test::MemoryPart& part : parts) {
+        if (std::strcmp(part.name, name) == 0) return part.bytes();
+      }
+      return size_t{0};
+    });
+  }
+
+  std::vector<std::vector<test::MemoryPart>> columns_;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::strcmp(argv[1], "stack") == 0) return PrintStack(), 0;
   if (argc == 2 && std::strcmp(argv[1], "workspace") == 0) return PrintWorkspace(), 0;
-  std::fprintf(stderr, "usage: size_probe stack|workspace\n");
+  if (argc == 2 && std::strcmp(argv[1], "parts") == 0) return PartsTable().Print(), 0;
+  std::fprintf(stderr, "usage: size_probe stack|workspace|parts\n");
   return 1;
 }

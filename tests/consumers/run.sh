@@ -7,9 +7,13 @@
 #   source    the source tree as a part of another project, or fetched
 #   m32       built for 32 bits, with GCC's -m32
 #   wasm      built for WebAssembly SIMD with emscripten, run by node
+#   python    the Python package, from a wheel and from the tree
+#   java      the Java API
+#   java-aarch64  the same with what was built beside BUILD for aarch64, by its emulator
+#   swift     the module map of the C headers
 #   PRESET    what was built beside BUILD by this preset for another machine, run by its emulator
 set -eu
-[ $# -ge 2 ] || { echo "usage: $0 BUILD package|source|m32|wasm|PRESET..." >&2; exit 2; }
+[ $# -ge 2 ] || { echo "usage: $0 BUILD package|source|m32|wasm|python|java|java-aarch64|swift|PRESET..." >&2; exit 2; }
 sources=$(cd "$(dirname "$0")/../.." && pwd)
 build=$(cd "$1" && pwd)
 shift
@@ -133,6 +137,25 @@ preset() {
     "-Dstarfocus_DIR=$(dirname "$(find "$work/$1" -name starfocus-config.cmake)")"
 }
 
+# Of the Swift package only the module map can be tried, by clang.
+swift() {
+  cat >"$work/module.m" <<'TEXT'
+@import CStarfocus;
+int main(void) {
+  sf_config config;
+  sf_image image = {0};
+  sf_depth_config depth;
+  sf_config_init(&config);
+  sf_depth_config_init(&depth);
+  return image.format + (int)(sf_abi_version() - SF_ABI_VERSION);
+}
+TEXT
+  quietly clang -fsyntax-only -Wall -Werror -fmodules "-fmodules-cache-path=$work/modules" \
+    "-fmodule-map-file=$sources/platform/swift/Sources/CStarfocus/module.modulemap" \
+    "-I$sources/lib/include" "$work/module.m"
+  printf '%-40s %s\n' 'Swift, module map by clang' 'compiles'
+}
+
 program 'by hand, C99, static' "-I$sources/lib/include" "$build/lib/libstarfocus.a" \
   $(sed -n 's/^Libs.private: //p' "$build/package/starfocus.pc")
 for kind in "$@"; do
@@ -141,6 +164,11 @@ for kind in "$@"; do
     source) source_tree ;;
     m32) m32 ;;
     wasm) wasm ;;
+    python) "$sources/tests/python/run.sh" "$build" ;;
+    java) "$sources/tests/java/run.sh" "$build" ;;
+    java-aarch64)
+      "$sources/tests/java/run.sh" "$build" aarch64 "$(dirname "$build")/sysroot/java-arm64" ;;
+    swift) swift ;;
     *) preset "$kind" ;;
   esac
 done

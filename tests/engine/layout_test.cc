@@ -8,6 +8,7 @@
 
 #include "lib/api/reduced.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/memory_parts.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -67,6 +68,49 @@ TEST_CASE("layout: what memory cannot hold is too large, not small") {
   CHECK(carver.Bytes() == kTooLarge);
   carver.Reuse(mark);
   CHECK(carver.Bytes() == kTooLarge);
+}
+
+// What a stripe keeps on a board, in KiB of a workspace (docs/boards.md): with all modes and rules.
+TEST_CASE("layout: workspaces of boards are no larger than they were" *
+          doctest::skip(starfocus::kRedZone > 0)) {
+  const struct {
+    sf_config config;
+    size_t most;
+  } kBoards[] = {
+      // VGA, one streamed view, blocks of 32, blurs of 8.
+      {test::BoardConfig(640, 480, 1, 32, 8, 1), 1141},
+      // Full HD, whole pictures, blocks of 64, blurs of 32.
+      {test::BoardConfig(1920, 1080, 17, 64, 32, 0), 3049},
+      {test::BoardConfig(1920, 1080, 1, 64, 32, 0), 3049},
+      // Without layers 1 and 2.
+      {[] {
+         sf_config config = test::BoardConfig(640, 480, 1, 32, 8, 1);
+         config.max_layer = 0;
+         return config;
+       }(),
+       1056},
+  };
+  for (const auto& board : kBoards) {
+    size_t bytes = 0;
+    REQUIRE(sf_workspace_size(&board.config, &bytes) == SF_OK);
+    CAPTURE(bytes);
+    CHECK(bytes <= board.most << 10);
+  }
+}
+
+// The table of docs/boards.md is made of these parts.
+TEST_CASE("layout: all of a workspace is for some part" * doctest::skip(starfocus::kRedZone > 0)) {
+  for (const int streaming : {0, 1}) {
+    for (const int images : {0, 1}) {
+      sf_config config = test::BoardConfig(320, 200, 5, 64, 12, streaming);
+      config.images = images;
+      const std::vector<test::MemoryPart> parts = test::MeasureParts(config);
+      size_t bytes = 0;
+      REQUIRE(sf_workspace_size(&config, &bytes) == SF_OK);
+      CHECK(!parts.empty());
+      CHECK(test::SumOf(parts).all == bytes);
+    }
+  }
 }
 
 // On 32 bits sizes of wide streaming configurations are beyond all addresses.

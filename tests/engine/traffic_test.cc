@@ -61,7 +61,7 @@ TEST_CASE("traffic: of a map in focus at disparity 4 side views are read beyond 
 
 TEST_CASE(
     "traffic: the map is read twice, but for the rows that the first check leaves converted") {
-  constexpr int kTall = 300, kRing = 64 + 2 * 56;  // a stripe and its reach at a largest blur of 8
+  constexpr int kTall = 300, kRing = 64 + 2 * 37;  // a stripe and its reach at a largest blur of 8
   const test::Scene scene = test::RandomScene(kWidth, kTall, 5, -4, 4, 6);
   sf_config config = Config(scene);
   sf_params params = test::Params(0, 0.75, SF_MODE_BLOCK);

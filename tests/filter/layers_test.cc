@@ -120,14 +120,12 @@ struct Layer {
     plane.rows = {0, plane.height};
     const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
     samples.assign(stride * rows + kPadding, 0x7123);
-    half.assign(stride * (2 * rows + 5) + kPadding, 0x7123);
     plane.samples = {samples.data(), stride, 0, 0};
-    plane.half = {half.data(), stride, 0, -3};
   }
   Layer(const Layer&) = delete;
 
   LayerPlane plane;
-  std::vector<int16_t> samples, half;
+  std::vector<int16_t> samples;
 };
 
 // The centre view alone, whose light is its codes.
@@ -140,14 +138,26 @@ starfocus::Window WindowOf(const std::vector<uint8_t>& picture, int width, int h
   return window;
 }
 
+// Memory for columns and rows of layer 1.
+struct Scratch {
+  Scratch(int columns, int rows)
+      : even(3 * (size_t(columns) + 3) + kPadding),
+        odd(even),
+        half(3 * size_t(columns) * size_t(starfocus::TapsOfLayer(rows)) + kPadding),
+        above(3 * size_t(columns) * size_t(rows) + kPadding),
+        memory{even.data(), odd.data(), half.data(), above.data()} {}
+  Scratch(const Scratch&) = delete;
+
+  std::vector<int16_t> even, odd, half, above;
+  const starfocus::ResampleScratch memory;
+};
+
 // Layers 1 and 2 of a picture as a stripe of largest blocks makes them.
 struct Layers {
   Layers(const std::vector<uint8_t>& picture, int width, int height, int largest_block,
          const starfocus::simd::Kernels& kernels)
       : one(width, height, 1), two(width, height, 2) {
-    std::vector<int16_t> line(3 * (size_t(largest_block) + 16) + kPadding);
-    std::vector<int16_t> filtered = line;
-    const starfocus::ResampleScratch scratch = {line.data(), filtered.data()};
+    const Scratch scratch(largest_block / 2 + 16, 2 * height + 20);
     const starfocus::Window from = WindowOf(picture, width, height);
     const int columns = (width + largest_block - 1) / largest_block;
     for (int layer = 1; layer <= 2; ++layer) {
@@ -155,11 +165,7 @@ struct Layers {
       for (int index = columns - 1; index >= 0; --index) {
         const int begin = index * (largest_block >> layer);
         const int end = index + 1 == columns ? to->width : begin + (largest_block >> layer);
-        if (layer == 1) {
-          DownsamplePicture(kernels, from, begin, end, scratch, to);
-        } else {
-          DownsampleLayer(kernels, one.plane, begin, end, scratch, to);
-        }
+        DownsamplePicture(kernels, from, layer, begin, end, scratch.memory, to);
       }
     }
   }
@@ -339,19 +345,20 @@ TEST_CASE("layers: rows made alone are those of the whole layer") {
   const std::vector<uint8_t> picture = RandomPicture(width, height, kRandom, &random);
   const starfocus::simd::Kernels& kernels = starfocus::simd::BestKernels();
   const Layers whole(picture, width, height, 64, kernels);
-  std::vector<int16_t> line(3 * 80 + kPadding), filtered = line;
-  const int layer_height = whole.one.plane.height;
-  for (const starfocus::RowRange rows :
-       {starfocus::RowRange{0, 1}, {5, 9}, {20, 33}, {layer_height - 2, layer_height}}) {
-    Layer part(width, height, 1);
-    part.plane.rows = rows;
-    part.plane.samples.first = rows.first;
-    part.plane.half.first = 2 * rows.first - 3;
-    DownsamplePicture(kernels, WindowOf(picture, width, height), 0, part.plane.width,
-                      {line.data(), filtered.data()}, &part.plane);
-    for (int y = rows.first; y < rows.last; ++y) {
-      CHECK(std::equal(part.plane.samples.Row(y), part.plane.samples.Row(y) + 3 * part.plane.width,
-                       whole.one.plane.samples.Row(y)));
+  const Scratch scratch(64, 50);
+  for (const int layer : {1, 2}) {
+    const LayerPlane& all = layer == 1 ? whole.one.plane : whole.two.plane;
+    for (const starfocus::RowRange rows :
+         {starfocus::RowRange{0, 1}, {5, 9}, {13, 20}, {all.height - 2, all.height}}) {
+      Layer part(width, height, layer);
+      part.plane.rows = rows;
+      part.plane.samples.first = rows.first;
+      DownsamplePicture(kernels, WindowOf(picture, width, height), layer, 0, part.plane.width,
+                        scratch.memory, &part.plane);
+      for (int y = rows.first; y < rows.last; ++y) {
+        CHECK(std::equal(part.plane.samples.Row(y),
+                         part.plane.samples.Row(y) + 3 * part.plane.width, all.samples.Row(y)));
+      }
     }
   }
 }

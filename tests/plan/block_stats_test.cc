@@ -357,7 +357,9 @@ TEST_CASE("cells: borders of one blur are that blur, within a pixel for rounding
 
 TEST_CASE("cells: a pixel that reaches farther counts from where it lies") {
   Map map = EmptyMap(24, 24, 0, 1);
-  const auto reach = [&](int side) { return Cells(map, 0, 24, 1).grid.At(1, 1)->reach[side]; };
+  const auto reach = [&](int side) {
+    return Cells(map, 0, 24, 1).grid.At(1, 1)->Reach(size_t(side));
+  };
   std::fill(map.disparity.begin(), map.disparity.end(), Fixed(3));
   const int farther = reach(starfocus::kLeft);
   std::fill(map.disparity.begin(), map.disparity.end(), Fixed(2));

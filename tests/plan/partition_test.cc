@@ -221,6 +221,65 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
   }
 }
 
+// Rows of a layer that the blocks of the largest block at row y read beyond it, or of the picture
+// at layer 0: 0 where none does. Rows outside the picture are not read.
+void AddRowsBeyond(const Plan& plan, int y, const std::vector<Block>& blocks, int (*most)[3]) {
+  for (const Block& block : blocks) {
+    if (block.rendered.width == 0) continue;
+    const int end = std::min(plan.rules.height, y + plan.rules.largest_block);
+    const int above = (y >> block.layer) - (block.rendered.y - block.border.top);
+    const int below = block.rendered.y + block.rendered.height + block.border.bottom -
+                      ((end + (1 << block.layer) - 1) >> block.layer);
+    if (y > 0) (*most)[block.layer] = std::max((*most)[block.layer], above);
+    if (end < plan.rules.height) (*most)[block.layer] = std::max((*most)[block.layer], below);
+  }
+}
+
+TEST_CASE("partition: blocks read as many rows around a stripe as its reach says, and no more") {
+  int slack[3] = {100, 100, 100};
+  for (int r = 1; r <= 40; ++r) {
+    test::Random random(1);
+    Plan plan(192, 192, 64, 1, &random);
+    plan.rules.scale = {0, int64_t{1} << starfocus::kStepBits};
+    std::fill(plan.disparity.begin(), plan.disparity.end(), int16_t(64 * r));
+    plan.grid = test::MeasureCells(plan.disparity, 192, 192, plan.rules.scale, &plan.cells);
+    const starfocus::Reach reach = starfocus::GetReach(r);
+    plan.around = reach.cells;
+    plan.rules.gathers = plan.rules.subapertures = false;
+    int most[3] = {};
+    for (int max_layer = 0; max_layer <= 2; ++max_layer) {
+      plan.rules.max_layer = max_layer;
+      AddRowsBeyond(plan, 64, plan.Partition(64, 64), &most);
+    }
+    const int rows[3] = {reach.border, reach.layer_rows[1], reach.layer_rows[2]};
+    for (int layer = 0; layer < 3; ++layer) {
+      CAPTURE(r);
+      CAPTURE(layer);
+      CHECK(most[layer] <= rows[layer]);
+      slack[layer] = std::min(slack[layer], rows[layer] - most[layer]);
+    }
+  }
+  CHECK(slack[1] == 0);
+  CHECK(slack[2] == 0);
+}
+
+TEST_CASE("partition: nor do blocks of any map") {
+  test::Random random(13);
+  for (int round = 0; round < 60; ++round) {
+    const double limit = random.Real(0.5, 30);
+    Plan plan(150, 200, 64, limit, &random);
+    const starfocus::Reach reach = starfocus::GetReach(2 * limit);
+    for (const int y : {0, 64, 128, 192}) {
+      int most[3] = {};
+      AddRowsBeyond(plan, y, plan.Partition(64, y), &most);
+      CAPTURE(round);
+      CHECK(most[0] <= reach.border);
+      CHECK(most[1] <= reach.layer_rows[1]);
+      CHECK(most[2] <= reach.layer_rows[2]);
+    }
+  }
+}
+
 TEST_CASE("partition: no block is larger than the largest that is made") {
   test::Random random(12);
   Plan flat(256, 256, 128, 0.001, &random);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,8 @@ std::vector<fs::path> Sources(const std::vector<std::string>& folders) {
     for (const fs::directory_entry& entry :
          fs::recursive_directory_iterator(fs::path(STARFOCUS_SOURCE_DIR) / folder)) {
       const std::string extension = entry.path().extension().string();
-      if (extension == ".h" || extension == ".hpp" || extension == ".c" || extension == ".cc") {
-        found.push_back(entry.path());
-      }
+      static const std::set<std::string> kSources = {".h", ".hpp", ".c", ".cc", ".py", ".java"};
+      if (kSources.count(extension) == 1) found.push_back(entry.path());
     }
   }
   return found;
@@ -39,7 +39,8 @@ std::vector<fs::path> Sources(const std::vector<std::string>& folders) {
 // ends in a line that is a brace alone, and begins at the last line before it that is indented as
 // little. Lines that only name a case are a list, and don't count.
 std::vector<std::string> FindLong(const std::vector<std::string>& lines, size_t limit) {
-  const std::regex type("\\s*(typedef|template|struct|class|enum|union|namespace)\\b.*");
+  const std::regex type(
+      "\\s*(?:public |static |final )*(typedef|template|struct|class|enum|union|namespace)\\b.*");
   const std::regex one_case("\\s*case [A-Za-z_0-9:]+:");
   std::vector<std::string> found;
   for (size_t end = 0; end < lines.size(); ++end) {

@@ -69,21 +69,20 @@ void BlockBench::HoldLayer(int layer) {
   LayerPlane& plane = engine_->pictures.layers[layer];
   const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
   layer_samples_[layer].resize(stride * rows + simd::kPadding);
-  layer_half_[layer].resize(stride * (2 * rows + 6) + simd::kPadding);
   plane.rows = {0, plane.height};
   plane.samples = {layer_samples_[layer].data(), stride, 0, 0};
-  plane.half = {layer_half_[layer].data(), stride, 0, -3};
-  const ResampleScratch& scratch = engine_->crew.workers[0].resample;
+  // All rows at once: more than a worker has memory for.
   const int32_t step = engine_->config.largest_block / 2;
+  const auto columns = size_t(TapsOfLayer(step));
+  const auto above = size_t(TapsOfLayer(plane.height));
+  std::vector<int16_t> even(3 * (columns + 3) + simd::kPadding), odd = even;
+  std::vector<int16_t> halved(3 * columns * (2 * above + 5) + simd::kPadding);
+  std::vector<int16_t> layer_one(3 * columns * above + simd::kPadding);
+  const ResampleScratch scratch = {even.data(), odd.data(), halved.data(), layer_one.data()};
   for (int32_t begin = 0; begin < plane.width; begin += step) {
     const int32_t end = std::min(begin + step, plane.width);
-    if (layer == 1) {
-      DownsamplePicture(*engine_->kernels, engine_->pictures.windows[0], begin, end, scratch,
-                        &plane);
-    } else {
-      DownsampleLayer(*engine_->kernels, engine_->pictures.layers[layer - 1], begin, end, scratch,
+    DownsamplePicture(*engine_->kernels, engine_->pictures.windows[0], layer, begin, end, scratch,
                       &plane);
-    }
   }
   engine_->pictures.windows[layer].samples = {plane.samples.data, stride, 0, 0};
 }

@@ -42,7 +42,7 @@ class BlockBench {
   Workspace workspace_;
   EngineState* engine_ = nullptr;
   std::vector<int16_t> disparity_;
-  std::vector<int16_t> layer_samples_[SF_LAYERS], layer_half_[SF_LAYERS];
+  std::vector<int16_t> layer_samples_[SF_LAYERS];
   Image picture_;
 };
 

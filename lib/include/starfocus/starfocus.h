@@ -132,7 +132,7 @@ typedef struct sf_config {
       largest_block;   /**< side of the largest refocusing block in pixels: 32, 64, 128, 256, or
                             0, the default: 128 from a width of 1536 on, else 64. For wide
                             pictures 128 is up to an eighth faster; a worker's memory grows with
-                            the block's area, from 1.25 MiB at 64 on. sf_report has what 0 chose */
+                            the block's area, from 1.15 MiB at 64 on. sf_report has what 0 chose */
   int32_t max_workers; /**< workers the runner may use, [1, SF_MAX_WORKERS]; default 1 */
   int32_t streaming;   /**< 1 reserves line rings for sf_stream_*; default 0: whole pictures only */
   double theta;        /**< fall-off of the aperture (3) in radians; default 0.26 pi */

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: Apache-2.0
+# starfocus_add_bundle(TARGET [SOURCE...]): one shared object with the engine and the pool inside, for
+# languages that load a single file. It is built only when it is asked for, and needs no C++ run time.
+function(starfocus_add_bundle target)
+  add_library(${target} MODULE EXCLUDE_FROM_ALL ${ARGN}
+              $<TARGET_OBJECTS:starfocus_objects> $<TARGET_OBJECTS:starfocus_simd>)
+  target_link_libraries(${target} PRIVATE starfocus_highway starfocus_pool m)
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE C LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+endfunction()

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* camera OUT.ppm: refocuses 12 megapixels while five sensors deliver them, NV12 rows in, rows of R,
+ * G, B out. No picture is ever whole, so that all of it takes less than 64 MiB; says how much, and
+ * how long. */
+#define _POSIX_C_SOURCE 200112L
+#include <starfocus/image.h>
+#include <starfocus/pool.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include "sensor.h"
+
+enum { kRows = 16 }; /* that a sensor delivers at a time, and that are pulled at a time */
+
+static uint8_t depth[kDepthWidth * kDepthHeight];
+static uint8_t luma[kCameras][kRows * kWidth], chroma[kCameras][kRows / 2 * kWidth];
+static uint8_t out[kRows * kWidth * 3];
+static uint32_t checksum = 2166136261u; /* FNV-1a */
+
+static double Seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static sf_status MakeEngine(sf_pool* pool, sf_engine** engine) {
+  sf_config config;
+  sf_config_init(&config);
+  config.width = kWidth, config.height = kHeight, config.views = kCameras;
+  config.disparity_min = kWall, config.disparity_max = kBall, config.max_blur = kBall - kWall;
+  config.streaming = 1, config.images = 1;
+  config.largest_block =
+      64; /* wide pictures would get 128, and four times the memory of a worker */
+  config.max_workers = sf_pool_workers(pool);
+  return sf_create(&config, NULL, engine);
+}
+
+/* What the sensors have delivered from row `first` of these rows on, with the depth of the picture.
+ */
+static sf_image_field FieldFrom(int first) {
+  sf_image_field field;
+  int i;
+  memset(&field, 0, sizeof field);
+  for (i = 0; i < kCameras; ++i) {
+    sf_image* const view = &field.views[i];
+    view->format = SF_FORMAT_NV12;
+    view->planes[0] = luma[i] + first * kWidth, view->planes[1] = chroma[i] + first / 2 * kWidth;
+    view->strides[0] = view->strides[1] = kWidth;
+  }
+  field.depth.data = depth, field.depth.stride = kDepthWidth;
+  field.depth.width = kDepthWidth, field.depth.height = kDepthHeight;
+  field.depth.type = SF_DEPTH_U8, field.depth.scale = 1, field.depth.offset = -100;
+  return field;
+}
+
+/* Rows go in as they come, as far as there is room, and out as they are finished. */
+static sf_status Stream(sf_engine* engine, sf_pool* pool, FILE* file, double* sensor_seconds) {
+  int delivered = 0, taken = 0, written = 0;
+  sf_status status = SF_OK;
+  while (status == SF_OK && written < kHeight) {
+    int32_t count = 0;
+    if (taken == delivered && delivered < kHeight) {
+      const int rows = kHeight - delivered < kRows ? kHeight - delivered : kRows;
+      const double start = Seconds();
+      int i;
+      for (i = 0; i < kCameras; ++i) SensorRows(i, delivered, rows, luma[i], chroma[i]);
+      *sensor_seconds += Seconds() - start;
+      delivered += rows;
+    }
+    if (taken < delivered) {
+      const int first = taken % kRows;
+      const sf_image_field field = FieldFrom(first);
+      status = sf_stream_push_images(engine, &field, delivered - taken, &count);
+      taken += count;
+    }
+    if (status == SF_OK) {
+      const int rows = kHeight - written < kRows ? kHeight - written : kRows;
+      int32_t i;
+      status = sf_stream_pull(engine, out, kWidth * 3, rows, sf_pool_run, pool, &count, NULL);
+      for (i = 0; i < count * kWidth * 3; ++i) checksum = (checksum ^ out[i]) * 16777619u;
+      if (fwrite(out, kWidth * 3, (size_t)count, file) != (size_t)count) break;
+      written += count;
+    }
+  }
+  return status;
+}
+
+static sf_status Refocus(sf_pool* pool, FILE* file, double* sensor_seconds) {
+  sf_engine* engine = NULL;
+  sf_params params;
+  sf_status status = MakeEngine(pool, &engine);
+  sf_params_init(&params);
+  params.focus = kBall;
+  if (status == SF_OK) status = sf_stream_begin(engine, &params);
+  fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
+  SensorDepth(depth);
+  if (status == SF_OK) status = Stream(engine, pool, file, sensor_seconds);
+  sf_destroy(engine);
+  return status;
+}
+
+int main(int count, char** arguments) {
+  const int32_t cores = sf_pool_cores();
+  const double start = Seconds();
+  double sensor_seconds = 0, seconds;
+  struct rusage usage;
+  sf_status status;
+  sf_pool* pool;
+  int failed;
+  FILE* const file = count == 2 ? fopen(arguments[1], "wb") : NULL;
+  if (!file) return fprintf(stderr, "usage: camera OUT.ppm\n"), 2;
+  pool = sf_pool_create(cores < 4 ? cores : 4);
+  status = pool ? Refocus(pool, file, &sensor_seconds) : SF_ERROR_MEMORY;
+  seconds = Seconds() - start;
+  failed = ferror(file);
+  failed |= fclose(file);
+  getrusage(RUSAGE_SELF, &usage);
+  printf("%d x %d, %d views: %.2f s, of which the sensors took %.2f s\n", kWidth, kHeight, kCameras,
+         seconds, sensor_seconds);
+  printf("peak memory %.1f MiB, checksum %08x\n", (double)usage.ru_maxrss / 1024,
+         (unsigned)checksum);
+  if (status != SF_OK) fprintf(stderr, "camera: %s\n", sf_status_string(status));
+  if (failed) fprintf(stderr, "camera: '%s' could not be written\n", arguments[1]);
+  sf_pool_destroy(pool);
+  return status != SF_OK || failed;
+}

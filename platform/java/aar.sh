@@ -1,0 +1,42 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# aar.sh OUT.aar CLASSES.jar ABI=LIBRARY...: packs an AAR without Gradle: the Java classes, the library
+# libstarfocus_jni.so of each ABI (arm64-v8a, x86_64), and the same with the C headers as a prefab package,
+# which C and C++ find by find_package(starfocus CONFIG) and link as starfocus::starfocus_jni. Needs zip.
+# ANDROID_NDK_MAJOR is the version of the NDK that built the libraries (27).
+set -eu
+[ $# -ge 3 ] || { echo "usage: $0 OUT.aar CLASSES.jar ABI=LIBRARY..." >&2; exit 2; }
+here=$(cd "$(dirname "$0")" && pwd)
+out=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+classes=$2
+shift 2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+version=$(sed -n 's/^#define SF_VERSION_[A-Z]* \([0-9]*\)$/\1/p' "$here/../../lib/include/starfocus/version.h" |
+  paste -s -d .)
+least=$(sed -n 's/^ *minSdk \([0-9]*\).*/\1/p' "$here/build.gradle")
+
+cp "$classes" "$work/classes.jar"
+: >"$work/R.txt"
+cat >"$work/AndroidManifest.xml" <<TEXT
+<?xml version="1.0" encoding="utf-8"?>
+<manifest xmlns:android="http://schemas.android.com/apk/res/android" package="dev.starfocus">
+    <uses-sdk android:minSdkVersion="$least" />
+</manifest>
+TEXT
+module=$work/prefab/modules/starfocus_jni
+mkdir -p "$module/include"
+printf '{"schema_version": 2, "name": "starfocus", "version": "%s", "dependencies": []}\n' \
+  "$version" >"$work/prefab/prefab.json"
+printf '{"export_libraries": [], "library_name": "libstarfocus_jni"}\n' >"$module/module.json"
+cp -r "$here/../../lib/include/starfocus" "$here/../pool/include/starfocus" "$module/include"
+for pair in "$@"; do
+  abi=${pair%%=*}
+  mkdir -p "$work/jni/$abi" "$module/libs/android.$abi"
+  cp "${pair#*=}" "$work/jni/$abi/libstarfocus_jni.so"
+  cp "${pair#*=}" "$module/libs/android.$abi/libstarfocus_jni.so"
+  printf '{"abi": "%s", "api": %s, "ndk": %s, "stl": "none", "static": false}\n' \
+    "$abi" "$least" "${ANDROID_NDK_MAJOR:-27}" >"$module/libs/android.$abi/abi.json"
+done
+rm -f "$out"
+(cd "$work" && zip -q -r -X "$out" .)

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Java exceptions thrown from native code. After one is thrown the native method returns to Java,
+// where it takes effect.
+#ifndef STARFOCUS_PLATFORM_JAVA_EXCEPTIONS_H_
+#define STARFOCUS_PLATFORM_JAVA_EXCEPTIONS_H_
+
+#include <jni.h>
+
+#include "starfocus/status.h"
+
+namespace starfocus {
+
+// IllegalArgumentException; the text is made as by printf.
+void ThrowArgument(JNIEnv* env, const char* format, ...) __attribute__((format(printf, 2, 3)));
+
+// OutOfMemoryError or StarfocusException, whichever the status is; SF_OK throws nothing.
+void ThrowStatus(JNIEnv* env, sf_status status);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_JAVA_EXCEPTIONS_H_

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/java/src/main/cpp/pictures.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+
+#include "platform/java/src/main/cpp/exceptions.h"
+#include "platform/java/src/main/cpp/fields.h"
+
+namespace starfocus {
+namespace {
+
+struct PlaneSize {
+  int64_t rows, row_bytes;
+};
+
+int PlanesOf(int32_t format) {
+  switch (format) {
+    case SF_FORMAT_NV12:
+    case SF_FORMAT_NV21:
+      return 2;
+    case SF_FORMAT_I420:
+    case SF_FORMAT_YUV_420_888:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
+// Bytes from the first to the last of a row, also of a pixel_stride that the library will refuse.
+PlaneSize SizeOf(const sf_image& image, int plane, int64_t width, int64_t height) {
+  const int64_t step = std::max(image.pixel_stride, 0);
+  const int planes = PlanesOf(image.format);
+  if (planes == 1) {
+    const bool has_alpha = image.format == SF_FORMAT_RGBX || image.format == SF_FORMAT_BGRX;
+    const int64_t pixel = has_alpha ? 4 : 3;
+    return {height, (width - 1) * std::max(step, pixel) + pixel};
+  }
+  if (plane == 0) return {height, width};
+  const int64_t columns = (width + 1) / 2;
+  const int64_t row = planes == 2 ? 2 * columns : (columns - 1) * std::max<int64_t>(step, 1) + 1;
+  return {(height + 1) / 2, row};
+}
+
+// The address of a direct buffer that holds rows `stride` bytes apart; null with an exception
+// pending.
+void* AddressOf(JNIEnv* env, jobject buffer, const char* what, PlaneSize size, int64_t stride) {
+  void* const address = buffer == nullptr ? nullptr : env->GetDirectBufferAddress(buffer);
+  if (address == nullptr) {
+    ThrowArgument(env, "%s: expected a direct buffer", what);
+    return nullptr;
+  }
+  if (stride < 0) {
+    ThrowArgument(env, "%s: expected a stride of 0 or more, found %lld", what,
+                  static_cast<long long>(stride));
+    return nullptr;
+  }
+  const int64_t needed = stride * (size.rows - 1) + size.row_bytes;
+  const int64_t capacity = env->GetDirectBufferCapacity(buffer);
+  if (capacity < needed) {
+    ThrowArgument(env, "%s: expected a buffer of %lld bytes at least, found %lld", what,
+                  static_cast<long long>(needed), static_cast<long long>(capacity));
+    return nullptr;
+  }
+  return address;
+}
+
+bool ReadPlane(JNIEnv* env, jobject object, const char* what, jobjectArray planes, int plane,
+               PlaneSize size, sf_image* image) {
+  const auto strides = static_cast<jintArray>(ReadObject(env, object, "strides", "[I"));
+  if (strides == nullptr) return false;
+  jint stride = 0;
+  env->GetIntArrayRegion(strides, plane, 1, &stride);
+  const jobject buffer = env->GetObjectArrayElement(planes, plane);
+  char name[60];
+  std::snprintf(name, sizeof name, "%s, plane %d", what, plane);
+  void* const address = AddressOf(env, buffer, name, size, stride);
+  image->planes[plane] = static_cast<const uint8_t*>(address);
+  image->strides[plane] = static_cast<size_t>(stride);
+  env->DeleteLocalRef(buffer);
+  env->DeleteLocalRef(strides);
+  return address != nullptr;
+}
+
+constexpr Field kImageFields[] = {
+    {"format", FieldType::kInt32, offsetof(sf_image, format)},
+    {"matrix", FieldType::kInt32, offsetof(sf_image, matrix)},
+    {"range", FieldType::kInt32, offsetof(sf_image, range)},
+    {"pixelStride", FieldType::kInt32, offsetof(sf_image, pixel_stride)},
+};
+
+constexpr Field kDepthFields[] = {
+    {"width", FieldType::kInt32, offsetof(sf_depth_map, width)},
+    {"height", FieldType::kInt32, offsetof(sf_depth_map, height)},
+    {"type", FieldType::kInt32, offsetof(sf_depth_map, type)},
+    {"meaning", FieldType::kInt32, offsetof(sf_depth_map, meaning)},
+    {"scale", FieldType::kFloat, offsetof(sf_depth_map, scale)},
+    {"offset", FieldType::kFloat, offsetof(sf_depth_map, offset)},
+    {"hasInvalid", FieldType::kInt32, offsetof(sf_depth_map, has_invalid)},
+    {"invalid", FieldType::kFloat, offsetof(sf_depth_map, invalid)},
+};
+
+}  // namespace
+
+bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int32_t height,
+               sf_image* image) {
+  *image = {};
+  if (object == nullptr) {
+    ThrowArgument(env, "%s: expected an image, found null", what);
+    return false;
+  }
+  if (!ReadFields(env, object, kImageFields, std::size(kImageFields), image)) return false;
+  const auto planes =
+      static_cast<jobjectArray>(ReadObject(env, object, "planes", "[Ljava/nio/ByteBuffer;"));
+  if (planes == nullptr) return false;
+  const int expected = PlanesOf(image->format), found = env->GetArrayLength(planes);
+  if (found != expected) {
+    ThrowArgument(env, "%s: expected %d planes, found %d", what, expected, found);
+    return false;
+  }
+  for (int i = 0; i < expected; ++i) {
+    const PlaneSize size = SizeOf(*image, i, width, height);
+    if (!ReadPlane(env, object, what, planes, i, size, image)) return false;
+  }
+  env->DeleteLocalRef(planes);
+  return true;
+}
+
+bool ReadImageOut(JNIEnv* env, jobject object, int32_t width, int32_t height, sf_image_out* image) {
+  sf_image read;
+  if (!ReadImage(env, object, "out", width, height, &read)) return false;
+  *image = {read.format, read.matrix, read.range, read.pixel_stride, {}, {}};
+  for (int i = 0; i < 3; ++i) {
+    image->planes[i] = const_cast<uint8_t*>(read.planes[i]);
+    image->strides[i] = read.strides[i];
+  }
+  return true;
+}
+
+bool ReadDepthMap(JNIEnv* env, jobject object, sf_depth_map* map) {
+  *map = {};
+  if (object == nullptr) {
+    ThrowArgument(env, "depth: expected a map, found null");
+    return false;
+  }
+  if (!ReadFields(env, object, kDepthFields, std::size(kDepthFields), map)) return false;
+  if (map->width < 1 || map->height < 1) {
+    ThrowArgument(env, "depth: expected a width and a height of 1 or more, found %d and %d",
+                  map->width, map->height);
+    return false;
+  }
+  const int64_t bytes = map->type == SF_DEPTH_FLOAT ? 4 : map->type == SF_DEPTH_U8 ? 1 : 2;
+  const int32_t stride = ReadInt(env, object, "stride");
+  const jobject values = ReadObject(env, object, "values", "Ljava/nio/ByteBuffer;");
+  if (env->ExceptionCheck()) return false;
+  map->data = AddressOf(env, values, "depth", {map->height, bytes * map->width}, stride);
+  map->stride = static_cast<size_t>(stride);
+  return map->data != nullptr;
+}
+
+bool ReadImageField(JNIEnv* env, jobjectArray views, jobject depth, int32_t count, int32_t width,
+                    int32_t height, sf_image_field* field) {
+  *field = {};
+  const int32_t found = env->GetArrayLength(views);
+  if (found != count) {
+    ThrowArgument(env, "views: expected %d, found %d", count, found);
+    return false;
+  }
+  for (int32_t i = 0; i < count; ++i) {
+    const jobject view = env->GetObjectArrayElement(views, i);
+    char what[20];
+    std::snprintf(what, sizeof what, "view %d", i);
+    if (!ReadImage(env, view, what, width, height, &field->views[i])) return false;
+    env->DeleteLocalRef(view);
+  }
+  return ReadDepthMap(env, depth, &field->depth);
+}
+
+}  // namespace starfocus

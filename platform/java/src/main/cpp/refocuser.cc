@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// The native methods of dev.starfocus.Native.
+#include <jni.h>
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <new>
+
+#include "platform/java/src/main/cpp/exceptions.h"
+#include "platform/java/src/main/cpp/fields.h"
+#include "platform/java/src/main/cpp/pictures.h"
+#include "starfocus/image.h"
+#include "starfocus/pool.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+namespace {
+
+// An engine with its threads. Java's side sees to it that one call at a time uses it, apart from
+// what is atomic.
+struct Session {
+  sf_config config = {};
+  sf_pool* pool = nullptr;
+  sf_engine* engine = nullptr;
+  void* prepared_memory = nullptr;
+  sf_prepared* prepared = nullptr;
+  std::atomic<int> cancelled{0}, rows_done{0};
+};
+
+// The library is to need no C++ run time, hence no delete; nor does a session need a destructor.
+void End(Session* session) {
+  std::free(session->prepared_memory);
+  sf_destroy(session->engine);
+  sf_pool_destroy(session->pool);
+  std::free(session);
+}
+
+Session* From(jlong handle) { return reinterpret_cast<Session*>(handle); }
+
+// Java is not called back, for which threads of the pool would have to be attached: whoever wants
+// to know asks.
+int Tell(void* data, int32_t rows_done, int32_t) {
+  auto* const session = static_cast<Session*>(data);
+  session->rows_done.store(rows_done, std::memory_order_relaxed);
+  return session->cancelled.load(std::memory_order_relaxed);
+}
+
+void Begin(Session* session) {
+  session->cancelled.store(0, std::memory_order_relaxed);
+  session->rows_done.store(0, std::memory_order_relaxed);
+}
+
+constexpr Field kConfigFields[] = {
+    {"width", FieldType::kInt32, offsetof(sf_config, width)},
+    {"height", FieldType::kInt32, offsetof(sf_config, height)},
+    {"views", FieldType::kInt32, offsetof(sf_config, views)},
+    {"disparityMin", FieldType::kFloat, offsetof(sf_config, disparity_min)},
+    {"disparityMax", FieldType::kFloat, offsetof(sf_config, disparity_max)},
+    {"maxBlur", FieldType::kDouble, offsetof(sf_config, max_blur)},
+    {"workers", FieldType::kInt32, offsetof(sf_config, max_workers)},
+    {"largestBlock", FieldType::kInt32, offsetof(sf_config, largest_block)},
+    {"nScale", FieldType::kDouble, offsetof(sf_config, n_scale)},
+    {"apertureShape", FieldType::kInt16, offsetof(sf_config, aperture_shape)},
+    {"theta", FieldType::kDouble, offsetof(sf_config, theta)},
+    {"blades", FieldType::kInt16, offsetof(sf_config, blades)},
+    {"rotation", FieldType::kFloat, offsetof(sf_config, rotation)},
+    {"curvature", FieldType::kFloat, offsetof(sf_config, curvature)},
+    {"ringInner", FieldType::kFloat, offsetof(sf_config, ring_inner)},
+    {"catsEye", FieldType::kFloat, offsetof(sf_config, cats_eye)},
+    {"transfer", FieldType::kInt32, offsetof(sf_config, transfer)},
+    {"highlights", FieldType::kFloat, offsetof(sf_config, highlights)},
+    {"fillUnknown", FieldType::kInt32, offsetof(sf_config, fill_unknown)},
+};
+
+constexpr Field kParamsFields[] = {
+    {"mode", FieldType::kInt32, offsetof(sf_params, mode)},
+    {"rule", FieldType::kInt32, offsetof(sf_params, rule)},
+    {"focus", FieldType::kDouble, offsetof(sf_params, focus)},
+    {"aperture", FieldType::kDouble, offsetof(sf_params, aperture)},
+    {"regionX", FieldType::kInt32, offsetof(sf_params, region.x)},
+    {"regionY", FieldType::kInt32, offsetof(sf_params, region.y)},
+    {"regionWidth", FieldType::kInt32, offsetof(sf_params, region.width)},
+    {"regionHeight", FieldType::kInt32, offsetof(sf_params, region.height)},
+};
+
+// What to render and where to; false with an exception pending.
+bool ReadTask(JNIEnv* env, Session* session, jobject parameters, jobject out, sf_params* params,
+              sf_image_out* image) {
+  sf_params_init(params);
+  if (!ReadFields(env, parameters, kParamsFields, std::size(kParamsFields), params)) return false;
+  params->progress = Tell;
+  params->progress_data = session;
+  const sf_region& region = params->region;
+  const bool whole = region.width == 0 && region.height == 0;
+  // The library has not looked at the region yet: one without pixels needs no buffer.
+  const int32_t width = whole ? session->config.width : region.width < 1 ? 1 : region.width;
+  const int32_t height = whole ? session->config.height : region.height < 1 ? 1 : region.height;
+  return ReadImageOut(env, out, width, height, image);
+}
+
+// Makes the pool and the engine of a session whose configuration is read.
+sf_status Start(Session* session) {
+  sf_config* const config = &session->config;
+  config->images = 1;
+  if (config->max_workers != 1) {
+    session->pool = sf_pool_create(config->max_workers);
+    if (session->pool == nullptr) return SF_ERROR_MEMORY;
+    config->max_workers = sf_pool_workers(session->pool);
+  }
+  return sf_create(config, nullptr, &session->engine);
+}
+
+sf_status Prepare(Session* session, const sf_image_field& field) {
+  size_t bytes = 0;
+  const sf_status status = sf_prepared_size(&session->config, &bytes);
+  if (status != SF_OK) return status;
+  session->prepared = nullptr;
+  if (session->prepared_memory == nullptr &&
+      posix_memalign(&session->prepared_memory, SF_ALIGNMENT, bytes) != 0) {
+    return SF_ERROR_MEMORY;
+  }
+  Begin(session);
+  return sf_prepare_images(session->engine, &field, session->prepared_memory, bytes, Tell, session,
+                           session->pool != nullptr ? sf_pool_run : nullptr, session->pool,
+                           &session->prepared);
+}
+
+}  // namespace
+}  // namespace starfocus
+
+using namespace starfocus;
+
+#define STARFOCUS_NATIVE(type, name) \
+  extern "C" JNIEXPORT type JNICALL Java_dev_starfocus_Native_##name
+
+STARFOCUS_NATIVE(void, initialize__Ldev_starfocus_Configuration_2)
+(JNIEnv* env, jclass, jobject object) {
+  sf_config config;
+  sf_config_init(&config);
+  config.max_workers = 0;
+  WriteFields(env, &config, kConfigFields, std::size(kConfigFields), object);
+}
+
+STARFOCUS_NATIVE(void, initialize__Ldev_starfocus_Parameters_2)
+(JNIEnv* env, jclass, jobject object) {
+  sf_params params;
+  sf_params_init(&params);
+  WriteFields(env, &params, kParamsFields, std::size(kParamsFields), object);
+}
+
+STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
+  void* const memory = std::malloc(sizeof(Session));
+  if (memory == nullptr) {
+    ThrowStatus(env, SF_ERROR_MEMORY);
+    return 0;
+  }
+  auto* const session = new (memory) Session;
+  sf_config_init(&session->config);
+  if (ReadFields(env, configuration, kConfigFields, std::size(kConfigFields), &session->config)) {
+    const sf_status status = Start(session);
+    if (status == SF_OK) return reinterpret_cast<jlong>(session);
+    ThrowStatus(env, status);
+  }
+  End(session);
+  return 0;
+}
+
+STARFOCUS_NATIVE(void, destroy)(JNIEnv*, jclass, jlong handle) { End(From(handle)); }
+
+STARFOCUS_NATIVE(void, refocus)
+(JNIEnv* env, jclass, jlong handle, jobjectArray views, jobject depth, jobject parameters,
+ jobject out) {
+  Session* const session = From(handle);
+  sf_image_field field;
+  sf_params params;
+  sf_image_out image;
+  if (!ReadImageField(env, views, depth, session->config.views, session->config.width,
+                      session->config.height, &field) ||
+      !ReadTask(env, session, parameters, out, &params, &image)) {
+    return;
+  }
+  Begin(session);
+  ThrowStatus(env, sf_refocus_images(session->engine, &params, &field, &image,
+                                     session->pool != nullptr ? sf_pool_run : nullptr,
+                                     session->pool, nullptr));
+}
+
+STARFOCUS_NATIVE(void, prepare)
+(JNIEnv* env, jclass, jlong handle, jobjectArray views, jobject depth) {
+  Session* const session = From(handle);
+  sf_image_field field;
+  if (ReadImageField(env, views, depth, session->config.views, session->config.width,
+                     session->config.height, &field)) {
+    ThrowStatus(env, Prepare(session, field));
+  }
+}
+
+STARFOCUS_NATIVE(void, refocusPrepared)
+(JNIEnv* env, jclass, jlong handle, jobject parameters, jobject out) {
+  Session* const session = From(handle);
+  sf_params params;
+  sf_image_out image;
+  if (!ReadTask(env, session, parameters, out, &params, &image)) return;
+  Begin(session);
+  ThrowStatus(env, sf_refocus_prepared_images(session->engine, &params, session->prepared, &image,
+                                              session->pool != nullptr ? sf_pool_run : nullptr,
+                                              session->pool, nullptr));
+}
+
+STARFOCUS_NATIVE(void, cancel)(JNIEnv*, jclass, jlong handle) {
+  From(handle)->cancelled.store(1, std::memory_order_relaxed);
+}
+
+STARFOCUS_NATIVE(jint, rowsDone)(JNIEnv*, jclass, jlong handle) {
+  return From(handle)->rows_done.load(std::memory_order_relaxed);
+}
+
+STARFOCUS_NATIVE(jdouble, focusAt)(JNIEnv* env, jclass, jobject disparity, jint x, jint y) {
+  sf_depth_map map;
+  if (!ReadDepthMap(env, disparity, &map)) return 0;
+  if (map.type != SF_DEPTH_FLOAT || map.meaning != SF_DEPTH_LINEAR || map.scale != 1 ||
+      map.offset != 0) {
+    ThrowArgument(env, "focusAt: expected a map of FLOAT, LINEAR of scale 1 and offset 0");
+    return 0;
+  }
+  double focus = 0;
+  ThrowStatus(env, sf_focus_at(static_cast<const float*>(map.data), map.stride, map.width,
+                               map.height, x, y, &focus));
+  return focus;
+}
+
+STARFOCUS_NATIVE(jdoubleArray, viewPosition)(JNIEnv* env, jclass, jint index) {
+  double place[2] = {};
+  if (!sf_view_position(index, &place[0], &place[1])) {
+    ThrowStatus(env, SF_ERROR_VIEWS);
+    return nullptr;
+  }
+  const jdoubleArray array = env->NewDoubleArray(2);
+  if (array != nullptr) env->SetDoubleArrayRegion(array, 0, 2, place);
+  return array;
+}
+
+STARFOCUS_NATIVE(jstring, version)(JNIEnv* env, jclass) {
+  char text[100];
+  std::snprintf(text, sizeof text, "%s, %s", sf_version(), sf_simd_target());
+  return env->NewStringUTF(text);
+}

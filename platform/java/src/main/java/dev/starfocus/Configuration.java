@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+package dev.starfocus;
+
+/**
+ * What a {@link Refocuser} is made for: fields of the C structure sf_config, of which starfocus.h
+ * has the units and ranges. They begin with its defaults; width, height and the range of
+ * disparities must be filled in.
+ */
+public final class Configuration {
+  public static final int SHAPE_FALL_OFF = 0, SHAPE_DISC = 1, SHAPE_POLYGON = 2, SHAPE_RING = 3;
+  public static final int TRANSFER_SRGB = 0, TRANSFER_NONE = 1;
+
+  /** Size of the pictures in pixels. */
+  public int width, height;
+  /** Captured views: 1, 5, 9 or 17. */
+  public int views;
+  /** What disparity maps may hold. */
+  public float disparityMin, disparityMax;
+  /** Largest blur radius in pixels that will be asked for. */
+  public double maxBlur;
+  /** Threads that refocus; 0, the default: one for each big core. */
+  public int workers;
+
+  public int largestBlock;
+  public double nScale;
+  public int apertureShape;
+  public double theta;
+  public int blades;
+  public float rotation, curvature, ringInner, catsEye;
+  public int transfer;
+  public float highlights;
+  /** 1: disparities that are not finite, and invalid depths, are unknown; 0: they are refused. */
+  public int fillUnknown;
+
+  public Configuration() {
+    Native.initialize(this);
+  }
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+package dev.starfocus;
+
+/** The library's side of {@link Refocuser}. A session is an engine with its threads. */
+final class Native {
+  static {
+    System.loadLibrary("starfocus_jni");
+  }
+
+  private Native() {}
+
+  static native void initialize(Configuration configuration);
+
+  static native void initialize(Parameters parameters);
+
+  static native long create(Configuration configuration);
+
+  static native void destroy(long session);
+
+  static native void refocus(
+      long session, Image[] views, DepthMap depth, Parameters parameters, Image out);
+
+  static native void prepare(long session, Image[] views, DepthMap depth);
+
+  static native void refocusPrepared(long session, Parameters parameters, Image out);
+
+  static native void cancel(long session);
+
+  static native int rowsDone(long session);
+
+  static native double focusAt(DepthMap disparity, int x, int y);
+
+  static native double[] viewPosition(int index);
+
+  static native String version();
+}

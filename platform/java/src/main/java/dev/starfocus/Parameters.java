@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+package dev.starfocus;
+
+/**
+ * What to render: fields of the C structure sf_params, of which starfocus.h has the units and
+ * ranges.
+ */
+public final class Parameters {
+  public static final int MODE_FRAME = 0, MODE_BENCHMARK = 1, MODE_BLOCK = 2, MODE_BLUR = 3;
+  public static final int RULE_DEFAULT = 0, RULE_PAPER = 1, RULE_SUBAPERTURE = 2;
+
+  public int mode, rule;
+  /** Disparity in focus. */
+  public double focus;
+  /** Radius of the lens, from 0 (the centre view itself) to 1, the default. */
+  public double aperture;
+  /** Only this part of the picture, in pixels; all 0, the default: the whole one. */
+  public int regionX, regionY, regionWidth, regionHeight;
+
+  public Parameters() {
+    Native.initialize(this);
+  }
+}

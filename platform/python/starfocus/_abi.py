@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The C ABI as ctypes sees it: the shared library, its structures and its functions.
+
+The structures repeat those of the C headers field by field. Their sizes are compared with the
+library's when it is loaded, so that one that has grown there is noticed here and nothing is read from
+a wrong place.
+"""
+from __future__ import annotations
+
+import ctypes
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, c_int, c_int16, c_int32, c_int64,
+                    c_size_t, c_uint32, c_uint64, c_void_p)
+from pathlib import Path
+
+MAX_VIEWS = 17
+ALIGNMENT = 64
+ABI_VERSION = 1
+
+Progress = CFUNCTYPE(c_int, c_void_p, c_int32, c_int32)
+
+
+class Timing(Structure):
+    """sf_timing"""
+
+    _fields_ = [(name, c_uint32) for name in ("block", "field", "a", "b", "c", "upsample", "span", "hole")]
+
+
+class Config(Structure):
+    """sf_config"""
+
+    _fields_ = [
+        ("version", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
+        ("disparity_min", c_float), ("disparity_max", c_float), ("max_blur", c_double),
+        ("largest_block", c_int32), ("max_workers", c_int32), ("streaming", c_int32), ("theta", c_double),
+        ("max_layer", c_int32), ("deblocking", c_int32), ("timing", Timing), ("n_scale", c_double),
+        ("skips", c_int32), ("gather", c_int32), ("aperture_shape", c_int16), ("blades", c_int16),
+        ("rotation", c_float), ("curvature", c_float), ("ring_inner", c_float), ("cats_eye", c_float),
+        ("transfer", c_int32), ("highlights", c_float), ("fill_unknown", c_int32), ("images", c_int32),
+        ("reserved", c_uint32 * 4),
+    ]
+
+
+class Region(Structure):
+    """sf_region"""
+
+    _fields_ = [(name, c_int32) for name in ("x", "y", "width", "height")]
+
+
+class Params(Structure):
+    """sf_params"""
+
+    _fields_ = [
+        ("version", c_uint32), ("mode", c_int32), ("focus", c_double), ("aperture", c_double),
+        ("rule", c_int32), ("clock", c_void_p), ("on_block", c_void_p), ("on_block_data", c_void_p),
+        ("region", Region), ("progress", Progress), ("progress_data", c_void_p),
+        ("reserved", c_uint32 * 4),
+    ]
+
+
+class Plane(Structure):
+    """sf_plane"""
+
+    _fields_ = [("data", c_void_p), ("stride", c_size_t)]
+
+
+class LightField(Structure):
+    """sf_light_field"""
+
+    _fields_ = [("views", Plane * MAX_VIEWS), ("disparity", c_void_p), ("disparity_stride", c_size_t)]
+
+
+class LayerReport(Structure):
+    """sf_layer_report"""
+
+    _fields_ = [(name, c_uint64) for name in
+                ("blocks", "pixels", "views", "rendered_samples", "predicted_ps", "measured_ns")]
+
+
+class Skipped(Structure):
+    """sf_skipped"""
+
+    _fields_ = [(name, c_uint64) for name in ("copied_blocks", "copied_pixels", "filled_blocks",
+                                              "filled_pixels", "layer_columns", "boundaries")]
+
+
+class Report(Structure):
+    """sf_report"""
+
+    _fields_ = [
+        ("r_max", c_double), ("n", c_int32), ("rendered_views", c_int32), ("largest_block", c_int32),
+        ("rendered_samples", c_uint64), ("layers", LayerReport * 3), ("skipped", Skipped),
+        ("centre_bytes", c_uint64), ("disparity_bytes", c_uint64), ("side_bytes", c_uint64),
+        ("gathered_pixels", c_uint64), ("reused_blocks", c_uint64), ("unknown_pixels", c_uint64),
+    ]
+
+
+class DisparityStats(Structure):
+    """sf_disparity_stats"""
+
+    _fields_ = [("min", c_float), ("max", c_float), ("invalid", c_int64)]
+
+
+class DepthConfig(Structure):
+    """sf_depth_config"""
+
+    _fields_ = [
+        ("version", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
+        ("disparity_min", c_float), ("disparity_max", c_float), ("max_workers", c_int32),
+        ("progress", Progress), ("progress_data", c_void_p), ("reserved", c_uint32 * 8),
+    ]
+
+
+class Image(Structure):
+    """sf_image, and sf_image_out, which differs from it in what is const."""
+
+    _fields_ = [
+        ("format", c_int32), ("matrix", c_int32), ("range", c_int32), ("pixel_stride", c_int32),
+        ("planes", c_void_p * 3), ("strides", c_size_t * 3),
+    ]
+
+
+class DepthMap(Structure):
+    """sf_depth_map"""
+
+    _fields_ = [
+        ("data", c_void_p), ("stride", c_size_t), ("width", c_int32), ("height", c_int32),
+        ("type", c_int32), ("meaning", c_int32), ("scale", c_float), ("offset", c_float),
+        ("has_invalid", c_int32), ("invalid", c_float),
+    ]
+
+
+class ImageField(Structure):
+    """sf_image_field"""
+
+    _fields_ = [("views", Image * MAX_VIEWS), ("depth", DepthMap)]
+
+
+STRUCTURES = {
+    "sf_timing": Timing, "sf_config": Config, "sf_region": Region, "sf_params": Params,
+    "sf_plane": Plane, "sf_light_field": LightField, "sf_layer_report": LayerReport,
+    "sf_skipped": Skipped, "sf_report": Report, "sf_disparity_stats": DisparityStats,
+    "sf_depth_config": DepthConfig, "sf_image": Image, "sf_image_out": Image,
+    "sf_depth_map": DepthMap, "sf_image_field": ImageField,
+}
+
+_RUN = (c_void_p, c_void_p)  # a runner and its data
+_ENGINE_CALLS = {
+    "sf_create": (POINTER(Config), c_void_p, POINTER(c_void_p)),
+    "sf_prepared_size": (POINTER(Config), POINTER(c_size_t)),
+    "sf_refocus": (c_void_p, POINTER(Params), POINTER(LightField), c_void_p, c_size_t, *_RUN, POINTER(Report)),
+    "sf_prepare": (c_void_p, POINTER(LightField), c_void_p, c_size_t, Progress, c_void_p, *_RUN,
+                   POINTER(c_void_p)),
+    "sf_refocus_prepared": (c_void_p, POINTER(Params), c_void_p, c_void_p, c_size_t, *_RUN, POINTER(Report)),
+    "sf_refocus_images": (c_void_p, POINTER(Params), POINTER(ImageField), POINTER(Image), *_RUN,
+                          POINTER(Report)),
+}
+_MAP_CALLS = {
+    "sf_measure_disparity": (c_void_p, c_size_t, c_int32, c_int32, POINTER(DisparityStats)),
+    "sf_fill_disparity": (c_void_p, c_size_t, c_int32, c_int32),
+    "sf_focus_at": (c_void_p, c_size_t, c_int32, c_int32, c_int32, c_int32, POINTER(c_double)),
+    "sf_aperture_of_f_stop": (c_double, c_double, POINTER(c_double)),
+    "sf_estimate_size": (POINTER(DepthConfig), POINTER(c_size_t)),
+    "sf_repair_size": (POINTER(DepthConfig), POINTER(c_size_t)),
+    "sf_estimate_disparity": (POINTER(DepthConfig), POINTER(LightField), c_void_p, c_size_t, c_void_p,
+                              c_size_t, c_void_p, c_size_t, *_RUN),
+    "sf_repair_disparity": (POINTER(DepthConfig), POINTER(LightField), c_void_p, c_size_t, c_void_p,
+                            c_size_t, c_void_p, c_size_t, *_RUN),
+    "sf_view_position": (c_int32, POINTER(c_double), POINTER(c_double)),
+}
+_OTHERS = {
+    "sf_config_init": (None, POINTER(Config)),
+    "sf_params_init": (None, POINTER(Params)),
+    "sf_depth_config_init": (None, POINTER(DepthConfig)),
+    "sf_destroy": (None, c_void_p),
+    "sf_status_string": (c_char_p, c_int),
+    "sf_simd_target": (c_char_p,),
+    "sf_version": (c_char_p,),
+    "sf_abi_version": (c_uint32,),
+    "sf_struct_size": (c_size_t, c_char_p),
+    "sf_pool_create": (c_void_p, c_int32),
+    "sf_pool_workers": (c_int32, c_void_p),
+    "sf_pool_destroy": (None, c_void_p),
+}
+
+
+def _load() -> ctypes.CDLL:
+    """The library, whose calls let other Python threads run, with the types of its functions."""
+    library = ctypes.CDLL(str(Path(__file__).with_name("libstarfocus_python.so")))
+    for name, arguments in {**_ENGINE_CALLS, **_MAP_CALLS}.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = c_int, list(arguments)
+    for name, (result, *arguments) in _OTHERS.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
+    if library.sf_abi_version() != ABI_VERSION:
+        raise ImportError(f"libstarfocus_python.so: expected ABI version {ABI_VERSION}, found "
+                          f"{library.sf_abi_version()}")
+    for name, structure in STRUCTURES.items():
+        expected, found = ctypes.sizeof(structure), library.sf_struct_size(name.encode())
+        if expected != found:
+            raise ImportError(f"libstarfocus_python.so: expected {name} of {expected} bytes, found {found}")
+    return library
+
+
+library = _load()
+run_on_pool = ctypes.cast(library.sf_pool_run, c_void_p)

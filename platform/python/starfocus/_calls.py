@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What calls of the library have in common: arrays as it reads them, threads, progress."""
+from __future__ import annotations
+
+import ctypes
+import weakref
+from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _abi
+from ._abi import library
+from .errors import check
+
+#: Is told of the rows done and of all rows; what counts as true calls the work off.
+ProgressFunction = Callable[[int, int], Any]
+#: Views as one array of shape (views, height, width, 3), or as one of (height, width, 3) each.
+Views = Union[np.ndarray, Sequence[np.ndarray]]
+
+
+def rows_of(array: Any, dtype: Any, shape: Tuple[int, ...], what: str) -> np.ndarray:
+    """The array itself if its rows are contiguous and follow each other, else a copy that is so."""
+    array = np.asarray(array)
+    if array.dtype != dtype:
+        raise TypeError(f"{what}: expected {np.dtype(dtype)}, found {array.dtype}")
+    if array.shape != shape:
+        raise ValueError(f"{what}: expected the shape {shape}, found {array.shape}")
+    return array if has_rows(array) else np.ascontiguousarray(array)
+
+
+def has_rows(array: np.ndarray) -> bool:
+    """Whether the library can read or write the array where it is."""
+    inner = array.itemsize
+    for size, stride in zip(array.shape[:0:-1], array.strides[:0:-1]):
+        if size != 1 and stride != inner:
+            return False
+        inner *= size
+    aligned = array.ctypes.data % array.itemsize == 0 and array.strides[0] % array.itemsize == 0
+    return aligned and (array.shape[0] == 1 or array.strides[0] >= inner)
+
+
+def stride_of(array: np.ndarray) -> int:
+    """Bytes from row to row, as long as a row even where numpy gives a single row another one."""
+    return max(array.strides[0], array.nbytes // array.shape[0])
+
+
+def output(out: Optional[np.ndarray], shape: Tuple[int, ...], what: str) -> np.ndarray:
+    """A new picture, or the one that was given if the library can write it where it is."""
+    if out is None:
+        return np.empty(shape, np.uint8)
+    if not isinstance(out, np.ndarray) or out.dtype != np.uint8:
+        raise TypeError(f"{what}: expected an array of uint8")
+    if out.shape != shape or not has_rows(out) or not out.flags.writeable:
+        raise ValueError(f"{what}: expected a writable array of the shape {shape} with contiguous rows, found "
+                         f"the shape {out.shape} with the strides {out.strides}")
+    return out
+
+
+def light_field(views: Views, disparity: Any, count: int, height: int,
+                width: int) -> Tuple[_abi.LightField, List[np.ndarray]]:
+    """sf_light_field of the arrays, and what must be kept as long as the library may read it. Without a
+    disparity map (None) its place stays empty."""
+    if len(views) != count:
+        raise ValueError(f"views: expected {count}, found {len(views)}")
+    field, kept = _abi.LightField(), []
+    for i, view in enumerate(views):
+        view = rows_of(view, np.uint8, (height, width, 3), f"view {i}")
+        field.views[i] = _abi.Plane(view.ctypes.data, stride_of(view))
+        kept.append(view)
+    if disparity is not None:
+        disparity = rows_of(disparity, np.float32, (height, width), "disparity")
+        field.disparity, field.disparity_stride = disparity.ctypes.data, stride_of(disparity)
+        kept.append(disparity)
+    return field, kept
+
+
+def aligned(size: int) -> np.ndarray:
+    """Memory as the library wants it."""
+    memory = np.empty(size + _abi.ALIGNMENT, np.uint8)
+    first = -memory.ctypes.data % _abi.ALIGNMENT
+    return memory[first:first + size]
+
+
+class Pool:
+    """Threads of the library's pool; with one worker none, and work is done by the caller."""
+
+    def __init__(self, workers: int):
+        self.handle = None
+        self.runner = None
+        self.workers = 1
+        if workers != 1:
+            self.handle = library.sf_pool_create(workers)
+            if not self.handle:
+                raise MemoryError("no memory for a pool of threads")
+            weakref.finalize(self, library.sf_pool_destroy, self.handle)
+            self.runner = _abi.run_on_pool
+            self.workers = library.sf_pool_workers(self.handle)
+
+
+class Watch:
+    """A caller's progress function as the library calls it, from whichever thread."""
+
+    def __init__(self, callback: Optional[ProgressFunction]):
+        self._callback = callback
+        self._error: Optional[BaseException] = None
+        self.function = _abi.Progress(self._ask) if callback else _abi.Progress()
+
+    def _ask(self, _data: Any, done: int, rows: int) -> int:
+        try:
+            return 1 if self._callback(done, rows) else 0
+        except BaseException as error:  # pylint: disable=broad-except
+            self._error = error
+            return 1
+
+    def check(self, status: int) -> None:
+        """Raises what the function raised, else the error of the status."""
+        if self._error is not None:
+            raise self._error
+        check(status)
+
+
+def pointer(array: Optional[np.ndarray]) -> Optional[ctypes.c_void_p]:
+    """Where an array begins; None for none."""
+    return None if array is None else ctypes.c_void_p(array.ctypes.data)

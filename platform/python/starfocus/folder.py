@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Light-field folders, as the program `starfocus` writes and reads them."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import List, Optional, Tuple, Union
+
+import numpy as np
+
+from .maps import view_positions
+
+_SETS = (17, 9, 5, 1)
+
+
+def read_light_field(folder: Union[str, Path]) -> Tuple[List[np.ndarray], Optional[np.ndarray]]:
+    """The views of a folder, the largest star that is complete, and its disparity map if it has one."""
+    folder = Path(folder)
+    paths = [_view_path(folder, u, v) for u, v in view_positions()]
+    count = next((size for size in _SETS if all(paths[:size])), None)
+    if count is None:
+        raise FileNotFoundError(f"{folder}: expected a view named view_+0.0_+0.0 (png, ppm or jpg)")
+    disparity = folder / "disparity.pfm"
+    return [read_picture(path) for path in paths[:count]], read_pfm(disparity) if disparity.exists() else None
+
+
+def read_picture(path: Union[str, Path]) -> np.ndarray:
+    """A picture as (height, width, 3) uint8; other formats than PPM need the package pillow."""
+    path = Path(path)
+    if path.suffix != ".ppm":
+        from PIL import Image  # pylint: disable=import-outside-toplevel
+        with Image.open(path) as image:
+            return np.asarray(image.convert("RGB"))
+    data = path.read_bytes()
+    (magic, width, height, largest), first = _header(data, 4, path)
+    if (magic, largest) != (b"P6", b"255"):
+        raise ValueError(f"{path}: expected a binary PPM of 8 bits")
+    return _values(data, first, np.dtype(np.uint8), (int(height), int(width), 3), path)
+
+
+def read_pfm(path: Union[str, Path]) -> np.ndarray:
+    """A map of one channel as (height, width) float32, its first row on top."""
+    path = Path(path)
+    data = path.read_bytes()
+    (magic, width, height, scale), first = _header(data, 4, path)
+    if magic != b"Pf":
+        raise ValueError(f"{path}: expected a PFM of one channel")
+    kind = np.dtype("<f4" if float(scale) < 0 else ">f4")
+    values = _values(data, first, kind, (int(height), int(width)), path)
+    return np.ascontiguousarray(values[::-1], np.float32)
+
+
+def _view_path(folder: Path, u: float, v: float) -> Optional[Path]:
+    paths = (folder / f"view_{u:+.1f}_{v:+.1f}{end}" for end in (".png", ".ppm", ".jpg"))
+    return next((path for path in paths if path.exists()), None)
+
+
+def _header(data: bytes, words: int, path: Path) -> Tuple[List[bytes], int]:
+    """The first words of a file, comments left out, and where what follows them begins."""
+    found: List[bytes] = []
+    at = 0
+    while len(found) < words:
+        end = at
+        while end < len(data) and not data[end:end + 1].isspace():
+            end += 1
+        if end == len(data):
+            raise ValueError(f"{path}: its header ends too early")
+        if data[at:at + 1] == b"#":
+            end = data.find(b"\n", at)
+        elif end > at:
+            found.append(data[at:end])
+        at = end + 1
+    return found, at
+
+
+def _values(data: bytes, first: int, kind: np.dtype, shape: Tuple[int, ...], path: Path) -> np.ndarray:
+    expected = int(np.prod(shape)) * kind.itemsize
+    if len(data) - first < expected:
+        raise ValueError(f"{path}: expected {expected} bytes of values, found {len(data) - first}")
+    return np.frombuffer(data, kind, int(np.prod(shape)), first).reshape(shape)

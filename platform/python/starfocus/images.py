@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures and depth maps as cameras have them: starfocus/image.h."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _abi
+from ._calls import has_rows, stride_of
+from .constants import DepthMeaning, Format, Matrix, Range
+
+_PIXEL_BYTES = {Format.RGB: 3, Format.BGR: 3, Format.RGBX: 4, Format.BGRX: 4}
+_CHROMA_PLANES = {Format.NV12: 1, Format.NV21: 1, Format.I420: 2, Format.YUV_420_888: 2}
+_DEPTH_TYPES = {np.dtype(np.float32): 0, np.dtype(np.uint16): 1, np.dtype(np.uint8): 2, np.dtype(np.float16): 3}
+
+
+@dataclass(frozen=True)
+class Image:
+    """A picture that is read, or written where its planes are writable.
+
+    Planes are arrays of uint8, one row of the plane each along their first axis, with contiguous rows.
+    `pixel_stride` is the distance of pixels of R, G, B, or of chroma samples of YUV_420_888, in bytes; 0: the
+    least that the format allows.
+    """
+
+    format: Format
+    planes: Sequence[np.ndarray]
+    matrix: Matrix = Matrix.BT601
+    range: Range = Range.LIMITED
+    pixel_stride: int = 0
+
+    @staticmethod
+    def empty(form: Format, width: int, height: int, matrix: Matrix = Matrix.BT601,
+              codes: Range = Range.LIMITED) -> "Image":
+        """A new picture whose rows follow each other."""
+        sizes = _plane_sizes(form, 0, width, height)
+        return Image(form, [np.empty(size, np.uint8) for size in sizes], matrix, codes)
+
+    def as_structure(self, width: int, height: int, what: str, written: bool = False) -> _abi.Image:
+        """sf_image; ValueError when a plane is too small for a picture of this size."""
+        image = _abi.Image(self.format, self.matrix, self.range, self.pixel_stride)
+        sizes = _plane_sizes(self.format, self.pixel_stride, width, height)
+        if len(self.planes) != len(sizes):
+            raise ValueError(f"{what}: expected {len(sizes)} planes, found {len(self.planes)}")
+        for i, (plane, (rows, row_bytes)) in enumerate(zip(self.planes, sizes)):
+            _check_plane(plane, rows, row_bytes, f"{what}, plane {i}", written)
+            image.planes[i], image.strides[i] = plane.ctypes.data, stride_of(plane)
+        return image
+
+
+@dataclass(frozen=True)
+class DepthMap:
+    """Depths of the centre view, as large as the picture or smaller.
+
+    `values` are float32, float16, uint16 or uint8. Disparity is scale * z + offset (LINEAR) or
+    scale / z + offset (RECIPROCAL: z is a distance). `invalid` is the value that stands for an unknown depth,
+    if one does.
+    """
+
+    values: np.ndarray
+    meaning: DepthMeaning = DepthMeaning.LINEAR
+    scale: float = 1.0
+    offset: float = 0.0
+    invalid: Optional[float] = None
+
+    def as_structure(self) -> _abi.DepthMap:
+        """sf_depth_map."""
+        values = self.values
+        if values.dtype not in _DEPTH_TYPES:
+            raise TypeError(f"depth: expected float32, float16, uint16 or uint8, found {values.dtype}")
+        if values.ndim != 2 or 0 in values.shape or not has_rows(values):
+            raise ValueError(f"depth: expected rows of values, contiguous and aligned, found the shape "
+                             f"{values.shape} with the strides {values.strides}")
+        height, width = values.shape
+        return _abi.DepthMap(values.ctypes.data, stride_of(values), width, height,
+                                 _DEPTH_TYPES[values.dtype], self.meaning, self.scale, self.offset,
+                                 self.invalid is not None, self.invalid or 0.0)
+
+
+def _plane_sizes(form: Format, pixel_stride: int, width: int, height: int) -> Sequence[Tuple[int, int]]:
+    """Rows, and bytes of each, of the planes of a picture."""
+    pixel = _PIXEL_BYTES.get(form)
+    if pixel:
+        return [(height, (width - 1) * max(pixel_stride, pixel) + pixel)]
+    columns, rows = (width + 1) // 2, (height + 1) // 2
+    chroma = 2 * columns if _CHROMA_PLANES[form] == 1 else (columns - 1) * max(pixel_stride, 1) + 1
+    return [(height, width)] + [(rows, chroma)] * _CHROMA_PLANES[form]
+
+
+def _check_plane(plane: np.ndarray, rows: int, row_bytes: int, what: str, written: bool) -> None:
+    if plane.dtype != np.uint8:
+        raise TypeError(f"{what}: expected uint8, found {plane.dtype}")
+    if plane.ndim < 2 or not has_rows(plane):
+        raise ValueError(f"{what}: expected contiguous rows, found the shape {plane.shape} with the strides "
+                         f"{plane.strides}")
+    found = plane.shape[0], plane[0].size
+    if found[0] < rows or found[1] < row_bytes:
+        raise ValueError(f"{what}: expected {rows} rows of {row_bytes} bytes at least, found {found[0]} of "
+                         f"{found[1]}")
+    if written and not plane.flags.writeable:
+        raise ValueError(f"{what}: expected to be writable")

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Disparity maps: measuring, filling, estimating and repairing them, and what they say of a lens."""
+from __future__ import annotations
+
+import ctypes
+from ctypes import byref
+from typing import Any, List, NamedTuple, Optional, Tuple
+
+import numpy as np
+
+from . import _abi
+from ._calls import Pool, ProgressFunction, Views, Watch, aligned, light_field, pointer, rows_of, stride_of
+from ._abi import library
+from .errors import check
+
+
+class DisparityStats(NamedTuple):
+    """Smallest and largest finite value of a map, and how many are not finite."""
+
+    min: float
+    max: float
+    invalid: int
+
+
+class DisparityMap(NamedTuple):
+    """A map (float32) and how sure each of its pixels is (uint8): 0 means that another disparity is as good."""
+
+    disparity: np.ndarray
+    confidence: np.ndarray
+
+
+def view_positions(count: int = 17) -> List[Tuple[float, float]]:
+    """Where the first `count` views lie, as (u, v): the centre comes first."""
+    u, v = ctypes.c_double(), ctypes.c_double()
+    positions = []
+    for index in range(count):
+        if not library.sf_view_position(index, byref(u), byref(v)):
+            raise ValueError(f"view_positions: expected at most {_abi.MAX_VIEWS} views, found {count}")
+        positions.append((u.value, v.value))
+    return positions
+
+
+def measure_disparity(disparity: np.ndarray) -> DisparityStats:
+    """The range of a map of float32."""
+    disparity = _checked(disparity)
+    stats = _abi.DisparityStats()
+    check(library.sf_measure_disparity(*_rows(disparity), byref(stats)))
+    return DisparityStats(stats.min, stats.max, stats.invalid)
+
+
+def fill_disparity(disparity: np.ndarray) -> np.ndarray:
+    """A copy whose values that are not finite are those of the farther neighbour in their row."""
+    filled = np.array(_checked(disparity), order="C")
+    check(library.sf_fill_disparity(*_rows(filled)))
+    return filled
+
+
+def focus_at(disparity: np.ndarray, x: int, y: int) -> float:
+    """The focus for what is at the pixel (x, y): the median of its surface around there."""
+    focus = ctypes.c_double()
+    check(library.sf_focus_at(*_rows(_checked(disparity)), x, y, byref(focus)))
+    return focus.value
+
+
+def aperture_of_f_stop(f_stop: float, widest: float = 1.0) -> float:
+    """The aperture of a lens stopped down to `f_stop`, where `widest` is the f-stop of aperture 1."""
+    aperture = ctypes.c_double()
+    check(library.sf_aperture_of_f_stop(f_stop, widest, byref(aperture)))
+    return aperture.value
+
+
+def estimate_disparity(views: Views, disparity_min: float, disparity_max: float, *, workers: int = 0,
+                       progress: Optional[ProgressFunction] = None) -> DisparityMap:
+    """The disparity of each pixel of the centre view, from 5, 9 or 17 views, looked for in this range."""
+    return _make_map(library.sf_estimate_size, library.sf_estimate_disparity, views, None,
+                     (disparity_min, disparity_max), workers, progress)
+
+
+def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optional[float] = None,
+                     disparity_max: Optional[float] = None, *, workers: int = 0,
+                     progress: Optional[ProgressFunction] = None) -> DisparityMap:
+    """A map whose edges are wrong or blurred, which is noisy or has unknown (not finite) values, repaired by
+    1, 5, 9 or 17 views; all within this range, which is the map's own unless it is given."""
+    stats = measure_disparity(disparity)
+    span = (stats.min if disparity_min is None else disparity_min,
+            stats.max if disparity_max is None else disparity_max)
+    return _make_map(library.sf_repair_size, library.sf_repair_disparity, views, disparity, span, workers,
+                     progress)
+
+
+def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray], span: Tuple[float, float],
+              workers: int, progress: Optional[ProgressFunction]) -> DisparityMap:
+    height, width = np.asarray(views[0]).shape[:2]
+    pool, watch, size = Pool(workers), Watch(progress), ctypes.c_size_t()
+    config = _abi.DepthConfig()
+    library.sf_depth_config_init(byref(config))
+    config.width, config.height, config.views = width, height, len(views)
+    config.disparity_min, config.disparity_max = span
+    config.max_workers, config.progress = pool.workers, watch.function
+    check(size_of(byref(config), byref(size)))
+    field, kept = light_field(views, given, len(views), height, width)
+    memory = aligned(size.value)
+    made = DisparityMap(np.empty((height, width), np.float32), np.empty((height, width), np.uint8))
+    status = make(byref(config), byref(field), pointer(made.disparity), stride_of(made.disparity),
+                  pointer(made.confidence), stride_of(made.confidence), pointer(memory), size.value,
+                  pool.runner, pool.handle)
+    del kept
+    watch.check(status)
+    return made
+
+
+def _checked(disparity: np.ndarray) -> np.ndarray:
+    disparity = np.asarray(disparity)
+    if disparity.ndim != 2:
+        raise ValueError(f"disparity: expected the shape (height, width), found {disparity.shape}")
+    return rows_of(disparity, np.float32, disparity.shape, "disparity")
+
+
+def _rows(disparity: np.ndarray) -> Tuple[Any, int, int, int]:
+    """Where a map begins, its stride, width and height, as calls of the library take them."""
+    return pointer(disparity), stride_of(disparity), disparity.shape[1], disparity.shape[0]

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Refocusing."""
+from __future__ import annotations
+
+import ctypes
+import math
+import threading
+import weakref
+from ctypes import byref
+from typing import Any, Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _abi
+from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, light_field, output, pointer, stride_of)
+from ._abi import library
+from .constants import Mode, Rule
+from .errors import check
+from .images import DepthMap, Image
+from .maps import measure_disparity
+
+#: x, y, width and height in pixels.
+RegionOfPicture = Tuple[int, int, int, int]
+
+
+class Refocuser:
+    """An engine for light fields of one size.
+
+    Args:
+        width, height: of the pictures, in pixels.
+        views: 1, 5, 9 or 17, in the order of `view_positions`.
+        disparity_min, disparity_max: what values disparity maps may hold, in pixels per unit of u.
+        workers: threads that refocus; 0: one for each big core of the machine.
+        config: other fields of sf_config (starfocus.h) by their names, such as `max_blur`, `aperture_shape`,
+            `transfer`, `highlights`, `fill_unknown`, or `images=1` for `refocus_images`.
+
+    Memory is taken here and nowhere else. Calls let other Python threads run; calls of several threads with
+    the same refocuser take turns. The bytes of pictures depend on neither the machine nor `workers`.
+    """
+
+    def __init__(self, width: int, height: int, views: int = 5, *, disparity_min: float,
+                 disparity_max: float, workers: int = 0, **config: Any):
+        self._config = _abi.Config()
+        library.sf_config_init(byref(self._config))
+        known = {field[0] for field in _abi.Config._fields_} - {"version", "reserved", "max_workers"}
+        for name, value in {**config, "width": width, "height": height, "views": views,
+                            "disparity_min": disparity_min, "disparity_max": disparity_max}.items():
+            if name not in known:
+                raise TypeError(f"Refocuser: unknown field of the configuration '{name}'")
+            setattr(self._config, name, value)
+        self._pool = Pool(workers)
+        self._config.max_workers = self._pool.workers
+        engine = ctypes.c_void_p()
+        check(library.sf_create(byref(self._config), None, byref(engine)))
+        self._engine = engine.value
+        weakref.finalize(self, library.sf_destroy, self._engine)
+        self._lock = threading.Lock()
+        #: What the last refocusing did: the fields of sf_report.
+        self.report: Dict[str, Any] = {}
+
+    @classmethod
+    def for_light_field(cls, views: Views, disparity: np.ndarray, *, workers: int = 0,
+                        **config: Any) -> "Refocuser":
+        """A refocuser for this light field and others like it: of its size, number of views and range of
+        disparities, with room for the blur of every focus among these."""
+        height, width = disparity.shape
+        stats = measure_disparity(disparity)
+        room = min(128.0, max(1.0, math.ceil(stats.max - stats.min)))
+        return cls(width, height, len(views), disparity_min=stats.min, disparity_max=stats.max,
+                   workers=workers, **{"max_blur": room, **config})
+
+    @property
+    def width(self) -> int:
+        """Of the pictures, in pixels."""
+        return self._config.width
+
+    @property
+    def height(self) -> int:
+        """Of the pictures, in pixels."""
+        return self._config.height
+
+    @property
+    def workers(self) -> int:
+        """Threads that refocus."""
+        return self._pool.workers
+
+    def refocus(self, views: Views, disparity: np.ndarray, *, focus: float, aperture: float = 1.0,
+                mode: Mode = Mode.BLOCK, rule: Rule = Rule.DEFAULT,
+                region: Optional[RegionOfPicture] = None, out: Optional[np.ndarray] = None,
+                progress: Optional[ProgressFunction] = None) -> np.ndarray:
+        """The picture that a lens of the radius `aperture`, from 0 to 1, focused at the disparity `focus`
+        would have taken, as (height, width, 3) uint8.
+
+        Args:
+            views: uint8 of (height, width, 3) each. Where rows are contiguous they are read where they are.
+            disparity: float32 of (height, width), of the centre view.
+            region: only this part of the picture, with the same bytes.
+            out: written and returned in place of a new array.
+            progress: is told of the rows done and of all; what counts as true calls it off (Cancelled).
+
+        Raises StarfocusError, of which there are kinds, and TypeError or ValueError for arrays.
+        """
+        field, kept = light_field(views, disparity, self._config.views, self.height, self.width)
+        return self._picture(focus, aperture, mode, rule, region, out, progress,
+                             library.sf_refocus, byref(field), kept)
+
+    def prepare(self, views: Views, disparity: np.ndarray, *,
+                progress: Optional[ProgressFunction] = None) -> "Prepared":
+        """What is the same for every lens, made once for many pictures of one light field."""
+        return Prepared(self, views, disparity, progress)
+
+    def refocus_images(self, views: Sequence[Image], depth: DepthMap, *, focus: float,
+                       out: Image, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
+                       rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
+                       progress: Optional[ProgressFunction] = None) -> Image:
+        """As `refocus`, of pictures and depths as cameras have them, into the image `out`, which is returned;
+        the configuration has `images=1`."""
+        if len(views) != self._config.views:
+            raise ValueError(f"views: expected {self._config.views}, found {len(views)}")
+        field = _abi.ImageField(depth=depth.as_structure())
+        for i, view in enumerate(views):
+            field.views[i] = view.as_structure(self.width, self.height, f"view {i}")
+        width, height = region[2:] if region else (self.width, self.height)
+        target = out.as_structure(width, height, "out", written=True)
+        watch = Watch(progress)
+        params = self._params(focus, aperture, mode, rule, region, watch)
+        self._call(watch, library.sf_refocus_images, byref(params), byref(field), byref(target))
+        return out
+
+    def _picture(self, focus: float, aperture: float, mode: Mode, rule: Rule,
+                 region: Optional[RegionOfPicture], out: Optional[np.ndarray],
+                 progress: Optional[ProgressFunction], function: Any, scene: Any,
+                 kept: List[np.ndarray]) -> np.ndarray:
+        """The picture by sf_refocus or sf_refocus_prepared, of the scene, which reads the arrays `kept`."""
+        width, height = region[2:] if region else (self.width, self.height)
+        picture = output(out, (height, width, 3), "out")
+        watch = Watch(progress)
+        params = self._params(focus, aperture, mode, rule, region, watch)
+        self._call(watch, function, byref(params), scene, pointer(picture), stride_of(picture))
+        del kept
+        return picture
+
+    def _params(self, focus: float, aperture: float, mode: Mode, rule: Rule,
+                region: Optional[RegionOfPicture], watch: Watch) -> _abi.Params:
+        params = _abi.Params()
+        library.sf_params_init(byref(params))
+        params.focus, params.aperture, params.mode, params.rule = focus, aperture, mode, rule
+        params.progress = watch.function
+        if region is not None:
+            params.region = _abi.Region(*region)
+        return params
+
+    def _call(self, watch: Watch, function: Any, *arguments: Any) -> None:
+        report = _abi.Report()
+        with self._lock:
+            status = function(self._engine, *arguments, self._pool.runner, self._pool.handle, byref(report))
+        watch.check(status)
+        self.report = _as_dict(report)
+
+
+class Prepared:
+    """A light field of which all that is the same for every lens has been made: 3.89 bytes per pixel. It
+    keeps the arrays; they must stay as they are."""
+
+    def __init__(self, refocuser: Refocuser, views: Views, disparity: np.ndarray,
+                 progress: Optional[ProgressFunction]):
+        # pylint: disable=protected-access
+        config, pool = refocuser._config, refocuser._pool
+        self._refocuser = refocuser
+        field, self._kept = light_field(views, disparity, config.views, config.height, config.width)
+        size = ctypes.c_size_t()
+        check(library.sf_prepared_size(byref(config), byref(size)))
+        self._memory = aligned(size.value)
+        self._handle = ctypes.c_void_p()
+        watch = Watch(progress)
+        with refocuser._lock:
+            status = library.sf_prepare(refocuser._engine, byref(field), pointer(self._memory), size.value,
+                                        watch.function, None, pool.runner, pool.handle, byref(self._handle))
+        watch.check(status)
+
+    def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
+                rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
+                out: Optional[np.ndarray] = None,
+                progress: Optional[ProgressFunction] = None) -> np.ndarray:
+        """As Refocuser.refocus of the light field, with the same bytes."""
+        return self._refocuser._picture(  # pylint: disable=protected-access
+            focus, aperture, mode, rule, region, out, progress, library.sf_refocus_prepared, self._handle,
+            self._kept)
+
+
+def _as_dict(structure: ctypes.Structure) -> Dict[str, Any]:
+    def plain(value: Any) -> Any:
+        if isinstance(value, ctypes.Structure):
+            return _as_dict(value)
+        return [plain(one) for one in value] if isinstance(value, ctypes.Array) else value
+
+    return {name: plain(getattr(structure, name)) for name, _ in structure._fields_}

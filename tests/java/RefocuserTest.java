@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+package dev.starfocus;
+
+import java.nio.ByteBuffer;
+import java.nio.ByteOrder;
+
+/**
+ * What the Java API does beside the bytes of the demo: buffers, errors, other threads. It prints
+ * what failed and exits with 1.
+ */
+public final class RefocuserTest {
+  private static final int WIDTH = 160, HEIGHT = 120;
+  private static int checks, failures;
+
+  private interface Call {
+    void run() throws Exception;
+  }
+
+  private static void check(boolean holds, String what) {
+    ++checks;
+    if (holds)
+      return;
+    ++failures;
+    System.err.println("failed: " + what);
+  }
+
+  /** Whether the call throws this, with a message that has this part. */
+  private static void checkThrows(Class<?> kind, String part, Call call) {
+    try {
+      call.run();
+      check(false, "expected " + kind.getName() + " (" + part + "), found nothing thrown");
+    } catch (Throwable thrown) {
+      final String message = String.valueOf(thrown.getMessage());
+      check(kind.isInstance(thrown) && message.contains(part),
+          "expected " + kind.getName() + " (" + part + "), found " + thrown);
+    }
+  }
+
+  private static ByteBuffer bytes(int count) {
+    return ByteBuffer.allocateDirect(count).order(ByteOrder.nativeOrder());
+  }
+
+  /** A picture of noise, the same whenever it is made. */
+  private static ByteBuffer picture() {
+    final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT);
+    for (int i = 0; i < pixels.capacity(); ++i) pixels.put(i, (byte) (i * i / 7 + i / 480 * 31));
+    return pixels;
+  }
+
+  /** Disparities from -4 on the left to 4 on the right. */
+  private static ByteBuffer ramp() {
+    final ByteBuffer map = bytes(4 * WIDTH * HEIGHT);
+    for (int i = 0; i < WIDTH * HEIGHT; ++i) map.putFloat(4 * i, i % WIDTH * 8F / WIDTH - 4);
+    return map;
+  }
+
+  private static DepthMap depth(ByteBuffer values) {
+    return new DepthMap(DepthMap.FLOAT, values, 4 * WIDTH, WIDTH, HEIGHT);
+  }
+
+  private static LightField field(ByteBuffer view) {
+    return new LightField(new Image[] {new Image(Image.RGB, view, 3 * WIDTH)}, depth(ramp()));
+  }
+
+  private static Image out(ByteBuffer pixels) {
+    return new Image(Image.RGB, pixels, 3 * WIDTH);
+  }
+
+  private static Configuration configuration() {
+    final Configuration made = new Configuration();
+    made.width = WIDTH;
+    made.height = HEIGHT;
+    made.views = 1;
+    made.disparityMin = -4;
+    made.disparityMax = 4;
+    return made;
+  }
+
+  private static ByteBuffer refocused(double focus) {
+    final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT);
+    final Parameters parameters = new Parameters();
+    parameters.focus = focus;
+    try (Refocuser refocuser = new Refocuser(configuration())) {
+      refocuser.refocus(field(picture()), parameters, out(pixels));
+    }
+    return pixels;
+  }
+
+  private static void defaultsAreTheLibrarys() {
+    final Configuration made = new Configuration();
+    check(made.views == 5 && made.maxBlur == 32 && made.blades == 5 && made.ringInner == 0.5F
+            && made.highlights == 1 && made.workers == 0,
+        "defaults of the configuration");
+    check(Math.abs(made.theta - 0.26 * Math.PI) < 1e-12, "default of theta");
+    final Parameters parameters = new Parameters();
+    check(parameters.mode == Parameters.MODE_BLOCK && parameters.aperture == 1,
+        "defaults of the parameters");
+  }
+
+  private static void everyWayGivesTheSameBytes() {
+    final ByteBuffer whole = refocused(1);
+    final Parameters parameters = new Parameters();
+    parameters.focus = 1;
+    // The buffers' positions are where planes begin.
+    final ByteBuffer far = bytes(3 * WIDTH * HEIGHT + 40);
+    far.position(33);
+    far.put(picture().duplicate()).position(33);
+    final ByteBuffer wide = bytes((3 * WIDTH + 10) * HEIGHT);
+    try (Refocuser refocuser = new Refocuser(configuration())) {
+      refocuser.prepare(field(far));
+      refocuser.refocusPrepared(parameters, new Image(Image.RGB, wide, 3 * WIDTH + 10));
+      check(refocuser.rowsDone() == HEIGHT, "rows done");
+      boolean same = true;
+      for (int y = 0; y < HEIGHT; ++y) {
+        for (int i = 0; i < 3 * WIDTH; ++i) {
+          same &= wide.get((3 * WIDTH + 10) * y + i) == whole.get(3 * WIDTH * y + i);
+        }
+        for (int i = 3 * WIDTH; i < 3 * WIDTH + 10; ++i) {
+          same &= wide.get((3 * WIDTH + 10) * y + i) == 0;
+        }
+      }
+      check(same, "a prepared light field gives the same bytes, and those between rows stay");
+      parameters.regionX = 32;
+      parameters.regionY = 20;
+      parameters.regionWidth = 10;
+      parameters.regionHeight = 5;
+      final ByteBuffer part = bytes(3 * 10 * 5);
+      refocuser.refocusPrepared(parameters, new Image(Image.RGB, part, 30));
+      boolean equal = true;
+      for (int i = 0; i < 150; ++i) {
+        equal &= part.get(i) == whole.get(3 * (WIDTH * (20 + i / 30) + 32) + i % 30);
+      }
+      check(equal, "a region is that of the picture");
+    }
+  }
+
+  private static void chromaOfACameraComesBack() {
+    final ByteBuffer luma = bytes(WIDTH * HEIGHT), chroma = bytes(WIDTH * HEIGHT / 2);
+    for (int i = 0; i < luma.capacity(); ++i) luma.put(i, (byte) 90);
+    for (int i = 0; i < chroma.capacity(); ++i) chroma.put(i, (byte) (i % 2 == 0 ? 120 : 135));
+    final ByteBuffer v = chroma.duplicate();
+    v.position(1);
+    // As Android has it: U and V two bytes apart, each a byte short of half the plane.
+    final Image camera = new Image(
+        Image.YUV_420_888, new ByteBuffer[] {luma, chroma, v}, new int[] {WIDTH, WIDTH, WIDTH});
+    camera.pixelStride = 2;
+    camera.range = Image.FULL;
+    final ByteBuffer outLuma = bytes(WIDTH * HEIGHT), outChroma = bytes(WIDTH * HEIGHT / 2);
+    final Image result =
+        new Image(Image.NV12, new ByteBuffer[] {outLuma, outChroma}, new int[] {WIDTH, WIDTH});
+    result.range = Image.FULL;
+    final ByteBuffer millimetres = bytes(2 * 40 * 30);
+    for (int i = 0; i < 40 * 30; ++i) millimetres.putShort(2 * i, (short) (i % 7 == 0 ? 0 : 500));
+    final DepthMap depth = new DepthMap(DepthMap.U16, millimetres, 80, 40, 30);
+    depth.meaning = DepthMap.RECIPROCAL;
+    depth.scale = 1000;
+    depth.hasInvalid = 1;
+    final Configuration configuration = configuration();
+    configuration.fillUnknown = 1;
+    try (Refocuser refocuser = new Refocuser(configuration)) {
+      refocuser.refocus(new LightField(new Image[] {camera}, depth), new Parameters(), result);
+    }
+    check(Math.abs(outLuma.get(777) - 90) <= 1 && Math.abs(outChroma.get(776) - 120) <= 1
+            && Math.abs((outChroma.get(777) & 255) - 135) <= 1,
+        "one colour of a camera comes back");
+  }
+
+  private static void buffersAreChecked() {
+    final Parameters parameters = new Parameters();
+    final int bytes = 3 * WIDTH * HEIGHT;
+    try (Refocuser refocuser = new Refocuser(configuration())) {
+      checkThrows(IllegalArgumentException.class,
+          "expected a buffer of 57600 bytes at least, found 57599",
+          () -> refocuser.refocus(field(picture()), parameters, out(bytes(bytes - 1))));
+      checkThrows(IllegalArgumentException.class, "view 0, plane 0: expected a buffer of",
+          () -> refocuser.refocus(field(bytes(bytes - 1)), parameters, out(bytes(bytes))));
+      final ByteBuffer late = picture();
+      late.position(1);
+      checkThrows(IllegalArgumentException.class, "view 0, plane 0: expected a buffer of",
+          () -> refocuser.refocus(field(late), parameters, out(bytes(bytes))));
+      final ByteBuffer early = picture();
+      early.limit(bytes - 1);
+      checkThrows(IllegalArgumentException.class, "view 0, plane 0: expected a buffer of",
+          () -> refocuser.prepare(field(early)));
+      checkThrows(IllegalArgumentException.class, "direct", () -> out(ByteBuffer.allocate(bytes)));
+      checkThrows(IllegalArgumentException.class, "writable",
+          ()
+              -> refocuser.refocus(
+                  field(picture()), parameters, out(bytes(bytes).asReadOnlyBuffer())));
+      checkThrows(IllegalArgumentException.class, "depth: expected a buffer of",
+          ()
+              -> refocuser.refocus(new LightField(new Image[] {out(picture())},
+                                       new DepthMap(DepthMap.FLOAT, bytes(4 * WIDTH * HEIGHT - 1),
+                                           4 * WIDTH, WIDTH, HEIGHT)),
+                  parameters, out(bytes(bytes))));
+      checkThrows(IllegalArgumentException.class, "views: expected 1, found 0",
+          ()
+              -> refocuser.refocus(
+                  new LightField(new Image[0], depth(ramp())), parameters, out(bytes(bytes))));
+      checkThrows(IllegalArgumentException.class, "expected 2 planes, found 1",
+          ()
+              -> refocuser.refocus(
+                  field(picture()), parameters, new Image(Image.NV12, bytes(bytes), WIDTH)));
+      checkThrows(IllegalArgumentException.class, "stride of 0 or more, found -1",
+          ()
+              -> refocuser.refocus(
+                  field(picture()), parameters, new Image(Image.RGB, bytes(bytes), -1)));
+      checkThrows(NullPointerException.class, "parameters",
+          () -> refocuser.refocus(field(picture()), null, out(bytes(bytes))));
+      checkThrows(StarfocusException.class, "stride",
+          ()
+              -> refocuser.refocus(
+                  field(picture()), parameters, new Image(Image.RGB, bytes(bytes), 7)));
+      parameters.regionX = WIDTH;
+      parameters.regionWidth = parameters.regionHeight = 1;
+      checkThrows(StarfocusException.class, "region",
+          () -> refocuser.refocus(field(picture()), parameters, out(bytes(bytes))));
+    }
+  }
+
+  private static void configurationsAndStatesAreChecked() {
+    final Configuration wrong = configuration();
+    wrong.views = 4;
+    checkThrows(StarfocusException.class, "views", () -> new Refocuser(wrong));
+    final Configuration narrow = configuration();
+    narrow.blades = 65536 + 5;
+    checkThrows(StarfocusException.class, "blades", () -> new Refocuser(narrow));
+    final Refocuser closed = new Refocuser(configuration());
+    checkThrows(IllegalStateException.class, "no light field is prepared",
+        () -> closed.refocusPrepared(new Parameters(), out(bytes(3 * WIDTH * HEIGHT))));
+    closed.close();
+    closed.close();
+    closed.cancel();
+    check(closed.rowsDone() == 0, "rows of one that is closed");
+    checkThrows(IllegalStateException.class, "closed",
+        () -> closed.refocus(field(picture()), new Parameters(), out(bytes(3 * WIDTH * HEIGHT))));
+    check(Refocuser.focusAt(depth(ramp()), WIDTH / 2, 10) < 0.5, "focus at a pixel");
+    checkThrows(StarfocusException.class, "", () -> Refocuser.focusAt(depth(ramp()), WIDTH, 10));
+  }
+
+  private static void anotherThreadCallsOff() throws InterruptedException {
+    final Configuration configuration = configuration();
+    configuration.workers = 2;
+    final Parameters parameters = new Parameters();
+    parameters.mode = Parameters.MODE_BLUR;
+    final Throwable[] thrown = new Throwable[1];
+    try (Refocuser refocuser = new Refocuser(configuration)) {
+      final Thread work = new Thread(() -> {
+        try {
+          while (true) {
+            refocuser.refocus(field(picture()), parameters, out(bytes(3 * WIDTH * HEIGHT)));
+          }
+        } catch (Throwable error) {
+          thrown[0] = error;
+        }
+      });
+      work.setDaemon(true);
+      work.start();
+      // A call that has not begun is not called off, so that it takes more than one try.
+      for (int tries = 0; work.isAlive() && tries < 10000; ++tries) {
+        refocuser.cancel();
+        work.join(1);
+      }
+      check(
+          thrown[0] instanceof StarfocusException && ((StarfocusException) thrown[0]).isCancelled(),
+          "a call is called off by another thread: " + thrown[0]);
+      parameters.mode = Parameters.MODE_BLOCK;
+      parameters.focus = 1;
+      final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT);
+      refocuser.refocus(field(picture()), parameters, out(pixels));
+      check(pixels.equals(refocused(1)), "after that the bytes are the same");
+    }
+  }
+
+  public static void main(String[] arguments) throws InterruptedException {
+    defaultsAreTheLibrarys();
+    everyWayGivesTheSameBytes();
+    chromaOfACameraComesBack();
+    buffersAreChecked();
+    configurationsAndStatesAreChecked();
+    anotherThreadCallsOff();
+    if (failures == 0)
+      System.out.println(checks + " checks");
+    System.exit(failures == 0 ? 0 : 1);
+  }
+}

@@ -1,0 +1,120 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# run.sh BUILD [PRESET JRE]: the Java API with the library of BUILD. Its tests, the example that gives
+# the program's bytes, Android's routes over doubles of the NDK's functions, and an AAR. With PRESET
+# the same with the library that was built beside BUILD for aarch64, by its emulator and the Java that
+# was unpacked into JRE.
+set -eu
+case $# in 1 | 3) ;; *) echo "usage: $0 BUILD [aarch64 JRE]" >&2; exit 2 ;; esac
+sources=$(cd "$(dirname "$0")/../.." && pwd)
+build=$(cd "$1" && pwd)
+preset=${2:-}
+library=$build/lib/libstarfocus_jni.so
+cc=cc cxx=c++
+name=Java
+java() { command java "$@"; }
+if [ -n "$preset" ]; then
+  name="Java, $preset"
+  jre=$(cd "$3" && pwd)
+  library=$(dirname "$build")/$preset/lib/libstarfocus_jni.so
+  cc=aarch64-linux-gnu-gcc cxx=aarch64-linux-gnu-g++
+  program=$(find "$jre/usr/lib/jvm" -path '*-17-*/bin/java')
+  # Compiling what runs often is worth it, compiling it well is not.
+  java() {
+    qemu-aarch64 -L /usr/aarch64-linux-gnu \
+      -E "LD_LIBRARY_PATH=$jre/usr/lib/aarch64-linux-gnu:$jre/lib/aarch64-linux-gnu" \
+      "$program" -XX:TieredStopAtLevel=1 "$@"
+  }
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' HUP INT TERM
+java_sources=$sources/platform/java/src
+
+fail() {
+  echo "$name: $1" >&2
+  exit 1
+}
+
+# quietly COMMAND...: shows what it printed only when it fails.
+quietly() {
+  "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "failed: $*"; }
+}
+
+# run CLASS ARGUMENT...: what it prints last says what was done.
+run() {
+  quietly java -Xcheck:jni -cp "$work/classes" "-Djava.library.path=$(dirname "$library")" "$@"
+  ! grep -q 'WARNING\|FATAL' "$work/log" || { cat "$work/log" >&2; fail "misused JNI: $1"; }
+  printf '%-40s %s\n' "$name" "$(tail -n 1 "$work/log")"
+}
+
+compile() {
+  quietly javac -Xlint:all -Werror --release 11 -cp "$work/classes" -d "$work/classes" "$@"
+}
+
+# Pages of 16 KiB, the first thing that Android 15 looks at.
+page_alignment() {
+  readelf -lW "$1" | awk '$1 == "LOAD" { ++n; if ($NF != "0x4000") bad = 1 } END { exit bad || n < 2 }' ||
+    fail "$1 is not aligned to pages of 16 KiB: $(readelf -lW "$1" | grep LOAD)"
+}
+
+# With Debian's android/bitmap.h; of what it has not, there are doubles.
+android_routes() {
+  headers=$(find /usr/include/android -name bitmap.h 2>/dev/null | head -n 1)
+  [ -n "$headers" ] || { echo "SKIPPED: Android's routes, for which there is no android/bitmap.h"; return; }
+  javac=$(readlink -f "$(command -v javac)")
+  jni=${javac%/bin/javac}/include
+  double=$sources/tests/java/android_double
+  quietly "$cxx" -std=c++17 -Wall -Wextra -Werror -fPIC -shared -o "$work/libdouble.so" \
+    "-I$sources" "-I$sources/lib/include" "-I$double" "-isystem$jni" "-isystem$jni/linux" \
+    "-isystem$(dirname "$(dirname "$headers")")" "$java_sources"/android/cpp/*.cc \
+    "$java_sources/main/cpp/exceptions.cc" "$double/android_double.cc" "$library"
+  compile "$double"/android/*/*.java "$java_sources"/android/java/dev/starfocus/android/*.java \
+    "$sources/tests/java/AndroidTest.java"
+  run AndroidTest "$work/libdouble.so"
+}
+
+# The parts that Gradle and prefab look for.
+archive() {
+  case "$preset" in aarch64) abi=arm64-v8a ;; *) abi=x86_64 ;; esac
+  quietly jar cf "$work/classes.jar" -C "$work/classes" dev/starfocus
+  quietly "$sources/platform/java/aar.sh" "$work/starfocus.aar" "$work/classes.jar" "$abi=$library"
+  mkdir "$work/aar"
+  (cd "$work/aar" && quietly jar xf "$work/starfocus.aar")
+  module=prefab/modules/starfocus_jni
+  for part in AndroidManifest.xml classes.jar R.txt jni/$abi/libstarfocus_jni.so prefab/prefab.json \
+    $module/module.json $module/libs/android.$abi/abi.json \
+    $module/libs/android.$abi/libstarfocus_jni.so $module/include/starfocus/starfocus.h \
+    $module/include/starfocus/pool.h; do
+    [ -s "$work/aar/$part" ] || [ $part = R.txt ] || fail "the AAR lacks $part"
+  done
+  for part in $(cd "$work/aar" && find prefab -name '*.json'); do
+    quietly python3 -m json.tool "$work/aar/$part"
+  done
+  page_alignment "$work/aar/jni/$abi/libstarfocus_jni.so"
+  # C programs link what is in there.
+  cat >"$work/linked.c" <<'TEXT'
+#include <starfocus/image.h>
+#include <starfocus/pool.h>
+int main(void) { return sf_pool_cores() == 0 || sf_abi_version() != SF_ABI_VERSION; }
+TEXT
+  quietly "$cc" "-I$work/aar/$module/include" -o "$work/linked" "$work/linked.c" \
+    "$work/aar/jni/$abi/libstarfocus_jni.so" -Wl,--unresolved-symbols=ignore-in-shared-libs
+  printf '%-40s %s\n' "$name" "an AAR with prefab, pages of 16 KiB"
+}
+
+page_alignment "$library"
+mkdir "$work/classes"
+compile "$java_sources"/main/java/dev/starfocus/*.java
+compile "$sources/examples/java/Refocus.java" "$sources/tests/java/RefocuserTest.java"
+run dev.starfocus.RefocuserTest
+quietly "$build/starfocus" scene "$work/scene" --name portrait --size 320x240 --views 5
+for focus in -2.5 1.5; do
+  quietly "$build/starfocus" refocus "$work/scene" --focus $focus -o "$work/expected.ppm"
+  run Refocus "$work/scene" $focus "$work/found.ppm"
+  cmp "$work/found.ppm" "$work/expected.ppm" || fail "the bytes at focus $focus are not the program's"
+  printf '%-40s %s\n' "$name" "the program's bytes at focus $focus"
+done
+rm "$work"/classes/dev/starfocus/RefocuserTest*
+archive
+android_routes

@@ -1,0 +1,46 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# run.sh BUILD: makes a wheel of the Python package, installs it, and then the package from the tree, each
+# into an environment of its own, and runs the tests and the example with both. Debian's Python, no
+# network.
+set -eu
+[ $# = 1 ] || { echo "usage: $0 BUILD" >&2; exit 2; }
+sources=$(cd "$(dirname "$0")/../.." && pwd)
+build=$(cd "$1" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' HUP INT TERM
+STARFOCUS_BUILD=$build PYTHONDONTWRITEBYTECODE=1 PIP_DISABLE_PIP_VERSION_CHECK=1 MPLBACKEND=agg
+export STARFOCUS_BUILD PYTHONDONTWRITEBYTECODE PIP_DISABLE_PIP_VERSION_CHECK MPLBACKEND
+MPLCONFIGDIR=$work/matplotlib
+export MPLCONFIGDIR
+cd "$work"
+
+# quietly COMMAND...: shows what it printed only when it fails.
+quietly() {
+  "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "python: failed: $*" >&2; exit 1; }
+}
+
+# install FROM: into a new environment, with the tests run there.
+install() {
+  rm -rf "$work/environment"
+  quietly /usr/bin/python3 -m venv --system-site-packages --without-pip "$work/environment"
+  python=$work/environment/bin/python
+  quietly "$python" -m pip install --no-index --no-deps --no-build-isolation "$1"
+  quietly "$python" "$sources/tests/python/starfocus_test.py" "$build/starfocus" "$work/scene" \
+    "$sources/lib/include/starfocus"
+  printf '%-40s %s\n' "$2" "$(grep '^Ran' "$work/log")"
+}
+
+quietly "$build/starfocus" scene "$work/scene" --name portrait --size 320x240 --views 5
+quietly /usr/bin/python3 -m pip wheel --no-index --no-deps --no-build-isolation -w "$work/wheels" \
+  "$sources/platform/python"
+install "$work"/wheels/starfocus-*-py3-none-*.whl 'Python, wheel'
+install "$sources/platform/python" 'Python, pip install of the tree'
+quietly "$python" "$sources/examples/python/focal_stack.py" "$work/scene" "$work/plots"
+for plot in focal_stack time_and_error; do
+  [ "$(stat -c %s "$work/plots/$plot.png")" -gt 20000 ] || { echo "python: no $plot.png" >&2; exit 1; }
+done
+printf '%-40s %s\n' 'Python, example' "$(tail -n 1 "$work/log")"
+left=$(find "$sources/platform/python" -name '*.so' -o -name build -o -name '*.egg-info')
+[ -z "$left" ] || { echo "python: installing left in the source tree" $left >&2; exit 1; }

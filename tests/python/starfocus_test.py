@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The Python package as it was installed: starfocus_test.py PROGRAM FOLDER HEADERS.
+
+PROGRAM is the program starfocus, FOLDER a light field of five views, HEADERS the folder of the public
+headers.
+"""
+import re
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import starfocus
+from starfocus import _abi, _calls, constants
+
+PROGRAM, FOLDER, HEADERS = (Path(argument).resolve() for argument in sys.argv[1:4])
+VIEWS, DISPARITY = starfocus.read_light_field(FOLDER)
+HEIGHT, WIDTH = DISPARITY.shape
+
+
+def by_program(*options: str) -> np.ndarray:
+    """What the program writes of the light field."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "out.ppm"
+        subprocess.run([PROGRAM, "refocus", FOLDER, "-o", path, *options], check=True, stdout=subprocess.DEVNULL)
+        return starfocus.read_picture(path)
+
+
+def refocuser(**config) -> starfocus.Refocuser:
+    return starfocus.Refocuser.for_light_field(VIEWS, DISPARITY, **config)
+
+
+class Bytes(unittest.TestCase):
+    """The same bytes by every way."""
+
+    def test_block_mode_gives_the_program_s_bytes(self):
+        for focus in (-2.5, 0.0, 2.0):
+            made = refocuser(workers=2).refocus(VIEWS, DISPARITY, focus=focus)
+            np.testing.assert_array_equal(made, by_program("--focus", str(focus)))
+
+    def test_other_modes_and_lenses_give_the_program_s_bytes(self):
+        expected = by_program("--focus", "1", "--aperture", "0.5", "--mode", "frame")
+        made = refocuser(workers=1).refocus(VIEWS, DISPARITY, focus=1, aperture=0.5, mode=starfocus.Mode.FRAME)
+        np.testing.assert_array_equal(made, expected)
+        expected = by_program("--focus", "1", "--shape", "polygon:5,18,0.3", "--transfer", "none")
+        five = refocuser(aperture_shape=starfocus.Shape.POLYGON, blades=5, rotation=18, curvature=0.3,
+                         transfer=starfocus.Transfer.NONE)
+        np.testing.assert_array_equal(five.refocus(VIEWS, DISPARITY, focus=1), expected)
+
+    def test_the_focus_at_a_pixel_is_the_program_s(self):
+        focus = starfocus.focus_at(DISPARITY, WIDTH // 2, HEIGHT // 2)
+        made = refocuser().refocus(VIEWS, DISPARITY, focus=focus)
+        np.testing.assert_array_equal(made, by_program("--focus-at", f"{WIDTH // 2},{HEIGHT // 2}"))
+
+    def test_prepared_light_fields_and_regions_give_the_same_bytes(self):
+        engine = refocuser()
+        whole = engine.refocus(np.stack(VIEWS), DISPARITY, focus=1.5)
+        prepared = engine.prepare(VIEWS, DISPARITY)
+        np.testing.assert_array_equal(prepared.refocus(focus=1.5), whole)
+        part = prepared.refocus(focus=1.5, region=(40, 30, 50, 20))
+        np.testing.assert_array_equal(part, whole[30:50, 40:90])
+
+    def test_images_give_the_same_bytes(self):
+        engine = refocuser(images=1)
+        whole = engine.refocus(VIEWS, DISPARITY, focus=1)
+        turned = [starfocus.Image(starfocus.Format.BGR, [np.ascontiguousarray(view[:, :, ::-1])]) for view in VIEWS]
+        out = starfocus.Image.empty(starfocus.Format.BGRX, WIDTH, HEIGHT)
+        engine.refocus_images(turned, starfocus.DepthMap(DISPARITY), focus=1, out=out)
+        pixels = out.planes[0].reshape(HEIGHT, WIDTH, 4)
+        np.testing.assert_array_equal(pixels[:, :, 2::-1], whole)
+        self.assertTrue((pixels[:, :, 3] == 255).all())
+
+    def test_chroma_of_a_camera_comes_back(self):
+        form = starfocus.Format.NV12
+        view = starfocus.Image.empty(form, WIDTH, HEIGHT)
+        view.planes[0][:] = 100
+        view.planes[1][:] = (120, 140) * ((WIDTH + 1) // 2)
+        millimetres = np.full((HEIGHT // 2, WIDTH // 2), 500, np.uint16)
+        depth = starfocus.DepthMap(millimetres, starfocus.DepthMeaning.RECIPROCAL, scale=1000.0, invalid=0)
+        out = starfocus.Image.empty(form, WIDTH, HEIGHT)
+        starfocus.Refocuser(WIDTH, HEIGHT, 1, disparity_min=0, disparity_max=4, images=1).refocus_images(
+            [view], depth, focus=0, out=out)
+        for plane, expected in zip(out.planes, view.planes):
+            self.assertLessEqual(np.abs(plane.astype(int) - expected).max(), 1)
+
+    def test_arrays_are_read_where_they_are_or_copied(self):
+        engine = refocuser()
+        whole = engine.refocus(VIEWS, DISPARITY, focus=1)
+        wide = [np.zeros((HEIGHT, WIDTH + 5, 3), np.uint8) for _ in VIEWS]
+        for large, view in zip(wide, VIEWS):
+            large[:, :WIDTH] = view
+        inside = [large[:, :WIDTH] for large in wide]
+        field, _ = _calls.light_field(inside, DISPARITY, 5, HEIGHT, WIDTH)
+        self.assertEqual(field.views[0].data, wide[0].ctypes.data)
+        self.assertEqual(field.views[0].stride, 3 * (WIDTH + 5))
+        np.testing.assert_array_equal(engine.refocus(inside, DISPARITY, focus=1), whole)
+        flipped = [np.ascontiguousarray(view[::-1])[::-1] for view in VIEWS]
+        every_second = np.repeat(DISPARITY, 2, axis=1)[:, ::2]
+        np.testing.assert_array_equal(engine.refocus(flipped, every_second, focus=1), whole)
+        frame = np.zeros((HEIGHT + 2, WIDTH + 4, 3), np.uint8)
+        made = engine.refocus(VIEWS, DISPARITY, focus=1, out=frame[1:-1, 2:-2])
+        np.testing.assert_array_equal(frame[1:-1, 2:-2], whole)
+        self.assertTrue(np.shares_memory(made, frame))
+        self.assertFalse(frame[0].any() or frame[:, :2].any() or frame[:, -2:].any() or frame[-1].any())
+
+
+class Errors(unittest.TestCase):
+    """What is wrong is said."""
+
+    def test_configurations_and_arguments_out_of_range(self):
+        with self.assertRaises(starfocus.ArgumentError) as raised:
+            starfocus.Refocuser(0, 10, disparity_min=0, disparity_max=1)
+        self.assertEqual(raised.exception.status, starfocus.Status.SIZE)
+        self.assertIsInstance(raised.exception, ValueError)
+        with self.assertRaisesRegex(TypeError, "max_blurr"):
+            refocuser(max_blurr=3)
+        with self.assertRaisesRegex(starfocus.StarfocusError, "aperture"):
+            refocuser().refocus(VIEWS, DISPARITY, focus=0, aperture=2)
+
+    def test_arrays_of_a_wrong_kind_or_shape(self):
+        engine = refocuser(images=1)
+        with self.assertRaisesRegex(TypeError, "view 0: expected uint8, found float32"):
+            engine.refocus([view.astype(np.float32) for view in VIEWS], DISPARITY, focus=0)
+        with self.assertRaisesRegex(ValueError, "views: expected 5, found 4"):
+            engine.refocus(VIEWS[:4], DISPARITY, focus=0)
+        with self.assertRaisesRegex(ValueError, "disparity: expected the shape"):
+            engine.refocus(VIEWS, DISPARITY[:-1], focus=0)
+        with self.assertRaisesRegex(ValueError, "out: expected a writable array"):
+            engine.refocus(VIEWS, DISPARITY, focus=0, out=np.zeros((HEIGHT, WIDTH, 3), np.uint8)[:, ::-1])
+        image = [starfocus.Image(starfocus.Format.RGBX, [view]) for view in VIEWS]
+        with self.assertRaisesRegex(ValueError, "view 0, plane 0: expected .* rows of"):
+            engine.refocus_images(image, starfocus.DepthMap(DISPARITY), focus=0, out=image[0])
+
+    def test_maps_that_are_not_finite(self):
+        holes = DISPARITY.copy()
+        holes[3, 4] = np.nan
+        with self.assertRaises(starfocus.DisparityError) as raised:
+            refocuser().refocus(VIEWS, holes, focus=0)
+        self.assertEqual(raised.exception.status, starfocus.Status.NOT_FINITE)
+
+
+class Calls(unittest.TestCase):
+    """Progress, threads, reports."""
+
+    def test_progress_is_told_and_calls_off(self):
+        rows = []
+        engine = refocuser(workers=2)
+        whole = engine.refocus(VIEWS, DISPARITY, focus=1, progress=lambda done, all_rows: rows.append((done, all_rows)))
+        self.assertEqual(rows[-1], (HEIGHT, HEIGHT))
+        with self.assertRaises(starfocus.Cancelled):
+            engine.refocus(VIEWS, DISPARITY, focus=1, progress=lambda done, all_rows: True)
+
+        def fail(done, all_rows):
+            raise KeyError("from the progress function")
+
+        with self.assertRaisesRegex(KeyError, "from the progress function"):
+            engine.prepare(VIEWS, DISPARITY, progress=fail)
+        np.testing.assert_array_equal(engine.refocus(VIEWS, DISPARITY, focus=1), whole)
+
+    def test_other_threads_run_during_a_call(self):
+        engine = refocuser(workers=1)
+        thread = threading.Thread(target=lambda: engine.refocus(VIEWS, DISPARITY, focus=1,
+                                                                mode=starfocus.Mode.BENCHMARK))
+        steps = 0
+        thread.start()
+        while thread.is_alive():
+            steps += 1
+        self.assertGreater(steps, 1000)
+
+    def test_two_threads_may_share_a_refocuser(self):
+        engine = refocuser(workers=1)
+        made = [None, None]
+
+        def work(index):
+            made[index] = engine.refocus(VIEWS, DISPARITY, focus=index)
+
+        threads = [threading.Thread(target=work, args=(index,)) for index in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for index in range(2):
+            np.testing.assert_array_equal(made[index], engine.refocus(VIEWS, DISPARITY, focus=index))
+
+    def test_the_report_tells_what_was_done(self):
+        engine = refocuser()
+        engine.refocus(VIEWS, DISPARITY, focus=1)
+        self.assertGreater(engine.report["n"], 0)
+        self.assertEqual(sum(layer["pixels"] for layer in engine.report["layers"]), WIDTH * HEIGHT)
+
+
+class Maps(unittest.TestCase):
+    """Disparity maps."""
+
+    def test_measured_and_filled(self):
+        values = np.array([[1, np.nan, 3], [np.nan, np.inf, -2]], np.float32)
+        self.assertEqual(starfocus.measure_disparity(values), (-2, 3, 3))
+        np.testing.assert_array_equal(starfocus.fill_disparity(values), [[1, 1, 3], [-2, -2, -2]])
+        self.assertTrue(np.isnan(values[0, 1]))
+        self.assertEqual(starfocus.aperture_of_f_stop(2.8, 1.4), 0.5)
+
+    def test_estimated_and_repaired(self):
+        views = [view[:64, :96] for view in VIEWS]
+        low, high = starfocus.measure_disparity(DISPARITY)[:2]
+        made = starfocus.estimate_disparity(views, low, high)
+        self.assertTrue(((made.disparity >= low) & (made.disparity <= high)).all())
+        truth = DISPARITY[:64, :96]
+        self.assertLess(np.median(np.abs(made.disparity - truth)), 0.5)
+        holes = truth.copy()
+        holes[20:30, 20:30] = np.nan
+        repaired = starfocus.repair_disparity(views, holes, low, high)
+        self.assertTrue(np.isfinite(repaired.disparity).all())
+        self.assertEqual(repaired.confidence.shape, truth.shape)
+        with self.assertRaises(starfocus.Cancelled):
+            starfocus.estimate_disparity(views, low, high, progress=lambda done, rows: True)
+
+    def test_views_lie_where_the_program_has_them(self):
+        self.assertEqual(starfocus.view_positions(5), [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
+        with self.assertRaises(ValueError):
+            starfocus.view_positions(18)
+
+
+class Headers(unittest.TestCase):
+    """The package repeats what the C headers say."""
+
+    text = "\n".join((HEADERS / name).read_text(encoding="utf-8")
+                     for name in ("status.h", "starfocus.h", "depth.h", "image.h"))
+    text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+
+    def values(self, name: str) -> dict:
+        body = re.search(rf"typedef enum {name} \{{(.*?)\}}", self.text, re.S).group(1)
+        return {key: int(value) for key, value in re.findall(r"(\w+)\s*=\s*(\d+)", body)}
+
+    def test_enumerations(self):
+        kinds = {"sf_status": "SF_(?:ERROR_)?", "sf_mode": "SF_MODE_", "sf_rule": "SF_RULE_", "sf_shape": "SF_SHAPE_",
+                 "sf_transfer": "SF_TRANSFER_", "sf_format": "SF_FORMAT_", "sf_matrix": "SF_MATRIX_",
+                 "sf_range": "SF_RANGE_", "sf_depth_meaning": "SF_DEPTH_"}
+        for name, prefix in kinds.items():
+            expected = {re.sub("^" + prefix, "", key): value for key, value in self.values(name).items()}
+            enumeration = getattr(constants, "".join(word.capitalize() for word in name.split("_")[1:]))
+            self.assertEqual({one.name: one.value for one in enumeration}, expected, name)
+
+    def test_structures(self):
+        for name, structure in _abi.STRUCTURES.items():
+            body = re.search(rf"typedef struct {name} \{{(.*?)\}} {name};", self.text, re.S).group(1)
+            names = [one for line in body.split(";")
+                     for one in re.findall(r"(\w+)(?:\[\w+\])?\s*(?:,|$)", line.strip())]
+            self.assertEqual([field[0] for field in structure._fields_], names, name)
+
+
+class Files(unittest.TestCase):
+    """Light-field folders."""
+
+    def test_maps_of_either_byte_order(self):
+        values = np.arange(6, dtype=np.float32).reshape(2, 3)
+        with tempfile.TemporaryDirectory() as folder:
+            for kind, scale in (("<f4", "-1.0"), (">f4", "1.0")):
+                path = Path(folder) / "map.pfm"
+                path.write_bytes(f"Pf\n3 2\n{scale}\n".encode() + values[::-1].astype(kind).tobytes())
+                np.testing.assert_array_equal(starfocus.read_pfm(path), values)
+            path.write_bytes(b"Pf\n3 2\n-1.0\n" + bytes(23))
+            with self.assertRaisesRegex(ValueError, "expected 24 bytes of values, found 23"):
+                starfocus.read_pfm(path)
+            with self.assertRaisesRegex(FileNotFoundError, "expected a view"):
+                starfocus.read_light_field(folder)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each byte of a workspace is for, as the engine itself lays it out.
+#ifndef STARFOCUS_TESTS_SUPPORT_MEMORY_PARTS_H_
+#define STARFOCUS_TESTS_SUPPORT_MEMORY_PARTS_H_
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "lib/engine/layout.h"
+#include "tests/support/test_scene.h"
+
+namespace test {
+
+struct MemoryPart {
+  const char* name;
+  bool shared;        // by what a worker does one after the other
+  const void* first;  // where it begins, with the padding of each piece; null: there is none
+  size_t begin = 0, end = 0;
+
+  size_t bytes() const { return end - begin; }
+};
+
+// The parts of an engine of one worker, in the order they are taken.
+inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
+  const starfocus::Worker& worker = e.crew.workers[0];
+  const starfocus::CompositorScratch& slices = worker.compositor;
+  return {
+      {"the engine itself", false, &e},
+      {"apertures of every N", false, e.tables.apertures},
+      {"kernels of radii", false, e.tables.blur_kernels},
+      {"disparities: ring of rows", false, e.pictures.disparity.data},
+      {"finished rows", false, e.stripe.out},
+      {"views: rings of rows", false, e.rings[0].data},
+      {"images", false, e.images.columns},
+      {"layer 1: ring of rows", false, e.pictures.layers[1].samples.data},
+      {"layer 2: ring of rows", false, e.pictures.layers[2].samples.data},
+      {"8x8 cells", false, e.stripe.cells.cells},
+      {"blocks, and marks of columns", false, e.stripe.plan.wanted},
+      {"jobs", false, e.crew.jobs.progress},
+      {"sums of a block", false, worker.sums},
+      {"line scan", true, worker.line_scan.field_rgb[0]},
+      {"gathering, mode `blur`", true, worker.field.rgb},
+      {"slices: surfaces", true, slices.surfaces.disparity[0] - starfocus::simd::kSliceLanes},
+      {"slices: where views show them, sums of a tile", true, slices.offsets},
+      {"slices: what surfaces are found by", true, slices.surfaces.sources[0]},
+      {"slices: the block and its edges", true, slices.field_rgb},
+      {"slices: filling surfaces", true, slices.fill.disparity},
+      {"slices: their pixels and tiles", true, slices.pool},
+      {"layers up", true, worker.upsample.line},
+      {"layers down", true, worker.resample.even},
+      {"splitting blocks", true, worker.partition.nodes},
+  };
+}
+
+// Measures the parts of an engine for `config`, of one worker. Empty if a part begins elsewhere
+// than PartsOf says, in memory or in order.
+inline std::vector<MemoryPart> MeasureParts(const sf_config& config) {
+  Engine memory(config);
+  if (memory.status() != SF_OK) return {};
+  auto* engine = reinterpret_cast<starfocus::EngineState*>(memory.get());
+  struct Walk {
+    std::vector<MemoryPart> parts;
+    const unsigned char* base;
+    size_t next = 0;
+  } walk;
+  walk.base = static_cast<const unsigned char*>(memory.workspace());
+  for (const MemoryPart& part : PartsOf(*engine)) {
+    if (part.first != nullptr) walk.parts.push_back(part);
+  }
+  const auto visit = [](void* data, size_t begin, size_t end) {
+    Walk& w = *static_cast<Walk*>(data);
+    if (w.next < w.parts.size() && w.parts[w.next].first == w.base + begin) {
+      w.parts[w.next++].begin = begin;
+    }
+    if (w.next > 0) w.parts[w.next - 1].end = end;
+  };
+  const starfocus::PieceVisitor visitor = {visit, &walk};
+  starfocus::EngineState* counted = nullptr;
+  starfocus::LayOut(engine->config, nullptr, &counted, &visitor);
+  return walk.next == walk.parts.size() ? walk.parts : std::vector<MemoryPart>();
+}
+
+// Bytes of the parts, those that share memory counted once.
+struct MemorySum {
+  size_t all = 0, shared = 0;
+};
+inline MemorySum SumOf(const std::vector<MemoryPart>& parts) {
+  MemorySum sum;
+  size_t begin = SIZE_MAX, end = 0;
+  for (const MemoryPart& part : parts) {
+    if (!part.shared) sum.all += part.bytes();
+    if (part.shared) begin = std::min(begin, part.begin);
+    if (part.shared) end = std::max(end, part.end);
+  }
+  sum.shared = end - begin;
+  sum.all += sum.shared;
+  return sum;
+}
+
+// A configuration of docs/boards.md.
+inline sf_config BoardConfig(int width, int height, int views, int block, double blur,
+                             int streaming) {
+  sf_config config;
+  sf_config_init(&config);
+  config.width = width;
+  config.height = height;
+  config.views = views;
+  config.disparity_min = -16;
+  config.disparity_max = 16;
+  config.max_blur = blur;
+  config.largest_block = block;
+  config.streaming = streaming;
+  return config;
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_MEMORY_PARTS_H_
