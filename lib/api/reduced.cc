@@ -63,12 +63,10 @@ bool ReduceView(const ReduceJob& job, int view, const Part& part, Worker* worker
   return true;
 }
 
-int16_t Converted(const EngineState& engine, double disparity) {
-  const sf_config& config = engine.config;
-  const auto value = static_cast<float>(disparity);
+// An end of a range, which lies in it.
+int16_t ConvertedEnd(const EngineState& engine, float end) {
   int16_t converted = 0;
-  engine.kernels->ConvertDisparity(&value, 1, config.disparity_min, config.disparity_max,
-                                   &converted);
+  engine.kernels->ConvertDisparity(&end, 1, end, end, &converted);
   return converted;
 }
 
@@ -76,8 +74,8 @@ int16_t Converted(const EngineState& engine, double disparity) {
 bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Worker* worker) {
   const sf_config reduced = ReducedConfig(job.engine->config, shift);
   // Rounding twice may leave the range by one step.
-  const int16_t low = Converted(*job.engine, reduced.disparity_min);
-  const int16_t high = Converted(*job.engine, reduced.disparity_max);
+  const int16_t low = ConvertedEnd(*job.engine, reduced.disparity_min);
+  const int16_t high = ConvertedEnd(*job.engine, reduced.disparity_max);
   const int32_t side = 1 << shift;
   for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
     if (!worker->patience.Spend(int64_t{4} * side * part.width)) return false;

@@ -261,7 +261,8 @@ void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->pictures.disparity.data = carver->Take<int16_t>(width, static_cast<size_t>(rows));
   engine->stripe.out =
       carver->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
-  if (streaming) engine->stripe.last_rows = carver->Take<uint8_t>(3 * width, kDeblockRows);
+  // Null without streaming also where LayOutAnew made it of an engine that streams.
+  engine->stripe.last_rows = streaming ? carver->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
   const int rings = streaming ? config.views : config.images;
   for (int view = 0; view < rings; ++view) {
     engine->rings[view].rows = rows;

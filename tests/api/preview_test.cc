@@ -162,6 +162,20 @@ double Psnr(const test::Output& got, const test::Output& full, int shift, int32_
   return 10 * std::log10(255.0 * 255 * 3 * got.width * got.height / sum);
 }
 
+// Whether a preview has the bytes of refocusing the light field `reduced`.
+bool IsOfReduced(Prepared* prepared, sf_params params, int shift, const sf_config& config,
+                 const test::Scene& reduced) {
+  sf_report report = {};
+  const test::Output got = prepared->Preview(params, shift, RunOnTwo, &report);
+  test::Engine small(ReducedConfig(config, shift, report.largest_block));
+  REQUIRE(small.status() == SF_OK);
+  params.focus /= 1 << shift;
+  params.region = ReducedRegion(params.region, shift);
+  test::Output expected(got.width, got.height, 3);
+  REQUIRE(test::Refocus(&small, params, reduced, &expected) == SF_OK);
+  return got.bytes == expected.bytes;
+}
+
 TEST_CASE("preview: the bytes of the light field that the definition reduces") {
   test::Random random(231);
   constexpr int kSizes[][2] = {{1, 1},    {1, 70},   {90, 1},    {31, 33},   {65, 63},
@@ -194,17 +208,34 @@ TEST_CASE("preview: the bytes of the light field that the definition reduces") {
           params.region.width = random.Int(1, size[0] - params.region.x);
           params.region.height = random.Int(1, size[1] - params.region.y);
         }
-        sf_report report = {};
-        const test::Output got = prepared.Preview(params, shift, RunOnTwo, &report);
-        test::Engine small(ReducedConfig(config, shift, report.largest_block));
-        REQUIRE(small.status() == SF_OK);
-        params.focus /= 1 << shift;
-        params.region = ReducedRegion(params.region, shift);
-        test::Output expected(got.width, got.height, 3);
-        REQUIRE(test::Refocus(&small, params, reduced, &expected) == SF_OK);
-        const bool same = got.bytes == expected.bytes;
-        CHECK(same);
+        CHECK(IsOfReduced(&prepared, params, shift, config, reduced));
       }
+    }
+  }
+}
+
+// Reduced by shift, a range that 0 is not in lies partly or wholly beyond the one it was made from.
+TEST_CASE(
+    "preview: the whole scene nearer or farther than the range's 0, by an engine that streams") {
+  for (const float offset : {16.0F, -12.0F, 4.5F}) {
+    CAPTURE(offset);
+    test::Scene scene = test::LayeredScene(330, 270, 5, 4, 17);
+    scene.disparity_min += offset;
+    scene.disparity_max += offset;
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) scene.Disparity(x, y) += offset;
+    }
+    sf_config config = test::ConfigFor(scene, 8);
+    config.largest_block = 32;
+    config.streaming = 1;
+    config.max_workers = 2;
+    config.previews = 3;
+    Prepared prepared(scene, config, RunOnTwo);
+    for (int shift = 1; shift <= 3; ++shift) {
+      CAPTURE(shift);
+      const test::Scene reduced = Reduced(scene, shift, config.transfer);
+      const sf_params params = test::Params(offset + 1, 1, SF_MODE_BLOCK);
+      CHECK(IsOfReduced(&prepared, params, shift, config, reduced));
     }
   }
 }

@@ -113,7 +113,6 @@ TEST_CASE("layout: all of a workspace is for some part" * doctest::skip(starfocu
   }
 }
 
-// On 32 bits sizes of wide streaming configurations are beyond all addresses.
 // sf_refocus_preview has an engine laid out anew for a smaller picture.
 TEST_CASE("layout: what grows with the picture comes last, and less of it fits into the same") {
   test::Random random(44);
@@ -148,6 +147,7 @@ TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
   config.width = 300;
   config.height = 200;
   config.max_workers = 2;
+  config.streaming = 1;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
   auto& state = *reinterpret_cast<starfocus::EngineState*>(engine.get());
@@ -155,17 +155,20 @@ TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
   const starfocus::Worker* workers = state.crew.workers;
   const uint32_t* sums = workers[1].sums;
   const uint16_t* weights = state.tables.aperture_weights;
-  const uint8_t* out = state.stripe.out;
+  const uint8_t *out = state.stripe.out, *last_rows = state.stripe.last_rows;
   starfocus::LayOutAnew(starfocus::ReducedConfig(config, 2), &state);
   CHECK(state.config.width == 75);
   CHECK(state.crew.workers == workers);
   CHECK(state.crew.workers[1].sums == sums);
   CHECK(state.tables.aperture_weights == weights);
+  CHECK(state.stripe.last_rows == nullptr);  // it does not stream
   starfocus::LayOutAnew(config, &state);
   CHECK(state.config.width == 300);
   CHECK(state.stripe.out == out);
+  CHECK(state.stripe.last_rows == last_rows);
 }
 
+// On 32 bits sizes of wide streaming configurations are beyond all addresses.
 TEST_CASE("layout: sizes never wrap, and too large ones are an error of every call") {
   sf_config config;
   sf_config_init(&config);
