@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tap to focus, as an app would do it: a light field is prepared once; a tap shows a preview at
 // once and the full picture after it; another tap pulls the focus there by previews, and ends with
-// the full picture. Prints the time of every step.
+// the full picture. Prints the time of every step, and how near a preview comes to the full
+// picture.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include "examples/command_line/options.h"
 #include "examples/command_line/program.h"
 #include "examples/scene/render.h"
+#include "examples/tap/nearness.h"
 #include "platform/clock.h"
 #include "platform/image_io.h"
 #include "platform/light_field.h"
@@ -159,6 +161,12 @@ class Session {
     return Keep(full_);
   }
 
+  // Of the same focus, both made last.
+  void SayNearness() const {
+    std::printf("%8.1f dB  PSNR of the preview against the full picture reduced\n",
+                PreviewPsnr(preview_, full_, plan_.shift));
+  }
+
   // Both ends are shown already, or will be in full.
   Error Pull(double from, double to) {
     const double start = Seconds();
@@ -229,6 +237,7 @@ Error Tap(const Options& options) {
   if (error.empty()) error = session.FocusAt(first, &from);
   if (error.empty()) error = session.Preview(from, "first preview");
   if (error.empty()) error = session.Full(from);
+  if (error.empty()) session.SayNearness();
   if (error.empty()) error = session.FocusAt(second, &to);
   if (error.empty()) error = session.Pull(from, to);
   if (error.empty()) error = session.Full(to);

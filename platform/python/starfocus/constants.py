@@ -127,3 +127,4 @@ class Status(IntEnum):
     DEPTH_TYPE = 51
     DEPTH_SCALE = 52
     DEPTH_SIZE = 53
+    PREVIEW = 54
