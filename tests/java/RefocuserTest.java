@@ -134,24 +134,30 @@ public final class RefocuserTest {
     }
   }
 
-  /** A preview at a half is what refocusing the light field gives that this reduces. */
-  private static void aPreviewIsOfTheReducedLightField() {
+  /** The light field of picture() and ramp() at half its size, of codes as they are. */
+  private static LightField half() {
     final int width = WIDTH / 2, height = HEIGHT / 2;
-    final ByteBuffer whole = picture(), half = bytes(3 * width * height);
-    final ByteBuffer map = bytes(4 * width * height);
+    final ByteBuffer whole = picture(), ramp = ramp();
+    final ByteBuffer pixels = bytes(3 * width * height), map = bytes(4 * width * height);
     for (int y = 0; y < height; ++y) {
       for (int i = 0; i < 3 * width; ++i) {
         final int at = 3 * WIDTH * 2 * y + 6 * (i / 3) + i % 3, below = at + 3 * WIDTH;
         final int sum = (whole.get(at) & 255) + (whole.get(at + 3) & 255) + (whole.get(below) & 255)
             + (whole.get(below + 3) & 255);
-        half.put(3 * width * y + i, (byte) ((sum + 2) / 4));
+        pixels.put(3 * width * y + i, (byte) ((sum + 2) / 4));
       }
       for (int x = 0; x < width; ++x) {
-        // Of four, of which two columns are alike, the larger one in the middle.
-        final double larger = Math.floor(64 * (ramp().getFloat(4 * (2 * x + 1))) + 0.5);
+        // Of four, of which each column's are alike, the larger one in the middle.
+        final double larger = Math.floor(64 * ramp.getFloat(4 * (2 * x + 1)) + 0.5);
         map.putFloat(4 * (width * y + x), (float) (Math.floor(larger / 2 + 0.5) / 64));
       }
     }
+    return new LightField(new Image[] {new Image(Image.RGB, pixels, 3 * width)},
+        new DepthMap(DepthMap.FLOAT, map, 4 * width, width, height));
+  }
+
+  private static void aPreviewIsOfTheReducedLightField() {
+    final int width = WIDTH / 2, height = HEIGHT / 2;
     final Configuration configuration = configuration(), reduced = configuration();
     configuration.transfer = reduced.transfer = Configuration.TRANSFER_NONE;
     configuration.previews = 2;
@@ -164,9 +170,7 @@ public final class RefocuserTest {
     final ByteBuffer expected = bytes(3 * width * height), found = bytes(3 * width * height);
     parameters.focus = 0.5;
     try (Refocuser refocuser = new Refocuser(reduced)) {
-      final LightField field = new LightField(new Image[] {new Image(Image.RGB, half, 3 * width)},
-          new DepthMap(DepthMap.FLOAT, map, 4 * width, width, height));
-      refocuser.refocus(field, parameters, new Image(Image.RGB, expected, 3 * width));
+      refocuser.refocus(half(), parameters, new Image(Image.RGB, expected, 3 * width));
     }
     parameters.focus = 1;
     try (Refocuser refocuser = new Refocuser(configuration)) {
