@@ -41,6 +41,9 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
     plane.data =
         carver.Take<int16_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
   }
+  for (int shift = 1; shift <= config.previews; ++shift) {
+    TakeReduced(config, shift, &carver, &p.reduced[shift]);
+  }
   return carver.Bytes();
 }
 
@@ -83,6 +86,9 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Ru
       if (status != SF_OK) break;
     }
     status = FillLayers(engine->config, *engine->kernels, runner, &engine->crew, &engine->pictures);
+    if (status != SF_OK) break;
+    status = ReduceRows(prepared.disparity, {y, Min(y + side, height)}, prepared.config.previews,
+                        prepared.reduced, runner, engine);
   }
   for (int layer = 0; layer < SF_LAYERS; ++layer) engine->pictures.layers[layer] = own[layer];
   ForgetLayers(engine->config, &engine->pictures);

@@ -95,11 +95,12 @@ const char* sf_status_string(sf_status status) {
       return "positions of views are not finite, beyond 1, alike, or do not begin with (0, 0)";
     case SF_ERROR_STAR:
       return "SF_RULE_PAPER needs the star of sf_view_position: 1, 5, 9 or 17 views";
+    case SF_ERROR_PREVIEW:
+      return "previews is outside 0 to 3, or the light field was not prepared for that shift";
     case SF_ERROR_REGION:
       return "region is not inside the picture, or is given for streaming, which has none";
     case SF_ERROR_PREPARED:
-      return "prepared light field is of another kind, size, views, disparities, max_layer or "
-             "transfer";
+      return "prepared light field is of another kind, size, views, range, max_layer or transfer";
     case SF_ERROR_GATHER:
       return "gather is not 0 or 1";
     case SF_ERROR_TOO_LARGE:

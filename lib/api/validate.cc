@@ -70,6 +70,7 @@ sf_status CheckConfig(const sf_config& config) {
   if (config.skips != 0 && config.skips != 1) return SF_ERROR_SKIPS;
   if (config.fill_unknown != 0 && config.fill_unknown != 1) return SF_ERROR_FILL;
   if (config.images != 0 && config.images != 1) return SF_ERROR_IMAGES;
+  if (config.previews < 0 || config.previews > SF_MAX_PREVIEW) return SF_ERROR_PREVIEW;
   if (config.gather != 0 && config.gather != 1) return SF_ERROR_GATHER;
   if (config.transfer != SF_TRANSFER_SRGB && config.transfer != SF_TRANSFER_NONE) {
     return SF_ERROR_TRANSFER;

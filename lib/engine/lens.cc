@@ -9,13 +9,6 @@
 namespace starfocus {
 namespace {
 
-// Blur radius of the configured range's farther end.
-double LargestBlur(const sf_config& config, const sf_params& params) {
-  const double nearer = config.disparity_max - params.focus;
-  const double farther = params.focus - config.disparity_min;
-  return params.aperture * (nearer > farther ? nearer : farther);
-}
-
 // The one aperture of the frame modes. The benchmark's is made in memory of its own.
 Aperture FrameAperture(const sf_config& config, const Tables& tables, const Lens& lens) {
   const bool subapertures = UsesSubapertures(lens);
@@ -35,6 +28,12 @@ Rect RegionOf(const sf_config& config, const sf_params& params) {
   const sf_region& region = params.region;
   if (IsWhole(region)) return {0, 0, config.width, config.height};
   return {region.x, region.y, region.width, region.height};
+}
+
+double LargestBlur(const sf_config& config, const sf_params& params) {
+  const double nearer = config.disparity_max - params.focus;
+  const double farther = params.focus - config.disparity_min;
+  return params.aperture * (nearer > farther ? nearer : farther);
 }
 
 sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watch, Tables* tables,

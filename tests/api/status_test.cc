@@ -77,6 +77,8 @@ const char* WordsOf(sf_status status) {
       return "n_scale";
     case SF_ERROR_SKIPS:
       return "skips";
+    case SF_ERROR_PREVIEW:
+      return "not prepared for that shift";
     case SF_ERROR_REGION:
       return "region";
     case SF_ERROR_PREPARED:

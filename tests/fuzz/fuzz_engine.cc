@@ -61,6 +61,7 @@ sf_config MakeConfig(Input* input) {
   // From what another field drew: recorded inputs keep their meaning.
   config.skips = config.deblocking % 4 != 0;
   config.gather = config.deblocking % 3 != 0;
+  config.previews = config.deblocking / 4 % 4;
   config.n_scale = 0.5 + 0.25 * (config.deblocking % 7);
   if (config.deblocking % 7 == 1)
     config.highlights = 1.0F + static_cast<float>(config.deblocking) / 8;
@@ -220,6 +221,9 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
   const sf_status status = sf_prepare(engine, &pictures.field, memory, bytes, nullptr, nullptr,
                                       nullptr, nullptr, &prepared);
   if (status != SF_OK) return;
+  // A preview is no larger than the picture, and leaves the engine as it was.
+  sf_refocus_preview(engine, &params, prepared, config.previews, out, stride, nullptr, nullptr,
+                     &report);
   sf_refocus_prepared(engine, &params, prepared, out, stride, nullptr, nullptr, &report);
 }
 

@@ -76,6 +76,7 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_MIN_N_SCALE 0.5
 #define SF_MAX_N_SCALE 2.0
 #define SF_MAX_HIGHLIGHTS 64.0
+#define SF_MAX_PREVIEW 3
 #define SF_MIN_BLADES 3
 #define SF_MAX_BLADES 12
 #define SF_MAX_RING_INNER 0.9
@@ -183,7 +184,10 @@ typedef struct sf_config {
                        default: they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds
                        what the views show there, and sf_fill_disparity fills whole maps */
   int32_t images;   /**< 1 reserves rows for the calls of starfocus/image.h; default 0 */
-  uint32_t reserved[4];                /**< zero */
+  int32_t previews; /**< largest shift of sf_refocus_preview, [0, SF_MAX_PREVIEW]: sf_prepare then
+                       keeps the light field at 1/2, 1/4 and 1/8 of its size, up to that; default
+                       0: none. The workspace does not grow by it */
+  uint32_t reserved[3]; /**< zero */
   sf_position positions[SF_MAX_VIEWS]; /**< where the `views` captured views lie: each coordinate in
                                           [-1, 1], rounded to 1/16384, no two alike, the first one
                                           (0, 0). All 0, the default: where sf_view_position
@@ -388,7 +392,8 @@ SF_API sf_status sf_refocus(sf_engine* engine, const sf_params* params,
 typedef struct sf_prepared sf_prepared;
 
 /** Bytes that a prepared light field of `config` takes, into *bytes: 2 per pixel of the picture for
- *  disparities and about 1.9 for layers 1 and 2, as far as max_layer allows them. */
+ *  disparities and about 1.9 for layers 1 and 2, as far as max_layer allows them; and for each
+ *  preview up to sf_config.previews 3 per view and 2 per pixel of its own. */
 SF_API sf_status sf_prepared_size(const sf_config* config, size_t* bytes);
 
 /** Checks and converts the disparities and subsamples the centre view, once for many refocusings,
@@ -408,6 +413,28 @@ SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field
 SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                                      const sf_prepared* prepared, uint8_t* out, size_t out_stride,
                                      sf_runner runner, void* runner_data, sf_report* report);
+
+/** Refocuses a prepared light field at 1 / 2^shift of its size: what `params` ask for, in pixels of
+ * the full size as ever, at a fraction of about 4^-shift of the time. `out` has the pixels that
+ * have a part of the region: with S = 2^shift from x / S to (x + width - 1) / S, both rounded down,
+ * and rows likewise; of a whole picture ceil(width / S) times ceil(height / S).
+ *
+ * The preview is, byte for byte, what sf_refocus gives of the reduced light field, by an engine of
+ * its size and else of the same configuration (largest_block as sf_report says), but for a
+ * disparity range, max_blur, focus and region divided by S. Of that light field a pixel of a view
+ * is the mean light, in 128ths of a 255th of white and then as a code, of the S x S pixels that it
+ * stands for (at the right and bottom edges, those that there are), and a disparity the median of
+ * theirs, the larger of two in the middle, over S; disparities are multiples of 1/64, halves
+ * rounded up, within the range.
+ *
+ * What on_block, progress and the report are told of is in pixels of the preview. The pictures of
+ * the light field are not read. `out` overlaps neither the workspace nor `prepared`, which may be
+ * of sf_prepare or sf_prepare_images. SF_ERROR_PREVIEW when it was not prepared for that shift;
+ * else errors are those of sf_refocus_prepared. */
+SF_API sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
+                                    const sf_prepared* prepared, int32_t shift, uint8_t* out,
+                                    size_t out_stride, sf_runner runner, void* runner_data,
+                                    sf_report* report);
 
 /** A light field of the same configuration and what was made of it with the same params (but for
  *  their clock, visitor and progress). */

@@ -65,10 +65,12 @@ typedef enum sf_status {
   SF_ERROR_CANCELLED = 47,   /**< the caller's progress function said so; output is incomplete */
   SF_ERROR_IMAGES = 48,      /**< images is not 0 or 1 */
   SF_ERROR_FORMAT = 49,      /**< unknown format, matrix or range of an image */
-  SF_ERROR_PIXEL_STRIDE = 50,   /**< pixel_stride is none of the image's format */
-  SF_ERROR_DEPTH_TYPE = 51,     /**< a depth map of unknown type, meaning or has_invalid */
-  SF_ERROR_DEPTH_SCALE = 52,    /**< scale or offset of a depth map not finite, or scale 0 */
-  SF_ERROR_DEPTH_SIZE = 53,     /**< depth map larger than the picture, or empty */
+  SF_ERROR_PIXEL_STRIDE = 50, /**< pixel_stride is none of the image's format */
+  SF_ERROR_DEPTH_TYPE = 51,   /**< a depth map of unknown type, meaning or has_invalid */
+  SF_ERROR_DEPTH_SCALE = 52,  /**< scale or offset of a depth map not finite, or scale 0 */
+  SF_ERROR_DEPTH_SIZE = 53,   /**< depth map larger than the picture, or empty */
+  SF_ERROR_PREVIEW = 54, /**< previews outside [0, SF_MAX_PREVIEW], or a shift that the light field
+                            was not prepared for */
   SF_ERROR_VIEW_POSITIONS = 55, /**< a position beyond 1, two alike, or the first one not (0, 0) */
   SF_ERROR_STAR = 56            /**< SF_RULE_PAPER without the views of sf_view_position */
 } sf_status;

@@ -36,6 +36,8 @@ public final class Configuration {
   public float highlights;
   /** 1: disparities that are not finite, and invalid depths, are unknown; 0: they are refused. */
   public int fillUnknown;
+  /** Largest shift of {@link Refocuser#preview}, 0 to 3; 0, the default: there are no previews. */
+  public int previews;
 
   public Configuration() {
     Native.initialize(this);
