@@ -41,22 +41,14 @@
 extern "C" {
 #endif
 
-/** Grows whenever a public structure or the meaning of a call changes. */
-#define SF_ABI_VERSION 1u
-/** Alignment of the workspace in bytes: the widest vector of any SIMD target (AVX-512). */
-#define SF_ALIGNMENT 64
-/** Largest number of captured views. */
-#define SF_MAX_VIEWS 17
-/** Largest width and height in pixels. */
-#define SF_MAX_SIZE 65535
-/** Largest |disparity| in pixels per unit u. */
-#define SF_MAX_DISPARITY 500.0
-/** Largest blur radius in pixels that a configuration may ask for. */
-#define SF_MAX_BLUR 128.0
-/** Number of subsampled layers, the original one included. */
-#define SF_LAYERS 3
-/** Largest number of workers. */
-#define SF_MAX_WORKERS 64
+#define SF_ABI_VERSION 1u /**< grows when a public structure or the meaning of a call changes */
+#define SF_ALIGNMENT 64   /**< of the workspace, bytes: the widest vector (AVX-512) */
+#define SF_MAX_VIEWS 17   /**< largest number of captured views */
+#define SF_MAX_SIZE 65535 /**< largest width and height in pixels */
+#define SF_MAX_DISPARITY 500.0 /**< largest |disparity| in pixels per unit u */
+#define SF_MAX_BLUR 128.0 /**< largest blur radius in pixels that a configuration may ask for */
+#define SF_LAYERS 3       /**< number of subsampled layers, the original one included */
+#define SF_MAX_WORKERS 64 /**< largest number of workers */
 
 /** SF_ABI_VERSION the library was built with. */
 SF_API uint32_t sf_abi_version(void);
@@ -188,12 +180,11 @@ typedef struct sf_config {
                        keeps the light field at 1/2, 1/4 and 1/8 of its size, up to that; default
                        0: none. The workspace does not grow by it */
   uint32_t reserved[3]; /**< zero */
-  sf_position positions[SF_MAX_VIEWS]; /**< where the `views` captured views lie: each coordinate in
-                                          [-1, 1], rounded to 1/16384, no two alike, the first one
-                                          (0, 0). All 0, the default: where sf_view_position
-                                          tells. What lies behind an edge is read from the best
-                                          view that sees it, and filled where none does.
-                                          SF_RULE_PAPER and starfocus/depth.h need the star */
+  /** Where the `views` captured views lie: each coordinate in [-1, 1], rounded to 1/16384, no two
+   *  alike, the first one (0, 0). All 0, the default: where sf_view_position tells. What lies
+   *  behind an edge is read from the best view that sees it, and filled where none does.
+   *  SF_RULE_PAPER and starfocus/depth.h need the star. */
+  sf_position positions[SF_MAX_VIEWS];
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);
@@ -414,23 +405,20 @@ SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                                      const sf_prepared* prepared, uint8_t* out, size_t out_stride,
                                      sf_runner runner, void* runner_data, sf_report* report);
 
-/** Refocuses a prepared light field at 1 / 2^shift of its size: what `params` ask for, in pixels of
- * the full size as ever, at a fraction of about 4^-shift of the time. `out` has the pixels that
- * have a part of the region: with S = 2^shift from x / S to (x + width - 1) / S, both rounded down,
- * and rows likewise; of a whole picture ceil(width / S) times ceil(height / S).
+/** Refocuses a prepared light field at 1 / S of its size, S = 2^shift, in about 1 / S^2 of the
+ * time; `params` are in pixels of the full size as ever. `out` has the pixels that have a part of
+ * the region: from x / S to (x + width - 1) / S, both rounded down, and rows likewise.
  *
  * The preview is, byte for byte, what sf_refocus gives of the reduced light field, by an engine of
  * its size and else of the same configuration (largest_block as sf_report says), but for a
- * disparity range, max_blur, focus and region divided by S. Of that light field a pixel of a view
- * is the mean light, in 128ths of a 255th of white and then as a code, of the S x S pixels that it
- * stands for (at the right and bottom edges, those that there are), and a disparity the median of
- * theirs, the larger of two in the middle, over S; disparities are multiples of 1/64, halves
- * rounded up, within the range.
+ * disparity range, max_blur, focus and region divided by S. There a pixel of a view is the mean
+ * light, in 128ths of a 255th of white and then as a code, of the S x S pixels (fewer at the right
+ * and bottom edges) that it stands for, and a disparity the median of theirs, the larger of two in
+ * the middle, over S: a multiple of 1/64, halves rounded up, within the range.
  *
- * What on_block, progress and the report are told of is in pixels of the preview. The pictures of
- * the light field are not read. `out` overlaps neither the workspace nor `prepared`, which may be
- * of sf_prepare or sf_prepare_images. SF_ERROR_PREVIEW when it was not prepared for that shift;
- * else errors are those of sf_refocus_prepared. */
+ * on_block, progress and the report count pixels of the preview. The light field's pictures are not
+ * read; `prepared` may be of sf_prepare or sf_prepare_images. SF_ERROR_PREVIEW when it was not
+ * prepared for that shift; else errors are those of sf_refocus_prepared. */
 SF_API sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
                                     const sf_prepared* prepared, int32_t shift, uint8_t* out,
                                     size_t out_stride, sf_runner runner, void* runner_data,
