@@ -2,7 +2,7 @@
 #include "platform/image_io.h"
 
 #include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
+#include <unistd.h>
 
 #include <climits>
 #include <new>
@@ -10,14 +10,15 @@
 #include "platform/container.h"
 #include "platform/png.h"
 #include "platform/ppm.h"
+#include "platform/standard_stream.h"
 #include "platform/stb_memory.h"
+#include "platform/writers/webp.h"
 
 namespace starfocus {
 namespace {
 
-constexpr int kJpegQuality = 95;
-// stb_image reads 2^30 samples of a PNG file, which may have four a pixel, and both it and
-// stb_image_write count bytes in an int.
+// stb_image reads 2^30 samples of a PNG file, which may have four a pixel, and counts bytes in an
+// int.
 constexpr int64_t kMostStbPixels = int64_t{1} << 28;
 
 std::string SizeText(int64_t width, int64_t height) {
@@ -132,33 +133,10 @@ std::string Decode(const std::string& path, Bytes* bytes, Image* image) {
   return IsPng(*bytes) ? DecodePng(path, bytes, image) : DecodeJpeg(path, *bytes, image);
 }
 
-void Append(void* context, void* data, int size) {
-  const uint8_t* first = static_cast<const uint8_t*>(data);
-  Bytes* bytes = static_cast<Bytes*>(context);
-  bytes->insert(bytes->end(), first, first + size);
-}
-
-std::string EncodeStb(const std::string& path, const Image& image, Bytes* bytes) {
-  const std::string error = CheckSize(path, image.width, image.height);
-  if (!error.empty()) return error;
-  const StbMemory memory;
-  const int ok = LowerExtension(path) == ".png"
-                     ? stbi_write_png_to_func(Append, bytes, image.width, image.height, 3,
-                                              image.pixels.data(), static_cast<int>(image.stride()))
-                     : stbi_write_jpg_to_func(Append, bytes, image.width, image.height, 3,
-                                              image.pixels.data(), kJpegQuality);
-  if (ok && !bytes->empty()) return "";
-  return Expected(path, "a picture that can be encoded", "an encoder failure");
-}
-
-bool IsKnownExtension(const std::string& extension) {
-  return extension == ".png" || extension == ".ppm" || extension == ".jpg" || extension == ".jpeg";
-}
-
 std::string CheckExtension(const std::string& path) {
-  const std::string extension = LowerExtension(path);
-  if (IsKnownExtension(extension)) return "";
-  return Expected(path, "a name ending in .png, .ppm or .jpg",
+  const std::string extension = FormatExtension(path);
+  if (IsPictureExtension(extension)) return "";
+  return Expected(path, std::string("a name ending in ") + kPictureExtensions,
                   extension.empty() ? "no extension" : extension);
 }
 
@@ -174,16 +152,13 @@ std::string ReadImage(const std::string& path, Image* image) {
   }
 }
 
-std::string WriteImage(const std::string& path, const Image& image) {
+std::string WriteImage(const std::string& path, const Image& image,
+                       const PictureOptions& options) {
   std::string error = CheckExtension(path);
   if (!error.empty()) return error;
   try {
     Bytes bytes;
-    if (LowerExtension(path) == ".ppm") {
-      bytes = EncodePpm(image);
-    } else {
-      error = EncodeStb(path, image, &bytes);
-    }
+    error = EncodePicture(path, image, options, &bytes);
     return error.empty() ? WriteFile(path, bytes) : error;
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "write it");
@@ -191,8 +166,13 @@ std::string WriteImage(const std::string& path, const Image& image) {
 }
 
 std::string CheckImageOutput(const std::string& path) {
-  const std::string error = CheckExtension(path);
-  return error.empty() ? CheckOutputPath(path) : error;
+  std::string error = CheckExtension(path);
+  if (error.empty()) error = CheckOutputPath(path);
+  if (error.empty() && FormatExtension(path) == ".webp") error = WebpWriter::Check(path, 1, 1);
+  if (error.empty() && IsStandardStream(path) && isatty(STDOUT_FILENO) == 1) {
+    error = Expected(path, "a file or pipe for a picture", "a terminal");
+  }
+  return error;
 }
 
 }  // namespace starfocus
