@@ -17,6 +17,7 @@ void AddSceneCommand(CLI::App* app, Action* action);
 void AddRefocusCommand(CLI::App* app, Action* action);
 void AddDisparityCommand(CLI::App* app, Action* action);
 void AddVideoCommand(CLI::App* app, Action* action);
+void AddViewCommand(CLI::App* app, Action* action);
 void AddCalibrateCommand(CLI::App* app, Action* action);
 void AddCompareCommand(CLI::App* app, Action* action);
 void AddInfoCommand(CLI::App* app, Action* action);

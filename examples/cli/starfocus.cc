@@ -23,6 +23,7 @@ Error Run(int argc, char** argv) {
   AddRefocusCommand(&app, &action);
   AddDisparityCommand(&app, &action);
   AddVideoCommand(&app, &action);
+  AddViewCommand(&app, &action);
   AddCalibrateCommand(&app, &action);
   AddCompareCommand(&app, &action);
   AddInfoCommand(&app, &action);

@@ -54,15 +54,16 @@ std::string EncodeDepthPhoto(const std::string& path, const Image& picture, cons
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   Bytes map, before, segments;
   std::string error = EncodeGreyPng(path, Levels(*photo.disparity, *low, *high), &map);
-  if (error.empty()) error = EncodeJpeg(path, *photo.before, quality, {{}, metadata.icc}, {}, &before);
+  if (error.empty())
+    error = EncodeJpeg(path, *photo.before, quality, {{}, metadata.icc}, {}, &before);
   if (!error.empty()) return error;
   const std::string attributes =
       Attribute("GDepth:Format", "RangeInverse") +
       Attribute("GDepth:Near", 1 / (double(*high) - *low + 1)) + Attribute("GDepth:Far", 1) +
       Attribute("GDepth:Mime", "image/png") + Attribute("GImage:Mime", "image/jpeg") +
       FocusAttributes(photo, *low);
-  const std::string extended = Attribute("GDepth:Data", EncodeBase64(map)) +
-                               Attribute("GImage:Data", EncodeBase64(before));
+  const std::string extended =
+      Attribute("GDepth:Data", EncodeBase64(map)) + Attribute("GImage:Data", EncodeBase64(before));
   if (!AppendXmp(kNamespaces, attributes, extended, &segments)) {
     return Expected(path, "less than 4 GiB beside the picture", "more");
   }

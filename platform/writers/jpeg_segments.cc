@@ -43,6 +43,12 @@ std::string Packet(const std::string& namespaces, const std::string& attributes)
          namespaces + attributes + "/></rdf:RDF></x:xmpmeta>";
 }
 
+// What programs that look for the packet anywhere in a file find it by.
+std::string Wrapped(const std::string& packet) {
+  return "<?xpacket begin=\"\xef\xbb\xbf\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>" + packet +
+         "<?xpacket end=\"r\"?>";
+}
+
 }  // namespace
 
 bool AppendExif(const Bytes& tiff, Bytes* segments) {
@@ -52,11 +58,11 @@ bool AppendExif(const Bytes& tiff, Bytes* segments) {
 }
 
 bool AppendProfile(const Bytes& icc, Bytes* segments) {
-  const size_t most = kMostPayload - kProfileHeader.size() - 2, count = (icc.size() + most - 1) / most;
+  const size_t most = kMostPayload - kProfileHeader.size() - 2,
+               count = (icc.size() + most - 1) / most;
   if (count > 255) return false;
   for (size_t i = 0; i < count; ++i) {
-    const std::string header =
-        kProfileHeader + static_cast<char>(i + 1) + static_cast<char>(count);
+    const std::string header = kProfileHeader + static_cast<char>(i + 1) + static_cast<char>(count);
     const auto first = icc.begin() + static_cast<ptrdiff_t>(i * most);
     const auto last = i + 1 < count ? first + static_cast<ptrdiff_t>(most) : icc.end();
     Append(kApp2, header, first, last, segments);
@@ -68,14 +74,13 @@ bool AppendXmp(const std::string& namespaces, const std::string& attributes,
                const std::string& extended, Bytes* segments) {
   const std::string more = Packet(namespaces, extended), name = Md5(more);
   const std::string first =
-      Packet(namespaces + " xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\"",
-             attributes + " xmpNote:HasExtendedXMP=\"" + name + "\"");
+      Wrapped(Packet(namespaces + " xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\"",
+                     attributes + " xmpNote:HasExtendedXMP=\"" + name + "\""));
   if (first.size() > kMostPayload - kXmpHeader.size() || more.size() > UINT32_MAX) return false;
   Append(kApp1, kXmpHeader, first.begin(), first.end(), segments);
   const size_t most = kMostPayload - kExtensionHeader.size() - name.size() - 8;
   for (size_t at = 0; at < more.size(); at += most) {
-    const std::string header =
-        kExtensionHeader + name + BigEndian32(more.size()) + BigEndian32(at);
+    const std::string header = kExtensionHeader + name + BigEndian32(more.size()) + BigEndian32(at);
     const size_t end = std::min(at + most, more.size());
     Append(kApp1, header, more.begin() + static_cast<ptrdiff_t>(at),
            more.begin() + static_cast<ptrdiff_t>(end), segments);

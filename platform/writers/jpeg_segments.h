@@ -15,8 +15,9 @@ bool AppendExif(const Bytes& tiff, Bytes* segments);
 bool AppendProfile(const Bytes& icc, Bytes* segments);
 
 // A packet of XMP: the attributes of its description, and an extended packet of `extended` ones,
-// which may be of any length below 4 GiB, named by the first. An attribute is ' prefix:Name="value"',
-// escaped as XML; `namespaces` declares the prefixes, ' xmlns:prefix="..."' each.
+// which may be of any length below 4 GiB, named by the first. An attribute is '
+// prefix:Name="value"', escaped as XML; `namespaces` declares the prefixes, ' xmlns:prefix="..."'
+// each.
 bool AppendXmp(const std::string& namespaces, const std::string& attributes,
                const std::string& extended, Bytes* segments);
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG by libpng.
+#include "platform/writers/png.h"
+
 #include <png.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <string>
 
 #include "platform/writers/exif.h"
-#include "platform/writers/png.h"
 #include "starfocus/version.h"
 
 namespace starfocus {

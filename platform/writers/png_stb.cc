@@ -37,8 +37,10 @@ std::string EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes
   Bytes samples;
   for (const uint16_t level : image.levels) {
     if (level > 255) {
-      return Expected(path, "levels up to 255: only libpng, without which this program was built, "
-                            "writes 16 bits", std::to_string(level));
+      return Expected(path,
+                      "levels up to 255: only libpng, without which this program was built, "
+                      "writes 16 bits",
+                      std::to_string(level));
     }
     samples.push_back(static_cast<uint8_t>(level));
   }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // WebP by libwebp and its encoder of animations.
+#include "platform/writers/webp.h"
+
 #include <webp/encode.h>
 #include <webp/mux.h>
 
 #include <utility>
 
 #include "platform/writers/exif.h"
-#include "platform/writers/webp.h"
 #include "starfocus/version.h"
 
 namespace starfocus {
@@ -103,8 +104,7 @@ std::string WebpWriter::Finish(const Metadata& metadata, Bytes* webp) {
   if (!MarkEdited("starfocus " SF_VERSION_STRING, state.width, state.height, &exif)) exif.clear();
   WebPMux* mux = WebPMuxCreate(&coded.data, 0);
   const bool made = mux != nullptr && SetChunk(mux, "ICCP", metadata.icc) &&
-                    SetChunk(mux, "EXIF", exif) &&
-                    WebPMuxAssemble(mux, &whole.data) == WEBP_MUX_OK;
+                    SetChunk(mux, "EXIF", exif) && WebPMuxAssemble(mux, &whole.data) == WEBP_MUX_OK;
   WebPMuxDelete(mux);
   if (!made) return OutOfMemory(state.path, "write it");
   webp->assign(whole.data.bytes, whole.data.bytes + whole.data.size);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus info: what a light-field folder holds.
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 
 #include "examples/cli/commands.h"
 #include "examples/cli/disparity/estimate_run.h"
+#include "examples/cli/disparity/map_figures.h"
 #include "examples/command_line/options.h"
 #include "platform/light_field.h"
 #include "starfocus/starfocus.h"
@@ -22,18 +22,6 @@ struct Options {
   std::string folder;
   bool json = false;
 };
-
-std::vector<int64_t> Histogram(const FloatMap& map, const sf_disparity_stats& stats) {
-  std::vector<int64_t> counts(kBins);
-  const double range = double(stats.max) - stats.min;
-  for (float d : map.values) {
-    if (!std::isfinite(d)) continue;
-    const double place = range > 0 ? (double(d) - stats.min) / range * kBins : 0;
-    const int bin = static_cast<int>(place);
-    ++counts[size_t(bin < kBins ? bin : kBins - 1)];
-  }
-  return counts;
-}
 
 double BinEdge(const sf_disparity_stats& stats, int bin) {
   return stats.min + (double(stats.max) - stats.min) * bin / kBins;
@@ -86,7 +74,7 @@ Error Run(const Options& options) {
     return Expected(DisparityPath(options.folder), "disparities that can be measured",
                     sf_status_string(status));
   }
-  const std::vector<int64_t> counts = Histogram(map, stats);
+  const std::vector<int64_t> counts = Histogram(map, stats, kBins);
   if (options.json) {
     PrintJson(light_field, stats, counts);
   } else {

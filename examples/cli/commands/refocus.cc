@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus refocus: the picture of a lens focused elsewhere, or a row of them.
-#include <cstdio>
-#include <filesystem>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "examples/cli/commands.h"
 #include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/engine_run.h"
+#include "examples/cli/refocus/batch.h"
 #include "examples/cli/refocus/partition_map.h"
+#include "examples/cli/refocus/refocus_output.h"
 #include "examples/cli/refocus/refocus_plan.h"
 #include "examples/cli/refocus/refocus_report.h"
 #include "examples/command_line/options.h"
@@ -22,7 +23,9 @@ namespace {
 constexpr int kMostPictures = 1000;  // of a sweep: three digits
 
 struct Options {
-  std::string folder, out, report, map, region, sweep;
+  std::vector<std::string> inputs;
+  std::string folder, report, map, region, sweep, jobs = "1";
+  OutputOptions output;
   LensOptions lens;
   bool stream = false, repair = false;
 };
@@ -33,23 +36,11 @@ struct Loaded {
   double max_blur = 0;
 };
 
-// The picture of a sweep: "out.png" becomes "out_007.png".
-std::string Numbered(const std::string& path, size_t index) {
-  const std::filesystem::path name(path);
-  char number[16];
-  std::snprintf(number, sizeof(number), "_%03d", static_cast<int>(index));
-  return (name.parent_path() / (name.stem().string() + number + name.extension().string()))
-      .string();
-}
-
 Error CheckOutputs(const Options& options, const LensPlan& plan) {
-  std::vector<Output> outputs;
-  if (options.sweep.empty()) outputs.push_back({"--output", options.out});
-  for (size_t i = 0; i < plan.foci.size() && !options.sweep.empty(); ++i) {
-    outputs.push_back({"--output", Numbered(options.out, i)});
-  }
+  std::vector<Output> outputs =
+      ListPictures(options.output, options.sweep.empty() ? 0 : plan.foci.size());
   if (!options.map.empty()) outputs.push_back({"--map", options.map});
-  Error error = CheckImageOutput(options.out);
+  Error error = CheckImageOutput(options.output.out);
   for (size_t i = 0; i < outputs.size() && error.empty(); ++i) {
     error = CheckImageOutput(outputs[i].path);
   }
@@ -99,8 +90,12 @@ Error PlanRegion(const Options& options, LensPlan* plan) {
 }
 
 // Everything that can be refused before a file is read.
-Error MakePlan(const Options& options, LensPlan* plan) {
+Error MakePlan(const Options& options, LensPlan* plan, PictureOptions* how) {
   Error error = PlanFoci(options, plan);
+  if (error.empty()) {
+    error =
+        PlanOutput(options.output, !options.sweep.empty(), !options.region.empty(), &how->quality);
+  }
   if (error.empty()) error = CheckOutputs(options, *plan);
   if (error.empty()) error = PlanRegion(options, plan);
   return error.empty() ? PlanLens(options.lens, plan) : error;
@@ -133,7 +128,8 @@ std::string WriteReport(const Options& options, const std::string& text) {
   return WriteFile(options.report, Bytes(text.begin(), text.end()));
 }
 
-Error RunOne(const Options& options, const EngineTask& one, double start) {
+Error RunOne(const Options& options, const PictureOptions& how, const EngineTask& one,
+             double start) {
   EngineTask task = one;
   std::vector<sf_block> blocks;
   if (!options.map.empty()) {
@@ -145,7 +141,7 @@ Error RunOne(const Options& options, const EngineTask& one, double start) {
   EngineResult result;
   Error error = run.Start(options.folder, task);
   if (error.empty()) error = run.Refocus(options.folder, task, &result);
-  if (error.empty()) error = WriteImage(options.out, result.picture);
+  if (error.empty()) error = WriteRefocused(options.output, how, task, result.picture);
   if (error.empty() && !options.map.empty()) {
     const sf_region& region = task.params.region;
     error = WriteImage(options.map, DrawPartition(result.picture, region.x, region.y, blocks));
@@ -154,35 +150,66 @@ Error RunOne(const Options& options, const EngineTask& one, double start) {
   return WriteReport(options, ReportText(task, result, Seconds() - start));
 }
 
-Error RunSweep(const Options& options, const std::vector<double>& foci, EngineTask task,
-               double start) {
+Error RunSweep(const Options& options, const PictureOptions& how, const std::vector<double>& foci,
+               EngineTask task, double start) {
   EngineRun run(task.threads, static_cast<int>(foci.size()));
   SeriesReport report;
-  Error error = run.Start(options.folder, task);
+  StackWriter stack(options.output, how);
+  Error error = WritePair(options.output, how, *task.light_field, foci);
+  if (error.empty()) error = run.Start(options.folder, task);
   if (error.empty()) error = run.Prepare(options.folder, task);
   for (size_t i = 0; i < foci.size() && error.empty(); ++i) {
     task.params.focus = foci[i];
-    const std::string out = Numbered(options.out, i);
+    std::string out;
     EngineResult result;
     error = run.Refocus(options.folder, task, &result);
-    if (error.empty()) error = WriteImage(out, result.picture);
+    if (error.empty()) error = stack.Add(result.picture, &out);
     report.Add(out, task, result);
   }
+  if (error.empty()) error = stack.Finish();
   if (!error.empty() || options.report.empty()) return error;
   return WriteReport(options, report.Text(Seconds() - start));
 }
 
-Error Run(const Options& options) {
+Error RunInput(const Options& options) {
   const double start = Seconds();
   LensPlan plan;
+  PictureOptions how;
   Loaded loaded;
-  Error error = MakePlan(options, &plan);
+  Error error = MakePlan(options, &plan, &how);
   if (error.empty()) error = Load(options, &plan, &loaded);
   if (!error.empty()) return error;
   const EngineTask task =
       MakeTask(plan, loaded.light_field, loaded.stats, loaded.max_blur, !options.report.empty());
-  return options.sweep.empty() ? RunOne(options, task, start)
-                               : RunSweep(options, plan.foci, task, start);
+  return options.sweep.empty() ? RunOne(options, how, task, start)
+                               : RunSweep(options, how, plan.foci, task, start);
+}
+
+Error RunInputs(const Options& options) {
+  for (const auto& [name, value] :
+       {std::pair<const char*, const std::string&>{"--map", options.map},
+        {"--report", options.report},
+        {"--sweep", options.sweep}}) {
+    if (!value.empty()) return Error::Usage(name, "one input and a file for --output", "several");
+  }
+  int jobs = 0;
+  std::vector<BatchItem> items;
+  Error error = ParseWhole("--jobs", options.jobs, 1, SF_MAX_WORKERS, &jobs);
+  if (error.empty()) error = PlanBatch(options.inputs, options.output.out, &items);
+  if (!error.empty()) return error;
+  return RunBatch(items, jobs, [&options](const BatchItem& item) {
+    Options one = options;
+    one.folder = item.input;
+    one.output.out = item.output;
+    return RunInput(one);
+  });
+}
+
+Error Run(const Options& options) {
+  if (IsBatch(options.inputs, options.output.out)) return RunInputs(options);
+  Options one = options;
+  one.folder = options.inputs[0];
+  return RunInput(one);
 }
 
 }  // namespace
@@ -191,14 +218,18 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       app->add_subcommand("refocus", "The picture a lens focused at a disparity would have taken");
-  command->add_option("DIR", options->folder, "Light-field folder")->type_name("DIR")->required();
-  command->add_option("-o,--output", options->out, "Picture to write: .png, .ppm or .jpg")
-      ->type_name("FILE")
+  command->add_option("DIR", options->inputs, "Light-field folder, or several of them")
+      ->type_name("DIR")
       ->required();
+  AddOutputOptions(command, &options->output);
+  command
+      ->add_option("--jobs", options->jobs,
+                   "1 to 64: how many of several inputs at a time, each on --threads")
+      ->capture_default_str();
   AddLensOptions(command, &options->lens);
   command->add_option("--sweep", options->sweep,
                       "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
-                      "out_001.png, ...");
+                      "out_001.png, ..., or of -o out.webp one animation");
   command->add_option("--region", options->region,
                       "X,Y,W,H: only that part of the picture, at its share of the time");
   command->add_flag("--stream", options->stream, "Row by row instead of whole pictures");
