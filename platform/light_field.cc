@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "platform/image_io.h"
+#include "platform/progress.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -29,11 +30,13 @@ struct SaveJob {
   const LightField& light_field;
   const Positions positions;
   std::vector<std::string> errors;  // of each view
+  Progress progress;
 
   static void Run(void* data, int32_t index, int32_t) {
     SaveJob* self = static_cast<SaveJob*>(data);
     const std::string path = Join(self->folder, ViewName(self->positions[size_t(index)]) + ".png");
     self->errors[size_t(index)] = WriteImage(path, self->light_field.views[size_t(index)]);
+    self->progress.Step();
   }
 };
 
@@ -79,6 +82,7 @@ std::string LoadCaptured(const std::string& folder, const Positions& wanted,
   std::string error = ChooseViewFiles(folder, wanted, &files);
   if (!error.empty()) return error;
   LightField result;
+  Progress progress("reading views", static_cast<int64_t>(files.size()));
   for (const ViewFile& file : files) {
     Image view;
     error = CheckPlainFile(file.path);
@@ -91,6 +95,7 @@ std::string LoadCaptured(const std::string& folder, const Positions& wanted,
       return Expected(file.path, SizeText(centre.width, centre.height) + " as the centre view",
                       SizeText(last.width, last.height));
     }
+    progress.Step();
   }
   *light_field = std::move(result);
   return "";
@@ -119,8 +124,11 @@ std::string SaveLightField(const std::string& folder, const LightField& light_fi
   if (failure) return Expected(folder, "a folder that can be made", failure.message());
   const Positions& given = light_field.positions;
   const auto views = static_cast<int>(light_field.views.size());
-  SaveJob save = {folder, light_field, given.empty() ? StarPositions(views) : given,
-                  std::vector<std::string>(light_field.views.size())};
+  SaveJob save = {folder,
+                  light_field,
+                  given.empty() ? StarPositions(views) : given,
+                  std::vector<std::string>(light_field.views.size()),
+                  {"writing views", views}};
   const int status = ThreadRunner::Run(runner, SaveJob::Run, &save, views);
   if (status != 0) return Expected(folder, "a thread runner", "none");
   for (const std::string& error : save.errors) {

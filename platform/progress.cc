@@ -49,7 +49,7 @@ std::string Progress::Text(const std::string& what, int64_t done, int64_t total,
   std::snprintf(text, sizeof(text), ": %.0f %%", 100 * share);
   std::string line = what + text;
   if (done <= 0 || seconds < kLeastTime) return line;
-  const long left = std::lround(std::ceil(seconds * (1 - share) / share));
+  const long left = std::lround(seconds * (1 - share) / share);
   if (left < 60) {
     std::snprintf(text, sizeof(text), ", %ld s left", left);
   } else {

@@ -23,7 +23,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int kFoci = 7, kBins = 32;
+constexpr int kFoci = 6, kBins = 32;
 constexpr int kLarge = 1200, kSmall = 380;  // widths of pictures
 constexpr int kWhite = 32;                  // difference that is white in an error map
 
@@ -73,7 +73,7 @@ Error ShowPicture(size_t index, const Image& picture, const std::vector<sf_block
                              "Focus " + focus + (index == 0 ? ", far" : "") +
                                  (index > 0 && index + 1 == foci ? ", near" : ""),
                              Shrink(picture, kSmall)});
-  if (index != foci / 2) return "";
+  if (index + 1 != foci) return "";  // where blur is largest
   contents->blocks.push_back(
       {"The blocks of the picture focused at disparity " + focus + ", coloured by resolution",
        "Blocks at focus " + focus + ": red at full resolution, green at half, blue at a quarter",

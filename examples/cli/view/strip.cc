@@ -16,12 +16,13 @@ namespace {
 namespace fs = std::filesystem;
 
 // truth_dt<D>_ut<U>.png and nothing else: other shapes of the opening are named behind it.
-bool ParseTruthName(const std::string& name, LensAt* lens) {
-  char rest[8] = "";
+bool ParseTruthName(const fs::path& name, LensAt* lens) {
+  const std::string stem = name.stem().string();
+  int end = 0;
   const int parts =
-      std::sscanf(name.c_str(), "truth_dt%lf_ut%lf%7s", &lens->focus, &lens->aperture, rest);
-  return parts == 3 && std::string(rest) == ".png" && std::fabs(lens->focus) <= SF_MAX_FOCUS &&
-         lens->aperture > 0 && lens->aperture <= 1;
+      std::sscanf(stem.c_str(), "truth_dt%lf_ut%lf%n", &lens->focus, &lens->aperture, &end);
+  return parts == 2 && size_t(end) == stem.size() && name.extension() == ".png" &&
+         std::fabs(lens->focus) <= SF_MAX_FOCUS && lens->aperture > 0 && lens->aperture <= 1;
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ std::vector<TruthFile> FindTruths(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     TruthFile truth;
-    if (!ParseTruthName(entry.path().filename().string(), &truth.lens)) continue;
+    if (!ParseTruthName(entry.path().filename(), &truth.lens)) continue;
     truth.path = entry.path().string();
     truths.push_back(truth);
   }
