@@ -7,7 +7,10 @@ cd "$(dirname "$0")" || exit 1
 BUILD=build/release
 LOGS=build/log
 PROGRAM=$BUILD/starfocus
-PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev"
+PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev
+  libjpeg62-turbo-dev libpng-dev libwebp-dev"
+# Programs by which tests judge what starfocus writes.
+JUDGES="libimage-exiftool-perl webp"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
 FUZZ_TARGETS="engine depth images files folder differential"
 export LC_ALL=C.UTF-8
@@ -104,6 +107,11 @@ has() {
     doctest-dev) has_header doctest/doctest.h ;;
     libcli11-dev) has_header CLI/CLI.hpp ;;
     nlohmann-json3-dev) has_header nlohmann/json.hpp ;;
+    libjpeg62-turbo-dev) has_header jpeglib.h ;;
+    libpng-dev) has_header png.h ;;
+    libwebp-dev) has_header webp/mux.h ;;
+    libimage-exiftool-perl) command -v exiftool ;;
+    webp) command -v webpinfo ;;
     libbenchmark-dev) has_header benchmark/benchmark.h ;;
     lib*) false ;;
     *) command -v "$1" ;;
@@ -208,6 +216,7 @@ sanitize() {
 }
 
 run_tests() {
+  PACKAGES="$PACKAGES $JUDGES"
   install_missing
   build
   ctest --test-dir $BUILD --output-on-failure --parallel "$(nproc)"

@@ -100,6 +100,12 @@ bool Has(const std::string& program) {
   return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
+// Whether the build has libpng: without it PNG files have neither 16 bits nor metadata.
+bool HasLibpng() {
+  Bytes png;
+  return EncodeGreyPng("", {1, 1, {256}}, &png).empty();
+}
+
 // What the program prints.
 std::string Ask(const TempFolder& folder, const std::string& command) {
   const std::string out = folder.file("said");
@@ -160,13 +166,12 @@ TEST_CASE("writers: EXIF and the profile stay, edited where the picture is") {
     const PictureOptions how = {95, {CameraExif(little), Profile(150000)}};
     for (const std::string name : {"a.jpg", "a.png", "a.webp"}) {
       if (name == "a.webp" && !WebpWriter::Check(name, 1, 1).empty()) continue;
+      if (name == "a.png" && !HasLibpng()) continue;
       CAPTURE(name);
       CAPTURE(little);
       const std::string path = folder.file(name);
       REQUIRE(WriteImage(path, Ramp(40, 30), how) == "");
       const std::string tags = Ask(folder, "exiftool -s -s -n '" + path + "'");
-      Bytes png;
-      REQUIRE(ReadFile(path, &png) == "");
       CHECK(tags.find("Software: starfocus 0.") != std::string::npos);
       CHECK(tags.find("Make: Holgaro\n") != std::string::npos);
       CHECK(tags.find("Orientation: 1\n") != std::string::npos);
@@ -192,10 +197,11 @@ TEST_CASE("writers: grey levels above 255 take 16 bits") {
   std::iota(grey.levels.begin(), grey.levels.end(), uint16_t{0});
   Bytes png;
   const std::string error = EncodeGreyPng("a.png", grey, &png);
-  if (!error.empty()) {
+  if (!HasLibpng()) {
     CHECK(error.find("libpng") != std::string::npos);
     return;
   }
+  REQUIRE(error == "");
   PngHeader header;
   REQUIRE(ReadPngHeader(png, &header));
   CHECK(header.depth == 16);

@@ -73,7 +73,7 @@ Error Run(const Options& options) {
 void AddSheetCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("sheet", "A contact sheet of pictures side by side");
-  command->add_option("-o,--output", options->out, "Picture to write: .png, .ppm or .jpg")
+  command->add_option("-o,--output", options->out, "Picture to write: .png, .ppm, .jpg or .webp")
       ->type_name("FILE")
       ->required();
   command->add_option("IMG", options->pictures, "Pictures, from left to right")
