@@ -76,7 +76,9 @@ bool AppendXmp(const std::string& namespaces, const std::string& attributes,
   const std::string first =
       Wrapped(Packet(namespaces + " xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\"",
                      attributes + " xmpNote:HasExtendedXMP=\"" + name + "\""));
-  if (first.size() > kMostPayload - kXmpHeader.size() || more.size() > UINT32_MAX) return false;
+  if (first.size() > kMostPayload - kXmpHeader.size() || uint64_t{more.size()} > UINT32_MAX) {
+    return false;
+  }
   Append(kApp1, kXmpHeader, first.begin(), first.end(), segments);
   const size_t most = kMostPayload - kExtensionHeader.size() - name.size() - 8;
   for (size_t at = 0; at < more.size(); at += most) {

@@ -27,17 +27,25 @@ double BinEdge(const sf_disparity_stats& stats, int bin) {
   return stats.min + (double(stats.max) - stats.min) * bin / kBins;
 }
 
+void PrintRow(const std::string& name, const std::string& value) {
+  std::printf("  %-10s %s\n", name.c_str(), value.c_str());
+}
+
 void PrintText(const std::string& folder, const LightField& light_field,
                const sf_disparity_stats& stats, const std::vector<int64_t>& counts) {
-  std::printf("%s: %dx%d, %zu views\n", folder.c_str(), light_field.width(), light_field.height(),
-              light_field.views.size());
+  std::string views = std::to_string(light_field.views.size()) + " views";
   if (!AreStar(light_field.positions)) {
-    std::printf("at");
-    for (const sf_position& at : light_field.positions) std::printf(" (%g, %g)", at.u, at.v);
-    std::printf("\n");
+    views += " at";
+    for (const sf_position& at : light_field.positions) {
+      views += " (" + Short(at.u) + ", " + Short(at.v) + ")";
+    }
   }
-  std::printf("disparity %g to %g pixels per unit u, %lld invalid\n", stats.min, stats.max,
-              static_cast<long long>(stats.invalid));
+  std::printf("%s\n", folder.c_str());
+  PrintRow("size", std::to_string(light_field.width()) + "x" +
+                       std::to_string(light_field.height()) + " pixels");
+  PrintRow("views", views);
+  PrintRow("disparity", Short(stats.min) + " to " + Short(stats.max) + " pixels per unit u, " +
+                            std::to_string(stats.invalid) + " invalid");
   int64_t most = 1;
   for (int64_t count : counts) most = count > most ? count : most;
   for (int bin = kBins - 1; bin >= 0; --bin) {
