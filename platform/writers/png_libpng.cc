@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
 #include <string>
 
 #include "platform/writers/exif.h"
@@ -26,6 +29,15 @@ struct Call {
   bool no_memory = false;
   char reason[100] = "";
 };
+
+// The library and zlib say in words of their own that there is too little memory.
+png_voidp Allocate(png_structp png, png_alloc_size_t size) {
+  void* memory = std::malloc(size);
+  if (memory == nullptr) static_cast<Call*>(png_get_mem_ptr(png))->no_memory = true;
+  return memory;
+}
+
+void Free(png_structp, png_voidp memory) { std::free(memory); }
 
 void Append(png_structp png, png_bytep data, png_size_t size) {
   Call* call = static_cast<Call*>(png_get_io_ptr(png));
@@ -60,7 +72,8 @@ void SetMetadata(const Metadata& metadata, Bytes* exif, png_structp png, png_inf
 
 // False with the reason. Nothing here has a destructor: an error of the library jumps over them.
 bool Write(const Rows& rows, const Metadata& metadata, Bytes* exif, Call* call) {
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, call, Fail, KeepSilent);
+  png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, call, Fail, KeepSilent, call,
+                                              Allocate, Free);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
   if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
     png_destroy_write_struct(&png, &info);
