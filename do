@@ -7,9 +7,10 @@ cd "$(dirname "$0")" || exit 1
 BUILD=build/release
 LOGS=build/log
 PROGRAM=$BUILD/starfocus
-PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev"
+PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev
+  libexpat1-dev libexif-dev libheif-dev"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
-FUZZ_TARGETS="engine depth images files folder differential"
+FUZZ_TARGETS="engine depth images files folder layouts photo xmp differential"
 export LC_ALL=C.UTF-8
 
 help() {
@@ -104,6 +105,9 @@ has() {
     doctest-dev) has_header doctest/doctest.h ;;
     libcli11-dev) has_header CLI/CLI.hpp ;;
     nlohmann-json3-dev) has_header nlohmann/json.hpp ;;
+    libexpat1-dev) has_header expat.h ;;
+    libexif-dev) has_header libexif/exif-data.h ;;
+    libheif-dev) has_header libheif/heif.h ;;
     libbenchmark-dev) has_header benchmark/benchmark.h ;;
     lib*) false ;;
     *) command -v "$1" ;;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/engine_run.h"
+#include "examples/cli/input/input.h"
 #include "examples/cli/refocus/partition_map.h"
 #include "examples/cli/refocus/refocus_plan.h"
 #include "examples/cli/refocus/refocus_report.h"
@@ -22,13 +22,15 @@ namespace {
 constexpr int kMostPictures = 1000;  // of a sweep: three digits
 
 struct Options {
-  std::string folder, out, report, map, region, sweep;
+  InputOptions input;
+  std::string out, report, map, region, sweep;
   LensOptions lens;
-  bool stream = false, repair = false;
+  MapOptions disparities;
+  bool stream = false;
 };
 
 struct Loaded {
-  LightField light_field;
+  Capture capture;
   sf_disparity_stats stats = {};
   double max_blur = 0;
 };
@@ -42,22 +44,27 @@ std::string Numbered(const std::string& path, size_t index) {
       .string();
 }
 
-Error CheckOutputs(const Options& options, const LensPlan& plan) {
+std::vector<Output> ListOutputs(const Options& options, const LensPlan& plan) {
   std::vector<Output> outputs;
   if (options.sweep.empty()) outputs.push_back({"--output", options.out});
   for (size_t i = 0; i < plan.foci.size() && !options.sweep.empty(); ++i) {
     outputs.push_back({"--output", Numbered(options.out, i)});
   }
   if (!options.map.empty()) outputs.push_back({"--map", options.map});
+  if (!options.report.empty()) outputs.push_back({"--report", options.report});
+  return outputs;
+}
+
+Error CheckOutputs(const Options& options, const LensPlan& plan) {
+  const std::vector<Output> outputs = ListOutputs(options, plan);
   Error error = CheckImageOutput(options.out);
   for (size_t i = 0; i < outputs.size() && error.empty(); ++i) {
-    error = CheckImageOutput(outputs[i].path);
+    error = outputs[i].option == "--report" ? CheckOutputPath(outputs[i].path)
+                                            : CheckImageOutput(outputs[i].path);
   }
-  if (!options.report.empty()) {
-    if (error.empty()) error = CheckOutputPath(options.report);
-    outputs.push_back({"--report", options.report});
-  }
-  return error.empty() ? CheckApart(outputs, {{options.folder}, {options.lens.timing}}) : error;
+  if (!error.empty()) return error;
+  return CheckApart(outputs, {{options.input.path},
+                              {options.input.path, options.input.depth, options.lens.timing}});
 }
 
 // D0:D1:N.
@@ -79,8 +86,12 @@ Error ParseSweep(const std::string& text, std::vector<double>* foci) {
 }
 
 Error PlanFoci(const Options& options, LensPlan* plan) {
-  if (options.sweep.empty()) return PlanFocus(options.lens, plan);
   const bool focus = !options.lens.focus.empty(), pixel = !options.lens.focus_at.empty();
+  std::error_code ignored;
+  const bool photo = std::filesystem::is_regular_file(options.input.path, ignored);
+  if (options.sweep.empty()) {
+    return photo && !focus && !pixel ? "" : PlanFocus(options.lens, plan);
+  }
   if (focus || pixel || options.stream || !options.map.empty()) {
     return Error::Usage("--sweep", "no other focus, no --stream and no --map",
                         focus            ? "--focus"
@@ -114,18 +125,35 @@ Error CheckRegion(const FloatMap& map, const Options& options, const sf_region& 
       options.region);
 }
 
-Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
-  FloatMap* map = &loaded->light_field.disparity;
-  const bool given = HasDisparity(options.folder);  // another one is made of the views already
-  Error error = LoadViews(options.folder, *plan, &loaded->light_field);
-  if (error.empty() && options.repair && given) {
-    error = RepairDisparity(options.folder, plan->threads, &loaded->light_field, nullptr);
-  }
+// What the photograph itself says is in focus, where nobody else does.
+Error TakeFocus(const Options& options, const Capture& capture, LensPlan* plan) {
+  if (!plan->focus_option.empty()) return "";
+  if (!capture.has_focus) return PlanFocus(options.lens, plan);
+  plan->focus_option = "--focus-at";
+  plan->x = capture.focus_x;
+  plan->y = capture.focus_y;
+  return "";
+}
+
+Error Open(const Options& options, LensPlan* plan, Capture* capture) {
+  Error error = OpenInput(options.input, capture);
   if (error.empty()) {
-    error = PrepareDisparity(options.folder, options.lens.fill_invalid, map, &loaded->stats);
+    error = CheckApart(ListOutputs(options, *plan), {{}, CaptureFiles(*capture)});
   }
-  if (error.empty()) error = ChooseFocus(*map, plan);
-  if (error.empty()) error = CheckRegion(*map, options, plan->region);
+  if (error.empty()) error = PlanAperture(options.lens, *capture, plan);
+  return error.empty() ? TakeFocus(options, *capture, plan) : error;
+}
+
+Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
+  Capture* capture = &loaded->capture;
+  const FloatMap& map = capture->light_field.disparity;
+  Error error = Open(options, plan, capture);
+  if (error.empty()) error = LoadInput(plan->views, plan->threads, capture);
+  if (error.empty()) error = CheckRule(capture->path, *plan, capture->light_field.positions);
+  if (error.empty()) error = CareForMap(options.disparities, plan->threads, capture);
+  if (error.empty()) error = PrepareDisparity(MapName(*capture), map, &loaded->stats);
+  if (error.empty()) error = ChooseFocus(map, plan);
+  if (error.empty()) error = CheckRegion(map, options, plan->region);
   return error.empty() ? ChooseBlur(*plan, loaded->stats, &loaded->max_blur) : error;
 }
 
@@ -143,8 +171,8 @@ Error RunOne(const Options& options, const EngineTask& one, double start) {
   task.stream = options.stream;
   EngineRun run(task.threads, 1);
   EngineResult result;
-  Error error = run.Start(options.folder, task);
-  if (error.empty()) error = run.Refocus(options.folder, task, &result);
+  Error error = run.Start(options.input.path, task);
+  if (error.empty()) error = run.Refocus(options.input.path, task, &result);
   if (error.empty()) error = WriteImage(options.out, result.picture);
   if (error.empty() && !options.map.empty()) {
     const sf_region& region = task.params.region;
@@ -158,13 +186,13 @@ Error RunSweep(const Options& options, const std::vector<double>& foci, EngineTa
                double start) {
   EngineRun run(task.threads, static_cast<int>(foci.size()));
   SeriesReport report;
-  Error error = run.Start(options.folder, task);
-  if (error.empty()) error = run.Prepare(options.folder, task);
+  Error error = run.Start(options.input.path, task);
+  if (error.empty()) error = run.Prepare(options.input.path, task);
   for (size_t i = 0; i < foci.size() && error.empty(); ++i) {
     task.params.focus = foci[i];
     const std::string out = Numbered(options.out, i);
     EngineResult result;
-    error = run.Refocus(options.folder, task, &result);
+    error = run.Refocus(options.input.path, task, &result);
     if (error.empty()) error = WriteImage(out, result.picture);
     report.Add(out, task, result);
   }
@@ -179,8 +207,8 @@ Error Run(const Options& options) {
   Error error = MakePlan(options, &plan);
   if (error.empty()) error = Load(options, &plan, &loaded);
   if (!error.empty()) return error;
-  const EngineTask task =
-      MakeTask(plan, loaded.light_field, loaded.stats, loaded.max_blur, !options.report.empty());
+  const EngineTask task = MakeTask(plan, loaded.capture.light_field, loaded.stats, loaded.max_blur,
+                                   !options.report.empty());
   return options.sweep.empty() ? RunOne(options, task, start)
                                : RunSweep(options, plan.foci, task, start);
 }
@@ -191,7 +219,7 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       app->add_subcommand("refocus", "The picture a lens focused at a disparity would have taken");
-  command->add_option("DIR", options->folder, "Light-field folder")->type_name("DIR")->required();
+  AddInputOptions(command, &options->input);
   command->add_option("-o,--output", options->out, "Picture to write: .png, .ppm or .jpg")
       ->type_name("FILE")
       ->required();
@@ -202,9 +230,7 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   command->add_option("--region", options->region,
                       "X,Y,W,H: only that part of the picture, at its share of the time");
   command->add_flag("--stream", options->stream, "Row by row instead of whole pictures");
-  command->add_flag("--repair", options->repair,
-                    "Repair the disparity map first, by the side views or, of one view, its "
-                    "colours: wrong or blurred edges, noise, unknown values");
+  AddMapOptions(command, &options->disparities);
   command
       ->add_option("--map", options->map,
                    "Picture to write: the blocks, red for L = 0, green for 1, blue for 2")
