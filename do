@@ -269,10 +269,11 @@ consumers() {
 # fuzz_target NAME SECONDS: from the seeds and what earlier runs found. A clean checkout takes the
 # same way each time, so that a change which fails is to blame for it.
 fuzz_target() {
-  local work=build/fuzz/inputs/$1
+  local work=build/fuzz/inputs/$1 length=1024
+  case "$1" in layouts | photo | xmp) length=4096 ;; esac
   mkdir -p "$work"
-  build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -seed=1 -max_len=1024 -timeout=30 \
-    -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1" \
+  build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -seed=1 -max_len=$length -timeout=30 \
+    -rss_limit_mb=1024 -malloc_limit_mb=512 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1" \
     >"$LOGS/fuzz-$1.log" 2>&1 && return
   tail -n 40 "$LOGS/fuzz-$1.log"
   echo "the fuzz target $1 failed; its whole log is $LOGS/fuzz-$1.log"

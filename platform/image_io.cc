@@ -90,12 +90,27 @@ std::string DecodeIndices(const std::string& path, const PngHeader& header, Byte
   return "";
 }
 
-std::string DecodePng(const std::string& path, Bytes* bytes, Image* image) {
-  PngHeader header;
-  if (!ReadPngHeader(*bytes, &header)) {
+// Whether a PNG file may hold the pixels that its header tells of: deflate makes at most 1032 bytes
+// of one. stb_image would make room for them first.
+bool CanHold(const Bytes& png, const PngHeader& header) {
+  constexpr uint64_t kMostExpansion = 1032, kSamples[] = {1, 1, 3, 1, 2, 1, 4, 1};
+  const uint64_t bits = kSamples[header.colour & 7] * uint64_t(header.depth) * header.width;
+  return bits * header.height / 8 <= kMostExpansion * png.size();
+}
+
+// The header of a PNG file whose pixels there is room for.
+std::string CheckPngHeader(const std::string& path, const Bytes& png, PngHeader* header) {
+  if (!ReadPngHeader(png, header)) {
     return Expected(path, "a PNG picture that begins with its header", "none there");
   }
-  const std::string error = CheckSize(path, header.width, header.height);
+  const std::string error = CheckSize(path, header->width, header->height);
+  if (!error.empty()) return error;
+  return CanHold(png, *header) ? "" : Truncated(path);
+}
+
+std::string DecodePng(const std::string& path, Bytes* bytes, Image* image) {
+  PngHeader header;
+  const std::string error = CheckPngHeader(path, *bytes, &header);
   if (!error.empty()) return error;
   return HasPalette(header) ? DecodeIndices(path, header, bytes, image)
                             : DecodeStb(path, *bytes, image);
@@ -143,9 +158,8 @@ std::string DecodeDeepPng(const std::string& where, const Bytes& bytes, FloatMap
 // Whether the file is a PNG of 16 bits, whose parts are all there.
 bool IsDeepPng(const Bytes& bytes) {
   PngHeader header;
-  return IsPng(bytes) && CheckContainer(bytes) == Container::kWhole &&
-         ReadPngHeader(bytes, &header) && header.depth == 16 && bytes.size() <= INT_MAX &&
-         CheckSize("", header.width, header.height).empty();
+  return IsPng(bytes) && CheckContainer(bytes) == Container::kWhole && bytes.size() <= INT_MAX &&
+         CheckPngHeader("", bytes, &header).empty() && header.depth == 16;
 }
 
 // Of a picture in memory the mean of red, green and blue.

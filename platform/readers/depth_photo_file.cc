@@ -13,6 +13,7 @@
 namespace starfocus {
 namespace {
 
+constexpr char kGainMap[] = "http://ns.adobe.com/hdr-gain-map/1.0/|Version";
 constexpr char kExtendedXmp[] = "http://ns.adobe.com/xmp/note/|HasExtendedXMP";
 
 // Both packets of a JPEG file, the extended one as a child of the other.
@@ -32,25 +33,32 @@ std::string ReadXmp(const std::string& where, const JpegParts& parts, XmpNode* r
   return error;
 }
 
+// The picture and what map there is, by the first of the formats that the file has.
+std::string DecodeByFormat(const std::string& where, Span file, const JpegParts& parts,
+                           const XmpNode& xmp, Near near, DepthPhoto* photo) {
+  if (HasGdepth(xmp)) return ReadGdepth(where, file, parts, xmp, photo);
+  if (HasDynamicDepth(xmp)) return ReadDynamicDepth(where, file, parts, xmp, near, photo);
+  Span map;
+  XmpNode apple;
+  bool gain_map = false;
+  std::string error = FindAppleMap(where, file, parts, &map, &apple, &gain_map);
+  if (!error.empty()) return error;
+  if (gain_map) photo->facts.emplace_back("gain map", "left out");
+  return map.empty() ? ReadJpegPicture(where, file, parts, photo)
+                     : ReadAppleJpeg(where, file, parts, map, apple, photo);
+}
+
 std::string DecodeJpegPhoto(const std::string& where, Span file, bool with_map, Near near,
                             DepthPhoto* photo) {
   JpegParts parts;
-  XmpNode xmp, apple;
+  XmpNode xmp;
   std::string error = ReadJpegParts(where, file, &parts);
   if (!error.empty()) return error;
   if (!with_map) return ReadJpegPicture(where, file, parts, photo);
   error = ReadXmp(where, parts, &xmp);
   if (!error.empty()) return error;
-  if (HasGdepth(xmp)) return ReadGdepth(where, file, parts, xmp, photo);
-  if (HasDynamicDepth(xmp)) return ReadDynamicDepth(where, file, parts, xmp, near, photo);
-  Span map;
-  bool gain_map = false;
-  error = FindAppleMap(where, file, parts, &map, &apple, &gain_map);
-  if (!error.empty()) return error;
-  error = map.empty() ? ReadJpegPicture(where, file, parts, photo)
-                      : ReadAppleJpeg(where, file, parts, map, apple, photo);
-  if (gain_map) photo->facts.emplace_back("gain map", "left out");
-  return error;
+  if (FindProperty(xmp, kGainMap) != nullptr) photo->facts.emplace_back("gain map", "left out");
+  return DecodeByFormat(where, file, parts, xmp, near, photo);
 }
 
 std::string NoMap(const std::string& path) {

@@ -6,17 +6,32 @@
 
 #include "platform/image_io.h"
 #include "platform/readers/depth_levels.h"
+#include "platform/readers/orientation.h"
 
 namespace starfocus {
 namespace {
 
 namespace fs = std::filesystem;
 
-// EXIF's orientation of a depth picture of its own counts for it as the photo's counts for that.
 std::string ReadLevels(const std::string& path, FloatMap* map) {
   Bytes bytes;
   const std::string error = ReadFile(path, &bytes);
   return error.empty() ? DecodeLevels(path, &bytes, map) : error;
+}
+
+bool Lies(int width, int height) { return width > height; }
+
+// A depth picture is turned with its photo, unless it stands already as the photo will.
+void TurnPictureFirst(DepthPhoto* photo) {
+  const bool turns = photo->orientation >= 5;
+  if (!turns || Lies(photo->map.width, photo->map.height) ==
+                    Lies(photo->picture.width, photo->picture.height)) {
+    return;
+  }
+  FloatMap map;
+  std::swap(map, photo->map);
+  ApplyOrientation(photo);
+  std::swap(map, photo->map);
 }
 
 }  // namespace
@@ -49,6 +64,7 @@ std::string ReadDepthPicture(const std::string& path, Near near, DepthPhoto* pho
     error = ReadLevels(path, &photo->map);
   }
   if (!error.empty()) return error;
+  TurnPictureFirst(photo);
   TellMap("in an order, without distances", photo);
   ToOrder(near, photo);
   return "";

@@ -17,14 +17,14 @@ namespace {
 
 #ifdef STARFOCUS_HAS_EXPAT
 
-constexpr size_t kMostBytes = size_t{1} << 26, kMostDepth = 32, kMostElements = 20000;
+constexpr size_t kMostBytes = size_t{1} << 26, kMostDepth = 32, kMostParts = 20000;
 constexpr char kBetween = '|';  // a namespace and a name
 
 // What expat's calls build. They must not be left by an exception.
 struct Builder {
   XML_Parser parser = nullptr;
-  std::vector<XmpNode> open;  // from the root, which has no name, down to the innermost
-  size_t elements = 0;
+  std::vector<XmpNode> open;    // from the root, which has no name, down to the innermost
+  size_t parts = 0;             // elements and attributes
   std::string expected, found;  // why it stopped
   bool out_of_memory = false;
 
@@ -50,14 +50,17 @@ struct Builder {
       if (self->open.size() > kMostDepth) {
         return self->Stop("XMP nested at most " + std::to_string(kMostDepth) + " deep", "more");
       }
-      if (++self->elements > kMostElements) {
-        return self->Stop("XMP of at most " + std::to_string(kMostElements) + " elements", "more");
-      }
       self->open.emplace_back();
       XmpNode& node = self->open.back();
       node.name = name;
-      for (; *attributes != nullptr; attributes += 2)
+      for (; *attributes != nullptr; attributes += 2) {
+        if (++self->parts > kMostParts) break;
         node.attributes[attributes[0]] = attributes[1];
+      }
+      if (++self->parts > kMostParts) {
+        self->Stop("XMP of at most " + std::to_string(kMostParts) + " elements and attributes",
+                   "more");
+      }
     });
   }
 

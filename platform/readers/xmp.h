@@ -20,7 +20,7 @@ struct XmpNode {
 bool CanReadXmp();
 
 // Parses a packet with no document type, at most 64 MiB, nested at most 32 deep and of at most
-// 20000 elements.
+// 20000 elements and attributes.
 std::string ParseXmp(const std::string& where, const char* text, size_t size, XmpNode* root);
 
 // The value of the node's own property without white space around it; null if it has none.

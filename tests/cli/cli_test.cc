@@ -180,7 +180,7 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.bmp --focus 1", ".bmp"},
              {"refocus lf -o x --focus 1", "extension"},
              {"refocus lf -o '' --focus 1", "--output"},
-             {"refocus '' -o x.png --focus 1", "DIR"},
+             {"refocus '' -o x.png --focus 1", "SRC"},
              {"refocus lf -o x.png --focus 1 --region ''", "--region"},
              {"refocus lf -o x.png --focus 1 --rule ''", "--rule"},
              {"refocus lf -o x.png --focus 1 --report ''", "--report"},

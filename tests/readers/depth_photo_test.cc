@@ -262,6 +262,20 @@ TEST_CASE("a photo and a depth picture: beside it or named, near guessed or told
   CHECK(OpenCapture(folder.file("b.jpg"), {}, &capture).find("--depth") != std::string::npos);
   options.depth = folder.file("a-depth.png");
   REQUIRE(OpenCapture(folder.file("b.jpg"), options, &capture) == "");
+  // Turned with its photo, unless it stands already as that will.
+  Write(folder.file("c.jpg"), Insert(Photo(), ExifSegment(8, 0)));
+#ifdef STARFOCUS_HAS_EXIF
+  REQUIRE(OpenCapture(folder.file("c.jpg"), options, &capture) == "");
+  CHECK(map.width == kHeight);
+  CHECK(map.at(0, 0) > map.at(kHeight - 1, 0));
+  Image upright = Plain(kHeight, kWidth, 50);
+  std::fill_n(upright.row(0), upright.stride(), uint8_t{200});
+  Require(WriteImage(folder.file("upright.png"), upright));
+  options.depth = folder.file("upright.png");
+  REQUIRE(OpenCapture(folder.file("c.jpg"), options, &capture) == "");
+  CHECK(map.at(0, 0) > map.at(0, kWidth - 1));
+  CHECK(map.at(kHeight - 1, 0) > map.at(0, kWidth - 1));
+#endif
   FloatMap pfm = {2, 1, {3, 5}};
   Require(WritePfm(folder.file("b.pfm"), pfm));
   options.depth = folder.file("b.pfm");
@@ -280,6 +294,9 @@ TEST_CASE("XMP: limits are named, and nothing else than elements is read") {
   CHECK(parse(deep).find("at most 32 deep") != std::string::npos);
   for (int k = 0; k < 20001; ++k) many += "<a/>";
   CHECK(parse(many + "</a>").find("at most 20000 elements") != std::string::npos);
+  many = "<a";
+  for (int k = 0; k < 20001; ++k) many += " a" + std::to_string(k) + "=\"\"";
+  CHECK(parse(many + "/>").find("at most 20000 elements and attributes") != std::string::npos);
   CHECK(parse("<!DOCTYPE a [<!ENTITY b \"cccc\">]><a>&b;</a>").find("document type") !=
         std::string::npos);
   CHECK(parse("<a").find("well-formed") != std::string::npos);

@@ -74,9 +74,10 @@ Error OpenInput(const InputOptions& options, Capture* capture) {
   wanted.depth = options.depth;
   Error error = ParseNear(options.near, &wanted.near);
   std::error_code ignored;
-  if (error.empty() && !options.depth.empty() &&
+  const char* option = !options.depth.empty() ? "--depth" : "--near";
+  if (error.empty() && !(options.depth.empty() && options.near.empty()) &&
       std::filesystem::is_directory(options.path, ignored)) {
-    error = Error::Usage("--depth", "a photo, not a folder", options.path);
+    error = Error::Usage(option, "a photo, not a folder", options.path);
   }
   if (error.empty()) error = OpenCapture(options.path, wanted, capture);
   if (!error.empty()) return error;
