@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "platform/readers/key_values.h"
@@ -36,8 +37,11 @@ std::string ReadParameters(const std::string& path, int reach, Capture* capture)
     return "";
   }
   capture->widest = focal / (2 * reach * baseline);
+  char f_stop[32];
+  std::snprintf(f_stop, sizeof(f_stop), "%.3g", capture->widest);
   capture->facts.emplace_back("cameras", values["baseline_mm"] + " mm apart, lenses of " +
-                                             values["focal_length_mm"] + " mm");
+                                             values["focal_length_mm"] + " mm; radius 1 is f/" +
+                                             f_stop);
   return "";
 }
 
