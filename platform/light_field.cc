@@ -76,16 +76,12 @@ bool HasDisparity(const std::string& folder) {
   return fs::exists(DisparityPath(folder), error);
 }
 
-std::string LoadCaptured(const std::string& folder, const Positions& wanted,
-                         LightField* light_field) {
-  std::vector<ViewFile> files;
-  std::string error = ChooseViewFiles(folder, wanted, &files);
-  if (!error.empty()) return error;
+std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field) {
   LightField result;
   Progress progress("reading views", static_cast<int64_t>(files.size()));
   for (const ViewFile& file : files) {
     Image view;
-    error = CheckPlainFile(file.path);
+    std::string error = CheckPlainFile(file.path);
     if (error.empty()) error = ReadImage(file.path, &view);
     if (!error.empty()) return error;
     result.positions.push_back(file.position);
@@ -101,20 +97,34 @@ std::string LoadCaptured(const std::string& folder, const Positions& wanted,
   return "";
 }
 
+std::string LoadCaptured(const std::string& folder, const Positions& wanted,
+                         LightField* light_field) {
+  std::vector<ViewFile> files;
+  const std::string error = ChooseViewFiles(folder, wanted, &files);
+  return error.empty() ? LoadViewFiles(files, light_field) : error;
+}
+
+std::string LoadMap(const std::string& path, LightField* light_field) {
+  FloatMap map;
+  std::string error = CheckPlainFile(path);
+  if (error.empty()) error = ReadPfm(path, &map);
+  if (!error.empty()) return error;
+  const Image& centre = light_field->views[0];
+  if (map.width != centre.width || map.height != centre.height) {
+    return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
+                    SizeText(map.width, map.height));
+  }
+  light_field->disparity = std::move(map);
+  return "";
+}
+
 std::string LoadLightField(const std::string& folder, const Positions& wanted,
                            LightField* light_field) {
   LightField result;
   std::string error = LoadCaptured(folder, wanted, &result);
-  if (error.empty()) error = ReadDisparity(folder, &result.disparity);
-  if (!error.empty()) return error;
-  const Image& centre = result.views[0];
-  if (result.width() != centre.width || result.height() != centre.height) {
-    return Expected(DisparityPath(folder),
-                    SizeText(centre.width, centre.height) + " as the centre view",
-                    SizeText(result.width(), result.height()));
-  }
-  *light_field = std::move(result);
-  return "";
+  if (error.empty()) error = LoadMap(DisparityPath(folder), &result);
+  if (error.empty()) *light_field = std::move(result);
+  return error;
 }
 
 std::string SaveLightField(const std::string& folder, const LightField& light_field,
@@ -134,6 +144,7 @@ std::string SaveLightField(const std::string& folder, const LightField& light_fi
   for (const std::string& error : save.errors) {
     if (!error.empty()) return error;
   }
+  if (light_field.disparity.values.empty()) return "";
   return WritePfm(DisparityPath(folder), light_field.disparity);
 }
 

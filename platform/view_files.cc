@@ -179,11 +179,8 @@ std::string FindViewFiles(const std::string& folder, std::vector<ViewFile>* file
   return "";
 }
 
-std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
-                            std::vector<ViewFile>* chosen) {
-  std::vector<ViewFile> files;
-  const std::string error = FindViewFiles(folder, &files);
-  if (!error.empty()) return error;
+std::string SelectViewFiles(const std::string& where, const std::vector<ViewFile>& files,
+                            const Positions& wanted, std::vector<ViewFile>* chosen) {
   chosen->clear();
   if (wanted.empty()) *chosen = files;
   for (const sf_position& position : wanted) {
@@ -191,12 +188,19 @@ std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
       return SamePosition(file.position, position);
     });
     if (at == files.end()) {
-      return Expected(folder, std::to_string(wanted.size()) + " views",
+      return Expected(where, std::to_string(wanted.size()) + " views",
                       "no " + ViewName(position) + ".png (or .ppm, .jpg)");
     }
     chosen->push_back(*at);
   }
   return "";
+}
+
+std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
+                            std::vector<ViewFile>* chosen) {
+  std::vector<ViewFile> files;
+  const std::string error = FindViewFiles(folder, &files);
+  return error.empty() ? SelectViewFiles(folder, files, wanted, chosen) : error;
 }
 
 }  // namespace starfocus

@@ -20,6 +20,7 @@ void AddVideoCommand(CLI::App* app, Action* action);
 void AddViewCommand(CLI::App* app, Action* action);
 void AddCalibrateCommand(CLI::App* app, Action* action);
 void AddCompareCommand(CLI::App* app, Action* action);
+void AddImportCommand(CLI::App* app, Action* action);
 void AddInfoCommand(CLI::App* app, Action* action);
 void AddSheetCommand(CLI::App* app, Action* action);
 void AddStressCommand(CLI::App* app, Action* action);

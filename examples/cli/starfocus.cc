@@ -27,6 +27,7 @@ Error Run(int argc, char** argv) {
   AddCalibrateCommand(&app, &action);
   AddCompareCommand(&app, &action);
   AddInfoCommand(&app, &action);
+  AddImportCommand(&app, &action);
   AddSheetCommand(&app, &action);
   AddAnalyzeCommand(&app, &action);
   AddStressCommand(&app, &action);

@@ -82,7 +82,7 @@ TEST_CASE("program: the manual and the completion have every option") {
   const Outcome manual = Call(folder, "help --man"), script = Call(folder, "help --bash > script");
   CHECK(manual.code == 0);
   CHECK(script.code == 0);
-  for (const char* part : {".TH STARFOCUS 1", ".SS refocus DIR\n", ".SS help COMMAND\n",
+  for (const char* part : {".TH STARFOCUS 1", ".SS refocus SRC\n", ".SS help COMMAND\n",
                            "\\-\\-focus\\-at", ".SH EXIT STATUS"}) {
     CHECK(manual.out.find(part) != std::string::npos);
   }

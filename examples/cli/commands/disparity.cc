@@ -99,7 +99,8 @@ Error EstimateFolder(const Options& options, Plan* plan, const LightField& light
 Error RepairFolder(const Options& options, Plan* plan, LightField* light_field,
                    DisparityEstimate* estimate) {
   Image* confidence = options.confidence.empty() ? nullptr : &estimate->confidence;
-  const Error error = RepairDisparity(options.folder, plan->threads, light_field, confidence);
+  const Error error =
+      RepairDisparity(DisparityPath(options.folder), plan->threads, light_field, confidence);
   if (!error.empty()) return error;
   estimate->map = std::move(light_field->disparity);
   const auto ends = std::minmax_element(estimate->map.values.begin(), estimate->map.values.end());

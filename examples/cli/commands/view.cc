@@ -8,8 +8,8 @@
 
 #include "examples/cli/commands.h"
 #include "examples/cli/compare/difference.h"
-#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/disparity/map_figures.h"
+#include "examples/cli/input/input.h"
 #include "examples/cli/refocus/partition_map.h"
 #include "examples/cli/refocus/refocus_plan.h"
 #include "examples/cli/sheet/shrink.h"
@@ -28,7 +28,8 @@ constexpr int kLarge = 1200, kSmall = 380;  // widths of pictures
 constexpr int kWhite = 32;                  // difference that is white in an error map
 
 struct Options {
-  std::string folder, out, threads;
+  InputOptions input;
+  std::string out, threads;
 };
 
 // What is shown, in the order in which it is made.
@@ -85,7 +86,7 @@ Error WritePage(const Options& options, const LightField& light_field,
                 const sf_disparity_stats& stats, const Contents& contents) {
   const std::string size =
       std::to_string(light_field.width()) + " × " + std::to_string(light_field.height());
-  Page page(std::filesystem::path(options.folder + "/").parent_path().filename().string());
+  Page page(std::filesystem::path(options.input.path + "/").parent_path().filename().string());
   page.AddTable({{"Size", size + " pixels"},
                  {"Views", std::to_string(light_field.views.size())},
                  {"Disparity", Number(stats.min, 2) + " to " + Number(stats.max, 2) +
@@ -116,24 +117,31 @@ Error Run(const Options& options) {
     error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &threads);
   }
   if (error.empty()) error = CheckOutputPath(options.out);
-  if (error.empty()) error = CheckApart({{"--output", options.out}}, {{options.folder}, {}});
-  LightField light_field;
-  if (error.empty()) error = LoadOrEstimate(options.folder, {}, threads, &light_field);
-  sf_disparity_stats stats = {}, known = {};
-  FloatMap& map = light_field.disparity;
   if (error.empty()) {
-    sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width,
-                         map.height, &known);
-    error = PrepareDisparity(options.folder, true, &map, &stats);
+    error = CheckApart({{"--output", options.out}},
+                       {{options.input.path}, {options.input.path, options.input.depth}});
   }
+  Capture capture;
+  if (error.empty()) error = OpenInput(options.input, &capture);
+  if (error.empty()) error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(capture)});
+  if (error.empty()) error = LoadInput({}, threads, &capture);
+  if (!error.empty()) return error;
+  sf_disparity_stats stats = {}, known = {};
+  const LightField& light_field = capture.light_field;
+  const FloatMap& map = light_field.disparity;
+  sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height,
+                       &known);
+  error = CareForMap({0, known.invalid > 0}, threads, &capture);
+  if (error.empty()) error = PrepareDisparity(MapName(capture), map, &stats);
   if (!error.empty()) return error;
   stats.invalid = known.invalid;  // of the map as it is; its holes are filled
+  const double aperture = capture.f_stop > 0 ? capture.widest / capture.f_stop : 1;
   Contents contents;
-  for (const double focus : StripFoci(map, kFoci)) contents.lenses.push_back({focus, 1});
-  contents.truths = FindTruths(options.folder);
+  for (const double focus : StripFoci(map, kFoci)) contents.lenses.push_back({focus, aperture});
+  contents.truths = FindTruths(options.input.path);
   for (const TruthFile& truth : contents.truths) contents.lenses.push_back(truth.lens);
-  error = RefocusEach(options.folder, light_field, stats, TransferOf(options.folder), threads,
-                      contents.lenses,
+  error = RefocusEach(options.input.path, light_field, stats, TransferOf(options.input.path),
+                      threads, contents.lenses,
                       [&](size_t i, const Image& picture, const std::vector<sf_block>& blocks) {
                         return ShowPicture(i, picture, blocks, &contents);
                       });
@@ -144,9 +152,10 @@ Error Run(const Options& options) {
 
 void AddViewCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
-      "view", "A web page of a light field: photo, map, foci, blocks, errors where truth is there");
-  command->add_option("DIR", options->folder, "Light-field folder")->type_name("DIR")->required();
+  CLI::App* command = app->add_subcommand("view",
+                                          "A web page of a light field or depth photo: photo, map, "
+                                          "foci, blocks, errors where truth is there");
+  AddInputOptions(command, &options->input);
   command->add_option("-o,--output", options->out, "HTML file to write; -: standard output")
       ->type_name("FILE")
       ->required();

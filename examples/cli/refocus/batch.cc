@@ -13,8 +13,8 @@
 #include "examples/command_line/outputs.h"
 #include "platform/file.h"
 #include "platform/progress.h"
+#include "platform/readers/capture.h"
 #include "platform/standard_stream.h"
-#include "platform/view_files.h"
 #include "platform/writers/picture.h"
 
 namespace starfocus {
@@ -23,12 +23,17 @@ namespace {
 namespace fs = std::filesystem;
 
 bool IsLightField(const fs::path& folder) {
-  std::vector<ViewFile> files;
-  return FindViewFiles(folder.string(), &files).empty();
+  Capture capture;
+  return OpenCapture(folder.string(), {}, &capture).empty();
 }
 
+// A depth picture stands beside the photograph that it is of.
 bool IsPhoto(const fs::path& path) {
-  const std::string extension = LowerExtension(path.string());
+  const std::string extension = LowerExtension(path.string()), stem = path.stem().string();
+  constexpr char kDepth[] = "-depth";
+  const size_t length = sizeof(kDepth) - 1;
+  if (stem.size() >= length && stem.compare(stem.size() - length, length, kDepth) == 0)
+    return false;
   return extension == ".jpg" || extension == ".jpeg" || extension == ".heic" ||
          extension == ".heif";
 }
