@@ -188,7 +188,7 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1 --report none/r.json", "none"},
              {"refocus lf -o x.png --focus 1 --report lf", "folder"},
              {"refocus lf -o x.png --focus 1 --frobnicate", "frobnicate"},
-             {"refocus lf extra -o x.png --focus 1", "extra"},
+             {"refocus lf extra -o x.png --focus 1", "a folder for the pictures"},
              {"refocus none -o x.png --focus 1", "none"},
              {"refocus text.png -o x.png --focus 1", "text.png"},
              {"refocus missing -o x.png --focus 1", "view_+0.0_+0.0"},

@@ -59,7 +59,7 @@ TEST_CASE("program: every way to ask for help tells the same") {
   CHECK(all.out.find("Exit codes: 0 ") != std::string::npos);
   for (const char* way : {"--help", "-h"}) CHECK(Call(folder, way).out == all.out);
   for (const std::string command : {"scene", "refocus", "video", "calibrate", "compare", "info",
-                                    "sheet", "analyze", "stress", "help"}) {
+                                    "view", "sheet", "analyze", "stress", "help"}) {
     CAPTURE(command);
     CHECK(all.out.find("\n  " + command + " ") != std::string::npos);
     const Outcome one = Call(folder, "help " + command);
@@ -97,7 +97,7 @@ TEST_CASE("program: the manual and the completion have every option") {
   };
   if (std::system("command -v bash >/dev/null") != 0) return;
   CHECK(complete("refo") == "refocus\n");
-  CHECK(complete("refocus --fo") == "--focus --focus-at\n");
+  CHECK(complete("refocus --focus-") == "--focus-index --focus-at\n");
   CHECK(complete("refocus lf --mode be") == "benchmark\n");
   CHECK(complete("refocus lf --focus ''") == "\n");
   CHECK(complete("refocus lf -o sc") == "script\n");
