@@ -6,6 +6,7 @@
 #include <new>
 #include <system_error>
 
+#include "platform/folder.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/hci.h"
 #include "platform/readers/middlebury.h"
@@ -17,25 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostFiles = 100000;
 constexpr double kPhotoFStop = 1.8;
 
 using Names = std::vector<std::string>;
-
-// Names of the files in a folder, sorted.
-std::string ListFiles(const std::string& folder, Names* names) {
-  std::error_code error;
-  fs::directory_iterator at(folder, error);
-  for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
-    names->push_back(at->path().filename().string());
-    if (names->size() > kMostFiles) {
-      return Expected(folder, "a folder of at most " + std::to_string(kMostFiles) + " files",
-                      "more");
-    }
-  }
-  std::sort(names->begin(), names->end());
-  return "";
-}
 
 bool Has(const Names& names, const std::string& name) {
   return std::binary_search(names.begin(), names.end(), name);
@@ -89,7 +74,7 @@ std::string OpenArray(const std::string& folder, const Names& pictures, Capture*
 
 std::string OpenFolder(const std::string& folder, Capture* capture) {
   Names names;
-  const std::string error = ListFiles(folder, &names);
+  const std::string error = ListFolder(folder, &names);
   if (!error.empty()) return error;
   const Names pictures = PicturesOf(names);
   if (pictures.empty() || std::any_of(names.begin(), names.end(), IsLightFieldFile)) {
@@ -117,6 +102,7 @@ std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Ca
       std::min(static_cast<int>(photo.focus_x * light_field.width()), light_field.width() - 1);
   capture->focus_y =
       std::min(static_cast<int>(photo.focus_y * light_field.height()), light_field.height() - 1);
+  capture->focus = photo.focus_value;
   capture->metadata = std::move(photo.metadata);
   capture->facts = std::move(photo.facts);
   capture->notes = std::move(photo.notes);

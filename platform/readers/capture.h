@@ -31,6 +31,7 @@ struct Capture {
   double f_stop = 0;  // to be used where no other is asked for; 0: the widest
   bool has_focus = false;
   int focus_x = 0, focus_y = 0;  // the pixel that the format says is in focus
+  double focus = NAN;            // or the disparity
   Metadata metadata;
   Facts facts;
   std::vector<std::string> notes;

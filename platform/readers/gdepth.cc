@@ -17,6 +17,12 @@ std::string DecodeData(const std::string& where, const std::string& text, Bytes*
   return Expected(where, "a picture in base64", "something else");
 }
 
+// How many metres a unit of distance is; 0 for an unknown one.
+double MetresOf(const std::string* units) {
+  if (units == nullptr) return 0;
+  return *units == "m" ? 1 : *units == "mm" ? 0.001 : 0;
+}
+
 std::string ReadMap(const std::string& where, const XmpNode& xmp, DepthPhoto* photo) {
   const std::string* data = FindProperty(xmp, kDepth + "Data");
   if (data == nullptr) {
@@ -32,11 +38,19 @@ std::string ReadMap(const std::string& where, const XmpNode& xmp, DepthPhoto* ph
   if (error.empty()) error = ReadDepthRange(where, format, near, far, &range);
   if (!error.empty()) return error;
   const std::string* units = FindProperty(xmp, kDepth + "Units");
-  const bool metres = units != nullptr && *units == "m";
+  const double metres = MetresOf(units);
+  const double unit = metres > 0 ? metres : 1;
+  range.near *= unit;
+  range.far *= unit;
   ToInverse(range, &photo->map);
-  photo->meaning = metres ? MapMeaning::kInverseMetres : MapMeaning::kInverse;
-  TellMap(*format + " from " + *near + " to " + *far + (metres ? " metres" : " of unknown units"),
+  photo->meaning = metres > 0 ? MapMeaning::kInverseMetres : MapMeaning::kInverse;
+  TellMap(*format + " from " + *near + " to " + *far +
+              (metres > 0 ? " " + *units : " of unknown units"),
           photo);
+  double distance = 0;
+  if (ReadXmpNumber(FindProperty(xmp, kFocus + "FocalDistance"), &distance) && distance > 0) {
+    photo->focus_value = 1 / (distance * unit);
+  }
   const std::string* measure = FindProperty(xmp, kDepth + "MeasureType");
   if (measure != nullptr && *measure == "OpticRay") {
     photo->facts.emplace_back("distances", "along rays, taken for those along the axis");
@@ -65,6 +79,8 @@ void ReadFocus(const XmpNode& xmp, DepthPhoto* photo) {
                      photo->focus_y <= 1;
   if (photo->has_focus) {
     photo->facts.emplace_back("focus", "at " + *x + "," + *y + " of width and height");
+  } else if (std::isfinite(photo->focus_value)) {
+    photo->facts.emplace_back("focus", *FindProperty(xmp, kFocus + "FocalDistance") + " away");
   }
 }
 

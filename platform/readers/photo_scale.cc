@@ -59,8 +59,9 @@ double DisparityPerDiopter(double focal_35mm, double diagonal_pixels) {
 }
 
 // disparity = factor * (value - zero)
-void Scale(double factor, double zero, FloatMap* map) {
-  for (float& value : map->values) {
+void Scale(double factor, double zero, DepthPhoto* photo) {
+  photo->focus_value = factor * (photo->focus_value - zero);
+  for (float& value : photo->map.values) {
     value = static_cast<float>(
         std::clamp(factor * (double(value) - zero), -SF_MAX_DISPARITY, SF_MAX_DISPARITY));
   }
@@ -69,7 +70,7 @@ void Scale(double factor, double zero, FloatMap* map) {
 void ToDisparity(const Ends& ends, double diagonal, DepthPhoto* photo) {
   if (photo->meaning == MapMeaning::kInverseMetres) {
     const double focal = photo->focal_35mm > 0 ? photo->focal_35mm : kPortraitLens;
-    Scale(DisparityPerDiopter(focal, diagonal), 0, &photo->map);
+    Scale(DisparityPerDiopter(focal, diagonal), 0, photo);
     photo->facts.emplace_back("scale", "f-stops are those of a " + Rounded(focal) +
                                            " mm lens on full frame" +
                                            (photo->focal_35mm > 0 ? "" : " (assumed)"));
@@ -78,7 +79,7 @@ void ToDisparity(const Ends& ends, double diagonal, DepthPhoto* photo) {
   const bool order = photo->meaning == MapMeaning::kOrder;
   const double nearest = DisparityPerDiopter(kPortraitLens, diagonal) / kPortraitDistance;
   const double zero = order ? double(ends.low) : 0, range = double(ends.high) - zero;
-  Scale(range > 0 ? nearest / range : 0, zero, &photo->map);
+  Scale(range > 0 ? nearest / range : 0, zero, photo);
   photo->facts.emplace_back("scale", std::string("unknown: what is nearest is taken to be 1.5 m ") +
                                          (order ? "and what is farthest infinitely far " : "") +
                                          "before a 50 mm lens on full frame");

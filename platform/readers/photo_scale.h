@@ -14,7 +14,7 @@ FloatMap Resize(const FloatMap& map, int width, int height);
 
 // Turns the photo upright, brings the map to the picture's size, and makes its values disparities
 // such that an aperture of radius 1 is a lens of f/1 on full frame (docs/formats.md). The light
-// field takes over picture and map.
+// field takes over picture and map; photo->focus_value becomes a disparity, too.
 std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field);
 
 }  // namespace starfocus

@@ -66,7 +66,7 @@ TEST_CASE("GDepth: inverse and linear ranges in metres, by the focal length of E
   CHECK(capture.photo);
   CHECK(capture.care == MapCare::kRepair);
   CHECK(capture.format == "GDepth photo (JPEG)");
-  CHECK(FactOf(capture, "map") == "40x24, RangeInverse from 0.5 to 4 metres");
+  CHECK(FactOf(capture, "map") == "40x24, RangeInverse from 0.5 to 4 m");
   const double middle = double(capture.light_field.disparity.at(kWidth / 2, 0));
   const double level = std::floor(kWidth / 2 * 255.0 / (kWidth - 1)) / 255;
   CHECK(middle == doctest::Approx(per_diopter * ((1 - level) / 0.5 + level / 4)).epsilon(1e-4));
@@ -78,6 +78,21 @@ TEST_CASE("GDepth: inverse and linear ranges in metres, by the focal length of E
   CheckRamp(capture, PerDiopter(50) / 0.5, PerDiopter(50) / 4);
   CHECK(double(capture.light_field.disparity.at(kWidth / 2, 0)) ==
         doctest::Approx(PerDiopter(50) / (0.5 + 3.5 * level)).epsilon(1e-4));
+}
+
+TEST_CASE("GDepth: millimetres, and a distance in focus") {
+  if (!CanReadXmp()) return;
+  Capture capture;
+  const std::string range =
+      "GDepth:Format=\"RangeInverse\" GDepth:Near=\"500\" GDepth:Far=\"4000\" ";
+  const std::string focus = "GFocus:FocalDistance=\"2000\" ";
+  REQUIRE(Open(Gdepth(Photo(), range + focus + "GDepth:Units=\"mm\"", Data(RampPng())), &capture) ==
+          "");
+  CheckRamp(capture, PerDiopter(50) / 0.5, PerDiopter(50) / 4);
+  CHECK(!capture.has_focus);
+  CHECK(capture.focus == doctest::Approx(PerDiopter(50) / 2));
+  REQUIRE(Open(Gdepth(Photo(), range + focus, Data(RampPng())), &capture) == "");
+  CHECK(capture.focus == doctest::Approx(PerDiopter(50) / 1.5 / 4));
 }
 
 TEST_CASE("GDepth: without units the nearest is taken to be 1.5 m before a 50 mm lens") {
@@ -281,6 +296,30 @@ TEST_CASE("a photo and a depth picture: beside it or named, near guessed or told
   options.depth = folder.file("b.pfm");
   REQUIRE(OpenCapture(folder.file("b.jpg"), options, &capture) == "");
   CHECK(map.at(kWidth - 1, 0) > map.at(0, 0));
+}
+
+TEST_CASE("photos: limits of segments, items, pictures and pixels are named") {
+  Capture capture;
+  std::string many;
+  for (int k = 0; k < 4097; ++k) many += Segment(0xef, "");
+  CHECK(Open(Insert(Photo(), many), &capture).find("at most 4096 segments") != std::string::npos);
+  // A header of 16000 x 16000 pixels of 16 bits on a file of one.
+  std::string png = Png16(1, 1, {7});
+  const std::string header = "IHDR" + Big(16000, 4) + Big(16000, 4) + png.substr(24, 5);
+  png = png.substr(0, 12) + header + Big(Crc(header), 4) + png.substr(33);
+  Bytes bytes(png.begin(), png.end());
+  FloatMap map;
+  CHECK(DecodeLevels("x", &bytes, &map).find("truncated") != std::string::npos);
+  if (!CanReadXmp()) return;
+  std::string items;
+  for (int k = 0; k < 65; ++k) items += ContainerItem("image/png", 1, "other");
+  const std::string packet =
+      Packet(kDynamic, "", items + "<Camera:DepthMap DepthMap:DepthURI=\"other\"/>");
+  CHECK(Open(Insert(Photo(), XmpSegment(packet)), &capture).find("at most 64 items") !=
+        std::string::npos);
+  std::string pictures = MultiPicture(Photo(), Photo());
+  pictures.replace(pictures.find("MPF") + 18, 4, Big(16 * 65, 4));
+  CHECK(Open(pictures, &capture).find("a multi-picture file of at most 64") != std::string::npos);
 }
 
 TEST_CASE("XMP: limits are named, and nothing else than elements is read") {

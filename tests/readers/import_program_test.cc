@@ -54,7 +54,7 @@ TEST_CASE("photos: a GDepth photo is refocused at a pixel, at its own focus, and
   CHECK(!Contains(Call(folder, "compare near.png far.png").out, "difference 0\n"));
   const Outcome info = Call(folder, "info photo.jpg");
   CHECK(Contains(info.out, "photo.jpg: 96x64, 1 views\nGDepth photo (JPEG)\n"));
-  CHECK(Contains(info.out, "  map: 48x32, RangeInverse from 0.5 to 4 metres\n"));
+  CHECK(Contains(info.out, "  map: 48x32, RangeInverse from 0.5 to 4 m\n"));
   const Outcome json = Call(folder, "info photo.jpg --json");
   CHECK(Contains(json.out, "\"format\":\"GDepth photo (JPEG)\""));
   CHECK(Contains(json.out, "\"widest_f_stop\":1.0"));

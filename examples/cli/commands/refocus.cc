@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus refocus: the picture of a lens focused elsewhere, or a row of them.
+#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -123,7 +125,12 @@ Error CheckRegion(const FloatMap& map, const Options& options, const sf_region& 
 // What the photograph itself says is in focus, where nobody else does.
 Error TakeFocus(const Options& options, const Capture& capture, LensPlan* plan) {
   if (!plan->focus_option.empty()) return "";
-  if (!capture.has_focus) return PlanFocus(options.lens, plan);
+  if (!capture.has_focus) {
+    if (!std::isfinite(capture.focus)) return PlanFocus(options.lens, plan);
+    plan->focus_option = "--focus";
+    plan->foci = {capture.focus};
+    return "";
+  }
   plan->focus_option = "--focus-at";
   plan->x = capture.focus_x;
   plan->y = capture.focus_y;
