@@ -89,8 +89,10 @@ struct Work {
       const Error error = RunOne(items[i]);
       progress.Step();
       if (error.empty()) continue;
+      // An error about an option does not say which input it is of.
+      const bool named = error.line().find(items[i].input) != std::string::npos;
       const std::lock_guard<std::mutex> lock(mutex);
-      progress.Tell("starfocus: " + error.line());
+      progress.Tell("starfocus: " + (named ? "" : items[i].input + ": ") + error.line());
       failed.push_back(items[i].input);
     }
   }
