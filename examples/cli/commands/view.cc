@@ -82,12 +82,15 @@ Error ShowPicture(size_t index, const Image& picture, const std::vector<sf_block
   return "";
 }
 
-Error WritePage(const Options& options, const LightField& light_field,
-                const sf_disparity_stats& stats, const Contents& contents) {
+Error WritePage(const Options& options, const Capture& capture, const sf_disparity_stats& stats,
+                const Contents& contents) {
+  const LightField& light_field = capture.light_field;
   const std::string size =
       std::to_string(light_field.width()) + " × " + std::to_string(light_field.height());
-  Page page(std::filesystem::path(options.input.path + "/").parent_path().filename().string());
-  page.AddTable({{"Size", size + " pixels"},
+  Page page(std::filesystem::path(options.input.path + "/").parent_path().filename().string(),
+            capture.metadata.icc);
+  page.AddTable({{"Format", capture.format},
+                 {"Size", size + " pixels"},
                  {"Views", std::to_string(light_field.views.size())},
                  {"Disparity", Number(stats.min, 2) + " to " + Number(stats.max, 2) +
                                    " pixels; larger is nearer"},
@@ -145,7 +148,7 @@ Error Run(const Options& options) {
                       [&](size_t i, const Image& picture, const std::vector<sf_block>& blocks) {
                         return ShowPicture(i, picture, blocks, &contents);
                       });
-  return error.empty() ? WritePage(options, light_field, stats, contents) : error;
+  return error.empty() ? WritePage(options, capture, stats, contents) : error;
 }
 
 }  // namespace

@@ -72,9 +72,10 @@ std::string Bar(int bar, int64_t count, int64_t most) {
 
 }  // namespace
 
-Page::Page(const std::string& title)
+Page::Page(const std::string& title, const Bytes& icc)
     : head_("<meta charset=\"utf-8\">\n<title>" + Escape(title) + "</title>\n" + kHead),
-      body_("<h1>" + Escape(title) + "</h1>\n") {}
+      body_("<h1>" + Escape(title) + "</h1>\n"),
+      icc_(icc) {}
 
 void Page::AddTable(const std::vector<std::pair<std::string, std::string>>& rows) {
   body_ += "<table>\n";
@@ -88,7 +89,7 @@ std::string Page::AddFigures(const std::string& path, const std::string& heading
   for (const PageFigure& figure : figures) {
     const Image small = Shrink(figure.picture, width);
     Bytes jpeg;
-    const std::string error = EncodeJpeg(path, small, kQuality, {}, {}, &jpeg);
+    const std::string error = EncodeJpeg(path, small, kQuality, {{}, icc_}, {}, &jpeg);
     if (!error.empty()) return error;
     body_ += "<figure style=\"max-width: " + std::to_string(small.width) + "px\"><img width=\"" +
              std::to_string(small.width) + "\" height=\"" + std::to_string(small.height) +

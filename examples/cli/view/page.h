@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "platform/file.h"
 #include "platform/image.h"
 #include "starfocus/starfocus.h"
 
@@ -22,7 +23,8 @@ struct PageFigure {
 // Texts are plain: what HTML takes for its own is escaped.
 class Page {
  public:
-  explicit Page(const std::string& title);
+  // `icc` is the colour profile of the pictures that follow, empty for sRGB.
+  Page(const std::string& title, const Bytes& icc);
 
   void AddTable(const std::vector<std::pair<std::string, std::string>>& rows);
 
@@ -40,6 +42,7 @@ class Page {
 
  private:
   std::string head_, body_;
+  const Bytes icc_;
 };
 
 }  // namespace starfocus
