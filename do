@@ -12,7 +12,7 @@ PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev lib
 # Programs by which tests judge what starfocus reads and writes.
 JUDGES="libimage-exiftool-perl webp"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
-FUZZ_TARGETS="engine depth images files folder layouts photo xmp differential"
+FUZZ_TARGETS="engine depth images files folder heif layouts photo xmp differential"
 export LC_ALL=C.UTF-8
 
 help() {
@@ -278,7 +278,7 @@ consumers() {
 # same way each time, so that a change which fails is to blame for it.
 fuzz_target() {
   local work=build/fuzz/inputs/$1 length=1024
-  case "$1" in layouts | photo | xmp) length=4096 ;; esac
+  case "$1" in heif | layouts | photo | xmp) length=4096 ;; esac
   mkdir -p "$work"
   build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -seed=1 -max_len=$length -timeout=30 \
     -rss_limit_mb=1024 -malloc_limit_mb=512 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1" \

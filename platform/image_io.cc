@@ -117,12 +117,13 @@ std::string DecodePng(const std::string& path, Bytes* bytes, Image* image) {
                             : DecodeStb(path, *bytes, image);
 }
 
-// Whether a JPEG file may hold a picture of this size: a unit of coded data has 32 by 32 pixels at
-// most, and takes a bit at least. stb_image would fill hundreds of megabytes for a file of a few
-// bytes first.
+// Whether a JPEG file may hold a picture of this size: a block of coded data takes a bit at least,
+// and where each component is subsampled another way there is one for every 8 by 32 pixels.
+// stb_image would fill hundreds of megabytes for a file of a few bytes first.
 bool CanHold(const Bytes& jpeg, int width, int height) {
-  constexpr int64_t kMostUnit = 32;
-  return (width / kMostUnit) * (height / kMostUnit) <= 8 * static_cast<int64_t>(jpeg.size());
+  constexpr int64_t kMostPixelsPerByte = 8 * 8 * 32, kOneUnit = 32 * 32;
+  return int64_t{width} * height <=
+         kOneUnit + kMostPixelsPerByte * static_cast<int64_t>(jpeg.size());
 }
 
 std::string DecodeJpeg(const std::string& path, const Bytes& bytes, Image* image) {

@@ -11,6 +11,7 @@
 #include "platform/readers/hci.h"
 #include "platform/readers/middlebury.h"
 #include "platform/readers/photo_scale.h"
+#include "platform/readers/stanford.h"
 #include "platform/readers/view_array.h"
 
 namespace starfocus {
@@ -56,19 +57,13 @@ std::string OpenArray(const std::string& folder, const Names& pictures, Capture*
         "with a row and a column each",
         std::to_string(pictures.size()) + " pictures, the first " + pictures[0]);
   }
-  const bool stanford = pictures[0].rfind("out_", 0) == 0 && array.rows > 1;
+  const bool stanford = IsStanford(pictures[0]) && array.rows > 1;
   capture->format = stanford ? "Stanford light field" : "rows and columns of views";
-  if (stanford) {  // whose rows are counted from below
-    ViewArray turned = array;
-    const size_t columns = size_t(array.columns), rows = size_t(array.rows);
-    for (size_t k = 0; k < array.paths.size(); ++k) {
-      turned.paths[k] = array.paths[(rows - 1 - k / columns) * columns + k % columns];
-    }
-    array = std::move(turned);
-  }
+  if (stanford) OrderStanford(&array);
   Star star;
   error = ChooseStar(folder, array, &star, &capture->facts);
   capture->files = std::move(star.views);
+  if (HasDisparity(folder)) capture->map_path = DisparityPath(folder);
   return error;
 }
 
@@ -77,7 +72,7 @@ std::string OpenFolder(const std::string& folder, Capture* capture) {
   const std::string error = ListFolder(folder, &names);
   if (!error.empty()) return error;
   const Names pictures = PicturesOf(names);
-  if (pictures.empty() || std::any_of(names.begin(), names.end(), IsLightFieldFile)) {
+  if (pictures.empty() || std::any_of(names.begin(), names.end(), IsViewFile)) {
     return OpenOwn(folder, names, capture);
   }
   return IsHci(names) ? OpenHci(folder, names, capture) : OpenArray(folder, pictures, capture);

@@ -114,7 +114,7 @@ TEST_CASE("folders: a grid without a map is estimated, and imported without one"
 
 TEST_CASE("photos: HEIC with an auxiliary depth picture") {
   Bytes bytes;
-  REQUIRE(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/photo/depth.heic", &bytes) == "");
+  REQUIRE(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic", &bytes) == "");
   DepthPhoto photo;
   const std::string error = ReadHeif("x", {bytes.data(), bytes.size()}, Near::kUnknown, &photo);
 #ifdef STARFOCUS_HAS_HEIF

@@ -76,25 +76,43 @@ TEST_CASE("HCI: 17 of 81 views, disparities times four, f-stops by the baseline"
   CHECK(OpenAndLoad(folder, &capture).find("a square of views") != std::string::npos);
 }
 
-TEST_CASE("Stanford: the star of a grid whose rows begin below") {
-  TempFolder folder;
+// 5 rows of 7; `place` gives the rest of a name.
+template <class Place>
+void WriteStanford(const TempFolder& folder, const Place& place) {
   for (int row = 0; row < 5; ++row) {
     for (int column = 0; column < 7; ++column) {
       WriteView(folder,
-                "out_" + Number(row, 2) + "_" + Number(column, 2) + "_-381.909" +
-                    std::to_string(row) + "_" + std::to_string(1103 + 7 * column) + ".376221_.png",
+                "out_" + Number(row, 2) + "_" + Number(column, 2) + place(row, column) + ".png",
                 10 * row + column);
     }
   }
+}
+
+TEST_CASE("Stanford: the star of a grid, in the order of the places in the names") {
+  TempFolder placed, turned, plain;
+  WriteStanford(placed, [](int row, int column) {
+    return "_-" + std::to_string(381 + row) + ".909271_" + std::to_string(1103 + 7 * column) +
+           ".376221_";
+  });
   Capture capture;
-  REQUIRE(OpenAndLoad(folder, &capture) == "");
+  REQUIRE(OpenAndLoad(placed, &capture) == "");
   CHECK(capture.format == "Stanford light field");
   CHECK(capture.light_field.views.size() == 17);
   CHECK(LevelAt(capture, 0, 0) == 23);
   CHECK(LevelAt(capture, 1, 0) == 25);
-  CHECK(LevelAt(capture, 0, 1) == 3);  // below is row 0
+  CHECK(LevelAt(capture, 0, 1) == 3);  // the largest Y is that of row 0
   CHECK(LevelAt(capture, 0.5, -0.5) == 34);
   CHECK(capture.widest == 0);
+  WriteStanford(turned, [](int row, int column) {
+    return "_" + std::to_string(row) + ".5_" + std::to_string(-3 * column) + ".25_";
+  });
+  REQUIRE(OpenAndLoad(turned, &capture) == "");
+  CHECK(LevelAt(capture, 1, 0) == 21);
+  CHECK(LevelAt(capture, 0, 1) == 43);
+  WriteStanford(plain, [](int, int) { return ""; });
+  REQUIRE(OpenAndLoad(plain, &capture) == "");
+  CHECK(LevelAt(capture, 1, 0) == 25);
+  CHECK(LevelAt(capture, 0, 1) == 3);
 }
 
 TEST_CASE("rows and columns by name: squares, a row, what is missing") {
@@ -126,6 +144,10 @@ TEST_CASE("rows and columns by name: squares, a row, what is missing") {
   CHECK(LevelAt(capture, 0, 0) == 10);
   CHECK(LevelAt(capture, -1, 0) == 0);
   CHECK(LevelAt(capture, 0.2, 0) == 12);
+  CHECK(capture.map_path.empty());
+  Require(WritePfm(row.file("disparity.pfm"), {4, 3, std::vector<float>(12, 2)}));
+  REQUIRE(OpenAndLoad(row, &capture) == "");
+  CHECK(capture.light_field.disparity.values[0] == 2);
   TempFolder two, none;
   grid(two, 2, 2);
   CHECK(OpenAndLoad(two, &capture).find("3 views or more") != std::string::npos);
