@@ -53,8 +53,8 @@ TEST_CASE("photos: a GDepth photo is refocused at a pixel, at its own focus, and
   CHECK(Call(folder, "compare near.png own.png").out == "PSNR inf, largest difference 0\n");
   CHECK(!Contains(Call(folder, "compare near.png far.png").out, "difference 0\n"));
   const Outcome info = Call(folder, "info photo.jpg");
-  CHECK(Contains(info.out, "photo.jpg: 96x64, 1 views\nGDepth photo (JPEG)\n"));
-  CHECK(Contains(info.out, "  map: 48x32, RangeInverse from 0.5 to 4 m\n"));
+  CHECK(Contains(info.out, "photo.jpg\n  format     GDepth photo (JPEG)\n"));
+  CHECK(Contains(info.out, "  map        48x32, RangeInverse from 0.5 to 4 m\n"));
   const Outcome json = Call(folder, "info photo.jpg --json");
   CHECK(Contains(json.out, "\"format\":\"GDepth photo (JPEG)\""));
   CHECK(Contains(json.out, "\"widest_f_stop\":1.0"));
@@ -102,7 +102,7 @@ TEST_CASE("folders: a grid without a map is estimated, and imported without one"
   }
   const Outcome info = Call(folder, "info grid");
   CHECK(info.code == 0);
-  CHECK(Contains(info.out, "rows and columns of views\n  views: 9 of 3 rows of 3"));
+  CHECK(Contains(info.out, "rows and columns of views\n  views      9 of 3 rows of 3"));
   CHECK(Contains(info.err, "are estimated from 9 views"));
   REQUIRE(Call(folder, "import grid copy").code == 0);
   CHECK(fs::exists(folder.file("copy/view_-1.0_+1.0.png")));
