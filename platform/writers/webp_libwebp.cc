@@ -86,8 +86,10 @@ std::string WebpWriter::Add(const Image& picture) {
       WebPAnimEncoderAdd(state.encoder, &frame, kMilliseconds * state.pictures, &config);
   const WebPEncodingError code = frame.error_code;
   WebPPictureFree(&frame);
-  ++state.pictures;
-  if (added) return "";
+  if (added) {
+    ++state.pictures;
+    return "";
+  }
   return code == VP8_ENC_ERROR_OUT_OF_MEMORY
              ? OutOfMemory(state.path, "write it")
              : Failed(state.path, WebPAnimEncoderGetError(state.encoder));

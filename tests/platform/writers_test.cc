@@ -183,6 +183,20 @@ TEST_CASE("writers: EXIF and the profile stay, edited where the picture is") {
   }
 }
 
+TEST_CASE("writers: a long profile is in segments numbered from 1") {
+  Bytes jpeg;
+  REQUIRE(EncodeJpeg("a.jpg", Ramp(8, 8), 95, {{}, Profile(150000)}, {}, &jpeg) == "");
+  const std::string text(jpeg.begin(), jpeg.end());
+  size_t last = 0;
+  for (char number = 1; number <= 3; ++number) {
+    const std::string header = std::string("ICC_PROFILE\0", 12) + number + '\3';
+    const size_t at = text.find(header);
+    REQUIRE(at != std::string::npos);
+    CHECK(at > last);
+    last = at;
+  }
+}
+
 TEST_CASE("writers: EXIF too long for its segment is left out, the picture is not") {
   Metadata metadata = {CameraExif(true), {}};
   metadata.exif.resize(70000);
@@ -229,7 +243,9 @@ TEST_CASE("writers: an animation shows its pictures in their order") {
     std::fill(picture.pixels.begin(), picture.pixels.end(), static_cast<uint8_t>(level));
     CHECK(writer.Add(picture) == "");
   }
-  CHECK(writer.Add(Image(31, 20)) != "");
+  WebpWriter other(path, 90);
+  CHECK(other.Add(Image(32, 20)) == "");
+  CHECK(other.Add(Image(31, 20)) != "");
   Bytes bytes;
   REQUIRE(writer.Finish({}, &bytes) == "");
   REQUIRE(WriteFile(path, bytes) == "");
@@ -242,6 +258,12 @@ TEST_CASE("writers: an animation shows its pictures in their order") {
   size_t frames = 0;
   for (size_t at = said.find("Chunk ANMF"); at < said.size();
        at = said.find("Chunk ANMF", at + 1)) {
+    ++frames;
+  }
+  CHECK(frames == 3);
+  frames = 0;
+  for (size_t at = said.find("Duration: 100\n"); at < said.size();
+       at = said.find("Duration: 100\n", at + 1)) {
     ++frames;
   }
   CHECK(frames == 3);
