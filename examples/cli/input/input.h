@@ -19,8 +19,7 @@ struct InputOptions {
 
 // What is typed of a map's care: nothing is what the format needs.
 struct MapOptions {
-  int repair = 0;  // 1: --repair, -1: --no-repair
-  bool fill = false;
+  bool repair = false, no_repair = false, fill = false;
 };
 
 void AddInputOptions(CLI::App* command, InputOptions* options);
