@@ -82,6 +82,7 @@ TEST_CASE("photos: import writes a folder that gives the same picture") {
   CHECK(again.code == 1);
   CheckErrorLine(again.err);
   LightField field;
+  CHECK(Call(folder, "import photo.jpg raw --repair --no-repair").code == 2);
   REQUIRE(Call(folder, "import photo.jpg raw --no-repair").code == 0);
   REQUIRE(LoadLightField(folder.file("raw"), {}, &field) == "");
   const float edge = field.disparity.at(48, 8);

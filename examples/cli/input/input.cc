@@ -63,10 +63,12 @@ void AddInputOptions(CLI::App* command, InputOptions* options, std::vector<std::
 void AddMapOptions(CLI::App* command, MapOptions* options) {
   command->add_flag("--fill-invalid", options->fill,
                     "Replace non-finite disparities by their nearest valid neighbour");
-  command->add_flag("--repair{1},--no-repair{-1}", options->repair,
-                    "Repair the disparity map first, by the side views or, of one view, its "
-                    "colours: wrong or blurred edges, noise, unknown values; or don't. Default: "
-                    "those of depth photos");
+  CLI::Option* repair = command->add_flag(
+      "--repair", options->repair,
+      "Repair the disparity map first, by the side views or, of one view, its colours: wrong or "
+      "blurred edges, noise, unknown values; depth photos have it done");
+  command->add_flag("--no-repair", options->no_repair, "Leave the map of a depth photo as it is")
+      ->excludes(repair);
 }
 
 Error OpenInput(const InputOptions& options, Capture* capture) {
@@ -102,8 +104,7 @@ Error LoadInput(const Positions& views, int threads, Capture* capture) {
 
 Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
   if (capture->map_path.empty()) return "";
-  const bool repair =
-      options.repair > 0 || (options.repair == 0 && capture->care == MapCare::kRepair);
+  const bool repair = options.repair || (!options.no_repair && capture->care == MapCare::kRepair);
   if (repair) {
     return RepairDisparity(MapName(*capture), threads, &capture->light_field, nullptr);
   }

@@ -20,8 +20,7 @@ struct InputOptions {
 
 // What is typed of a map's care: nothing is what the format needs.
 struct MapOptions {
-  int repair = 0;  // 1: --repair, -1: --no-repair
-  bool fill = false;
+  bool repair = false, no_repair = false, fill = false;
 };
 
 // `several`: paths of which each is an input, in place of the one of `options`; or null.
