@@ -7,9 +7,12 @@ cd "$(dirname "$0")" || exit 1
 BUILD=build/release
 LOGS=build/log
 PROGRAM=$BUILD/starfocus
-PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev"
+PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev
+  libjpeg62-turbo-dev libpng-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev"
+# Programs by which tests judge what starfocus reads and writes.
+JUDGES="libimage-exiftool-perl webp"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
-FUZZ_TARGETS="engine depth images files folder differential"
+FUZZ_TARGETS="engine depth images files folder heif layouts photo xmp differential"
 export LC_ALL=C.UTF-8
 
 help() {
@@ -104,6 +107,14 @@ has() {
     doctest-dev) has_header doctest/doctest.h ;;
     libcli11-dev) has_header CLI/CLI.hpp ;;
     nlohmann-json3-dev) has_header nlohmann/json.hpp ;;
+    libjpeg62-turbo-dev) has_header jpeglib.h ;;
+    libpng-dev) has_header png.h ;;
+    libwebp-dev) has_header webp/mux.h ;;
+    libimage-exiftool-perl) command -v exiftool ;;
+    webp) command -v webpinfo ;;
+    libexpat1-dev) has_header expat.h ;;
+    libexif-dev) has_header libexif/exif-data.h ;;
+    libheif-dev) has_header libheif/heif.h ;;
     libbenchmark-dev) has_header benchmark/benchmark.h ;;
     lib*) false ;;
     *) command -v "$1" ;;
@@ -208,6 +219,7 @@ sanitize() {
 }
 
 run_tests() {
+  PACKAGES="$PACKAGES $JUDGES"
   install_missing
   build
   ctest --test-dir $BUILD --output-on-failure --parallel "$(nproc)"
@@ -265,10 +277,11 @@ consumers() {
 # fuzz_target NAME SECONDS: from the seeds and what earlier runs found. A clean checkout takes the
 # same way each time, so that a change which fails is to blame for it.
 fuzz_target() {
-  local work=build/fuzz/inputs/$1
+  local work=build/fuzz/inputs/$1 length=1024
+  case "$1" in heif | layouts | photo | xmp) length=4096 ;; esac
   mkdir -p "$work"
-  build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -seed=1 -max_len=1024 -timeout=30 \
-    -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1" \
+  build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -seed=1 -max_len=$length -timeout=30 \
+    -rss_limit_mb=1024 -malloc_limit_mb=512 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1" \
     >"$LOGS/fuzz-$1.log" 2>&1 && return
   tail -n 40 "$LOGS/fuzz-$1.log"
   echo "the fuzz target $1 failed; its whole log is $LOGS/fuzz-$1.log"

@@ -10,6 +10,7 @@
 #include <memory>
 #include <system_error>
 
+#include "platform/standard_stream.h"
 #include "platform/temporary_file.h"
 
 namespace starfocus {
@@ -101,7 +102,8 @@ std::string OutOfMemory(const std::string& where, const std::string& purpose) {
 
 std::string ReadFile(const std::string& path, Bytes* bytes) {
   bytes->clear();
-  File file(std::fopen(path.c_str(), "rb"));
+  // Standard input is read by a handle of its own, which may be closed.
+  File file(path == "-" ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
   if (!file) return Expected(path, "a readable file", Reason(errno));
   struct stat status;
   if (fstat(fileno(file.get()), &status) == 0 && S_ISREG(status.st_mode)) {
@@ -118,6 +120,10 @@ std::string ReadFile(const std::string& path, Bytes* bytes) {
 }
 
 std::string WriteFile(const std::string& path, const Bytes& bytes) {
+  if (IsStandardStream(path)) {
+    const bool whole = WriteAll(bytes, stdout) && std::fflush(stdout) == 0;
+    return whole ? "" : Expected("standard output", "room for " + path, Reason(errno));
+  }
   const fs::path target = FollowLink(path);
   const std::string reason = IsSpecial(target) ? WriteInPlace(path, bytes) : Replace(target, bytes);
   return reason.empty() ? "" : Expected(path, "a writable file", reason);
@@ -130,6 +136,7 @@ std::string CheckPlainFile(const std::string& path) {
 std::string CheckOutputPath(const std::string& path) {
   std::error_code error;
   if (path.empty()) return Expected("output", "a file name", "an empty one");
+  if (IsStandardStream(path)) return "";
   if (fs::is_directory(path, error)) return Expected(path, "a file name", "a folder");
   const fs::path folder = FolderOf(FollowLink(path));
   if (!fs::is_directory(folder, error)) {

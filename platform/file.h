@@ -21,11 +21,13 @@ std::string Expected(const std::string& where, const std::string& expected,
 // The error of whoever caught std::bad_alloc: "<where>: expected enough memory to <purpose>, ...".
 std::string OutOfMemory(const std::string& where, const std::string& purpose);
 
+// "-" is standard input.
 std::string ReadFile(const std::string& path, Bytes* bytes);
 
 // Writes to a temporary file in the same folder and renames it, so that `path` holds either what
 // it held before or all of `bytes`. A file that is there keeps its owner and permissions, and a
-// read-only one is refused. A device or pipe is written in place.
+// read-only one is refused. A device or pipe is written in place, and standard output
+// (standard_stream.h).
 std::string WriteFile(const std::string& path, const Bytes& bytes);
 
 // Whether a later WriteFile can be expected to work: the folder exists and may be written into, its

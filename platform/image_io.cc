@@ -2,7 +2,7 @@
 #include "platform/image_io.h"
 
 #include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
+#include <unistd.h>
 
 #include <climits>
 #include <new>
@@ -10,14 +10,15 @@
 #include "platform/container.h"
 #include "platform/png.h"
 #include "platform/ppm.h"
+#include "platform/standard_stream.h"
 #include "platform/stb_memory.h"
+#include "platform/writers/webp.h"
 
 namespace starfocus {
 namespace {
 
-constexpr int kJpegQuality = 95;
-// stb_image reads 2^30 samples of a PNG file, which may have four a pixel, and both it and
-// stb_image_write count bytes in an int.
+// stb_image reads 2^30 samples of a PNG file, which may have four a pixel, and counts bytes in an
+// int.
 constexpr int64_t kMostStbPixels = int64_t{1} << 28;
 
 std::string SizeText(int64_t width, int64_t height) {
@@ -90,23 +91,39 @@ std::string DecodeIndices(const std::string& path, const PngHeader& header, Byte
   return "";
 }
 
-std::string DecodePng(const std::string& path, Bytes* bytes, Image* image) {
-  PngHeader header;
-  if (!ReadPngHeader(*bytes, &header)) {
+// Whether a PNG file may hold the pixels that its header tells of: deflate makes at most 1032 bytes
+// of one. stb_image would make room for them first.
+bool CanHold(const Bytes& png, const PngHeader& header) {
+  constexpr uint64_t kMostExpansion = 1032, kSamples[] = {1, 1, 3, 1, 2, 1, 4, 1};
+  const uint64_t bits = kSamples[header.colour & 7] * uint64_t(header.depth) * header.width;
+  return bits * header.height / 8 <= kMostExpansion * png.size();
+}
+
+// The header of a PNG file whose pixels there is room for.
+std::string CheckPngHeader(const std::string& path, const Bytes& png, PngHeader* header) {
+  if (!ReadPngHeader(png, header)) {
     return Expected(path, "a PNG picture that begins with its header", "none there");
   }
-  const std::string error = CheckSize(path, header.width, header.height);
+  const std::string error = CheckSize(path, header->width, header->height);
+  if (!error.empty()) return error;
+  return CanHold(png, *header) ? "" : Truncated(path);
+}
+
+std::string DecodePng(const std::string& path, Bytes* bytes, Image* image) {
+  PngHeader header;
+  const std::string error = CheckPngHeader(path, *bytes, &header);
   if (!error.empty()) return error;
   return HasPalette(header) ? DecodeIndices(path, header, bytes, image)
                             : DecodeStb(path, *bytes, image);
 }
 
-// Whether a JPEG file may hold a picture of this size: a unit of coded data has 32 by 32 pixels at
-// most, and takes a bit at least. stb_image would fill hundreds of megabytes for a file of a few
-// bytes first.
+// Whether a JPEG file may hold a picture of this size: a block of coded data takes a bit at least,
+// and where each component is subsampled another way there is one for every 8 by 32 pixels.
+// stb_image would fill hundreds of megabytes for a file of a few bytes first.
 bool CanHold(const Bytes& jpeg, int width, int height) {
-  constexpr int64_t kMostUnit = 32;
-  return (width / kMostUnit) * (height / kMostUnit) <= 8 * static_cast<int64_t>(jpeg.size());
+  constexpr int64_t kMostPixelsPerByte = 8 * 8 * 32, kOneUnit = 32 * 32;
+  return int64_t{width} * height <=
+         kOneUnit + kMostPixelsPerByte * static_cast<int64_t>(jpeg.size());
 }
 
 std::string DecodeJpeg(const std::string& path, const Bytes& bytes, Image* image) {
@@ -123,67 +140,84 @@ std::string DecodeJpeg(const std::string& path, const Bytes& bytes, Image* image
   return CanHold(bytes, width, height) ? DecodeStb(path, bytes, image) : Truncated(path);
 }
 
-std::string Decode(const std::string& path, Bytes* bytes, Image* image) {
-  if (bytes->empty()) return Expected(path, "a PNG, PPM or JPEG picture", "an empty file");
-  if (bytes->front() == 'P') return DecodePpm(path, *bytes, image);
-  if (bytes->size() > INT_MAX) return Expected(path, "a file below 2 GiB", "a larger one");
-  const std::string error = CheckWhole(path, CheckContainer(*bytes));
-  if (!error.empty()) return error;
-  return IsPng(*bytes) ? DecodePng(path, bytes, image) : DecodeJpeg(path, *bytes, image);
-}
-
-void Append(void* context, void* data, int size) {
-  const uint8_t* first = static_cast<const uint8_t*>(data);
-  Bytes* bytes = static_cast<Bytes*>(context);
-  bytes->insert(bytes->end(), first, first + size);
-}
-
-std::string EncodeStb(const std::string& path, const Image& image, Bytes* bytes) {
-  const std::string error = CheckSize(path, image.width, image.height);
-  if (!error.empty()) return error;
+// Levels of a PNG file of 16 bits, which has no palette.
+std::string DecodeDeepPng(const std::string& where, const Bytes& bytes, FloatMap* levels) {
   const StbMemory memory;
-  const int ok = LowerExtension(path) == ".png"
-                     ? stbi_write_png_to_func(Append, bytes, image.width, image.height, 3,
-                                              image.pixels.data(), static_cast<int>(image.stride()))
-                     : stbi_write_jpg_to_func(Append, bytes, image.width, image.height, 3,
-                                              image.pixels.data(), kJpegQuality);
-  if (ok && !bytes->empty()) return "";
-  return Expected(path, "a picture that can be encoded", "an encoder failure");
+  int own_channels = 0;
+  FloatMap result;
+  const stbi_us* samples =
+      stbi_load_16_from_memory(bytes.data(), static_cast<int>(bytes.size()), &result.width,
+                               &result.height, &own_channels, 1);
+  if (samples == nullptr) return Broken(where);
+  const size_t count = size_t(result.width) * size_t(result.height);
+  result.values.reserve(count);
+  for (size_t k = 0; k < count; ++k)
+    result.values.push_back(static_cast<float>(samples[k]) / 65535);
+  *levels = std::move(result);
+  return "";
 }
 
-bool IsKnownExtension(const std::string& extension) {
-  return extension == ".png" || extension == ".ppm" || extension == ".jpg" || extension == ".jpeg";
+// Whether the file is a PNG of 16 bits, whose parts are all there.
+bool IsDeepPng(const Bytes& bytes) {
+  PngHeader header;
+  return IsPng(bytes) && CheckContainer(bytes) == Container::kWhole && bytes.size() <= INT_MAX &&
+         CheckPngHeader("", bytes, &header).empty() && header.depth == 16;
+}
+
+// Of a picture in memory the mean of red, green and blue.
+void TakeLevels(const Image& image, FloatMap* levels) {
+  levels->width = image.width;
+  levels->height = image.height;
+  levels->values.clear();
+  levels->values.reserve(image.pixels.size() / 3);
+  for (size_t k = 0; k < image.pixels.size(); k += 3) {
+    const int sum = image.pixels[k] + image.pixels[k + 1] + image.pixels[k + 2];
+    levels->values.push_back(static_cast<float>(sum) / (3 * 255));
+  }
 }
 
 std::string CheckExtension(const std::string& path) {
-  const std::string extension = LowerExtension(path);
-  if (IsKnownExtension(extension)) return "";
-  return Expected(path, "a name ending in .png, .ppm or .jpg",
+  const std::string extension = FormatExtension(path);
+  if (IsPictureExtension(extension)) return "";
+  return Expected(path, std::string("a name ending in ") + kPictureExtensions,
                   extension.empty() ? "no extension" : extension);
 }
 
 }  // namespace
 
+std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image) {
+  if (bytes->empty()) return Expected(where, "a PNG, PPM or JPEG picture", "an empty file");
+  if (bytes->front() == 'P') return DecodePpm(where, *bytes, image);
+  if (bytes->size() > INT_MAX) return Expected(where, "a file below 2 GiB", "a larger one");
+  const std::string error = CheckWhole(where, CheckContainer(*bytes));
+  if (!error.empty()) return error;
+  return IsPng(*bytes) ? DecodePng(where, bytes, image) : DecodeJpeg(where, *bytes, image);
+}
+
+std::string DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels) {
+  if (IsDeepPng(*bytes)) return DecodeDeepPng(where, *bytes, levels);
+  Image image;
+  const std::string error = DecodeImage(where, bytes, &image);
+  if (error.empty()) TakeLevels(image, levels);
+  return error;
+}
+
 std::string ReadImage(const std::string& path, Image* image) {
   try {
     Bytes bytes;
     const std::string error = ReadFile(path, &bytes);
-    return error.empty() ? Decode(path, &bytes, image) : error;
+    return error.empty() ? DecodeImage(path, &bytes, image) : error;
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");
   }
 }
 
-std::string WriteImage(const std::string& path, const Image& image) {
+std::string WriteImage(const std::string& path, const Image& image, const PictureOptions& options) {
   std::string error = CheckExtension(path);
   if (!error.empty()) return error;
   try {
     Bytes bytes;
-    if (LowerExtension(path) == ".ppm") {
-      bytes = EncodePpm(image);
-    } else {
-      error = EncodeStb(path, image, &bytes);
-    }
+    error = EncodePicture(path, image, options, &bytes);
     return error.empty() ? WriteFile(path, bytes) : error;
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "write it");
@@ -191,8 +225,13 @@ std::string WriteImage(const std::string& path, const Image& image) {
 }
 
 std::string CheckImageOutput(const std::string& path) {
-  const std::string error = CheckExtension(path);
-  return error.empty() ? CheckOutputPath(path) : error;
+  std::string error = CheckExtension(path);
+  if (error.empty()) error = CheckOutputPath(path);
+  if (error.empty() && FormatExtension(path) == ".webp") error = WebpWriter::Check(path, 1, 1);
+  if (error.empty() && IsStandardStream(path) && isatty(STDOUT_FILENO) == 1) {
+    error = Expected(path, "a file or pipe for a picture", "a terminal");
+  }
+  return error;
 }
 
 }  // namespace starfocus

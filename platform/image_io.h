@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Picture files: PNG, PPM and JPEG to and from 8-bit RGB.
+// Picture files: PNG, PPM and JPEG to and from 8-bit RGB, and WebP from it.
 #ifndef STARFOCUS_PLATFORM_IMAGE_IO_H_
 #define STARFOCUS_PLATFORM_IMAGE_IO_H_
 
@@ -7,6 +7,8 @@
 
 #include "platform/file.h"
 #include "platform/image.h"
+#include "platform/pfm.h"
+#include "platform/writers/picture.h"
 
 namespace starfocus {
 
@@ -14,11 +16,18 @@ namespace starfocus {
 // and JPEG pictures may have 2^28 pixels, here and below.
 std::string ReadImage(const std::string& path, Image* image);
 
-// Writes by extension: .png, .ppm, .jpg or .jpeg.
-std::string WriteImage(const std::string& path, const Image& image);
+// The same of bytes in memory, which may be changed; `where` only names them in the error.
+std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image);
 
-// Whether WriteImage knows the extension of `path` and its folder exists; to be asked before long
-// work.
+// The levels of a picture without its colours, 0 to 1: of a PNG file with all of its 16 bits.
+std::string DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels);
+
+// Writes by extension (writers/picture.h).
+std::string WriteImage(const std::string& path, const Image& image,
+                       const PictureOptions& options = {});
+
+// Whether WriteImage knows the extension of `path`, this program was built with what writes it, and
+// its folder exists; to be asked before long work.
 std::string CheckImageOutput(const std::string& path);
 
 }  // namespace starfocus

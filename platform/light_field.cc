@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "platform/image_io.h"
+#include "platform/progress.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -29,11 +30,13 @@ struct SaveJob {
   const LightField& light_field;
   const Positions positions;
   std::vector<std::string> errors;  // of each view
+  Progress progress;
 
   static void Run(void* data, int32_t index, int32_t) {
     SaveJob* self = static_cast<SaveJob*>(data);
     const std::string path = Join(self->folder, ViewName(self->positions[size_t(index)]) + ".png");
     self->errors[size_t(index)] = WriteImage(path, self->light_field.views[size_t(index)]);
+    self->progress.Step();
   }
 };
 
@@ -73,15 +76,12 @@ bool HasDisparity(const std::string& folder) {
   return fs::exists(DisparityPath(folder), error);
 }
 
-std::string LoadCaptured(const std::string& folder, const Positions& wanted,
-                         LightField* light_field) {
-  std::vector<ViewFile> files;
-  std::string error = ChooseViewFiles(folder, wanted, &files);
-  if (!error.empty()) return error;
+std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field) {
   LightField result;
+  Progress progress("reading views", static_cast<int64_t>(files.size()));
   for (const ViewFile& file : files) {
     Image view;
-    error = CheckPlainFile(file.path);
+    std::string error = CheckPlainFile(file.path);
     if (error.empty()) error = ReadImage(file.path, &view);
     if (!error.empty()) return error;
     result.positions.push_back(file.position);
@@ -91,8 +91,30 @@ std::string LoadCaptured(const std::string& folder, const Positions& wanted,
       return Expected(file.path, SizeText(centre.width, centre.height) + " as the centre view",
                       SizeText(last.width, last.height));
     }
+    progress.Step();
   }
   *light_field = std::move(result);
+  return "";
+}
+
+std::string LoadCaptured(const std::string& folder, const Positions& wanted,
+                         LightField* light_field) {
+  std::vector<ViewFile> files;
+  const std::string error = ChooseViewFiles(folder, wanted, &files);
+  return error.empty() ? LoadViewFiles(files, light_field) : error;
+}
+
+std::string LoadMap(const std::string& path, LightField* light_field) {
+  FloatMap map;
+  std::string error = CheckPlainFile(path);
+  if (error.empty()) error = ReadPfm(path, &map);
+  if (!error.empty()) return error;
+  const Image& centre = light_field->views[0];
+  if (map.width != centre.width || map.height != centre.height) {
+    return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
+                    SizeText(map.width, map.height));
+  }
+  light_field->disparity = std::move(map);
   return "";
 }
 
@@ -100,16 +122,9 @@ std::string LoadLightField(const std::string& folder, const Positions& wanted,
                            LightField* light_field) {
   LightField result;
   std::string error = LoadCaptured(folder, wanted, &result);
-  if (error.empty()) error = ReadDisparity(folder, &result.disparity);
-  if (!error.empty()) return error;
-  const Image& centre = result.views[0];
-  if (result.width() != centre.width || result.height() != centre.height) {
-    return Expected(DisparityPath(folder),
-                    SizeText(centre.width, centre.height) + " as the centre view",
-                    SizeText(result.width(), result.height()));
-  }
-  *light_field = std::move(result);
-  return "";
+  if (error.empty()) error = LoadMap(DisparityPath(folder), &result);
+  if (error.empty()) *light_field = std::move(result);
+  return error;
 }
 
 std::string SaveLightField(const std::string& folder, const LightField& light_field,
@@ -119,13 +134,17 @@ std::string SaveLightField(const std::string& folder, const LightField& light_fi
   if (failure) return Expected(folder, "a folder that can be made", failure.message());
   const Positions& given = light_field.positions;
   const auto views = static_cast<int>(light_field.views.size());
-  SaveJob save = {folder, light_field, given.empty() ? StarPositions(views) : given,
-                  std::vector<std::string>(light_field.views.size())};
+  SaveJob save = {folder,
+                  light_field,
+                  given.empty() ? StarPositions(views) : given,
+                  std::vector<std::string>(light_field.views.size()),
+                  {"writing views", views}};
   const int status = ThreadRunner::Run(runner, SaveJob::Run, &save, views);
   if (status != 0) return Expected(folder, "a thread runner", "none");
   for (const std::string& error : save.errors) {
     if (!error.empty()) return error;
   }
+  if (light_field.disparity.values.empty()) return "";
   return WritePfm(DisparityPath(folder), light_field.disparity);
 }
 

@@ -45,12 +45,18 @@ bool HasDisparity(const std::string& folder);
 std::string LoadCaptured(const std::string& folder, const Positions& wanted,
                          LightField* light_field);
 
+// Loads these views without a map. All sizes must agree.
+std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field);
+
+// Loads the map of views that are there, of the same size.
+std::string LoadMap(const std::string& path, LightField* light_field);
+
 // Loads these views and the disparity map, of the same size.
 std::string LoadLightField(const std::string& folder, const Positions& wanted,
                            LightField* light_field);
 
 // Makes the folder if needed and writes PNG views, several at a time on `runner`, and the disparity
-// map.
+// map if there is one.
 std::string SaveLightField(const std::string& folder, const LightField& light_field,
                            ThreadRunner* runner);
 

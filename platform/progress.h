@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A progress line on stderr, shown only when stderr is a terminal.
+// A progress line on stderr with the time that is left, shown only when stderr is a terminal. There
+// is one line: while a Progress has it, later ones show nothing, as they are parts of its work.
 #ifndef STARFOCUS_PLATFORM_PROGRESS_H_
 #define STARFOCUS_PLATFORM_PROGRESS_H_
 
@@ -20,12 +21,20 @@ class Progress {
 
   void Step(int64_t steps = 1);  // from any thread
 
+  // Prints a line that stays on stderr, terminal or not, above the one of the progress. From any
+  // thread.
+  void Tell(const std::string& line);
+
+  // "what: 43 %, 12 s left" after that many seconds; the time only when there is something to tell
+  // it from.
+  static std::string Text(const std::string& what, int64_t done, int64_t total, double seconds);
+
  private:
   void Show(double now);
 
   const std::string what_;
   const int64_t total_;
-  const bool terminal_;
+  const bool shown_here_;  // on a terminal, whose line is this one's
   const double start_;
   std::mutex mutex_;
   int64_t done_ = 0;

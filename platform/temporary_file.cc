@@ -79,7 +79,9 @@ void TemporaryFile::Leave() {
 bool TemporaryFile::MoveTo(const std::string& target) {
   std::FILE* file = file_;
   file_ = nullptr;
-  if (std::fclose(file) != 0) return false;
+  // On the disk before it has the name: a power cut must not leave that with nothing in it.
+  const bool whole = std::fflush(file) == 0 && fsync(fileno(file)) == 0;
+  if (std::fclose(file) != 0 || !whole) return false;
   const Turn turn;
   if (std::rename(name_.c_str(), target.c_str()) != 0) return false;
   Leave();

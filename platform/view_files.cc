@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "platform/file.h"
+#include "platform/folder.h"
 
 namespace starfocus {
 namespace {
@@ -82,14 +83,10 @@ bool ComesBefore(const ViewFile& a, const ViewFile& b) {
 }
 
 // Names of views in a folder, each with the first extension that it has.
-std::vector<ViewFile> ListNames(const std::string& folder) {
-  std::vector<ViewFile> files;
+std::string ListNames(const std::string& folder, std::vector<ViewFile>* files) {
   std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
+  const std::string error = ListFolder(folder, &names);
+  if (!error.empty()) return error;
   for (const std::string& name : names) {
     ViewFile file;
     size_t extension = 0;
@@ -102,9 +99,9 @@ std::vector<ViewFile> ListNames(const std::string& folder) {
     for (size_t other = 0; other < extension; ++other) first = first && !has(other);
     if (!first) continue;
     file.path = (fs::path(folder) / name).string();
-    files.push_back(file);
+    files->push_back(file);
   }
-  return files;
+  return "";
 }
 
 // The pair that a folder has if it has no views by name.
@@ -160,9 +157,10 @@ bool IsViewFile(const std::string& name) {
 }
 
 std::string FindViewFiles(const std::string& folder, std::vector<ViewFile>* files) {
-  const std::string error = CheckFolder(folder);
+  std::vector<ViewFile> found;
+  std::string error = CheckFolder(folder);
+  if (error.empty()) error = ListNames(folder, &found);
   if (!error.empty()) return error;
-  std::vector<ViewFile> found = ListNames(folder);
   if (found.empty()) found = ListPair(folder);
   for (const ViewFile& file : found) {
     if (std::fabs(file.position.u) > 1 || std::fabs(file.position.v) > 1) {
@@ -189,11 +187,8 @@ std::string FindViewFiles(const std::string& folder, std::vector<ViewFile>* file
   return "";
 }
 
-std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
-                            std::vector<ViewFile>* chosen) {
-  std::vector<ViewFile> files;
-  const std::string error = FindViewFiles(folder, &files);
-  if (!error.empty()) return error;
+std::string SelectViewFiles(const std::string& where, const std::vector<ViewFile>& files,
+                            const Positions& wanted, std::vector<ViewFile>* chosen) {
   chosen->clear();
   if (wanted.empty()) *chosen = files;
   for (const sf_position& position : wanted) {
@@ -201,12 +196,19 @@ std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
       return SamePosition(file.position, position);
     });
     if (at == files.end()) {
-      return Expected(folder, std::to_string(wanted.size()) + " views",
+      return Expected(where, std::to_string(wanted.size()) + " views",
                       "no " + ViewName(position) + ".png (or .ppm, .jpg)");
     }
     chosen->push_back(*at);
   }
   return "";
+}
+
+std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
+                            std::vector<ViewFile>* chosen) {
+  std::vector<ViewFile> files;
+  const std::string error = FindViewFiles(folder, &files);
+  return error.empty() ? SelectViewFiles(folder, files, wanted, chosen) : error;
 }
 
 }  // namespace starfocus

@@ -46,7 +46,12 @@ bool IsViewFile(const std::string& name);
 // Errors: no folder, no centre view, more than SF_MAX_VIEWS, a position beyond 1, two files of one.
 std::string FindViewFiles(const std::string& folder, std::vector<ViewFile>* files);
 
-// Those at the positions wanted, in their order, or all of them if none are.
+// Those of `files` at the positions wanted, in their order, or all of them if none are. Errors are
+// about `where`.
+std::string SelectViewFiles(const std::string& where, const std::vector<ViewFile>& files,
+                            const Positions& wanted, std::vector<ViewFile>* chosen);
+
+// The same of all files of a folder.
 std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
                             std::vector<ViewFile>* chosen);
 

@@ -23,9 +23,11 @@ Error Run(int argc, char** argv) {
   AddRefocusCommand(&app, &action);
   AddDisparityCommand(&app, &action);
   AddVideoCommand(&app, &action);
+  AddViewCommand(&app, &action);
   AddCalibrateCommand(&app, &action);
   AddCompareCommand(&app, &action);
   AddInfoCommand(&app, &action);
+  AddImportCommand(&app, &action);
   AddSheetCommand(&app, &action);
   AddAnalyzeCommand(&app, &action);
   AddStressCommand(&app, &action);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "platform/light_field.h"
+#include "platform/standard_stream.h"
 
 namespace starfocus {
 namespace {
@@ -40,7 +41,9 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
     if (!path.empty()) files.insert(NameOf(path));
   }
   for (const Output& output : outputs) {
-    const fs::path name = NameOf(output.path);
+    // There is one standard output, under whatever name; standard input is another file.
+    const bool stream = IsStandardStream(output.path);
+    const fs::path name = stream ? "-" : NameOf(output.path);
     if (!names.insert(name).second) {
       return Error::Usage(output.option, "a file of its own",
                           output.path + ", which another one is");

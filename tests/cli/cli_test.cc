@@ -29,7 +29,7 @@ void CheckRefused(const TempFolder& folder, const std::string& arguments,
   const Outcome outcome = Call(folder, arguments);
   CAPTURE(outcome.err);
   bool usage = false;
-  for (const char* what : {"-", "command line: ", "DIR: ", "COMMAND: "}) {
+  for (const char* what : {"-", "command line: ", "DIR: ", "SRC: ", "COMMAND: "}) {
     usage = usage || outcome.err.rfind("starfocus: " + std::string(what), 0) == 0;
   }
   CHECK(outcome.code == (usage ? 2 : 1));
@@ -74,7 +74,7 @@ TEST_CASE("cli: refocus refuses bad input") {
     const char* mention;
   } bad[] = {{"", "subcommand"},
              {"frobnicate", "frobnicate"},
-             {"refocus", "DIR"},
+             {"refocus", "SRC"},
              {"refocus lf --focus 1", "--output"},
              {"refocus lf -o x.png", "--focus"},
              {"refocus lf -o x.png --focus", "--focus"},
@@ -180,7 +180,7 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.bmp --focus 1", ".bmp"},
              {"refocus lf -o x --focus 1", "extension"},
              {"refocus lf -o '' --focus 1", "--output"},
-             {"refocus '' -o x.png --focus 1", "DIR"},
+             {"refocus '' -o x.png --focus 1", "SRC"},
              {"refocus lf -o x.png --focus 1 --region ''", "--region"},
              {"refocus lf -o x.png --focus 1 --rule ''", "--rule"},
              {"refocus lf -o x.png --focus 1 --report ''", "--report"},
@@ -188,7 +188,7 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1 --report none/r.json", "none"},
              {"refocus lf -o x.png --focus 1 --report lf", "folder"},
              {"refocus lf -o x.png --focus 1 --frobnicate", "frobnicate"},
-             {"refocus lf extra -o x.png --focus 1", "extra"},
+             {"refocus lf extra -o x.png --focus 1", "a folder for the pictures"},
              {"refocus none -o x.png --focus 1", "none"},
              {"refocus text.png -o x.png --focus 1", "text.png"},
              {"refocus missing -o x.png --focus 1", "view_+0.0_+0.0"},
@@ -230,7 +230,7 @@ TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
              {"compare small.png none.png", "none.png"},
              {"compare text.png small.png", "text.png"},
              {"compare lf lf", "lf"},
-             {"info", "DIR"},
+             {"info", "SRC"},
              {"info none", "none"},
              {"info missing", "view_+0.0_+0.0"},
              {"info short", "disparity.pfm"},

@@ -59,7 +59,7 @@ TEST_CASE("program: every way to ask for help tells the same") {
   CHECK(all.out.find("Exit codes: 0 ") != std::string::npos);
   for (const char* way : {"--help", "-h"}) CHECK(Call(folder, way).out == all.out);
   for (const std::string command : {"scene", "refocus", "video", "calibrate", "compare", "info",
-                                    "sheet", "analyze", "stress", "help"}) {
+                                    "view", "sheet", "analyze", "stress", "help"}) {
     CAPTURE(command);
     CHECK(all.out.find("\n  " + command + " ") != std::string::npos);
     const Outcome one = Call(folder, "help " + command);
@@ -82,7 +82,7 @@ TEST_CASE("program: the manual and the completion have every option") {
   const Outcome manual = Call(folder, "help --man"), script = Call(folder, "help --bash > script");
   CHECK(manual.code == 0);
   CHECK(script.code == 0);
-  for (const char* part : {".TH STARFOCUS 1", ".SS refocus DIR\n", ".SS help COMMAND\n",
+  for (const char* part : {".TH STARFOCUS 1", ".SS refocus SRC\n", ".SS help COMMAND\n",
                            "\\-\\-focus\\-at", ".SH EXIT STATUS"}) {
     CHECK(manual.out.find(part) != std::string::npos);
   }
@@ -97,7 +97,7 @@ TEST_CASE("program: the manual and the completion have every option") {
   };
   if (std::system("command -v bash >/dev/null") != 0) return;
   CHECK(complete("refo") == "refocus\n");
-  CHECK(complete("refocus --fo") == "--focus --focus-at\n");
+  CHECK(complete("refocus --focus-") == "--focus-index --focus-at\n");
   CHECK(complete("refocus lf --mode be") == "benchmark\n");
   CHECK(complete("refocus lf --focus ''") == "\n");
   CHECK(complete("refocus lf -o sc") == "script\n");

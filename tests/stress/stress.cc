@@ -61,6 +61,7 @@ Report RunStress(const Options& options, const std::function<void(const std::str
           part.largest = outcome.error;
           part.largest_case = number;
         }
+        if (options.done) options.done(seconds());
       }
     }
   }

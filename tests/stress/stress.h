@@ -43,7 +43,8 @@ struct Report {
 struct Options {
   double seconds = 10;
   uint64_t seed = 1;
-  std::string family;  // empty: all
+  std::string family;                        // empty: all
+  std::function<void(double seconds)> done;  // told of the time that has gone, if there
 };
 
 // One case; `text` gets what it was when it fails.

@@ -7,8 +7,8 @@
 
 #include "examples/cli/calibrate/scene_times.h"
 #include "examples/cli/commands.h"
-#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/timing_file.h"
+#include "examples/cli/input/input.h"
 #include "examples/command_line/outputs.h"
 #include "examples/scene/render.h"
 #include "platform/file.h"
@@ -43,9 +43,10 @@ std::string Trace(const std::string& name, SceneTimes* times) {
 }
 
 Error Load(const std::string& folder, SceneTimes* times) {
-  LightField light_field;
-  Error error = LoadOrEstimate(folder, {}, 1, &light_field);
-  return error.empty() ? times->Open(folder, std::move(light_field)) : error;
+  Capture capture;
+  Error error = OpenInput({folder, "", ""}, &capture);
+  if (error.empty()) error = LoadInput({}, 1, &capture);
+  return error.empty() ? times->Open(folder, std::move(capture.light_field)) : error;
 }
 
 using Scenes = std::vector<std::unique_ptr<SceneTimes>>;

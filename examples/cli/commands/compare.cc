@@ -1,62 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus compare: how much two pictures differ.
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "examples/cli/commands.h"
+#include "examples/cli/compare/difference.h"
+#include "examples/command_line/outputs.h"
 #include "platform/image_io.h"
+#include "platform/standard_stream.h"
 
 namespace starfocus {
 namespace {
 
 struct Options {
-  std::string first, second;
+  std::string first, second, map;
   bool json = false;
 };
-
-struct Difference {
-  uint64_t squares = 0;  // sum over all samples
-  int largest = 0;
-};
-
-Difference Measure(const Image& a, const Image& b) {
-  Difference difference;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const int d = std::abs(int{a.pixels[i]} - int{b.pixels[i]});
-    difference.squares += uint64_t(d) * uint64_t(d);
-    if (d > difference.largest) difference.largest = d;
-  }
-  return difference;
-}
 
 std::string SizeText(const Image& image) {
   return std::to_string(image.width) + "x" + std::to_string(image.height);
 }
 
+Error CheckMap(const Options& options) {
+  if (options.map.empty()) return "";
+  const Error error = CheckImageOutput(options.map);
+  if (!error.empty()) return error;
+  if (IsStandardStream(options.map)) {
+    return Error::Usage("--map", "a file: standard output has the figures", options.map);
+  }
+  return CheckApart({{"--map", options.map}}, {{}, {options.first, options.second}});
+}
+
 Error Run(const Options& options) {
   Image a, b;
-  Error error = ReadImage(options.first, &a);
+  Error error = CheckMap(options);
+  if (error.empty()) error = ReadImage(options.first, &a);
   if (error.empty()) error = ReadImage(options.second, &b);
   if (!error.empty()) return error;
   if (a.width != b.width || a.height != b.height) {
     return Expected(options.second, SizeText(a) + " as " + options.first, SizeText(b));
   }
-  const Difference difference = Measure(a, b);
-  const bool equal = difference.squares == 0;
-  const double mean = double(difference.squares) / double(a.pixels.size());
-  const double psnr = equal ? INFINITY : 10 * std::log10(255.0 * 255.0 / mean);
+  const Difference difference = MeasureDifference(a, b);
+  if (!options.map.empty()) {
+    error = WriteImage(options.map, DrawDifference(a, b, std::max(1, difference.largest)));
+    if (!error.empty()) return error;
+  }
+  const bool equal = difference.largest == 0;
   if (options.json) {
     nlohmann::ordered_json json;
-    json["psnr"] = equal ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(psnr);
+    json["psnr"] =
+        equal ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(difference.psnr);
     json["largest_difference"] = difference.largest;
     std::printf("%s\n", json.dump().c_str());
   } else if (equal) {
     std::printf("PSNR inf, largest difference 0\n");
   } else {
-    std::printf("PSNR %.2f dB, largest difference %d\n", psnr, difference.largest);
+    std::printf("PSNR %.2f dB, largest difference %d\n", difference.psnr, difference.largest);
   }
   return "";
 }
@@ -71,6 +72,11 @@ void AddCompareCommand(CLI::App* app, Action* action) {
   command->add_option("B", options->second, "Picture of the same size")
       ->type_name("FILE")
       ->required();
+  command
+      ->add_option("--map", options->map,
+                   "Picture to write of where they differ: black where they agree, over red to "
+                   "white at the largest difference")
+      ->type_name("FILE");
   command->add_flag("--json", options->json, "Print JSON; an infinite PSNR is null");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }

@@ -8,6 +8,7 @@
 
 #include "examples/cli/commands.h"
 #include "examples/cli/disparity/estimate_run.h"
+#include "examples/cli/disparity/map_figures.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
@@ -83,19 +84,6 @@ Error MakePlan(const Options& options, Plan* plan) {
   return error.empty() ? PlanOutputs(options, plan) : error;
 }
 
-// The map as a picture: the nearest is white.
-Image Draw(const FloatMap& map) {
-  const auto ends = std::minmax_element(map.values.begin(), map.values.end());
-  const float low = *ends.first, range = *ends.second - low;
-  Image picture(map.width, map.height);
-  for (size_t i = 0; i < map.values.size(); ++i) {
-    const float place = range > 0 ? (map.values[i] - low) / range : 0;
-    std::fill_n(picture.pixels.begin() + static_cast<ptrdiff_t>(3 * i), 3,
-                static_cast<uint8_t>(place * 255 + 0.5F));
-  }
-  return picture;
-}
-
 // Estimates the map of a folder; says what was looked for.
 Error EstimateFolder(const Options& options, Plan* plan, const LightField& light_field,
                      DisparityEstimate* estimate) {
@@ -111,7 +99,8 @@ Error EstimateFolder(const Options& options, Plan* plan, const LightField& light
 Error RepairFolder(const Options& options, Plan* plan, LightField* light_field,
                    DisparityEstimate* estimate) {
   Image* confidence = options.confidence.empty() ? nullptr : &estimate->confidence;
-  const Error error = RepairDisparity(options.folder, plan->threads, light_field, confidence);
+  const Error error =
+      RepairDisparity(DisparityPath(options.folder), plan->threads, light_field, confidence);
   if (!error.empty()) return error;
   estimate->map = std::move(light_field->disparity);
   const auto ends = std::minmax_element(estimate->map.values.begin(), estimate->map.values.end());
@@ -120,7 +109,7 @@ Error RepairFolder(const Options& options, Plan* plan, LightField* light_field,
 }
 
 Error WriteMap(const Options& options, const Plan& plan, const DisparityEstimate& estimate) {
-  Error error = WriteImage(plan.picture, Draw(estimate.map));
+  Error error = WriteImage(plan.picture, DrawDisparity(estimate.map));
   if (error.empty() && !options.confidence.empty()) {
     error = WriteImage(options.confidence, estimate.confidence);
   }

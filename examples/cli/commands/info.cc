@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus info: what a light-field folder holds.
-#include <cmath>
+// starfocus info: what a light field or depth photo holds, and what was understood of it.
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/disparity/estimate_run.h"
+#include "examples/cli/disparity/map_figures.h"
+#include "examples/cli/input/input.h"
 #include "examples/command_line/options.h"
 #include "platform/light_field.h"
 #include "starfocus/starfocus.h"
@@ -19,37 +19,36 @@ constexpr int kBins = 16;
 constexpr int kBarLength = 50;
 
 struct Options {
-  std::string folder;
+  InputOptions input;
   bool json = false;
 };
-
-std::vector<int64_t> Histogram(const FloatMap& map, const sf_disparity_stats& stats) {
-  std::vector<int64_t> counts(kBins);
-  const double range = double(stats.max) - stats.min;
-  for (float d : map.values) {
-    if (!std::isfinite(d)) continue;
-    const double place = range > 0 ? (double(d) - stats.min) / range * kBins : 0;
-    const int bin = static_cast<int>(place);
-    ++counts[size_t(bin < kBins ? bin : kBins - 1)];
-  }
-  return counts;
-}
 
 double BinEdge(const sf_disparity_stats& stats, int bin) {
   return stats.min + (double(stats.max) - stats.min) * bin / kBins;
 }
 
-void PrintText(const std::string& folder, const LightField& light_field,
-               const sf_disparity_stats& stats, const std::vector<int64_t>& counts) {
-  std::printf("%s: %dx%d, %zu views\n", folder.c_str(), light_field.width(), light_field.height(),
-              light_field.views.size());
+void PrintRow(const std::string& name, const std::string& value) {
+  std::printf("  %-10s %s\n", name.c_str(), value.c_str());
+}
+
+void PrintText(const Capture& capture, const sf_disparity_stats& stats,
+               const std::vector<int64_t>& counts) {
+  const LightField& light_field = capture.light_field;
+  std::string views = std::to_string(light_field.views.size()) + " views";
   if (!AreStar(light_field.positions)) {
-    std::printf("at");
-    for (const sf_position& at : light_field.positions) std::printf(" (%g, %g)", at.u, at.v);
-    std::printf("\n");
+    views += " at";
+    for (const sf_position& at : light_field.positions) {
+      views += " (" + Short(at.u) + ", " + Short(at.v) + ")";
+    }
   }
-  std::printf("disparity %g to %g pixels per unit u, %lld invalid\n", stats.min, stats.max,
-              static_cast<long long>(stats.invalid));
+  std::printf("%s\n", capture.path.c_str());
+  PrintRow("format", capture.format);
+  for (const auto& fact : capture.facts) PrintRow(fact.first, fact.second);
+  PrintRow("size", std::to_string(light_field.width()) + "x" +
+                       std::to_string(light_field.height()) + " pixels");
+  PrintRow("views", views);
+  PrintRow("disparity", Short(stats.min) + " to " + Short(stats.max) + " pixels per unit u, " +
+                            std::to_string(stats.invalid) + " invalid");
   int64_t most = 1;
   for (int64_t count : counts) most = count > most ? count : most;
   for (int bin = kBins - 1; bin >= 0; --bin) {
@@ -60,9 +59,13 @@ void PrintText(const std::string& folder, const LightField& light_field,
   }
 }
 
-void PrintJson(const LightField& light_field, const sf_disparity_stats& stats,
+void PrintJson(const Capture& capture, const sf_disparity_stats& stats,
                const std::vector<int64_t>& counts) {
+  const LightField& light_field = capture.light_field;
   nlohmann::ordered_json json;
+  json["format"] = capture.format;
+  for (const auto& fact : capture.facts) json["facts"][fact.first] = fact.second;
+  if (capture.widest > 0) json["widest_f_stop"] = capture.widest;
   json["width"] = light_field.width();
   json["height"] = light_field.height();
   json["views"] = light_field.views.size();
@@ -75,22 +78,22 @@ void PrintJson(const LightField& light_field, const sf_disparity_stats& stats,
 }
 
 Error Run(const Options& options) {
-  LightField light_field;
-  const Error error = LoadOrEstimate(options.folder, {}, 1, &light_field);
+  Capture capture;
+  Error error = OpenInput(options.input, &capture);
+  if (error.empty()) error = LoadInput({}, 1, &capture);
   if (!error.empty()) return error;
-  const FloatMap& map = light_field.disparity;
+  const FloatMap& map = capture.light_field.disparity;
   sf_disparity_stats stats = {};
   const sf_status status = sf_measure_disparity(
       map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, &stats);
   if (status != SF_OK) {
-    return Expected(DisparityPath(options.folder), "disparities that can be measured",
-                    sf_status_string(status));
+    return Expected(MapName(capture), "disparities that can be measured", sf_status_string(status));
   }
-  const std::vector<int64_t> counts = Histogram(map, stats);
+  const std::vector<int64_t> counts = Histogram(map, stats, kBins);
   if (options.json) {
-    PrintJson(light_field, stats, counts);
+    PrintJson(capture, stats, counts);
   } else {
-    PrintText(options.folder, light_field, stats, counts);
+    PrintText(capture, stats, counts);
   }
   return "";
 }
@@ -100,8 +103,8 @@ Error Run(const Options& options) {
 void AddInfoCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
-      "info", "Size, views, disparity range and histogram of a light-field folder");
-  command->add_option("DIR", options->folder, "Light-field folder")->type_name("DIR")->required();
+      "info", "What a light field or depth photo is: format, size, views, disparity range");
+  AddInputOptions(command, &options->input);
   command->add_flag("--json", options->json, "Print JSON; histogram bins go from min to max");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }

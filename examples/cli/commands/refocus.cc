@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus refocus: the picture of a lens focused elsewhere, or a row of them.
-#include <cstdio>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/engine_run.h"
+#include "examples/cli/input/input.h"
+#include "examples/cli/refocus/batch.h"
 #include "examples/cli/refocus/partition_map.h"
+#include "examples/cli/refocus/refocus_output.h"
 #include "examples/cli/refocus/refocus_plan.h"
 #include "examples/cli/refocus/refocus_report.h"
 #include "examples/command_line/options.h"
@@ -22,42 +25,39 @@ namespace {
 constexpr int kMostPictures = 1000;  // of a sweep: three digits
 
 struct Options {
-  std::string folder, out, report, map, region, sweep;
+  std::vector<std::string> inputs;
+  InputOptions input;  // the one of them that is refocused
+  std::string report, map, region, sweep, jobs = "1";
+  OutputOptions output;
   LensOptions lens;
-  bool stream = false, repair = false;
+  MapOptions disparities;
+  bool stream = false;
 };
 
 struct Loaded {
-  LightField light_field;
+  Capture capture;
   sf_disparity_stats stats = {};
   double max_blur = 0;
 };
 
-// The picture of a sweep: "out.png" becomes "out_007.png".
-std::string Numbered(const std::string& path, size_t index) {
-  const std::filesystem::path name(path);
-  char number[16];
-  std::snprintf(number, sizeof(number), "_%03d", static_cast<int>(index));
-  return (name.parent_path() / (name.stem().string() + number + name.extension().string()))
-      .string();
+std::vector<Output> ListOutputs(const Options& options, const LensPlan& plan) {
+  std::vector<Output> outputs =
+      ListPictures(options.output, options.sweep.empty() ? 0 : plan.foci.size());
+  if (!options.map.empty()) outputs.push_back({"--map", options.map});
+  if (!options.report.empty()) outputs.push_back({"--report", options.report});
+  return outputs;
 }
 
 Error CheckOutputs(const Options& options, const LensPlan& plan) {
-  std::vector<Output> outputs;
-  if (options.sweep.empty()) outputs.push_back({"--output", options.out});
-  for (size_t i = 0; i < plan.foci.size() && !options.sweep.empty(); ++i) {
-    outputs.push_back({"--output", Numbered(options.out, i)});
-  }
-  if (!options.map.empty()) outputs.push_back({"--map", options.map});
-  Error error = CheckImageOutput(options.out);
+  const std::vector<Output> outputs = ListOutputs(options, plan);
+  Error error = CheckImageOutput(options.output.out);
   for (size_t i = 0; i < outputs.size() && error.empty(); ++i) {
-    error = CheckImageOutput(outputs[i].path);
+    error = outputs[i].option == "--report" ? CheckOutputPath(outputs[i].path)
+                                            : CheckImageOutput(outputs[i].path);
   }
-  if (!options.report.empty()) {
-    if (error.empty()) error = CheckOutputPath(options.report);
-    outputs.push_back({"--report", options.report});
-  }
-  return error.empty() ? CheckApart(outputs, {{options.folder}, {options.lens.timing}}) : error;
+  if (!error.empty()) return error;
+  return CheckApart(outputs, {{options.input.path},
+                              {options.input.path, options.input.depth, options.lens.timing}});
 }
 
 // D0:D1:N.
@@ -79,8 +79,12 @@ Error ParseSweep(const std::string& text, std::vector<double>* foci) {
 }
 
 Error PlanFoci(const Options& options, LensPlan* plan) {
-  if (options.sweep.empty()) return PlanFocus(options.lens, plan);
   const bool focus = !options.lens.focus.empty(), pixel = !options.lens.focus_at.empty();
+  std::error_code ignored;
+  const bool photo = std::filesystem::is_regular_file(options.input.path, ignored);
+  if (options.sweep.empty()) {
+    return photo && !focus && !pixel ? "" : PlanFocus(options.lens, plan);
+  }
   if (focus || pixel || options.stream || !options.map.empty()) {
     return Error::Usage("--sweep", "no other focus, no --stream and no --map",
                         focus            ? "--focus"
@@ -99,8 +103,12 @@ Error PlanRegion(const Options& options, LensPlan* plan) {
 }
 
 // Everything that can be refused before a file is read.
-Error MakePlan(const Options& options, LensPlan* plan) {
+Error MakePlan(const Options& options, LensPlan* plan, PictureOptions* how) {
   Error error = PlanFoci(options, plan);
+  if (error.empty()) {
+    error =
+        PlanOutput(options.output, !options.sweep.empty(), !options.region.empty(), &how->quality);
+  }
   if (error.empty()) error = CheckOutputs(options, *plan);
   if (error.empty()) error = PlanRegion(options, plan);
   return error.empty() ? PlanLens(options.lens, plan) : error;
@@ -114,18 +122,40 @@ Error CheckRegion(const FloatMap& map, const Options& options, const sf_region& 
       options.region);
 }
 
-Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
-  FloatMap* map = &loaded->light_field.disparity;
-  const bool given = HasDisparity(options.folder);  // another one is made of the views already
-  Error error = LoadViews(options.folder, *plan, &loaded->light_field);
-  if (error.empty() && options.repair && given) {
-    error = RepairDisparity(options.folder, plan->threads, &loaded->light_field, nullptr);
+// What the photograph itself says is in focus, where nobody else does.
+Error TakeFocus(const Options& options, const Capture& capture, LensPlan* plan) {
+  if (!plan->focus_option.empty()) return "";
+  if (!capture.has_focus) {
+    if (!std::isfinite(capture.focus)) return PlanFocus(options.lens, plan);
+    plan->focus_option = "--focus";
+    plan->foci = {capture.focus};
+    return "";
   }
+  plan->focus_option = "--focus-at";
+  plan->x = capture.focus_x;
+  plan->y = capture.focus_y;
+  return "";
+}
+
+Error Open(const Options& options, LensPlan* plan, Capture* capture) {
+  Error error = OpenInput(options.input, capture);
   if (error.empty()) {
-    error = PrepareDisparity(options.folder, options.lens.fill_invalid, map, &loaded->stats);
+    error = CheckApart(ListOutputs(options, *plan), {{}, CaptureFiles(*capture)});
   }
-  if (error.empty()) error = ChooseFocus(*map, plan);
-  if (error.empty()) error = CheckRegion(*map, options, plan->region);
+  if (error.empty()) error = PlanAperture(options.lens, *capture, plan);
+  return error.empty() ? TakeFocus(options, *capture, plan) : error;
+}
+
+Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
+  Capture* capture = &loaded->capture;
+  const FloatMap& map = capture->light_field.disparity;
+  Error error = Open(options, plan, capture);
+  if (error.empty()) error = LoadInput(plan->views, plan->threads, capture);
+  if (error.empty()) error = CheckRule(capture->path, *plan, capture->light_field.positions);
+  if (error.empty()) error = CareForMap(options.disparities, plan->threads, capture);
+  if (error.empty()) error = PrepareDisparity(MapName(*capture), map, &loaded->stats);
+  if (error.empty()) error = ChooseFocus(map, plan);
+  if (error.empty()) error = CheckRegion(map, options, plan->region);
   return error.empty() ? ChooseBlur(*plan, loaded->stats, &loaded->max_blur) : error;
 }
 
@@ -133,7 +163,8 @@ std::string WriteReport(const Options& options, const std::string& text) {
   return WriteFile(options.report, Bytes(text.begin(), text.end()));
 }
 
-Error RunOne(const Options& options, const EngineTask& one, double start) {
+Error RunOne(const Options& options, const PictureOptions& how, const EngineTask& one,
+             double start) {
   EngineTask task = one;
   std::vector<sf_block> blocks;
   if (!options.map.empty()) {
@@ -143,9 +174,9 @@ Error RunOne(const Options& options, const EngineTask& one, double start) {
   task.stream = options.stream;
   EngineRun run(task.threads, 1);
   EngineResult result;
-  Error error = run.Start(options.folder, task);
-  if (error.empty()) error = run.Refocus(options.folder, task, &result);
-  if (error.empty()) error = WriteImage(options.out, result.picture);
+  Error error = run.Start(options.input.path, task);
+  if (error.empty()) error = run.Refocus(options.input.path, task, &result);
+  if (error.empty()) error = WriteRefocused(options.output, how, task, result.picture);
   if (error.empty() && !options.map.empty()) {
     const sf_region& region = task.params.region;
     error = WriteImage(options.map, DrawPartition(result.picture, region.x, region.y, blocks));
@@ -154,35 +185,67 @@ Error RunOne(const Options& options, const EngineTask& one, double start) {
   return WriteReport(options, ReportText(task, result, Seconds() - start));
 }
 
-Error RunSweep(const Options& options, const std::vector<double>& foci, EngineTask task,
-               double start) {
+Error RunSweep(const Options& options, const PictureOptions& how, const std::vector<double>& foci,
+               EngineTask task, double start) {
   EngineRun run(task.threads, static_cast<int>(foci.size()));
   SeriesReport report;
-  Error error = run.Start(options.folder, task);
-  if (error.empty()) error = run.Prepare(options.folder, task);
+  StackWriter stack(options.output, how);
+  Error error = WritePair(options.output, how, *task.light_field, foci);
+  if (error.empty()) error = run.Start(options.input.path, task);
+  if (error.empty()) error = run.Prepare(options.input.path, task);
   for (size_t i = 0; i < foci.size() && error.empty(); ++i) {
     task.params.focus = foci[i];
-    const std::string out = Numbered(options.out, i);
+    std::string out;
     EngineResult result;
-    error = run.Refocus(options.folder, task, &result);
-    if (error.empty()) error = WriteImage(out, result.picture);
+    error = run.Refocus(options.input.path, task, &result);
+    if (error.empty()) error = stack.Add(result.picture, &out);
     report.Add(out, task, result);
   }
+  if (error.empty()) error = stack.Finish();
   if (!error.empty() || options.report.empty()) return error;
   return WriteReport(options, report.Text(Seconds() - start));
 }
 
-Error Run(const Options& options) {
+Error RunInput(const Options& options) {
   const double start = Seconds();
   LensPlan plan;
+  PictureOptions how;
   Loaded loaded;
-  Error error = MakePlan(options, &plan);
+  Error error = MakePlan(options, &plan, &how);
   if (error.empty()) error = Load(options, &plan, &loaded);
   if (!error.empty()) return error;
-  const EngineTask task =
-      MakeTask(plan, loaded.light_field, loaded.stats, loaded.max_blur, !options.report.empty());
-  return options.sweep.empty() ? RunOne(options, task, start)
-                               : RunSweep(options, plan.foci, task, start);
+  how.metadata = loaded.capture.metadata;
+  const EngineTask task = MakeTask(plan, loaded.capture.light_field, loaded.stats, loaded.max_blur,
+                                   !options.report.empty());
+  return options.sweep.empty() ? RunOne(options, how, task, start)
+                               : RunSweep(options, how, plan.foci, task, start);
+}
+
+Error RunInputs(const Options& options) {
+  for (const auto& [name, value] :
+       {std::pair<const char*, const std::string&>{"--map", options.map},
+        {"--report", options.report},
+        {"--sweep", options.sweep}}) {
+    if (!value.empty()) return Error::Usage(name, "one input and a file for --output", "several");
+  }
+  int jobs = 0;
+  std::vector<BatchItem> items;
+  Error error = ParseWhole("--jobs", options.jobs, 1, SF_MAX_WORKERS, &jobs);
+  if (error.empty()) error = PlanBatch(options.inputs, options.output.out, &items);
+  if (!error.empty()) return error;
+  return RunBatch(items, jobs, [&options](const BatchItem& item) {
+    Options one = options;
+    one.input.path = item.input;
+    one.output.out = item.output;
+    return RunInput(one);
+  });
+}
+
+Error Run(const Options& options) {
+  if (IsBatch(options.inputs, options.output.out)) return RunInputs(options);
+  Options one = options;
+  one.input.path = options.inputs[0];
+  return RunInput(one);
 }
 
 }  // namespace
@@ -191,20 +254,20 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       app->add_subcommand("refocus", "The picture a lens focused at a disparity would have taken");
-  command->add_option("DIR", options->folder, "Light-field folder")->type_name("DIR")->required();
-  command->add_option("-o,--output", options->out, "Picture to write: .png, .ppm or .jpg")
-      ->type_name("FILE")
-      ->required();
+  AddInputOptions(command, &options->input, &options->inputs);
+  AddOutputOptions(command, &options->output);
+  command
+      ->add_option("--jobs", options->jobs,
+                   "1 to 64: how many of several inputs at a time, each on --threads")
+      ->capture_default_str();
   AddLensOptions(command, &options->lens);
   command->add_option("--sweep", options->sweep,
                       "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
-                      "out_001.png, ...");
+                      "out_001.png, ..., or of -o out.webp one animation");
   command->add_option("--region", options->region,
                       "X,Y,W,H: only that part of the picture, at its share of the time");
   command->add_flag("--stream", options->stream, "Row by row instead of whole pictures");
-  command->add_flag("--repair", options->repair,
-                    "Repair the disparity map first, by the side views or, of one view, its "
-                    "colours: wrong or blurred edges, noise, unknown values");
+  AddMapOptions(command, &options->disparities);
   command
       ->add_option("--map", options->map,
                    "Picture to write: the blocks, red for L = 0, green for 1, blue for 2")

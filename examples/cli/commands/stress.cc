@@ -2,6 +2,7 @@
 // starfocus stress: tries to break the engine.
 #include "tests/stress/stress.h"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "examples/cli/commands.h"
 #include "examples/command_line/options.h"
 #include "platform/file.h"
+#include "platform/progress.h"
 #include "tests/stress/rig.h"
 
 namespace starfocus {
@@ -66,6 +68,20 @@ void Print(const stress::Report& report) {
   std::printf("\n");
 }
 
+stress::Report Try(stress::Options* wanted) {
+  int64_t told = 0;  // milliseconds
+  Progress progress("trying", std::max<int64_t>(1, int64_t(1000 * wanted->seconds)));
+  wanted->done = [&](double seconds) {
+    const auto now = static_cast<int64_t>(1000 * std::min(seconds, wanted->seconds));
+    progress.Step(now - told);
+    told = now;
+  };
+  return stress::RunStress(*wanted, [](const std::string& line) {
+    std::printf("FAILED: %s\n", line.c_str());
+    std::fflush(stdout);
+  });
+}
+
 Error Run(const Options& options) {
   stress::Options wanted;
   const stress::Family* family = Find(options.family);
@@ -80,10 +96,7 @@ Error Run(const Options& options) {
   if (!error.empty()) return error;
   wanted.seed = seed;
   wanted.family = options.family;
-  const stress::Report report = stress::RunStress(wanted, [](const std::string& line) {
-    std::printf("FAILED: %s\n", line.c_str());
-    std::fflush(stdout);
-  });
+  const stress::Report report = Try(&wanted);
   Print(report);
   if (report.failures == 0) return "";
   return Expected("stress", "no failure", std::to_string(report.failures));

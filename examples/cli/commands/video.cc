@@ -9,6 +9,7 @@
 
 #include "examples/cli/commands.h"
 #include "examples/cli/engine/engine_run.h"
+#include "examples/cli/input/input.h"
 #include "examples/cli/refocus/refocus_plan.h"
 #include "examples/cli/refocus/refocus_report.h"
 #include "examples/command_line/outputs.h"
@@ -26,6 +27,7 @@ struct Options {
   std::vector<std::string> folders;
   std::string out, report;
   LensOptions lens;
+  bool fill_invalid = false;
 };
 
 // The frames and what is the same for all of them.
@@ -99,6 +101,14 @@ Error CheckSize(const std::string& folder, const FloatMap& map, const Video& vid
                   std::to_string(map.width) + "x" + std::to_string(map.height));
 }
 
+// Measures the map of a folder, its holes filled if asked to.
+Error Prepare(const Options& options, const std::string& folder, FloatMap* map,
+              sf_disparity_stats* stats) {
+  const std::string path = DisparityPath(folder);
+  const Error error = options.fill_invalid ? FillHoles(path, map) : "";
+  return error.empty() ? PrepareDisparity(path, *map, stats) : error;
+}
+
 // Looks at all frames: their views and disparities.
 Error Scan(const Options& options, LensPlan* plan, Video* video) {
   std::vector<ViewFile> files;
@@ -114,7 +124,7 @@ Error Scan(const Options& options, LensPlan* plan, Video* video) {
     if (!error.empty()) return error;
     if (i == 0) video->width = map.width, video->height = map.height;
     error = CheckSize(folder, map, *video);
-    if (error.empty()) error = PrepareDisparity(folder, options.lens.fill_invalid, &map, &stats);
+    if (error.empty()) error = Prepare(options, folder, &map, &stats);
     if (i == 0 && error.empty()) error = ChooseFocus(map, plan);
     video->stats.min = i == 0 ? stats.min : std::min(video->stats.min, stats.min);
     video->stats.max = i == 0 ? stats.max : std::max(video->stats.max, stats.max);
@@ -128,7 +138,7 @@ Error LoadFrame(const Options& options, const Video& video, size_t index, LightF
   Error error = LoadLightField(folder, video.views, light_field);
   if (error.empty()) error = CheckSize(folder, light_field->disparity, video);
   if (!error.empty()) return error;
-  return PrepareDisparity(folder, options.lens.fill_invalid, &light_field->disparity, &stats);
+  return Prepare(options, folder, &light_field->disparity, &stats);
 }
 
 Error RefocusFrames(const Options& options, const LensPlan& plan, const Video& video,
@@ -162,6 +172,7 @@ Error Run(const Options& options) {
   Video video;
   Error error = PlanFocus(options.lens, &plan);
   if (error.empty()) error = PlanLens(options.lens, &plan);
+  if (error.empty()) error = PlanAperture(options.lens, {}, &plan);
   if (error.empty()) error = FindFrames(options, &video);
   if (error.empty()) error = CheckOutputs(options, video);
   if (error.empty()) error = Scan(options, &plan, &video);
@@ -192,6 +203,8 @@ void AddVideoCommand(CLI::App* app, Action* action) {
       ->type_name("DIR")
       ->required();
   AddLensOptions(command, &options->lens);
+  command->add_flag("--fill-invalid", options->fill_invalid,
+                    "Replace non-finite disparities by their nearest valid neighbour");
   command
       ->add_option("--report", options->report,
                    "JSON file for figures of every frame, reused blocks among them")

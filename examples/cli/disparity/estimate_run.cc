@@ -158,18 +158,18 @@ Error EstimateDisparity(const std::string& where, const LightField& light_field,
   return error;
 }
 
-Error RepairDisparity(const std::string& folder, int threads, LightField* light_field,
+Error RepairDisparity(const std::string& where, int threads, LightField* light_field,
                       Image* confidence) {
   const FloatMap& given = light_field->disparity;
   sf_disparity_stats stats = {};
   const sf_status status = sf_measure_disparity(
       given.values.data(), sizeof(float) * size_t(given.width), given.width, given.height, &stats);
   if (status != SF_OK || stats.invalid == int64_t{given.width} * given.height) {
-    return Expected(DisparityPath(folder), "a disparity map with a value", "none");
+    return Expected(where, "a disparity map with a value", "none");
   }
   const auto most = static_cast<float>(SF_MAX_DISPARITY);
   if (stats.min < -most || stats.max > most) {
-    return Expected(DisparityPath(folder), "disparities within +-" + Short(most),
+    return Expected(where, "disparities within +-" + Short(most),
                     Short(stats.min) + " to " + Short(stats.max));
   }
   // What blurs a map takes its peaks off.
@@ -177,39 +177,11 @@ Error RepairDisparity(const std::string& folder, int threads, LightField* light_
   Maker maker(threads, "repairing disparities");
   FloatMap map;
   std::vector<uint8_t> sure;
-  const Error error = MakeMap(folder, StarOf(*light_field), &given, range, &maker, &map,
+  const Error error = MakeMap(where, StarOf(*light_field), &given, range, &maker, &map,
                               confidence == nullptr ? nullptr : &sure);
   if (!error.empty()) return error;
   if (confidence != nullptr) Show(sure, light_field->views[0], confidence);
   light_field->disparity = std::move(map);
-  return "";
-}
-
-Error LoadOrEstimate(const std::string& folder, const Positions& views, int threads,
-                     LightField* light_field) {
-  if (HasDisparity(folder)) return LoadLightField(folder, views, light_field);
-  LightField result;
-  Error error = LoadCaptured(folder, views, &result);
-  if (!error.empty()) return error;
-  const int star = StarWithin(result.positions);
-  if (star == 1) {
-    return Expected(DisparityPath(folder),
-                    result.views.size() == 1
-                        ? "a disparity map, as one view alone shows none"
-                        : "a disparity map: it is estimated from 5, 9 or 17 views of a star only",
-                    "no file");
-  }
-  DisparityRange range;
-  error = FindRange(folder, result, threads, &range);
-  if (!error.empty()) return error;
-  std::fprintf(stderr, "%s: no map: disparities from %s to %s are estimated from %d views\n",
-               DisparityPath(folder).c_str(), Short(range.min).c_str(), Short(range.max).c_str(),
-               star);
-  DisparityEstimate estimate;
-  error = EstimateDisparity(folder, result, range, threads, &estimate);
-  if (!error.empty()) return error;
-  result.disparity = std::move(estimate.map);
-  *light_field = std::move(result);
   return "";
 }
 

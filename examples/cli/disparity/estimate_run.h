@@ -38,14 +38,9 @@ Error EstimateDisparity(const std::string& where, const LightField& light_field,
                         const DisparityRange& range, int threads, DisparityEstimate* estimate);
 
 // Repairs the map of a light field by the star among its views, which may be the centre alone.
-// `confidence` may be null. Errors are about the folder.
-Error RepairDisparity(const std::string& folder, int threads, LightField* light_field,
+// `confidence` may be null. Errors are about `where`.
+Error RepairDisparity(const std::string& where, int threads, LightField* light_field,
                       Image* confidence);
-
-// As LoadLightField; a map that the folder doesn't have is estimated from the views that are
-// loaded, and a line on stderr says so.
-Error LoadOrEstimate(const std::string& folder, const Positions& views, int threads,
-                     LightField* light_field);
 
 }  // namespace starfocus
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/timing_file.h"
 #include "examples/cli/refocus/refocus_report.h"
 #include "examples/command_line/options.h"
@@ -40,9 +39,9 @@ Error ParseLargestBlock(const std::string& text, int* side) {
   return Error::Usage("--largest-block", "32, 64, 128 or 256", "'" + text + "'");
 }
 
-// --f-stop and --widest.
-Error ParseFStop(const LensOptions& options, double* aperture) {
-  double f_stop = 0, widest = 1;
+// --f-stop and --widest; `known` is the input's widest.
+Error ParseFStop(const LensOptions& options, double known, double* aperture) {
+  double f_stop = 0, widest = known > 0 ? known : 1;
   Error error;
   if (!options.widest.empty()) error = ParseNumber("--widest", options.widest, &widest);
   if (error.empty() && widest <= 0) {
@@ -52,23 +51,6 @@ Error ParseFStop(const LensOptions& options, double* aperture) {
   if (!error.empty() || sf_aperture_of_f_stop(f_stop, widest, aperture) == SF_OK) return error;
   return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(widest),
                       "'" + options.f_stop + "'");
-}
-
-// --aperture or --f-stop, and what --strength leaves of it.
-Error PlanAperture(const LensOptions& options, double* aperture) {
-  if (!options.aperture.empty() && !options.f_stop.empty()) {
-    return Error::Usage("--f-stop", "either --aperture U or --f-stop N", "both");
-  }
-  if (!options.widest.empty() && options.f_stop.empty()) {
-    return Error::Usage("--widest", "--f-stop N beside it", "none");
-  }
-  Error error;
-  if (!options.aperture.empty()) error = ParseAperture("--aperture", options.aperture, aperture);
-  if (!options.f_stop.empty()) error = ParseFStop(options, aperture);
-  double strength = 0;
-  if (error.empty()) error = ParsePercentage("--strength", options.strength, &strength);
-  *aperture *= strength / 100;
-  return error;
 }
 
 // Sets what block mode adds to the plan.
@@ -82,19 +64,6 @@ Error PlanBlocks(const LensOptions& options, LensPlan* plan) {
   if (!error.empty()) return error;
   if (!options.timing.empty()) return ReadTiming(options.timing, &plan->timing);
   plan->timing = plan->config.timing;
-  return "";
-}
-
-// A view that the folder lacks is the option's fault.
-Error CheckViews(const std::string& folder, const Positions& views) {
-  std::vector<ViewFile> files, chosen;
-  if (!FindViewFiles(folder, &files).empty()) return "";
-  if (ChooseViewFiles(folder, views, &chosen).empty()) return "";
-  for (const sf_position& view : views) {
-    if (ChooseViewFiles(folder, {view}, &chosen).empty()) continue;
-    return Error::Usage("--views", "some of the " + std::to_string(files.size()) + " in " + folder,
-                        std::to_string(views.size()) + " with " + ViewName(view));
-  }
   return "";
 }
 
@@ -115,13 +84,15 @@ void AddOpticsOptions(CLI::App* command, LensOptions* options) {
   command->add_option("--focus-at", options->focus_at,
                       "X,Y: the disparity of what is at that pixel, the median of its surface "
                       "there");
-  command->add_option("--aperture", options->aperture, "Radius, above 0 up to 1; default: 1");
+  command->add_option("--aperture", options->aperture,
+                      "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8");
   command->add_option("--f-stop", options->f_stop,
                       "The same as an f-stop, from the widest on: radius --widest / N");
   command->add_option(
       "--widest", options->widest,
       "F-stop of radius 1: focal length over twice the distance of view (1, 0) from "
-      "the centre; default: 1, for f-stops relative to that radius");
+      "the centre; default: what the input knows of itself, else 1, for f-stops relative to that "
+      "radius");
   command
       ->add_option("--strength", options->strength,
                    "0 to 100 percent of that radius; 0: the centre view to the byte")
@@ -153,8 +124,6 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
       "--views", options->views,
       "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder");
   command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
-  command->add_flag("--fill-invalid", options->fill_invalid,
-                    "Replace non-finite disparities by their nearest valid neighbour");
   command->add_option("--largest-block", options->largest_block,
                       "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128");
   command
@@ -182,8 +151,7 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
 
 Error PlanLens(const LensOptions& options, LensPlan* plan) {
   sf_config_init(&plan->config);
-  Error error = PlanAperture(options, &plan->aperture);
-  if (error.empty()) error = ParseShape(options.shape, &plan->config);
+  Error error = ParseShape(options.shape, &plan->config);
   if (error.empty()) {
     error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
   }
@@ -200,6 +168,25 @@ Error PlanLens(const LensOptions& options, LensPlan* plan) {
   return error.empty() ? PlanBlocks(options, plan) : error;
 }
 
+Error PlanAperture(const LensOptions& options, const Capture& capture, LensPlan* plan) {
+  if (!options.aperture.empty() && !options.f_stop.empty()) {
+    return Error::Usage("--f-stop", "either --aperture U or --f-stop N", "both");
+  }
+  if (!options.widest.empty() && options.f_stop.empty()) {
+    return Error::Usage("--widest", "--f-stop N beside it", "none");
+  }
+  Error error;
+  if (capture.f_stop > 0) plan->aperture = capture.widest / capture.f_stop;
+  if (!options.aperture.empty()) {
+    error = ParseAperture("--aperture", options.aperture, &plan->aperture);
+  }
+  if (!options.f_stop.empty()) error = ParseFStop(options, capture.widest, &plan->aperture);
+  double strength = 0;
+  if (error.empty()) error = ParsePercentage("--strength", options.strength, &strength);
+  plan->aperture *= strength / 100;
+  return error;
+}
+
 Error PlanFocus(const LensOptions& options, LensPlan* plan) {
   if (options.focus.empty() == options.focus_at.empty()) {
     return Error::Usage("--focus", "either --focus D or --focus-at X,Y",
@@ -214,39 +201,25 @@ Error PlanFocus(const LensOptions& options, LensPlan* plan) {
   return ParseNumber("--focus", options.focus, &plan->foci[0]);
 }
 
-Error CheckRule(const std::string& folder, const LensPlan& plan, const Positions& views) {
+Error CheckRule(const std::string& where, const LensPlan& plan, const Positions& views) {
   if (plan.rule != SF_RULE_PAPER || plan.mode == SF_MODE_BLUR || AreStar(views)) {
     return "";
   }
   return Error::Usage("--rule", "subaperture, as paper needs a star of 1, 5, 9 or 17 views",
-                      "paper for the " + std::to_string(views.size()) + " views of " + folder);
+                      "paper for the " + std::to_string(views.size()) + " views of " + where);
 }
 
-Error LoadViews(const std::string& folder, const LensPlan& plan, LightField* light_field) {
-  const Error error = CheckViews(folder, plan.views);
-  if (!error.empty()) return error;
-  const Error loaded = LoadOrEstimate(folder, plan.views, plan.threads, light_field);
-  return loaded.empty() ? CheckRule(folder, plan, light_field->positions) : loaded;
-}
-
-std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map,
+std::string PrepareDisparity(const std::string& where, const FloatMap& map,
                              sf_disparity_stats* stats) {
-  const std::string path = DisparityPath(folder);
-  const size_t stride = sizeof(float) * size_t(map->width);
-  sf_status status = SF_OK;
-  if (fill) {
-    status = sf_fill_disparity(map->values.data(), stride, map->width, map->height);
-  }
-  if (status == SF_OK) {
-    status = sf_measure_disparity(map->values.data(), stride, map->width, map->height, stats);
-  }
-  if (status != SF_OK) return Expected(path, "a disparity map", sf_status_string(status));
+  const sf_status status = sf_measure_disparity(
+      map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, stats);
+  if (status != SF_OK) return Expected(where, "a disparity map", sf_status_string(status));
   if (stats->invalid != 0) {
-    return Expected(path, "finite disparities", FirstInvalid(*map, stats->invalid));
+    return Expected(where, "finite disparities", FirstInvalid(map, stats->invalid));
   }
   const double largest = std::max(std::fabs(double(stats->min)), std::fabs(double(stats->max)));
   if (largest <= SF_MAX_DISPARITY) return "";
-  return Expected(path, "disparities within +-" + Short(SF_MAX_DISPARITY),
+  return Expected(where, "disparities within +-" + Short(SF_MAX_DISPARITY),
                   Short(stats->min) + " to " + Short(stats->max));
 }
 

@@ -10,7 +10,7 @@
 
 #include "examples/cli/engine/engine_run.h"
 #include "examples/command_line/shape.h"
-#include "platform/light_field.h"
+#include "platform/readers/capture.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -22,7 +22,6 @@ struct LensOptions {
   std::string largest_block, max_layer = "2", deblocking = "35", n_scale = "1", timing;
   std::string transfer = "srgb", highlights = "1";
   ShapeOptions shape;
-  bool fill_invalid = false;
 };
 
 void AddLensOptions(CLI::App* command, LensOptions* options);
@@ -46,19 +45,18 @@ struct LensPlan {
   sf_config config = {};  // the shape of the aperture, and defaults
 };
 
-// All that can be refused before a light field is read, but for the focus.
+// All that can be refused before a light field is read, but for the aperture and the focus.
 Error PlanLens(const LensOptions& options, LensPlan* plan);
+// --aperture or --f-stop, or what the input knows: its widest f-stop, or none.
+Error PlanAperture(const LensOptions& options, const Capture& capture, LensPlan* plan);
 // --focus or --focus-at.
 Error PlanFocus(const LensOptions& options, LensPlan* plan);
 
-// Loads plan.views views of a folder and its map, or estimates one.
-Error LoadViews(const std::string& folder, const LensPlan& plan, LightField* light_field);
-
 // Checks that the rule is one for these views: the paper's needs a star.
-Error CheckRule(const std::string& folder, const LensPlan& plan, const Positions& views);
+Error CheckRule(const std::string& where, const LensPlan& plan, const Positions& views);
 
-// Fills holes of the folder's map if asked to, and measures it.
-std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map,
+// Measures a map, which is to have no holes. Errors are about `where`.
+std::string PrepareDisparity(const std::string& where, const FloatMap& map,
                              sf_disparity_stats* stats);
 
 // The disparity of what is at the chosen pixel, if the focus depends on it.

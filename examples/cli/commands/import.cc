@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus import: a folder of our own from what others have.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "examples/cli/commands.h"
+#include "examples/cli/input/input.h"
+#include "examples/command_line/options.h"
+#include "platform/light_field.h"
+#include "platform/runner.h"
+
+namespace starfocus {
+namespace {
+
+struct Options {
+  InputOptions input;
+  MapOptions map;
+  std::string folder, views, threads = "1";
+};
+
+// A folder that has a light field, or a part of one, would become a mixture.
+Error CheckFolder(const std::string& folder) {
+  const std::vector<std::string> files = LightFieldFiles(folder);
+  return files.empty() ? "" : Expected(folder, "a folder without a light field", files[0]);
+}
+
+void Tell(const Options& options, const Capture& capture) {
+  const LightField& light_field = capture.light_field;
+  std::printf("%s: %s\n", options.input.path.c_str(), capture.format.c_str());
+  for (const auto& fact : capture.facts) {
+    std::printf("  %s: %s\n", fact.first.c_str(), fact.second.c_str());
+  }
+  std::printf("%s: %zu view%s of %dx%d, %s\n", options.folder.c_str(), light_field.views.size(),
+              light_field.views.size() == 1 ? "" : "s", light_field.views[0].width,
+              light_field.views[0].height,
+              light_field.disparity.values.empty() ? "no map: starfocus disparity estimates one"
+                                                   : "with a map");
+  if (capture.widest > 0) {
+    std::printf("f-stops: refocus it with --widest %s\n", Short(capture.widest).c_str());
+  }
+}
+
+Error Run(const Options& options) {
+  int threads = 1;
+  Positions views;
+  Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &threads);
+  if (error.empty() && !options.views.empty()) {
+    error = ParseViews("--views", options.views, &views);
+  }
+  if (error.empty()) error = CheckFolder(options.folder);
+  Capture capture;
+  if (error.empty()) error = OpenInput(options.input, &capture);
+  if (error.empty()) error = LoadCapture(views, &capture);
+  if (error.empty()) error = CareForMap(options.map, threads, &capture);
+  if (!error.empty()) return error;
+  ThreadRunner runner(threads);
+  error = SaveLightField(options.folder, capture.light_field, &runner);
+  if (error.empty()) Tell(options, capture);
+  return error;
+}
+
+}  // namespace
+
+void AddImportCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "import", "Write a light-field folder from a depth photo or a folder as others have it");
+  AddInputOptions(command, &options->input);
+  command->add_option("DIR", options->folder, "Folder to write")->type_name("DIR")->required();
+  AddMapOptions(command, &options->map);
+  command->add_option("--views", options->views,
+                      "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all");
+  command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
+  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+}
+
+}  // namespace starfocus

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus view: a page that shows a light field and what becomes of it.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "examples/cli/commands.h"
+#include "examples/cli/compare/difference.h"
+#include "examples/cli/disparity/map_figures.h"
+#include "examples/cli/input/input.h"
+#include "examples/cli/refocus/partition_map.h"
+#include "examples/cli/refocus/refocus_plan.h"
+#include "examples/cli/sheet/shrink.h"
+#include "examples/cli/view/page.h"
+#include "examples/cli/view/strip.h"
+#include "examples/command_line/options.h"
+#include "examples/command_line/outputs.h"
+#include "platform/image_io.h"
+#include "starfocus/pool.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int kFoci = 6, kBins = 32;
+constexpr int kLarge = 1200, kSmall = 380;  // widths of pictures
+constexpr int kWhite = 32;                  // difference that is white in an error map
+
+struct Options {
+  InputOptions input;
+  std::string out, threads;
+};
+
+// What is shown, in the order in which it is made.
+struct Contents {
+  std::vector<LensAt> lenses;  // of the strip, then of the truths
+  std::vector<TruthFile> truths;
+  std::vector<PageFigure> strip, blocks, errors;
+};
+
+std::string Number(double value, int decimals) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
+  return text;
+}
+
+Error ShowTruth(const TruthFile& truth, const Image& picture, Contents* contents) {
+  Image real;
+  Error error = ReadImage(truth.path, &real);
+  if (!error.empty()) return error;
+  if (real.width != picture.width || real.height != picture.height) return "";  // of another one
+  const Difference difference = MeasureDifference(picture, real);
+  const std::string lens =
+      "focus " + Short(truth.lens.focus) + ", aperture " + Short(truth.lens.aperture);
+  const std::string psnr =
+      std::isinf(difference.psnr) ? "equal" : Number(difference.psnr, 2) + " dB";
+  contents->errors.push_back(
+      {"The truth of a real lens, " + lens, "Truth, " + lens, Shrink(real, kLarge)});
+  contents->errors.push_back({"Error map: black where the refocused picture is true, " + lens,
+                              "Error, " + lens + ": " + psnr + ", largest " +
+                                  std::to_string(difference.largest) + "; white is " +
+                                  std::to_string(kWhite) + " or more of 255",
+                              Shrink(DrawDifference(picture, real, kWhite), kLarge)});
+  return "";
+}
+
+Error ShowPicture(size_t index, const Image& picture, const std::vector<sf_block>& blocks,
+                  Contents* contents) {
+  const size_t foci = contents->lenses.size() - contents->truths.size();
+  if (index >= foci) return ShowTruth(contents->truths[index - foci], picture, contents);
+  const std::string focus = Number(contents->lenses[index].focus, 2);
+  contents->strip.push_back({"The photograph focused at disparity " + focus,
+                             "Focus " + focus + (index == 0 ? ", far" : "") +
+                                 (index > 0 && index + 1 == foci ? ", near" : ""),
+                             Shrink(picture, kSmall)});
+  if (index + 1 != foci) return "";  // where blur is largest
+  contents->blocks.push_back(
+      {"The blocks of the picture focused at disparity " + focus + ", coloured by resolution",
+       "Blocks at focus " + focus + ": red at full resolution, green at half, blue at a quarter",
+       Shrink(DrawPartition(picture, 0, 0, blocks), kLarge)});
+  return "";
+}
+
+Error WritePage(const Options& options, const Capture& capture, const sf_disparity_stats& stats,
+                const Contents& contents) {
+  const LightField& light_field = capture.light_field;
+  const std::string size =
+      std::to_string(light_field.width()) + " × " + std::to_string(light_field.height());
+  Page page(std::filesystem::path(options.input.path + "/").parent_path().filename().string(),
+            capture.metadata.icc);
+  page.AddTable({{"Format", capture.format},
+                 {"Size", size + " pixels"},
+                 {"Views", std::to_string(light_field.views.size())},
+                 {"Disparity", Number(stats.min, 2) + " to " + Number(stats.max, 2) +
+                                   " pixels; larger is nearer"},
+                 {"Unknown disparities", std::to_string(stats.invalid)}});
+  const std::string& out = options.out;
+  std::string error = page.AddFigures(
+      out, "Photograph and disparity map",
+      {{"The photograph, sharp everywhere", "The centre view", light_field.views[0]},
+       {"The disparity map: bright is near, dark is far", "Disparity: the nearest is white",
+        DrawDisparity(light_field.disparity)}},
+      kLarge / 2);
+  if (error.empty()) error = page.AddFigures(out, "Refocused", contents.strip, kSmall);
+  page.AddHistogram("Histogram of disparity", Histogram(light_field.disparity, stats, kBins),
+                    stats);
+  if (error.empty()) error = page.AddFigures(out, "Blocks", contents.blocks, kLarge);
+  if (error.empty() && !contents.errors.empty()) {
+    error = page.AddFigures(out, "Against the truth", contents.errors, kLarge / 2);
+  }
+  const std::string html = page.Html();
+  return error.empty() ? WriteFile(out, Bytes(html.begin(), html.end())) : error;
+}
+
+Error Run(const Options& options) {
+  int threads = sf_pool_cores();
+  Error error;
+  if (!options.threads.empty()) {
+    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &threads);
+  }
+  if (error.empty()) error = CheckOutputPath(options.out);
+  if (error.empty()) {
+    error = CheckApart({{"--output", options.out}},
+                       {{options.input.path}, {options.input.path, options.input.depth}});
+  }
+  Capture capture;
+  if (error.empty()) error = OpenInput(options.input, &capture);
+  if (error.empty()) error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(capture)});
+  if (error.empty()) error = LoadInput({}, threads, &capture);
+  if (!error.empty()) return error;
+  sf_disparity_stats stats = {}, known = {};
+  const LightField& light_field = capture.light_field;
+  const FloatMap& map = light_field.disparity;
+  sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height,
+                       &known);
+  error = CareForMap({0, known.invalid > 0}, threads, &capture);
+  if (error.empty()) error = PrepareDisparity(MapName(capture), map, &stats);
+  if (!error.empty()) return error;
+  stats.invalid = known.invalid;  // of the map as it is; its holes are filled
+  const double aperture = capture.f_stop > 0 ? capture.widest / capture.f_stop : 1;
+  Contents contents;
+  for (const double focus : StripFoci(map, kFoci)) contents.lenses.push_back({focus, aperture});
+  contents.truths = FindTruths(options.input.path);
+  for (const TruthFile& truth : contents.truths) contents.lenses.push_back(truth.lens);
+  error = RefocusEach(options.input.path, light_field, stats, TransferOf(options.input.path),
+                      threads, contents.lenses,
+                      [&](size_t i, const Image& picture, const std::vector<sf_block>& blocks) {
+                        return ShowPicture(i, picture, blocks, &contents);
+                      });
+  return error.empty() ? WritePage(options, capture, stats, contents) : error;
+}
+
+}  // namespace
+
+void AddViewCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand("view",
+                                          "A web page of a light field or depth photo: photo, map, "
+                                          "foci, blocks, errors where truth is there");
+  AddInputOptions(command, &options->input);
+  command->add_option("-o,--output", options->out, "HTML file to write; -: standard output")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--threads", options->threads, "1 to 64; default: all of the machine");
+  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+}
+
+}  // namespace starfocus

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What commands refocus or look at: a folder of views or a depth photo, with its map as good as it
+// can be had.
+#ifndef STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_
+#define STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "examples/command_line/error.h"
+#include "platform/readers/capture.h"
+
+namespace starfocus {
+
+// As typed.
+struct InputOptions {
+  std::string path, depth, near;
+};
+
+// What is typed of a map's care: nothing is what the format needs.
+struct MapOptions {
+  bool repair = false, no_repair = false, fill = false;
+};
+
+// `several`: paths of which each is an input, in place of the one of `options`; or null.
+void AddInputOptions(CLI::App* command, InputOptions* options,
+                     std::vector<std::string>* several = nullptr);
+void AddMapOptions(CLI::App* command, MapOptions* options);
+
+// Finds out what it is (OpenCapture); what was guessed goes to stderr.
+Error OpenInput(const InputOptions& options, Capture* capture);
+
+// Reads the views wanted, or all if none are, and the map; one that is not there is estimated from
+// these views, and a line on stderr says so.
+Error LoadInput(const Positions& views, int threads, Capture* capture);
+
+// Repairs the map or fills its holes, as asked for or as its format needs; one that was estimated
+// stays.
+Error CareForMap(const MapOptions& options, int threads, Capture* capture);
+
+// Replaces what a map does not know by its nearest neighbour. Errors are about `where`.
+Error FillHoles(const std::string& where, FloatMap* map);
+
+// What errors about the map name.
+std::string MapName(const Capture& capture);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/cli/refocus/batch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <new>
+#include <system_error>
+#include <thread>
+
+#include "examples/command_line/outputs.h"
+#include "platform/file.h"
+#include "platform/progress.h"
+#include "platform/readers/capture.h"
+#include "platform/standard_stream.h"
+#include "platform/writers/picture.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsLightField(const fs::path& folder) {
+  Capture capture;
+  return OpenCapture(folder.string(), {}, &capture).empty();
+}
+
+// A depth picture stands beside the photograph that it is of.
+bool IsPhoto(const fs::path& path) {
+  const std::string extension = LowerExtension(path.string()), stem = path.stem().string();
+  constexpr char kDepth[] = "-depth";
+  const size_t length = sizeof(kDepth) - 1;
+  if (stem.size() >= length && stem.compare(stem.size() - length, length, kDepth) == 0)
+    return false;
+  return extension == ".jpg" || extension == ".jpeg" || extension == ".heic" ||
+         extension == ".heif";
+}
+
+// What stands in place of an input; nothing of a folder that has neither.
+std::vector<std::string> Expand(const std::string& input) {
+  std::error_code ignored;
+  if (!fs::is_directory(input, ignored) || IsLightField(input)) return {input};
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(input, ignored)) {
+    const bool folder = entry.is_directory(ignored);
+    if (folder ? IsLightField(entry.path()) : IsPhoto(entry.path())) {
+      found.push_back(entry.path().string());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::string OutputOf(const std::string& input, const std::string& folder) {
+  std::error_code ignored;
+  fs::path path = fs::absolute(input, ignored).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();  // "folder/"
+  if (fs::is_directory(input, ignored)) {
+    return (fs::path(folder) / (path.filename().string() + ".png")).string();
+  }
+  const bool kept = IsPictureExtension(LowerExtension(input));
+  return (fs::path(folder) / (path.stem().string() + (kept ? path.extension().string() : ".jpg")))
+      .string();
+}
+
+// What the threads of a batch share.
+struct Work {
+  const std::vector<BatchItem>& items;
+  const std::function<Error(const BatchItem&)>& run;
+  Progress progress;
+  std::atomic<size_t> next;
+  std::mutex mutex;  // of what follows, and of stderr
+  std::vector<std::string> failed;
+
+  Error RunOne(const BatchItem& item) const {
+    try {
+      return run(item);
+    } catch (const std::bad_alloc&) {
+      return OutOfMemory(item.input, "finish");
+    } catch (const std::exception& exception) {
+      return Error::Internal(item.input, "no internal error", exception.what());
+    }
+  }
+
+  void Go() {
+    for (size_t i = next++; i < items.size(); i = next++) {
+      const Error error = RunOne(items[i]);
+      progress.Step();
+      if (error.empty()) continue;
+      // An error about an option does not say which input it is of.
+      const bool named = error.line().find(items[i].input) != std::string::npos;
+      const std::lock_guard<std::mutex> lock(mutex);
+      progress.Tell("starfocus: " + (named ? "" : items[i].input + ": ") + error.line());
+      failed.push_back(items[i].input);
+    }
+  }
+};
+
+}  // namespace
+
+bool IsBatch(const std::vector<std::string>& inputs, const std::string& out) {
+  std::error_code ignored;
+  return inputs.size() > 1 || fs::is_directory(out, ignored) || (!out.empty() && out.back() == '/');
+}
+
+Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folder,
+                std::vector<BatchItem>* items) {
+  if (IsPictureExtension(FormatExtension(folder))) {
+    return Error::Usage("--output", "a folder for the pictures of several inputs", folder);
+  }
+  std::vector<Output> outputs;
+  Inputs read;
+  for (const std::string& input : inputs) {
+    const std::vector<std::string> parts = Expand(input);
+    if (parts.empty())
+      return Expected(input, "a light field, or photographs or such in it", "none");
+    for (const std::string& part : parts) {
+      std::error_code ignored;
+      items->push_back({part, OutputOf(part, folder)});
+      outputs.push_back({"--output", items->back().output});
+      (fs::is_directory(part, ignored) ? read.folders : read.files).push_back(part);
+    }
+  }
+  const Error error = CheckApart(outputs, read);
+  if (!error.empty()) return error;
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (!failure && fs::is_directory(folder, failure)) return "";
+  return Expected(folder, "a folder for the pictures of several inputs",
+                  failure ? failure.message() : "a file");
+}
+
+Error RunBatch(const std::vector<BatchItem>& items, int jobs,
+               const std::function<Error(const BatchItem&)>& run) {
+  Work work = {items,
+               run,
+               {"refocusing " + std::to_string(items.size()) + " inputs",
+                static_cast<int64_t>(items.size())},
+               {},
+               {},
+               {}};
+  std::vector<std::thread> threads;
+  try {
+    for (int i = 1; i < jobs; ++i) threads.emplace_back([&work] { work.Go(); });
+  } catch (const std::system_error&) {
+    // Those that there are do all of it.
+  }
+  work.Go();
+  for (std::thread& thread : threads) thread.join();
+  if (work.failed.empty()) return "";
+  std::sort(work.failed.begin(), work.failed.end());
+  std::string names;
+  for (const std::string& name : work.failed) names += (names.empty() ? "" : ", ") + name;
+  return Expected("refocus", std::to_string(items.size()) + " pictures",
+                  std::to_string(items.size() - work.failed.size()) + " (failed: " + names + ")");
+}
+
+}  // namespace starfocus

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/cli/refocus/refocus_output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+
+#include "examples/command_line/options.h"
+#include "platform/image_io.h"
+#include "platform/standard_stream.h"
+#include "platform/writers/depth_photo.h"
+#include "platform/writers/png.h"
+
+namespace starfocus {
+namespace {
+
+constexpr char kAnimation[] = ".webp";
+
+// The picture of a sweep: "out.png" becomes "out_007.png".
+std::string Numbered(const std::string& path, size_t index) {
+  const std::filesystem::path name(path);
+  char number[16];
+  std::snprintf(number, sizeof(number), "_%03d", static_cast<int>(index));
+  return (name.parent_path() / (name.stem().string() + number + name.extension().string()))
+      .string();
+}
+
+bool IsJpeg(const std::string& path) {
+  const std::string extension = FormatExtension(path);
+  return extension == ".jpg" || extension == ".jpeg";
+}
+
+// The number of the focus that is nearest to a disparity.
+uint16_t Nearest(const std::vector<double>& foci, float disparity) {
+  const auto farther = [disparity](double a, double b) {
+    return std::fabs(a - double(disparity)) < std::fabs(b - double(disparity));
+  };
+  const auto nearest = std::min_element(foci.begin(), foci.end(), farther);
+  return static_cast<uint16_t>(nearest - foci.begin());
+}
+
+}  // namespace
+
+void AddOutputOptions(CLI::App* command, OutputOptions* options) {
+  command
+      ->add_option("-o,--output", options->out,
+                   "Picture to write: .png, .ppm, .jpg or .webp; - or jpg:-, ...: standard output; "
+                   "a folder for the pictures of several inputs")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--quality", options->quality, "1 to 100, of JPEG and WebP")
+      ->capture_default_str();
+  command->add_flag("--depth-photo", options->depth_photo,
+                    "Put the sharp picture and the disparity map into the JPEG file, as GDepth, so "
+                    "that others can refocus it again");
+  command
+      ->add_option("--all-in-focus", options->all_in_focus,
+                   "Picture to write beside a sweep: sharp everywhere")
+      ->type_name("FILE");
+  command
+      ->add_option("--focus-index", options->focus_index,
+                   "PNG file to write beside a sweep: the number of the picture, from 0 on, in "
+                   "which a pixel is in focus")
+      ->type_name("FILE");
+}
+
+std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures) {
+  std::vector<Output> outputs;
+  if (pictures == 0 || FormatExtension(options.out) == kAnimation) {
+    outputs.push_back({"--output", options.out});
+  } else {
+    for (size_t i = 0; i < pictures; ++i) {
+      outputs.push_back({"--output", Numbered(options.out, i)});
+    }
+  }
+  if (!options.all_in_focus.empty()) outputs.push_back({"--all-in-focus", options.all_in_focus});
+  if (!options.focus_index.empty()) outputs.push_back({"--focus-index", options.focus_index});
+  return outputs;
+}
+
+Error PlanOutput(const OutputOptions& options, bool sweep, bool region, int* quality) {
+  const Error error = ParseWhole("--quality", options.quality, 1, 100, quality);
+  if (!error.empty()) return error;
+  if (sweep && IsStandardStream(options.out) && FormatExtension(options.out) != kAnimation) {
+    return Error::Usage("--sweep", "a file, or webp:- for one animation on standard output",
+                        options.out);
+  }
+  if (!sweep && (!options.all_in_focus.empty() || !options.focus_index.empty())) {
+    return Error::Usage(options.all_in_focus.empty() ? "--focus-index" : "--all-in-focus",
+                        "--sweep beside it", "none");
+  }
+  if (!options.focus_index.empty() && FormatExtension(options.focus_index) != ".png") {
+    return Error::Usage("--focus-index", "a name that ends in .png", options.focus_index);
+  }
+  if (!options.depth_photo || (IsJpeg(options.out) && !sweep && !region)) return "";
+  return Error::Usage("--depth-photo", "a whole picture as .jpg",
+                      sweep    ? "--sweep"
+                      : region ? "--region"
+                               : options.out);
+}
+
+Error WriteRefocused(const OutputOptions& options, const PictureOptions& how,
+                     const EngineTask& task, const Image& picture) {
+  if (!options.depth_photo) return WriteImage(options.out, picture, how);
+  DepthPhoto photo = {};
+  photo.before = &task.light_field->views[0];
+  photo.disparity = &task.light_field->disparity;
+  photo.focus = task.params.focus;
+  photo.aperture = task.params.aperture;
+  Bytes bytes;
+  const std::string error =
+      EncodeDepthPhoto(options.out, picture, photo, how.quality, how.metadata, &bytes);
+  return error.empty() ? WriteFile(options.out, bytes) : error;
+}
+
+Error WritePair(const OutputOptions& options, const PictureOptions& how,
+                const LightField& light_field, const std::vector<double>& foci) {
+  if (!options.focus_index.empty()) {
+    GreyImage index = {light_field.width(), light_field.height(), {}};
+    const std::vector<float>& map = light_field.disparity.values;
+    index.levels.reserve(map.size());
+    std::transform(map.begin(), map.end(), std::back_inserter(index.levels),
+                   [&](float disparity) { return Nearest(foci, disparity); });
+    Bytes bytes;
+    std::string error = EncodeGreyPng(options.focus_index, index, &bytes);
+    if (error.empty()) error = WriteFile(options.focus_index, bytes);
+    if (!error.empty()) return error;
+  }
+  if (options.all_in_focus.empty()) return "";
+  return WriteImage(options.all_in_focus, light_field.views[0], how);
+}
+
+StackWriter::StackWriter(const OutputOptions& options, const PictureOptions& how)
+    : out_(options.out), how_(how) {
+  if (FormatExtension(out_) == kAnimation) {
+    animation_ = std::make_unique<WebpWriter>(out_, how.quality);
+  }
+}
+
+Error StackWriter::Add(const Image& picture, std::string* name) {
+  *name = animation_ ? out_ : Numbered(out_, pictures_);
+  ++pictures_;
+  return animation_ ? animation_->Add(picture) : WriteImage(*name, picture, how_);
+}
+
+Error StackWriter::Finish() {
+  if (!animation_) return "";
+  Bytes bytes;
+  const std::string error = animation_->Finish(how_.metadata, &bytes);
+  return error.empty() ? WriteFile(out_, bytes) : error;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `refocus` writes: a picture, one that others can refocus again, or the stack of a sweep.
+#ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
+#define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "examples/cli/engine/engine_run.h"
+#include "examples/command_line/error.h"
+#include "examples/command_line/outputs.h"
+#include "platform/writers/picture.h"
+#include "platform/writers/webp.h"
+
+namespace starfocus {
+
+// As typed.
+struct OutputOptions {
+  std::string out, quality = "95", all_in_focus, focus_index;
+  bool depth_photo = false;
+};
+
+void AddOutputOptions(CLI::App* command, OutputOptions* options);
+
+// The picture files of a refocusing, or of a sweep of `pictures` ones (0: no sweep).
+std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures);
+
+// What can be refused before a file is read, but for the files themselves. `region`: whether only a
+// part of the picture is made.
+Error PlanOutput(const OutputOptions& options, bool sweep, bool region, int* quality);
+
+// Writes the picture of a task as its options have it.
+Error WriteRefocused(const OutputOptions& options, const PictureOptions& how,
+                     const EngineTask& task, const Image& picture);
+
+// Writes the pair that stands for a sweep, where asked for: the centre view, which is sharp
+// everywhere, and for each of its pixels the number, from 0 on, of the focus nearest to it.
+Error WritePair(const OutputOptions& options, const PictureOptions& how,
+                const LightField& light_field, const std::vector<double>& foci);
+
+// The pictures of a sweep as they come: numbered files, or one that shows them.
+class StackWriter {
+ public:
+  StackWriter(const OutputOptions& options, const PictureOptions& how);
+
+  // `name` is that of the file.
+  Error Add(const Image& picture, std::string* name);
+  Error Finish();
+
+ private:
+  const std::string out_;
+  const PictureOptions how_;
+  size_t pictures_ = 0;
+  std::unique_ptr<WebpWriter> animation_;  // none: numbered files
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_

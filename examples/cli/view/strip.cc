@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/cli/view/strip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "examples/cli/refocus/partition_map.h"
+#include "examples/cli/refocus/refocus_plan.h"
+#include "platform/file.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+// truth_dt<D>_ut<U>.png and nothing else: other shapes of the opening are named behind it.
+bool ParseTruthName(const fs::path& name, LensAt* lens) {
+  const std::string stem = name.stem().string();
+  int end = 0;
+  const int parts =
+      std::sscanf(stem.c_str(), "truth_dt%lf_ut%lf%n", &lens->focus, &lens->aperture, &end);
+  return parts == 2 && size_t(end) == stem.size() && name.extension() == ".png" &&
+         std::fabs(lens->focus) <= SF_MAX_FOCUS && lens->aperture > 0 && lens->aperture <= 1;
+}
+
+}  // namespace
+
+std::vector<double> StripFoci(const FloatMap& map, int count) {
+  std::vector<float> values = map.values;
+  const auto at = [&values](size_t place) {
+    const auto middle = values.begin() + static_cast<ptrdiff_t>(place);
+    std::nth_element(values.begin(), middle, values.end());
+    return double(*middle);
+  };
+  const size_t outermost = values.size() / 100;
+  const double far = at(outermost), near = at(values.size() - 1 - outermost);
+  if (near - far < 1e-3) return {far};
+  std::vector<double> foci;
+  for (int i = 0; i < count; ++i) foci.push_back(far + (near - far) * i / (count - 1));
+  return foci;
+}
+
+std::vector<TruthFile> FindTruths(const std::string& folder) {
+  std::vector<TruthFile> truths;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    TruthFile truth;
+    if (!ParseTruthName(entry.path().filename(), &truth.lens)) continue;
+    truth.path = entry.path().string();
+    truths.push_back(truth);
+  }
+  std::sort(truths.begin(), truths.end(),
+            [](const TruthFile& a, const TruthFile& b) { return a.path < b.path; });
+  return truths;
+}
+
+std::string TransferOf(const std::string& folder) {
+  Bytes bytes;
+  if (!ReadFile((fs::path(folder) / "meta.txt").string(), &bytes).empty()) return "srgb";
+  const std::string text(bytes.begin(), bytes.end());
+  return text.find("transfer: none\n") != std::string::npos ? "none" : "srgb";
+}
+
+Error RefocusEach(
+    const std::string& where, const LightField& light_field, const sf_disparity_stats& stats,
+    const std::string& transfer, int threads, const std::vector<LensAt>& lenses,
+    const std::function<Error(size_t, const Image&, const std::vector<sf_block>&)>& show) {
+  LensOptions options;
+  options.transfer = transfer;
+  LensPlan plan;
+  double max_blur = 0;
+  Error error = PlanLens(options, &plan);
+  plan.focus_option = where;
+  for (const LensAt& lens : lenses) plan.foci.push_back(lens.focus);
+  if (error.empty()) error = ChooseBlur(plan, stats, &max_blur);
+  if (!error.empty()) return error;
+  EngineTask task = MakeTask(plan, light_field, stats, max_blur, false);
+  std::vector<sf_block> blocks;
+  task.threads = threads;
+  task.params.on_block = CollectBlock;
+  task.params.on_block_data = &blocks;
+  EngineRun run(threads, static_cast<int>(lenses.size()));
+  error = run.Start(where, task);
+  if (error.empty()) error = run.Prepare(where, task);
+  for (size_t i = 0; i < lenses.size() && error.empty(); ++i) {
+    task.params.focus = lenses[i].focus;
+    task.params.aperture = lenses[i].aperture;
+    blocks.clear();
+    EngineResult result;
+    error = run.Refocus(where, task, &result);
+    if (error.empty()) error = show(i, result.picture, blocks);
+  }
+  return error;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pictures of a page: one light field refocused several times, and truths to hold against them.
+#ifndef STARFOCUS_EXAMPLES_CLI_VIEW_STRIP_H_
+#define STARFOCUS_EXAMPLES_CLI_VIEW_STRIP_H_
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "examples/cli/engine/engine_run.h"
+#include "examples/command_line/error.h"
+#include "platform/light_field.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+struct LensAt {
+  double focus = 0, aperture = 1;
+};
+
+// So many foci at equal steps of disparity, from far to near, between all but the outermost
+// hundredths of the map's values. One where all values are alike.
+std::vector<double> StripFoci(const FloatMap& map, int count);
+
+// A picture that a real lens took of what a folder holds: truth_dt<D>_ut<U>.png, as
+// `starfocus scene` writes it.
+struct TruthFile {
+  std::string path;
+  LensAt lens;
+};
+
+// In the order of their names.
+std::vector<TruthFile> FindTruths(const std::string& folder);
+
+// "none" where the folder's meta.txt says that pictures average codes, else "srgb".
+std::string TransferOf(const std::string& folder);
+
+// Refocuses by each of the lenses, and shows the result with its blocks.
+Error RefocusEach(
+    const std::string& where, const LightField& light_field, const sf_disparity_stats& stats,
+    const std::string& transfer, int threads, const std::vector<LensAt>& lenses,
+    const std::function<Error(size_t, const Image&, const std::vector<sf_block>&)>& show);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_VIEW_STRIP_H_

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/folder.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "platform/file.h"
+
+namespace starfocus {
+
+std::string ListFolder(const std::string& folder, std::vector<std::string>* names) {
+  constexpr size_t kMostFiles = 100000;
+  std::error_code error;
+  std::filesystem::directory_iterator at(folder, error);
+  for (const std::filesystem::directory_iterator end; !error && at != end; at.increment(error)) {
+    if (names->size() == kMostFiles) {
+      return Expected(folder, "a folder of at most " + std::to_string(kMostFiles) + " files",
+                      "more");
+    }
+    names->push_back(at->path().filename().string());
+  }
+  if (error == std::errc::not_enough_memory) return OutOfMemory(folder, "list its files");
+  if (error) return Expected(folder, "a folder that can be read", error.message());
+  std::sort(names->begin(), names->end());
+  return "";
+}
+
+}  // namespace starfocus

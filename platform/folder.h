@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a folder holds.
+#ifndef STARFOCUS_PLATFORM_FOLDER_H_
+#define STARFOCUS_PLATFORM_FOLDER_H_
+
+#include <string>
+#include <vector>
+
+namespace starfocus {
+
+// The names of everything in a folder of at most 100 000, sorted.
+std::string ListFolder(const std::string& folder, std::vector<std::string>* names);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_FOLDER_H_

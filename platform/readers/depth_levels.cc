@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/depth_levels.h"
+
+#include <cmath>
+#include <limits>
+
+#include "platform/image_io.h"
+#include "platform/readers/exif.h"
+
+namespace starfocus {
+namespace {
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+std::string Lower(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+std::string Quoted(const std::string* text) {
+  return text == nullptr ? "none" : "'" + text->substr(0, 40) + "'";
+}
+
+// The mean of a third of the map.
+double MeanOfRows(const FloatMap& map, int from, int to) {
+  double sum = 0, count = 0;
+  for (int y = from; y < to; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (!std::isfinite(map.at(x, y))) continue;
+      sum += double(map.at(x, y));
+      count += 1;
+    }
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+Near Guess(const FloatMap& map) {
+  const int third = (map.height + 2) / 3;
+  return MeanOfRows(map, map.height - third, map.height) > MeanOfRows(map, 0, third) ? Near::kWhite
+                                                                                     : Near::kBlack;
+}
+
+}  // namespace
+
+std::string ReadDepthRange(const std::string& where, const std::string* format,
+                           const std::string* near, const std::string* far, DepthRange* range) {
+  const std::string name = format == nullptr ? "" : Lower(*format);
+  if (name != "rangeinverse" && name != "rangelinear") {
+    return Expected(where, "a depth map in RangeInverse or RangeLinear", Quoted(format));
+  }
+  range->inverse = name == "rangeinverse";
+  if (!ReadXmpNumber(near, &range->near) || !ReadXmpNumber(far, &range->far) ||
+      !(range->near > 0) || !(range->far > range->near)) {
+    return Expected(where, "depths with 0 < near < far", Quoted(near) + " and " + Quoted(far));
+  }
+  return "";
+}
+
+void ToInverse(const DepthRange& range, FloatMap* map) {
+  if (range.inverse) return ToRange(1 / range.near, 1 / range.far, map);
+  ToRange(range.near, range.far, map);
+  Invert(map);
+}
+
+void ToRange(double low, double high, FloatMap* map) {
+  for (float& value : map->values) value = static_cast<float>(low + double(value) * (high - low));
+}
+
+void Invert(FloatMap* map) {
+  for (float& value : map->values) value = value > 0 ? 1 / value : kUnknown;
+}
+
+void ToOrder(Near near, DepthPhoto* photo) {
+  if (near == Near::kUnknown) {
+    near = Guess(photo->map);
+    photo->notes.push_back(std::string("the depth picture's near end is taken to be ") +
+                           (near == Near::kWhite ? "white" : "black") +
+                           ", as what is low in the picture is nearer (else: --near " +
+                           (near == Near::kWhite ? "black)" : "white)"));
+  }
+  if (near == Near::kBlack) ToRange(1, 0, &photo->map);
+  photo->meaning = MapMeaning::kOrder;
+}
+
+void TellMap(const std::string& text, DepthPhoto* photo) {
+  photo->facts.emplace_back("map", std::to_string(photo->map.width) + "x" +
+                                       std::to_string(photo->map.height) + ", " + text);
+}
+
+std::string ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts,
+                            DepthPhoto* photo) {
+  Bytes bytes(file.data, file.data + file.size);
+  const std::string error = DecodeImage(where, &bytes, &photo->picture);
+  if (!error.empty()) return error;
+  photo->metadata = parts.metadata;
+  ReadExif(photo);
+  if (!parts.metadata.icc.empty()) {
+    photo->facts.emplace_back(
+        "colour profile",
+        "ICC, " + std::to_string(parts.metadata.icc.size()) + " bytes; pixels stay as they are");
+  }
+  return "";
+}
+
+}  // namespace starfocus

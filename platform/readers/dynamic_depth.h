@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dynamic Depth 1.0, Google's format since 2018: XMP in a JPEG file names pictures behind it and
+// says what they are.
+#ifndef STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_
+#define STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_
+
+#include "platform/readers/jpeg_parts.h"
+#include "platform/readers/photo.h"
+#include "platform/readers/xmp.h"
+
+namespace starfocus {
+
+bool HasDynamicDepth(const XmpNode& xmp);
+
+// `near` counts only where the file does not say which end of the map is near.
+std::string ReadDynamicDepth(const std::string& where, Span file, const JpegParts& parts,
+                             const XmpNode& xmp, Near near, DepthPhoto* photo);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/hci.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "platform/readers/key_values.h"
+#include "platform/readers/view_array.h"
+
+namespace starfocus {
+namespace {
+
+constexpr char kPrefix[] = "input_Cam", kExtension[] = ".png";
+constexpr char kMap[] = "gt_disp_lowres.pfm", kParameters[] = "parameters.cfg";
+
+bool IsView(const std::string& name) {
+  constexpr size_t kBegin = sizeof(kPrefix) - 1, kEnd = sizeof(kExtension) - 1;
+  return name.size() == kBegin + 3 + kEnd && name.compare(0, kBegin, kPrefix) == 0 &&
+         name.compare(name.size() - kEnd, kEnd, kExtension) == 0;
+}
+
+bool Has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// The f-stop of the lens whose rim the outermost views lie on: focal length over twice their
+// distance from the centre.
+std::string ReadParameters(const std::string& path, int reach, Capture* capture) {
+  KeyValues values;
+  const std::string error = ReadKeyValues(path, &values);
+  if (!error.empty()) return error;
+  double baseline = 0, focal = 0;
+  if (!NumberOf(values, "baseline_mm", &baseline) || !NumberOf(values, "focal_length_mm", &focal) ||
+      !(baseline > 0) || !(focal > 0)) {
+    return "";
+  }
+  capture->widest = focal / (2 * reach * baseline);
+  char f_stop[32];
+  std::snprintf(f_stop, sizeof(f_stop), "%.3g", capture->widest);
+  capture->facts.emplace_back("cameras", values["baseline_mm"] + " mm apart, lenses of " +
+                                             values["focal_length_mm"] + " mm; radius 1 is f/" +
+                                             f_stop);
+  return "";
+}
+
+}  // namespace
+
+bool IsHci(const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(), IsView);
+}
+
+std::string OpenHci(const std::string& folder, const std::vector<std::string>& names,
+                    Capture* capture) {
+  capture->format = "HCI 4D light field";
+  ViewArray array;
+  for (const std::string& name : names) {
+    if (IsView(name)) array.paths.push_back((std::filesystem::path(folder) / name).string());
+  }
+  const auto side = static_cast<int>(std::lround(std::sqrt(double(array.paths.size()))));
+  if (size_t(side) * size_t(side) != array.paths.size()) {
+    return Expected(folder, "a square of views, such as 81",
+                    std::to_string(array.paths.size()) + " named " + kPrefix + "000.png and so on");
+  }
+  array.rows = array.columns = side;
+  Star star;
+  std::string error = ChooseStar(folder, array, &star, &capture->facts);
+  if (!error.empty()) return error;
+  capture->files = std::move(star.views);
+  if (Has(names, kMap)) {
+    capture->map_path = (std::filesystem::path(folder) / kMap).string();
+    capture->map_scale = star.reach;  // the file's disparities are those of neighbours
+  }
+  if (!Has(names, kParameters)) return "";
+  return ReadParameters((std::filesystem::path(folder) / kParameters).string(), star.reach,
+                        capture);
+}
+
+}  // namespace starfocus

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/heic.h"
+
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <new>
+
+#include "platform/container.h"
+
+#ifdef STARFOCUS_HAS_HEIF
+#include <libheif/heif.h>
+
+#include "platform/readers/apple_depth.h"
+#include "platform/readers/depth_levels.h"
+#include "platform/readers/exif.h"
+#endif
+
+namespace starfocus {
+
+bool IsHeif(Span file) {
+  if (file.size < 12 || std::memcmp(file.data + 4, "ftyp", 4) != 0) return false;
+  for (const char* brand : {"heic", "heix", "hevc", "mif1", "msf1", "avif", "heim", "heis"}) {
+    if (std::memcmp(file.data + 8, brand, 4) == 0) return true;
+  }
+  return false;
+}
+
+#ifdef STARFOCUS_HAS_HEIF
+
+namespace {
+
+// Sides of pictures: libheif makes room for what a file says within them, which is 2^28 pixels.
+constexpr int kMostSide = 16384;
+// And how many pixels a file can have by its size: a picture of one colour has 31 000 for each byte
+// as AVIF.
+constexpr int64_t kMostPixelsPerByte = 32768, kAnyFilesPixels = int64_t{1} << 20;
+constexpr size_t kMostMetadata = size_t{1} << 26;
+
+template <class Type, void (*kFree)(Type*)>
+struct Freed {
+  void operator()(Type* what) const { kFree(what); }
+};
+void ReleaseHandle(heif_image_handle* handle) { heif_image_handle_release(handle); }
+void ReleaseImage(heif_image* image) { heif_image_release(image); }
+using Context = std::unique_ptr<heif_context, Freed<heif_context, heif_context_free>>;
+using Handle = std::unique_ptr<heif_image_handle, Freed<heif_image_handle, ReleaseHandle>>;
+using Decoded = std::unique_ptr<heif_image, Freed<heif_image, ReleaseImage>>;
+
+std::string Broken(const std::string& where, const heif_error& error) {
+  return Expected(where, "a HEIF file that libheif reads",
+                  error.message == nullptr ? "another" : error.message);
+}
+
+std::string CheckSize(const std::string& where, const heif_image_handle* handle, size_t file) {
+  const int64_t width = heif_image_handle_get_width(handle);
+  const int64_t height = heif_image_handle_get_height(handle);
+  const std::string found = std::to_string(width) + "x" + std::to_string(height);
+  if (width < 1 || height < 1 || width > kMostSide || height > kMostSide) {
+    return Expected(where, "a HEIF picture of at most 16384 pixels each way", found);
+  }
+  if (width * height <= kAnyFilesPixels + kMostPixelsPerByte * static_cast<int64_t>(file))
+    return "";
+  return Expected(where, "a HEIF picture of at most 32768 pixels for each byte of its file", found);
+}
+
+std::string DecodePicture(const std::string& where, const heif_image_handle* handle, Image* image) {
+  heif_image* raw = nullptr;
+  const heif_error failure =
+      heif_decode_image(handle, &raw, heif_colorspace_RGB, heif_chroma_interleaved_RGB, nullptr);
+  const Decoded decoded(raw);
+  if (failure.code != heif_error_Ok) return Broken(where, failure);
+  if (!heif_image_has_channel(raw, heif_channel_interleaved)) {
+    return Expected(where, "a picture of pixels", "none in it");
+  }
+  int stride = 0;
+  const uint8_t* rows = heif_image_get_plane_readonly(raw, heif_channel_interleaved, &stride);
+  const int width = heif_image_get_width(raw, heif_channel_interleaved);
+  const int height = heif_image_get_height(raw, heif_channel_interleaved);
+  if (rows == nullptr || width < 1 || height < 1) {
+    return Expected(where, "a picture of pixels", "none in it");
+  }
+  *image = Image(width, height);
+  for (int y = 0; y < height; ++y) {
+    std::memcpy(image->row(y), rows + size_t(y) * size_t(stride), image->stride());
+  }
+  return "";
+}
+
+// The levels, 0 to 1, of 8 bits or of up to 16 in the machine's order.
+std::string DecodePlane(const std::string& where, const heif_image_handle* handle, FloatMap* map) {
+  heif_image* raw = nullptr;
+  const heif_error failure =
+      heif_decode_image(handle, &raw, heif_colorspace_undefined, heif_chroma_undefined, nullptr);
+  const Decoded decoded(raw);
+  if (failure.code != heif_error_Ok) return Broken(where, failure);
+  // libheif 1.15 ends the program when it is asked for a channel that is not there.
+  const heif_channel channel =
+      heif_image_has_channel(raw, heif_channel_Y) ? heif_channel_Y : heif_channel_G;
+  if (!heif_image_has_channel(raw, channel)) {
+    return Expected(where, "a depth map of levels", "none in it");
+  }
+  int stride = 0;
+  const uint8_t* rows = heif_image_get_plane_readonly(raw, channel, &stride);
+  const int bits = heif_image_get_bits_per_pixel_range(raw, channel);
+  const int width = heif_image_get_width(raw, channel);
+  const int height = heif_image_get_height(raw, channel);
+  if (rows == nullptr || bits < 1 || bits > 16 || width < 1 || height < 1) {
+    return Expected(where, "a depth map of 8 to 16 bits", "another");
+  }
+  map->width = width;
+  map->height = height;
+  map->values.reserve(size_t(width) * size_t(height));
+  const float most = static_cast<float>((1 << bits) - 1);
+  for (int y = 0; y < height; ++y) {
+    const uint8_t* row = rows + size_t(y) * size_t(stride);
+    for (int x = 0; x < width; ++x) {
+      uint16_t level = row[x];
+      if (bits > 8) std::memcpy(&level, row + 2 * size_t(x), sizeof(level));
+      map->values.push_back(static_cast<float>(level) / most);
+    }
+  }
+  return "";
+}
+
+// The first block of metadata of a type; empty if there is none.
+Bytes ReadMetadata(const heif_image_handle* handle, const char* type, const char* content) {
+  heif_item_id ids[16];
+  const int count = heif_image_handle_get_list_of_metadata_block_IDs(handle, type, ids, 16);
+  for (int k = 0; k < count && k < 16; ++k) {
+    const char* its = heif_image_handle_get_metadata_content_type(handle, ids[k]);
+    if (content != nullptr && (its == nullptr || std::strcmp(its, content) != 0)) continue;
+    const size_t size = heif_image_handle_get_metadata_size(handle, ids[k]);
+    if (size == 0 || size > kMostMetadata) continue;
+    Bytes bytes(size);
+    if (heif_image_handle_get_metadata(handle, ids[k], bytes.data()).code == heif_error_Ok) {
+      return bytes;
+    }
+  }
+  return {};
+}
+
+void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
+  Bytes exif = ReadMetadata(handle, "Exif", nullptr);
+  // Four bytes say how far behind them the TIFF header is.
+  if (exif.size() > 4) {
+    const size_t skip = ReadBigEndian32(exif.data());
+    if (skip < exif.size() - 4) {
+      photo->metadata.exif.assign(exif.begin() + 4 + static_cast<ptrdiff_t>(skip), exif.end());
+    }
+  }
+  ReadExif(photo);
+  photo->orientation = 1;  // libheif has turned the pictures as the file's own boxes say
+  const size_t profile = heif_image_handle_get_raw_color_profile_size(handle);
+  if (profile == 0 || profile > kMostMetadata) return;
+  photo->metadata.icc.resize(profile);
+  heif_image_handle_get_raw_color_profile(handle, photo->metadata.icc.data());
+  photo->facts.emplace_back("colour profile",
+                            "ICC, " + std::to_string(profile) + " bytes; pixels stay as they are");
+}
+
+// Whether an auxiliary picture is something that refocusing has no use for.
+void TellGainMap(const heif_image_handle* handle, DepthPhoto* photo) {
+  heif_item_id ids[16];
+  const int count = heif_image_handle_get_list_of_auxiliary_image_IDs(handle, 0, ids, 16);
+  for (int k = 0; k < count && k < 16; ++k) {
+    heif_image_handle* raw = nullptr;
+    if (heif_image_handle_get_auxiliary_image_handle(handle, ids[k], &raw).code != heif_error_Ok) {
+      continue;
+    }
+    const Handle auxiliary(raw);
+    const char* type = nullptr;
+    if (heif_image_handle_get_auxiliary_type(raw, &type).code != heif_error_Ok) continue;
+    if (std::strstr(type, "gainmap") != nullptr) photo->facts.emplace_back("gain map", "left out");
+    heif_image_handle_free_auxiliary_types(raw, &type);
+  }
+}
+
+using Information = heif_depth_representation_info;
+
+// HEVC's depth representation information (ISO/IEC 23008-2, F.14.2.3).
+std::string UnderstandInformation(const std::string& where, const Information& information,
+                                  Near near, DepthPhoto* photo) {
+  const auto type = information.depth_representation_type;
+  if (type == heif_depth_representation_type_nonuniform_disparity) {
+    return Expected(where, "a depth map in uniform steps", "one of nonuniform disparity");
+  }
+  photo->meaning = MapMeaning::kInverse;
+  if (type == heif_depth_representation_type_uniform_disparity && information.has_d_min &&
+      information.has_d_max && information.d_max > information.d_min) {
+    ToRange(information.d_min, information.d_max, &photo->map);
+    TellMap("disparities from " + std::to_string(information.d_min) + " to " +
+                std::to_string(information.d_max) + ", right up to a factor",
+            photo);
+    return "";
+  }
+  const DepthRange range = {type == heif_depth_representation_type_uniform_inverse_Z,
+                            information.z_near, information.z_far};
+  if (type != heif_depth_representation_type_uniform_disparity && information.has_z_near &&
+      information.has_z_far && range.near > 0 && range.far > range.near) {
+    if (range.inverse) ToRange(1, 0, &photo->map);  // of inverse distances the most is nearest
+    ToInverse(range, &photo->map);
+    TellMap("distances from " + std::to_string(range.near) + " to " + std::to_string(range.far) +
+                ", right up to a factor",
+            photo);
+    return "";
+  }
+  TellMap("without a range", photo);
+  const bool distance = type == heif_depth_representation_type_uniform_Z;
+  ToOrder(near != Near::kUnknown ? near : distance ? Near::kBlack : Near::kWhite, photo);
+  return "";
+}
+
+std::string Understand(const std::string& where, const heif_image_handle* primary,
+                       const heif_image_handle* depth, heif_item_id id, Near near,
+                       DepthPhoto* photo) {
+  const Bytes xmp = ReadMetadata(depth, "mime", "application/rdf+xml");
+  if (!xmp.empty() && CanReadXmp()) {
+    XmpNode root;
+    const std::string error =
+        ParseXmp(where, reinterpret_cast<const char*>(xmp.data()), xmp.size(), &root);
+    return error.empty() ? UnderstandApple(where, root, photo) : error;
+  }
+  const Information* information = nullptr;
+  if (heif_image_handle_get_depth_image_representation_info(primary, id, &information) &&
+      information != nullptr) {
+    const std::string error = UnderstandInformation(where, *information, near, photo);
+    heif_depth_representation_info_free(information);
+    return error;
+  }
+  TellMap("without a range", photo);
+  ToOrder(near, photo);
+  return "";
+}
+
+std::string ReadMap(const std::string& where, const heif_image_handle* primary, size_t file,
+                    Near near, DepthPhoto* photo) {
+  heif_item_id id = 0;
+  if (heif_image_handle_get_list_of_depth_image_IDs(primary, &id, 1) < 1) return "";
+  heif_image_handle* raw = nullptr;
+  const heif_error failure = heif_image_handle_get_depth_image_handle(primary, id, &raw);
+  const Handle depth(raw);
+  if (failure.code != heif_error_Ok) return Broken(where, failure);
+  std::string error = CheckSize(where + " (depth map)", raw, file);
+  if (error.empty()) error = DecodePlane(where + " (depth map)", raw, &photo->map);
+  return error.empty() ? Understand(where, primary, raw, id, near, photo) : error;
+}
+
+std::string Read(const std::string& where, Span file, Near near, DepthPhoto* photo) {
+  const Context context(heif_context_alloc());
+  if (context == nullptr) return OutOfMemory(where, "read it");
+  heif_context_set_maximum_image_size_limit(context.get(), kMostSide);
+  heif_error failure =
+      heif_context_read_from_memory_without_copy(context.get(), file.data, file.size, nullptr);
+  if (failure.code != heif_error_Ok) return Broken(where, failure);
+  heif_image_handle* raw = nullptr;
+  failure = heif_context_get_primary_image_handle(context.get(), &raw);
+  const Handle primary(raw);
+  if (failure.code != heif_error_Ok) return Broken(where, failure);
+  photo->format = "HEIF depth photo";
+  std::string error = CheckSize(where, raw, file.size);
+  if (error.empty()) error = DecodePicture(where, raw, &photo->picture);
+  if (!error.empty()) return error;
+  ReadProfiles(raw, photo);
+  TellGainMap(raw, photo);
+  return ReadMap(where, raw, file.size, near, photo);
+}
+
+}  // namespace
+
+std::string ReadHeif(const std::string& where, Span file, Near near, DepthPhoto* photo) {
+  try {
+    return Read(where, file, near, photo);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {  // libheif's, which its C functions let through
+    return Expected(where, "a HEIF file that libheif reads", failure.what());
+  }
+}
+
+#else
+
+std::string ReadHeif(const std::string& where, Span, Near, DepthPhoto*) {
+  return Expected(where, "a build with libheif to read HEIC files", "one without");
+}
+
+#endif
+
+}  // namespace starfocus

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/key_values.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "platform/file.h"
+
+namespace starfocus {
+namespace {
+
+constexpr size_t kMostBytes = 65536;
+
+std::string Trimmed(const std::string& text) {
+  const size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
+  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
+void Take(const std::string& line, KeyValues* values) {
+  const size_t equals = line.find('=');
+  if (equals == std::string::npos) return;
+  values->emplace(Trimmed(line.substr(0, equals)), Trimmed(line.substr(equals + 1)));
+}
+
+}  // namespace
+
+void TakeKeyValues(const std::string& text, KeyValues* values) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n') {
+      Take(line, values);
+      line.clear();
+    } else if (c >= 0x20 && c < 0x7f) {
+      line += c;
+    }
+  }
+  Take(line, values);
+}
+
+std::string ReadKeyValues(const std::string& path, KeyValues* values) {
+  Bytes bytes;
+  std::string error = CheckPlainFile(path);
+  if (error.empty()) error = ReadFile(path, &bytes);
+  if (!error.empty()) return error;
+  if (bytes.size() > kMostBytes) {
+    return Expected(path, "a text of at most 64 KiB", std::to_string(bytes.size()) + " bytes");
+  }
+  TakeKeyValues({bytes.begin(), bytes.end()}, values);
+  return "";
+}
+
+bool NumberOf(const KeyValues& values, const std::string& key, double* number) {
+  const auto found = values.find(key);
+  if (found == values.end() || found->second.empty()) return false;
+  char* end = nullptr;
+  *number = std::strtod(found->second.c_str(), &end);
+  return *end == '\0' && std::isfinite(*number);
+}
+
+}  // namespace starfocus

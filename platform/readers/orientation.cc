@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/orientation.h"
+
+namespace starfocus {
+namespace {
+
+// EXIF 2.32, tag 274: what row 0 and column 0 of the file are in the scene.
+bool SwapsSides(int orientation) { return orientation >= 5; }
+bool FromRight(int orientation) {  // the file's x, before sides are swapped, runs to the left
+  return orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
+}
+bool FromBelow(int orientation) {
+  return orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
+}
+
+// The file's place of what is seen at (x, y) in a picture that is width x height when upright.
+struct Turn {
+  int orientation, width, height;
+
+  void Place(int x, int y, int* from_x, int* from_y) const {
+    int across = x, down = y, columns = width, rows = height;
+    if (SwapsSides(orientation)) {
+      across = y;
+      down = x;
+      columns = height;
+      rows = width;
+    }
+    *from_x = FromRight(orientation) ? columns - 1 - across : across;
+    *from_y = FromBelow(orientation) ? rows - 1 - down : down;
+  }
+};
+
+void TurnPicture(int orientation, Image* image) {
+  const bool swaps = SwapsSides(orientation);
+  Image result(swaps ? image->height : image->width, swaps ? image->width : image->height);
+  const Turn turn = {orientation, result.width, result.height};
+  for (int y = 0; y < result.height; ++y) {
+    uint8_t* to = result.row(y);
+    for (int x = 0; x < result.width; ++x) {
+      int from_x = 0, from_y = 0;
+      turn.Place(x, y, &from_x, &from_y);
+      const uint8_t* from = image->row(from_y) + 3 * size_t(from_x);
+      for (int c = 0; c < 3; ++c) *to++ = from[c];
+    }
+  }
+  *image = std::move(result);
+}
+
+void TurnMap(int orientation, FloatMap* map) {
+  const bool swaps = SwapsSides(orientation);
+  FloatMap result;
+  result.width = swaps ? map->height : map->width;
+  result.height = swaps ? map->width : map->height;
+  result.values.reserve(map->values.size());
+  const Turn turn = {orientation, result.width, result.height};
+  for (int y = 0; y < result.height; ++y) {
+    for (int x = 0; x < result.width; ++x) {
+      int from_x = 0, from_y = 0;
+      turn.Place(x, y, &from_x, &from_y);
+      result.values.push_back(map->at(from_x, from_y));
+    }
+  }
+  *map = std::move(result);
+}
+
+}  // namespace
+
+void ApplyOrientation(DepthPhoto* photo) {
+  const int orientation = photo->orientation;
+  if (orientation <= 1 || orientation > 8) return;
+  TurnPicture(orientation, &photo->picture);
+  TurnMap(orientation, &photo->map);
+  if (FromRight(orientation)) photo->focus_x = 1 - photo->focus_x;
+  if (FromBelow(orientation)) photo->focus_y = 1 - photo->focus_y;
+  if (SwapsSides(orientation)) std::swap(photo->focus_x, photo->focus_y);
+  photo->facts.emplace_back("orientation",
+                            std::to_string(orientation) + " of EXIF, applied to picture and map");
+  photo->orientation = 1;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/photo_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "platform/readers/orientation.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+namespace {
+
+// Full frame, 36 x 24 mm, which "35 mm equivalent" means; and whom nobody tells about takes a
+// portrait: 50 mm, 1.5 m away.
+constexpr double kDiagonal = 43.2666, kPortraitLens = 50, kPortraitDistance = 1.5;
+
+// Where a pixel of the larger size lies between two of the smaller one.
+struct Between {
+  int first, second;
+  float weight;  // of the second
+};
+
+std::vector<Between> Places(int from, int to) {
+  std::vector<Between> places;
+  for (int k = 0; k < to; ++k) {
+    const double at = std::clamp((k + 0.5) * from / to - 0.5, 0.0, from - 1.0);
+    const int first = static_cast<int>(at);
+    places.push_back({first, std::min(first + 1, from - 1), static_cast<float>(at - first)});
+  }
+  return places;
+}
+
+struct Ends {
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+};
+
+Ends EndsOf(const FloatMap& map) {
+  Ends ends;
+  for (const float value : map.values) {
+    if (!std::isfinite(value)) continue;
+    ends.low = std::min(ends.low, value);
+    ends.high = std::max(ends.high, value);
+  }
+  return ends;
+}
+
+std::string Rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+// The disparity of an inverse distance of 1 / m: the radius in pixels of what is infinitely far,
+// seen by a lens of f/1 of that focal length focused 1 m away.
+double DisparityPerDiopter(double focal_35mm, double diagonal_pixels) {
+  return focal_35mm / kDiagonal * diagonal_pixels * focal_35mm / 1000 / 2;
+}
+
+// disparity = factor * (value - zero)
+void Scale(double factor, double zero, DepthPhoto* photo) {
+  photo->focus_value = factor * (photo->focus_value - zero);
+  for (float& value : photo->map.values) {
+    value = static_cast<float>(
+        std::clamp(factor * (double(value) - zero), -SF_MAX_DISPARITY, SF_MAX_DISPARITY));
+  }
+}
+
+void ToDisparity(const Ends& ends, double diagonal, DepthPhoto* photo) {
+  if (photo->meaning == MapMeaning::kInverseMetres) {
+    const double focal = photo->focal_35mm > 0 ? photo->focal_35mm : kPortraitLens;
+    Scale(DisparityPerDiopter(focal, diagonal), 0, photo);
+    photo->facts.emplace_back("scale", "f-stops are those of a " + Rounded(focal) +
+                                           " mm lens on full frame" +
+                                           (photo->focal_35mm > 0 ? "" : " (assumed)"));
+    return;
+  }
+  const bool order = photo->meaning == MapMeaning::kOrder;
+  const double nearest = DisparityPerDiopter(kPortraitLens, diagonal) / kPortraitDistance;
+  const double zero = order ? double(ends.low) : 0, range = double(ends.high) - zero;
+  Scale(range > 0 ? nearest / range : 0, zero, photo);
+  photo->facts.emplace_back("scale", std::string("unknown: what is nearest is taken to be 1.5 m ") +
+                                         (order ? "and what is farthest infinitely far " : "") +
+                                         "before a 50 mm lens on full frame");
+}
+
+}  // namespace
+
+FloatMap Resize(const FloatMap& map, int width, int height) {
+  if (map.width == width && map.height == height) return map;
+  const std::vector<Between> columns = Places(map.width, width), rows = Places(map.height, height);
+  FloatMap result;
+  result.width = width;
+  result.height = height;
+  result.values.reserve(size_t(width) * size_t(height));
+  for (const Between& row : rows) {
+    for (const Between& column : columns) {
+      float sum = 0, weights = 0;
+      const auto add = [&](int x, int y, float weight) {
+        const float value = map.at(x, y);
+        if (!std::isfinite(value)) return;
+        sum += weight * value;
+        weights += weight;
+      };
+      add(column.first, row.first, (1 - column.weight) * (1 - row.weight));
+      add(column.second, row.first, column.weight * (1 - row.weight));
+      add(column.first, row.second, (1 - column.weight) * row.weight);
+      add(column.second, row.second, column.weight * row.weight);
+      result.values.push_back(weights > 0 ? sum / weights
+                                          : std::numeric_limits<float>::quiet_NaN());
+    }
+  }
+  return result;
+}
+
+std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field) {
+  ApplyOrientation(photo);
+  const Image& picture = photo->picture;
+  FloatMap& map = photo->map;
+  if ((picture.width > picture.height) != (map.width > map.height) &&
+      picture.width != picture.height && map.width != map.height) {
+    return Expected(where, "a map that stands as the picture does",
+                    std::to_string(map.width) + "x" + std::to_string(map.height) + " for " +
+                        std::to_string(picture.width) + "x" + std::to_string(picture.height));
+  }
+  const Ends ends = EndsOf(map);
+  if (!(ends.low <= ends.high)) return Expected(where, "a map with a known depth", "none");
+  ToDisparity(ends, std::hypot(picture.width, picture.height), photo);
+  light_field->disparity = Resize(map, picture.width, picture.height);
+  light_field->views = {std::move(photo->picture)};
+  light_field->positions = {{0, 0}};
+  return "";
+}
+
+}  // namespace starfocus

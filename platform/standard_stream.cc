@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/standard_stream.h"
+
+#include <algorithm>
+
+#include "platform/file.h"
+
+namespace starfocus {
+namespace {
+
+// What stands before ":-"; empty where that is no name of a format.
+std::string Prefix(const std::string& path) {
+  if (path.size() < 3 || path.compare(path.size() - 2, 2, ":-") != 0) return "";
+  const std::string prefix = path.substr(0, path.size() - 2);
+  const auto letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  return std::all_of(prefix.begin(), prefix.end(), letter) ? prefix : "";
+}
+
+}  // namespace
+
+bool IsStandardStream(const std::string& path) { return path == "-" || !Prefix(path).empty(); }
+
+std::string FormatExtension(const std::string& path) {
+  if (path == "-") return ".png";
+  const std::string prefix = Prefix(path);
+  return prefix.empty() ? LowerExtension(path) : "." + prefix;
+}
+
+}  // namespace starfocus

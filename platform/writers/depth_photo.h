@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// JPEG files that others can refocus again: Google's GDepth, GImage and GFocus in extended XMP.
+//
+// A camera's distances are not known here, so that they are told in a unit of their own: the
+// disparity D has the distance 1 / (D - least disparity + 1), from the nearest, near, to 1, far. A
+// reader gets all disparities back up to a constant, which only says what "in focus" is called.
+#ifndef STARFOCUS_PLATFORM_WRITERS_DEPTH_PHOTO_H_
+#define STARFOCUS_PLATFORM_WRITERS_DEPTH_PHOTO_H_
+
+#include <string>
+
+#include "platform/image.h"
+#include "platform/metadata.h"
+#include "platform/pfm.h"
+
+namespace starfocus {
+
+struct DepthPhoto {
+  const Image* before;        // sharp everywhere; of the picture's size
+  const FloatMap* disparity;  // of it; finite
+  double focus = 0;           // disparity that the picture is focused at
+  double aperture = 1;        // its radius: blur has |D - focus| * aperture pixels
+};
+
+// The picture as JPEG of that quality with the one before and its map, a PNG of 8 bits whose levels
+// are linear in disparity (RangeInverse). GFocus:BlurAtInfinity is the radius of blur over the
+// longer side. `path` only names the file in errors.
+std::string EncodeDepthPhoto(const std::string& path, const Image& picture, const DepthPhoto& photo,
+                             int quality, const Metadata& metadata, Bytes* jpeg);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_WRITERS_DEPTH_PHOTO_H_

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/writers/exif.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace starfocus {
+namespace {
+
+constexpr uint32_t kOrientation = 0x0112, kSoftware = 0x0131, kExifFolder = 0x8769;
+constexpr uint32_t kPixelWidth = 0xa002, kPixelHeight = 0xa003;
+constexpr uint32_t kAscii = 2, kShort = 3, kLong = 4;
+constexpr size_t kEntry = 12;  // bytes: tag, type, count, value or where it is
+
+// Numbers of a TIFF structure in its byte order.
+class Tiff {
+ public:
+  explicit Tiff(Bytes* bytes) : bytes_(*bytes), little_(!bytes->empty() && bytes->front() == 'I') {}
+
+  bool Has(size_t at, size_t size) const {
+    return at <= bytes_.size() && size <= bytes_.size() - at;
+  }
+  uint32_t Get(size_t at, size_t size) const {
+    uint32_t value = 0;
+    for (size_t i = 0; i < size; ++i) {
+      value = value << 8 | bytes_[at + (little_ ? size - 1 - i : i)];
+    }
+    return value;
+  }
+  void Set(size_t at, size_t size, uint32_t value) {
+    for (size_t i = 0; i < size; ++i) {
+      bytes_[at + (little_ ? i : size - 1 - i)] = static_cast<uint8_t>(value >> (8 * i));
+    }
+  }
+  // The first entry of a folder's list and how many there are; false where they are not all there.
+  bool Entries(size_t folder, size_t* first, size_t* count) const {
+    if (!Has(folder, 2)) return false;
+    *first = folder + 2;
+    *count = Get(folder, 2);
+    return Has(*first, *count * kEntry + 4);
+  }
+
+ private:
+  Bytes& bytes_;
+  const bool little_;
+};
+
+bool IsTiff(const Bytes& bytes, const Tiff& tiff) {
+  if (bytes.size() < 8 || bytes[0] != bytes[1]) return false;
+  return (bytes[0] == 'I' || bytes[0] == 'M') && tiff.Get(2, 2) == 42;
+}
+
+// A width or height, where the folder has it.
+void SetSizes(size_t folder, int width, int height, Tiff* tiff) {
+  size_t first = 0, count = 0;
+  if (!tiff->Entries(folder, &first, &count)) return;
+  for (size_t at = first; at < first + count * kEntry; at += kEntry) {
+    const uint32_t tag = tiff->Get(at, 2), type = tiff->Get(at + 2, 2);
+    if ((tag != kPixelWidth && tag != kPixelHeight) || (type != kShort && type != kLong)) continue;
+    tiff->Set(at + 8, type == kShort ? 2 : 4,
+              static_cast<uint32_t>(tag == kPixelWidth ? width : height));
+  }
+}
+
+}  // namespace
+
+bool MarkEdited(const std::string& software, int width, int height, Bytes* bytes) {
+  Tiff tiff(bytes);
+  size_t first = 0, count = 0;
+  if (!IsTiff(*bytes, tiff) || !tiff.Entries(tiff.Get(4, 4), &first, &count)) return false;
+  std::vector<std::pair<uint32_t, size_t>> entries;  // tag, and where it is; tags are in order
+  for (size_t at = first; at < first + count * kEntry; at += kEntry) {
+    const uint32_t tag = tiff.Get(at, 2);
+    if (tag == kExifFolder) SetSizes(tiff.Get(at + 8, 4), width, height, &tiff);
+    if (tag != kOrientation && tag != kSoftware) entries.emplace_back(tag, at);
+  }
+  entries.emplace_back(kOrientation, 0);
+  entries.emplace_back(kSoftware, 0);
+  std::sort(entries.begin(), entries.end());
+
+  // The new list stands at the end, so that nothing else moves: values are named by their places.
+  bytes->resize((bytes->size() + 1) & ~size_t{1});
+  const size_t folder = bytes->size(), text = folder + 2 + entries.size() * kEntry + 4;
+  bytes->resize(text);
+  bytes->insert(bytes->end(), software.begin(), software.end());
+  bytes->push_back(0);
+  tiff.Set(4, 4, static_cast<uint32_t>(folder));
+  tiff.Set(folder, 2, static_cast<uint32_t>(entries.size()));
+  size_t at = folder + 2;
+  for (const auto& [tag, old] : entries) {
+    if (old != 0) {
+      std::copy_n(bytes->begin() + static_cast<ptrdiff_t>(old), kEntry,
+                  bytes->begin() + static_cast<ptrdiff_t>(at));
+    } else {
+      const bool name = tag == kSoftware;
+      tiff.Set(at, 2, tag);
+      tiff.Set(at + 2, 2, name ? kAscii : kShort);
+      tiff.Set(at + 4, 4, name ? static_cast<uint32_t>(software.size() + 1) : 1);
+      tiff.Set(at + 8, name ? 4 : 2, name ? static_cast<uint32_t>(text) : 1);
+    }
+    at += kEntry;
+  }
+  return true;  // the place of the next list, the thumbnail's, is 0: none
+}
+
+}  // namespace starfocus

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// JPEG files.
+#ifndef STARFOCUS_PLATFORM_WRITERS_JPEG_H_
+#define STARFOCUS_PLATFORM_WRITERS_JPEG_H_
+
+#include <string>
+
+#include "platform/image.h"
+#include "platform/metadata.h"
+
+namespace starfocus {
+
+// The pixels alone, appended to `jpeg`, with colours at full resolution from quality 90 on; quality
+// is 1 to 100. By libjpeg-turbo where the build has it, else by stb_image_write. `path` only names
+// the file in errors, here and below.
+std::string EncodeJpegPixels(const std::string& path, const Image& image, int quality, Bytes* jpeg);
+
+// A file with `segments` (jpeg_segments.h), and with metadata changed to what is true of the
+// picture (exif.h). EXIF that cannot be followed, or is too long, is left out.
+std::string EncodeJpeg(const std::string& path, const Image& image, int quality,
+                       const Metadata& metadata, const Bytes& segments, Bytes* jpeg);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_WRITERS_JPEG_H_

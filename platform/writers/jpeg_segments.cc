@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/writers/jpeg_segments.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "platform/writers/md5.h"
+
+namespace starfocus {
+namespace {
+
+constexpr size_t kMostPayload = 65533;  // the length of a segment counts its own two bytes
+constexpr uint8_t kApp0 = 0xe0, kApp1 = 0xe1, kApp2 = 0xe2;
+
+// Headers of segments end in a zero, as the formats have it.
+const std::string kExifHeader("Exif\0\0", 6);
+const std::string kProfileHeader("ICC_PROFILE\0", 12);
+const std::string kXmpHeader("http://ns.adobe.com/xap/1.0/\0", 29);
+const std::string kExtensionHeader("http://ns.adobe.com/xmp/extension/\0", 35);
+
+std::string BigEndian32(size_t value) {
+  std::string text;
+  for (int shift = 24; shift >= 0; shift -= 8) text += static_cast<char>(value >> shift & 255);
+  return text;
+}
+
+// A header and the bytes from `first` to `last`.
+template <typename Iterator>
+void Append(uint8_t marker, const std::string& header, Iterator first, Iterator last,
+            Bytes* segments) {
+  const size_t length = header.size() + size_t(last - first) + 2;
+  for (const size_t byte : {size_t{0xff}, size_t{marker}, length >> 8, length & 255}) {
+    segments->push_back(static_cast<uint8_t>(byte));
+  }
+  segments->insert(segments->end(), header.begin(), header.end());
+  segments->insert(segments->end(), first, last);
+}
+
+std::string Packet(const std::string& namespaces, const std::string& attributes) {
+  return "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF "
+         "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"><rdf:Description "
+         "rdf:about=\"\"" +
+         namespaces + attributes + "/></rdf:RDF></x:xmpmeta>";
+}
+
+// What programs that look for the packet anywhere in a file find it by.
+std::string Wrapped(const std::string& packet) {
+  return "<?xpacket begin=\"\xef\xbb\xbf\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>" + packet +
+         "<?xpacket end=\"r\"?>";
+}
+
+}  // namespace
+
+bool AppendExif(const Bytes& tiff, Bytes* segments) {
+  if (tiff.size() > kMostPayload - kExifHeader.size()) return false;
+  Append(kApp1, kExifHeader, tiff.begin(), tiff.end(), segments);
+  return true;
+}
+
+bool AppendProfile(const Bytes& icc, Bytes* segments) {
+  const size_t most = kMostPayload - kProfileHeader.size() - 2,
+               count = (icc.size() + most - 1) / most;
+  if (count > 255) return false;
+  for (size_t i = 0; i < count; ++i) {
+    const std::string header = kProfileHeader + static_cast<char>(i + 1) + static_cast<char>(count);
+    const auto first = icc.begin() + static_cast<ptrdiff_t>(i * most);
+    const auto last = i + 1 < count ? first + static_cast<ptrdiff_t>(most) : icc.end();
+    Append(kApp2, header, first, last, segments);
+  }
+  return true;
+}
+
+bool AppendXmp(const std::string& namespaces, const std::string& attributes,
+               const std::string& extended, Bytes* segments) {
+  const std::string more = Packet(namespaces, extended), name = Md5(more);
+  const std::string first =
+      Wrapped(Packet(namespaces + " xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\"",
+                     attributes + " xmpNote:HasExtendedXMP=\"" + name + "\""));
+  if (first.size() > kMostPayload - kXmpHeader.size() || uint64_t{more.size()} > UINT32_MAX) {
+    return false;
+  }
+  Append(kApp1, kXmpHeader, first.begin(), first.end(), segments);
+  const size_t most = kMostPayload - kExtensionHeader.size() - name.size() - 8;
+  for (size_t at = 0; at < more.size(); at += most) {
+    const std::string header = kExtensionHeader + name + BigEndian32(more.size()) + BigEndian32(at);
+    const size_t end = std::min(at + most, more.size());
+    Append(kApp1, header, more.begin() + static_cast<ptrdiff_t>(at),
+           more.begin() + static_cast<ptrdiff_t>(end), segments);
+  }
+  return true;
+}
+
+void InsertSegments(const Bytes& segments, Bytes* jpeg) {
+  size_t at = 2;  // after the marker that begins the file
+  if (jpeg->size() > 6 && (*jpeg)[2] == 0xff && (*jpeg)[3] == kApp0) {
+    at = std::min(jpeg->size(), 4 + size_t{(*jpeg)[4]} * 256 + (*jpeg)[5]);
+  }
+  jpeg->insert(jpeg->begin() + static_cast<ptrdiff_t>(at), segments.begin(), segments.end());
+}
+
+}  // namespace starfocus

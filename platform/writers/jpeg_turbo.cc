@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// JPEG pixels by libjpeg-turbo.
+#include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+// After <cstdio>, whose FILE it names.
+#include <jerror.h>
+#include <jpeglib.h>
+
+#include "platform/writers/jpeg.h"
+
+namespace starfocus {
+namespace {
+
+struct Failure {
+  jpeg_error_mgr manager;  // first: the library knows this part alone
+  std::jmp_buf back;
+  char reason[JMSG_LENGTH_MAX];
+};
+
+void Fail(j_common_ptr info) {
+  Failure* failure = reinterpret_cast<Failure*>(info->err);
+  failure->manager.format_message(info, failure->reason);
+  std::longjmp(failure->back, 1);
+}
+
+void KeepSilent(j_common_ptr) {}
+
+struct Memory {
+  unsigned char* data = nullptr;
+  unsigned long size = 0;
+  ~Memory() { std::free(data); }
+};
+
+// False with the reason. Nothing here has a destructor: an error of the library jumps over them.
+bool Compress(const Image& image, int quality, Memory* memory, Failure* failure) {
+  jpeg_compress_struct info;
+  info.err = jpeg_std_error(&failure->manager);
+  failure->manager.error_exit = Fail;
+  failure->manager.output_message = KeepSilent;
+  if (setjmp(failure->back) != 0) {
+    jpeg_destroy_compress(&info);
+    return false;
+  }
+  jpeg_create_compress(&info);
+  jpeg_mem_dest(&info, &memory->data, &memory->size);
+  info.image_width = static_cast<JDIMENSION>(image.width);
+  info.image_height = static_cast<JDIMENSION>(image.height);
+  info.input_components = 3;
+  info.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&info);
+  jpeg_set_quality(&info, quality, TRUE);
+  info.optimize_coding = TRUE;
+  if (quality >= 90) info.comp_info[0].h_samp_factor = info.comp_info[0].v_samp_factor = 1;
+  jpeg_start_compress(&info, TRUE);
+  while (info.next_scanline < info.image_height) {
+    JSAMPROW row = const_cast<JSAMPROW>(image.row(static_cast<int>(info.next_scanline)));
+    jpeg_write_scanlines(&info, &row, 1);
+  }
+  jpeg_finish_compress(&info);
+  jpeg_destroy_compress(&info);
+  return true;
+}
+
+}  // namespace
+
+std::string EncodeJpegPixels(const std::string& path, const Image& image, int quality,
+                             Bytes* jpeg) {
+  Memory memory;
+  const auto failure = std::make_unique<Failure>();
+  if (!Compress(image, quality, &memory, failure.get())) {
+    return failure->manager.msg_code == JERR_OUT_OF_MEMORY
+               ? OutOfMemory(path, "write it")
+               : Expected(path, "a picture that libjpeg can write", failure->reason);
+  }
+  jpeg->insert(jpeg->end(), memory.data, memory.data + memory.size);
+  return "";
+}
+
+}  // namespace starfocus

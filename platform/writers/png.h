@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// PNG files.
+#ifndef STARFOCUS_PLATFORM_WRITERS_PNG_H_
+#define STARFOCUS_PLATFORM_WRITERS_PNG_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "platform/image.h"
+#include "platform/metadata.h"
+
+namespace starfocus {
+
+// Grey levels, rows without padding.
+struct GreyImage {
+  int width = 0, height = 0;
+  std::vector<uint16_t> levels;
+};
+
+// 8 bits of R, G, B, as all pictures of the engine have. By libpng where the build has it, with
+// metadata changed to what is true of the picture (exif.h); else by stb_image_write, without any.
+// `path` only names the file in errors, here and below.
+std::string EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
+                      Bytes* png);
+
+// Levels as they are, in 8 bits where all have room there, else in 16, which only libpng writes.
+std::string EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_WRITERS_PNG_H_

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// PNG by libpng.
+#include "platform/writers/png.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include "platform/writers/exif.h"
+#include "starfocus/version.h"
+
+namespace starfocus {
+namespace {
+
+struct Rows {
+  int width = 0, height = 0, bits = 8, colour = PNG_COLOR_TYPE_RGB;
+  const uint8_t* first = nullptr;
+  size_t stride = 0;
+};
+
+// What the library is given back with, and what went wrong.
+struct Call {
+  Bytes* png;
+  bool no_memory = false;
+  char reason[100] = "";
+};
+
+// The library and zlib say in words of their own that there is too little memory.
+png_voidp Allocate(png_structp png, png_alloc_size_t size) {
+  void* memory = std::malloc(size);
+  if (memory == nullptr) static_cast<Call*>(png_get_mem_ptr(png))->no_memory = true;
+  return memory;
+}
+
+void Free(png_structp, png_voidp memory) { std::free(memory); }
+
+void Append(png_structp png, png_bytep data, png_size_t size) {
+  Call* call = static_cast<Call*>(png_get_io_ptr(png));
+  try {
+    call->png->insert(call->png->end(), data, data + size);
+    return;
+  } catch (const std::bad_alloc&) {
+    call->no_memory = true;
+  }
+  png_error(png, "out of memory");  // outside of the handler, which a jump must not leave
+}
+
+void Flush(png_structp) {}
+
+void Fail(png_structp png, png_const_charp reason) {
+  Call* call = static_cast<Call*>(png_get_error_ptr(png));
+  std::snprintf(call->reason, sizeof(call->reason), "%s", reason);
+  png_longjmp(png, 1);
+}
+
+void KeepSilent(png_structp, png_const_charp) {}
+
+void SetMetadata(const Metadata& metadata, Bytes* exif, png_structp png, png_infop info) {
+  if (!metadata.icc.empty()) {
+    png_set_iCCP(png, info, "ICC", PNG_COMPRESSION_TYPE_BASE, metadata.icc.data(),
+                 static_cast<png_uint_32>(metadata.icc.size()));
+  }
+  if (!exif->empty()) {
+    png_set_eXIf_1(png, info, static_cast<png_uint_32>(exif->size()), exif->data());
+  }
+}
+
+// False with the reason. Nothing here has a destructor: an error of the library jumps over them.
+bool Write(const Rows& rows, const Metadata& metadata, Bytes* exif, Call* call) {
+  png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, call, Fail, KeepSilent, call,
+                                              Allocate, Free);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
+    png_destroy_write_struct(&png, &info);
+    return false;
+  }
+  png_set_write_fn(png, call, Append, Flush);
+  png_set_benign_errors(png, 1);  // a profile that libpng does not like is left out
+  png_set_IHDR(png, info, static_cast<png_uint_32>(rows.width),
+               static_cast<png_uint_32>(rows.height), rows.bits, rows.colour, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  SetMetadata(metadata, exif, png, info);
+  png_write_info(png, info);
+  for (int y = 0; y < rows.height; ++y) png_write_row(png, rows.first + size_t(y) * rows.stride);
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return true;
+}
+
+std::string Encode(const std::string& path, const Rows& rows, const Metadata& metadata,
+                   Bytes* png) {
+  Bytes exif = metadata.exif;
+  if (!MarkEdited("starfocus " SF_VERSION_STRING, rows.width, rows.height, &exif)) exif.clear();
+  png->clear();
+  Call call = {png};
+  if (Write(rows, metadata, &exif, &call)) return "";
+  if (call.no_memory || call.reason[0] == '\0') return OutOfMemory(path, "write it");
+  return Expected(path, "a picture that libpng can write", call.reason);
+}
+
+}  // namespace
+
+std::string EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
+                      Bytes* png) {
+  const Rows rows = {image.width,        image.height,        8,
+                     PNG_COLOR_TYPE_RGB, image.pixels.data(), image.stride()};
+  return Encode(path, rows, metadata, png);
+}
+
+std::string EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png) {
+  const bool wide = std::any_of(image.levels.begin(), image.levels.end(),
+                                [](uint16_t level) { return level > 255; });
+  const size_t bytes = wide ? 2 : 1;
+  Bytes samples;
+  samples.reserve(image.levels.size() * bytes);
+  for (const uint16_t level : image.levels) {
+    if (wide) samples.push_back(static_cast<uint8_t>(level >> 8));
+    samples.push_back(static_cast<uint8_t>(level));
+  }
+  const Rows rows = {image.width,         image.height,   wide ? 16 : 8,
+                     PNG_COLOR_TYPE_GRAY, samples.data(), size_t(image.width) * bytes};
+  return Encode(path, rows, {}, png);
+}
+
+}  // namespace starfocus

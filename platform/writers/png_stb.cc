@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// PNG by stb_image_write, where libpng is absent.
+#include <stb/stb_image_write.h>
+
+#include <algorithm>
+
+#include "platform/stb_memory.h"
+#include "platform/writers/png.h"
+
+namespace starfocus {
+namespace {
+
+void Append(void* context, void* data, int size) {
+  const uint8_t* first = static_cast<const uint8_t*>(data);
+  Bytes* bytes = static_cast<Bytes*>(context);
+  bytes->insert(bytes->end(), first, first + size);
+}
+
+std::string Encode(const std::string& path, int width, int height, int channels,
+                   const uint8_t* samples, Bytes* png) {
+  const StbMemory memory;
+  png->clear();
+  if (stbi_write_png_to_func(Append, png, width, height, channels, samples, channels * width) &&
+      !png->empty()) {
+    return "";
+  }
+  return Expected(path, "a picture that can be encoded", "an encoder failure");
+}
+
+}  // namespace
+
+std::string EncodePng(const std::string& path, const Image& image, const Metadata&, Bytes* png) {
+  return Encode(path, image.width, image.height, 3, image.pixels.data(), png);
+}
+
+std::string EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png) {
+  Bytes samples;
+  for (const uint16_t level : image.levels) {
+    if (level > 255) {
+      return Expected(path,
+                      "levels up to 255: only libpng, without which this program was built, "
+                      "writes 16 bits",
+                      std::to_string(level));
+    }
+    samples.push_back(static_cast<uint8_t>(level));
+  }
+  return Encode(path, image.width, image.height, 1, samples.data(), png);
+}
+
+}  // namespace starfocus

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What says so where libwebp is absent.
+#include "platform/writers/webp.h"
+
+namespace starfocus {
+
+struct WebpWriter::State {
+  std::string path;
+};
+
+WebpWriter::WebpWriter(std::string path, int) : state_(new State) { state_->path = path; }
+
+WebpWriter::~WebpWriter() = default;
+
+std::string WebpWriter::Check(const std::string& path, int, int) {
+  return Expected(path, "a program built with libwebp (Debian: libwebp-dev)", "none");
+}
+
+std::string WebpWriter::Add(const Image& picture) {
+  return Check(state_->path, picture.width, picture.height);
+}
+
+std::string WebpWriter::Finish(const Metadata&, Bytes*) { return Check(state_->path, 0, 0); }
+
+}  // namespace starfocus

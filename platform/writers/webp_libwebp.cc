@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// WebP by libwebp and its encoder of animations.
+#include "platform/writers/webp.h"
+
+#include <webp/encode.h>
+#include <webp/mux.h>
+
+#include <utility>
+
+#include "platform/writers/exif.h"
+#include "starfocus/version.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int kMilliseconds = 100;  // of a picture
+
+std::string Failed(const std::string& path, const std::string& reason) {
+  return Expected(path, "pictures that libwebp can write", reason);
+}
+
+// Bytes of the library's.
+struct Data {
+  WebPData data;
+  Data() { WebPDataInit(&data); }
+  ~Data() { WebPDataClear(&data); }
+  Data(const Data&) = delete;
+  Data& operator=(const Data&) = delete;
+};
+
+bool SetChunk(WebPMux* mux, const char* name, const Bytes& bytes) {
+  if (bytes.empty()) return true;
+  const WebPData chunk = {bytes.data(), bytes.size()};
+  return WebPMuxSetChunk(mux, name, &chunk, 1) == WEBP_MUX_OK;
+}
+
+}  // namespace
+
+struct WebpWriter::State {
+  std::string path;
+  int quality = 0, pictures = 0, width = 0, height = 0;
+  WebPAnimEncoder* encoder = nullptr;
+
+  std::string Begin(int first_width, int first_height) {
+    std::string error = Check(path, first_width, first_height);
+    if (!error.empty()) return error;
+    width = first_width;
+    height = first_height;
+    WebPAnimEncoderOptions options;
+    WebPAnimEncoderOptionsInit(&options);
+    encoder = WebPAnimEncoderNew(width, height, &options);
+    return encoder != nullptr ? "" : OutOfMemory(path, "write it");
+  }
+};
+
+WebpWriter::WebpWriter(std::string path, int quality) : state_(new State) {
+  state_->path = std::move(path);
+  state_->quality = quality;
+}
+
+WebpWriter::~WebpWriter() { WebPAnimEncoderDelete(state_->encoder); }
+
+std::string WebpWriter::Check(const std::string& path, int width, int height) {
+  if (width <= WEBP_MAX_DIMENSION && height <= WEBP_MAX_DIMENSION) return "";
+  return Expected(path, "width and height up to 16383 for WebP",
+                  std::to_string(width) + "x" + std::to_string(height));
+}
+
+std::string WebpWriter::Add(const Image& picture) {
+  State& state = *state_;
+  if (state.encoder == nullptr) {
+    const std::string error = state.Begin(picture.width, picture.height);
+    if (!error.empty()) return error;
+  }
+  WebPConfig config;
+  WebPPicture frame;
+  if (!WebPConfigPreset(&config, WEBP_PRESET_PHOTO, static_cast<float>(state.quality)) ||
+      !WebPPictureInit(&frame)) {
+    return Failed(state.path, "another version of the library");
+  }
+  frame.width = picture.width;
+  frame.height = picture.height;
+  frame.use_argb = 1;
+  const bool added =
+      WebPPictureImportRGB(&frame, picture.pixels.data(), static_cast<int>(picture.stride())) &&
+      WebPAnimEncoderAdd(state.encoder, &frame, kMilliseconds * state.pictures, &config);
+  const WebPEncodingError code = frame.error_code;
+  WebPPictureFree(&frame);
+  if (added) {
+    ++state.pictures;
+    return "";
+  }
+  return code == VP8_ENC_ERROR_OUT_OF_MEMORY
+             ? OutOfMemory(state.path, "write it")
+             : Failed(state.path, WebPAnimEncoderGetError(state.encoder));
+}
+
+std::string WebpWriter::Finish(const Metadata& metadata, Bytes* webp) {
+  State& state = *state_;
+  Data coded, whole;
+  if (!WebPAnimEncoderAdd(state.encoder, nullptr, kMilliseconds * state.pictures, nullptr) ||
+      !WebPAnimEncoderAssemble(state.encoder, &coded.data)) {
+    return Failed(state.path, WebPAnimEncoderGetError(state.encoder));
+  }
+  Bytes exif = metadata.exif;
+  if (!MarkEdited("starfocus " SF_VERSION_STRING, state.width, state.height, &exif)) exif.clear();
+  WebPMux* mux = WebPMuxCreate(&coded.data, 0);
+  const bool made = mux != nullptr && SetChunk(mux, "ICCP", metadata.icc) &&
+                    SetChunk(mux, "EXIF", exif) && WebPMuxAssemble(mux, &whole.data) == WEBP_MUX_OK;
+  WebPMuxDelete(mux);
+  if (!made) return OutOfMemory(state.path, "write it");
+  webp->assign(whole.data.bytes, whole.data.bytes + whole.data.size);
+  return "";
+}
+
+}  // namespace starfocus

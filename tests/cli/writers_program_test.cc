@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program writes where, as its user sees it: formats, standard streams, stacks, batches,
+// the page of `view`.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "platform/image_io.h"
+#include "platform/pfm.h"
+#include "platform/progress.h"
+#include "platform/writers/webp.h"
+#include "tests/cli/call_program.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+void MakeScene(const TempFolder& folder, const std::string& name, const std::string& more = "") {
+  REQUIRE(Call(folder, "scene " + name + " --size 48x36 --views 5 --threads 1 " + more).code == 0);
+}
+
+size_t Count(const std::string& text, const std::string& part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST_CASE("writers: - is standard output and input, in the format that is named") {
+  TempFolder folder;
+  MakeScene(folder, "lf");
+  for (const std::string format : {"png", "ppm", "jpg"}) {
+    CAPTURE(format);
+    REQUIRE(Call(folder, "refocus lf --focus 1 -o a." + format).code == 0);
+    const Outcome piped = Call(folder, "refocus lf --focus 1 -o " + format + ":-");
+    CHECK(piped.code == 0);
+    CHECK(piped.out == Text(folder.file("a." + format)));
+  }
+  CHECK(Call(folder, "refocus lf --focus 1 -o -").out == Text(folder.file("a.png")));
+  CHECK(Call(folder, "compare - a.ppm <a.png").out.find("PSNR inf") == 0);
+  CHECK(Call(folder, "refocus lf --focus 1 -o - --report -").code == 2);
+  CHECK(Call(folder, "refocus lf --sweep 0:1:2 -o -").code == 2);
+  const Outcome full = Call(folder, "refocus lf --focus 1 -o - >/dev/full");
+  CHECK(full.code == 1);
+  CheckErrorLine(full.err);
+}
+
+TEST_CASE("writers: quality and depth photos are asked for sensibly or not at all") {
+  TempFolder folder;
+  MakeScene(folder, "lf");
+  REQUIRE(Call(folder, "refocus lf --focus 1 -o low.jpg --quality 20").code == 0);
+  REQUIRE(Call(folder, "refocus lf --focus 1 -o high.jpg --quality 99").code == 0);
+  CHECK(fs::file_size(folder.file("low.jpg")) < fs::file_size(folder.file("high.jpg")));
+  REQUIRE(Call(folder, "refocus lf --focus 1 -o deep.jpg --depth-photo").code == 0);
+  CHECK(Text(folder.file("deep.jpg")).find("GDepth:Data") != std::string::npos);
+  for (const std::string wrong :
+       {"-o b.jpg --quality 0", "-o b.jpg --quality 101", "-o b.png --depth-photo",
+        "-o b.jpg --depth-photo --region 0,0,8,8", "-o b.png --all-in-focus c.png"}) {
+    CAPTURE(wrong);
+    const Outcome outcome = Call(folder, "refocus lf --focus 1 " + wrong);
+    CHECK(outcome.code == 2);
+    CheckErrorLine(outcome.err);
+  }
+  CHECK(folder.count() == 4);
+}
+
+TEST_CASE("writers: a sweep is an animation, or a sharp picture with the focus of each pixel") {
+  TempFolder folder;
+  MakeScene(folder, "lf");
+  const bool webp = WebpWriter::Check("", 1, 1).empty();
+  const std::string out = webp ? "s.webp" : "s.png";
+  REQUIRE(Call(folder,
+               "refocus lf --sweep -0.45:0.45:4 --all-in-focus all.png --focus-index index.png -o " + out)
+              .code == 0);
+  CHECK(folder.count() == (webp ? 4 : 7));
+  Image all, centre, index;
+  REQUIRE(ReadImage(folder.file("all.png"), &all) == "");
+  REQUIRE(ReadImage(folder.file("lf/view_+0.0_+0.0.png"), &centre) == "");
+  REQUIRE(ReadImage(folder.file("index.png"), &index) == "");
+  CHECK(all.pixels == centre.pixels);
+  FloatMap map;
+  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  bool seen[4] = {};
+  for (size_t i = 0; i < map.values.size(); ++i) {
+    const int number = index.pixels[3 * i];
+    REQUIRE(number < 4);
+    seen[number] = true;
+    CHECK(std::abs(double(map.values[i]) - (-0.45 + 0.3 * number)) <= 0.16);
+  }
+  CHECK((seen[0] && seen[2] && seen[3]));
+  const Outcome wrong = Call(folder, "refocus lf --sweep 0:1:2 --focus-index index.jpg -o s.png");
+  CHECK(wrong.code == 2);
+  CheckErrorLine(wrong.err);
+}
+
+TEST_CASE("writers: a batch goes on after a bad input and says which failed") {
+  TempFolder folder;
+  MakeScene(folder, "lf");
+  MakeScene(folder, "more/one");
+  MakeScene(folder, "more/two");
+  fs::create_directory(folder.file("bad"));
+  REQUIRE(WriteFile(folder.file("bad/view_+0.0_+0.0.png"), {1, 2, 3}) == "");
+  for (const std::string jobs : {"1", "3"}) {
+    CAPTURE(jobs);
+    const Outcome outcome =
+        Call(folder, "refocus lf bad more/ none -o out --focus 1 --jobs " + jobs);
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("(failed: bad, none)") != std::string::npos);
+    CHECK(Count(outcome.err, "\n") == 3);
+    for (const char* name : {"lf.png", "one.png", "two.png"}) {
+      CHECK(fs::exists(folder.file("out/" + std::string(name))));
+    }
+    CHECK(std::distance(fs::directory_iterator(folder.file("out")), {}) == 3);
+    REQUIRE(Call(folder, "refocus lf -o single.png --focus 1").code == 0);
+    CHECK(Text(folder.file("single.png")) == Text(folder.file("out/lf.png")));
+    fs::remove_all(folder.file("out"));
+  }
+  for (const std::string wrong : {"lf more -o x.png", "lf lf -o out", "lf more -o out --map m.png",
+                                  "lf more -o out --jobs 0", "lf more -o out --sweep 0:1:2"}) {
+    CAPTURE(wrong);
+    const Outcome outcome = Call(folder, "refocus --focus 1 " + wrong);
+    CHECK(outcome.code == 2);
+    CheckErrorLine(outcome.err);
+    CHECK_FALSE(fs::exists(folder.file("out")));
+  }
+}
+
+TEST_CASE("writers: compare draws where pictures differ, and over neither of them") {
+  TempFolder folder;
+  Image a(4, 3), b(4, 3);
+  b.pixels[3 * 5 + 1] = 40;
+  b.pixels[3 * 6] = 20;
+  REQUIRE(WriteImage(folder.file("a.png"), a) == "");
+  REQUIRE(WriteImage(folder.file("b.png"), b) == "");
+  CHECK(Call(folder, "compare a.png b.png --map map.ppm").code == 0);
+  Image map;
+  REQUIRE(ReadImage(folder.file("map.ppm"), &map) == "");
+  for (size_t i = 0; i < 12; ++i) {
+    const int sum = map.pixels[3 * i] + map.pixels[3 * i + 1] + map.pixels[3 * i + 2];
+    CHECK(sum == (i == 5 ? 765 : i == 6 ? 382 : 0));
+  }
+  CHECK(Call(folder, "compare a.png b.png --map a.png").code == 2);
+  CHECK(Call(folder, "compare a.png b.png --map -").code == 2);
+}
+
+TEST_CASE("writers: the page of view has everything in it and says what is to be seen") {
+  TempFolder folder;
+  MakeScene(folder, "'a<b&\"c'", "--truth 4,1 --truth 2,0.5");
+  REQUIRE(Call(folder, "view 'a<b&\"c' -o page.html").code == 0);
+  const std::string page = Text(folder.file("page.html"));
+  CHECK(page.find("<title>a&lt;b&amp;&quot;c</title>") != std::string::npos);
+  CHECK(page.find("a<b") == std::string::npos);
+  CHECK(Count(page, "<img ") == 13);  // photo, map, 6 foci, blocks, 2 truths with their errors
+  CHECK(Count(page, "src=\"data:image/jpeg;base64,/9j/") == 13);
+  CHECK(Count(page, "src=") == 13);
+  CHECK(Count(page, "http:") + Count(page, "https:") + Count(page, "<script") == 0);
+  CHECK(Count(page, " alt=\"") == 13);
+  CHECK(Count(page, " alt=\"\"") == 0);
+  CHECK(Count(page, "<rect ") == 32);
+  CHECK(Count(page, " dB, largest ") == 2);
+  CHECK(page.find("prefers-color-scheme: dark") != std::string::npos);
+  for (const char* element : {"html", "main", "section", "figure", "svg", "table", "details"}) {
+    CHECK(Count(page, "<" + std::string(element) + ">") +
+              Count(page, "<" + std::string(element) + " ") ==
+          Count(page, "</" + std::string(element) + ">"));
+  }
+  CHECK(Call(folder, "view 'a<b&\"c' -o -").out == page);
+  const Outcome over = Call(folder, "view 'a<b&\"c' -o 'a<b&\"c/disparity.pfm'");
+  CHECK(over.code == 2);
+  CheckErrorLine(over.err);
+}
+
+TEST_CASE("progress: tells the share and, after a second, the time that is left") {
+  CHECK(Progress::Text("working", 43, 100, 0.5) == "working: 43 %");
+  CHECK(Progress::Text("working", 0, 100, 5) == "working: 0 %");
+  CHECK(Progress::Text("working", 25, 100, 4) == "working: 25 %, 12 s left");
+  CHECK(Progress::Text("working", 1, 3, 60) == "working: 33 %, 2:00 min left");
+  CHECK(Progress::Text("working", 100, 100, 60) == "working: 100 %, 0 s left");
+}
+
+}  // namespace
+}  // namespace starfocus

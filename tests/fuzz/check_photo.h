@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole file of a depth photo, and the light field made of it.
+#ifndef STARFOCUS_TESTS_FUZZ_CHECK_PHOTO_H_
+#define STARFOCUS_TESTS_FUZZ_CHECK_PHOTO_H_
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "platform/readers/depth_photo_file.h"
+#include "platform/readers/photo_scale.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus::fuzz {
+
+inline void CheckPhoto(const uint8_t* data, size_t size) {
+  DepthPhoto photo;
+  const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
+  const std::string error = DecodeDepthPhoto("photo", {data, size}, true, near, &photo);
+  if (!error.empty() || photo.map.values.empty()) return;
+  if (photo.map.values.size() != size_t(photo.map.width) * size_t(photo.map.height)) std::abort();
+  // Small ones: the engine's own fuzz target is for what follows.
+  if (photo.picture.pixels.size() > 1 << 20) return;
+  LightField field;
+  if (!MakeLightField("photo", &photo, &field).empty()) return;
+  const Image& view = field.views[0];
+  if (view.pixels.size() != view.stride() * size_t(view.height)) std::abort();
+  if (field.width() != view.width || field.height() != view.height) std::abort();
+  for (const float disparity : field.disparity.values) {
+    if (std::fabs(disparity) > float(SF_MAX_DISPARITY)) std::abort();
+  }
+}
+
+}  // namespace starfocus::fuzz
+
+#endif  // STARFOCUS_TESTS_FUZZ_CHECK_PHOTO_H_

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Folders of views: names of pictures by lines of the input, and the texts beside them.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "platform/readers/jpeg_parts.h"
+#include "platform/readers/key_values.h"
+#include "platform/readers/multi_picture.h"
+#include "platform/readers/view_array.h"
+#include "tests/fuzz/input.h"
+
+namespace {
+
+void CheckArray(const std::string& text) {
+  std::vector<std::string> names(1);
+  for (const char c : text) {
+    if (c == '\n') {
+      names.emplace_back();
+    } else {
+      names.back() += c;
+    }
+  }
+  starfocus::ViewArray array;
+  if (!starfocus::FindArray("folder", names, &array).empty() || array.paths.empty()) return;
+  if (array.paths.size() != size_t(array.rows) * size_t(array.columns)) std::abort();
+  starfocus::Star star;
+  starfocus::Facts facts;
+  if (!starfocus::ChooseStar("folder", array, &star, &facts).empty()) return;
+  if (star.views.empty() || star.views.size() > SF_MAX_VIEWS) std::abort();
+  if (star.views[0].position.u != 0 || star.views[0].position.v != 0) std::abort();
+  for (const starfocus::ViewFile& view : star.views) {
+    if (view.position.u < -1 || view.position.u > 1) std::abort();
+    if (view.position.v < -1 || view.position.v > 1) std::abort();
+  }
+}
+
+// Segments and indices of JPEG files, without decoding any picture.
+void CheckParts(const uint8_t* data, size_t size) {
+  starfocus::JpegParts parts;
+  if (!starfocus::ReadJpegParts("photo", {data, size}, &parts).empty()) return;
+  if (parts.end > size) std::abort();
+  std::vector<starfocus::Span> pictures;
+  std::string text;
+  if (starfocus::ListMultiPictures("photo", {data, size}, parts, &pictures).empty()) {
+    for (const starfocus::Span& picture : pictures) {
+      if (picture.data < data || picture.data + picture.size > data + size) std::abort();
+    }
+  }
+  if (!parts.extensions.empty()) {
+    if (starfocus::JoinExtensions("photo", parts, parts.extensions[0].guid, &text).empty() &&
+        text.size() > size) {
+      std::abort();
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  if (size < 1) return 0;
+  const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  if (data[0] == 'n') CheckArray(text);
+  if (data[0] == 0xff) CheckParts(data, size);
+  if (data[0] != 'k') return 0;
+  starfocus::KeyValues values;
+  double number = 0;
+  starfocus::TakeKeyValues(text, &values);
+  for (const auto& value : values) starfocus::NumberOf(values, value.first, &number);
+  return 0;
+}

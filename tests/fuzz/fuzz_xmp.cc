@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the XMP of a photo can say: the input is the packet, the pictures around it are good ones,
+// so that nearly every input gets as far as the map.
+#include <cstdlib>
+#include <string>
+
+#include "platform/readers/depth_photo_file.h"
+#include "tests/fuzz/input.h"
+#include "tests/support/photo_files.h"
+
+namespace {
+
+using namespace starfocus::photos;
+
+struct Pictures {
+  std::string jpeg = Encode(Ramp(8, 8), ".jpg"), png = Encode(Ramp(4, 4), ".png");
+};
+
+void Decode(const std::string& file) {
+  starfocus::DepthPhoto photo;
+  const auto* bytes = reinterpret_cast<const uint8_t*>(file.data());
+  const std::string error = starfocus::DecodeDepthPhoto("photo", {bytes, file.size()}, true,
+                                                        starfocus::Near::kUnknown, &photo);
+  if (error.empty() && photo.picture.pixels.empty()) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const Pictures pictures;
+  if (size < 1 || size > 60000) return 0;
+  const std::string packet(reinterpret_cast<const char*>(data) + 1, size - 1);
+  if (data[0] % 4 == 0) {  // Apple's lies in the second picture
+    Decode(MultiPicture(pictures.jpeg, Insert(pictures.jpeg, XmpSegment(packet))));
+  } else if (data[0] % 4 == 1) {  // extended: of the main packet all but its map
+    Decode(Gdepth(pictures.jpeg,
+                  "GDepth:Format=\"RangeInverse\" GDepth:Near=\"1\" GDepth:Far=\"2\"",
+                  "/>" + packet, 1 + size / 3));
+  } else {
+    Decode(Insert(pictures.jpeg, XmpSegment(packet)) + pictures.png);
+  }
+  return 0;
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes the seeds of the fuzz targets for photos, made as the formats' specifications say:
+// photo_seeds tests/fuzz/corpus
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "tests/support/photo_files.h"
+
+namespace {
+
+using namespace starfocus::photos;
+
+const std::string kRange =
+    "GDepth:Format=\"RangeInverse\" GDepth:Near=\"1\" GDepth:Far=\"9\" GDepth:Units=\"m\" "
+    "GFocus:FocalPointX=\"0.5\" GFocus:FocalPointY=\"0.5\"";
+const std::string kDisparities =
+    "<apdi:AuxiliaryImageType>disparity</apdi:AuxiliaryImageType>"
+    "<apdi:FloatMinValue>1</apdi:FloatMinValue><apdi:FloatMaxValue>4</apdi:FloatMaxValue>"
+    "<depthData:Accuracy>absolute</depthData:Accuracy>";
+const std::string kMap =
+    "DepthMap:Format=\"RangeLinear\" DepthMap:Near=\"1\" DepthMap:Far=\"9\" "
+    "DepthMap:Units=\"Meters\"";
+
+void WritePhotos(const std::string& folder) {
+  const std::string jpeg = Encode(Ramp(8, 6), ".jpg"), png = Encode(Ramp(4, 3), ".png");
+  const std::string data = "GDepth:Data=\"" + Base64(png) + "\"";
+  Write(folder + "/gdepth.jpg", Gdepth(Insert(jpeg, ExifSegment(6, 26)), kRange, data, 150));
+  Write(folder + "/gdepth16.jpg",
+        Gdepth(jpeg, kRange, "GDepth:Data=\"" + Base64(Png16(2, 2, {0, 9, 99, 65535})) + "\""));
+  Write(folder + "/dynamic.jpg", DynamicDepth(jpeg, png, kMap));
+  Write(folder + "/apple.jpg", MultiPicture(jpeg, AppleMap(jpeg, kDisparities)));
+}
+
+void WritePackets(const std::string& folder) {
+  const std::string png = Encode(Ramp(4, 3), ".png");
+  Write(folder + "/apple", std::string(1, '\0') + Packet(kApple, "", kDisparities));
+  Write(folder + "/extended", "\1" + Packet(kGoogle, "GDepth:Data=\"" + Base64(png) + "\""));
+  Write(folder + "/gdepth",
+        "\2" + Packet(kGoogle, kRange + " GDepth:Data=\"" + Base64(png) + "\""));
+  const std::string dynamic = DynamicDepth(Encode(Ramp(8, 8), ".jpg"), png, kMap);
+  const size_t begin = dynamic.find("<x:xmpmeta"), end = dynamic.find("</x:xmpmeta>");
+  Write(folder + "/dynamic", "\2" + dynamic.substr(begin, end + 12 - begin));
+}
+
+void WriteLayouts(const std::string& folder) {
+  Write(folder + "/row", "nIMG_01.png\nIMG_02.png\nIMG_03.png");
+  std::string grid = "n", stanford = "n";
+  for (int k = 0; k < 9; ++k) {
+    const std::string at = std::to_string(k / 3) + "_" + std::to_string(k % 3);
+    grid += (k > 0 ? "\nv" : "v") + at + ".png";
+    stanford += (k > 0 ? "\nout_0" : "out_0") + at + "_-38" + std::to_string(k) + ".9_7.1_.png";
+  }
+  Write(folder + "/grid", grid);
+  Write(folder + "/stanford", stanford);
+  Write(folder + "/keys", "k[a]\nbaseline_mm = 5\nfocal_length_mm=100.0\ncam0=[1 0; 2]\r\n");
+  const std::string jpeg = Encode(Ramp(8, 6), ".jpg");
+  Write(folder + "/parts",
+        MultiPicture(Gdepth(Insert(jpeg, ExifSegment(3, 50)), kRange, "", 100), jpeg));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const std::string corpus = argv[1];
+  try {
+    for (const char* target : {"photo", "xmp", "layouts"}) {
+      std::filesystem::create_directories(corpus + "/" + target);
+    }
+    WritePhotos(corpus + "/photo");
+    WritePackets(corpus + "/xmp");
+    WriteLayouts(corpus + "/layouts");
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "photo_seeds: %s\n", failure.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the writers of platform/writers/ put into files, as others read it: exiftool and webpinfo
+// where they are installed.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+
+#include "platform/image_io.h"
+#include "platform/png.h"
+#include "platform/writers/base64.h"
+#include "platform/writers/depth_photo.h"
+#include "platform/writers/exif.h"
+#include "platform/writers/jpeg.h"
+#include "platform/writers/md5.h"
+#include "platform/writers/png.h"
+#include "platform/writers/webp.h"
+#include "tests/support/temp_folder.h"
+
+namespace starfocus {
+namespace {
+
+Bytes FromText(const std::string& text) { return Bytes(text.begin(), text.end()); }
+
+Image Ramp(int width, int height) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      image.row(y)[3 * x] = static_cast<uint8_t>(255 * x / width);
+      image.row(y)[3 * x + 1] = static_cast<uint8_t>(255 * y / height);
+      image.row(y)[3 * x + 2] = static_cast<uint8_t>((x * 31 + y * 17) % 256);
+    }
+  }
+  return image;
+}
+
+// A TIFF structure in either byte order.
+class TiffBuilder {
+ public:
+  explicit TiffBuilder(bool little) : little_(little) {
+    bytes = FromText(little ? "II" : "MM");
+    Put(42, 2);
+    Put(8, 4);
+  }
+  void Put(uint32_t value, int size) {
+    for (int i = 0; i < size; ++i) {
+      bytes.push_back(static_cast<uint8_t>(value >> (8 * (little_ ? i : size - 1 - i))));
+    }
+  }
+  void Entry(uint32_t tag, uint32_t type, uint32_t count, uint32_t value) {
+    Put(tag, 2);
+    Put(type, 2);
+    Put(count, 4);
+    Put(value, type == 3 ? 2 : 4);
+    if (type == 3) Put(0, 2);
+  }
+  Bytes bytes;
+
+ private:
+  const bool little_;
+};
+
+// As of a camera held upright: the make, orientation 6, sizes in a folder of its own, a thumbnail.
+Bytes CameraExif(bool little) {
+  TiffBuilder tiff(little);
+  tiff.Put(3, 2);                            // at 8: three entries
+  tiff.Entry(0x010f, 2, 8, 8 + 2 + 36 + 4);  // Make
+  tiff.Entry(0x0112, 3, 1, 6);               // Orientation
+  tiff.Entry(0x8769, 4, 1, 58);              // the folder of sizes
+  tiff.Put(58 + 2 + 24 + 4, 4);              // the thumbnail's folder
+  for (const char c : std::string("Holgaro")) tiff.bytes.push_back(static_cast<uint8_t>(c));
+  tiff.bytes.push_back(0);
+  tiff.Put(2, 2);  // at 58
+  tiff.Entry(0xa002, 4, 1, 4000);
+  tiff.Entry(0xa003, 3, 1, 3000);
+  tiff.Put(0, 4);
+  tiff.Put(1, 2);
+  tiff.Entry(0x0103, 3, 1, 6);
+  tiff.Put(0, 4);
+  return tiff.bytes;
+}
+
+// The least that is a profile, and padding.
+Bytes Profile(size_t size) {
+  Bytes icc(size, 0);
+  const auto put = [&](size_t at, const std::string& text) {
+    std::copy(text.begin(), text.end(), icc.begin() + static_cast<ptrdiff_t>(at));
+  };
+  for (size_t i = 0; i < 4; ++i) icc[i] = static_cast<uint8_t>(size >> (24 - 8 * i));
+  icc[8] = 4;
+  put(12, "mntrRGB XYZ ");
+  put(36, "acsp");
+  put(68, std::string("\0\0\xf6\xd6\0\1\0\0\0\0\xd3\x2d", 12));
+  return icc;
+}
+
+bool Has(const std::string& program) {
+  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+// Whether the build has libpng: without it PNG files have neither 16 bits nor metadata.
+bool HasLibpng() {
+  Bytes png;
+  return EncodeGreyPng("", {1, 1, {256}}, &png).empty();
+}
+
+// What the program prints.
+std::string Ask(const TempFolder& folder, const std::string& command) {
+  const std::string out = folder.file("said");
+  CHECK(std::system((command + " >'" + out + "' 2>/dev/null").c_str()) == 0);
+  Bytes bytes;
+  REQUIRE(ReadFile(out, &bytes) == "");
+  return std::string(bytes.begin(), bytes.end());
+}
+
+TEST_CASE("writers: base64 and MD5 are those of their RFCs") {
+  CHECK(EncodeBase64({}) == "");
+  CHECK(EncodeBase64(FromText("f")) == "Zg==");
+  CHECK(EncodeBase64(FromText("fo")) == "Zm8=");
+  CHECK(EncodeBase64(FromText("foobar")) == "Zm9vYmFy");
+  CHECK(EncodeBase64({0xff, 0xef, 0xbe}) == "/+++");
+  CHECK(Md5("") == "D41D8CD98F00B204E9800998ECF8427E");
+  CHECK(Md5("abc") == "900150983CD24FB0D6963F7D28E17F72");
+  std::string digits;
+  for (int i = 0; i < 8; ++i) digits += "1234567890";
+  CHECK(Md5(digits) == "57EDF4A22BE3C955AC49DA2E2107B67A");
+}
+
+TEST_CASE("writers: EXIF that is no TIFF structure is left alone, however it is cut") {
+  const Bytes whole = CameraExif(true);
+  for (size_t size = 0; size < whole.size(); ++size) {
+    Bytes cut(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size));
+    const Bytes before = cut;
+    if (!MarkEdited("s", 1, 1, &cut)) CHECK(cut == before);
+  }
+  for (size_t at = 0; at < whole.size(); ++at) {
+    Bytes changed = whole;
+    changed[at] = 0xff;
+    MarkEdited("s", 1, 1, &changed);  // whatever comes of it, within its memory
+  }
+  Bytes none = FromText("IM*\0\0\0\0\0");
+  CHECK_FALSE(MarkEdited("s", 1, 1, &none));
+}
+
+TEST_CASE("writers: a better quality makes a larger and truer JPEG") {
+  const Image image = Ramp(64, 48);
+  size_t last = 0;
+  for (const int quality : {10, 50, 89, 90, 100}) {
+    CAPTURE(quality);
+    Bytes jpeg;
+    REQUIRE(EncodeJpeg("a.jpg", image, quality, {}, {}, &jpeg) == "");
+    CHECK(jpeg.size() > last);
+    last = jpeg.size();
+  }
+}
+
+TEST_CASE("writers: EXIF and the profile stay, edited where the picture is") {
+  if (!Has("exiftool")) {
+    MESSAGE("SKIPPED: exiftool is absent");
+    return;
+  }
+  TempFolder folder;
+  for (const bool little : {true, false}) {
+    const PictureOptions how = {95, {CameraExif(little), Profile(150000)}};
+    for (const std::string name : {"a.jpg", "a.png", "a.webp"}) {
+      if (name == "a.webp" && !WebpWriter::Check(name, 1, 1).empty()) continue;
+      if (name == "a.png" && !HasLibpng()) continue;
+      CAPTURE(name);
+      CAPTURE(little);
+      const std::string path = folder.file(name);
+      REQUIRE(WriteImage(path, Ramp(40, 30), how) == "");
+      const std::string tags = Ask(folder, "exiftool -s -s -n '" + path + "'");
+      CHECK(tags.find("Software: starfocus 0.") != std::string::npos);
+      CHECK(tags.find("Make: Holgaro\n") != std::string::npos);
+      CHECK(tags.find("Orientation: 1\n") != std::string::npos);
+      CHECK(tags.find("ExifImageWidth: 40\n") != std::string::npos);
+      CHECK(tags.find("ExifImageHeight: 30\n") != std::string::npos);
+      CHECK(tags.find("Compression: 6") == std::string::npos);  // the thumbnail's
+      CHECK(Ask(folder, "exiftool -b -icc_profile '" + path + "'").size() == 150000);
+    }
+  }
+}
+
+TEST_CASE("writers: a long profile is in segments numbered from 1") {
+  Bytes jpeg;
+  REQUIRE(EncodeJpeg("a.jpg", Ramp(8, 8), 95, {{}, Profile(150000)}, {}, &jpeg) == "");
+  const std::string text(jpeg.begin(), jpeg.end());
+  size_t last = 0;
+  for (char number = 1; number <= 3; ++number) {
+    const std::string header = std::string("ICC_PROFILE\0", 12) + number + '\3';
+    const size_t at = text.find(header);
+    REQUIRE(at != std::string::npos);
+    CHECK(at > last);
+    last = at;
+  }
+}
+
+TEST_CASE("writers: EXIF too long for its segment is left out, the picture is not") {
+  Metadata metadata = {CameraExif(true), {}};
+  metadata.exif.resize(70000);
+  Bytes jpeg;
+  REQUIRE(EncodeJpeg("a.jpg", Ramp(8, 8), 95, metadata, {}, &jpeg) == "");
+  CHECK(jpeg.size() < 5000);
+}
+
+TEST_CASE("writers: grey levels above 255 take 16 bits") {
+  TempFolder folder;
+  GreyImage grey = {300, 2, std::vector<uint16_t>(600)};
+  std::iota(grey.levels.begin(), grey.levels.end(), uint16_t{0});
+  Bytes png;
+  const std::string error = EncodeGreyPng("a.png", grey, &png);
+  if (!HasLibpng()) {
+    CHECK(error.find("libpng") != std::string::npos);
+    return;
+  }
+  REQUIRE(error == "");
+  PngHeader header;
+  REQUIRE(ReadPngHeader(png, &header));
+  CHECK(header.depth == 16);
+  Image back;
+  REQUIRE(WriteFile(folder.file("a.png"), png) == "");
+  REQUIRE(ReadImage(folder.file("a.png"), &back) == "");
+  CHECK(int{back.pixels[3 * 599]} == 599 >> 8);
+  grey.levels.assign(600, 255);
+  REQUIRE(EncodeGreyPng("a.png", grey, &png) == "");
+  REQUIRE(ReadPngHeader(png, &header));
+  CHECK(header.depth == 8);
+}
+
+TEST_CASE("writers: an animation shows its pictures in their order") {
+  TempFolder folder;
+  const std::string path = folder.file("a.webp"), absent = WebpWriter::Check(path, 1, 1);
+  if (!absent.empty()) {
+    CHECK(absent.find("libwebp") != std::string::npos);
+    return;
+  }
+  CHECK(WebpWriter::Check(path, 16384, 1) != "");
+  WebpWriter writer(path, 90);
+  for (int level : {10, 120, 240}) {
+    Image picture(32, 20);
+    std::fill(picture.pixels.begin(), picture.pixels.end(), static_cast<uint8_t>(level));
+    CHECK(writer.Add(picture) == "");
+  }
+  WebpWriter other(path, 90);
+  CHECK(other.Add(Image(32, 20)) == "");
+  CHECK(other.Add(Image(31, 20)) != "");
+  Bytes bytes;
+  REQUIRE(writer.Finish({}, &bytes) == "");
+  REQUIRE(WriteFile(path, bytes) == "");
+  if (!Has("webpinfo")) {
+    MESSAGE("SKIPPED: webpinfo is absent");
+    return;
+  }
+  const std::string said = Ask(folder, "webpinfo '" + path + "'");
+  CHECK(said.find("No error detected") != std::string::npos);
+  size_t frames = 0;
+  for (size_t at = said.find("Chunk ANMF"); at < said.size();
+       at = said.find("Chunk ANMF", at + 1)) {
+    ++frames;
+  }
+  CHECK(frames == 3);
+  frames = 0;
+  for (size_t at = said.find("Duration: 100\n"); at < said.size();
+       at = said.find("Duration: 100\n", at + 1)) {
+    ++frames;
+  }
+  CHECK(frames == 3);
+}
+
+TEST_CASE("writers: a depth photo holds the map and the picture before, for exiftool too") {
+  TempFolder folder;
+  const Image picture = Ramp(400, 300), before = Ramp(400, 300);
+  FloatMap map = {400, 300, std::vector<float>(120000)};
+  for (size_t i = 0; i < map.values.size(); ++i) {
+    map.values[i] = -3 + 8 * static_cast<float>((i * 7919) % 120000) / 119999;
+  }
+  Bytes jpeg;
+  const DepthPhoto photo = {&before, &map, 2, 0.5};
+  REQUIRE(EncodeDepthPhoto("a.jpg", picture, photo, 95, {}, &jpeg) == "");
+  REQUIRE(WriteFile(folder.file("a.jpg"), jpeg) == "");
+  Image back;
+  CHECK(ReadImage(folder.file("a.jpg"), &back) == "");
+  const std::string text(jpeg.begin(), jpeg.end());
+  CHECK(text.find("RangeInverse") < text.find("http://ns.adobe.com/xmp/extension/"));
+  if (!Has("exiftool")) {
+    MESSAGE("SKIPPED: exiftool is absent");
+    return;
+  }
+  const std::string file = "'" + folder.file("a.jpg") + "'";
+  const std::string tags = Ask(folder, "exiftool -s -s -G1 -n " + file);
+  CHECK(tags.find("Far: 1\n") != std::string::npos);
+  CHECK(tags.find("Near: 0.11111") != std::string::npos);             // 1 / (8 + 1)
+  CHECK(tags.find("FocalDistance: 0.166666") != std::string::npos);   // 1 / (2 + 3 + 1)
+  CHECK(tags.find("BlurAtInfinity: 0.0075\n") != std::string::npos);  // 0.5 * 6 / 400
+  const std::string png = Ask(folder, "exiftool -b -XMP-GDepth:DepthImage " + file);
+  const std::string sharp = Ask(folder, "exiftool -b -XMP-GImage:ImageData " + file);
+  REQUIRE(WriteFile(folder.file("d.png"), FromText(png)) == "");
+  REQUIRE(ReadImage(folder.file("d.png"), &back) == "");
+  REQUIRE(back.pixels.size() == 3 * map.values.size());
+  for (size_t i = 0; i < map.values.size(); ++i) {
+    const double level = 255 * (5 - double(map.values[i])) / 8;
+    if (std::fabs(level - back.pixels[3 * i]) > 0.51) FAIL("level of pixel " << i);
+  }
+  REQUIRE(WriteFile(folder.file("s.jpg"), FromText(sharp)) == "");
+  CHECK(ReadImage(folder.file("s.jpg"), &back) == "");
+  CHECK(Ask(folder, "exiftool -validate -warning -s3 " + file).find("OK") == 0);
+}
+
+}  // namespace
+}  // namespace starfocus

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth photos of every kind in JPEG files, made as the specifications say: the disparities that
+// come out are those that the formulas of the formats give.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "platform/readers/capture.h"
+#include "platform/readers/depth_photo_file.h"
+#include "platform/readers/xmp.h"
+#include "tests/support/photo_files.h"
+
+namespace starfocus {
+namespace {
+
+using namespace photos;
+
+constexpr int kWidth = 40, kHeight = 24;
+
+std::string Photo() { return Encode(Plain(kWidth, kHeight, 128), ".jpg"); }
+std::string RampPng() { return Encode(Ramp(kWidth, kHeight), ".png"); }
+
+std::string Data(const std::string& map) { return "GDepth:Data=\"" + Base64(map) + "\""; }
+
+std::string Open(const std::string& bytes, Capture* capture, const CaptureOptions& options = {}) {
+  TempFolder folder;
+  Write(folder.file("photo.jpg"), bytes);
+  return OpenCapture(folder.file("photo.jpg"), options, capture);
+}
+
+// docs/formats.md: a lens of f/1 on full frame.
+double PerDiopter(double focal) {
+  return focal * focal / 1000 / 2 / 43.2666 * std::hypot(kWidth, kHeight);
+}
+
+void CheckRamp(const Capture& capture, double at_black, double at_white) {
+  const FloatMap& map = capture.light_field.disparity;
+  REQUIRE(map.width == kWidth);
+  REQUIRE(map.height == kHeight);
+  CHECK(double(map.at(0, 3)) == doctest::Approx(at_black).epsilon(1e-4));
+  CHECK(double(map.at(kWidth - 1, 3)) == doctest::Approx(at_white).epsilon(1e-4));
+}
+
+std::string FactOf(const Capture& capture, const std::string& name) {
+  for (const auto& fact : capture.facts) {
+    if (fact.first == name) return fact.second;
+  }
+  return "";
+}
+
+const std::string kInverse = "GDepth:Format=\"RangeInverse\" GDepth:Near=\"0.5\" GDepth:Far=\"4\" ";
+
+TEST_CASE("GDepth: inverse and linear ranges in metres, by the focal length of EXIF") {
+  if (!CanReadXmp()) return;
+  Capture capture;
+  REQUIRE(Open(Gdepth(Insert(Photo(), ExifSegment(1, 26)), kInverse + "GDepth:Units=\"m\"",
+                      Data(RampPng())),
+               &capture) == "");
+#ifdef STARFOCUS_HAS_EXIF
+  const double per_diopter = PerDiopter(26);
+#else
+  const double per_diopter = PerDiopter(50);
+#endif
+  CheckRamp(capture, per_diopter / 0.5, per_diopter / 4);
+  CHECK(capture.photo);
+  CHECK(capture.care == MapCare::kRepair);
+  CHECK(capture.format == "GDepth photo (JPEG)");
+  CHECK(FactOf(capture, "map") == "40x24, RangeInverse from 0.5 to 4 m");
+  const double middle = double(capture.light_field.disparity.at(kWidth / 2, 0));
+  const double level = std::floor(kWidth / 2 * 255.0 / (kWidth - 1)) / 255;
+  CHECK(middle == doctest::Approx(per_diopter * ((1 - level) / 0.5 + level / 4)).epsilon(1e-4));
+  REQUIRE(Open(Gdepth(Photo(),
+                      "GDepth:Format=\"RangeLinear\" GDepth:Near=\"0.5\" GDepth:Far=\"4\" "
+                      "GDepth:Units=\"m\"",
+                      Data(RampPng())),
+               &capture) == "");
+  CheckRamp(capture, PerDiopter(50) / 0.5, PerDiopter(50) / 4);
+  CHECK(double(capture.light_field.disparity.at(kWidth / 2, 0)) ==
+        doctest::Approx(PerDiopter(50) / (0.5 + 3.5 * level)).epsilon(1e-4));
+}
+
+TEST_CASE("GDepth: millimetres, and a distance in focus") {
+  if (!CanReadXmp()) return;
+  Capture capture;
+  const std::string range =
+      "GDepth:Format=\"RangeInverse\" GDepth:Near=\"500\" GDepth:Far=\"4000\" ";
+  const std::string focus = "GFocus:FocalDistance=\"2000\" ";
+  REQUIRE(Open(Gdepth(Photo(), range + focus + "GDepth:Units=\"mm\"", Data(RampPng())), &capture) ==
+          "");
+  CheckRamp(capture, PerDiopter(50) / 0.5, PerDiopter(50) / 4);
+  CHECK(!capture.has_focus);
+  CHECK(capture.focus == doctest::Approx(PerDiopter(50) / 2));
+  REQUIRE(Open(Gdepth(Photo(), range + focus, Data(RampPng())), &capture) == "");
+  CHECK(capture.focus == doctest::Approx(PerDiopter(50) / 1.5 / 4));
+}
+
+TEST_CASE("GDepth: without units the nearest is taken to be 1.5 m before a 50 mm lens") {
+  if (!CanReadXmp()) return;
+  Capture capture;
+  REQUIRE(Open(Gdepth(Photo(), kInverse, Data(RampPng())), &capture) == "");
+  CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+  CHECK(FactOf(capture, "scale").find("unknown") == 0);
+}
+
+TEST_CASE("GDepth: extended XMP in many segments in any order, maps of 8 and 16 bits and JPEG") {
+  if (!CanReadXmp()) return;
+  std::vector<uint16_t> levels;
+  for (int k = 0; k < kWidth * kHeight; ++k) {
+    levels.push_back(static_cast<uint16_t>(k % kWidth * 65535 / (kWidth - 1)));
+  }
+  const std::string maps[] = {RampPng(), Png16(kWidth, kHeight, levels)};
+  for (const std::string& map : maps) {
+    const std::string text = Packet(kGoogle, Data(map));
+    std::vector<std::string> segments = ExtensionSegments(text, text.size() / 7);
+    REQUIRE(segments.size() >= 7);
+    std::reverse(segments.begin(), segments.end());
+    std::swap(segments[1], segments[4]);
+    const std::string main =
+        Packet(kGoogle, std::string("xmpNote:HasExtendedXMP=\"") + kGuid + "\" " + kInverse);
+    Capture capture;
+    REQUIRE(Open(Insert(Photo(), XmpSegment(main) + Joined(segments)), &capture) == "");
+    CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+    if (map == maps[1]) {
+      const double level = levels[1] / 65535.0;
+      CHECK(double(capture.light_field.disparity.at(1, 0)) ==
+            doctest::Approx(PerDiopter(50) / 1.5 * (1 - level * 7 / 8)).epsilon(1e-5));
+    }
+    segments.pop_back();
+    CHECK(
+        Open(Insert(Photo(), XmpSegment(main) + Joined(segments)), &capture).find("extended XMP") !=
+        std::string::npos);
+  }
+  Capture capture;
+  const std::string jpeg = Encode(Plain(kWidth / 2, kHeight / 2, 0), ".jpg");
+  REQUIRE(Open(Gdepth(Photo(), kInverse + Data(jpeg), ""), &capture) == "");
+  CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5);
+}
+
+TEST_CASE("GDepth: the sharp picture inside and the focus are used, turned as EXIF says") {
+  if (!CanReadXmp()) return;
+  Image sharp = Plain(kWidth, kHeight, 0);
+  std::fill_n(sharp.row(0), 12, uint8_t{255});  // the first pixels of the file's first row
+  const std::string photo = Insert(Photo(), ExifSegment(6, 0));
+  Capture capture;
+  REQUIRE(Open(Gdepth(photo,
+                      kInverse +
+                          "GFocus:FocalPointX=\"0.25\" GFocus:FocalPointY=\"0.125\" "
+                          "GImage:Data=\"" +
+                          Base64(Encode(sharp, ".png")) + "\"",
+                      Data(RampPng())),
+               &capture) == "");
+#ifdef STARFOCUS_HAS_EXIF
+  // Orientation 6: the file's first row is the right side, its first column the top.
+  const Image& upright = capture.light_field.views[0];
+  REQUIRE(upright.width == kHeight);
+  REQUIRE(upright.height == kWidth);
+  CHECK(upright.row(0)[3 * (kHeight - 1)] == 255);
+  CHECK(upright.row(3)[3 * (kHeight - 1)] == 255);
+  CHECK(upright.row(4)[3 * (kHeight - 1)] == 0);
+  CHECK(upright.row(0)[0] == 0);
+  const FloatMap& map = capture.light_field.disparity;
+  CHECK(map.at(5, 0) > map.at(5, kWidth - 1));
+  CHECK(capture.has_focus);
+  CHECK(capture.focus_x == int(0.875 * kHeight));
+  CHECK(capture.focus_y == kWidth / 4);
+  CHECK(FactOf(capture, "orientation").find("6 of EXIF") == 0);
+#endif
+}
+
+TEST_CASE("GDepth: what is wrong is said in one line") {
+  if (!CanReadXmp()) return;
+  Capture capture;
+  const auto error = [&](const std::string& attributes, const std::string& extended) {
+    const std::string line = Open(Gdepth(Photo(), attributes, extended), &capture);
+    CHECK(line.find(": expected ") != std::string::npos);
+    CHECK(line.find('\n') == std::string::npos);
+    return line;
+  };
+  const std::string data = Data(RampPng());
+  CHECK(error(kInverse, "").find("GDepth:Data") != std::string::npos);
+  CHECK(error("", data).find("RangeInverse") != std::string::npos);
+  CHECK(error("GDepth:Format=\"RangeInverse\"", data).find("near < far") != std::string::npos);
+  for (const char* ends :
+       {"GDepth:Near=\"4\" GDepth:Far=\"4\"", "GDepth:Near=\"0\" GDepth:Far=\"4\"",
+        "GDepth:Near=\"nan\" GDepth:Far=\"4\""}) {
+    CHECK(error(std::string("GDepth:Format=\"RangeInverse\" ") + ends, data).find("near < far") !=
+          std::string::npos);
+  }
+  CHECK(error(kInverse, "GDepth:Data=\"&#38;&#38;&#38;&#38;\"").find("base64") !=
+        std::string::npos);
+  CHECK(error(kInverse, Data("no picture")).find("picture") != std::string::npos);
+  const std::string tall = Encode(Plain(kHeight, kWidth, 9), ".png");
+  CHECK(error(kInverse, Data(tall)).find("stands as the picture") != std::string::npos);
+  const std::string whole = Gdepth(Photo(), kInverse, data);
+  for (const size_t part : {size_t{3}, size_t{30}, whole.size() / 2, whole.size() - 2}) {
+    CHECK(Open(whole.substr(0, part), &capture).find("expected") != std::string::npos);
+  }
+}
+
+TEST_CASE("Dynamic Depth: the item that the container names") {
+  if (!CanReadXmp()) return;
+  Capture capture;
+  const std::string range =
+      "DepthMap:Format=\"RangeInverse\" DepthMap:Near=\"0.5\" DepthMap:Far=\"4\" ";
+  REQUIRE(Open(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"Meters\""), &capture) ==
+          "");
+  CHECK(capture.format == "Dynamic Depth photo (JPEG)");
+  CheckRamp(capture, PerDiopter(50) / 0.5, PerDiopter(50) / 4);
+  REQUIRE(Open(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"None\""), &capture) ==
+          "");
+  CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+  CHECK(Open(DynamicDepth(Photo(), RampPng(), range + "DepthMap:Units=\"Diopters\""), &capture)
+            .find("diopters") != std::string::npos);
+  const std::string whole = DynamicDepth(Photo(), RampPng(), range);
+  CHECK(Open(whole.substr(0, whole.size() - 1), &capture) != "");
+  const std::string packet = Packet(
+      "xmlns:Container=\"http://ns.google.com/photos/1.0/container/\" "
+      "xmlns:Item=\"http://ns.google.com/photos/1.0/container/item/\"",
+      "",
+      "<Container:Directory><rdf:Seq><rdf:li rdf:parseType=\"Resource\"><Container:Item "
+      "Item:Mime=\"image/jpeg\" Item:Semantic=\"Primary\"/></rdf:li><rdf:li "
+      "rdf:parseType=\"Resource\"><Container:Item Item:Mime=\"image/png\" Item:Semantic=\"Depth\" "
+      "Item:Length=\"" +
+          std::to_string(RampPng().size()) + "\"/></rdf:li></rdf:Seq></Container:Directory>");
+  CaptureOptions white;
+  white.near = Near::kWhite;
+  REQUIRE(Open(Insert(Photo(), XmpSegment(packet)) + RampPng(), &capture, white) == "");
+  CheckRamp(capture, 0, PerDiopter(50) / 1.5);
+}
+
+TEST_CASE("Apple's JPEG: disparities in an auxiliary picture") {
+  if (!CanReadXmp()) return;
+  const std::string type = "<apdi:AuxiliaryImageType>disparity</apdi:AuxiliaryImageType>";
+  const std::string range =
+      "<apdi:FloatMinValue>0.5</apdi:FloatMinValue><apdi:FloatMaxValue>2</apdi:FloatMaxValue>";
+  const auto file = [&](const std::string& elements) {
+    return MultiPicture(Photo(), AppleMap(Encode(Ramp(kWidth, kHeight), ".jpg"), elements));
+  };
+  Capture capture;
+  REQUIRE(Open(file(type + range), &capture) == "");
+  CHECK(capture.format == "Apple depth photo (JPEG)");
+  const FloatMap& map = capture.light_field.disparity;
+  CHECK(double(map.at(kWidth - 1, 5)) == doctest::Approx(PerDiopter(50) / 1.5).epsilon(0.01));
+  CHECK(double(map.at(0, 5)) == doctest::Approx(PerDiopter(50) / 1.5 / 4).epsilon(0.05));
+  REQUIRE(Open(file(type + range + "<depthData:Accuracy>absolute</depthData:Accuracy>"),
+               &capture) == "");
+  CHECK(double(map.at(kWidth - 1, 5)) == doctest::Approx(PerDiopter(50) * 2).epsilon(0.01));
+  REQUIRE(Open(file(type), &capture) == "");
+  CHECK(double(map.at(0, 5)) == doctest::Approx(0).epsilon(0.01));
+  const std::string gain =
+      "<apdi:AuxiliaryImageType>urn:com:apple:photo:2020:aux:hdrgainmap</apdi:AuxiliaryImageType>";
+  CHECK(Open(file(gain), &capture).find("a picture without one") != std::string::npos);
+}
+
+TEST_CASE("a photo and a depth picture: beside it or named, near guessed or told") {
+  TempFolder folder;
+  Image depth = Plain(kWidth, kHeight, 200);  // dark below: near is black
+  for (int y = kHeight / 2; y < kHeight; ++y) {
+    std::fill_n(depth.row(y), depth.stride(), uint8_t{50});
+  }
+  Write(folder.file("a-image.jpg"), Photo());
+  Require(WriteImage(folder.file("a-depth.png"), depth));
+  Capture capture;
+  REQUIRE(OpenCapture(folder.file("a-image.jpg"), {}, &capture) == "");
+  const FloatMap& map = capture.light_field.disparity;
+  CHECK(map.at(0, kHeight - 1) > map.at(0, 0));
+  CHECK(capture.map_path == folder.file("a-depth.png"));
+  REQUIRE(capture.notes.size() == 1);
+  CHECK(capture.notes[0].find("black") != std::string::npos);
+  CaptureOptions options;
+  options.near = Near::kWhite;
+  REQUIRE(OpenCapture(folder.file("a-image.jpg"), options, &capture) == "");
+  CHECK(map.at(0, kHeight - 1) < map.at(0, 0));
+  CHECK(capture.notes.empty());
+  Write(folder.file("b.jpg"), Photo());
+  CHECK(OpenCapture(folder.file("b.jpg"), {}, &capture).find("--depth") != std::string::npos);
+  options.depth = folder.file("a-depth.png");
+  REQUIRE(OpenCapture(folder.file("b.jpg"), options, &capture) == "");
+  // Turned with its photo, unless it stands already as that will.
+  Write(folder.file("c.jpg"), Insert(Photo(), ExifSegment(8, 0)));
+#ifdef STARFOCUS_HAS_EXIF
+  REQUIRE(OpenCapture(folder.file("c.jpg"), options, &capture) == "");
+  CHECK(map.width == kHeight);
+  CHECK(map.at(0, 0) > map.at(kHeight - 1, 0));
+  Image upright = Plain(kHeight, kWidth, 50);
+  std::fill_n(upright.row(0), upright.stride(), uint8_t{200});
+  Require(WriteImage(folder.file("upright.png"), upright));
+  options.depth = folder.file("upright.png");
+  REQUIRE(OpenCapture(folder.file("c.jpg"), options, &capture) == "");
+  CHECK(map.at(0, 0) > map.at(0, kWidth - 1));
+  CHECK(map.at(kHeight - 1, 0) > map.at(0, kWidth - 1));
+#endif
+  FloatMap pfm = {2, 1, {3, 5}};
+  Require(WritePfm(folder.file("b.pfm"), pfm));
+  options.depth = folder.file("b.pfm");
+  REQUIRE(OpenCapture(folder.file("b.jpg"), options, &capture) == "");
+  CHECK(map.at(kWidth - 1, 0) > map.at(0, 0));
+}
+
+TEST_CASE("photos: limits of segments, items, pictures and pixels are named") {
+  Capture capture;
+  std::string many;
+  for (int k = 0; k < 4097; ++k) many += Segment(0xef, "");
+  CHECK(Open(Insert(Photo(), many), &capture).find("at most 4096 segments") != std::string::npos);
+  // A header of 16000 x 16000 pixels of 16 bits on a file of one.
+  std::string png = Png16(1, 1, {7});
+  const std::string header = "IHDR" + Big(16000, 4) + Big(16000, 4) + png.substr(24, 5);
+  png = png.substr(0, 12) + header + Big(Crc(header), 4) + png.substr(33);
+  Bytes bytes(png.begin(), png.end());
+  FloatMap map;
+  CHECK(DecodeLevels("x", &bytes, &map).find("truncated") != std::string::npos);
+  if (!CanReadXmp()) return;
+  std::string items;
+  for (int k = 0; k < 65; ++k) items += ContainerItem("image/png", 1, "other");
+  const std::string packet =
+      Packet(kDynamic, "", items + "<Camera:DepthMap DepthMap:DepthURI=\"other\"/>");
+  CHECK(Open(Insert(Photo(), XmpSegment(packet)), &capture).find("at most 64 items") !=
+        std::string::npos);
+  std::string pictures = MultiPicture(Photo(), Photo());
+  pictures.replace(pictures.find("MPF") + 18, 4, Big(16 * 65, 4));
+  CHECK(Open(pictures, &capture).find("a multi-picture file of at most 64") != std::string::npos);
+}
+
+TEST_CASE("XMP: limits are named, and nothing else than elements is read") {
+  if (!CanReadXmp()) return;
+  XmpNode root;
+  const auto parse = [&](const std::string& text) {
+    return ParseXmp("x", text.data(), text.size(), &root);
+  };
+  std::string deep, many = "<a>";
+  for (int k = 0; k < 40; ++k) deep += "<a>";
+  CHECK(parse(deep).find("at most 32 deep") != std::string::npos);
+  for (int k = 0; k < 20001; ++k) many += "<a/>";
+  CHECK(parse(many + "</a>").find("at most 20000 elements") != std::string::npos);
+  many = "<a";
+  for (int k = 0; k < 20001; ++k) many += " a" + std::to_string(k) + "=\"\"";
+  CHECK(parse(many + "/>").find("at most 20000 elements and attributes") != std::string::npos);
+  CHECK(parse("<!DOCTYPE a [<!ENTITY b \"cccc\">]><a>&b;</a>").find("document type") !=
+        std::string::npos);
+  CHECK(parse("<a").find("well-formed") != std::string::npos);
+  CHECK(parse(std::string((size_t{1} << 26) + 1, ' ')).find("at most 67108864 bytes") !=
+        std::string::npos);
+  REQUIRE(parse("<a xmlns:n=\"space\" n:p=\" 1 \"><n:q> 2 </n:q></a>") == "");
+  double value = 0;
+  CHECK((ReadXmpNumber(FindProperty(root, "space|p"), &value) && value == 1));
+  CHECK((ReadXmpNumber(FindProperty(root, "space|q"), &value) && value == 2));
+  CHECK(!ReadXmpNumber(FindProperty(root, "space|r"), &value));
+}
+
+}  // namespace
+}  // namespace starfocus

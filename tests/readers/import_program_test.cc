@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program with what people have: photos are refocused, told of and imported, and nothing that
+// was read is written over. exiftool judges what the tests make of GDepth; real photographs are
+// parts of the data sets.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "platform/image_io.h"
+#include "platform/light_field.h"
+#include "platform/readers/capture.h"
+#include "platform/readers/heic.h"
+#include "platform/readers/xmp.h"
+#include "tests/cli/call_program.h"
+#include "tests/support/photo_files.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace photos;
+
+bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::string kRange =
+    "GDepth:Format=\"RangeInverse\" GDepth:Near=\"0.5\" GDepth:Far=\"4\" GDepth:Units=\"m\" "
+    "GDepth:Mime=\"image/png\" ";
+
+// A photo of 96 x 64 whose left half is near, with a map of half that size.
+std::string GdepthPhoto() {
+  Image map = Plain(48, 32, 255), picture = Ramp(96, 64);
+  for (int y = 0; y < map.height; ++y) std::fill_n(map.row(y), 3 * 24, uint8_t{0});
+  for (int y = 0; y < picture.height; y += 4)
+    std::fill_n(picture.row(y), picture.stride(), uint8_t{30});
+  return Gdepth(Encode(picture, ".jpg"),
+                kRange + "GFocus:FocalPointX=\"0.25\" GFocus:FocalPointY=\"0.5\"",
+                "GDepth:Data=\"" + Base64(Encode(map, ".png")) + "\"");
+}
+
+TEST_CASE("photos: a GDepth photo is refocused at a pixel, at its own focus, and told of") {
+  if (!CanReadXmp()) return;
+  TempFolder folder;
+  Write(folder.file("photo.jpg"), GdepthPhoto());
+  REQUIRE(Call(folder, "refocus photo.jpg -o near.png --focus-at 24,32 --f-stop 1.8").code == 0);
+  REQUIRE(Call(folder, "refocus photo.jpg -o own.png").code == 0);
+  REQUIRE(Call(folder, "refocus photo.jpg -o far.png --focus-at 80,32 --f-stop 1.8").code == 0);
+  CHECK(Call(folder, "compare near.png own.png").out == "PSNR inf, largest difference 0\n");
+  CHECK(!Contains(Call(folder, "compare near.png far.png").out, "difference 0\n"));
+  const Outcome info = Call(folder, "info photo.jpg");
+  CHECK(Contains(info.out, "photo.jpg\n  format     GDepth photo (JPEG)\n"));
+  CHECK(Contains(info.out, "  map        48x32, RangeInverse from 0.5 to 4 m\n"));
+  const Outcome json = Call(folder, "info photo.jpg --json");
+  CHECK(Contains(json.out, "\"format\":\"GDepth photo (JPEG)\""));
+  CHECK(Contains(json.out, "\"widest_f_stop\":1.0"));
+  const Outcome over = Call(folder, "refocus photo.jpg -o photo.jpg --focus 1");
+  CHECK(over.code == 2);
+  CHECK(Contains(over.err, "which is read"));
+  const Outcome wide = Call(folder, "refocus photo.jpg -o x.png --focus 1 --f-stop 0.9");
+  CHECK(wide.code == 2);
+  CHECK(Contains(wide.err, "from the widest on, 1"));
+  CHECK(folder.count() == 4);
+}
+
+TEST_CASE("photos: import writes a folder that gives the same picture") {
+  if (!CanReadXmp()) return;
+  TempFolder folder;
+  Write(folder.file("photo.jpg"), GdepthPhoto());
+  const Outcome import = Call(folder, "import photo.jpg lf");
+  REQUIRE(import.code == 0);
+  CHECK(Contains(import.out, "lf: 1 view of 96x64, with a map\n"));
+  CHECK(Contains(import.out, "--widest 1\n"));
+  REQUIRE(Call(folder, "refocus lf -o a.png --focus-at 24,32 --f-stop 1.8").code == 0);
+  REQUIRE(Call(folder, "refocus photo.jpg -o b.png --focus-at 24,32 --f-stop 1.8").code == 0);
+  CHECK(Call(folder, "compare a.png b.png").out == "PSNR inf, largest difference 0\n");
+  const Outcome again = Call(folder, "import photo.jpg lf");
+  CHECK(again.code == 1);
+  CheckErrorLine(again.err);
+  LightField field;
+  CHECK(Call(folder, "import photo.jpg raw --repair --no-repair").code == 2);
+  REQUIRE(Call(folder, "import photo.jpg raw --no-repair").code == 0);
+  REQUIRE(LoadLightField(folder.file("raw"), {}, &field) == "");
+  const float edge = field.disparity.at(48, 8);
+  CHECK((edge < field.disparity.at(0, 8) && edge > field.disparity.at(95, 8)));  // between both
+}
+
+TEST_CASE("folders: a grid without a map is estimated, and imported without one") {
+  TempFolder folder;
+  REQUIRE(Call(folder, "scene lf --size 96x64 --views 9").code == 0);
+  fs::create_directory(folder.file("grid"));
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      const sf_position at = {column - 1.0, row - 1.0};
+      fs::copy_file(
+          folder.file("lf/" + ViewName(at) + ".png"),
+          folder.file("grid/v_" + std::to_string(row) + "_" + std::to_string(column) + ".png"));
+    }
+  }
+  const Outcome info = Call(folder, "info grid");
+  CHECK(info.code == 0);
+  CHECK(Contains(info.out, "rows and columns of views\n  views      9 of 3 rows of 3"));
+  CHECK(Contains(info.err, "are estimated from 9 views"));
+  REQUIRE(Call(folder, "import grid copy").code == 0);
+  CHECK(fs::exists(folder.file("copy/view_-1.0_+1.0.png")));
+  CHECK(!fs::exists(folder.file("copy/disparity.pfm")));
+  CHECK(Call(folder, "refocus grid -o grid/v_1_1.png --focus 0").code == 2);
+  CHECK(Call(folder, "compare copy/view_+0.0_+0.0.png lf/view_+0.0_+0.0.png").out ==
+        "PSNR inf, largest difference 0\n");
+}
+
+TEST_CASE("photos: HEIC with an auxiliary depth picture") {
+  Bytes bytes;
+  REQUIRE(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic", &bytes) == "");
+  DepthPhoto photo;
+  const std::string error = ReadHeif("x", {bytes.data(), bytes.size()}, Near::kUnknown, &photo);
+#ifdef STARFOCUS_HAS_HEIF
+  REQUIRE(error == "");
+  CHECK(photo.picture.width == 16);
+  REQUIRE(photo.map.values.size() == 16 * 16);
+  CHECK(std::fabs(photo.map.at(0, 8) - photo.map.at(15, 8)) > 0.8F);  // it runs from side to side
+  CHECK(ReadHeif("x", {bytes.data(), bytes.size() / 2}, Near::kUnknown, &photo) != "");
+#else
+  CHECK(Contains(error, "a build with libheif"));
+#endif
+}
+
+TEST_CASE("photos: what exiftool wrote is read, and what the tests write exiftool reads") {
+  if (!CanReadXmp() || std::system("command -v exiftool >/dev/null 2>&1") != 0) {
+    std::printf("SKIPPED: exiftool is not there\n");
+    return;
+  }
+  TempFolder folder;
+  Write(folder.file("ours.jpg"), GdepthPhoto());
+  const std::string here = "cd '" + folder.path() + "' && ";
+  REQUIRE(std::system((here + "exiftool -b -XMP-GDepth:DepthImage ours.jpg > map.png && "
+                              "exiftool -s3 -XMP-GDepth:Far ours.jpg > far.txt")
+                          .c_str()) == 0);
+  CHECK(Text(folder.file("far.txt")) == "4\n");
+  Image map;
+  REQUIRE(ReadImage(folder.file("map.png"), &map) == "");
+  CHECK(map.width == 48);
+  Write(folder.file("theirs.jpg"), Encode(Ramp(96, 64), ".jpg"));
+  // EXIF by exiftool, too: standing on its right side, a lens of 26 mm.
+  REQUIRE(
+      std::system((here + "exiftool -q -XMP-GDepth:Format=RangeLinear -XMP-GDepth:Near=1 "
+                          "-XMP-GDepth:Far=3 -XMP-GDepth:Units=m '-XMP-GDepth:DepthImage<=map.png' "
+                          "-n -Orientation=8 -FocalLengthIn35mmFormat=26 theirs.jpg")
+                      .c_str()) == 0);
+  Capture capture;
+  REQUIRE(OpenCapture(folder.file("theirs.jpg"), {}, &capture) == "");
+  CHECK(capture.light_field.width() == 64);
+  const FloatMap& disparity = capture.light_field.disparity;
+  const double per_diopter = 26.0 * 26 / 1000 / 2 / 43.2666 * std::hypot(96, 64);
+  CHECK(double(disparity.at(5, 90)) == doctest::Approx(per_diopter / 1));
+  CHECK(double(disparity.at(5, 3)) == doctest::Approx(per_diopter / 3));
+}
+
+TEST_CASE("parts of the data sets: photographs of phones are refocused near and far") {
+  const std::string photos = STARFOCUS_DATA_DIR "/photos/";
+  if (!fs::exists(photos)) {
+    std::printf("SKIPPED: data set photos is not there\n");
+    return;
+  }
+  TempFolder folder;
+  for (const char* name : {"flowers", "hut", "mango", "shelf", "tunnel"}) {
+    Capture pair;
+    REQUIRE(OpenCapture(photos + name + "-image.jpg", {}, &pair) == "");
+    REQUIRE(pair.notes.size() == 1);
+    CHECK(Contains(pair.notes[0], "taken to be black"));
+  }
+  const std::string shelf = "'" + photos + "shelf-image.jpg'";
+  REQUIRE(Call(folder, "refocus " + shelf + " -o near.png --focus 12").code == 0);
+  REQUIRE(Call(folder, "refocus " + shelf + " -o far.png --focus 0").code == 0);
+  CHECK(std::atof(Call(folder, "compare near.png far.png").out.c_str() + 5) < 40);
+#ifdef STARFOCUS_HAS_HEIF
+  // As another reader takes the map out of the same file.
+  Capture capture;
+  REQUIRE(OpenCapture(photos + "pug.heic", {}, &capture) == "");
+  CHECK(capture.light_field.width() == 4032);
+  CHECK(!capture.metadata.exif.empty());
+  CHECK(capture.metadata.icc.size() == 536);
+  Bytes bytes;
+  DepthPhoto photo;
+  FloatMap other;
+  REQUIRE(ReadFile(photos + "pug.heic", &bytes) == "");
+  REQUIRE(ReadHeif("pug", {bytes.data(), bytes.size()}, Near::kUnknown, &photo) == "");
+  REQUIRE(ReadFile(photos + "pug_depth.png", &bytes) == "");
+  REQUIRE(DecodeLevels("pug_depth", &bytes, &other) == "");
+  REQUIRE(photo.map.values.size() == other.values.size());
+  double largest = 0;
+  for (size_t k = 0; k < other.values.size(); ++k) {
+    const double level = (double(photo.map.values[k]) - 1.498047) / (4.382812 - 1.498047);
+    largest = std::max(largest, std::fabs(level - double(other.values[k])));
+  }
+  CHECK(largest < 1.5 / 255);
+#endif
+}
+
+}  // namespace
+}  // namespace starfocus

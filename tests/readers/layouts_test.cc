@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Folders of views as data sets are published: which views are taken, where they lie, and what
+// becomes of the map.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "platform/readers/capture.h"
+#include "platform/readers/orientation.h"
+#include "platform/readers/photo_scale.h"
+#include "tests/support/photo_files.h"
+
+namespace starfocus {
+namespace {
+
+using namespace photos;
+
+std::string Number(int value, int digits) {
+  char text[16];
+  std::snprintf(text, sizeof(text), "%0*d", digits, value);
+  return text;
+}
+
+// A picture whose level tells its place.
+void WriteView(const TempFolder& folder, const std::string& name, int level) {
+  Require(WriteImage(folder.file(name), Plain(4, 3, level)));
+}
+
+int LevelAt(const Capture& capture, double u, double v) {
+  const LightField& field = capture.light_field;
+  for (size_t k = 0; k < field.views.size(); ++k) {
+    if (SamePosition(field.positions[k], {u, v})) return field.views[k].pixels[0];
+  }
+  return -1;
+}
+
+std::string OpenAndLoad(const TempFolder& folder, Capture* capture) {
+  const std::string error = OpenCapture(folder.path(), {}, capture);
+  return error.empty() ? LoadCapture({}, capture) : error;
+}
+
+std::string FactOf(const Capture& capture, const std::string& name) {
+  for (const auto& fact : capture.facts) {
+    if (fact.first == name) return fact.second;
+  }
+  return "";
+}
+
+TEST_CASE("HCI: 17 of 81 views, disparities times four, f-stops by the baseline") {
+  TempFolder folder;
+  for (int k = 0; k < 81; ++k) WriteView(folder, "input_Cam" + Number(k, 3) + ".png", k);
+  Require(WritePfm(folder.file("gt_disp_lowres.pfm"), {4, 3, std::vector<float>(12, 0.75F)}));
+  Write(folder.file("parameters.cfg"),
+        "[intrinsics]\nfocal_length_mm = 100.0\n[extrinsics]\nbaseline_mm = 5\n");
+  Capture capture;
+  REQUIRE(OpenAndLoad(folder, &capture) == "");
+  CHECK(capture.format == "HCI 4D light field");
+  CHECK(AreStar(capture.light_field.positions));
+  REQUIRE(capture.light_field.views.size() == 17);
+  CHECK(LevelAt(capture, 0, 0) == 40);
+  CHECK(LevelAt(capture, 1, 0) == 44);
+  CHECK(LevelAt(capture, 0, 1) == 76);
+  CHECK(LevelAt(capture, -0.5, -0.5) == 20);
+  CHECK(capture.light_field.disparity.values[5] == 3);
+  CHECK(capture.widest == 100.0 / (2 * 4 * 5));
+  REQUIRE(LoadCapture(StarPositions(5), &capture) == "");
+  CHECK(capture.light_field.views.size() == 5);
+  std::filesystem::remove(folder.file("gt_disp_lowres.pfm"));
+  REQUIRE(OpenAndLoad(folder, &capture) == "");
+  CHECK(capture.map_path.empty());
+  CHECK(capture.light_field.disparity.values.empty());
+  std::filesystem::remove(folder.file("input_Cam080.png"));
+  CHECK(OpenAndLoad(folder, &capture).find("a square of views") != std::string::npos);
+}
+
+// 5 rows of 7; `place` gives the rest of a name.
+template <class Place>
+void WriteStanford(const TempFolder& folder, const Place& place) {
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 7; ++column) {
+      WriteView(folder,
+                "out_" + Number(row, 2) + "_" + Number(column, 2) + place(row, column) + ".png",
+                10 * row + column);
+    }
+  }
+}
+
+TEST_CASE("Stanford: the star of a grid, in the order of the places in the names") {
+  TempFolder placed, turned, plain;
+  WriteStanford(placed, [](int row, int column) {
+    return "_-" + std::to_string(381 + row) + ".909271_" + std::to_string(1103 + 7 * column) +
+           ".376221_";
+  });
+  Capture capture;
+  REQUIRE(OpenAndLoad(placed, &capture) == "");
+  CHECK(capture.format == "Stanford light field");
+  CHECK(capture.light_field.views.size() == 17);
+  CHECK(LevelAt(capture, 0, 0) == 23);
+  CHECK(LevelAt(capture, 1, 0) == 25);
+  CHECK(LevelAt(capture, 0, 1) == 3);  // the largest Y is that of row 0
+  CHECK(LevelAt(capture, 0.5, -0.5) == 34);
+  CHECK(capture.widest == 0);
+  WriteStanford(turned, [](int row, int column) {
+    return "_" + std::to_string(row) + ".5_" + std::to_string(-3 * column) + ".25_";
+  });
+  REQUIRE(OpenAndLoad(turned, &capture) == "");
+  CHECK(LevelAt(capture, 1, 0) == 21);
+  CHECK(LevelAt(capture, 0, 1) == 43);
+  WriteStanford(plain, [](int, int) { return ""; });
+  REQUIRE(OpenAndLoad(plain, &capture) == "");
+  CHECK(LevelAt(capture, 1, 0) == 25);
+  CHECK(LevelAt(capture, 0, 1) == 3);
+}
+
+TEST_CASE("rows and columns by name: squares, a row, what is missing") {
+  const auto grid = [](const TempFolder& folder, int rows, int columns) {
+    for (int k = 0; k < rows * columns; ++k) {
+      WriteView(
+          folder,
+          "scene r" + std::to_string(k / columns) + "c" + std::to_string(k % columns) + " 8bit.png",
+          k);
+    }
+  };
+  Capture capture;
+  TempFolder three, sixteen, row;
+  grid(three, 3, 3);
+  REQUIRE(OpenAndLoad(three, &capture) == "");
+  CHECK(capture.light_field.views.size() == 9);
+  CHECK(LevelAt(capture, 1, 1) == 8);
+  std::filesystem::remove(three.file("scene r2c2 8bit.png"));
+  CHECK(OpenAndLoad(three, &capture).find("a picture for each of 3 rows of 3, found 8") !=
+        std::string::npos);
+  grid(sixteen, 8, 8);  // 7 x 7 have a middle; of 3 from there no half is whole
+  REQUIRE(OpenAndLoad(sixteen, &capture) == "");
+  CHECK(capture.light_field.views.size() == 9);
+  CHECK(LevelAt(capture, 0, 0) == 27);
+  CHECK(LevelAt(capture, 1, -1) == 6);
+  for (int k = 0; k < 21; ++k) WriteView(row, "IMG_" + Number(100 + k, 4) + ".png", k);
+  REQUIRE(OpenAndLoad(row, &capture) == "");
+  CHECK(capture.light_field.views.size() == 11);
+  CHECK(LevelAt(capture, 0, 0) == 10);
+  CHECK(LevelAt(capture, -1, 0) == 0);
+  CHECK(LevelAt(capture, 0.2, 0) == 12);
+  CHECK(capture.map_path.empty());
+  Require(WritePfm(row.file("disparity.pfm"), {4, 3, std::vector<float>(12, 2)}));
+  REQUIRE(OpenAndLoad(row, &capture) == "");
+  CHECK(capture.light_field.disparity.values[0] == 2);
+  TempFolder two, none;
+  grid(two, 2, 2);
+  CHECK(OpenAndLoad(two, &capture).find("3 views or more") != std::string::npos);
+  WriteView(none, "holiday.png", 1);
+  WriteView(none, "portrait.png", 1);
+  CHECK(OpenAndLoad(none, &capture).find("2 pictures, the first holiday.png") != std::string::npos);
+}
+
+TEST_CASE("Middlebury: a pair whose unknown disparities are filled") {
+  TempFolder folder;
+  WriteView(folder, "im0.png", 1);
+  WriteView(folder, "im1.png", 2);
+  Require(WritePfm(folder.file("disp0.pfm"), {4, 3, std::vector<float>(12, HUGE_VALF)}));
+  Write(folder.file("calib.txt"), "cam0=[1 0 0]\r\ndoffs=124.3\r\nbaseline=193.001\r\n");
+  Capture capture;
+  REQUIRE(OpenAndLoad(folder, &capture) == "");
+  CHECK(capture.format == "Middlebury stereo pair");
+  CHECK(capture.care == MapCare::kFill);
+  CHECK(LevelAt(capture, 1, 0) == 2);
+  CHECK(FactOf(capture, "cameras") == "193.001 mm apart");
+  CHECK(FactOf(capture, "infinity") == "at disparity -124.3");
+}
+
+TEST_CASE("orientation: the corners stand where EXIF says") {
+  // EXIF 2.32, tag 274: what the file's row 0 and column 0 are.
+  constexpr const char* kRows[] = {"top",  "top",   "bottom", "bottom",
+                                   "left", "right", "right",  "left"};
+  constexpr const char* kColumns[] = {"left", "right", "right",  "left",
+                                      "top",  "top",   "bottom", "bottom"};
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    DepthPhoto photo;
+    photo.orientation = orientation;
+    photo.picture = Plain(3, 2, 0);
+    photo.map = {3, 2, {1, 2, 3, 4, 5, 6}};
+    photo.picture.row(0)[0] = 200;  // row 0 and column 0
+    photo.focus_x = photo.focus_y = 0.1;
+    ApplyOrientation(&photo);
+    const std::string row = kRows[orientation - 1], column = kColumns[orientation - 1];
+    const Image& picture = photo.picture;
+    CHECK(picture.width == (orientation < 5 ? 3 : 2));
+    const bool right = row == "right" || column == "right",
+               below = row == "bottom" || column == "bottom";
+    const int x = right ? picture.width - 1 : 0, y = below ? picture.height - 1 : 0;
+    CHECK(picture.row(y)[3 * x] == 200);
+    CHECK(photo.map.at(x, y) == 1);
+    CHECK(photo.focus_x == doctest::Approx(right ? 0.9 : 0.1));
+    CHECK(photo.focus_y == doctest::Approx(below ? 0.9 : 0.1));
+  }
+}
+
+TEST_CASE("maps are brought to the picture's size between their values, unknown ones left out") {
+  const FloatMap map = {2, 2, {0, 4, NAN, 8}};
+  const FloatMap large = Resize(map, 4, 2);
+  CHECK(large.at(0, 0) == 0);
+  CHECK(large.at(1, 0) == 1);
+  CHECK(large.at(2, 0) == 3);
+  CHECK(large.at(3, 0) == 4);
+  CHECK(std::isnan(large.at(0, 1)));
+  CHECK(large.at(1, 1) == 8);
+}
+
+}  // namespace
+}  // namespace starfocus

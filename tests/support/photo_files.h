@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth photos as their public specifications describe them, byte by byte: for tests, and for the
+// seeds of fuzz targets.
+#ifndef STARFOCUS_TESTS_SUPPORT_PHOTO_FILES_H_
+#define STARFOCUS_TESTS_SUPPORT_PHOTO_FILES_H_
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "platform/image_io.h"
+#include "tests/support/temp_folder.h"
+
+namespace starfocus::photos {
+
+inline void Require(const std::string& error) {
+  if (!error.empty()) throw std::runtime_error(error);
+}
+
+// The bytes of a picture as a file of that extension.
+inline std::string Encode(const Image& image, const std::string& extension) {
+  TempFolder folder;
+  Bytes bytes;
+  Require(WriteImage(folder.file("picture" + extension), image));
+  Require(ReadFile(folder.file("picture" + extension), &bytes));
+  return {bytes.begin(), bytes.end()};
+}
+
+inline Image Plain(int width, int height, int level) {
+  Image image(width, height);
+  std::fill(image.pixels.begin(), image.pixels.end(), static_cast<uint8_t>(level));
+  return image;
+}
+
+// A gray picture whose levels run from 0 on the left to 255 on the right.
+inline Image Ramp(int width, int height) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int k = 0; k < 3 * width; ++k) {
+      image.row(y)[k] = static_cast<uint8_t>(k / 3 * 255 / std::max(1, width - 1));
+    }
+  }
+  return image;
+}
+
+inline std::string Big(uint32_t value, int bytes) {
+  std::string text;
+  for (int k = bytes - 1; k >= 0; --k) text += static_cast<char>(value >> 8 * k);
+  return text;
+}
+
+inline uint32_t Crc(const std::string& bytes) {
+  uint32_t crc = 0xffffffffu;
+  for (const char byte : bytes) {
+    crc ^= static_cast<uint8_t>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc % 2 == 0 ? 0 : 0xedb88320u);
+  }
+  return ~crc;
+}
+
+// A gray PNG file of 16 bits, its data stored as they are (PNG specification; RFC 1950 and 1951).
+inline std::string Png16(int width, int height, const std::vector<uint16_t>& levels) {
+  std::string data;
+  for (int y = 0; y < height; ++y) {
+    data += '\0';
+    for (int x = 0; x < width; ++x) data += Big(levels[size_t(y) * size_t(width) + size_t(x)], 2);
+  }
+  uint32_t low = 1, high = 0;
+  for (const char byte : data) {
+    low = (low + static_cast<uint8_t>(byte)) % 65521;
+    high = (high + low) % 65521;
+  }
+  const auto size = static_cast<uint32_t>(data.size());
+  std::string packed = "\x78\x01\x01";
+  for (const uint32_t length : {size, ~size}) {
+    packed += static_cast<char>(length);
+    packed += static_cast<char>(length >> 8);
+  }
+  packed += data + Big(high << 16 | low, 4);
+  const auto chunk = [](const std::string& type, const std::string& content) {
+    return Big(static_cast<uint32_t>(content.size()), 4) + type + content +
+           Big(Crc(type + content), 4);
+  };
+  const std::string header = Big(static_cast<uint32_t>(width), 4) +
+                             Big(static_cast<uint32_t>(height), 4) + std::string("\x10\0\0\0\0", 5);
+  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("IDAT", packed) + chunk("IEND", "");
+}
+
+inline std::string Base64(const std::string& bytes) {
+  constexpr char kCharacters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t at = 0; at < bytes.size(); at += 3) {
+    uint32_t three = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      three = three << 8 | (at + k < bytes.size() ? static_cast<uint8_t>(bytes[at + k]) : 0u);
+    }
+    for (size_t k = 0; k < 4; ++k) {
+      text += at + k <= bytes.size() ? kCharacters[three >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+// A segment of a JPEG file.
+inline std::string Segment(int marker, const std::string& content) {
+  return std::string("\xff") + static_cast<char>(marker) +
+         Big(static_cast<uint32_t>(content.size() + 2), 2) + content;
+}
+
+// The file with segments behind its first two bytes.
+inline std::string Insert(const std::string& jpeg, const std::string& segments) {
+  return jpeg.substr(0, 2) + segments + jpeg.substr(2);
+}
+
+inline std::string Packet(const std::string& namespaces, const std::string& attributes,
+                          const std::string& inside = "") {
+  return "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF "
+         "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"><rdf:Description " +
+         namespaces + " " + attributes + ">" + inside + "</rdf:Description></rdf:RDF></x:xmpmeta>";
+}
+
+inline std::string XmpSegment(const std::string& packet) {
+  return Segment(0xe1, std::string("http://ns.adobe.com/xap/1.0/") + '\0' + packet);
+}
+
+constexpr char kGuid[] = "0123456789ABCDEF0123456789ABCDEF";
+
+// Extended XMP in segments of `part` bytes of text.
+inline std::vector<std::string> ExtensionSegments(const std::string& text, size_t part) {
+  std::vector<std::string> segments;
+  for (size_t at = 0; at < text.size(); at += part) {
+    segments.push_back(Segment(0xe1, std::string("http://ns.adobe.com/xmp/extension/") + '\0' +
+                                         kGuid + Big(static_cast<uint32_t>(text.size()), 4) +
+                                         Big(static_cast<uint32_t>(at), 4) +
+                                         text.substr(at, part)));
+  }
+  return segments;
+}
+
+inline std::string Joined(const std::vector<std::string>& parts) {
+  std::string all;
+  for (const std::string& part : parts) all += part;
+  return all;
+}
+
+constexpr char kGoogle[] =
+    "xmlns:GDepth=\"http://ns.google.com/photos/1.0/depthmap/\" "
+    "xmlns:GFocus=\"http://ns.google.com/photos/1.0/focus/\" "
+    "xmlns:GImage=\"http://ns.google.com/photos/1.0/image/\" "
+    "xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\"";
+
+// GDepth as Google's depth map metadata describes it: `attributes` in the packet, data in the
+// extended one.
+inline std::string Gdepth(const std::string& jpeg, const std::string& attributes,
+                          const std::string& extended, size_t part = 60000) {
+  const std::string main =
+      Packet(kGoogle, std::string("xmpNote:HasExtendedXMP=\"") + kGuid + "\" " + attributes);
+  const std::string text = Packet(kGoogle, extended);
+  return Insert(jpeg, XmpSegment(main) + Joined(ExtensionSegments(text, part)));
+}
+
+// EXIF with an orientation and a focal length, big endian (EXIF 2.32, 4.6).
+inline std::string ExifSegment(int orientation, int focal_35mm) {
+  const auto entry = [](int tag, int type, uint32_t value) {
+    return Big(static_cast<uint32_t>(tag), 2) + Big(static_cast<uint32_t>(type), 2) + Big(1, 4) +
+           (type == 3 ? Big(value, 2) + Big(0, 2) : Big(value, 4));
+  };
+  const std::string first = Big(2, 2) + entry(0x0112, 3, static_cast<uint32_t>(orientation)) +
+                            entry(0x8769, 4, 8 + 2 + 24 + 4) + Big(0, 4);
+  const std::string second =
+      Big(1, 2) + entry(0xa405, 3, static_cast<uint32_t>(focal_35mm)) + Big(0, 4);
+  return Segment(0xe1, std::string("Exif\0\0MM\0\x2a\0\0\0\x08", 14) + first + second);
+}
+
+// A file of two pictures: the index in the first one's APP2 (CIPA DC-007, 5.2).
+inline std::string MultiPicture(const std::string& first, const std::string& second) {
+  const auto index = [&](uint32_t size, uint32_t offset) {
+    const std::string entries = Big(0x030000, 4) + Big(size, 4) + Big(0, 4) + Big(0, 4) +
+                                Big(0, 4) + Big(static_cast<uint32_t>(second.size()), 4) +
+                                Big(offset, 4) + Big(0, 4);
+    const std::string directory =
+        Big(1, 2) + Big(0xb002, 2) + Big(7, 2) + Big(32, 4) + Big(8 + 2 + 12 + 4, 4) + Big(0, 4);
+    return Segment(0xe2, std::string("MPF\0MM\0\x2a\0\0\0\x08", 12) + directory + entries);
+  };
+  // The TIFF header is 4 + 4 bytes into the segment, that 2 into the file.
+  const auto size = static_cast<uint32_t>(Insert(first, index(0, 0)).size());
+  return Insert(first, index(size, size - 10)) + second;
+}
+
+constexpr char kDynamic[] =
+    "xmlns:Device=\"http://ns.google.com/photos/dd/1.0/device/\" "
+    "xmlns:Camera=\"http://ns.google.com/photos/dd/1.0/camera/\" "
+    "xmlns:DepthMap=\"http://ns.google.com/photos/dd/1.0/depthmap/\" "
+    "xmlns:Container=\"http://ns.google.com/photos/dd/1.0/container/\" "
+    "xmlns:Item=\"http://ns.google.com/photos/dd/1.0/item/\"";
+
+// One item of a Dynamic Depth container.
+inline std::string ContainerItem(const std::string& mime, size_t length, const std::string& uri) {
+  return "<rdf:li rdf:parseType=\"Resource\"><Container:Item Item:Mime=\"" + mime +
+         "\" Item:Length=\"" + std::to_string(length) + "\" Item:DataURI=\"" + uri +
+         "\"/></rdf:li>";
+}
+
+// Dynamic Depth 1.0: a picture, something else and the map, in one file.
+inline std::string DynamicDepth(const std::string& jpeg, const std::string& map,
+                                const std::string& attributes) {
+  const std::string other = "a confidence map would stand here";
+  const std::string inside =
+      "<Device:Container rdf:parseType=\"Resource\"><Container:Directory><rdf:Seq>" +
+      ContainerItem("image/jpeg", 0, "primary_image") +
+      ContainerItem("image/jpeg", other.size(), "other") +
+      ContainerItem("image/png", map.size(), "android/depthmap") +
+      "</rdf:Seq></Container:Directory></Device:Container>"
+      "<Device:Cameras><rdf:Seq><rdf:li rdf:parseType=\"Resource\"><Device:Camera "
+      "rdf:parseType=\"Resource\"><Camera:DepthMap DepthMap:ItemSemantic=\"Depth\" "
+      "DepthMap:DepthURI=\"android/depthmap\" " +
+      attributes + "/></Device:Camera></rdf:li></rdf:Seq></Device:Cameras>";
+  return Insert(jpeg, XmpSegment(Packet(kDynamic, "", inside))) + other + map;
+}
+
+constexpr char kApple[] =
+    "xmlns:apdi=\"http://ns.apple.com/pixeldatainfo/1.0/\" "
+    "xmlns:depthData=\"http://ns.apple.com/depthData/1.0/\"";
+
+// An auxiliary picture of disparities as Apple's cameras write it, with the elements given.
+inline std::string AppleMap(const std::string& jpeg, const std::string& elements) {
+  return Insert(jpeg, XmpSegment(Packet(kApple, "", elements)));
+}
+
+inline void Write(const std::string& path, const std::string& bytes) {
+  Require(WriteFile(path, Bytes(bytes.begin(), bytes.end())));
+}
+
+}  // namespace starfocus::photos
+
+#endif  // STARFOCUS_TESTS_SUPPORT_PHOTO_FILES_H_
