@@ -148,8 +148,8 @@ TEST_CASE(
     params.rule = rule;
     return RefocusScene(scene, config, params).report.gathered_pixels;
   };
-  CHECK(gathered(12.1, SF_MODE_BLOCK, SF_RULE_SUBAPERTURE) == 0);
-  CHECK(gathered(12, SF_MODE_BLOCK, SF_RULE_DEFAULT) == 70 * 45);
+  CHECK(gathered(48.1, SF_MODE_BLOCK, SF_RULE_SUBAPERTURE) == 0);
+  CHECK(gathered(48, SF_MODE_BLOCK, SF_RULE_DEFAULT) == 70 * 45);
   CHECK(gathered(0.5, SF_MODE_BLOCK, SF_RULE_SUBAPERTURE) == 0);
   CHECK(gathered(3, SF_MODE_BLOCK, SF_RULE_PAPER) == 0);
   CHECK(gathered(3, SF_MODE_FRAME, SF_RULE_SUBAPERTURE) == 0);
