@@ -35,7 +35,7 @@ class Partition {
     // The cells are those of whole smallest blocks, which may hang over the picture's edges.
     const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(rules_.width - x),
                          CellsWithin(rules_.height - y)};
-    const Surroundings surroundings = LoadSurroundings(cells, inside, around, scratch_.cells);
+    const Surroundings surroundings = LoadSurroundings(cells, rules_.scale, inside, around, scratch_.cells);
     FindGathered(cells, surroundings);
     for (int level = 0; level <= levels_; ++level) {
       const int32_t count = side_ >> level;

@@ -56,14 +56,23 @@ struct Cells {
     return int(std::ceil((cell.r_max + kOne / 2) / double(kOne)));
   }
 
+  // The same of its nearest pixels.
+  int NearReach(const Cell& cell) const {
+    const double radius = std::ceil(double(scale.step) * std::abs(cell.high - scale.focus) /
+                                    double(int64_t{1} << starfocus::kStepBits));
+    return int(std::ceil((radius + kOne / 2) / double(kOne)));
+  }
+
   // Over all cells of the picture.
   bool IsSmooth(int column, int row) const {
+    const Cell& own = *grid.At(column, row);
     int low = INT32_MAX, high = INT32_MIN, widest = 0;
     for (int y = 0; y < grid.rows; ++y) {
       for (int x = 0; x < grid.columns; ++x) {
         const Cell& cell = *grid.At(x, y);
         const int between = std::max(std::abs(x - column), std::abs(y - row)) - 1;
-        if (between * kCellSize >= std::max(Reach(cell), Reach(*grid.At(column, row)))) continue;
+        const int nearer = cell.high > own.high ? NearReach(cell) : 0;
+        if (between * kCellSize >= std::max(nearer, Reach(own))) continue;
         if (cell.r_edge > 0) return false;
         widest = std::max(widest, cell.high - cell.low);
         low = std::min(low, int{cell.low});

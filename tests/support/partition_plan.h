@@ -103,7 +103,7 @@ struct Plan {
   // The statistics of any block, from its blocks of 16.
   BlockStats Stats(int x, int y, int side) const {
     if (side == kSmallestBlock) {
-      return test::MeasureBlock(grid, x / kCellSize, y / kCellSize, around);
+      return test::MeasureBlock(grid, rules.scale, x / kCellSize, y / kCellSize, around);
     }
     BlockStats stats[4];
     const BlockStats* children[4];
