@@ -157,8 +157,9 @@ class Partition {
     node.best = best;
   }
 
-  // Gathers the cells that can be, at the layer of the block's views; where these are all, also at
-  // layer 0 if that takes less time.
+  // Gathers the cells that can be, at the layer of the block's views. Where a whole block can be at
+  // layer 0, it is: that is closer to the truth and takes little more time, if any
+  // (docs/constants.md).
   void PlanGathering(const PartitionNode& node, Block* block) const {
     const auto cells = static_cast<uint64_t>(node.cells);
     const auto gathered = static_cast<uint64_t>(node.gathered[block->layer]);
@@ -168,7 +169,7 @@ class Partition {
       block->cost = node.gather[block->layer] + upsample + views * (cells - gathered) / cells;
       block->gathers = true;
     }
-    if (block->layer > 0 && node.gathered[0] == node.cells && node.gather[0] < block->cost) {
+    if (block->layer > 0 && node.gathered[0] == node.cells) {
       block->cost = node.gather[0];
       block->layer = 0;
       block->gathers = true;

@@ -317,7 +317,7 @@ Picture Gather(const LightField& field, const Picture& of_layer, int layer,
   const Rectangle rectangle = {cell.at_x,   cell.at_y,   cell.at_width, cell.at_height,
                                kernel.size, kernel.size, kernel.size,   kernel.size};
   Picture extended = ExtendedRectangle(of_layer, rectangle);
-  LookBeyond(field, of_layer, layer, rectangle, &extended);
+  LookBeyond(field, picture, layer, rectangle, &extended);
   Picture to(cell.at_width, cell.at_height);
   for (int y = 0; y < cell.at_height; ++y) {
     for (int x = 0; x < cell.at_width; ++x) {

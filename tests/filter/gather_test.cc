@@ -151,7 +151,7 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode, up to the lar
 TEST_CASE(
     "gather: not beyond the largest radius, in focus, in frame modes or by the paper's rule") {
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
-  const sf_config config = test::ConfigFor(scene, 16);
+  const sf_config config = test::ConfigFor(scene, 49);
   const auto gathered = [&](double focus, sf_mode mode, sf_rule rule) {
     sf_params params = test::Params(focus, 1, mode);
     params.rule = rule;

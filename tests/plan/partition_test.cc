@@ -209,7 +209,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
           const bool gathered = subapertures && exact > 0.5 && exact <= 12 << layer;
           CHECK(block.gathers == gathered);
           if (gathered) {
-            CHECK((block.layer == layer || (block.layer == 0 && exact <= 12)));
+            CHECK(block.layer == (exact <= 12 ? 0 : layer));
             CHECK(block.n == 0);
             CHECK(block.rendered.width == 0);
             continue;

@@ -229,7 +229,7 @@ struct GatherPlan {
   }
 };
 
-// Gathers what may be at the block's layer, or the whole block at layer 0 if that takes less time.
+// Gathers what may be at the block's layer, or the whole block at layer 0 if that may be.
 // `upsampling`: predicted time of it, which is part of the block's.
 inline void PlanGathering(const Plan& plan, uint64_t upsampling, Block* block) {
   const GatherPlan here(plan, block->rect, block->layer), below(plan, block->rect, 0);
@@ -238,7 +238,7 @@ inline void PlanGathering(const Plan& plan, uint64_t upsampling, Block* block) {
                   (block->cost - upsampling) * (here.cells - here.gathered) / here.cells;
     block->gathers = true;
   }
-  if (block->layer > 0 && below.gathered == below.cells && below.cost < block->cost) {
+  if (block->layer > 0 && below.gathered == below.cells) {
     block->cost = below.cost;
     block->layer = 0;
     block->gathers = true;
