@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light-field folder: view_<u>_<v>.png (or .ppm, .jpg) with u, v printed %+.1f, and
-// disparity.pfm with the disparity of the centre view.
+// A light-field folder: captured views (view_files.h), and disparity.pfm, or disp0.pfm of a stereo
+// pair, with the disparity of the centre view.
 #ifndef STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 #define STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 
@@ -10,24 +10,23 @@
 #include "platform/image.h"
 #include "platform/pfm.h"
 #include "platform/runner.h"
+#include "platform/view_files.h"
 
 namespace starfocus {
 
 struct LightField {
-  std::vector<Image> views;  // 1, 5, 9 or 17, in the order of sf_view_position
+  std::vector<Image> views;
+  Positions positions;  // of the views; empty: those of sf_view_position
   FloatMap disparity;
 
   int width() const { return disparity.width; }
   int height() const { return disparity.height; }
 };
 
-// The sizes a star-shaped set may have, smallest first.
-inline constexpr int kStarSets[] = {1, 5, 9, 17};
-bool IsStarSet(int views);
+// Tells a configuration the views of a light field and where they lie.
+void ConfigureViews(const LightField& light_field, sf_config* config);
 
-// "view_-0.5_+1.0" for captured view `index`.
-std::string ViewName(int index);
-
+// The file of its map, there or not.
 std::string DisparityPath(const std::string& folder);
 
 // Every file that `folder` holds of a light field.
@@ -36,21 +35,19 @@ std::vector<std::string> LightFieldFiles(const std::string& folder);
 // Whether the file of that name, in a folder, is taken for a part of its light field.
 bool IsLightFieldFile(const std::string& name);
 
-// The largest complete star set in `folder`. A set that is only partly there is an error that
-// names a missing file.
-std::string CountViews(const std::string& folder, int* views);
-
 std::string ReadDisparity(const std::string& folder, FloatMap* map);
 
 // Whether the folder has a disparity map; it may be a bad one.
 bool HasDisparity(const std::string& folder);
 
-// Loads the views of the largest complete set, or only the first `views` ones when views is not 0.
+// Loads the views at these positions, or all of the folder's if there are none, without the map.
 // All sizes must agree.
-std::string LoadCaptured(const std::string& folder, int views, std::vector<Image>* captured);
+std::string LoadCaptured(const std::string& folder, const Positions& wanted,
+                         LightField* light_field);
 
 // Loads these views and the disparity map, of the same size.
-std::string LoadLightField(const std::string& folder, int views, LightField* light_field);
+std::string LoadLightField(const std::string& folder, const Positions& wanted,
+                           LightField* light_field);
 
 // Makes the folder if needed and writes PNG views, several at a time on `runner`, and the disparity
 // map.

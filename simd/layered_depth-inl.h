@@ -64,7 +64,7 @@ inline constexpr int kEdges = 8;
 // is kept in memory, since some vectors have no size at compile time.
 struct ChunkSides {
   uint32_t some;
-  int16_t rank[kEdges][kSliceLanes], disparity[kEdges][kSliceLanes], half[kEdges][kSliceLanes];
+  int16_t rank[kEdges][kSliceLanes], disparity[kEdges][kSliceLanes], second[kEdges][kSliceLanes];
 };
 
 // Finds the lanes whose place behind the pixel is covered in the view that moves by a pixel per
@@ -73,8 +73,8 @@ struct ChunkSides {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, V disparity, V room,
                                    int32_t sure, int16_t unit, int32_t last) {
-  const auto reach = static_cast<int16_t>(3 * unit / 4 - 1);
-  const auto nearer = hn::Add(disparity, hn::Set(d16, static_cast<int16_t>(unit / 2)));
+  const auto reach = static_cast<int16_t>((3 * unit - 1) / 4);
+  const auto nearer = hn::SaturatedAdd(disparity, hn::Set(d16, static_cast<int16_t>(unit / 2)));
   // One comparison of unsigned numbers tells whether the place is within `reach` of where the pixel
   // moves; the other one, whether the pixel is nearer at all.
   auto start = hn::Sub(hn::Sub(disparity, hn::Set(d16, reach)), hn::Set(d16, INT16_MIN));
@@ -94,6 +94,37 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, V d
   while (u <= last) {
     const auto outside = hn::Gt(hn::Set(d16, static_cast<int16_t>(u)), room);
     covered = hn::Or(covered, hn::VecFromMask(d16, hn::AndNot(outside, covers())));
+  }
+  return hn::MaskFromVec(covered);
+}
+
+// The same of a view whose pixels do not follow each other along a row or a column. `at` is that
+// in column `column` of the row, and those after number `last` never come so far.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewLook& look,
+                                         const int16_t* at, int32_t column, V disparity,
+                                         int32_t last) {
+  const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
+  const auto reach = static_cast<int16_t>((3 * look.unit - 1) / 4);
+  const auto nearer =
+      hn::SaturatedAdd(disparity, hn::Set(d16, static_cast<int16_t>(look.unit / 2)));
+  auto start = hn::Sub(hn::Sub(disparity, hn::Set(d16, reach)), hn::Set(d16, INT16_MIN));
+  const auto end = hn::Set(d16, static_cast<int16_t>(INT16_MIN + 2 * reach + 1));
+  const auto columns = hn::Iota(d16, static_cast<int16_t>(column));
+  auto covered = hn::Zero(d16);
+  for (int32_t m = 0; m <= last; ++m) {
+    const int32_t along = look.side % 2 == 0 ? m : -m;
+    const int32_t across = (m * look.slant + (1 << (kSlantBits - 1))) >> kSlantBits;
+    const int32_t x = look.side < 2 ? along : across, y = look.side < 2 ? across : along;
+    if (y < -row.above || y > row.below) break;
+    if (column + x <= -lanes || column + x >= row.width) break;
+    const auto here = hn::LoadU(d16, at + y * row.stride + x);
+    const auto place = hn::Add(columns, hn::Set(d16, static_cast<int16_t>(x)));
+    const auto inside = hn::And(hn::Gt(place, hn::Set(d16, -1)),
+                                hn::Lt(place, hn::Set(d16, static_cast<int16_t>(row.width))));
+    const auto near = hn::And(hn::Gt(here, nearer), hn::Lt(hn::Sub(here, start), end));
+    covered = hn::Or(covered, hn::VecFromMask(d16, hn::And(near, inside)));
+    start = hn::Add(start, hn::Set(d16, look.unit));
   }
   return hn::MaskFromVec(covered);
 }
@@ -129,6 +160,29 @@ HWY_INLINE bool FollowEdges(const DepthRow& row, int side, size_t chunk,
   return any;
 }
 
+// Finds the lanes whose place, of `disparity`, is covered in a view; none is farther than `low`.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& look, int32_t column,
+                                 V disparity, int32_t low) {
+  const int16_t* const at = row.disparity + column;
+  const int32_t side = look.side, vertical = side == 2 ? row.below : row.above;
+  const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
+  const int32_t last = (row.high - low) / look.unit + 1;
+  if (look.slant != 0) return FindCoveredAslant(d16, row, look, at, column, disparity, last);
+  const auto columns = hn::Iota(d16, static_cast<int16_t>(column));
+  const auto width = hn::Set(d16, static_cast<int16_t>(row.width - 1));
+  const auto room = side == 0   ? hn::Sub(width, columns)
+                    : side == 1 ? columns
+                                : hn::Set(d16, static_cast<int16_t>(vertical));
+  const int32_t end = row.width - lanes - column;
+  const int32_t sure = side == 0 ? end : side == 1 ? column : vertical;
+  const int32_t most = side == 0   ? row.width - 1 - column
+                       : side == 1 ? column + lanes - 1
+                                   : vertical;
+  return FindCovered(d16, at, StepOf(row, side), disparity, room, sure, look.unit,
+                     last < most ? last : most);
+}
+
 // Looks behind an edge of each pixel, at these distances, and writes it as edge `index`. Sides are
 // numbered as in DepthRow::edges.
 HWY_INLINE void LookBehindSide(const DepthRow& row, size_t chunk, const uint8_t* distances,
@@ -137,7 +191,7 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t chunk, const uint8_t*
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const int side = index % 4;
   const ptrdiff_t step = StepOf(row, side);
-  const int32_t unit = 1 << row.unit_bits, vertical = side == 2 ? row.below : row.above;
+  const ViewLook* const looks = row.looks[side];
   int16_t* const behind = sides->disparity[index];
   const int16_t* const pixels = row.disparity + chunk;
   for (ptrdiff_t k = 0; k < static_cast<ptrdiff_t>(kSliceLanes); ++k) {
@@ -145,41 +199,24 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t chunk, const uint8_t*
   }
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
     const auto column = static_cast<int32_t>(chunk + k);
-    const int16_t* at = pixels + k;
     const auto distance = hn::PromoteTo(d16, hn::LoadU(d8, distances + k));
     const auto hides = hn::Gt(distance, hn::Zero(d16));
     const auto disparity = hn::LoadU(d16, behind + k);
-    const auto columns = hn::Iota(d16, static_cast<int16_t>(column));
-    const auto width = hn::Set(d16, static_cast<int16_t>(row.width - 1));
-    const auto room = side == 0   ? hn::Sub(width, columns)
-                      : side == 1 ? columns
-                                  : hn::Set(d16, static_cast<int16_t>(vertical));
     const auto high = hn::Set(d16, row.high);
     const int32_t low = hn::GetLane(hn::MinOfLanes(d16, hn::IfThenElse(hides, disparity, high)));
-    const int32_t depth = row.high - low;
-    const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
-    const int32_t end = row.width - lanes - column;
-    const int32_t sure = side == 0 ? end : side == 1 ? column : vertical;
-    const int32_t most = side == 0   ? row.width - 1 - column
-                         : side == 1 ? column + lanes - 1
-                                     : vertical;
-    const auto last = [&](int32_t units)
-                          HWY_ATTR { return depth / units + 1 < most ? depth / units + 1 : most; };
-    auto unseen = hides, half = hn::Lt(distance, hn::Zero(d16));
-    if (row.side_views) {
-      unseen = hn::And(hides, FindCovered(d16, at, step, disparity, room, sure,
-                                          static_cast<int16_t>(unit), last(unit)));
-      if (row.half_views && !hn::AllFalse(d16, unseen)) {
-        const auto covered = FindCovered(d16, at, step, disparity, room, sure,
-                                         static_cast<int16_t>(2 * unit), last(2 * unit));
-        half = hn::AndNot(covered, unseen);
-        unseen = hn::And(covered, unseen);
-      }
+    auto unseen = hides, second = hn::Lt(distance, hn::Zero(d16));
+    if (looks[0].unit != 0) {
+      unseen = hn::And(hides, IsCovered(d16, row, looks[0], column, disparity, low));
+    }
+    if (looks[1].unit != 0 && !hn::AllFalse(d16, unseen)) {
+      const auto covered = IsCovered(d16, row, looks[1], column, disparity, low);
+      second = hn::AndNot(covered, unseen);
+      unseen = hn::And(covered, unseen);
     }
     const auto far = hn::IfThenElseZero(unseen, hn::Set(d16, kUnseen));
     const auto rank = hn::IfThenElse(hides, hn::Add(distance, far), hn::Set(d16, kNoRank));
     hn::StoreU(rank, d16, sides->rank[index] + k);
-    hn::StoreU(hn::VecFromMask(d16, half), d16, sides->half[index] + k);
+    hn::StoreU(hn::VecFromMask(d16, second), d16, sides->second[index] + k);
   }
 }
 
@@ -193,8 +230,8 @@ HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V dispar
                               hn::Eq(hn::LoadU(d16, sides.disparity[edge] + k), disparity));
     const int side = edge % 4;
     const auto bit = hn::Set(d16, static_cast<int16_t>(1 << side));
-    const auto half_bit = hn::Set(d16, static_cast<int16_t>(1 << (side + kSourceHalf)));
-    const auto bits = hn::Or(bit, hn::And(half_bit, hn::LoadU(d16, sides.half[edge] + k)));
+    const auto second_bit = hn::Set(d16, static_cast<int16_t>(1 << (side + kSourceSecond)));
+    const auto bits = hn::Or(bit, hn::And(second_bit, hn::LoadU(d16, sides.second[edge] + k)));
     source = hn::Or(source, hn::IfThenElseZero(same, bits));
   }
   const auto unseen = hn::Gt(best, hn::Set(d16, int16_t{kUnseen}));

@@ -43,6 +43,20 @@ struct StepBits {
   uint16_t falls, rises;
 };
 
+// A captured view that looks behind edges. Pixels that may come to lie before a place in it follow
+// each other away from the place: pixel m lies m pixels to that side, and across it m slant
+// 2^-kSlantBits pixels, halves rounded up, to the right or the bottom.
+struct ViewLook {
+  int16_t unit;   // disparity by which pixels of the view move by one; 0: there is no view
+  int8_t side;    // right, left, bottom, top
+  int16_t slant;  // at most 2^kSlantBits either way; 0: along rows or columns
+};
+inline constexpr int kSlantBits = 14;
+// Views nearer to the centre, of larger units, are not looked into.
+inline constexpr int16_t kMostUnit = 1 << 10;
+// Views that are looked into on a side, one after the other.
+inline constexpr int kViewLooks = 2;
+
 // A row of a field in which hidden surfaces are looked for. The rows of the field lie `stride`
 // samples apart, and kSliceLanes samples can be read before the row and behind it.
 struct DepthRow {
@@ -52,8 +66,8 @@ struct DepthRow {
   int32_t above, below;  // rows of the field above this one and below it
   int16_t high;          // no disparity of the field is higher
   int unit_bits;         // as in EdgeLimits
-  bool side_views;       // whether there are views beside the centre view
-  bool half_views;       // whether there are also such at half distance
+  // The views that are looked into on each side, as `edges` has them.
+  ViewLook looks[4][kViewLooks];
   // The distance of each pixel to the far side of its edges, 0 where there is no edge: to the
   // right, left, bottom and top, as FindEdges gives them. None points out of the field. Rows lie
   // `stride` apart, like those of disparities.
@@ -64,17 +78,17 @@ struct DepthRow {
 // one with the place where their colours are found, and which pixels have them.
 struct HiddenRow {
   int16_t* disparity[kSurfaces - 1];  // kNoSurface where there is none
-  uint16_t* source[kSurfaces - 1];    // see kSourceHalf
+  uint16_t* source[kSurfaces - 1];    // see kSourceSecond
   uint16_t* found[kSurfaces - 1];     // bit k of found[c]: whether pixel c kSliceLanes + k has one
   uint8_t* share;                     // of the first surface: kSliceWhole or kSliceEnd
 };
 
 // A source tells where the colour of a hidden surface is found, and is 0 where there is no surface.
 // Bit k tells whether side k (right, left, bottom, top) shows it; the colour is the mean of those
-// sides. Bit kSourceHalf + k tells that only the view at half distance shows it there. If no view
-// shows it, the bits from kSourceDistance on are the distance of the pixel that is repeated
-// instead, else 0.
-inline constexpr int kSourceHalf = 4, kSourceDistance = 8;
+// sides. Bit kSourceSecond + k tells that only that side's second view shows it. If no view shows
+// it, the bits from kSourceDistance on are the distance of the pixel that is repeated instead, else
+// 0.
+inline constexpr int kSourceSecond = 4, kSourceDistance = 8;
 
 // A side's rank is the distance of its edge in pixels, and this more if no view shows what lies
 // behind it. The lowest rank gives the surface; a side without an edge has the rank kNoRank.
@@ -113,8 +127,8 @@ void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t ste
 // its depth behind the pixel. The first surface is that beyond the edge of lowest rank, the nearer
 // one if two sides have the same rank; the second is chosen likewise from the sides whose surface
 // differs from the first by more than 2^unit_bits. A view shows the place behind a pixel if nothing
-// before it moves there: no pixel towards that side is nearer by more than half a 2^unit_bits and
-// moves, in that view, to less than 3/4 of a pixel from the place. Returns which groups of
+// before it moves there: no pixel of the ViewLook is nearer by more than half a unit of the view's
+// and moves, in that view, to less than 3/4 of a pixel from the place. Returns which groups of
 // kSliceLanes have hidden surfaces, the first in bit 0. In the others `source` and `found` are
 // unspecified.
 uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden);

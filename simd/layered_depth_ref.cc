@@ -12,17 +12,20 @@ namespace {
 struct HiddenSide {
   int rank;  // see kUnseen
   int16_t disparity;
-  bool half;  // whether only the view at half distance shows it
+  bool second;  // whether only the side's second view shows it
 };
 
-// Tells whether something lies before the place behind a pixel in the view that moves by a pixel
-// per `unit`. The `room` pixels towards the side are `step` apart.
-bool IsCovered(const int16_t* at, ptrdiff_t step, int32_t room, int16_t disparity, int32_t unit) {
-  for (int32_t u = 0; u <= room; ++u, at += step) {
-    const int32_t nearer = *at - disparity;
-    if (2 * nearer > unit && 4 * std::abs(nearer - u * unit) < 3 * unit) return true;
+// Tells whether something lies before the place behind pixel x of a row in a view.
+bool IsCovered(const DepthRow& row, int32_t x, int16_t disparity, const ViewLook& look) {
+  for (int32_t m = 0;; ++m) {
+    const int32_t along = look.side % 2 == 0 ? m : -m;
+    const int32_t across = (m * look.slant + (1 << (kSlantBits - 1))) >> kSlantBits;
+    const int32_t column = x + (look.side < 2 ? along : across);
+    const int32_t line = look.side < 2 ? across : along;
+    if (column < 0 || column >= row.width || line < -row.above || line > row.below) return false;
+    const int32_t nearer = row.disparity[column + line * row.stride] - disparity;
+    if (2 * nearer > look.unit && 4 * std::abs(nearer - m * look.unit) < 3 * look.unit) return true;
   }
-  return false;
 }
 
 // Edges that are followed on each side: the next one, and the one behind its far side.
@@ -40,17 +43,13 @@ int DistanceOf(const DepthRow& row, int32_t x, int side, ptrdiff_t step, int edg
 }
 
 HiddenSide LookBehindSide(const DepthRow& row, int32_t x, int side, int edge) {
-  const int32_t unit = 1 << row.unit_bits;
   const ptrdiff_t along = side < 2 ? 1 : row.stride, step = side % 2 == 0 ? along : -along;
   const int32_t distance = DistanceOf(row, x, side, step, edge);
   if (distance == 0) return {kNoRank, kNoSurface, false};
-  const int32_t rooms[4] = {row.width - 1 - x, x, row.below, row.above};
-  const int16_t* at = row.disparity + x;
-  const int16_t disparity = at[step * distance];
-  for (const bool half : {false, true}) {
-    if (!row.side_views || (half && !row.half_views)) break;
-    if (!IsCovered(at, step, rooms[side], disparity, half ? 2 * unit : unit)) {
-      return {distance, disparity, half};
+  const int16_t disparity = row.disparity[x + step * distance];
+  for (const ViewLook& look : row.looks[side]) {
+    if (look.unit != 0 && !IsCovered(row, x, disparity, look)) {
+      return {distance, disparity, &look != row.looks[side]};
     }
   }
   return {distance + kUnseen, disparity, false};
@@ -72,7 +71,7 @@ int16_t ChooseSurface(const HiddenSide* sides, int32_t x, int behind, int32_t un
   for (int k = 0; best != nullptr && k < 4 * kEdges; ++k) {
     if (sides[k].rank != best->rank || sides[k].disparity != best->disparity) continue;
     const int side = k % 4;
-    source |= 1 << side | (sides[k].half ? 1 << (kSourceHalf + side) : 0);
+    source |= 1 << side | (sides[k].second ? 1 << (kSourceSecond + side) : 0);
     if (best->rank > kUnseen) source |= (best->rank - kUnseen) << kSourceDistance;
   }
   hidden.source[behind][x] = static_cast<uint16_t>(source);

@@ -14,7 +14,7 @@ void Camera::FreeAligned::operator()(void* memory) const {
 }
 
 std::string Camera::Load(const std::string& folder, sf_mode mode) {
-  std::string error = LoadLightField(folder, 0, &light_field_);
+  std::string error = LoadLightField(folder, {}, &light_field_);
   if (!error.empty()) return error;
   FloatMap& map = light_field_.disparity;
   const size_t stride = sizeof(float) * size_t(map.width);
@@ -37,7 +37,7 @@ std::string Camera::Load(const std::string& folder, sf_mode mode) {
   sf_config_init(&config);
   config.width = light_field_.width();
   config.height = light_field_.height();
-  config.views = static_cast<int32_t>(light_field_.views.size());
+  ConfigureViews(light_field_, &config);
   config.disparity_min = stats_.min;
   config.disparity_max = stats_.max;
   config.max_blur = std::max(1.0, std::ceil(apertures_[0] * range));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus: refocuses star-shaped light fields from the command line.
+// starfocus: refocuses light fields from the command line.
 #include <new>
 #include <string>
 
@@ -13,7 +13,7 @@ using namespace starfocus;
 
 Error Run(int argc, char** argv) {
   CLI::App app(
-      "Refocuses a photograph after it was taken: from a star-shaped light field and its "
+      "Refocuses a photograph after it was taken: from a light field and its "
       "disparity map.",
       "starfocus");
   app.require_subcommand(0, 1);  // none is said below: here it would hide what stands in its place

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "platform/light_field.h"
+#include "platform/image.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -29,6 +29,22 @@ bool ReadNumber(const std::string& text, double* value) {
   char* end = nullptr;
   *value = std::strtod(text.c_str(), &end);
   return *end == '\0' && std::isfinite(*value);
+}
+
+// U,V.
+bool ReadPosition(const std::string& text, sf_position* position) {
+  const size_t comma = text.find(',');
+  double u = 0, v = 0;
+  if (comma == std::string::npos || !ReadNumber(text.substr(0, comma), &u) ||
+      !ReadNumber(text.substr(comma + 1), &v)) {
+    return false;
+  }
+  *position = RoundedPosition(u, v);
+  return true;
+}
+
+bool IsFar(const sf_position& position) {
+  return std::fabs(position.u) > 1 || std::fabs(position.v) > 1;
 }
 
 }  // namespace
@@ -95,9 +111,32 @@ Error ParseHighlights(const std::string& option, const std::string& text, double
   return Error::Usage(option, "a factor from 1 to " + Short(SF_MAX_HIGHLIGHTS), Quoted(text));
 }
 
-Error ParseViews(const std::string& option, const std::string& text, int* value) {
-  if (ReadWhole(text, value) && IsStarSet(*value)) return "";
-  return Error::Usage(option, "17, 9, 5 or 1", Quoted(text));
+Error ParseViews(const std::string& option, const std::string& text, Positions* positions) {
+  int star = 0;
+  if (ReadWhole(text, &star) && IsStarSet(star)) {
+    *positions = StarPositions(star);
+    return "";
+  }
+  const auto wrong = [&](const std::string& expected) {
+    return Error::Usage(option, expected, Quoted(text));
+  };
+  positions->clear();
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(':', begin), text.size());
+    sf_position position = {};
+    if (!ReadPosition(text.substr(begin, end - begin), &position)) {
+      return wrong("17, 9, 5 or 1, or positions U,V:U,V");
+    }
+    if (IsFar(position)) return wrong("positions within +-1");
+    for (const sf_position& other : *positions) {
+      if (SamePosition(other, position)) return wrong("positions that differ");
+    }
+    positions->push_back(position);
+    begin = end + 1;
+  }
+  if (!SamePosition(positions->front(), {0, 0})) return wrong("the centre view, 0,0, first");
+  if (positions->size() <= SF_MAX_VIEWS) return "";
+  return wrong("at most " + std::to_string(SF_MAX_VIEWS) + " views");
 }
 
 Error ParseTransfer(const std::string& option, const std::string& text, sf_transfer* value) {

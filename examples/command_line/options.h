@@ -7,6 +7,7 @@
 #include <string>
 
 #include "examples/command_line/error.h"
+#include "platform/view_files.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -33,8 +34,9 @@ Error ParsePercentage(const std::string& option, const std::string& text, double
 // A factor from SF_MIN_N_SCALE to SF_MAX_N_SCALE.
 Error ParseScale(const std::string& option, const std::string& text, double* value);
 
-// 17, 9, 5 or 1.
-Error ParseViews(const std::string& option, const std::string& text, int* value);
+// 17, 9, 5 or 1: those of the star, or U,V:U,V and so on: views at those positions, the first one
+// at 0,0, all within +-1, rounded to four decimals as names of files are.
+Error ParseViews(const std::string& option, const std::string& text, Positions* positions);
 
 // A factor from 1 to SF_MAX_HIGHLIGHTS.
 Error ParseHighlights(const std::string& option, const std::string& text, double* value);

@@ -38,7 +38,7 @@ sf_status CheckOut(const sf_image& out, const Request& request, const EngineStat
 sf_status CheckRequest(const EngineState& engine, const Request& request) {
   const sf_config& config = engine.config;
   if (config.images == 0) return SF_ERROR_STATE;
-  sf_status status = CheckParams(request.params);
+  sf_status status = CheckParams(config, request.params);
   if (status == SF_OK) status = CheckRegion(config, request.params.region);
   if (status != SF_OK) return status;
   if (request.prepared != nullptr && !Fits(*request.prepared, config)) return SF_ERROR_PREPARED;

@@ -50,9 +50,10 @@ size_t sf_struct_size(const char* name) {
       SIZE_OF(sf_allocator),       SIZE_OF(sf_block),        SIZE_OF(sf_config),
       SIZE_OF(sf_depth_config),    SIZE_OF(sf_layer_report), SIZE_OF(sf_light_field),
       SIZE_OF(sf_disparity_stats), SIZE_OF(sf_params),       SIZE_OF(sf_plane),
-      SIZE_OF(sf_previous),        SIZE_OF(sf_region),       SIZE_OF(sf_report),
-      SIZE_OF(sf_skipped),         SIZE_OF(sf_timing),       SIZE_OF(sf_image),
-      SIZE_OF(sf_image_out),       SIZE_OF(sf_image_field),  SIZE_OF(sf_depth_map)};
+      SIZE_OF(sf_position),        SIZE_OF(sf_previous),     SIZE_OF(sf_region),
+      SIZE_OF(sf_report),          SIZE_OF(sf_skipped),      SIZE_OF(sf_timing),
+      SIZE_OF(sf_image),           SIZE_OF(sf_image_out),    SIZE_OF(sf_image_field),
+      SIZE_OF(sf_depth_map)};
 #undef SIZE_OF
   if (name == nullptr) return 0;
   for (const Entry& entry : kSizes) {
@@ -90,9 +91,9 @@ void sf_params_init(sf_params* params) {
 
 int sf_view_position(int32_t index, double* u, double* v) {
   if (index < 0 || index >= SF_MAX_VIEWS || u == nullptr || v == nullptr) return 0;
-  const starfocus::ViewPosition position = starfocus::CapturedPosition(index);
-  *u = 0.5 * position.u2;
-  *v = 0.5 * position.v2;
+  const starfocus::ViewPosition position = starfocus::StarPosition(index);
+  *u = position.u / static_cast<double>(starfocus::kViewOne);
+  *v = position.v / static_cast<double>(starfocus::kViewOne);
   return 1;
 }
 

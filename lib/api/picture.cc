@@ -177,7 +177,7 @@ bool OutputOverlaps(const Request& request, const Rect& region, const EngineStat
 
 sf_status CheckRequest(const Request& request, const EngineState& engine) {
   const sf_config& config = engine.config;
-  sf_status status = CheckParams(*request.params);
+  sf_status status = CheckParams(config, *request.params);
   if (status == SF_OK) status = CheckRegion(config, request.params->region);
   if (status != SF_OK) return status;
   if (request.prepared != nullptr && !Fits(*request.prepared, config)) return SF_ERROR_PREPARED;

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "lib/api/light_field.h"
+#include "lib/base/view_set.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/stripe_layers.h"
 
@@ -39,6 +40,9 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) 
     plane.stride = 3 * static_cast<size_t>(LayerSize(config.width, layer));
     plane.data =
         carver.Take<int16_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
+  }
+  for (int shift = 1; shift <= config.previews; ++shift) {
+    TakeReduced(config, shift, &carver, &p.reduced[shift]);
   }
   return carver.Bytes();
 }
@@ -82,6 +86,9 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Ru
       if (status != SF_OK) break;
     }
     status = FillLayers(engine->config, *engine->kernels, runner, &engine->crew, &engine->pictures);
+    if (status != SF_OK) break;
+    status = ReduceRows(prepared.disparity, {y, Min(y + side, height)}, prepared.config.previews,
+                        prepared.reduced, runner, engine);
   }
   for (int layer = 0; layer < SF_LAYERS; ++layer) engine->pictures.layers[layer] = own[layer];
   ForgetLayers(engine->config, &engine->pictures);
@@ -90,7 +97,7 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Ru
 
 bool Fits(const Prepared& prepared, const sf_config& config) {
   const sf_config& made = prepared.config;
-  return made.width == config.width && made.height == config.height && made.views == config.views &&
+  return made.width == config.width && made.height == config.height && SameViews(made, config) &&
          made.disparity_min == config.disparity_min && made.disparity_max == config.disparity_max &&
          made.max_layer == config.max_layer && made.transfer == config.transfer;
 }

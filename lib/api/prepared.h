@@ -6,6 +6,7 @@
 
 #include <cstddef>
 
+#include "lib/api/reduced.h"
 #include "lib/api/validate.h"
 #include "lib/engine/engine.h"
 #include "starfocus/image.h"
@@ -15,9 +16,10 @@ namespace starfocus {
 struct Prepared {
   sf_config config;  // of the engine that made it
   sf_light_field light_field;
-  sf_image_field* images = nullptr;  // instead of the light field; null: there are none
-  Plane<int16_t> disparity;          // all rows
-  Plane<int16_t> layers[SF_LAYERS];  // samples: all rows of layers 1 to config.max_layer
+  sf_image_field* images = nullptr;          // instead of the light field; null: there are none
+  Plane<int16_t> disparity;                  // all rows
+  Plane<int16_t> layers[SF_LAYERS];          // samples: all rows of layers 1 to config.max_layer
+  ReducedField reduced[SF_MAX_PREVIEW + 1];  // by shift, from 1 to config.previews
 };
 
 // Tells the engine's rings the rows that are read next; without a function the views are pictures.
@@ -35,8 +37,8 @@ size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared);
 sf_status CheckPreparedMemory(const EngineState& engine, const void* memory, size_t bytes,
                               Extent* extent);
 
-// Makes the layers stripe by stripe, in the engine's own planes but for the pixels. The engine's
-// views must be set.
+// Makes the layers stripe by stripe, in the engine's own planes but for the pixels, and the reduced
+// light fields. The engine's views must be set.
 sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Runner& runner,
                      EngineState* engine);
 

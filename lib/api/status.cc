@@ -1,6 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "starfocus/starfocus.h"
 
+namespace {
+
+// Those of starfocus/image.h.
+const char* StringOfImages(sf_status status) {
+  switch (status) {
+    case SF_ERROR_IMAGES:
+      return "images is not 0 or 1";
+    case SF_ERROR_FORMAT:
+      return "unknown format, matrix or range of an image";
+    case SF_ERROR_PIXEL_STRIDE:
+      return "bytes from pixel to pixel are none that the image's format allows";
+    case SF_ERROR_DEPTH_TYPE:
+      return "unknown type or meaning of a depth map, or has_invalid is not 0 or 1";
+    case SF_ERROR_DEPTH_SCALE:
+      return "scale or offset of a depth map is not finite, or scale is 0";
+    case SF_ERROR_DEPTH_SIZE:
+      return "depth map is larger than the picture, or has no values";
+    default:
+      return "unknown status";
+  }
+}
+
+}  // namespace
+
 const char* sf_status_string(sf_status status) {
   switch (status) {
     case SF_OK:
@@ -14,7 +38,7 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_SIZE:
       return "width or height is outside 1 to 65535";
     case SF_ERROR_VIEWS:
-      return "number of views is not 1, 5, 9 or 17";
+      return "number of views is not 1, 5, 9 or 17, or with positions not 1 to 17";
     case SF_ERROR_DISPARITY_RANGE:
       return "disparity range is not finite, reversed, or beyond 500 pixels";
     case SF_ERROR_MAX_BLUR:
@@ -67,23 +91,16 @@ const char* sf_status_string(sf_status status) {
       return "skips is not 0 or 1";
     case SF_ERROR_FILL:
       return "fill_unknown is not 0 or 1";
-    case SF_ERROR_IMAGES:
-      return "images is not 0 or 1";
-    case SF_ERROR_FORMAT:
-      return "unknown format, matrix or range of an image";
-    case SF_ERROR_PIXEL_STRIDE:
-      return "bytes from pixel to pixel are none that the image's format allows";
-    case SF_ERROR_DEPTH_TYPE:
-      return "unknown type or meaning of a depth map, or has_invalid is not 0 or 1";
-    case SF_ERROR_DEPTH_SCALE:
-      return "scale or offset of a depth map is not finite, or scale is 0";
-    case SF_ERROR_DEPTH_SIZE:
-      return "depth map is larger than the picture, or has no values";
+    case SF_ERROR_VIEW_POSITIONS:
+      return "positions of views are not finite, beyond 1, alike, or do not begin with (0, 0)";
+    case SF_ERROR_STAR:
+      return "SF_RULE_PAPER needs the star of sf_view_position: 1, 5, 9 or 17 views";
+    case SF_ERROR_PREVIEW:
+      return "previews is outside 0 to 3, or the light field was not prepared for that shift";
     case SF_ERROR_REGION:
       return "region is not inside the picture, or is given for streaming, which has none";
     case SF_ERROR_PREPARED:
-      return "prepared light field is of another kind, size, views, disparities, max_layer or "
-             "transfer";
+      return "prepared light field is of another kind, size, views, range, max_layer or transfer";
     case SF_ERROR_GATHER:
       return "gather is not 0 or 1";
     case SF_ERROR_TOO_LARGE:
@@ -112,6 +129,7 @@ const char* sf_status_string(sf_status status) {
       return "highlights is outside 1 to 64";
     case SF_ERROR_CANCELLED:
       return "the progress function cancelled the call; the output is incomplete";
+    default:
+      return StringOfImages(status);
   }
-  return "unknown status";
 }

@@ -76,7 +76,7 @@ using starfocus::EngineState;
 sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   if (engine == nullptr || params == nullptr) return SF_ERROR_NULL;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  sf_status status = starfocus::CheckParams(*params);
+  sf_status status = starfocus::CheckParams(e.config, *params);
   if (status != SF_OK) return status;
   if (e.config.streaming == 0) return SF_ERROR_STATE;
   if (!starfocus::IsWhole(params->region)) return SF_ERROR_REGION;

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 
+#include "lib/base/view_set.h"
 #include "lib/engine/engine.h"
 
 namespace starfocus {
@@ -40,8 +41,9 @@ sf_status CheckConfig(const sf_config& config) {
   if (config.version != SF_ABI_VERSION) return SF_ERROR_VERSION;
   if (!AllZero(config.reserved)) return SF_ERROR_RESERVED;
   if (!ValidSize(config.width) || !ValidSize(config.height)) return SF_ERROR_SIZE;
-  const int32_t views = config.views;
-  if (views != 1 && views != 5 && views != 9 && views != 17) return SF_ERROR_VIEWS;
+  ViewSet views;
+  const sf_status status = FindViews(config, &views);
+  if (status != SF_OK) return status;
   // The comparison is written so that NaN fails.
   if (!(config.disparity_min >= -SF_MAX_DISPARITY && config.disparity_max <= SF_MAX_DISPARITY &&
         config.disparity_min <= config.disparity_max)) {
@@ -68,6 +70,7 @@ sf_status CheckConfig(const sf_config& config) {
   if (config.skips != 0 && config.skips != 1) return SF_ERROR_SKIPS;
   if (config.fill_unknown != 0 && config.fill_unknown != 1) return SF_ERROR_FILL;
   if (config.images != 0 && config.images != 1) return SF_ERROR_IMAGES;
+  if (config.previews < 0 || config.previews > SF_MAX_PREVIEW) return SF_ERROR_PREVIEW;
   if (config.gather != 0 && config.gather != 1) return SF_ERROR_GATHER;
   if (config.transfer != SF_TRANSFER_SRGB && config.transfer != SF_TRANSFER_NONE) {
     return SF_ERROR_TRANSFER;
@@ -78,14 +81,15 @@ sf_status CheckConfig(const sf_config& config) {
   return CheckShape(config);
 }
 
-sf_status CheckParams(const sf_params& params) {
+sf_status CheckParams(const sf_config& config, const sf_params& params) {
   if (params.version != SF_ABI_VERSION) return SF_ERROR_VERSION;
   if (!AllZero(params.reserved)) return SF_ERROR_RESERVED;
   if (params.mode < SF_MODE_FRAME || params.mode > SF_MODE_BLUR) return SF_ERROR_MODE;
   if (params.rule < SF_RULE_DEFAULT || params.rule > SF_RULE_SUBAPERTURE) return SF_ERROR_RULE;
   if (!(params.focus >= -SF_MAX_FOCUS && params.focus <= SF_MAX_FOCUS)) return SF_ERROR_FOCUS;
   if (!(params.aperture >= 0.0 && params.aperture <= 1.0)) return SF_ERROR_APERTURE;
-  return SF_OK;
+  const bool paper = params.rule == SF_RULE_PAPER && params.mode != SF_MODE_BLUR;
+  return paper && !HasStar(config) ? SF_ERROR_STAR : SF_OK;
 }
 
 sf_status CheckMemory(const void* memory) {

@@ -11,7 +11,7 @@
 namespace starfocus {
 
 sf_status CheckConfig(const sf_config& config);
-sf_status CheckParams(const sf_params& params);
+sf_status CheckParams(const sf_config& config, const sf_params& params);
 
 // Checks memory to lay something out in.
 sf_status CheckMemory(const void* memory);

@@ -6,6 +6,7 @@
 // |----------------------|--------|---------|---------------------------|---------------------------|
 // | disparity d          | int16  | 2^6     | +-500 px per unit u       | 2.3 % below +-511.98      |
 // | focus d_t            | int32  | 2^6     | +-10^6 px per unit u      | 33 x                      |
+// | place (u, v) of views | int16  | 2^14    | [-1, 1]                   | 1 below 2 x               |
 // | step u_t / 2^L       | int64  | 2^24    | (0, 1]                    | only in products below    |
 // | step * (d - d_t)     | int64  | 2^30    | blur radius, +-134 px     | 2^26 x                    |
 // | shift s              | int32  | 2^8     | +-134 px                  | 2^16 x                    |
@@ -50,6 +51,8 @@
 namespace starfocus {
 
 inline constexpr int kDisparityBits = 6;
+inline constexpr int kViewBits = 14;
+inline constexpr int16_t kViewOne = 1 << kViewBits;
 inline constexpr int kStepBits = 24;
 inline constexpr int kShiftBits = 8;
 inline constexpr int32_t kShiftOne = 1 << kShiftBits;

@@ -263,7 +263,8 @@ void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->pictures.disparity.data = carver->Take<int16_t>(width, static_cast<size_t>(rows));
   engine->stripe.out =
       carver->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
-  if (streaming) engine->stripe.last_rows = carver->Take<uint8_t>(3 * width, kDeblockRows);
+  // Null without streaming also where LayOutAnew made it of an engine that streams.
+  engine->stripe.last_rows = streaming ? carver->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
   const int rings = streaming ? config.views : config.images;
   for (int view = 0; view < rings; ++view) {
     engine->rings[view].rows = rows;
@@ -278,11 +279,7 @@ size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
   EngineState counted;  // stands in for *engine while counting
   EngineState& e = *engine == nullptr ? counted : **engine;
   TakeTables(config, &carver, &e);
-  TakeRows(config, &carver, &e);
-  TakeLayers(config, &carver, &e);
-  TakeStripe(config, &carver, &e);
   e.crew.jobs.max_workers = config.max_workers;
-  e.crew.jobs.progress = carver.Take<std::atomic<uint32_t>>(static_cast<size_t>(MaxJobs(config)));
   e.crew.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
     const Worker taken = TakeWorker(config, &carver);
@@ -290,6 +287,11 @@ size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
     e.crew.workers[worker] = taken;
     e.crew.workers[worker].patience = Patience(&e.crew.jobs.watch);
   }
+  // What grows with the picture comes last: LayOut for a smaller one leaves all else in place.
+  TakeRows(config, &carver, &e);
+  TakeLayers(config, &carver, &e);
+  TakeStripe(config, &carver, &e);
+  e.crew.jobs.progress = carver.Take<std::atomic<uint32_t>>(static_cast<size_t>(MaxJobs(config)));
   return carver.Bytes();
 }
 
@@ -306,6 +308,13 @@ void VisitZones(EngineState* engine, void (*visit)(void*, size_t, size_t)) {
 size_t LayOut(const sf_config& config, void* base, EngineState** engine,
               const PieceVisitor* pieces) {
   return Carve(config, Carver(base, PTRDIFF_MAX, pieces), engine);
+}
+
+void LayOutAnew(const sf_config& config, EngineState* engine) {
+  EngineState* same = nullptr;
+  Carve(config, Carver(engine), &same);
+  engine->config = config;
+  engine->images.map_width = 0;
 }
 
 #ifdef STARFOCUS_RED_ZONES

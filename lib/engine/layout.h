@@ -19,6 +19,11 @@ namespace starfocus {
 size_t LayOut(const sf_config& config, void* base, EngineState** engine,
               const PieceVisitor* pieces = nullptr);
 
+// Lays an engine out anew for pictures that are no larger than those that its memory was made for:
+// `config` differs from that engine's in its size and range of disparities alone, and does not
+// stream. Tables stay; nothing of what a refocusing keeps does.
+void LayOutAnew(const sf_config& config, EngineState* engine);
+
 // Makes the red zones of an engine's memory, if this build has any, ones that nobody may touch, as
 // long as the object lives: the memory is the caller's and may become something else afterwards.
 class RedZones {

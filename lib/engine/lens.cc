@@ -3,17 +3,11 @@
 
 #include "lib/base/rules.h"
 #include "lib/base/view_grid.h"
+#include "lib/base/view_set.h"
 #include "lib/filter/blur.h"
 
 namespace starfocus {
 namespace {
-
-// Blur radius of the configured range's farther end.
-double LargestBlur(const sf_config& config, const sf_params& params) {
-  const double nearer = config.disparity_max - params.focus;
-  const double farther = params.focus - config.disparity_min;
-  return params.aperture * (nearer > farther ? nearer : farther);
-}
 
 // The one aperture of the frame modes. The benchmark's is made in memory of its own.
 Aperture FrameAperture(const sf_config& config, const Tables& tables, const Lens& lens) {
@@ -36,11 +30,20 @@ Rect RegionOf(const sf_config& config, const sf_params& params) {
   return {region.x, region.y, region.width, region.height};
 }
 
+double LargestBlur(const sf_config& config, const sf_params& params) {
+  const double nearer = config.disparity_max - params.focus;
+  const double farther = params.focus - config.disparity_min;
+  return params.aperture * (nearer > farther ? nearer : farther);
+}
+
 sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watch, Tables* tables,
                    Lens* lens) {
   const double r_max = LargestBlur(config, params);
   if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
   lens->params = params;
+  if (params.rule == SF_RULE_DEFAULT && !HasStar(config)) {
+    lens->params.rule = SF_RULE_SUBAPERTURE;
+  }
   lens->region = RegionOf(config, params);
   lens->r_max = r_max;
   lens->reach = GetReach(r_max);

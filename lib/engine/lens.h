@@ -74,6 +74,9 @@ inline int32_t JoinReach(const sf_config& config, const Lens& lens) {
   return IsDeblocking(config, lens) ? kDeblockRows : 0;
 }
 
+// Blur radius of the configured range's farther end.
+double LargestBlur(const sf_config& config, const sf_params& params);
+
 // Makes the lens for params, and the tables that it needs and that are not there yet. Returns
 // SF_ERROR_BLUR_TOO_LARGE, SF_ERROR_CANCELLED or SF_OK. The other fields of params must have been
 // checked.

@@ -34,6 +34,9 @@ bool ConvertKnown(const sf_config& config, const simd::Kernels& kernels, const f
 }  // namespace
 
 void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictures* pictures) {
+  ViewSet set;
+  FindViews(config, &set);  // which were checked when the engine was made
+  const Looks looks = ChooseLooks(set);
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
     Window& window = pictures->windows[layer];
     window.layer = layer;
@@ -42,6 +45,7 @@ void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictur
     window.picture_width = config.width;
     window.picture_height = config.height;
     window.views = config.views;
+    window.looks = looks;
     window.transfer = &TransferOf(config.transfer);
     window.reader = nullptr;
     for (int view = 0; view < config.views; ++view) window.view[view] = views[view];

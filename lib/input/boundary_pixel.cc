@@ -42,23 +42,27 @@ int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
 // The pixel beside it, away from the nearer surface, if it is of the same surface, else the pixel
 // itself: that is no mixture.
 Colour ReadBeside(const CentreView& centre, const BoundaryPixel& pixel, const Colour& mixed) {
-  const int32_t x = pixel.x - pixel.side[0], y = pixel.y - pixel.side[1];
+  const int8_t* const side = kSides[pixel.side];
+  const int32_t x = pixel.x - side[0], y = pixel.y - side[1];
   const bool same = Abs(centre.Disparity(x, y) - pixel.disparity) <= pixel.step;
   return same ? centre.ColourAt(x, y) : mixed;
 }
 
-// The point of the far surface in the captured view away from the nearer one, which lies farther
-// towards that there.
+// The view on the side away from the nearer surface, which it shows out of the way.
+const LookView& LookAway(const Window& window, const BoundaryPixel& pixel) {
+  return window.looks.Last(pixel.side ^ 1);
+}
+
+// The point of the far surface in that view.
 Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& mixed) {
   if (window.reads != nullptr) ++window.reads->side_colours;
-  const int dx = pixel.side[0], dy = pixel.side[1];
-  const bool half = window.views == 17;
-  const int32_t moved = pixel.disparity * (1 << (kShiftBits - kDisparityBits - (half ? 1 : 0)));
-  const int view = CapturedView(-dx, -dy, half);
-  const int32_t x = pixel.x * kShiftOne + dx * moved, y = pixel.y * kShiftOne + dy * moved;
-  PrefetchCaptured(window, view, {x, y, 0, 0});
+  const LookView& look = LookAway(window, pixel);
+  constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
+  const int32_t x = pixel.x * kShiftOne - ScaledByView(look.at.u, pixel.disparity, kBits);
+  const int32_t y = pixel.y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, kBits);
+  PrefetchCaptured(window, look.view, {x, y, 0, 0});
   int32_t sums[3];
-  InterpolateCaptured(window, view, x, y, sums);
+  InterpolateCaptured(window, look.view, x, y, sums);
   // Halves are rounded towards the pixel, so that an inverted picture is decided on alike.
   constexpr uint32_t kHalf = 1 << (2 * kShiftBits - 1);
   Colour far;
@@ -86,14 +90,14 @@ Colour CentreView::ColourAt(int32_t x, int32_t y) const {
 
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const int32_t x = pixel.x, y = pixel.y;
-  const int dx = pixel.side[0], dy = pixel.side[1];
+  const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
   const Colour mixed = centre.ColourAt(x, y);
   const int32_t beyond = centre.Disparity(x + 2 * dx, y + 2 * dy);
   const int pure = Abs(beyond - pixel.near) <= pixel.step ? 2 : 1;
   Mixture mixture;
   mixture.near = centre.ColourAt(x + pure * dx, y + pure * dy);
-  mixture.far = centre.window.views == 1 ? ReadBeside(centre, pixel, mixed)
-                                         : ReadFar(centre.window, pixel, mixed);
+  mixture.far = LookAway(centre.window, pixel).view != 0 ? ReadFar(centre.window, pixel, mixed)
+                                                         : ReadBeside(centre, pixel, mixed);
   if (centre.window.lamp > 0) {
     Window light = centre.window;
     light.lamp = 0;

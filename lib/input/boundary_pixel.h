@@ -34,7 +34,7 @@ struct CentreView {
 // A pixel and the depth edge beside it: a step of more than `step` up to `near`, kDisparityBits.
 struct BoundaryPixel {
   int32_t x, y;
-  const int8_t* side;  // of kSides
+  int side;  // of kSides, where the nearer surface is
   int32_t disparity, near, step;
 };
 
@@ -47,7 +47,7 @@ struct Mixture {
 
 // The near colour is that of the pixel behind the edge, or one pixel on where the surface goes on;
 // the far one is read from the captured view beside the centre in which the nearer surface has
-// moved out of the way; without such views it is that of the pixel on the other side. Of a window
+// moved out of the way; without such a view it is that of the pixel on the other side. Of a window
 // of excess the share is that of light, and the colours are excess.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 

@@ -26,8 +26,15 @@ struct Part {
 // A pixel at the picture's edge, in a rectangle, and the rectangle's pixels beyond it.
 struct Edge {
   int32_t column, row;
-  const int8_t* out;
+  int side;  // of kSides
   int32_t beyond;
+
+  const int8_t* out() const { return kSides[side]; }
+};
+
+// A place or a move, kShiftBits.
+struct Place {
+  int32_t x, y;
 };
 
 // Calls take.Colours(edge, k, count, rgb) for the pixels k ... k + count - 1 beyond an edge that
@@ -44,12 +51,12 @@ class Beyond {
     const bool inside = part.right - part.left == width && part.bottom - part.top == height;
     if (inside) return;  // most rectangles are
     for (int32_t row = part.top; row < part.bottom; ++row) {
-      LookOver({part.right - 1, row, kSides[0], width - part.right});
-      LookOver({part.left, row, kSides[1], part.left});
+      LookOver({part.right - 1, row, 0, width - part.right});
+      LookOver({part.left, row, 1, part.left});
     }
     for (int32_t column = part.left; column < part.right; ++column) {
-      LookOver({column, part.bottom - 1, kSides[2], height - part.bottom});
-      LookOver({column, part.top, kSides[3], part.top});
+      LookOver({column, part.bottom - 1, 2, height - part.bottom});
+      LookOver({column, part.top, 3, part.top});
     }
   }
 
@@ -61,29 +68,40 @@ class Beyond {
   void LookOver(const Edge& edge) {
     if (edge.beyond == 0) return;
     const int32_t disparity = DisparityAt(rect_.x + edge.column, rect_.y + edge.row);
-    // How the surface moves between the centre view and the one at distance 1, in pixels of the
-    // layer.
-    const int64_t full = int64_t{disparity} * (1 << (kShiftBits - kDisparityBits));
-    const auto moved = static_cast<int32_t>(RoundShift(full * 2, 1 + window_.layer));
-    int32_t seen = Min(edge.beyond, Abs(moved) >> kShiftBits);
-    if (disparity < 0 && seen > 0) seen = Uncovered(edge, disparity, seen);
+    // Nearer surfaces go on where views look over the edge, those behind the focus where views on
+    // the other side do.
+    const LookView& look = window_.looks.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
+    if (look.view == 0) return;
+    const Place moved = {Moved(look.at.u, disparity), Moved(look.at.v, disparity)};
+    const int32_t along = edge.out()[0] != 0 ? moved.x : moved.y;
+    int32_t seen = Min(edge.beyond, Abs(along) >> kShiftBits);
+    if (disparity < 0 && seen > 0) seen = Uncovered(edge, look, disparity, seen);
     if (seen == 0) return;
-    Read(edge, moved, seen);
+    Read(edge, look, moved, seen);
     take_.All(edge, seen);
+  }
+
+  // How a surface moves along an axis between the centre view and one at that position, in pixels
+  // of the layer, kShiftBits.
+  int32_t Moved(int32_t position, int32_t disparity) const {
+    return ScaledByView(position, disparity,
+                        kViewBits + kDisparityBits - kShiftBits + window_.layer);
   }
 
   // How many of the `seen` pixels beyond the edge lie before the first that, in the captured view,
   // a nearer pixel inside the picture comes within 3/4 of a pixel of. Surfaces of positive
   // disparity are seen from the side on which nearer ones move farther away.
-  int32_t Uncovered(const Edge& edge, int32_t disparity, int32_t seen) const {
+  int32_t Uncovered(const Edge& edge, const LookView& look, int32_t disparity, int32_t seen) const {
     const int layer = window_.layer;
     const int32_t unit = int32_t{1} << (kDisparityBits + layer);
     const int32_t width = Part::Inside(window_.picture_width, layer);
     const int32_t height = Part::Inside(window_.picture_height, layer);
-    const int32_t room = Min(kLookBack >> layer, edge.out[0] != 0 ? width : height);
+    const int8_t* const out = edge.out();
+    const int32_t position = out[0] != 0 ? Abs(look.at.u) : Abs(look.at.v);
+    const int32_t room = Min(kLookBack >> layer, out[0] != 0 ? width : height);
     int32_t x = rect_.x + edge.column, y = rect_.y + edge.row;
-    for (int32_t m = 0; m < room; ++m, x -= edge.out[0], y -= edge.out[1]) {
-      const int32_t nearer = DisparityAt(x, y) - disparity;
+    for (int32_t m = 0; m < room; ++m, x -= out[0], y -= out[1]) {
+      const int32_t nearer = ScaledByView(position, DisparityAt(x, y) - disparity, kViewBits);
       const int32_t place = 4 * (nearer - m * unit);  // beyond the edge, quarters of a unit
       if (place <= unit || 2 * nearer <= unit) continue;
       const int32_t first = place > 3 * unit ? (place - 3 * unit) / (4 * unit) + 1 : 1;
@@ -92,16 +110,16 @@ class Beyond {
     return seen;
   }
 
-  void Read(const Edge& edge, int32_t moved, int32_t seen) {
+  void Read(const Edge& edge, const LookView& look, const Place& moved, int32_t seen) {
     if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(seen);
-    const int dx = edge.out[0], dy = edge.out[1], sign = moved < 0 ? -1 : 1;
+    const int dx = edge.out()[0], dy = edge.out()[1];
     constexpr int32_t kAtOnce = 16;
     int16_t rgb[3 * kAtOnce];
     for (int32_t first = 1; first <= seen; first += kAtOnce) {
       const int32_t count = Min(kAtOnce, seen + 1 - first);
-      const int32_t x = (rect_.x + edge.column + first * dx) * kShiftOne - dx * Abs(moved);
-      const int32_t y = (rect_.y + edge.row + first * dy) * kShiftOne - dy * Abs(moved);
-      ReadCaptured(window_, CapturedView(sign * dx, sign * dy, false), {x, y, dx, dy}, count, rgb);
+      const int32_t x = (rect_.x + edge.column + first * dx) * kShiftOne - moved.x;
+      const int32_t y = (rect_.y + edge.row + first * dy) * kShiftOne - moved.y;
+      ReadCaptured(window_, look.view, {x, y, dx, dy}, count, rgb);
       take_.Colours(edge, first, count, rgb);
     }
   }
@@ -117,7 +135,7 @@ struct Filler {
   Field& field;
 
   int16_t* Rgb(const Edge& edge, int32_t k) const {
-    return field.Rgb(edge.column + k * edge.out[0], edge.row + k * edge.out[1]);
+    return field.Rgb(edge.column + k * edge.out()[0], edge.row + k * edge.out()[1]);
   }
   void Colours(const Edge& edge, int32_t k, int32_t count, const int16_t* rgb) {
     for (const int32_t end = k + count; k < end; ++k, rgb += 3) {

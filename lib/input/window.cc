@@ -16,11 +16,6 @@ void Prefetch(const uint8_t* bytes) {
 #endif
 }
 
-constexpr ViewPosition kPositions[kMaxViews] = {
-    {0, 0}, {2, 0},  {-2, 0}, {0, 2},  {0, -2}, {2, 2},  {-2, 2}, {2, -2},  {-2, -2},
-    {1, 0}, {-1, 0}, {0, 1},  {0, -1}, {1, 1},  {-1, 1}, {1, -1}, {-1, -1},
-};
-
 // The excess of pixel (x, y) of a view, whose outermost pixels go on beyond the picture.
 void ReadExcessBeyond(const Window& window, int index, int32_t x, int32_t y, int16_t* rgb) {
   ReadExcess(ViewOf(window, index), Clamp(x, 0, window.picture_width - 1),
@@ -147,6 +142,16 @@ void InterpolateOnAxis(const Pixels& pixels, const CapturedLine& line, int32_t c
   }
 }
 
+template <class Pixels, class Take>
+void InterpolateLine(const Pixels& pixels, const CapturedLine& line, int32_t count,
+                     const Take& take) {
+  if (line.x % kShiftOne == 0 || line.y % kShiftOne == 0) {
+    InterpolateOnAxis(pixels, line, count, take);
+  } else {
+    Interpolate(pixels, line, count, take);
+  }
+}
+
 template <int kLayer, class Pixels>
 void Subsample(const Pixels& pixels, int32_t x, int32_t y, int16_t* rgb) {
   constexpr int32_t kReach = (1 << kLayer) - 1;
@@ -182,12 +187,7 @@ void ReadLine(const Pixels& pixels, int layer, const CapturedLine& line, int32_t
     SubsampleLine<1>(pixels, line, count, rgb);
     return;
   }
-  const auto take = [&](int32_t k, int32_t sum) { rgb[k] = RoundPlace(sum); };
-  if (line.x % kShiftOne == 0 || line.y % kShiftOne == 0) {
-    InterpolateOnAxis(pixels, line, count, take);
-  } else {
-    Interpolate(pixels, line, count, take);
-  }
+  InterpolateLine(pixels, line, count, [&](int32_t k, int32_t sum) { rgb[k] = RoundPlace(sum); });
 }
 
 // Returns a line of a layer in the picture's pixels: the start, in 1 / kShiftOne of the layer's, is
@@ -338,12 +338,12 @@ void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, 
   const CapturedLine place = {Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y),
                               0, 0};
   if (window.reader == nullptr) {
-    InterpolateOnAxis(EndlessView(window, index), place, 1, take);
+    InterpolateLine(EndlessView(window, index), place, 1, take);
     return;
   }
   const Patch patch(window, index, PixelsOf(0, place, 1));
-  InterpolateOnAxis(patch.Pixels(), {x - patch.x() * kShiftOne, y - patch.y() * kShiftOne, 0, 0}, 1,
-                    take);
+  InterpolateLine(patch.Pixels(), {x - patch.x() * kShiftOne, y - patch.y() * kShiftOne, 0, 0}, 1,
+                  take);
 }
 
 int32_t CapturedBytes(const Window& window) {
@@ -367,14 +367,5 @@ bool MayHaveHighlights(const Window& window, const Rect& rect) {
   }
   return false;
 }
-
-int CapturedView(int u, int v, bool half) {
-  // Indexed by u + 1 and v + 1, at full distance; the views at half distance are in the same order.
-  constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};
-  const int index = kIndex[u + 1][v + 1];
-  return half && index != 0 ? index + 8 : index;
-}
-
-ViewPosition CapturedPosition(int index) { return kPositions[index]; }
 
 }  // namespace starfocus

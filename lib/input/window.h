@@ -10,12 +10,11 @@
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/base/transfer.h"
+#include "lib/base/view_set.h"
 #include "lib/input/code_reader.h"
 #include "lib/input/excess.h"
 
 namespace starfocus {
-
-inline constexpr int kMaxViews = 17;
 
 // What was read of the caller's pictures, counted every time.
 struct Reads {
@@ -29,7 +28,8 @@ struct Window {
   int32_t width = 0;  // of the layer
   int32_t height = 0;
   int layer = 0;                       // L
-  int32_t views = 0;                   // 1, 5, 9 or 17
+  int32_t views = 0;                   // captured, the centre one included
+  Looks looks;                         // which of them look behind edges
   const Transfer* transfer = nullptr;  // of the codes of the pictures
   Plane<const uint8_t> centre;         // codes; layer 0
   Plane<const int16_t> samples;        // of the centre view, simd::kLayerBits; layers 1 and 2
@@ -66,7 +66,7 @@ void PrefetchCaptured(const Window& window, int index, const CapturedLine& line)
 void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
                   int16_t* rgb);
 
-// One such colour at L = 0 before it is rounded, with 2 * kShiftBits more; x or y is a whole pixel.
+// One such colour at L = 0 before it is rounded, with 2 * kShiftBits more.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
 
 // A captured view with the window's lamps.
@@ -80,19 +80,6 @@ bool MayHaveHighlights(const Window& window, const Rect& rect);
 
 // Bytes that one such colour is made of.
 int32_t CapturedBytes(const Window& window);
-
-// The sides of a pixel.
-inline constexpr int8_t kSides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-
-// Index of the captured view in direction (u, v), each -1, 0 or 1 and not both 0, at full or half
-// distance.
-int CapturedView(int u, int v, bool half);
-
-// Position of a captured view in halves of a unit.
-struct ViewPosition {
-  int8_t u2, v2;
-};
-ViewPosition CapturedPosition(int index);
 
 }  // namespace starfocus
 

@@ -30,8 +30,8 @@ class Unmixer {
     const Colour mixed = centre_.ColourAt(x, y);
     const int32_t disparity = centre_.Disparity(x, y);
     int64_t sums[3] = {0, 0, 0}, shares = 0;
-    for (const auto& side : kSides) {
-      const int32_t near = centre_.Disparity(x + side[0], y + side[1]);
+    for (int side = 0; side < kSideCount; ++side) {
+      const int32_t near = centre_.Disparity(x + kSides[side][0], y + kSides[side][1]);
       if (near - disparity <= kSurfaceStep) continue;
       const int32_t strength = StrengthOf(Radius(near), Radius(disparity));
       if (strength <= 0) continue;

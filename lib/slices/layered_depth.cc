@@ -9,6 +9,7 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+static_assert(kLooks == simd::kViewLooks, "views that are looked into on a side");
 
 // Writes that there is no surface behind a row's end, where kernels look at whole vectors.
 void ClearChunk(int16_t* disparity) {
@@ -51,27 +52,29 @@ class HiddenColours {
       ReadMean(chunk, k);
       return k + 1;
     }
-    const bool seen = source >> simd::kSourceDistance == 0;
-    return seen && window_.layer == 0 ? ReadPairs(chunk, k, LowestBit(sides))
-                                      : ReadStretch(chunk, k, LowestBit(sides));
+    const int32_t side = LowestBit(sides);
+    const ViewPosition& at = LookOf(side, source).at;
+    const bool pairs = source >> simd::kSourceDistance == 0 && window_.layer == 0;
+    return pairs && (at.u == 0 || at.v == 0) ? ReadPairs(chunk, k, side)
+                                             : ReadStretch(chunk, k, side);
   }
 
-  // Reads, at layer 0, pixels as long as they also follow each other in the captured view. Returns
-  // the first that does not.
+  // Reads, at layer 0, pixels as long as they also follow each other in the captured view, which
+  // lies on an axis. Returns the first that does not.
   int32_t ReadPairs(const HiddenChunk& chunk, int32_t first, int32_t side) {
     const uint32_t source = chunk.source[first];
-    const int dx = kSides[side][0], dy = kSides[side][1];
-    const int bits = kShiftBits - kDisparityBits - (IsHalf(side, source) ? 1 : 0);
-    const int32_t back = -(dx + dy) * (1 << bits);
-    const int32_t moved = chunk.disparity[first] * back >> kShiftBits;
-    int32_t end = first, place = chunk.disparity[first] * back;
+    const LookView& look = LookOf(side, source);
+    const int32_t across = look.at.u != 0 ? 1 : 0, down = 1 - across;
+    const int32_t position = look.at.u + look.at.v;
+    int32_t end = first, place = -Moved(position, chunk.disparity[first]);
+    const int32_t moved = place >> kShiftBits;
     do {
       weight[end++] = static_cast<uint8_t>(place & (kShiftOne - 1));
       if (end == kChunk || chunk.source[end] != source) break;
-      place = chunk.disparity[end] * back;
+      place = -Moved(position, chunk.disparity[end]);
     } while (place >> kShiftBits == moved);
     CountReads(end - first);
-    const int across = Abs(dx), down = Abs(dy), view = ViewOf(side, source);
+    const int view = look.view;
     const int32_t x = field_.x + chunk.x + first + across * moved;
     const int32_t y = field_.y + chunk.y + down * moved;
     CopyCaptured(window_, view, x, y, end - first, here + 3 * first);
@@ -118,31 +121,48 @@ class HiddenColours {
       return;
     }
     CountReads(count);
-    const int64_t full = int64_t{chunk.disparity[k]} * (1 << (kShiftBits - kDisparityBits));
-    const auto moved = static_cast<int32_t>(
-        RoundShift(full * 2, 1 + window_.layer + (IsHalf(side, source) ? 1 : 0)));
-    const CapturedLine line = {(field_.x + chunk.x + k) * kShiftOne - dx * moved,
-                               (field_.y + chunk.y) * kShiftOne - dy * moved, 1, 0};
-    PrefetchCaptured(window_, ViewOf(side, source), line);
-    ReadCaptured(window_, ViewOf(side, source), line, count, rgb);
+    const LookView& look = LookOf(side, source);
+    const int16_t disparity = chunk.disparity[k];
+    const CapturedLine line = {(field_.x + chunk.x + k) * kShiftOne - Moved(look.at.u, disparity),
+                               (field_.y + chunk.y) * kShiftOne - Moved(look.at.v, disparity), 1,
+                               0};
+    PrefetchCaptured(window_, look.view, line);
+    ReadCaptured(window_, look.view, line, count, rgb);
+  }
+
+  // How far a disparity moves along an axis between the centre view and one at that position, in
+  // pixels of the layer, kShiftBits.
+  int32_t Moved(int32_t position, int32_t disparity) const {
+    return ScaledByView(position, disparity,
+                        kViewBits + kDisparityBits - kShiftBits + window_.layer);
   }
 
   void CountReads(int32_t pixels) const {
     if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(pixels);
   }
 
-  static bool IsHalf(int32_t side, uint32_t source) {
-    return (source >> (simd::kSourceHalf + side) & 1) != 0;
-  }
-
-  static int ViewOf(int32_t side, uint32_t source) {
-    return CapturedView(kSides[side][0], kSides[side][1], IsHalf(side, source));
+  // The view that shows a pixel on that side, if any does.
+  const LookView& LookOf(int32_t side, uint32_t source) const {
+    return window_.looks.on[side][source >> (simd::kSourceSecond + side) & 1];
   }
 
   const Window& window_;
   const Field& field_;
   bool repeats_ = false;
 };
+
+// What the kernel needs to look into a view.
+simd::ViewLook ViewLookOf(const LookView& look, int unit_bits) {
+  const bool down = Abs(look.at.v) > Abs(look.at.u);
+  const int32_t along = down ? look.at.v : look.at.u, across = down ? look.at.u : look.at.v;
+  const int32_t size = Abs(along);
+  if (look.view == 0) return {0, 0, 0};
+  const int32_t unit = ((kViewOne << unit_bits) + size / 2) / size;
+  if (unit > simd::kMostUnit) return {0, 0, 0};
+  const int32_t slant = (Abs(across) * (1 << simd::kSlantBits) + size / 2) / size;
+  return {static_cast<int16_t>(unit), static_cast<int8_t>((down ? 2 : 0) + (along < 0 ? 1 : 0)),
+          static_cast<int16_t>(across < 0 ? -slant : slant)};
+}
 
 class SurfaceFinder {
  public:
@@ -153,7 +173,13 @@ class SurfaceFinder {
         surfaces_(*surfaces),
         colours_(window, field),
         unit_(int32_t{1} << (kDisparityBits + window.layer)),
-        step_(kDepthEdge << window.layer) {}
+        step_(kDepthEdge << window.layer) {
+    for (int side = 0; side < kSideCount; ++side) {
+      for (int k = 0; k < kLooks; ++k) {
+        looks_[side][k] = ViewLookOf(window.looks.on[side][k], kDisparityBits + window.layer);
+      }
+    }
+  }
 
   void Find() {
     const int32_t height = surfaces_.height;
@@ -248,8 +274,7 @@ class SurfaceFinder {
     row.below = surfaces_.height - 1 - y;
     row.high = surfaces_.high;
     row.unit_bits = kDisparityBits + window_.layer;
-    row.side_views = window_.views > 1;
-    row.half_views = window_.views == 17;
+    std::memcpy(row.looks, looks_, sizeof(looks_));
     for (int side = 0; side < 4; ++side) row.edges[side] = Edges(side, y);
     uint16_t found[simd::kSurfaces - 1][kMaxChunks];
     const simd::HiddenRow hidden = {{surfaces_.disparity[1] + at, surfaces_.disparity[2] + at},
@@ -282,6 +307,7 @@ class SurfaceFinder {
   HiddenColours colours_;
   const int32_t unit_;  // disparity that a pixel of the layer is at distance 1
   const int32_t step_;  // a larger one from pixel to pixel may hide something
+  simd::ViewLook looks_[kSideCount][kLooks];
 };
 
 }  // namespace

@@ -24,8 +24,8 @@ class MatteFinder {
     const int32_t x = field_.x + column, y = field_.y + row;
     const int32_t disparity = *field_.Disparity(column, row);
     Parts parts;
-    for (const auto& side : kSides) {
-      const int32_t near = *field_.Disparity(column + side[0], row + side[1]);
+    for (int side = 0; side < kSideCount; ++side) {
+      const int32_t near = *field_.Disparity(column + kSides[side][0], row + kSides[side][1]);
       if (near - disparity <= kDepthEdge || !Moves(near, disparity)) continue;
       parts.Add(FindMixture(centre_, {x, y, side, disparity, near, kDepthEdge}), near);
     }

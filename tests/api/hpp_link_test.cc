@@ -38,6 +38,7 @@ struct Field {
     config.views = 1;
     config.disparity_max = 1;
     config.streaming = 1;
+    config.previews = 1;
     params.focus = 3;
   }
 
@@ -49,6 +50,12 @@ struct Field {
   bool RefocusesPrepared(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
     return engine->RefocusPrepared(params, out.data(), 3 * kSize) == SF_OK && out == picture;
+  }
+  bool RefocusesPreview(starfocus::Engine* engine) const {
+    constexpr size_t kHalf = (kSize + 1) / 2;
+    const std::vector<uint8_t> expected(3 * kHalf * kHalf, 50);
+    std::vector<uint8_t> out(expected.size());
+    return engine->RefocusPreview(params, 1, out.data(), 3 * kHalf) == SF_OK && out == expected;
   }
   bool RefocusesAfter(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
@@ -77,6 +84,7 @@ struct Field {
            engine->RefocusAfter(params, field, previous, out.data(), 3 * kSize) == SF_ERROR_NULL &&
            engine->Prepare(field) == SF_ERROR_NULL &&
            engine->RefocusPrepared(params, out.data(), 3 * kSize) == SF_ERROR_NULL &&
+           engine->RefocusPreview(params, 1, out.data(), 3 * kSize) == SF_ERROR_NULL &&
            engine->StreamBegin(params) == SF_ERROR_NULL &&
            engine->StreamPush(field, kSize, &rows) == SF_ERROR_NULL &&
            engine->StreamPull(out.data(), 3 * kSize, kSize, &rows) == SF_ERROR_NULL;
@@ -95,7 +103,7 @@ bool EveryCall() {
   if (engine.FocusAt(f.field, kSize - 1, kSize - 1, &focus) != SF_OK || focus != 0.5) return false;
   if (engine.FocusAt(f.field, kSize, 0, &focus) != SF_ERROR_POSITION) return false;
   return f.Refocuses(&engine) && engine.Prepare(f.field) == SF_OK && f.RefocusesPrepared(&engine) &&
-         f.RefocusesAfter(&engine) && f.Streams(&engine);
+         f.RefocusesPreview(&engine) && f.RefocusesAfter(&engine) && f.Streams(&engine);
 }
 
 // A second Init that fails leaves the engine, and what it has prepared; one that succeeds is a new

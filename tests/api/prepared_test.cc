@@ -183,7 +183,7 @@ TEST_CASE("prepared: refocusing refuses what sf_refocus refuses, and another con
   CHECK(run(engine.get(), test::Params(1, 2), prepared, out.bytes.data()) == SF_ERROR_APERTURE);
   CHECK(run(engine.get(), params, prepared, memory.get() + memory.bytes - 1) == SF_ERROR_OVERLAP);
   CHECK(run(engine.get(), params, prepared, engine.workspace()) == SF_ERROR_OVERLAP);
-  for (int field = 0; field < 6; ++field) {
+  for (int field = 0; field < 7; ++field) {
     sf_config other = config;
     if (field == 0) other.width = 49;
     if (field == 1) other.height = 39;
@@ -191,6 +191,9 @@ TEST_CASE("prepared: refocusing refuses what sf_refocus refuses, and another con
     if (field == 3) other.disparity_min = -4;
     if (field == 4) other.disparity_max = 4;
     if (field == 5) other.max_layer = 1;
+    if (field == 6) {
+      for (int k = 1; k < other.views; ++k) other.positions[k] = {0.25 * k / other.views, 0};
+    }
     test::Engine another(other);
     REQUIRE(another.status() == SF_OK);
     CHECK(run(another.get(), params, prepared, out.bytes.data()) == SF_ERROR_PREPARED);

@@ -67,7 +67,7 @@ const Image* Field::FindTruth(double focus, double aperture) const {
 std::string LoadField(const std::string& folder, Field* field) {
   const fs::path path = fs::path(folder).lexically_normal();
   field->name = (path.has_filename() ? path : path.parent_path()).filename().string();
-  const std::string error = LoadLightField(folder, 0, &field->data);
+  const std::string error = LoadLightField(folder, {}, &field->data);
   if (!error.empty()) return error;
   FloatMap* map = &field->data.disparity;
   const sf_status status = sf_fill_disparity(map->values.data(), sizeof(float) * size_t(map->width),

@@ -52,7 +52,7 @@ void Prepare(const TempFolder& folder) {
   fs::rename(folder.file("linked/view_+1.0_+0.0.png"), folder.file("target.png"));
   fs::create_symlink("../target.png", folder.file("linked/view_+1.0_+0.0.png"));
   fs::create_symlink("../target.png", folder.file("linked/out.png"));
-  fs::remove(folder.file("missing/view_-1.0_+0.0.png"));
+  fs::remove(folder.file("missing/view_+0.0_+0.0.png"));
   REQUIRE(WriteFile(folder.file("broken/view_-1.0_+0.0.png"), Bytes{1, 2, 3}) == "");
   FloatMap map;
   REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
@@ -112,7 +112,13 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1 --strength half", "--strength"},
              {"refocus lf -o x.png --focus 1 --mode fast", "--mode"},
              {"refocus lf -o x.png --focus 1 --views 3", "--views"},
-             {"refocus lf -o x.png --focus 1 --views 9", "at most 5"},
+             {"refocus lf -o x.png --focus 1 --views 9", "5 in lf"},
+             {"refocus lf -o x.png --focus 1 --views 0,0:0.5,0", "view_+0.5_+0.0"},
+             {"refocus lf -o x.png --focus 1 --views 1,0:0,0", "0,0, first"},
+             {"refocus lf -o x.png --focus 1 --views 0,0:1,0:1,0", "differ"},
+             {"refocus lf -o x.png --focus 1 --views 0,0:2,0", "within +-1"},
+             {"refocus lf -o x.png --focus 1 --views 0,0:", "U,V"},
+             {"refocus lf -o x.png --focus 1 --views 0,0:1,0 --rule paper", "star"},
              {"refocus lf -o x.png --focus 1 --views -1", "--views"},
              {"refocus lf -o x.png --focus 1 --threads 0", "--threads"},
              {"refocus lf -o x.png --focus 1 --threads 65", "--threads"},
@@ -185,7 +191,7 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf extra -o x.png --focus 1", "extra"},
              {"refocus none -o x.png --focus 1", "none"},
              {"refocus text.png -o x.png --focus 1", "text.png"},
-             {"refocus missing -o x.png --focus 1", "view_-1.0_+0.0"},
+             {"refocus missing -o x.png --focus 1", "view_+0.0_+0.0"},
              {"refocus broken -o x.png --focus 1", "view_-1.0_+0.0.png"},
              {"refocus nan -o x.png --focus 1", "first at 5,1"},
              {"refocus huge -o x.png --focus 1", "disparity.pfm"},
@@ -226,7 +232,7 @@ TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
              {"compare lf lf", "lf"},
              {"info", "DIR"},
              {"info none", "none"},
-             {"info missing", "view_-1.0_+0.0"},
+             {"info missing", "view_+0.0_+0.0"},
              {"info short", "disparity.pfm"},
              {"video lf", "--output"},
              {"video lf -o out", "--focus"},
@@ -283,7 +289,7 @@ TEST_CASE("cli: scene writes what its name says, again the same bytes") {
   // The same set may be written over.
   CHECK(Call(folder, "scene a --size 20x10 --views 9").code == 0);
   LightField light_field;
-  CHECK(LoadLightField(folder.file("a"), 0, &light_field) == "");
+  CHECK(LoadLightField(folder.file("a"), {}, &light_field) == "");
   CHECK(light_field.width() == 20);
 }
 

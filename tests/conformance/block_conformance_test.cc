@@ -247,7 +247,7 @@ TEST_CASE("block conformance: parts of the data sets") {
     if (folder.empty()) continue;
     any = true;
     starfocus::LightField field;
-    REQUIRE(starfocus::LoadLightField(folder, 0, &field) == "");
+    REQUIRE(starfocus::LoadLightField(folder, {}, &field) == "");
     for (const int x : {200, 330}) {
       const test::Scene scene = Crop(field, x, 180, 64, 48);
       CAPTURE(name);

@@ -149,7 +149,7 @@ TEST_CASE("conformance: parts of the data sets: wires") {
   const std::string folder = test::DataSet("wires");
   if (folder.empty()) return;
   starfocus::LightField field;
-  REQUIRE(starfocus::LoadLightField(folder, 0, &field) == "");
+  REQUIRE(starfocus::LoadLightField(folder, {}, &field) == "");
   Distance all;
   for (const int x : {0, 192, 384}) {
     const test::Scene scene = Crop(field, x, 128, 128, 128);

@@ -9,11 +9,15 @@
 namespace reference {
 namespace {
 
+// As LightField has it.
+std::pair<int, int> PositionOf(const test::Scene& scene, int view) {
+  const sf_position at = scene.PositionOf(view);
+  return {int(std::lround(kViewUnit * at.u)), int(std::lround(kViewUnit * at.v))};
+}
+
 LightField Load(const test::Scene& scene, int transfer) {
   LightField field;
   for (int view = 0; view < scene.views(); ++view) {
-    double u = 0, v = 0;
-    sf_view_position(view, &u, &v);
     Picture picture(scene.width, scene.height);
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {
@@ -23,7 +27,7 @@ LightField Load(const test::Scene& scene, int transfer) {
         picture.disparities[picture.At(x, y)] = RoundedTo64(scene.Disparity(x, y));
       }
     }
-    field.emplace(std::make_pair(int(2 * u), int(2 * v)), std::move(picture));
+    field.emplace(PositionOf(scene, view), std::move(picture));
   }
   return field;
 }
@@ -63,9 +67,7 @@ LightField LoadExcess(const test::Scene& scene, int transfer) {
   LightField field = Load(scene, transfer);
   const int lamp = std::clamp(scene.width / 32, 16, 128);
   for (int view = 0; view < scene.views(); ++view) {
-    double u = 0, v = 0;
-    sf_view_position(view, &u, &v);
-    Picture& picture = field.at({int(2 * u), int(2 * v)});
+    Picture& picture = field.at(PositionOf(scene, view));
     picture.light = picture.colours;
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {

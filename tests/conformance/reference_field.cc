@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/conformance/reference_field.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
 namespace reference {
 namespace {
 
 // Interpolated linearly; beyond the picture its edge goes on.
-Colour ReadPicture(const LightField& field, int u2, int v2, double x, double y,
+Colour ReadPicture(const LightField& field, const Position& view, double x, double y,
                    std::vector<Colour> Picture::*colours = &Picture::colours) {
-  const Picture& picture = field.at({u2, v2});
+  const Picture& picture = field.at(view);
   const int left = int(std::floor(x)), top = int(std::floor(y));
   Colour colour = {0, 0, 0};
   for (int row = top; row <= top + 1; ++row) {
@@ -50,6 +54,30 @@ double Strength(const Lens& lens, int near, int far) {
 
 }  // namespace
 
+std::vector<Position> LooksOn(const LightField& field, const Direction& side) {
+  const auto along = [&](const Position& at) { return at.first * side.x + at.second * side.y; };
+  const auto across = [&](const Position& at) {
+    return std::abs(at.first * side.y - at.second * side.x);
+  };
+  std::vector<Position> near, far;
+  for (const auto& [at, picture] : field) {
+    if (across(at) < along(at)) near.push_back(at);
+    if (across(at) < 8 * along(at)) far.push_back(at);
+  }
+  std::vector<Position> looks = near.empty() ? far : near;
+  std::stable_sort(looks.begin(), looks.end(), [&](const Position& a, const Position& b) {
+    const int first = 2 * along(a) - across(a), second = 2 * along(b) - across(b);
+    return first != second ? first > second : across(a) < across(b);
+  });
+  if (looks.size() > 2) looks.resize(2);
+  return looks;
+}
+
+double Moved(int position, int disparity, int layer) {
+  const auto moved = double(Rounded(int64_t{std::abs(position)} * disparity, 12 + layer)) / 256;
+  return position < 0 ? -moved : moved;
+}
+
 Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step) {
   const Picture& picture = field.at({0, 0});
   const auto at = [&](int k) {
@@ -57,17 +85,17 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
                       std::clamp(y + k * side.y, 0, picture.height - 1));
   };
   const int disparity = picture.disparities[at(0)], near = picture.disparities[at(1)];
-  const double distance = field.size() == 17 ? 0.5 : 1;
+  const std::vector<Position> looks = LooksOn(field, {-side.x, -side.y});
   const auto mixed_of = [&](std::vector<Colour> Picture::*colours) {
     const Colour& mixed = (picture.*colours)[at(0)];
     Mixed result;
-    if (field.size() == 1) {
+    if (looks.empty()) {
       const bool same = std::abs(picture.disparities[at(-1)] - disparity) <= step;
       result.far = (picture.*colours)[at(same ? -1 : 0)];
     } else {
-      result.far = ReadPicture(field, int(-side.x * 2 * distance), int(-side.y * 2 * distance),
-                               x + side.x * distance * disparity / 64.0,
-                               y + side.y * distance * disparity / 64.0, colours);
+      const Position& view = looks.back();
+      result.far = ReadPicture(field, view, x - Moved(view.first, disparity, 0),
+                               y - Moved(view.second, disparity, 0), colours);
       // On the engine's grid of light; halves towards the pixel.
       for (size_t c = 0; c < 3; ++c) {
         double& far = result.far[c];
@@ -115,15 +143,15 @@ void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Pic
 
 // Interpolated at layer 0; at others the picture's pixel nearest to (x, y), weighed with those
 // around it by 1 2 1 or 1 2 3 4 3 2 1 along either axis.
-Colour Read(const LightField& field, int layer, int u2, int v2, double x, double y) {
-  if (layer == 0) return ReadPicture(field, u2, v2, x, y);
+Colour Read(const LightField& field, int layer, const Position& view, double x, double y) {
+  if (layer == 0) return ReadPicture(field, view, x, y);
   const auto nearest = [&](double at) { return int(Rounded(std::lround(at * 256), 8 - layer)); };
   const int reach = (1 << layer) - 1, column = nearest(x), row = nearest(y);
   Colour colour = {0, 0, 0};
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const double weight = double((1 << layer) - std::abs(dx)) * ((1 << layer) - std::abs(dy));
-      const Colour pixel = ReadPicture(field, u2, v2, column + dx, row + dy);
+      const Colour pixel = ReadPicture(field, view, column + dx, row + dy);
       for (size_t c = 0; c < 3; ++c) colour[c] += weight / (1 << 4 * layer) * pixel[c];
     }
   }
@@ -146,17 +174,19 @@ Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
 
 namespace {
 
-// How many pixels beyond the edge at (x, y) of the layer the captured view shows, `disparity` being
-// the edge's: whole ones, none from the first on that lies under something nearer.
-int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction& out,
+// How many pixels beyond the edge at (x, y) of the layer a captured view shows that lies `distance`
+// out (of kViewUnit), `disparity` being the edge's: whole ones, none from the first on that lies
+// under something nearer.
+int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction& out, int distance,
                int disparity) {
   const double unit = 64 << layer;
-  int seen = int(std::abs(disparity) / unit + 1.0 / 512);
+  int seen = int(std::abs(Moved(distance, disparity, layer)));
   if (disparity >= 0) return seen;
   for (int m = 0; m < 32 >> layer; ++m) {
     const int column = (x - m * out.x) * (1 << layer), row = (y - m * out.y) * (1 << layer);
     if (!picture.Inside(column, row)) break;
-    const double nearer = (picture.disparities[picture.At(column, row)] - disparity) / unit;
+    const int difference = picture.disparities[picture.At(column, row)] - disparity;
+    const double nearer = double(Rounded(int64_t{distance} * difference, 14)) / unit;
     if (nearer <= 0.5 || nearer <= m) continue;
     for (int k = 1; k <= seen; ++k) {
       if (std::fabs(nearer - m - k) < 0.75) seen = k - 1;
@@ -169,7 +199,6 @@ int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction&
 
 void LookBeyond(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
                 Picture* extended) {
-  if (field.size() == 1) return;
   const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
   const int right = ((picture.width - 1) >> layer), bottom = ((picture.height - 1) >> layer);
   for (int row = 0; row < extended->height; ++row) {
@@ -180,14 +209,17 @@ void LookBeyond(const LightField& field, const Picture& picture, int layer, cons
       const int edge_x = std::clamp(x, 0, right), edge_y = std::clamp(y, 0, bottom);
       const int disparity =
           picture.disparities[picture.At(edge_x * (1 << layer), edge_y * (1 << layer))];
-      const int seen = SeenBeyond(picture, layer, edge_x, edge_y, out, disparity);
+      const Direction side = {disparity < 0 ? -out.x : out.x, disparity < 0 ? -out.y : out.y};
+      const std::vector<Position> looks = LooksOn(field, side);
+      if (looks.empty()) continue;
+      const auto [u, v] = looks[0];
+      const int seen =
+          SeenBeyond(picture, layer, edge_x, edge_y, out, std::abs(out.x != 0 ? u : v), disparity);
       const int k = std::min(seen, std::abs(x - edge_x) + std::abs(y - edge_y));
       if (seen == 0) continue;
-      const double moved = std::abs(double(Rounded(int64_t{8} * disparity, 1 + layer)) / 256);
-      const int sign = disparity < 0 ? -2 : 2;
       extended->colours[extended->At(column, row)] =
-          Read(field, layer, sign * out.x, sign * out.y, edge_x + out.x * (k - moved),
-               edge_y + out.y * (k - moved));
+          Read(field, layer, looks[0], edge_x + out.x * k - Moved(u, disparity, layer),
+               edge_y + out.y * k - Moved(v, disparity, layer));
     }
   }
 }

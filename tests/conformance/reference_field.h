@@ -30,8 +30,8 @@ void LookBeyond(const LightField& field, const Picture& picture, int layer, cons
 // What a pixel (x, y) of the centre view is a mixture of that lies beside a depth edge, a step of
 // more than `step` (1/64) up to the side: how much of it shows the near surface (0: it is no
 // mixture), and the colours of both. The far one is what the captured view that looks behind the
-// near surface shows of the pixel; without captured views it is the pixel on the other side, if it
-// is of the same surface.
+// near surface shows of the pixel; without such a view it is the pixel on the other side, if it is
+// of the same surface.
 struct Mixed {
   double share;
   Colour near, far;
@@ -42,8 +42,21 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
 // gives way to the far colour. The outermost pixels reach nothing.
 void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre);
 
-// The colour at (x, y) of the layer in the captured view at (u2, v2), in halves of a unit.
-Colour Read(const LightField& field, int layer, int u2, int v2, double x, double y);
+// A captured view's position, as LightField has it.
+using Position = std::pair<int, int>;
+
+// The colour at (x, y) of the layer in the captured view at that position.
+Colour Read(const LightField& field, int layer, const Position& view, double x, double y);
+
+// The captured views that look behind depth edges on a side, two at most. They lie within 45
+// degrees of its direction; where none does, within the angle of tangent 8. The best is farthest
+// out by twice its way towards the side less its way beside it; of equal ones, that with the least
+// way beside it, the least u, the least v.
+std::vector<Position> LooksOn(const LightField& field, const Direction& side);
+
+// How far a disparity moves along one axis in a view at `position` of that axis: pixels of the
+// layer, on the engine's grid of 1/256.
+double Moved(int position, int disparity, int layer);
 
 }  // namespace reference
 

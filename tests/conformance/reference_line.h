@@ -45,7 +45,10 @@ struct Picture {
   bool Inside(int x, int y) const { return x >= 0 && x < width && y >= 0 && y < height; }
 };
 
-// The captured views by position in halves of a unit.
+// A unit of u in positions of captured views.
+inline constexpr int kViewUnit = 16384;
+
+// The captured views by position, in parts of kViewUnit.
 using LightField = std::map<std::pair<int, int>, Picture>;
 
 // The lens: N views along its radius, and how far pixels move in them.

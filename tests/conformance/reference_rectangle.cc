@@ -118,11 +118,12 @@ class Views {
     };
     const double x_far = x + moved(i, true), y_far = y + moved(j, true);
     if (u == 0 || v == 0 || field_.size() != 5) {
-      return Read(field_, lens_.layer, u * distance, v * distance, x_far, y_far);
+      return Read(field_, lens_.layer, {u * distance * kViewUnit / 2, v * distance * kViewUnit / 2},
+                  x_far, y_far);
     }
     // The diagonal view was not captured: the side views, by agreement with the background.
-    const Colour a = Read(field_, lens_.layer, 2 * u, 0, x_far, y + moved(j, false));
-    const Colour b = Read(field_, lens_.layer, 0, 2 * v, x + moved(i, false), y_far);
+    const Colour a = Read(field_, lens_.layer, {u * kViewUnit, 0}, x_far, y + moved(j, false));
+    const Colour b = Read(field_, lens_.layer, {0, v * kViewUnit}, x + moved(i, false), y_far);
     const double weight_a = std::pow(Difference(b, behind), 2) + 1;
     const double weight_b = std::pow(Difference(a, behind), 2) + 1;
     Colour mixed;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "simd/kernels.h"
 #include "tests/conformance/reference_fill.h"
@@ -15,14 +16,14 @@ struct Background {
   Direction towards;
   int distance;  // in pixels
   int disparity;
-  int captured;  // distance of the captured view that sees it, in halves of a unit; 0: none does
+  std::optional<Position> captured;  // the view that sees it, if one does
 
   // Those that a captured view sees come first, and of them those nearest to the pixel.
   bool SameRank(const Background& other) const {
-    return (captured == 0) == (other.captured == 0) && distance == other.distance;
+    return captured.has_value() == other.captured.has_value() && distance == other.distance;
   }
   bool Before(const Background& other) const {
-    if ((captured == 0) != (other.captured == 0)) return captured != 0;
+    if (captured.has_value() != other.captured.has_value()) return captured.has_value();
     if (distance != other.distance) return distance < other.distance;
     return disparity > other.disparity;
   }
@@ -109,7 +110,7 @@ class SurfaceFinder {
           *std::min_element(backgrounds.begin(), backgrounds.end(),
                             [](const Background& a, const Background& b) { return a.Before(b); });
       surfaces.push_back({best.disparity, MeanColour(x, y, best, backgrounds)});
-      if (best.captured == 0) {
+      if (!best.captured) {
         surfaces.back().repeated = best.distance;
         for (const Background& other : backgrounds) {
           const bool ties = other.SameRank(best) && other.disparity == best.disparity;
@@ -159,26 +160,35 @@ class SurfaceFinder {
   void AddBackground(int x, int y, const Direction& towards, int distance,
                      std::vector<Background>* found) const {
     const int far = Disparity(x + distance * towards.x, y + distance * towards.y);
-    Background background = {towards, distance, far, 0};
-    if (field_.size() > 1 && !IsCovered(x, y, background, 2)) {
-      background.captured = 2;
-    } else if (field_.size() == 17 && !IsCovered(x, y, background, 1)) {
-      background.captured = 1;
+    Background background = {towards, distance, far, {}};
+    for (const Position& view : LooksOn(field_, towards)) {
+      if (background.captured || IsCovered(x, y, far, view)) continue;
+      background.captured = view;
     }
     found->push_back(background);
   }
 
   // Whether a nearer pixel, by more than half a pixel, comes to lie within 3/4 of a pixel of the
-  // pixel's background in the captured view at `halves` of a unit.
-  bool IsCovered(int x, int y, const Background& background, int halves) const {
-    const int unit = unit_ * 2 / halves;
-    int moved = 0;
-    for (; extended_.Inside(x, y); x += background.towards.x, y += background.towards.y) {
-      const int nearer = Disparity(x, y) - background.disparity;
-      if (2 * nearer > unit && 4 * std::abs(nearer - moved) < 3 * unit) return true;
-      moved += unit;
+  // pixel's background, of disparity `far`, in a captured view. Pixels that can lie in a line from
+  // the pixel in the view's direction, the nearest ones to it. Views near the centre one see as
+  // little as it.
+  bool IsCovered(int x, int y, int far, const Position& view) const {
+    const auto [u, v] = view;
+    const int size = std::max(std::abs(u), std::abs(v));
+    const int unit = (unit_ * kViewUnit + size / 2) / size;
+    if (unit > starfocus::simd::kMostUnit) return true;
+    const auto along = [&](int m, int axis) {
+      const int steps = std::abs(axis) * kViewUnit;  // of m / size, rounded to parts of kViewUnit
+      const int slant =
+          std::abs(axis) == size ? kViewUnit : int((int64_t{steps} + size / 2) / size);
+      return int(std::floor(double(m) * (axis < 0 ? -slant : slant) / kViewUnit + 0.5));
+    };
+    for (int m = 0;; ++m) {
+      const int column = x + along(m, u), row = y + along(m, v);
+      if (!extended_.Inside(column, row)) return false;
+      const int nearer = Disparity(column, row) - far;
+      if (2 * nearer > unit && 4 * std::abs(nearer - m * unit) < 3 * unit) return true;
     }
-    return false;
   }
 
   // The background's colour: the mean over all directions that tie.
@@ -198,15 +208,14 @@ class SurfaceFinder {
 
   Colour ColourOf(int x, int y, const Background& background) const {
     const auto& [dx, dy] = background.towards;
-    if (background.captured == 0) {  // the far side goes on
+    if (!background.captured) {  // the far side goes on
       return extended_
           .colours[extended_.At(x + dx * background.distance, y + dy * background.distance)];
     }
-    const double moved =
-        double(Rounded(int64_t{4} * background.disparity * background.captured, 1 + lens_.layer)) /
-        256;
-    return Read(field_, lens_.layer, dx * background.captured, dy * background.captured,
-                x0_ + x - dx * moved, y0_ + y - dy * moved);
+    const auto [u, v] = *background.captured;
+    return Read(field_, lens_.layer, *background.captured,
+                x0_ + x - Moved(u, background.disparity, lens_.layer),
+                y0_ + y - Moved(v, background.disparity, lens_.layer));
   }
 
   const LightField& field_;

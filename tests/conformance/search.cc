@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// conformance_search FIRST COUNT: tries the trials of COUNT seeds from FIRST on, and prints those
-// in which the engine is more gray levels than they may be from the double-precision reference.
+// conformance_search FIRST COUNT: tries the trials of COUNT seeds from FIRST on, each with a star
+// and with views anywhere, and prints those in which the engine is more gray levels than they may
+// be from the double-precision reference.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
@@ -25,8 +26,9 @@ int main(int argc, char** argv) {
   const uint64_t count = std::strtoull(argv[2], nullptr, 10);
   conformance::Distance all;
   uint64_t failed = 0;
-  for (uint64_t seed = first; seed < first + count; ++seed) {
-    const conformance::Trial trial = conformance::MakeTrial(seed);
+  for (uint64_t k = 0; k < 2 * count; ++k) {
+    const uint64_t seed = first + k / 2;
+    const conformance::Trial trial = conformance::MakeTrial(seed, k % 2 == 1);
     const conformance::Distance distance = conformance::Measure(trial);
     all.Add(distance);
     if (distance.largest <= conformance::MostLevels(trial)) continue;
@@ -37,6 +39,6 @@ int main(int argc, char** argv) {
   }
   all.Print("all trials");
   std::printf("%llu of %llu trials too many levels apart\n",
-              static_cast<unsigned long long>(failed), static_cast<unsigned long long>(count));
+              static_cast<unsigned long long>(failed), static_cast<unsigned long long>(2 * count));
   return failed == 0 ? 0 : 1;
 }

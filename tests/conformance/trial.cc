@@ -144,15 +144,23 @@ std::string Trial::Text() const {
                 params.aperture, config.largest_block, config.max_layer, config.theta,
                 config.n_scale, config.gather, config.timing.block, config.transfer,
                 double{config.highlights}, test::ShapeText(config).c_str());
-  return text;
+  std::string all = text;
+  for (const sf_position& at : scene.positions) {
+    std::snprintf(text, sizeof(text), ", view (%.9g, %.9g)", at.u, at.v);
+    all += text;
+  }
+  return all;
 }
 
-Trial MakeTrial(uint64_t seed) {
+Trial MakeTrial(uint64_t seed, bool anywhere) {
   test::Random random(seed);
   Trial trial;
   trial.scene = MakeScene(&random);
   SetLens(&trial, &random);
   SetConfig(&trial, &random);
+  if (anywhere && trial.params.rule != SF_RULE_PAPER) {
+    test::RandomViews(&trial.scene, &trial.config, &random);
+  }
   return trial;
 }
 

@@ -21,7 +21,8 @@ struct Trial {
   std::string Text() const;
 };
 
-Trial MakeTrial(uint64_t seed);
+// `anywhere`: its views, by the rule of subapertures, are any number at any positions, else a star.
+Trial MakeTrial(uint64_t seed, bool anywhere);
 
 // Gray levels that the engine may be from the reference: highlights are added to codes, which are
 // rounded before and after it.

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "lib/api/reduced.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/memory_parts.h"
 #include "tests/support/test_scene.h"
@@ -110,6 +111,61 @@ TEST_CASE("layout: all of a workspace is for some part" * doctest::skip(starfocu
       CHECK(test::SumOf(parts).all == bytes);
     }
   }
+}
+
+// sf_refocus_preview has an engine laid out anew for a smaller picture.
+TEST_CASE("layout: what grows with the picture comes last, and less of it fits into the same") {
+  test::Random random(44);
+  for (int round = 0; round < 300; ++round) {
+    sf_config config;
+    sf_config_init(&config);
+    config.width = random.Int(1, random.Int(0, 1) == 0 ? 40 : SF_MAX_SIZE);
+    config.height = random.Int(1, 4000);
+    config.disparity_max = float(random.Real(0, 500));
+    config.max_blur = random.Real(0.1, SF_MAX_BLUR);
+    config.largest_block = 32 << random.Int(0, 3);
+    config.max_workers = random.Int(1, 4);
+    config.streaming = random.Int(0, 1);
+    config.images = random.Int(0, 1);
+    config.highlights = random.Int(0, 1) == 0 ? 1.0F : 8.0F;
+    config.cats_eye = random.Int(0, 1) == 0 ? 0.0F : 0.5F;
+    starfocus::EngineState* counted = nullptr;
+    const size_t bytes = starfocus::LayOut(config, nullptr, &counted);
+    if (bytes == kTooLarge) continue;
+    for (int shift = 1; shift <= SF_MAX_PREVIEW; ++shift) {
+      const sf_config reduced = starfocus::ReducedConfig(config, shift);
+      CAPTURE(round);
+      CAPTURE(shift);
+      CHECK(starfocus::LayOut(reduced, nullptr, &counted) <= bytes);
+    }
+  }
+}
+
+TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
+  sf_config config;
+  sf_config_init(&config);
+  config.width = 300;
+  config.height = 200;
+  config.max_workers = 2;
+  config.streaming = 1;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  auto& state = *reinterpret_cast<starfocus::EngineState*>(engine.get());
+  config = state.config;
+  const starfocus::Worker* workers = state.crew.workers;
+  const uint32_t* sums = workers[1].sums;
+  const uint16_t* weights = state.tables.aperture_weights;
+  const uint8_t *out = state.stripe.out, *last_rows = state.stripe.last_rows;
+  starfocus::LayOutAnew(starfocus::ReducedConfig(config, 2), &state);
+  CHECK(state.config.width == 75);
+  CHECK(state.crew.workers == workers);
+  CHECK(state.crew.workers[1].sums == sums);
+  CHECK(state.tables.aperture_weights == weights);
+  CHECK(state.stripe.last_rows == nullptr);  // it does not stream
+  starfocus::LayOutAnew(config, &state);
+  CHECK(state.config.width == 300);
+  CHECK(state.stripe.out == out);
+  CHECK(state.stripe.last_rows == last_rows);
 }
 
 // On 32 bits sizes of wide streaming configurations are beyond all addresses.

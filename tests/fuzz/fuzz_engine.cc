@@ -29,6 +29,14 @@ void SetShape(int drawn, sf_config* config) {
   config->cats_eye = drawn % 3 == 0 ? static_cast<float>(drawn % 9) / 8 : 0;
 }
 
+// The same for 2 to 17 views off the star.
+void SetPositions(int drawn, sf_config* config) {
+  config->views = 2 + drawn % 16;
+  for (int k = 1; k < config->views; ++k) {
+    config->positions[k] = {(drawn * k % 33 - 16) / 16.0, (k - 8) / 8.0};
+  }
+}
+
 // Mostly valid; now and then any bytes at all in one field.
 sf_config MakeConfig(Input* input) {
   sf_config config;
@@ -53,11 +61,13 @@ sf_config MakeConfig(Input* input) {
   // From what another field drew: recorded inputs keep their meaning.
   config.skips = config.deblocking % 4 != 0;
   config.gather = config.deblocking % 3 != 0;
+  config.previews = config.deblocking / 4 % 4;
   config.n_scale = 0.5 + 0.25 * (config.deblocking % 7);
   if (config.deblocking % 7 == 1)
     config.highlights = 1.0F + static_cast<float>(config.deblocking) / 8;
   config.transfer = config.deblocking % 5 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
   if (config.deblocking % 2 == 0) SetShape(config.deblocking * 2 / 3, &config);
+  if (config.deblocking % 6 == 1) SetPositions(config.deblocking, &config);
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
@@ -211,6 +221,9 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
   const sf_status status = sf_prepare(engine, &pictures.field, memory, bytes, nullptr, nullptr,
                                       nullptr, nullptr, &prepared);
   if (status != SF_OK) return;
+  // A preview is no larger than the picture, and leaves the engine as it was.
+  sf_refocus_preview(engine, &params, prepared, config.previews, out, stride, nullptr, nullptr,
+                     &report);
   sf_refocus_prepared(engine, &params, prepared, out, stride, nullptr, nullptr, &report);
 }
 

@@ -48,6 +48,23 @@ void WriteMap(const std::string& path, int side, Input* input) {
   Write(path, header + std::string(static_cast<size_t>(8 * side), '\0'), input);
 }
 
+// Of a view of the star, of one anywhere, which may be too far out or another's, or what only
+// begins as a view's.
+std::string NameOf(int view, Input* input) {
+  if (!input->Rarely()) {
+    return starfocus::ViewName(starfocus::StarPositions(SF_MAX_VIEWS)[static_cast<size_t>(view)]);
+  }
+  if (!input->Rarely()) {
+    return starfocus::ViewName({input->Int(-120, 120) / 100.0, input->Int(-10, 10) / 10.0});
+  }
+  constexpr char kLetters[] = "+-_.0123456789e";
+  std::string name = "view_";
+  for (int left = input->Int(1, 14); left > 0; --left) {
+    name += kLetters[input->Value<uint8_t>() % (sizeof(kLetters) - 1)];
+  }
+  return name;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -55,23 +72,24 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const std::string map = starfocus::DisparityPath(folder.path());
   Input input(data, size);
   std::vector<std::string> written;
-  const int side = input.Int(1, 4), views = input.Int(0, 17);
+  const int side = input.Int(1, 4), views = input.Int(0, SF_MAX_VIEWS);
   for (int view = 0; view < views; ++view) {
     if (input.Rarely()) continue;
     const char* extension = kExtensions[input.Rarely() ? input.Int(0, 2) : 1];
-    written.push_back(folder.file(starfocus::ViewName(view) + extension));
+    written.push_back(folder.file(NameOf(view, &input) + extension));
     WriteView(written.back(), input.Rarely() ? input.Int(1, 4) : side, &input);
   }
   if (!input.Rarely()) {
     WriteMap(map, input.Rarely() ? input.Int(1, 4) : side, &input);
     written.push_back(map);
   }
-  int found = 0;
-  starfocus::CountViews(folder.path(), &found);
   starfocus::LightField field;
   constexpr int kWanted[] = {0, 1, 5, 9, 17};
-  if (starfocus::LoadLightField(folder.path(), kWanted[input.Int(0, 4)], &field).empty()) {
-    if (!starfocus::IsStarSet(static_cast<int>(field.views.size()))) std::abort();
+  const starfocus::Positions wanted = starfocus::StarPositions(kWanted[input.Int(0, 4)]);
+  if (starfocus::LoadLightField(folder.path(), wanted, &field).empty()) {
+    const size_t loaded = field.views.size();
+    if (loaded < 1 || loaded > SF_MAX_VIEWS || field.positions.size() != loaded) std::abort();
+    if (!wanted.empty() && loaded != wanted.size()) std::abort();
     for (const starfocus::Image& image : field.views) {
       if (image.width != field.width() || image.height != field.height()) std::abort();
     }

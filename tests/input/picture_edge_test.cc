@@ -13,6 +13,7 @@
 #include "lib/input/load_field.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/refocused.h"
+#include "tests/support/star_views.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -133,7 +134,7 @@ struct Row {
     }
     window.width = window.picture_width = kWidth;
     window.height = window.picture_height = kHeight;
-    window.views = views;
+    test::SetStar(views, &window);
     window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
     window.centre = window.view[0];
     disparity.assign(kWidth * kHeight, 0);
@@ -191,6 +192,21 @@ TEST_CASE("beyond: the view that looks out over an edge, as far as it does") {
       }
       CHECK(row[kBorder] == 0);
       CHECK(row[kBorder + kWidth - 1] == kWidth - 1);
+    }
+  }
+}
+
+TEST_CASE("beyond: a pair looks out over one edge, as far as its second view moves") {
+  for (const int unit : {-10, 10}) {
+    Row scene(17);
+    test::SetPositions({{0.5, 0}}, &scene.window);
+    scene.Fill(0, kWidth, unit);
+    const std::vector<int> row = scene.Load();
+    for (int k = 1; k <= kBorder; ++k) {
+      CAPTURE(unit);
+      CAPTURE(k);
+      CHECK(row[size_t(kBorder - k)] == (unit < 0 ? 101 : 0));
+      CHECK(row[size_t(kBorder + kWidth - 1 + k)] == (unit > 0 ? 101 : kWidth - 1));
     }
   }
 }

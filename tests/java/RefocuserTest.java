@@ -134,6 +134,105 @@ public final class RefocuserTest {
     }
   }
 
+  /** Of views that each have other bytes, given in this order, at these positions. */
+  private static ByteBuffer refocusedFrom(int[] order, double[] positions) {
+    final Image[] views = new Image[order.length];
+    for (int k = 0; k < order.length; ++k) {
+      final ByteBuffer pixels = picture();
+      for (int i = 0; i < pixels.capacity(); ++i) pixels.put(i, (byte) (pixels.get(i) + order[k]));
+      views[k] = new Image(Image.RGB, pixels, 3 * WIDTH);
+    }
+    final Configuration configuration = configuration();
+    configuration.views = order.length;
+    configuration.positions = positions;
+    final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT);
+    try (Refocuser refocuser = new Refocuser(configuration)) {
+      refocuser.refocus(new LightField(views, depth(ramp())), new Parameters(), out(pixels));
+    }
+    return pixels;
+  }
+
+  private static void viewsLieWhereTheyAreSaidTo() {
+    final ByteBuffer star = refocusedFrom(new int[] {0, 1, 2, 3, 4}, null);
+    check(star.equals(refocusedFrom(
+              new int[] {0, 2, 1, 4, 3}, new double[] {0, 0, -1, 0, 1, 0, 0, -1, 0, 1})),
+        "the star by its positions, in another order, gives its bytes");
+    final ByteBuffer pair = refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1, 0});
+    check(!pair.equals(star), "a pair is no star");
+    check(!pair.equals(refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 0.5, 0})),
+        "a pair half as far apart is another");
+    checkThrows(IllegalArgumentException.class, "positions: expected 4 numbers, found 3",
+        () -> refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1}));
+    checkThrows(StarfocusException.class, "positions of views",
+        () -> refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1.5, 0}));
+    checkThrows(
+        StarfocusException.class, "number of views", () -> refocusedFrom(new int[] {0, 1}, null));
+  }
+
+  /** The light field of picture() and ramp() at half its size, of codes as they are. */
+  private static LightField half() {
+    final int width = WIDTH / 2, height = HEIGHT / 2;
+    final ByteBuffer whole = picture(), ramp = ramp();
+    final ByteBuffer pixels = bytes(3 * width * height), map = bytes(4 * width * height);
+    for (int y = 0; y < height; ++y) {
+      for (int i = 0; i < 3 * width; ++i) {
+        final int at = 3 * WIDTH * 2 * y + 6 * (i / 3) + i % 3, below = at + 3 * WIDTH;
+        final int sum = (whole.get(at) & 255) + (whole.get(at + 3) & 255) + (whole.get(below) & 255)
+            + (whole.get(below + 3) & 255);
+        pixels.put(3 * width * y + i, (byte) ((sum + 2) / 4));
+      }
+      for (int x = 0; x < width; ++x) {
+        // Of four, of which each column's are alike, the larger one in the middle.
+        final double larger = Math.floor(64 * ramp.getFloat(4 * (2 * x + 1)) + 0.5);
+        map.putFloat(4 * (width * y + x), (float) (Math.floor(larger / 2 + 0.5) / 64));
+      }
+    }
+    return new LightField(new Image[] {new Image(Image.RGB, pixels, 3 * width)},
+        new DepthMap(DepthMap.FLOAT, map, 4 * width, width, height));
+  }
+
+  private static void aPreviewIsOfTheReducedLightField() {
+    final int width = WIDTH / 2, height = HEIGHT / 2;
+    final Configuration configuration = configuration(), reduced = configuration();
+    configuration.transfer = reduced.transfer = Configuration.TRANSFER_NONE;
+    configuration.previews = 2;
+    configuration.largestBlock = reduced.largestBlock = 32;
+    reduced.width = width;
+    reduced.height = height;
+    reduced.disparityMin /= 2;
+    reduced.disparityMax /= 2;
+    final Parameters parameters = new Parameters();
+    final ByteBuffer expected = bytes(3 * width * height), found = bytes(3 * width * height);
+    parameters.focus = 0.5;
+    try (Refocuser refocuser = new Refocuser(reduced)) {
+      refocuser.refocus(half(), parameters, new Image(Image.RGB, expected, 3 * width));
+    }
+    parameters.focus = 1;
+    try (Refocuser refocuser = new Refocuser(configuration)) {
+      final Image out = new Image(Image.RGB, found, 3 * width);
+      checkThrows(IllegalStateException.class, "no light field is prepared",
+          () -> refocuser.preview(1, parameters, out));
+      refocuser.prepare(field(picture()));
+      refocuser.preview(1, parameters, out);
+      check(found.equals(expected), "a preview is of the reduced light field");
+      checkThrows(StarfocusException.class, "preview", () -> refocuser.preview(3, parameters, out));
+      checkThrows(IllegalArgumentException.class, "expected a buffer of",
+          ()
+              -> refocuser.preview(
+                  1, parameters, new Image(Image.RGB, bytes(3 * width * height - 1), 3 * width)));
+      parameters.regionX = 33;
+      parameters.regionY = 21;
+      parameters.regionWidth = parameters.regionHeight = 2;
+      final ByteBuffer part = bytes(12);
+      refocuser.preview(1, parameters, new Image(Image.RGB, part, 6));
+      boolean equal = true;
+      for (int i = 0; i < 12; ++i) {
+        equal &= part.get(i) == found.get(3 * (width * (10 + i / 6) + 16) + i % 6);
+      }
+      check(equal, "a region of a preview is that of the preview");
+    }
+  }
+
   private static void chromaOfACameraComesBack() {
     final ByteBuffer luma = bytes(WIDTH * HEIGHT), chroma = bytes(WIDTH * HEIGHT / 2);
     for (int i = 0; i < luma.capacity(); ++i) luma.put(i, (byte) 90);
@@ -275,6 +374,8 @@ public final class RefocuserTest {
   public static void main(String[] arguments) throws InterruptedException {
     defaultsAreTheLibrarys();
     everyWayGivesTheSameBytes();
+    viewsLieWhereTheyAreSaidTo();
+    aPreviewIsOfTheReducedLightField();
     chromaOfACameraComesBack();
     buffersAreChecked();
     configurationsAndStatesAreChecked();

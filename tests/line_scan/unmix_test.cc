@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/input/load_field.h"
+#include "tests/support/star_views.h"
 
 namespace {
 
@@ -46,7 +47,7 @@ struct Scene {
     }
     window.width = window.picture_width = kSize;
     window.height = window.picture_height = kSize;
-    window.views = views;
+    test::SetStar(views, &window);
     window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
     window.centre = {centre.data(), 3 * kSize, 0, 0};
     for (int view = 1; view < views; ++view) window.view[view] = {side.data(), 3 * kSize, 0, 0};

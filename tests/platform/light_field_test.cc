@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string StarName(int index) { return ViewName(StarPositions(SF_MAX_VIEWS)[size_t(index)]); }
+
 LightField Make(int views, int width, int height) {
   LightField light_field;
   for (int i = 0; i < views; ++i) {
@@ -34,39 +36,39 @@ std::string Save(const TempFolder& folder, const LightField& light_field) {
 }
 
 void Remove(const TempFolder& folder, int view) {
-  REQUIRE(fs::remove(folder.file(ViewName(view) + ".png")));
+  REQUIRE(fs::remove(folder.file(StarName(view) + ".png")));
 }
 
 bool Contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST_CASE("light_field: names follow sf_view_position") {
-  CHECK(ViewName(0) == "view_+0.0_+0.0");
-  CHECK(ViewName(1) == "view_+1.0_+0.0");
-  CHECK(ViewName(4) == "view_+0.0_-1.0");
-  CHECK(ViewName(6) == "view_-1.0_+1.0");
-  CHECK(ViewName(16) == "view_-0.5_-0.5");
+TEST_CASE("light_field: names follow sf_view_position, and have up to four decimals") {
+  CHECK(StarName(0) == "view_+0.0_+0.0");
+  CHECK(StarName(1) == "view_+1.0_+0.0");
+  CHECK(StarName(4) == "view_+0.0_-1.0");
+  CHECK(StarName(6) == "view_-1.0_+1.0");
+  CHECK(StarName(16) == "view_-0.5_-0.5");
+  CHECK(ViewName({0.25, -1.0 / 3}) == "view_+0.25_-0.3333");
+  CHECK(ViewName({-0.00001, 0.125}) == "view_+0.0_+0.125");
 }
 
 TEST_CASE("light_field: every star set comes back in order, whole or in part") {
-  for (int saved : kStarSets) {
+  for (int saved : {1, 5, 9, 17}) {
     TempFolder folder;
     REQUIRE(Save(folder, Make(saved, 7, 5)) == "");
-    int counted = 0;
-    CHECK(CountViews(folder.path(), &counted) == "");
-    CHECK(counted == saved);
     for (int asked : {0, 1, 5, 9, 17}) {
       CAPTURE(saved);
       CAPTURE(asked);
       LightField back;
-      const std::string error = LoadLightField(folder.path(), asked, &back);
+      const std::string error = LoadLightField(folder.path(), StarPositions(asked), &back);
       if (asked > saved) {
         CHECK(Contains(error, "expected " + std::to_string(asked) + " views"));
         continue;
       }
       REQUIRE(error == "");
       REQUIRE(back.views.size() == size_t(asked == 0 ? saved : asked));
+      CHECK(AreStar(back.positions));
       for (size_t i = 0; i < back.views.size(); ++i) CHECK(back.views[i].pixels[0] == 10 * i + 3);
       CHECK(back.disparity.at(6, 4) == 1.5f);
     }
@@ -79,59 +81,142 @@ TEST_CASE("light_field: formats mix") {
   REQUIRE(Save(folder, light_field) == "");
   Remove(folder, 1);
   Remove(folder, 2);
-  REQUIRE(WriteImage(folder.file(ViewName(1) + ".ppm"), light_field.views[1]) == "");
-  REQUIRE(WriteImage(folder.file(ViewName(2) + ".jpg"), light_field.views[2]) == "");
+  REQUIRE(WriteImage(folder.file(StarName(1) + ".ppm"), light_field.views[1]) == "");
+  REQUIRE(WriteImage(folder.file(StarName(2) + ".jpg"), light_field.views[2]) == "");
   LightField back;
-  CHECK(LoadLightField(folder.path(), 0, &back) == "");
+  CHECK(LoadLightField(folder.path(), {}, &back) == "");
   CHECK(back.views.size() == 5);
 }
 
-TEST_CASE("light_field: a partial set names the missing view, unless fewer are asked for") {
+TEST_CASE("light_field: views at any positions come back, the centre first") {
+  LightField light_field = Make(4, 7, 5);
+  light_field.positions = {{0, 0}, {0.7, -0.25}, {-1, 0.3333}, {0, 1}};
+  TempFolder folder;
+  REQUIRE(Save(folder, light_field) == "");
+  CHECK(fs::exists(folder.file("view_+0.7_-0.25.png")));
+  LightField back;
+  REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
+  REQUIRE(back.views.size() == 4);
+  CHECK_FALSE(AreStar(back.positions));
+  // Those of the star, then by u.
+  const int order[] = {0, 3, 2, 1};
+  for (size_t i = 0; i < 4; ++i) {
+    CHECK(back.views[i].pixels[0] == 10 * order[i] + 3);
+    CHECK(SamePosition(back.positions[i], light_field.positions[size_t(order[i])]));
+  }
+  sf_config config = {};
+  ConfigureViews(back, &config);
+  CHECK(config.views == 4);
+  CHECK(config.positions[3].v == -0.25);
+  REQUIRE(LoadLightField(folder.path(), {{0, 0}, {0.7, -0.25}}, &back) == "");
+  CHECK(back.views.size() == 2);
+  CHECK(back.views[1].pixels[0] == 13);
+  CHECK(Contains(LoadLightField(folder.path(), {{0, 0}, {0.7, 0.25}}, &back), "+0.7_+0.25"));
+}
+
+TEST_CASE("light_field: what is left of a star is a set of views, but not without its centre") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(9, 4, 4)) == "");
   Remove(folder, 6);
   LightField back;
-  CHECK(Contains(LoadLightField(folder.path(), 0, &back), ViewName(6)));
-  CHECK(Contains(LoadLightField(folder.path(), 9, &back), ViewName(6)));
-  CHECK(LoadLightField(folder.path(), 5, &back) == "");
+  CHECK(LoadLightField(folder.path(), {}, &back) == "");
+  CHECK(back.views.size() == 8);
+  CHECK_FALSE(AreStar(back.positions));
+  CHECK(Contains(LoadLightField(folder.path(), StarPositions(9), &back), StarName(6)));
+  CHECK(LoadLightField(folder.path(), StarPositions(5), &back) == "");
+  CHECK(AreStar(back.positions));
   Remove(folder, 0);
-  CHECK(Contains(LoadLightField(folder.path(), 0, &back), ViewName(0)));
-  CHECK(Contains(LoadLightField(folder.path(), 5, &back), ViewName(0)));
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), StarName(0)));
+  CHECK(Contains(LoadLightField(folder.path(), StarPositions(5), &back), StarName(0)));
 }
 
-TEST_CASE("light_field: inner views without the outer ones are a partial set") {
+TEST_CASE("light_field: views too far out, twice at one position, or too many are refused") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(17, 4, 4)) == "");
-  for (int view : {5, 6, 7, 8}) Remove(folder, view);
   LightField back;
-  CHECK(Contains(LoadLightField(folder.path(), 0, &back), ViewName(5)));
+  const std::string far = folder.file("view_+1.1_+0.0.png");
+  REQUIRE(WriteImage(far, Image(4, 4)) == "");
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), far));
+  fs::remove(far);
+  const std::string twice = folder.file("view_+1.00_+0.0.png");
+  REQUIRE(WriteImage(twice, Image(4, 4)) == "");
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "view_+1.00_+0.0"));
+  fs::remove(twice);
+  // Alike to four decimals, though not next to each other by u and v.
+  const std::string close[] = {"view_+0.30001_+0.4.png", "view_+0.30002_+0.1.png",
+                               "view_+0.30003_+0.4.png"};
+  for (const std::string& name : close) {
+    REQUIRE(WriteImage(folder.file(name), Image(4, 4)) == "");
+  }
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "different positions"));
+  for (const std::string& name : close) fs::remove(folder.file(name));
+  REQUIRE(WriteImage(folder.file("view_+0.2_+0.0.png"), Image(4, 4)) == "");
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "at most 17 views"));
+  CHECK(LoadLightField(folder.path(), StarPositions(17), &back) != "");
+}
+
+TEST_CASE("light_field: files that only look like views are none") {
+  TempFolder folder;
+  REQUIRE(Save(folder, Make(1, 4, 4)) == "");
+  for (const char* name : {"view_1.0_+0.0.png", "view_+1.0.png", "view_+_+0.0.png", "view_.png",
+                           "view_+1e0_+0.0.png", "view_+1.0_+0.0.gif", "view_+1.0_+0.0_a.png",
+                           "view_+1.0.0_+0.0.png", "view_++1.0_+0.0.png"}) {
+    REQUIRE(WriteFile(folder.file(name), {}) == "");
+    CHECK_FALSE(IsLightFieldFile(name));
+  }
+  LightField back;
+  CHECK(LoadLightField(folder.path(), {}, &back) == "");
+  CHECK(back.views.size() == 1);
+}
+
+TEST_CASE("light_field: a stereo pair as Middlebury's has the second view at (1, 0)") {
+  TempFolder folder;
+  const LightField light_field = Make(2, 6, 4);
+  REQUIRE(WriteImage(folder.file("im0.png"), light_field.views[0]) == "");
+  LightField back;
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), StarName(0)));  // one is no pair
+  REQUIRE(WriteImage(folder.file("im1.png"), light_field.views[1]) == "");
+  REQUIRE(WritePfm(folder.file("disp0.pfm"), light_field.disparity) == "");
+  REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
+  REQUIRE(back.views.size() == 2);
+  CHECK(back.views[1].pixels[0] == 13);
+  CHECK(SamePosition(back.positions[1], {1, 0}));
+  CHECK(back.disparity.at(5, 3) == 1.5f);
+  for (const char* name : {"im0.png", "im1.png", "disp0.pfm"}) CHECK(IsLightFieldFile(name));
+  CHECK(LightFieldFiles(folder.path()).size() == 3);
+  // A map of our own comes first.
+  FloatMap map = light_field.disparity;
+  map.values[0] = 2;
+  REQUIRE(WritePfm(folder.file("disparity.pfm"), map) == "");
+  REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
+  CHECK(back.disparity.at(0, 0) == 2);
 }
 
 TEST_CASE("light_field: sizes must agree") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(5, 6, 4)) == "");
-  REQUIRE(WriteImage(folder.file(ViewName(3) + ".png"), Image(6, 5)) == "");
+  REQUIRE(WriteImage(folder.file(StarName(3) + ".png"), Image(6, 5)) == "");
   LightField back;
-  const std::string error = LoadLightField(folder.path(), 0, &back);
-  CHECK(Contains(error, ViewName(3)));
+  const std::string error = LoadLightField(folder.path(), {}, &back);
+  CHECK(Contains(error, StarName(3)));
   CHECK(Contains(error, "6x4"));
   CHECK(Contains(error, "6x5"));
-  REQUIRE(WriteImage(folder.file(ViewName(3) + ".png"), Image(6, 4)) == "");
+  REQUIRE(WriteImage(folder.file(StarName(3) + ".png"), Image(6, 4)) == "");
   REQUIRE(WritePfm(folder.file("disparity.pfm"), Make(1, 4, 6).disparity) == "");
-  CHECK(Contains(LoadLightField(folder.path(), 0, &back), "found 4x6"));
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "found 4x6"));
   fs::remove(folder.file("disparity.pfm"));
-  CHECK(Contains(LoadLightField(folder.path(), 0, &back), "disparity.pfm"));
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "disparity.pfm"));
   CHECK(back.views.empty());
 }
 
 TEST_CASE("light_field: a pipe in place of a view or the map keeps nobody waiting") {
-  for (const std::string& name : {ViewName(2) + ".png", std::string("disparity.pfm")}) {
+  for (const std::string& name : {StarName(2) + ".png", std::string("disparity.pfm")}) {
     TempFolder folder;
     REQUIRE(Save(folder, Make(5, 4, 4)) == "");
     REQUIRE(fs::remove(folder.file(name)));
     REQUIRE(mkfifo(folder.file(name).c_str(), 0600) == 0);
     LightField back;
-    const std::string error = LoadLightField(folder.path(), 0, &back);
+    const std::string error = LoadLightField(folder.path(), {}, &back);
     CHECK(Contains(error, name));
     CHECK(Contains(error, "pipe"));
   }
@@ -140,11 +225,10 @@ TEST_CASE("light_field: a pipe in place of a view or the map keeps nobody waitin
 TEST_CASE("light_field: no folder, a file, an empty folder") {
   TempFolder folder;
   LightField back;
-  CHECK(Contains(LoadLightField(folder.file("none"), 0, &back), "found nothing"));
+  CHECK(Contains(LoadLightField(folder.file("none"), {}, &back), "found nothing"));
   REQUIRE(WriteFile(folder.file("file"), {}) == "");
-  CHECK(Contains(LoadLightField(folder.file("file"), 0, &back), "found a file"));
-  CHECK(Contains(LoadLightField(folder.path(), 0, &back), ViewName(0)));
-  CHECK(Contains(LoadLightField(folder.path(), 3, &back), "1, 5, 9 or 17"));
+  CHECK(Contains(LoadLightField(folder.file("file"), {}, &back), "found a file"));
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), StarName(0)));
 }
 
 }  // namespace

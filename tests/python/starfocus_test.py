@@ -51,6 +51,13 @@ class Bytes(unittest.TestCase):
                          transfer=starfocus.Transfer.NONE)
         np.testing.assert_array_equal(five.refocus(VIEWS, DISPARITY, focus=1), expected)
 
+    def test_a_pair_and_an_l_give_the_program_s_bytes(self):
+        for positions in ([(0, 0), (1, 0)], [(0, 0), (0, -1), (-1, 0)]):
+            views, disparity = starfocus.read_light_field(FOLDER, positions)
+            engine = starfocus.Refocuser.for_light_field(views, disparity, positions=np.array(positions))
+            expected = by_program("--focus", "1", "--views", ":".join(f"{u},{v}" for u, v in positions))
+            np.testing.assert_array_equal(engine.refocus(views, disparity, focus=1), expected)
+
     def test_the_focus_at_a_pixel_is_the_program_s(self):
         focus = starfocus.focus_at(DISPARITY, WIDTH // 2, HEIGHT // 2)
         made = refocuser().refocus(VIEWS, DISPARITY, focus=focus)
@@ -63,6 +70,27 @@ class Bytes(unittest.TestCase):
         np.testing.assert_array_equal(prepared.refocus(focus=1.5), whole)
         part = prepared.refocus(focus=1.5, region=(40, 30, 50, 20))
         np.testing.assert_array_equal(part, whole[30:50, 40:90])
+
+    def test_previews_are_of_the_reduced_light_field(self):
+        def blocks(array: np.ndarray) -> np.ndarray:
+            return np.stack([array[y::2, x::2] for y in (0, 1) for x in (0, 1)])
+
+        none = {"transfer": starfocus.Transfer.NONE, "max_blur": 24.0}
+        engine = refocuser(previews=1, **none)
+        prepared = engine.prepare(VIEWS, DISPARITY)
+        half = prepared.preview(1, focus=2, aperture=0.75)
+        views = [((blocks(view.astype(int)).sum(0) + 2) // 4).astype(np.uint8) for view in VIEWS]
+        median = np.sort(np.floor(64 * blocks(DISPARITY.astype(float)) + 0.5), axis=0)[2]
+        low, high = DISPARITY.min() / 2, DISPARITY.max() / 2
+        disparity = np.clip((np.floor(median / 2 + 0.5) / 64).astype(np.float32), low, high)
+        small = starfocus.Refocuser(WIDTH // 2, HEIGHT // 2, disparity_min=low, disparity_max=high,
+                                    largest_block=engine.report["largest_block"], **none)
+        np.testing.assert_array_equal(small.refocus(views, disparity, focus=1, aperture=0.75), half)
+        part = prepared.preview(1, focus=2, aperture=0.75, region=(41, 30, 50, 21))
+        np.testing.assert_array_equal(part, half[15:26, 20:46])
+        for shift in (-1, 0, 2, 40):
+            with self.assertRaisesRegex(starfocus.StarfocusError, "preview"):
+                prepared.preview(shift, focus=2)
 
     def test_images_give_the_same_bytes(self):
         engine = refocuser(images=1)

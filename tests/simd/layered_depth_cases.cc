@@ -10,12 +10,15 @@ namespace {
 using starfocus::simd::DepthRow;
 using starfocus::simd::HiddenRow;
 using starfocus::simd::Kernels;
+using starfocus::simd::kMostUnit;
 using starfocus::simd::kNoSurface;
 using starfocus::simd::kPadding;
+using starfocus::simd::kSlantBits;
 using starfocus::simd::kSliceLanes;
 using starfocus::simd::kSurfaces;
 using starfocus::simd::SliceSamples;
 using starfocus::simd::StepBits;
+using starfocus::simd::ViewLook;
 
 constexpr int16_t kStep = 48;
 constexpr int kTimedWidth = 192;
@@ -193,6 +196,24 @@ std::vector<uint8_t> FieldEdges(const DepthField& field, int side, Draw* draw) {
   return distances;
 }
 
+// No views, those of a star with or without the ones at half distance, or views anywhere.
+void SetLooks(Draw* draw, DepthRow* row) {
+  const bool none = draw->Rarely(5), second = draw->Int(0, 1) == 0;
+  const bool anywhere = !draw->timed() && draw->Int(0, 2) == 0;
+  const int unit = 1 << row->unit_bits;
+  for (int side = 0; side < 4; ++side) {
+    if (none) break;
+    row->looks[side][0] = {int16_t(unit), int8_t(side), 0};
+    if (second) row->looks[side][1] = {int16_t(2 * unit), int8_t(side), 0};
+    for (ViewLook& look : row->looks[side]) {
+      if (!anywhere || draw->Rarely(4)) continue;
+      const int most = 1 << kSlantBits;
+      look = {int16_t(draw->Int(unit, kMostUnit)), int8_t(draw->Int(0, 3)),
+              int16_t(draw->Rarely(3) ? 0 : draw->Int(-most, most))};
+    }
+  }
+}
+
 DepthField MakeField(Draw* draw, KernelCall* call) {
   DepthField field = {};
   field.width = int(draw->Length(1, 70, kTimedWidth));
@@ -201,8 +222,7 @@ DepthField MakeField(Draw* draw, KernelCall* call) {
   field.row.stride = ptrdiff_t(field.stride);
   field.row.width = field.width;
   field.row.unit_bits = draw->Int(6, 8);
-  field.row.side_views = !draw->Rarely(5);
-  field.row.half_views = field.row.side_views && draw->Int(0, 1) == 0;
+  SetLooks(draw, &field.row);
   field.samples = call->Input("disparity", FieldSamples(&field, draw));
   constexpr const char* kNames[4] = {"right", "left", "bottom", "top"};
   for (int side = 0; side < 4; ++side) {
@@ -263,7 +283,7 @@ struct HiddenField {
         const bool unseen = value >> starfocus::simd::kSourceDistance != 0;
         (*met)["seen"] += sides != 0 && !unseen;
         (*met)["unseen"] += unseen;
-        (*met)["half"] += (value >> starfocus::simd::kSourceHalf & 15) != 0;
+        (*met)["second view"] += (value >> starfocus::simd::kSourceSecond & 15) != 0;
         (*met)["tied"] += (sides & (sides - 1)) != 0;
         if (k > 0) (*met)["second"] += value != 0;
       }

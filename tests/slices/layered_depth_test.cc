@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "tests/slices/layered_scene.h"
@@ -46,6 +47,60 @@ TEST_CASE("surfaces: behind a near square lies what captured views see beside it
     CHECK(scene.surfaces.low == 64);
     CHECK(scene.surfaces.high == 5 * 64);
   }
+}
+
+TEST_CASE(
+    "surfaces: a pair looks behind the edges on one side, on the others the background goes on") {
+  Scene scene(17);
+  test::SetPositions({{1, 0}}, &scene.window);
+  scene.Fill(0, kSize, 0, kSize, 1, 10);
+  scene.Fill(12, 28, 12, 28, 5, 90);
+  scene.Find();
+  CHECK(scene.Behind(26, 20) == 1);
+  CHECK(scene.Colour(26, 20, 2) == 1);
+  CHECK(scene.Colour(26, 20, 0) == 25);
+  for (const auto& [x, y] : {std::pair(13, 20), std::pair(20, 13), std::pair(20, 26)}) {
+    CHECK(scene.Behind(x, y) == 1);
+    CHECK(scene.Colour(x, y, 2) == 10);
+  }
+  // In a corner what a view sees comes before what is nearer.
+  CHECK(scene.Colour(26, 27, 2) == 1);
+}
+
+TEST_CASE(
+    "surfaces: views between the axes and at any distance are read where they show the place") {
+  for (const sf_position& at : {sf_position{0.5, 0.25}, sf_position{0.75, -0.5}}) {
+    Scene scene(17);
+    test::SetPositions({at}, &scene.window);
+    scene.Fill(0, kSize, 0, kSize, 4, 10);
+    scene.Fill(12, 28, 12, 28, 12, 90);
+    scene.Find();
+    CAPTURE(at.u);
+    // A near pixel moves by 8 u against the far surface.
+    const int seen = int(8 * at.u);
+    for (int x = 20; x < 28; ++x) {
+      CAPTURE(x);
+      CHECK(scene.Behind(x, 20) == 4);
+      const bool shown = 28 - x <= seen;
+      CHECK((scene.Colour(x, 20, 2) == 1) == shown);
+      if (!shown) continue;
+      CHECK(scene.Colour(x, 20, 0) == x - int(4 * at.u));
+      CHECK(scene.Colour(x, 20, 1) == 20 - int(4 * at.v));
+    }
+    CHECK(scene.Colour(13, 20, 2) == 10);
+  }
+}
+
+TEST_CASE("surfaces: of two views on a side the nearer one shows what is covered in the farther") {
+  Scene scene(17);
+  test::SetPositions({{1, 0}, {0.25, 0}}, &scene.window);
+  scene.Fill(0, kSize, 0, kSize, 0, 10);
+  scene.Fill(10, 14, 0, kSize, 4, 90);
+  scene.Fill(15, 25, 0, kSize, 4, 90);  // through the gap looks the nearer one only
+  scene.Find();
+  CHECK(scene.Colour(13, 20, 2) == 2);
+  CHECK(scene.Colour(12, 20, 2) != 2);
+  CHECK(scene.Colour(24, 20, 2) == 1);
 }
 
 TEST_CASE("surfaces: without a captured view the background goes on") {

@@ -8,6 +8,7 @@
 
 #include "lib/input/load_field.h"
 #include "lib/slices/layered_depth.h"
+#include "tests/support/star_views.h"
 #include "tests/support/test_scene.h"
 
 namespace test {
@@ -50,7 +51,7 @@ struct LayeredScene {
       window.view[view] = {side[view].data(), 3 * kSize, 0, 0};
     }
     window.width = window.picture_width = window.height = window.picture_height = kSize;
-    window.views = views;
+    test::SetStar(views, &window);
     window.reads = &reads;
   }
 

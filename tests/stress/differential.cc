@@ -52,6 +52,9 @@ Setup RandomCase(test::Random* random) {
       *coefficient = random->Int(0, 2) == 0 ? 0 : random->Next() % (SF_MAX_TIMING + 1);
     }
   }
+  if (setup.params.rule != SF_RULE_PAPER && random->Int(0, 2) == 0) {
+    test::RandomViews(&setup.scene, &setup.config, random);
+  }
   return setup;
 }
 
@@ -131,6 +134,7 @@ std::string Prepared(const Asked& asked, test::Random* random) {
   if (random->Int(0, 1) == 0) config.largest_block = 32 << random->Int(0, 3);
   if (random->Int(0, 1) == 0) config.max_blur = random->Real(0.5, 64);
   if (random->Int(0, 1) == 0) config.gather = 1 - config.gather;
+  if (random->Int(0, 1) == 0) config.previews = random->Int(1, SF_MAX_PREVIEW);
   Rig maker(config, RandomVariant(random)), rig(asked.setup.config, RandomVariant(random));
   size_t bytes = 0;
   sf_status status = sf_prepared_size(&config, &bytes);
@@ -150,6 +154,15 @@ std::string Prepared(const Asked& asked, test::Random* random) {
   const sf_region region = part ? params.region : whole;
   test::Output out(region.width, region.height, random->Int(0, 5));
   Distract(asked, &rig, random);
+  if (config.previews > 0) {
+    // After a preview the engine is what it was.
+    test::Output preview(region.width, region.height);
+    status = Retried(&rig, random, [&] {
+      return sf_refocus_preview(rig.get(), &params, prepared, config.previews, preview.bytes.data(),
+                                preview.stride, rig.runner(), rig.runner_data(), nullptr);
+    });
+    if (status != SF_OK) return std::string("preview: ") + sf_status_string(status);
+  }
   status = Retried(&rig, random, [&] {
     return sf_refocus_prepared(rig.get(), &params, prepared, out.bytes.data(), out.stride,
                                rig.runner(), rig.runner_data(), nullptr);

@@ -76,6 +76,14 @@ struct Scene {
   size_t disparity_width = 0;  // floats
   std::vector<std::vector<uint8_t>> pictures;
   std::vector<float> disparity;
+  std::vector<sf_position> positions;  // of the views; empty: those of sf_view_position
+
+  sf_position PositionOf(int view) const {
+    if (!positions.empty()) return positions[static_cast<size_t>(view)];
+    sf_position position;
+    sf_view_position(view, &position.u, &position.v);
+    return position;
+  }
 
   int views() const { return static_cast<int>(pictures.size()); }
   uint8_t* Pixel(int view, int x, int y) {
@@ -184,10 +192,34 @@ inline sf_config ConfigFor(const Scene& scene, double max_blur = 32) {
   config.width = scene.width;
   config.height = scene.height;
   config.views = scene.views();
+  std::copy(scene.positions.begin(), scene.positions.end(), config.positions);
   config.disparity_min = scene.disparity_min;
   config.disparity_max = scene.disparity_max;
   config.max_blur = max_blur;
   return config;
+}
+
+// Leaves some of a scene's views, at positions of any kind: along an axis, in an L or anywhere.
+inline void RandomViews(Scene* scene, sf_config* config, Random* random) {
+  if (scene->views() > 1 && random->Int(0, 1) == 0) {
+    scene->pictures.resize(static_cast<size_t>(random->Int(2, 4)));
+  }
+  const int kind = random->Int(0, 3), steps = random->Int(0, 1) == 0 ? 4 : 16384;
+  scene->positions = {{0, 0}};
+  while (scene->positions.size() < scene->pictures.size()) {
+    sf_position position = {random->Int(-steps, steps) / double(steps),
+                            random->Int(-steps, steps) / double(steps)};
+    if (kind == 0 && scene->positions.size() <= 4) position.v = 0;
+    if (kind == 1) position = {std::max(0.0, position.u), std::max(0.0, position.v)};
+    const auto alike = [&](const sf_position& other) {
+      return other.u == position.u && other.v == position.v;
+    };
+    if (std::none_of(scene->positions.begin(), scene->positions.end(), alike)) {
+      scene->positions.push_back(position);
+    }
+  }
+  config->views = scene->views();
+  std::copy(scene->positions.begin(), scene->positions.end(), config->positions);
 }
 
 inline sf_params Params(double focus, double aperture = 1, sf_mode mode = SF_MODE_FRAME) {

@@ -14,7 +14,7 @@ sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& st
   sf_config_init(&config);
   config.width = light_field.width();
   config.height = light_field.height();
-  config.views = static_cast<int32_t>(light_field.views.size());
+  ConfigureViews(light_field, &config);
   config.disparity_min = stats.min;
   config.disparity_max = stats.max;
   config.max_blur = SF_MAX_BLUR;

@@ -44,7 +44,7 @@ std::string Trace(const std::string& name, SceneTimes* times) {
 
 Error Load(const std::string& folder, SceneTimes* times) {
   LightField light_field;
-  Error error = LoadOrEstimate(folder, 0, 1, &light_field);
+  Error error = LoadOrEstimate(folder, {}, 1, &light_field);
   return error.empty() ? times->Open(folder, std::move(light_field)) : error;
 }
 

@@ -26,7 +26,8 @@ struct Plan {
   std::string map, picture;
   bool has_range = false;
   DisparityRange range;
-  int views = 0, threads = 1;
+  Positions views;
+  int threads = 1;
 };
 
 // MIN:MAX.
@@ -72,8 +73,9 @@ Error MakePlan(const Options& options, Plan* plan) {
   Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
   if (error.empty() && !options.views.empty()) {
     error = ParseViews("--views", options.views, &plan->views);
-    if (error.empty() && plan->views == 1 && !options.repair) {
-      error = Error::Usage("--views", "17, 9 or 5: one view alone shows no disparity", "1");
+    if (error.empty() && StarWithin(plan->views) == 1 && !options.repair) {
+      error =
+          Error::Usage("--views", "17, 9 or 5: other views show no disparity here", options.views);
     }
   }
   plan->has_range = !options.range.empty();
@@ -95,15 +97,14 @@ Image Draw(const FloatMap& map) {
 }
 
 // Estimates the map of a folder; says what was looked for.
-Error EstimateFolder(const Options& options, Plan* plan, const std::vector<Image>& views,
+Error EstimateFolder(const Options& options, Plan* plan, const LightField& light_field,
                      DisparityEstimate* estimate) {
-  if (views.size() == 1) {
-    return Expected(options.folder, "5, 9 or 17 views: one alone shows no disparity", "1");
+  Error error = CheckStar(options.folder, light_field);
+  if (error.empty() && !plan->has_range) {
+    error = FindRange(options.folder, light_field, plan->threads, &plan->range);
   }
-  Error error;
-  if (!plan->has_range) error = FindRange(options.folder, views, plan->threads, &plan->range);
   if (!error.empty()) return error;
-  return EstimateDisparity(options.folder, views, plan->range, plan->threads, estimate);
+  return EstimateDisparity(options.folder, light_field, plan->range, plan->threads, estimate);
 }
 
 // Repairs the map of a folder.
@@ -132,19 +133,19 @@ Error Run(const Options& options) {
   Error error = MakePlan(options, &plan);
   if (error.empty()) {
     error = options.repair ? LoadLightField(options.folder, plan.views, &light_field)
-                           : LoadCaptured(options.folder, plan.views, &light_field.views);
+                           : LoadCaptured(options.folder, plan.views, &light_field);
   }
   if (!error.empty()) return error;
   const double start = Seconds();
   DisparityEstimate estimate;
   error = options.repair ? RepairFolder(options, &plan, &light_field, &estimate)
-                         : EstimateFolder(options, &plan, light_field.views, &estimate);
+                         : EstimateFolder(options, &plan, light_field, &estimate);
   const double seconds = Seconds() - start;
   if (error.empty()) error = WriteMap(options, plan, estimate);
   if (!error.empty()) return error;
   const double megapixels = 1e-6 * estimate.map.width * estimate.map.height;
-  const size_t count = light_field.views.size();
-  std::printf("%s: %s to %s %s %zu view%s, %.1f s, %.1f s per megapixel\n", plan.map.c_str(),
+  const int count = StarWithin(light_field.positions);
+  std::printf("%s: %s to %s %s %d view%s, %.1f s, %.1f s per megapixel\n", plan.map.c_str(),
               Short(plan.range.min).c_str(), Short(plan.range.max).c_str(),
               options.repair ? "repaired by" : "looked for in", count, count == 1 ? "" : "s",
               seconds, seconds / megapixels);

@@ -43,6 +43,11 @@ void PrintText(const std::string& folder, const LightField& light_field,
                const sf_disparity_stats& stats, const std::vector<int64_t>& counts) {
   std::printf("%s: %dx%d, %zu views\n", folder.c_str(), light_field.width(), light_field.height(),
               light_field.views.size());
+  if (!AreStar(light_field.positions)) {
+    std::printf("at");
+    for (const sf_position& at : light_field.positions) std::printf(" (%g, %g)", at.u, at.v);
+    std::printf("\n");
+  }
   std::printf("disparity %g to %g pixels per unit u, %lld invalid\n", stats.min, stats.max,
               static_cast<long long>(stats.invalid));
   int64_t most = 1;
@@ -61,6 +66,7 @@ void PrintJson(const LightField& light_field, const sf_disparity_stats& stats,
   json["width"] = light_field.width();
   json["height"] = light_field.height();
   json["views"] = light_field.views.size();
+  for (const sf_position& at : light_field.positions) json["positions"].push_back({at.u, at.v});
   json["disparity_min"] = stats.min;
   json["disparity_max"] = stats.max;
   json["invalid"] = stats.invalid;
@@ -70,7 +76,7 @@ void PrintJson(const LightField& light_field, const sf_disparity_stats& stats,
 
 Error Run(const Options& options) {
   LightField light_field;
-  const Error error = LoadOrEstimate(options.folder, 0, 1, &light_field);
+  const Error error = LoadOrEstimate(options.folder, {}, 1, &light_field);
   if (!error.empty()) return error;
   const FloatMap& map = light_field.disparity;
   sf_disparity_stats stats = {};

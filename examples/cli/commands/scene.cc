@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus scene: a ray-traced light field with exact disparity and ground truth.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -33,7 +34,8 @@ struct Truth {
 
 struct Plan {
   Scene scene;
-  int width = 0, height = 0, views = 0, threads = 0;
+  int width = 0, height = 0, threads = 0;
+  Positions views;
   sf_transfer transfer = SF_TRANSFER_SRGB;
   std::vector<Truth> truths;
   sf_config shape;  // of the lens of the truths
@@ -80,18 +82,18 @@ Error MakePlan(const Options& options, Plan* plan) {
 }
 
 // Views of an earlier, larger set or in another format would mix with the new ones.
-Error CheckFolder(const std::string& folder, int views) {
+Error CheckFolder(const std::string& folder, const Positions& views) {
   std::error_code failure;
   if (fs::exists(folder, failure) && !fs::is_directory(folder, failure)) {
     return Expected(folder, "a folder or nothing", "a file");
   }
-  for (int i = 0; i < SF_MAX_VIEWS; ++i) {
-    for (const char* extension : {".png", ".ppm", ".jpg"}) {
-      const fs::path path = fs::path(folder) / (ViewName(i) + extension);
-      const bool replaced = i < views && std::string(extension) == ".png";
-      if (!replaced && fs::exists(path, failure)) {
-        return Expected(path.string(), "no view left from another light field", "one");
-      }
+  for (const auto& entry : fs::directory_iterator(folder, failure)) {
+    const std::string name = entry.path().filename().string();
+    const bool replaced = std::any_of(views.begin(), views.end(), [&](const sf_position& view) {
+      return name == ViewName(view) + ".png";
+    });
+    if (IsViewFile(name) && !replaced) {
+      return Expected(entry.path().string(), "no view left from another light field", "one");
     }
   }
   return "";
@@ -101,7 +103,7 @@ std::string MetaText(const Options& options, const Plan& plan, const Renderer& r
                      const FloatMap& disparity) {
   std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
   text += "size: " + std::to_string(plan.width) + "x" + std::to_string(plan.height) + "\n";
-  text += "views: " + std::to_string(plan.views) + "\n";
+  text += "views: " + std::to_string(plan.views.size()) + "\n";
   text += std::string("transfer: ") + (plan.transfer == SF_TRANSFER_NONE ? "none" : "srgb") + "\n";
   for (const NamedPoint& point : plan.scene.points) {
     int x, y;
@@ -132,12 +134,12 @@ Error Run(const Options& options) {
   LightField light_field;
   std::vector<Image> truths;
   {
-    const int64_t pictures = plan.views + Renderer::kTruthCost * int64_t(plan.truths.size());
+    const int64_t pictures =
+        int64_t(plan.views.size()) + Renderer::kTruthCost * int64_t(plan.truths.size());
     Progress progress("rendering", plan.height * pictures);
-    for (int i = 0; i < plan.views; ++i) {
-      double u = 0, v = 0;
-      sf_view_position(i, &u, &v);
-      light_field.views.push_back(renderer.View(u, v, &progress));
+    light_field.positions = plan.views;
+    for (const sf_position& view : plan.views) {
+      light_field.views.push_back(renderer.View(view.u, view.v, &progress));
     }
     light_field.disparity = renderer.Disparity();
     for (const Truth& truth : plan.truths) {
@@ -166,7 +168,10 @@ void AddSceneCommand(CLI::App* app, Action* action) {
   command->add_option("--name", options->name, "portrait, wires, ramp or lamps")
       ->capture_default_str();
   command->add_option("--size", options->size, "Width and height, WxH")->capture_default_str();
-  command->add_option("--views", options->views, "17, 9, 5 or 1")->capture_default_str();
+  command
+      ->add_option("--views", options->views,
+                   "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0")
+      ->capture_default_str();
   command
       ->add_option("--truth", options->truths,
                    "D,U: also the picture of a lens of aperture U focused at disparity D; "

@@ -31,7 +31,8 @@ struct Options {
 // The frames and what is the same for all of them.
 struct Video {
   std::vector<std::string> folders;
-  int width = 0, height = 0, views = 0;
+  int width = 0, height = 0;
+  Positions views;
   sf_disparity_stats stats = {};  // of all frames
   double max_blur = 0;
 };
@@ -100,17 +101,15 @@ Error CheckSize(const std::string& folder, const FloatMap& map, const Video& vid
 
 // Looks at all frames: their views and disparities.
 Error Scan(const Options& options, LensPlan* plan, Video* video) {
-  Error error = CountViews(video->folders[0], &video->views);
-  if (error.empty() && plan->views != 0) video->views = plan->views;
+  std::vector<ViewFile> files;
+  Error error = ChooseViewFiles(video->folders[0], plan->views, &files);
+  for (const ViewFile& file : files) video->views.push_back(file.position);
+  if (error.empty()) error = CheckRule(video->folders[0], *plan, video->views);
   for (size_t i = 0; i < video->folders.size() && error.empty(); ++i) {
     const std::string& folder = video->folders[i];
-    int views = 0;
     FloatMap map;
     sf_disparity_stats stats = {};
-    error = CountViews(folder, &views);
-    if (error.empty() && views < video->views) {
-      return Expected(folder, std::to_string(video->views) + " views", std::to_string(views));
-    }
+    error = ChooseViewFiles(folder, video->views, &files);
     if (error.empty()) error = ReadDisparity(folder, &map);
     if (!error.empty()) return error;
     if (i == 0) video->width = map.width, video->height = map.height;

@@ -18,6 +18,13 @@ constexpr int kSmallWidth = 256;      // of the pictures that a range is found i
 constexpr int kLeastConfidence = 48;  // what less is sure of strays at edges and on flat walls
 constexpr double kStrays = 0.0005;    // the share of pixels at either end that may be wrong
 
+using Images = std::vector<Image>;
+
+// The views that maps are made of.
+Images StarOf(const LightField& light_field) {
+  return {light_field.views.begin(), light_field.views.begin() + StarWithin(light_field.positions)};
+}
+
 // Who makes a map, with a progress line.
 struct Maker {
   Maker(int threads, const char* what) : pool(threads), progress(what, 1) {}
@@ -27,7 +34,7 @@ struct Maker {
 };
 
 // Estimates the map, or repairs the given one unless that is null. `confidence` may be null.
-Error MakeMap(const std::string& where, const std::vector<Image>& views, const FloatMap* given,
+Error MakeMap(const std::string& where, const Images& views, const FloatMap* given,
               const DisparityRange& range, Maker* maker, FloatMap* map,
               std::vector<uint8_t>* confidence) {
   const Image& centre = views[0];
@@ -99,8 +106,24 @@ void Show(const std::vector<uint8_t>& confidence, const Image& centre, Image* pi
 
 }  // namespace
 
-Error FindRange(const std::string& where, const std::vector<Image>& views, int threads,
+int StarWithin(const Positions& positions) {
+  for (int views : {17, 9, 5}) {
+    if (static_cast<size_t>(views) > positions.size()) continue;
+    if (AreStar(Positions(positions.begin(), positions.begin() + views))) return views;
+  }
+  return 1;
+}
+
+Error CheckStar(const std::string& where, const LightField& light_field) {
+  if (StarWithin(light_field.positions) > 1) return "";
+  const size_t views = light_field.views.size();
+  return Expected(where, "5, 9 or 17 views of a star to estimate disparities from",
+                  views == 1 ? "one, which shows none" : std::to_string(views) + " others");
+}
+
+Error FindRange(const std::string& where, const LightField& light_field, int threads,
                 DisparityRange* range) {
+  const Images views = StarOf(light_field);
   const int factor = (views[0].width + kSmallWidth - 1) / kSmallWidth;
   std::vector<Image> small;
   for (const Image& view : views) small.push_back(Shrink(view, factor));
@@ -125,8 +148,9 @@ Error FindRange(const std::string& where, const std::vector<Image>& views, int t
   return "";
 }
 
-Error EstimateDisparity(const std::string& where, const std::vector<Image>& views,
+Error EstimateDisparity(const std::string& where, const LightField& light_field,
                         const DisparityRange& range, int threads, DisparityEstimate* estimate) {
+  const Images views = StarOf(light_field);
   Maker maker(threads, "estimating disparities");
   std::vector<uint8_t> confidence;
   const Error error = MakeMap(where, views, nullptr, range, &maker, &estimate->map, &confidence);
@@ -153,7 +177,7 @@ Error RepairDisparity(const std::string& folder, int threads, LightField* light_
   Maker maker(threads, "repairing disparities");
   FloatMap map;
   std::vector<uint8_t> sure;
-  const Error error = MakeMap(folder, light_field->views, &given, range, &maker, &map,
+  const Error error = MakeMap(folder, StarOf(*light_field), &given, range, &maker, &map,
                               confidence == nullptr ? nullptr : &sure);
   if (!error.empty()) return error;
   if (confidence != nullptr) Show(sure, light_field->views[0], confidence);
@@ -161,23 +185,28 @@ Error RepairDisparity(const std::string& folder, int threads, LightField* light_
   return "";
 }
 
-Error LoadOrEstimate(const std::string& folder, int views, int threads, LightField* light_field) {
+Error LoadOrEstimate(const std::string& folder, const Positions& views, int threads,
+                     LightField* light_field) {
   if (HasDisparity(folder)) return LoadLightField(folder, views, light_field);
   LightField result;
-  Error error = LoadCaptured(folder, views, &result.views);
+  Error error = LoadCaptured(folder, views, &result);
   if (!error.empty()) return error;
-  if (result.views.size() == 1) {
-    return Expected(DisparityPath(folder), "a disparity map, as one view alone shows none",
+  const int star = StarWithin(result.positions);
+  if (star == 1) {
+    return Expected(DisparityPath(folder),
+                    result.views.size() == 1
+                        ? "a disparity map, as one view alone shows none"
+                        : "a disparity map: it is estimated from 5, 9 or 17 views of a star only",
                     "no file");
   }
   DisparityRange range;
-  error = FindRange(folder, result.views, threads, &range);
+  error = FindRange(folder, result, threads, &range);
   if (!error.empty()) return error;
-  std::fprintf(stderr, "%s: no map: disparities from %s to %s are estimated from %zu views\n",
+  std::fprintf(stderr, "%s: no map: disparities from %s to %s are estimated from %d views\n",
                DisparityPath(folder).c_str(), Short(range.min).c_str(), Short(range.max).c_str(),
-               result.views.size());
+               star);
   DisparityEstimate estimate;
-  error = EstimateDisparity(folder, result.views, range, threads, &estimate);
+  error = EstimateDisparity(folder, result, range, threads, &estimate);
   if (!error.empty()) return error;
   result.disparity = std::move(estimate.map);
   *light_field = std::move(result);

@@ -22,23 +22,30 @@ struct DisparityEstimate {
   Image confidence;  // gray: 0 unknown, 255 sure (sf_estimate_disparity)
 };
 
+// The number of views of the largest star that the first ones are: maps are made of these alone.
+int StarWithin(const Positions& positions);
+
+// Whether these views show disparities: an error about `where` unless 5 or more are a star.
+Error CheckStar(const std::string& where, const LightField& light_field);
+
 // Finds the range of disparities of 5, 9 or 17 views, as far as an eighth of the picture's width:
 // that of an estimate of small pictures, and a little more.
-Error FindRange(const std::string& where, const std::vector<Image>& views, int threads,
+Error FindRange(const std::string& where, const LightField& light_field, int threads,
                 DisparityRange* range);
 
 // Estimates the map, with a progress line. Errors are about `where`.
-Error EstimateDisparity(const std::string& where, const std::vector<Image>& views,
+Error EstimateDisparity(const std::string& where, const LightField& light_field,
                         const DisparityRange& range, int threads, DisparityEstimate* estimate);
 
-// Repairs the map of a light field by its views. `confidence` may be null. Errors are about the
-// folder.
+// Repairs the map of a light field by the star among its views, which may be the centre alone.
+// `confidence` may be null. Errors are about the folder.
 Error RepairDisparity(const std::string& folder, int threads, LightField* light_field,
                       Image* confidence);
 
 // As LoadLightField; a map that the folder doesn't have is estimated from the views that are
 // loaded, and a line on stderr says so.
-Error LoadOrEstimate(const std::string& folder, int views, int threads, LightField* light_field);
+Error LoadOrEstimate(const std::string& folder, const Positions& views, int threads,
+                     LightField* light_field);
 
 }  // namespace starfocus
 

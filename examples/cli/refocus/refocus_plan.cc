@@ -85,6 +85,19 @@ Error PlanBlocks(const LensOptions& options, LensPlan* plan) {
   return "";
 }
 
+// A view that the folder lacks is the option's fault.
+Error CheckViews(const std::string& folder, const Positions& views) {
+  std::vector<ViewFile> files, chosen;
+  if (!FindViewFiles(folder, &files).empty()) return "";
+  if (ChooseViewFiles(folder, views, &chosen).empty()) return "";
+  for (const sf_position& view : views) {
+    if (ChooseViewFiles(folder, {view}, &chosen).empty()) continue;
+    return Error::Usage("--views", "some of the " + std::to_string(files.size()) + " in " + folder,
+                        std::to_string(views.size()) + " with " + ViewName(view));
+  }
+  return "";
+}
+
 std::string FirstInvalid(const FloatMap& map, int64_t count) {
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
@@ -136,7 +149,9 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
       ->add_option("--highlights", options->highlights,
                    "1 to 64: how many times white the lamps are that the pictures clip")
       ->capture_default_str();
-  command->add_option("--views", options->views, "17, 9, 5 or 1; default: all of the folder");
+  command->add_option(
+      "--views", options->views,
+      "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder");
   command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
   command->add_flag("--fill-invalid", options->fill_invalid,
                     "Replace non-finite disparities by their nearest valid neighbour");
@@ -199,18 +214,19 @@ Error PlanFocus(const LensOptions& options, LensPlan* plan) {
   return ParseNumber("--focus", options.focus, &plan->foci[0]);
 }
 
-Error LoadViews(const std::string& folder, const LensPlan& plan, LightField* light_field) {
-  if (plan.views != 0) {
-    // A missing view of the set asked for is the option's fault when smaller sets are complete.
-    int available = 0;
-    const Error error = CountViews(folder, &available);
-    if (error.empty() && available < plan.views) {
-      return Error::Usage("--views",
-                          "at most " + std::to_string(available) + ", the views in " + folder,
-                          std::to_string(plan.views));
-    }
+Error CheckRule(const std::string& folder, const LensPlan& plan, const Positions& views) {
+  if (plan.rule != SF_RULE_PAPER || plan.mode == SF_MODE_BLUR || AreStar(views)) {
+    return "";
   }
-  return LoadOrEstimate(folder, plan.views, plan.threads, light_field);
+  return Error::Usage("--rule", "subaperture, as paper needs a star of 1, 5, 9 or 17 views",
+                      "paper for the " + std::to_string(views.size()) + " views of " + folder);
+}
+
+Error LoadViews(const std::string& folder, const LensPlan& plan, LightField* light_field) {
+  const Error error = CheckViews(folder, plan.views);
+  if (!error.empty()) return error;
+  const Error loaded = LoadOrEstimate(folder, plan.views, plan.threads, light_field);
+  return loaded.empty() ? CheckRule(folder, plan, light_field->positions) : loaded;
 }
 
 std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map,
@@ -273,7 +289,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config = plan.config;
   task.config.width = light_field.width();
   task.config.height = light_field.height();
-  task.config.views = static_cast<int32_t>(light_field.views.size());
+  ConfigureViews(light_field, &task.config);
   task.config.disparity_min = stats.min;
   task.config.disparity_max = stats.max;
   task.config.max_blur = max_blur;

@@ -35,7 +35,7 @@ struct LensPlan {
   sf_region region = {};     // all 0: the whole picture
   sf_mode mode = SF_MODE_BLOCK;
   sf_rule rule = SF_RULE_DEFAULT;
-  int views = 0;  // 0: all there are
+  Positions views;  // none: all there are
   int threads = 1;
   int largest_block = 0;  // 0: the library chooses
   int max_layer = 0, deblocking = 0;
@@ -53,6 +53,9 @@ Error PlanFocus(const LensOptions& options, LensPlan* plan);
 
 // Loads plan.views views of a folder and its map, or estimates one.
 Error LoadViews(const std::string& folder, const LensPlan& plan, LightField* light_field);
+
+// Checks that the rule is one for these views: the paper's needs a star.
+Error CheckRule(const std::string& folder, const LensPlan& plan, const Positions& views);
 
 // Fills holes of the folder's map if asked to, and measures it.
 std::string PrepareDisparity(const std::string& folder, bool fill, FloatMap* map,

@@ -161,6 +161,13 @@ SF_API sf_status sf_refocus_prepared_images(sf_engine* engine, const sf_params* 
                                             const sf_prepared* prepared, const sf_image_out* out,
                                             sf_runner runner, void* runner_data, sf_report* report);
 
+/** As sf_refocus_preview, into an image: of what sf_prepare or sf_prepare_images made. Alpha of
+ * `out` is 255. Chroma is that of the preview's own 2 x 2 pixels. */
+SF_API sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* params,
+                                           const sf_prepared* prepared, int32_t shift,
+                                           const sf_image_out* out, sf_runner runner,
+                                           void* runner_data, sf_report* report);
+
 /** As sf_stream_push, of images: planes point to the next rows. The depth map is the whole one,
  *  the same in all calls. Rows that share chroma come together: where a view has some, `rows` is
  *  even but at the picture's end (else SF_ERROR_COUNT), and so is *consumed. All rows of all views

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* starfocus: refocusing for star-shaped sparse light fields. C ABI.
+/* starfocus: refocusing for sparse light fields. C ABI.
  *
- * Given 1, 5, 9 or 17 rectified 8-bit RGB views and the disparity map of the centre view, the
- * engine computes the picture that a lens of aperture radius `aperture`, focused at disparity
- * `focus`, would have taken (Huang et al., "Fast Physically-Correct Refocusing for Sparse Light
- * Fields Using Block-Based Multi-Rate View Interpolation"; equations are cited as in the paper).
+ * Given 1 to 17 rectified 8-bit RGB views, those of the paper's star or any others such as a stereo
+ * pair, and the disparity map of the centre view, the engine computes the picture that a lens of
+ * aperture radius `aperture`, focused at disparity `focus`, would have taken (Huang et al., "Fast
+ * Physically-Correct Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View
+ * Interpolation"; equations are cited as in the paper).
  *
  * Use:
  *   1. sf_config_init, fill the fields in, sf_workspace_size.
@@ -15,10 +16,10 @@
  *      rows. Both give the same bytes. For many pictures of one light field there is sf_prepare,
  *      for a part of one sf_params.region, for frames of a video sf_refocus_after.
  *
- * Conventions: u grows to the right, v downwards; the outermost views lie at |u|, |v| = 1.
- * Disparity d is in pixels per unit u, larger is nearer: a point seen at (x, y) in the centre view
- * is seen at (x - u*d, y - v*d) in view (u, v). Pictures are rows of interleaved R, G, B bytes;
- * strides are in bytes and may exceed the row length.
+ * Conventions: u grows to the right, v downwards; no view lies beyond |u|, |v| = 1, where the
+ * star's outermost ones are. Disparity d is in pixels per unit u, larger is nearer: a point seen at
+ * (x, y) in the centre view is seen at (x - u*d, y - v*d) in view (u, v). Pictures are rows of
+ * interleaved R, G, B bytes; strides are in bytes and may exceed the row length.
  *
  * Threads: an engine is used by one call at a time; several engines are independent. The engine
  * starts no threads; it hands jobs to the caller's runner, for which starfocus/pool.h is one.
@@ -40,22 +41,14 @@
 extern "C" {
 #endif
 
-/** Grows whenever a public structure or the meaning of a call changes. */
-#define SF_ABI_VERSION 1u
-/** Alignment of the workspace in bytes: the widest vector of any SIMD target (AVX-512). */
-#define SF_ALIGNMENT 64
-/** Largest number of captured views. */
-#define SF_MAX_VIEWS 17
-/** Largest width and height in pixels. */
-#define SF_MAX_SIZE 65535
-/** Largest |disparity| in pixels per unit u. */
-#define SF_MAX_DISPARITY 500.0
-/** Largest blur radius in pixels that a configuration may ask for. */
-#define SF_MAX_BLUR 128.0
-/** Number of subsampled layers, the original one included. */
-#define SF_LAYERS 3
-/** Largest number of workers. */
-#define SF_MAX_WORKERS 64
+#define SF_ABI_VERSION 1u /**< grows when a public structure or the meaning of a call changes */
+#define SF_ALIGNMENT 64   /**< of the workspace, bytes: the widest vector (AVX-512) */
+#define SF_MAX_VIEWS 17   /**< largest number of captured views */
+#define SF_MAX_SIZE 65535 /**< largest width and height in pixels */
+#define SF_MAX_DISPARITY 500.0 /**< largest |disparity| in pixels per unit u */
+#define SF_MAX_BLUR 128.0 /**< largest blur radius in pixels that a configuration may ask for */
+#define SF_LAYERS 3       /**< number of subsampled layers, the original one included */
+#define SF_MAX_WORKERS 64 /**< largest number of workers */
 
 /** SF_ABI_VERSION the library was built with. */
 SF_API uint32_t sf_abi_version(void);
@@ -75,6 +68,7 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_MIN_N_SCALE 0.5
 #define SF_MAX_N_SCALE 2.0
 #define SF_MAX_HIGHLIGHTS 64.0
+#define SF_MAX_PREVIEW 3
 #define SF_MIN_BLADES 3
 #define SF_MAX_BLADES 12
 #define SF_MAX_RING_INNER 0.9
@@ -104,6 +98,12 @@ typedef struct sf_timing {
   uint32_t hole;     /**< per pixel that a depth edge uncovers in the outermost view, 8 at most */
 } sf_timing;
 
+/** Where a captured view lies, in units of u. */
+typedef struct sf_position {
+  double u; /**< grows to the right */
+  double v; /**< grows downwards */
+} sf_position;
+
 /** How the codes 0 to 255 of a picture stand for light, which is what a lens adds. Of one colour
  * every code comes out as it went in. */
 typedef enum sf_transfer {
@@ -119,7 +119,8 @@ typedef struct sf_config {
   uint32_t version;    /**< SF_ABI_VERSION, set by sf_config_init */
   int32_t width;       /**< pixels, [1, SF_MAX_SIZE] */
   int32_t height;      /**< pixels, [1, SF_MAX_SIZE]; the workspace does not depend on it */
-  int32_t views;       /**< captured views: 1, 5, 9 or 17 (see sf_view_position) */
+  int32_t views;       /**< captured views: 1, 5, 9 or 17 (see sf_view_position), or with positions
+                            any number from 1 to SF_MAX_VIEWS; default 5 */
   float disparity_min; /**< smallest disparity any map may hold; with disparity_max it bounds the
                             blur, and so N of the frame modes and, beyond 32 pixels of blur, how
                             finely scenes are cut, in every entry path */
@@ -175,12 +176,20 @@ typedef struct sf_config {
                        default: they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds
                        what the views show there, and sf_fill_disparity fills whole maps */
   int32_t images;   /**< 1 reserves rows for the calls of starfocus/image.h; default 0 */
-  uint32_t reserved[4]; /**< zero */
+  int32_t previews; /**< largest shift of sf_refocus_preview, [0, SF_MAX_PREVIEW]: sf_prepare then
+                       keeps the light field at 1/2, 1/4 and 1/8 of its size, up to that; default
+                       0: none. The workspace does not grow by it */
+  uint32_t reserved[3]; /**< zero */
+  /** Where the `views` captured views lie: each coordinate in [-1, 1], rounded to 1/16384, no two
+   *  alike, the first one (0, 0). All 0, the default: where sf_view_position tells. What lies
+   *  behind an edge is read from the best view that sees it, and filled where none does.
+   *  SF_RULE_PAPER and starfocus/depth.h need the star. */
+  sf_position positions[SF_MAX_VIEWS];
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);
 
-/** Position (u, v) of captured view `index`; views of 1, 5 and 9 are the first of the 17:
+/** Position (u, v) of view `index` of the star; those of 1, 5 and 9 are the first of the 17:
  *  0 centre; 1-4 (+1,0) (-1,0) (0,+1) (0,-1); 5-8 (+1,+1) (-1,+1) (+1,-1) (-1,-1); 9-16 the same
  *  eight at half the distance. False when index is outside [0, SF_MAX_VIEWS) or u or v is null. */
 SF_API int sf_view_position(int32_t index, double* u, double* v);
@@ -232,8 +241,9 @@ typedef enum sf_mode {
 
 /** How many views a blur radius needs. */
 typedef enum sf_rule {
-  SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME, SF_RULE_SUBAPERTURE for the others */
-  SF_RULE_PAPER = 1,   /**< (9): views at most a pixel or so apart, rendered line by line (IV) */
+  SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME of a star, else SF_RULE_SUBAPERTURE */
+  SF_RULE_PAPER = 1, /**< (9): views at most a pixel or so apart, rendered line by line (IV); needs
+                          the star of sf_view_position, else SF_ERROR_STAR */
   SF_RULE_SUBAPERTURE = 2 /**< each view stands for its subaperture, however wide, and shows
                          slices of the scene */
 } sf_rule;
@@ -296,7 +306,8 @@ typedef struct sf_plane {
 
 /** A light field. All views have the configured width and height. */
 typedef struct sf_light_field {
-  sf_plane views[SF_MAX_VIEWS]; /**< the configured number, in the order of sf_view_position */
+  sf_plane views[SF_MAX_VIEWS]; /**< the configured number, in the order of sf_view_position or
+                                     sf_config.positions */
   const float* disparity;       /**< disparity of the centre view, aligned for float */
   size_t disparity_stride;      /**< bytes from row to row, >= 4 * width, multiple of 4 */
 } sf_light_field;
@@ -372,7 +383,8 @@ SF_API sf_status sf_refocus(sf_engine* engine, const sf_params* params,
 typedef struct sf_prepared sf_prepared;
 
 /** Bytes that a prepared light field of `config` takes, into *bytes: 2 per pixel of the picture for
- *  disparities and about 1.9 for layers 1 and 2, as far as max_layer allows them. */
+ *  disparities and about 1.9 for layers 1 and 2, as far as max_layer allows them; and for each
+ *  preview up to sf_config.previews 3 per view and 2 per pixel of its own. */
 SF_API sf_status sf_prepared_size(const sf_config* config, size_t* bytes);
 
 /** Checks and converts the disparities and subsamples the centre view, once for many refocusings,
@@ -387,11 +399,30 @@ SF_API sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field
                             sf_runner runner, void* runner_data, sf_prepared** prepared);
 
 /** As sf_refocus, with the same bytes, of a prepared light field; of this engine or of any of the
- *  same size, views, disparity range, max_layer and transfer (else SF_ERROR_PREPARED). Several
- * engines may use one at a time. */
+ *  same size, views and positions, disparity range, max_layer and transfer (else
+ *  SF_ERROR_PREPARED). Several engines may use one at a time. */
 SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                                      const sf_prepared* prepared, uint8_t* out, size_t out_stride,
                                      sf_runner runner, void* runner_data, sf_report* report);
+
+/** Refocuses a prepared light field at 1 / S of its size, S = 2^shift, in about 1 / S^2 of the
+ * time; `params` are in pixels of the full size as ever. `out` has the pixels that have a part of
+ * the region: from x / S to (x + width - 1) / S, both rounded down, and rows likewise.
+ *
+ * The preview is, byte for byte, what sf_refocus gives of the reduced light field, by an engine of
+ * its size and else of the same configuration (largest_block as sf_report says), but for a
+ * disparity range, max_blur, focus and region divided by S. There a pixel of a view is the mean
+ * light, in 128ths of a 255th of white and then as a code, of the S x S pixels (fewer at the right
+ * and bottom edges) that it stands for, and a disparity the median of theirs, the larger of two in
+ * the middle, over S: a multiple of 1/64, halves rounded up, within the range.
+ *
+ * on_block, progress and the report count pixels of the preview. The light field's pictures are not
+ * read; `prepared` may be of sf_prepare or sf_prepare_images. SF_ERROR_PREVIEW when it was not
+ * prepared for that shift; else errors are those of sf_refocus_prepared. */
+SF_API sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
+                                    const sf_prepared* prepared, int32_t shift, uint8_t* out,
+                                    size_t out_stride, sf_runner runner, void* runner_data,
+                                    sf_report* report);
 
 /** A light field of the same configuration and what was made of it with the same params (but for
  *  their clock, visitor and progress). */

@@ -82,6 +82,14 @@ class Engine {
                                runner_data, report);
   }
 
+  // Of what Prepare made, with config.previews of `shift` at least.
+  sf_status RefocusPreview(const sf_params& params, int32_t shift, uint8_t* out, size_t out_stride,
+                           sf_runner runner = nullptr, void* runner_data = nullptr,
+                           sf_report* report = nullptr) {
+    return sf_refocus_preview(get(), &params, prepared_.handle, shift, out, out_stride, runner,
+                              runner_data, report);
+  }
+
   sf_status StreamBegin(const sf_params& params) { return sf_stream_begin(get(), &params); }
 
   sf_status StreamPush(const sf_light_field& rows, int32_t count, int32_t* consumed) {

@@ -15,11 +15,11 @@ extern "C" {
 
 typedef enum sf_status {
   SF_OK = 0,
-  SF_ERROR_NULL = 1,            /**< a pointer that must be given is null */
-  SF_ERROR_VERSION = 2,         /**< structure not initialised by its init function */
-  SF_ERROR_RESERVED = 3,        /**< a reserved field is not zero */
-  SF_ERROR_SIZE = 4,            /**< width or height outside [1, SF_MAX_SIZE] */
-  SF_ERROR_VIEWS = 5,           /**< number of views is not 1, 5, 9 or 17 */
+  SF_ERROR_NULL = 1,     /**< a pointer that must be given is null */
+  SF_ERROR_VERSION = 2,  /**< structure not initialised by its init function */
+  SF_ERROR_RESERVED = 3, /**< a reserved field is not zero */
+  SF_ERROR_SIZE = 4,     /**< width or height outside [1, SF_MAX_SIZE] */
+  SF_ERROR_VIEWS = 5,    /**< number of views is not 1, 5, 9 or 17, or with positions not 1 to 17 */
   SF_ERROR_DISPARITY_RANGE = 6, /**< configured disparity range not finite, reversed or too large */
   SF_ERROR_MAX_BLUR = 7,        /**< max_blur outside (0, SF_MAX_BLUR] */
   SF_ERROR_BLOCK = 8,           /**< largest_block is not 0, 32, 64, 128 or 256 */
@@ -68,7 +68,11 @@ typedef enum sf_status {
   SF_ERROR_PIXEL_STRIDE = 50, /**< pixel_stride is none of the image's format */
   SF_ERROR_DEPTH_TYPE = 51,   /**< a depth map of unknown type, meaning or has_invalid */
   SF_ERROR_DEPTH_SCALE = 52,  /**< scale or offset of a depth map not finite, or scale 0 */
-  SF_ERROR_DEPTH_SIZE = 53    /**< depth map larger than the picture, or empty */
+  SF_ERROR_DEPTH_SIZE = 53,   /**< depth map larger than the picture, or empty */
+  SF_ERROR_PREVIEW = 54, /**< previews outside [0, SF_MAX_PREVIEW], or a shift that the light field
+                            was not prepared for */
+  SF_ERROR_VIEW_POSITIONS = 55, /**< a position beyond 1, two alike, or the first one not (0, 0) */
+  SF_ERROR_STAR = 56            /**< SF_RULE_PAPER without the views of sf_view_position */
 } sf_status;
 
 /** One English sentence for a status; never null, static storage. */

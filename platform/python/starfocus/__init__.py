@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""starfocus: refocusing of star-shaped sparse light fields.
+"""starfocus: refocusing of sparse light fields.
 
     views, disparity = starfocus.read_light_field("demo/portrait")
     refocuser = starfocus.Refocuser.for_light_field(views, disparity)
@@ -7,7 +7,7 @@
 
 Pictures are arrays of uint8 and of the shape (height, width, 3), disparity maps of float32 and
 (height, width). A disparity is in pixels per unit of u, larger is nearer; views lie where
-`view_positions` tells.
+`view_positions` tells, or at positions that are given.
 """
 from ._abi import library as _library
 from .constants import (DepthMeaning, Format, Matrix, Mode, Range, Rule, Shape, Status, Transfer)

@@ -25,6 +25,12 @@ class Timing(Structure):
     _fields_ = [(name, c_uint32) for name in ("block", "field", "a", "b", "c", "upsample", "span", "hole")]
 
 
+class Position(Structure):
+    """sf_position"""
+
+    _fields_ = [("u", c_double), ("v", c_double)]
+
+
 class Config(Structure):
     """sf_config"""
 
@@ -36,7 +42,8 @@ class Config(Structure):
         ("skips", c_int32), ("gather", c_int32), ("aperture_shape", c_int16), ("blades", c_int16),
         ("rotation", c_float), ("curvature", c_float), ("ring_inner", c_float), ("cats_eye", c_float),
         ("transfer", c_int32), ("highlights", c_float), ("fill_unknown", c_int32), ("images", c_int32),
-        ("reserved", c_uint32 * 4),
+        ("previews", c_int32), ("reserved", c_uint32 * 3),
+        ("positions", Position * MAX_VIEWS),
     ]
 
 
@@ -136,7 +143,7 @@ class ImageField(Structure):
 
 
 STRUCTURES = {
-    "sf_timing": Timing, "sf_config": Config, "sf_region": Region, "sf_params": Params,
+    "sf_timing": Timing, "sf_position": Position, "sf_config": Config, "sf_region": Region, "sf_params": Params,
     "sf_plane": Plane, "sf_light_field": LightField, "sf_layer_report": LayerReport,
     "sf_skipped": Skipped, "sf_report": Report, "sf_disparity_stats": DisparityStats,
     "sf_depth_config": DepthConfig, "sf_image": Image, "sf_image_out": Image,
@@ -151,6 +158,8 @@ _ENGINE_CALLS = {
     "sf_prepare": (c_void_p, POINTER(LightField), c_void_p, c_size_t, Progress, c_void_p, *_RUN,
                    POINTER(c_void_p)),
     "sf_refocus_prepared": (c_void_p, POINTER(Params), c_void_p, c_void_p, c_size_t, *_RUN, POINTER(Report)),
+    "sf_refocus_preview": (c_void_p, POINTER(Params), c_void_p, c_int32, c_void_p, c_size_t, *_RUN,
+                           POINTER(Report)),
     "sf_refocus_images": (c_void_p, POINTER(Params), POINTER(ImageField), POINTER(Image), *_RUN,
                           POINTER(Report)),
 }

@@ -74,6 +74,14 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
     return field, kept
 
 
+def positions_of(positions: Any, count: int) -> Any:
+    """Where `count` views lie, as sf_config has it."""
+    places = np.asarray(positions, np.float64)
+    if places.shape != (count, 2):
+        raise ValueError(f"positions: expected the shape ({count}, 2), found {places.shape}")
+    return (_abi.Position * _abi.MAX_VIEWS)(*map(tuple, places[:_abi.MAX_VIEWS]))
+
+
 def aligned(size: int) -> np.ndarray:
     """Memory as the library wants it."""
     memory = np.empty(size + _abi.ALIGNMENT, np.uint8)

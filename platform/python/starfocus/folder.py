@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import List, Optional, Tuple, Union
+from typing import List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -12,13 +12,18 @@ from .maps import view_positions
 _SETS = (17, 9, 5, 1)
 
 
-def read_light_field(folder: Union[str, Path]) -> Tuple[List[np.ndarray], Optional[np.ndarray]]:
-    """The views of a folder, the largest star that is complete, and its disparity map if it has one."""
+def read_light_field(folder: Union[str, Path], positions: Optional[Sequence[Tuple[float, float]]] = None
+                     ) -> Tuple[List[np.ndarray], Optional[np.ndarray]]:
+    """The views of a folder at these positions, or of the largest star that is complete, and its disparity
+    map if it has one."""
     folder = Path(folder)
-    paths = [_view_path(folder, u, v) for u, v in view_positions()]
-    count = next((size for size in _SETS if all(paths[:size])), None)
+    wanted = view_positions() if positions is None else positions
+    paths = [_view_path(folder, u, v) for u, v in wanted]
+    sizes = _SETS if positions is None else (len(paths),)
+    count = next((size for size in sizes if all(paths[:size])), None)
     if count is None:
-        raise FileNotFoundError(f"{folder}: expected a view named view_+0.0_+0.0 (png, ppm or jpg)")
+        missing = _view_name(*wanted[paths.index(None)])
+        raise FileNotFoundError(f"{folder}: expected a view named {missing} (png, ppm or jpg)")
     disparity = folder / "disparity.pfm"
     return [read_picture(path) for path in paths[:count]], read_pfm(disparity) if disparity.exists() else None
 
@@ -49,8 +54,17 @@ def read_pfm(path: Union[str, Path]) -> np.ndarray:
     return np.ascontiguousarray(values[::-1], np.float32)
 
 
+def _coordinate(value: float) -> str:
+    text = f"{round(value, 4) + 0.0:+.4f}".rstrip("0")
+    return text + "0" if text.endswith(".") else text
+
+
+def _view_name(u: float, v: float) -> str:
+    return f"view_{_coordinate(u)}_{_coordinate(v)}"
+
+
 def _view_path(folder: Path, u: float, v: float) -> Optional[Path]:
-    paths = (folder / f"view_{u:+.1f}_{v:+.1f}{end}" for end in (".png", ".ppm", ".jpg"))
+    paths = (folder / (_view_name(u, v) + end) for end in (".png", ".ppm", ".jpg"))
     return next((path for path in paths if path.exists()), None)
 
 

@@ -12,7 +12,8 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _abi
-from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, light_field, output, pointer, stride_of)
+from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, light_field, output, pointer,
+                     positions_of, stride_of)
 from ._abi import library
 from .constants import Mode, Rule
 from .errors import check
@@ -28,26 +29,32 @@ class Refocuser:
 
     Args:
         width, height: of the pictures, in pixels.
-        views: 1, 5, 9 or 17, in the order of `view_positions`.
+        views: 1, 5, 9 or 17, in the order of `view_positions`; with positions any number up to 17.
         disparity_min, disparity_max: what values disparity maps may hold, in pixels per unit of u.
         workers: threads that refocus; 0: one for each big core of the machine.
+        positions: (u, v) of each view where they are not those of `view_positions`, from -1 to 1, the centre
+            (0, 0) first: `[(0, 0), (1, 0)]` of a stereo pair.
         config: other fields of sf_config (starfocus.h) by their names, such as `max_blur`, `aperture_shape`,
-            `transfer`, `highlights`, `fill_unknown`, or `images=1` for `refocus_images`.
+            `transfer`, `highlights`, `fill_unknown`, `images=1` for `refocus_images`, or `previews=3` for
+            `Prepared.preview` down to an eighth of the size.
 
     Memory is taken here and nowhere else. Calls let other Python threads run; calls of several threads with
     the same refocuser take turns. The bytes of pictures depend on neither the machine nor `workers`.
     """
 
     def __init__(self, width: int, height: int, views: int = 5, *, disparity_min: float,
-                 disparity_max: float, workers: int = 0, **config: Any):
+                 disparity_max: float, workers: int = 0, positions: Any = None, **config: Any):
         self._config = _abi.Config()
         library.sf_config_init(byref(self._config))
-        known = {field[0] for field in _abi.Config._fields_} - {"version", "reserved", "max_workers"}
+        set_below = {"version", "reserved", "max_workers", "positions"}
+        known = {field[0] for field in _abi.Config._fields_} - set_below
         for name, value in {**config, "width": width, "height": height, "views": views,
                             "disparity_min": disparity_min, "disparity_max": disparity_max}.items():
             if name not in known:
                 raise TypeError(f"Refocuser: unknown field of the configuration '{name}'")
             setattr(self._config, name, value)
+        if positions is not None:
+            self._config.positions = positions_of(positions, views)
         self._pool = Pool(workers)
         self._config.max_workers = self._pool.workers
         engine = ctypes.c_void_p()
@@ -101,8 +108,9 @@ class Refocuser:
         Raises StarfocusError, of which there are kinds, and TypeError or ValueError for arrays.
         """
         field, kept = light_field(views, disparity, self._config.views, self.height, self.width)
-        return self._picture(focus, aperture, mode, rule, region, out, progress,
-                             library.sf_refocus, byref(field), kept)
+        width, height = region[2:] if region else (self.width, self.height)
+        return self._picture(focus, aperture, mode, rule, region, output(out, (height, width, 3), "out"),
+                             progress, library.sf_refocus, byref(field), keep=kept)
 
     def prepare(self, views: Views, disparity: np.ndarray, *,
                 progress: Optional[ProgressFunction] = None) -> "Prepared":
@@ -128,16 +136,14 @@ class Refocuser:
         return out
 
     def _picture(self, focus: float, aperture: float, mode: Mode, rule: Rule,
-                 region: Optional[RegionOfPicture], out: Optional[np.ndarray],
-                 progress: Optional[ProgressFunction], function: Any, scene: Any,
-                 kept: List[np.ndarray]) -> np.ndarray:
-        """The picture by sf_refocus or sf_refocus_prepared, of the scene, which reads the arrays `kept`."""
-        width, height = region[2:] if region else (self.width, self.height)
-        picture = output(out, (height, width, 3), "out")
+                 region: Optional[RegionOfPicture], picture: np.ndarray,
+                 progress: Optional[ProgressFunction], function: Any, *scene: Any,
+                 keep: List[np.ndarray]) -> np.ndarray:
+        """The picture by sf_refocus or its like, of the scene, which reads the arrays to `keep`."""
         watch = Watch(progress)
         params = self._params(focus, aperture, mode, rule, region, watch)
-        self._call(watch, function, byref(params), scene, pointer(picture), stride_of(picture))
-        del kept
+        self._call(watch, function, byref(params), *scene, pointer(picture), stride_of(picture))
+        del keep
         return picture
 
     def _params(self, focus: float, aperture: float, mode: Mode, rule: Rule,
@@ -159,8 +165,8 @@ class Refocuser:
 
 
 class Prepared:
-    """A light field of which all that is the same for every lens has been made: 3.89 bytes per pixel. It
-    keeps the arrays; they must stay as they are."""
+    """A light field of which all that is the same for every lens has been made: 3.89 bytes per pixel, and
+    for previews of 5 views up to 5.6 more. It keeps the arrays; they must stay as they are."""
 
     def __init__(self, refocuser: Refocuser, views: Views, disparity: np.ndarray,
                  progress: Optional[ProgressFunction]):
@@ -183,9 +189,24 @@ class Prepared:
                 out: Optional[np.ndarray] = None,
                 progress: Optional[ProgressFunction] = None) -> np.ndarray:
         """As Refocuser.refocus of the light field, with the same bytes."""
+        width, height = region[2:] if region else (self._refocuser.width, self._refocuser.height)
         return self._refocuser._picture(  # pylint: disable=protected-access
-            focus, aperture, mode, rule, region, out, progress, library.sf_refocus_prepared, self._handle,
-            self._kept)
+            focus, aperture, mode, rule, region, output(out, (height, width, 3), "out"), progress,
+            library.sf_refocus_prepared, self._handle, keep=self._kept)
+
+    def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
+                rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
+                out: Optional[np.ndarray] = None,
+                progress: Optional[ProgressFunction] = None) -> np.ndarray:
+        """As `refocus` at 1 / 2**shift of the size, from 1 to the `previews` of the refocuser's
+        configuration. Focus and region are in pixels of the full size; the picture has the pixels that
+        have a part of the region."""
+        x, y, width, height = region or (0, 0, self._refocuser.width, self._refocuser.height)
+        side = 1 << min(max(shift, 0), 30)  # any other is refused below
+        shape = (-(-(y + height) // side) - y // side, -(-(x + width) // side) - x // side, 3)
+        return self._refocuser._picture(  # pylint: disable=protected-access
+            focus, aperture, mode, rule, region, output(out, shape, "out"), progress,
+            library.sf_refocus_preview, self._handle, shift, keep=self._kept)
 
 
 def _as_dict(structure: ctypes.Structure) -> Dict[str, Any]:

@@ -72,6 +72,7 @@ constexpr Field kConfigFields[] = {
     {"transfer", FieldType::kInt32, offsetof(sf_config, transfer)},
     {"highlights", FieldType::kFloat, offsetof(sf_config, highlights)},
     {"fillUnknown", FieldType::kInt32, offsetof(sf_config, fill_unknown)},
+    {"previews", FieldType::kInt32, offsetof(sf_config, previews)},
 };
 
 constexpr Field kParamsFields[] = {
@@ -85,19 +86,45 @@ constexpr Field kParamsFields[] = {
     {"regionHeight", FieldType::kInt32, offsetof(sf_params, region.height)},
 };
 
-// What to render and where to; false with an exception pending.
-bool ReadTask(JNIEnv* env, Session* session, jobject parameters, jobject out, sf_params* params,
-              sf_image_out* image) {
+// The positions of views, if there are any; false with an exception pending.
+bool ReadPositions(JNIEnv* env, jobject configuration, sf_config* config) {
+  const auto positions =
+      static_cast<jdoubleArray>(ReadObject(env, configuration, "positions", "[D"));
+  if (positions == nullptr) return !env->ExceptionCheck();
+  if (config->views < 1 || config->views > SF_MAX_VIEWS) return true;  // the library refuses that
+  const jsize found = env->GetArrayLength(positions), expected = 2 * config->views;
+  if (found != expected) {
+    ThrowArgument(env, "positions: expected %d numbers, found %d", int{expected}, int{found});
+    return false;
+  }
+  double places[2 * SF_MAX_VIEWS];
+  env->GetDoubleArrayRegion(positions, 0, expected, places);
+  for (int k = 0; k < config->views; ++k) config->positions[k] = {places[2 * k], places[2 * k + 1]};
+  return true;
+}
+
+// How many pixels of 1 / 2^shift of the size have a part of `count` pixels, one at least, from
+// `first` on.
+int32_t Reduced(int32_t first, int32_t count, int32_t shift) {
+  return static_cast<int32_t>(((int64_t{first} + count - 1) >> shift) - (first >> shift) + 1);
+}
+
+// What to render, at 1 / 2^shift of the size, and where to; false with an exception pending.
+bool ReadTask(JNIEnv* env, Session* session, int32_t shift, jobject parameters, jobject out,
+              sf_params* params, sf_image_out* image) {
   sf_params_init(params);
   if (!ReadFields(env, parameters, kParamsFields, std::size(kParamsFields), params)) return false;
   params->progress = Tell;
   params->progress_data = session;
   const sf_region& region = params->region;
   const bool whole = region.width == 0 && region.height == 0;
-  // The library has not looked at the region yet: one without pixels needs no buffer.
+  // The library has looked at neither the region, without pixels of which no buffer is needed, nor
+  // the shift yet.
   const int32_t width = whole ? session->config.width : region.width < 1 ? 1 : region.width;
   const int32_t height = whole ? session->config.height : region.height < 1 ? 1 : region.height;
-  return ReadImageOut(env, out, width, height, image);
+  const int32_t known = shift < 0 || shift > SF_MAX_PREVIEW ? 0 : shift;
+  return ReadImageOut(env, out, Reduced(region.x, width, known), Reduced(region.y, height, known),
+                      image);
 }
 
 // Makes the pool and the engine of a session whose configuration is read.
@@ -158,7 +185,8 @@ STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
   }
   auto* const session = new (memory) Session;
   sf_config_init(&session->config);
-  if (ReadFields(env, configuration, kConfigFields, std::size(kConfigFields), &session->config)) {
+  if (ReadFields(env, configuration, kConfigFields, std::size(kConfigFields), &session->config) &&
+      ReadPositions(env, configuration, &session->config)) {
     const sf_status status = Start(session);
     if (status == SF_OK) return reinterpret_cast<jlong>(session);
     ThrowStatus(env, status);
@@ -178,7 +206,7 @@ STARFOCUS_NATIVE(void, refocus)
   sf_image_out image;
   if (!ReadImageField(env, views, depth, session->config.views, session->config.width,
                       session->config.height, &field) ||
-      !ReadTask(env, session, parameters, out, &params, &image)) {
+      !ReadTask(env, session, 0, parameters, out, &params, &image)) {
     return;
   }
   Begin(session);
@@ -202,11 +230,23 @@ STARFOCUS_NATIVE(void, refocusPrepared)
   Session* const session = From(handle);
   sf_params params;
   sf_image_out image;
-  if (!ReadTask(env, session, parameters, out, &params, &image)) return;
+  if (!ReadTask(env, session, 0, parameters, out, &params, &image)) return;
   Begin(session);
   ThrowStatus(env, sf_refocus_prepared_images(session->engine, &params, session->prepared, &image,
                                               session->pool != nullptr ? sf_pool_run : nullptr,
                                               session->pool, nullptr));
+}
+
+STARFOCUS_NATIVE(void, preview)
+(JNIEnv* env, jclass, jlong handle, jint shift, jobject parameters, jobject out) {
+  Session* const session = From(handle);
+  sf_params params;
+  sf_image_out image;
+  if (!ReadTask(env, session, shift, parameters, out, &params, &image)) return;
+  Begin(session);
+  ThrowStatus(env, sf_refocus_preview_images(
+                       session->engine, &params, session->prepared, shift, &image,
+                       session->pool != nullptr ? sf_pool_run : nullptr, session->pool, nullptr));
 }
 
 STARFOCUS_NATIVE(void, cancel)(JNIEnv*, jclass, jlong handle) {

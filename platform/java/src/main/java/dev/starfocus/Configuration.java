@@ -12,8 +12,13 @@ public final class Configuration {
 
   /** Size of the pictures in pixels. */
   public int width, height;
-  /** Captured views: 1, 5, 9 or 17. */
+  /** Captured views: 1, 5, 9 or 17, or with positions any number from 1 to 17. */
   public int views;
+  /**
+   * Where the views lie: u and v of one after the other, each from -1 to 1, the centre (0, 0)
+   * first. Null, the default: where {@link Refocuser#viewPosition} tells.
+   */
+  public double[] positions;
   /** What disparity maps may hold. */
   public float disparityMin, disparityMax;
   /** Largest blur radius in pixels that will be asked for. */
@@ -31,6 +36,8 @@ public final class Configuration {
   public float highlights;
   /** 1: disparities that are not finite, and invalid depths, are unknown; 0: they are refused. */
   public int fillUnknown;
+  /** Largest shift of {@link Refocuser#preview}, 0 to 3; 0, the default: there are no previews. */
+  public int previews;
 
   public Configuration() {
     Native.initialize(this);

@@ -2,8 +2,8 @@
 package dev.starfocus;
 
 /**
- * Views in the order that {@link Refocuser#viewPosition} tells, the centre first, and the depth of
- * the first one.
+ * Views in the order that {@link Refocuser#viewPosition} or {@link Configuration#positions} tells,
+ * the centre first, and the depth of the first one.
  */
 public final class LightField {
   final Image[] views;

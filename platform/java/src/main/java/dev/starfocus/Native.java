@@ -24,6 +24,8 @@ final class Native {
 
   static native void refocusPrepared(long session, Parameters parameters, Image out);
 
+  static native void preview(long session, int shift, Parameters parameters, Image out);
+
   static native void cancel(long session);
 
   static native int rowsDone(long session);

@@ -40,11 +40,18 @@ public final class Refocuser implements AutoCloseable {
 
   /** As {@link #refocus} of the light field that was prepared last, with the same bytes. */
   public synchronized void refocusPrepared(Parameters parameters, Image out) {
-    if (prepared == null)
-      throw new IllegalStateException("Refocuser: no light field is prepared");
-    Objects.requireNonNull(parameters, "parameters");
-    out.checkWritable();
+    checkPrepared(parameters, out);
     Native.refocusPrepared(open(), parameters, out);
+  }
+
+  /**
+   * As {@link #refocusPrepared} at 1 / 2^shift of the size, from 1 to the previews of the
+   * configuration. Focus and region are in pixels of the full size; `out` has the pixels that have
+   * a part of the region, of a whole picture ceil(width / 2^shift) times ceil(height / 2^shift).
+   */
+  public synchronized void preview(int shift, Parameters parameters, Image out) {
+    checkPrepared(parameters, out);
+    Native.preview(open(), shift, parameters, out);
   }
 
   /**
@@ -91,6 +98,13 @@ public final class Refocuser implements AutoCloseable {
   /** The library's version and the SIMD instructions it uses here, such as "0.1.0, NEON". */
   public static String version() {
     return Native.version();
+  }
+
+  private void checkPrepared(Parameters parameters, Image out) {
+    if (prepared == null)
+      throw new IllegalStateException("Refocuser: no light field is prepared");
+    Objects.requireNonNull(parameters, "parameters");
+    out.checkWritable();
   }
 
   private long open() {

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tap to focus, as an app would do it: a light field is prepared once; a tap shows a preview at
+// once and the full picture after it; another tap pulls the focus there by previews, and ends with
+// the full picture. Prints the time of every step, and how near a preview comes to the full
+// picture.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "examples/command_line/options.h"
+#include "examples/command_line/program.h"
+#include "examples/scene/render.h"
+#include "examples/tap/nearness.h"
+#include "platform/clock.h"
+#include "platform/image_io.h"
+#include "platform/light_field.h"
+#include "starfocus/starfocus.hpp"
+
+namespace starfocus {
+namespace {
+
+constexpr double kBlur = 32;  // pixels: how far the lens may blur, whatever is tapped
+
+struct Options {
+  std::string folder, size = "4000x3000", first, second, out;
+  std::string shift = "2", frames = "12", threads;
+};
+
+struct Point {
+  int x = 0, y = 0;
+};
+
+struct Plan {
+  int width = 0, height = 0;  // of the scene that is traced without a folder
+  int shift = 0, frames = 0, threads = 0;
+};
+
+Error MakePlan(const Options& options, Plan* plan) {
+  Error error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
+  if (error.empty() && (plan->width < 1 || plan->height < 1)) {
+    error = Error::Usage("--size", "WxH", "'" + options.size + "'");
+  }
+  if (error.empty()) {
+    error = ParseWhole("--preview", options.shift, 1, SF_MAX_PREVIEW, &plan->shift);
+  }
+  if (error.empty()) error = ParseWhole("--frames", options.frames, 1, 1000, &plan->frames);
+  plan->threads = sf_pool_cores();
+  if (error.empty() && !options.threads.empty()) {
+    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
+  }
+  return error;
+}
+
+// The light field of a folder, or the portrait traced; and where to tap if nobody says.
+Error Open(const Options& options, const Plan& plan, ThreadRunner* runner, LightField* field,
+           Point* first, Point* second) {
+  if (!options.folder.empty()) {
+    const Error error = LoadLightField(options.folder, {}, field);
+    *first = {field->width() / 2, field->height() / 2};
+    *second = {field->width() / 8, field->height() / 8};
+    return error;
+  }
+  const Scene scene = MakePortrait();
+  const Renderer renderer(scene, plan.width, plan.height, SF_TRANSFER_SRGB, runner);
+  Progress progress("tracing", int64_t{5} * plan.height);
+  for (int view = 0; view < 5; ++view) {
+    double u = 0, v = 0;
+    sf_view_position(view, &u, &v);
+    field->views.push_back(renderer.View(u, v, &progress));
+  }
+  field->disparity = renderer.Disparity();
+  renderer.ToPixel(scene.points.front().x, scene.points.front().y, &first->x, &first->y);
+  renderer.ToPixel(scene.points.back().x, scene.points.back().y, &second->x, &second->y);
+  return "";
+}
+
+Error ParseTap(const std::string& option, const std::string& text, const LightField& field,
+               Point* point) {
+  if (text.empty()) return "";
+  const Error error = ParsePair(option, text, ',', &point->x, &point->y);
+  if (!error.empty()) return error;
+  if (point->x < field.width() && point->y < field.height()) return "";
+  return Error::Usage(
+      option, "a pixel of " + std::to_string(field.width()) + "x" + std::to_string(field.height()),
+      "'" + text + "'");
+}
+
+class Session {
+ public:
+  Session(const LightField& field, const Plan& plan, std::string out, ThreadRunner* runner)
+      : plan_(plan),
+        out_(std::move(out)),
+        runner_(runner),
+        map_(field.disparity),
+        full_(field.width(), field.height()),
+        preview_((field.width() - 1) / (1 << plan.shift) + 1,
+                 (field.height() - 1) / (1 << plan.shift) + 1) {
+    for (size_t k = 0; k < field.views.size(); ++k) {
+      field_.views[k] = {field.views[k].pixels.data(), field.views[k].stride()};
+    }
+    field_.disparity = map_.values.data();
+    field_.disparity_stride = sizeof(float) * size_t(map_.width);
+  }
+
+  Error Prepare() {
+    sf_disparity_stats stats = {};
+    Error error = Outcome(sf_measure_disparity(field_.disparity, field_.disparity_stride,
+                                               map_.width, map_.height, &stats));
+    if (!error.empty()) return error;
+    Config config;
+    config.width = map_.width;
+    config.height = map_.height;
+    config.views = Views();
+    config.disparity_min = stats.min;
+    config.disparity_max = stats.max;
+    config.max_blur = kBlur;
+    config.fill_unknown = 1;
+    config.max_workers = runner_->workers();
+    config.previews = plan_.shift;
+    const double range = double(stats.max) - double(stats.min);
+    params_.aperture = std::min(1.0, kBlur / std::max(range, 1e-9));
+    const double start = Seconds();
+    error = Outcome(engine_.Init(config));
+    if (!error.empty()) return error;
+    Say("make an engine", start);
+    const double begin = Seconds();
+    error = Outcome(engine_.Prepare(field_, ThreadRunner::Run, runner_));
+    if (error.empty()) Say("prepare the light field", begin);
+    return error;
+  }
+
+  Error FocusAt(const Point& point, double* focus) {
+    const double start = Seconds();
+    const Error error = Outcome(engine_.FocusAt(field_, point.x, point.y, focus));
+    const std::string tap = std::to_string(point.x) + "," + std::to_string(point.y);
+    if (error.empty()) Say("tap at " + tap + ": focus " + Short(*focus), start);
+    return error;
+  }
+
+  Error Preview(double focus, const std::string& what) {
+    params_.focus = focus;
+    const double start = Seconds();
+    const Error error =
+        Outcome(engine_.RefocusPreview(params_, plan_.shift, preview_.pixels.data(),
+                                       preview_.stride(), ThreadRunner::Run, runner_));
+    if (!error.empty()) return error;
+    Say(what + ", 1/" + std::to_string(1 << plan_.shift) + " of the size", start);
+    return Keep(preview_);
+  }
+
+  Error Full(double focus) {
+    params_.focus = focus;
+    const double start = Seconds();
+    const Error error = Outcome(engine_.RefocusPrepared(
+        params_, full_.pixels.data(), full_.stride(), ThreadRunner::Run, runner_));
+    if (!error.empty()) return error;
+    Say("full picture", start);
+    return Keep(full_);
+  }
+
+  // Of the same focus, both made last.
+  void SayNearness() const {
+    std::printf("%8.1f dB  PSNR of the preview against the full picture reduced\n",
+                PreviewPsnr(preview_, full_, plan_.shift));
+  }
+
+  // Both ends are shown already, or will be in full.
+  Error Pull(double from, double to) {
+    const double start = Seconds();
+    for (int k = 1; k <= plan_.frames; ++k) {
+      const double share = double(k) / plan_.frames;
+      const std::string what =
+          "focus pull " + std::to_string(k) + " of " + std::to_string(plan_.frames);
+      const Error error = Preview(from + share * (to - from), what);
+      if (!error.empty()) return error;
+    }
+    if (out_.empty()) {
+      std::printf("%8.1f pictures a second in the focus pull\n",
+                  plan_.frames / std::max(Seconds() - start, 1e-9));
+    }
+    return "";
+  }
+
+ private:
+  int Views() const {
+    int views = 0;
+    while (views < SF_MAX_VIEWS && field_.views[views].data != nullptr) ++views;
+    return views;
+  }
+
+  static Error Outcome(sf_status status) {
+    return status == SF_OK ? Error() : Error(std::string(sf_status_string(status)));
+  }
+
+  static void Say(const std::string& what, double start) {
+    std::printf("%8.1f ms  %s\n", 1e3 * (Seconds() - start), what.c_str());
+  }
+
+  Error Keep(const Image& picture) {
+    if (out_.empty()) return "";
+    char name[32];
+    std::snprintf(name, sizeof(name), "frame_%04d.png", kept_++);
+    return WriteImage((std::filesystem::path(out_) / name).string(), picture);
+  }
+
+  const Plan& plan_;
+  const std::string out_;
+  ThreadRunner* const runner_;
+  const FloatMap& map_;
+  sf_light_field field_ = {};
+  Image full_, preview_;
+  Engine engine_;
+  Params params_;
+  int kept_ = 0;
+};
+
+Error Tap(const Options& options) {
+  Plan plan;
+  Error error = MakePlan(options, &plan);
+  if (!error.empty()) return error;
+  ThreadRunner runner(plan.threads);
+  LightField field;
+  Point first, second;
+  error = Open(options, plan, &runner, &field, &first, &second);
+  if (error.empty()) error = ParseTap("--first", options.first, field, &first);
+  if (error.empty()) error = ParseTap("--second", options.second, field, &second);
+  if (!error.empty()) return error;
+  if (!options.out.empty()) std::filesystem::create_directories(options.out);
+  std::printf("%d x %d, %zu views, %d threads\n", field.width(), field.height(), field.views.size(),
+              runner.workers());
+  Session session(field, plan, options.out, &runner);
+  double from = 0, to = 0;
+  error = session.Prepare();
+  if (error.empty()) error = session.FocusAt(first, &from);
+  if (error.empty()) error = session.Preview(from, "first preview");
+  if (error.empty()) error = session.Full(from);
+  if (error.empty()) session.SayNearness();
+  if (error.empty()) error = session.FocusAt(second, &to);
+  if (error.empty()) error = session.Pull(from, to);
+  if (error.empty()) error = session.Full(to);
+  return error;
+}
+
+Error Main(int argc, char** argv) {
+  CLI::App app("Tap to focus: previews, a focus pull and full pictures, with their times.", "tap");
+  Options options;
+  app.add_option("DIR", options.folder, "Light-field folder; default: a traced portrait");
+  app.add_option("--size", options.size, "Of the portrait, WxH")->capture_default_str();
+  app.add_option("--first", options.first, "Pixel X,Y that is tapped first");
+  app.add_option("--second", options.second, "Pixel X,Y that the focus is then pulled to");
+  app.add_option("--preview", options.shift, "1, 2 or 3: previews are 1/2, 1/4 or 1/8 of the size")
+      ->capture_default_str();
+  app.add_option("--frames", options.frames, "Previews of the focus pull")->capture_default_str();
+  app.add_option("--threads", options.threads, "1 to 64; default: all of the machine");
+  app.add_option("--out", options.out, "Folder for all pictures, as frame_0000.png and so on");
+  app.set_version_flag("--version", VersionText("tap"));
+  app.footer(kExitCodes);
+  Error error;
+  return ParseCommandLine(&app, argc, argv, &error) ? Tap(options) : error;
+}
+
+}  // namespace
+}  // namespace starfocus
+
+int main(int argc, char** argv) {
+  return starfocus::RunProgram("tap", [&] { return starfocus::Main(argc, argv); });
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/api/reduced.h"
+
+#include "lib/base/fixed.h"
+
+namespace starfocus {
+namespace {
+
+// Reduces the columns of a largest block.
+struct ReduceJob {
+  const EngineState* engine;
+  Plane<int16_t> disparity;
+  RowRange rows;
+  int32_t previews;
+  const ReducedField* fields;
+};
+
+// A part of a picture's columns.
+struct Part {
+  int32_t x, width;
+};
+
+// Codes of the part of a row of a view; in `room` if it has to be converted.
+const uint8_t* CodesOf(const Window& window, int view, const Part& part, int32_t y, uint8_t* room) {
+  const size_t begin = 3 * static_cast<size_t>(part.x);
+  if (view == 0) return window.centre.Row(y) + begin;
+  if (window.reader == nullptr) return window.view[view].Row(y) + begin;
+  window.reader->Read(view, part.x, y, part.width, room);
+  return room;
+}
+
+void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sums) {
+  if (is_first) {
+    for (size_t n = 0; n < samples; ++n) sums[n] = static_cast<uint32_t>(light[n]);
+  } else {
+    for (size_t n = 0; n < samples; ++n) sums[n] += static_cast<uint32_t>(light[n]);
+  }
+}
+
+// Returns false when the caller cancels.
+bool ReduceView(const ReduceJob& job, int view, const Part& part, Worker* worker) {
+  const EngineState& engine = *job.engine;
+  const Window& window = engine.pictures.windows[0];
+  const simd::Encoding& encoding = window.transfer->encoding;
+  const size_t samples = 3 * static_cast<size_t>(part.width);
+  int16_t* const light = worker->picture_samples;
+  int16_t* const mean = light + 6 * engine.config.largest_block;
+  auto* const room = reinterpret_cast<uint8_t*>(worker->layer_samples);
+  for (int32_t y = job.rows.first; y < job.rows.last; ++y) {
+    if (!worker->patience.Spend(static_cast<int64_t>(samples) * (1 + job.previews))) return false;
+    engine.kernels->Decode(CodesOf(window, view, part, y, room), samples, encoding, light);
+    for (int shift = 1; shift <= job.previews; ++shift) {
+      uint32_t* const sums = worker->sums + 3 * shift * engine.config.largest_block;
+      const int32_t row = y & ((1 << shift) - 1);
+      AddLight(light, samples, row == 0, sums);
+      if (row + 1 < 1 << shift && y + 1 < engine.config.height) continue;
+      MeanOfBlocks(sums, part.width, row + 1, shift, mean);
+      engine.kernels->Encode(mean, 3 * static_cast<size_t>(ReducedSize(part.width, shift)),
+                             encoding,
+                             job.fields[shift].views[view].Row(y >> shift) + 3 * (part.x >> shift));
+    }
+  }
+  return true;
+}
+
+// An end of a range, which lies in it.
+int16_t ConvertedEnd(const EngineState& engine, float end) {
+  int16_t converted = 0;
+  engine.kernels->ConvertDisparity(&end, 1, end, end, &converted);
+  return converted;
+}
+
+// Returns false when the caller cancels.
+bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Worker* worker) {
+  const sf_config reduced = ReducedConfig(job.engine->config, shift);
+  // Rounding twice may leave the range by one step.
+  const int16_t low = ConvertedEnd(*job.engine, reduced.disparity_min);
+  const int16_t high = ConvertedEnd(*job.engine, reduced.disparity_max);
+  const int32_t side = 1 << shift;
+  for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
+    if (!worker->patience.Spend(int64_t{4} * side * part.width)) return false;
+    int16_t* const out = job.fields[shift].disparity.Row(y >> shift);
+    for (int32_t x = part.x; x < part.x + part.width; x += side) {
+      int16_t values[1 << (2 * kMaxReduction)];
+      int32_t count = 0;
+      for (int32_t row = y; row < Min(y + side, job.rows.last); ++row) {
+        const int16_t* from = job.disparity.Row(row);
+        for (int32_t k = x; k < Min(x + side, part.x + part.width); ++k) values[count++] = from[k];
+      }
+      const int16_t median = ReducedDisparity(MedianOf(values, count), shift);
+      out[x >> shift] = median < low ? low : median > high ? high : median;
+    }
+  }
+  return true;
+}
+
+void ReduceColumn(const ReduceJob& job, int32_t index, Worker* worker) {
+  const sf_config& config = job.engine->config;
+  const int32_t x = index * config.largest_block;
+  const Part part = {x, Min(config.largest_block, config.width - x)};
+  for (int view = 0; view < config.views; ++view) {
+    if (!ReduceView(job, view, part, worker)) return;
+  }
+  for (int shift = 1; shift <= job.previews; ++shift) {
+    if (!ReduceMap(job, shift, part, worker)) return;
+  }
+}
+
+}  // namespace
+
+sf_config ReducedConfig(const sf_config& config, int shift) {
+  sf_config reduced = config;
+  const auto side = static_cast<float>(1 << shift);
+  reduced.width = ReducedSize(config.width, shift);
+  reduced.height = ReducedSize(config.height, shift);
+  reduced.disparity_min = config.disparity_min / side;
+  reduced.disparity_max = config.disparity_max / side;
+  reduced.streaming = 0;
+  reduced.previews = 0;
+  return reduced;
+}
+
+void TakeReduced(const sf_config& config, int shift, Carver* carver, ReducedField* field) {
+  const auto width = static_cast<size_t>(ReducedSize(config.width, shift));
+  const auto height = static_cast<size_t>(ReducedSize(config.height, shift));
+  for (int view = 0; view < config.views; ++view) {
+    field->views[view].stride = 3 * width;
+    field->views[view].data = carver->Take<uint8_t>(3 * width, height);
+  }
+  field->disparity.stride = width;
+  field->disparity.data = carver->Take<int16_t>(width, height);
+}
+
+sf_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
+                     const ReducedField* fields, const Runner& runner, EngineState* engine) {
+  if (previews == 0) return SF_OK;
+  const ReduceJob job = {engine, disparity, rows, previews, fields};
+  return RunJobs<ReduceJob, ReduceColumn>(job, Columns(engine->config), runner, &engine->crew);
+}
+
+}  // namespace starfocus

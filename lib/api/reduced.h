@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A prepared light field's own light fields of 1/2, 1/4 and 1/8 of the size, for previews.
+#ifndef STARFOCUS_LIB_API_REDUCED_H_
+#define STARFOCUS_LIB_API_REDUCED_H_
+
+#include "lib/base/carver.h"
+#include "lib/base/geometry.h"
+#include "lib/engine/engine.h"
+#include "lib/filter/reduce.h"
+
+namespace starfocus {
+
+static_assert(SF_MAX_PREVIEW == kMaxReduction, "every preview is a reduction");
+
+struct ReducedField {
+  Plane<uint8_t> views[kMaxViews];  // codes of all rows
+  Plane<int16_t> disparity;         // kDisparityBits, in pixels of the reduced picture
+};
+
+// The configuration of an engine for the light field of `config`, an engine's own, reduced.
+sf_config ReducedConfig(const sf_config& config, int shift);
+
+void TakeReduced(const sf_config& config, int shift, Carver* carver, ReducedField* field);
+
+// Reduces rows [rows.first, rows.last) of the light field that the engine's windows show, by all
+// shifts from 1 to `previews` into fields[shift]; disparities are those of `disparity`. The first
+// row is a multiple of the largest block, and so is the last one but at the picture's end.
+sf_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
+                     const ReducedField* fields, const Runner& runner, EngineState* engine);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_API_REDUCED_H_

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/base/view_set.h"
+
+#include <initializer_list>
+
+namespace starfocus {
+namespace {
+
+constexpr int16_t kOne = kViewOne, kHalf = kViewOne / 2;
+constexpr ViewPosition kStar[kMaxViews] = {
+    {0, 0},        {kOne, 0},      {-kOne, 0},      {0, kOne},       {0, -kOne},       {kOne, kOne},
+    {-kOne, kOne}, {kOne, -kOne},  {-kOne, -kOne},  {kHalf, 0},      {-kHalf, 0},      {0, kHalf},
+    {0, -kHalf},   {kHalf, kHalf}, {-kHalf, kHalf}, {kHalf, -kHalf}, {-kHalf, -kHalf},
+};
+
+bool SamePosition(const ViewPosition& a, const ViewPosition& b) { return a.u == b.u && a.v == b.v; }
+
+bool IsStarCount(int32_t views) { return views == 1 || views == 5 || views == 9 || views == 17; }
+
+// Converts a coordinate. Returns whether it is finite and in [-1, 1].
+bool Convert(double value, int16_t* converted) {
+  // The comparison is written so that NaN fails.
+  if (!(value >= -1 && value <= 1)) return false;
+  const double scaled = value * kViewOne;
+  *converted = static_cast<int16_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
+  return true;
+}
+
+// Views at least so many times as far beside the side's axis as along it are no help.
+constexpr int32_t kTooFarBeside = 8;
+
+// How well a view looks behind edges on a side.
+struct Rating {
+  int32_t along, across;  // how far it lies towards the side, and beside the axis
+  ViewPosition at;
+
+  bool Helps() const { return across < kTooFarBeside * along; }
+  // Whether it lies nearer to the side's direction than to any other.
+  bool Own() const { return across < along; }
+  // How far out it lies, less for what it lies beside the axis.
+  int32_t Merit() const { return 2 * along - across; }
+
+  // The order in which views are given decides nothing.
+  bool Before(const Rating& other) const {
+    if (Own() != other.Own()) return Own();
+    if (Merit() != other.Merit()) return Merit() > other.Merit();
+    if (across != other.across) return across < other.across;
+    return at.u != other.at.u ? at.u < other.at.u : at.v < other.at.v;
+  }
+};
+
+Rating Rate(const ViewPosition& at, const int8_t* side) {
+  return {at.u * side[0] + at.v * side[1], Abs(at.u * side[1] - at.v * side[0]), at};
+}
+
+}  // namespace
+
+ViewPosition StarPosition(int index) { return kStar[index]; }
+
+int CapturedView(int u, int v, bool half) {
+  // Indexed by u + 1 and v + 1, at full distance; the views at half distance are in the same order.
+  constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};
+  const int index = kIndex[u + 1][v + 1];
+  return half && index != 0 ? index + 8 : index;
+}
+
+sf_status FindViews(const sf_config& config, ViewSet* views) {
+  *views = {};
+  if (config.views < 1 || config.views > kMaxViews) return SF_ERROR_VIEWS;
+  views->count = config.views;
+  views->star = IsStarCount(config.views);
+  bool given = false;
+  for (int32_t k = 0; k < config.views; ++k) {
+    const sf_position& position = config.positions[k];
+    given = given || position.u != 0 || position.v != 0;
+    if (!Convert(position.u, &views->at[k].u) || !Convert(position.v, &views->at[k].v)) {
+      return SF_ERROR_VIEW_POSITIONS;
+    }
+  }
+  if (!given) {
+    for (int32_t k = 0; k < config.views; ++k) views->at[k] = kStar[k];
+    return views->star ? SF_OK : SF_ERROR_VIEWS;
+  }
+  if (!SamePosition(views->at[0], {0, 0})) return SF_ERROR_VIEW_POSITIONS;
+  for (int32_t k = 0; k < config.views; ++k) {
+    views->star = views->star && SamePosition(views->at[k], kStar[k]);
+    for (int32_t other = 0; other < k; ++other) {
+      if (SamePosition(views->at[k], views->at[other])) return SF_ERROR_VIEW_POSITIONS;
+    }
+  }
+  return SF_OK;
+}
+
+bool HasStar(const sf_config& config) {
+  ViewSet views;
+  return FindViews(config, &views) == SF_OK && views.star;
+}
+
+bool SameViews(const sf_config& a, const sf_config& b) {
+  ViewSet first, second;
+  FindViews(a, &first);
+  FindViews(b, &second);
+  bool same = first.count == second.count;
+  for (int32_t k = 0; same && k < first.count; ++k) same = SamePosition(first.at[k], second.at[k]);
+  return same;
+}
+
+Looks ChooseLooks(const ViewSet& views) {
+  Looks looks;
+  for (int side = 0; side < kSideCount; ++side) {
+    Rating best[kLooks] = {};
+    LookView* const on = looks.on[side];
+    for (int32_t k = 1; k < views.count; ++k) {
+      Rating rating = Rate(views.at[k], kSides[side]);
+      if (!rating.Helps()) continue;
+      LookView view = {static_cast<int8_t>(k), views.at[k]};
+      for (int place = 0; place < kLooks; ++place) {
+        if (on[place].view != 0 && !rating.Before(best[place])) continue;
+        const Rating next = best[place];
+        const LookView moved = on[place];
+        best[place] = rating;
+        on[place] = view;
+        rating = next;
+        view = moved;
+        if (view.view == 0) break;
+      }
+    }
+    for (int place = 1; place < kLooks; ++place) {
+      if (best[place].Own() != best[0].Own()) on[place] = {};
+    }
+  }
+  return looks;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/view_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <system_error>
+
+#include "platform/file.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kStarSets[] = {1, 5, 9, 17};
+constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg"};
+constexpr const char* kPair[] = {"im0.png", "im1.png"};  // at (0, 0) and (1, 0)
+constexpr double kDecimals = 1e4;                        // of a name's numbers
+constexpr double kAlike = 0.5 / kDecimals;
+
+// "+0.5" and so on; of whole numbers one decimal stays.
+std::string CoordinateText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%+.4f", std::fabs(value) < kAlike ? 0 : value);
+  std::string name = text;
+  while (name.back() == '0' && name[name.size() - 2] != '.') name.pop_back();
+  return name;
+}
+
+// Reads a sign, digits and decimals from `at` on, up to `end`.
+bool ReadCoordinate(const std::string& text, size_t at, size_t end, double* value) {
+  if (end > text.size() || at + 2 > end || (text[at] != '+' && text[at] != '-')) return false;
+  const std::string number = text.substr(at, end - at);
+  if (number.find_first_not_of("0123456789.", 1) != std::string::npos) return false;
+  char* stop = nullptr;
+  *value = std::strtod(number.c_str(), &stop);
+  return *stop == '\0' && std::isfinite(*value);
+}
+
+// The position that a file's name tells, and which of kExtensions it has.
+bool ReadName(const std::string& name, sf_position* position, size_t* extension) {
+  constexpr char kPrefix[] = "view_";
+  constexpr size_t kBegin = sizeof(kPrefix) - 1, kExtension = 4;
+  if (name.size() < kBegin + kExtension || name.compare(0, kBegin, kPrefix) != 0) return false;
+  const size_t end = name.size() - kExtension, middle = name.find('_', kBegin);
+  for (*extension = 0; *extension < std::size(kExtensions); ++*extension) {
+    if (name.compare(end, kExtension, kExtensions[*extension]) == 0) break;
+  }
+  double u = 0, v = 0;
+  if (*extension == std::size(kExtensions) || middle >= end ||
+      !ReadCoordinate(name, kBegin, middle, &u) || !ReadCoordinate(name, middle + 1, end, &v)) {
+    return false;
+  }
+  *position = RoundedPosition(u, v);
+  return true;
+}
+
+std::string CheckFolder(const std::string& folder) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (fs::is_directory(status)) return "";
+  return Expected(folder, "a light-field folder", fs::exists(status) ? "a file" : "nothing");
+}
+
+// Where a view comes in the star, behind it if it is none of its.
+size_t StarIndex(const sf_position& position) {
+  const Positions star = StarPositions(SF_MAX_VIEWS);
+  size_t index = 0;
+  while (index < star.size() && !SamePosition(star[index], position)) ++index;
+  return index;
+}
+
+bool ComesBefore(const ViewFile& a, const ViewFile& b) {
+  const size_t first = StarIndex(a.position), second = StarIndex(b.position);
+  if (first != second) return first < second;
+  if (a.position.u != b.position.u) return a.position.u < b.position.u;
+  return a.position.v < b.position.v;
+}
+
+// Names of views in a folder, each with the first extension that it has.
+std::vector<ViewFile> ListNames(const std::string& folder) {
+  std::vector<ViewFile> files;
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) {
+    ViewFile file;
+    size_t extension = 0;
+    if (!ReadName(name, &file.position, &extension)) continue;
+    const std::string stem = name.substr(0, name.size() - 4);
+    const auto has = [&](size_t other) {
+      return std::binary_search(names.begin(), names.end(), stem + kExtensions[other]);
+    };
+    bool first = true;
+    for (size_t other = 0; other < extension; ++other) first = first && !has(other);
+    if (!first) continue;
+    file.path = (fs::path(folder) / name).string();
+    files.push_back(file);
+  }
+  return files;
+}
+
+// The pair that a folder has if it has no views by name.
+std::vector<ViewFile> ListPair(const std::string& folder) {
+  std::vector<ViewFile> files;
+  for (size_t k = 0; k < std::size(kPair); ++k) {
+    const std::string path = (fs::path(folder) / kPair[k]).string();
+    std::error_code error;
+    if (!fs::exists(path, error)) return {};
+    files.push_back({{static_cast<double>(k), 0}, path});
+  }
+  return files;
+}
+
+}  // namespace
+
+bool IsStarSet(int views) {
+  return std::find(std::begin(kStarSets), std::end(kStarSets), views) != std::end(kStarSets);
+}
+
+Positions StarPositions(int views) {
+  Positions positions(static_cast<size_t>(views));
+  for (int index = 0; index < views; ++index) {
+    sf_position& position = positions[static_cast<size_t>(index)];
+    sf_view_position(index, &position.u, &position.v);
+  }
+  return positions;
+}
+
+bool AreStar(const Positions& positions) {
+  const auto views = static_cast<int>(positions.size());
+  if (!IsStarSet(views)) return false;
+  const Positions star = StarPositions(views);
+  return std::equal(star.begin(), star.end(), positions.begin(), SamePosition);
+}
+
+sf_position RoundedPosition(double u, double v) {
+  return {std::round(u * kDecimals) / kDecimals, std::round(v * kDecimals) / kDecimals};
+}
+
+bool SamePosition(const sf_position& a, const sf_position& b) {
+  return std::fabs(a.u - b.u) < kAlike && std::fabs(a.v - b.v) < kAlike;
+}
+
+std::string ViewName(const sf_position& position) {
+  return "view_" + CoordinateText(position.u) + "_" + CoordinateText(position.v);
+}
+
+bool IsViewFile(const std::string& name) {
+  sf_position position;
+  size_t extension = 0;
+  return ReadName(name, &position, &extension) || name == kPair[0] || name == kPair[1];
+}
+
+std::string FindViewFiles(const std::string& folder, std::vector<ViewFile>* files) {
+  const std::string error = CheckFolder(folder);
+  if (!error.empty()) return error;
+  std::vector<ViewFile> found = ListNames(folder);
+  if (found.empty()) found = ListPair(folder);
+  for (const ViewFile& file : found) {
+    if (std::fabs(file.position.u) > 1 || std::fabs(file.position.v) > 1) {
+      return Expected(file.path, "a view with u and v from -1 to 1", "one farther out");
+    }
+  }
+  std::sort(found.begin(), found.end(), ComesBefore);
+  for (size_t k = 1; k < found.size(); ++k) {
+    if (SamePosition(found[k].position, found[k - 1].position)) {
+      return Expected(found[k].path, "views of different positions",
+                      "that of " + found[k - 1].path);
+    }
+  }
+  if (found.empty() || !SamePosition(found[0].position, {0, 0})) {
+    const std::string centre = (fs::path(folder) / (ViewName({0, 0}) + ".png")).string();
+    return Expected(centre, "a view (or .ppm, .jpg)", "no file");
+  }
+  if (found.size() > SF_MAX_VIEWS) {
+    return Expected(folder, "at most " + std::to_string(SF_MAX_VIEWS) + " views",
+                    std::to_string(found.size()));
+  }
+  found[0].position = {0, 0};
+  *files = std::move(found);
+  return "";
+}
+
+std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
+                            std::vector<ViewFile>* chosen) {
+  std::vector<ViewFile> files;
+  const std::string error = FindViewFiles(folder, &files);
+  if (!error.empty()) return error;
+  chosen->clear();
+  if (wanted.empty()) *chosen = files;
+  for (const sf_position& position : wanted) {
+    const auto at = std::find_if(files.begin(), files.end(), [&](const ViewFile& file) {
+      return SamePosition(file.position, position);
+    });
+    if (at == files.end()) {
+      return Expected(folder, std::to_string(wanted.size()) + " views",
+                      "no " + ViewName(position) + ".png (or .ppm, .jpg)");
+    }
+    chosen->push_back(*at);
+  }
+  return "";
+}
+
+}  // namespace starfocus

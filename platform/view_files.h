@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of captured views in a folder: view_<u>_<v>.png (or .ppm, .jpg) with u and v as decimal
+// numbers with a sign; or im0.png and im1.png of a stereo pair, as the Middlebury data sets have
+// it.
+#ifndef STARFOCUS_PLATFORM_VIEW_FILES_H_
+#define STARFOCUS_PLATFORM_VIEW_FILES_H_
+
+#include <string>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Positions of captured views, the centre (0, 0) first.
+using Positions = std::vector<sf_position>;
+
+struct ViewFile {
+  sf_position position;
+  std::string path;
+};
+
+// The first `views` of sf_view_position.
+Positions StarPositions(int views);
+
+// Whether the star has that many views: 1, 5, 9 or 17.
+bool IsStarSet(int views);
+
+// Whether these are the first ones of sf_view_position, in their order.
+bool AreStar(const Positions& positions);
+
+// A position as names of files tell it: of four decimals.
+sf_position RoundedPosition(double u, double v);
+
+// Whether the two are one view's, up to what names of files tell.
+bool SamePosition(const sf_position& a, const sf_position& b);
+
+// "view_-0.5_+1.0": one to four decimals.
+std::string ViewName(const sf_position& position);
+
+// Whether a file of that name, in a folder, is taken for a captured view.
+bool IsViewFile(const std::string& name);
+
+// All files of captured views in a folder, the centre first, then those of sf_view_position in
+// their order, then the others by u and v. Of one name the first of .png, .ppm and .jpg counts.
+// Errors: no folder, no centre view, more than SF_MAX_VIEWS, a position beyond 1, two files of one.
+std::string FindViewFiles(const std::string& folder, std::vector<ViewFile>* files);
+
+// Those at the positions wanted, in their order, or all of them if none are.
+std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
+                            std::vector<ViewFile>* chosen);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_VIEW_FILES_H_

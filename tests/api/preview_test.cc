@@ -1,0 +1,488 @@
+// SPDX-License-Identifier: Apache-2.0
+// Previews: the bytes of refocusing the light field that the definition reduces, near the full
+// picture reduced; and bad input.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include "lib/base/transfer.h"
+#include "tests/support/image_field.h"
+#include "tests/support/rounds.h"
+#include "tests/support/watch.h"
+
+namespace {
+
+constexpr int kViews[] = {1, 5, 9, 17};
+
+// Two threads: jobs in turn.
+int RunOnTwo(void*, sf_job job, void* data, int32_t count) {
+  std::thread other([=] {
+    for (int32_t k = 1; k < count; k += 2) job(data, k, 1);
+  });
+  for (int32_t k = 0; k < count; k += 2) job(data, k, 0);
+  other.join();
+  return 0;
+}
+
+int Ceil(int size, int shift) { return (size + (1 << shift) - 1) >> shift; }
+
+// The code nearest to a mean of light.
+uint8_t CodeOf(int64_t sum, int64_t count, int32_t transfer) {
+  const auto light = static_cast<int16_t>((2 * sum + count) / (2 * count));
+  uint8_t code = 0;
+  starfocus::simd::reference::Encode(&light, 1, starfocus::TransferOf(transfer).encoding, &code);
+  return code;
+}
+
+// What a sample of an interleaved picture is made of.
+uint8_t MeanSample(const uint8_t* rgb, size_t stride, int width, int height, int x, int y, int c,
+                   int shift, int32_t transfer) {
+  int64_t sum = 0, count = 0;
+  for (int row = y << shift; row < std::min(height, (y + 1) << shift); ++row) {
+    for (int column = x << shift; column < std::min(width, (x + 1) << shift); ++column, ++count) {
+      sum +=
+          starfocus::TransferOf(transfer).light[rgb[size_t(row) * stride + size_t(3 * column + c)]];
+    }
+  }
+  return CodeOf(sum, count, transfer);
+}
+
+float MedianDisparity(const test::Scene& scene, int x, int y, int shift) {
+  std::vector<double> values;
+  for (int row = y << shift; row < std::min(scene.height, (y + 1) << shift); ++row) {
+    for (int column = x << shift; column < std::min(scene.width, (x + 1) << shift); ++column) {
+      values.push_back(std::floor(64.0 * double(scene.Disparity(column, row)) + 0.5));
+    }
+  }
+  std::sort(values.begin(), values.end());
+  const double median = values[values.size() / 2];
+  return float(std::floor(median / (1 << shift) + 0.5) / 64);
+}
+
+test::Scene Reduced(const test::Scene& scene, int shift, int32_t transfer) {
+  const float side = float(1 << shift);
+  test::Scene reduced =
+      test::EmptyScene(Ceil(scene.width, shift), Ceil(scene.height, shift), scene.views(),
+                       scene.disparity_min / side, scene.disparity_max / side);
+  for (int y = 0; y < reduced.height; ++y) {
+    for (int x = 0; x < reduced.width; ++x) {
+      for (int view = 0; view < scene.views(); ++view) {
+        for (int c = 0; c < 3; ++c) {
+          reduced.Pixel(view, x, y)[c] =
+              MeanSample(scene.Pixel(view, 0, 0), scene.stride, scene.width, scene.height, x, y, c,
+                         shift, transfer);
+        }
+      }
+      reduced.Disparity(x, y) = std::clamp(MedianDisparity(scene, x, y, shift),
+                                           reduced.disparity_min, reduced.disparity_max);
+    }
+  }
+  return reduced;
+}
+
+sf_config ReducedConfig(const sf_config& config, int shift, int32_t largest_block) {
+  sf_config reduced = config;
+  const float side = float(1 << shift);
+  reduced.width = Ceil(config.width, shift);
+  reduced.height = Ceil(config.height, shift);
+  reduced.disparity_min /= side;
+  reduced.disparity_max /= side;
+  reduced.max_blur /= side;
+  reduced.largest_block = largest_block;
+  reduced.streaming = reduced.images = reduced.previews = 0;
+  return reduced;
+}
+
+// The pixels that have a part of a region; all 0 for the whole picture.
+sf_region ReducedRegion(const sf_region& region, int shift) {
+  if (region.width == 0) return region;
+  const int x = region.x >> shift, y = region.y >> shift;
+  return {x, y, Ceil(region.x + region.width, shift) - x,
+          Ceil(region.y + region.height, shift) - y};
+}
+
+// An engine with a light field that it has prepared.
+class Prepared {
+ public:
+  Prepared(const test::Scene& scene, const sf_config& config, sf_runner runner = nullptr)
+      : engine(config), scene_(scene) {
+    REQUIRE(engine.status() == SF_OK);
+    REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+    memory_.assign(bytes + SF_ALIGNMENT, test::kPoison);
+    const uintptr_t address = reinterpret_cast<uintptr_t>(memory_.data());
+    at = memory_.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
+    const sf_light_field field = scene.Field();
+    REQUIRE(sf_prepare(engine.get(), &field, at, bytes, nullptr, nullptr, runner, nullptr,
+                       &field_) == SF_OK);
+  }
+
+  sf_status Preview(const sf_params& params, int shift, test::Output* out,
+                    sf_runner runner = nullptr, sf_report* report = nullptr) {
+    return sf_refocus_preview(engine.get(), &params, field_, shift, out->bytes.data(), out->stride,
+                              runner, nullptr, report);
+  }
+  // The preview of the whole picture or the params' region.
+  test::Output Preview(const sf_params& params, int shift, sf_runner runner = nullptr,
+                       sf_report* report = nullptr) {
+    const sf_region region = ReducedRegion(params.region, shift);
+    const bool whole = region.width == 0;
+    test::Output out(whole ? Ceil(scene_.width, shift) : region.width,
+                     whole ? Ceil(scene_.height, shift) : region.height, 3);
+    REQUIRE(Preview(params, shift, &out, runner, report) == SF_OK);
+    return out;
+  }
+  const sf_prepared* field() const { return field_; }
+
+  test::Engine engine;
+  size_t bytes = 0;
+  uint8_t* at = nullptr;
+
+ private:
+  const test::Scene& scene_;
+  std::vector<uint8_t> memory_;
+  sf_prepared* field_ = nullptr;
+};
+
+// Pictures that agree with each other, of soft and of sharp edges.
+double Psnr(const test::Output& got, const test::Output& full, int shift, int32_t transfer) {
+  double sum = 0;
+  for (int y = 0; y < got.height; ++y) {
+    for (int x = 0; x < got.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const double error =
+            double(got.Pixel(x, y)[c]) - MeanSample(full.bytes.data(), full.stride, full.width,
+                                                    full.height, x, y, c, shift, transfer);
+        sum += error * error;
+      }
+    }
+  }
+  return 10 * std::log10(255.0 * 255 * 3 * got.width * got.height / sum);
+}
+
+// Whether a preview has the bytes of refocusing the light field `reduced`.
+bool IsOfReduced(Prepared* prepared, sf_params params, int shift, const sf_config& config,
+                 const test::Scene& reduced) {
+  sf_report report = {};
+  const test::Output got = prepared->Preview(params, shift, RunOnTwo, &report);
+  test::Engine small(ReducedConfig(config, shift, report.largest_block));
+  REQUIRE(small.status() == SF_OK);
+  params.focus /= 1 << shift;
+  params.region = ReducedRegion(params.region, shift);
+  test::Output expected(got.width, got.height, 3);
+  REQUIRE(test::Refocus(&small, params, reduced, &expected) == SF_OK);
+  return got.bytes == expected.bytes;
+}
+
+TEST_CASE("preview: the bytes of the light field that the definition reduces") {
+  test::Random random(231);
+  constexpr int kSizes[][2] = {{1, 1},    {1, 70},   {90, 1},    {31, 33},   {65, 63},
+                               {100, 37}, {67, 190}, {129, 128}, {150, 141}, {203, 90}};
+  int round = 0;
+  for (const auto& size : kSizes) {
+    const test::Scene scene =
+        test::LayeredScene(size[0], size[1], kViews[round % 4], 7, uint64_t(round) + 90);
+    sf_config config = test::ConfigFor(scene, 20);
+    config.largest_block = 32 << random.Int(0, 2);
+    config.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
+    config.transfer = round % 3 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
+    config.streaming = round % 2;
+    config.max_workers = 2;
+    config.cats_eye = round % 5 == 4 ? 0.5F : 0.0F;
+    config.highlights = round % 5 == 3 ? 4.0F : 1.0F;
+    config.previews = 3;
+    CAPTURE(round);
+    ++round;
+    Prepared prepared(scene, config, RunOnTwo);
+    for (int shift = 1; shift <= 3; ++shift) {
+      CAPTURE(shift);
+      const test::Scene reduced = Reduced(scene, shift, config.transfer);
+      for (int lens = 0; lens < test::Rounds(4); ++lens) {
+        sf_params params = test::Params(random.Real(-12, 12), random.Real(0.3, 1), SF_MODE_BLOCK);
+        params.rule = random.Int(0, 2);
+        if (lens == 2) params.mode = random.Int(0, 1) == 0 ? SF_MODE_FRAME : SF_MODE_BLUR;
+        if (lens == 3) {
+          params.region = {random.Int(0, size[0] - 1), random.Int(0, size[1] - 1), 1, 1};
+          params.region.width = random.Int(1, size[0] - params.region.x);
+          params.region.height = random.Int(1, size[1] - params.region.y);
+        }
+        CHECK(IsOfReduced(&prepared, params, shift, config, reduced));
+      }
+    }
+  }
+}
+
+// Reduced by shift, a range that 0 is not in lies partly or wholly beyond the one it was made from.
+TEST_CASE(
+    "preview: the whole scene nearer or farther than the range's 0, by an engine that streams") {
+  for (const float offset : {16.0F, -12.0F, 4.5F}) {
+    CAPTURE(offset);
+    test::Scene scene = test::LayeredScene(330, 270, 5, 4, 17);
+    scene.disparity_min += offset;
+    scene.disparity_max += offset;
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) scene.Disparity(x, y) += offset;
+    }
+    sf_config config = test::ConfigFor(scene, 8);
+    config.largest_block = 32;
+    config.streaming = 1;
+    config.max_workers = 2;
+    config.previews = 3;
+    Prepared prepared(scene, config, RunOnTwo);
+    for (int shift = 1; shift <= 3; ++shift) {
+      CAPTURE(shift);
+      const test::Scene reduced = Reduced(scene, shift, config.transfer);
+      const sf_params params = test::Params(offset + 1, 1, SF_MODE_BLOCK);
+      CHECK(IsOfReduced(&prepared, params, shift, config, reduced));
+    }
+  }
+}
+
+TEST_CASE("preview: of images, into images") {
+  test::Random random(6);
+  for (int format = 0; format < 8; ++format) {
+    CAPTURE(format);
+    const test::Scene scene = test::LayeredScene(90 + format, 71, 5, 7, uint64_t(format));
+    const test::ImageField field = test::MakeImageField(
+        scene, {test::AnyKind(format, &random), test::AnyKind(7 - format, &random)},
+        test::MakeDepth(scene, 60, 71, SF_DEPTH_U16, SF_DEPTH_LINEAR, 0), &random);
+    sf_config config = test::ImageConfig(field);
+    config.previews = 2;
+    Prepared expected(field.converted, config);
+    test::Engine engine(config);
+    std::vector<uint8_t> memory(expected.bytes + SF_ALIGNMENT);
+    const uintptr_t address = reinterpret_cast<uintptr_t>(memory.data());
+    uint8_t* at = memory.data() + (SF_ALIGNMENT - address % SF_ALIGNMENT) % SF_ALIGNMENT;
+    const sf_image_field images = field.Field();
+    sf_prepared* prepared = nullptr;
+    REQUIRE(sf_prepare_images(engine.get(), &images, at, expected.bytes, nullptr, nullptr, nullptr,
+                              nullptr, &prepared) == SF_OK);
+    const sf_params params = test::Params(2, 1, SF_MODE_BLOCK);
+    for (int shift = 1; shift <= 2; ++shift) {
+      const test::Output wanted = expected.Preview(params, shift);
+      const test::ImageKind kind = test::AnyKind(format, &random);
+      test::ImageMemory got(wanted.width, wanted.height, kind);
+      test::ImageMemory image(wanted.width, wanted.height, kind);
+      test::PutPicture(
+          wanted.bytes.data(), wanted.stride, [](int, int) { return uint8_t{255}; }, &image);
+      const sf_image_out out = got.Out();
+      REQUIRE(sf_refocus_preview_images(engine.get(), &params, prepared, shift, &out, nullptr,
+                                        nullptr, nullptr) == SF_OK);
+      const bool same = got == image;
+      CHECK(same);
+    }
+  }
+}
+
+TEST_CASE("preview: the engine is what it was, and the workspace no larger") {
+  const test::Scene scene = test::LayeredScene(170, 130, 5, 7, 3);
+  sf_config config = test::ConfigFor(scene, 20);
+  config.streaming = 1;
+  size_t without = 0, with = 0;
+  REQUIRE(sf_workspace_size(&config, &without) == SF_OK);
+  config.previews = 3;
+  REQUIRE(sf_workspace_size(&config, &with) == SF_OK);
+  CHECK(with == without);
+  Prepared prepared(scene, config);
+  const sf_params params = test::Params(-3, 1, SF_MODE_BLOCK);
+  test::Output before(170, 130), after(170, 130), streamed(170, 130);
+  REQUIRE(test::Refocus(&prepared.engine, params, scene, &before) == SF_OK);
+  const test::Output first = prepared.Preview(test::Params(5, 1, SF_MODE_BLOCK), 2);
+  REQUIRE(test::Refocus(&prepared.engine, params, scene, &after) == SF_OK);
+  CHECK(after.bytes == before.bytes);
+  // A stream that a preview breaks off is begun anew.
+  REQUIRE(sf_stream_begin(prepared.engine.get(), &params) == SF_OK);
+  const test::Output again = prepared.Preview(test::Params(5, 1, SF_MODE_BLOCK), 2);
+  CHECK(again.bytes == first.bytes);
+  int32_t written = 0;
+  CHECK(sf_stream_pull(prepared.engine.get(), streamed.bytes.data(), streamed.stride, 1, nullptr,
+                       nullptr, &written, nullptr) == SF_ERROR_STATE);
+  REQUIRE(test::Stream(&prepared.engine, params, scene, &streamed, 9, 9) == SF_OK);
+  CHECK(streamed.bytes == before.bytes);
+}
+
+TEST_CASE("preview: what the documentation says of the memory") {
+  const test::Scene scene = test::LayeredScene(800, 640, 5, 7, 11);
+  sf_config config = test::ConfigFor(scene, 20);
+  constexpr double kExpected[] = {3.89, 8.14, 9.20, 9.47};
+  for (int previews = 0; previews <= 3; ++previews) {
+    config.previews = previews;
+    size_t bytes = 0;
+    REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+    CHECK(double(bytes) / (800.0 * 640) == doctest::Approx(kExpected[previews]).epsilon(0.01));
+  }
+}
+
+// A wall and a nearer disc, waves on both; the views agree.
+test::Scene SmoothScene(int width, int height) {
+  test::Scene scene = test::EmptyScene(width, height, 5, -12, 12);
+  for (int view = 0; view < 5; ++view) {
+    double u = 0, v = 0;
+    sf_view_position(view, &u, &v);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const double nx = x + 9 * u - 0.5 * width, ny = y + 9 * v - 0.5 * height;
+        const bool nearer = nx * nx + ny * ny < 0.06 * width * width;
+        const double d = nearer ? 9 : -9, px = x + u * d, py = y + v * d;
+        for (int c = 0; c < 3; ++c) {
+          const double wave = std::sin(px / (9 + c)) + std::cos(py / 11 + px / 40);
+          scene.Pixel(view, x, y)[c] = uint8_t((nearer ? 150 : 90) + 35 * wave);
+        }
+        if (view == 0) scene.Disparity(x, y) = float(d);
+      }
+    }
+  }
+  return scene;
+}
+
+TEST_CASE("preview: near the full picture reduced") {
+  const test::Scene scene = SmoothScene(512, 384);
+  sf_config config = test::ConfigFor(scene, 24);
+  config.previews = 3;
+  Prepared prepared(scene, config);
+  constexpr double kLeast[] = {0, 54, 52, 43};  // of waves of 9 pixels an eighth shows little
+  for (const double focus : {9.0, 0.0, -9.0}) {
+    const sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+    test::Output full(512, 384);
+    REQUIRE(test::Refocus(&prepared.engine, params, scene, &full) == SF_OK);
+    for (int shift = 1; shift <= 3; ++shift) {
+      CAPTURE(focus);
+      CAPTURE(shift);
+      CHECK(Psnr(prepared.Preview(params, shift), full, shift, config.transfer) >= kLeast[shift]);
+    }
+  }
+}
+
+TEST_CASE("preview: bad input") {
+  const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
+  sf_config config = test::ConfigFor(scene, 8);
+  size_t bytes = 0;
+  for (const int previews : {-1, 4}) {
+    config.previews = previews;
+    CHECK(sf_workspace_size(&config, &bytes) == SF_ERROR_PREVIEW);
+    CHECK(sf_prepared_size(&config, &bytes) == SF_ERROR_PREVIEW);
+  }
+  config.previews = 0;
+  Prepared none(scene, config);
+  config.previews = 2;
+  Prepared prepared(scene, config);
+  const sf_params params = test::Params(1);
+  test::Output out(25, 20);
+  CHECK(none.Preview(params, 1, &out) == SF_ERROR_PREVIEW);
+  for (const int shift : {-1, 0, 3, 32}) {
+    CHECK(prepared.Preview(params, shift, &out) == SF_ERROR_PREVIEW);
+  }
+  const auto run = [&](sf_engine* e, const sf_params* p, const sf_prepared* of, uint8_t* to,
+                       size_t stride) {
+    return sf_refocus_preview(e, p, of, 1, to, stride, nullptr, nullptr, nullptr);
+  };
+  sf_engine* e = prepared.engine.get();
+  uint8_t* to = out.bytes.data();
+  CHECK(run(nullptr, &params, prepared.field(), to, out.stride) == SF_ERROR_NULL);
+  CHECK(run(e, nullptr, prepared.field(), to, out.stride) == SF_ERROR_NULL);
+  CHECK(run(e, &params, nullptr, to, out.stride) == SF_ERROR_NULL);
+  CHECK(run(e, &params, prepared.field(), nullptr, out.stride) == SF_ERROR_NULL);
+  CHECK(run(e, &params, prepared.field(), to, 74) == SF_ERROR_STRIDE);
+  CHECK(run(e, &params, prepared.field(), prepared.at + prepared.bytes - 1, out.stride) ==
+        SF_ERROR_OVERLAP);
+  CHECK(run(e, &params, prepared.field(), static_cast<uint8_t*>(prepared.engine.workspace()),
+            out.stride) == SF_ERROR_OVERLAP);
+  const sf_params far = test::Params(9), wide = test::Params(1, 2);
+  CHECK(run(e, &far, prepared.field(), to, out.stride) == SF_ERROR_BLUR_TOO_LARGE);
+  CHECK(run(e, &wide, prepared.field(), to, out.stride) == SF_ERROR_APERTURE);
+  sf_params outside = params;
+  outside.region = {49, 0, 2, 1};  // inside the preview's pixels, and not inside the picture
+  CHECK(run(e, &outside, prepared.field(), to, out.stride) == SF_ERROR_REGION);
+  sf_config other = config;
+  other.width = 49;
+  test::Engine another(other);
+  CHECK(run(another.get(), &params, prepared.field(), to, out.stride) == SF_ERROR_PREPARED);
+  CHECK(out.Untouched());
+  // An engine that was itself configured for none may show those of another.
+  CHECK(run(none.engine.get(), &params, prepared.field(), to, out.stride) == SF_OK);
+}
+
+TEST_CASE("preview: images refuse what pictures do") {
+  const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
+  sf_config config = test::ConfigFor(scene, 8);
+  config.previews = 1;
+  Prepared without(scene, config);
+  config.images = 1;
+  Prepared prepared(scene, config);
+  const sf_params params = test::Params(1);
+  std::vector<uint8_t> rgb(3 * 25 * 20);
+  sf_image_out out = {};
+  out.planes[0] = rgb.data();
+  out.strides[0] = 75;
+  const auto run = [&](Prepared* of, int shift, const sf_image_out* to) {
+    return sf_refocus_preview_images(of->engine.get(), &params, of->field(), shift, to, nullptr,
+                                     nullptr, nullptr);
+  };
+  CHECK(run(&without, 1, &out) == SF_ERROR_STATE);
+  CHECK(run(&prepared, 1, nullptr) == SF_ERROR_NULL);
+  CHECK(run(&prepared, 2, &out) == SF_ERROR_PREVIEW);
+  CHECK(run(&prepared, 1, &out) == SF_OK);
+  for (uint8_t* to : {prepared.at, static_cast<uint8_t*>(prepared.engine.workspace())}) {
+    out.planes[0] = to;
+    CHECK(run(&prepared, 1, &out) == SF_ERROR_OVERLAP);
+  }
+  out.planes[0] = rgb.data();
+  out.format = 99;
+  CHECK(run(&prepared, 1, &out) == SF_ERROR_FORMAT);
+}
+
+TEST_CASE("preview: progress is told of the preview's rows, and calls it off") {
+  const test::Scene scene = test::LayeredScene(300, 260, 5, 7, 12);
+  sf_config config = test::ConfigFor(scene, 16);
+  config.largest_block = 32;
+  config.previews = 2;
+  Prepared prepared(scene, config);
+  sf_params params = test::Params(-4, 1, SF_MODE_BLOCK);
+  const test::Output expected = prepared.Preview(params, 1);
+  test::Watch watch;
+  params.progress = test::Watch::Progress;
+  params.progress_data = &watch;
+  prepared.Preview(params, 1);
+  CHECK(watch.Ended());
+  CHECK(watch.rows == 130);
+  for (int stop = 0; stop < watch.calls; stop += 1 + watch.calls / 5) {
+    test::Watch cancels(stop);
+    params.progress_data = &cancels;
+    test::Output out(150, 130);
+    CHECK(prepared.Preview(params, 1, &out) == SF_ERROR_CANCELLED);
+    CHECK(cancels.Good());
+    params.progress = nullptr;
+    CHECK(prepared.Preview(params, 1).bytes == expected.bytes);
+    params.progress = test::Watch::Progress;
+  }
+}
+
+TEST_CASE("preview: making one is told of and called off as preparing is, and a runner may fail") {
+  const test::Scene scene = test::LayeredScene(200, 260, 5, 7, 12);
+  sf_config config = test::ConfigFor(scene, 16);
+  config.largest_block = 32;
+  config.previews = 3;
+  Prepared prepared(scene, config);
+  const sf_light_field field = scene.Field();
+  const auto prepare = [&](test::Watch* watch, sf_runner runner) {
+    sf_prepared* made = nullptr;
+    const sf_status status = sf_prepare(prepared.engine.get(), &field, prepared.at, prepared.bytes,
+                                        test::Watch::Progress, watch, runner, nullptr, &made);
+    CHECK((made == nullptr) == (status != SF_OK));
+    return status;
+  };
+  test::Watch watch;
+  CHECK(prepare(&watch, nullptr) == SF_OK);
+  CHECK(watch.Ended());
+  for (int stop = 0; stop < watch.calls; stop += 1 + watch.calls / 9) {
+    test::Watch cancels(stop);
+    CHECK(prepare(&cancels, nullptr) == SF_ERROR_CANCELLED);
+    CHECK(cancels.Good());
+  }
+  test::Watch other;
+  CHECK(prepare(&other, [](void*, sf_job, void*, int32_t) { return 1; }) == SF_ERROR_RUNNER);
+}
+
+}  // namespace

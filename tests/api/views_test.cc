@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Views at any positions, through the C ABI.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+constexpr double kFocus = 2;
+
+test::Scene Scene(const std::vector<sf_position>& positions) {
+  test::Scene scene = test::RandomScene(70, 50, int(positions.size()), -4, 6, 11);
+  scene.positions = positions;
+  return scene;
+}
+
+std::vector<uint8_t> Picture(const test::Scene& scene, sf_mode mode = SF_MODE_BLOCK,
+                             sf_rule rule = SF_RULE_SUBAPERTURE) {
+  sf_params params = test::Params(kFocus, 1, mode);
+  params.rule = rule;
+  return test::RefocusScene(scene, test::ConfigFor(scene), params).rgb;
+}
+
+TEST_CASE("views: the star by its positions is the star, in any order by subapertures") {
+  for (const int views : {5, 9, 17}) {
+    test::Scene scene = test::RandomScene(70, 50, views, -4, 6, 5);
+    const std::vector<uint8_t> block = Picture(scene);
+    const std::vector<uint8_t> paper = Picture(scene, SF_MODE_FRAME, SF_RULE_PAPER);
+    std::vector<sf_position> positions;
+    for (int k = 0; k < views; ++k) positions.push_back(scene.PositionOf(k));
+    scene.positions = positions;
+    CHECK(Picture(scene) == block);
+    CHECK(Picture(scene, SF_MODE_FRAME, SF_RULE_PAPER) == paper);
+    CHECK(Picture(scene, SF_MODE_FRAME, SF_RULE_DEFAULT) == paper);
+    for (const int other : {2, 4, 3}) {
+      std::swap(scene.positions[1], scene.positions[size_t(other)]);
+      std::swap(scene.pictures[1], scene.pictures[size_t(other)]);
+    }
+    CHECK(Picture(scene) == block);
+  }
+}
+
+TEST_CASE("views: a pair reads its second view, and another position of it elsewhere") {
+  const test::Scene pair = Scene({{0, 0}, {1, 0}});
+  test::Scene one = pair;
+  one.pictures.resize(1);
+  one.positions.resize(1);
+  CHECK(Picture(pair) != Picture(one));
+  test::Scene other = pair;
+  other.positions[1] = {1, 0.01};
+  CHECK(Picture(pair) != Picture(other));
+  const sf_params params = test::Params(kFocus, 1, SF_MODE_BLOCK);
+  CHECK(test::RefocusScene(pair, test::ConfigFor(pair), params).report.side_bytes > 0);
+}
+
+TEST_CASE("views: a mirrored scene with the pair's other side gives the mirrored picture") {
+  const test::Scene scene = Scene({{0, 0}, {0.7, 0}});
+  test::Scene mirrored = scene;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      mirrored.Disparity(scene.width - 1 - x, y) = scene.Disparity(x, y);
+      for (int view = 0; view < scene.views(); ++view) {
+        std::copy_n(scene.Pixel(view, x, y), 3, mirrored.Pixel(view, scene.width - 1 - x, y));
+      }
+    }
+  }
+  const auto mean = [&] {
+    const auto a = Picture(scene, SF_MODE_FRAME), b = Picture(mirrored, SF_MODE_FRAME);
+    const int width = scene.width;
+    double sum = 0;
+    for (int i = 0; i < 3 * width * scene.height; ++i) {
+      const int x = i / 3 % width, there = i + 3 * (width - 1 - 2 * x);
+      sum += std::abs(a[size_t(i)] - b[size_t(there)]);
+    }
+    return sum / double(a.size());
+  };
+  const double other_side = mean();
+  mirrored.positions[1].u = -0.7;
+  CHECK(mean() < 0.5);  // of noise, sliced anew
+  CHECK(other_side > 1);
+}
+
+TEST_CASE("views: the paper's rule needs the star, others do without") {
+  const test::Scene scene = Scene({{0, 0}, {1, 0}, {0, 1}});
+  sf_config config = test::ConfigFor(scene);
+  config.streaming = 1;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  test::Output out(scene.width, scene.height);
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
+    sf_params params = test::Params(kFocus, 0.5, mode);
+    params.rule = SF_RULE_PAPER;
+    CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_STAR);
+    CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_STAR);
+    params.rule = SF_RULE_DEFAULT;
+    REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+    const std::vector<uint8_t> by_default = out.Tight();
+    params.rule = SF_RULE_SUBAPERTURE;
+    REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+    CHECK(out.Tight() == by_default);
+  }
+  sf_params blur = test::Params(kFocus, 0.5, SF_MODE_BLUR);
+  blur.rule = SF_RULE_PAPER;  // which this mode ignores
+  CHECK(test::Refocus(&engine, blur, scene, &out) == SF_OK);
+}
+
+TEST_CASE("views: bad positions are refused before anything is made") {
+  const test::Scene scene = Scene({{0, 0}, {1, 0}});
+  const auto status = [&](const std::vector<sf_position>& positions) {
+    sf_config config = test::ConfigFor(scene);
+    std::copy(positions.begin(), positions.end(), config.positions);
+    size_t bytes = 0;
+    return sf_workspace_size(&config, &bytes);
+  };
+  CHECK(status({{0, 0}, {-1, 1}}) == SF_OK);
+  CHECK(status({{0, 0}, {0, 0}}) == SF_ERROR_VIEWS);  // no positions: two are no star
+  CHECK(status({{0, 0}, {1.5, 0}}) == SF_ERROR_VIEW_POSITIONS);
+  CHECK(status({{0.5, 0}, {1, 0}}) == SF_ERROR_VIEW_POSITIONS);
+}
+
+}  // namespace

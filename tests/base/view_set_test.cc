@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Positions of captured views, and which of them look behind edges on each side.
+#include "lib/base/view_set.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using starfocus::kLooks;
+using starfocus::kSideCount;
+using starfocus::Looks;
+using starfocus::ViewSet;
+
+sf_config Config(const std::vector<sf_position>& positions) {
+  sf_config config = {};
+  for (const sf_position& position : positions) config.positions[config.views++] = position;
+  return config;
+}
+
+sf_config Star(int views) {
+  sf_config config = {};
+  config.views = views;
+  return config;
+}
+
+sf_status Check(const sf_config& config) {
+  ViewSet set;
+  return starfocus::FindViews(config, &set);
+}
+
+// The indices of the views that look behind edges to the right, left, bottom and top.
+using Sides = std::vector<std::vector<int>>;
+Sides LooksOf(const sf_config& config) {
+  ViewSet set;
+  REQUIRE(starfocus::FindViews(config, &set) == SF_OK);
+  const Looks looks = starfocus::ChooseLooks(set);
+  Sides sides(kSideCount);
+  for (int side = 0; side < kSideCount; ++side) {
+    for (const starfocus::LookView& look : looks.on[side]) {
+      if (look.view == 0) continue;
+      sides[size_t(side)].push_back(look.view);
+      CHECK(look.at.u == set.at[look.view].u);
+      CHECK(look.at.v == set.at[look.view].v);
+    }
+    if (sides[size_t(side)].empty()) continue;
+    CHECK(looks.Last(side).view == sides[size_t(side)].back());
+  }
+  return sides;
+}
+
+TEST_CASE("views: the star's look along its axes, the farther ones first") {
+  CHECK(LooksOf(Star(1)) == Sides{{}, {}, {}, {}});
+  for (const int views : {5, 9}) CHECK(LooksOf(Star(views)) == Sides{{1}, {2}, {3}, {4}});
+  CHECK(LooksOf(Star(17)) == Sides{{1, 9}, {2, 10}, {3, 11}, {4, 12}});
+}
+
+TEST_CASE("views: a pair looks to one side, an L to two, a row twice to either") {
+  CHECK(LooksOf(Config({{0, 0}, {1, 0}})) == Sides{{1}, {}, {}, {}});
+  CHECK(LooksOf(Config({{0, 0}, {0, -0.3}})) == Sides{{}, {}, {}, {1}});
+  CHECK(LooksOf(Config({{0, 0}, {0, 1}, {-1, 0}})) == Sides{{}, {2}, {1}, {}});
+  CHECK(LooksOf(Config({{0, 0}, {-1, 0}, {-0.5, 0}, {0.5, 0}, {1, 0}})) ==
+        Sides{{4, 3}, {1, 2}, {}, {}});
+}
+
+TEST_CASE("views: others stand in where none is nearer to the side") {
+  CHECK(LooksOf(Config({{0, 0}, {1, 1}})) == Sides{{1}, {}, {1}, {}});
+  CHECK(LooksOf(Config({{0, 0}, {1, 1}, {0.5, 0}})) == Sides{{2}, {}, {1}, {}});
+  // Up to eight times as far beside the axis as along it.
+  CHECK(LooksOf(Config({{0, 0}, {0.13, 1}})) == Sides{{1}, {}, {1}, {}});
+  CHECK(LooksOf(Config({{0, 0}, {0.125, 1}})) == Sides{{}, {}, {1}, {}});
+  // Of several the two that lie farthest out along the axis.
+  CHECK(LooksOf(Config({{0, 0}, {0.4, 0}, {1, 0.1}, {0.9, -0.8}, {0.8, 0}}))[0] ==
+        std::vector<int>{2, 4});
+}
+
+TEST_CASE("views: the order in which they are given decides nothing") {
+  std::vector<sf_position> positions = {{0, 0}, {1, 0.5}, {1, -0.5}, {0.75, 0}, {-0.2, 0.6}};
+  const auto chosen = [&] {
+    const Sides sides = LooksOf(Config(positions));
+    std::vector<std::pair<double, double>> found;
+    for (const auto& side : sides) {
+      for (const int view : side) {
+        found.emplace_back(positions[size_t(view)].u, positions[size_t(view)].v);
+      }
+    }
+    return found;
+  };
+  const auto before = chosen();
+  CHECK(before == std::vector<std::pair<double, double>>{
+                      {0.75, 0}, {1, -0.5}, {-0.2, 0.6}, {-0.2, 0.6}, {1, -0.5}});
+  for (int turn = 0; turn < 4; ++turn) {
+    std::swap(positions[1], positions[size_t(2 + turn % 3)]);
+    CHECK(chosen() == before);
+  }
+}
+
+TEST_CASE("views: the star is known by its positions, in their order") {
+  for (const int views : {1, 5, 9, 17}) {
+    CHECK(starfocus::HasStar(Star(views)));
+    sf_config config = Star(views);
+    for (int k = 0; k < views; ++k) {
+      sf_view_position(k, &config.positions[k].u, &config.positions[k].v);
+    }
+    CHECK(starfocus::HasStar(config));
+    if (views == 1) continue;
+    std::swap(config.positions[1], config.positions[2]);
+    CHECK(Check(config) == SF_OK);
+    CHECK_FALSE(starfocus::HasStar(config));
+  }
+  CHECK_FALSE(starfocus::HasStar(Config({{0, 0}, {1, 0}})));
+}
+
+TEST_CASE("views: what is no set of views is refused") {
+  for (const int views : {-1, 0, 2, 3, 4, 16, 18}) CHECK(Check(Star(views)) == SF_ERROR_VIEWS);
+  CHECK(Check(Config({{0, 0}, {1, -1}})) == SF_OK);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = HUGE_VAL;
+  for (const double bad : {nan, infinite, -infinite, 1.0001, -1.0001}) {
+    CHECK(Check(Config({{0, 0}, {bad, 0}})) == SF_ERROR_VIEW_POSITIONS);
+    CHECK(Check(Config({{0, 0}, {1, 0}, {0, bad}})) == SF_ERROR_VIEW_POSITIONS);
+  }
+  CHECK(Check(Config({{1, 0}, {0, 0}})) == SF_ERROR_VIEW_POSITIONS);
+  CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5, 0}})) == SF_ERROR_VIEW_POSITIONS);
+  CHECK(Check(Config({{0, 0}, {1, 0}, {0, 0}})) == SF_ERROR_VIEW_POSITIONS);
+  CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5 + 1.0 / 16384, 0}})) == SF_OK);
+  // Beyond the views anything may be left.
+  sf_config config = Config({{0, 0}, {1, 0}});
+  config.positions[2] = {nan, 7};
+  CHECK(Check(config) == SF_OK);
+}
+
+TEST_CASE("views: a disparity moves by its product with the position, alike on both sides") {
+  CHECK(starfocus::ScaledByView(starfocus::kViewOne, 320, 12) == 1280);
+  CHECK(starfocus::ScaledByView(-starfocus::kViewOne, 320, 12) == -1280);
+  CHECK(starfocus::ScaledByView(starfocus::kViewOne / 2, -321, 12) == -642);
+  CHECK(starfocus::ScaledByView(0, 320, 12) == 0);
+  for (const int position : {1, 77, 5461, 16383}) {
+    CHECK(starfocus::ScaledByView(-position, 999, 13) ==
+          -starfocus::ScaledByView(position, 999, 13));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sets of captured views for windows that a test makes itself.
+#ifndef STARFOCUS_TESTS_SUPPORT_STAR_VIEWS_H_
+#define STARFOCUS_TESTS_SUPPORT_STAR_VIEWS_H_
+
+#include <vector>
+
+#include "lib/base/view_set.h"
+#include "lib/input/window.h"
+
+namespace test {
+
+inline void SetViews(const sf_config& config, starfocus::Window* window) {
+  starfocus::ViewSet views;
+  starfocus::FindViews(config, &views);
+  window->views = config.views;
+  window->looks = starfocus::ChooseLooks(views);
+}
+
+// The star of 1, 5, 9 or 17 views.
+inline void SetStar(int views, starfocus::Window* window) {
+  sf_config config = {};
+  config.views = views;
+  SetViews(config, window);
+}
+
+// The centre view and those at these positions.
+inline void SetPositions(const std::vector<sf_position>& sides, starfocus::Window* window) {
+  sf_config config = {};
+  config.views = 1;
+  for (const sf_position& position : sides) config.positions[config.views++] = position;
+  SetViews(config, window);
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_STAR_VIEWS_H_
