@@ -153,25 +153,25 @@ HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t cou
 
 #endif
 
-inline void FilterDisc(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
-                       const Encoding& encoding, size_t rows, size_t count,
-                       uint8_t* HWY_RESTRICT out, size_t out_stride) {
+// Filters rows of samples by chunks; finish(accumulators, samples, row, begin) takes the sums of a
+// part of a row, which begins at sample `begin`.
+template <class Finish>
+HWY_INLINE void FilterRows(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
+                           size_t rows, size_t count, const Finish& finish) {
   constexpr size_t kSpare = HWY_MAX_BYTES;
   const DiscPairs quarter(disc);
-  const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
   const size_t margin = 3 * static_cast<size_t>(disc.size);
   // The second column of a pair may lie a pixel beyond the disc. Its weight is zero, but it is
   // read.
   uint16_t padded[3 + kDiscChunk + 2 * kDiscMargin + 3 + kSpare] = {};
   uint16_t* const means = padded + 3;
   uint32_t accumulators[kDiscChunk + kSpare];
-  int16_t light[kDiscChunk + kSpare];
   for (size_t begin = 0; begin < count; begin += kDiscChunk) {
     const size_t chunk = count - begin < kDiscChunk ? count - begin : kDiscChunk;
     for (size_t row = 0; row < rows; ++row) {
       const int16_t* middle = in + row * in_stride + begin;
       const DiscPairs::Pair* pairs = quarter.pairs;
-      std::memset(accumulators, 0, sizeof(accumulators));
+      std::memset(accumulators, 0, (chunk + kSpare) * sizeof(*accumulators));
       for (int32_t y = 0; y <= disc.size; ++y) {
         if (quarter.counts[y] == 0) continue;
         const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
@@ -180,10 +180,32 @@ inline void FilterDisc(const int16_t* HWY_RESTRICT in, size_t in_stride, const D
         AddDiscRow(pairs, quarter.counts[y], means + margin, chunk, accumulators);
         pairs += quarter.counts[y];
       }
-      FinishDisc(accumulators, chunk, disc.bits + whole, whole, light);
-      Encode(light, chunk, encoding, out + row * out_stride + begin);
+      finish(accumulators, chunk, row, begin);
     }
   }
+}
+
+inline void FilterDisc(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
+                       const Encoding& encoding, size_t rows, size_t count,
+                       uint8_t* HWY_RESTRICT out, size_t out_stride) {
+  const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
+  int16_t light[kDiscChunk + HWY_MAX_BYTES];
+  const auto finish = [&](const uint32_t* sums, size_t chunk, size_t row, size_t begin) HWY_ATTR {
+    FinishDisc(sums, chunk, disc.bits + whole, whole, light);
+    Encode(light, chunk, encoding, out + row * out_stride + begin);
+  };
+  FilterRows(in, in_stride, disc, rows, count, finish);
+}
+
+inline void FilterDiscLayer(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
+                            size_t rows, size_t count, int16_t* HWY_RESTRICT out,
+                            size_t out_stride) {
+  int16_t samples[kDiscChunk + HWY_MAX_BYTES];
+  const auto finish = [&](const uint32_t* sums, size_t chunk, size_t row, size_t begin) HWY_ATTR {
+    FinishDisc(sums, chunk, disc.bits + kLightBits - kLayerBits, 0, samples);
+    std::memcpy(out + row * out_stride + begin, samples, chunk * sizeof(*out));
+  };
+  FilterRows(in, in_stride, disc, rows, count, finish);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "simd/light.h"
+#include "simd/resample.h"
 
 namespace starfocus::simd {
 
@@ -32,6 +33,11 @@ namespace reference {
 // and `out` don't overlap, and nothing between the rows of `out` is written.
 void FilterDisc(const int16_t* in, size_t in_stride, const Disc& disc, const Encoding& encoding,
                 size_t rows, size_t count, uint8_t* out, size_t out_stride);
+
+// The same for a layer: out[y][n] is that sum as a sample of kLayerBits, rounded halves up;
+// out_stride is in samples. The light is that of samples in range.
+void FilterDiscLayer(const int16_t* in, size_t in_stride, const Disc& disc, size_t rows,
+                     size_t count, int16_t* out, size_t out_stride);
 
 }  // namespace reference
 }  // namespace starfocus::simd

@@ -40,4 +40,16 @@ void FilterDisc(const int16_t* in, size_t in_stride, const Disc& disc, const Enc
   }
 }
 
+void FilterDiscLayer(const int16_t* in, size_t in_stride, const Disc& disc, size_t rows,
+                     size_t count, int16_t* out, size_t out_stride) {
+  const int bits = disc.bits + kLightBits - kLayerBits;
+  const uint32_t half = uint32_t{1} << bits >> 1;
+  for (size_t row = 0; row < rows; ++row, in += in_stride, out += out_stride) {
+    for (size_t n = 0; n < count; ++n) {
+      const uint32_t sum = DiscSum(in + n, static_cast<ptrdiff_t>(in_stride), disc);
+      out[n] = static_cast<int16_t>((sum + half) >> bits);
+    }
+  }
+}
+
 }  // namespace starfocus::simd::reference

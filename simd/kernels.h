@@ -32,6 +32,7 @@
   KERNEL(Encode)                  \
   KERNEL(Finish)                  \
   KERNEL(FilterDisc)              \
+  KERNEL(FilterDiscLayer)         \
   KERNEL(ConvertDisparity)        \
   KERNEL(FindRanges)              \
   KERNEL(FindWithin)              \

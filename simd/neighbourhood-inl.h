@@ -170,7 +170,7 @@ inline void SurroundCells(const CellPlanes& planes, int32_t around, size_t count
                         HWY_ATTR { return hn::LoadU(d16, at + plane * planes.plane); };
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     const int16_t* cell = planes.cells + n;
-    const auto own = load(cell, kReachPlane);
+    const auto own = load(cell, kReachPlane), own_high = load(cell, kHighPlane);
     const int32_t farthest =
         FarthestCells(cell + kReachPlane * planes.plane, planes.stride, around);
     auto low = load(cell, kLowPlane), high = load(cell, kHighPlane), edge = load(cell, kEdgePlane);
@@ -180,9 +180,10 @@ inline void SurroundCells(const CellPlanes& planes, int32_t around, size_t count
         const int16_t* at = cell + y * static_cast<ptrdiff_t>(planes.stride) + x;
         const int32_t rows = y < 0 ? -y : y, columns = x < 0 ? -x : x;
         const int32_t away = ((rows > columns ? rows : columns) - 1) * kCellPixels;
-        const auto reached =
-            hn::Gt(hn::Max(own, load(at, kReachPlane)), hn::Set(d16, static_cast<int16_t>(away)));
         const auto first = load(at, kLowPlane), last = load(at, kHighPlane);
+        const auto other = hn::IfThenElseZero(hn::Gt(last, own_high), load(at, kNearPlane));
+        const auto reached =
+            hn::Gt(hn::Max(own, other), hn::Set(d16, static_cast<int16_t>(away)));
         low = hn::Min(low, hn::IfThenElse(reached, first, low));
         high = hn::Max(high, hn::IfThenElse(reached, last, high));
         const auto range = hn::IfThenElseZero(reached, hn::Sub(last, first));

@@ -24,6 +24,7 @@ enum CellPlane {
   kInsideTop,
   kInsideBottom,
   kReachPlane,   // how far the cell's blur reaches at most, to any side
+  kNearPlane,    // how far that of its nearest pixels does
   kRadiusPlane,  // the largest blur radius
   kEdgePlane,    // the largest blur radius at depth edges, 0 where there is none
   kLowPlane,     // the lowest and the highest disparity
@@ -61,9 +62,11 @@ namespace reference {
 void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
                 BlockReach* reach);
 
-// Finds what lies around each of `count` cells of a row, from planes.cells on. A cell that lies
-// d <= around cells away (in columns or rows, whichever are more) counts if its kReachPlane, or
-// that of the cell in the middle, exceeds (d - 1) kCellPixels. Whole groups of kSliceLanes are read
+// Finds what each of `count` cells of a row, from planes.cells on, may show and what may hide it. A
+// cell that lies d <= around cells away (in columns or rows, whichever are more) counts if the
+// kReachPlane of the cell in the middle exceeds (d - 1) kCellPixels; and, if its kHighPlane exceeds
+// that of the cell in the middle, if its own kNearPlane does. What lies farther stays hidden,
+// however far it reaches. kNearPlane is at most kReachPlane. Whole groups of kSliceLanes are read
 // and written.
 void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
                    const CellRanges& ranges);

@@ -66,9 +66,11 @@ void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
       for (int x = -around; x <= around; ++x) {
         const int16_t* at = cell + y * static_cast<ptrdiff_t>(planes.stride) + x;
         const int away = std::abs(x) > std::abs(y) ? std::abs(x) : std::abs(y);
-        const int own = cell[kReachPlane * planes.plane], other = at[kReachPlane * planes.plane];
-        if ((away - 1) * kCellPixels >= (own > other ? own : other)) continue;
         const int16_t first = at[kLowPlane * planes.plane], last = at[kHighPlane * planes.plane];
+        const bool nearer = last > cell[kHighPlane * planes.plane];
+        const int own = cell[kReachPlane * planes.plane];
+        const int other = nearer ? at[kNearPlane * planes.plane] : 0;
+        if ((away - 1) * kCellPixels >= (own > other ? own : other)) continue;
         low = first < low ? first : low;
         high = last > high ? last : high;
         widest = last - first > widest ? last - first : widest;

@@ -149,19 +149,21 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const size_t shared = carver->Mark();
   TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.line_scan);
   carver->Reuse(shared);
-  worker.field.rgb = carver->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
-  worker.field.disparity = carver->Take<int16_t>(extended * extended);
-  worker.spans = TakeSpans(extended, carver);
-  carver->Reuse(shared);
   worker.compositor =
       TakeCompositor(config, extended, static_cast<size_t>(LargestSliceN(config)), carver);
   carver->Reuse(shared);
-  // A rendered rectangle is at most half a block and 4 pixels wide.
+  // A rendered rectangle is at most half a block and 4 pixels wide. What is gathered comes to it
+  // from the field.
   const size_t half = side / 2 + 8;
+  worker.layer_samples = carver->Take<int16_t>(3 * half * half);
+  const size_t behind = carver->Mark();
+  worker.field.rgb = carver->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+  worker.field.disparity = carver->Take<int16_t>(extended * extended);
+  worker.spans = TakeSpans(extended, carver);
+  carver->Reuse(behind);
   worker.upsample.line = carver->Take<int16_t>(3 * half);
   worker.upsample.between = carver->Take<int16_t>(3 * half);
   worker.upsample.even = carver->Take<int16_t>(3 * half);
-  worker.layer_samples = carver->Take<int16_t>(3 * half * half);
   worker.middle_samples = carver->Take<int16_t>(3 * half * half);
   worker.picture_samples = carver->Take<int16_t>(3 * side * side);
   carver->Reuse(shared);

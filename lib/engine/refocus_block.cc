@@ -31,18 +31,31 @@ void FinishPicture(const BlockInputs& in, const Rect& rect, int shift, const Pla
   }
 }
 
-// Brings the sums of a block to the picture: from layer 2 by way of layer 1, with the margin that
-// the next step reads.
-void FinishLayer(const BlockInputs& in, const Block& block, int shift, const Plane<uint8_t>& out,
+// Makes samples of the layer of the sums of a block, in what it has of LayerFrame.
+void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Worker& worker) {
+  const Rect frame = LayerFrame(block.rect, block.layer), &rendered = block.rendered;
+  const size_t samples = 3 * static_cast<size_t>(rendered.width);
+  CheckSums(worker.sums, Samples(rendered), shift);
+  for (int32_t row = 0; row < rendered.height; ++row) {
+    const size_t pixel = static_cast<size_t>(rendered.y - frame.y + row) *
+                             static_cast<size_t>(frame.width) +
+                         static_cast<size_t>(rendered.x - frame.x);
+    in.kernels->FinishLayer(worker.sums + static_cast<size_t>(row) * samples, samples, shift,
+                            worker.layer_samples + 3 * pixel);
+  }
+}
+
+// Brings what a block has at its layer to the picture: from layer 2 by way of layer 1, with the
+// margin that the next step reads.
+void FinishLayer(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  const Worker& worker) {
   const simd::Kernels& kernels = *in.kernels;
-  CheckSums(worker.sums, Samples(block.rendered), shift);
-  kernels.FinishLayer(worker.sums, Samples(block.rendered), shift, worker.layer_samples);
-  CheckAll(ranges::kLayerSample, worker.layer_samples, Samples(block.rendered));
-  LayerRect layer = {worker.layer_samples, block.rendered.width, block.rendered.height};
-  int32_t margin = kLayerMargin[block.layer] >> block.layer;
+  const Rect frame = LayerFrame(block.rect, block.layer);
+  CheckAll(ranges::kLayerSample, worker.layer_samples, Samples(frame));
+  LayerRect layer = {worker.layer_samples, frame.width, frame.height};
+  int32_t margin = LayerMargin(block.layer);
   if (block.layer == 2) {
-    const int32_t next_margin = kLayerMargin[1] >> 1;
+    const int32_t next_margin = LayerMargin(1);
     const LayerRect middle = {worker.middle_samples,
                               ((block.rect.width + 1) >> 1) + 2 * next_margin,
                               ((block.rect.height + 1) >> 1) + 2 * next_margin};
@@ -110,9 +123,10 @@ uint64_t RenderSums(const BlockInputs& in, const Block& block, RenderJob job, Wo
     RefocusRectangle(job, &worker->line_scan, worker->sums);
     return Samples(job.rect);
   }
-  const GatherMap* gathered = block.gathers ? in.gathered : nullptr;
+  const BlockCells cells = {in.gathered, block.rect, block.layer};
   const SliceRule& rule = IsBenchmark(*in.lens) ? kFineSlices : kSlices;
-  return 3 * CompositeRectangle(job, rule, in.lens->slice_limits, gathered, &worker->compositor,
+  return 3 * CompositeRectangle(job, rule, in.lens->slice_limits,
+                                block.gathers ? &cells : nullptr, &worker->compositor,
                                 worker->sums);
 }
 
@@ -155,23 +169,31 @@ Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
   if (block.layer == 0) {
     FinishPicture(in, job.rect, SumBits(in, job), out, *worker);
   } else {
-    FinishLayer(in, block, SumBits(in, job), out, *worker);
+    KeepLayer(in, block, SumBits(in, job), *worker);
+    if (!block.gathers) FinishLayer(in, block, out, *worker);
   }
   if (block.has_highlights) samples += RenderExcess(in, block, job, out, worker);
   const auto views = static_cast<uint64_t>(ApertureOf(*in.tables, *in.lens, block.n).views);
   return {views, views * samples};
 }
 
-void GatherCells(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
+// Gathers the cells of a block and brings what is then complete to the picture.
+void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  Worker* worker) {
   Field field;
   field.rgb = worker->field.rgb;
   field.disparity = worker->field.disparity;
-  const Counting counting(in.windows[0], worker);
-  const GatherJob job = {&counting.window(),      in.cells,   in.gathered, in.lens->scale,
-                         in.tables->blur_kernels, in.kernels, block.rect,  &worker->patience};
-  worker->counts.gathered_pixels +=
-      GatherRectangle(job, &field, At(out, block.rect, 0), out.stride);
+  const Counting counting(in.windows[block.layer], worker);
+  const BlockCells cells = {in.gathered, block.rect, block.layer};
+  const GatherJob job = {&counting.window(),      in.cells,   cells,            in.lens->scale,
+                         in.tables->blur_kernels, in.kernels, &worker->patience};
+  const Rect frame = LayerFrame(block.rect, block.layer);
+  const Gathered gathered = block.layer == 0
+                                ? Gathered{At(out, block.rect, 0), nullptr, out.stride}
+                                : Gathered{nullptr, worker->layer_samples,
+                                           3 * static_cast<size_t>(frame.width)};
+  worker->counts.gathered_pixels += GatherCells(job, &field, gathered);
+  if (block.layer > 0 && worker->patience.Spend(0)) FinishLayer(in, block, out, *worker);
 }
 
 // The part of a block that views give: at layer 0 they need not be rendered for all of it.
@@ -209,7 +231,11 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   if (pinhole) grid.step = 0;
   const RenderJob job = {&in.windows[block.layer], &grid,        in.kernels,
                          block.rendered,           block.border, &worker->patience};
-  if (in.config->skips == 0 || block.has_highlights) return Render(in, block, job, out, worker);
+  // The views' part of a layer is brought to the picture together with what is gathered.
+  const bool in_part = block.layer > 0 && block.gathers;
+  if (in.config->skips == 0 || block.has_highlights || in_part) {
+    return Render(in, block, job, out, worker);
+  }
   const Rect& rect = ViewsRect(block);
   // Slices have ends, which move a little even then.
   if (pinhole || (!UsesSubapertures(*in.lens) && NothingMoves(job))) {
@@ -257,7 +283,7 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
       rendered = RefocusViews(in, block, out, worker);
     }
     // Cells are gathered after views, which know nothing of them.
-    if (block.gathers) GatherCells(in, block, out, worker);
+    if (block.gathers) GatherBlock(in, block, out, worker);
   }
   sf_layer_report& report = worker->counts.layers[block.layer];
   report.blocks += 1;

@@ -66,10 +66,16 @@ void MarkLayerColumns(const sf_config& config, Pictures* pictures) {
 void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pictures) {
   if (block.layer == 0) return;
   const int32_t side = config.largest_block, scale = 1 << block.layer;
-  const int32_t left = (block.rendered.x - block.border.left) * scale;
-  const int32_t right = (block.rendered.x + block.rendered.width + block.border.right) * scale;
-  const int32_t first = Max(0, left / side);
-  const int32_t last = Min(Columns(config) - 1, right / side);
+  int32_t left = block.rendered.x - block.border.left;
+  int32_t right = block.rendered.x + block.rendered.width + block.border.right;
+  if (block.gathers) {
+    const Rect frame = LayerFrame(block.rect, block.layer);
+    const int32_t reach = kMaxGather + 1;
+    left = block.rendered.width > 0 ? Min(left, frame.x - reach) : frame.x - reach;
+    right = Max(right, frame.x + frame.width + reach);
+  }
+  const int32_t first = Max(0, left * scale / side);
+  const int32_t last = Min(Columns(config) - 1, right * scale / side);
   for (int32_t column = first; column <= last; ++column) {
     pictures->needed[block.layer][column] |= kNeeded;
   }

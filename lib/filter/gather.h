@@ -5,6 +5,7 @@
 #ifndef STARFOCUS_LIB_FILTER_GATHER_H_
 #define STARFOCUS_LIB_FILTER_GATHER_H_
 
+#include <cstddef>
 #include <cstdint>
 
 #include "lib/base/rules.h"
@@ -12,6 +13,7 @@
 #include "lib/filter/blur.h"
 #include "lib/input/field.h"
 #include "lib/plan/block_stats.h"
+#include "lib/plan/gathered_cells.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -20,19 +22,26 @@ static_assert(kMaxGather + 1 <= simd::kMaxDisc,
               "a kernel's edge lies in the pixel beyond its radius");
 
 struct GatherJob {
-  const Window* window;  // at layer 0
-  const CellGrid* cells;
-  const GatherMap* gathered;
+  const Window* window;  // at the layer of the cells
+  const CellGrid* grid;
+  BlockCells cells;  // of a block, its corner a multiple of kCellSize
   BlurScale scale;
   const BlurKernel* kernels_of_radius;
   const simd::Kernels* kernels;
-  Rect rect;           // its corner a multiple of kCellSize
-  Patience* patience;  // once it ends, `out` is left half made
+  Patience* patience;  // once it ends, what is gathered into is left half made
 };
 
-// Gathers the cells of the map in job.rect into `out`, whose first row is the rectangle's; `field`
-// has room for it and its border. Returns their pixels.
-uint64_t GatherRectangle(const GatherJob& job, Field* field, uint8_t* out, size_t out_stride);
+// What is gathered into, from the first pixel of the block's LayerFrame on: codes at layer 0,
+// samples of kLayerBits at the others.
+struct Gathered {
+  uint8_t* codes;
+  int16_t* samples;
+  size_t stride;  // from row to row
+};
+
+// Gathers the cells of a block that are to be; `field` has room for its LayerFrame and a border of
+// kMaxGather + 1 pixels. Returns their pixels in the picture.
+uint64_t GatherCells(const GatherJob& job, Field* field, const Gathered& out);
 
 }  // namespace starfocus
 

@@ -75,20 +75,6 @@ struct CellGrid {
   }
 };
 
-// Cells of a stripe that are gathered instead of refocused by views, where they belong to a block
-// at layer 0.
-struct GatherMap {
-  uint8_t* cells = nullptr;
-  int32_t columns = 0;
-  int32_t first_row = 0;  // of the cells of the picture
-
-  // The cell that holds pixel (x, y) of the picture.
-  uint8_t& At(int32_t x, int32_t y) const {
-    return cells[static_cast<size_t>(y / kCellSize - first_row) * static_cast<size_t>(columns) +
-                 static_cast<size_t>(x / kCellSize)];
-  }
-};
-
 // Adds what line scans meet in a cell.
 void AddCell(const Cell& cell, Content (*sum)[2]);
 
@@ -99,6 +85,9 @@ void MeasureCells(const simd::Kernels& kernels, const Window& window, const Blur
 // Pixels that a block refocused at layer L renders beyond its sides, because upsampling reads
 // them, in pixels of the picture.
 inline constexpr int16_t kLayerMargin[3] = {0, 4, 12};
+
+// The same in pixels of the layer.
+constexpr int32_t LayerMargin(int32_t layer) { return kLayerMargin[layer] >> layer; }
 
 // What a block knows: radii of the pixels inside and (but for r_min) of those that splat into it,
 // and for each layer the border beyond which no pixel splats into the block and its margin.

@@ -8,7 +8,8 @@ namespace {
 
 // Stores a cell as the kernels read it. A cell `outside` the picture repeats its edge, whose pixels
 // may lie anywhere inside the cell.
-void StorePlanes(const Cell& cell, bool outside, size_t plane, int16_t* out) {
+void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t plane,
+                 int16_t* out) {
   const auto reach = static_cast<int16_t>(ReachOf(cell.r_max));
   for (size_t side = 0; side < 4; ++side) {
     const auto beyond = static_cast<int16_t>(cell.Reach(side));
@@ -16,6 +17,8 @@ void StorePlanes(const Cell& cell, bool outside, size_t plane, int16_t* out) {
     out[(simd::kInsideLeft + side) * plane] = outside ? int16_t{kCellSize} : cell.inside[side];
   }
   out[simd::kReachPlane * plane] = reach;
+  out[simd::kNearPlane * plane] =
+      static_cast<int16_t>(ReachOf(scale.RadiusAbove(Abs(cell.high - scale.focus))));
   out[simd::kRadiusPlane * plane] = static_cast<int16_t>(cell.r_max);
   out[simd::kEdgePlane * plane] = static_cast<int16_t>(cell.r_edge);
   out[simd::kLowPlane * plane] = cell.low;
@@ -33,8 +36,8 @@ bool IsSmooth(const BlurScale& scale, int32_t low, int32_t high, int32_t widest)
 
 }  // namespace
 
-Surroundings LoadSurroundings(const CellGrid& grid, const Rect& cells, int32_t around,
-                              int16_t* samples) {
+Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, const Rect& cells,
+                              int32_t around, int16_t* samples) {
   static_assert(kCellSize == simd::kCellPixels && int{kLeft} == int{simd::kReachLeft} &&
                     int{kBottom} == int{simd::kReachBottom},
                 "sides of cells are the kernels'");
@@ -45,7 +48,7 @@ Surroundings LoadSurroundings(const CellGrid& grid, const Rect& cells, int32_t a
     const int32_t row = Clamp(y, 0, grid.rows - 1);
     for (int32_t x = cells.x - around; x < cells.x + cells.width + around; ++x) {
       const int32_t column = Clamp(x, 0, grid.columns - 1);
-      StorePlanes(*grid.At(column, row), column != x || row != y, plane, out++);
+      StorePlanes(*grid.At(column, row), scale, column != x || row != y, plane, out++);
     }
   }
   std::memset(samples + simd::kCellPlanes * plane, 0, 2 * simd::kSliceLanes * sizeof(*samples));

@@ -32,13 +32,15 @@ constexpr size_t SurroundingSamples(int32_t side, int32_t around) {
 }
 
 // Cells of the rectangle may lie outside the picture; those of its rows that are inside, and the
-// ones around, must be stored. `samples`: SurroundingSamples.
-Surroundings LoadSurroundings(const CellGrid& grid, const Rect& cells, int32_t around,
-                              int16_t* samples);
+// ones around, must be stored. `scale` is what they were measured with. `samples`:
+// SurroundingSamples.
+Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, const Rect& cells,
+                              int32_t around, int16_t* samples);
 
-// A cell is smooth when it can be gathered (lib/gather.h): one surface is all that lies within
-// reach of its pixels or reaches them, and the blur there, nearer than the focus counted as
-// negative, differs by at most this, kDisparityBits. Where most of that is within one cell, it is
+// A cell is smooth when it can be gathered (lib/filter/gather.h): one surface is all that lies
+// within reach of its pixels, or reaches them from nearer by, and the blur there, nearer than the
+// focus counted as negative, differs by at most this, kDisparityBits. What lies farther may reach
+// them, too: in no view does it show before the surface. Where most of that is within one cell, it is
 // a step: then by no more than half the largest blur or kSharpSmoothRange, since the kernel of
 // the middle may be sharp where one side is not.
 inline constexpr int32_t kSmoothRange = (3 << kDisparityBits) / 2;

@@ -8,9 +8,6 @@ namespace {
 
 constexpr double kRadiusOne = 1 << kDisparityBits;
 
-// Pixels of a layer that upsampling to the picture reads beyond a block.
-constexpr int32_t LayerMargin(int32_t layer) { return kLayerMargin[layer] >> layer; }
-
 int32_t CeilShift(int32_t value, int32_t layer) { return (value + (1 << layer) - 1) >> layer; }
 
 // A border of a block to one of its rendered rectangle, at the layer: `beyond` pixels of the
@@ -38,7 +35,7 @@ class Partition {
     // The cells are those of whole smallest blocks, which may hang over the picture's edges.
     const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(rules_.width - x),
                          CellsWithin(rules_.height - y)};
-    const Surroundings surroundings = LoadSurroundings(cells, inside, around, scratch_.cells);
+    const Surroundings surroundings = LoadSurroundings(cells, rules_.scale, inside, around, scratch_.cells);
     FindGathered(cells, surroundings);
     for (int level = 0; level <= levels_; ++level) {
       const int32_t count = side_ >> level;
@@ -73,8 +70,9 @@ class Partition {
   void MeasureNode(int level, int32_t column, int32_t row, const CellGrid& cells,
                    const Surroundings& surroundings) {
     PartitionNode& node = Node(level, column, row);
-    node.cells = node.gathered = 0;
-    node.gather = 0;
+    node.cells = 0;
+    for (int32_t layer = 0; layer < SF_LAYERS; ++layer) node.gathered[layer] = 0;
+    for (int32_t layer = 0; layer < SF_LAYERS; ++layer) node.gather[layer] = 0;
     if (level == 0) {
       MeasureUnit(column, row, cells, surroundings, &node);
       return;
@@ -85,9 +83,12 @@ class Partition {
       const bool inside = Inside(level - 1, cx, cy);
       children[child] = inside ? &Node(level - 1, cx, cy).stats : nullptr;
       if (!inside) continue;
-      node.cells += Node(level - 1, cx, cy).cells;
-      node.gathered += Node(level - 1, cx, cy).gathered;
-      node.gather += Node(level - 1, cx, cy).gather;
+      const PartitionNode& part = Node(level - 1, cx, cy);
+      node.cells += part.cells;
+      for (int32_t layer = 0; layer < SF_LAYERS; ++layer) {
+        node.gathered[layer] += part.gathered[layer];
+        node.gather[layer] += part.gather[layer];
+      }
     }
     node.stats = MergeBlocks(children, NodeSide(level - 1));
   }
@@ -105,10 +106,18 @@ class Partition {
     for (int32_t y = inside.row; y < bottom; ++y) {
       if (rules_.gathers) FindSmooth(kernels_, inside, rules_.scale, y, smooth);
       for (int32_t x = inside.column; x < right; ++x) {
-        const bool small = cells.At(x, y)->r_max <= kMaxGather << kDisparityBits;
-        gathered_.At(x * kCellSize, y * kCellSize) = small && smooth[x - inside.column] ? 1 : 0;
+        const bool is_smooth = smooth[x - inside.column];
+        gathered_.At(x * kCellSize, y * kCellSize) =
+            is_smooth ? FirstLayer(*cells.At(x, y)) : kByViews;
       }
     }
+  }
+
+  // Returns the lowest layer at which a kernel is large enough for the cell.
+  static uint8_t FirstLayer(const Cell& cell) {
+    uint8_t layer = 0;
+    while (layer < kByViews && cell.r_max > kMaxGather << (kDisparityBits + layer)) ++layer;
+    return layer;
   }
 
   void MeasureUnit(int32_t column, int32_t row, const CellGrid& cells,
@@ -118,9 +127,13 @@ class Partition {
     for (int32_t y = cell_y; y < Min(cell_y + 2, cells.rows); ++y) {
       for (int32_t x = cell_x; x < Min(cell_x + 2, cells.columns); ++x) {
         ++node->cells;
-        if (gathered_.At(x * kCellSize, y * kCellSize) == 0) continue;
-        ++node->gathered;
-        node->gather += PredictGather(rules_.timing, kCellSize * kCellSize, cells.At(x, y)->r_max);
+        const int32_t first = gathered_.At(x * kCellSize, y * kCellSize);
+        for (int32_t layer = first; layer < SF_LAYERS; ++layer) {
+          ++node->gathered[layer];
+          node->gather[layer] +=
+              PredictGather(rules_.timing, static_cast<uint64_t>(kCellSize * kCellSize) >> 2 * layer,
+                            cells.At(x, y)->r_max >> layer);
+        }
       }
     }
   }
@@ -137,18 +150,35 @@ class Partition {
     Block& block = node.block;
     block.rect = RectOf(level, column, row);
     ChooseParameters(node.stats, NodeSide(level), &block);
-    const bool views = block.n > 0, whole = node.gathered == node.cells;
-    if (views && node.gathered > 0 && (block.layer == 0 || whole)) {
-      const auto cells = static_cast<uint64_t>(node.cells);
-      const auto others = static_cast<uint64_t>(node.cells - node.gathered);
-      block.cost = node.gather + block.cost * others / cells;
-      block.layer = 0;
-      block.gathers = true;
-    }
+    if (block.n > 0) PlanGathering(node, &block);
     if (NodeSide(level) > rules_.largest_node) block.cost = UINT64_MAX;
     uint64_t best = block.cost;
     if (level > 0) best = Smaller(best, ChildrenCost(level, column, row));
     node.best = best;
+  }
+
+  // Gathers the cells that can be, at the layer of the block's views. Where a whole block can be at
+  // layer 0, it is: that is closer to the truth and takes little more time, if any
+  // (docs/constants.md).
+  void PlanGathering(const PartitionNode& node, Block* block) const {
+    const auto cells = static_cast<uint64_t>(node.cells);
+    const auto gathered = static_cast<uint64_t>(node.gathered[block->layer]);
+    if (gathered > 0) {
+      const uint64_t upsample = rules_.timing.upsample * UpsampledPixels(*block);
+      const uint64_t views = block->cost - upsample;
+      block->cost = node.gather[block->layer] + upsample + views * (cells - gathered) / cells;
+      block->gathers = true;
+    }
+    if (block->layer > 0 && node.gathered[0] == node.cells) {
+      block->cost = node.gather[0];
+      block->layer = 0;
+      block->gathers = true;
+    }
+  }
+
+  static uint64_t UpsampledPixels(const Block& block) {
+    if (block.layer == 0) return 0;
+    return static_cast<uint64_t>(block.rect.width) * static_cast<uint64_t>(block.rect.height);
   }
 
   static uint64_t Smaller(uint64_t a, uint64_t b) { return b < a ? b : a; }
@@ -162,10 +192,10 @@ class Partition {
     return sum;
   }
 
-  int32_t Views(const BlockStats& stats, int32_t layer) const {
-    const double r_max = static_cast<double>(stats.r_max) / (kRadiusOne * (1 << layer));
+  int32_t Views(int32_t r_max, int32_t layer) const {
+    const double radius = static_cast<double>(r_max) / (kRadiusOne * (1 << layer));
     const int32_t n =
-        rules_.subapertures ? ViewsBySubaperture(r_max, rules_.demand) : ViewsByPaper(r_max);
+        rules_.subapertures ? ViewsBySubaperture(radius, rules_.demand) : ViewsByPaper(radius);
     return ScaleViews(n, rules_.n_scale);
   }
 
@@ -181,37 +211,33 @@ class Partition {
     block->gathers = false;
     block->has_highlights = rules_.has_highlights;
     block->layer = layer;
-    block->n = Min(Views(stats, layer), rules_.max_n);
-    const int32_t margin = LayerMargin(layer);
-    block->rendered = {(rect.x >> layer) - margin, (rect.y >> layer) - margin,
-                       CeilShift(rect.width, layer) + 2 * margin,
-                       CeilShift(rect.height, layer) + 2 * margin};
+    block->n = Min(Views(stats.r_max, layer), rules_.max_n);
+    block->rendered = LayerFrame(rect, layer);
     const Border& border = stats.border[layer];
     block->border = {
         LayerBorder(border.left, 0, layer), LayerBorder(border.right, side - rect.width, layer),
         LayerBorder(border.top, 0, layer), LayerBorder(border.bottom, side - rect.height, layer)};
-    const uint64_t upsampled =
-        layer == 0 ? 0 : static_cast<uint64_t>(rect.width) * static_cast<uint64_t>(rect.height);
-    block->cost = PredictTime(rules_.timing,
-                              MeasureWork(block->rendered, block->border, rules_.views[block->n],
-                                          rules_.subapertures, upsampled, stats.content, layer));
+    block->cost =
+        PredictTime(rules_.timing, MeasureWork(block->rendered, block->border,
+                                               rules_.views[block->n], rules_.subapertures,
+                                               UpsampledPixels(*block), stats.content, layer));
   }
 
   // Leaves to views the least rectangle around the cells that are not gathered.
   void Shrink(Block* block) const {
+    const BlockCells cells = {&gathered_, block->rect, block->layer};
     const Rect& rect = block->rect;
-    int32_t left = rect.x + rect.width, top = rect.y + rect.height, right = 0, bottom = 0;
+    int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
     for (int32_t y = rect.y; y < rect.y + rect.height; y += kCellSize) {
       for (int32_t x = rect.x; x < rect.x + rect.width; x += kCellSize) {
-        if (gathered_.At(x, y) != 0) continue;
-        left = Min(left, x);
-        right = Max(right, x + kCellSize);
-        top = Min(top, y);
-        bottom = Max(bottom, y + kCellSize);
+        if (cells.IsGathered(x, y)) continue;
+        const Rect pixels = cells.PixelsOf(x, y);
+        left = Min(left, pixels.x);
+        top = Min(top, pixels.y);
+        right = Max(right, pixels.x + pixels.width);
+        bottom = Max(bottom, pixels.y + pixels.height);
       }
     }
-    right = Min(right, rules_.width);
-    bottom = Min(bottom, rules_.height);
     block->n = 0;
     block->rendered = {};
     block->border = {};
@@ -222,25 +248,29 @@ class Partition {
 
   // Chooses N and the border by the units that hold those cells.
   void MeasureRendered(Block* block) const {
-    const Rect& rect = block->rendered;
-    const int32_t right = rect.x + rect.width, bottom = rect.y + rect.height;
-    BlockStats all = {};
-    Border& border = all.border[0];
-    for (int32_t y = rect.y & -kSmallestBlock; y < bottom; y += kSmallestBlock) {
-      for (int32_t x = rect.x & -kSmallestBlock; x < right; x += kSmallestBlock) {
+    const int32_t layer = block->layer, scale = 1 << layer;
+    const Rect& rect = block->rect;
+    const int32_t left = block->rendered.x * scale, top = block->rendered.y * scale;
+    const int32_t right = left + block->rendered.width * scale;
+    const int32_t bottom = top + block->rendered.height * scale;
+    int32_t r_max = 0;
+    Border border = {0, 0, 0, 0};  // in pixels of the picture
+    for (int32_t y = rect.y; y < rect.y + rect.height; y += kSmallestBlock) {
+      for (int32_t x = rect.x; x < rect.x + rect.width; x += kSmallestBlock) {
         const PartitionNode& node = Node(0, (x - x_) / kSmallestBlock, (y - y_) / kSmallestBlock);
-        if (node.gathered == node.cells) continue;
-        const Border& part = node.stats.border[0];
-        all.r_max = Max(all.r_max, node.stats.r_max);
-        border.left = Max(border.left, part.left - (x - rect.x));
+        if (node.gathered[layer] == node.cells) continue;
+        const Border& part = node.stats.border[layer];
+        r_max = Max(r_max, node.stats.r_max);
+        border.left = Max(border.left, part.left - (x - left));
         border.right = Max(border.right, x + kSmallestBlock + part.right - right);
-        border.top = Max(border.top, part.top - (y - rect.y));
+        border.top = Max(border.top, part.top - (y - top));
         border.bottom = Max(border.bottom, y + kSmallestBlock + part.bottom - bottom);
       }
     }
-    block->n = Min(Views(all, 0), rules_.max_n);
-    block->border = {LayerBorder(border.left, 0, 0), LayerBorder(border.right, 0, 0),
-                     LayerBorder(border.top, 0, 0), LayerBorder(border.bottom, 0, 0)};
+    block->n = Min(Views(r_max, layer), rules_.max_n);
+    const auto beyond = [&](int32_t pixels) { return CeilShift(pixels, layer) + 1; };
+    block->border = {beyond(border.left), beyond(border.right), beyond(border.top),
+                     beyond(border.bottom)};
   }
 
   void EmitNode(int level, int32_t column, int32_t row, Block* blocks) {

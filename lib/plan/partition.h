@@ -7,6 +7,7 @@
 
 #include "lib/base/rules.h"
 #include "lib/plan/block_stats.h"
+#include "lib/plan/gathered_cells.h"
 #include "lib/plan/neighbourhood.h"
 #include "lib/plan/timing.h"
 
@@ -17,8 +18,8 @@ inline constexpr int32_t kSmallestBlock = 16;
 // A block to refocus: a rectangle of the picture with its parameters.
 struct Block {
   Rect rect;  // in pixels of the picture, clipped to it
-  // Of views, at the layer: with the margin that upsampling reads; at layer 0 around the cells that
-  // are not gathered, and empty when all are.
+  // Of views, at the layer: LayerFrame, or what of it holds the cells that are not gathered, and
+  // empty when all are.
   Rect rendered;
   Border border;        // of `rendered`, at the layer
   int32_t layer;        // L
@@ -49,8 +50,9 @@ struct PartitionNode {
   BlockStats stats;
   Block block;
   uint64_t best;
-  int32_t cells, gathered;  // inside the picture, and those of them that could be
-  uint64_t gather;          // predicted time of that
+  int32_t cells;                // inside the picture
+  int32_t gathered[SF_LAYERS];  // those of them that could be, at each layer
+  uint64_t gather[SF_LAYERS];   // predicted time of that
 };
 
 // Blocks a largest block can split into.

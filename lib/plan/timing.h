@@ -39,8 +39,8 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& 
 // Picoseconds; exact in integers, so that a partition is the same on every machine.
 uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);
 
-// The same for gathering `pixels` of the picture, which is as much a filter of the picture as
-// upsampling, so that this has no coefficient of its own; for pixels that are blurred by `radius`
+// The same for gathering `pixels` of a layer, which is as much a filter as upsampling, so that this
+// has no coefficient of its own; for pixels that are blurred by `radius` pixels of that layer
 // (kDisparityBits) at most.
 uint64_t PredictGather(const sf_timing& timing, uint64_t pixels, int32_t radius);
 

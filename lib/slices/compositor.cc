@@ -14,7 +14,7 @@ constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns 
 // A rectangle's slices and where its picture goes: what its sections share.
 struct Rectangle {
   const RenderJob* job;
-  const GatherMap* gathered;  // null: nothing is
+  const BlockCells* gathered;  // null: nothing is
   const SliceStack* stack;
   CompositorScratch* scratch;
   uint32_t* accumulators;
@@ -75,14 +75,9 @@ class Section {
 
   bool IsGathered(const SectionPart& part) const {
     if (all_.gathered == nullptr) return false;
-    const int32_t left = job_.rect.x + rect_.x, top = job_.rect.y + rect_.y + part.y;
-    const int32_t right = left + Min(part.x + kChunk, rect_.width);
-    for (int32_t y = top; y < top + part.rows; y += kCellSize) {
-      for (int32_t x = left + part.x; x < right; x += kCellSize) {
-        if (all_.gathered->At(x, y) == 0) return false;
-      }
-    }
-    return true;
+    return all_.gathered->AreGathered({job_.rect.x + rect_.x + part.x,
+                                       job_.rect.y + rect_.y + part.y,
+                                       Min(kChunk, rect_.width - part.x), part.rows});
   }
 
   // Finds what each part of the section sees of the slices. Returns their pixels.
@@ -275,7 +270,7 @@ Rect ChooseSection(const SliceStack& stack, const Rect& rect, size_t pool_bytes)
 }  // namespace
 
 uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
-                            const GatherMap* gathered, CompositorScratch* scratch,
+                            const BlockCells* gathered, CompositorScratch* scratch,
                             uint32_t* accumulators) {
   SliceStack stack;
   stack.grid = job.grid;

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "lib/input/render_job.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/gathered_cells.h"
 #include "lib/slices/depth_slices.h"
 #include "lib/slices/hidden_fill.h"
 #include "lib/slices/slice_plane.h"
@@ -54,11 +54,11 @@ constexpr size_t SectionParts(size_t side) {
 inline constexpr int kCompositeBits = kMaxLightBits + kLightBits;
 
 // Sums the weighted views over job.rect into `accumulators`, rows of 3 * width values with
-// kCompositeBits fractional bits, by slices cut as `rule` and `limits` say. Cells that are
-// `gathered` (null: none; only at layer 0) are left out. Returns the pixels rendered in each view,
+// kCompositeBits fractional bits, by slices cut as `rule` and `limits` say. What
+// is `gathered` (null: nothing) is left out. Returns the pixels rendered in each view,
 // over all slices.
 uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
-                            const GatherMap* gathered, CompositorScratch* scratch,
+                            const BlockCells* gathered, CompositorScratch* scratch,
                             uint32_t* accumulators);
 
 }  // namespace starfocus

@@ -8,6 +8,19 @@
 namespace conformance {
 namespace {
 
+// Finds what shows a cell at the layer: at the block's sides with the margin beyond them.
+void AtLayer(const starfocus::Block& block, reference::GatheredCell* cell) {
+  const int scale = 1 << block.layer, margin = block.layer == 0 ? 0 : block.layer + 1;
+  const starfocus::Rect& rect = block.rect;
+  const auto find = [&](int from, int size, int first, int all, int* at, int* at_size) {
+    *at = from / scale - (from == first ? margin : 0);
+    const int end = from + size;
+    *at_size = (end + scale - 1) / scale + (end == first + all ? margin : 0) - *at;
+  };
+  find(cell->x, cell->width, rect.x, rect.width, &cell->at_x, &cell->at_width);
+  find(cell->y, cell->height, rect.y, rect.height, &cell->at_y, &cell->at_height);
+}
+
 std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState& engine,
                                                    const starfocus::Block& block) {
   std::vector<reference::GatheredCell> cells;
@@ -16,8 +29,9 @@ std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState&
   const int right = block.rect.x + block.rect.width, bottom = block.rect.y + block.rect.height;
   for (int y = block.rect.y; y < bottom; y += kSide) {
     for (int x = block.rect.x; x < right; x += kSide) {
-      if (engine.stripe.plan.gathered.At(x, y) == 0) continue;
-      cells.push_back({x, y, std::min(kSide, right - x), std::min(kSide, bottom - y)});
+      if (engine.stripe.plan.gathered.At(x, y) > block.layer) continue;
+      cells.push_back({x, y, std::min(kSide, right - x), std::min(kSide, bottom - y), 0, 0, 0, 0});
+      AtLayer(block, &cells.back());
     }
   }
   return cells;

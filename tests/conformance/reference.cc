@@ -300,8 +300,9 @@ Result Refocus(const test::Scene& scene, const sf_params& params, const sf_confi
 
 namespace {
 
-// Every pixel of the cell, from what lies around it.
-Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& lens) {
+// Every pixel of the layer that shows the cell, from what lies around it.
+Picture Gather(const LightField& field, const Picture& of_layer, int layer,
+               const GatheredCell& cell, const Lens& lens) {
   const Picture& picture = field.at({0, 0});
   int low = INT32_MAX, high = INT32_MIN;
   for (int y = 0; y < 8; ++y) {
@@ -313,15 +314,15 @@ Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& le
     }
   }
   const int distance = std::abs((low + high) / 2 - lens.focus);
-  const BlurKernel& kernel =
-      BlurKernelOf(NearestRadius(int(std::floor(lens.radius * distance))), lens.opening);
-  const Rectangle rectangle = {cell.x,      cell.y,      cell.width,  cell.height,
-                               kernel.size, kernel.size, kernel.size, kernel.size};
-  Picture extended = ExtendedRectangle(picture, rectangle);
-  LookBeyond(field, picture, 0, rectangle, &extended);
-  Picture to(cell.width, cell.height);
-  for (int y = 0; y < cell.height; ++y) {
-    for (int x = 0; x < cell.width; ++x) {
+  const int radius = int(std::floor(lens.radius * distance)) >> layer;
+  const BlurKernel& kernel = BlurKernelOf(NearestRadius(radius), lens.opening);
+  const Rectangle rectangle = {cell.at_x,   cell.at_y,   cell.at_width, cell.at_height,
+                               kernel.size, kernel.size, kernel.size,   kernel.size};
+  Picture extended = ExtendedRectangle(of_layer, rectangle);
+  LookBeyond(field, picture, layer, rectangle, &extended);
+  Picture to(cell.at_width, cell.at_height);
+  for (int y = 0; y < cell.at_height; ++y) {
+    for (int x = 0; x < cell.at_width; ++x) {
       Colour& sum = to.colours[to.At(x, y)];
       for (int m = -kernel.size; m <= kernel.size; ++m) {
         for (int n = -kernel.size; n <= kernel.size; ++n) {
@@ -333,6 +334,15 @@ Picture Gather(const LightField& field, const GatheredCell& cell, const Lens& le
     }
   }
   return to;
+}
+
+// Copies `from` to (x0, y0).
+void Paste(const Picture& from, int x0, int y0, Picture* to) {
+  for (int y = 0; y < from.height; ++y) {
+    for (int x = 0; x < from.width; ++x) {
+      to->colours[to->At(x0 + x, y0 + y)] = from.colours[from.At(x, y)];
+    }
+  }
 }
 
 // Views, and cells that are gathered, of the blocks; with `excess` of those alone that may show
@@ -353,17 +363,25 @@ void RefocusAll(const LightField& field, const sf_params& params, const sf_confi
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
         block.right,      block.top,        block.bottom};
+    // What upsampling reads: the block at its layer, and as much around it as `Up` takes.
+    const int scale = 1 << block.layer, margin = block.layer == 0 ? 0 : block.layer + 1;
+    Block framed = block;
+    framed.rendered_x = block.x / scale - margin;
+    framed.rendered_y = block.y / scale - margin;
+    Picture frame((block.width + scale - 1) / scale + 2 * margin,
+                  (block.height + scale - 1) / scale + 2 * margin);
+    const Picture& layer = layers[size_t(block.layer)];
     if (rectangle.width > 0) {
-      const Picture& layer = layers[size_t(block.layer)];
       const Picture rendered = by_subaperture
                                    ? CompositeRectangle(field, layer, lens, rectangle, slicing)
                                    : RefocusRectangle(field, layer, lens, rectangle);
-      Put(Finished(block, rendered), block.layer == 0 ? rectangle.x : block.x,
-          block.layer == 0 ? rectangle.y : block.y, centre.width, result);
+      Paste(rendered, rectangle.x - framed.rendered_x, rectangle.y - framed.rendered_y, &frame);
     }
     for (const GatheredCell& cell : block.gathered) {
-      Put(Gather(field, cell, lens), cell.x, cell.y, centre.width, result);
+      Paste(Gather(field, layer, block.layer, cell, lens), cell.at_x - framed.rendered_x,
+            cell.at_y - framed.rendered_y, &frame);
     }
+    Put(Finished(framed, frame), block.x, block.y, centre.width, result);
   }
 }
 

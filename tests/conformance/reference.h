@@ -31,7 +31,8 @@ Result Refocus(const test::Scene& scene, const sf_params& params, const sf_confi
 
 // A cell of the picture that is gathered: blurred by the ideal kernel of its middle disparity.
 struct GatheredCell {
-  int x, y, width, height;
+  int x, y, width, height;                  // in the picture
+  int at_x, at_y, at_width, at_height;      // what shows it at the block's layer
 };
 
 // A block of the block mode and what it is rendered from.
@@ -40,7 +41,7 @@ struct Block {
   int layer, n;
   int rendered_x, rendered_y, rendered_width, rendered_height;  // at the layer, margins included
   int left, right, top, bottom;                                 // border at the layer
-  std::vector<GatheredCell> gathered;                           // after the views
+  std::vector<GatheredCell> gathered;                           // after the views, at the layer
 };
 
 // Block mode, or the benchmark's blocks, with a given partition of the picture and without

@@ -56,14 +56,23 @@ struct Cells {
     return int(std::ceil((cell.r_max + kOne / 2) / double(kOne)));
   }
 
+  // The same of its nearest pixels.
+  int NearReach(const Cell& cell) const {
+    const double radius = std::ceil(double(scale.step) * std::abs(cell.high - scale.focus) /
+                                    double(int64_t{1} << starfocus::kStepBits));
+    return int(std::ceil((radius + kOne / 2) / double(kOne)));
+  }
+
   // Over all cells of the picture.
   bool IsSmooth(int column, int row) const {
+    const Cell& own = *grid.At(column, row);
     int low = INT32_MAX, high = INT32_MIN, widest = 0;
     for (int y = 0; y < grid.rows; ++y) {
       for (int x = 0; x < grid.columns; ++x) {
         const Cell& cell = *grid.At(x, y);
         const int between = std::max(std::abs(x - column), std::abs(y - row)) - 1;
-        if (between * kCellSize >= std::max(Reach(cell), Reach(*grid.At(column, row)))) continue;
+        const int nearer = cell.high > own.high ? NearReach(cell) : 0;
+        if (between * kCellSize >= std::max(nearer, Reach(own))) continue;
         if (cell.r_edge > 0) return false;
         widest = std::max(widest, cell.high - cell.low);
         low = std::min(low, int{cell.low});
@@ -142,14 +151,14 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode, up to the lar
 TEST_CASE(
     "gather: not beyond the largest radius, in focus, in frame modes or by the paper's rule") {
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
-  const sf_config config = test::ConfigFor(scene, 16);
+  const sf_config config = test::ConfigFor(scene, 49);
   const auto gathered = [&](double focus, sf_mode mode, sf_rule rule) {
     sf_params params = test::Params(focus, 1, mode);
     params.rule = rule;
     return RefocusScene(scene, config, params).report.gathered_pixels;
   };
-  CHECK(gathered(12.1, SF_MODE_BLOCK, SF_RULE_SUBAPERTURE) == 0);
-  CHECK(gathered(12, SF_MODE_BLOCK, SF_RULE_DEFAULT) == 70 * 45);
+  CHECK(gathered(48.1, SF_MODE_BLOCK, SF_RULE_SUBAPERTURE) == 0);
+  CHECK(gathered(48, SF_MODE_BLOCK, SF_RULE_DEFAULT) == 70 * 45);
   CHECK(gathered(0.5, SF_MODE_BLOCK, SF_RULE_SUBAPERTURE) == 0);
   CHECK(gathered(3, SF_MODE_BLOCK, SF_RULE_PAPER) == 0);
   CHECK(gathered(3, SF_MODE_FRAME, SF_RULE_SUBAPERTURE) == 0);

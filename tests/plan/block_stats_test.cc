@@ -294,7 +294,7 @@ void CheckMap(Map map, int largest_block) {
         for (int column = 0; column < columns; ++column) {
           if (level == 0) {
             stats[0].push_back(
-                test::MeasureBlock(cells.grid, 2 * column, 2 * row + y / kCellSize, around));
+                test::MeasureBlock(cells.grid, map.scale, 2 * column, 2 * row + y / kCellSize, around));
           } else {
             const BlockStats* children[4];
             for (int child = 0; child < 4; ++child) {
@@ -340,7 +340,7 @@ TEST_CASE("cells: borders of one blur are that blur, within a pixel for rounding
     std::fill(map.disparity.begin(), map.disparity.end(), Fixed(r));
     const int around = starfocus::GetReach(r).cells;
     const Cells cells(map, 0, 64, around);
-    const BlockStats stats = test::MeasureBlock(cells.grid, 2, 2, around);
+    const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, 2, 2, around);
     CAPTURE(r);
     CHECK(stats.r_min == int(r * kDisparityOne));
     CHECK(stats.r_max == int(r * kDisparityOne));
@@ -379,7 +379,7 @@ TEST_CASE("cells: one pixel out of focus widens the borders of the blocks it rea
     Map map = EmptyMap(96, 96, 0, 1);
     map.At(24 + k, 40) = Fixed(5);
     const Cells cells(map, 0, 96, 3);
-    const BlockStats stats = test::MeasureBlock(cells.grid, 4, 4, 3);
+    const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, 4, 4, 3);
     CAPTURE(k);
     const int distance = 8 - k;
     const int needed = distance <= 5 ? distance : 0;
@@ -392,7 +392,7 @@ TEST_CASE("cells: one pixel out of focus widens the borders of the blocks it rea
     CHECK(stats.r_min == 0);
     // Farther blocks neither see it nor count its radius.
     for (const int column : {7, 8}) {
-      const BlockStats far = test::MeasureBlock(cells.grid, column, 4, 3);
+      const BlockStats far = test::MeasureBlock(cells.grid, map.scale, column, 4, 3);
       CHECK(far.border[0].left <= 1);
       CHECK(far.r_max == 0);
     }
@@ -413,8 +413,8 @@ TEST_CASE("cells: a silhouette counts for the cell behind it too") {
     const Cells cells(map, 0, 96, 4);
     // Blocks at 48, 32 and 16: reached from 8 pixels away, inside, and from 9.
     for (const int column : {6, 4, 2}) {
-      const BlockStats stats = transposed ? test::MeasureBlock(cells.grid, 4, column, 4)
-                                          : test::MeasureBlock(cells.grid, column, 4, 4);
+      const BlockStats stats = transposed ? test::MeasureBlock(cells.grid, map.scale, 4, column, 4)
+                                          : test::MeasureBlock(cells.grid, map.scale, column, 4, 4);
       CAPTURE(transposed);
       CAPTURE(column);
       CHECK(stats.r_edge == 9 * kDisparityOne);
@@ -431,8 +431,8 @@ TEST_CASE("cells: the engine's largest border and sight cover what the analysis 
     const Cells cells(map, 0, 280, reach.cells);
     const Cells wide(map, 0, 280, reach.cells + 3);
     for (int column = 14; column < 20; ++column) {
-      const BlockStats stats = test::MeasureBlock(cells.grid, column, 16, reach.cells);
-      const BlockStats wider = test::MeasureBlock(wide.grid, column, 16, reach.cells + 3);
+      const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, column, 16, reach.cells);
+      const BlockStats wider = test::MeasureBlock(wide.grid, map.scale, column, 16, reach.cells + 3);
       CAPTURE(r);
       CHECK(stats.r_max == wider.r_max);
       for (int layer = 0; layer < 3; ++layer) {

@@ -36,10 +36,11 @@ inline starfocus::CellGrid MeasureCells(const std::vector<int16_t>& disparity, i
 // The surroundings of a block of 2 x 2 cells, in memory of their own.
 class BlockSurroundings {
  public:
-  BlockSurroundings(const starfocus::CellGrid& grid, int column, int row, int around)
+  BlockSurroundings(const starfocus::CellGrid& grid, const starfocus::BlurScale& scale, int column,
+                    int row, int around)
       : samples_(starfocus::SurroundingSamples(2, around), int16_t{0x5A5A}),
         surroundings_(
-            starfocus::LoadSurroundings(grid, {column, row, 2, 2}, around, samples_.data())) {}
+            starfocus::LoadSurroundings(grid, scale, {column, row, 2, 2}, around, samples_.data())) {}
   const starfocus::Surroundings& operator*() const { return surroundings_; }
 
  private:
@@ -47,17 +48,18 @@ class BlockSurroundings {
   starfocus::Surroundings surroundings_;
 };
 
-inline starfocus::BlockStats MeasureBlock(const starfocus::CellGrid& grid, int column, int row,
+inline starfocus::BlockStats MeasureBlock(const starfocus::CellGrid& grid,
+                                          const starfocus::BlurScale& scale, int column, int row,
                                           int around) {
   return starfocus::MeasureBlock(starfocus::simd::BestKernels(), grid,
-                                 *BlockSurroundings(grid, column, row, around), column, row);
+                                 *BlockSurroundings(grid, scale, column, row, around), column, row);
 }
 
 inline bool IsSmooth(const starfocus::CellGrid& grid, const starfocus::BlurScale& scale, int column,
                      int row, int around) {
   bool smooth[starfocus::kMaxRowCells];
   starfocus::FindSmooth(starfocus::simd::BestKernels(),
-                        *BlockSurroundings(grid, column, row, around), scale, row, smooth);
+                        *BlockSurroundings(grid, scale, column, row, around), scale, row, smooth);
   return smooth[0];
 }
 

@@ -80,7 +80,8 @@ void CheckBlocks(const Plan& plan, int x, int y, const std::vector<Block>& block
     CHECK(block.gathers == planned.gathers);
     for (int row = rect.y; row < rect.y + rect.height && block.gathers; row += kCellSize) {
       for (int column = rect.x; column < rect.x + rect.width; column += kCellSize) {
-        CHECK((plan.gathered.At(column, row) != 0) == plan.MayGather(column, row));
+        const bool gathered = plan.gathered.At(column, row) <= block.layer;
+        CHECK(gathered == plan.MayGather(column, row, block.layer));
       }
     }
   }
@@ -203,16 +204,16 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
         CAPTURE(subapertures);
         plan.rules.subapertures = plan.rules.gathers = subapertures;
         for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
-          const bool gathered = subapertures && exact > 0.5 && exact <= 12;
+          const int layer =
+              std::min(LayerOf(subapertures, exact, false, plan.rules.demand), max_layer);
+          const bool gathered = subapertures && exact > 0.5 && exact <= 12 << layer;
           CHECK(block.gathers == gathered);
           if (gathered) {
-            CHECK(block.layer == 0);
+            CHECK(block.layer == (exact <= 12 ? 0 : layer));
             CHECK(block.n == 0);
             CHECK(block.rendered.width == 0);
             continue;
           }
-          const int layer =
-              std::min(LayerOf(subapertures, exact, false, plan.rules.demand), max_layer);
           CHECK(block.layer == layer);
           CHECK(block.n == ViewsOf(subapertures, exact / (1 << layer), plan.rules.demand));
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The case of the kernel of simd/disc.h.
+// Cases of the kernels of simd/disc.h.
 #include <algorithm>
 #include <cstdlib>
 
@@ -41,25 +41,52 @@ Disc MakeDisc(Draw* draw, KernelCall* call) {
   return {size, bits, call->Input("weights", weights)};
 }
 
+// Rows of a picture that a disc is applied to, with what lies around them.
+struct Filtered {
+  Disc disc;
+  size_t count, rows, stride, out_stride;
+  const int16_t* first;
+
+  Filtered(Draw* draw, KernelCall* call) : disc(MakeDisc(draw, call)) {
+    count = draw->Size(1, draw->Rarely(4) ? 400 : 60, 96);
+    rows = draw->Size(1, 4, kTimedSamples / 96);
+    const size_t around = size_t(disc.size), width = count + 6 * around;
+    stride = width + size_t(draw->Int(0, 4));
+    out_stride = count + size_t(draw->Int(0, 7));
+    const int16_t* in =
+        call->Input("in", Light((rows + 2 * around - 1) * stride + width, draw), kPadding);
+    for (size_t y = 0; y + 1 < rows + 2 * around; ++y) {
+      call->Ignore(in + y * stride + width, stride - width);
+    }
+    first = in + around * stride + 3 * around;
+  }
+
+  template <class Sample>
+  Sample* Output(KernelCall* call) const {
+    auto* out = call->Output<Sample>("out", rows * out_stride);
+    for (size_t y = 0; y < rows; ++y) call->Result(out + y * out_stride, count);
+    return out;
+  }
+};
+
 }  // namespace
 
 void FilterDisc(Draw* draw, KernelCall* call) {
-  const Disc disc = MakeDisc(draw, call);
-  const size_t count = draw->Size(1, draw->Rarely(4) ? 400 : 60, 96);
-  const size_t rows = draw->Size(1, 4, kTimedSamples / 96), around = size_t(disc.size);
-  const size_t width = count + 6 * around, stride = width + size_t(draw->Int(0, 4));
-  const size_t out_stride = count + size_t(draw->Int(0, 7));
-  const int16_t* in =
-      call->Input("in", Light((rows + 2 * around - 1) * stride + width, draw), kPadding);
-  for (size_t y = 0; y + 1 < rows + 2 * around; ++y) {
-    call->Ignore(in + y * stride + width, stride - width);
-  }
-  const int16_t* first = in + around * stride + 3 * around;
+  const Filtered in(draw, call);
   const auto encoding = AnyEncoding(draw, call);
-  auto* out = call->Output<uint8_t>("out", rows * out_stride);
-  for (size_t y = 0; y < rows; ++y) call->Result(out + y * out_stride, count);
+  auto* out = in.Output<uint8_t>(call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.FilterDisc(first, stride, disc, encoding, rows, count, out, out_stride);
+    kernels.FilterDisc(in.first, in.stride, in.disc, encoding, in.rows, in.count, out,
+                       in.out_stride);
+    return 0;
+  };
+}
+
+void FilterDiscLayer(Draw* draw, KernelCall* call) {
+  const Filtered in(draw, call);
+  auto* out = in.Output<int16_t>(call);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.FilterDiscLayer(in.first, in.stride, in.disc, in.rows, in.count, out, in.out_stride);
     return 0;
   };
 }

@@ -63,6 +63,10 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
   ReferenceKernels().FilterDisc(&rows[1][3], 9, {1, 4, ring}, {nullptr, nullptr}, 1, 1, disc, 9);
   CHECK(int(disc[0]) == (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9 + 8) / 16);
   CHECK(int(disc[1]) == 77);
+  int16_t sample[2] = {0, 77};
+  ReferenceKernels().FilterDiscLayer(&rows[1][3], 9, {1, 4, ring}, 1, 1, sample, 9);
+  CHECK(sample[0] == (64 * (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9) + 8) / 16);
+  CHECK(sample[1] == 77);
   const float disparity[4] = {0.0078125f, -0.0078125f, -500, 500};
   int16_t converted[4];
   CHECK(ReferenceKernels().ConvertDisparity(disparity, 4, -500, 500, converted));

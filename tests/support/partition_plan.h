@@ -91,11 +91,11 @@ struct Plan {
     return blocks;
   }
 
-  // Whether the cell at pixel (x, y) is one that need not be refocused by views.
-  bool MayGather(int x, int y) const {
+  // Whether the cell at pixel (x, y) is one that blocks of the layer need not refocus by views.
+  bool MayGather(int x, int y, int layer) const {
     const int column = x / kCellSize, row = y / kCellSize;
     return rules.gathers && test::IsSmooth(grid, rules.scale, column, row, around) &&
-           grid.At(column, row)->r_max <= 12 * int(kRadiusOne);
+           grid.At(column, row)->r_max <= (12 << layer) * int(kRadiusOne);
   }
 
   bool Inside(int x, int y) const { return x < rules.width && y < rules.height; }
@@ -103,7 +103,7 @@ struct Plan {
   // The statistics of any block, from its blocks of 16.
   BlockStats Stats(int x, int y, int side) const {
     if (side == kSmallestBlock) {
-      return test::MeasureBlock(grid, x / kCellSize, y / kCellSize, around);
+      return test::MeasureBlock(grid, rules.scale, x / kCellSize, y / kCellSize, around);
     }
     BlockStats stats[4];
     const BlockStats* children[4];
@@ -162,66 +162,88 @@ inline int ViewsOf(bool subapertures, double r_max, starfocus::Demand demand) {
 
 inline int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
 
-// Leaves to views what holds the cells that may not be gathered: their rectangle, and N and border
-// of the units of 16 that they lie in.
+// Leaves to views what holds the cells that may not be gathered: their rectangle at the layer, with
+// the margin around the block where they lie at its sides, and N and border of the units of 16 that
+// they lie in.
 inline void PlanRest(const Plan& plan, Block* block) {
   const Rect rect = block->rect;
-  int left = INT32_MAX, top = INT32_MAX, right = 0, bottom = 0, r_max = 0;
+  const int scale = 1 << block->layer, margin = kLayerMargin[block->layer];
+  const int end_x = rect.x + rect.width, end_y = rect.y + rect.height;
+  int left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN, r_max = 0;
   const auto for_each = [&](const auto& visit) {
-    for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
-      for (int x = rect.x; x < rect.x + rect.width; x += kCellSize) {
-        if (!plan.MayGather(x, y)) visit(x, y);
+    for (int y = rect.y; y < end_y; y += kCellSize) {
+      for (int x = rect.x; x < end_x; x += kCellSize) {
+        if (!plan.MayGather(x, y, block->layer)) visit(x, y);
       }
     }
   };
+  // Sides in pixels of the picture, all of them multiples of the layer's.
+  const auto up = [&](int pixels) { return CeilQuotient(pixels, scale) * scale; };
   for_each([&](int x, int y) {
-    left = std::min(left, x);
-    top = std::min(top, y);
-    right = std::max(right, std::min(x + kCellSize, plan.rules.width));
-    bottom = std::max(bottom, std::min(y + kCellSize, plan.rules.height));
+    left = std::min(left, x - (x == rect.x ? margin : 0));
+    top = std::min(top, y - (y == rect.y ? margin : 0));
+    right = std::max(right, x + kCellSize < end_x ? x + kCellSize : up(end_x) + margin);
+    bottom = std::max(bottom, y + kCellSize < end_y ? y + kCellSize : up(end_y) + margin);
   });
   block->n = 0;
   block->rendered = {};
   block->border = {};
-  if (right == 0) return;
-  block->rendered = {left, top, right - left, bottom - top};
+  if (right < left) return;
+  block->rendered = {left / scale, top / scale, (right - left) / scale, (bottom - top) / scale};
+  if (left < 0) block->rendered.x = -CeilQuotient(-left, scale);
+  if (top < 0) block->rendered.y = -CeilQuotient(-top, scale);
   Border border = {0, 0, 0, 0};
   for_each([&](int x, int y) {
     const int unit_x = x / kSmallestBlock * kSmallestBlock;
     const int unit_y = y / kSmallestBlock * kSmallestBlock;
     const BlockStats stats = plan.Stats(unit_x, unit_y, kSmallestBlock);
-    const Border& part = stats.border[0];
+    const Border& part = stats.border[block->layer];
     r_max = std::max(r_max, stats.r_max);
     border.left = std::max(border.left, left - (unit_x - part.left));
     border.top = std::max(border.top, top - (unit_y - part.top));
     border.right = std::max(border.right, unit_x + kSmallestBlock + part.right - right);
     border.bottom = std::max(border.bottom, unit_y + kSmallestBlock + part.bottom - bottom);
   });
-  block->n = std::min(
-      int(std::ceil(ViewsOf(true, r_max / kRadiusOne, plan.rules.demand) * plan.rules.n_scale)),
-      plan.rules.max_n);
-  block->border = {border.left + 1, border.right + 1, border.top + 1, border.bottom + 1};
+  const int views = ViewsOf(true, r_max / (kRadiusOne * scale), plan.rules.demand);
+  block->n = std::min(int(std::ceil(views * plan.rules.n_scale)), plan.rules.max_n);
+  const auto beyond = [&](int pixels) { return CeilQuotient(pixels, scale) + 1; };
+  block->border = {beyond(border.left), beyond(border.right), beyond(border.top),
+                   beyond(border.bottom)};
 }
 
-// Gathers what may be: at layer 0, and where that is the whole block.
-inline void PlanGathering(const Plan& plan, Block* block) {
-  uint64_t cells = 0, others = 0, gather = 0;
-  for (int y = block->rect.y; y < block->rect.y + block->rect.height; y += kCellSize) {
-    for (int x = block->rect.x; x < block->rect.x + block->rect.width; x += kCellSize) {
-      ++cells;
-      if (plan.MayGather(x, y)) {
-        gather += starfocus::PredictGather(plan.rules.timing, kCellSize * kCellSize,
-                                           plan.grid.At(x / kCellSize, y / kCellSize)->r_max);
-      } else {
-        ++others;
+// The predicted time of gathering what of the block may be at a layer, and how many cells that is.
+struct GatherPlan {
+  uint64_t cells = 0, gathered = 0, cost = 0;
+
+  GatherPlan(const Plan& plan, const Rect& rect, int layer) {
+    const int side = kCellSize >> layer;
+    for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
+      for (int x = rect.x; x < rect.x + rect.width; x += kCellSize) {
+        ++cells;
+        if (!plan.MayGather(x, y, layer)) continue;
+        ++gathered;
+        const int r_max = plan.grid.At(x / kCellSize, y / kCellSize)->r_max;
+        cost += starfocus::PredictGather(plan.rules.timing, uint64_t(side * side), r_max >> layer);
       }
     }
   }
-  if (others == cells || (others > 0 && block->layer > 0)) return;
-  block->layer = 0;
-  block->gathers = true;
-  block->cost = gather + block->cost * others / cells;
-  PlanRest(plan, block);
+};
+
+// Gathers what may be at the block's layer, or the whole block at layer 0 if that may be.
+// `upsampling`: predicted time of it, which is part of the block's.
+inline void PlanGathering(const Plan& plan, uint64_t upsampling, Block* block) {
+  const GatherPlan here(plan, block->rect, block->layer), below(plan, block->rect, 0);
+  if (here.gathered > 0) {
+    block->cost = here.cost + upsampling +
+                  (block->cost - upsampling) * (here.cells - here.gathered) / here.cells;
+    block->gathers = true;
+  }
+  if (block->layer > 0 && below.gathered == below.cells) {
+    block->cost = below.cost;
+    block->layer = 0;
+    block->gathers = true;
+  }
+  if (block->gathers) PlanRest(plan, block);
 }
 
 // A block with the parameters that the rules give it.
@@ -252,7 +274,7 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
       plan.rules.timing,
       starfocus::MeasureWork(block.rendered, block.border, starfocus::CountViews(block.n),
                              plan.rules.subapertures, upsampled, stats.content, block.layer));
-  if (block.n > 0) PlanGathering(plan, &block);
+  if (block.n > 0) PlanGathering(plan, plan.rules.timing.upsample * upsampled, &block);
   return block;
 }
 
