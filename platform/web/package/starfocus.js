@@ -12,6 +12,9 @@ export const Transfer = {SRGB: 0, NONE: 1};
 
 const MAX_WORKERS = 64;
 
+// What the memory of a light field is sized by, or what was made of it depends on.
+const FIXED = ['width', 'height', 'views', 'disparityMin', 'disparityMax', 'previews', 'maxLayer', 'transfer'];
+
 /** What the library refuses, with the number of its sf_status. */
 export class StarfocusError extends Error {
   constructor(message, status) {
@@ -50,6 +53,12 @@ class Refocuser {
     const given = [...pixels, ...(map.data === (depth?.data ?? depth) ? [map.data] : [])];
     const buffers = transfer ? [...new Set(given.map(array => array.buffer))] : [];
     return this.#call('prepare', {views: pixels, pixelBytes, depth: map}, {signal}, buffers);
+  }
+
+  async configure(values) {
+    const fixed = FIXED.find(name => name in values);
+    if (fixed) throw new TypeError(`configure: '${fixed}' stays as it was when the refocuser was made.`);
+    return this.#call('configure', values);
   }
 
   preview(params = {}) {

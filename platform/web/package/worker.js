@@ -9,7 +9,8 @@ const OK = 0, CANCELLED = 47;
 const BLOCK_NUMBERS = 6;  // of an sf_block
 
 const parent = await parentOfWorker();
-let memory, engine, config;
+let memory, engine, workers;
+let prepared = false;  // whether there is a light field
 let current = 0;  // the call that runs
 
 const bytesAt = (address, length) => new Uint8Array(memory.buffer, address, length);
@@ -32,6 +33,10 @@ function setFields(set, values, what, prefix = '') {
     writeText(memory, engine.text(), name.slice(0, 63));
     if (!set(Number(value))) throw new Error(`${what}: there is no field '${prefix}${key}'.`);
   }
+}
+
+function expectPrepared(what) {
+  if (!prepared) throw new Error(`${what}: there is no light field yet; call prepare first.`);
 }
 
 /** Lets messages come in. */
@@ -57,10 +62,10 @@ const calls = {
     const modules = await compile(vectors, threads > 1);
     memory = makeMemory(threads > 1);
     ({engine} = await instantiate(modules, memory, true));
-    config = given;
     engine.begin();
-    setFields(engine.configure, config, 'createRefocuser');
-    check(engine.create(threads));
+    setFields(engine.configure, given, 'createRefocuser');
+    check(engine.accept(threads));
+    workers = threads;
     for (let worker = 1; worker < threads; ++worker) {
       await startHelper({modules, memory, worker, stacks: [engine.stack(), engine.stack()]});
     }
@@ -74,18 +79,30 @@ const calls = {
 
   prepare({views, pixelBytes, depth}) {
     const start = performance.now();
+    prepared = false;
     engine.aim(current);
     check(engine.room(pixelBytes, depth.width, depth.height));
     views.forEach((view, index) => bytesAt(engine.place(index), view.length).set(view));
     new Float32Array(memory.buffer, engine.place(-1), depth.data.length).set(depth.data);
+    check(engine.make_engine());
     check(engine.prepare());
+    prepared = true;
     return {milliseconds: performance.now() - start};
   },
 
+  configure(values) {
+    engine.begin();
+    setFields(engine.configure, values, 'configure');
+    check(engine.accept(workers));
+    if (prepared) check(engine.make_engine());
+  },
+
   async refocus({shift, blocks, ...params}) {
+    const what = shift > 0 ? 'preview' : 'refocus';
+    expectPrepared(what);
     const start = performance.now();
     engine.aim(current);
-    setFields(engine.set, params, shift > 0 ? 'preview' : 'refocus');
+    setFields(engine.set, params, what);
     if (blocks) engine.watch();
     check(engine.refocus(shift));
     const width = engine.picture_width(), height = engine.picture_height();
@@ -97,6 +114,7 @@ const calls = {
   },
 
   focusAt({x, y}) {
+    expectPrepared('focusAt');
     check(engine.focus_at(x, y));
     return new DataView(memory.buffer).getFloat64(engine.text(), true);
   }
@@ -128,7 +146,7 @@ listen(parent, async ({id, name, values, cancel}) => {
   current = id;
   try {
     const result = await calls[name](values);
-    parent.postMessage({id, result}, result.data ? [result.data.buffer] : []);
+    parent.postMessage({id, result}, result?.data ? [result.data.buffer] : []);
   } catch (error) {
     const {message, status, cancelled} = error;
     parent.postMessage({id, error: {message, status, cancelled}});

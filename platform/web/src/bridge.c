@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What JavaScript calls: one engine with one light field in the memory of one module. Functions answer
  * with an sf_status unless they say otherwise. All memory is what lies behind the module's own data:
- * the engine's first, then that of the light field, which the next light field takes over. */
+ * first the helpers' stacks, then the light field and what was prepared of it, then the engine, which
+ * may be made anew for the same light field. */
 #include <string.h>
 
 #include "platform/web/src/fields.h"
@@ -16,13 +17,17 @@
 extern unsigned char __heap_base; /* the linker's: where the module's own data ends */
 
 static char text[64]; /* names of fields that JavaScript writes */
-static sf_config config;
+static sf_config wanted; /* what the next engine is to be */
+static sf_config config; /* what sizes the light field, and the engine if there is one */
 static sf_params params;
 static sf_engine* engine;
 static int32_t workers;
-static uintptr_t top;        /* first byte that nobody uses */
-static uintptr_t engine_end; /* top when there is an engine and nothing else */
+static uintptr_t top = (uintptr_t)&__heap_base; /* first byte that nobody uses */
+static uintptr_t stacks_end;                    /* top when there is no light field */
+static uintptr_t field_end;                     /* top when there is no engine */
 static sf_image_field field;
+static void* prepared_memory;
+static size_t prepared_bytes;
 static sf_prepared* prepared;
 static uint8_t* picture;
 static int32_t width, height; /* of the picture that was made last */
@@ -60,58 +65,80 @@ static sf_runner Runner(void) { return workers > 1 ? RunOnWorkers : NULL; }
 /* Where a name of a field is written, ended by 0; at most 63 bytes. */
 EXPORT(text) char* Text(void) { return text; }
 
-EXPORT(begin) void Begin(void) { sf_config_init(&config); }
-
-/* Returns whether sf_config has the field whose name is in the text. */
-EXPORT(configure) int Configure(double value) { return SetConfigField(&config, text, value); }
-
-/* Makes the engine that was configured, for that many workers. */
-EXPORT(create) sf_status Create(int32_t count) {
-  workers = config.max_workers = count;
-  config.images = 1;
-  size_t bytes = 0;
-  const sf_status status = sf_workspace_size(&config, &bytes);
-  if (status != SF_OK) return status;
-  top = (uintptr_t)&__heap_base;
-  void* const workspace = Allocate(bytes);
-  if (workspace == NULL) return SF_ERROR_MEMORY;
-  engine_end = top;
-  SetHelpers(workers - 1);
-  return sf_init(&config, workspace, bytes, &engine);
+/* Begins a configuration: the default one, then the one that was accepted. */
+EXPORT(begin) void Begin(void) {
+  if (workers == 0) {
+    sf_config_init(&wanted);
+  } else {
+    wanted = config;
+  }
 }
 
-/* Returns the end of a stack for a helper, or 0. Called before create's memory is used by anybody. */
+/* Returns whether sf_config has the field whose name is in the text. */
+EXPORT(configure) int Configure(double value) { return SetConfigField(&wanted, text, value); }
+
+/* Accepts the configuration, for that many workers, or leaves the one before. */
+EXPORT(accept) sf_status Accept(int32_t count) {
+  wanted.max_workers = count;
+  wanted.images = 1;
+  size_t bytes = 0;
+  const sf_status status = sf_workspace_size(&wanted, &bytes);
+  if (status == SF_OK) {
+    config = wanted;
+    workers = count;
+    SetHelpers(count - 1);
+  }
+  return status;
+}
+
+/* Returns the end of a stack for a helper, or 0 without memory; before there is a light field. */
 EXPORT(stack) uintptr_t Stack(void) {
   char* const memory = (char*)Allocate(STACK);
-  engine_end = top;
   return memory == NULL ? 0 : (uintptr_t)(memory + STACK);
 }
 
 EXPORT(help) void HelpAs(int32_t worker) { Help(worker); }
 
-/* Makes room for a light field of pictures with 3 or 4 bytes a pixel, one after the other, and a
- * depth map of that size. What was prepared before is no more. */
-EXPORT(room) sf_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height) {
-  top = engine_end;
-  prepared = NULL;
-  memset(&field, 0, sizeof(field));
+static int MakeRoomForViews(int32_t pixel_bytes) {
   const size_t row = (size_t)pixel_bytes * (size_t)config.width;
   for (int32_t view = 0; view < config.views; ++view) {
     sf_image* const image = &field.views[view];
     image->format = pixel_bytes == 4 ? SF_FORMAT_RGBX : SF_FORMAT_RGB;
     image->planes[0] = (uint8_t*)Allocate(row * (size_t)config.height);
     image->strides[0] = row;
-    if (image->planes[0] == NULL) return SF_ERROR_MEMORY;
+    if (image->planes[0] == NULL) return 0;
   }
+  return 1;
+}
+
+static int MakeRoomForDepth(int32_t depth_width, int32_t depth_height) {
   sf_depth_map* const depth = &field.depth;
   depth->width = depth_width;
   depth->height = depth_height;
   depth->stride = sizeof(float) * (size_t)depth_width;
   depth->data = Allocate(depth->stride * (size_t)depth_height);
   depth->scale = 1;
+  return depth->data != NULL;
+}
+
+/* Makes room for a light field of pictures with 3 or 4 bytes a pixel and a depth map of that size. What
+ * was there before is no more, the engine neither. */
+EXPORT(room) sf_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height) {
+  if (stacks_end == 0) stacks_end = top;
+  top = stacks_end;
+  engine = NULL;
+  prepared = NULL;
+  memset(&field, 0, sizeof(field));
+  const sf_status status = sf_prepared_size(&config, &prepared_bytes);
+  if (status != SF_OK) return status;
+  if (!MakeRoomForViews(pixel_bytes) || !MakeRoomForDepth(depth_width, depth_height)) {
+    return SF_ERROR_MEMORY;
+  }
   picture = (uint8_t*)Allocate(4 * (size_t)config.width * (size_t)config.height);
   blocks = (sf_block*)Allocate(MAX_BLOCKS * sizeof(sf_block));
-  return depth->data != NULL && picture != NULL && blocks != NULL ? SF_OK : SF_ERROR_MEMORY;
+  prepared_memory = Allocate(prepared_bytes);
+  field_end = top;
+  return picture != NULL && blocks != NULL && prepared_memory != NULL ? SF_OK : SF_ERROR_MEMORY;
 }
 
 /* Where the pixels of a view of the room go; the depth map, of view -1. */
@@ -119,14 +146,21 @@ EXPORT(place) const void* Place(int32_t view) {
   return view < 0 ? field.depth.data : field.views[view].planes[0];
 }
 
-EXPORT(prepare) sf_status Prepare(void) {
+/* Makes the engine that was configured, for the light field that there is room for. */
+EXPORT(make_engine) sf_status MakeEngine(void) {
   size_t bytes = 0;
-  const sf_status status = sf_prepared_size(&config, &bytes);
+  const sf_status status = sf_workspace_size(&config, &bytes);
   if (status != SF_OK) return status;
-  void* const memory = Allocate(bytes);
-  if (memory == NULL) return SF_ERROR_MEMORY;
-  return sf_prepare_images(engine, &field, memory, bytes, Progress, NULL, Runner(), NULL,
-                           &prepared);
+  engine = NULL;
+  top = field_end;
+  void* const workspace = Allocate(bytes);
+  return workspace == NULL ? SF_ERROR_MEMORY : sf_init(&config, workspace, bytes, &engine);
+}
+
+/* Prepares the light field whose pixels are in their places. */
+EXPORT(prepare) sf_status Prepare(void) {
+  return sf_prepare_images(engine, &field, prepared_memory, prepared_bytes, Progress, NULL, Runner(),
+                           NULL, &prepared);
 }
 
 /* Begins a call of that number. */
