@@ -11,6 +11,7 @@ export const Shape = {FALL_OFF: 0, DISC: 1, POLYGON: 2, RING: 3};
 export const Transfer = {SRGB: 0, NONE: 1};
 
 const MAX_WORKERS = 64;
+const PROGRESS_INTERVAL = 50;  // ms
 
 // What the memory of a light field is sized by, or what was made of it depends on.
 const FIXED = ['width', 'height', 'views', 'disparityMin', 'disparityMax', 'previews', 'maxLayer', 'transfer'];
@@ -29,7 +30,7 @@ class Refocuser {
   #calls = [];  // that have not been answered; the first one is with the worker
   #lastId = 0;
   #failure = null;
-  #cancelled = null;  // shared with the worker: the number of the call that is to end
+  #shared = null;  // with the worker: the call that is to end, rows done, rows
   #config;
 
   constructor(worker, config) {
@@ -40,7 +41,8 @@ class Refocuser {
 
   async open(options) {
     const opened = await this.#call('open', options);
-    if (opened.memory) this.#cancelled = new Int32Array(opened.memory.buffer, opened.cancelled, 1);
+    const {shared} = opened;
+    if (shared) this.#shared = new Int32Array(shared.memory.buffer, shared.address, 3);
     this.version = opened.version;
     this.simd = opened.simd;
     this.threads = options.threads;
@@ -68,7 +70,8 @@ class Refocuser {
 
   refocus(params = {}) {
     const {signal, onProgress, ...rest} = params;
-    return this.#call('refocus', {shift: 0, ...rest}, {signal, onProgress});
+    const watched = Boolean(signal || onProgress);
+    return this.#call('refocus', {shift: 0, watched, ...rest}, {signal, onProgress});
   }
 
   focusAt(x, y) {
@@ -96,6 +99,9 @@ class Refocuser {
     const [call] = this.#calls;
     if (!call) return;
     const {id, name, values, transfer} = call;
+    if (call.onProgress && this.#shared) {
+      call.timer = setInterval(() => this.#tell(call), PROGRESS_INTERVAL);
+    }
     try {
       this.#worker.postMessage({id, name, values}, transfer);
     } catch (error) {  // what cannot be sent
@@ -106,8 +112,13 @@ class Refocuser {
   /** A call that waits is left out; one that runs is told. */
   #cancel(call) {
     if (call !== this.#calls[0]) return this.#end(call, () => call.reject(call.signal.reason));
-    if (this.#cancelled) Atomics.store(this.#cancelled, 0, call.id);
+    if (this.#shared) Atomics.store(this.#shared, 0, call.id);
     this.#worker.postMessage({cancel: call.id});
+  }
+
+  #tell(call) {
+    const [, done, rows] = this.#shared;
+    if (rows > 0) call.onProgress(done, rows);
   }
 
   #hear({id, result, error, progress}) {
@@ -124,6 +135,7 @@ class Refocuser {
 
   #end(call, settle) {
     const first = call === this.#calls[0];
+    clearInterval(call.timer);
     this.#calls = this.#calls.filter(other => other !== call);
     call.signal?.removeEventListener('abort', call.abort);
     settle();
@@ -133,6 +145,7 @@ class Refocuser {
   #fail(message) {
     this.#failure ??= message;
     for (const call of this.#calls) {
+      clearInterval(call.timer);
       call.signal?.removeEventListener('abort', call.abort);
       call.reject(new Error(this.#failure));
     }

@@ -3,13 +3,17 @@
 // {id, name, values} and {cancel: id}; it answers {id, result}, {id, error} and {id, progress}.
 
 import {compile, hasSimd, instantiate, makeMemory, readText, writeText} from './engine.js';
-import {listen, parentOfWorker, startWorker} from './host.js';
+import {canShare, listen, parentOfWorker, startWorker} from './host.js';
 
 const OK = 0, CANCELLED = 47;
 const BLOCK_NUMBERS = 6;  // of an sf_block
 
+// Where nothing is shared, messages are looked at after so many rows, which costs some 10 % of the time.
+const ROWS_AT_ONCE = 512;
+
 const parent = await parentOfWorker();
 let memory, engine, workers;
+let size;  // of the picture
 let prepared = false;  // whether there is a light field
 let current = 0;  // the call that runs
 
@@ -59,21 +63,21 @@ async function startHelper(values) {
 const calls = {
   async open({config: given, simd, threads}) {
     const vectors = simd && hasSimd();
-    const modules = await compile(vectors, threads > 1);
-    memory = makeMemory(threads > 1);
+    const modules = await compile(vectors, canShare);
+    memory = makeMemory(canShare);
     ({engine} = await instantiate(modules, memory, true));
     engine.begin();
     setFields(engine.configure, given, 'createRefocuser');
     check(engine.accept(threads));
     workers = threads;
+    size = {width: given.width, height: given.height};
     for (let worker = 1; worker < threads; ++worker) {
       await startHelper({modules, memory, worker, stacks: [engine.stack(), engine.stack()]});
     }
     return {
       version: readText(memory, engine.version()),
       simd: vectors,
-      cancelled: engine.cancelled(),
-      memory: threads > 1 ? memory : null
+      shared: canShare ? {memory, address: engine.shared()} : null
     };
   },
 
@@ -97,17 +101,15 @@ const calls = {
     if (prepared) check(engine.make_engine());
   },
 
-  async refocus({shift, blocks, ...params}) {
+  async refocus({shift, blocks, watched, ...params}) {
     const what = shift > 0 ? 'preview' : 'refocus';
     expectPrepared(what);
     const start = performance.now();
     engine.aim(current);
     setFields(engine.set, params, what);
     if (blocks) engine.watch();
-    check(engine.refocus(shift));
-    const width = engine.picture_width(), height = engine.picture_height();
-    const data = new Uint8ClampedArray(bytesAt(engine.picture(), 4 * width * height));
-    const picture = {data, width, height, viewsAlongRadius: engine.views_along_radius()};
+    const inParts = watched && !blocks && !canShare && shift === 0 && !params.region;
+    const picture = inParts ? await refocusInParts() : refocusAtOnce(shift);
     if (blocks) picture.blocks = readBlocks();
     picture.milliseconds = performance.now() - start;
     return picture;
@@ -119,6 +121,26 @@ const calls = {
     return new DataView(memory.buffer).getFloat64(engine.text(), true);
   }
 };
+
+function refocusAtOnce(shift) {
+  check(engine.refocus(shift));
+  const width = engine.picture_width(), height = engine.picture_height();
+  return {data: new Uint8ClampedArray(bytesAt(engine.picture(), 4 * width * height)), width, height};
+}
+
+/** The same picture by regions, between which messages come in and progress is told. */
+async function refocusInParts() {
+  const {width, height} = size;
+  const data = new Uint8ClampedArray(4 * width * height);
+  for (let y = 0; y < height; y += ROWS_AT_ONCE) {
+    const region = {x: 0, y, width, height: Math.min(ROWS_AT_ONCE, height - y)};
+    setFields(engine.set, {region}, 'refocus');
+    data.set(refocusAtOnce(0).data, 4 * width * y);
+    parent.postMessage({id: current, progress: [y + region.height, height]});
+    await turn();
+  }
+  return {data, width, height};
+}
 
 function readBlocks() {
   const numbers = new Int32Array(memory.buffer, engine.blocks(), BLOCK_NUMBERS * engine.block_count());
@@ -139,7 +161,7 @@ async function help({modules, memory: shared, worker, stacks}) {
 
 listen(parent, async ({id, name, values, cancel}) => {
   if (cancel !== undefined) {
-    if (engine) new Int32Array(memory.buffer)[engine.cancelled() / 4] = cancel;
+    if (engine) new Int32Array(memory.buffer)[engine.shared() / 4] = cancel;
     return;
   }
   if (name === 'help') return help(values);

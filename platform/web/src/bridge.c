@@ -33,9 +33,13 @@ static uint8_t* picture;
 static int32_t width, height; /* of the picture that was made last */
 static sf_block* blocks;
 static int32_t block_count;
-static sf_report report;
 static int32_t call;      /* the number of the call that runs */
-static int32_t cancelled; /* the number of the one that is to end; other threads write it */
+
+/* What other threads see of it: they write the number of the call that is to end, and read how many rows
+ * of how many are done. */
+static struct {
+  int32_t cancelled, rows_done, rows;
+} shared;
 
 /* Returns memory aligned for the engine, or null when there is no more. */
 static void* Allocate(size_t bytes) {
@@ -50,9 +54,9 @@ static void* Allocate(size_t bytes) {
 
 static int Progress(void* data, int32_t rows_done, int32_t rows) {
   (void)data;
-  (void)rows_done;
-  (void)rows;
-  return __atomic_load_n(&cancelled, __ATOMIC_RELAXED) == call;
+  __atomic_store_n(&shared.rows_done, rows_done, __ATOMIC_RELAXED);
+  __atomic_store_n(&shared.rows, rows, __ATOMIC_RELAXED);
+  return __atomic_load_n(&shared.cancelled, __ATOMIC_RELAXED) == call;
 }
 
 static void KeepBlock(void* data, const sf_block* block) {
@@ -166,6 +170,7 @@ EXPORT(prepare) sf_status Prepare(void) {
 /* Begins a call of that number. */
 EXPORT(aim) void Aim(int32_t number) {
   call = number;
+  shared.rows_done = shared.rows = 0;
   block_count = 0;
   sf_params_init(&params);
   params.progress = Progress;
@@ -191,9 +196,9 @@ EXPORT(refocus) sf_status Refocus(int32_t shift) {
   const sf_image_out out = {
       .format = SF_FORMAT_RGBX, .planes = {picture}, .strides = {4 * (size_t)width}};
   if (shift == 0) {
-    return sf_refocus_prepared_images(engine, &params, prepared, &out, Runner(), NULL, &report);
+    return sf_refocus_prepared_images(engine, &params, prepared, &out, Runner(), NULL, NULL);
   }
-  return sf_refocus_preview_images(engine, &params, prepared, shift, &out, Runner(), NULL, &report);
+  return sf_refocus_preview_images(engine, &params, prepared, shift, &out, Runner(), NULL, NULL);
 }
 
 EXPORT(picture_width) int32_t PictureWidth(void) { return width; }
@@ -201,9 +206,7 @@ EXPORT(picture_height) int32_t PictureHeight(void) { return height; }
 EXPORT(picture) const uint8_t* Picture(void) { return picture; }
 EXPORT(blocks) const sf_block* Blocks(void) { return blocks; }
 EXPORT(block_count) int32_t BlockCount(void) { return block_count; }
-/* The number of a call here, written by any thread, ends it. */
-EXPORT(cancelled) int32_t* Cancelled(void) { return &cancelled; }
-EXPORT(views_along_radius) int32_t ViewsAlongRadius(void) { return report.n; }
+EXPORT(shared) void* Shared(void) { return &shared; }
 
 /* The focus for a pixel of the depth map, into *text as a double. */
 EXPORT(focus_at) sf_status FocusAt(int32_t x, int32_t y) {
