@@ -23,9 +23,9 @@ const ISOLATION = {
 };
 
 const server = createServer(async (request, response) => {
-  const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
-  const file = join(folder, normalize(path.endsWith('/') ? `${path}index.html` : path));
   try {
+    const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
+    const file = join(folder, normalize(path.endsWith('/') ? `${path}index.html` : path));
     const {size} = await stat(file);
     response.writeHead(200, {
       'Content-Type': TYPES[extname(file)] ?? 'application/octet-stream',

@@ -14,6 +14,7 @@ const SHAPES = {
 };
 const LARGEST_BLUR = 128;
 const LARGEST_SHIFT = 3;
+const FIRST_SHIFT = 2;
 
 // A preview that takes longer than a frame gets smaller, one that takes a quarter of it larger.
 const FRAME = 16;  // ms
@@ -28,7 +29,7 @@ export class Session {
   #asked = false;
   #working = null;
   #full = null;  // AbortController of the full picture
-  #shift = 1;
+  #shift = FIRST_SHIFT;
   #closed = false;
 
   /** `options`: {onPicture(picture, {shift, milliseconds}), onProgress(share)}. */
@@ -46,6 +47,8 @@ export class Session {
     });
     try {
       await session.#refocuser.prepare(field.views, field.depth);
+      // What runs for the first time is slow; the first tap shall not be.
+      await session.#refocuser.preview({...session.#params(lens), shift: FIRST_SHIFT});
     } catch (error) {
       session.close();
       throw error;

@@ -2,6 +2,7 @@
 // Light-field folders and pictures of the program, read by node: what the package and the page are
 // compared with.
 
+import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {inflateSync} from 'node:zlib';
@@ -61,4 +62,11 @@ export function readLightField(folder) {
 /** Returns the R, G, B of R, G, B, A. */
 export function dropAlpha(data) {
   return data.filter((_, i) => i % 4 < 3);
+}
+
+/** Fails, with a number instead of all bytes, unless both are the same. */
+export function assertSameBytes(actual, expected) {
+  assert.equal(actual.length, expected.length);
+  const wrong = actual.reduce((count, byte, i) => count + (byte !== expected[i]), 0);
+  assert.equal(wrong, 0, `${wrong} of ${actual.length} bytes differ`);
 }
