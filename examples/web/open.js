@@ -51,10 +51,11 @@ async function openFolder(files, find) {
   const depth = parsePfm(await map.arrayBuffer(), map.name);
   for (const [index, view] of [...views, depth].entries()) {
     if (view.width === width && view.height === height) continue;
-    const name = index < set ? viewName(POSITIONS[index]) : map.name;
-    throw new Error(`${name} is ${view.width} x ${view.height}; expected ${width} x ${height}, as the centre view is.`);
+    const wrong = index < set ? viewName(POSITIONS[index]) : map.name;
+    throw new Error(`${wrong} is ${view.width} x ${view.height}; expected ${width} x ${height}, as the centre view is.`);
   }
-  return {name: `light field of ${set} views`, width, height, views, ...checkDepth(map.name, depth)};
+  const name = set > 1 ? `light field of ${set} views` : 'picture with its disparities';
+  return {name, width, height, views, ...checkDepth(map.name, depth)};
 }
 
 function checkSize(name, image, {width, height}) {
