@@ -120,6 +120,7 @@ async function compare(cases, options) {
 }
 
 test('every checksum with SIMD', () => compare(golden, {threads: 1}));
-test('every checksum without SIMD', () => compare(golden, {threads: 1, simd: false}));
-test('every fifth checksum with threads',
-     () => compare(golden.filter((_, i) => i % 5 === 0), {threads: 3}));
+// Kernels without SIMD take their time.
+const some = golden.filter((_, i) => i % 5 === 0);
+test('every fifth checksum without SIMD', () => compare(some, {threads: 1, simd: false}));
+test('every fifth checksum with threads', () => compare(some, {threads: 3}));

@@ -213,6 +213,8 @@ test('opens what is dropped', async () => {
   await waitFor(/^Opened: light field of 5 views, 320 x 240/);
   await tap(100, 120);
   assertSameBytes(await shown(), refocusByProgram(small, '--focus-at', '100,120'));
+  await page.setInputFiles('#folder', small);
+  await waitFor(/^Opened: light field of 5 views, 320 x 240/);
   const photo = file('photo.png', file('view_+0.0_+0.0.png').buffer);
   await openFiles(photo, file('map.pfm', file('disparity.pfm').buffer));
   await waitFor(/^Opened: photo\.png with map\.pfm/);
