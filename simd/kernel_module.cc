@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a module of kernels tells: where its tables are, and how long. A table is an address of a name
-// and then numbers of functions in this module's own table of functions.
+// What a WebAssembly module of kernels alone tells whoever loads it for an engine: where its tables are,
+// and how long. A table is the address of a name and then numbers of functions, in this module's own
+// table of functions. See platform/web.
 #include "simd/image_kernels.h"
 #include "simd/kernels.h"
 
 namespace {
 
-#ifdef STARFOCUS_WEB_PLAIN
+#ifdef STARFOCUS_REFERENCE_KERNELS
 const starfocus::simd::Kernels& Table() { return starfocus::simd::ReferenceKernels(); }
 const starfocus::simd::ImageKernels& ImageTable() {
   return starfocus::simd::ReferenceImageKernels();
