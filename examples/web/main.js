@@ -18,14 +18,16 @@ const engine = {
   simd: query.get('simd') !== '0'
 };
 
-function say(text) {
+/** Screen readers hear of the last of several changes, when no more are to come. */
+function say(text, more = false) {
+  get('status').setAttribute('aria-busy', more);
   get('status').textContent = text;
 }
 
 function fail(error) {
   get('error').textContent = error.message;
   get('error').hidden = false;
-  get('stage').setAttribute('aria-busy', 'false');
+  say('');
 }
 
 const chosen = name => document.querySelector(`input[name=${name}]:checked`).value;
@@ -58,11 +60,11 @@ function showPicture(picture, {shift, milliseconds}) {
   viewer.showPicture(picture);
   const time = `${milliseconds.toFixed(milliseconds < 10 ? 1 : 0)} ms`;
   times = shift > 0 ? `Preview at 1/${2 ** shift}: ${time}` : `${times.replace(/ · .*/, '')} · Full picture: ${time}`;
-  say(times);
+  say(times, shift > 0);
 }
 
 function showProgress(share) {
-  say(`${times.replace(/ · .*/, '')} · Full picture: ${Math.round(100 * share)} %`);
+  say(`${times.replace(/ · .*/, '')} · Full picture: ${Math.round(100 * share)} %`, true);
 }
 
 async function refocus() {
