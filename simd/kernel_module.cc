@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a WebAssembly module of kernels alone tells whoever loads it for an engine: where its tables are,
-// and how long. A table is the address of a name and then numbers of functions, in this module's own
-// table of functions. See platform/web.
+// What a WebAssembly module of kernels alone tells whoever loads it for an engine: where its tables
+// are, and how long. A table is the address of a name and then numbers of functions, in this
+// module's own table of functions. See platform/web.
 #include "simd/image_kernels.h"
 #include "simd/kernels.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of kernels.cc and image_kernels.cc where kernels are a WebAssembly module of their own, so that
-// one engine serves machines with and without SIMD. Whoever loads that module into the same memory says
-// where its tables are, before the engine is used. See platform/web.
+// In place of kernels.cc and image_kernels.cc where kernels are a WebAssembly module of their own,
+// so that one engine serves machines with and without SIMD. Whoever loads that module into the same
+// memory says where its tables are, before the engine is used. See platform/web.
 #include "simd/image_kernels.h"
 #include "simd/kernels.h"
 

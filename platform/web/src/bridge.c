@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What JavaScript calls: one engine with one light field in the memory of one module. Functions answer
- * with an sf_status unless they say otherwise. All memory is what lies behind the module's own data:
- * first the helpers' stacks, then the light field and what was prepared of it, then the engine, which
- * may be made anew for the same light field. */
+/* What JavaScript calls: one engine with one light field in the memory of one module. Functions
+ * answer with an sf_status unless they say otherwise. All memory is what lies behind the module's
+ * own data: first the helpers' stacks, then the light field and what was prepared of it, then the
+ * engine, which may be made anew for the same light field. */
 #include <string.h>
 
 #include "platform/web/src/fields.h"
@@ -16,7 +16,7 @@
 
 extern unsigned char __heap_base; /* the linker's: where the module's own data ends */
 
-static char text[64]; /* names of fields that JavaScript writes */
+static char text[64];    /* names of fields that JavaScript writes */
 static sf_config wanted; /* what the next engine is to be */
 static sf_config config; /* what sizes the light field, and the engine if there is one */
 static sf_params params;
@@ -33,13 +33,11 @@ static uint8_t* picture;
 static int32_t width, height; /* of the picture that was made last */
 static sf_block* blocks;
 static int32_t block_count;
-static int32_t call;      /* the number of the call that runs */
+static int32_t call; /* the number of the call that runs */
 
-/* What other threads see of it: they write the number of the call that is to end, and read how many rows
- * of how many are done. */
-static struct {
-  int32_t cancelled, rows_done, rows;
-} shared;
+/* What other threads see of it: they write the number of the call that is to end, and read how many
+ * rows of how many are done. */
+static struct { int32_t cancelled, rows_done, rows; } shared;
 
 /* Returns memory aligned for the engine, or null when there is no more. */
 static void* Allocate(size_t bytes) {
@@ -125,8 +123,8 @@ static int MakeRoomForDepth(int32_t depth_width, int32_t depth_height) {
   return depth->data != NULL;
 }
 
-/* Makes room for a light field of pictures with 3 or 4 bytes a pixel and a depth map of that size. What
- * was there before is no more, the engine neither. */
+/* Makes room for a light field of pictures with 3 or 4 bytes a pixel and a depth map of that size.
+ * What was there before is no more, the engine neither. */
 EXPORT(room) sf_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height) {
   if (stacks_end == 0) stacks_end = top;
   top = stacks_end;
@@ -163,8 +161,8 @@ EXPORT(make_engine) sf_status MakeEngine(void) {
 
 /* Prepares the light field whose pixels are in their places. */
 EXPORT(prepare) sf_status Prepare(void) {
-  return sf_prepare_images(engine, &field, prepared_memory, prepared_bytes, Progress, NULL, Runner(),
-                           NULL, &prepared);
+  return sf_prepare_images(engine, &field, prepared_memory, prepared_bytes, Progress, NULL,
+                           Runner(), NULL, &prepared);
 }
 
 /* Begins a call of that number. */
@@ -187,7 +185,8 @@ static int32_t Reduced(int32_t start, int32_t size, int32_t shift) {
   return size < 1 ? 0 : ((start + size - 1) >> shift) - (start >> shift) + 1;
 }
 
-/* Refocuses as params say, at 1 / 2^shift of the size, into rows of R, G, B, 255 one after the other. */
+/* Refocuses as params say, at 1 / 2^shift of the size, into rows of R, G, B, 255 one after the
+ * other. */
 EXPORT(refocus) sf_status Refocus(int32_t shift) {
   const sf_region* const region = &params.region;
   const int whole = region->width == 0 && region->height == 0;
@@ -217,6 +216,7 @@ EXPORT(focus_at) sf_status FocusAt(int32_t x, int32_t y) {
   return status;
 }
 
-EXPORT(status_string) const char* StatusString(sf_status status) { return sf_status_string(status); }
+EXPORT(status_string) const char* StatusString(sf_status status) {
+  return sf_status_string(status);
+}
 EXPORT(version) const char* Version(void) { return sf_version(); }
-

@@ -11,25 +11,27 @@ typedef struct Field {
   uint16_t type;
 } Field;
 
-#define CONFIG(name, type) {#name, offsetof(sf_config, name), type}
-#define PARAMS(name, type) {#name, offsetof(sf_params, name), type}
+#define CONFIG(name, type) \
+  { #name, offsetof(sf_config, name), type }
+#define PARAMS(name, type) \
+  { #name, offsetof(sf_params, name), type }
 
 static const Field kConfigFields[] = {
-    CONFIG(width, kInt32),          CONFIG(height, kInt32),
-    CONFIG(views, kInt32),          CONFIG(disparity_min, kFloat),
-    CONFIG(disparity_max, kFloat),  CONFIG(max_blur, kDouble),
-    CONFIG(largest_block, kInt32),  CONFIG(theta, kDouble),
-    CONFIG(max_layer, kInt32),      CONFIG(deblocking, kInt32),
-    CONFIG(timing.block, kUint32),  CONFIG(timing.field, kUint32),
-    CONFIG(timing.a, kUint32),      CONFIG(timing.b, kUint32),
-    CONFIG(timing.c, kUint32),      CONFIG(timing.upsample, kUint32),
-    CONFIG(timing.span, kUint32),   CONFIG(timing.hole, kUint32),
-    CONFIG(n_scale, kDouble),       CONFIG(skips, kInt32),
-    CONFIG(gather, kInt32),         CONFIG(aperture_shape, kInt16),
-    CONFIG(blades, kInt16),         CONFIG(rotation, kFloat),
-    CONFIG(curvature, kFloat),      CONFIG(ring_inner, kFloat),
-    CONFIG(cats_eye, kFloat),       CONFIG(transfer, kInt32),
-    CONFIG(highlights, kFloat),     CONFIG(fill_unknown, kInt32),
+    CONFIG(width, kInt32),         CONFIG(height, kInt32),
+    CONFIG(views, kInt32),         CONFIG(disparity_min, kFloat),
+    CONFIG(disparity_max, kFloat), CONFIG(max_blur, kDouble),
+    CONFIG(largest_block, kInt32), CONFIG(theta, kDouble),
+    CONFIG(max_layer, kInt32),     CONFIG(deblocking, kInt32),
+    CONFIG(timing.block, kUint32), CONFIG(timing.field, kUint32),
+    CONFIG(timing.a, kUint32),     CONFIG(timing.b, kUint32),
+    CONFIG(timing.c, kUint32),     CONFIG(timing.upsample, kUint32),
+    CONFIG(timing.span, kUint32),  CONFIG(timing.hole, kUint32),
+    CONFIG(n_scale, kDouble),      CONFIG(skips, kInt32),
+    CONFIG(gather, kInt32),        CONFIG(aperture_shape, kInt16),
+    CONFIG(blades, kInt16),        CONFIG(rotation, kFloat),
+    CONFIG(curvature, kFloat),     CONFIG(ring_inner, kFloat),
+    CONFIG(cats_eye, kFloat),      CONFIG(transfer, kInt32),
+    CONFIG(highlights, kFloat),    CONFIG(fill_unknown, kInt32),
     CONFIG(previews, kInt32),
 };
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "platform/web/src/threads.h"
 
-/* The set of jobs that runs. Its first three fields change only while no helper looks at them: after
- * all have left a set, and before the next one is announced. */
+/* The set of jobs that runs. Its first three fields change only while no helper looks at them:
+ * after all have left a set, and before the next one is announced. */
 static struct {
   sf_job job;
   void* data;
