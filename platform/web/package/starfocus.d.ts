@@ -93,7 +93,7 @@ export interface Params extends Call {
   rule?: 0 | 1 | 2;
   /** Only this part of the picture, in its pixels. */
   region?: {x: number, y: number, width: number, height: number};
-  /** True: the picture has a list of its blocks. */
+  /** True: the picture has a list of its blocks, of the first 65536 of them. */
   blocks?: boolean;
 }
 
