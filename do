@@ -40,6 +40,9 @@ usage: ./do COMMAND
   boot    run the board program on an emulated board: its GPIO lines, buttons and screen
   count [record]  AArch64 instructions per pixel against tests/board/instruction_counts.txt
   size [write]   what boards need: code, stack and memory (write: into docs/boards.md)
+  web [PORT]  build the npm package and a page to tap, and serve it on the loopback (8080)
+          build   only makes them: build/web/npm and build/web/site, a static folder
+          test    tries the package in node and the page in Chromium
   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file, and name the licence in new ones
   help    this text
@@ -397,6 +400,7 @@ format() {
 }
 
 . toolchains/commands.sh
+. toolchains/web.sh
 
 case "${1:-help}" in
   demo) demo ;;
@@ -410,6 +414,7 @@ case "${1:-help}" in
   cross) shift && cross "$@" ;;
   golden) golden ;;
   boot) boot ;;
+  web) web "${2:-}" ;;
   count) count_command "${2:-}" ;;
   size) size "${2:-}" ;;
   format) format ;;

@@ -66,7 +66,8 @@ std::set<std::string> WordsOfCode() {
   for (const char* folder : {"lib", "simd", "platform", "examples", "tests"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / folder)) {
       const std::string extension = entry.path().extension().string();
-      static const std::set<std::string> kCode = {".h", ".cc", ".hpp", ".c", ".py", ".java"};
+      static const std::set<std::string> kCode = {".h",    ".cc", ".hpp", ".c", ".py",
+                                                  ".java", ".js", ".mjs", ".ts"};
       if (kCode.count(extension) == 0) continue;
       if (entry.path().filename() == "documents_test.cc") continue;
       const std::string text = Read(entry.path());

@@ -15,7 +15,8 @@ const std::string kLicence = "SPDX-License-Identifier: Apache-2.0";
 
 bool IsSource(const fs::path& path) {
   static const std::set<std::string> kExtensions = {".h",     ".hpp", ".c",  ".cc",   ".js",
-                                                    ".cmake", ".sh",  ".py", ".java", ".gradle"};
+                                                    ".cmake", ".sh",  ".py", ".java", ".gradle",
+                                                    ".mjs",   ".ts",  ".css"};
   return kExtensions.count(path.extension().string()) == 1 || path.filename() == "CMakeLists.txt";
 }
 

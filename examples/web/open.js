@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// What people drop: a folder of ours, a depth photo, a picture with its depth picture. Each becomes a light
+// field {name, width, height, views: [ImageData], depth: {data: Float32Array, width, height}, low, high}, and
+// everything else an error that is a sentence.
+
+import {inverseDistances, parseGDepth} from './gdepth.js';
+import {parsePfm} from './pfm.js';
+import {decode, isGray, redOf} from './pixels.js';
+
+// Views in the order of sf_view_position; the sets that there may be are the first of them.
+const POSITIONS = [
+  [0, 0], [1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1],
+  [.5, 0], [-.5, 0], [0, .5], [0, -.5], [.5, .5], [-.5, .5], [.5, -.5], [-.5, -.5]
+];
+const SETS = [17, 9, 5, 1];
+
+// A depth photo tells no blur: from its nearest to its farthest it becomes this share of the picture's width.
+const BLUR_OF_PHOTO = 0.03;
+const LARGEST_DISPARITY = 500;
+
+const signed = value => (value < 0 ? '-' : '+') + Math.abs(value).toFixed(1);
+const viewName = ([u, v]) => `view_${signed(u)}_${signed(v)}`;
+
+function measure({data}) {
+  let low = Infinity, high = -Infinity;
+  for (const value of data) {
+    if (value < low && value > -Infinity) low = value;
+    if (value > high && value < Infinity) high = value;
+  }
+  return {low, high};
+}
+
+function checkDepth(name, depth) {
+  const {low, high} = measure(depth);
+  if (!(low >= -LARGEST_DISPARITY && high <= LARGEST_DISPARITY)) {
+    throw new Error(`${name} holds disparities from ${low} to ${high}; expected -500 to 500 pixels.`);
+  }
+  return {depth, low, high};
+}
+
+/** A light field of our folder; `find` returns a file by its name without ending. */
+async function openFolder(files, find) {
+  const set = SETS.find(count => POSITIONS.slice(0, count).every(at => find(viewName(at))));
+  if (!set) throw new Error(`The folder has no centre view: expected ${viewName([0, 0])}.png.`);
+  const map = files.find(file => file.name === 'disparity.pfm');
+  if (!map) {
+    throw new Error('The folder has no disparity.pfm; "starfocus disparity FOLDER" makes one of its views.');
+  }
+  const views = await Promise.all(POSITIONS.slice(0, set).map(at => decode(find(viewName(at)))));
+  const [{width, height}] = views;
+  const depth = parsePfm(await map.arrayBuffer(), map.name);
+  for (const [index, view] of [...views, depth].entries()) {
+    if (view.width === width && view.height === height) continue;
+    const wrong = index < set ? viewName(POSITIONS[index]) : map.name;
+    throw new Error(`${wrong} is ${view.width} x ${view.height}; expected ${width} x ${height}, as the centre view is.`);
+  }
+  const name = set > 1 ? `light field of ${set} views` : 'picture with its disparities';
+  return {name, width, height, views, ...checkDepth(map.name, depth)};
+}
+
+function checkSize(name, image, {width, height}) {
+  if (width <= image.width && height <= image.height) return;
+  throw new Error(`The depth of ${name} is ${width} x ${height}; expected at most ${image.width} x ${image.height}, as the picture is.`);
+}
+
+/** A photo with values that grow towards the viewer, of any unit. */
+function depthPhoto(name, image, {data, width, height}) {
+  checkSize(name, image, {width, height});
+  const {low, high} = measure({data});
+  if (!(high > low)) throw new Error(`The depth of ${name} is the same everywhere, so that there is nothing to focus.`);
+  const span = Math.max(4, BLUR_OF_PHOTO * image.width);
+  const disparity = Float32Array.from(data, value => (value - low) / (high - low) * span);
+  return {
+    name, width: image.width, height: image.height, views: [image], depth: {data: disparity, width, height},
+    low: 0, high: span
+  };
+}
+
+async function openJpeg(file) {
+  const found = parseGDepth(await file.arrayBuffer(), file.name);
+  if (!found) {
+    throw new Error(`${file.name} has no depth in it. Drop a depth photo (a JPEG with GDepth), or a picture together with its depth picture.`);
+  }
+  const [image, map] = await Promise.all([decode(file), decode(found.picture, `The depth map of ${file.name}`)]);
+  const data = inverseDistances(redOf(map), found);
+  return depthPhoto(`depth photo ${file.name}`, image, {data, width: map.width, height: map.height});
+}
+
+/** A picture and its depth: a PFM of disparities, or a gray picture, brighter where it is nearer. */
+async function openPair(files) {
+  const map = files.find(file => /\.pfm$/i.test(file.name));
+  if (map) {
+    const photo = files.find(file => file !== map);
+    const [image, depth] = [await decode(photo), parsePfm(await map.arrayBuffer(), map.name)];
+    const {width, height} = image;
+    checkSize(photo.name, image, depth);
+    return {name: `${photo.name} with ${map.name}`, width, height, views: [image], ...checkDepth(map.name, depth)};
+  }
+  const images = await Promise.all(files.map(file => decode(file)));
+  const named = files.findIndex(file => /depth|disp/i.test(file.name));
+  const index = named >= 0 ? named : images.findIndex(isGray);
+  if (index < 0) {
+    throw new Error(`Of ${files[0].name} and ${files[1].name} none is a depth picture: expected one in gray, or with "depth" in its name.`);
+  }
+  const {width, height} = images[index];
+  return depthPhoto(`${files[1 - index].name} with ${files[index].name}`, images[1 - index],
+                    {data: Float32Array.from(redOf(images[index])), width, height});
+}
+
+/** Returns the light field of these files. */
+export async function open(files) {
+  const has = pattern => files.some(file => pattern.test(file.name));
+  const find = stem => files.find(file => /\.(png|jpe?g)$/i.test(file.name) && file.name.replace(/\.\w+$/, '') === stem);
+  if (has(/^view_[+-]/) || has(/^disparity\.pfm$/) && files.length > 2) return openFolder(files, find);
+  if (has(/^input_Cam\d+\.png$/i)) {
+    throw new Error('This is a light field of the HCI benchmark, which the page does not read; copy five of its views and its disparities into a folder of starfocus.');
+  }
+  if (has(/^out_\d+_\d+_.*\.png$/i)) {
+    throw new Error('This is a light field of the Stanford archive, which has no disparities; the page needs a folder of starfocus with disparity.pfm.');
+  }
+  if (files.length === 1 && /\.pfm$/i.test(files[0].name)) {
+    throw new Error(`${files[0].name} is a map without its picture; drop both together.`);
+  }
+  if (files.length === 1) return openJpeg(files[0]);
+  if (files.length === 2) return openPair(files);
+  throw new Error(`Expected a folder of a light field, a depth photo or a picture with its depth, found ${files.length} files.`);
+}
+
+/** Returns promises of the demo's files, from where the page was loaded, the centre view first. */
+export function fetchDemo() {
+  const names = [...POSITIONS.slice(0, 5).map(at => `${viewName(at)}.png`), 'disparity.pfm'];
+  return names.map(async name => {
+    const response = await fetch(`demo/${encodeURIComponent(name)}`);
+    if (!response.ok) throw new Error(`The demo's ${name} cannot be loaded: the server says ${response.status}.`);
+    return new File([await response.blob()], name);
+  });
+}
+
+/** Returns all files below what was dropped. */
+export async function filesOfDrop(transfer) {
+  const entries = [...transfer.items].map(item => item.webkitGetAsEntry?.()).filter(Boolean);
+  if (!entries.length) return [...transfer.files];
+  const files = [];
+  const read = async entry => {
+    if (entry.isFile) {
+      files.push(await new Promise((resolve, reject) => entry.file(resolve, reject)));
+      return;
+    }
+    const reader = entry.createReader();
+    for (;;) {
+      const some = await new Promise((resolve, reject) => reader.readEntries(resolve, reject));
+      if (!some.length) return;
+      for (const one of some) await read(one);
+    }
+  };
+  for (const entry of entries) await read(entry);
+  return files;
+}

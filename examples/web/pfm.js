@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps of floats: PFM, whose lowest row comes first.
+
+/** Returns {data: Float32Array, width, height} of a PFM file's bytes. */
+export function parsePfm(buffer, name) {
+  const header = new TextDecoder('latin1').decode(buffer.slice(0, 128));
+  const match = /^Pf\s+(\d+)\s+(\d+)\s+(-?[\d.]+(?:e[-+]?\d+)?)\s/i.exec(header);
+  if (!match) throw new Error(`${name} is no map of floats: it does not begin as a PFM of one channel does.`);
+  const [width, height, scale] = match.slice(1).map(Number);
+  const expected = match[0].length + 4 * width * height;
+  if (buffer.byteLength < expected || width < 1 || height < 1) {
+    throw new Error(`${name} is cut off: ${width} x ${height} values take ${expected} bytes, it has ${buffer.byteLength}.`);
+  }
+  const view = new DataView(buffer, match[0].length), data = new Float32Array(width * height);
+  for (let y = 0; y < height; ++y) {
+    const row = 4 * width * (height - 1 - y);
+    for (let x = 0; x < width; ++x) data[y * width + x] = view.getFloat32(row + 4 * x, scale < 0);
+  }
+  return {data, width, height};
+}

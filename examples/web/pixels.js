@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Picture files as pixels, by the browser's own decoders.
+
+/** Returns the ImageData of a picture file, with its codes as they are. */
+export async function decode(file, name = file.name) {
+  let bitmap;
+  try {
+    bitmap = await createImageBitmap(file, {colorSpaceConversion: 'none', premultiplyAlpha: 'none'});
+  } catch {
+    const kind = /\.hei[cf]$/i.test(name) ? 'HEIC, which this browser does not read' :
+                                            'no picture that this browser reads';
+    throw new Error(`${name} is ${kind}.`);
+  }
+  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+  const context = canvas.getContext('2d', {willReadFrequently: true});
+  context.drawImage(bitmap, 0, 0);
+  bitmap.close();
+  return context.getImageData(0, 0, canvas.width, canvas.height);
+}
+
+/** Returns one value of 0 to 255 for each pixel: its red one, which is the gray of a gray picture. */
+export function redOf(image) {
+  return Uint8Array.from({length: image.width * image.height}, (_, i) => image.data[4 * i]);
+}
+
+/** Whether red, green and blue are nearly the same everywhere. */
+export function isGray({data}) {
+  for (let i = 0; i < data.length; i += 4) {
+    if (Math.abs(data[i] - data[i + 1]) > 8 || Math.abs(data[i] - data[i + 2]) > 8) return false;
+  }
+  return true;
+}

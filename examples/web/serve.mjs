@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// serve.mjs FOLDER [PORT [plain]]: a static server on the loopback, with the headers that let a page share
+// memory with its workers; `plain` leaves them out, as most hosts do. Says where it listens.
+
+import {createReadStream} from 'node:fs';
+import {stat} from 'node:fs/promises';
+import {createServer} from 'node:http';
+import {extname, join, normalize} from 'node:path';
+
+const [folder, port = '8080', plain] = process.argv.slice(2);
+if (!folder) {
+  console.error('usage: serve.mjs FOLDER [PORT [plain]]');
+  process.exit(2);
+}
+
+const TYPES = {
+  '.css': 'text/css', '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json',
+  '.pfm': 'application/octet-stream', '.png': 'image/png', '.wasm': 'application/wasm'
+};
+const ISOLATION = {
+  'Cross-Origin-Opener-Policy': 'same-origin',
+  'Cross-Origin-Embedder-Policy': 'require-corp'
+};
+
+const server = createServer(async (request, response) => {
+  try {
+    const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
+    const file = join(folder, normalize(path.endsWith('/') ? `${path}index.html` : path));
+    const {size} = await stat(file);
+    response.writeHead(200, {
+      'Content-Type': TYPES[extname(file)] ?? 'application/octet-stream',
+      'Content-Length': size,
+      'Cache-Control': 'no-cache',
+      ...(plain ? {} : ISOLATION)
+    });
+    createReadStream(file).pipe(response);
+  } catch {
+    response.writeHead(404, {'Content-Type': 'text/plain'}).end('There is no such file.\n');
+  }
+});
+server.listen(Number(port), '127.0.0.1', () => {
+  console.log(`http://localhost:${server.address().port}/`);
+});

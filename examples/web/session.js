@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// One opened light field with its refocuser. What is asked for last counts: previews follow as fast as they
+// are made, and the full picture when nobody asks any more; it is called off when somebody does.
+
+import {createRefocuser, Shape} from './starfocus/starfocus.js';
+
+const SHAPES = {
+  'soft': {apertureShape: Shape.FALL_OFF, catsEye: 0},
+  'disc': {apertureShape: Shape.DISC, catsEye: 0},
+  'pentagon': {apertureShape: Shape.POLYGON, blades: 5, curvature: 0, rotation: 0, catsEye: 0},
+  'hexagon': {apertureShape: Shape.POLYGON, blades: 6, curvature: 0.5, rotation: 17.5, catsEye: 0},
+  'ring': {apertureShape: Shape.RING, catsEye: 0},
+  'cats-eye': {apertureShape: Shape.DISC, catsEye: 0.75}
+};
+const LARGEST_BLUR = 128;
+const LARGEST_SHIFT = 3;
+const FIRST_SHIFT = 2;
+
+// A preview that takes longer than a frame gets smaller, one that takes a quarter of it larger.
+const FRAME = 16;  // ms
+const PULL = 3000;  // ms
+
+export class Session {
+  #refocuser;
+  #field;
+  #options;
+  #lens;
+  #lensChanged = false;
+  #asked = false;
+  #working = null;
+  #full = null;  // AbortController of the full picture
+  #shift = FIRST_SHIFT;
+  #closed = false;
+
+  /** `options`: {onPicture(picture, {shift, milliseconds}), onProgress(share)}. */
+  static async open(field, lens, options) {
+    const session = new Session();
+    session.#field = field;
+    session.#options = options;
+    session.#lens = lens;
+    const span = Math.max(field.high - field.low, 1 / 64);
+    session.widest = Math.min(1, LARGEST_BLUR / span);
+    session.#refocuser = await createRefocuser({
+      width: field.width, height: field.height, views: field.views.length, disparityMin: field.low,
+      disparityMax: field.high, maxBlur: Math.min(LARGEST_BLUR, span), previews: LARGEST_SHIFT, fillUnknown: true,
+      ...session.#settings(), ...options.engine
+    });
+    try {
+      await session.#refocuser.prepare(field.views, field.depth);
+      // What runs for the first time is slow; the first tap shall not be.
+      await session.#refocuser.preview({...session.#params(lens), shift: FIRST_SHIFT});
+    } catch (error) {
+      session.close();
+      throw error;
+    }
+    return session;
+  }
+
+  get engine() {
+    return this.#refocuser;
+  }
+
+  /** Returns the focus for what is at a pixel of the picture. */
+  focusAt({x, y}) {
+    const {width, height, depth} = this.#field;
+    return this.#refocuser.focusAt(Math.floor(x * depth.width / width), Math.floor(y * depth.height / height));
+  }
+
+  /** Refocuses with this lens: {focus, stops, highlights, shape, blocks}. Resolves when nothing is left to do. */
+  refocus(lens) {
+    this.#lensChanged ||= lens.shape !== this.#lens.shape || lens.highlights !== this.#lens.highlights;
+    this.#lens = lens;
+    this.#asked = true;
+    this.#full?.abort();
+    this.#working ??= this.#work().finally(() => this.#working = null);
+    return this.#working;
+  }
+
+  /** Moves the focus from where it is to the nearest, the farthest and back, for as long as the signal lets it. */
+  async pull(lens, signal, onFocus) {
+    const {low, high} = this.#field, stops = [lens.focus, high, low, lens.focus], start = performance.now();
+    await this.#working;
+    for (let share = 0; share < 1 && !signal.aborted && !this.#closed;) {
+      share = Math.min(1, (performance.now() - start) / PULL);
+      const leg = Math.min(2, Math.floor(3 * share)), part = (1 - Math.cos(Math.PI * (3 * share - leg))) / 2;
+      const focus = stops[leg] + part * (stops[leg + 1] - stops[leg]);
+      await this.#preview({...lens, focus});
+      onFocus(focus);
+      await new Promise(requestAnimationFrame);
+    }
+  }
+
+  close() {
+    this.#closed = true;
+    this.#full?.abort();
+    this.#refocuser?.close();
+  }
+
+  #settings() {
+    return {...SHAPES[this.#lens.shape], highlights: this.#lens.highlights};
+  }
+
+  #params({focus, stops}) {
+    return {focus, aperture: this.widest * 2 ** (-stops / 2)};
+  }
+
+  async #work() {
+    while (this.#asked) {
+      this.#asked = false;
+      if (this.#lensChanged) {
+        this.#lensChanged = false;
+        await this.#refocuser.configure(this.#settings());
+      }
+      await this.#preview(this.#lens);
+      if (!this.#asked) await this.#finish(this.#lens);
+    }
+  }
+
+  async #preview(lens) {
+    const shift = this.#shift;
+    const picture = await this.#refocuser.preview({...this.#params(lens), shift});
+    const {milliseconds} = picture;
+    this.#options.onPicture(picture, {shift, milliseconds});
+    if (milliseconds > FRAME && shift < LARGEST_SHIFT) this.#shift = shift + 1;
+    if (milliseconds < FRAME / 4 && shift > 1) this.#shift = shift - 1;
+  }
+
+  async #finish(lens) {
+    const {signal} = this.#full = new AbortController();
+    try {
+      const picture = await this.#refocuser.refocus({
+        ...this.#params(lens), blocks: lens.blocks, signal,
+        onProgress: (done, rows) => this.#options.onProgress(done / rows)
+      });
+      this.#options.onPicture(picture, {shift: 0, milliseconds: picture.milliseconds});
+    } catch (error) {
+      if (!signal.aborted) throw error;
+    }
+  }
+}

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus: refocuses light fields of 1, 5, 9 or 17 views, and depth photos, in a worker.
+//
+//   const refocuser = await createRefocuser({width, height, views: 5, disparityMin: -9, disparityMax: 8});
+//   await refocuser.prepare(views, depth);
+//   const focus = await refocuser.focusAt(x, y);
+//   const small = await refocuser.preview({focus, shift: 2});
+//   const picture = await refocuser.refocus({focus});
+//   context.putImageData(new ImageData(picture.data, picture.width, picture.height), 0, 0);
+//
+// Fields that are not explained here are those of sf_config and sf_params in starfocus/starfocus.h, written
+// as JavaScript writes names, with its defaults. Bytes are those of the library and of its program.
+
+/** How the picture is made; default BLOCK. */
+export declare const Mode: {readonly FRAME: 0, readonly BENCHMARK: 1, readonly BLOCK: 2, readonly BLUR: 3};
+/** How many views a blur needs. */
+export declare const Rule: {readonly DEFAULT: 0, readonly PAPER: 1, readonly SUBAPERTURE: 2};
+/** The opening of the lens. */
+export declare const Shape: {readonly FALL_OFF: 0, readonly DISC: 1, readonly POLYGON: 2, readonly RING: 3};
+/** How the codes of a picture stand for light; default SRGB. */
+export declare const Transfer: {readonly SRGB: 0, readonly NONE: 1};
+
+/** What a refocuser can be told at any time. */
+export interface Lens {
+  /** Largest blur radius in pixels that will be asked for; default 32. */
+  maxBlur?: number;
+  largestBlock?: 0 | 32 | 64 | 128 | 256;
+  theta?: number;
+  deblocking?: number;
+  timing?: {block?: number, field?: number, a?: number, b?: number, c?: number, upsample?: number, span?: number, hole?: number};
+  nScale?: number;
+  skips?: boolean;
+  gather?: boolean;
+  apertureShape?: 0 | 1 | 2 | 3;
+  blades?: number;
+  rotation?: number;
+  curvature?: number;
+  ringInner?: number;
+  catsEye?: number;
+  /** How many times white the lamps are that the pictures clip, from 1 to 64; default 1. */
+  highlights?: number;
+  fillUnknown?: boolean;
+}
+
+export interface Options extends Lens {
+  /** Pixels of every view. */
+  width: number;
+  height: number;
+  views: 1 | 5 | 9 | 17;
+  /** The range that all disparities lie in, pixels. */
+  disparityMin: number;
+  disparityMax: number;
+  /** Largest shift of preview(); default 0, none. */
+  previews?: 0 | 1 | 2 | 3;
+  maxLayer?: 0 | 1 | 2;
+  transfer?: 0 | 1;
+  /** Workers that share the work, the one that answers among them; default: as many as there are cores. Where
+   *  memory cannot be shared, in pages that are not cross-origin isolated, it is always 1. */
+  threads?: number;
+  /** False: without SIMD even where there is SIMD. */
+  simd?: boolean;
+}
+
+/** A picture as a canvas has it, or rows of R, G, B or R, G, B, A without gaps; all views of one kind. */
+export type View = ImageData | Uint8Array | Uint8ClampedArray;
+
+/** A map of the centre view, as large as the picture or smaller. */
+export interface DepthMap {
+  data: Float32Array | Uint16Array | Uint8Array | Uint8ClampedArray;
+  /** Default: the picture's. */
+  width?: number;
+  height?: number;
+  /** Disparity = scale * value + offset, or scale / value + offset if it is reciprocal. Default 1 and 0. */
+  scale?: number;
+  offset?: number;
+  reciprocal?: boolean;
+  /** A value that stands for an unknown depth, as NaN does; fillUnknown takes such maps. */
+  invalid?: number;
+}
+
+export interface Call {
+  /** Ends the call, which then rejects with the signal's reason. A call that waits for others ends at once; one
+   *  that runs within a few milliseconds where memory is shared, else at the next rows of blocks. */
+  signal?: AbortSignal;
+}
+
+export interface Params extends Call {
+  /** Disparity in focus; default 0. */
+  focus?: number;
+  /** Radius of the lens, from 0 to 1, which is that of the outermost views; default 1. */
+  aperture?: number;
+  mode?: 0 | 1 | 2 | 3;
+  rule?: 0 | 1 | 2;
+  /** Only this part of the picture, in its pixels. */
+  region?: {x: number, y: number, width: number, height: number};
+  /** True: the picture has a list of its blocks, of the first 65536 of them. */
+  blocks?: boolean;
+}
+
+export interface Block {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+  /** L: refocused at 1 / 2^L of the size. */
+  layer: number;
+  /** N: views along the radius; 0: none but the centre. */
+  n: number;
+}
+
+export interface Picture {
+  /** R, G, B and 255, or the alpha of the centre view. */
+  data: Uint8ClampedArray;
+  width: number;
+  height: number;
+  blocks?: Block[];
+  /** Time it took in the worker. */
+  milliseconds: number;
+}
+
+/** What the library refuses; `status` is the sf_status. Wrong kinds of values are TypeErrors. */
+export declare class StarfocusError extends Error {
+  readonly status: number;
+}
+
+/** Answers its calls in their order. */
+export interface Refocuser {
+  /** Version of the library, such as "0.1.0". */
+  readonly version: string;
+  /** Whether it runs with SIMD. */
+  readonly simd: boolean;
+  readonly threads: number;
+
+  /** Takes a light field: the views in the order of sf_view_position (the centre, then right, left, below,
+   *  above), and its depth, disparities if it is a Float32Array. They are copied; with `transfer` their
+   *  buffers are handed over instead, and are empty afterwards. */
+  prepare(views: View[], depth: Float32Array | DepthMap, options?: Call & {transfer?: boolean}): Promise<{milliseconds: number}>;
+
+  /** Changes the lens; the light field stays. */
+  configure(lens: Lens): Promise<void>;
+
+  /** Refocuses at 1 / 2^shift of the size; default 1. */
+  preview(params?: Params & {shift?: 1 | 2 | 3}): Promise<Picture>;
+
+  refocus(params?: Params & {onProgress?: (rowsDone: number, rows: number) => void}): Promise<Picture>;
+
+  /** The focus for what is at that pixel of the depth map. */
+  focusAt(x: number, y: number): Promise<number>;
+
+  /** Ends its workers; calls that have not been answered reject. */
+  close(): void;
+}
+
+export declare function createRefocuser(options: Options): Promise<Refocuser>;

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus for browsers and node: see starfocus.d.ts. The engine works in a worker; this side checks
+// what it is given, sends it one call after the other and hands back what it answers.
+
+import {canShare, countCores, listen, startWorker} from './host.js';
+import {checkViews, readDepth} from './light_field.js';
+
+export const Mode = {FRAME: 0, BENCHMARK: 1, BLOCK: 2, BLUR: 3};
+export const Rule = {DEFAULT: 0, PAPER: 1, SUBAPERTURE: 2};
+export const Shape = {FALL_OFF: 0, DISC: 1, POLYGON: 2, RING: 3};
+export const Transfer = {SRGB: 0, NONE: 1};
+
+const MAX_WORKERS = 64;
+const PROGRESS_INTERVAL = 50;  // ms
+
+// What the memory of a light field is sized by, or what was made of it depends on.
+const FIXED = ['width', 'height', 'views', 'disparityMin', 'disparityMax', 'previews', 'maxLayer', 'transfer'];
+
+/** What the library refuses, with the number of its sf_status. */
+export class StarfocusError extends Error {
+  constructor(message, status) {
+    super(message);
+    this.name = 'StarfocusError';
+    this.status = status;
+  }
+}
+
+class Refocuser {
+  #worker;
+  #calls = [];  // that have not been answered; the first one is with the worker
+  #lastId = 0;
+  #failure = null;
+  #shared = null;  // with the worker: the call that is to end, rows done, rows
+  #config;
+
+  constructor(worker, config) {
+    this.#worker = worker;
+    this.#config = config;
+    listen(worker, message => this.#hear(message), message => this.#fail(message));
+  }
+
+  async open(options) {
+    const opened = await this.#call('open', options);
+    const {shared} = opened;
+    if (shared) this.#shared = new Int32Array(shared.memory.buffer, shared.address, 3);
+    this.version = opened.version;
+    this.simd = opened.simd;
+    this.threads = options.threads;
+    return this;
+  }
+
+  async prepare(views, depth, {signal, transfer = false} = {}) {
+    const {pixels, pixelBytes} = checkViews(views, this.#config);
+    const map = readDepth(depth, this.#config);
+    const given = [...pixels, ...(map.data === (depth?.data ?? depth) ? [map.data] : [])];
+    const buffers = transfer ? [...new Set(given.map(array => array.buffer))] : [];
+    return this.#call('prepare', {views: pixels, pixelBytes, depth: map}, {signal}, buffers);
+  }
+
+  async configure(values) {
+    const fixed = FIXED.find(name => name in values);
+    if (fixed) throw new TypeError(`configure: '${fixed}' stays as it was when the refocuser was made.`);
+    return this.#call('configure', values);
+  }
+
+  preview(params = {}) {
+    const {shift = 1, signal, ...rest} = params;
+    return this.#call('refocus', {shift, ...rest}, {signal});
+  }
+
+  refocus(params = {}) {
+    const {signal, onProgress, ...rest} = params;
+    const watched = Boolean(signal || onProgress);
+    return this.#call('refocus', {shift: 0, watched, ...rest}, {signal, onProgress});
+  }
+
+  focusAt(x, y) {
+    return this.#call('focusAt', {x, y});
+  }
+
+  close() {
+    this.#fail('The refocuser was closed.');
+    this.#worker.terminate();
+  }
+
+  #call(name, values, {signal, onProgress} = {}, transfer = []) {
+    return new Promise((resolve, reject) => {
+      if (this.#failure) return reject(new Error(this.#failure));
+      if (signal?.aborted) return reject(signal.reason);
+      const call = {id: ++this.#lastId, name, values, transfer, resolve, reject, signal, onProgress};
+      call.abort = () => this.#cancel(call);
+      signal?.addEventListener('abort', call.abort);
+      this.#calls.push(call);
+      if (this.#calls.length === 1) this.#send();
+    });
+  }
+
+  #send() {
+    const [call] = this.#calls;
+    if (!call) return;
+    const {id, name, values, transfer} = call;
+    if (call.onProgress && this.#shared) {
+      call.timer = setInterval(() => this.#tell(call), PROGRESS_INTERVAL);
+    }
+    try {
+      this.#worker.postMessage({id, name, values}, transfer);
+    } catch (error) {  // what cannot be sent
+      this.#end(call, () => call.reject(error));
+    }
+  }
+
+  /** A call that waits is left out; one that runs is told. */
+  #cancel(call) {
+    if (call !== this.#calls[0]) return this.#end(call, () => call.reject(call.signal.reason));
+    if (this.#shared) Atomics.store(this.#shared, 0, call.id);
+    this.#worker.postMessage({cancel: call.id});
+  }
+
+  #tell(call) {
+    const [, done, rows] = this.#shared;
+    if (rows > 0) call.onProgress(done, rows);
+  }
+
+  #hear({id, result, error, progress}) {
+    const [call] = this.#calls;
+    if (call?.id !== id) return;
+    if (progress) return call.onProgress?.(...progress);
+    this.#end(call, () => {
+      if (!error) return call.resolve(result);
+      if (error.cancelled && call.signal?.aborted) return call.reject(call.signal.reason);
+      call.reject(error.status ? new StarfocusError(error.message, error.status)
+                               : new TypeError(error.message));
+    });
+  }
+
+  #end(call, settle) {
+    const first = call === this.#calls[0];
+    clearInterval(call.timer);
+    this.#calls = this.#calls.filter(other => other !== call);
+    call.signal?.removeEventListener('abort', call.abort);
+    settle();
+    if (first) this.#send();
+  }
+
+  #fail(message) {
+    this.#failure ??= message;
+    for (const call of this.#calls) {
+      clearInterval(call.timer);
+      call.signal?.removeEventListener('abort', call.abort);
+      call.reject(new Error(this.#failure));
+    }
+    this.#calls = [];
+  }
+}
+
+export async function createRefocuser(options) {
+  const {threads, simd = true, ...config} = options ?? {};
+  const cores = threads ?? (canShare ? await countCores() : 1);
+  const workers = canShare ? Math.max(1, Math.min(cores, MAX_WORKERS)) : 1;
+  const refocuser = new Refocuser(await startWorker(), config);
+  try {
+    return await refocuser.open({config, simd, threads: workers});
+  } catch (error) {
+    refocuser.close();
+    throw error;
+  }
+}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The worker that has the engine, and the helpers that share its memory. Messages to it are
+// {id, name, values} and {cancel: id}; it answers {id, result}, {id, error} and {id, progress}.
+
+import {compile, hasSimd, instantiate, makeMemory, readText, writeText} from './engine.js';
+import {canShare, listen, parentOfWorker, startWorker} from './host.js';
+
+const OK = 0, CANCELLED = 47;
+const BLOCK_NUMBERS = 6;  // of an sf_block
+
+// Where nothing is shared, messages are looked at after so many rows, which costs some 10 % of the time.
+const ROWS_AT_ONCE = 512;
+
+const parent = await parentOfWorker();
+let memory, engine, workers;
+let size;  // of the picture
+let prepared = false;  // whether there is a light field
+let current = 0;  // the call that runs
+
+const bytesAt = (address, length) => new Uint8Array(memory.buffer, address, length);
+
+function check(status) {
+  if (status === OK) return;
+  const message = readText(memory, engine.status_string(status));
+  throw Object.assign(new Error(message), {status, cancelled: status === CANCELLED});
+}
+
+/** Sets fields of one of the engine's structures: {maxBlur: 8, region: {x: 0}} is max_blur and region.x. */
+function setFields(set, values, what, prefix = '') {
+  for (const [key, value] of Object.entries(values)) {
+    if (value === undefined) continue;
+    const name = prefix + key.replace(/[A-Z]/g, letter => '_' + letter.toLowerCase());
+    if (typeof value === 'object' && value !== null) {
+      setFields(set, value, what, `${name}.`);
+      continue;
+    }
+    writeText(memory, engine.text(), name.slice(0, 63));
+    if (!set(Number(value))) throw new Error(`${what}: there is no field '${prefix}${key}'.`);
+  }
+}
+
+function expectPrepared(what) {
+  if (!prepared) throw new Error(`${what}: there is no light field yet; call prepare first.`);
+}
+
+/** Lets messages come in. */
+const channel = new MessageChannel();
+function turn() {
+  return new Promise(resolve => {
+    listen(channel.port1, resolve);
+    channel.port2.postMessage(null);
+  });
+}
+
+async function startHelper(values) {
+  const helper = await startWorker();
+  await new Promise((resolve, reject) => {
+    listen(helper, resolve, message => reject(new Error(message)));
+    helper.postMessage({id: 0, name: 'help', values});
+  });
+}
+
+const calls = {
+  async open({config: given, simd, threads}) {
+    const vectors = simd && hasSimd();
+    const modules = await compile(vectors, canShare);
+    memory = makeMemory(canShare);
+    ({engine} = await instantiate(modules, memory, true));
+    engine.begin();
+    setFields(engine.configure, given, 'createRefocuser');
+    check(engine.accept(threads));
+    workers = threads;
+    size = {width: given.width, height: given.height};
+    for (let worker = 1; worker < threads; ++worker) {
+      await startHelper({modules, memory, worker, stacks: [engine.stack(), engine.stack()]});
+    }
+    return {
+      version: readText(memory, engine.version()),
+      simd: vectors,
+      shared: canShare ? {memory, address: engine.shared()} : null
+    };
+  },
+
+  prepare({views, pixelBytes, depth}) {
+    const start = performance.now();
+    prepared = false;
+    engine.aim(current);
+    check(engine.room(pixelBytes, depth.width, depth.height));
+    views.forEach((view, index) => bytesAt(engine.place(index), view.length).set(view));
+    new Float32Array(memory.buffer, engine.place(-1), depth.data.length).set(depth.data);
+    check(engine.make_engine());
+    check(engine.prepare());
+    prepared = true;
+    return {milliseconds: performance.now() - start};
+  },
+
+  configure(values) {
+    engine.begin();
+    setFields(engine.configure, values, 'configure');
+    check(engine.accept(workers));
+    if (prepared) check(engine.make_engine());
+  },
+
+  async refocus({shift, blocks, watched, ...params}) {
+    const what = shift > 0 ? 'preview' : 'refocus';
+    expectPrepared(what);
+    const start = performance.now();
+    engine.aim(current);
+    setFields(engine.set, params, what);
+    if (blocks) engine.watch();
+    const inParts = watched && !blocks && !canShare && shift === 0 && !params.region;
+    const picture = inParts ? await refocusInParts() : refocusAtOnce(shift);
+    if (blocks) picture.blocks = readBlocks();
+    picture.milliseconds = performance.now() - start;
+    return picture;
+  },
+
+  focusAt({x, y}) {
+    expectPrepared('focusAt');
+    check(engine.focus_at(x, y));
+    return new DataView(memory.buffer).getFloat64(engine.text(), true);
+  }
+};
+
+function refocusAtOnce(shift) {
+  check(engine.refocus(shift));
+  const width = engine.picture_width(), height = engine.picture_height();
+  return {data: new Uint8ClampedArray(bytesAt(engine.picture(), 4 * width * height)), width, height};
+}
+
+/** The same picture by regions, between which messages come in and progress is told. */
+async function refocusInParts() {
+  const {width, height} = size;
+  const data = new Uint8ClampedArray(4 * width * height);
+  for (let y = 0; y < height; y += ROWS_AT_ONCE) {
+    const region = {x: 0, y, width, height: Math.min(ROWS_AT_ONCE, height - y)};
+    setFields(engine.set, {region}, 'refocus');
+    data.set(refocusAtOnce(0).data, 4 * width * y);
+    parent.postMessage({id: current, progress: [y + region.height, height]});
+    await turn();
+  }
+  return {data, width, height};
+}
+
+function readBlocks() {
+  const numbers = new Int32Array(memory.buffer, engine.blocks(), BLOCK_NUMBERS * engine.block_count());
+  return Array.from({length: engine.block_count()}, (_, i) => {
+    const [x, y, width, height, layer, n] = numbers.subarray(BLOCK_NUMBERS * i);
+    return {x, y, width, height, layer, n};
+  });
+}
+
+/** Runs jobs of another worker's engine for as long as there is one. */
+async function help({modules, memory: shared, worker, stacks}) {
+  const helper = await instantiate(modules, shared, false);
+  helper.engine.__stack_pointer.value = stacks[0];
+  helper.kernels.__stack_pointer.value = stacks[1];
+  parent.postMessage('ready');
+  helper.engine.help(worker);
+}
+
+listen(parent, async ({id, name, values, cancel}) => {
+  if (cancel !== undefined) {
+    if (engine) new Int32Array(memory.buffer)[engine.shared() / 4] = cancel;
+    return;
+  }
+  if (name === 'help') return help(values);
+  current = id;
+  try {
+    const result = await calls[name](values);
+    parent.postMessage({id, result}, result?.data ? [result.data.buffer] : []);
+  } catch (error) {
+    const {message, status, cancelled} = error;
+    parent.postMessage({id, error: {message, status, cancelled}});
+  }
+});

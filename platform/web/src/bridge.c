@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What JavaScript calls: one engine with one light field in the memory of one module. Functions
+ * answer with an sf_status unless they say otherwise. All memory is what lies behind the module's
+ * own data: first the helpers' stacks, then the light field and what was prepared of it, then the
+ * engine, which may be made anew for the same light field. */
+#include <string.h>
+
+#include "platform/web/src/fields.h"
+#include "platform/web/src/threads.h"
+#include "starfocus/image.h"
+
+#define EXPORT(name) __attribute__((export_name(#name)))
+#define PAGE 65536u
+#define MAX_BLOCKS 65536
+#define STACK PAGE /* of a helper */
+
+extern unsigned char __heap_base; /* the linker's: where the module's own data ends */
+
+static char text[64];    /* names of fields that JavaScript writes */
+static sf_config wanted; /* what the next engine is to be */
+static sf_config config; /* what sizes the light field, and the engine if there is one */
+static sf_params params;
+static sf_engine* engine;
+static int32_t workers;
+static uintptr_t top = (uintptr_t)&__heap_base; /* first byte that nobody uses */
+static uintptr_t stacks_end;                    /* top when there is no light field */
+static uintptr_t field_end;                     /* top when there is no engine */
+static sf_image_field field;
+static void* prepared_memory;
+static size_t prepared_bytes;
+static sf_prepared* prepared;
+static uint8_t* picture;
+static int32_t width, height; /* of the picture that was made last */
+static sf_block* blocks;
+static int32_t block_count;
+static int32_t call; /* the number of the call that runs */
+
+/* What other threads see of it: they write the number of the call that is to end, and read how many
+ * rows of how many are done. */
+static struct { int32_t cancelled, rows_done, rows; } shared;
+
+/* Returns memory aligned for the engine, or null when there is no more. */
+static void* Allocate(size_t bytes) {
+  const uintptr_t start = (top + SF_ALIGNMENT - 1) & ~(uintptr_t)(SF_ALIGNMENT - 1);
+  if (bytes > UINTPTR_MAX - start - PAGE) return NULL;
+  const uintptr_t end = start + bytes;
+  const size_t pages = (end + PAGE - 1) / PAGE, there = __builtin_wasm_memory_size(0);
+  if (pages > there && __builtin_wasm_memory_grow(0, pages - there) == SIZE_MAX) return NULL;
+  top = end;
+  return (void*)start;
+}
+
+static int Progress(void* data, int32_t rows_done, int32_t rows) {
+  (void)data;
+  __atomic_store_n(&shared.rows_done, rows_done, __ATOMIC_RELAXED);
+  __atomic_store_n(&shared.rows, rows, __ATOMIC_RELAXED);
+  return __atomic_load_n(&shared.cancelled, __ATOMIC_RELAXED) == call;
+}
+
+static void KeepBlock(void* data, const sf_block* block) {
+  (void)data;
+  if (block_count < MAX_BLOCKS) blocks[block_count++] = *block;
+}
+
+static sf_runner Runner(void) { return workers > 1 ? RunOnWorkers : NULL; }
+
+/* Where a name of a field is written, ended by 0; at most 63 bytes. */
+EXPORT(text) char* Text(void) { return text; }
+
+/* Begins a configuration: the default one, then the one that was accepted. */
+EXPORT(begin) void Begin(void) {
+  if (workers == 0) {
+    sf_config_init(&wanted);
+  } else {
+    wanted = config;
+  }
+}
+
+/* Returns whether sf_config has the field whose name is in the text. */
+EXPORT(configure) int Configure(double value) { return SetConfigField(&wanted, text, value); }
+
+/* Accepts the configuration, for that many workers, or leaves the one before. */
+EXPORT(accept) sf_status Accept(int32_t count) {
+  wanted.max_workers = count;
+  wanted.images = 1;
+  size_t bytes = 0;
+  const sf_status status = sf_workspace_size(&wanted, &bytes);
+  if (status == SF_OK) {
+    config = wanted;
+    workers = count;
+    SetHelpers(count - 1);
+  }
+  return status;
+}
+
+/* Returns the end of a stack for a helper, or 0 without memory; before there is a light field. */
+EXPORT(stack) uintptr_t Stack(void) {
+  char* const memory = (char*)Allocate(STACK);
+  return memory == NULL ? 0 : (uintptr_t)(memory + STACK);
+}
+
+EXPORT(help) void HelpAs(int32_t worker) { Help(worker); }
+
+static int MakeRoomForViews(int32_t pixel_bytes) {
+  const size_t row = (size_t)pixel_bytes * (size_t)config.width;
+  for (int32_t view = 0; view < config.views; ++view) {
+    sf_image* const image = &field.views[view];
+    image->format = pixel_bytes == 4 ? SF_FORMAT_RGBX : SF_FORMAT_RGB;
+    image->planes[0] = (uint8_t*)Allocate(row * (size_t)config.height);
+    image->strides[0] = row;
+    if (image->planes[0] == NULL) return 0;
+  }
+  return 1;
+}
+
+static int MakeRoomForDepth(int32_t depth_width, int32_t depth_height) {
+  sf_depth_map* const depth = &field.depth;
+  depth->width = depth_width;
+  depth->height = depth_height;
+  depth->stride = sizeof(float) * (size_t)depth_width;
+  depth->data = Allocate(depth->stride * (size_t)depth_height);
+  depth->scale = 1;
+  return depth->data != NULL;
+}
+
+/* Makes room for a light field of pictures with 3 or 4 bytes a pixel and a depth map of that size.
+ * What was there before is no more, the engine neither. */
+EXPORT(room) sf_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height) {
+  if (stacks_end == 0) stacks_end = top;
+  top = stacks_end;
+  engine = NULL;
+  prepared = NULL;
+  memset(&field, 0, sizeof(field));
+  const sf_status status = sf_prepared_size(&config, &prepared_bytes);
+  if (status != SF_OK) return status;
+  if (!MakeRoomForViews(pixel_bytes) || !MakeRoomForDepth(depth_width, depth_height)) {
+    return SF_ERROR_MEMORY;
+  }
+  picture = (uint8_t*)Allocate(4 * (size_t)config.width * (size_t)config.height);
+  blocks = (sf_block*)Allocate(MAX_BLOCKS * sizeof(sf_block));
+  prepared_memory = Allocate(prepared_bytes);
+  field_end = top;
+  return picture != NULL && blocks != NULL && prepared_memory != NULL ? SF_OK : SF_ERROR_MEMORY;
+}
+
+/* Where the pixels of a view of the room go; the depth map, of view -1. */
+EXPORT(place) const void* Place(int32_t view) {
+  return view < 0 ? field.depth.data : field.views[view].planes[0];
+}
+
+/* Makes the engine that was configured, for the light field that there is room for. */
+EXPORT(make_engine) sf_status MakeEngine(void) {
+  size_t bytes = 0;
+  const sf_status status = sf_workspace_size(&config, &bytes);
+  if (status != SF_OK) return status;
+  engine = NULL;
+  top = field_end;
+  void* const workspace = Allocate(bytes);
+  return workspace == NULL ? SF_ERROR_MEMORY : sf_init(&config, workspace, bytes, &engine);
+}
+
+/* Prepares the light field whose pixels are in their places. */
+EXPORT(prepare) sf_status Prepare(void) {
+  return sf_prepare_images(engine, &field, prepared_memory, prepared_bytes, Progress, NULL,
+                           Runner(), NULL, &prepared);
+}
+
+/* Begins a call of that number. */
+EXPORT(aim) void Aim(int32_t number) {
+  call = number;
+  shared.rows_done = shared.rows = 0;
+  block_count = 0;
+  sf_params_init(&params);
+  params.progress = Progress;
+}
+
+/* Returns whether sf_params has the field whose name is in the text. */
+EXPORT(set) int Set(double value) { return SetParamsField(&params, text, value); }
+
+/* Has the next refocusings note the blocks. */
+EXPORT(watch) void WatchBlocks(void) { params.on_block = KeepBlock; }
+
+/* Pixels of the picture, of those of [start, start + size), at 1 / 2^shift of the size. */
+static int32_t Reduced(int32_t start, int32_t size, int32_t shift) {
+  return size < 1 ? 0 : ((start + size - 1) >> shift) - (start >> shift) + 1;
+}
+
+/* Refocuses as params say, at 1 / 2^shift of the size, into rows of R, G, B, 255 one after the
+ * other. */
+EXPORT(refocus) sf_status Refocus(int32_t shift) {
+  const sf_region* const region = &params.region;
+  const int whole = region->width == 0 && region->height == 0;
+  width = Reduced(whole ? 0 : region->x, whole ? config.width : region->width, shift & 31);
+  height = Reduced(whole ? 0 : region->y, whole ? config.height : region->height, shift & 31);
+  const sf_image_out out = {
+      .format = SF_FORMAT_RGBX, .planes = {picture}, .strides = {4 * (size_t)width}};
+  if (shift == 0) {
+    return sf_refocus_prepared_images(engine, &params, prepared, &out, Runner(), NULL, NULL);
+  }
+  return sf_refocus_preview_images(engine, &params, prepared, shift, &out, Runner(), NULL, NULL);
+}
+
+EXPORT(picture_width) int32_t PictureWidth(void) { return width; }
+EXPORT(picture_height) int32_t PictureHeight(void) { return height; }
+EXPORT(picture) const uint8_t* Picture(void) { return picture; }
+EXPORT(blocks) const sf_block* Blocks(void) { return blocks; }
+EXPORT(block_count) int32_t BlockCount(void) { return block_count; }
+EXPORT(shared) void* Shared(void) { return &shared; }
+
+/* The focus for a pixel of the depth map, into *text as a double. */
+EXPORT(focus_at) sf_status FocusAt(int32_t x, int32_t y) {
+  double focus = 0;
+  const sf_status status = sf_focus_at((const float*)field.depth.data, field.depth.stride,
+                                       field.depth.width, field.depth.height, x, y, &focus);
+  memcpy(text, &focus, sizeof(focus));
+  return status;
+}
+
+EXPORT(status_string) const char* StatusString(sf_status status) {
+  return sf_status_string(status);
+}
+EXPORT(version) const char* Version(void) { return sf_version(); }

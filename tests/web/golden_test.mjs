@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The package gives the bytes of the library: every checksum of tests/engine/golden.txt, whose names tell
+// the light field and the lens, as tests/engine/golden_test.cc makes them.
+
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import test from 'node:test';
+import {createRefocuser, Mode, Rule, Shape, Transfer} from 'starfocus';
+
+import {makeIntegerScene, makeLevelScene} from './integer_scene.mjs';
+import {dropAlpha} from './pictures.mjs';
+
+const modes = {frame: Mode.FRAME, benchmark: Mode.BENCHMARK, block: Mode.BLOCK, blur: Mode.BLUR};
+const shapes = {
+  'disc': {apertureShape: Shape.DISC},
+  'pentagon': {apertureShape: Shape.POLYGON},
+  'curved-hexagon': {apertureShape: Shape.POLYGON, blades: 6, rotation: 17.5, curvature: 0.5},
+  'ring': {apertureShape: Shape.RING},
+  'cats-eye': {catsEye: 0.75},
+  'pentagon-cats-eye': {apertureShape: Shape.POLYGON, catsEye: 0.5}
+};
+const apertures = {'1.125': 0.8, '2.5': 1, '-27.5': 1};  // of the shapes' lenses, by their focus
+
+const scenes = new Map();
+function integerScene(views, depth) {
+  const name = `${views}-${depth}`;
+  if (!scenes.has(name)) scenes.set(name, makeIntegerScene(97, 70, views, depth));
+  return scenes.get(name);
+}
+
+/** Returns the scene, configuration and parameters that a name of golden.txt stands for. */
+function readCase(name) {
+  const levels = /^levels-(\d+)-(\d+)-(\d+)$/.exec(name);
+  if (levels) {
+    const [count, range, block] = levels.slice(1).map(Number);
+    return {
+      scene: makeLevelScene(block, count, range),
+      config: {largestBlock: block, nScale: 0.5},
+      params: {mode: Mode.FRAME, focus: 0, aperture: 1, rule: Rule.SUBAPERTURE}
+    };
+  }
+  const number = '(-?[\\d.]+)', mode = `(${Object.keys(modes).join('|')})`;
+  const plain = RegExp(`^(\\d+)-(\\w+)-${mode}-${number}-${number}-(\\d+)$`).exec(name);
+  const shaped = RegExp(`^([a-z-]+)-${mode}-${number}-(\\d+)$`).exec(name);
+  const [views, depth, modeName, focus, aperture, block] =
+      plain?.slice(1) ?? [5, 'layers', shaped[2], shaped[3], apertures[shaped[3]], shaped[4]];
+  return {
+    scene: integerScene(Number(views), depth),
+    transfer: depth === 'slanted' ? Transfer.NONE : Transfer.SRGB,
+    config: {
+      largestBlock: Number(block),
+      gather: Number(views) !== 9,
+      ...(shaped && shapes[shaped[1]])
+    },
+    params: {
+      mode: modes[modeName],
+      focus: Number(focus),
+      aperture: Number(aperture),
+      rule: Number(block) === 32 ? Rule.PAPER : Rule.DEFAULT
+    }
+  };
+}
+
+const UNCHANGED = {nScale: 1, apertureShape: Shape.FALL_OFF, blades: 5, rotation: 0, curvature: 0, catsEye: 0};
+
+/** Refocuses cases one after the other, with one refocuser for as long as the light field stays. */
+class Refocusings {
+  #scene = null;
+  #refocuser = null;
+
+  constructor(options) {
+    this.options = options;
+  }
+
+  async run({scene, transfer, config, params}) {
+    if (scene !== this.#scene) await this.#open(scene, transfer);
+    await this.#refocuser.configure({...UNCHANGED, ...config});
+    return this.#refocuser.refocus(params);
+  }
+
+  async #open(scene, transfer) {
+    this.close();
+    const {width, height, views, disparity, low, high} = this.#scene = scene;
+    this.#refocuser = await createRefocuser({
+      width, height, views: views.length, disparityMin: low, disparityMax: high, maxBlur: 43, transfer,
+      ...this.options
+    });
+    await this.#refocuser.prepare(views, disparity);
+  }
+
+  close() {
+    this.#refocuser?.close();
+  }
+}
+
+/** FNV-1a of 64 bits, in halves of 32. */
+function hash(bytes) {
+  let high = 0xCBF29CE4, low = 0x84222325;
+  for (const byte of bytes) {
+    low = (low ^ byte) >>> 0;
+    const product = low * 0x1B3;  // the prime is 2^40 + 0x1B3
+    high = (Math.imul(high, 0x1B3) + Math.trunc(product / 2 ** 32) + (low << 8)) >>> 0;
+    low = product >>> 0;
+  }
+  return [high, low].map(half => half.toString(16).padStart(8, '0')).join('');
+}
+
+const golden = readFileSync(process.env.STARFOCUS_GOLDEN_FILE, 'utf8')
+                   .trim().split('\n').map(line => line.split(' '));
+
+async function compare(cases, options) {
+  assert.ok(cases.length > 10);
+  const refocusings = new Refocusings(options), wrong = [];
+  for (const [name, expected] of cases) {
+    const picture = await refocusings.run(readCase(name));
+    if (hash(dropAlpha(picture.data)) !== expected) wrong.push(name);
+  }
+  refocusings.close();
+  assert.deepEqual(wrong, []);
+}
+
+test('every checksum with SIMD', () => compare(golden, {threads: 1}));
+// Kernels without SIMD take their time.
+const some = golden.filter((_, i) => i % 5 === 0);
+test('every fifth checksum without SIMD', () => compare(some, {threads: 1, simd: false}));
+test('every fifth checksum with threads', () => compare(some, {threads: 3}));

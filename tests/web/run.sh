@@ -1,0 +1,47 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# run.sh BUILD WEB: packs the npm package of the build WEB, installs it into an empty project, and tries it
+# in node; then the page of WEB in Debian's Chromium, driven by playwright-core from npm. The program of BUILD
+# makes what they are compared with.
+set -eu
+[ $# = 2 ] || { echo "usage: $0 BUILD WEB" >&2; exit 2; }
+sources=$(cd "$(dirname "$0")/../.." && pwd)
+build=$(cd "$1" && pwd)
+web=$(cd "$2" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' HUP INT TERM
+STARFOCUS_PROGRAM=$build/starfocus STARFOCUS_FIELD=$work/field STARFOCUS_SITE=$web/site
+STARFOCUS_GOLDEN_FILE=$sources/tests/engine/golden.txt STARFOCUS_SERVER=$sources/examples/web/serve.mjs
+STARFOCUS_SCREENSHOTS=$web/screenshots
+export STARFOCUS_PROGRAM STARFOCUS_FIELD STARFOCUS_SITE STARFOCUS_GOLDEN_FILE STARFOCUS_SERVER STARFOCUS_SCREENSHOTS
+
+# The version is one that was tried with Debian's Chromium.
+PLAYWRIGHT=1.49.1
+
+# quietly COMMAND...: shows what it printed last only when it fails.
+quietly() {
+  "$@" >"$work/log" 2>&1 || { tail -n 60 "$work/log" >&2; echo "web: failed: $*" >&2; exit 1; }
+}
+
+# run NAME: a test in the project; says how many cases passed.
+run() {
+  start=$(date +%s)
+  quietly node --test --test-reporter=tap "$1"
+  printf '%-40s %s tests passed (%d s)\n' "$1" "$(sed -n 's/^# pass //p' "$work/log")" $(($(date +%s) - start))
+}
+
+quietly "$STARFOCUS_PROGRAM" scene "$work/field" --name portrait --size 320x240 --views 5
+(cd "$web/npm" && quietly npm pack --pack-destination "$work")
+size=$(stat -c %s "$work"/starfocus-*.tgz)
+printf '%-40s %d bytes\n' 'the npm package' "$size"
+[ "$size" -le 122880 ] || { echo "web: expected a package of 120 KiB at most" >&2; exit 1; }
+mkdir -p "$work/project" "$STARFOCUS_SCREENSHOTS"
+cd "$work/project"
+cp "$sources"/tests/web/*.mjs .
+echo '{"private": true, "type": "module"}' >package.json
+quietly npm install --offline --no-audit --no-fund "$work"/starfocus-*.tgz
+run golden_test.mjs
+run package_test.mjs
+quietly npm install --no-audit --no-fund "playwright-core@$PLAYWRIGHT"
+run page_test.mjs

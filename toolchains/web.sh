@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+# The commands of ./do for browsers and node; sourced by it.
+
+# What the npm package and the page are made of: the package in build/web/npm, the page with it and a demo
+# light field in build/web/site. The demo takes longest, and is made once.
+build_web() {
+  local site=build/web/site
+  NODE_PATH=/usr/share/nodejs step configure-web "configuring build/web" cmake --preset web
+  NODE_PATH=/usr/share/nodejs step build-web "building the npm package in build/web/npm" \
+    cmake --build --preset web --parallel "$(nproc)"
+  mkdir -p $site/demo
+  [ -f $site/demo/meta.txt ] || {
+    build starfocus
+    program "made the light field $site/demo" scene $site/demo --name portrait --views 5
+  }
+  rm -rf $site/starfocus
+  cp -r build/web/npm $site/starfocus || exit 1
+  cp examples/web/*.html examples/web/*.css examples/web/*.js $site || exit 1
+}
+
+# web [PORT]: serves the page on the loopback; web build makes it alone; web test tests package and page.
+web() {
+  local port=8080
+  case "${1:-}" in
+    '' | build) ;;
+    test) PACKAGES="$PACKAGES chromium" ;;
+    *[!0-9]*) fail "usage: ./do web [PORT | build | test]" ;;
+    *) port=$1 ;;
+  esac
+  PACKAGES="$PACKAGES emscripten nodejs npm"
+  install_missing
+  build_web
+  case "${1:-}" in
+    build) echo "the page: build/web/site; the package: build/web/npm" ;;
+    test)
+      build starfocus
+      tests/web/run.sh $BUILD build/web || exit 1
+      ;;
+    *) node examples/web/serve.mjs build/web/site $port ;;
+  esac
+}
