@@ -13,6 +13,7 @@
 #include "tests/conformance/engine_blocks.h"
 #include "tests/conformance/reference.h"
 #include "tests/conformance/reference_stack.h"
+#include "tests/support/rounds.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 #ifdef STARFOCUS_PROGRAM
@@ -122,7 +123,7 @@ TEST_CASE("block conformance: random scenes, every star set, both rules, all lay
   test::Random random(51);
   Distance all;
   Covered covered;
-  for (int round = 0; round < (STARFOCUS_EMULATED ? 1 : 3); ++round) {
+  for (int round = 0; round < (test::kSlow ? 1 : 3); ++round) {
     for (const int views : kStars) {
       for (const Depth depth : kDepths) {
         const int width = random.Int(1, 96), height = random.Int(1, 64);

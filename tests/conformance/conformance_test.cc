@@ -14,6 +14,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/conformance/reference.h"
+#include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -115,7 +116,7 @@ TEST_CASE("conformance: random scenes, every star set, both modes") {
 TEST_CASE("conformance: many small scenes") {
   constexpr int kSmall = STARFOCUS_EMULATED ? 24 : 36;
   Distance all;
-  for (uint64_t seed = 0; seed < 300; ++seed) {
+  for (uint64_t seed = 0; seed < (test::kSlow ? 100 : 300); ++seed) {
     test::Random random(1000 + seed);
     const double low = random.Real(-6, 5);
     const Range range = {float(low), float(low + random.Real(0, 7))};

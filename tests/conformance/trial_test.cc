@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The engine against the double-precision reference on random trials: at most one gray level apart.
 #include "tests/conformance/trial.h"
+#include "tests/support/rounds.h"
 
 #include <doctest/doctest.h>
 
@@ -43,7 +44,7 @@ TEST_CASE("trials: random light fields and lenses") {
 #if defined(__SANITIZE_ADDRESS__)
   constexpr uint64_t kTrials = 200;
 #else
-  constexpr uint64_t kTrials = STARFOCUS_EMULATED ? 30 : 400;
+  constexpr uint64_t kTrials = STARFOCUS_EMULATED ? 30 : test::kSlow ? 120 : 400;
 #endif
   Distance all;
   for (uint64_t seed = 1; seed <= kTrials; ++seed) {
