@@ -182,8 +182,7 @@ inline void SurroundCells(const CellPlanes& planes, int32_t around, size_t count
         const int32_t away = ((rows > columns ? rows : columns) - 1) * kCellPixels;
         const auto first = load(at, kLowPlane), last = load(at, kHighPlane);
         const auto other = hn::IfThenElseZero(hn::Gt(last, own_high), load(at, kNearPlane));
-        const auto reached =
-            hn::Gt(hn::Max(own, other), hn::Set(d16, static_cast<int16_t>(away)));
+        const auto reached = hn::Gt(hn::Max(own, other), hn::Set(d16, static_cast<int16_t>(away)));
         low = hn::Min(low, hn::IfThenElse(reached, first, low));
         high = hn::Max(high, hn::IfThenElse(reached, last, high));
         const auto range = hn::IfThenElseZero(reached, hn::Sub(last, first));

@@ -37,9 +37,9 @@ void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Worke
   const size_t samples = 3 * static_cast<size_t>(rendered.width);
   CheckSums(worker.sums, Samples(rendered), shift);
   for (int32_t row = 0; row < rendered.height; ++row) {
-    const size_t pixel = static_cast<size_t>(rendered.y - frame.y + row) *
-                             static_cast<size_t>(frame.width) +
-                         static_cast<size_t>(rendered.x - frame.x);
+    const size_t pixel =
+        static_cast<size_t>(rendered.y - frame.y + row) * static_cast<size_t>(frame.width) +
+        static_cast<size_t>(rendered.x - frame.x);
     in.kernels->FinishLayer(worker.sums + static_cast<size_t>(row) * samples, samples, shift,
                             worker.layer_samples + 3 * pixel);
   }
@@ -125,9 +125,8 @@ uint64_t RenderSums(const BlockInputs& in, const Block& block, RenderJob job, Wo
   }
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const SliceRule& rule = IsBenchmark(*in.lens) ? kFineSlices : kSlices;
-  return 3 * CompositeRectangle(job, rule, in.lens->slice_limits,
-                                block.gathers ? &cells : nullptr, &worker->compositor,
-                                worker->sums);
+  return 3 * CompositeRectangle(job, rule, in.lens->slice_limits, block.gathers ? &cells : nullptr,
+                                &worker->compositor, worker->sums);
 }
 
 // The fractional bits of the sums that RenderSums leaves.
@@ -185,13 +184,13 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   field.disparity = worker->field.disparity;
   const Counting counting(in.windows[block.layer], worker);
   const BlockCells cells = {in.gathered, block.rect, block.layer};
-  const GatherJob job = {&counting.window(),      in.cells,   cells,            in.lens->scale,
-                         in.tables->blur_kernels, in.kernels, &worker->patience};
+  const GatherJob job = {
+      &counting.window(), in.cells,         cells, in.lens->scale, in.tables->blur_kernels,
+      in.kernels,         &worker->patience};
   const Rect frame = LayerFrame(block.rect, block.layer);
-  const Gathered gathered = block.layer == 0
-                                ? Gathered{At(out, block.rect, 0), nullptr, out.stride}
-                                : Gathered{nullptr, worker->layer_samples,
-                                           3 * static_cast<size_t>(frame.width)};
+  const Gathered gathered = block.layer == 0 ? Gathered{At(out, block.rect, 0), nullptr, out.stride}
+                                             : Gathered{nullptr, worker->layer_samples,
+                                                        3 * static_cast<size_t>(frame.width)};
   worker->counts.gathered_pixels += GatherCells(job, &field, gathered);
   if (block.layer > 0 && worker->patience.Spend(0)) FinishLayer(in, block, out, *worker);
 }

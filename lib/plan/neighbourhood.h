@@ -40,8 +40,8 @@ Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, cons
 // A cell is smooth when it can be gathered (lib/filter/gather.h): one surface is all that lies
 // within reach of its pixels, or reaches them from nearer by, and the blur there, nearer than the
 // focus counted as negative, differs by at most this, kDisparityBits. What lies farther may reach
-// them, too: in no view does it show before the surface. Where most of that is within one cell, it is
-// a step: then by no more than half the largest blur or kSharpSmoothRange, since the kernel of
+// them, too: in no view does it show before the surface. Where most of that is within one cell, it
+// is a step: then by no more than half the largest blur or kSharpSmoothRange, since the kernel of
 // the middle may be sharp where one side is not.
 inline constexpr int32_t kSmoothRange = (3 << kDisparityBits) / 2;
 inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;

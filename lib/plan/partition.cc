@@ -35,7 +35,8 @@ class Partition {
     // The cells are those of whole smallest blocks, which may hang over the picture's edges.
     const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(rules_.width - x),
                          CellsWithin(rules_.height - y)};
-    const Surroundings surroundings = LoadSurroundings(cells, rules_.scale, inside, around, scratch_.cells);
+    const Surroundings surroundings =
+        LoadSurroundings(cells, rules_.scale, inside, around, scratch_.cells);
     FindGathered(cells, surroundings);
     for (int level = 0; level <= levels_; ++level) {
       const int32_t count = side_ >> level;
@@ -130,9 +131,9 @@ class Partition {
         const int32_t first = gathered_.At(x * kCellSize, y * kCellSize);
         for (int32_t layer = first; layer < SF_LAYERS; ++layer) {
           ++node->gathered[layer];
-          node->gather[layer] +=
-              PredictGather(rules_.timing, static_cast<uint64_t>(kCellSize * kCellSize) >> 2 * layer,
-                            cells.At(x, y)->r_max >> layer);
+          node->gather[layer] += PredictGather(
+              rules_.timing, static_cast<uint64_t>(kCellSize * kCellSize) >> 2 * layer,
+              cells.At(x, y)->r_max >> layer);
         }
       }
     }

@@ -70,9 +70,11 @@ TEST_CASE("writers: a sweep is an animation, or a sharp picture with the focus o
   MakeScene(folder, "lf");
   const bool webp = WebpWriter::Check("", 1, 1).empty();
   const std::string out = webp ? "s.webp" : "s.png";
-  REQUIRE(Call(folder,
-               "refocus lf --sweep -0.45:0.45:4 --all-in-focus all.png --focus-index index.png -o " + out)
-              .code == 0);
+  REQUIRE(
+      Call(folder,
+           "refocus lf --sweep -0.45:0.45:4 --all-in-focus all.png --focus-index index.png -o " +
+               out)
+          .code == 0);
   CHECK(folder.count() == (webp ? 4 : 7));
   Image all, centre, index;
   REQUIRE(ReadImage(folder.file("all.png"), &all) == "");

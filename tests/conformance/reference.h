@@ -31,8 +31,8 @@ Result Refocus(const test::Scene& scene, const sf_params& params, const sf_confi
 
 // A cell of the picture that is gathered: blurred by the ideal kernel of its middle disparity.
 struct GatheredCell {
-  int x, y, width, height;                  // in the picture
-  int at_x, at_y, at_width, at_height;      // what shows it at the block's layer
+  int x, y, width, height;              // in the picture
+  int at_x, at_y, at_width, at_height;  // what shows it at the block's layer
 };
 
 // A block of the block mode and what it is rendered from.

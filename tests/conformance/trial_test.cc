@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The engine against the double-precision reference on random trials: at most one gray level apart.
 #include "tests/conformance/trial.h"
-#include "tests/support/rounds.h"
 
 #include <doctest/doctest.h>
 
 #include <cstdint>
+
+#include "tests/support/rounds.h"
 
 namespace {
 

@@ -293,8 +293,8 @@ void CheckMap(Map map, int largest_block) {
       for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
           if (level == 0) {
-            stats[0].push_back(
-                test::MeasureBlock(cells.grid, map.scale, 2 * column, 2 * row + y / kCellSize, around));
+            stats[0].push_back(test::MeasureBlock(cells.grid, map.scale, 2 * column,
+                                                  2 * row + y / kCellSize, around));
           } else {
             const BlockStats* children[4];
             for (int child = 0; child < 4; ++child) {
@@ -432,7 +432,8 @@ TEST_CASE("cells: the engine's largest border and sight cover what the analysis 
     const Cells wide(map, 0, 280, reach.cells + 3);
     for (int column = 14; column < 20; ++column) {
       const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, column, 16, reach.cells);
-      const BlockStats wider = test::MeasureBlock(wide.grid, map.scale, column, 16, reach.cells + 3);
+      const BlockStats wider =
+          test::MeasureBlock(wide.grid, map.scale, column, 16, reach.cells + 3);
       CAPTURE(r);
       CHECK(stats.r_max == wider.r_max);
       for (int layer = 0; layer < 3; ++layer) {

@@ -39,8 +39,8 @@ class BlockSurroundings {
   BlockSurroundings(const starfocus::CellGrid& grid, const starfocus::BlurScale& scale, int column,
                     int row, int around)
       : samples_(starfocus::SurroundingSamples(2, around), int16_t{0x5A5A}),
-        surroundings_(
-            starfocus::LoadSurroundings(grid, scale, {column, row, 2, 2}, around, samples_.data())) {}
+        surroundings_(starfocus::LoadSurroundings(grid, scale, {column, row, 2, 2}, around,
+                                                  samples_.data())) {}
   const starfocus::Surroundings& operator*() const { return surroundings_; }
 
  private:
