@@ -36,7 +36,8 @@ usage: ./do COMMAND
           --check   only compares instruction counts with tests/bench/baseline.txt
           --record  writes that file anew
           --micro   only times kernels, the line scan and small pictures
-  cross ARCH [build]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated
+  cross ARCH [build|bytes]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated;
+          bytes: only tests that compare all bytes
   boot    run the board program on an emulated board: its GPIO lines, buttons and screen
   count [record]  AArch64 instructions per pixel against tests/board/instruction_counts.txt
   size [write]   what boards need: code, stack and memory (write: into docs/boards.md)
@@ -277,33 +278,34 @@ consumers() {
   tests/consumers/run.sh $BUILD "$@" || exit 1
 }
 
-# fuzz_target NAME SECONDS: from the seeds and what earlier runs found. A clean checkout takes the
-# same way each time, so that a change which fails is to blame for it.
-fuzz_target() {
-  local work=build/fuzz/inputs/$1 length=1024
-  case "$1" in heif | layouts | photo | xmp) length=4096 ;; esac
-  mkdir -p "$work"
-  build/fuzz/tests/fuzz/fuzz_$1 -max_total_time="$2" -seed=1 -max_len=$length -timeout=30 \
-    -rss_limit_mb=1024 -malloc_limit_mb=512 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$1" \
-    >"$LOGS/fuzz-$1.log" 2>&1 && return
-  tail -n 40 "$LOGS/fuzz-$1.log"
-  echo "the fuzz target $1 failed; its whole log is $LOGS/fuzz-$1.log"
-  return 1
-}
-
-# fuzz_targets SECONDS: all of them, as many at a time as there are cores.
-fuzz_targets() {
-  local target running=() result=0
-  for target in $FUZZ_TARGETS; do
+# side_by_side COMMAND ITEM...: the command with each of the items, as many at a time as there are cores.
+side_by_side() {
+  local command=$1 item running=() result=0
+  shift
+  for item; do
     if [ ${#running[@]} -ge "$(nproc)" ]; then
       wait "${running[0]}" || result=1
       running=("${running[@]:1}")
     fi
-    fuzz_target "$target" "$1" &
+    $command "$item" &
     running+=($!)
   done
-  for target in "${running[@]}"; do wait "$target" || result=1; done
+  for item in "${running[@]}"; do wait "$item" || result=1; done
   return $result
+}
+
+# fuzz_target SECONDS NAME: from the seeds and what earlier runs found. A clean checkout takes the
+# same way each time, so that a change which fails is to blame for it.
+fuzz_target() {
+  local work=build/fuzz/inputs/$2 length=1024
+  case "$2" in heif | layouts | photo | xmp) length=4096 ;; esac
+  mkdir -p "$work"
+  build/fuzz/tests/fuzz/fuzz_$2 -max_total_time="$1" -seed=1 -max_len=$length -timeout=30 \
+    -rss_limit_mb=1024 -malloc_limit_mb=512 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$2" \
+    >"$LOGS/fuzz-$2.log" 2>&1 && return
+  tail -n 40 "$LOGS/fuzz-$2.log"
+  echo "the fuzz target $2 failed; its whole log is $LOGS/fuzz-$2.log"
+  return 1
 }
 
 fuzz() {
@@ -316,7 +318,7 @@ fuzz() {
     step build-fuzz "building the fuzz target $target" \
       cmake --build build/fuzz --parallel "$(nproc)" --target "starfocus_fuzz_$target"
   done
-  step fuzz "fuzzing $FUZZ_TARGETS" fuzz_targets "$1"
+  step fuzz "fuzzing $FUZZ_TARGETS" side_by_side "fuzz_target $1" $FUZZ_TARGETS
   for target in $FUZZ_TARGETS; do
     printf '%s: %s inputs\n' "$target" \
       "$(sed -n 's/^stat::number_of_executed_units: *//p' "$LOGS/fuzz-$target.log")"

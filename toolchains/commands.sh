@@ -37,22 +37,28 @@ cross_build() {
     cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}
 }
 
-# Whatever SIMD targets and vector lengths the emulator has must give the tracked checksums, and
-# every kernel the reference's results.
-golden_by_sve_length() {
+# sve_test BYTES:NAME: one of by_sve_length.
+sve_test() {
+  local bytes=${1%:*} name=${1#*:}
+  qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
+    -E LD_LIBRARY_PATH=build/sysroot/arm64/usr/lib/aarch64-linux-gnu \
+    build/aarch64-max/tests/${name}_test --no-intro=true >"$LOGS/$name-$bytes.log" 2>&1 && return
+  echo "${name}_test failed with SVE registers of $bytes bytes: see $LOGS/$name-$bytes.log" >&2
+  return 1
+}
+
+# Whatever vector lengths the emulator has must give the reference's results in every kernel, and the
+# tracked checksums.
+by_sve_length() {
+  local bytes tests=32:golden # a picture is as its kernels
   cross_build aarch64-max starfocus_golden_test starfocus_kernels_test starfocus_depth_kernels_test \
     starfocus_image_kernels_test
-  local bytes name
   for bytes in 16 32 64; do
-    printf 'SVE registers of %d bytes:\n' $bytes
-    for name in kernels depth_kernels image_kernels golden; do
-      qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
-        -E LD_LIBRARY_PATH=build/sysroot/arm64/usr/lib/aarch64-linux-gnu \
-        build/aarch64-max/tests/${name}_test --no-intro=true >"$LOGS/$name-$bytes.log" 2>&1 ||
-        fail "${name}_test failed with SVE registers of $bytes bytes: see $LOGS/$name-$bytes.log"
-    done
-    grep -h '^SIMD targets:\|^golden:' "$LOGS/kernels-$bytes.log" "$LOGS/golden-$bytes.log"
+    tests="$tests $bytes:kernels $bytes:depth_kernels $bytes:image_kernels"
   done
+  step sve "kernels with SVE registers of 16, 32 and 64 bytes, pictures with 32" \
+    side_by_side sve_test $tests
+  grep -h '^SIMD targets:\|^golden:' "$LOGS"/kernels-??.log "$LOGS/golden-32.log"
 }
 
 # into_boards NAME FILE: puts the file between the marks of that name in docs/boards.md.
@@ -149,20 +155,32 @@ prepare_board() {
     toolchains/sysroot.sh $board_sysroot build/sysroot/$board_sysroot
 }
 
-# cross ARCHITECTURE [build]: builds everything for a board and runs every test on an emulated one.
+# Tests that compare all bytes, on whatever board.
+BYTE_TESTS="abi depth_kernels estimate fill_unknown golden image_kernels image_stream images kernels layout
+  repair room stream"
+
+# cross ARCHITECTURE [build|bytes]: builds everything for a board and runs every test on an emulated one,
+# or BYTE_TESTS alone.
 cross() {
-  local PACKAGES="g++ cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot
+  local PACKAGES="g++ cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot targets name
+  case "${2:-}" in '' | build | bytes) ;; *) fail "usage: ./do cross ARCH [build|bytes]" ;; esac
   board "$preset"
   PACKAGES="$PACKAGES $board_compiler"
   [ "${2:-}" = build ] || PACKAGES="$PACKAGES qemu-user"
   install_missing
   step "sysroot-$preset" "fetching headers and libraries for $preset" \
     toolchains/sysroot.sh $board_sysroot build/sysroot/$board_sysroot
+  if [ "${2:-}" = bytes ]; then
+    for name in $BYTE_TESTS; do targets="$targets starfocus_${name}_test"; done
+    cross_build "$preset" $targets
+    ctest --preset "$preset" --parallel "$(nproc)" -R "^($(echo $BYTE_TESTS | tr ' ' '|'))_test$" || exit 1
+    return
+  fi
   cross_build "$preset"
   [ "${2:-}" = build ] && return
   ctest --preset "$preset" --parallel "$(nproc)" || exit 1
   if [ "$preset" = aarch64 ]; then
-    golden_by_sve_length
+    by_sve_length
     count
   fi
 }
