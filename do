@@ -212,8 +212,8 @@ demo() {
     sheet demo/near.png demo/middle.png demo/far.png --labels near,middle,far -o demo/sheet.png
 }
 
-# The unit tests under AddressSanitizer and UBSan with range checks; data sets and what lib/analysis
-# computes are left out, they would only be slower.
+# The tests under AddressSanitizer and UBSan with range checks; data sets, what lib/analysis computes
+# and what reads sources alone are left out, they would only be slower.
 sanitize() {
   step configure-sanitize "configuring build/sanitize" \
     cmake --preset sanitize -DSTARFOCUS_DATA_DIR=
