@@ -161,7 +161,7 @@ BYTE_TESTS="abi depth_kernels estimate fill_unknown golden image_kernels image_s
 # cross ARCHITECTURE [build|bytes]: builds everything for a board and runs every test on an emulated one,
 # or BYTE_TESTS alone.
 cross() {
-  local PACKAGES="g++ cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot targets name
+  local PACKAGES="g++ cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot targets= name
   case "${2:-}" in '' | build | bytes) ;; *) fail "usage: ./do cross ARCH [build|bytes]" ;; esac
   board "$preset"
   PACKAGES="$PACKAGES $board_compiler"
