@@ -39,7 +39,7 @@ GreyImage Levels(const FloatMap& map, float low, float high) {
   return grey;
 }
 
-std::string FocusAttributes(const DepthPhoto& photo, float low) {
+std::string FocusAttributes(const SharpOriginal& photo, float low) {
   const auto longer = double(std::max(photo.before->width, photo.before->height));
   const double nearness = photo.focus - low + 1;  // one over its distance; infinity is at 0
   return Attribute("GFocus:BlurAtInfinity", photo.aperture * std::fabs(nearness) / longer) +
@@ -48,8 +48,9 @@ std::string FocusAttributes(const DepthPhoto& photo, float low) {
 
 }  // namespace
 
-std::string EncodeDepthPhoto(const std::string& path, const Image& picture, const DepthPhoto& photo,
-                             int quality, const Metadata& metadata, Bytes* jpeg) {
+std::string EncodeDepthPhoto(const std::string& path, const Image& picture,
+                             const SharpOriginal& photo, int quality, const Metadata& metadata,
+                             Bytes* jpeg) {
   const std::vector<float>& values = photo.disparity->values;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   Bytes map, before, segments;

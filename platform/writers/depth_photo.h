@@ -15,7 +15,8 @@
 
 namespace starfocus {
 
-struct DepthPhoto {
+// What a depth photo has besides its picture, and what that was made of.
+struct SharpOriginal {
   const Image* before;        // sharp everywhere; of the picture's size
   const FloatMap* disparity;  // of it; finite
   double focus = 0;           // disparity that the picture is focused at
@@ -25,8 +26,9 @@ struct DepthPhoto {
 // The picture as JPEG of that quality with the one before and its map, a PNG of 8 bits whose levels
 // are linear in disparity (RangeInverse). GFocus:BlurAtInfinity is the radius of blur over the
 // longer side. `path` only names the file in errors.
-std::string EncodeDepthPhoto(const std::string& path, const Image& picture, const DepthPhoto& photo,
-                             int quality, const Metadata& metadata, Bytes* jpeg);
+std::string EncodeDepthPhoto(const std::string& path, const Image& picture,
+                             const SharpOriginal& photo, int quality, const Metadata& metadata,
+                             Bytes* jpeg);
 
 }  // namespace starfocus
 

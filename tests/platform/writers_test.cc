@@ -277,7 +277,7 @@ TEST_CASE("writers: a depth photo holds the map and the picture before, for exif
     map.values[i] = -3 + 8 * static_cast<float>((i * 7919) % 120000) / 119999;
   }
   Bytes jpeg;
-  const DepthPhoto photo = {&before, &map, 2, 0.5};
+  const SharpOriginal photo = {&before, &map, 2, 0.5};
   REQUIRE(EncodeDepthPhoto("a.jpg", picture, photo, 95, {}, &jpeg) == "");
   REQUIRE(WriteFile(folder.file("a.jpg"), jpeg) == "");
   Image back;

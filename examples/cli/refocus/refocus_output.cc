@@ -104,7 +104,7 @@ Error PlanOutput(const OutputOptions& options, bool sweep, bool region, int* qua
 Error WriteRefocused(const OutputOptions& options, const PictureOptions& how,
                      const EngineTask& task, const Image& picture) {
   if (!options.depth_photo) return WriteImage(options.out, picture, how);
-  DepthPhoto photo = {};
+  SharpOriginal photo = {};
   photo.before = &task.light_field->views[0];
   photo.disparity = &task.light_field->disparity;
   photo.focus = task.params.focus;
