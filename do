@@ -21,8 +21,8 @@ usage: ./do COMMAND
 
   demo    install what is missing, build, make a demo light field and refocus it
   test    install what is missing, build and run every test
-  check   the same tests under sanitizers with every fixed-point range checked, then a few cases
-          under valgrind
+  check   the tests under sanitizers with every fixed-point range checked, but those of sources and
+          of lib/analysis, then a few cases under valgrind
   mutate [FILE...|--since REV]  change one small thing at a time (in a copy) and tell which changes
           no test notices; --sample N of them (50); --help tells the rest
   fuzz [SECONDS]  run every fuzz target that long (60), new inputs kept in build/fuzz/inputs
