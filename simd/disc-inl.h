@@ -29,17 +29,33 @@ struct DiscPairs {
   explicit DiscPairs(const Disc& disc) {
     Pair* pair = pairs;
     for (int32_t y = 0; y <= disc.size; ++y) {
-      const auto weight = [&](int32_t x) -> uint16_t {
-        const int32_t high = x > y ? x : y, low = x > y ? y : x;
-        if (x > disc.size) return uint16_t{0};
-        const int bits = (x > 0 ? 1 : 0) + (y > 0 ? 1 : 0);
-        return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
-      };
       int32_t last = disc.size;
-      while (last >= 0 && weight(last) == 0) --last;
+      while (last >= 0 && Weight(disc, last, y) == 0) --last;
       counts[y] = last / 2 + (last >= 0);
-      for (int32_t x = 0; x <= last; x += 2) *pair++ = {weight(x), weight(x + 1)};
+      pair = AddRow(disc, y, counts[y], pair);
     }
+  }
+
+  // The disc in the places of another one's pairs, which reach as far or farther.
+  DiscPairs(const Disc& disc, const DiscPairs& others, int32_t rows) {
+    Pair* pair = pairs;
+    for (int32_t y = 0; y < rows; ++y) {
+      counts[y] = others.counts[y];
+      pair = AddRow(disc, y, counts[y], pair);
+    }
+  }
+
+ private:
+  static uint16_t Weight(const Disc& disc, int32_t x, int32_t y) {
+    const int32_t high = x > y ? x : y, low = x > y ? y : x;
+    if (high > disc.size) return 0;
+    const int bits = (x > 0 ? 1 : 0) + (y > 0 ? 1 : 0);
+    return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
+  }
+
+  static Pair* AddRow(const Disc& disc, int32_t y, int32_t count, Pair* pair) {
+    for (int32_t x = 0; x < 2 * count; x += 2) *pair++ = {Weight(disc, x, y), Weight(disc, x + 1, y)};
+    return pair;
   }
 };
 
@@ -62,38 +78,57 @@ HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t c
   }
 }
 
-// AddDiscRow adds a row of the disc to the accumulators; `means` are those of AverageRows.
+// AddDiscRow adds a row of the disc to the accumulators, and with kTwo the same row of a second disc
+// to its own; `means` are those of AverageRows.
 // FinishDisc makes light of accumulators, divided by 2^bits and times 2^whole.
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
 
 // Accumulators stand in the order in which pairs of 16 bits are interleaved; FinishDisc knows it.
-HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
-                           const uint16_t* HWY_RESTRICT means, size_t count,
-                           uint32_t* HWY_RESTRICT accumulators) {
+template <bool kTwo>
+HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, const DiscPairs::Pair* second_pairs,
+                           int32_t pair_count, const uint16_t* HWY_RESTRICT means, size_t count,
+                           uint32_t* HWY_RESTRICT accumulators, uint32_t* HWY_RESTRICT seconds) {
   const hn::ScalableTag<uint16_t> d16;
   const hn::RebindToSigned<decltype(d16)> di16;
   const hn::Repartition<uint32_t, decltype(d16)> d32;
   const hn::RebindToSigned<decltype(d32)> di32;
   const size_t lanes = hn::Lanes(d16);
+  const auto load = [&](const uint32_t* from) HWY_ATTR {
+    return hn::BitCast(di32, hn::LoadU(d32, from));
+  };
+  const auto weights_of = [&](const DiscPairs::Pair& pair) HWY_ATTR {
+    return hn::BitCast(di16, hn::Set(d32, pair.first | uint32_t{pair.second} << 16));
+  };
   for (size_t n = 0; n < count; n += lanes) {
     const uint16_t* at = means + n;
-    auto low = hn::BitCast(di32, hn::LoadU(d32, accumulators + n));
-    auto high = hn::BitCast(di32, hn::LoadU(d32, accumulators + n + lanes / 2));
-    auto unused = hn::Zero(di32);
+    auto low = load(accumulators + n), high = load(accumulators + n + lanes / 2);
+    auto second_low = hn::Zero(di32), second_high = second_low, unused = second_low;
+    if (kTwo) {
+      second_low = load(seconds + n);
+      second_high = load(seconds + n + lanes / 2);
+    }
     for (ptrdiff_t k = 0; k < pair_count; ++k) {
       const ptrdiff_t x = 6 * k;
       auto first = hn::LoadU(d16, at + x);
       if (k > 0) first = hn::AverageRound(first, hn::LoadU(d16, at - x));
       const auto second = hn::AverageRound(hn::LoadU(d16, at + x + 3), hn::LoadU(d16, at - x - 3));
-      const auto weights =
-          hn::BitCast(di16, hn::Set(d32, pairs[k].first | uint32_t{pairs[k].second} << 16));
-      low = hn::ReorderWidenMulAccumulate(
-          di32, hn::BitCast(di16, hn::InterleaveLower(d16, first, second)), weights, low, unused);
-      high = hn::ReorderWidenMulAccumulate(
-          di32, hn::BitCast(di16, hn::InterleaveUpper(d16, first, second)), weights, high, unused);
+      const auto lower = hn::BitCast(di16, hn::InterleaveLower(d16, first, second));
+      const auto upper = hn::BitCast(di16, hn::InterleaveUpper(d16, first, second));
+      const auto weights = weights_of(pairs[k]);
+      low = hn::ReorderWidenMulAccumulate(di32, lower, weights, low, unused);
+      high = hn::ReorderWidenMulAccumulate(di32, upper, weights, high, unused);
+      if (kTwo) {
+        const auto others = weights_of(second_pairs[k]);
+        second_low = hn::ReorderWidenMulAccumulate(di32, lower, others, second_low, unused);
+        second_high = hn::ReorderWidenMulAccumulate(di32, upper, others, second_high, unused);
+      }
     }
     hn::StoreU(hn::BitCast(d32, low), d32, accumulators + n);
     hn::StoreU(hn::BitCast(d32, high), d32, accumulators + n + lanes / 2);
+    if (kTwo) {
+      hn::StoreU(hn::BitCast(d32, second_low), d32, seconds + n);
+      hn::StoreU(hn::BitCast(d32, second_high), d32, seconds + n + lanes / 2);
+    }
   }
 }
 
@@ -116,25 +151,32 @@ HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t cou
 
 #else
 
-HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, int32_t pair_count,
-                           const uint16_t* HWY_RESTRICT means, size_t count,
-                           uint32_t* HWY_RESTRICT accumulators) {
+template <bool kTwo>
+HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, const DiscPairs::Pair* second_pairs,
+                           int32_t pair_count, const uint16_t* HWY_RESTRICT means, size_t count,
+                           uint32_t* HWY_RESTRICT accumulators, uint32_t* HWY_RESTRICT seconds) {
   const hn::ScalableTag<uint32_t> d32;
   const hn::Rebind<uint16_t, decltype(d32)> d16;
   const size_t lanes = hn::Lanes(d32);
+  const auto both = [&](const uint16_t* at, ptrdiff_t x) HWY_ATTR {
+    return hn::PromoteTo(d32, hn::AverageRound(hn::LoadU(d16, at - x), hn::LoadU(d16, at + x)));
+  };
   for (size_t n = 0; n < count; n += lanes) {
-    const auto both = [&](const uint16_t* at, ptrdiff_t x) HWY_ATTR {
-      return hn::PromoteTo(d32, hn::AverageRound(hn::LoadU(d16, at - x), hn::LoadU(d16, at + x)));
-    };
     const uint16_t* at = means + n;
-    auto sum = hn::LoadU(d32, accumulators + n);
-    sum = hn::Add(sum, WeighPair(d32, hn::PromoteTo(d32, hn::LoadU(d16, at)), both(at, 3),
-                                 hn::Set(d32, pairs[0].first), hn::Set(d32, pairs[0].second)));
-    for (ptrdiff_t k = 1; k < pair_count; ++k) {
-      sum = hn::Add(sum, WeighPair(d32, both(at, 6 * k), both(at, 6 * k + 3),
-                                   hn::Set(d32, pairs[k].first), hn::Set(d32, pairs[k].second)));
+    auto sum = hn::LoadU(d32, accumulators + n), second_sum = hn::Zero(d32);
+    if (kTwo) second_sum = hn::LoadU(d32, seconds + n);
+    for (ptrdiff_t k = 0; k < pair_count; ++k) {
+      const auto first = k > 0 ? both(at, 6 * k) : hn::PromoteTo(d32, hn::LoadU(d16, at));
+      const auto second = both(at, 6 * k + 3);
+      sum = hn::Add(sum, WeighPair(d32, first, second, hn::Set(d32, pairs[k].first),
+                                   hn::Set(d32, pairs[k].second)));
+      if (!kTwo) continue;
+      second_sum = hn::Add(second_sum,
+                           WeighPair(d32, first, second, hn::Set(d32, second_pairs[k].first),
+                                     hn::Set(d32, second_pairs[k].second)));
     }
     hn::StoreU(sum, d32, accumulators + n);
+    if (kTwo) hn::StoreU(second_sum, d32, seconds + n);
   }
 }
 
@@ -153,34 +195,39 @@ HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t cou
 
 #endif
 
-// Filters rows of samples by chunks; finish(accumulators, samples, row, begin) takes the sums of a
-// part of a row, which begins at sample `begin`.
-template <class Finish>
-HWY_INLINE void FilterRows(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
-                           size_t rows, size_t count, const Finish& finish) {
+// Filters rows of samples by chunks, with kTwo by a second disc as well, in the places of the
+// first one's pairs. finish(sums, seconds, samples, row, begin) takes the sums of a part of a row,
+// which begins at sample `begin`.
+template <bool kTwo, class Finish>
+HWY_INLINE void FilterRows(const int16_t* HWY_RESTRICT in, size_t in_stride, int32_t size,
+                           const DiscPairs& quarter, const DiscPairs& second, size_t rows,
+                           size_t count, const Finish& finish) {
   constexpr size_t kSpare = HWY_MAX_BYTES;
-  const DiscPairs quarter(disc);
-  const size_t margin = 3 * static_cast<size_t>(disc.size);
+  const size_t margin = 3 * static_cast<size_t>(size);
   // The second column of a pair may lie a pixel beyond the disc. Its weight is zero, but it is
   // read.
   uint16_t padded[3 + kDiscChunk + 2 * kDiscMargin + 3 + kSpare] = {};
   uint16_t* const means = padded + 3;
-  uint32_t accumulators[kDiscChunk + kSpare];
+  uint32_t accumulators[kDiscChunk + kSpare], seconds[kTwo ? kDiscChunk + kSpare : 1];
   for (size_t begin = 0; begin < count; begin += kDiscChunk) {
     const size_t chunk = count - begin < kDiscChunk ? count - begin : kDiscChunk;
     for (size_t row = 0; row < rows; ++row) {
       const int16_t* middle = in + row * in_stride + begin;
-      const DiscPairs::Pair* pairs = quarter.pairs;
+      const DiscPairs::Pair *pairs = quarter.pairs, *second_pairs = second.pairs;
       std::memset(accumulators, 0, (chunk + kSpare) * sizeof(*accumulators));
-      for (int32_t y = 0; y <= disc.size; ++y) {
-        if (quarter.counts[y] == 0) continue;
+      if (kTwo) std::memset(seconds, 0, (chunk + kSpare) * sizeof(*seconds));
+      for (int32_t y = 0; y <= size; ++y) {
+        const int32_t pair_count = quarter.counts[y];
+        if (pair_count == 0) continue;
         const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
         AverageRows(middle - offset - margin, middle + offset - margin, chunk + 2 * margin, means);
         std::memset(means + chunk + 2 * margin, 0, 3 * sizeof(*means));
-        AddDiscRow(pairs, quarter.counts[y], means + margin, chunk, accumulators);
-        pairs += quarter.counts[y];
+        AddDiscRow<kTwo>(pairs, second_pairs, pair_count, means + margin, chunk, accumulators,
+                         seconds);
+        pairs += pair_count;
+        second_pairs += pair_count;
       }
-      finish(accumulators, chunk, row, begin);
+      finish(accumulators, seconds, chunk, row, begin);
     }
   }
 }
@@ -190,22 +237,45 @@ inline void FilterDisc(const int16_t* HWY_RESTRICT in, size_t in_stride, const D
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
   const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
   int16_t light[kDiscChunk + HWY_MAX_BYTES];
-  const auto finish = [&](const uint32_t* sums, size_t chunk, size_t row, size_t begin) HWY_ATTR {
+  const auto finish = [&](const uint32_t* sums, const uint32_t*, size_t chunk, size_t row,
+                          size_t begin) HWY_ATTR {
     FinishDisc(sums, chunk, disc.bits + whole, whole, light);
     Encode(light, chunk, encoding, out + row * out_stride + begin);
   };
-  FilterRows(in, in_stride, disc, rows, count, finish);
+  const DiscPairs quarter(disc);
+  FilterRows<false>(in, in_stride, disc.size, quarter, quarter, rows, count, finish);
+}
+
+// Stores the sums of a disc as `count` samples.
+HWY_INLINE void StoreLayer(const uint32_t* sums, const Disc& disc, size_t count,
+                           int16_t* HWY_RESTRICT out) {
+  int16_t samples[kDiscChunk + HWY_MAX_BYTES];
+  FinishDisc(sums, count, disc.bits + kLightBits - kLayerBits, 0, samples);
+  std::memcpy(out, samples, count * sizeof(*out));
 }
 
 inline void FilterDiscLayer(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
                             size_t rows, size_t count, int16_t* HWY_RESTRICT out,
                             size_t out_stride) {
-  int16_t samples[kDiscChunk + HWY_MAX_BYTES];
-  const auto finish = [&](const uint32_t* sums, size_t chunk, size_t row, size_t begin) HWY_ATTR {
-    FinishDisc(sums, chunk, disc.bits + kLightBits - kLayerBits, 0, samples);
-    std::memcpy(out + row * out_stride + begin, samples, chunk * sizeof(*out));
+  const auto finish = [&](const uint32_t* sums, const uint32_t*, size_t chunk, size_t row,
+                          size_t begin)
+                          HWY_ATTR { StoreLayer(sums, disc, chunk, out + row * out_stride + begin); };
+  const DiscPairs quarter(disc);
+  FilterRows<false>(in, in_stride, disc.size, quarter, quarter, rows, count, finish);
+}
+
+inline void FilterTwoDiscs(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& less,
+                           const Disc& more, size_t rows, size_t count,
+                           int16_t* HWY_RESTRICT out_less, int16_t* HWY_RESTRICT out_more,
+                           size_t out_stride) {
+  const auto finish = [&](const uint32_t* sums, const uint32_t* seconds, size_t chunk, size_t row,
+                          size_t begin) HWY_ATTR {
+    const size_t at = row * out_stride + begin;
+    StoreLayer(sums, more, chunk, out_more + at);
+    StoreLayer(seconds, less, chunk, out_less + at);
   };
-  FilterRows(in, in_stride, disc, rows, count, finish);
+  const DiscPairs quarter(more), second(less, quarter, more.size + 1);
+  FilterRows<true>(in, in_stride, more.size, quarter, second, rows, count, finish);
 }
 
 }  // namespace HWY_NAMESPACE

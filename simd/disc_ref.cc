@@ -52,4 +52,11 @@ void FilterDiscLayer(const int16_t* in, size_t in_stride, const Disc& disc, size
   }
 }
 
+void FilterTwoDiscs(const int16_t* in, size_t in_stride, const Disc& less, const Disc& more,
+                    size_t rows, size_t count, int16_t* out_less, int16_t* out_more,
+                    size_t out_stride) {
+  FilterDiscLayer(in, in_stride, less, rows, count, out_less, out_stride);
+  FilterDiscLayer(in, in_stride, more, rows, count, out_more, out_stride);
+}
+
 }  // namespace starfocus::simd::reference

@@ -28,6 +28,7 @@
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
+#include "simd/slope-inl.h"
 #include "simd/spans-inl.h"
 #include "simd/tiles-inl.h"
 

@@ -20,6 +20,7 @@
 #include "simd/resample.h"
 #include "simd/runs.h"
 #include "simd/slices.h"
+#include "simd/slope.h"
 #include "simd/spans.h"
 #include "simd/tiles.h"
 
@@ -33,6 +34,9 @@
   KERNEL(Finish)                  \
   KERNEL(FilterDisc)              \
   KERNEL(FilterDiscLayer)         \
+  KERNEL(FilterTwoDiscs)          \
+  KERNEL(MixSamples)              \
+  KERNEL(MoveSamples)             \
   KERNEL(ConvertDisparity)        \
   KERNEL(FindRanges)              \
   KERNEL(FindWithin)              \

@@ -65,6 +65,24 @@ Opening OpeningOf(const sf_config& config) {
   return opening;
 }
 
+int32_t MeanSquare(const Opening& opening) {
+  if (opening.shape != SF_SHAPE_FALL_OFF) {
+    const double inner = static_cast<double>(opening.inner) / kOpeningOne;
+    return Round((1 + inner * inner) / 4);
+  }
+  // Rings of equal area at the square distances `square`, by the midpoint rule. An axis has half of
+  // it.
+  constexpr int kRings = 256;
+  const double fall_off = opening.fall_off / 65536.0;
+  double light = 0, sum = 0;
+  for (int ring = 0; ring < kRings; ++ring) {
+    const double square = (ring + 0.5) / kRings, ratio = fall_off / (square + fall_off);
+    light += ratio * ratio;
+    sum += ratio * ratio * square;
+  }
+  return Round(sum / light / 2);
+}
+
 bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius) {
   const int64_t square = x * x + y * y;
   if (square > radius * radius) return false;

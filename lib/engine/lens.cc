@@ -30,6 +30,10 @@ Rect RegionOf(const sf_config& config, const sf_params& params) {
   return {region.x, region.y, region.width, region.height};
 }
 
+int32_t LastGatherStep(const Lens& lens) {
+  return BlurStepCount(lens.r_max > kMaxGather ? kMaxGather : lens.r_max) - 1;
+}
+
 double LargestBlur(const sf_config& config, const sf_params& params) {
   const double nearer = config.disparity_max - params.focus;
   const double farther = params.focus - config.disparity_min;
@@ -51,11 +55,8 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   lens->aperture = FrameAperture(config, *tables, *lens);
   const ViewGrid grid = MakeViewGrid(lens->aperture, params.focus, params.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
-  const bool gathers = Gathers(config, *lens);
-  if (params.mode == SF_MODE_BLUR || gathers) {
-    const double largest = gathers && r_max > kMaxGather ? kMaxGather : r_max;
-    return MakeBlurKernels(BlurStepCount(largest), watch, tables);
-  }
+  if (Gathers(config, *lens)) return MakeBlurKernels(LastGatherStep(*lens) + 1, watch, tables);
+  if (params.mode == SF_MODE_BLUR) return MakeBlurKernels(BlurStepCount(r_max), watch, tables);
   return SF_OK;
 }
 

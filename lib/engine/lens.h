@@ -56,6 +56,9 @@ inline bool Gathers(const sf_config& config, const Lens& lens) {
   return IsBlockMode(lens) && UsesSubapertures(lens) && config.gather != 0 && octant;
 }
 
+// The last step of the kernels that are made for gathering.
+int32_t LastGatherStep(const Lens& lens);
+
 // The aperture of a block with the rule's N.
 inline const Aperture& ApertureOf(const Tables& tables, const Lens& lens, int32_t n) {
   if (!IsBlockMode(lens)) return lens.aperture;

@@ -17,6 +17,7 @@ void MakeTables(const sf_config& config, Tables* tables) {
     weights += ApertureSize(tables->opening, n);
   }
   tables->blur_steps = 0;
+  tables->mean_square = MeanSquare(tables->opening);
 }
 
 sf_status MakeBlurKernels(int32_t steps, Watch* watch, Tables* tables) {

@@ -24,7 +24,8 @@ struct Tables {
   uint16_t* benchmark_weights;  // of the one aperture of the benchmark mode
   BlurKernel* blur_kernels;
   uint16_t* blur_weights;
-  int32_t blur_steps;  // kernels made so far
+  int32_t blur_steps;   // kernels made so far
+  int32_t mean_square;  // MeanSquare of the opening
 };
 
 // Makes all but the blur kernels; the arrays must be set.

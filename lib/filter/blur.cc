@@ -22,14 +22,6 @@ constexpr int32_t kPoints = 8;
 // An integral takes as long as so many samples of other work.
 constexpr int32_t kIntegralSamples = 256;
 
-// Radius of a step in 1 / kOne pixels.
-int32_t RadiusOfStep(int32_t step) {
-  const int32_t fine = kFineSteps * kFineEnd;
-  if (step <= fine) return step * kOne / kFineSteps;
-  const int32_t octave = (step - fine) / kCoarseSteps, rest = (step - fine) % kCoarseSteps;
-  return ((kFineEnd * kOne) << octave) / kCoarseSteps * (kCoarseSteps + rest);
-}
-
 int32_t SizeOfStep(int32_t step) {
   return step == 0 ? 0 : (RadiusOfStep(step) + kOne / 2 + kOne - 1) / kOne;
 }
@@ -233,6 +225,23 @@ int32_t BlurStep(int32_t radius) {
   while (radius >= (2 * kFineEnd * kOne) << octave) ++octave;
   const int32_t unit = ((kFineEnd * kOne) << octave) / kCoarseSteps;
   return fine + octave * kCoarseSteps + (radius + unit / 2) / unit - kCoarseSteps;
+}
+
+int32_t RadiusOfStep(int32_t step) {
+  const int32_t fine = kFineSteps * kFineEnd;
+  if (step <= fine) return step * kOne / kFineSteps;
+  const int32_t octave = (step - fine) / kCoarseSteps, rest = (step - fine) % kCoarseSteps;
+  return ((kFineEnd * kOne) << octave) / kCoarseSteps * (kCoarseSteps + rest);
+}
+
+int32_t BlurStepBelow(int32_t radius) {
+  const int32_t step = BlurStep(radius);
+  return RadiusOfStep(step) > radius ? step - 1 : step;
+}
+
+int32_t BlurStepAbove(int32_t radius) {
+  const int32_t step = BlurStep(radius);
+  return RadiusOfStep(step) < radius ? step + 1 : step;
 }
 
 int32_t BlurStepCount(double max_blur) {

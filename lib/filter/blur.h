@@ -20,6 +20,10 @@ namespace starfocus {
 // Kernels of a ladder of radii: steps of 1/8 px up to 4 px, of 1/32 of the radius beyond.
 int32_t BlurStep(int32_t radius);  // of a radius with kDisparityBits
 int32_t BlurStepCount(double max_blur);
+int32_t RadiusOfStep(int32_t step);  // kDisparityBits
+// The steps of the largest radius that is not larger, and of the smallest that is not smaller.
+int32_t BlurStepBelow(int32_t radius);
+int32_t BlurStepAbove(int32_t radius);
 
 // The octant 0 <= m <= n of one kernel, or, when `full`, all of it; weights sum to exactly
 // 2^sum_bits over the plane, and those of an octant that four pixels share, or two on an axis, fit

@@ -1,10 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/filter/gather.h"
 
+#include <cstring>
+
+#include "lib/filter/slope.h"
 #include "lib/input/load_field.h"
 
 namespace starfocus {
 namespace {
+
+// What is kept of a cell on a slope, in rows of kStride samples: a pixel on each side, and what
+// kernels read beyond.
+struct SlopeRows {
+  static constexpr size_t kPixel = 3;
+  static constexpr size_t kWidth = simd::SliceSamples(3 * kCellSize);
+  static constexpr size_t kStride = kWidth + simd::kSliceLanes;
+  int16_t less[kCellSize * kStride] = {}, more[kCellSize * kStride] = {};
+  int16_t share[kWidth] = {};
+  int16_t mixed[(kCellSize + 2) * kStride] = {};  // from a row above on
+  int16_t moved[kWidth] = {};
+
+  int16_t* Mixed(int32_t row) { return mixed + static_cast<size_t>(row + 1) * kStride + kPixel; }
+};
 
 class Gather {
  public:
@@ -19,24 +36,32 @@ class Gather {
     for (int32_t y = block_.y; y < Bottom(); y += kCellSize) {
       for (int32_t x = block_.x; x < Right(); x += kCellSize) {
         if (!job_.cells.IsGathered(x, y)) continue;
-        border_ = Max(border_, job_.kernels_of_radius[StepOf(x, y)].size);
+        const Slope slope = SlopeOf(x, y);
+        const int32_t step =
+            slope.IsFlat() ? StepOf(x, y) : StepsOf(slope, job_.cells.PixelsOf(x, y)).more;
+        border_ = Max(border_, KernelOf(step).size);
       }
     }
     LoadField(*job_.kernels, *job_.window, frame_, {border_, border_, border_, border_}, field_);
   }
 
-  // Filters the row of cells at y; those side by side that have the same kernel go together.
+  // Filters the row of cells at y; flat ones side by side that have the same kernel go together.
   void FilterRow(int32_t y) {
     for (int32_t x = block_.x; x < Right();) {
       const int32_t first = x;
       x += kCellSize;
       if (!job_.cells.IsGathered(first, y)) continue;
-      const int32_t step = StepOf(first, y);
-      while (x < Right() && job_.cells.IsGathered(x, y) && StepOf(x, y) == step) x += kCellSize;
-      Rect part = job_.cells.PixelsOf(first, y);
-      const Rect last = job_.cells.PixelsOf(x - kCellSize, y);
-      part.width = last.x + last.width - part.x;
-      if (!Filter(part, job_.kernels_of_radius[step])) return;
+      const Slope slope = SlopeOf(first, y);
+      if (!slope.IsFlat()) {
+        if (!FilterSlope(slope, job_.cells.PixelsOf(first, y))) return;
+      } else {
+        const int32_t step = StepOf(first, y);
+        while (x < Right() && IsFlatOfStep(x, y, step)) x += kCellSize;
+        Rect part = job_.cells.PixelsOf(first, y);
+        const Rect last = job_.cells.PixelsOf(x - kCellSize, y);
+        part.width = last.x + last.width - part.x;
+        if (!Filter(part, KernelOf(step))) return;
+      }
       pixels_ += static_cast<uint64_t>(Min(x, Right()) - first) *
                  static_cast<uint64_t>(Min(kCellSize, Bottom() - y));
     }
@@ -47,30 +72,126 @@ class Gather {
   uint64_t pixels() const { return pixels_; }
 
  private:
+  // The kernels of the least and of the largest radius of some pixels.
+  struct Steps {
+    int32_t less, more;
+  };
+
   // Returns whether patience lasted until then.
-  bool Filter(const Rect& part, const BlurKernel& kernel) const {
+  bool Spend(const BlurKernel& kernel, const Rect& part) const {
     const int64_t points = (2 * kernel.size + 1) * (2 * kernel.size + 1);
-    if (!GoesOn(job_.patience, 3 * points * part.width * part.height)) return false;
-    const int32_t x = part.x - frame_.x, y = part.y - frame_.y;
-    const int16_t* in = field_->Rgb(border_ + x, border_ + y);
+    return GoesOn(job_.patience, 3 * points * part.width * part.height);
+  }
+
+  const int16_t* FirstPixel(const Rect& part) const {
+    return field_->Rgb(border_ + part.x - frame_.x, border_ + part.y - frame_.y);
+  }
+
+  // Where a part goes, from the first sample of `out_` on.
+  size_t FirstOut(const Rect& part) const {
+    return static_cast<size_t>(part.y - frame_.y) * out_.stride +
+           3 * static_cast<size_t>(part.x - frame_.x);
+  }
+
+  // Returns whether patience lasted until then, as FilterSlope does.
+  bool Filter(const Rect& part, const BlurKernel& kernel) const {
+    if (!Spend(kernel, part)) return false;
     const size_t in_stride = RgbStride(field_->width);
     const simd::Disc disc = {kernel.size, kernel.sum_bits, kernel.weights};
     const auto rows = static_cast<size_t>(part.height), count = 3 * static_cast<size_t>(part.width);
-    const size_t at = static_cast<size_t>(y) * out_.stride + 3 * static_cast<size_t>(x);
     if (job_.cells.layer == 0) {
-      job_.kernels->FilterDisc(in, in_stride, disc, job_.window->transfer->encoding, rows, count,
-                               out_.codes + at, out_.stride);
+      job_.kernels->FilterDisc(FirstPixel(part), in_stride, disc, job_.window->transfer->encoding,
+                               rows, count, out_.codes + FirstOut(part), out_.stride);
     } else {
-      job_.kernels->FilterDiscLayer(in, in_stride, disc, rows, count, out_.samples + at,
-                                    out_.stride);
+      job_.kernels->FilterDiscLayer(FirstPixel(part), in_stride, disc, rows, count,
+                                    out_.samples + FirstOut(part), out_.stride);
     }
     return true;
   }
+
+  // Mixes the pictures of the least and the largest kernel of the part, pixel by pixel, and moves
+  // what that gives to where the views of a slope see it.
+  bool FilterSlope(const Slope& slope, const Rect& part) {
+    const Steps steps = StepsOf(slope, part);
+    const BlurKernel &less = KernelOf(steps.less), &more = KernelOf(steps.more);
+    if (!Spend(more, part)) return false;
+    job_.kernels->FilterTwoDiscs(
+        FirstPixel(part), RgbStride(field_->width), {less.size, less.sum_bits, less.weights},
+        {more.size, more.sum_bits, more.weights}, static_cast<size_t>(part.height),
+        3 * static_cast<size_t>(part.width), rows_.less, rows_.more, SlopeRows::kStride);
+    constexpr int kBits = kSlopeBits - kDisparityBits;
+    const RadiusRange between = {RadiusOfStep(steps.less) << kBits,
+                                 RadiusOfStep(steps.more) << kBits};
+    const size_t count = 3 * static_cast<size_t>(part.width);
+    for (int32_t y = 0; y < part.height; ++y) {
+      const size_t at = static_cast<size_t>(y) * SlopeRows::kStride;
+      slope.FindShares(between, part.x, part.y + y, part.width, rows_.share);
+      job_.kernels->MixSamples(rows_.less + at, rows_.more + at, rows_.share, count,
+                               rows_.Mixed(y));
+    }
+    ContinueBeyond(part.height, count);
+    const simd::HalfMove move = slope.Move(job_.blur.mean_square);
+    for (int32_t y = 0; y < part.height; ++y) {
+      job_.kernels->MoveSamples(rows_.Mixed(y), SlopeRows::kStride, move, 1, count, rows_.moved,
+                                SlopeRows::kWidth);
+      Store(FirstOut(part) + static_cast<size_t>(y) * out_.stride, count);
+    }
+    return true;
+  }
+
+  // Sets the pixels around what is mixed so that the gradient at its rim is the one inside.
+  void ContinueBeyond(int32_t height, size_t count) {
+    const auto go_on = [](const int16_t* last, ptrdiff_t back) {
+      return static_cast<int16_t>(2 * last[0] - last[back]);
+    };
+    constexpr ptrdiff_t kPixel = SlopeRows::kPixel, kStride = SlopeRows::kStride;
+    const bool one_column = count == 3, one_row = height == 1;
+    for (int32_t y = 0; y < height; ++y) {
+      int16_t* row = rows_.Mixed(y);
+      for (ptrdiff_t c = 0; c < kPixel; ++c) {
+        int16_t *first = row + c, *last = row + count - kPixel + c;
+        first[-kPixel] = go_on(first, one_column ? 0 : kPixel);
+        last[kPixel] = go_on(last, one_column ? 0 : -kPixel);
+      }
+    }
+    for (size_t n = 0; n < count; ++n) {
+      int16_t *first = rows_.Mixed(0) + n, *last = rows_.Mixed(height - 1) + n;
+      first[-kStride] = go_on(first, one_row ? 0 : kStride);
+      last[kStride] = go_on(last, one_row ? 0 : -kStride);
+    }
+  }
+
+  // Stores a row of what is moved.
+  void Store(size_t at, size_t count) {
+    if (job_.cells.layer > 0) {
+      std::memcpy(out_.samples + at, rows_.moved, count * sizeof(*rows_.moved));
+    } else {
+      job_.kernels->Narrow(rows_.moved, count, job_.window->transfer->encoding, out_.codes + at);
+    }
+  }
+
+  Slope SlopeOf(int32_t x, int32_t y) const {
+    return Slope(*job_.grid, job_.scale, x / kCellSize, y / kCellSize, job_.cells.layer);
+  }
+
+  Steps StepsOf(const Slope& slope, const Rect& part) const {
+    constexpr int kBits = kSlopeBits - kDisparityBits, kUp = (1 << kBits) - 1;
+    const RadiusRange range = slope.RangeOf(part);
+    const auto made = [&](int32_t step) { return Min(step, job_.blur.last_step); };
+    return {made(BlurStepBelow(range.low >> kBits)),
+            made(BlurStepAbove((range.high + kUp) >> kBits))};
+  }
+
+  const BlurKernel& KernelOf(int32_t step) const { return job_.blur.of_step[step]; }
 
   int32_t StepOf(int32_t x, int32_t y) const {
     const Cell& cell = *job_.grid->At(x / kCellSize, y / kCellSize);
     const int32_t radius = job_.scale.Radius(Abs((cell.low + cell.high) / 2 - job_.scale.focus));
     return BlurStep(radius >> job_.cells.layer);
+  }
+
+  bool IsFlatOfStep(int32_t x, int32_t y, int32_t step) const {
+    return job_.cells.IsGathered(x, y) && StepOf(x, y) == step && SlopeOf(x, y).IsFlat();
   }
 
   const GatherJob& job_;
@@ -80,6 +201,7 @@ class Gather {
   const Gathered& out_;
   int32_t border_ = 0;  // largest kernel size
   uint64_t pixels_ = 0;
+  SlopeRows rows_;
 };
 
 }  // namespace

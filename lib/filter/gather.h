@@ -21,12 +21,19 @@ namespace starfocus {
 static_assert(kMaxGather + 1 <= simd::kMaxDisc,
               "a kernel's edge lies in the pixel beyond its radius");
 
+// The kernels of a lens.
+struct GatherKernels {
+  const BlurKernel* of_step;
+  int32_t last_step;
+  int32_t mean_square;  // of the opening
+};
+
 struct GatherJob {
   const Window* window;  // at the layer of the cells
   const CellGrid* grid;
   BlockCells cells;  // of a block, its corner a multiple of kCellSize
   BlurScale scale;
-  const BlurKernel* kernels_of_radius;
+  GatherKernels blur;
   const simd::Kernels* kernels;
   Patience* patience;  // once it ends, what is gathered into is left half made
 };

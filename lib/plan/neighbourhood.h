@@ -43,7 +43,7 @@ Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, cons
 // them, too: in no view does it show before the surface. Where most of that is within one cell, it
 // is a step: then by no more than half the largest blur or kSharpSmoothRange, since the kernel of
 // the middle may be sharp where one side is not.
-inline constexpr int32_t kSmoothRange = (3 << kDisparityBits) / 2;
+inline constexpr int32_t kSmoothRange = 3 << kDisparityBits;
 inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
 
 // Stats of the 2x2 cells of the grid at (column, row) of the surroundings.

@@ -91,4 +91,23 @@ void FilterDiscLayer(Draw* draw, KernelCall* call) {
   };
 }
 
+// The disc in front has weights where the one behind has some, here and there.
+void FilterTwoDiscs(Draw* draw, KernelCall* call) {
+  const Filtered in(draw, call);
+  const Disc& more = in.disc;
+  Disc less = more;
+  less.size = draw->Int(0, more.size);
+  std::vector<uint16_t> weights(OctantIndex(less.size, less.size) + 1);
+  for (size_t k = 0; k < weights.size(); ++k) {
+    weights[k] = draw->Rarely(6) ? uint16_t(0) : more.weights[k];
+  }
+  less.weights = call->Input("weights of less", weights);
+  auto *out_less = in.Output<int16_t>(call), *out_more = in.Output<int16_t>(call);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    kernels.FilterTwoDiscs(in.first, in.stride, less, more, in.rows, in.count, out_less, out_more,
+                           in.out_stride);
+    return 0;
+  };
+}
+
 }  // namespace test::kernel_cases

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/filter/slope.h"
+
+#include "lib/base/opening.h"
+
+namespace starfocus {
+namespace {
+
+// Corners that differ by more than this have a slope between them. At a quarter of a pixel pictures
+// with slopes lose 0.3 to 0.8 dB (docs/constants.md).
+constexpr int32_t kFlatRange = (1 << kSlopeBits) / 8;
+
+constexpr int32_t kHalves = 2 * kCellSize;  // half pixels of a cell's side
+
+// The signed blur radius at the upper left corner of a cell.
+int32_t RadiusAtCorner(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row) {
+  constexpr int kSummedBits = 3;  // four cells, two disparities each
+  int64_t distance = -int64_t{scale.focus} * (1 << kSummedBits);
+  for (int32_t y = row - 1; y <= row; ++y) {
+    for (int32_t x = column - 1; x <= column; ++x) {
+      const Cell& cell = *grid.At(Clamp(x, 0, grid.columns - 1), Clamp(y, 0, grid.rows - 1));
+      distance += cell.low + cell.high;
+    }
+  }
+  return static_cast<int32_t>((scale.step * distance) >>
+                              (kStepBits + kDisparityBits + kSummedBits - kSlopeBits));
+}
+
+}  // namespace
+
+Slope::Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row,
+             int32_t layer)
+    : layer_(layer), left_(kHalves * column), top_(kHalves * row) {
+  for (int32_t k = 0; k < 4; ++k) {
+    corners_[k] = RadiusAtCorner(grid, scale, column + (k & 1), row + (k >> 1));
+  }
+}
+
+bool Slope::IsFlat() const {
+  int32_t low = corners_[0], high = corners_[0];
+  for (const int32_t radius : corners_) {
+    low = Min(low, radius);
+    high = Max(high, radius);
+  }
+  return high - low <= kFlatRange << layer_;
+}
+
+// The signed radius of a pixel of the layer, in pixels of the layer, with ScaledBits more bits.
+int64_t Slope::Scaled(int32_t x, int32_t y) const {
+  const int32_t across = (2 * x + 1) * (1 << layer_) - left_;
+  const int32_t down = (2 * y + 1) * (1 << layer_) - top_;
+  const int32_t above = corners_[0] * (kHalves - across) + corners_[1] * across;
+  const int32_t below = corners_[2] * (kHalves - across) + corners_[3] * across;
+  return int64_t{above} * (kHalves - down) + int64_t{below} * down;
+}
+
+int32_t Slope::At(int32_t x, int32_t y) const {
+  return static_cast<int32_t>(RoundShift(Scaled(x, y), ScaledBits()));
+}
+
+RadiusRange Slope::RangeOf(const Rect& pixels) const {
+  const int32_t right = pixels.x + pixels.width - 1, bottom = pixels.y + pixels.height - 1;
+  const int32_t radii[4] = {At(pixels.x, pixels.y), At(right, pixels.y), At(pixels.x, bottom),
+                            At(right, bottom)};
+  int32_t low = radii[0], high = radii[0];
+  for (const int32_t radius : radii) {
+    low = Min(low, radius);
+    high = Max(high, radius);
+  }
+  const int32_t nearest = low < 0 && high > 0 ? 0 : Min(Abs(low), Abs(high));
+  return {nearest, Max(Abs(low), Abs(high))};
+}
+
+void Slope::FindShares(const RadiusRange& between, int32_t x, int32_t y, int32_t count,
+                       int16_t* share) const {
+  constexpr int32_t kOne = INT16_MAX;
+  const int64_t low = int64_t{between.low} * between.low;
+  const int64_t range = int64_t{between.high} * between.high - low;
+  const int64_t unit = range > 0 ? (int64_t{kOne} << 32) / range : 0;
+  const int64_t step = Scaled(x + 1, y) - Scaled(x, y);
+  int64_t scaled = Scaled(x, y) + (int64_t{1} << (ScaledBits() - 1));
+  for (int32_t n = 0; n < count; ++n, share += 3, scaled += step) {
+    const int64_t radius = scaled >> ScaledBits();
+    const int64_t part = ((radius * radius - low) * unit) >> 32;
+    share[0] = share[1] = share[2] = static_cast<int16_t>(part < 0 ? 0 : part > kOne ? kOne : part);
+  }
+}
+
+simd::HalfMove Slope::Move(int32_t spread) const {
+  constexpr int32_t kMost = INT16_MAX;
+  const int64_t radii = int64_t{corners_[0]} + corners_[1] + corners_[2] + corners_[3];
+  // The mean radius is a fourth of their sum, at the layer; a gradient a sixteenth of a difference.
+  const auto half_move = [&](int32_t difference) {
+    const int bits = kOpeningBits + 2 * kSlopeBits + 2 + 4 + 1 - 15 + layer_;
+    const int64_t move = RoundShift(radii * difference * spread, bits);
+    return static_cast<int16_t>(move < -kMost ? -kMost : move > kMost ? kMost : move);
+  };
+  return {half_move(corners_[1] + corners_[3] - corners_[0] - corners_[2]),
+          half_move(corners_[2] + corners_[3] - corners_[0] - corners_[1])};
+}
+
+}  // namespace starfocus

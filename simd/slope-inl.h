@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vector code of slope.h. Included once per target.
+#if defined(STARFOCUS_SIMD_SLOPE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_SLOPE_INL_H_
+#undef STARFOCUS_SIMD_SLOPE_INL_H_
+#else
+#define STARFOCUS_SIMD_SLOPE_INL_H_
+#endif
+
+#include "simd/compat-inl.h"
+#include "simd/slope.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace starfocus::simd {
+namespace HWY_NAMESPACE {
+
+inline void MixSamples(const int16_t* HWY_RESTRICT less, const int16_t* HWY_RESTRICT more,
+                       const int16_t* HWY_RESTRICT share, size_t count, int16_t* HWY_RESTRICT out) {
+  const hn::CappedTag<int16_t, kSliceLanes> d16;
+  for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
+    const auto from = hn::LoadU(d16, less + n);
+    const auto rest = hn::Sub(hn::LoadU(d16, more + n), from);
+    hn::StoreU(hn::Add(from, hn::MulFixedPoint15(rest, hn::LoadU(d16, share + n))), d16, out + n);
+  }
+}
+
+inline void MoveSamples(const int16_t* HWY_RESTRICT in, size_t in_stride, const HalfMove& move,
+                        size_t rows, size_t count, int16_t* HWY_RESTRICT out, size_t out_stride) {
+  const hn::CappedTag<int16_t, kSliceLanes> d16;
+  const auto across = hn::Set(d16, move.across), down = hn::Set(d16, move.down);
+  const auto white = hn::Set(d16, kLayerWhite);
+  for (size_t y = 0; y < rows; ++y, in += in_stride, out += out_stride) {
+    const auto change = [&](const int16_t* from, const int16_t* to) HWY_ATTR {
+      return hn::SaturatedSub(hn::LoadU(d16, to), hn::LoadU(d16, from));
+    };
+    for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
+      const int16_t* at = in + n;
+      auto value = hn::SaturatedAdd(hn::LoadU(d16, at),
+                                    hn::MulFixedPoint15(change(at - 3, at + 3), across));
+      value = hn::SaturatedAdd(
+          value, hn::MulFixedPoint15(change(at - in_stride, at + in_stride), down));
+      hn::StoreU(hn::Min(hn::Max(value, hn::Zero(d16)), white), d16, out + n);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace starfocus::simd
+HWY_AFTER_NAMESPACE();
+
+#endif
