@@ -29,7 +29,7 @@ bool IsSmooth(const BlurScale& scale, int32_t low, int32_t high, int32_t widest)
   const int32_t range = high - low;
   const int32_t blur = Max(Abs(low - scale.focus), Abs(high - scale.focus));
   // A slope goes on from cell to cell, and so may its blur.
-  const bool step = 2 * widest > range;
+  const bool step = 3 * widest > 2 * range;
   const int32_t limit = step ? Max(scale.Radius(blur) / 2, kSharpSmoothRange) : kSmoothRange;
   return scale.step * range <= int64_t{Min(limit, kSmoothRange)} << kStepBits;
 }
