@@ -9,17 +9,23 @@
 namespace starfocus {
 namespace {
 
-// What is kept of a cell on a slope, in rows of kStride samples: a pixel on each side, and what
-// kernels read beyond.
+// Cells side by side on a slope that are filtered by the same two kernels, and how far their radii
+// may differ then: what lies between two kernels is no disc (docs/constants.md).
+constexpr int32_t kSlopeCells = 4;
+constexpr int32_t kMixedRange = (1 << kSlopeBits) / 2;
+
+// What is kept of such cells, in rows of kStride samples: a pixel on each side, and what kernels
+// read beyond.
 struct SlopeRows {
   static constexpr size_t kPixel = 3;
-  static constexpr size_t kWidth = simd::SliceSamples(3 * kCellSize);
+  static constexpr size_t kWidth = simd::SliceSamples(3 * kSlopeCells * kCellSize);
   static constexpr size_t kStride = kWidth + simd::kSliceLanes;
   int16_t less[kCellSize * kStride] = {}, more[kCellSize * kStride] = {};
-  int16_t share[kWidth] = {};
+  int16_t share[kCellSize * kStride] = {};
   int16_t mixed[(kCellSize + 2) * kStride] = {};  // from a row above on
   int16_t moved[kWidth] = {};
 
+  int16_t* Share(int32_t row) { return share + static_cast<size_t>(row) * kStride; }
   int16_t* Mixed(int32_t row) { return mixed + static_cast<size_t>(row + 1) * kStride + kPixel; }
 };
 
@@ -38,30 +44,22 @@ class Gather {
         if (!job_.cells.IsGathered(x, y)) continue;
         const Slope slope = SlopeOf(x, y);
         const int32_t step =
-            slope.IsFlat() ? StepOf(x, y) : StepsOf(slope, job_.cells.PixelsOf(x, y)).more;
+            slope.IsFlat() ? StepOf(x, y)
+                           : StepsOf(slope.RangeOf(job_.cells.PixelsOf(x, y))).more;
         border_ = Max(border_, KernelOf(step).size);
       }
     }
     LoadField(*job_.kernels, *job_.window, frame_, {border_, border_, border_, border_}, field_);
   }
 
-  // Filters the row of cells at y; flat ones side by side that have the same kernel go together.
+  // Filters the row of cells at y; those side by side that have the same kernels go together.
   void FilterRow(int32_t y) {
     for (int32_t x = block_.x; x < Right();) {
       const int32_t first = x;
       x += kCellSize;
       if (!job_.cells.IsGathered(first, y)) continue;
-      const Slope slope = SlopeOf(first, y);
-      if (!slope.IsFlat()) {
-        if (!FilterSlope(slope, job_.cells.PixelsOf(first, y))) return;
-      } else {
-        const int32_t step = StepOf(first, y);
-        while (x < Right() && IsFlatOfStep(x, y, step)) x += kCellSize;
-        Rect part = job_.cells.PixelsOf(first, y);
-        const Rect last = job_.cells.PixelsOf(x - kCellSize, y);
-        part.width = last.x + last.width - part.x;
-        if (!Filter(part, KernelOf(step))) return;
-      }
+      x = SlopeOf(first, y).IsFlat() ? FilterFlat(first, y) : FilterSlopes(first, y);
+      if (x == first) return;
       pixels_ += static_cast<uint64_t>(Min(x, Right()) - first) *
                  static_cast<uint64_t>(Min(kCellSize, Bottom() - y));
     }
@@ -93,9 +91,23 @@ class Gather {
            3 * static_cast<size_t>(part.x - frame_.x);
   }
 
-  // Returns whether patience lasted until then, as FilterSlope does.
-  bool Filter(const Rect& part, const BlurKernel& kernel) const {
-    if (!Spend(kernel, part)) return false;
+  // The pixels of the layer that belong to the cells from `x` up to `end` of the row at y.
+  Rect PixelsOf(int32_t x, int32_t end, int32_t y) const {
+    Rect part = job_.cells.PixelsOf(x, y);
+    const Rect last = job_.cells.PixelsOf(end - kCellSize, y);
+    part.width = last.x + last.width - part.x;
+    return part;
+  }
+
+  // Filters flat cells from (x, y) on that have the same kernel. Returns where they end, or x when
+  // patience ended before.
+  int32_t FilterFlat(int32_t x, int32_t y) const {
+    const int32_t step = StepOf(x, y);
+    int32_t end = x + kCellSize;
+    while (end < Right() && IsFlatOfStep(end, y, step)) end += kCellSize;
+    const Rect part = PixelsOf(x, end, y);
+    const BlurKernel& kernel = KernelOf(step);
+    if (!Spend(kernel, part)) return x;
     const size_t in_stride = RgbStride(field_->width);
     const simd::Disc disc = {kernel.size, kernel.sum_bits, kernel.weights};
     const auto rows = static_cast<size_t>(part.height), count = 3 * static_cast<size_t>(part.width);
@@ -106,37 +118,63 @@ class Gather {
       job_.kernels->FilterDiscLayer(FirstPixel(part), in_stride, disc, rows, count,
                                     out_.samples + FirstOut(part), out_.stride);
     }
-    return true;
+    return end;
   }
 
-  // Mixes the pictures of the least and the largest kernel of the part, pixel by pixel, and moves
-  // what that gives to where the views of a slope see it.
-  bool FilterSlope(const Slope& slope, const Rect& part) {
-    const Steps steps = StepsOf(slope, part);
+  // Does so with cells on a slope: mixes the pictures of the least and of the largest kernel, pixel
+  // by pixel, and moves what that gives to where the views see it.
+  int32_t FilterSlopes(int32_t x, int32_t y) {
+    RadiusRange range = SlopeOf(x, y).RangeOf(job_.cells.PixelsOf(x, y));
+    int32_t end = x + kCellSize;
+    while (end < Right() && end < x + kSlopeCells * kCellSize && IsMixedWith(end, y, &range)) {
+      end += kCellSize;
+    }
+    const Rect part = PixelsOf(x, end, y);
+    const Steps steps = StepsOf(range);
     const BlurKernel &less = KernelOf(steps.less), &more = KernelOf(steps.more);
-    if (!Spend(more, part)) return false;
+    if (!Spend(more, part)) return x;
     job_.kernels->FilterTwoDiscs(
         FirstPixel(part), RgbStride(field_->width), {less.size, less.sum_bits, less.weights},
         {more.size, more.sum_bits, more.weights}, static_cast<size_t>(part.height),
         3 * static_cast<size_t>(part.width), rows_.less, rows_.more, SlopeRows::kStride);
+    Mix(steps, part, x, y);
+    ContinueBeyond(part.height, 3 * static_cast<size_t>(part.width));
+    for (; x < end; x += kCellSize) Move(part, x, y);
+    return end;
+  }
+
+  // Whether the cell at (x, y) can be filtered with those whose radii are in the range; widens it.
+  bool IsMixedWith(int32_t x, int32_t y, RadiusRange* range) const {
+    if (!job_.cells.IsGathered(x, y)) return false;
+    const Slope slope = SlopeOf(x, y);
+    if (slope.IsFlat()) return false;
+    const RadiusRange next = slope.RangeOf(job_.cells.PixelsOf(x, y));
+    const RadiusRange both = {Min(range->low, next.low), Max(range->high, next.high)};
+    if (both.high - both.low > kMixedRange) return false;
+    *range = both;
+    return true;
+  }
+
+  // Mixes the rows of a part, whose cells begin at (x, y).
+  void Mix(const Steps& steps, const Rect& part, int32_t x, int32_t y) {
     constexpr int kBits = kSlopeBits - kDisparityBits;
     const RadiusRange between = {RadiusOfStep(steps.less) << kBits,
                                  RadiusOfStep(steps.more) << kBits};
-    const size_t count = 3 * static_cast<size_t>(part.width);
-    for (int32_t y = 0; y < part.height; ++y) {
-      const size_t at = static_cast<size_t>(y) * SlopeRows::kStride;
-      slope.FindShares(between, part.x, part.y + y, part.width, rows_.share);
-      job_.kernels->MixSamples(rows_.less + at, rows_.more + at, rows_.share, count,
-                               rows_.Mixed(y));
+    const int32_t end = part.x + part.width;
+    for (int32_t cell_x = x, at = part.x; at < end; cell_x += kCellSize) {
+      const Rect pixels = job_.cells.PixelsOf(cell_x, y);
+      const Slope slope = SlopeOf(cell_x, y);
+      for (int32_t row = 0; row < part.height; ++row) {
+        slope.FindShares(between, pixels.x, pixels.y + row, pixels.width,
+                         rows_.Share(row) + 3 * (pixels.x - part.x));
+      }
+      at = pixels.x + pixels.width;
     }
-    ContinueBeyond(part.height, count);
-    const simd::HalfMove move = slope.Move(job_.blur.mean_square);
-    for (int32_t y = 0; y < part.height; ++y) {
-      job_.kernels->MoveSamples(rows_.Mixed(y), SlopeRows::kStride, move, 1, count, rows_.moved,
-                                SlopeRows::kWidth);
-      Store(FirstOut(part) + static_cast<size_t>(y) * out_.stride, count);
+    for (int32_t row = 0; row < part.height; ++row) {
+      const size_t at = static_cast<size_t>(row) * SlopeRows::kStride;
+      job_.kernels->MixSamples(rows_.less + at, rows_.more + at, rows_.Share(row),
+                               3 * static_cast<size_t>(part.width), rows_.Mixed(row));
     }
-    return true;
   }
 
   // Sets the pixels around what is mixed so that the gradient at its rim is the one inside.
@@ -161,6 +199,18 @@ class Gather {
     }
   }
 
+  // Moves what is mixed of the cell at (x, y), in a part of mixed cells, and stores it.
+  void Move(const Rect& part, int32_t x, int32_t y) {
+    const Rect pixels = job_.cells.PixelsOf(x, y);
+    const simd::HalfMove move = SlopeOf(x, y).Move(job_.blur.mean_square);
+    const size_t count = 3 * static_cast<size_t>(pixels.width);
+    for (int32_t row = 0; row < pixels.height; ++row) {
+      job_.kernels->MoveSamples(rows_.Mixed(row) + 3 * (pixels.x - part.x), SlopeRows::kStride, move,
+                                1, count, rows_.moved, SlopeRows::kWidth);
+      Store(FirstOut(pixels) + static_cast<size_t>(row) * out_.stride, count);
+    }
+  }
+
   // Stores a row of what is moved.
   void Store(size_t at, size_t count) {
     if (job_.cells.layer > 0) {
@@ -174,9 +224,8 @@ class Gather {
     return Slope(*job_.grid, job_.scale, x / kCellSize, y / kCellSize, job_.cells.layer);
   }
 
-  Steps StepsOf(const Slope& slope, const Rect& part) const {
+  Steps StepsOf(const RadiusRange& range) const {
     constexpr int kBits = kSlopeBits - kDisparityBits, kUp = (1 << kBits) - 1;
-    const RadiusRange range = slope.RangeOf(part);
     const auto made = [&](int32_t step) { return Min(step, job_.blur.last_step); };
     return {made(BlurStepBelow(range.low >> kBits)),
             made(BlurStepAbove((range.high + kUp) >> kBits))};
