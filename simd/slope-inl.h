@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 inline void MixSamples(const int16_t* HWY_RESTRICT less, const int16_t* HWY_RESTRICT more,
                        const int16_t* HWY_RESTRICT share, size_t count, int16_t* HWY_RESTRICT out) {
   const hn::CappedTag<int16_t, kSliceLanes> d16;
-  for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
+  for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     const auto from = hn::LoadU(d16, less + n);
     const auto rest = hn::Sub(hn::LoadU(d16, more + n), from);
     hn::StoreU(hn::Add(from, hn::MulFixedPoint15(rest, hn::LoadU(d16, share + n))), d16, out + n);
@@ -33,7 +33,7 @@ inline void MoveSamples(const int16_t* HWY_RESTRICT in, size_t in_stride, const 
     const auto change = [&](const int16_t* from, const int16_t* to) HWY_ATTR {
       return hn::SaturatedSub(hn::LoadU(d16, to), hn::LoadU(d16, from));
     };
-    for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
+    for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
       const int16_t* at = in + n;
       auto value = hn::SaturatedAdd(hn::LoadU(d16, at),
                                     hn::MulFixedPoint15(change(at - 3, at + 3), across));

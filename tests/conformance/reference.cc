@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/conformance/reference.h"
 
-#include "tests/conformance/reference_blur.h"
+#include "tests/conformance/reference_gather.h"
 #include "tests/conformance/reference_rectangle.h"
 #include "tests/conformance/reference_stack.h"
 #include "tests/support/transfer_curve.h"
@@ -300,42 +300,6 @@ Result Refocus(const test::Scene& scene, const sf_params& params, const sf_confi
 
 namespace {
 
-// Every pixel of the layer that shows the cell, from what lies around it.
-Picture Gather(const LightField& field, const Picture& of_layer, int layer,
-               const GatheredCell& cell, const Lens& lens) {
-  const Picture& picture = field.at({0, 0});
-  int low = INT32_MAX, high = INT32_MIN;
-  for (int y = 0; y < 8; ++y) {
-    for (int x = 0; x < 8; ++x) {
-      const int disparity = picture.disparities[picture.At(
-          std::min(cell.x + x, picture.width - 1), std::min(cell.y + y, picture.height - 1))];
-      low = std::min(low, disparity);
-      high = std::max(high, disparity);
-    }
-  }
-  const int distance = std::abs((low + high) / 2 - lens.focus);
-  const int radius = int(std::floor(lens.radius * distance)) >> layer;
-  const BlurKernel& kernel = BlurKernelOf(NearestRadius(radius), lens.opening);
-  const Rectangle rectangle = {cell.at_x,   cell.at_y,   cell.at_width, cell.at_height,
-                               kernel.size, kernel.size, kernel.size,   kernel.size};
-  Picture extended = ExtendedRectangle(of_layer, rectangle);
-  LookBeyond(field, picture, layer, rectangle, &extended);
-  Picture to(cell.at_width, cell.at_height);
-  for (int y = 0; y < cell.at_height; ++y) {
-    for (int x = 0; x < cell.at_width; ++x) {
-      Colour& sum = to.colours[to.At(x, y)];
-      for (int m = -kernel.size; m <= kernel.size; ++m) {
-        for (int n = -kernel.size; n <= kernel.size; ++n) {
-          const Colour& from =
-              extended.colours[extended.At(x + n + kernel.size, y + m + kernel.size)];
-          for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * from[c];
-        }
-      }
-    }
-  }
-  return to;
-}
-
 // Copies `from` to (x0, y0).
 void Paste(const Picture& from, int x0, int y0, Picture* to) {
   for (int y = 0; y < from.height; ++y) {
@@ -353,6 +317,8 @@ void RefocusAll(const LightField& field, const sf_params& params, const sf_confi
   const Picture& centre = field.at({0, 0});
   const std::vector<Picture> layers = MakeLayers(centre);
   const bool benchmark = params.mode == SF_MODE_BENCHMARK;
+  const double r_max = params.aperture * std::max(config.disparity_max - params.focus,
+                                                  params.focus - config.disparity_min);
   const Slicing slicing = {limits, size_t(benchmark ? 32 : 16), benchmark ? 0.125 : 0.375};
   for (const Block& block : blocks) {
     if (excess && (block.layer > 0 || !block.gathered.empty())) continue;
@@ -377,10 +343,7 @@ void RefocusAll(const LightField& field, const sf_params& params, const sf_confi
                                    : RefocusRectangle(field, layer, lens, rectangle);
       Paste(rendered, rectangle.x - framed.rendered_x, rectangle.y - framed.rendered_y, &frame);
     }
-    for (const GatheredCell& cell : block.gathered) {
-      Paste(Gather(field, layer, block.layer, cell, lens), cell.at_x - framed.rendered_x,
-            cell.at_y - framed.rendered_y, &frame);
-    }
+    GatherCells(field, layer, block, lens, r_max, framed.rendered_x, framed.rendered_y, &frame);
     Put(Finished(framed, frame), block.x, block.y, centre.width, result);
   }
 }

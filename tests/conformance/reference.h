@@ -29,7 +29,7 @@ struct Result {
 Result Refocus(const test::Scene& scene, const sf_params& params, const sf_config& config,
                int block);
 
-// A cell of the picture that is gathered: blurred by the ideal kernel of its middle disparity.
+// A cell of the picture that is gathered (reference_gather.h).
 struct GatheredCell {
   int x, y, width, height;              // in the picture
   int at_x, at_y, at_width, at_height;  // what shows it at the block's layer

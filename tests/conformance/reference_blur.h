@@ -16,11 +16,17 @@ namespace reference {
 
 inline constexpr int kOne = 64;  // of disparities and radii
 
-// The nearest radius, in 1 / kOne pixels, of the ladder that blur.h describes: steps of 1/8 pixel
-// up to 4 pixels, of 1/32 of each octave's beginning beyond.
-inline double NearestRadius(int radius) {
+// A step, at a radius in 1 / kOne pixels, of the ladder that blur.h describes: 1/8 pixel up to 4
+// pixels, 1/32 of each octave's beginning beyond.
+inline double LadderUnit(int radius) {
   double unit = kOne / 8.0;
   for (double octave = 4 * kOne; radius >= octave; octave *= 2) unit = octave / 32;
+  return unit;
+}
+
+// Its nearest radius to one in 1 / kOne pixels, in pixels.
+inline double NearestRadius(int radius) {
+  const double unit = LadderUnit(radius);
   return std::floor(radius / unit + 0.5) * unit / kOne;
 }
 

@@ -82,8 +82,8 @@ struct Cells {
     const double radius = double(scale.step) / (1 << starfocus::kStepBits);
     const double blur =
         radius * std::max(std::abs(low - scale.focus), std::abs(high - scale.focus));
-    const bool step = 2 * widest > high - low;
-    const double limit = step ? std::clamp(std::floor(std::floor(blur) / 2) / kOne, 0.5, 1.5) : 1.5;
+    const bool step = 3 * widest > 2 * (high - low);
+    const double limit = step ? std::clamp(std::floor(std::floor(blur) / 2) / kOne, 0.5, 3.0) : 3;
     return double(high - low) / kOne * radius <= limit;
   }
 

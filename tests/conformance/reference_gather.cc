@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/conformance/reference_gather.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/conformance/reference_blur.h"
+
+namespace reference {
+namespace {
+
+constexpr int kCell = 8;
+constexpr double kLargestKernel = 12;    // pixels of the layer
+constexpr double kFlatRange = 1.0 / 8;   // radii of a cell that one kernel serves
+constexpr double kMixedRange = 1.0 / 2;  // radii of cells that are filtered together
+constexpr size_t kMixedCells = 4;
+
+struct Range {
+  double low, high;
+};
+
+// The largest radius of the ladder that is not larger than one in 1 / kOne pixels, and the smallest
+// that is not smaller, in pixels.
+double LadderBelow(int radius) {
+  return std::floor(radius / LadderUnit(radius)) * LadderUnit(radius) / kOne;
+}
+double LadderAbove(int radius) {
+  return std::ceil(radius / LadderUnit(radius)) * LadderUnit(radius) / kOne;
+}
+
+// Mean square of a coordinate of the opening's light, of the lens's radius.
+double MeanSquare(const Opening& opening) {
+  if (opening.shape == SF_SHAPE_RING) return (1 + opening.inner * opening.inner) / 4;
+  if (opening.shape != SF_SHAPE_FALL_OFF) return 1.0 / 4;
+  const double c = opening.cot2, light = c / (1 + c);
+  return c * c * (std::log((1 + c) / c) + light - 1) / light / 2;
+}
+
+class Gather {
+ public:
+  Gather(const LightField& field, const Picture& of_layer, const Block& block, const Lens& lens,
+         double r_max, int frame_x, int frame_y, Picture* frame)
+      : field_(field),
+        picture_(field.at({0, 0})),
+        of_layer_(of_layer),
+        block_(block),
+        lens_(lens),
+        step_(std::llround(lens.radius * (1 << 24))),
+        largest_(NearestRadius(int(std::min(r_max, kLargestKernel) * kOne) + 1)),
+        frame_x_(frame_x),
+        frame_y_(frame_y),
+        frame_(*frame) {}
+
+  void All() {
+    const std::vector<GatheredCell>& cells = block_.gathered;
+    for (size_t first = 0, end; first < cells.size(); first = end) {
+      end = first + 1;
+      if (IsFlat(cells[first])) {
+        Flat(cells[first]);
+        continue;
+      }
+      Range range = RangeOf(cells[first]);
+      while (end < cells.size() && end < first + kMixedCells &&
+             IsMixedWith(cells[end - 1], cells[end], &range)) {
+        ++end;
+      }
+      Slopes(first, end, range);
+    }
+  }
+
+ private:
+  double Scale() const { return 1 << block_.layer; }
+
+  // The lowest and the highest disparity of a cell, whose last pixels are repeated beyond the
+  // picture, as is the last cell.
+  void DisparitiesOf(int column, int row, int* low, int* high) const {
+    column = std::clamp(column, 0, (picture_.width - 1) / kCell);
+    row = std::clamp(row, 0, (picture_.height - 1) / kCell);
+    *low = INT32_MAX;
+    *high = INT32_MIN;
+    for (int y = 0; y < kCell; ++y) {
+      for (int x = 0; x < kCell; ++x) {
+        const int disparity =
+            picture_.disparities[picture_.At(std::min(kCell * column + x, picture_.width - 1),
+                                             std::min(kCell * row + y, picture_.height - 1))];
+        *low = std::min(*low, disparity);
+        *high = std::max(*high, disparity);
+      }
+    }
+  }
+
+  // The signed radius at the upper left corner of a cell, in 1/1024 pixels of the picture.
+  double Corner(int column, int row) const {
+    int64_t distance = -8 * int64_t{lens_.focus};
+    for (int k = 0; k < 4; ++k) {
+      int low, high;
+      DisparitiesOf(column - 1 + (k & 1), row - 1 + (k >> 1), &low, &high);
+      distance += low + high;
+    }
+    return std::floor(double(step_) * double(distance) / double(1 << 23));
+  }
+
+  struct Corners {
+    double radii[4];
+  };
+  Corners CornersOf(const GatheredCell& cell) const {
+    const int column = cell.x / kCell, row = cell.y / kCell;
+    return {{Corner(column, row), Corner(column + 1, row), Corner(column, row + 1),
+             Corner(column + 1, row + 1)}};
+  }
+
+  bool IsFlat(const GatheredCell& cell) const {
+    const Corners corners = CornersOf(cell);
+    const auto range = std::minmax_element(corners.radii, corners.radii + 4);
+    return *range.second - *range.first <= kFlatRange * 1024 * Scale();
+  }
+
+  // The signed radius of a pixel of the layer, in pixels of the layer.
+  double RadiusAt(const GatheredCell& cell, const Corners& corners, int x, int y) const {
+    const double across = ((x + 0.5) * Scale() - cell.x) / kCell;
+    const double down = ((y + 0.5) * Scale() - cell.y) / kCell;
+    const double* r = corners.radii;
+    return ((r[0] * (1 - across) + r[1] * across) * (1 - down) +
+            (r[2] * (1 - across) + r[3] * across) * down) /
+           Scale() / 1024;
+  }
+
+  // The radii of the cell's pixels of the layer: unsigned, on the engine's grid.
+  Range RangeOf(const GatheredCell& cell) const {
+    const Corners corners = CornersOf(cell);
+    double low = 1e9, high = -1e9;
+    for (int k = 0; k < 4; ++k) {
+      const double radius =
+          RadiusAt(cell, corners, cell.at_x + (k & 1) * (cell.at_width - 1),
+                   cell.at_y + (k >> 1) * (cell.at_height - 1));
+      const double rounded = std::floor(radius * 1024 + 0.5) / 1024;
+      low = std::min(low, rounded);
+      high = std::max(high, rounded);
+    }
+    const double nearest = low < 0 && high > 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
+    return {nearest, std::max(std::fabs(low), std::fabs(high))};
+  }
+
+  bool IsMixedWith(const GatheredCell& last, const GatheredCell& cell, Range* range) const {
+    if (cell.y != last.y || cell.x != last.x + kCell || IsFlat(cell)) return false;
+    const Range next = RangeOf(cell);
+    const Range both = {std::min(range->low, next.low), std::max(range->high, next.high)};
+    if (both.high - both.low > kMixedRange) return false;
+    *range = both;
+    return true;
+  }
+
+  // A part of the layer, filtered by a kernel from what lies `border` around it.
+  Picture Filtered(const Picture& extended, int border, int width, int height,
+                   const BlurKernel& kernel) const {
+    Picture to(width, height);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        Colour& sum = to.colours[to.At(x, y)];
+        for (int m = -kernel.size; m <= kernel.size; ++m) {
+          for (int n = -kernel.size; n <= kernel.size; ++n) {
+            const Colour& from = extended.colours[extended.At(x + n + border, y + m + border)];
+            for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * from[c];
+          }
+        }
+      }
+    }
+    return to;
+  }
+
+  Picture Extended(int x, int y, int width, int height, int border) const {
+    const Rectangle rectangle = {x, y, width, height, border, border, border, border};
+    Picture extended = ExtendedRectangle(of_layer_, rectangle);
+    LookBeyond(field_, picture_, block_.layer, rectangle, &extended);
+    return extended;
+  }
+
+  Colour& Out(int x, int y) { return frame_.colours[frame_.At(x - frame_x_, y - frame_y_)]; }
+
+  void Flat(const GatheredCell& cell) {
+    int low, high;
+    DisparitiesOf(cell.x / kCell, cell.y / kCell, &low, &high);
+    const int distance = std::abs((low + high) / 2 - lens_.focus);
+    const int radius = int(std::floor(lens_.radius * distance)) >> block_.layer;
+    const BlurKernel& kernel = BlurKernelOf(NearestRadius(radius), lens_.opening);
+    const Picture filtered =
+        Filtered(Extended(cell.at_x, cell.at_y, cell.at_width, cell.at_height, kernel.size),
+                 kernel.size, cell.at_width, cell.at_height, kernel);
+    for (int y = 0; y < cell.at_height; ++y) {
+      for (int x = 0; x < cell.at_width; ++x) {
+        Out(cell.at_x + x, cell.at_y + y) = filtered.colours[filtered.At(x, y)];
+      }
+    }
+  }
+
+  // What a pixel lies between two kernels by, the square of its radius between theirs.
+  static double ShareOf(double radius, const Range& between) {
+    const double range = between.high * between.high - between.low * between.low;
+    if (range == 0) return 0;
+    return std::clamp((radius * radius - between.low * between.low) / range, 0.0, 1.0);
+  }
+
+  // Cells side by side: mixed of two kernels by the radius of each pixel, and moved along the
+  // gradient of what that gives.
+  void Slopes(size_t first, size_t end, const Range& range) {
+    const Range between = {
+        std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
+        std::min(LadderAbove(int(std::ceil(range.high * kOne))), largest_)};
+    const GatheredCell &left = block_.gathered[first], &right = block_.gathered[end - 1];
+    const int width = right.at_x + right.at_width - left.at_x, height = left.at_height;
+    const BlurKernel less = BlurKernelOf(between.low, lens_.opening);
+    const BlurKernel more = BlurKernelOf(between.high, lens_.opening);
+    const Picture extended = Extended(left.at_x, left.at_y, width, height, more.size);
+    Picture mixed = Filtered(extended, more.size, width, height, less);
+    const Picture wider = Filtered(extended, more.size, width, height, more);
+    for (size_t k = first; k < end; ++k) {
+      const GatheredCell& cell = block_.gathered[k];
+      const Corners corners = CornersOf(cell);
+      for (int y = cell.at_y; y < cell.at_y + cell.at_height; ++y) {
+        for (int x = cell.at_x; x < cell.at_x + cell.at_width; ++x) {
+          const double share = ShareOf(RadiusAt(cell, corners, x, y), between);
+          const size_t at = mixed.At(x - left.at_x, y - left.at_y);
+          for (size_t c = 0; c < 3; ++c) {
+            mixed.colours[at][c] += share * (wider.colours[at][c] - mixed.colours[at][c]);
+          }
+        }
+      }
+    }
+    for (size_t k = first; k < end; ++k) Move(block_.gathered[k], mixed, left.at_x, left.at_y);
+  }
+
+  // The difference of the colours beside a pixel; at the rim twice that to the one inside.
+  static double Difference(const Picture& of, int x, int y, int dx, int dy, size_t c) {
+    const auto at = [&](int side) {
+      const int px = x + side * dx, py = y + side * dy;
+      return of.Inside(px, py) ? of.colours[of.At(px, py)][c] : NAN;
+    };
+    const double here = of.colours[of.At(x, y)][c], before = at(-1), after = at(1);
+    if (std::isnan(before) && std::isnan(after)) return 0;
+    if (std::isnan(before)) return 2 * (after - here);
+    if (std::isnan(after)) return 2 * (here - before);
+    return after - before;
+  }
+
+  void Move(const GatheredCell& cell, const Picture& mixed, int x0, int y0) {
+    const Corners corners = CornersOf(cell);
+    const double* r = corners.radii;
+    const double radius = (r[0] + r[1] + r[2] + r[3]) / 4 / 1024 / Scale();
+    const double unit = MeanSquare(lens_.opening) * radius / 1024 / (2 * kCell) / 2;
+    const double across = unit * (r[1] + r[3] - r[0] - r[2]);
+    const double down = unit * (r[2] + r[3] - r[0] - r[1]);
+    for (int y = cell.at_y; y < cell.at_y + cell.at_height; ++y) {
+      for (int x = cell.at_x; x < cell.at_x + cell.at_width; ++x) {
+        for (size_t c = 0; c < 3; ++c) {
+          const double value = mixed.colours[mixed.At(x - x0, y - y0)][c] +
+                               across * Difference(mixed, x - x0, y - y0, 1, 0, c) +
+                               down * Difference(mixed, x - x0, y - y0, 0, 1, c);
+          Out(x, y)[c] = std::clamp(value, 0.0, 255.0);
+        }
+      }
+    }
+  }
+
+  const LightField& field_;
+  const Picture& picture_;
+  const Picture& of_layer_;
+  const Block& block_;
+  const Lens& lens_;
+  const int64_t step_;
+  const double largest_;  // radius of a kernel
+  const int frame_x_, frame_y_;
+  Picture& frame_;
+};
+
+}  // namespace
+
+void GatherCells(const LightField& field, const Picture& of_layer, const Block& block,
+                 const Lens& lens, double r_max, int frame_x, int frame_y, Picture* frame) {
+  Gather(field, of_layer, block, lens, r_max, frame_x, frame_y, frame).All();
+}
+
+}  // namespace reference
