@@ -54,7 +54,8 @@ struct DiscPairs {
   }
 
   static Pair* AddRow(const Disc& disc, int32_t y, int32_t count, Pair* pair) {
-    for (int32_t x = 0; x < 2 * count; x += 2) *pair++ = {Weight(disc, x, y), Weight(disc, x + 1, y)};
+    for (int32_t x = 0; x < 2 * count; x += 2)
+      *pair++ = {Weight(disc, x, y), Weight(disc, x + 1, y)};
     return pair;
   }
 };
@@ -78,9 +79,9 @@ HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t c
   }
 }
 
-// AddDiscRow adds a row of the disc to the accumulators, and with kTwo the same row of a second disc
-// to its own; `means` are those of AverageRows.
-// FinishDisc makes light of accumulators, divided by 2^bits and times 2^whole.
+// AddDiscRow adds a row of the disc to the accumulators, and with kTwo the same row of a second
+// disc to its own; `means` are those of AverageRows. FinishDisc makes light of accumulators,
+// divided by 2^bits and times 2^whole.
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
 
 // Accumulators stand in the order in which pairs of 16 bits are interleaved; FinishDisc knows it.
@@ -93,9 +94,8 @@ HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, const DiscPairs::Pair* 
   const hn::Repartition<uint32_t, decltype(d16)> d32;
   const hn::RebindToSigned<decltype(d32)> di32;
   const size_t lanes = hn::Lanes(d16);
-  const auto load = [&](const uint32_t* from) HWY_ATTR {
-    return hn::BitCast(di32, hn::LoadU(d32, from));
-  };
+  const auto load = [&](const uint32_t* from)
+                        HWY_ATTR { return hn::BitCast(di32, hn::LoadU(d32, from)); };
   const auto weights_of = [&](const DiscPairs::Pair& pair) HWY_ATTR {
     return hn::BitCast(di16, hn::Set(d32, pair.first | uint32_t{pair.second} << 16));
   };
@@ -171,9 +171,9 @@ HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, const DiscPairs::Pair* 
       sum = hn::Add(sum, WeighPair(d32, first, second, hn::Set(d32, pairs[k].first),
                                    hn::Set(d32, pairs[k].second)));
       if (!kTwo) continue;
-      second_sum = hn::Add(second_sum,
-                           WeighPair(d32, first, second, hn::Set(d32, second_pairs[k].first),
-                                     hn::Set(d32, second_pairs[k].second)));
+      second_sum =
+          hn::Add(second_sum, WeighPair(d32, first, second, hn::Set(d32, second_pairs[k].first),
+                                        hn::Set(d32, second_pairs[k].second)));
     }
     hn::StoreU(sum, d32, accumulators + n);
     if (kTwo) hn::StoreU(second_sum, d32, seconds + n);
@@ -257,9 +257,9 @@ HWY_INLINE void StoreLayer(const uint32_t* sums, const Disc& disc, size_t count,
 inline void FilterDiscLayer(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
                             size_t rows, size_t count, int16_t* HWY_RESTRICT out,
                             size_t out_stride) {
-  const auto finish = [&](const uint32_t* sums, const uint32_t*, size_t chunk, size_t row,
-                          size_t begin)
-                          HWY_ATTR { StoreLayer(sums, disc, chunk, out + row * out_stride + begin); };
+  const auto finish =
+      [&](const uint32_t* sums, const uint32_t*, size_t chunk, size_t row, size_t begin)
+          HWY_ATTR { StoreLayer(sums, disc, chunk, out + row * out_stride + begin); };
   const DiscPairs quarter(disc);
   FilterRows<false>(in, in_stride, disc.size, quarter, quarter, rows, count, finish);
 }

@@ -35,10 +35,10 @@ inline void MoveSamples(const int16_t* HWY_RESTRICT in, size_t in_stride, const 
     };
     for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
       const int16_t* at = in + n;
-      auto value = hn::SaturatedAdd(hn::LoadU(d16, at),
-                                    hn::MulFixedPoint15(change(at - 3, at + 3), across));
-      value = hn::SaturatedAdd(
-          value, hn::MulFixedPoint15(change(at - in_stride, at + in_stride), down));
+      auto value =
+          hn::SaturatedAdd(hn::LoadU(d16, at), hn::MulFixedPoint15(change(at - 3, at + 3), across));
+      value = hn::SaturatedAdd(value,
+                               hn::MulFixedPoint15(change(at - in_stride, at + in_stride), down));
       hn::StoreU(hn::Min(hn::Max(value, hn::Zero(d16)), white), d16, out + n);
     }
   }

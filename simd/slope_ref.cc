@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simd/slope.h"
-
 #include "simd/arithmetic_ref.h"
+#include "simd/slope.h"
 
 namespace starfocus::simd::reference {
 

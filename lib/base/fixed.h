@@ -25,6 +25,10 @@
 // | sums of slices       | uint32 | 2^8     | 58000 a column, N <= 41   | 800 x                     |
 // | mean of disc pixels  | uint16 | 2^7     | [0, 255], of two or four  | signed 16-bit multiplies  |
 // | their weight         | uint16 | 2^k     | [0, 32767], k <= 17       | signed 16-bit multiplies  |
+// | radius on a slope    | int32  | 2^10    | +-60 px, +-130 px beside  | 2^13 x                    |
+// | share of a kernel    | int16  | 2^15    | [0, 1); 1 is 32767        | saturates                 |
+// | half move of a slope | int16  | 2^15    | (-1, 1) px, clamped       | none                      |
+// | beyond mixed rows    | int16  | 2^6     | [-255, 510]               | 0.4 % below 511.98        |
 // | aperture weight      | uint16 | 2^k     | [0, 32767], k <= 17       | signed 16-bit multiplies  |
 // | of subapertures      | uint16 | 2^k     | [0, 32767], k <= 24       | signed 16-bit multiplies  |
 // | blur kernel weight   | uint16 | 2^k     | [0, 32767], k <= 17       | signed 16-bit multiplies  |

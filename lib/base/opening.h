@@ -43,8 +43,8 @@ struct Opening {
 // The opening that a valid configuration asks for.
 Opening OpeningOf(const sf_config& config);
 
-// The mean square of a coordinate of the light that an opening other than a polygon lets through, of
-// the lens's radius: kOpeningBits.
+// The mean square of a coordinate of the light that an opening other than a polygon lets through,
+// of the lens's radius: kOpeningBits.
 int32_t MeanSquare(const Opening& opening);
 
 // Whether light comes through at (x, y), of a lens whose radius is `radius`; all at most 2^14.

@@ -186,7 +186,7 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const GatherKernels blur = {in.tables->blur_kernels, LastGatherStep(*in.lens),
                               in.tables->mean_square};
-  const GatherJob job = {&counting.window(), in.cells,   cells, in.lens->scale, blur,
+  const GatherJob job = {&counting.window(), in.cells,         cells, in.lens->scale, blur,
                          in.kernels,         &worker->patience};
   const Rect frame = LayerFrame(block.rect, block.layer);
   const Gathered gathered = block.layer == 0 ? Gathered{At(out, block.rect, 0), nullptr, out.stride}

@@ -44,8 +44,7 @@ class Gather {
         if (!job_.cells.IsGathered(x, y)) continue;
         const Slope slope = SlopeOf(x, y);
         const int32_t step =
-            slope.IsFlat() ? StepOf(x, y)
-                           : StepsOf(slope.RangeOf(job_.cells.PixelsOf(x, y))).more;
+            slope.IsFlat() ? StepOf(x, y) : StepsOf(slope.RangeOf(job_.cells.PixelsOf(x, y))).more;
         border_ = Max(border_, KernelOf(step).size);
       }
     }
@@ -158,8 +157,8 @@ class Gather {
   // Mixes the rows of a part, whose cells begin at (x, y).
   void Mix(const Steps& steps, const Rect& part, int32_t x, int32_t y) {
     constexpr int kBits = kSlopeBits - kDisparityBits;
-    const RadiusRange between = {RadiusOfStep(steps.less) << kBits,
-                                 RadiusOfStep(steps.more) << kBits};
+    const RadiusRange between = {RadiusOfStep(steps.less) << kBits, RadiusOfStep(steps.more)
+                                                                        << kBits};
     const int32_t end = part.x + part.width;
     for (int32_t cell_x = x, at = part.x; at < end; cell_x += kCellSize) {
       const Rect pixels = job_.cells.PixelsOf(cell_x, y);
@@ -205,8 +204,8 @@ class Gather {
     const simd::HalfMove move = SlopeOf(x, y).Move(job_.blur.mean_square);
     const size_t count = 3 * static_cast<size_t>(pixels.width);
     for (int32_t row = 0; row < pixels.height; ++row) {
-      job_.kernels->MoveSamples(rows_.Mixed(row) + 3 * (pixels.x - part.x), SlopeRows::kStride, move,
-                                1, count, rows_.moved, SlopeRows::kWidth);
+      job_.kernels->MoveSamples(rows_.Mixed(row) + 3 * (pixels.x - part.x), SlopeRows::kStride,
+                                move, 1, count, rows_.moved, SlopeRows::kWidth);
       Store(FirstOut(pixels) + static_cast<size_t>(row) * out_.stride, count);
     }
   }

@@ -47,7 +47,9 @@ class Slope {
 
  private:
   int64_t Scaled(int32_t x, int32_t y) const;
-  int ScaledBits() const { return 8 + layer_; }  // the square of a cell's half pixels, and the layer
+  int ScaledBits() const {
+    return 8 + layer_;
+  }  // the square of a cell's half pixels, and the layer
   int32_t At(int32_t x, int32_t y) const;
 
   int32_t layer_;

@@ -130,9 +130,8 @@ class Gather {
     const Corners corners = CornersOf(cell);
     double low = 1e9, high = -1e9;
     for (int k = 0; k < 4; ++k) {
-      const double radius =
-          RadiusAt(cell, corners, cell.at_x + (k & 1) * (cell.at_width - 1),
-                   cell.at_y + (k >> 1) * (cell.at_height - 1));
+      const double radius = RadiusAt(cell, corners, cell.at_x + (k & 1) * (cell.at_width - 1),
+                                     cell.at_y + (k >> 1) * (cell.at_height - 1));
       const double rounded = std::floor(radius * 1024 + 0.5) / 1024;
       low = std::min(low, rounded);
       high = std::max(high, rounded);
@@ -203,9 +202,8 @@ class Gather {
   // Cells side by side: mixed of two kernels by the radius of each pixel, and moved along the
   // gradient of what that gives.
   void Slopes(size_t first, size_t end, const Range& range) {
-    const Range between = {
-        std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
-        std::min(LadderAbove(int(std::ceil(range.high * kOne))), largest_)};
+    const Range between = {std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
+                           std::min(LadderAbove(int(std::ceil(range.high * kOne))), largest_)};
     const GatheredCell &left = block_.gathered[first], &right = block_.gathered[end - 1];
     const int width = right.at_x + right.at_width - left.at_x, height = left.at_height;
     const BlurKernel less = BlurKernelOf(between.low, lens_.opening);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the reference gathers: cells of one surface, blurred from the centre view by the ideal kernel
-// (4), and cells on a slope by that of each pixel.
+// What the reference gathers: cells of one surface, blurred from the centre view by the ideal
+// kernel (4), and cells on a slope by that of each pixel.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_GATHER_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_GATHER_H_
 

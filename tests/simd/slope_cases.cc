@@ -5,8 +5,8 @@
 namespace test::kernel_cases {
 namespace {
 
-using starfocus::simd::kLayerWhite;
 using starfocus::simd::Kernels;
+using starfocus::simd::kLayerWhite;
 using starfocus::simd::SliceSamples;
 
 // Samples of a layer, often black or white.

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// The radii of a cell on a slope, and how far what it blurs is moved.
+#include "lib/filter/slope.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "lib/base/opening.h"
+#include "tests/plan/measured_cells.h"
+
+namespace {
+
+using starfocus::kCellSize;
+using starfocus::kDisparityBits;
+using starfocus::kSlopeBits;
+using starfocus::RadiusRange;
+using starfocus::Slope;
+
+constexpr double kOne = 1 << kSlopeBits;
+constexpr int kSide = 40;
+
+// Cells of a plane through disparity `middle` (pixels) between pixels 19 and 20, with that much
+// more from pixel to pixel, and the lens focused at 0.
+struct Plane {
+  Plane(double middle, double across, double down, double aperture = 1)
+      : disparity(size_t(kSide * kSide)),
+        scale({0, int64_t(aperture * double(1 << starfocus::kStepBits))}) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const double value = middle + across * (x - 19.5) + down * (y - 19.5);
+        disparity[size_t(y * kSide + x)] = int16_t(std::lround(value * (1 << kDisparityBits)));
+      }
+    }
+    grid = test::MeasureCells(disparity, kSide, kSide, scale, &cells);
+  }
+  Plane(const Plane&) = delete;
+
+  // Of the cell that has pixels 16 to 23 of the picture.
+  Slope Middle(int layer) const { return Slope(grid, scale, 2, 2, layer); }
+
+  std::vector<int16_t> disparity;
+  std::vector<starfocus::Cell> cells;
+  starfocus::CellGrid grid;
+  starfocus::BlurScale scale;
+};
+
+TEST_CASE("slope: radii of a plane's pixels are those of their disparities") {
+  for (const double middle : {5.0, -5.0}) {
+    const Plane plane(middle, 0.1, 0.05);
+    const RadiusRange range = plane.Middle(0).RangeOf({16, 16, 8, 8});
+    CHECK(range.low / kOne == doctest::Approx(5 - 3.5 * 0.15).epsilon(0.01));
+    CHECK(range.high / kOne == doctest::Approx(5 + 3.5 * 0.15).epsilon(0.01));
+    const RadiusRange pixel = plane.Middle(0).RangeOf({23, 16, 1, 1});
+    CHECK(pixel.low == pixel.high);
+    CHECK(pixel.low / kOne ==
+          doctest::Approx(std::fabs(middle + 3.5 * 0.1 - 3.5 * 0.05)).epsilon(0.01));
+    // Pixels of layers are as much larger, and their radii smaller.
+    const RadiusRange layer = plane.Middle(1).RangeOf({11, 8, 1, 1});
+    CHECK(layer.low / kOne ==
+          doctest::Approx(std::fabs(middle + 3 * 0.1 - 3 * 0.05) / 2).epsilon(0.01));
+  }
+}
+
+TEST_CASE("slope: the focus within a cell is its least radius") {
+  const RadiusRange range = Plane(0, 0.1, 0).Middle(0).RangeOf({16, 16, 8, 8});
+  CHECK(range.low == 0);
+  CHECK(range.high / kOne == doctest::Approx(0.35).epsilon(0.05));
+}
+
+TEST_CASE("slope: flat is what changes by an eighth of a pixel of the layer at most") {
+  CHECK(Plane(3, 0, 0).Middle(0).IsFlat());
+  CHECK(Plane(3, 0.0125, 0).Middle(0).IsFlat());
+  CHECK_FALSE(Plane(3, 0.025, 0).Middle(0).IsFlat());
+  CHECK(Plane(3, 0.025, 0).Middle(1).IsFlat());
+  CHECK(Plane(3, 0.025, 0, 0.5).Middle(0).IsFlat());
+}
+
+TEST_CASE("slope: shares are where the square of the radius lies between two") {
+  const Plane plane(5, 0.1, 0);
+  int16_t share[3 * 8];
+  const RadiusRange between = {4 << kSlopeBits, 6 << kSlopeBits};
+  plane.Middle(0).FindShares(between, 16, 20, 8, share);
+  for (int n = 0; n < 8; ++n) {
+    const double radius = 5 + 0.1 * (n - 3.5);
+    CHECK(share[3 * n] / 32767.0 == doctest::Approx((radius * radius - 16) / 20).epsilon(0.01));
+    CHECK(share[3 * n + 1] == share[3 * n]);
+    CHECK(share[3 * n + 2] == share[3 * n]);
+  }
+  plane.Middle(0).FindShares({5 << kSlopeBits, 5 << kSlopeBits}, 16, 20, 8, share);
+  CHECK(share[0] == 0);
+  plane.Middle(0).FindShares({1 << kSlopeBits, 2 << kSlopeBits}, 16, 20, 8, share);
+  CHECK(share[0] == 32767);
+  plane.Middle(0).FindShares({7 << kSlopeBits, 8 << kSlopeBits}, 16, 20, 8, share);
+  CHECK(share[0] == 0);
+}
+
+// The centre of all views' light, by views on a grid of the disc: at s they show the point p with
+// p = -s (r + g p).
+double CentreOfViews(double radius, double gradient) {
+  double sum = 0, views = 0;
+  for (int v = -50; v <= 50; ++v) {
+    for (int u = -50; u <= 50; ++u) {
+      if (u * u + v * v > 50 * 50) continue;
+      const double s = u / 50.0;
+      sum += -s * radius / (1 + gradient * s);
+      ++views;
+    }
+  }
+  return sum / views;
+}
+
+TEST_CASE("slope: a picture is moved to the centre of what all views show") {
+  starfocus::Opening disc;
+  disc.shape = SF_SHAPE_DISC;
+  const int32_t spread = starfocus::MeanSquare(disc);
+  for (const double radius : {3.0, -7.0}) {
+    for (const double gradient : {0.05, -0.1}) {
+      const Plane plane(radius, gradient, 2 * gradient);
+      for (const int layer : {0, 1}) {
+        const starfocus::simd::HalfMove move = plane.Middle(layer).Move(spread);
+        const double expected = CentreOfViews(radius, gradient) / (1 << layer) / 2 * 32768;
+        CHECK(move.across == doctest::Approx(expected).epsilon(0.03));
+        CHECK(move.down == doctest::Approx(2 * expected).epsilon(0.03));
+      }
+    }
+  }
+}
+
+TEST_CASE("slope: the mean square of openings") {
+  starfocus::Opening opening;
+  const auto mean_square = [&] { return starfocus::MeanSquare(opening) / 16384.0; };
+  opening.fall_off = starfocus::ApertureFallOff(0.26 * 3.14159265358979);
+  CHECK(mean_square() == doctest::Approx(0.1877).epsilon(0.002));
+  opening.shape = SF_SHAPE_DISC;
+  CHECK(mean_square() == doctest::Approx(0.25));
+  opening.shape = SF_SHAPE_RING;
+  opening.inner = 1 << 13;
+  CHECK(mean_square() == doctest::Approx(0.3125));
+}
+
+}  // namespace
