@@ -26,22 +26,17 @@ struct DiscPairs {
   Pair pairs[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
   int32_t counts[kMaxDisc + 1];  // of the pairs of each row
 
-  explicit DiscPairs(const Disc& disc) {
-    Pair* pair = pairs;
-    for (int32_t y = 0; y <= disc.size; ++y) {
-      int32_t last = disc.size;
-      while (last >= 0 && Weight(disc, last, y) == 0) --last;
-      counts[y] = last / 2 + (last >= 0);
-      pair = AddRow(disc, y, counts[y], pair);
-    }
-  }
+  explicit DiscPairs(const Disc& disc) : DiscPairs(disc, disc) {}
 
-  // The disc in the places of another one's pairs, which reach as far or farther.
-  DiscPairs(const Disc& disc, const DiscPairs& others, int32_t rows) {
+  // In the places that this disc and another one have together.
+  DiscPairs(const Disc& disc, const Disc& other) {
     Pair* pair = pairs;
-    for (int32_t y = 0; y < rows; ++y) {
-      counts[y] = others.counts[y];
-      pair = AddRow(disc, y, counts[y], pair);
+    for (int32_t y = 0; y <= disc.size || y <= other.size; ++y) {
+      const int32_t own = PairsOf(disc, y), others = PairsOf(other, y);
+      counts[y] = own > others ? own : others;
+      for (int32_t x = 0; x < 2 * counts[y]; x += 2) {
+        *pair++ = {Weight(disc, x, y), Weight(disc, x + 1, y)};
+      }
     }
   }
 
@@ -53,10 +48,10 @@ struct DiscPairs {
     return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
   }
 
-  static Pair* AddRow(const Disc& disc, int32_t y, int32_t count, Pair* pair) {
-    for (int32_t x = 0; x < 2 * count; x += 2)
-      *pair++ = {Weight(disc, x, y), Weight(disc, x + 1, y)};
-    return pair;
+  static int32_t PairsOf(const Disc& disc, int32_t y) {
+    int32_t last = disc.size;
+    while (last >= 0 && Weight(disc, last, y) == 0) --last;
+    return last / 2 + (last >= 0);
   }
 };
 
@@ -274,7 +269,7 @@ inline void FilterTwoDiscs(const int16_t* HWY_RESTRICT in, size_t in_stride, con
     StoreLayer(sums, more, chunk, out_more + at);
     StoreLayer(seconds, less, chunk, out_less + at);
   };
-  const DiscPairs quarter(more), second(less, quarter, more.size + 1);
+  const DiscPairs quarter(more, less), second(less, more);
   FilterRows<true>(in, in_stride, more.size, quarter, second, rows, count, finish);
 }
 

@@ -39,7 +39,7 @@ void FilterDisc(const int16_t* in, size_t in_stride, const Disc& disc, const Enc
 void FilterDiscLayer(const int16_t* in, size_t in_stride, const Disc& disc, size_t rows,
                      size_t count, int16_t* out, size_t out_stride);
 
-// Does that by two discs at once, the first of which has no weight where the second has none.
+// Does that by two discs at once, the first of which is no larger than the second.
 void FilterTwoDiscs(const int16_t* in, size_t in_stride, const Disc& less, const Disc& more,
                     size_t rows, size_t count, int16_t* out_less, int16_t* out_more,
                     size_t out_stride);

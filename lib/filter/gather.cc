@@ -9,24 +9,22 @@
 namespace starfocus {
 namespace {
 
-// Cells side by side on a slope that are filtered by the same two kernels, and how far their radii
-// may differ then: what lies between two kernels is no disc (docs/constants.md).
+// Cells side by side on a slope that are filtered together, if they have the same two kernels.
 constexpr int32_t kSlopeCells = 4;
-constexpr int32_t kMixedRange = (1 << kSlopeBits) / 2;
 
-// What is kept of such cells, in rows of kStride samples: a pixel on each side, and what kernels
-// read beyond.
+// What is kept of such cells: rows of kStride samples of those that are filtered together, of kCell
+// of one of them, with a pixel on each side; and what kernels read beyond.
 struct SlopeRows {
   static constexpr size_t kPixel = 3;
-  static constexpr size_t kWidth = simd::SliceSamples(3 * kSlopeCells * kCellSize);
-  static constexpr size_t kStride = kWidth + simd::kSliceLanes;
+  static constexpr size_t kStride =
+      simd::SliceSamples(3 * kSlopeCells * kCellSize) + simd::kSliceLanes;
+  static constexpr size_t kCell = simd::SliceSamples(3 * kCellSize) + simd::kSliceLanes;
   int16_t less[kCellSize * kStride] = {}, more[kCellSize * kStride] = {};
-  int16_t share[kCellSize * kStride] = {};
-  int16_t mixed[(kCellSize + 2) * kStride] = {};  // from a row above on
-  int16_t moved[kWidth] = {};
+  int16_t share[kCell] = {};
+  int16_t mixed[(kCellSize + 2) * kCell] = {};  // from a row above on
+  int16_t moved[kCell] = {};
 
-  int16_t* Share(int32_t row) { return share + static_cast<size_t>(row) * kStride; }
-  int16_t* Mixed(int32_t row) { return mixed + static_cast<size_t>(row + 1) * kStride + kPixel; }
+  int16_t* Mixed(int32_t row) { return mixed + static_cast<size_t>(row + 1) * kCell + kPixel; }
 };
 
 class Gather {
@@ -42,9 +40,7 @@ class Gather {
     for (int32_t y = block_.y; y < Bottom(); y += kCellSize) {
       for (int32_t x = block_.x; x < Right(); x += kCellSize) {
         if (!job_.cells.IsGathered(x, y)) continue;
-        const Slope slope = SlopeOf(x, y);
-        const int32_t step =
-            slope.IsFlat() ? StepOf(x, y) : StepsOf(slope.RangeOf(job_.cells.PixelsOf(x, y))).more;
+        const int32_t step = SlopeOf(x, y).IsFlat() ? StepOf(x, y) : StepsOf(x, y).more;
         border_ = Max(border_, KernelOf(step).size);
       }
     }
@@ -123,56 +119,38 @@ class Gather {
   // Does so with cells on a slope: mixes the pictures of the least and of the largest kernel, pixel
   // by pixel, and moves what that gives to where the views see it.
   int32_t FilterSlopes(int32_t x, int32_t y) {
-    RadiusRange range = SlopeOf(x, y).RangeOf(job_.cells.PixelsOf(x, y));
+    const Steps steps = StepsOf(x, y);
     int32_t end = x + kCellSize;
-    while (end < Right() && end < x + kSlopeCells * kCellSize && IsMixedWith(end, y, &range)) {
+    while (end < Right() && end < x + kSlopeCells * kCellSize && IsSlopeOfSteps(end, y, steps)) {
       end += kCellSize;
     }
     const Rect part = PixelsOf(x, end, y);
-    const Steps steps = StepsOf(range);
     const BlurKernel &less = KernelOf(steps.less), &more = KernelOf(steps.more);
     if (!Spend(more, part)) return x;
     job_.kernels->FilterTwoDiscs(
         FirstPixel(part), RgbStride(field_->width), {less.size, less.sum_bits, less.weights},
         {more.size, more.sum_bits, more.weights}, static_cast<size_t>(part.height),
         3 * static_cast<size_t>(part.width), rows_.less, rows_.more, SlopeRows::kStride);
-    Mix(steps, part, x, y);
-    ContinueBeyond(part.height, 3 * static_cast<size_t>(part.width));
-    for (; x < end; x += kCellSize) Move(part, x, y);
+    for (; x < end; x += kCellSize) {
+      const Rect pixels = job_.cells.PixelsOf(x, y);
+      const Slope slope = SlopeOf(x, y);
+      Mix(slope, steps, pixels, 3 * static_cast<size_t>(pixels.x - part.x));
+      ContinueBeyond(pixels.height, 3 * static_cast<size_t>(pixels.width));
+      Move(slope.Move(job_.blur.mean_square), pixels);
+    }
     return end;
   }
 
-  // Whether the cell at (x, y) can be filtered with those whose radii are in the range; widens it.
-  bool IsMixedWith(int32_t x, int32_t y, RadiusRange* range) const {
-    if (!job_.cells.IsGathered(x, y)) return false;
-    const Slope slope = SlopeOf(x, y);
-    if (slope.IsFlat()) return false;
-    const RadiusRange next = slope.RangeOf(job_.cells.PixelsOf(x, y));
-    const RadiusRange both = {Min(range->low, next.low), Max(range->high, next.high)};
-    if (both.high - both.low > kMixedRange) return false;
-    *range = both;
-    return true;
-  }
-
-  // Mixes the rows of a part, whose cells begin at (x, y).
-  void Mix(const Steps& steps, const Rect& part, int32_t x, int32_t y) {
+  // Mixes the pixels of a cell, which begin at that sample of the filtered rows.
+  void Mix(const Slope& slope, const Steps& steps, const Rect& pixels, size_t first) {
     constexpr int kBits = kSlopeBits - kDisparityBits;
     const RadiusRange between = {RadiusOfStep(steps.less) << kBits, RadiusOfStep(steps.more)
                                                                         << kBits};
-    const int32_t end = part.x + part.width;
-    for (int32_t cell_x = x, at = part.x; at < end; cell_x += kCellSize) {
-      const Rect pixels = job_.cells.PixelsOf(cell_x, y);
-      const Slope slope = SlopeOf(cell_x, y);
-      for (int32_t row = 0; row < part.height; ++row) {
-        slope.FindShares(between, pixels.x, pixels.y + row, pixels.width,
-                         rows_.Share(row) + 3 * (pixels.x - part.x));
-      }
-      at = pixels.x + pixels.width;
-    }
-    for (int32_t row = 0; row < part.height; ++row) {
-      const size_t at = static_cast<size_t>(row) * SlopeRows::kStride;
-      job_.kernels->MixSamples(rows_.less + at, rows_.more + at, rows_.Share(row),
-                               3 * static_cast<size_t>(part.width), rows_.Mixed(row));
+    for (int32_t row = 0; row < pixels.height; ++row) {
+      const size_t at = first + static_cast<size_t>(row) * SlopeRows::kStride;
+      slope.FindShares(between, pixels.x, pixels.y + row, pixels.width, rows_.share);
+      job_.kernels->MixSamples(rows_.less + at, rows_.more + at, rows_.share,
+                               3 * static_cast<size_t>(pixels.width), rows_.Mixed(row));
     }
   }
 
@@ -181,7 +159,7 @@ class Gather {
     const auto go_on = [](const int16_t* last, ptrdiff_t back) {
       return static_cast<int16_t>(2 * last[0] - last[back]);
     };
-    constexpr ptrdiff_t kPixel = SlopeRows::kPixel, kStride = SlopeRows::kStride;
+    constexpr ptrdiff_t kPixel = SlopeRows::kPixel, kStride = SlopeRows::kCell;
     const bool one_column = count == 3, one_row = height == 1;
     for (int32_t y = 0; y < height; ++y) {
       int16_t* row = rows_.Mixed(y);
@@ -198,14 +176,12 @@ class Gather {
     }
   }
 
-  // Moves what is mixed of the cell at (x, y), in a part of mixed cells, and stores it.
-  void Move(const Rect& part, int32_t x, int32_t y) {
-    const Rect pixels = job_.cells.PixelsOf(x, y);
-    const simd::HalfMove move = SlopeOf(x, y).Move(job_.blur.mean_square);
+  // Moves what is mixed of a cell, and stores it.
+  void Move(const simd::HalfMove& move, const Rect& pixels) {
     const size_t count = 3 * static_cast<size_t>(pixels.width);
     for (int32_t row = 0; row < pixels.height; ++row) {
-      job_.kernels->MoveSamples(rows_.Mixed(row) + 3 * (pixels.x - part.x), SlopeRows::kStride,
-                                move, 1, count, rows_.moved, SlopeRows::kWidth);
+      job_.kernels->MoveSamples(rows_.Mixed(row), SlopeRows::kCell, move, 1, count, rows_.moved,
+                                SlopeRows::kCell);
       Store(FirstOut(pixels) + static_cast<size_t>(row) * out_.stride, count);
     }
   }
@@ -223,11 +199,18 @@ class Gather {
     return Slope(*job_.grid, job_.scale, x / kCellSize, y / kCellSize, job_.cells.layer);
   }
 
-  Steps StepsOf(const RadiusRange& range) const {
+  // The kernels that a cell on a slope is mixed of.
+  Steps StepsOf(int32_t x, int32_t y) const {
     constexpr int kBits = kSlopeBits - kDisparityBits, kUp = (1 << kBits) - 1;
-    const auto made = [&](int32_t step) { return Min(step, job_.blur.last_step); };
-    return {made(BlurStepBelow(range.low >> kBits)),
-            made(BlurStepAbove((range.high + kUp) >> kBits))};
+    const RadiusRange range = SlopeOf(x, y).RangeOf(job_.cells.PixelsOf(x, y));
+    return {Min(BlurStepBelow(range.low >> kBits), job_.blur.last_step),
+            Min(BlurStepAbove((range.high + kUp) >> kBits), job_.blur.last_step)};
+  }
+
+  bool IsSlopeOfSteps(int32_t x, int32_t y, const Steps& steps) const {
+    if (!job_.cells.IsGathered(x, y) || SlopeOf(x, y).IsFlat()) return false;
+    const Steps here = StepsOf(x, y);
+    return here.less == steps.less && here.more == steps.more;
   }
 
   const BlurKernel& KernelOf(int32_t step) const { return job_.blur.of_step[step]; }

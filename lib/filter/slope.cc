@@ -92,8 +92,11 @@ simd::HalfMove Slope::Move(int32_t spread) const {
   // The mean radius is a fourth of their sum, at the layer; a gradient a sixteenth of a difference.
   const auto half_move = [&](int32_t difference) {
     const int bits = kOpeningBits + 2 * kSlopeBits + 2 + 4 + 1 - 15 + layer_;
-    const int64_t move = RoundShift(radii * difference * spread, bits);
-    return static_cast<int16_t>(move < -kMost ? -kMost : move > kMost ? kMost : move);
+    // A slope that is mirrored moves as far the other way.
+    const int64_t product = radii * difference * spread;
+    const int64_t move = RoundShift(product < 0 ? -product : product, bits);
+    const auto limited = static_cast<int32_t>(move < kMost ? move : kMost);
+    return static_cast<int16_t>(product < 0 ? -limited : limited);
   };
   return {half_move(corners_[1] + corners_[3] - corners_[0] - corners_[2]),
           half_move(corners_[2] + corners_[3] - corners_[0] - corners_[1])};

@@ -10,10 +10,8 @@ namespace reference {
 namespace {
 
 constexpr int kCell = 8;
-constexpr double kLargestKernel = 12;    // pixels of the layer
-constexpr double kFlatRange = 1.0 / 8;   // radii of a cell that one kernel serves
-constexpr double kMixedRange = 1.0 / 2;  // radii of cells that are filtered together
-constexpr size_t kMixedCells = 4;
+constexpr double kLargestKernel = 12;   // pixels of the layer
+constexpr double kFlatRange = 1.0 / 8;  // radii of a cell that one kernel serves
 
 struct Range {
   double low, high;
@@ -52,20 +50,7 @@ class Gather {
         frame_(*frame) {}
 
   void All() {
-    const std::vector<GatheredCell>& cells = block_.gathered;
-    for (size_t first = 0, end; first < cells.size(); first = end) {
-      end = first + 1;
-      if (IsFlat(cells[first])) {
-        Flat(cells[first]);
-        continue;
-      }
-      Range range = RangeOf(cells[first]);
-      while (end < cells.size() && end < first + kMixedCells &&
-             IsMixedWith(cells[end - 1], cells[end], &range)) {
-        ++end;
-      }
-      Slopes(first, end, range);
-    }
+    for (const GatheredCell& cell : block_.gathered) IsFlat(cell) ? Flat(cell) : OnSlope(cell);
   }
 
  private:
@@ -140,15 +125,6 @@ class Gather {
     return {nearest, std::max(std::fabs(low), std::fabs(high))};
   }
 
-  bool IsMixedWith(const GatheredCell& last, const GatheredCell& cell, Range* range) const {
-    if (cell.y != last.y || cell.x != last.x + kCell || IsFlat(cell)) return false;
-    const Range next = RangeOf(cell);
-    const Range both = {std::min(range->low, next.low), std::max(range->high, next.high)};
-    if (both.high - both.low > kMixedRange) return false;
-    *range = both;
-    return true;
-  }
-
   // A part of the layer, filtered by a kernel from what lies `border` around it.
   Picture Filtered(const Picture& extended, int border, int width, int height,
                    const BlurKernel& kernel) const {
@@ -199,32 +175,30 @@ class Gather {
     return std::clamp((radius * radius - between.low * between.low) / range, 0.0, 1.0);
   }
 
-  // Cells side by side: mixed of two kernels by the radius of each pixel, and moved along the
-  // gradient of what that gives.
-  void Slopes(size_t first, size_t end, const Range& range) {
+  // Mixed of two kernels by the radius of each pixel, and moved along the gradient of what that
+  // gives.
+  void OnSlope(const GatheredCell& cell) {
+    const Range range = RangeOf(cell);
     const Range between = {std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
                            std::min(LadderAbove(int(std::ceil(range.high * kOne))), largest_)};
-    const GatheredCell &left = block_.gathered[first], &right = block_.gathered[end - 1];
-    const int width = right.at_x + right.at_width - left.at_x, height = left.at_height;
     const BlurKernel less = BlurKernelOf(between.low, lens_.opening);
     const BlurKernel more = BlurKernelOf(between.high, lens_.opening);
-    const Picture extended = Extended(left.at_x, left.at_y, width, height, more.size);
-    Picture mixed = Filtered(extended, more.size, width, height, less);
-    const Picture wider = Filtered(extended, more.size, width, height, more);
-    for (size_t k = first; k < end; ++k) {
-      const GatheredCell& cell = block_.gathered[k];
-      const Corners corners = CornersOf(cell);
-      for (int y = cell.at_y; y < cell.at_y + cell.at_height; ++y) {
-        for (int x = cell.at_x; x < cell.at_x + cell.at_width; ++x) {
-          const double share = ShareOf(RadiusAt(cell, corners, x, y), between);
-          const size_t at = mixed.At(x - left.at_x, y - left.at_y);
-          for (size_t c = 0; c < 3; ++c) {
-            mixed.colours[at][c] += share * (wider.colours[at][c] - mixed.colours[at][c]);
-          }
+    const Picture extended =
+        Extended(cell.at_x, cell.at_y, cell.at_width, cell.at_height, more.size);
+    Picture mixed = Filtered(extended, more.size, cell.at_width, cell.at_height, less);
+    const Picture wider = Filtered(extended, more.size, cell.at_width, cell.at_height, more);
+    const Corners corners = CornersOf(cell);
+    for (int y = 0; y < cell.at_height; ++y) {
+      for (int x = 0; x < cell.at_width; ++x) {
+        const double share =
+            ShareOf(RadiusAt(cell, corners, cell.at_x + x, cell.at_y + y), between);
+        const size_t at = mixed.At(x, y);
+        for (size_t c = 0; c < 3; ++c) {
+          mixed.colours[at][c] += share * (wider.colours[at][c] - mixed.colours[at][c]);
         }
       }
     }
-    for (size_t k = first; k < end; ++k) Move(block_.gathered[k], mixed, left.at_x, left.at_y);
+    Move(cell, corners, mixed);
   }
 
   // The difference of the colours beside a pixel; at the rim twice that to the one inside.
@@ -240,20 +214,19 @@ class Gather {
     return after - before;
   }
 
-  void Move(const GatheredCell& cell, const Picture& mixed, int x0, int y0) {
-    const Corners corners = CornersOf(cell);
+  void Move(const GatheredCell& cell, const Corners& corners, const Picture& mixed) {
     const double* r = corners.radii;
     const double radius = (r[0] + r[1] + r[2] + r[3]) / 4 / 1024 / Scale();
     const double unit = MeanSquare(lens_.opening) * radius / 1024 / (2 * kCell) / 2;
     const double across = unit * (r[1] + r[3] - r[0] - r[2]);
     const double down = unit * (r[2] + r[3] - r[0] - r[1]);
-    for (int y = cell.at_y; y < cell.at_y + cell.at_height; ++y) {
-      for (int x = cell.at_x; x < cell.at_x + cell.at_width; ++x) {
+    for (int y = 0; y < cell.at_height; ++y) {
+      for (int x = 0; x < cell.at_width; ++x) {
         for (size_t c = 0; c < 3; ++c) {
-          const double value = mixed.colours[mixed.At(x - x0, y - y0)][c] +
-                               across * Difference(mixed, x - x0, y - y0, 1, 0, c) +
-                               down * Difference(mixed, x - x0, y - y0, 0, 1, c);
-          Out(x, y)[c] = std::clamp(value, 0.0, 255.0);
+          const double value = mixed.colours[mixed.At(x, y)][c] +
+                               across * Difference(mixed, x, y, 1, 0, c) +
+                               down * Difference(mixed, x, y, 0, 1, c);
+          Out(cell.at_x + x, cell.at_y + y)[c] = std::clamp(value, 0.0, 255.0);
         }
       }
     }

@@ -18,6 +18,17 @@ size_t OctantIndex(int x, int y) {
   return size_t(high * (high + 1) / 2 + low);
 }
 
+// The least bits that all weights together need.
+int BitsOf(int size, const std::vector<uint16_t>& weights) {
+  int64_t sum = 0;
+  for (int y = -size; y <= size; ++y) {
+    for (int x = -size; x <= size; ++x) sum += weights[OctantIndex(x, y)];
+  }
+  int bits = 1;
+  while (int64_t{1} << bits < sum) ++bits;
+  return bits;
+}
+
 // Any filter: weights of all sizes, rings of zeros outside, and as large a sum as may be. Four
 // pixels that are weighed together sum to 15 bits at most.
 Disc MakeDisc(Draw* draw, KernelCall* call) {
@@ -32,13 +43,7 @@ Disc MakeDisc(Draw* draw, KernelCall* call) {
       weights[OctantIndex(x, y)] = uint16_t(zero ? 0 : draw->Int(0, most));
     }
   }
-  int64_t sum = 0;
-  for (int y = -size; y <= size; ++y) {
-    for (int x = -size; x <= size; ++x) sum += weights[OctantIndex(x, y)];
-  }
-  int bits = 1;
-  while (int64_t{1} << bits < sum) ++bits;
-  return {size, bits, call->Input("weights", weights)};
+  return {size, BitsOf(size, weights), call->Input("weights", weights)};
 }
 
 // Rows of a picture that a disc is applied to, with what lies around them.
@@ -91,7 +96,7 @@ void FilterDiscLayer(Draw* draw, KernelCall* call) {
   };
 }
 
-// The disc in front has weights where the one behind has some, here and there.
+// The first disc has weights of the second one, and some where that has none.
 void FilterTwoDiscs(Draw* draw, KernelCall* call) {
   const Filtered in(draw, call);
   const Disc& more = in.disc;
@@ -100,7 +105,9 @@ void FilterTwoDiscs(Draw* draw, KernelCall* call) {
   std::vector<uint16_t> weights(OctantIndex(less.size, less.size) + 1);
   for (size_t k = 0; k < weights.size(); ++k) {
     weights[k] = draw->Rarely(6) ? uint16_t(0) : more.weights[k];
+    if (weights[k] == 0 && draw->Rarely(3)) weights[k] = 1;
   }
+  less.bits = BitsOf(less.size, weights);
   less.weights = call->Input("weights of less", weights);
   auto *out_less = in.Output<int16_t>(call), *out_more = in.Output<int16_t>(call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
