@@ -26,13 +26,11 @@ struct DiscPairs {
   Pair pairs[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
   int32_t counts[kMaxDisc + 1];  // of the pairs of each row
 
-  explicit DiscPairs(const Disc& disc) : DiscPairs(disc, disc) {}
-
-  // In the places that this disc and another one have together.
+  // Of a disc, in the places that it and another one have together.
   DiscPairs(const Disc& disc, const Disc& other) {
     Pair* pair = pairs;
     for (int32_t y = 0; y <= disc.size || y <= other.size; ++y) {
-      const int32_t own = PairsOf(disc, y), others = PairsOf(other, y);
+      const int32_t own = PairsOf(disc, y), others = &disc == &other ? 0 : PairsOf(other, y);
       counts[y] = own > others ? own : others;
       for (int32_t x = 0; x < 2 * counts[y]; x += 2) {
         *pair++ = {Weight(disc, x, y), Weight(disc, x + 1, y)};
@@ -190,15 +188,38 @@ HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t cou
 
 #endif
 
-// Filters rows of samples by chunks, with kTwo by a second disc as well, in the places of the
-// first one's pairs. finish(sums, seconds, samples, row, begin) takes the sums of a part of a row,
-// which begins at sample `begin`.
-template <bool kTwo, class Finish>
-HWY_INLINE void FilterRows(const int16_t* HWY_RESTRICT in, size_t in_stride, int32_t size,
-                           const DiscPairs& quarter, const DiscPairs& second, size_t rows,
-                           size_t count, const Finish& finish) {
+// What becomes of the sums of a disc: codes, or samples of a layer where these are null.
+struct DiscOutput {
+  uint8_t* codes;
+  int16_t* samples;
+  size_t stride;
+  Encoding encoding;
+};
+
+// Stores the sums of `count` samples at that place.
+HWY_INLINE void StoreDisc(const uint32_t* sums, const Disc& disc, size_t count,
+                          const DiscOutput& out, size_t at) {
+  int16_t light[kDiscChunk + HWY_MAX_BYTES];
+  if (out.codes == nullptr) {
+    FinishDisc(sums, count, disc.bits + kLightBits - kLayerBits, 0, light);
+    std::memcpy(out.samples + at, light, count * sizeof(*light));
+    return;
+  }
+  const int whole = out.encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
+  FinishDisc(sums, count, disc.bits + whole, whole, light);
+  Encode(light, count, out.encoding, out.codes + at);
+}
+
+// Filters rows of samples by chunks, with kTwo by a second, smaller disc as well.
+template <bool kTwo>
+inline void FilterRows(const int16_t* in, size_t in_stride, const Disc& disc,
+                             const Disc& smaller, size_t rows, size_t count, const DiscOutput& out,
+                             const DiscOutput& second_out) {
   constexpr size_t kSpare = HWY_MAX_BYTES;
-  const size_t margin = 3 * static_cast<size_t>(size);
+  const DiscPairs quarter(disc, smaller);
+  const Disc none = {-1, 0, nullptr};
+  const DiscPairs second(kTwo ? smaller : none, kTwo ? disc : none);
+  const size_t margin = 3 * static_cast<size_t>(disc.size);
   // The second column of a pair may lie a pixel beyond the disc. Its weight is zero, but it is
   // read.
   uint16_t padded[3 + kDiscChunk + 2 * kDiscMargin + 3 + kSpare] = {};
@@ -211,7 +232,7 @@ HWY_INLINE void FilterRows(const int16_t* HWY_RESTRICT in, size_t in_stride, int
       const DiscPairs::Pair *pairs = quarter.pairs, *second_pairs = second.pairs;
       std::memset(accumulators, 0, (chunk + kSpare) * sizeof(*accumulators));
       if (kTwo) std::memset(seconds, 0, (chunk + kSpare) * sizeof(*seconds));
-      for (int32_t y = 0; y <= size; ++y) {
+      for (int32_t y = 0; y <= disc.size; ++y) {
         const int32_t pair_count = quarter.counts[y];
         if (pair_count == 0) continue;
         const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
@@ -222,7 +243,8 @@ HWY_INLINE void FilterRows(const int16_t* HWY_RESTRICT in, size_t in_stride, int
         pairs += pair_count;
         second_pairs += pair_count;
       }
-      finish(accumulators, seconds, chunk, row, begin);
+      StoreDisc(accumulators, disc, chunk, out, row * out.stride + begin);
+      if (kTwo) StoreDisc(seconds, smaller, chunk, second_out, row * second_out.stride + begin);
     }
   }
 }
@@ -230,47 +252,24 @@ HWY_INLINE void FilterRows(const int16_t* HWY_RESTRICT in, size_t in_stride, int
 inline void FilterDisc(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
                        const Encoding& encoding, size_t rows, size_t count,
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
-  const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
-  int16_t light[kDiscChunk + HWY_MAX_BYTES];
-  const auto finish = [&](const uint32_t* sums, const uint32_t*, size_t chunk, size_t row,
-                          size_t begin) HWY_ATTR {
-    FinishDisc(sums, chunk, disc.bits + whole, whole, light);
-    Encode(light, chunk, encoding, out + row * out_stride + begin);
-  };
-  const DiscPairs quarter(disc);
-  FilterRows<false>(in, in_stride, disc.size, quarter, quarter, rows, count, finish);
-}
-
-// Stores the sums of a disc as `count` samples.
-HWY_INLINE void StoreLayer(const uint32_t* sums, const Disc& disc, size_t count,
-                           int16_t* HWY_RESTRICT out) {
-  int16_t samples[kDiscChunk + HWY_MAX_BYTES];
-  FinishDisc(sums, count, disc.bits + kLightBits - kLayerBits, 0, samples);
-  std::memcpy(out, samples, count * sizeof(*out));
+  const DiscOutput codes = {out, nullptr, out_stride, encoding};
+  FilterRows<false>(in, in_stride, disc, disc, rows, count, codes, codes);
 }
 
 inline void FilterDiscLayer(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
                             size_t rows, size_t count, int16_t* HWY_RESTRICT out,
                             size_t out_stride) {
-  const auto finish =
-      [&](const uint32_t* sums, const uint32_t*, size_t chunk, size_t row, size_t begin)
-          HWY_ATTR { StoreLayer(sums, disc, chunk, out + row * out_stride + begin); };
-  const DiscPairs quarter(disc);
-  FilterRows<false>(in, in_stride, disc.size, quarter, quarter, rows, count, finish);
+  const DiscOutput samples = {nullptr, out, out_stride, {nullptr, nullptr}};
+  FilterRows<false>(in, in_stride, disc, disc, rows, count, samples, samples);
 }
 
 inline void FilterTwoDiscs(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& less,
                            const Disc& more, size_t rows, size_t count,
                            int16_t* HWY_RESTRICT out_less, int16_t* HWY_RESTRICT out_more,
                            size_t out_stride) {
-  const auto finish = [&](const uint32_t* sums, const uint32_t* seconds, size_t chunk, size_t row,
-                          size_t begin) HWY_ATTR {
-    const size_t at = row * out_stride + begin;
-    StoreLayer(sums, more, chunk, out_more + at);
-    StoreLayer(seconds, less, chunk, out_less + at);
-  };
-  const DiscPairs quarter(more, less), second(less, more);
-  FilterRows<true>(in, in_stride, more.size, quarter, second, rows, count, finish);
+  const DiscOutput first = {nullptr, out_more, out_stride, {nullptr, nullptr}};
+  const DiscOutput second = {nullptr, out_less, out_stride, {nullptr, nullptr}};
+  FilterRows<true>(in, in_stride, more, less, rows, count, first, second);
 }
 
 }  // namespace HWY_NAMESPACE

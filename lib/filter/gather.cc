@@ -40,7 +40,7 @@ class Gather {
     for (int32_t y = block_.y; y < Bottom(); y += kCellSize) {
       for (int32_t x = block_.x; x < Right(); x += kCellSize) {
         if (!job_.cells.IsGathered(x, y)) continue;
-        const int32_t step = SlopeOf(x, y).IsFlat() ? StepOf(x, y) : StepsOf(x, y).more;
+        const int32_t step = job_.cells.IsOnSlope(x, y) ? StepsOf(x, y).more : StepOf(x, y);
         border_ = Max(border_, KernelOf(step).size);
       }
     }
@@ -53,7 +53,7 @@ class Gather {
       const int32_t first = x;
       x += kCellSize;
       if (!job_.cells.IsGathered(first, y)) continue;
-      x = SlopeOf(first, y).IsFlat() ? FilterFlat(first, y) : FilterSlopes(first, y);
+      x = job_.cells.IsOnSlope(first, y) ? FilterSlopes(first, y) : FilterFlat(first, y);
       if (x == first) return;
       pixels_ += static_cast<uint64_t>(Min(x, Right()) - first) *
                  static_cast<uint64_t>(Min(kCellSize, Bottom() - y));
@@ -208,7 +208,7 @@ class Gather {
   }
 
   bool IsSlopeOfSteps(int32_t x, int32_t y, const Steps& steps) const {
-    if (!job_.cells.IsGathered(x, y) || SlopeOf(x, y).IsFlat()) return false;
+    if (!job_.cells.IsGathered(x, y) || !job_.cells.IsOnSlope(x, y)) return false;
     const Steps here = StepsOf(x, y);
     return here.less == steps.less && here.more == steps.more;
   }
@@ -222,7 +222,7 @@ class Gather {
   }
 
   bool IsFlatOfStep(int32_t x, int32_t y, int32_t step) const {
-    return job_.cells.IsGathered(x, y) && StepOf(x, y) == step && SlopeOf(x, y).IsFlat();
+    return job_.cells.IsGathered(x, y) && !job_.cells.IsOnSlope(x, y) && StepOf(x, y) == step;
   }
 
   const GatherJob& job_;

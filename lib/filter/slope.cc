@@ -6,10 +6,6 @@
 namespace starfocus {
 namespace {
 
-// Corners that differ by more than this have a slope between them. At a quarter of a pixel pictures
-// with slopes lose 0.3 to 0.8 dB (docs/constants.md).
-constexpr int32_t kFlatRange = (1 << kSlopeBits) / 8;
-
 constexpr int32_t kHalves = 2 * kCellSize;  // half pixels of a cell's side
 
 // The signed blur radius at the upper left corner of a cell.
@@ -34,15 +30,6 @@ Slope::Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32
   for (int32_t k = 0; k < 4; ++k) {
     corners_[k] = RadiusAtCorner(grid, scale, column + (k & 1), row + (k >> 1));
   }
-}
-
-bool Slope::IsFlat() const {
-  int32_t low = corners_[0], high = corners_[0];
-  for (const int32_t radius : corners_) {
-    low = Min(low, radius);
-    high = Max(high, radius);
-  }
-  return high - low <= kFlatRange << layer_;
 }
 
 // The signed radius of a pixel of the layer, in pixels of the layer, with ScaledBits more bits.

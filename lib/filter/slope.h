@@ -27,9 +27,6 @@ class Slope {
   // counted as negative, and between them it is bilinear.
   Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row, int32_t layer);
 
-  // Whether the radius changes so little across the cell that one kernel serves all of its pixels.
-  bool IsFlat() const;
-
   // The radii of pixels of the layer, which may lie beyond the cell.
   RadiusRange RangeOf(const Rect& pixels) const;
 

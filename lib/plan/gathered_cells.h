@@ -13,8 +13,10 @@
 namespace starfocus {
 
 // Of each cell of a stripe, the lowest layer at which it can be gathered: blocks of that layer and
-// of those above it do. kByViews: no block does.
+// of those above it do. kByViews: no block does. Cells that have kSlopeMark besides are gathered with
+// the radius of each pixel (lib/filter/slope.h), others with that of their middle.
 inline constexpr uint8_t kByViews = 3;
+inline constexpr uint8_t kSlopeMark = 4;
 struct GatherMap {
   uint8_t* cells = nullptr;
   int32_t columns = 0;
@@ -25,6 +27,7 @@ struct GatherMap {
     return cells[static_cast<size_t>(y / kCellSize - first_row) * static_cast<size_t>(columns) +
                  static_cast<size_t>(x / kCellSize)];
   }
+  int32_t FirstLayer(int32_t x, int32_t y) const { return At(x, y) & kByViews; }
 };
 
 // The part of a layer that a block makes its pixels of: with the margin that upsampling reads.
@@ -38,7 +41,8 @@ struct BlockCells {
   int32_t layer;
 
   // Whether the cell that holds pixel (x, y) of the picture is gathered.
-  bool IsGathered(int32_t x, int32_t y) const { return map->At(x, y) <= layer; }
+  bool IsGathered(int32_t x, int32_t y) const { return map->FirstLayer(x, y) <= layer; }
+  bool IsOnSlope(int32_t x, int32_t y) const { return (map->At(x, y) & kSlopeMark) != 0; }
 
   // The pixels of the layer that belong to the cell of the block at (x, y) in the picture.
   Rect PixelsOf(int32_t x, int32_t y) const;

@@ -25,13 +25,18 @@ void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t 
   out[simd::kHighPlane * plane] = cell.high;
 }
 
-bool IsSmooth(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
+// `widest`: the largest range of one cell.
+Smoothness SmoothnessOf(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
   const int32_t range = high - low;
   const int32_t blur = Max(Abs(low - scale.focus), Abs(high - scale.focus));
+  const int32_t of_step = Max(scale.Radius(blur) / 2, kSharpSmoothRange);
   // A slope goes on from cell to cell, and so may its blur.
-  const bool step = 3 * widest > 2 * range;
-  const int32_t limit = step ? Max(scale.Radius(blur) / 2, kSharpSmoothRange) : kSmoothRange;
-  return scale.step * range <= int64_t{Min(limit, kSmoothRange)} << kStepBits;
+  const auto is_within = [&](int32_t limit, bool step) {
+    const int32_t most = step ? Min(of_step, limit) : limit;
+    return scale.step * range <= int64_t{most} << kStepBits;
+  };
+  if (is_within(kSmoothRange, 2 * widest > range)) return Smoothness::kFlat;
+  return is_within(kSlopeRange, 3 * widest > 2 * range) ? Smoothness::kOnSlope : Smoothness::kRough;
 }
 
 }  // namespace
@@ -77,14 +82,15 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
 }
 
 void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
-                const BlurScale& scale, int32_t row, bool* smooth) {
+                const BlurScale& scale, int32_t row, Smoothness* smooth) {
   int16_t low[kMaxRowCells], high[kMaxRowCells], edge[kMaxRowCells];
   uint16_t widest[kMaxRowCells];
   static_assert(kMaxRowCells % simd::kSliceLanes == 0, "kernels write whole lanes");
   kernels.SurroundCells(surroundings.At(surroundings.column, row), surroundings.around,
                         static_cast<size_t>(surroundings.columns), {low, high, widest, edge});
   for (int32_t k = 0; k < surroundings.columns; ++k) {
-    smooth[k] = edge[k] == 0 && IsSmooth(scale, low[k], high[k], widest[k]);
+    smooth[k] =
+        edge[k] > 0 ? Smoothness::kRough : SmoothnessOf(scale, low[k], high[k], widest[k]);
   }
 }
 

@@ -39,22 +39,25 @@ Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, cons
 
 // A cell is smooth when it can be gathered (lib/filter/gather.h): one surface is all that lies
 // within reach of its pixels, or reaches them from nearer by, and the blur there, nearer than the
-// focus counted as negative, differs by at most this, kDisparityBits. What lies farther may reach
-// them, too: in no view does it show before the surface. Where most of that is within one cell, it
-// is a step: then by no more than half the largest blur or kSharpSmoothRange, since the kernel of
-// the middle may be sharp where one side is not.
-inline constexpr int32_t kSmoothRange = 3 << kDisparityBits;
+// focus counted as negative, differs by at most kSlopeRange, kDisparityBits. What lies farther may
+// reach them, too: in no view does it show before the surface. Where two thirds of that are within
+// one cell, it is a step: then by no more than half the largest blur or kSharpSmoothRange, since the
+// blur may be sharp on one side. A cell is flat, and one kernel serves all of its pixels, where the
+// blur differs by at most kSmoothRange, and half of that within one cell counts as a step.
+inline constexpr int32_t kSmoothRange = (5 << kDisparityBits) / 4;
+inline constexpr int32_t kSlopeRange = (11 << kDisparityBits) / 4;
 inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
+enum class Smoothness : uint8_t { kRough, kOnSlope, kFlat };
 
 // Stats of the 2x2 cells of the grid at (column, row) of the surroundings.
 BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
                         const Surroundings& surroundings, int32_t column, int32_t row);
 
-// Which cells of a row of the surroundings, at most kMaxRowCells, are smooth. `scale` is what they
+// How smooth the cells of a row of the surroundings are, at most kMaxRowCells. `scale` is what they
 // were measured with.
 inline constexpr int32_t kMaxRowCells = 32;
 void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
-                const BlurScale& scale, int32_t row, bool* smooth);
+                const BlurScale& scale, int32_t row, Smoothness* smooth);
 
 }  // namespace starfocus
 

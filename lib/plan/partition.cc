@@ -103,22 +103,22 @@ class Partition {
   void FindGathered(const CellGrid& cells, const Surroundings& inside) {
     const int32_t right = Min(inside.column + inside.columns, cells.columns);
     const int32_t bottom = Min(inside.row + inside.rows, cells.rows);
-    bool smooth[kMaxRowCells] = {};
+    Smoothness smooth[kMaxRowCells] = {};  // rough
     for (int32_t y = inside.row; y < bottom; ++y) {
       if (rules_.gathers) FindSmooth(kernels_, inside, rules_.scale, y, smooth);
       for (int32_t x = inside.column; x < right; ++x) {
-        const bool is_smooth = smooth[x - inside.column];
         gathered_.At(x * kCellSize, y * kCellSize) =
-            is_smooth ? FirstLayer(*cells.At(x, y)) : kByViews;
+            MarkOf(*cells.At(x, y), smooth[x - inside.column]);
       }
     }
   }
 
-  // Returns the lowest layer at which a kernel is large enough for the cell.
-  static uint8_t FirstLayer(const Cell& cell) {
+  // Returns the lowest layer at which a kernel is large enough for the cell, as GatherMap has it.
+  static uint8_t MarkOf(const Cell& cell, Smoothness smooth) {
+    if (smooth == Smoothness::kRough) return kByViews;
     uint8_t layer = 0;
     while (layer < kByViews && cell.r_max > kMaxGather << (kDisparityBits + layer)) ++layer;
-    return layer;
+    return smooth == Smoothness::kOnSlope ? layer | kSlopeMark : layer;
   }
 
   void MeasureUnit(int32_t column, int32_t row, const CellGrid& cells,
@@ -128,7 +128,7 @@ class Partition {
     for (int32_t y = cell_y; y < Min(cell_y + 2, cells.rows); ++y) {
       for (int32_t x = cell_x; x < Min(cell_x + 2, cells.columns); ++x) {
         ++node->cells;
-        const int32_t first = gathered_.At(x * kCellSize, y * kCellSize);
+        const int32_t first = gathered_.FirstLayer(x * kCellSize, y * kCellSize);
         for (int32_t layer = first; layer < SF_LAYERS; ++layer) {
           ++node->gathered[layer];
           node->gather[layer] += PredictGather(

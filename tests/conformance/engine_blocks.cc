@@ -29,8 +29,11 @@ std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState&
   const int right = block.rect.x + block.rect.width, bottom = block.rect.y + block.rect.height;
   for (int y = block.rect.y; y < bottom; y += kSide) {
     for (int x = block.rect.x; x < right; x += kSide) {
-      if (engine.stripe.plan.gathered.At(x, y) > block.layer) continue;
-      cells.push_back({x, y, std::min(kSide, right - x), std::min(kSide, bottom - y), 0, 0, 0, 0});
+      const starfocus::GatherMap& map = engine.stripe.plan.gathered;
+      if (map.FirstLayer(x, y) > block.layer) continue;
+      const bool on_slope = (map.At(x, y) & starfocus::kSlopeMark) != 0;
+      cells.push_back({x, y, std::min(kSide, right - x), std::min(kSide, bottom - y), on_slope, 0, 0,
+                       0, 0});
       AtLayer(block, &cells.back());
     }
   }

@@ -32,6 +32,7 @@ Result Refocus(const test::Scene& scene, const sf_params& params, const sf_confi
 // A cell of the picture that is gathered (reference_gather.h).
 struct GatheredCell {
   int x, y, width, height;              // in the picture
+  bool on_slope;                        // blurred by the radius of each pixel
   int at_x, at_y, at_width, at_height;  // what shows it at the block's layer
 };
 

@@ -10,8 +10,7 @@ namespace reference {
 namespace {
 
 constexpr int kCell = 8;
-constexpr double kLargestKernel = 12;   // pixels of the layer
-constexpr double kFlatRange = 1.0 / 8;  // radii of a cell that one kernel serves
+constexpr double kLargestKernel = 12;  // pixels of the layer
 
 struct Range {
   double low, high;
@@ -50,7 +49,7 @@ class Gather {
         frame_(*frame) {}
 
   void All() {
-    for (const GatheredCell& cell : block_.gathered) IsFlat(cell) ? Flat(cell) : OnSlope(cell);
+    for (const GatheredCell& cell : block_.gathered) cell.on_slope ? OnSlope(cell) : Flat(cell);
   }
 
  private:
@@ -92,12 +91,6 @@ class Gather {
     const int column = cell.x / kCell, row = cell.y / kCell;
     return {{Corner(column, row), Corner(column + 1, row), Corner(column, row + 1),
              Corner(column + 1, row + 1)}};
-  }
-
-  bool IsFlat(const GatheredCell& cell) const {
-    const Corners corners = CornersOf(cell);
-    const auto range = std::minmax_element(corners.radii, corners.radii + 4);
-    return *range.second - *range.first <= kFlatRange * 1024 * Scale();
   }
 
   // The signed radius of a pixel of the layer, in pixels of the layer.

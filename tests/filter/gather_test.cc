@@ -23,6 +23,7 @@ namespace {
 using starfocus::Cell;
 using starfocus::kCellSize;
 using starfocus::kDisparityBits;
+using starfocus::Smoothness;
 using test::Refocused;
 using test::RefocusScene;
 
@@ -64,7 +65,7 @@ struct Cells {
   }
 
   // Over all cells of the picture.
-  bool IsSmooth(int column, int row) const {
+  Smoothness SmoothnessOf(int column, int row) const {
     const Cell& own = *grid.At(column, row);
     int low = INT32_MAX, high = INT32_MIN, widest = 0;
     for (int y = 0; y < grid.rows; ++y) {
@@ -73,7 +74,7 @@ struct Cells {
         const int between = std::max(std::abs(x - column), std::abs(y - row)) - 1;
         const int nearer = cell.high > own.high ? NearReach(cell) : 0;
         if (between * kCellSize >= std::max(nearer, Reach(own))) continue;
-        if (cell.r_edge > 0) return false;
+        if (cell.r_edge > 0) return Smoothness::kRough;
         widest = std::max(widest, cell.high - cell.low);
         low = std::min(low, int{cell.low});
         high = std::max(high, int{cell.high});
@@ -82,9 +83,12 @@ struct Cells {
     const double radius = double(scale.step) / (1 << starfocus::kStepBits);
     const double blur =
         radius * std::max(std::abs(low - scale.focus), std::abs(high - scale.focus));
-    const bool step = 3 * widest > 2 * (high - low);
-    const double limit = step ? std::clamp(std::floor(std::floor(blur) / 2) / kOne, 0.5, 3.0) : 3;
-    return double(high - low) / kOne * radius <= limit;
+    const double of_step = std::max(std::floor(std::floor(blur) / 2) / kOne, 0.5);
+    const auto within = [&](double most, bool step) {
+      return double(high - low) / kOne * radius <= (step ? std::min(of_step, most) : most);
+    };
+    if (within(1.25, 2 * widest > high - low)) return Smoothness::kFlat;
+    return within(2.75, 3 * widest > 2 * (high - low)) ? Smoothness::kOnSlope : Smoothness::kRough;
   }
 
   std::vector<int16_t> disparity;
@@ -95,20 +99,23 @@ struct Cells {
 
 TEST_CASE("gather: smooth cells are those of the definition") {
   test::Random random(61);
-  int smooth = 0, rough = 0;
+  int found[3] = {0, 0, 0};
   for (int round = 0; round < 60; ++round) {
     const Cells cells(random.Int(1, 120), random.Int(1, 100), &random);
     const int around = starfocus::GetReach(12).cells;
     for (int row = 0; row < cells.grid.rows; ++row) {
       for (int column = 0; column < cells.grid.columns; ++column) {
-        const bool expected = cells.IsSmooth(column, row);
-        CHECK(test::IsSmooth(cells.grid, cells.scale, column, row, around) == expected);
-        (expected ? smooth : rough) += 1;
+        const Smoothness expected = cells.SmoothnessOf(column, row);
+        const bool same =
+            test::SmoothnessOf(cells.grid, cells.scale, column, row, around) == expected;
+        CHECK(same);
+        ++found[int(expected)];
       }
     }
   }
-  CHECK(smooth > 500);
-  CHECK(rough > 500);
+  CHECK(found[int(Smoothness::kRough)] > 500);
+  CHECK(found[int(Smoothness::kOnSlope)] > 100);
+  CHECK(found[int(Smoothness::kFlat)] > 500);
 }
 
 int LargestDifference(const Refocused& a, const Refocused& b) {

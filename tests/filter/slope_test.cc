@@ -69,14 +69,6 @@ TEST_CASE("slope: the focus within a cell is its least radius") {
   CHECK(range.high / kOne == doctest::Approx(0.35).epsilon(0.05));
 }
 
-TEST_CASE("slope: flat is what changes by an eighth of a pixel of the layer at most") {
-  CHECK(Plane(3, 0, 0).Middle(0).IsFlat());
-  CHECK(Plane(3, 0.0125, 0).Middle(0).IsFlat());
-  CHECK_FALSE(Plane(3, 0.025, 0).Middle(0).IsFlat());
-  CHECK(Plane(3, 0.025, 0).Middle(1).IsFlat());
-  CHECK(Plane(3, 0.025, 0, 0.5).Middle(0).IsFlat());
-}
-
 TEST_CASE("slope: shares are where the square of the radius lies between two") {
   const Plane plane(5, 0.1, 0);
   int16_t share[3 * 8];

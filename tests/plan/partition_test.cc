@@ -80,7 +80,7 @@ void CheckBlocks(const Plan& plan, int x, int y, const std::vector<Block>& block
     CHECK(block.gathers == planned.gathers);
     for (int row = rect.y; row < rect.y + rect.height && block.gathers; row += kCellSize) {
       for (int column = rect.x; column < rect.x + rect.width; column += kCellSize) {
-        const bool gathered = plan.gathered.At(column, row) <= block.layer;
+        const bool gathered = plan.gathered.FirstLayer(column, row) <= block.layer;
         CHECK(gathered == plan.MayGather(column, row, block.layer));
       }
     }
