@@ -30,27 +30,33 @@ struct DiscPairs {
   DiscPairs(const Disc& disc, const Disc& other) {
     Pair* pair = pairs;
     for (int32_t y = 0; y <= disc.size || y <= other.size; ++y) {
-      const int32_t own = PairsOf(disc, y), others = &disc == &other ? 0 : PairsOf(other, y);
+      const int32_t last = LastOf(disc, y), own = PairsUpTo(last);
+      const int32_t others = PairsUpTo(LastOf(other, y));
       counts[y] = own > others ? own : others;
-      for (int32_t x = 0; x < 2 * counts[y]; x += 2) {
+      for (int32_t x = 0; x <= last; x += 2) {
         *pair++ = {Weight(disc, x, y), Weight(disc, x + 1, y)};
       }
+      for (int32_t k = own; k < others; ++k) *pair++ = {0, 0};
     }
   }
 
  private:
+  // Of a row of the disc.
   static uint16_t Weight(const Disc& disc, int32_t x, int32_t y) {
+    if (x > disc.size) return 0;
     const int32_t high = x > y ? x : y, low = x > y ? y : x;
-    if (high > disc.size) return 0;
     const int bits = (x > 0 ? 1 : 0) + (y > 0 ? 1 : 0);
     return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
   }
 
-  static int32_t PairsOf(const Disc& disc, int32_t y) {
-    int32_t last = disc.size;
+  // The last column of a row with a weight, -1 if there is none.
+  static int32_t LastOf(const Disc& disc, int32_t y) {
+    int32_t last = y > disc.size ? -1 : disc.size;
     while (last >= 0 && Weight(disc, last, y) == 0) --last;
-    return last / 2 + (last >= 0);
+    return last;
   }
+
+  static int32_t PairsUpTo(int32_t last) { return last / 2 + (last >= 0); }
 };
 
 inline constexpr size_t kDiscChunk = 192;  // samples filtered together
@@ -188,36 +194,39 @@ HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t cou
 
 #endif
 
-// What becomes of the sums of a disc: codes, or samples of a layer where these are null.
+// What becomes of the sums of a disc, divided by 2^bits and times 2^whole: codes, or samples of a
+// layer where these are null.
 struct DiscOutput {
   uint8_t* codes;
   int16_t* samples;
   size_t stride;
   Encoding encoding;
+  int bits, whole;
 };
 
+inline DiscOutput SamplesOf(const Disc& disc, int16_t* samples, size_t stride) {
+  return {nullptr, samples, stride, {nullptr, nullptr}, disc.bits + kLightBits - kLayerBits, 0};
+}
+
 // Stores the sums of `count` samples at that place.
-HWY_INLINE void StoreDisc(const uint32_t* sums, const Disc& disc, size_t count,
-                          const DiscOutput& out, size_t at) {
+HWY_INLINE void StoreDisc(const uint32_t* sums, size_t count, const DiscOutput& out, size_t at) {
   int16_t light[kDiscChunk + HWY_MAX_BYTES];
+  FinishDisc(sums, count, out.bits, out.whole, light);
   if (out.codes == nullptr) {
-    FinishDisc(sums, count, disc.bits + kLightBits - kLayerBits, 0, light);
     std::memcpy(out.samples + at, light, count * sizeof(*light));
-    return;
+  } else {
+    Encode(light, count, out.encoding, out.codes + at);
   }
-  const int whole = out.encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
-  FinishDisc(sums, count, disc.bits + whole, whole, light);
-  Encode(light, count, out.encoding, out.codes + at);
 }
 
 // Filters rows of samples by chunks, with kTwo by a second, smaller disc as well.
 template <bool kTwo>
-inline void FilterRows(const int16_t* in, size_t in_stride, const Disc& disc,
-                             const Disc& smaller, size_t rows, size_t count, const DiscOutput& out,
-                             const DiscOutput& second_out) {
+inline void FilterRows(const int16_t* in, size_t in_stride, const Disc& disc, const Disc& smaller,
+                       size_t rows, size_t count, const DiscOutput& out,
+                       const DiscOutput& second_out) {
   constexpr size_t kSpare = HWY_MAX_BYTES;
-  const DiscPairs quarter(disc, smaller);
   const Disc none = {-1, 0, nullptr};
+  const DiscPairs quarter(disc, kTwo ? smaller : none);
   const DiscPairs second(kTwo ? smaller : none, kTwo ? disc : none);
   const size_t margin = 3 * static_cast<size_t>(disc.size);
   // The second column of a pair may lie a pixel beyond the disc. Its weight is zero, but it is
@@ -243,8 +252,8 @@ inline void FilterRows(const int16_t* in, size_t in_stride, const Disc& disc,
         pairs += pair_count;
         second_pairs += pair_count;
       }
-      StoreDisc(accumulators, disc, chunk, out, row * out.stride + begin);
-      if (kTwo) StoreDisc(seconds, smaller, chunk, second_out, row * second_out.stride + begin);
+      StoreDisc(accumulators, chunk, out, row * out.stride + begin);
+      if (kTwo) StoreDisc(seconds, chunk, second_out, row * second_out.stride + begin);
     }
   }
 }
@@ -252,14 +261,15 @@ inline void FilterRows(const int16_t* in, size_t in_stride, const Disc& disc,
 inline void FilterDisc(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
                        const Encoding& encoding, size_t rows, size_t count,
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
-  const DiscOutput codes = {out, nullptr, out_stride, encoding};
+  const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
+  const DiscOutput codes = {out, nullptr, out_stride, encoding, disc.bits + whole, whole};
   FilterRows<false>(in, in_stride, disc, disc, rows, count, codes, codes);
 }
 
 inline void FilterDiscLayer(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
                             size_t rows, size_t count, int16_t* HWY_RESTRICT out,
                             size_t out_stride) {
-  const DiscOutput samples = {nullptr, out, out_stride, {nullptr, nullptr}};
+  const DiscOutput samples = SamplesOf(disc, out, out_stride);
   FilterRows<false>(in, in_stride, disc, disc, rows, count, samples, samples);
 }
 
@@ -267,8 +277,8 @@ inline void FilterTwoDiscs(const int16_t* HWY_RESTRICT in, size_t in_stride, con
                            const Disc& more, size_t rows, size_t count,
                            int16_t* HWY_RESTRICT out_less, int16_t* HWY_RESTRICT out_more,
                            size_t out_stride) {
-  const DiscOutput first = {nullptr, out_more, out_stride, {nullptr, nullptr}};
-  const DiscOutput second = {nullptr, out_less, out_stride, {nullptr, nullptr}};
+  const DiscOutput first = SamplesOf(more, out_more, out_stride);
+  const DiscOutput second = SamplesOf(less, out_less, out_stride);
   FilterRows<true>(in, in_stride, more, less, rows, count, first, second);
 }
 

@@ -39,9 +39,9 @@ class Gather {
   void Load() {
     for (int32_t y = block_.y; y < Bottom(); y += kCellSize) {
       for (int32_t x = block_.x; x < Right(); x += kCellSize) {
-        if (!job_.cells.IsGathered(x, y)) continue;
-        const int32_t step = job_.cells.IsOnSlope(x, y) ? StepsOf(x, y).more : StepOf(x, y);
-        border_ = Max(border_, KernelOf(step).size);
+        const bool flat = job_.cells.IsFlat(x, y);
+        if (!flat && !job_.cells.IsOnSlope(x, y)) continue;
+        border_ = Max(border_, KernelOf(flat ? StepOf(x, y) : StepsOf(x, y).more).size);
       }
     }
     LoadField(*job_.kernels, *job_.window, frame_, {border_, border_, border_, border_}, field_);
@@ -52,8 +52,9 @@ class Gather {
     for (int32_t x = block_.x; x < Right();) {
       const int32_t first = x;
       x += kCellSize;
-      if (!job_.cells.IsGathered(first, y)) continue;
-      x = job_.cells.IsOnSlope(first, y) ? FilterSlopes(first, y) : FilterFlat(first, y);
+      const bool flat = job_.cells.IsFlat(first, y);
+      if (!flat && !job_.cells.IsOnSlope(first, y)) continue;
+      x = flat ? FilterFlat(first, y) : FilterSlopes(first, y);
       if (x == first) return;
       pixels_ += static_cast<uint64_t>(Min(x, Right()) - first) *
                  static_cast<uint64_t>(Min(kCellSize, Bottom() - y));
@@ -208,7 +209,7 @@ class Gather {
   }
 
   bool IsSlopeOfSteps(int32_t x, int32_t y, const Steps& steps) const {
-    if (!job_.cells.IsGathered(x, y) || !job_.cells.IsOnSlope(x, y)) return false;
+    if (!job_.cells.IsOnSlope(x, y)) return false;
     const Steps here = StepsOf(x, y);
     return here.less == steps.less && here.more == steps.more;
   }
@@ -222,7 +223,7 @@ class Gather {
   }
 
   bool IsFlatOfStep(int32_t x, int32_t y, int32_t step) const {
-    return job_.cells.IsGathered(x, y) && !job_.cells.IsOnSlope(x, y) && StepOf(x, y) == step;
+    return job_.cells.IsFlat(x, y) && StepOf(x, y) == step;
   }
 
   const GatherJob& job_;

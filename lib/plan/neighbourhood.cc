@@ -28,12 +28,13 @@ void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t 
 // `widest`: the largest range of one cell.
 Smoothness SmoothnessOf(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
   const int32_t range = high - low;
-  const int32_t blur = Max(Abs(low - scale.focus), Abs(high - scale.focus));
-  const int32_t of_step = Max(scale.Radius(blur) / 2, kSharpSmoothRange);
   // A slope goes on from cell to cell, and so may its blur.
   const auto is_within = [&](int32_t limit, bool step) {
-    const int32_t most = step ? Min(of_step, limit) : limit;
-    return scale.step * range <= int64_t{most} << kStepBits;
+    if (scale.step * range > int64_t{limit} << kStepBits) return false;
+    if (!step) return true;
+    const int32_t blur = Max(Abs(low - scale.focus), Abs(high - scale.focus));
+    const int32_t of_step = Max(scale.Radius(blur) / 2, kSharpSmoothRange);
+    return scale.step * range <= int64_t{of_step} << kStepBits;
   };
   if (is_within(kSmoothRange, 2 * widest > range)) return Smoothness::kFlat;
   return is_within(kSlopeRange, 3 * widest > 2 * range) ? Smoothness::kOnSlope : Smoothness::kRough;
