@@ -160,19 +160,21 @@ HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, const DiscPairs::Pair* 
   const auto both = [&](const uint16_t* at, ptrdiff_t x) HWY_ATTR {
     return hn::PromoteTo(d32, hn::AverageRound(hn::LoadU(d16, at - x), hn::LoadU(d16, at + x)));
   };
+  const auto weigh = [&](auto first, auto second, const DiscPairs::Pair& pair) HWY_ATTR {
+    return WeighPair(d32, first, second, hn::Set(d32, pair.first), hn::Set(d32, pair.second));
+  };
   for (size_t n = 0; n < count; n += lanes) {
     const uint16_t* at = means + n;
-    auto sum = hn::LoadU(d32, accumulators + n), second_sum = hn::Zero(d32);
-    if (kTwo) second_sum = hn::LoadU(d32, seconds + n);
-    for (ptrdiff_t k = 0; k < pair_count; ++k) {
-      const auto first = k > 0 ? both(at, 6 * k) : hn::PromoteTo(d32, hn::LoadU(d16, at));
-      const auto second = both(at, 6 * k + 3);
-      sum = hn::Add(sum, WeighPair(d32, first, second, hn::Set(d32, pairs[k].first),
-                                   hn::Set(d32, pairs[k].second)));
-      if (!kTwo) continue;
-      second_sum =
-          hn::Add(second_sum, WeighPair(d32, first, second, hn::Set(d32, second_pairs[k].first),
-                                        hn::Set(d32, second_pairs[k].second)));
+    const auto middle = hn::PromoteTo(d32, hn::LoadU(d16, at)), beside = both(at, 3);
+    auto sum = hn::Add(hn::LoadU(d32, accumulators + n), weigh(middle, beside, pairs[0]));
+    auto second_sum = hn::Zero(d32);
+    if (kTwo) {
+      second_sum = hn::Add(hn::LoadU(d32, seconds + n), weigh(middle, beside, second_pairs[0]));
+    }
+    for (ptrdiff_t k = 1; k < pair_count; ++k) {
+      const auto first = both(at, 6 * k), second = both(at, 6 * k + 3);
+      sum = hn::Add(sum, weigh(first, second, pairs[k]));
+      if (kTwo) second_sum = hn::Add(second_sum, weigh(first, second, second_pairs[k]));
     }
     hn::StoreU(sum, d32, accumulators + n);
     if (kTwo) hn::StoreU(second_sum, d32, seconds + n);

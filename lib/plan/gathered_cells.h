@@ -13,8 +13,8 @@
 namespace starfocus {
 
 // Of each cell of a stripe, the lowest layer at which it can be gathered: blocks of that layer and
-// of those above it do. kByViews: no block does. Cells that have kSlopeMark besides are gathered with
-// the radius of each pixel (lib/filter/slope.h), others with that of their middle.
+// of those above it do. kByViews: no block does. Cells that have kSlopeMark besides are gathered
+// with the radius of each pixel (lib/filter/slope.h), others with that of their middle.
 inline constexpr uint8_t kByViews = 3;
 inline constexpr uint8_t kSlopeMark = 4;
 struct GatherMap {

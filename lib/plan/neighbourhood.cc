@@ -90,8 +90,7 @@ void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
   kernels.SurroundCells(surroundings.At(surroundings.column, row), surroundings.around,
                         static_cast<size_t>(surroundings.columns), {low, high, widest, edge});
   for (int32_t k = 0; k < surroundings.columns; ++k) {
-    smooth[k] =
-        edge[k] > 0 ? Smoothness::kRough : SmoothnessOf(scale, low[k], high[k], widest[k]);
+    smooth[k] = edge[k] > 0 ? Smoothness::kRough : SmoothnessOf(scale, low[k], high[k], widest[k]);
   }
 }
 

@@ -41,9 +41,9 @@ Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, cons
 // within reach of its pixels, or reaches them from nearer by, and the blur there, nearer than the
 // focus counted as negative, differs by at most kSlopeRange, kDisparityBits. What lies farther may
 // reach them, too: in no view does it show before the surface. Where two thirds of that are within
-// one cell, it is a step: then by no more than half the largest blur or kSharpSmoothRange, since the
-// blur may be sharp on one side. A cell is flat, and one kernel serves all of its pixels, where the
-// blur differs by at most kSmoothRange, and half of that within one cell counts as a step.
+// one cell, it is a step: then by no more than half the largest blur or kSharpSmoothRange, since
+// the blur may be sharp on one side. A cell is flat, and one kernel serves all of its pixels, where
+// the blur differs by at most kSmoothRange, and half of that within one cell counts as a step.
 inline constexpr int32_t kSmoothRange = (5 << kDisparityBits) / 4;
 inline constexpr int32_t kSlopeRange = (11 << kDisparityBits) / 4;
 inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
