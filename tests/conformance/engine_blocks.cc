@@ -32,8 +32,8 @@ std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState&
       const starfocus::GatherMap& map = engine.stripe.plan.gathered;
       if (map.FirstLayer(x, y) > block.layer) continue;
       const bool on_slope = (map.At(x, y) & starfocus::kSlopeMark) != 0;
-      cells.push_back({x, y, std::min(kSide, right - x), std::min(kSide, bottom - y), on_slope, 0, 0,
-                       0, 0});
+      cells.push_back(
+          {x, y, std::min(kSide, right - x), std::min(kSide, bottom - y), on_slope, 0, 0, 0, 0});
       AtLayer(block, &cells.back());
     }
   }

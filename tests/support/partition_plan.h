@@ -94,8 +94,9 @@ struct Plan {
   // Whether the cell at pixel (x, y) is one that blocks of the layer need not refocus by views.
   bool MayGather(int x, int y, int layer) const {
     const int column = x / kCellSize, row = y / kCellSize;
-    return rules.gathers && test::SmoothnessOf(grid, rules.scale, column, row, around) !=
-                                  starfocus::Smoothness::kRough &&
+    return rules.gathers &&
+           test::SmoothnessOf(grid, rules.scale, column, row, around) !=
+               starfocus::Smoothness::kRough &&
            grid.At(column, row)->r_max <= (12 << layer) * int(kRadiusOne);
   }
 
