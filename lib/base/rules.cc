@@ -21,10 +21,15 @@ struct SubapertureStep {
   double r_max;
   int32_t n;
 };
-// The criterion would let 4 serve up to 18: 0.1 to 0.4 dB farther from the benchmark mode on real
-// maps for 4 % of the instructions.
-constexpr SubapertureStep kSubapertureSteps[] = {{0.5, 0}, {11, 4},  {25, 5},   {34, 6},  {49, 7},
-                                                 {68, 9},  {83, 11}, {119, 12}, {128, 13}};
+// The criterion would let 3 serve up to 7: 0.2 dB farther from truth on wires, 0.1 from the
+// benchmark mode on real maps, for 1 to 3 % of the instructions; and 4 up to 18: 0.1 to 0.4 dB for
+// 4 %.
+constexpr SubapertureStep kSubapertureSteps[] = {{0.5, 0},  {5.5, 3}, {11, 4}, {25, 5},
+                                                 {34, 6},   {49, 7},  {68, 9}, {83, 11},
+                                                 {119, 12}, {128, 13}};
+
+// What openings that don't fall off take at least: their error with 3 is beyond the threshold.
+constexpr int32_t kEvenViews = 4;
 
 // What openings with corners or narrow parts take beyond kMoreFrom px at least, by the error of
 // their subapertures there; with them up to that radius, too, the portrait is up to 0.3 dB farther
@@ -66,8 +71,9 @@ int32_t ViewsBySubaperture(double r_max, Demand demand) {
     n = step.n;
     if (r_max <= step.r_max) break;
   }
-  const bool more = demand == Demand::kPolygon || demand == Demand::kRing;
-  return more && r_max > kMoreFrom && n < kMoreViews ? kMoreViews : n;
+  if (n == 0 || demand == Demand::kFallOff) return n;
+  const int32_t least = demand != Demand::kDisc && r_max > kMoreFrom ? kMoreViews : kEvenViews;
+  return n < least ? least : n;
 }
 
 int32_t ScaleViews(int32_t n, double scale) {

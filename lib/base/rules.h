@@ -22,11 +22,11 @@ int32_t ViewsByPaper(double r_max);
 // (9) for every smaller radius too (lib/analysis/subaperture_rule.h has the criterion). r_max in
 // [0, 128]:
 //
-//   r_max <=  1/2   11   25   34   49   68   83  119  128
-//   N           0    4    5    6    7    9   11   12   13
+//   r_max <=  1/2  5.5   11   25   34   49   68   83  119  128
+//   N           0    3    4    5    6    7    9   11   12   13
 //
-// Polygons and rings have corners and narrow parts: from 5 px on their N is 6 at least
-// (docs/constants.md, Openings).
+// Openings that don't fall off have 4 at least. Polygons and rings have corners and narrow parts:
+// from 5 px on their N is 6 at least (docs/constants.md, Openings).
 int32_t ViewsBySubaperture(double r_max, Demand demand = Demand::kFallOff);
 
 // N of either rule times `scale` in [0.5, 2], rounded up; 0 and a scale of 1 change nothing.

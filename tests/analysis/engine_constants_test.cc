@@ -205,7 +205,7 @@ TEST_CASE("constants: the running engine has the kernel it is described by") {
 }
 
 TEST_CASE("constants: the engine's subapertures keep the threshold at every radius that N serves") {
-  for (const double r_max : {11.0, 25.0, 34.0, 40.0}) {
+  for (const double r_max : {5.5, 11.0, 25.0, 34.0, 40.0}) {
     const int n = ViewsBySubaperture(r_max);
     double worst = 0, worst_r = 0;
     for (double r = 0.5 + 1.0 / 64; r <= r_max; r += 1.0 / 16) {
@@ -224,12 +224,22 @@ TEST_CASE("constants: the width of the lens in subapertures") {
   const auto views = [](int lens) {
     return SubapertureLights::OfLens(lens, kDefaultTheta).views();
   };
-  // N = 5: the least worst error of all lenses with 69 views.
-  const double chosen = worst(LensInSubapertures(5), 25);
-  CHECK(views(LensInSubapertures(5)) == 69);
-  for (int lens = 5 * kSubapertureUnits - 24; lens <= 5 * kSubapertureUnits; ++lens) {
-    if (views(lens) != 69) continue;
-    CHECK_MESSAGE(worst(lens, 25) >= chosen, "32 n - 11: a lens of " << lens << " / 32 is better");
+  // N = 3 and 5: the least worst error of all lenses with as many views.
+  constexpr struct {
+    int n, views;
+    double r_max;
+  } kLeast[] = {{3, 29, 5.5}, {5, 69, 25}};
+  for (const auto& least : kLeast) {
+    CAPTURE(least.n);
+    const int own = LensInSubapertures(least.n);
+    const double chosen = worst(own, least.r_max);
+    CHECK(views(own) == least.views);
+    CHECK(chosen < kThreshold / 3);
+    for (int lens = least.n * kSubapertureUnits - 24; lens <= least.n * kSubapertureUnits; ++lens) {
+      if (views(lens) != least.views) continue;
+      CHECK_MESSAGE(worst(lens, least.r_max) >= chosen,
+                    "LensInSubapertures: " << lens << " / 32 is better");
+    }
   }
   // N = 4: of lenses with as few views none has less than half of its worst error.
   CHECK(views(LensInSubapertures(4)) == 49);

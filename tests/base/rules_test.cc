@@ -108,8 +108,8 @@ TEST_CASE("rules: the table of views that stand for their subapertures") {
   constexpr struct {
     double r_max;
     int n;
-  } kTable[] = {{0.5, 0}, {11, 4},  {25, 5},   {34, 6},  {49, 7},
-                {68, 9},  {83, 11}, {119, 12}, {128, 13}};
+  } kTable[] = {{0.5, 0}, {5.5, 3}, {11, 4},  {25, 5},   {34, 6},
+                {49, 7},  {68, 9},  {83, 11}, {119, 12}, {128, 13}};
   CHECK(ViewsBySubaperture(0) == 0);
   for (size_t k = 0; k < std::size(kTable); ++k) {
     CAPTURE(kTable[k].r_max);
@@ -157,11 +157,11 @@ TEST_CASE("rules: what openings demand, and that layers and more views follow") 
   CHECK(starfocus::DemandOf(opening) == Demand::kRing);
   opening.shape = SF_SHAPE_FALL_OFF;
   CHECK(starfocus::DemandOf(opening) == Demand::kPolygon);
-  for (const double r : {0.0, 0.5, 0.6, 5.0, 11.0, 11.5, 25.0, 30.0, 34.5, 128.0}) {
+  for (const double r : {0.0, 0.5, 0.6, 5.0, 5.2, 5.5, 11.0, 11.5, 25.0, 30.0, 34.5, 128.0}) {
     CAPTURE(r);
-    CHECK(ViewsBySubaperture(r, Demand::kDisc) == ViewsBySubaperture(r));
-    const int least = r > 5 ? 6 : 0, plain = ViewsBySubaperture(r);
-    CHECK(ViewsBySubaperture(r, Demand::kPolygon) == (plain > least ? plain : least));
+    const int plain = ViewsBySubaperture(r), even = r > 0.5 ? 4 : 0, narrow = r > 5 ? 6 : even;
+    CHECK(ViewsBySubaperture(r, Demand::kDisc) == (plain > even ? plain : even));
+    CHECK(ViewsBySubaperture(r, Demand::kPolygon) == (plain > narrow ? plain : narrow));
     CHECK(ViewsBySubaperture(r, Demand::kRing) == ViewsBySubaperture(r, Demand::kPolygon));
   }
   constexpr struct {
