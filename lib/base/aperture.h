@@ -39,12 +39,12 @@ struct Aperture {
 
 // The radius of the lens in subapertures, kSubapertureUnits of each, for the N of
 // ViewsBySubaperture. All are computed: over all radii that N serves, no lens with as many views
-// has less than the worst error of 93 at N = 3 and of 32 * 5 - 11 at N = 5, and none has less than
-// half of that of 123 at N = 4 (lib/analysis/subaperture_rule.h, WorstOfLens; docs/constants.md has
-// the table).
+// has less than half of the worst error that 123 has at N = 4, and none has less than 32 * 5 - 11
+// at N = 5, nor than 94 at N = 3 of those that keep the threshold at every radius
+// (lib/analysis/subaperture_rule.h, WorstOfLens; docs/constants.md has the tables).
 inline constexpr int32_t kSubapertureUnits = 32;
 constexpr int32_t LensInSubapertures(int32_t n) {
-  return n == 1 ? kSubapertureUnits : n == 3 ? 93 : n == 4 ? 123 : kSubapertureUnits * n - 11;
+  return n == 1 ? kSubapertureUnits : n == 3 ? 94 : n == 4 ? 123 : kSubapertureUnits * n - 11;
 }
 
 // Subapertures whose centres lie up to this far beyond the rim are rendered, too: at N = 4 that

@@ -219,27 +219,43 @@ TEST_CASE("constants: the engine's subapertures keep the threshold at every radi
   }
 }
 
+// The largest error of a lens of that width, over radii of N = 3 close to each other from `first`
+// on.
+double WorstOfThree(int lens, double first) {
+  const SubapertureLights lights = SubapertureLights::OfLens(lens, kDefaultTheta);
+  double worst = 0;
+  for (double r = first; r <= 5.5; r += 1.0 / 32) {
+    worst =
+        std::max(worst, SquaredError(SubapertureKernel(r, lights), IdealKernel(r, kDefaultTheta)));
+  }
+  return worst;
+}
+
+TEST_CASE("constants: the width of the lens in three subapertures") {
+  // From half a pixel on, where the centre view alone ends, and from where kernels are wider.
+  constexpr double kFirst = 0.5 + 1.0 / 64, kWider = 0.625;
+  const int own = LensInSubapertures(3);
+  CHECK(WorstOfThree(own, kFirst) < kThreshold);
+  for (int lens = 3 * kSubapertureUnits - 11; lens <= 3 * kSubapertureUnits; ++lens) {
+    CAPTURE(lens);
+    if (WorstOfThree(lens, kFirst) >= kThreshold) continue;
+    CHECK(SubapertureLights::OfLens(lens, kDefaultTheta).views() == 29);
+    CHECK_MESSAGE(WorstOfThree(lens, kWider) >= WorstOfThree(own, kWider),
+                  "94: this one is better");
+  }
+}
+
 TEST_CASE("constants: the width of the lens in subapertures") {
   const auto worst = [](int lens, double r_max) { return WorstOfLens(lens, r_max, kDefaultTheta); };
   const auto views = [](int lens) {
     return SubapertureLights::OfLens(lens, kDefaultTheta).views();
   };
-  // N = 3 and 5: the least worst error of all lenses with as many views.
-  constexpr struct {
-    int n, views;
-    double r_max;
-  } kLeast[] = {{3, 29, 5.5}, {5, 69, 25}};
-  for (const auto& least : kLeast) {
-    CAPTURE(least.n);
-    const int own = LensInSubapertures(least.n);
-    const double chosen = worst(own, least.r_max);
-    CHECK(views(own) == least.views);
-    CHECK(chosen < kThreshold / 3);
-    for (int lens = least.n * kSubapertureUnits - 24; lens <= least.n * kSubapertureUnits; ++lens) {
-      if (views(lens) != least.views) continue;
-      CHECK_MESSAGE(worst(lens, least.r_max) >= chosen,
-                    "LensInSubapertures: " << lens << " / 32 is better");
-    }
+  // N = 5: the least worst error of all lenses with 69 views.
+  const double chosen = worst(LensInSubapertures(5), 25);
+  CHECK(views(LensInSubapertures(5)) == 69);
+  for (int lens = 5 * kSubapertureUnits - 24; lens <= 5 * kSubapertureUnits; ++lens) {
+    if (views(lens) != 69) continue;
+    CHECK_MESSAGE(worst(lens, 25) >= chosen, "32 n - 11: a lens of " << lens << " / 32 is better");
   }
   // N = 4: of lenses with as few views none has less than half of its worst error.
   CHECK(views(LensInSubapertures(4)) == 49);

@@ -342,7 +342,7 @@ TEST_CASE("preview: near the full picture reduced") {
   sf_config config = test::ConfigFor(scene, 24);
   config.previews = 3;
   Prepared prepared(scene, config);
-  constexpr double kLeast[] = {0, 53.5, 52, 43};  // of waves of 9 pixels an eighth shows little
+  constexpr double kLeast[] = {0, 53.5, 51.5, 43};  // of waves of 9 pixels an eighth shows little
   for (const double focus : {9.0, 0.0, -9.0}) {
     const sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
     test::Output full(512, 384);

@@ -15,7 +15,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
 sf_config ConfigOf(int shape) {
-  sf_config config = test::ConfigFor(test::EmptyScene(40, 30, 5, -2, 2), 4);
+  sf_config config = test::ConfigFor(test::EmptyScene(40, 30, 5, -2, 2), 6);
   config.aperture_shape = static_cast<int16_t>(shape);
   return config;
 }

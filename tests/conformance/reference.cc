@@ -99,7 +99,7 @@ Lens MakeLens(const sf_params& params, const Opening& opening, int n, int layer,
   double extent = 1;
   if (wide) {
     // Views up to 5/32 of a subaperture beyond the rim.
-    lens.subapertures = n == 1 ? 1 : n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
+    lens.subapertures = n == 1 ? 1 : n == 3 ? 3 - 2 / 32.0 : n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
     const double farthest = lens.subapertures + 5 / 32.0;
     lens.n = int(farthest);
     lens.most = int(farthest * farthest);

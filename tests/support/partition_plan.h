@@ -144,14 +144,15 @@ inline int LayerOf(bool subapertures, double r_min, bool silhouette, starfocus::
   return r_min < first ? 0 : r_min < 24 * first / 7 || silhouette ? 1 : 2;
 }
 
-// (9), or what wide subapertures need, those of polygons and rings more.
+// (9), or what wide subapertures need, those of openings that don't fall off more.
 inline int ViewsOf(bool subapertures, double r_max, starfocus::Demand demand) {
   if (subapertures && demand >= starfocus::Demand::kPolygon && r_max > 5 && r_max <= 34) return 6;
+  if (subapertures && demand != starfocus::Demand::kFallOff && r_max > 0.5 && r_max <= 11) return 4;
   if (subapertures) {
     constexpr struct {
       double r_max;
       int n;
-    } kSteps[] = {{0.5, 0}, {11, 4}, {25, 5}, {34, 6}, {49, 7}};
+    } kSteps[] = {{0.5, 0}, {5.5, 3}, {11, 4}, {25, 5}, {34, 6}, {49, 7}};
     for (const auto& step : kSteps) {
       if (r_max <= step.r_max) return step.n;
     }
