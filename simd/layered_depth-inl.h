@@ -18,16 +18,14 @@ inline void Split(const int16_t* HWY_RESTRICT rgb, size_t count, size_t plane,
                   int16_t* HWY_RESTRICT out) {
   const ChunkTag d16;
   const size_t lanes = hn::Lanes(d16);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  if (count < lanes) return reference::Split(rgb, count, plane, out);
+  for (size_t at = 0; at < count; at += lanes) {
+    const size_t n = at + lanes <= count ? at : count - lanes;  // the last two vectors overlap
     ChunkVec r, g, b;
     hn::LoadInterleaved3(d16, rgb + 3 * n, r, g, b);
     hn::StoreU(r, d16, out + n);
     hn::StoreU(g, d16, out + plane + n);
     hn::StoreU(b, d16, out + 2 * plane + n);
-  }
-  for (; n < count; ++n) {
-    for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
   }
 }
 
