@@ -90,10 +90,11 @@ TEST_CASE("slices: bands of rows have the disparities of all surfaces") {
   Scene scene;
   scene.At(3, 15) = 20;
   scene.At(63, 17) = -40;
+  scene.At(20, 63) = -300;  // what lies behind another surface is of the range of the first
   for (int y = 30; y < 35; ++y) scene.At(40, y, 1) = int16_t(-100 - y);
   scene.At(0, 31, 2) = -200;
   scene.Cut(2.25);
-  const int expected[8][2] = {{0, 0}, {0, 20}, {-40, 0}, {-200, 0}, {-134, 0}, {}, {}, {}};
+  const int expected[8][2] = {{0, 0}, {0, 20}, {-40, 0}, {-200, 0}, {-134, 0}, {}, {}, {-300, 0}};
   for (int band = 0; band < 8; ++band) {
     CAPTURE(band);
     for (const int row : {8 * band, 8 * band + 7}) {
