@@ -18,16 +18,14 @@ inline void Split(const int16_t* HWY_RESTRICT rgb, size_t count, size_t plane,
                   int16_t* HWY_RESTRICT out) {
   const ChunkTag d16;
   const size_t lanes = hn::Lanes(d16);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  if (count < lanes) return reference::Split(rgb, count, plane, out);
+  for (size_t at = 0; at < count; at += lanes) {
+    const size_t n = at + lanes <= count ? at : count - lanes;  // the last two vectors overlap
     ChunkVec r, g, b;
     hn::LoadInterleaved3(d16, rgb + 3 * n, r, g, b);
     hn::StoreU(r, d16, out + n);
     hn::StoreU(g, d16, out + plane + n);
     hn::StoreU(b, d16, out + 2 * plane + n);
-  }
-  for (; n < count; ++n) {
-    for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
   }
 }
 
@@ -135,29 +133,41 @@ HWY_INLINE ptrdiff_t StepOf(const DepthRow& row, int side) {
   return side % 2 == 0 ? along : -along;
 }
 
-// Finds the distances of a group of pixels to what the far side of their edge hides in turn.
-// Returns whether there are any: most far sides hide nothing.
-HWY_INLINE bool FollowEdges(const DepthRow& row, int side, size_t chunk,
-                            uint8_t* HWY_RESTRICT distances) {
+// Returns the lanes of a group that have a distance: bit k is lane k. Few have one behind an
+// upright edge.
+HWY_INLINE uint32_t LanesOf(const uint8_t* distances) {
+  const hn::CappedTag<uint8_t, kSliceLanes> d8;
+  uint32_t lanes = 0;
+  for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d8)) {
+    lanes |= BitsOf(d8, hn::Ne(hn::LoadU(d8, distances + k), hn::Zero(d8))) << k;
+  }
+  return lanes;
+}
+
+HWY_INLINE ptrdiff_t LowestLane(uint32_t lanes) {
+  return static_cast<ptrdiff_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes));
+}
+
+// Finds the distances of those `lanes` of a group of pixels that have an edge to what the far side
+// of their edge hides in turn, which the others do not change. Returns the lanes that have one:
+// most far sides hide nothing.
+HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t chunk, uint32_t lanes,
+                                uint8_t* HWY_RESTRICT distances) {
   const ptrdiff_t step = StepOf(row, side);
   const uint8_t* const edges = row.edges[side] + chunk;
   const int16_t* const pixels = row.disparity + chunk;
-  constexpr auto kLanes = static_cast<ptrdiff_t>(kSliceLanes);
-  uint32_t some = 0;
-  for (ptrdiff_t k = 0; k < kLanes; ++k) some |= distances[k] = edges[k + step * edges[k]];
-  if (some == 0) return false;
-  bool any = false;
-  for (ptrdiff_t k = 0; k < kLanes; ++k) {
-    const int32_t more = distances[k], distance = edges[k] + more;
-    distances[k] = 0;
+  uint32_t found = 0;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const ptrdiff_t k = LowestLane(lanes);
+    const int32_t more = edges[k + step * edges[k]], distance = edges[k] + more;
     if (more == 0 || distance > kMostDistance) continue;
     const int32_t depth = pixels[k] - pixels[k + step * distance];
     const int32_t room = (depth < INT16_MAX ? depth : INT16_MAX) >> row.unit_bits;
     if (distance - 1 > room) continue;
     distances[k] = static_cast<uint8_t>(distance);
-    any = true;
+    found |= uint32_t{1} << k;
   }
-  return any;
+  return found;
 }
 
 // Finds the lanes whose place, of `disparity`, is covered in a view; none is farther than `low`.
@@ -183,10 +193,10 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
                      last < most ? last : most);
 }
 
-// Looks behind an edge of each pixel, at these distances, and writes it as edge `index`. Sides are
-// numbered as in DepthRow::edges.
+// Looks behind an edge of each pixel of `lanes`, at these distances, which are 0 in other lanes,
+// and writes it as edge `index`. Sides are numbered as in DepthRow::edges.
 HWY_INLINE void LookBehindSide(const DepthRow& row, size_t chunk, const uint8_t* distances,
-                               int index, ChunkSides* sides) {
+                               uint32_t lanes, int index, ChunkSides* sides) {
   const ChunkTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const int side = index % 4;
@@ -194,7 +204,11 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t chunk, const uint8_t*
   const ViewLook* const looks = row.looks[side];
   int16_t* const behind = sides->disparity[index];
   const int16_t* const pixels = row.disparity + chunk;
-  for (ptrdiff_t k = 0; k < static_cast<ptrdiff_t>(kSliceLanes); ++k) {
+  for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
+    hn::StoreU(hn::LoadU(d16, pixels + k), d16, behind + k);
+  }
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const ptrdiff_t k = LowestLane(lanes);
     behind[k] = pixels[k + step * distances[k]];
   }
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
@@ -224,11 +238,11 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t chunk, const uint8_t*
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V disparity) {
   auto source = hn::Zero(d16);
-  for (int edge = 0; edge < kEdges; ++edge) {
-    if ((sides.some >> edge & 1) == 0) continue;
+  for (uint32_t rest = sides.some; rest != 0; rest &= rest - 1) {
+    const ptrdiff_t edge = LowestLane(rest);
     const auto same = hn::And(hn::Eq(hn::LoadU(d16, sides.rank[edge] + k), best),
                               hn::Eq(hn::LoadU(d16, sides.disparity[edge] + k), disparity));
-    const int side = edge % 4;
+    const auto side = static_cast<int>(edge % 4);
     const auto bit = hn::Set(d16, static_cast<int16_t>(1 << side));
     const auto second_bit = hn::Set(d16, static_cast<int16_t>(1 << (side + kSourceSecond)));
     const auto bits = hn::Or(bit, hn::And(second_bit, hn::LoadU(d16, sides.second[edge] + k)));
@@ -240,35 +254,49 @@ HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V dispar
   return hn::IfThenElseZero(some, hn::Or(source, distance));
 }
 
+// Writes a vector of a hidden surface: that of the lowest rank, of the edges whose surface differs
+// from the one above, of which there is none in front of the first, by more than `unit`. Returns
+// it.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V ChooseSurface(D d16, const ChunkSides& sides, size_t k, int surface, V above, V unit,
+                           size_t chunk, const HiddenRow& hidden) {
+  const hn::RebindToUnsigned<D> du16;
+  const auto none = hn::Set(d16, kNoRank), nothing = hn::Set(d16, kNoSurface);
+  auto best = none, disparity = nothing;
+  for (uint32_t rest = sides.some; rest != 0; rest &= rest - 1) {
+    const ptrdiff_t edge = LowestLane(rest);
+    const auto far = hn::LoadU(d16, sides.disparity[edge] + k);
+    auto rank = hn::LoadU(d16, sides.rank[edge] + k);
+    if (surface > 0) {
+      const auto step = hn::SaturatedSub(hn::Max(far, above), hn::Min(far, above));
+      rank = hn::IfThenElse(hn::Gt(step, unit), rank, none);
+    }
+    const auto same = hn::Eq(rank, best);
+    const auto nearest = hn::IfThenElse(same, hn::Max(disparity, far), disparity);
+    disparity = hn::IfThenElse(hn::Lt(rank, best), far, nearest);
+    best = hn::Min(best, rank);
+  }
+  const auto some = hn::Lt(best, none);
+  const auto chosen = hn::IfThenElse(some, disparity, nothing);
+  const bool any = !hn::AllFalse(d16, some);  // behind the first surface there is seldom another
+  const auto source = any ? SourceOf(d16, sides, k, best, chosen) : hn::Zero(d16);
+  hn::StoreU(chosen, d16, hidden.disparity[surface] + chunk + k);
+  hn::StoreU(hn::BitCast(du16, source), du16, hidden.source[surface] + chunk + k);
+  return chosen;
+}
+
 // Writes the hidden surfaces of a group of pixels. Returns whether there are any.
 HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t chunk,
                                const HiddenRow& hidden) {
   const ChunkTag d16;
-  const hn::RebindToUnsigned<ChunkTag> du16;
   const auto unit = hn::Set(d16, static_cast<int16_t>(1 << unit_bits));
-  const auto none = hn::Set(d16, kNoRank), nothing = hn::Set(d16, kNoSurface);
+  const auto nothing = hn::Set(d16, kNoSurface);
   uint32_t found[kSurfaces - 1] = {};
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
     auto above = nothing;
     for (int surface = 0; surface < kSurfaces - 1; ++surface) {
-      auto best = none, disparity = nothing;
-      for (int edge = 0; edge < kEdges; ++edge) {
-        if ((sides.some >> edge & 1) == 0) continue;
-        const auto far = hn::LoadU(d16, sides.disparity[edge] + k);
-        const auto step = hn::SaturatedSub(hn::Max(far, above), hn::Min(far, above));
-        const auto other = surface == 0 ? hn::Eq(far, far) : hn::Gt(step, unit);
-        const auto rank = hn::IfThenElse(other, hn::LoadU(d16, sides.rank[edge] + k), none);
-        const auto same = hn::Eq(rank, best);
-        const auto nearest = hn::IfThenElse(same, hn::Max(disparity, far), disparity);
-        disparity = hn::IfThenElse(hn::Lt(rank, best), far, nearest);
-        best = hn::Min(best, rank);
-      }
-      const auto some = hn::Lt(best, none);
-      above = hn::IfThenElse(some, disparity, nothing);
-      found[surface] |= BitsOf(d16, some) << k;
-      hn::StoreU(above, d16, hidden.disparity[surface] + chunk + k);
-      const auto source = SourceOf(d16, sides, k, best, above);
-      hn::StoreU(hn::BitCast(du16, source), du16, hidden.source[surface] + chunk + k);
+      above = ChooseSurface(d16, sides, k, surface, above, unit, chunk, hidden);
+      found[surface] |= BitsOf(d16, hn::Ne(above, nothing)) << k;
     }
   }
   for (int surface = 0; surface < kSurfaces - 1; ++surface) {
@@ -318,11 +346,14 @@ inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
     }
     for (int side = 0; side < 4; ++side) {
       if ((sides.some >> side & 1) == 0) continue;
-      LookBehindSide(row, chunk, row.edges[side] + chunk, side, &sides);
-      uint8_t next[kSliceLanes];
-      if (!FollowEdges(row, side, chunk, next)) continue;
+      const uint8_t* const edges = row.edges[side] + chunk;
+      const uint32_t lanes = LanesOf(edges);
+      LookBehindSide(row, chunk, edges, lanes, side, &sides);
+      uint8_t next[kSliceLanes] = {};
+      const uint32_t more = FollowEdges(row, side, chunk, lanes, next);
+      if (more == 0) continue;
       sides.some |= 16u << side;
-      LookBehindSide(row, chunk, next, 4 + side, &sides);
+      LookBehindSide(row, chunk, next, more, 4 + side, &sides);
     }
     if (ChooseSurfaces(sides, row.unit_bits, chunk, hidden)) chunks |= bit;
   }

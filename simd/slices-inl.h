@@ -128,8 +128,10 @@ inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, si
   return cover;
 }
 
-inline void SpreadSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const SliceTaps& taps,
-                        size_t count, int16_t* HWY_RESTRICT out) {
+// SpreadSlice of taps that reach so far.
+template <int32_t kReach>
+HWY_INLINE void SpreadBy(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const SliceTaps& taps,
+                         size_t count, int16_t* HWY_RESTRICT out) {
   const ChunkTag d16;
   const hn::RebindToUnsigned<decltype(d16)> du16;
   const size_t lanes = hn::Lanes(d16), whole = SliceSamples(count);
@@ -141,12 +143,20 @@ inline void SpreadSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const Sl
                                                hn::BitCast(du16, hn::LoadU(d16, in + n + offset))));
     };
     auto sum = hn::MulFixedPoint15(hn::LoadU(d16, in + n), centre);
-    for (int32_t k = 1; k < taps.reach; ++k) {
+    for (int32_t k = 1; k < kReach; ++k) {
       sum = hn::SaturatedAdd(sum, hn::MulFixedPoint15(mean(k * step), inner));
     }
-    sum = hn::SaturatedAdd(sum, hn::MulFixedPoint15(mean(taps.reach * step), outer));
+    sum = hn::SaturatedAdd(sum, hn::MulFixedPoint15(mean(kReach * step), outer));
     hn::StoreU(sum, d16, out + n);
   }
+}
+
+inline void SpreadSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const SliceTaps& taps,
+                        size_t count, int16_t* HWY_RESTRICT out) {
+  static_assert(kMaxSpread == 3, "the reaches that there are");
+  if (taps.reach == 1) return SpreadBy<1>(in, step, taps, count, out);
+  if (taps.reach == 2) return SpreadBy<2>(in, step, taps, count, out);
+  SpreadBy<3>(in, step, taps, count, out);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -20,6 +20,33 @@ void RepeatEdges(int32_t first, int32_t last, int32_t width, int16_t* rgb, int16
   }
 }
 
+// Copies every 2^kLayer-th value, in groups of a fixed length that need no loop.
+template <int kLayer>
+void CopyEvery(const int16_t* from, int32_t count, int16_t* to) {
+  constexpr int32_t kGroup = 8;
+  int32_t n = 0;
+  for (; n + kGroup <= count; n += kGroup, from += kGroup << kLayer, to += kGroup) {
+    for (int32_t k = 0; k < kGroup; ++k) to[k] = from[k << kLayer];
+  }
+  for (int32_t k = 0; n + k < count; ++k) to[k] = from[k << kLayer];
+}
+
+// Copies the disparities of `count` pixels of the layer from column x of a row on. Of a layer's
+// last column the picture may have no pixel.
+void CopyDisparity(const Window& window, const int16_t* row, int32_t x, int32_t count,
+                   int16_t* disparity) {
+  const int32_t column = x * (1 << window.layer), last = window.picture_width - 1;
+  const int32_t inside = Clamp((last >> window.layer) + 1 - x, 0, count);
+  if (window.layer == 0) {
+    std::memcpy(disparity, row + x, sizeof(*disparity) * static_cast<size_t>(inside));
+  } else if (window.layer == 1) {
+    CopyEvery<1>(row + column, inside, disparity);
+  } else {
+    CopyEvery<2>(row + column, inside, disparity);
+  }
+  for (int32_t k = inside; k < count; ++k) disparity[k] = row[last];
+}
+
 }  // namespace
 
 void LoadLight(const simd::Kernels& kernels, const Window& window, int32_t x, int32_t y,
@@ -56,15 +83,7 @@ void LoadField(const simd::Kernels& kernels, const Window& window, const Rect& r
     const int16_t* from_disparity =
         window.disparity.Row(Min(y << window.layer, window.picture_height - 1));
     LoadLight(kernels, window, field->x + first, y, last - first, rgb + 3 * first);
-    if (window.layer == 0) {
-      std::memcpy(disparity + first, from_disparity + field->x + first,
-                  sizeof(*disparity) * static_cast<size_t>(last - first));
-    } else {
-      for (int32_t column = first; column < last; ++column) {
-        const int32_t x = (field->x + column) << window.layer;
-        disparity[column] = from_disparity[Min(x, window.picture_width - 1)];
-      }
-    }
+    CopyDisparity(window, from_disparity, field->x + first, last - first, disparity + first);
     RepeatEdges(first, last, field->width, rgb, disparity);
   }
   if (window.reads != nullptr && window.layer == 0) {

@@ -117,14 +117,15 @@ class CellRow {
   simd::CellMeasure Find(int32_t x) const {
     const int16_t* rows[kRows];
     int16_t copies[kRows][kRows];
-    const bool inside = x > 0 && x + kCellSize < window_.width;
-    for (int32_t k = 0; k < kRows; ++k) {
-      rows[k] = rows_[k] + x;
-      if (inside) continue;
-      for (int32_t column = 0; column < kRows; ++column) {
-        copies[k][column] = rows_[k][Clamp(x + column - 1, 0, window_.width - 1)];
+    if (x > 0 && x + kCellSize < window_.width) {
+      for (int32_t k = 0; k < kRows; ++k) rows[k] = rows_[k] + x;
+    } else {
+      for (int32_t k = 0; k < kRows; ++k) {
+        for (int32_t column = 0; column < kRows; ++column) {
+          copies[k][column] = rows_[k][Clamp(x + column - 1, 0, window_.width - 1)];
+        }
+        rows[k] = copies[k] + 1;
       }
-      rows[k] = copies[k] + 1;
     }
     simd::CellMeasure measure;
     kernels_.MeasureCell(rows, limits_, &measure);

@@ -68,7 +68,8 @@ class Section {
     }
     int16_t* const behind = reinterpret_cast<int16_t*>(next);
     for (int32_t k = 0; k < stack_.count; ++k) {
-      FillSlice(*job_.kernels, scratch_.surfaces, stack_.slices[k], rect, behind, planes_[k]);
+      FillSlice(*job_.kernels, scratch_.surfaces, stack_.bands, stack_.slices[k], rect, behind,
+                planes_[k]);
     }
     return behind;
   }
@@ -185,7 +186,7 @@ void CutSlices(const RenderJob& job, const SliceRule& rule, const SliceLimits& l
                CompositorScratch* scratch, SliceStack* stack) {
   const SliceJob slice_job = {job.kernels,   &scratch->surfaces,  job.grid, rule, stack->inner,
                               scratch->bins, scratch->least_blur, limits};
-  stack->count = FindSlices(slice_job, stack->slices);
+  stack->count = FindSlices(slice_job, stack->slices, &stack->bands);
   for (int32_t k = 0; k < stack->count; ++k) {
     FindOffsets(*job.grid, stack->slices[k].disparity, static_cast<size_t>(stack->count),
                 scratch->offsets + k);

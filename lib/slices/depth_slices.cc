@@ -12,14 +12,13 @@ namespace {
 // None, half and twice as much were measured (docs/constants.md).
 constexpr int kOverlapParts = 10;
 
-// Rows and columns of pixels whose bins are looked at together.
-constexpr int32_t kMarkedRows = 8;
+// Columns of a band whose bins are looked at together.
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
 
 class SliceFinder {
  public:
-  explicit SliceFinder(const SliceJob& job)
-      : job_(job), surfaces_(*job.surfaces), grid_(*job.grid) {
+  SliceFinder(const SliceJob& job, SurfaceBands* bands)
+      : job_(job), surfaces_(*job.surfaces), grid_(*job.grid), bands_(*bands) {
     const int64_t step = grid_.step > 0 ? grid_.step : 1;
     constexpr int kBits = kStepBits + kDisparityBits - kShiftBits;
     range_ = static_cast<int32_t>(Limited((int64_t{job.rule.range} << kBits) / step));
@@ -52,16 +51,22 @@ class SliceFinder {
     bins_ = (range >> bin_bits_) + 1;
   }
 
-  // Marks the bins of a surface's pixels that may splat into the rect, a few rows at a time. Rows
-  // that hide nothing have no surface but the first.
+  // Marks the bins of a surface's pixels that may splat into the rect, at most a band at a time.
+  // Rows that hide nothing have no surface but the first.
   void Mark(int surface) {
     const auto has = [&](int32_t y) { return surface == 0 || surfaces_.hiding[y] != 0; };
     for (int32_t y = 0, end; y < surfaces_.height; y = end) {
       end = y + 1;
+      if (surface == 0 && y % kBandRows == 0) bands_.At(y) = {INT16_MAX, INT16_MIN};
       if (!has(y)) continue;
-      while (end < Min(y + kMarkedRows, surfaces_.height) && has(end)) ++end;
+      while (end % kBandRows != 0 && end < surfaces_.height && has(end)) ++end;
       MarkRows(surface, y, end);
     }
+  }
+
+  static void Widen(const simd::DisparityRange& range, simd::DisparityRange* all) {
+    all->low = range.low < all->low ? range.low : all->low;
+    all->high = range.high > all->high ? range.high : all->high;
   }
 
   void MarkRows(int surface, int32_t y, int32_t end) {
@@ -71,6 +76,7 @@ class SliceFinder {
                              static_cast<size_t>(surfaces_.width), ranges);
     for (int32_t x = 0; x < surfaces_.width; x += kChunk) {
       const simd::DisparityRange& range = ranges[x / kChunk];
+      Widen(range, &bands_.At(y));
       const Rect pixels = {x, y, Min(kChunk, surfaces_.width - x), end - y};
       const int32_t least = job_.least_blur[Beyond(pixels)];
       if (least == 0) {
@@ -94,7 +100,7 @@ class SliceFinder {
     const simd::DisparityRange range = {static_cast<int16_t>(Max(low, LowOf(first))),
                                         static_cast<int16_t>(Min(high, LowOf(last + 1) - 1))};
     const int16_t* disparity = surfaces_.disparity[surface] + surfaces_.At(pixels.x, pixels.y);
-    uint16_t within[kMarkedRows];
+    uint16_t within[kBandRows];
     job_.kernels->FindWithin(disparity, static_cast<size_t>(surfaces_.stride),
                              static_cast<size_t>(pixels.height), range, within);
     // These are copies, since for the compiler a mark might change any member.
@@ -176,6 +182,7 @@ class SliceFinder {
   const SliceJob& job_;
   const LayeredDepth& surfaces_;
   const ViewGrid& grid_;
+  SurfaceBands& bands_;
   int32_t range_;         // of the rule, as a disparity
   int32_t bin_bits_ = 0;  // disparities of a bin
   int32_t base_ = 0, bins_ = 0;
@@ -200,6 +207,8 @@ SliceLimits LimitsOfSlices(int32_t side, double blur) {
   return limits;
 }
 
-int32_t FindSlices(const SliceJob& job, Slice* slices) { return SliceFinder(job).Find(slices); }
+int32_t FindSlices(const SliceJob& job, Slice* slices, SurfaceBands* bands) {
+  return SliceFinder(job, bands).Find(slices);
+}
 
 }  // namespace starfocus

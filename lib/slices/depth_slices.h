@@ -55,8 +55,9 @@ struct SliceJob {
 };
 
 // Finds the slices, the nearest first, that hold all pixels of the surfaces that may splat into a
-// rectangle. Returns how many, at most job.rule.most.
-int32_t FindSlices(const SliceJob& job, Slice* slices);
+// rectangle, and the disparities of bands of the surfaces. Returns how many slices, at most
+// job.rule.most.
+int32_t FindSlices(const SliceJob& job, Slice* slices, SurfaceBands* bands);
 
 }  // namespace starfocus
 

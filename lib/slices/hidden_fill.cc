@@ -9,6 +9,7 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
+constexpr int32_t kAtOnce = 4;  // pixels whose sources are looked at together
 
 class HiddenFiller {
  public:
@@ -86,9 +87,23 @@ class HiddenFiller {
     int32_t first = 0;
     for (uint64_t chunks = surfaces_.hiding[y]; chunks != 0; chunks >>= 1, first += kChunk) {
       if ((chunks & 1) == 0) continue;
-      for (int32_t x = first; x < first + kChunk; ++x) {
-        if (sources[x] != 0) TakeSource(x, y, sources[x]);
+      for (int32_t x = first; x < first + kChunk; x += kAtOnce) {
+        if (HasSource(sources + x)) TakeFew(x, y, sources);
       }
+    }
+  }
+
+  // Tells whether any of kAtOnce pixels is repeated: most are not.
+  static bool HasSource(const uint16_t* sources) {
+    uint64_t all;
+    static_assert(sizeof(all) == kAtOnce * sizeof(*sources), "looked at together");
+    std::memcpy(&all, sources, sizeof(all));
+    return all != 0;
+  }
+
+  void TakeFew(int32_t x, int32_t y, const uint16_t* sources) {
+    for (const int32_t end = x + kAtOnce; x < end; ++x) {
+      if (sources[x] != 0) TakeSource(x, y, sources[x]);
     }
   }
 

@@ -77,8 +77,17 @@ class HiddenColours {
     const int view = look.view;
     const int32_t x = field_.x + chunk.x + first + across * moved;
     const int32_t y = field_.y + chunk.y + down * moved;
-    CopyCaptured(window_, view, x, y, end - first, here + 3 * first);
-    CopyCaptured(window_, view, x + across, y + down, end - first, next + 3 * first);
+    const int32_t count = end - first;
+    if (across != 0) {  // all but the outermost pixels are both one's own and the next of another
+      int16_t line[3 * (kChunk + 1)];
+      const size_t bytes = 3 * static_cast<size_t>(count) * sizeof(*line);
+      CopyCaptured(window_, view, x, y, count + 1, line);
+      std::memcpy(here + 3 * first, line, bytes);
+      std::memcpy(next + 3 * first, line + 3, bytes);
+    } else {
+      CopyCaptured(window_, view, x, y, count, here + 3 * first);
+      CopyCaptured(window_, view, x, y + 1, count, next + 3 * first);
+    }
     return end;
   }
 

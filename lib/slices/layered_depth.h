@@ -46,6 +46,18 @@ struct LayeredDepth {
   }
 };
 
+// Rows of surfaces whose disparities are looked at together.
+inline constexpr int32_t kBandRows = 8;
+
+// The disparities of all surfaces of each band.
+struct SurfaceBands {
+  static constexpr int32_t kMost = kMaxChunks * static_cast<int32_t>(simd::kSliceLanes) / kBandRows;
+  simd::DisparityRange ranges[kMost];
+
+  const simd::DisparityRange& At(int32_t row) const { return ranges[row / kBandRows]; }
+  simd::DisparityRange& At(int32_t row) { return ranges[row / kBandRows]; }
+};
+
 // Finds them for a field, which surface 0 is a copy of and covers all of. Behind a pixel lies what
 // its row and its column show behind the next depth edge on either side and behind the one after
 // it, as far as a view at distance 1 can look there: at most two surfaces, the nearest edge's

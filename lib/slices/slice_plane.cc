@@ -69,6 +69,16 @@ SliceOffset OffsetOf(int32_t shift, int32_t subaperture) {
   return {whole, {before(Clamp(inside, 0, kFractionOne)), edge, 0, 0}};
 }
 
+// Clears what lies behind the `width` pixels of a row, a group of samples at least, in groups of
+// which the last two overlap: as they are of one length, they are cleared without a call.
+void ClearTail(size_t width, size_t plane, int16_t* row) {
+  for (size_t c = 0; c < 4; ++c, row += plane) {
+    int16_t *const last = row + plane - kChunk, *group = row + width;
+    for (; group < last; group += kChunk) std::memset(group, 0, kChunk * sizeof(*group));
+    std::memset(last, 0, kChunk * sizeof(*last));
+  }
+}
+
 // Beyond the surfaces' left and right end their outermost pixels go on; behind the row's end there
 // is nothing.
 simd::SliceCover SelectRow(const simd::Kernels& kernels, const LayeredDepth& surfaces,
@@ -88,8 +98,7 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const LayeredDepth& sur
   const simd::SliceCover cover =
       kernels.SelectSlice(from, {slice.low, slice.high, slice.overlap},
                           static_cast<size_t>(last - first), plane, row + first);
-  const auto tail = (plane - static_cast<size_t>(width)) * sizeof(*row);
-  for (size_t c = 0; c < 4; ++c) std::memset(row + c * plane + width, 0, tail);
+  ClearTail(static_cast<size_t>(width), plane, row);
   if (last - first == width) return cover;
   for (int c = 0; c < 4; ++c, row += plane) {
     for (int32_t k = 0; k < first; ++k) row[k] = row[first];
@@ -157,14 +166,22 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
   placed->plane = PlaneSamples(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
 }
 
-void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
-               const Rect& rect, int16_t* filtered, const SlicePlane& placed) {
+void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
+               const SurfaceBands& bands, const Slice& slice, const Rect& rect, int16_t* filtered,
+               const SlicePlane& placed) {
   const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
   const int32_t width = rect.width + 2 * placed.reach;
-  for (int32_t row = 0; row < placed.rows; ++row) {
-    placed.cover[row] =
-        SelectRow(kernels, surfaces, slice, x, Clamp(y + row, 0, surfaces.height - 1), width,
-                  placed.plane, placed.samples + static_cast<size_t>(row) * 4 * placed.plane);
+  int16_t* samples = placed.samples;
+  for (int32_t row = 0; row < placed.rows; ++row, samples += 4 * placed.plane) {
+    const int32_t from = Clamp(y + row, 0, surfaces.height - 1);
+    const simd::DisparityRange& range = bands.At(from);
+    if (range.high < slice.low || range.low > slice.overlap) {
+      std::memset(samples, 0, 4 * placed.plane * sizeof(*samples));
+      placed.cover[row] = {0, 0};
+    } else {
+      placed.cover[row] =
+          SelectRow(kernels, surfaces, slice, x, from, width, placed.plane, samples);
+    }
   }
   if (placed.subaperture > kBoxSubaperture) Spread(kernels, filtered, placed);
 }

@@ -98,9 +98,11 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
 
 // Copies the slice's pixels around `rect` (in pixels of the surfaces, whose outermost pixels go on
 // beyond them) and spreads them for wide subapertures; `filtered` has room for the rows of one
-// plane. Samples and covers must be set.
-void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
-               const Rect& rect, int16_t* filtered, const SlicePlane& placed);
+// plane. Bands that have no disparity of the slice are not looked at. Samples and covers must be
+// set.
+void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
+               const SurfaceBands& bands, const Slice& slice, const Rect& rect, int16_t* filtered,
+               const SlicePlane& placed);
 
 // Rows of a slice in a tile, kSliceLanes columns of the rectangle, as a column of views shows them:
 // four planes, `plane` samples apart, and the RowsNear of each row; kRowsAhead marks lie before the

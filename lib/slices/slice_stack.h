@@ -8,6 +8,7 @@
 
 #include "lib/base/geometry.h"
 #include "lib/base/view_grid.h"
+#include "lib/slices/layered_depth.h"
 #include "lib/slices/slice.h"
 #include "simd/kernels.h"
 
@@ -57,6 +58,7 @@ struct SliceStack {
   Rect inner;  // the rectangle, in pixels of its surfaces
   int32_t count;
   Slice slices[kMaxSlices];
+  SurfaceBands bands;                // of the surfaces that they are cut from
   const simd::SliceOffset* offsets;  // of views -N to N, `count` each
 
   // Where views (i, .) or (., i) show slice k.

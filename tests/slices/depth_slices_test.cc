@@ -26,6 +26,7 @@ struct Scene {
   std::vector<uint8_t> bins = std::vector<uint8_t>(starfocus::kSliceBins);
   std::vector<int32_t> least = std::vector<int32_t>(kSize);
   starfocus::LayeredDepth surfaces;
+  starfocus::SurfaceBands bands;
 
   Scene() {
     surfaces.width = surfaces.height = surfaces.stride = kSize;
@@ -61,7 +62,7 @@ struct Scene {
                                              bins.data(),
                                              least.data(),
                                              limits},
-                                            slices.data());
+                                            slices.data(), &bands);
     REQUIRE(count > 0);
     REQUIRE(count <= rule.most);
     slices.resize(size_t(count));
@@ -82,6 +83,24 @@ TEST_CASE("slices: one surface is one slice, moved by its own disparity") {
     const std::vector<Slice> slices = scene.Cut(2.25);
     CHECK(slices.size() == 1);
     CHECK(slices[0].disparity == disparity);
+  }
+}
+
+TEST_CASE("slices: bands of rows have the disparities of all surfaces") {
+  Scene scene;
+  scene.At(3, 15) = 20;
+  scene.At(63, 17) = -40;
+  scene.At(20, 63) = -300;  // what lies behind another surface is of the range of the first
+  for (int y = 30; y < 35; ++y) scene.At(40, y, 1) = int16_t(-100 - y);
+  scene.At(0, 31, 2) = -200;
+  scene.Cut(2.25);
+  const int expected[8][2] = {{0, 0}, {0, 20}, {-40, 0}, {-200, 0}, {-134, 0}, {}, {}, {-300, 0}};
+  for (int band = 0; band < 8; ++band) {
+    CAPTURE(band);
+    for (const int row : {8 * band, 8 * band + 7}) {
+      CHECK(scene.bands.At(row).low == expected[band][0]);
+      CHECK(scene.bands.At(row).high == expected[band][1]);
+    }
   }
 }
 

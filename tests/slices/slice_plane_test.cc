@@ -81,6 +81,8 @@ TEST_CASE("slice planes: a pixel behind another is shown wherever groups of pixe
       surfaces.disparity[k] = disparities[k];
       surfaces.rgb[k] = rgb.data();
     }
+    starfocus::SurfaceBands bands;
+    bands.At(0) = {-640, 0};
     starfocus::SlicePlane placed;
     placed.reach = placed.subaperture = 0;
     placed.rows = 1;
@@ -94,8 +96,8 @@ TEST_CASE("slice planes: a pixel behind another is shown wherever groups of pixe
     for (int x = 0; x + kShown <= kWidth; ++x) {
       CAPTURE(behind);
       CAPTURE(x);
-      starfocus::FillSlice(starfocus::simd::BestKernels(), surfaces, slice, {x, 0, kShown, 1},
-                           nullptr, placed);
+      starfocus::FillSlice(starfocus::simd::BestKernels(), surfaces, bands, slice,
+                           {x, 0, kShown, 1}, nullptr, placed);
       const bool shown = behind >= x && behind < x + kShown;
       CHECK((cover.some != 0) == shown);
       if (shown) CHECK(samples[3 * placed.plane + size_t(behind - x)] != 0);
