@@ -26,7 +26,8 @@ struct DiscPairs {
   Pair pairs[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
   int32_t counts[kMaxDisc + 1];  // of the pairs of each row
 
-  // Of a disc, in the places that it and another one have together.
+  // Holds the weights of `disc`, and zeros where only `other` has some, so that both discs' pairs
+  // are multiplied with the same samples.
   DiscPairs(const Disc& disc, const Disc& other) {
     Pair* pair = pairs;
     for (int32_t y = 0; y <= disc.size || y <= other.size; ++y) {
@@ -41,7 +42,7 @@ struct DiscPairs {
   }
 
  private:
-  // Of a row of the disc.
+  // The weight at column x of row y of the disc, with those of the pixels that mirror it.
   static uint16_t Weight(const Disc& disc, int32_t x, int32_t y) {
     if (x > disc.size) return 0;
     const int32_t high = x > y ? x : y, low = x > y ? y : x;

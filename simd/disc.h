@@ -34,12 +34,14 @@ namespace reference {
 void FilterDisc(const int16_t* in, size_t in_stride, const Disc& disc, const Encoding& encoding,
                 size_t rows, size_t count, uint8_t* out, size_t out_stride);
 
-// The same for a layer: out[y][n] is that sum as a sample of kLayerBits, rounded halves up;
-// out_stride is in samples. The light is that of samples in range.
+// Filters rows of a layer as FilterDisc filters those of the picture, but for what it writes:
+// out[y][n] is the sum as a sample of kLayerBits, rounded halves up; out_stride is in samples. The
+// light is that of samples in range.
 void FilterDiscLayer(const int16_t* in, size_t in_stride, const Disc& disc, size_t rows,
                      size_t count, int16_t* out, size_t out_stride);
 
-// Does that by two discs at once, the first of which is no larger than the second.
+// Filters rows by two discs at once, each of which gives what FilterDiscLayer gives; `less` is no
+// larger than `more`.
 void FilterTwoDiscs(const int16_t* in, size_t in_stride, const Disc& less, const Disc& more,
                     size_t rows, size_t count, int16_t* out_less, int16_t* out_more,
                     size_t out_stride);

@@ -117,8 +117,9 @@ class Gather {
     return end;
   }
 
-  // Does so with cells on a slope: mixes the pictures of the least and of the largest kernel, pixel
-  // by pixel, and moves what that gives to where the views see it.
+  // Filters cells on a slope from (x, y) on that have the same two kernels: mixes the pictures of
+  // the least and of the largest one, pixel by pixel, and moves what that gives to where the views
+  // see it. Returns where the cells end, or x when patience ended before.
   int32_t FilterSlopes(int32_t x, int32_t y) {
     const Steps steps = StepsOf(x, y);
     int32_t end = x + kCellSize;

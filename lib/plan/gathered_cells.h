@@ -42,7 +42,8 @@ struct BlockCells {
 
   // Whether the cell that holds pixel (x, y) of the picture is gathered.
   bool IsGathered(int32_t x, int32_t y) const { return map->FirstLayer(x, y) <= layer; }
-  // Which of the two it is then: a cell on a slope has a mark beyond all layers.
+  // Whether it is gathered with one kernel, or with the radius of each pixel: kSlopeMark is beyond
+  // all layers.
   bool IsFlat(int32_t x, int32_t y) const { return map->At(x, y) <= layer; }
   bool IsOnSlope(int32_t x, int32_t y) const { return IsGathered(x, y) && !IsFlat(x, y); }
 
