@@ -54,12 +54,12 @@ HWY_INLINE hn::Vec<D> LoadRows(D d, const int16_t* HWY_RESTRICT at, size_t strid
   return hn::LoadU(d, at);
 }
 
-// Writes the RowsNear of rows, one after the other from the first on.
+// Writes the marks of rows, one after the other from the first on.
 class RowMarks {
  public:
   // Adds one row or two, given the most and the least coverage over all vectors that hold it.
   template <class D>
-  HWY_INLINE void Add(D d, hn::Vec<D> most, hn::Vec<D> least, uint8_t* HWY_RESTRICT near) {
+  HWY_INLINE void Add(D d, hn::Vec<D> most, hn::Vec<D> least, int8_t* HWY_RESTRICT near) {
     const auto some = hn::Ne(most, hn::Zero(d));
     const auto all = hn::Eq(least, hn::Set(d, kSliceOne));
 #if STARFOCUS_WIDE_TILES
@@ -78,24 +78,25 @@ class RowMarks {
   }
 
  private:
-  HWY_INLINE void AddRow(bool some, bool all, uint8_t* HWY_RESTRICT near) {
-    static_assert(kRowsAhead == 6 && kSomethingNear == 1, "two words are seven rows");
-    const uint32_t marks = 0x01010101;
-    if (some) {
-      std::memcpy(near - 6, &marks, sizeof(marks));
-      std::memcpy(near - 3, &marks, sizeof(marks));
+  HWY_INLINE void AddRow(bool some, bool all, int8_t* HWY_RESTRICT near) {
+    if (some) near[0] = 0;
+    if (some && !shown_) {
+      for (int8_t k = 1; k <= kAhead && near[-k] > k; ++k) near[-k] = k;
     }
+    shown_ = some;
     all_covered_ = all ? all_covered_ + 1 : 0;
-    if (all_covered_ > kRowsAhead) near[-6] = kCoveredNear;
+    if (all_covered_ > kAhead) near[-kAhead] = kCoveredNear;
   }
 
-  size_t all_covered_ = 0;  // how many rows up to the last one are covered all over
+  static constexpr int kAhead = kRowsAhead;
+  bool shown_ = false;   // whether the last row shows something
+  int all_covered_ = 0;  // how many rows up to the last one are covered all over
 };
 
 // Moves as many of the rows as fill vectors. Returns how many.
 template <int kTaps, class D>
 HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                            size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near,
+                            size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near,
                             RowMarks* marks) {
   const size_t lanes = hn::Lanes(d), step = RowsOf(d), stride = 4 * in.plane;
   const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
@@ -139,7 +140,7 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
 
 template <int kTaps>
 HWY_INLINE void ShiftAllRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                             size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near) {
+                             size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
   RowMarks marks;
   const size_t done = ShiftRows<kTaps>(TileTag(), in, fraction, rows, plane, out, near, &marks);
   if (done == rows) return;
@@ -149,7 +150,7 @@ HWY_INLINE void ShiftAllRows(const SlicePlanes& in, const SliceFraction& fractio
 }
 
 inline void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                       size_t plane, int16_t* HWY_RESTRICT out, uint8_t* HWY_RESTRICT near) {
+                       size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
   if (fraction.third == 0) {
     ShiftAllRows<2>(in, fraction, rows, plane, out, near);
   } else if (fraction.fourth == 0) {
@@ -291,6 +292,7 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
                               size_t rows, uint32_t* HWY_RESTRICT sums) {
   const TileTag d16;
   const size_t step = RowsOf(d16), second = step * kSliceLanes;
+  const int vector_rows = static_cast<int>(step);
   const auto zero = hn::Zero(d16), one = hn::Set(d16, kSliceOne);
   auto r0 = zero, g0 = zero, b0 = zero, a0 = zero, r1 = zero, g1 = zero, b1 = zero, a1 = zero;
   const SeenSlice* const end = seen + views.shown_count;
@@ -302,15 +304,21 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
       const TileSlice& slice = k->slice;
       const SliceOffset& offset = k->offsets[first];
       const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
-      const uint8_t near = slice.near[moved];
-      if (near == kNothingNear) continue;
+      const int8_t* near = slice.near + moved;
+      const int rows_seen = 2 + (offset.fraction.third != 0) + (offset.fraction.fourth != 0);
+      if (near[0] >= 2 * vector_rows + rows_seen - 1) continue;
       const int16_t* at = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
       const auto take = [&](auto taps, auto known) HWY_ATTR {
         constexpr int kTaps = decltype(taps)::value;
         constexpr Known kKnown = decltype(known)::value;
-        TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at, weight, light0, r0, g0, b0, a0);
-        TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at + second, weight, light1, r1, g1,
-                                b1, a1);
+        const int read = vector_rows + kTaps - 1;
+        if (near[0] < read) {
+          TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at, weight, light0, r0, g0, b0, a0);
+        }
+        if (near[step] < read) {
+          TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at + second, weight, light1, r1, g1,
+                                  b1, a1);
+        }
       };
       const auto take_taps = [&](auto known) HWY_ATTR {
         if (offset.fraction.third == 0) {
@@ -321,7 +329,7 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
           take(std::integral_constant<int, 4>(), known);
         }
       };
-      if (!taken && kCoveredApart && near == kCoveredNear) {
+      if (!taken && kCoveredApart && near[0] == kCoveredNear) {
         take_taps(std::integral_constant<Known, Known::kCovered>());
         break;
       }

@@ -30,14 +30,16 @@ struct SliceFraction {
 // Rows of a tile that Composite may read beyond the last one it adds.
 inline constexpr size_t kRowsAhead = 6;
 
-// What a row of a tile and the kRowsAhead rows after it show of a slice: nothing at all, something,
-// or each of their pixels covered all over.
-enum RowsNear : uint8_t { kNothingNear, kSomethingNear, kCoveredNear };
+// The mark of a row of a tile: how many rows, from it on, show nothing of a slice, at most
+// kNothingNear; or kCoveredNear where all pixels of it and of the kRowsAhead rows after it are
+// covered all over.
+inline constexpr int8_t kNothingNear = kRowsAhead + 1;
+inline constexpr int8_t kCoveredNear = -1;
 
 // A slice in a tile. Its four planes lie `plane` samples apart; a row is kSliceLanes samples.
 struct TileSlice {
   const int16_t* samples;  // the row that an unmoved view shows first
-  const uint8_t* near;     // the RowsNear of each row from there on
+  const int8_t* near;      // the marks of rows from there on
   size_t plane;
 };
 
@@ -67,11 +69,11 @@ namespace reference {
 
 // Moves rows of a slice along the row by a fraction of a sample, into a tile whose planes lie
 // `plane` samples apart: out[n] is what is seen of in[n] and the samples after it, and each product
-// is rounded halves up. Where a row shows something, near[row - kRowsAhead] to near[row] become
-// kSomethingNear; where all pixels of these rows are covered, the first of them becomes
-// kCoveredNear. The other entries of `near` stay as they are.
+// is rounded halves up. near[row] is the mark of a row, and kRowsAhead marks lie before the first:
+// all of them must be kNothingNear or more before. Those of rows that show something, or lie up to
+// kRowsAhead before such a row, become what they are; the others stay.
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
-                int16_t* out, uint8_t* near);
+                int16_t* out, int8_t* near);
 
 // Adds the views of a tile to sums[(4 row + c) kSliceLanes + n], where c is the plane. A slice
 // takes as much of the view's light as it covers, and gives as much of its colours. Of the last

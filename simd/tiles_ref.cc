@@ -35,7 +35,7 @@ int16_t SliceShare(int16_t covered, int16_t light) {
 }  // namespace
 
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
-                int16_t* out, uint8_t* near) {
+                int16_t* out, int8_t* near) {
   size_t all_covered = 0;  // how many rows up to this one are covered all over
   for (size_t row = 0; row < rows; ++row) {
     const int16_t* covered = in.samples + (4 * row + 3) * in.plane;
@@ -46,13 +46,13 @@ void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t row
         to[n] = Between15(from + n, covered + n, 1, fraction);
     }
     const int16_t *shown = out + 3 * plane + row * kSliceLanes, *end = shown + kSliceLanes;
-    uint8_t* first = near + row - kRowsAhead;
+    int8_t* last = near + row;
     if (std::any_of(shown, end, [](int16_t sample) { return sample != 0; })) {
-      std::memset(first, kSomethingNear, kRowsAhead + 1);
+      for (int k = 0; k <= int{kRowsAhead}; ++k) last[-k] = std::min(last[-k], int8_t(k));
     }
     const bool all = std::all_of(shown, end, [](int16_t sample) { return sample == kSliceOne; });
     all_covered = all ? all_covered + 1 : 0;
-    if (all_covered > kRowsAhead) *first = kCoveredNear;
+    if (all_covered > kRowsAhead) last[-int{kRowsAhead}] = kCoveredNear;
   }
 }
 

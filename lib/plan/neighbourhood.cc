@@ -28,16 +28,20 @@ void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t 
 // `widest`: the largest range of one cell.
 Smoothness SmoothnessOf(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
   const int32_t range = high - low;
-  // A slope goes on from cell to cell, and so may its blur.
-  const auto is_within = [&](int32_t limit, bool step) {
-    if (scale.step * range > int64_t{limit} << kStepBits) return false;
-    if (!step) return true;
-    const int32_t blur = Max(Abs(low - scale.focus), Abs(high - scale.focus));
-    const int32_t of_step = Max(scale.Radius(blur) / 2, kSharpSmoothRange);
-    return scale.step * range <= int64_t{of_step} << kStepBits;
+  const auto is_within = [&](int32_t disparities, int32_t limit) {
+    return scale.step * disparities <= int64_t{limit} << kStepBits;
   };
-  if (is_within(kSmoothRange, 2 * widest > range)) return Smoothness::kFlat;
-  return is_within(kSlopeRange, 3 * widest > 2 * range) ? Smoothness::kOnSlope : Smoothness::kRough;
+  const auto is_gradual_or_low = [&](bool is_step) {
+    if (!is_step) return true;
+    const int32_t blur = Max(Abs(low - scale.focus), Abs(high - scale.focus));
+    return is_within(range, Max(scale.Radius(blur) / 2, kSharpSmoothRange));
+  };
+  if (is_within(range, kSmoothRange) && is_gradual_or_low(2 * widest > range)) {
+    return Smoothness::kFlat;
+  }
+  // A slope goes on from cell to cell, and so may its blur.
+  const bool is_slope = is_within(widest, kSlopeRange) && is_gradual_or_low(3 * widest > 2 * range);
+  return is_slope ? Smoothness::kOnSlope : Smoothness::kRough;
 }
 
 }  // namespace

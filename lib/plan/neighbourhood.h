@@ -37,15 +37,16 @@ constexpr size_t SurroundingSamples(int32_t side, int32_t around) {
 Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, const Rect& cells,
                               int32_t around, int16_t* samples);
 
-// A cell is smooth when it can be gathered (lib/filter/gather.h): one surface is all that lies
-// within reach of its pixels, or reaches them from nearer by, and the blur there, nearer than the
-// focus counted as negative, differs by at most kSlopeRange, kDisparityBits. What lies farther may
-// reach them, too: in no view does it show before the surface. Where two thirds of that are within
-// one cell, it is a step: then by no more than half the largest blur or kSharpSmoothRange, since
-// the blur may be sharp on one side. A cell is flat, and one kernel serves all of its pixels, where
-// the blur differs by at most kSmoothRange, and half of that within one cell counts as a step.
+// A cell is smooth when it can be gathered (lib/filter/gather.h): one surface without depth edges
+// is all that lies within reach of its pixels, or reaches them from nearer by, and in no cell there
+// does the blur, nearer than the focus counted as negative, differ by more than kSlopeRange,
+// kDisparityBits. What lies farther may reach them, too: in no view does it show before the
+// surface. Where two thirds of what the blur differs by are within one cell, it is a step: then by
+// no more than half the largest blur or kSharpSmoothRange, since the blur may be sharp on one side.
+// A cell is flat, and one kernel serves all of its pixels, where the blur differs by at most
+// kSmoothRange, and half of that within one cell counts as a step.
 inline constexpr int32_t kSmoothRange = (5 << kDisparityBits) / 4;
-inline constexpr int32_t kSlopeRange = (11 << kDisparityBits) / 4;
+inline constexpr int32_t kSlopeRange = 2 << kDisparityBits;
 inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
 enum class Smoothness : uint8_t { kRough, kOnSlope, kFlat };
 

@@ -198,7 +198,7 @@ void PlaceTile(const SlicePlane& placed, int32_t x, const RowRange& seen, Shifte
   shifted->plane = (static_cast<size_t>(placed.rows) + simd::kRowsAhead) * simd::kSliceLanes;
   const auto clear = [&](int32_t from, int32_t to) {
     const size_t at = static_cast<size_t>(from), rows = static_cast<size_t>(to - from);
-    std::memset(shifted->near + at, 0, rows);
+    std::memset(shifted->near + at, simd::kNothingNear, rows);
     for (size_t c = 0; c < 4; ++c) {
       std::memset(shifted->samples + c * shifted->plane + at * simd::kSliceLanes, 0,
                   rows * simd::kSliceLanes * sizeof(*shifted->samples));
@@ -216,9 +216,9 @@ void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed, const Sl
   const int32_t end = Min(rows.last, shifted->filled.last);
   if (first >= end) return;
   const auto row = static_cast<size_t>(first), count = static_cast<size_t>(end - first);
-  uint8_t* near = shifted->near + row;
+  int8_t* near = shifted->near + row;
   // The marks are those of the column of views before.
-  std::memset(near - simd::kRowsAhead, 0, count + simd::kRowsAhead);
+  std::memset(near - simd::kRowsAhead, simd::kNothingNear, count + simd::kRowsAhead);
   const int16_t* from = placed.samples + row * 4 * placed.plane;
   kernels.ShiftSlice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction, count,
                      shifted->plane, shifted->samples + row * simd::kSliceLanes, near);

@@ -105,11 +105,11 @@ void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
                const SlicePlane& placed);
 
 // Rows of a slice in a tile, kSliceLanes columns of the rectangle, as a column of views shows them:
-// four planes, `plane` samples apart, and the RowsNear of each row; kRowsAhead marks lie before the
+// four planes, `plane` samples apart, and the mark of each row; kRowsAhead marks lie before the
 // first.
 struct ShiftedSlice {
   int16_t* samples = nullptr;
-  uint8_t* near = nullptr;
+  int8_t* near = nullptr;
   size_t plane = 0;
   RowRange filled = {0, 0};  // rows outside of these are empty in all views
   RowRange moved = {0, 0};   // those that are in the tile now

@@ -50,7 +50,7 @@ class Tile {
       rows += static_cast<size_t>(job_.planes[seen_slices_[n]].rows) + simd::kRowsAhead;
     }
     int16_t* samples = job_.memory;
-    uint8_t* near = reinterpret_cast<uint8_t*>(samples + 4 * rows * kChunk) + simd::kRowsAhead;
+    int8_t* near = reinterpret_cast<int8_t*>(samples + 4 * rows * kChunk) + simd::kRowsAhead;
     for (int32_t n = 0; n < seen_; ++n) {
       const int32_t k = seen_slices_[n];
       const SlicePlane& placed = job_.planes[k];

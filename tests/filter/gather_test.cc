@@ -84,11 +84,14 @@ struct Cells {
     const double blur =
         radius * std::max(std::abs(low - scale.focus), std::abs(high - scale.focus));
     const double of_step = std::max(std::floor(std::floor(blur) / 2) / kOne, 0.5);
-    const auto within = [&](double most, bool step) {
-      return double(high - low) / kOne * radius <= (step ? std::min(of_step, most) : most);
+    const auto within = [&](int disparities, double most) {
+      return double(disparities) / kOne * radius <= most;
     };
-    if (within(1.25, 2 * widest > high - low)) return Smoothness::kFlat;
-    return within(2.75, 3 * widest > 2 * (high - low)) ? Smoothness::kOnSlope : Smoothness::kRough;
+    const int range = high - low;
+    const bool is_low = within(range, of_step);
+    if (within(range, 1.25) && (2 * widest <= range || is_low)) return Smoothness::kFlat;
+    const bool is_slope = within(widest, 2) && (3 * widest <= 2 * range || is_low);
+    return is_slope ? Smoothness::kOnSlope : Smoothness::kRough;
   }
 
   std::vector<int16_t> disparity;

@@ -12,7 +12,6 @@ using starfocus::simd::Kernels;
 using starfocus::simd::kRowsAhead;
 using starfocus::simd::kSliceLanes;
 using starfocus::simd::kSliceOne;
-using starfocus::simd::kSomethingNear;
 using starfocus::simd::SliceFraction;
 using starfocus::simd::SliceOffset;
 using starfocus::simd::SlicePlanes;
@@ -67,8 +66,8 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   const SliceFraction fraction = Fraction(draw);
   auto* out = call->Output<int16_t>("out", 3 * plane + rows * kSliceLanes);
   for (size_t c = 0; c < 4; ++c) call->Result(out + c * plane, rows * kSliceLanes);
-  auto* near = call->Output<uint8_t>("near", kRowsAhead + rows);
-  constexpr uint8_t kLeft = 9;
+  auto* near = call->Output<int8_t>("near", kRowsAhead + rows);
+  constexpr int8_t kLeft = 9;
   std::fill_n(near, kRowsAhead + rows, kLeft);
   call->Result(near, kRowsAhead + rows);
   call->run = [=](const Kernels& kernels) -> uint64_t {
@@ -76,8 +75,8 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
     return 0;
   };
   call->is_right = [=](uint64_t, Met* met) {
-    const uint8_t *begin = near, *end = near + kRowsAhead + rows;
-    (*met)["covered"] += std::count(begin, end, uint8_t{kCoveredNear});
+    const int8_t *begin = near, *end = near + kRowsAhead + rows;
+    (*met)["covered"] += std::count(begin, end, kCoveredNear);
     (*met)["left as it was"] += std::count(begin, end, kLeft);
     return true;
   };
@@ -85,14 +84,14 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
 
 namespace {
 
-// What each row of a tile and the rows after it show, given how many of its samples are covered. A
-// row that is covered all over may be marked as one that shows something.
-std::vector<uint8_t> NearOf(const std::vector<int>& covered, bool full) {
-  std::vector<uint8_t> near(covered.size() - kRowsAhead);
+// The marks of a tile's rows, given how many samples of each are covered. A row that is covered all
+// over may be marked as one that shows something.
+std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
+  std::vector<int8_t> near(covered.size() - kRowsAhead);
   for (size_t row = 0; row < near.size(); ++row) {
     const auto first = covered.begin() + ptrdiff_t(row), end = first + ptrdiff_t(kRowsAhead) + 1;
-    if (!std::any_of(first, end, [](int count) { return count > 0; })) continue;
-    near[row] = full && std::find(first, end, 0) == end ? kCoveredNear : kSomethingNear;
+    const auto shown = std::find_if(first, end, [](int count) { return count > 0; });
+    near[row] = full && std::find(first, end, 0) == end ? kCoveredNear : int8_t(shown - first);
   }
   return near;
 }
@@ -112,7 +111,7 @@ TileSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Met
       covered[row] += sample != 0;
     }
   }
-  const std::vector<uint8_t> near = NearOf(covered, full);
+  const std::vector<int8_t> near = NearOf(covered, full);
   (*met)["covered"] += std::count(near.begin(), near.end(), kCoveredNear);
   return {call->Input("slice", samples) + before * kSliceLanes, call->Input("near", near) + before,
           plane};
