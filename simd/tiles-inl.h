@@ -287,6 +287,23 @@ struct SeenSlice {
   const SliceOffset* offsets;
 };
 
+// How many rows of a slice a row of a view sees.
+HWY_INLINE int TapsOf(const SliceFraction& fraction) {
+  return 2 + (fraction.third != 0) + (fraction.fourth != 0);
+}
+
+// Calls take(taps), where `taps` is TapsOf the fraction as a constant.
+template <class Take>
+HWY_INLINE void TakeByTaps(const SliceFraction& fraction, const Take& take) {
+  if (fraction.third == 0) {
+    take(std::integral_constant<int, 2>());
+  } else if (fraction.fourth == 0) {
+    take(std::integral_constant<int, 3>());
+  } else {
+    take(std::integral_constant<int, 4>());
+  }
+}
+
 // Composites two vectors of rows of a tile.
 HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, size_t row, size_t n,
                               size_t rows, uint32_t* HWY_RESTRICT sums) {
@@ -305,39 +322,32 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
       const SliceOffset& offset = k->offsets[first];
       const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
       const int8_t* near = slice.near + moved;
-      const int rows_seen = 2 + (offset.fraction.third != 0) + (offset.fraction.fourth != 0);
-      if (near[0] >= 2 * vector_rows + rows_seen - 1) continue;
+      if (near[0] >= 2 * vector_rows + TapsOf(offset.fraction) - 1) continue;
       const int16_t* at = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
-      const auto take = [&](auto taps, auto known) HWY_ATTR {
-        constexpr int kTaps = decltype(taps)::value;
-        constexpr Known kKnown = decltype(known)::value;
-        const int read = vector_rows + kTaps - 1;
-        if (near[0] < read) {
-          TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at, weight, light0, r0, g0, b0, a0);
-        }
-        if (near[step] < read) {
-          TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at + second, weight, light1, r1, g1,
-                                  b1, a1);
-        }
-      };
-      const auto take_taps = [&](auto known) HWY_ATTR {
-        if (offset.fraction.third == 0) {
-          take(std::integral_constant<int, 2>(), known);
-        } else if (offset.fraction.fourth == 0) {
-          take(std::integral_constant<int, 3>(), known);
-        } else {
-          take(std::integral_constant<int, 4>(), known);
-        }
+      const auto take = [&](auto known) HWY_ATTR {
+        TakeByTaps(offset.fraction, [&](auto taps) HWY_ATTR {
+          constexpr int kTaps = decltype(taps)::value;
+          constexpr Known kKnown = decltype(known)::value;
+          const int read = vector_rows + kTaps - 1;
+          if (near[0] < read) {
+            TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at, weight, light0, r0, g0, b0,
+                                    a0);
+          }
+          if (near[step] < read) {
+            TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at + second, weight, light1, r1,
+                                    g1, b1, a1);
+          }
+        });
       };
       if (!taken && kCoveredApart && near[0] == kCoveredNear) {
-        take_taps(std::integral_constant<Known, Known::kCovered>());
+        take(std::integral_constant<Known, Known::kCovered>());
         break;
       }
       if (!taken) {
         taken = true;
-        take_taps(std::integral_constant<Known, Known::kLit>());
+        take(std::integral_constant<Known, Known::kLit>());
       } else {
-        take_taps(std::integral_constant<Known, Known::kNothing>());
+        take(std::integral_constant<Known, Known::kNothing>());
       }
       if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
     }
