@@ -15,15 +15,16 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// WeighPair returns a * wa + b * wb in 32-bit lanes, for a, b, wa, wb <= 32767. It takes
-// one multiply-add of 16-bit pairs on x86 and two multiplications elsewhere.
+// Whether a widening multiply-add of 16-bit lanes adds up the products of two lanes side by side,
+// as it does on x86 and WebAssembly. Elsewhere it adds each product to a sum of its own.
 #undef STARFOCUS_HAVE_PAIR_MULTIPLY
-#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+#if (HWY_ARCH_X86 || HWY_ARCH_WASM) && HWY_TARGET != HWY_SCALAR
 #define STARFOCUS_HAVE_PAIR_MULTIPLY 1
 #else
 #define STARFOCUS_HAVE_PAIR_MULTIPLY 0
 #endif
 
+// WeighPair returns a * wa + b * wb in 32-bit lanes, for a, b, wa, wb <= 32767.
 template <class D32, class V32 = hn::Vec<D32>>
 HWY_INLINE V32 WeighPair(D32 d32, V32 a, V32 b, V32 wa, V32 wb) {
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
@@ -39,6 +40,30 @@ HWY_INLINE V32 WeighPair(D32 d32, V32 a, V32 b, V32 wa, V32 wb) {
   return hn::Add(hn::Mul(a, wa), hn::Mul(b, wb));
 #endif
 }
+
+#if HWY_TARGET != HWY_SCALAR
+
+// AddWeighed adds a * wa + b * wb of 16-bit lanes to sums: two vectors of 32-bit lanes, in the
+// order of which ReorderDemote2To makes one of 16-bit lanes again.
+template <class D16, class V16 = hn::Vec<D16>, class V32>
+HWY_INLINE void AddWeighed(D16 d16, V16 a, V16 b, int32_t wa, int32_t wb, V32& low, V32& high) {
+  const hn::Repartition<int32_t, D16> d32;
+#if STARFOCUS_HAVE_PAIR_MULTIPLY
+  const auto pair =
+      hn::Set(d32, static_cast<int32_t>((wa & 0xFFFF) | static_cast<uint32_t>(wb) << 16));
+  const auto weights = hn::BitCast(d16, pair);
+  auto unused = hn::Zero(d32);
+  low = hn::ReorderWidenMulAccumulate(d32, hn::InterleaveLower(d16, a, b), weights, low, unused);
+  high = hn::ReorderWidenMulAccumulate(d32, hn::InterleaveUpper(d16, a, b), weights, high, unused);
+#else
+  const auto weight_a = hn::Set(d16, static_cast<int16_t>(wa));
+  const auto weight_b = hn::Set(d16, static_cast<int16_t>(wb));
+  low = hn::ReorderWidenMulAccumulate(d32, a, weight_a, low, high);
+  low = hn::ReorderWidenMulAccumulate(d32, b, weight_b, low, high);
+#endif
+}
+
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd

@@ -17,49 +17,6 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// DiscPairs holds a quarter of the disc, row by row, in pairs of columns that are multiplied
-// together. A weight is that of all pixels that mirror each other there.
-struct DiscPairs {
-  struct Pair {
-    uint16_t first, second;
-  };
-  Pair pairs[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
-  int32_t counts[kMaxDisc + 1];  // of the pairs of each row
-
-  // Holds the weights of `disc`, and zeros where only `other` has some, so that both discs' pairs
-  // are multiplied with the same samples.
-  DiscPairs(const Disc& disc, const Disc& other) {
-    Pair* pair = pairs;
-    for (int32_t y = 0; y <= disc.size || y <= other.size; ++y) {
-      const int32_t last = LastOf(disc, y), own = PairsUpTo(last);
-      const int32_t others = PairsUpTo(LastOf(other, y));
-      counts[y] = own > others ? own : others;
-      for (int32_t x = 0; x <= last; x += 2) {
-        *pair++ = {Weight(disc, x, y), Weight(disc, x + 1, y)};
-      }
-      for (int32_t k = own; k < others; ++k) *pair++ = {0, 0};
-    }
-  }
-
- private:
-  // The weight at column x of row y of the disc, with those of the pixels that mirror it.
-  static uint16_t Weight(const Disc& disc, int32_t x, int32_t y) {
-    if (x > disc.size) return 0;
-    const int32_t high = x > y ? x : y, low = x > y ? y : x;
-    const int bits = (x > 0 ? 1 : 0) + (y > 0 ? 1 : 0);
-    return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
-  }
-
-  // The last column of a row with a weight, -1 if there is none.
-  static int32_t LastOf(const Disc& disc, int32_t y) {
-    int32_t last = y > disc.size ? -1 : disc.size;
-    while (last >= 0 && Weight(disc, last, y) == 0) --last;
-    return last;
-  }
-
-  static int32_t PairsUpTo(int32_t last) { return last / 2 + (last >= 0); }
-};
-
 inline constexpr size_t kDiscChunk = 192;  // samples filtered together
 inline constexpr size_t kDiscMargin = 3 * kMaxDisc;
 
@@ -79,147 +36,220 @@ HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t c
   }
 }
 
-// AddDiscRow adds a row of the disc to the accumulators, and with kTwo the same row of a second
-// disc to its own; `means` are those of AverageRows. FinishDisc makes light of accumulators,
-// divided by 2^bits and times 2^whole.
-#if STARFOCUS_HAVE_PAIR_MULTIPLY
+// Means of rows that the disc weighs alike: row y has those of the rows y above and below. A pixel
+// on each side is read, and weighed with zero, where the second column of a pair lies beyond the
+// disc.
+struct DiscMeans {
+  static constexpr size_t kPixel = 3, kSpare = HWY_MAX_BYTES;
+  static constexpr size_t kStride = kPixel + kDiscChunk + 2 * kDiscMargin + kPixel + kSpare;
+  uint16_t rows[(kMaxDisc + 1) * kStride];
 
-// Accumulators stand in the order in which pairs of 16 bits are interleaved; FinishDisc knows it.
-template <bool kTwo>
-HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, const DiscPairs::Pair* second_pairs,
-                           int32_t pair_count, const uint16_t* HWY_RESTRICT means, size_t count,
-                           uint32_t* HWY_RESTRICT accumulators, uint32_t* HWY_RESTRICT seconds) {
-  const hn::ScalableTag<uint16_t> d16;
-  const hn::RebindToSigned<decltype(d16)> di16;
-  const hn::Repartition<uint32_t, decltype(d16)> d32;
-  const hn::RebindToSigned<decltype(d32)> di32;
-  const size_t lanes = hn::Lanes(d16);
-  const auto load = [&](const uint32_t* from)
-                        HWY_ATTR { return hn::BitCast(di32, hn::LoadU(d32, from)); };
-  const auto weights_of = [&](const DiscPairs::Pair& pair) HWY_ATTR {
-    return hn::BitCast(di16, hn::Set(d32, pair.first | uint32_t{pair.second} << 16));
-  };
-  for (size_t n = 0; n < count; n += lanes) {
-    const uint16_t* at = means + n;
-    auto low = load(accumulators + n), high = load(accumulators + n + lanes / 2);
-    auto second_low = hn::Zero(di32), second_high = second_low, unused = second_low;
-    if (kTwo) {
-      second_low = load(seconds + n);
-      second_high = load(seconds + n + lanes / 2);
-    }
-    for (ptrdiff_t k = 0; k < pair_count; ++k) {
-      const ptrdiff_t x = 6 * k;
-      auto first = hn::LoadU(d16, at + x);
-      if (k > 0) first = hn::AverageRound(first, hn::LoadU(d16, at - x));
-      const auto second = hn::AverageRound(hn::LoadU(d16, at + x + 3), hn::LoadU(d16, at - x - 3));
-      const auto lower = hn::BitCast(di16, hn::InterleaveLower(d16, first, second));
-      const auto upper = hn::BitCast(di16, hn::InterleaveUpper(d16, first, second));
-      const auto weights = weights_of(pairs[k]);
-      low = hn::ReorderWidenMulAccumulate(di32, lower, weights, low, unused);
-      high = hn::ReorderWidenMulAccumulate(di32, upper, weights, high, unused);
-      if (kTwo) {
-        const auto others = weights_of(second_pairs[k]);
-        second_low = hn::ReorderWidenMulAccumulate(di32, lower, others, second_low, unused);
-        second_high = hn::ReorderWidenMulAccumulate(di32, upper, others, second_high, unused);
-      }
-    }
-    hn::StoreU(hn::BitCast(d32, low), d32, accumulators + n);
-    hn::StoreU(hn::BitCast(d32, high), d32, accumulators + n + lanes / 2);
-    if (kTwo) {
-      hn::StoreU(hn::BitCast(d32, second_low), d32, seconds + n);
-      hn::StoreU(hn::BitCast(d32, second_high), d32, seconds + n + lanes / 2);
+  // Fills so many of them for `count` samples from `middle` on, with `size` pixels on each side.
+  void Fill(const int16_t* middle, size_t in_stride, int32_t size, int32_t row_count,
+            size_t count) {
+    const size_t margin = kPixel * static_cast<size_t>(size), all = count + 2 * margin;
+    for (int32_t y = 0; y < row_count; ++y) {
+      const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
+      uint16_t* row = rows + static_cast<size_t>(y) * kStride;
+      std::memset(row, 0, kPixel * sizeof(*row));
+      AverageRows(middle - offset - margin, middle + offset - margin, all, row + kPixel);
+      std::memset(row + kPixel + all, 0, kPixel * sizeof(*row));
     }
   }
-}
 
-HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t count, int bits,
-                           int whole, int16_t* HWY_RESTRICT light) {
-  const hn::ScalableTag<uint32_t> d32;
-  const hn::RebindToSigned<decltype(d32)> di32;
-  const hn::Repartition<int16_t, decltype(d32)> d16;
-  const size_t lanes = hn::Lanes(d16);
-  const auto half = hn::Set(d32, uint32_t{1} << (bits - 1));
-  const auto value = [&](const uint32_t* sums) HWY_ATTR {
-    return hn::BitCast(di32, hn::ShiftRightSame(hn::Add(hn::LoadU(d32, sums), half), bits));
+  // The first of those samples in row 0.
+  const uint16_t* First(int32_t size) const {
+    return rows + kPixel + kPixel * static_cast<size_t>(size);
+  }
+};
+
+// DiscTaps holds a quarter of one or two discs in pairs of columns that are multiplied together. A
+// weight is that of all pixels that mirror each other there.
+struct DiscTaps {
+  struct Pair {
+    uint16_t first, second;
   };
-  for (size_t n = 0; n < count; n += lanes) {
-    const auto both =
-        hn::ReorderDemote2To(d16, value(accumulators + n), value(accumulators + n + lanes / 2));
-    hn::StoreU(hn::ShiftLeftSame(both, whole), d16, light + n);
+  struct Tap {
+    Pair weights, second_weights;
+    int32_t right, left;  // of the first column and of its mirror image, in DiscMeans
+  };
+  Tap taps[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
+  size_t count = 0;
+  int32_t rows = 0;  // of the quarter, up to the last one with taps
+
+  // Holds taps where either disc has weights.
+  DiscTaps(const Disc& disc, const Disc& second) {
+    const auto pair_of = [](const Disc& of, int32_t x, int32_t y) {
+      return Pair{Weight(of, x, y), Weight(of, x + 1, y)};
+    };
+    constexpr auto kRow = static_cast<int32_t>(DiscMeans::kStride);
+    for (int32_t y = 0; y <= disc.size || y <= second.size; ++y) {
+      const int32_t last = LastOf(disc, y), second_last = LastOf(second, y);
+      if (last >= 0 || second_last >= 0) rows = y + 1;
+      for (int32_t x = 0; x <= last || x <= second_last; x += 2) {
+        taps[count++] = {pair_of(disc, x, y), pair_of(second, x, y), y * kRow + 3 * x,
+                         y * kRow - 3 * x};
+      }
+    }
+  }
+
+ private:
+  // The weight at column x of row y of the disc, with those of the pixels that mirror it.
+  static uint16_t Weight(const Disc& disc, int32_t x, int32_t y) {
+    if (x > disc.size || y > disc.size) return 0;
+    const int32_t high = x > y ? x : y, low = x > y ? y : x;
+    const int bits = (x > 0 ? 1 : 0) + (y > 0 ? 1 : 0);
+    return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
+  }
+
+  // The last column of a row with a weight, -1 if there is none.
+  static int32_t LastOf(const Disc& disc, int32_t y) {
+    int32_t last = disc.size;
+    while (last >= 0 && Weight(disc, last, y) == 0) --last;
+    return last;
+  }
+};
+
+// The sums of a disc are divided by 2^bits and times 2^whole.
+struct DiscScale {
+  int bits, whole;
+};
+
+// FilterMeans makes light of `count` samples of the means: those weighed by the disc and, with
+// kTwo, by a second disc as well. Light is written by vectors, beyond the last sample.
+#if HWY_TARGET == HWY_SCALAR
+
+template <bool kTwo>
+HWY_INLINE void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
+                            const DiscScale& scale, int16_t* HWY_RESTRICT light,
+                            const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
+  const auto finish = [](uint32_t sum, const DiscScale& by) {
+    const uint32_t half = uint32_t{1} << (by.bits - 1);
+    return static_cast<int16_t>(((sum + half) >> by.bits) << by.whole);
+  };
+  for (size_t n = 0; n < count; ++n) {
+    const uint16_t* at = means + n;
+    uint32_t sum = 0, second_sum = 0;
+    for (size_t k = 0; k < disc.count; ++k) {
+      const DiscTaps::Tap& tap = disc.taps[k];
+      const uint16_t *right = at + tap.right, *left = at + tap.left;
+      const uint32_t first = (right[0] + left[0] + uint32_t{1}) >> 1;
+      const uint32_t next = (right[3] + left[-3] + uint32_t{1}) >> 1;
+      sum += first * tap.weights.first + next * tap.weights.second;
+      if (kTwo) second_sum += first * tap.second_weights.first + next * tap.second_weights.second;
+    }
+    light[n] = finish(sum, scale);
+    if (kTwo) second_light[n] = finish(second_sum, second_scale);
   }
 }
 
 #else
 
-template <bool kTwo>
-HWY_INLINE void AddDiscRow(const DiscPairs::Pair* pairs, const DiscPairs::Pair* second_pairs,
-                           int32_t pair_count, const uint16_t* HWY_RESTRICT means, size_t count,
-                           uint32_t* HWY_RESTRICT accumulators, uint32_t* HWY_RESTRICT seconds) {
-  const hn::ScalableTag<uint32_t> d32;
-  const hn::Rebind<uint16_t, decltype(d32)> d16;
-  const size_t lanes = hn::Lanes(d32);
-  const auto both = [&](const uint16_t* at, ptrdiff_t x) HWY_ATTR {
-    return hn::PromoteTo(d32, hn::AverageRound(hn::LoadU(d16, at - x), hn::LoadU(d16, at + x)));
-  };
-  const auto weigh = [&](auto first, auto second, const DiscPairs::Pair& pair) HWY_ATTR {
-    return WeighPair(d32, first, second, hn::Set(d32, pair.first), hn::Set(d32, pair.second));
-  };
-  for (size_t n = 0; n < count; n += lanes) {
-    const uint16_t* at = means + n;
-    const auto middle = hn::PromoteTo(d32, hn::LoadU(d16, at)), beside = both(at, 3);
-    auto sum = hn::Add(hn::LoadU(d32, accumulators + n), weigh(middle, beside, pairs[0]));
-    auto second_sum = hn::Zero(d32);
-    if (kTwo) {
-      second_sum = hn::Add(hn::LoadU(d32, seconds + n), weigh(middle, beside, second_pairs[0]));
+// The sums of a vector of means are two vectors, in the order of whose lanes ReorderDemote2To makes
+// one of them.
+struct DiscSums {
+  static constexpr hn::ScalableTag<uint16_t> d16{};
+  static constexpr hn::RebindToSigned<decltype(d16)> di16{};
+  static constexpr hn::Repartition<uint32_t, decltype(d16)> d32{};
+  static constexpr hn::RebindToSigned<decltype(d32)> di32{};
+  using V16 = hn::Vec<decltype(d16)>;
+  using V32 = hn::Vec<decltype(di32)>;
+
+  // Returns the mean of the samples on both sides, which mirror each other.
+  static HWY_INLINE V16 Mean(const uint16_t* right, const uint16_t* left) {
+    return hn::AverageRound(hn::LoadU(d16, right), hn::LoadU(d16, left));
+  }
+
+  // Adds two means times their weights.
+  static HWY_INLINE void Add(V16 first, V16 second, const DiscTaps::Pair& pair, V32& low,
+                             V32& high) {
+    AddWeighed(di16, hn::BitCast(di16, first), hn::BitCast(di16, second), pair.first, pair.second,
+               low, high);
+  }
+
+  static HWY_INLINE void Store(V32 low, V32 high, const DiscScale& scale, int16_t* light) {
+    const auto half = hn::Set(d32, uint32_t{1} << (scale.bits - 1));
+    const auto value = [&](V32 sums) HWY_ATTR {
+      const auto sum = hn::Add(hn::BitCast(d32, sums), half);
+      return hn::BitCast(di32, hn::ShiftRightSame(sum, scale.bits));
+    };
+    const auto both = hn::ReorderDemote2To(di16, value(low), value(high));
+    hn::StoreU(hn::ShiftLeftSame(both, scale.whole), di16, light);
+  }
+};
+
+// What is made together with a vector, so that loads of means or weights serve both.
+enum class Beside { kNothing, kNextVector, kSecondDisc };
+
+template <Beside kBeside>
+HWY_INLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means,
+                                  const DiscScale& scale, int16_t* HWY_RESTRICT light,
+                                  const DiscScale& other_scale, int16_t* HWY_RESTRICT other_light) {
+  const size_t lanes = hn::Lanes(DiscSums::d16);
+  auto low = hn::Zero(DiscSums::di32), high = low, other_low = low, other_high = low;
+  for (size_t k = 0; k < disc.count; ++k) {
+    const DiscTaps::Tap& tap = disc.taps[k];
+    const uint16_t *right = means + tap.right, *left = means + tap.left;
+    const auto first = DiscSums::Mean(right, left), next = DiscSums::Mean(right + 3, left - 3);
+    DiscSums::Add(first, next, tap.weights, low, high);
+    if (kBeside == Beside::kNextVector) {
+      right += lanes;
+      left += lanes;
+      DiscSums::Add(DiscSums::Mean(right, left), DiscSums::Mean(right + 3, left - 3), tap.weights,
+                    other_low, other_high);
+    } else if (kBeside == Beside::kSecondDisc) {
+      DiscSums::Add(first, next, tap.second_weights, other_low, other_high);
     }
-    for (ptrdiff_t k = 1; k < pair_count; ++k) {
-      const auto first = both(at, 6 * k), second = both(at, 6 * k + 3);
-      sum = hn::Add(sum, weigh(first, second, pairs[k]));
-      if (kTwo) second_sum = hn::Add(second_sum, weigh(first, second, second_pairs[k]));
-    }
-    hn::StoreU(sum, d32, accumulators + n);
-    if (kTwo) hn::StoreU(second_sum, d32, seconds + n);
+  }
+  DiscSums::Store(low, high, scale, light);
+  if (kBeside != Beside::kNothing) {
+    DiscSums::Store(other_low, other_high, other_scale, other_light);
   }
 }
 
-HWY_INLINE void FinishDisc(const uint32_t* HWY_RESTRICT accumulators, size_t count, int bits,
-                           int whole, int16_t* HWY_RESTRICT light) {
-  const hn::ScalableTag<uint32_t> d32;
-  const hn::RebindToSigned<decltype(d32)> di32;
-  const hn::Rebind<int16_t, decltype(d32)> d16;
-  const auto half = hn::Set(d32, uint32_t{1} << (bits - 1));
-  for (size_t n = 0; n < count; n += hn::Lanes(d32)) {
-    const auto sum = hn::Add(hn::LoadU(d32, accumulators + n), half);
-    const auto value = hn::ShiftLeftSame(hn::ShiftRightSame(sum, bits), whole);
-    hn::StoreU(hn::DemoteTo(d16, hn::BitCast(di32, value)), d16, light + n);
+template <bool kTwo>
+HWY_INLINE void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
+                            const DiscScale& scale, int16_t* HWY_RESTRICT light,
+                            const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
+  const size_t lanes = hn::Lanes(DiscSums::d16);
+  size_t n = 0;
+  if (kTwo) {
+    for (; n < count; n += lanes) {
+      FilterMeansVector<Beside::kSecondDisc>(disc, means + n, scale, light + n, second_scale,
+                                             second_light + n);
+    }
+    return;
+  }
+  for (; n + lanes < count; n += 2 * lanes) {
+    FilterMeansVector<Beside::kNextVector>(disc, means + n, scale, light + n, scale,
+                                           light + n + lanes);
+  }
+  if (n < count) {
+    FilterMeansVector<Beside::kNothing>(disc, means + n, scale, light + n, scale, nullptr);
   }
 }
 
 #endif
 
-// What becomes of the sums of a disc, divided by 2^bits and times 2^whole: codes, or samples of a
-// layer where these are null.
+// What light becomes: codes, or samples of a layer where these are null.
 struct DiscOutput {
   uint8_t* codes;
   int16_t* samples;
   size_t stride;
   Encoding encoding;
-  int bits, whole;
+  DiscScale scale;
+
+  void Store(const int16_t* light, size_t count, size_t at) const {
+    if (codes == nullptr) {
+      std::memcpy(samples + at, light, count * sizeof(*light));
+    } else {
+      Encode(light, count, encoding, codes + at);
+    }
+  }
 };
 
 inline DiscOutput SamplesOf(const Disc& disc, int16_t* samples, size_t stride) {
-  return {nullptr, samples, stride, {nullptr, nullptr}, disc.bits + kLightBits - kLayerBits, 0};
-}
-
-// Stores the sums of `count` samples at that place.
-HWY_INLINE void StoreDisc(const uint32_t* sums, size_t count, const DiscOutput& out, size_t at) {
-  int16_t light[kDiscChunk + HWY_MAX_BYTES];
-  FinishDisc(sums, count, out.bits, out.whole, light);
-  if (out.codes == nullptr) {
-    std::memcpy(out.samples + at, light, count * sizeof(*light));
-  } else {
-    Encode(light, count, out.encoding, out.codes + at);
-  }
+  return {nullptr, samples, stride, {nullptr, nullptr}, {disc.bits + kLightBits - kLayerBits, 0}};
 }
 
 // Filters rows of samples by chunks, with kTwo by a second, smaller disc as well.
@@ -227,36 +257,19 @@ template <bool kTwo>
 inline void FilterRows(const int16_t* in, size_t in_stride, const Disc& disc, const Disc& smaller,
                        size_t rows, size_t count, const DiscOutput& out,
                        const DiscOutput& second_out) {
-  constexpr size_t kSpare = HWY_MAX_BYTES;
   const Disc none = {-1, 0, nullptr};
-  const DiscPairs quarter(disc, kTwo ? smaller : none);
-  const DiscPairs second(kTwo ? smaller : none, kTwo ? disc : none);
-  const size_t margin = 3 * static_cast<size_t>(disc.size);
-  // The second column of a pair may lie a pixel beyond the disc. Its weight is zero, but it is
-  // read.
-  uint16_t padded[3 + kDiscChunk + 2 * kDiscMargin + 3 + kSpare] = {};
-  uint16_t* const means = padded + 3;
-  uint32_t accumulators[kDiscChunk + kSpare], seconds[kTwo ? kDiscChunk + kSpare : 1];
+  const DiscTaps taps(disc, kTwo ? smaller : none);
+  DiscMeans means;
+  constexpr size_t kLight = kDiscChunk + HWY_MAX_BYTES;
+  int16_t light[kLight], second_light[kTwo ? kLight : 1];
   for (size_t begin = 0; begin < count; begin += kDiscChunk) {
     const size_t chunk = count - begin < kDiscChunk ? count - begin : kDiscChunk;
     for (size_t row = 0; row < rows; ++row) {
-      const int16_t* middle = in + row * in_stride + begin;
-      const DiscPairs::Pair *pairs = quarter.pairs, *second_pairs = second.pairs;
-      std::memset(accumulators, 0, (chunk + kSpare) * sizeof(*accumulators));
-      if (kTwo) std::memset(seconds, 0, (chunk + kSpare) * sizeof(*seconds));
-      for (int32_t y = 0; y <= disc.size; ++y) {
-        const int32_t pair_count = quarter.counts[y];
-        if (pair_count == 0) continue;
-        const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
-        AverageRows(middle - offset - margin, middle + offset - margin, chunk + 2 * margin, means);
-        std::memset(means + chunk + 2 * margin, 0, 3 * sizeof(*means));
-        AddDiscRow<kTwo>(pairs, second_pairs, pair_count, means + margin, chunk, accumulators,
-                         seconds);
-        pairs += pair_count;
-        second_pairs += pair_count;
-      }
-      StoreDisc(accumulators, chunk, out, row * out.stride + begin);
-      if (kTwo) StoreDisc(seconds, chunk, second_out, row * second_out.stride + begin);
+      means.Fill(in + row * in_stride + begin, in_stride, disc.size, taps.rows, chunk);
+      FilterMeans<kTwo>(taps, means.First(disc.size), chunk, out.scale, light, second_out.scale,
+                        second_light);
+      out.Store(light, chunk, row * out.stride + begin);
+      if (kTwo) second_out.Store(second_light, chunk, row * second_out.stride + begin);
     }
   }
 }
@@ -265,7 +278,7 @@ inline void FilterDisc(const int16_t* HWY_RESTRICT in, size_t in_stride, const D
                        const Encoding& encoding, size_t rows, size_t count,
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
   const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
-  const DiscOutput codes = {out, nullptr, out_stride, encoding, disc.bits + whole, whole};
+  const DiscOutput codes = {out, nullptr, out_stride, encoding, {disc.bits + whole, whole}};
   FilterRows<false>(in, in_stride, disc, disc, rows, count, codes, codes);
 }
 

@@ -14,16 +14,6 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Runs step(n) for each vector of `count` samples. The last vector ends with the samples, so that
-// some are made twice. Returns whether there are enough samples for a vector.
-template <class Step>
-HWY_INLINE bool ForVectors(size_t count, size_t lanes, const Step& step) {
-  if (count < lanes) return false;
-  for (size_t n = 0; n < count - lanes; n += lanes) step(n);
-  step(count - lanes);
-  return true;
-}
-
 #if HWY_TARGET == HWY_SCALAR
 
 using reference::SplitPhases;
@@ -99,13 +89,20 @@ inline void SplitPhases(const int16_t* HWY_RESTRICT in, size_t pairs, int16_t* H
 
 inline void Narrow(const int16_t* HWY_RESTRICT in, size_t count, const Encoding& encoding,
                    uint8_t* HWY_RESTRICT out) {
+  const hn::ScalableTag<int16_t> d16;
   if (encoding.entries != nullptr) {
-    for (size_t n = 0; n < count; ++n) {
-      out[n] = CodeOf(in[n] << (kLightBits - kLayerBits), encoding.entries);
-    }
+    EncodeChunks(
+        count, encoding.entries, out, [&](size_t begin, size_t chunk, int16_t* light) HWY_ATTR {
+          constexpr int kBits = kLightBits - kLayerBits;
+          const bool done = ForVectors(chunk, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
+            hn::StoreU(hn::ShiftLeft<kBits>(hn::LoadU(d16, in + begin + n)), d16, light + n);
+          });
+          for (size_t n = 0; !done && n < chunk; ++n) {
+            light[n] = static_cast<int16_t>(in[begin + n] << kBits);
+          }
+        });
     return;
   }
-  const hn::ScalableTag<int16_t> d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const auto below_half = hn::Set(d16, int16_t{(1 << (kLayerBits - 1)) - 1});
   const auto one = hn::Set(d16, int16_t{1});
@@ -134,10 +131,8 @@ inline void FinishLayer(const uint32_t* HWY_RESTRICT accumulators, size_t count,
 
 // The functions below compute centre c + near (a + b) + far (d + e) of a vector's samples, rounded
 // and saturated.
-#if STARFOCUS_HAVE_PAIR_MULTIPLY
+#if HWY_TARGET != HWY_SCALAR
 
-// Products are summed in two vectors, of the lower and the upper lanes of each block of 128 bits;
-// demoting with saturation puts them together again.
 using FilterTag = hn::ScalableTag<int16_t>;
 using WideTag = hn::Repartition<int32_t, FilterTag>;
 using FilterVec = hn::Vec<FilterTag>;
@@ -146,20 +141,19 @@ using WideVec = hn::Vec<WideTag>;
 // Adds a tap_a + b tap_b to the sums.
 HWY_INLINE void AddTaps(FilterVec a, FilterVec b, int32_t tap_a, int32_t tap_b, WideVec& low,
                         WideVec& high) {
-  const FilterTag d16;
-  const WideTag d32;
-  const auto pair =
-      hn::Set(d32, static_cast<int32_t>((tap_a & 0xFFFF) | static_cast<uint32_t>(tap_b) << 16));
-  const auto taps = hn::BitCast(d16, pair);
-  auto unused = hn::Zero(d32);
-  low = hn::ReorderWidenMulAccumulate(d32, hn::InterleaveLower(d16, a, b), taps, low, unused);
-  high = hn::ReorderWidenMulAccumulate(d32, hn::InterleaveUpper(d16, a, b), taps, high, unused);
+  AddWeighed(FilterTag(), a, b, tap_a, tap_b, low, high);
 }
 
 // Begins sums with the centre, and the half that makes dropping kTapBits round.
 HWY_INLINE void BeginTaps(FilterVec centre, int32_t tap, WideVec& low, WideVec& high) {
+#if STARFOCUS_HAVE_PAIR_MULTIPLY
   low = high = hn::Zero(WideTag());
   AddTaps(centre, hn::Set(FilterTag(), int16_t{1}), tap, 1 << (kTapBits - 1), low, high);
+#else
+  low = high = hn::Set(WideTag(), 1 << (kTapBits - 1));
+  const auto taps = hn::Set(FilterTag(), static_cast<int16_t>(tap));
+  low = hn::ReorderWidenMulAccumulate(WideTag(), centre, taps, low, high);
+#endif
 }
 
 HWY_INLINE FilterVec EndTaps(WideVec low, WideVec high) {
