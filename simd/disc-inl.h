@@ -120,9 +120,9 @@ struct DiscScale {
 #if HWY_TARGET == HWY_SCALAR
 
 template <bool kTwo>
-HWY_INLINE void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
-                            const DiscScale& scale, int16_t* HWY_RESTRICT light,
-                            const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
+inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
+                        const DiscScale& scale, int16_t* HWY_RESTRICT light,
+                        const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
   const auto finish = [](uint32_t sum, const DiscScale& by) {
     const uint32_t half = uint32_t{1} << (by.bits - 1);
     return static_cast<int16_t>(((sum + half) >> by.bits) << by.whole);
@@ -181,10 +181,12 @@ struct DiscSums {
 // What is made together with a vector, so that loads of means or weights serve both.
 enum class Beside { kNothing, kNextVector, kSecondDisc };
 
+// Filters a vector of means. It stays a function, so that the modules of the web stay small.
 template <Beside kBeside>
-HWY_INLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means,
-                                  const DiscScale& scale, int16_t* HWY_RESTRICT light,
-                                  const DiscScale& other_scale, int16_t* HWY_RESTRICT other_light) {
+HWY_NOINLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means,
+                                    const DiscScale& scale, int16_t* HWY_RESTRICT light,
+                                    const DiscScale& other_scale,
+                                    int16_t* HWY_RESTRICT other_light) {
   const size_t lanes = hn::Lanes(DiscSums::d16);
   auto low = hn::Zero(DiscSums::di32), high = low, other_low = low, other_high = low;
   for (size_t k = 0; k < disc.count; ++k) {
@@ -208,9 +210,9 @@ HWY_INLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_REST
 }
 
 template <bool kTwo>
-HWY_INLINE void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
-                            const DiscScale& scale, int16_t* HWY_RESTRICT light,
-                            const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
+inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
+                        const DiscScale& scale, int16_t* HWY_RESTRICT light,
+                        const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
   const size_t lanes = hn::Lanes(DiscSums::d16);
   size_t n = 0;
   if (kTwo) {

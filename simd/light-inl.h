@@ -51,8 +51,8 @@ inline constexpr size_t kEncodeChunk = 64;  // samples encoded together
 
 // Makes codes of at most kEncodeChunk samples. Entries are looked up sample by sample, long before
 // they are read by vectors: what is stored by parts cannot be forwarded to a load of the whole.
-HWY_INLINE void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count,
-                            const uint16_t* HWY_RESTRICT entries, uint8_t* HWY_RESTRICT codes) {
+inline void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count,
+                        const uint16_t* HWY_RESTRICT entries, uint8_t* HWY_RESTRICT codes) {
   const hn::CappedTag<int16_t, 8> d16;  // a cell of a layer is 12 samples wide
   const hn::RebindToUnsigned<decltype(d16)> du16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
