@@ -63,6 +63,16 @@ HWY_INLINE void AddWeighed(D16 d16, V16 a, V16 b, int32_t wa, int32_t wb, V32& l
 #endif
 }
 
+template <class D16, class V32>
+HWY_INLINE hn::Vec<D16> DemoteSums(D16 d16, V32 low, V32 high) {
+#if HWY_ARCH_ARM_V7  // where Highway 1.0.3 puts the first vector into the upper half
+  const hn::Half<D16> half;
+  return hn::Combine(d16, hn::DemoteTo(half, high), hn::DemoteTo(half, low));
+#else
+  return hn::ReorderDemote2To(d16, low, high);
+#endif
+}
+
 #endif
 
 }  // namespace HWY_NAMESPACE

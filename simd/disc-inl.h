@@ -145,8 +145,7 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
 
 #else
 
-// The sums of a vector of means are two vectors, in the order of whose lanes ReorderDemote2To makes
-// one of them.
+// The sums of a vector of means are two vectors, of which DemoteSums makes one again.
 struct DiscSums {
   static constexpr hn::ScalableTag<uint16_t> d16{};
   static constexpr hn::RebindToSigned<decltype(d16)> di16{};
@@ -173,7 +172,7 @@ struct DiscSums {
       const auto sum = hn::Add(hn::BitCast(d32, sums), half);
       return hn::BitCast(di32, hn::ShiftRightSame(sum, scale.bits));
     };
-    const auto both = hn::ReorderDemote2To(di16, value(low), value(high));
+    const auto both = DemoteSums(di16, value(low), value(high));
     hn::StoreU(hn::ShiftLeftSame(both, scale.whole), di16, light);
   }
 };

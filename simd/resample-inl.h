@@ -157,8 +157,7 @@ HWY_INLINE void BeginTaps(FilterVec centre, int32_t tap, WideVec& low, WideVec& 
 }
 
 HWY_INLINE FilterVec EndTaps(WideVec low, WideVec high) {
-  return hn::ReorderDemote2To(FilterTag(), hn::ShiftRight<kTapBits>(low),
-                              hn::ShiftRight<kTapBits>(high));
+  return DemoteSums(FilterTag(), hn::ShiftRight<kTapBits>(low), hn::ShiftRight<kTapBits>(high));
 }
 
 HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, FilterVec b,
