@@ -43,8 +43,8 @@ HWY_INLINE V32 WeighPair(D32 d32, V32 a, V32 b, V32 wa, V32 wb) {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// AddWeighed adds a * wa + b * wb of 16-bit lanes to sums: two vectors of 32-bit lanes, in the
-// order of which ReorderDemote2To makes one of 16-bit lanes again.
+// AddWeighed adds a * wa + b * wb of 16-bit lanes to sums of 32 bits. Which lanes are in which of
+// the two vectors of sums depends on the target: only DemoteSums knows.
 template <class D16, class V16 = hn::Vec<D16>, class V32>
 HWY_INLINE void AddWeighed(D16 d16, V16 a, V16 b, int32_t wa, int32_t wb, V32& low, V32& high) {
   const hn::Repartition<int32_t, D16> d32;
@@ -63,6 +63,7 @@ HWY_INLINE void AddWeighed(D16 d16, V16 a, V16 b, int32_t wa, int32_t wb, V32& l
 #endif
 }
 
+// DemoteSums returns the sums of AddWeighed as a vector of 16-bit lanes in their order, saturated.
 template <class D16, class V32>
 HWY_INLINE hn::Vec<D16> DemoteSums(D16 d16, V32 low, V32 high) {
 #if HWY_ARCH_ARM_V7  // where Highway 1.0.3 puts the first vector into the upper half

@@ -138,17 +138,12 @@ using WideTag = hn::Repartition<int32_t, FilterTag>;
 using FilterVec = hn::Vec<FilterTag>;
 using WideVec = hn::Vec<WideTag>;
 
-// Adds a tap_a + b tap_b to the sums.
-HWY_INLINE void AddTaps(FilterVec a, FilterVec b, int32_t tap_a, int32_t tap_b, WideVec& low,
-                        WideVec& high) {
-  AddWeighed(FilterTag(), a, b, tap_a, tap_b, low, high);
-}
-
 // Begins sums with the centre, and the half that makes dropping kTapBits round.
 HWY_INLINE void BeginTaps(FilterVec centre, int32_t tap, WideVec& low, WideVec& high) {
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
   low = high = hn::Zero(WideTag());
-  AddTaps(centre, hn::Set(FilterTag(), int16_t{1}), tap, 1 << (kTapBits - 1), low, high);
+  AddWeighed(FilterTag(), centre, hn::Set(FilterTag(), int16_t{1}), tap, 1 << (kTapBits - 1), low,
+             high);
 #else
   low = high = hn::Set(WideTag(), 1 << (kTapBits - 1));
   const auto taps = hn::Set(FilterTag(), static_cast<int16_t>(tap));
@@ -164,8 +159,8 @@ HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, 
                                 FilterVec d, FilterVec e) {
   WideVec low, high;
   BeginTaps(c, taps.centre, low, high);
-  AddTaps(a, b, taps.near, taps.near, low, high);
-  AddTaps(d, e, taps.far, taps.far, low, high);
+  AddWeighed(FilterTag(), a, b, taps.near, taps.near, low, high);
+  AddWeighed(FilterTag(), d, e, taps.far, taps.far, low, high);
   return EndTaps(low, high);
 }
 
@@ -173,15 +168,15 @@ HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, 
 HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
   WideVec low, high;
   BeginTaps(c, taps.centre, low, high);
-  AddTaps(ab, de, taps.near, taps.far, low, high);
+  AddWeighed(FilterTag(), ab, de, taps.near, taps.far, low, high);
   return EndTaps(low, high);
 }
 
 HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, FilterVec d,
                                FilterVec e) {
   WideVec low = hn::Set(WideTag(), 1 << (kTapBits - 1)), high = low;
-  AddTaps(a, b, taps.near, taps.near, low, high);
-  AddTaps(d, e, taps.far, taps.far, low, high);
+  AddWeighed(FilterTag(), a, b, taps.near, taps.near, low, high);
+  AddWeighed(FilterTag(), d, e, taps.far, taps.far, low, high);
   return EndTaps(low, high);
 }
 
