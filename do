@@ -237,8 +237,8 @@ check() {
   sanitize
   # Addresses and undefined values: the family compares all output bytes, and leaves the workspace
   # of some cases as the heap gives it.
-  step valgrind "refocusing under valgrind" valgrind --quiet --error-exitcode=1 \
-    $PROGRAM stress --seconds 30 --family differential
+  step valgrind "refocusing under valgrind" tests/support/valgrind.sh $BUILD --quiet \
+    --error-exitcode=1 $PROGRAM stress --seconds 30 --family differential
 }
 
 # What the Java test on an emulated board needs: the library, and a Java for it.
@@ -345,6 +345,7 @@ bench_scene() {
 
 check_counts() {
   require valgrind
+  build starfocus_valgrind
   build starfocus-bench-count
   build starfocus_instruction_bench
   tests/bench/count.sh $BUILD "$1"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "platform/readers/orientation.h"
 #include "starfocus/starfocus.h"
@@ -126,8 +127,10 @@ std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightFie
   }
   const Ends ends = EndsOf(map);
   if (!(ends.low <= ends.high)) return Expected(where, "a map with a known depth", "none");
+  // Scaled last, so that the limit of disparities holds: rounding may take a mean beyond its values.
+  map = Resize(map, picture.width, picture.height);
   ToDisparity(ends, std::hypot(picture.width, picture.height), photo);
-  light_field->disparity = Resize(map, picture.width, picture.height);
+  light_field->disparity = std::move(map);
   light_field->views = {std::move(photo->picture)};
   light_field->positions = {{0, 0}};
   return "";

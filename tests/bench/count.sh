@@ -22,7 +22,7 @@ compiler=$("$compiler" --version | sed -n '1s/^[^ ]* //p') # without the program
 # count MODE: "MODE instructions-per-pixel"
 count() {
   local out=$build/callgrind.$1 log=$build/callgrind.$1.log pixels instructions found
-  valgrind --tool=callgrind --callgrind-out-file="$out" --toggle-collect=sf_refocus \
+  "$here/../support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=sf_refocus \
     "$program" "$1" >"$log" 2>"$log.err" || { cat "$log" "$log.err" >&2; exit 1; }
   read -r pixels found <"$log"
   [ "$found" = $target ] || { echo "target $found"; return; }
@@ -34,7 +34,7 @@ count() {
 # instruction_bench, which `./do count` counts on AArch64.
 count_case() {
   local out=$build/callgrind.$1.$3 instructions
-  valgrind --tool=callgrind --callgrind-out-file="$out" --toggle-collect=sf_refocus \
+  "$here/../support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=sf_refocus \
     "$build/tests/instruction_bench" "$1" "$3" 1 >"$out.log" 2>&1 || { cat "$out.log" >&2; exit 1; }
   instructions=$(awk '/^(summary|totals):/ { print $2; exit }' "$out")
   awk -v n="$1 $3" -v i="$instructions" -v p="$2" 'BEGIN { printf "%s %.1f\n", n, i / p }'

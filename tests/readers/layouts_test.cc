@@ -3,6 +3,7 @@
 // becomes of the map.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include "platform/readers/capture.h"
 #include "platform/readers/orientation.h"
 #include "platform/readers/photo_scale.h"
+#include "starfocus/starfocus.h"
 #include "tests/support/photo_files.h"
 
 namespace starfocus {
@@ -207,6 +209,20 @@ TEST_CASE("maps are brought to the picture's size between their values, unknown 
   CHECK(large.at(3, 0) == 4);
   CHECK(std::isnan(large.at(0, 1)));
   CHECK(large.at(1, 1) == 8);
+}
+
+TEST_CASE("disparities of a photo stay within the limit, also between the values of its map") {
+  DepthPhoto photo;
+  photo.picture = Plain(97, 61, 128);
+  photo.map = {5, 3, std::vector<float>(15, 1e6F)};  // micrometres away
+  photo.meaning = MapMeaning::kInverseMetres;
+  LightField field;
+  REQUIRE(MakeLightField("photo", &photo, &field) == "");
+  REQUIRE(field.disparity.values.size() == 97 * 61);
+  const auto [low, high] =
+      std::minmax_element(field.disparity.values.begin(), field.disparity.values.end());
+  CHECK(*low == float(SF_MAX_DISPARITY));
+  CHECK(*high == float(SF_MAX_DISPARITY));
 }
 
 }  // namespace
