@@ -42,44 +42,14 @@ HWY_INLINE size_t RowsOf(D d) {
   return hn::Lanes(d) > kSliceLanes ? hn::Lanes(d) / kSliceLanes : 1;
 }
 
-// Loads samples of a row, or of two rows that lie `stride` apart.
-template <class D>
-HWY_INLINE hn::Vec<D> LoadRows(D d, const int16_t* HWY_RESTRICT at, size_t stride) {
-#if STARFOCUS_WIDE_TILES
-  if (hn::Lanes(d) > kSliceLanes) {
-    const hn::Half<D> row;
-    return hn::Combine(d, hn::LoadU(row, at + stride), hn::LoadU(row, at));
-  }
-#endif
-  (void)stride;
-  return hn::LoadU(d, at);
-}
-
 // Writes the marks of rows, one after the other from the first on.
 class RowMarks {
  public:
-  // Adds one row or two, given the most and the least coverage over all vectors that hold it.
-  template <class D>
-  HWY_INLINE void Add(D d, hn::Vec<D> most, hn::Vec<D> least, int8_t* HWY_RESTRICT near) {
-    const auto some = hn::Ne(most, hn::Zero(d));
-    const auto all = hn::Eq(least, hn::Set(d, kSliceOne));
-#if STARFOCUS_WIDE_TILES
-    if (hn::Lanes(d) > kSliceLanes) {
-      uint8_t some_bits[8], all_bits[8];  // StoreMaskBits may write 8 bytes
-      hn::StoreMaskBits(d, some, some_bits);
-      hn::StoreMaskBits(d, all, all_bits);
-      for (size_t k = 0; k < 2; ++k) {
-        AddRow((some_bits[2 * k] | some_bits[2 * k + 1]) != 0,
-               (all_bits[2 * k] & all_bits[2 * k + 1]) == 0xFF, near + k);
-      }
-      return;
-    }
-#endif
-    AddRow(!hn::AllFalse(d, some), hn::AllTrue(d, all), near);
-  }
-
- private:
-  HWY_INLINE void AddRow(bool some, bool all, int8_t* HWY_RESTRICT near) {
+  // Adds a row, given the most and the least coverage over all vectors that hold it.
+  HWY_INLINE void Add(ChunkVec most, ChunkVec least, int8_t* HWY_RESTRICT near) {
+    const ChunkTag d16;
+    const bool some = !hn::AllTrue(d16, hn::Eq(most, hn::Zero(d16)));
+    const bool all = hn::AllTrue(d16, hn::Eq(least, hn::Set(d16, kSliceOne)));
     if (some) near[0] = 0;
     if (some && !shown_) {
       for (int8_t k = 1; k <= kAhead && near[-k] > k; ++k) near[-k] = k;
@@ -89,26 +59,28 @@ class RowMarks {
     if (all_covered_ > kAhead) near[-kAhead] = kCoveredNear;
   }
 
+ private:
   static constexpr int kAhead = kRowsAhead;
   bool shown_ = false;   // whether the last row shows something
   int all_covered_ = 0;  // how many rows up to the last one are covered all over
 };
 
-// Moves as many of the rows as fill vectors. Returns how many.
-template <int kTaps, class D>
-HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                            size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near,
-                            RowMarks* marks) {
-  const size_t lanes = hn::Lanes(d), step = RowsOf(d), stride = 4 * in.plane;
+// Moves rows one by one, with vectors of a row at most: gathered from the planes of two, wider ones
+// take longer.
+template <int kTaps>
+HWY_INLINE void ShiftRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
+                          size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
+  const ChunkTag d;
+  const size_t lanes = hn::Lanes(d);
   const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
   const auto third = hn::Set(d, fraction.third), fourth = hn::Set(d, fraction.fourth);
-  size_t row = 0;
-  for (; row + step <= rows; row += step, out += step * kSliceLanes) {
+  RowMarks marks;
+  for (size_t row = 0; row < rows; ++row, out += kSliceLanes) {
     auto most = hn::Zero(d), least = hn::Set(d, kSliceOne);
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
-      const int16_t* HWY_RESTRICT from = in.samples + row * stride + n;
+      const int16_t* HWY_RESTRICT from = in.samples + row * 4 * in.plane + n;
       const auto load = [&](size_t c, size_t next)
-                            HWY_ATTR { return LoadRows(d, from + c * in.plane + next, stride); };
+                            HWY_ATTR { return hn::LoadU(d, from + c * in.plane + next); };
       const auto covered = load(3, 0), next = load(3, 1);
       auto any = hn::Or(covered, next);
       if (kTaps > 2) any = hn::Or(any, load(3, 2));
@@ -134,30 +106,18 @@ HWY_INLINE size_t ShiftRows(D d, const SlicePlanes& in, const SliceFraction& fra
       most = hn::Max(most, shown);
       least = hn::Min(least, shown);
     }
-    marks->Add(d, most, least, near + row);
+    marks.Add(most, least, near + row);
   }
-  return row;
-}
-
-template <int kTaps>
-HWY_INLINE void ShiftAllRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                             size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
-  RowMarks marks;
-  const size_t done = ShiftRows<kTaps>(TileTag(), in, fraction, rows, plane, out, near, &marks);
-  if (done == rows) return;
-  const SlicePlanes rest = {in.samples + done * 4 * in.plane, in.plane};
-  ShiftRows<kTaps>(ChunkTag(), rest, fraction, rows - done, plane, out + done * kSliceLanes,
-                   near + done, &marks);
 }
 
 inline void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
                        size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
   if (fraction.third == 0) {
-    ShiftAllRows<2>(in, fraction, rows, plane, out, near);
+    ShiftRows<2>(in, fraction, rows, plane, out, near);
   } else if (fraction.fourth == 0) {
-    ShiftAllRows<3>(in, fraction, rows, plane, out, near);
+    ShiftRows<3>(in, fraction, rows, plane, out, near);
   } else {
-    ShiftAllRows<4>(in, fraction, rows, plane, out, near);
+    ShiftRows<4>(in, fraction, rows, plane, out, near);
   }
 }
 
