@@ -17,6 +17,19 @@ namespace HWY_NAMESPACE {
 // Whether a slice covers some of a group's pixels, and all of each.
 struct GroupCover {
   bool some = false, all = true;
+
+  // Adds a vector of pixels from n on, of which those before `count` count.
+  HWY_INLINE void Add(hn::Mask<ChunkTag> covered, hn::Mask<ChunkTag> whole, size_t n,
+                      size_t count) {
+    const ChunkTag d16;
+    if (n + hn::Lanes(d16) > count) {  // seldom: only the last group of a row has others
+      const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
+      covered = hn::And(covered, counted);
+      whole = hn::Or(whole, hn::Not(counted));
+    }
+    some = some || !hn::AllFalse(d16, covered);
+    all = all && hn::AllTrue(d16, whole);
+  }
 };
 
 // Tells which pixels have a disparity in [low, high].
@@ -53,9 +66,7 @@ HWY_INLINE void SelectFirst(const SurfaceRow& row, ChunkVec low, ChunkVec overla
     hn::StoreU(hn::IfThenElseZero(found, value), d16, out + c * plane + n);
   }
   hn::StoreU(hn::IfThenElseZero(found, hn::Set(d16, kSliceOne)), d16, out + 3 * plane + n);
-  const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
-  cover.some = cover.some || !hn::AllFalse(d16, hn::And(found, counted));
-  cover.all = cover.all && hn::AllFalse(d16, hn::AndNot(found, counted));
+  cover.Add(found, found, n, count);
 }
 
 // Selects a vector of pixels from n on, of whose surfaces any may be seen.
@@ -80,10 +91,7 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, ChunkVec low, ChunkVec high, Ch
   const auto front = hn::IfThenElseZero(first, hn::Min(share, pixel));
   const auto behind = hn::IfThenElseZero(hn::Or(next, last), hn::Sub(pixel, front));
   const auto together = hn::Add(front, behind);
-  const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
-  const auto found = hn::Ne(together, hn::Zero(d16));
-  cover.some = cover.some || !hn::AllFalse(d16, hn::And(found, counted));
-  cover.all = cover.all && hn::AllFalse(d16, hn::And(hn::Ne(together, pixel), counted));
+  cover.Add(hn::Ne(together, hn::Zero(d16)), hn::Eq(together, pixel), n, count);
   const auto whole = hn::Eq(front, pixel), shows = hn::Ne(behind, hn::Zero(d16));
   // A whole pixel, of which 16 bits with sign hold no such part, takes no part of the product.
   const auto parts = hn::ShiftLeft<15 - kSliceBits>(hn::IfThenZeroElse(whole, front));
