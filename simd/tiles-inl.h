@@ -248,17 +248,12 @@ struct SeenSlice {
   const SliceOffset* offsets;
 };
 
-// How many rows of a slice a row of a view sees.
-HWY_INLINE int TapsOf(const SliceFraction& fraction) {
-  return 2 + (fraction.third != 0) + (fraction.fourth != 0);
-}
-
-// Calls take(taps), where `taps` is TapsOf the fraction as a constant.
+// Calls take(taps) with `taps` as a constant.
 template <class Take>
-HWY_INLINE void TakeByTaps(const SliceFraction& fraction, const Take& take) {
-  if (fraction.third == 0) {
+HWY_INLINE void TakeByTaps(int taps, const Take& take) {
+  if (taps == 2) {
     take(std::integral_constant<int, 2>());
-  } else if (fraction.fourth == 0) {
+  } else if (taps == 3) {
     take(std::integral_constant<int, 3>());
   } else {
     take(std::integral_constant<int, 4>());
@@ -283,11 +278,11 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
       const SliceOffset& offset = k->offsets[first];
       const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
       const int8_t* near = slice.near + moved;
-      const int read_by_both = 2 * vector_rows + TapsOf(offset.fraction) - 1;
+      const int read_by_both = 2 * vector_rows + offset.taps - 1;
       if (near[0] >= (kLooksFirst ? int{kNothingNear} : read_by_both)) continue;
       const int16_t* at = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
       const auto take = [&](auto known) HWY_ATTR {
-        TakeByTaps(offset.fraction, [&](auto taps) HWY_ATTR {
+        TakeByTaps(offset.taps, [&](auto taps) HWY_ATTR {
           constexpr int kTaps = decltype(taps)::value;
           constexpr Known kKnown = decltype(known)::value;
           const int read = vector_rows + kTaps - 1;

@@ -45,8 +45,14 @@ struct TileSlice {
 
 // Where a view shows a slice: moved by whole rows, and by what it sees of a row and the next ones.
 struct SliceOffset {
-  int32_t whole;
+  int16_t whole;
+  int16_t taps;  // the rows that are seen: 2, 3 or 4, by what of the fraction is not 0
   SliceFraction fraction;
+
+  static constexpr SliceOffset Of(int32_t whole, const SliceFraction& fraction) {
+    const int taps = 2 + (fraction.third != 0 ? 1 : 0) + (fraction.fourth != 0 ? 1 : 0);
+    return {static_cast<int16_t>(whole), static_cast<int16_t>(taps), fraction};
+  }
 };
 
 // Slices that a view can show.

@@ -44,12 +44,13 @@ SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
   const auto share = [&](int32_t more) {
     return static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / subaperture));
   };
-  if (rest <= kHalves) return {whole, {share(left - rest), share(left - rest), 0, 0}};
+  if (rest <= kHalves)
+    return SliceOffset::Of(whole, {share(left - rest), share(left - rest), 0, 0});
   if (rest <= 2 * kHalves) {
-    return {whole, {part(left), part(left), part(rest - kHalves), 0}};
+    return SliceOffset::Of(whole, {part(left), part(left), part(rest - kHalves), 0});
   }
   const int32_t right = rest - 2 * kHalves;
-  return {whole, {part(left), part(left), share(right - left), part(right)}};
+  return SliceOffset::Of(whole, {part(left), part(left), share(right - left), part(right)});
 }
 
 // `shift` in kShiftBits as whole pixels and a fraction. Inside the slice a subaperture narrower
@@ -63,10 +64,10 @@ SliceOffset OffsetOf(int32_t shift, int32_t subaperture) {
     return static_cast<int16_t>(fraction - kFractionOne);
   };
   const int16_t edge = before(rest * (kFractionOne / kShiftOne));
-  if (rest == 0 || subaperture >= kShiftOne) return {whole, {edge, edge, 0, 0}};
+  if (rest == 0 || subaperture >= kShiftOne) return SliceOffset::Of(whole, {edge, edge, 0, 0});
   const int32_t from_middle = (rest - kShiftOne / 2) * kFractionOne;
   const int32_t inside = from_middle / Max(subaperture, 1) + kFractionOne / 2;
-  return {whole, {before(Clamp(inside, 0, kFractionOne)), edge, 0, 0}};
+  return SliceOffset::Of(whole, {before(Clamp(inside, 0, kFractionOne)), edge, 0, 0});
 }
 
 // Clears what lies behind the `width` pixels of a row, a group of samples at least, in groups of

@@ -133,7 +133,7 @@ SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {
   }
   std::vector<SliceOffset> offsets;
   for (size_t n = 0; n < view_count * count; ++n) {
-    offsets.push_back({draw->Int(-int(kMost), int(kMost)), Fraction(draw)});
+    offsets.push_back(SliceOffset::Of(draw->Int(-int(kMost), int(kMost)), Fraction(draw)));
   }
   std::vector<uint8_t> shown;
   for (size_t k = 0; k < count; ++k) {
