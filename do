@@ -258,7 +258,7 @@ consumers() {
   fi
   for kind in "$@"; do
     case "$kind" in
-      m32) PACKAGES="$PACKAGES libc6-dev-i386 lib32stdc++-12-dev" ;;
+      m32) PACKAGES="$PACKAGES libc6-dev-i386 lib32stdc++-12-dev qemu-user" ;;
       wasm) PACKAGES="$PACKAGES emscripten nodejs" ;;
       python)
         for target in numpy pip venv setuptools wheel pil matplotlib; do python="$python python3-$target"; done

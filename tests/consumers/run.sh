@@ -111,10 +111,15 @@ source_tree() {
     -DSTARFOCUS_STATIC_DISPATCH=ON
 }
 
+# Kernels may be built without support for programs of 32 bits: then QEMU runs them.
 m32() {
   library m32 -DCMAKE_C_FLAGS=-m32 -DCMAKE_CXX_FLAGS=-m32
+  emulator=
+  echo 'int main(void) { return 0; }' >"$work/nothing.c"
+  quietly cc -m32 -o "$work/nothing" "$work/nothing.c"
+  "$work/nothing" 2>/dev/null || emulator='-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_CROSSCOMPILING_EMULATOR=qemu-i386'
   project '-m32, C' cmake_package -DLANGUAGE=C -DCMAKE_C_FLAGS=-m32 \
-    -DCMAKE_PREFIX_PATH="$work/m32"
+    -DCMAKE_PREFIX_PATH="$work/m32" $emulator
 }
 
 wasm() {
