@@ -127,7 +127,8 @@ std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightFie
   }
   const Ends ends = EndsOf(map);
   if (!(ends.low <= ends.high)) return Expected(where, "a map with a known depth", "none");
-  // Scaled last, so that the limit of disparities holds: rounding may take a mean beyond its values.
+  // Scaled last, so that the limit of disparities holds: rounding may take a mean beyond its
+  // values.
   map = Resize(map, picture.width, picture.height);
   ToDisparity(ends, std::hypot(picture.width, picture.height), photo);
   light_field->disparity = std::move(map);
