@@ -13,6 +13,9 @@ inline int16_t Saturated(int32_t value) {
                                                   : value);
 }
 
+// Returns the mean of two numbers, rounded halves up.
+inline int32_t Mean(int32_t a, int32_t b) { return (a + b + 1) >> 1; }
+
 // Returns the product of two numbers of 15 fractional bits, rounded halves up.
 inline int16_t Product15(int32_t a, int32_t b) {
   return static_cast<int16_t>((a * b + (1 << 14)) >> 15);

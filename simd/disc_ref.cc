@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "simd/arithmetic_ref.h"
 #include "simd/disc.h"
+#include "simd/prefilter.h"
 
 namespace starfocus::simd::reference {
 namespace {
-
-int32_t Mean(int32_t a, int32_t b) { return (a + b + 1) >> 1; }
 
 // Returns the disc's sum around the sample at `at`.
 uint32_t DiscSum(const int16_t* at, ptrdiff_t stride, const Disc& disc) {
@@ -13,8 +13,9 @@ uint32_t DiscSum(const int16_t* at, ptrdiff_t stride, const Disc& disc) {
     for (int32_t x = 0; x <= disc.size; ++x) {
       const int32_t high = x > y ? x : y, low = x > y ? y : x;
       const auto column = [&](int32_t pixel) {
-        const int16_t* sample = at + 3 * ptrdiff_t{pixel};
-        return Mean(sample[-y * stride], sample[y * stride]);
+        const int16_t* sample = at + 3 * ptrdiff_t{pixel} * disc.dilation;
+        const ptrdiff_t down = y * stride * disc.dilation;
+        return Mean(sample[-down], sample[down]);
       };
       const int32_t pixels = (x > 0 ? 2 : 1) * (y > 0 ? 2 : 1);
       const int32_t weight = pixels * disc.weights[high * (high + 1) / 2 + low];
@@ -24,17 +25,26 @@ uint32_t DiscSum(const int16_t* at, ptrdiff_t stride, const Disc& disc) {
   return sum;
 }
 
+// Returns the light of a disc's sum without its last `dropped` bits.
+int32_t LightOf(uint32_t sum, const Disc& disc, int dropped) {
+  const bool dilated = disc.dilation == 2;
+  const int bits = disc.bits - (dilated ? kPrefilterBits : 0) + dropped;
+  const auto rounded = static_cast<int32_t>((sum + (uint32_t{1} << bits >> 1)) >> bits);
+  if (!dilated) return rounded;
+  const int32_t light = rounded - (kPrefilterOffset << kPrefilterBits >> dropped);
+  const int32_t white = kLightWhite >> dropped;
+  return light < 0 ? 0 : light > white ? white : light;
+}
+
 }  // namespace
 
 void FilterDisc(const int16_t* in, size_t in_stride, const Disc& disc, const Encoding& encoding,
                 size_t rows, size_t count, uint8_t* out, size_t out_stride) {
   const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
-  const int bits = disc.bits + whole;
-  const uint32_t half = uint32_t{1} << bits >> 1;
   for (size_t row = 0; row < rows; ++row, in += in_stride, out += out_stride) {
     for (size_t n = 0; n < count; ++n) {
       const uint32_t sum = DiscSum(in + n, static_cast<ptrdiff_t>(in_stride), disc);
-      const auto light = static_cast<int16_t>((sum + half) >> bits << whole);
+      const auto light = static_cast<int16_t>(LightOf(sum, disc, whole) << whole);
       Encode(&light, 1, encoding, out + n);
     }
   }
@@ -42,12 +52,10 @@ void FilterDisc(const int16_t* in, size_t in_stride, const Disc& disc, const Enc
 
 void FilterDiscLayer(const int16_t* in, size_t in_stride, const Disc& disc, size_t rows,
                      size_t count, int16_t* out, size_t out_stride) {
-  const int bits = disc.bits + kLightBits - kLayerBits;
-  const uint32_t half = uint32_t{1} << bits >> 1;
   for (size_t row = 0; row < rows; ++row, in += in_stride, out += out_stride) {
     for (size_t n = 0; n < count; ++n) {
       const uint32_t sum = DiscSum(in + n, static_cast<ptrdiff_t>(in_stride), disc);
-      out[n] = static_cast<int16_t>((sum + half) >> bits);
+      out[n] = static_cast<int16_t>(LightOf(sum, disc, kLightBits - kLayerBits));
     }
   }
 }

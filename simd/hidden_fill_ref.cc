@@ -5,8 +5,6 @@
 namespace starfocus::simd::reference {
 namespace {
 
-int32_t Mean(int32_t a, int32_t b) { return (a + b + 1) >> 1; }
-
 bool IsHiding(uint64_t hiding, size_t n) { return (hiding >> (n / kSliceLanes) & 1) != 0; }
 
 // Returns which surface of pixel n is the farthest.

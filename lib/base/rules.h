@@ -46,6 +46,9 @@ int32_t LayerBySubaperture(double r_min, bool depth_edges, Demand demand = Deman
 // the gathering kernel grow with its square. Less is slower and less exact (docs/constants.md).
 inline constexpr int32_t kMaxGather = 12;
 
+// The same where no blur is larger than r_max.
+constexpr double LargestGather(double r_max) { return r_max < kMaxGather ? r_max : kMaxGather; }
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_BASE_RULES_H_

@@ -30,9 +30,7 @@ Rect RegionOf(const sf_config& config, const sf_params& params) {
   return {region.x, region.y, region.width, region.height};
 }
 
-int32_t LastGatherStep(const Lens& lens) {
-  return BlurStepCount(lens.r_max > kMaxGather ? kMaxGather : lens.r_max) - 1;
-}
+int32_t LastGatherStep(const Lens& lens) { return BlurStepCount(LargestGather(lens.r_max)) - 1; }
 
 double LargestBlur(const sf_config& config, const sf_params& params) {
   const double nearer = config.disparity_max - params.focus;
@@ -55,7 +53,7 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   lens->aperture = FrameAperture(config, *tables, *lens);
   const ViewGrid grid = MakeViewGrid(lens->aperture, params.focus, params.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
-  if (Gathers(config, *lens)) return MakeBlurKernels(LastGatherStep(*lens) + 1, watch, tables);
+  if (Gathers(config, *lens)) return MakeGatherKernels(LastGatherStep(*lens) + 1, watch, tables);
   if (params.mode == SF_MODE_BLUR) return MakeBlurKernels(BlurStepCount(r_max), watch, tables);
   return SF_OK;
 }

@@ -2,6 +2,7 @@
 #include "lib/engine/stripe_layers.h"
 
 #include "lib/engine/reach.h"
+#include "lib/filter/dilated_kernels.h"
 
 namespace starfocus {
 namespace {
@@ -70,7 +71,7 @@ void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pic
   int32_t right = block.rendered.x + block.rendered.width + block.border.right;
   if (block.gathers) {
     const Rect frame = LayerFrame(block.rect, block.layer);
-    const int32_t reach = kMaxGather + 1;
+    const int32_t reach = DilatedReach(kMaxGather);
     left = block.rendered.width > 0 ? Min(left, frame.x - reach) : frame.x - reach;
     right = Max(right, frame.x + frame.width + reach);
   }

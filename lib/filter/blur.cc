@@ -22,9 +22,8 @@ constexpr int32_t kPoints = 8;
 // An integral takes as long as so many samples of other work.
 constexpr int32_t kIntegralSamples = 256;
 
-int32_t SizeOfStep(int32_t step) {
-  return step == 0 ? 0 : (RadiusOfStep(step) + kOne / 2 + kOne - 1) / kOne;
-}
+// The last pixel that a disc covers some of.
+int32_t SizeOf(int32_t radius) { return radius == 0 ? 0 : (radius + kOne / 2 - 1) / kOne; }
 
 size_t WeightsOf(bool full, int32_t size) {
   const auto n = static_cast<size_t>(size);
@@ -110,8 +109,8 @@ double PixelIntegral(int32_t n, int32_t m, int32_t radius, const Opening& openin
 // Calls visit(n, m, how many pixels share the weight, integral of (4)) for the weights of a kernel
 // that are stored. Returns whether patience lasted to the end.
 template <class Visit>
-bool ForEachWeight(int32_t step, const Opening& opening, Patience* patience, const Visit& visit) {
-  const int32_t radius = RadiusOfStep(step), size = SizeOfStep(step);
+bool ForEachWeight(int32_t radius, const Opening& opening, Patience* patience, const Visit& visit) {
+  const int32_t size = SizeOf(radius);
   if (opening.IsSymmetric()) {
     ForEachOfOctant(size, opening.IsRing(), [&](int32_t n, int32_t m) {
       visit(n, m, PointsOfOctant(n, m), PixelIntegral(n, m, radius, opening));
@@ -122,47 +121,6 @@ bool ForEachWeight(int32_t step, const Opening& opening, Patience* patience, con
     if (!GoesOn(patience, int64_t{kIntegralSamples} * (2 * size + 1))) return false;
     for (int32_t n = -size; n <= size; ++n) visit(n, m, 1, PixelIntegral(n, m, radius, opening));
   }
-  return true;
-}
-
-// Returns whether patience lasted to the end. Every orbit takes up the rounding of those before it
-// and the last one the rest, as in MakeAperture.
-bool MakeKernel(int32_t step, const Opening& opening, Patience* patience, uint16_t* weights,
-                BlurKernel* kernel) {
-  kernel->size = SizeOfStep(step);
-  kernel->weights = weights;
-  kernel->sum_bits = 14;
-  kernel->full = !opening.IsSymmetric();
-  if (step == 0) {
-    weights[0] = 1 << 14;
-    return true;
-  }
-  double total = 0, largest = 0;  // of pixels that simd::Disc weighs together
-  const auto add = [&](int32_t n, int32_t m, int32_t points, double integral) {
-    total += points * integral;
-    const int32_t together = kernel->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
-    largest = Larger(largest, together * integral);
-  };
-  if (!ForEachWeight(step, opening, patience, add)) return false;
-  while (kernel->sum_bits < kMaxLightBits &&
-         largest / total * (2 << kernel->sum_bits) < kMaxWeight - 8) {
-    ++kernel->sum_bits;
-  }
-  const int32_t one = 1 << kernel->sum_bits, size = kernel->size;
-  double wanted = 0;
-  int32_t given = 0;
-  const auto give = [&](int32_t n, int32_t m, int32_t points, double integral) {
-    wanted += points * integral;
-    // What is wanted of all comes from the same sum as the total.
-    const auto target = wanted == total ? one : static_cast<int32_t>(wanted / total * one + 0.5);
-    const auto weight =
-        static_cast<int32_t>(ShareOfPoints(target - given, points, opening.IsRing()));
-    weights[kernel->full ? (m + size) * (2 * size + 1) + n + size : n * (n + 1) / 2 + m] =
-        static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
-    given += weight * points;
-  };
-  if (!ForEachWeight(step, opening, patience, give)) return false;
-  Checked(ranges::kRemainder, given - one);
   return true;
 }
 
@@ -251,15 +209,61 @@ int32_t BlurStepCount(double max_blur) {
 size_t BlurWeightCount(const Opening& opening, double max_blur) {
   size_t count = 0;
   for (int32_t step = 0; step < BlurStepCount(max_blur); ++step) {
-    count += WeightsOf(!opening.IsSymmetric(), SizeOfStep(step));
+    count += WeightsOf(!opening.IsSymmetric(), SizeOf(RadiusOfStep(step)));
   }
   return count;
+}
+
+size_t BlurWeightsOf(int32_t radius) { return WeightsOf(false, SizeOf(radius)); }
+
+// Every orbit takes up the rounding of those before it and the last one the rest, as in
+// MakeAperture.
+bool MakeBlurKernel(int32_t radius, const Opening& opening, Patience* patience, uint16_t* weights,
+                    BlurKernel* kernel) {
+  kernel->size = SizeOf(radius);
+  kernel->weights = weights;
+  kernel->sum_bits = 14;
+  kernel->full = !opening.IsSymmetric();
+  if (radius == 0) {
+    weights[0] = 1 << 14;
+    return true;
+  }
+  double total = 0, largest = 0;  // of pixels that simd::Disc weighs together
+  const auto add = [&](int32_t n, int32_t m, int32_t points, double integral) {
+    total += points * integral;
+    const int32_t together = kernel->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
+    largest = Larger(largest, together * integral);
+  };
+  if (!ForEachWeight(radius, opening, patience, add)) return false;
+  while (kernel->sum_bits < kMaxLightBits &&
+         largest / total * (2 << kernel->sum_bits) < kMaxWeight - 8) {
+    ++kernel->sum_bits;
+  }
+  const int32_t one = 1 << kernel->sum_bits, size = kernel->size;
+  double wanted = 0;
+  int32_t given = 0;
+  const auto give = [&](int32_t n, int32_t m, int32_t points, double integral) {
+    wanted += points * integral;
+    // What is wanted of all comes from the same sum as the total.
+    const auto target = wanted == total ? one : static_cast<int32_t>(wanted / total * one + 0.5);
+    const auto weight =
+        static_cast<int32_t>(ShareOfPoints(target - given, points, opening.IsRing()));
+    weights[kernel->full ? (m + size) * (2 * size + 1) + n + size : n * (n + 1) / 2 + m] =
+        static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
+    given += weight * points;
+  };
+  if (!ForEachWeight(radius, opening, patience, give)) return false;
+  Checked(ranges::kRemainder, given - one);
+  return true;
 }
 
 int32_t MakeBlurKernels(int32_t first, int32_t last, const Opening& opening, Patience* patience,
                         uint16_t* weights, BlurKernel* kernels) {
   for (int32_t step = 0; step < last; ++step) {
-    if (step >= first && !MakeKernel(step, opening, patience, weights, &kernels[step])) return step;
+    if (step >= first &&
+        !MakeBlurKernel(RadiusOfStep(step), opening, patience, weights, &kernels[step])) {
+      return step;
+    }
     weights += WeightsOf(kernels[step].full, kernels[step].size);
   }
   return last;

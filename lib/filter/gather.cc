@@ -5,6 +5,7 @@
 
 #include "lib/filter/slope.h"
 #include "lib/input/load_field.h"
+#include "lib/plan/neighbourhood.h"
 
 namespace starfocus {
 namespace {
@@ -20,9 +21,9 @@ struct SlopeRows {
       simd::SliceSamples(3 * kSlopeCells * kCellSize) + simd::kSliceLanes;
   static constexpr size_t kCell = simd::SliceSamples(3 * kCellSize) + simd::kSliceLanes;
   int16_t less[kCellSize * kStride] = {}, more[kCellSize * kStride] = {};
-  int16_t share[kCell] = {};
+  int16_t share[kCellSize * kCell] = {};
   int16_t mixed[(kCellSize + 2) * kCell] = {};  // from a row above on
-  int16_t moved[kCell] = {};
+  int16_t moved[kCellSize * kCell] = {};
 
   int16_t* Mixed(int32_t row) { return mixed + static_cast<size_t>(row + 1) * kCell + kPixel; }
 };
@@ -36,29 +37,38 @@ class Gather {
         field_(field),
         out_(out) {}
 
+  // Finds the kernels of all cells, and loads what they read.
   void Load() {
+    int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
     for (int32_t y = block_.y; y < Bottom(); y += kCellSize) {
       for (int32_t x = block_.x; x < Right(); x += kCellSize) {
-        const bool flat = job_.cells.IsFlat(x, y);
-        if (!flat && !job_.cells.IsOnSlope(x, y)) continue;
-        border_ = Max(border_, KernelOf(flat ? StepOf(x, y) : StepsOf(x, y).more).size);
+        Steps& steps = At(x, y) = kNone;
+        if (!job_.cells.IsGathered(x, y)) continue;
+        steps = StepsOf(x, y);
+        border_ = Max(border_, ReachOf(steps));
+        some_dilated_ = some_dilated_ || IsDilated(steps);
+        const Rect pixels = job_.cells.PixelsOf(x, y);
+        left = Min(left, pixels.x);
+        top = Min(top, pixels.y);
+        right = Max(right, pixels.x + pixels.width);
+        bottom = Max(bottom, pixels.y + pixels.height);
       }
     }
-    LoadField(*job_.kernels, *job_.window, frame_, {border_, border_, border_, border_}, field_);
+    loaded_ = {left, top, right - left, bottom - top};
+    LoadField(*job_.kernels, *job_.window, loaded_, {border_, border_, border_, border_}, field_);
   }
 
-  // Filters the row of cells at y; those side by side that have the same kernels go together.
-  void FilterRow(int32_t y) {
-    for (int32_t x = block_.x; x < Right();) {
-      const int32_t first = x;
-      x += kCellSize;
-      const bool flat = job_.cells.IsFlat(first, y);
-      if (!flat && !job_.cells.IsOnSlope(first, y)) continue;
-      x = flat ? FilterFlat(first, y) : FilterSlopes(first, y);
-      if (x == first) return;
-      pixels_ += static_cast<uint64_t>(Min(x, Right()) - first) *
-                 static_cast<uint64_t>(Min(kCellSize, Bottom() - y));
-    }
+  // Filters the cells whose kernels are dilated or not, those first: they need the light as it is.
+  void Filter() {
+    FilterRows();
+    const int64_t pixels = int64_t{field_->width} * field_->height;
+    if (!some_dilated_ || !GoesOn(job_.patience, 2 * 3 * pixels)) return;
+    dilation_ = kDilation;
+    job_.kernels->Prefilter(field_->rgb, RgbStride(field_->width),
+                            static_cast<size_t>(field_->height),
+                            3 * static_cast<size_t>(field_->width));
+    border_ -= simd::kPrefilterReach;
+    FilterRows();
   }
 
   int32_t Right() const { return block_.x + block_.width; }
@@ -66,10 +76,29 @@ class Gather {
   uint64_t pixels() const { return pixels_; }
 
  private:
-  // The kernels of the least and of the largest radius of some pixels.
+  // The kernels of the least and of the largest radius of a cell.
   struct Steps {
-    int32_t less, more;
+    int16_t less, more;
   };
+  static constexpr Steps kNone = {-1, -1};  // of cells that are not gathered
+
+  void FilterRows() {
+    for (int32_t y = block_.y; y < Bottom(); y += kCellSize) FilterRow(y);
+  }
+
+  // Filters the row of cells at y; those side by side that have the same kernels go together.
+  void FilterRow(int32_t y) {
+    for (int32_t x = block_.x; x < Right();) {
+      const int32_t first = x;
+      x += kCellSize;
+      const Steps& steps = At(first, y);
+      if (steps.less < 0 || IsDilated(steps) != (dilation_ > 1)) continue;
+      x = job_.cells.IsFlat(first, y) ? FilterFlat(first, y) : FilterSlopes(first, y);
+      if (x == first) return;
+      pixels_ += static_cast<uint64_t>(Min(x, Right()) - first) *
+                 static_cast<uint64_t>(Min(kCellSize, Bottom() - y));
+    }
+  }
 
   // Returns whether patience lasted until then.
   bool Spend(const BlurKernel& kernel, const Rect& part) const {
@@ -78,7 +107,7 @@ class Gather {
   }
 
   const int16_t* FirstPixel(const Rect& part) const {
-    return field_->Rgb(border_ + part.x - frame_.x, border_ + part.y - frame_.y);
+    return field_->Rgb(border_ + part.x - loaded_.x, border_ + part.y - loaded_.y);
   }
 
   // Where a part goes, from the first sample of `out_` on.
@@ -97,15 +126,15 @@ class Gather {
 
   // Filters flat cells from (x, y) on that have the same kernel. Returns where they end, or x when
   // patience ended before.
-  int32_t FilterFlat(int32_t x, int32_t y) const {
-    const int32_t step = StepOf(x, y);
+  int32_t FilterFlat(int32_t x, int32_t y) {
+    const Steps steps = At(x, y);
     int32_t end = x + kCellSize;
-    while (end < Right() && IsFlatOfStep(end, y, step)) end += kCellSize;
+    while (end < Right() && HasKernels(end, y, true, steps)) end += kCellSize;
     const Rect part = PixelsOf(x, end, y);
-    const BlurKernel& kernel = KernelOf(step);
+    const BlurKernel& kernel = KernelOf(steps.less);
     if (!Spend(kernel, part)) return x;
     const size_t in_stride = RgbStride(field_->width);
-    const simd::Disc disc = {kernel.size, kernel.sum_bits, kernel.weights};
+    const simd::Disc disc = DiscOf(kernel);
     const auto rows = static_cast<size_t>(part.height), count = 3 * static_cast<size_t>(part.width);
     if (job_.cells.layer == 0) {
       job_.kernels->FilterDisc(FirstPixel(part), in_stride, disc, job_.window->transfer->encoding,
@@ -121,18 +150,17 @@ class Gather {
   // the least and of the largest one, pixel by pixel, and moves what that gives to where the views
   // see it. Returns where the cells end, or x when patience ended before.
   int32_t FilterSlopes(int32_t x, int32_t y) {
-    const Steps steps = StepsOf(x, y);
+    const Steps steps = At(x, y);
+    const int32_t most = Min(Right(), x + kSlopeCells * kCellSize);
     int32_t end = x + kCellSize;
-    while (end < Right() && end < x + kSlopeCells * kCellSize && IsSlopeOfSteps(end, y, steps)) {
-      end += kCellSize;
-    }
+    while (end < most && HasKernels(end, y, false, steps)) end += kCellSize;
     const Rect part = PixelsOf(x, end, y);
     const BlurKernel &less = KernelOf(steps.less), &more = KernelOf(steps.more);
     if (!Spend(more, part)) return x;
-    job_.kernels->FilterTwoDiscs(
-        FirstPixel(part), RgbStride(field_->width), {less.size, less.sum_bits, less.weights},
-        {more.size, more.sum_bits, more.weights}, static_cast<size_t>(part.height),
-        3 * static_cast<size_t>(part.width), rows_.less, rows_.more, SlopeRows::kStride);
+    job_.kernels->FilterTwoDiscs(FirstPixel(part), RgbStride(field_->width), DiscOf(less),
+                                 DiscOf(more), static_cast<size_t>(part.height),
+                                 3 * static_cast<size_t>(part.width), rows_.less, rows_.more,
+                                 SlopeRows::kStride);
     for (; x < end; x += kCellSize) {
       const Rect pixels = job_.cells.PixelsOf(x, y);
       const Slope slope = SlopeOf(x, y);
@@ -148,10 +176,11 @@ class Gather {
     constexpr int kBits = kSlopeBits - kDisparityBits;
     const RadiusRange between = {RadiusOfStep(steps.less) << kBits, RadiusOfStep(steps.more)
                                                                         << kBits};
+    slope.FindShares(between, pixels, SlopeRows::kCell, rows_.share);
     for (int32_t row = 0; row < pixels.height; ++row) {
       const size_t at = first + static_cast<size_t>(row) * SlopeRows::kStride;
-      slope.FindShares(between, pixels.x, pixels.y + row, pixels.width, rows_.share);
-      job_.kernels->MixSamples(rows_.less + at, rows_.more + at, rows_.share,
+      job_.kernels->MixSamples(rows_.less + at, rows_.more + at,
+                               rows_.share + static_cast<size_t>(row) * SlopeRows::kCell,
                                3 * static_cast<size_t>(pixels.width), rows_.Mixed(row));
     }
   }
@@ -181,19 +210,19 @@ class Gather {
   // Moves what is mixed of a cell, and stores it.
   void Move(const simd::HalfMove& move, const Rect& pixels) {
     const size_t count = 3 * static_cast<size_t>(pixels.width);
+    job_.kernels->MoveSamples(rows_.Mixed(0), SlopeRows::kCell, move,
+                              static_cast<size_t>(pixels.height), count, rows_.moved,
+                              SlopeRows::kCell);
+    size_t at = FirstOut(pixels);
+    const int16_t* moved = rows_.moved;
     for (int32_t row = 0; row < pixels.height; ++row) {
-      job_.kernels->MoveSamples(rows_.Mixed(row), SlopeRows::kCell, move, 1, count, rows_.moved,
-                                SlopeRows::kCell);
-      Store(FirstOut(pixels) + static_cast<size_t>(row) * out_.stride, count);
-    }
-  }
-
-  // Stores a row of what is moved.
-  void Store(size_t at, size_t count) {
-    if (job_.cells.layer > 0) {
-      std::memcpy(out_.samples + at, rows_.moved, count * sizeof(*rows_.moved));
-    } else {
-      job_.kernels->Narrow(rows_.moved, count, job_.window->transfer->encoding, out_.codes + at);
+      if (job_.cells.layer > 0) {
+        std::memcpy(out_.samples + at, moved, count * sizeof(*moved));
+      } else {
+        job_.kernels->Narrow(moved, count, job_.window->transfer->encoding, out_.codes + at);
+      }
+      at += out_.stride;
+      moved += SlopeRows::kCell;
     }
   }
 
@@ -201,39 +230,63 @@ class Gather {
     return Slope(*job_.grid, job_.scale, x / kCellSize, y / kCellSize, job_.cells.layer);
   }
 
-  // The kernels that a cell on a slope is mixed of.
+  // Returns the kernels of a cell that is gathered: the one of its middle, or the two that a cell
+  // on a slope is mixed of.
   Steps StepsOf(int32_t x, int32_t y) const {
+    if (job_.cells.IsFlat(x, y)) {
+      const Cell& cell = *job_.grid->At(x / kCellSize, y / kCellSize);
+      const int32_t radius = job_.scale.Radius(Abs((cell.low + cell.high) / 2 - job_.scale.focus));
+      const auto step = static_cast<int16_t>(BlurStep(radius >> job_.cells.layer));
+      return {step, step};
+    }
     constexpr int kBits = kSlopeBits - kDisparityBits, kUp = (1 << kBits) - 1;
     const RadiusRange range = SlopeOf(x, y).RangeOf(job_.cells.PixelsOf(x, y));
-    return {Min(BlurStepBelow(range.low >> kBits), job_.blur.last_step),
-            Min(BlurStepAbove((range.high + kUp) >> kBits), job_.blur.last_step)};
+    const auto made = [&](int32_t step) {
+      return static_cast<int16_t>(Min(step, job_.blur.last_step));
+    };
+    return {made(BlurStepBelow(range.low >> kBits)),
+            made(BlurStepAbove((range.high + kUp) >> kBits))};
   }
 
-  bool IsSlopeOfSteps(int32_t x, int32_t y, const Steps& steps) const {
-    if (!job_.cells.IsOnSlope(x, y)) return false;
-    const Steps here = StepsOf(x, y);
-    return here.less == steps.less && here.more == steps.more;
+  Steps& At(int32_t x, int32_t y) {
+    return steps_[(y - block_.y) / kCellSize * kMaxRowCells + (x - block_.x) / kCellSize];
   }
 
-  const BlurKernel& KernelOf(int32_t step) const { return job_.blur.of_step[step]; }
-
-  int32_t StepOf(int32_t x, int32_t y) const {
-    const Cell& cell = *job_.grid->At(x / kCellSize, y / kCellSize);
-    const int32_t radius = job_.scale.Radius(Abs((cell.low + cell.high) / 2 - job_.scale.focus));
-    return BlurStep(radius >> job_.cells.layer);
+  bool HasKernels(int32_t x, int32_t y, bool flat, const Steps& steps) {
+    const Steps& here = At(x, y);
+    return here.less == steps.less && here.more == steps.more && job_.cells.IsFlat(x, y) == flat;
   }
 
-  bool IsFlatOfStep(int32_t x, int32_t y, int32_t step) const {
-    return job_.cells.IsFlat(x, y) && StepOf(x, y) == step;
+  bool IsDilated(const Steps& steps) const { return steps.less >= job_.blur.first_dilated; }
+
+  // How far around a cell of these kernels pixels are read.
+  int32_t ReachOf(const Steps& steps) const {
+    if (!IsDilated(steps)) return job_.blur.of_step[steps.more].size;
+    const BlurKernel& kernel = job_.blur.dilated[steps.more - job_.blur.first_dilated];
+    return kDilation * kernel.size + simd::kPrefilterReach;
+  }
+
+  // The kernel of a step among those that are filtered now.
+  const BlurKernel& KernelOf(int32_t step) const {
+    return dilation_ > 1 ? job_.blur.dilated[step - job_.blur.first_dilated]
+                         : job_.blur.of_step[step];
+  }
+
+  simd::Disc DiscOf(const BlurKernel& kernel) const {
+    return {kernel.size, kernel.sum_bits, kernel.weights, dilation_};
   }
 
   const GatherJob& job_;
   const Rect& block_;  // in the picture
   const Rect frame_;   // at the layer
+  Rect loaded_ = {};   // of the layer: what cells are gathered of
   Field* field_;
   const Gathered& out_;
-  int32_t border_ = 0;  // largest kernel size
+  int32_t border_ = 0;  // of the field around it: as far as any kernel reaches
+  bool some_dilated_ = false;
+  int32_t dilation_ = 1;  // of the kernels that are filtered now
   uint64_t pixels_ = 0;
+  Steps steps_[kMaxRowCells * kMaxRowCells];  // of the block's cells
   SlopeRows rows_;
 };
 
@@ -242,7 +295,7 @@ class Gather {
 uint64_t GatherCells(const GatherJob& job, Field* field, const Gathered& out) {
   Gather gather(job, field, out);
   gather.Load();
-  for (int32_t y = job.cells.block.y; y < gather.Bottom(); y += kCellSize) gather.FilterRow(y);
+  gather.Filter();
   return gather.pixels();
 }
 

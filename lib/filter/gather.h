@@ -11,6 +11,7 @@
 #include "lib/base/rules.h"
 #include "lib/base/watch.h"
 #include "lib/filter/blur.h"
+#include "lib/filter/dilated_kernels.h"
 #include "lib/input/field.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/gathered_cells.h"
@@ -18,13 +19,13 @@
 
 namespace starfocus {
 
-static_assert(kMaxGather + 1 <= simd::kMaxDisc,
-              "a kernel's edge lies in the pixel beyond its radius");
+static_assert(kMaxGather <= simd::kMaxDisc, "");
 
 // The kernels of a lens.
 struct GatherKernels {
   const BlurKernel* of_step;
-  int32_t last_step;
+  const BlurKernel* dilated;  // of steps from first_dilated on
+  int32_t first_dilated, last_step;
   int32_t mean_square;  // of the opening
 };
 
@@ -47,7 +48,7 @@ struct Gathered {
 };
 
 // Gathers the cells of a block that are to be; `field` has room for its LayerFrame and a border of
-// kMaxGather + 1 pixels. Returns their pixels in the picture.
+// DilatedReach(kMaxGather) pixels. Returns their pixels in the picture.
 uint64_t GatherCells(const GatherJob& job, Field* field, const Gathered& out);
 
 }  // namespace starfocus

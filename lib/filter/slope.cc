@@ -58,18 +58,24 @@ RadiusRange Slope::RangeOf(const Rect& pixels) const {
   return {nearest, Max(Abs(low), Abs(high))};
 }
 
-void Slope::FindShares(const RadiusRange& between, int32_t x, int32_t y, int32_t count,
+void Slope::FindShares(const RadiusRange& between, const Rect& pixels, size_t stride,
                        int16_t* share) const {
   constexpr int32_t kOne = INT16_MAX;
   const int64_t low = int64_t{between.low} * between.low;
   const int64_t range = int64_t{between.high} * between.high - low;
   const int64_t unit = range > 0 ? (int64_t{kOne} << 32) / range : 0;
-  const int64_t step = Scaled(x + 1, y) - Scaled(x, y);
-  int64_t scaled = Scaled(x, y) + (int64_t{1} << (ScaledBits() - 1));
-  for (int32_t n = 0; n < count; ++n, share += 3, scaled += step) {
-    const int64_t radius = scaled >> ScaledBits();
-    const int64_t part = ((radius * radius - low) * unit) >> 32;
-    share[0] = share[1] = share[2] = static_cast<int16_t>(part < 0 ? 0 : part > kOne ? kOne : part);
+  const int bits = ScaledBits();
+  for (int32_t row = 0; row < pixels.height; ++row, share += stride) {
+    const int32_t x = pixels.x, y = pixels.y + row;
+    int64_t scaled = Scaled(x, y);
+    const int64_t step = Scaled(x + 1, y) - scaled;
+    scaled += int64_t{1} << (bits - 1);
+    int16_t* to = share;
+    for (int32_t n = 0; n < pixels.width; ++n, to += 3, scaled += step) {
+      const int64_t radius = scaled >> bits;
+      const int64_t part = ((radius * radius - low) * unit) >> 32;
+      to[0] = to[1] = to[2] = static_cast<int16_t>(part < 0 ? 0 : part > kOne ? kOne : part);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #ifndef STARFOCUS_LIB_FILTER_SLOPE_H_
 #define STARFOCUS_LIB_FILTER_SLOPE_H_
 
+#include <cstddef>
 #include <cstdint>
 
 #include "lib/base/geometry.h"
@@ -30,11 +31,11 @@ class Slope {
   // The radii of pixels of the layer, which may lie beyond the cell.
   RadiusRange RangeOf(const Rect& pixels) const;
 
-  // Writes by how much each of `count` pixels of the layer, from (x, y) on, lies between two
-  // radii: share[3 n] to share[3 n + 2] are that of pixel n, in [0, 1], 15 fractional bits. The
-  // square of the radius counts: what lies between two kernels is as wide as the one between their
-  // radii, in the mean square.
-  void FindShares(const RadiusRange& between, int32_t x, int32_t y, int32_t count,
+  // Writes by how much each of some pixels of the layer lies between two radii: share[3 n] to
+  // share[3 n + 2] are that of pixel n of a row, in [0, 1], 15 fractional bits, and rows are
+  // `stride` samples apart. The square of the radius counts: what lies between two kernels is as
+  // wide as the one between their radii, in the mean square.
+  void FindShares(const RadiusRange& between, const Rect& pixels, size_t stride,
                   int16_t* share) const;
 
   // How far all views together see the cell's pixels moved, of a lens whose light has the mean

@@ -298,16 +298,18 @@ TEST_CASE("progress: whatever a block takes, a million samples are too many to w
     CAPTURE(of.what);
     if (of.aperture == 0 || of.highlights > 1) continue;
     const bool gathered = of.flat;
-    test::Scene scene = test::RandomScene(64, 64, 5, -3, 9, 8);
+    const int side = gathered ? 128 : 64;
+    test::Scene scene = test::RandomScene(side, side, 5, -3, 9, 8);
     if (gathered) scene.disparity.assign(scene.disparity.size(), 9);
     sf_config config = test::ConfigFor(scene, 32);
-    config.largest_block = 64;
+    config.largest_block = side;
     config.max_layer = 0;
-    const int radius = gathered ? 12 : 32, size = 2 * radius + 1;
+    // Every second pixel counts in what is gathered.
+    const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
     sf_params params = test::Params(9 - radius, 1, of.mode);
     params.rule = of.rule;
     test::Engine engine(config);
-    test::Output out(64, 64);
+    test::Output out(side, side);
     // The kernels, that its first picture makes, are asked between, too.
     REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
     Watch watch;

@@ -128,7 +128,8 @@ int LargestDifference(const Refocused& a, const Refocused& b) {
   return largest;
 }
 
-TEST_CASE("gather: a flat surface gets the bytes of the blur mode, up to the largest radius") {
+TEST_CASE(
+    "gather: a flat surface gets the bytes of the blur mode, or nearly so of dilated kernels") {
   for (const double radius : {0.6, 1.0, 2.5, 4.0, 7.3, 12.0}) {
     for (const int block : {32, 64, 256}) {
       test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 62);
@@ -139,14 +140,14 @@ TEST_CASE("gather: a flat surface gets the bytes of the blur mode, up to the lar
           RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLOCK));
       const Refocused blurred = RefocusScene(scene, config, test::Params(radius, 1, SF_MODE_BLUR));
       CAPTURE(radius);
-      const bool same = gathered.rgb == blurred.rgb;
-      CHECK(same);
+      const bool dilated = radius >= starfocus::kDilatedFrom;
+      CHECK(LargestDifference(gathered, blurred) <= (dilated ? 2 : 0));
       // Light of sRGB is no whole code: means of mirrored pixels are rounded.
       sf_config light = config;
       light.transfer = SF_TRANSFER_SRGB;
       CHECK(LargestDifference(RefocusScene(scene, light, test::Params(radius, 1, SF_MODE_BLOCK)),
                               RefocusScene(scene, light, test::Params(radius, 1, SF_MODE_BLUR))) <=
-            1);
+            (dilated ? 3 : 1));
       CHECK(gathered.report.gathered_pixels == 70 * 45);
       CHECK(gathered.report.n == 0);
       CHECK(gathered.report.rendered_samples == 0);

@@ -71,20 +71,23 @@ TEST_CASE("slope: the focus within a cell is its least radius") {
 
 TEST_CASE("slope: shares are where the square of the radius lies between two") {
   const Plane plane(5, 0.1, 0);
-  int16_t share[3 * 8];
+  constexpr size_t kStride = 26;
+  int16_t share[2 * kStride];
   const RadiusRange between = {4 << kSlopeBits, 6 << kSlopeBits};
-  plane.Middle(0).FindShares(between, 16, 20, 8, share);
-  for (int n = 0; n < 8; ++n) {
-    const double radius = 5 + 0.1 * (n - 3.5);
-    CHECK(share[3 * n] / 32767.0 == doctest::Approx((radius * radius - 16) / 20).epsilon(0.01));
-    CHECK(share[3 * n + 1] == share[3 * n]);
-    CHECK(share[3 * n + 2] == share[3 * n]);
+  plane.Middle(0).FindShares(between, {16, 19, 8, 2}, kStride, share);
+  for (const int16_t* row : {share, share + kStride}) {
+    for (int n = 0; n < 8; ++n) {
+      const double radius = 5 + 0.1 * (n - 3.5);
+      CHECK(row[3 * n] / 32767.0 == doctest::Approx((radius * radius - 16) / 20).epsilon(0.01));
+      CHECK(row[3 * n + 1] == row[3 * n]);
+      CHECK(row[3 * n + 2] == row[3 * n]);
+    }
   }
-  plane.Middle(0).FindShares({5 << kSlopeBits, 5 << kSlopeBits}, 16, 20, 8, share);
+  plane.Middle(0).FindShares({5 << kSlopeBits, 5 << kSlopeBits}, {16, 20, 8, 1}, kStride, share);
   CHECK(share[0] == 0);
-  plane.Middle(0).FindShares({1 << kSlopeBits, 2 << kSlopeBits}, 16, 20, 8, share);
+  plane.Middle(0).FindShares({1 << kSlopeBits, 2 << kSlopeBits}, {16, 20, 8, 1}, kStride, share);
   CHECK(share[0] == 32767);
-  plane.Middle(0).FindShares({7 << kSlopeBits, 8 << kSlopeBits}, 16, 20, 8, share);
+  plane.Middle(0).FindShares({7 << kSlopeBits, 8 << kSlopeBits}, {16, 20, 8, 1}, kStride, share);
   CHECK(share[0] == 0);
 }
 
