@@ -24,7 +24,7 @@ struct Disc {
   const uint16_t* weights;
   int32_t dilation = 1;  // 1 or 2: pixels from tap to tap
 };
-inline constexpr int32_t kMaxDisc = 18;
+inline constexpr int32_t kMaxDisc = 12;
 
 namespace reference {
 
