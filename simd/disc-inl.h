@@ -81,8 +81,8 @@ struct DiscTaps {
   int32_t step;      // samples from the first column to the second
   int32_t rows = 0;  // of the quarter, up to the last one with taps
 
-  // Holds taps where either disc has weights. It stays a function, as FilterRows does.
-  HWY_NOINLINE DiscTaps(const Disc& disc, const Disc& second) : step(3 * disc.dilation) {
+  // Holds taps where either disc has weights.
+  DiscTaps(const Disc& disc, const Disc& second) : step(3 * disc.dilation) {
     const auto pair_of = [](const Disc& of, int32_t x, int32_t y) {
       return Pair{Weight(of, x, y), Weight(of, x + 1, y)};
     };
@@ -283,9 +283,9 @@ inline DiscOutput SamplesOf(const Disc& disc, int16_t* samples, size_t stride) {
 
 // Filters rows of samples by chunks, with kTwo by a second, smaller disc as well.
 template <bool kTwo>
-HWY_NOINLINE void FilterRows(const int16_t* in, size_t in_stride, const Disc& disc,
-                             const Disc& smaller, size_t rows, size_t count, const DiscOutput& out,
-                             const DiscOutput& second_out) {
+inline void FilterRows(const int16_t* in, size_t in_stride, const Disc& disc, const Disc& smaller,
+                       size_t rows, size_t count, const DiscOutput& out,
+                       const DiscOutput& second_out) {
   const Disc none = {-1, 0, nullptr, disc.dilation};
   const DiscTaps taps(disc, kTwo ? smaller : none);
   DiscMeans means;

@@ -16,8 +16,8 @@ namespace starfocus::simd {
 // weights[n (n + 1) / 2 + m]. All weights of the disc together sum to 2^bits at most; those of four
 // pixels that mirror each other on both axes, or of two on an axis, sum to 32767 at most.
 //
-// With a dilation of 2 all that is in taps instead: a tap lies two pixels from the next, on samples
-// that Prefilter made of the light, whose filter shows what lies between. It costs a fourth.
+// With a dilation of 2 the weights are those of every second pixel, which are read from what
+// Prefilter made of the light: it brings in the pixels between. `size`, m and n count taps then.
 struct Disc {
   int32_t size;  // taps from the middle to the last column, size * dilation in [0, kMaxDisc]
   int bits;      // [dilation, 17]

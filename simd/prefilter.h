@@ -18,12 +18,12 @@ inline constexpr int32_t kPrefilterOffset = 4608;
 namespace reference {
 
 // Filters light along columns and then along rows with the taps -1, 4, 10, 4, -1 of sixteenths:
-// they have the weight of no other frequency than the lowest ones, and the variance of none.
-// `samples` are `rows` rows of `count` samples each, R, G and B interleaved, 2 kPrefilterReach rows
-// and pixels at least. The results take their place, moved to the left and up by kPrefilterReach:
-// row y gets the filtered samples of row y + kPrefilterReach, y < rows - 2 kPrefilterReach, and
-// sample n those of pixel n / 3 + kPrefilterReach, n < count - 6 kPrefilterReach. The others keep
-// what they hold.
+// they let none of the highest frequency through, which every second pixel would show as the
+// lowest, and their variance is zero, so that nothing gets wider. `samples` are `rows` rows of
+// `count` samples each, R, G and B interleaved, 2 kPrefilterReach rows and pixels at least. The
+// results take their place, moved to the left and up by kPrefilterReach: row y gets the filtered
+// samples of row y + kPrefilterReach, y < rows - 2 kPrefilterReach, and sample n those of pixel n /
+// 3 + kPrefilterReach, n < count - 6 kPrefilterReach. The others keep what they hold.
 //
 // Of samples a, b, c, d, e in a line the sum is Mean(c, Mean(b, d)) + (c - Mean(a, e)) / 8, means
 // rounded halves up and the rest rounded down. What is filtered along columns is halved, rounded

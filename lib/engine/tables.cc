@@ -33,9 +33,9 @@ sf_status MakeGatherKernels(int32_t steps, Watch* watch, Tables* tables) {
   const sf_status status = MakeBlurKernels(steps, watch, tables);
   if (status != SF_OK || steps <= tables->dilated_steps) return status;
   Patience patience(watch);
-  tables->dilated_steps =
-      MakeDilatedKernels(tables->first_dilated, tables->dilated_steps, steps, tables->opening,
-                         &patience, tables->dilated_weights, tables->dilated_kernels);
+  tables->dilated_steps = MakeDilatedKernels(tables->first_dilated, tables->dilated_steps, steps,
+                                             tables->opening, tables->mean_square, &patience,
+                                             tables->dilated_weights, tables->dilated_kernels);
   return tables->dilated_steps == steps ? SF_OK : SF_ERROR_CANCELLED;
 }
 

@@ -14,9 +14,9 @@ constexpr double kUsualFallOff = 0.88;
 // Returns the radius in taps, kDisparityBits, of the kernel that is as wide as that of a step, in
 // the mean square of a coordinate. A pixel adds 1/12 to that of the disc, a tap four times as much;
 // the prefilter adds nothing.
-int32_t RadiusInTaps(int32_t step, const Opening& opening) {
+int32_t RadiusInTaps(int32_t step, int32_t mean_square) {
   const double radius = RadiusOfStep(step) / kOne;
-  const double of_disc = static_cast<double>(MeanSquare(opening)) / kOpeningOne;
+  const double of_disc = static_cast<double>(mean_square) / kOpeningOne;
   const double square = radius * radius - (kDilation * kDilation - 1) / 12.0 / of_disc;
   return static_cast<int32_t>(std::sqrt(square) / kDilation * kOne + 0.5);
 }
@@ -49,10 +49,11 @@ size_t DilatedWeightCount(int32_t first, double max_blur) {
 }
 
 int32_t MakeDilatedKernels(int32_t begin, int32_t first, int32_t last, const Opening& opening,
-                           Patience* patience, uint16_t* weights, BlurKernel* kernels) {
+                           int32_t mean_square, Patience* patience, uint16_t* weights,
+                           BlurKernel* kernels) {
   for (int32_t step = begin; step < last; ++step, ++kernels) {
     if (step >= first &&
-        !MakeBlurKernel(RadiusInTaps(step, opening), opening, patience, weights, kernels)) {
+        !MakeBlurKernel(RadiusInTaps(step, mean_square), opening, patience, weights, kernels)) {
       return step;
     }
     weights += BlurWeightsOf(RadiusOfStep(step) / kDilation);

@@ -33,10 +33,11 @@ constexpr int32_t DilatedReach(int32_t radius) {
 }
 
 // Makes the kernels of steps [first, last) behind those of [begin, first), which must have been
-// made; kernels[0] and weights[0] belong to `begin`. Returns the step that patience (null: it
-// lasts) ended at, or `last`.
+// made; kernels[0] and weights[0] belong to `begin`. `mean_square` is the opening's (MeanSquare).
+// Returns the step that patience (null: it lasts) ended at, or `last`.
 int32_t MakeDilatedKernels(int32_t begin, int32_t first, int32_t last, const Opening& opening,
-                           Patience* patience, uint16_t* weights, BlurKernel* kernels);
+                           int32_t mean_square, Patience* patience, uint16_t* weights,
+                           BlurKernel* kernels);
 
 }  // namespace starfocus
 

@@ -12,6 +12,8 @@
 #include "lib/analysis/kernel.h"
 #include "lib/base/opening.h"
 #include "lib/base/rules.h"
+#include "lib/engine/reach.h"
+#include "lib/plan/block_stats.h"
 
 namespace starfocus {
 namespace {
@@ -24,8 +26,8 @@ struct Kernels {
       : opening(of), first(FirstDilatedStep(of)), end(BlurStepCount(max_blur)) {
     kernels.resize(DilatedKernelCount(first, max_blur));
     weights.resize(DilatedWeightCount(first, max_blur));
-    CHECK(MakeDilatedKernels(first, first, end, opening, nullptr, weights.data(), kernels.data()) ==
-          end);
+    CHECK(MakeDilatedKernels(first, first, end, opening, MeanSquare(opening), nullptr,
+                             weights.data(), kernels.data()) == end);
   }
 
   // What a step shows of a point.
@@ -111,12 +113,29 @@ TEST_CASE("dilated kernels: none reads farther than it may, and those made befor
   std::vector<BlurKernel> kernels(whole.kernels.size());
   std::vector<uint16_t> weights(whole.weights.size());
   const int32_t middle = (whole.first + whole.end) / 2;
-  MakeDilatedKernels(whole.first, whole.first, middle, whole.opening, nullptr, weights.data(),
-                     kernels.data());
-  MakeDilatedKernels(whole.first, middle, whole.end, whole.opening, nullptr, weights.data(),
-                     kernels.data());
+  MakeDilatedKernels(whole.first, whole.first, middle, whole.opening, MeanSquare(whole.opening),
+                     nullptr, weights.data(), kernels.data());
+  MakeDilatedKernels(whole.first, middle, whole.end, whole.opening, MeanSquare(whole.opening),
+                     nullptr, weights.data(), kernels.data());
   const bool same = weights == whole.weights;
   CHECK(same);
+}
+
+TEST_CASE("dilated kernels: the rows that they read of a layer are kept") {
+  const Kernels made(Opening(ApertureFallOff(kDefaultTheta)));
+  for (int32_t blur = 1; blur <= SF_MAX_BLUR * 4; ++blur) {
+    const double max_blur = blur / 4.0;
+    CAPTURE(max_blur);
+    const Reach reach = GetReach(max_blur);
+    for (int layer = 1; layer < SF_LAYERS; ++layer) {
+      const int32_t end = BlurStepCount(LargestGather(max_blur / (1 << layer)));
+      for (int32_t step = made.first; step < end; ++step) {
+        const BlurKernel& kernel = made.kernels[static_cast<size_t>(step - made.first)];
+        const int32_t read = kDilation * kernel.size + simd::kPrefilterReach;
+        CHECK(LayerMargin(layer) + read <= reach.layer_rows[layer]);
+      }
+    }
+  }
 }
 
 }  // namespace
