@@ -76,10 +76,12 @@ class Gather {
   uint64_t pixels() const { return pixels_; }
 
  private:
-  // The kernels of the least and of the largest radius of a cell.
+  // The kernels of the least and of the largest radius of a cell, in bytes, since those of all
+  // cells of a block lie on the stack.
   struct Steps {
-    int16_t less, more;
+    int8_t less, more;
   };
+  static_assert(kMaxGather <= 31, "step 127 is that of 31.5 pixels");
   static constexpr Steps kNone = {-1, -1};  // of cells that are not gathered
 
   void FilterRows() {
@@ -236,13 +238,13 @@ class Gather {
     if (job_.cells.IsFlat(x, y)) {
       const Cell& cell = *job_.grid->At(x / kCellSize, y / kCellSize);
       const int32_t radius = job_.scale.Radius(Abs((cell.low + cell.high) / 2 - job_.scale.focus));
-      const auto step = static_cast<int16_t>(BlurStep(radius >> job_.cells.layer));
+      const auto step = static_cast<int8_t>(BlurStep(radius >> job_.cells.layer));
       return {step, step};
     }
     constexpr int kBits = kSlopeBits - kDisparityBits, kUp = (1 << kBits) - 1;
     const RadiusRange range = SlopeOf(x, y).RangeOf(job_.cells.PixelsOf(x, y));
     const auto made = [&](int32_t step) {
-      return static_cast<int16_t>(Min(step, job_.blur.last_step));
+      return static_cast<int8_t>(Min(step, job_.blur.last_step));
     };
     return {made(BlurStepBelow(range.low >> kBits)),
             made(BlurStepAbove((range.high + kUp) >> kBits))};
