@@ -68,6 +68,8 @@ class Carver {
     largest_ = used_ > largest_ ? used_ : largest_;
     used_ = mark;
   }
+  // Returns the bytes from here on that a piece may take without more memory, in what it shares.
+  size_t Shared() const { return largest_ < used_ + kExtra ? 0 : largest_ - used_ - kExtra; }
   // What is taken from here on lies behind all of that.
   void GoOn() { used_ = used_ > largest_ ? used_ : largest_; }
 

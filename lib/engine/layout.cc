@@ -95,7 +95,6 @@ void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
 // Takes the memory of slices: E of CompositorScratch, and the largest N.
 CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_t max_n,
                                  Carver* carver) {
-  const auto rectangle = static_cast<size_t>(config.largest_block);
   CompositorScratch scratch;
   LayeredDepth& surfaces = scratch.surfaces;
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
@@ -109,13 +108,15 @@ CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_
   surfaces.hiding = carver->Take<uint64_t>(extended);
   scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
   scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
-  scratch.parts = carver->Take<SectionPart>(SectionParts(rectangle));
-  scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rectangle);
+  scratch.parts = carver->Take<SectionPart>(SectionParts(config.largest_block));
+  const auto rows = static_cast<size_t>(Min(config.largest_block, kMaxCut));
+  scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rows);
   const size_t field = carver->Mark();
   TakeField(extended, carver, &scratch);
   carver->Reuse(field);
-  scratch.pool_bytes =
+  const size_t least =
       LeastPool(LimitsOfSlices(config.largest_block, config.max_blur).bytes, config.max_blur);
+  scratch.pool_bytes = least > carver->Shared() ? least : carver->Shared();
   scratch.pool = carver->Take<uint8_t>(scratch.pool_bytes);
   return scratch;
 }

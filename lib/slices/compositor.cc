@@ -11,13 +11,13 @@ namespace {
 
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns of a tile
 
-// A rectangle's slices and where its picture goes: what its sections share.
-struct Rectangle {
+// The slices of a cut and where its picture goes: what its sections share.
+struct Cut {
   const RenderJob* job;
   const BlockCells* gathered;  // null: nothing is
   const SliceStack* stack;
   CompositorScratch* scratch;
-  uint32_t* accumulators;
+  uint32_t* accumulators;  // of the rectangle
 };
 
 // The light of the rectangle's row in the centre view, 3 * width samples, lies in the second half
@@ -27,10 +27,10 @@ int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
   return reinterpret_cast<int16_t*>(accumulators) + 3 * static_cast<size_t>(width);
 }
 
-// A part of the rectangle of which slices are in memory.
+// A part of a cut of which slices are in memory.
 class Section {
  public:
-  Section(const Rectangle& all, const Rect& rect)
+  Section(const Cut& all, const Rect& rect)
       : all_(all), job_(*all.job), stack_(*all.stack), scratch_(*all.scratch), rect_(rect) {}
 
   // Returns the pixels that are rendered in each view, over all slices.
@@ -154,11 +154,11 @@ class Section {
 
   size_t Columns(int32_t x) const { return static_cast<size_t>(Min(kChunk, rect_.width - x)); }
 
-  const Rectangle& all_;
+  const Cut& all_;
   const RenderJob& job_;
   const SliceStack& stack_;
   CompositorScratch& scratch_;
-  const Rect rect_;
+  const Rect rect_;  // in pixels of the rectangle
   SlicePlane planes_[kMaxSlices];
   int32_t parts_ = 0;
 };
@@ -182,9 +182,11 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   return inner;
 }
 
+// Cuts the slices of a part of the rectangle.
 void CutSlices(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
-               CompositorScratch* scratch, SliceStack* stack) {
-  const SliceJob slice_job = {job.kernels,   &scratch->surfaces,  job.grid, rule, stack->inner,
+               const Rect& cut, CompositorScratch* scratch, SliceStack* stack) {
+  const Rect inner = {stack->inner.x + cut.x, stack->inner.y + cut.y, cut.width, cut.height};
+  const SliceJob slice_job = {job.kernels,   &scratch->surfaces,  job.grid, rule, inner,
                               scratch->bins, scratch->least_blur, limits};
   stack->count = FindSlices(slice_job, stack->slices, &stack->bands);
   for (int32_t k = 0; k < stack->count; ++k) {
@@ -241,23 +243,23 @@ class StackSize {
 int32_t RoundUp(int32_t size, int32_t least) { return (size + least - 1) / least * least; }
 
 // Returns the size of sections of which all slices fit into the pool: of the one that is least work
-// for the whole rectangle.
-Rect ChooseSection(const SliceStack& stack, const Rect& rect, size_t pool_bytes) {
+// for the whole cut.
+Rect ChooseSection(const SliceStack& stack, const Rect& cut, size_t pool_bytes) {
   const StackSize size(stack);
-  if (size.Bytes(static_cast<size_t>(rect.width), static_cast<size_t>(rect.height)) <= pool_bytes) {
-    return {0, 0, rect.width, rect.height};
+  if (size.Bytes(static_cast<size_t>(cut.width), static_cast<size_t>(cut.height)) <= pool_bytes) {
+    return {0, 0, cut.width, cut.height};
   }
   Rect section = {0, 0, kLeastColumns, kLeastRows};
   uint64_t least_work = UINT64_MAX;
   // The wider a section is, the lower it has to be.
-  int32_t width = kLeastColumns, height = RoundUp(rect.height, kLeastRows);
-  while (width < rect.width + kLeastColumns && height > 0) {
+  int32_t width = kLeastColumns, height = RoundUp(cut.height, kLeastRows);
+  while (width < cut.width + kLeastColumns && height > 0) {
     if (size.Bytes(static_cast<size_t>(width), static_cast<size_t>(height)) > pool_bytes) {
       height -= kLeastRows;
       continue;
     }
     const uint64_t work =
-        size.Work(rect, (rect.width + width - 1) / width, (rect.height + height - 1) / height);
+        size.Work(cut, (cut.width + width - 1) / width, (cut.height + height - 1) / height);
     if (work < least_work) {
       least_work = work;
       section.width = width;
@@ -266,6 +268,21 @@ Rect ChooseSection(const SliceStack& stack, const Rect& rect, size_t pool_bytes)
     width += kLeastColumns;
   }
   return section;
+}
+
+// Composites a part of the rectangle, by slices that are cut for it. Returns the pixels that are
+// rendered in each view, over all slices.
+uint64_t CompositeCut(const Cut& all, const Rect& cut) {
+  const Rect largest = ChooseSection(*all.stack, cut, all.scratch->pool_bytes);
+  uint64_t pixels = 0;
+  for (int32_t y = 0; y < cut.height; y += largest.height) {
+    for (int32_t x = 0; x < cut.width; x += largest.width) {
+      const Rect section = {cut.x + x, cut.y + y, Min(largest.width, cut.width - x),
+                            Min(largest.height, cut.height - y)};
+      pixels += Section(all, section).Refocus();
+    }
+  }
+  return pixels;
 }
 
 }  // namespace
@@ -277,15 +294,15 @@ uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const S
   stack.grid = job.grid;
   stack.weights = ScaleWeights(job.grid->aperture);
   stack.inner = LoadSurfaces(job, scratch, accumulators);
-  CutSlices(job, rule, limits, scratch, &stack);
-  const Rectangle all = {&job, gathered, &stack, scratch, accumulators};
-  const Rect largest = ChooseSection(stack, job.rect, scratch->pool_bytes);
+  const Cut all = {&job, gathered, &stack, scratch, accumulators};
   uint64_t pixels = 0;
-  for (int32_t y = 0; y < job.rect.height; y += largest.height) {
-    for (int32_t x = 0; x < job.rect.width; x += largest.width) {
-      const Rect section = {x, y, Min(largest.width, job.rect.width - x),
-                            Min(largest.height, job.rect.height - y)};
-      pixels += Section(all, section).Refocus();
+  Rect cut = {0, 0, 0, 0};
+  for (; cut.y < job.rect.height; cut.y += cut.height) {
+    cut.height = SideOfCut(job.rect.height - cut.y);
+    for (cut.x = 0; cut.x < job.rect.width; cut.x += cut.width) {
+      cut.width = SideOfCut(job.rect.width - cut.x);
+      CutSlices(job, rule, limits, cut, scratch, &stack);
+      pixels += CompositeCut(all, cut);
     }
   }
   return pixels;

@@ -16,9 +16,9 @@
 
 namespace starfocus {
 
-// Memory of one worker. E and R: largest side of an extended rectangle and of a rectangle; N; G:
-// the smaller of 2 N + 1 and kGroupViews. What slices are cut from is made of the field, and they
-// are made of surfaces when the field is no longer needed: the pool may share its memory.
+// Memory of one worker. E: largest side of an extended rectangle; N; G: the smaller of 2 N + 1 and
+// kGroupViews. What slices are cut from is made of the field, and they are made of surfaces when
+// the field is no longer needed: the pool may share its memory.
 struct CompositorScratch {
   int16_t* field_rgb;          // light: E rows of RgbStride(E)
   int16_t* field_disparity;    // E^2
@@ -28,7 +28,7 @@ struct CompositorScratch {
   int32_t* least_blur;         // E
   simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1)
   int16_t* weights;            // G
-  SectionPart* parts;          // of a rectangle
+  SectionPart* parts;          // of a cut
   uint32_t* sums;              // kPixelSums of the pixels of a tile
   uint8_t* pool;               // slices of a section, their covers, and what LeastPool says
   size_t pool_bytes;           // at least LeastPool; with more, sections are larger
@@ -44,19 +44,20 @@ constexpr size_t LeastPool(size_t limit, double max_blur) {
   return limit + (filtered > tile ? filtered - tile : 0);
 }
 
-// How many parts the largest rectangle has.
-constexpr size_t SectionParts(size_t side) {
+// How many parts the largest cut of rectangles up to `side` has.
+constexpr size_t SectionParts(int32_t side) {
   constexpr size_t kRows = kLeastRows;
-  return (side + kRows - 1) / kRows * (simd::SliceSamples(side) / simd::kSliceLanes);
+  const auto rows = static_cast<size_t>(side < kMaxCut ? side : kMaxCut);
+  return (rows + kRows - 1) / kRows * (simd::SliceSamples(rows) / simd::kSliceLanes);
 }
 
 // Fractional bits of what CompositeRectangle sums.
 inline constexpr int kCompositeBits = kMaxLightBits + kLightBits;
 
 // Sums the weighted views over job.rect into `accumulators`, rows of 3 * width values with
-// kCompositeBits fractional bits, by slices cut as `rule` and `limits` say. What
-// is `gathered` (null: nothing) is left out. Returns the pixels rendered in each view,
-// over all slices.
+// kCompositeBits fractional bits, by slices of each of its cuts, which are made as `rule` and
+// `limits` say. What is `gathered` (null: nothing) is left out. Returns the pixels rendered in each
+// view, over all slices.
 uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
                             const BlockCells* gathered, CompositorScratch* scratch,
                             uint32_t* accumulators);

@@ -26,6 +26,7 @@ class SliceFinder {
       job_.least_blur[d] = static_cast<int32_t>(
           Limited((int64_t{Max(d - 1, 0)} << (kStepBits + kDisparityBits)) / step));
     }
+    FindAround();
   }
 
   int32_t Find(Slice* slices) {
@@ -51,15 +52,31 @@ class SliceFinder {
     bins_ = (range >> bin_bits_) + 1;
   }
 
-  // Marks the bins of a surface's pixels that may splat into the rect, at most a band at a time.
+  // Finds what of the surfaces slices of the cut may be made of, from the first pixel of a band and
+  // of a chunk on.
+  void FindAround() {
+    constexpr int32_t kWidest = 8 * kShiftOne;
+    const int64_t move = grid_.Move(grid_.n());
+    const int32_t rim =
+        Max(Abs(grid_.Shift(move, surfaces_.low)), Abs(grid_.Shift(move, surfaces_.high)));
+    const int32_t reach = SliceReach(rim, kWidest) + 1;
+    const Rect& cut = job_.cut;
+    around_.x = Max(cut.x - reach, 0) / kChunk * kChunk;
+    around_.y = Max(cut.y - reach, 0) / kBandRows * kBandRows;
+    around_.width = Min(cut.x + cut.width + reach, surfaces_.width) - around_.x;
+    around_.height = Min(cut.y + cut.height + reach, surfaces_.height) - around_.y;
+  }
+
+  // Marks the bins of a surface's pixels that may splat into the cut, at most a band at a time.
   // Rows that hide nothing have no surface but the first.
   void Mark(int surface) {
     const auto has = [&](int32_t y) { return surface == 0 || surfaces_.hiding[y] != 0; };
-    for (int32_t y = 0, end; y < surfaces_.height; y = end) {
+    const int32_t last = around_.y + around_.height;
+    for (int32_t y = around_.y, end; y < last; y = end) {
       end = y + 1;
       if (surface == 0 && y % kBandRows == 0) bands_.At(y) = {INT16_MAX, INT16_MIN};
       if (!has(y)) continue;
-      while (end % kBandRows != 0 && end < surfaces_.height && has(end)) ++end;
+      while (end % kBandRows != 0 && end < last && has(end)) ++end;
       MarkRows(surface, y, end);
     }
   }
@@ -71,17 +88,17 @@ class SliceFinder {
 
   void MarkRows(int surface, int32_t y, int32_t end) {
     simd::DisparityRange ranges[kMaxChunks];
-    job_.kernels->FindRanges(surfaces_.disparity[surface] + surfaces_.At(0, y),
+    job_.kernels->FindRanges(surfaces_.disparity[surface] + surfaces_.At(around_.x, y),
                              static_cast<size_t>(surfaces_.stride), static_cast<size_t>(end - y),
-                             static_cast<size_t>(surfaces_.width), ranges);
-    for (int32_t x = 0; x < surfaces_.width; x += kChunk) {
+                             static_cast<size_t>(around_.width), ranges);
+    for (int32_t x = 0; x < around_.width; x += kChunk) {
       const simd::DisparityRange& range = ranges[x / kChunk];
       Widen(range, &bands_.At(y));
-      const Rect pixels = {x, y, Min(kChunk, surfaces_.width - x), end - y};
+      const Rect pixels = {around_.x + x, y, Min(kChunk, around_.width - x), end - y};
       const int32_t least = job_.least_blur[Beyond(pixels)];
       if (least == 0) {
         MarkPixels(surface, pixels, range.low, range.high);
-      } else {  // what is too sharp does not reach the rect
+      } else {  // what is too sharp does not reach the cut
         MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus - least));
         MarkPixels(surface, pixels, Max(range.low, grid_.focus + least), range.high);
       }
@@ -107,9 +124,9 @@ class SliceFinder {
     uint8_t* const bins = job_.bins;
     const int32_t* const least_blur = job_.least_blur;
     const int32_t base = base_, bits = bin_bits_, focus = grid_.focus;
-    const int32_t left = job_.rect.x - pixels.x, right = left + job_.rect.width - 1;
+    const int32_t left = job_.cut.x - pixels.x, right = left + job_.cut.width - 1;
     for (int32_t y = 0; y < pixels.height; ++y, disparity += surfaces_.stride) {
-      const int32_t in_column = Beyond({job_.rect.x, pixels.y + y, 1, 1});
+      const int32_t in_column = Beyond({job_.cut.x, pixels.y + y, 1, 1});
       ForEachBit(within[y], [=](int32_t k) {
         uint8_t& mark = bins[(disparity[k] - base) >> bits];
         if (mark != 0) return;
@@ -126,13 +143,13 @@ class SliceFinder {
 
   int32_t BinOf(int32_t disparity) const { return (disparity - base_) >> bin_bits_; }
 
-  // Returns how far the nearest of the pixels lies beyond the rect.
+  // Returns how far the nearest of the pixels lies beyond the cut.
   int32_t Beyond(const Rect& pixels) const {
-    const Rect& rect = job_.rect;
+    const Rect& cut = job_.cut;
     const int32_t x =
-        Max(rect.x - (pixels.x + pixels.width - 1), pixels.x - (rect.x + rect.width - 1));
+        Max(cut.x - (pixels.x + pixels.width - 1), pixels.x - (cut.x + cut.width - 1));
     const int32_t y =
-        Max(rect.y - (pixels.y + pixels.height - 1), pixels.y - (rect.y + rect.height - 1));
+        Max(cut.y - (pixels.y + pixels.height - 1), pixels.y - (cut.y + cut.height - 1));
     return Max(Max(x, y), 0);
   }
 
@@ -168,10 +185,10 @@ class SliceFinder {
           static_cast<int16_t>(Min(high + (span << bin_bits_) / kOverlapParts, INT16_MAX));
       slice.disparity = static_cast<int16_t>(low + (slice.high - low) / 2);
       SlicePlane placed;
-      PlaceSlice(grid_, slice.disparity, job_.rect, &placed);
+      PlaceSlice(grid_, slice.disparity, job_.cut, &placed);
       const auto reach = static_cast<size_t>(placed.reach);
-      const auto height = static_cast<size_t>(job_.rect.height);
-      samples += SliceSize(static_cast<size_t>(job_.rect.width), height, reach);
+      const auto height = static_cast<size_t>(job_.cut.height);
+      samples += SliceSize(static_cast<size_t>(job_.cut.width), height, reach);
       rows += ShiftedRows(height, reach);
       bytes += SliceBytes(kLeastColumns, kLeastRows, reach) + TileBytes(kLeastRows, reach);
       if (samples > limits.samples || rows > limits.rows || bytes > limits.bytes) return 0;
@@ -184,6 +201,7 @@ class SliceFinder {
   const ViewGrid& grid_;
   SurfaceBands& bands_;
   int32_t range_;         // of the rule, as a disparity
+  Rect around_;           // what is looked at, in pixels of the surfaces
   int32_t bin_bits_ = 0;  // disparities of a bin
   int32_t base_ = 0, bins_ = 0;
 };
@@ -196,7 +214,7 @@ SliceLimits LimitsOfSlices(int32_t side, double blur) {
   const double farthest = blur > kLeastBlur ? blur : kLeastBlur;
   const auto whole = static_cast<size_t>(farthest);
   const size_t reach = whole + (static_cast<double>(whole) < farthest ? 1 : 0) + kMargin;
-  const auto width = static_cast<size_t>(side);
+  const auto width = static_cast<size_t>(Min(side, kCutSide));
   SliceLimits limits;
   limits.samples = kLargeSlices * SliceSize(width, width, reach);
   limits.rows = kLargeTiles * ShiftedRows(width, reach);

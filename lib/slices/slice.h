@@ -23,7 +23,16 @@ inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
 inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // of the benchmark mode
 inline constexpr int32_t kMaxSlices = simd::kMaxSeen;
 
-// The least section of a rectangle that slices are made of.
+// A cut is a part of a rectangle that has slices of its own: of a whole large block there would be
+// so many that they had to be thicker. Its side is kCutSide; the last one takes what is left of the
+// rectangle up to kMaxCut, so that what a block has of a layer is not cut for its margin alone.
+inline constexpr int32_t kCutSide = 64;
+inline constexpr int32_t kMaxCut = 80;
+
+// The side of the next cut of a rectangle of which `rest` pixels are left.
+constexpr int32_t SideOfCut(int32_t rest) { return rest <= kMaxCut ? rest : kCutSide; }
+
+// The least section of a cut that slices are made of.
 inline constexpr int32_t kLeastColumns = static_cast<int32_t>(simd::kSliceLanes);
 inline constexpr int32_t kLeastRows = 8;
 

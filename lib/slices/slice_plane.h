@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A slice of a rectangle in memory: its pixels and those around it that some view shows, spread by
+// A slice of a section in memory: its pixels and those around it that some view shows, spread by
 // the subaperture where that is wide, and where each view shows it.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_PLANE_H_
 #define STARFOCUS_LIB_SLICES_SLICE_PLANE_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The slices of a rectangle, as all views of the aperture show them.
+// The slices of a cut, as all views of the aperture show them.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_STACK_H_
 #define STARFOCUS_LIB_SLICES_SLICE_STACK_H_
 
@@ -55,7 +55,7 @@ ViewWeights ScaleWeights(const Aperture& aperture);
 struct SliceStack {
   const ViewGrid* grid;
   ViewWeights weights;
-  Rect inner;  // the rectangle, in pixels of its surfaces
+  Rect inner;  // the rectangle of the cut, in pixels of its surfaces
   int32_t count;
   Slice slices[kMaxSlices];
   SurfaceBands bands;                // of the surfaces that they are cut from

@@ -29,15 +29,18 @@ constexpr int kStars[] = {1, 5, 9, 17};
 constexpr Depth kDepths[] = {Depth::kConstant, Depth::kPiecewise, Depth::kSlanted, Depth::kNoisy};
 constexpr sf_rule kRules[] = {SF_RULE_PAPER, SF_RULE_SUBAPERTURE};
 
-// Pixels that blocks of each layer cover, and those gathered.
+// Pixels that blocks of each layer cover, those gathered, and the longest side that views render.
 struct Covered {
   int64_t pixels[SF_LAYERS] = {};
   int64_t gathered = 0;
+  int longest = 0;
 };
 
 void Count(const std::vector<reference::Block>& blocks, Covered* covered) {
   for (const reference::Block& block : blocks) {
     covered->pixels[block.layer] += block.width * block.height;
+    const int side = std::max(block.rendered_width, block.rendered_height);
+    covered->longest = std::max(covered->longest, side);
     for (const reference::GatheredCell& cell : block.gathered) {
       covered->gathered += cell.width * cell.height;
     }
@@ -211,6 +214,30 @@ TEST_CASE("block conformance: more slices than fit, widest subapertures") {
     }
   }
   all.Print("many slices and wide subapertures");
+}
+
+// Rectangles that are not whole numbers of cuts, in more and in fewer slices than a cut may have.
+TEST_CASE("block conformance: cuts of large blocks have slices of their own") {
+  test::Random random(55);
+  Distance all;
+  for (const float range : {4.0F, 24.0F}) {
+    for (const Depth depth : {Depth::kSlanted, Depth::kNoisy}) {
+      if (STARFOCUS_EMULATED && depth == Depth::kNoisy) continue;
+      test::Scene scene = test::EmptyScene(128, 85, 5, -range / 2, range / 2);
+      SetDepth(depth, &scene, &random);
+      SetColours(Colours::kRandom, &scene, &random);
+      sf_params params = test::Params(random.Real(-1, 1), 1, SF_MODE_BLOCK);
+      params.rule = SF_RULE_SUBAPERTURE;
+      sf_config config = Config(scene, 0);
+      config.timing.block = SF_MAX_TIMING;
+      Covered covered;
+      all.Add(Check(scene, params, config, &covered));
+      CHECK(config.largest_block == 128);
+      CHECK(covered.longest > 80);
+    }
+  }
+  all.Print("cuts of large blocks");
+  CHECK(all.mean() < kMeanLimit);
 }
 
 #ifdef STARFOCUS_PROGRAM

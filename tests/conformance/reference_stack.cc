@@ -319,10 +319,46 @@ class Stack {
   double total_ = 0;
 };
 
+// The part of a rectangle that slices are cut for from a pixel on: 64 pixels, or what is left of
+// the rectangle up to 80, of which the rest lies in its border.
+Rectangle CutAt(const Rectangle& rectangle, int x, int y) {
+  const auto side = [](int rest) { return rest <= 80 ? rest : 64; };
+  Rectangle cut = rectangle;
+  cut.x += x;
+  cut.y += y;
+  cut.width = side(rectangle.width - x);
+  cut.height = side(rectangle.height - y);
+  cut.left += x;
+  cut.top += y;
+  cut.right += rectangle.width - x - cut.width;
+  cut.bottom += rectangle.height - y - cut.height;
+  return cut;
+}
+
+// Composites a cut at (left, top) of the picture, by slices of its own.
+void CompositeCut(const SurfaceMap& map, const Picture& extended, const Lens& lens,
+                  const Rectangle& cut, const Slicing& slicing, int left, int top,
+                  Picture* picture) {
+  const std::vector<Range> ranges = RangeFinder(map, lens, cut, slicing).Find();
+  Stack stack(map, ranges, lens, cut);
+  const Plane& sum = stack.AddViews();
+  for (int y = 0; y < cut.height; ++y) {
+    for (int x = 0; x < cut.width; ++x) {
+      // Where slices cover less than a quarter of all light, the pixel is that of the centre view.
+      const Light& light = sum.At(x, y);
+      Colour& colour = picture->colours[picture->At(left + x, top + y)];
+      colour = extended.colours[extended.At(x + cut.left, y + cut.top)];
+      if (4 * light[3] < stack.total()) continue;
+      for (size_t c = 0; c < 3; ++c) colour[c] = std::min(255.0, light[c] / light[3]);
+    }
+  }
+}
+
 }  // namespace
 
 starfocus::SliceLimits LimitsOf(int side, double blur) {
-  const auto square = size_t(side), reach = size_t(std::ceil(std::max(blur, 32.0))) + 4;
+  const auto square = size_t(std::min(side, 64)),
+             reach = size_t(std::ceil(std::max(blur, 32.0))) + 4;
   return {6 * SamplesOf(square, square, reach), 12 * TileRowsOf(square, reach),
           std::max({size_t{442368}, 119 * square * square, 5 * LeastBytesOf(reach)})};
 }
@@ -333,18 +369,12 @@ Picture CompositeRectangle(const LightField& field, const Picture& centre, const
   LookBeyond(field, field.at({0, 0}), lens.layer, rectangle, &extended);
   const SurfaceMap map = FindLayeredDepth(field, extended, lens, rectangle.x - rectangle.left,
                                           rectangle.y - rectangle.top);
-  const std::vector<Range> ranges = RangeFinder(map, lens, rectangle, slicing).Find();
-  Stack stack(map, ranges, lens, rectangle);
-  const Plane& sum = stack.AddViews();
   Picture picture(rectangle.width, rectangle.height);
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      // Where slices cover less than a quarter of all light, the pixel is that of the centre view.
-      const Light& light = sum.At(x, y);
-      Colour& colour = picture.colours[picture.At(x, y)];
-      colour = extended.colours[extended.At(x + rectangle.left, y + rectangle.top)];
-      if (4 * light[3] < stack.total()) continue;
-      for (size_t c = 0; c < 3; ++c) colour[c] = std::min(255.0, light[c] / light[3]);
+  Rectangle cut = {};
+  for (int y = 0; y < picture.height; y += cut.height) {
+    for (int x = 0; x < picture.width; x += cut.width) {
+      cut = CutAt(rectangle, x, y);
+      CompositeCut(map, extended, lens, cut, slicing, x, y, &picture);
     }
   }
   return picture;

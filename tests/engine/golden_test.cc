@@ -84,6 +84,14 @@ std::vector<Case> Cases() {
                std::to_string(level.block);
     cases.push_back(one);
   }
+  // A rectangle of several cuts.
+  cases.push_back({"1-noise-benchmark-0.25-0.5-128",
+                   97,
+                   70,
+                   1,
+                   test::Depth::kNoise,
+                   {SF_MODE_BENCHMARK, 0.25, 0.5},
+                   128});
   // Either rule in block mode, kernels, and wide blurs.
   for (const test::NamedShape& shape : test::kShapes) {
     for (const Lens& lens : {kLenses[5], kLenses[6], kLenses[7]}) {
