@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The primitive of subapertures: one rectangle of the picture refocused as a stack of slices, which
-// each view of the aperture shows moved against each other, the nearer in front of the farther.
+// The primitive of subapertures: one rectangle of the picture refocused, cut by cut, as a stack of
+// slices, which each view of the aperture shows moved against each other, the nearer in front of
+// the farther.
 #ifndef STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 #define STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 
@@ -18,7 +19,8 @@ namespace starfocus {
 
 // Memory of one worker. E: largest side of an extended rectangle; N; G: the smaller of 2 N + 1 and
 // kGroupViews. What slices are cut from is made of the field, and they are made of surfaces when
-// the field is no longer needed: the pool may share its memory.
+// the field is no longer needed: the pool may share its memory. So may `bins` and `least_blur`,
+// which each cut makes anew when the slices of the one before are no longer needed.
 struct CompositorScratch {
   int16_t* field_rgb;          // light: E rows of RgbStride(E)
   int16_t* field_disparity;    // E^2

@@ -14,7 +14,7 @@
 namespace starfocus {
 
 // What all slices of a cut together may take; beyond it they get coarser. More would cost more
-// than they add. `samples` are those of kLargeSlices of the largest cut, `rows` those of
+// than they add. `samples` are those of kLargeSlices of a cut of kCutSide, `rows` those of
 // kLargeTiles in tiles, so that a narrow cut may have more slices than a wide one; `bytes` are
 // those of the least section, since slices are in memory for a section of a cut at a time.
 // docs/constants.md has what half and twice of them cost and gain.

@@ -49,7 +49,7 @@ struct LayeredDepth {
 // Rows of surfaces whose disparities are looked at together.
 inline constexpr int32_t kBandRows = 8;
 
-// The disparities of all surfaces of each band.
+// The disparities of all surfaces of each band, around a cut.
 struct SurfaceBands {
   static constexpr int32_t kMost = kMaxChunks * static_cast<int32_t>(simd::kSliceLanes) / kBandRows;
   simd::DisparityRange ranges[kMost];

@@ -55,7 +55,7 @@ ViewWeights ScaleWeights(const Aperture& aperture);
 struct SliceStack {
   const ViewGrid* grid;
   ViewWeights weights;
-  Rect inner;  // the rectangle of the cut, in pixels of its surfaces
+  Rect inner;  // the rectangle that the cut is a part of, in pixels of its surfaces
   int32_t count;
   Slice slices[kMaxSlices];
   SurfaceBands bands;                // of the surfaces that they are cut from

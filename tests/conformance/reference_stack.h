@@ -19,7 +19,7 @@ struct Slicing {
   double range;
 };
 
-// What the slices of a rectangle may take of a lens that blurs up to `blur` pixels, with blocks up
+// What the slices of a cut may take of a lens that blurs up to `blur` pixels, with blocks up
 // to `side`: the formula of lib/slices/depth_slices.h.
 starfocus::SliceLimits LimitsOf(int side, double blur);
 
