@@ -70,8 +70,8 @@ FillScratch TakeFill(size_t extended, Carver* carver) {
   return fill;
 }
 
-// Takes the memory of what is found of a field before slices are made. Its surfaces are filled when
-// the field is no longer needed.
+// Takes the memory of what is found of a field before slices of a cut are made. Its surfaces are
+// filled when the field is no longer needed.
 void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   CompositorScratch& scratch = *stack;
   LayeredDepth& surfaces = scratch.surfaces;
@@ -109,7 +109,7 @@ CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_
   scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
   scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
   scratch.parts = carver->Take<SectionPart>(SectionParts(config.largest_block));
-  const auto rows = static_cast<size_t>(Min(config.largest_block, kMaxCut));
+  const auto rows = static_cast<size_t>(LargestCut(config.largest_block));
   scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rows);
   const size_t field = carver->Mark();
   TakeField(extended, carver, &scratch);

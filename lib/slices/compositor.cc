@@ -11,13 +11,13 @@ namespace {
 
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns of a tile
 
-// The slices of a cut and where its picture goes: what its sections share.
-struct Cut {
+// A rectangle, the slices of its cut under way, and where its picture goes: what sections share.
+struct Rectangle {
   const RenderJob* job;
   const BlockCells* gathered;  // null: nothing is
   const SliceStack* stack;
   CompositorScratch* scratch;
-  uint32_t* accumulators;  // of the rectangle
+  uint32_t* accumulators;
 };
 
 // The light of the rectangle's row in the centre view, 3 * width samples, lies in the second half
@@ -30,7 +30,7 @@ int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
 // A part of a cut of which slices are in memory.
 class Section {
  public:
-  Section(const Cut& all, const Rect& rect)
+  Section(const Rectangle& all, const Rect& rect)
       : all_(all), job_(*all.job), stack_(*all.stack), scratch_(*all.scratch), rect_(rect) {}
 
   // Returns the pixels that are rendered in each view, over all slices.
@@ -154,7 +154,7 @@ class Section {
 
   size_t Columns(int32_t x) const { return static_cast<size_t>(Min(kChunk, rect_.width - x)); }
 
-  const Cut& all_;
+  const Rectangle& all_;
   const RenderJob& job_;
   const SliceStack& stack_;
   CompositorScratch& scratch_;
@@ -182,11 +182,11 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   return inner;
 }
 
-// Cuts the slices of a part of the rectangle.
-void CutSlices(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
+// Finds the slices of a cut, in pixels of the rectangle.
+void FindStack(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
                const Rect& cut, CompositorScratch* scratch, SliceStack* stack) {
-  const Rect inner = {stack->inner.x + cut.x, stack->inner.y + cut.y, cut.width, cut.height};
-  const SliceJob slice_job = {job.kernels,   &scratch->surfaces,  job.grid, rule, inner,
+  const Rect in_surfaces = {stack->inner.x + cut.x, stack->inner.y + cut.y, cut.width, cut.height};
+  const SliceJob slice_job = {job.kernels,   &scratch->surfaces,  job.grid, rule, in_surfaces,
                               scratch->bins, scratch->least_blur, limits};
   stack->count = FindSlices(slice_job, stack->slices, &stack->bands);
   for (int32_t k = 0; k < stack->count; ++k) {
@@ -270,13 +270,13 @@ Rect ChooseSection(const SliceStack& stack, const Rect& cut, size_t pool_bytes) 
   return section;
 }
 
-// Composites a part of the rectangle, by slices that are cut for it. Returns the pixels that are
-// rendered in each view, over all slices.
-uint64_t CompositeCut(const Cut& all, const Rect& cut) {
+// Composites a cut by its slices. Returns the pixels that are rendered in each view, over all
+// slices.
+uint64_t CompositeCut(const Rectangle& all, const Rect& cut) {
   const Rect largest = ChooseSection(*all.stack, cut, all.scratch->pool_bytes);
   uint64_t pixels = 0;
   for (int32_t y = 0; y < cut.height; y += largest.height) {
-    for (int32_t x = 0; x < cut.width; x += largest.width) {
+    for (int32_t x = 0; x < cut.width && GoesOn(all.job->patience, 0); x += largest.width) {
       const Rect section = {cut.x + x, cut.y + y, Min(largest.width, cut.width - x),
                             Min(largest.height, cut.height - y)};
       pixels += Section(all, section).Refocus();
@@ -294,14 +294,15 @@ uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const S
   stack.grid = job.grid;
   stack.weights = ScaleWeights(job.grid->aperture);
   stack.inner = LoadSurfaces(job, scratch, accumulators);
-  const Cut all = {&job, gathered, &stack, scratch, accumulators};
+  const Rectangle all = {&job, gathered, &stack, scratch, accumulators};
   uint64_t pixels = 0;
   Rect cut = {0, 0, 0, 0};
   for (; cut.y < job.rect.height; cut.y += cut.height) {
     cut.height = SideOfCut(job.rect.height - cut.y);
     for (cut.x = 0; cut.x < job.rect.width; cut.x += cut.width) {
       cut.width = SideOfCut(job.rect.width - cut.x);
-      CutSlices(job, rule, limits, cut, scratch, &stack);
+      if (!GoesOn(job.patience, 0)) return pixels;
+      FindStack(job, rule, limits, cut, scratch, &stack);
       pixels += CompositeCut(all, cut);
     }
   }

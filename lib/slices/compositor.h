@@ -49,7 +49,7 @@ constexpr size_t LeastPool(size_t limit, double max_blur) {
 // How many parts the largest cut of rectangles up to `side` has.
 constexpr size_t SectionParts(int32_t side) {
   constexpr size_t kRows = kLeastRows;
-  const auto rows = static_cast<size_t>(side < kMaxCut ? side : kMaxCut);
+  const auto rows = static_cast<size_t>(LargestCut(side));
   return (rows + kRows - 1) / kRows * (simd::SliceSamples(rows) / simd::kSliceLanes);
 }
 

@@ -22,11 +22,11 @@ class SliceFinder {
     const int64_t step = grid_.step > 0 ? grid_.step : 1;
     constexpr int kBits = kStepBits + kDisparityBits - kShiftBits;
     range_ = static_cast<int32_t>(Limited((int64_t{job.rule.range} << kBits) / step));
-    for (int32_t d = 0; d < Max(surfaces_.width, surfaces_.height); ++d) {
+    FindAround();
+    for (int32_t d = 0; d < Max(around_.width, around_.height); ++d) {
       job_.least_blur[d] = static_cast<int32_t>(
           Limited((int64_t{Max(d - 1, 0)} << (kStepBits + kDisparityBits)) / step));
     }
-    FindAround();
   }
 
   int32_t Find(Slice* slices) {
@@ -34,7 +34,7 @@ class SliceFinder {
     std::memset(job_.bins, 0, static_cast<size_t>(bins_));
     for (int surface = 0; surface < simd::kSurfaces; ++surface) Mark(surface);
     for (int coarser = 0;; ++coarser) {
-      const int32_t count = Cut(coarser, slices);
+      const int32_t count = Part(coarser, slices);
       if (count > 0) return count;
     }
   }
@@ -55,11 +55,10 @@ class SliceFinder {
   // Finds what of the surfaces slices of the cut may be made of, from the first pixel of a band and
   // of a chunk on.
   void FindAround() {
-    constexpr int32_t kWidest = 8 * kShiftOne;
     const int64_t move = grid_.Move(grid_.n());
     const int32_t rim =
         Max(Abs(grid_.Shift(move, surfaces_.low)), Abs(grid_.Shift(move, surfaces_.high)));
-    const int32_t reach = SliceReach(rim, kWidest) + 1;
+    const int32_t reach = SliceReach(rim, kWidestSubaperture) + 1;
     const Rect& cut = job_.cut;
     around_.x = Max(cut.x - reach, 0) / kChunk * kChunk;
     around_.y = Max(cut.y - reach, 0) / kBandRows * kBandRows;
@@ -161,9 +160,9 @@ class SliceFinder {
     return static_cast<int32_t>(Limited(bins << coarser));
   }
 
-  // Cuts slices, each spanning 2^coarser times as much as the rule says. Returns how many, or 0
-  // when they are too many or too large.
-  int32_t Cut(int coarser, Slice* slices) const {
+  // Parts the bins into slices, each spanning 2^coarser times as much as the rule says. Returns how
+  // many, or 0 when they are too many or too large.
+  int32_t Part(int coarser, Slice* slices) const {
     int32_t count = 0;
     const SliceLimits& limits = job_.limits;
     size_t samples = 0, rows = 0, bytes = 0;

@@ -11,7 +11,7 @@
 
 namespace starfocus {
 
-// How finely a scene is cut.
+// How many slices there are, and how thin they are.
 struct SliceRule {
   int32_t most;  // beyond this many, slices get coarser
   // Pixels of the layer that a slice's disparities may lie apart at the aperture's rim, kShiftBits;
@@ -23,14 +23,18 @@ inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
 inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // of the benchmark mode
 inline constexpr int32_t kMaxSlices = simd::kMaxSeen;
 
-// A cut is a part of a rectangle that has slices of its own: of a whole large block there would be
-// so many that they had to be thicker. Its side is kCutSide; the last one takes what is left of the
-// rectangle up to kMaxCut, so that what a block has of a layer is not cut for its margin alone.
+// A cut is a part of a rectangle that has slices of its own. A whole large block has more
+// disparities than SliceRule::most slices are thin enough for. Cuts are kCutSide wide and high, but
+// the last one takes what is left up to kMaxCut: the 68 pixels that a layer has of a block, with
+// its margin, are one cut and not 64 and 4 pixels.
 inline constexpr int32_t kCutSide = 64;
 inline constexpr int32_t kMaxCut = 80;
 
 // The side of the next cut of a rectangle of which `rest` pixels are left.
 constexpr int32_t SideOfCut(int32_t rest) { return rest <= kMaxCut ? rest : kCutSide; }
+
+// The side of the largest cut of rectangles up to `side`.
+constexpr int32_t LargestCut(int32_t side) { return side < kMaxCut ? side : kMaxCut; }
 
 // The least section of a cut that slices are made of.
 inline constexpr int32_t kLeastColumns = static_cast<int32_t>(simd::kSliceLanes);

@@ -37,15 +37,17 @@ constexpr int32_t SliceReach(int32_t rim, int32_t subaperture) {
   return ((rim + kShiftOne - 1) >> kShiftBits) + SliceMargin(subaperture);
 }
 
+// Slices of the widest subapertures reach no farther than those of this one.
+inline constexpr int32_t kWidestSubaperture = 8 * kShiftOne;
+
 // The most that SliceReach is, for lenses with blur radii up to `max_blur` pixels, any N and the
 // widest subapertures. Added to the blur: what rounding the focus and a disparity to kDisparityBits
 // does, and the middle of a slice, which lies up to two such steps beyond its pixels where bins
 // hold several disparities (kSliceBins).
 constexpr int32_t LargestSliceReach(double max_blur) {
   constexpr double kRounding = 4.0 / (1 << kDisparityBits);
-  constexpr int32_t kWidest = 8 * kShiftOne;
   const double rim = (max_blur + kRounding) * LargestSubapertureExtent() * kShiftOne;
-  return SliceReach(static_cast<int32_t>(rim) + 1, kWidest);
+  return SliceReach(static_cast<int32_t>(rim) + 1, kWidestSubaperture);
 }
 
 struct SlicePlane {

@@ -216,24 +216,23 @@ TEST_CASE("block conformance: more slices than fit, widest subapertures") {
   all.Print("many slices and wide subapertures");
 }
 
-// Rectangles that are not whole numbers of cuts, in more and in fewer slices than a cut may have.
+// Three cuts across, the last of them 72 pixels wide, and two down, which see few slices and many.
 TEST_CASE("block conformance: cuts of large blocks have slices of their own") {
   test::Random random(55);
   Distance all;
   for (const float range : {4.0F, 24.0F}) {
     for (const Depth depth : {Depth::kSlanted, Depth::kNoisy}) {
       if (STARFOCUS_EMULATED && depth == Depth::kNoisy) continue;
-      test::Scene scene = test::EmptyScene(128, 85, 5, -range / 2, range / 2);
+      test::Scene scene = test::EmptyScene(200, 90, 5, -range / 2, range / 2);
       SetDepth(depth, &scene, &random);
       SetColours(Colours::kRandom, &scene, &random);
-      sf_params params = test::Params(random.Real(-1, 1), 1, SF_MODE_BLOCK);
+      sf_params params = test::Params(random.Real(-1, 1), 1, SF_MODE_FRAME);
       params.rule = SF_RULE_SUBAPERTURE;
       sf_config config = Config(scene, 0);
-      config.timing.block = SF_MAX_TIMING;
+      config.largest_block = 256;
       Covered covered;
       all.Add(Check(scene, params, config, &covered));
-      CHECK(config.largest_block == 128);
-      CHECK(covered.longest > 80);
+      CHECK(covered.longest == 200);
     }
   }
   all.Print("cuts of large blocks");

@@ -65,7 +65,7 @@ class RangeFinder {
   // From near to far, the finest that are few and small enough.
   std::vector<Range> Find() const {
     for (int64_t coarser = 1;; coarser *= 2) {
-      const std::vector<Range> ranges = Cut(coarser);
+      const std::vector<Range> ranges = Part(coarser);
       if (ranges.size() <= slicing_.most && Fit(ranges)) return ranges;
     }
   }
@@ -92,7 +92,7 @@ class RangeFinder {
     return std::min(kMost, wider * whole / kSharp / bin_ * coarser);
   }
 
-  std::vector<Range> Cut(int64_t coarser) const {
+  std::vector<Range> Part(int64_t coarser) const {
     std::vector<Range> ranges;
     for (auto nearest = occupied_.rbegin(); nearest != occupied_.rend();) {
       const int64_t span = Span(*nearest, coarser);

@@ -76,8 +76,8 @@ std::vector<Case> Cases() {
     }
   }
   // Of those with 4 to 16 levels and ranges of 26 to 43 pixels the ones that just meet a limit of
-  // LimitsOfSlices: with all of them 1 % higher, or lower, their pictures are others. The last one
-  // is a block of four cuts.
+  // LimitsOfSlices: with all of them 1 % higher, or lower, their pictures are others. And a block
+  // of four cuts, which has another picture uncut.
   for (const LevelCase& level : kLevelCases) {
     Case one = {"",          level.block,         level.block,
                 1,           test::Depth::kNoise, {SF_MODE_FRAME, 0, 1},

@@ -27,8 +27,14 @@ TEST_CASE("layout: pieces are aligned, padded and counted as they are carved" *
     const size_t mark = one->Mark();
     one->Take<uint8_t>(1000);
     one->Reuse(mark);
-    uint8_t* shared = one->Take<uint8_t>(10);
+    const size_t room = one->Shared();
+    CHECK(room >= 1000 - 63);
+    uint8_t* shared = one->Take<uint8_t>(room);
+    one->Reuse(mark);
+    one->Take<uint8_t>(10);
+    CHECK(one->Bytes() == mark + 1088);
     one->GoOn();
+    CHECK(one->Shared() == 0);
     uint8_t* last = one->Take<uint8_t>(0);
     if (one == &counting) {
       CHECK((first == nullptr && second == nullptr && shared == nullptr && last == nullptr));

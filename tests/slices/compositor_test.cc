@@ -9,6 +9,7 @@
 #include "lib/engine/layout.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/refocused.h"
+#include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -160,6 +161,35 @@ TEST_CASE("stack: slices made section by section give the same picture") {
     }
     pool = ample;
   }
+}
+
+int ranges_found = 0;
+
+// Says no once slices are looked for.
+int SayNo(void*, int32_t, int32_t) { return ranges_found > 0 ? 1 : 0; }
+
+TEST_CASE("stack: once the caller says no, no other cut is made") {
+  const test::Scene scene = test::RandomScene(256, 256, 5, -3, 9, 8);
+  sf_config config = test::ConfigFor(scene, 32);
+  config.largest_block = 256;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  starfocus::simd::Kernels counting = starfocus::simd::BestKernels();
+  counting.FindRanges = [](auto... arguments) {
+    ++ranges_found;
+    starfocus::simd::BestKernels().FindRanges(arguments...);
+  };
+  test::UseKernels(&counting, engine.get());
+  test::Output out(256, 256);
+  sf_params params = test::Params(0, 1, SF_MODE_FRAME);
+  params.rule = SF_RULE_SUBAPERTURE;
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  const int all = ranges_found;
+  ranges_found = 0;
+  params.progress = SayNo;
+  CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_CANCELLED);
+  CHECK(ranges_found > 0);
+  CHECK(ranges_found < all / 8);  // of sixteen cuts
 }
 
 // But for red zones, between which nothing is shared.
