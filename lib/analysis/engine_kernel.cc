@@ -84,7 +84,7 @@ class Engine {
     const sf_status status =
         sf_refocus(engine_, &params, &field, out_.data(), 3 * side, nullptr, nullptr, nullptr);
     if (status != SF_OK) return status;
-    return state().stripe.plan.counts[0] == 1 ? SF_OK : SF_ERROR_BLOCK;
+    return state().stripe.plan.used == 1 ? SF_OK : SF_ERROR_BLOCK;
   }
 
  private:

@@ -4,7 +4,17 @@
 namespace starfocus {
 namespace {
 
-enum Progress : uint32_t { kWaiting, kTaken, kDone };
+// The bits of a job.
+struct Progress {
+  std::atomic<uint32_t>& word;
+  uint32_t taken, done;
+};
+
+Progress ProgressOf(const JobSet& set, int32_t index) {
+  const auto k = static_cast<uint32_t>(index);
+  const uint32_t taken = 1U << 2 * (k % 16);
+  return {set.progress[k / 16], taken, 2 * taken};
+}
 
 void RunJob(int32_t index, int32_t worker, JobSet* set) {
   if (!set->watch.Ask()) return;
@@ -15,10 +25,10 @@ void RunJob(int32_t index, int32_t worker, JobSet* set) {
 // Takes a job and runs it; false when it has been taken before or does not exist.
 bool TakeJob(JobSet* set, int32_t index, int32_t worker) {
   if (index < 0 || index >= set->count) return false;
-  std::atomic<uint32_t>& progress = set->progress[index];
-  if (progress.exchange(kTaken) != kWaiting) return false;
+  const Progress progress = ProgressOf(*set, index);
+  if ((progress.word.fetch_or(progress.taken) & progress.taken) != 0) return false;
   RunJob(index, worker, set);
-  progress.store(kDone);
+  progress.word.fetch_or(progress.done);
   return true;
 }
 
@@ -43,7 +53,8 @@ bool Close(JobSet* set) {
   }
   bool all = set->misused.load() == 0;
   for (int32_t index = 0; index < set->count; ++index) {
-    all = all && set->progress[index].load() == kDone;
+    const Progress progress = ProgressOf(*set, index);
+    all = all && (progress.word.load() & progress.done) != 0;
   }
   return all;
 }
@@ -60,8 +71,8 @@ sf_status RunJobSet(JobFunction function, const void* data, int32_t count, const
     for (int32_t index = 0; index < count; ++index) RunJob(index, 0, set);
     return set->watch.IsCancelled() ? SF_ERROR_CANCELLED : SF_OK;
   }
-  for (int32_t index = 0; index < count; ++index) {
-    set->progress[index].store(kWaiting, std::memory_order_relaxed);
+  for (size_t word = 0; word < ProgressWords(static_cast<size_t>(count)); ++word) {
+    set->progress[word].store(0, std::memory_order_relaxed);
   }
   set->misused.store(0);
   set->open.store(1);

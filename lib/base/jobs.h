@@ -4,6 +4,7 @@
 #define STARFOCUS_LIB_BASE_JOBS_H_
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 #include "lib/base/watch.h"
@@ -20,15 +21,18 @@ struct Runner {
 // A job; no other one has that worker's memory meanwhile.
 using JobFunction = void (*)(const void* data, int32_t index, int32_t worker);
 
+// The words that tell which of so many jobs are taken and which are done: two bits of each, as some
+// machines have no smaller atomic objects than words.
+constexpr size_t ProgressWords(size_t jobs) { return (jobs + 15) / 16; }
+
 // The set of jobs that a runner has been given, and the watch over all sets of a call. It lies in
-// the workspace, so that a job called too late finds it closed. Words instead of bytes: some
-// machines have no atomic bytes.
+// the workspace, so that a job called too late finds it closed.
 struct JobSet {
   JobFunction function = nullptr;
   const void* data = nullptr;
   int32_t count = 0;
   int32_t max_workers = 1;
-  std::atomic<uint32_t>* progress = nullptr;        // of each job of the largest set
+  std::atomic<uint32_t>* progress = nullptr;        // ProgressWords of the largest set
   std::atomic<uint32_t> busy[SF_MAX_WORKERS] = {};  // 1: a job has that worker's memory
   std::atomic<uint32_t> open{0};                    // 1: the runner has not returned yet
   std::atomic<uint32_t> misused{0};                 // 1: a call was refused

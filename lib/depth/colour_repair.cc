@@ -157,7 +157,7 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
   const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
   *memory = carver.Take<ColourMemory>(1);
   const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
-  auto* progress = carver.Take<std::atomic<uint32_t>>(tiles);
+  auto* progress = carver.Take<std::atomic<uint32_t>>(ProgressWords(tiles));
   int16_t* maps[3];
   for (int16_t*& map : maps) map = carver.Take<int16_t>(width, height);
   auto* gain = carver.Take<int16_t>(width, height);

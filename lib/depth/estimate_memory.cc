@@ -56,7 +56,7 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
   const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
   *memory = carver.Take<EstimateMemory>(1);
   const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
-  auto* progress = carver.Take<std::atomic<uint32_t>>(tiles);
+  auto* progress = carver.Take<std::atomic<uint32_t>>(ProgressWords(tiles));
   auto* first = carver.Take<int16_t>(width, height);
   auto* second = carver.Take<int16_t>(width, height);
   auto* certainty = carver.Take<uint8_t>(width, height);

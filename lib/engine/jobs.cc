@@ -2,14 +2,15 @@
 #include "lib/engine/jobs.h"
 
 #include "lib/engine/reach.h"
+#include "lib/plan/partition.h"
 
 namespace starfocus {
 
 int32_t MaxJobs(const sf_config& config) {
   const int32_t side = config.largest_block;
-  // Sets of jobs go by columns of largest blocks, but for deblocking, which goes by rows of units
-  // of one stripe and of what waits above.
-  return Max(Columns(config), side / kSmallestBlock + 1);
+  // Sets of jobs go by blocks of a stripe or by columns of largest blocks, which are fewer, but for
+  // deblocking, which goes by rows of units of one stripe and of what waits above.
+  return Max(Columns(config) * MaxBlocks(side), side / kSmallestBlock + 1);
 }
 
 }  // namespace starfocus

@@ -10,19 +10,32 @@
 namespace starfocus {
 namespace {
 
-// Refocuses the blocks of columns of largest blocks: job `index` has that column.
+// Refocuses the blocks of a stripe: job `index` has that one.
 struct RefocusJob {
   BlockInputs in;
-  const StripePlan* plan;
+  const Block* blocks;
   Plane<uint8_t> out;  // the picture's rows: output
 };
 
-void RefocusColumn(const RefocusJob& job, int32_t column, Worker* worker) {
-  for (int32_t k = 0; k < job.plan->counts[column]; ++k) {
-    const Block& block = job.plan->BlocksOf(column)[k];
-    // What is read and filtered whatever becomes of the block; renderers count what they do.
-    if (!worker->patience.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
-    RefocusBlock(job.in, block, job.out, worker);
+void RefocusBlockOf(const RefocusJob& job, int32_t index, Worker* worker) {
+  const Block& block = job.blocks[index];
+  // What is read and filtered whatever becomes of the block; renderers count what they do.
+  if (!worker->patience.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
+  RefocusBlock(job.in, block, job.out, worker);
+}
+
+// Puts blocks of the most predicted time first, so that no worker is left with a long one when the
+// others have none any more. (The code of std::sort takes more than a kilobyte.)
+void PutLongestFirst(int32_t count, Block* blocks) {
+  for (int32_t gap = count / 2; gap > 0; gap /= 2) {
+    for (int32_t k = gap; k < count; ++k) {
+      const Block block = blocks[k];
+      int32_t to = k;
+      for (; to >= gap && blocks[to - gap].cost < block.cost; to -= gap) {
+        blocks[to] = blocks[to - gap];
+      }
+      blocks[to] = block;
+    }
   }
 }
 
@@ -77,8 +90,13 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, const R
     status = FillLayers(config, *engine->kernels, runner, &engine->crew, &engine->pictures);
   }
   if (status != SF_OK) return status;
-  const RefocusJob job = {InputsOf(*engine), &engine->stripe.plan, out};
-  status = RunJobs<RefocusJob, RefocusColumn>(job, Columns(config), runner, &engine->crew);
+  const StripePlan& plan = engine->stripe.plan;
+  // A thread alone goes on with what lies beside the last block, as caches like it.
+  if (runner.run != nullptr) PutLongestFirst(plan.used, plan.blocks);
+  const RefocusJob job = {InputsOf(*engine), plan.blocks, out};
+  if (plan.used > 0) {
+    status = RunJobs<RefocusJob, RefocusBlockOf>(job, plan.used, runner, &engine->crew);
+  }
   if (status != SF_OK || !IsDeblocking(config, lens)) return status;
   return Deblock(stripe, out, runner, engine);
 }

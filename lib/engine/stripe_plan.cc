@@ -201,26 +201,25 @@ void Announce(const Block& block, EngineState* engine) {
   params.on_block(params.on_block_data, &told);
 }
 
-// Drops blocks that nothing asked for depends on, and finds what the others mean for the phases
-// that follow.
+// Keeps the blocks that something asked for depends on, and finds what they mean for the phases that
+// follow.
 void ReadPlan(const Stripe& stripe, EngineState* engine) {
   const sf_config& config = engine->config;
   Pictures& pictures = engine->pictures;
-  const StripePlan& plan = engine->stripe.plan;
+  StripePlan& plan = engine->stripe.plan;
+  plan.used = 0;
   ClearMap(stripe, &engine->stripe.map);
   ClearLayerColumns(config, &pictures);
   if (config.skips == 0) MarkLayerColumns(config, &pictures);
   for (int32_t column = 0; column < plan.columns; ++column) {
-    Block* const blocks = plan.BlocksOf(column);
-    int32_t kept = 0;
+    const Block* const planned = plan.BlocksOf(column);
     for (int32_t k = 0; k < plan.counts[column]; ++k) {
-      if (!IsInRegion(*engine, blocks[k].rect) || !IsNew(*engine, blocks[k].rect)) continue;
-      const Block& block = blocks[kept++] = blocks[k];
+      if (!IsInRegion(*engine, planned[k].rect) || !IsNew(*engine, planned[k].rect)) continue;
+      const Block& block = plan.blocks[plan.used++] = planned[k];
       MarkLayerColumns(config, block, &pictures);
       MapBlock(stripe, block, engine->stripe.map);
       Announce(block, engine);
     }
-    plan.counts[column] = kept;
   }
 }
 

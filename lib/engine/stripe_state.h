@@ -13,7 +13,8 @@
 
 namespace starfocus {
 
-// The blocks of a stripe, largest block by largest block.
+// The blocks of a stripe. Each largest block is planned into memory of its own; those that are to be
+// refocused then lie one behind the other at the beginning.
 struct StripePlan {
   int32_t side;        // of largest blocks, pixels
   int32_t columns;     // of largest blocks
@@ -21,7 +22,8 @@ struct StripePlan {
   uint8_t* measured;   // per largest block: its cells are needed
   bool all_measured;   // whether the stripe before needed the cells of every column
   Block* blocks;       // MaxBlocks per largest block
-  int32_t* counts;     // how many blocks of each are used
+  int32_t* counts;     // how many blocks each was split into
+  int32_t used;        // how many blocks are to be refocused
   GatherMap gathered;  // which cells are gathered, in block mode
 
   Block* BlocksOf(int32_t column) const {

@@ -48,11 +48,9 @@ struct Visit {
   static void Add(void* self, const sf_block* told) {
     const auto& visit = *static_cast<const Visit*>(self);
     const starfocus::EngineState& engine = *visit.engine;
-    const int side = engine.config.largest_block, column = told->x / side;
-    const starfocus::Block* const blocks =
-        engine.stripe.plan.blocks + size_t(column) * size_t(starfocus::MaxBlocks(side));
+    const starfocus::StripePlan& plan = engine.stripe.plan;
     const starfocus::Block& b = *std::find_if(
-        blocks, blocks + engine.stripe.plan.counts[column],
+        plan.blocks, plan.blocks + plan.used,
         [&](const auto& block) { return block.rect.x == told->x && block.rect.y == told->y; });
     visit.blocks->push_back({b.rect.x, b.rect.y, b.rect.width, b.rect.height, b.layer, b.n,
                              b.rendered.x, b.rendered.y, b.rendered.width, b.rendered.height,

@@ -124,7 +124,7 @@ void CheckPicture(const test::Scene& scene, const sf_params& params, int more, C
   test::Output out(scene.width, scene.height);
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   const EngineState& state = *reinterpret_cast<EngineState*>(engine.get());
-  for (int k = 0; k < state.stripe.plan.counts[0]; ++k) {
+  for (int k = 0; k < state.stripe.plan.used; ++k) {
     // Not from `out`, which has been deblocked.
     Block block = state.stripe.plan.blocks[k];
     const std::vector<uint8_t> given = Pixels(state, block);

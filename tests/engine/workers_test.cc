@@ -3,11 +3,13 @@
 // several threads are independent.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "lib/engine/engine.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
@@ -86,6 +88,45 @@ TEST_CASE("workers: fewer threads than the configuration allows") {
   ShuffledRunner runner;
   runner.workers = 3;
   CHECK(Whole(scene, params, SF_MAX_WORKERS, false, &runner) == expected);
+}
+
+// Runs all jobs in turn, and notes how many each set has.
+struct NotingRunner {
+  std::vector<int32_t> sets;
+
+  static int Run(void* self, sf_job job, void* data, int32_t count) {
+    static_cast<NotingRunner*>(self)->sets.push_back(count);
+    for (int32_t index = 0; index < count; ++index) job(data, index, 0);
+    return 0;
+  }
+};
+
+TEST_CASE("workers: each block is a job, those of the most predicted time come first") {
+  const test::Scene scene = test::RandomScene(300, 32, 5, -3, 3, 31);
+  sf_config config = test::ConfigFor(scene);
+  config.largest_block = 32;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  const starfocus::EngineState& state = *reinterpret_cast<starfocus::EngineState*>(engine.get());
+  const sf_params params = test::Params(-2, 1, SF_MODE_BLOCK);
+  const auto costs = [&] {
+    std::vector<uint64_t> all;
+    const starfocus::StripePlan& plan = state.stripe.plan;
+    for (int32_t k = 0; k < plan.used; ++k) all.push_back(plan.blocks[k].cost);
+    return all;
+  };
+  test::Output out(scene.width, scene.height);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  std::vector<uint64_t> planned = costs();
+  REQUIRE(planned.size() > 4);
+  CHECK_FALSE(std::is_sorted(planned.rbegin(), planned.rend()));
+  NotingRunner runner;
+  REQUIRE(test::Refocus(&engine, params, scene, &out, NotingRunner::Run, &runner) == SF_OK);
+  const std::vector<uint64_t> shared = costs();
+  CHECK(std::is_sorted(shared.rbegin(), shared.rend()));
+  std::sort(planned.rbegin(), planned.rend());
+  CHECK(shared == planned);
+  CHECK(std::count(runner.sets.begin(), runner.sets.end(), int32_t(planned.size())) >= 1);
 }
 
 TEST_CASE("workers: engines in several threads are independent") {
