@@ -297,8 +297,8 @@ size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
   TakeRows(config, &carver, &e);
   TakeLayers(config, &carver, &e);
   TakeStripe(config, &carver, &e);
-  e.crew.jobs.progress = carver.Take<std::atomic<uint32_t>>(
-      ProgressWords(static_cast<size_t>(MaxJobs(config))));
+  e.crew.jobs.progress =
+      carver.Take<std::atomic<uint32_t>>(ProgressWords(static_cast<size_t>(MaxJobs(config))));
   return carver.Bytes();
 }
 

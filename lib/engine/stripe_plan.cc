@@ -201,8 +201,8 @@ void Announce(const Block& block, EngineState* engine) {
   params.on_block(params.on_block_data, &told);
 }
 
-// Keeps the blocks that something asked for depends on, and finds what they mean for the phases that
-// follow.
+// Keeps the blocks that something asked for depends on, and finds what they mean for the phases
+// that follow.
 void ReadPlan(const Stripe& stripe, EngineState* engine) {
   const sf_config& config = engine->config;
   Pictures& pictures = engine->pictures;

@@ -13,8 +13,8 @@
 
 namespace starfocus {
 
-// The blocks of a stripe. Each largest block is planned into memory of its own; those that are to be
-// refocused then lie one behind the other at the beginning.
+// The blocks of a stripe. Each largest block is planned into memory of its own; those that are to
+// be refocused then lie one behind the other at the beginning.
 struct StripePlan {
   int32_t side;        // of largest blocks, pixels
   int32_t columns;     // of largest blocks
