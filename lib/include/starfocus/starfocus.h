@@ -317,11 +317,9 @@ typedef struct sf_light_field {
  *  breaks this does nothing, and the engine's call then returns SF_ERROR_RUNNER. */
 typedef void (*sf_job)(void* job_data, int32_t index, int32_t worker);
 
-/** Runs a set of jobs and returns when all are done; 0 for success. Never called with count 0. Any
- *  order gives the same bytes. Where jobs differ in length, the longest come first: workers that
- *  each take the next one as soon as they can are done at about the same time. Jobs that it has
- * left running are waited for, and those it has left out are no longer run: both are
- * SF_ERROR_RUNNER. */
+/** Runs a set of jobs, in any order (the longest come first), and returns when all are done; 0 for
+ *  success. Never called with count 0. Jobs that it has left running are waited for, and those it
+ *  has left out are no longer run: both are SF_ERROR_RUNNER. */
 typedef int (*sf_runner)(void* runner_data, sf_job job, void* job_data, int32_t count);
 
 /** What the blocks of one layer did. */
