@@ -8,8 +8,8 @@ namespace starfocus {
 
 int32_t MaxJobs(const sf_config& config) {
   const int32_t side = config.largest_block;
-  // Sets of jobs go by blocks of a stripe or by columns of largest blocks, which are fewer, but for
-  // deblocking, which goes by rows of units of one stripe and of what waits above.
+  // Sets of jobs go by blocks of a stripe, by columns of largest blocks, or in deblocking by rows
+  // of units of one stripe and of what waits above. There are no more columns than blocks.
   return Max(Columns(config) * MaxBlocks(side), side / kSmallestBlock + 1);
 }
 

@@ -17,7 +17,7 @@ struct RefocusJob {
   Plane<uint8_t> out;  // the picture's rows: output
 };
 
-void RefocusBlockOf(const RefocusJob& job, int32_t index, Worker* worker) {
+void RefocusOneBlock(const RefocusJob& job, int32_t index, Worker* worker) {
   const Block& block = job.blocks[index];
   // What is read and filtered whatever becomes of the block; renderers count what they do.
   if (!worker->patience.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
@@ -25,7 +25,7 @@ void RefocusBlockOf(const RefocusJob& job, int32_t index, Worker* worker) {
 }
 
 // Puts blocks of the most predicted time first, so that no worker is left with a long one when the
-// others have none any more. (The code of std::sort takes more than a kilobyte.)
+// others have none any more. (With std::sort the package of the web gets larger than it may be.)
 void PutLongestFirst(int32_t count, Block* blocks) {
   for (int32_t gap = count / 2; gap > 0; gap /= 2) {
     for (int32_t k = gap; k < count; ++k) {
@@ -95,7 +95,7 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, const R
   if (runner.run != nullptr) PutLongestFirst(plan.used, plan.blocks);
   const RefocusJob job = {InputsOf(*engine), plan.blocks, out};
   if (plan.used > 0) {
-    status = RunJobs<RefocusJob, RefocusBlockOf>(job, plan.used, runner, &engine->crew);
+    status = RunJobs<RefocusJob, RefocusOneBlock>(job, plan.used, runner, &engine->crew);
   }
   if (status != SF_OK || !IsDeblocking(config, lens)) return status;
   return Deblock(stripe, out, runner, engine);
