@@ -140,42 +140,6 @@ std::string DecodeJpeg(const std::string& path, const Bytes& bytes, Image* image
   return CanHold(bytes, width, height) ? DecodeStb(path, bytes, image) : Truncated(path);
 }
 
-// Levels of a PNG file of 16 bits, which has no palette.
-std::string DecodeDeepPng(const std::string& where, const Bytes& bytes, FloatMap* levels) {
-  const StbMemory memory;
-  int own_channels = 0;
-  FloatMap result;
-  const stbi_us* samples =
-      stbi_load_16_from_memory(bytes.data(), static_cast<int>(bytes.size()), &result.width,
-                               &result.height, &own_channels, 1);
-  if (samples == nullptr) return Broken(where);
-  const size_t count = size_t(result.width) * size_t(result.height);
-  result.values.reserve(count);
-  for (size_t k = 0; k < count; ++k)
-    result.values.push_back(static_cast<float>(samples[k]) / 65535);
-  *levels = std::move(result);
-  return "";
-}
-
-// Whether the file is a PNG of 16 bits, whose parts are all there.
-bool IsDeepPng(const Bytes& bytes) {
-  PngHeader header;
-  return IsPng(bytes) && CheckContainer(bytes) == Container::kWhole && bytes.size() <= INT_MAX &&
-         CheckPngHeader("", bytes, &header).empty() && header.depth == 16;
-}
-
-// Of a picture in memory the mean of red, green and blue.
-void TakeLevels(const Image& image, FloatMap* levels) {
-  levels->width = image.width;
-  levels->height = image.height;
-  levels->values.clear();
-  levels->values.reserve(image.pixels.size() / 3);
-  for (size_t k = 0; k < image.pixels.size(); k += 3) {
-    const int sum = image.pixels[k] + image.pixels[k + 1] + image.pixels[k + 2];
-    levels->values.push_back(static_cast<float>(sum) / (3 * 255));
-  }
-}
-
 std::string CheckExtension(const std::string& path) {
   const std::string extension = FormatExtension(path);
   if (IsPictureExtension(extension)) return "";
@@ -192,14 +156,6 @@ std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image) {
   const std::string error = CheckWhole(where, CheckContainer(*bytes));
   if (!error.empty()) return error;
   return IsPng(*bytes) ? DecodePng(where, bytes, image) : DecodeJpeg(where, *bytes, image);
-}
-
-std::string DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels) {
-  if (IsDeepPng(*bytes)) return DecodeDeepPng(where, *bytes, levels);
-  Image image;
-  const std::string error = DecodeImage(where, bytes, &image);
-  if (error.empty()) TakeLevels(image, levels);
-  return error;
 }
 
 std::string ReadImage(const std::string& path, Image* image) {

@@ -7,7 +7,6 @@
 
 #include "platform/file.h"
 #include "platform/image.h"
-#include "platform/pfm.h"
 #include "platform/writers/picture.h"
 
 namespace starfocus {
@@ -18,9 +17,6 @@ std::string ReadImage(const std::string& path, Image* image);
 
 // The same of bytes in memory, which may be changed; `where` only names them in the error.
 std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image);
-
-// The levels of a picture without its colours, 0 to 1: of a PNG file with all of its 16 bits.
-std::string DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels);
 
 // Writes by extension (writers/picture.h).
 std::string WriteImage(const std::string& path, const Image& image,

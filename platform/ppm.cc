@@ -6,37 +6,67 @@
 namespace starfocus {
 namespace {
 
-uint8_t Sample(const uint8_t* data, int bytes_per_sample, int largest) {
-  const int value = bytes_per_sample == 2 ? data[0] * 256 + data[1] : data[0];
-  const int clipped = value < largest ? value : largest;
-  return static_cast<uint8_t>((clipped * 255 + largest / 2) / largest);
+struct PnmHeader {
+  int width = 0, height = 0, channels = 0, largest = 0, sample_bytes = 0;
+
+  size_t samples() const { return size_t(width) * size_t(height) * size_t(channels); }
+};
+
+// Reads the header, and checks that all samples follow it.
+std::string ReadHeader(const std::string& path, TextHeader* text, PnmHeader* header) {
+  const std::string magic = text->Token();
+  if (magic != "P6" && magic != "P5") return Expected(path, "a P6 or P5 picture", magic);
+  const std::string width = text->Token(), height = text->Token(), largest = text->Token();
+  *header = {ParseSize(width), ParseSize(height), magic == "P6" ? 3 : 1, ParseSize(largest), 1};
+  if (header->width == 0 || header->height == 0) {
+    return Expected(path, "width and height from 1 to 65535",
+                    "'" + width + "' and '" + height + "'");
+  }
+  if (header->largest == 0) {
+    return Expected(path, "a largest value from 1 to 65535", "'" + largest + "'");
+  }
+  if (header->largest > 255) header->sample_bytes = 2;
+  if (!FitsMemory(header->width, header->height, 3 * size_t(header->sample_bytes))) {
+    return OutOfMemory(path, "read it");
+  }
+  const size_t need = header->samples() * size_t(header->sample_bytes);
+  if (text->remaining() >= need) return "";
+  return Expected(path, std::to_string(need) + " bytes of pixels",
+                  std::to_string(text->remaining()));
+}
+
+// The sample at `index`, at most the largest one.
+int SampleAt(const PnmHeader& header, const uint8_t* data, size_t index) {
+  const uint8_t* at = data + index * size_t(header.sample_bytes);
+  const int value = header.sample_bytes == 2 ? at[0] * 256 + at[1] : at[0];
+  return value < header.largest ? value : header.largest;
 }
 
 }  // namespace
 
 std::string DecodePpm(const std::string& path, const Bytes& bytes, Image* image) {
-  TextHeader header(bytes);
-  const std::string magic = header.Token();
-  if (magic != "P6" && magic != "P5") return Expected(path, "a P6 or P5 picture", magic);
-  const std::string width = header.Token(), height = header.Token(), largest = header.Token();
-  const int w = ParseSize(width), h = ParseSize(height), top = ParseSize(largest);
-  if (w == 0 || h == 0) {
-    return Expected(path, "width and height from 1 to 65535",
-                    "'" + width + "' and '" + height + "'");
+  TextHeader text(bytes);
+  PnmHeader header;
+  const std::string error = ReadHeader(path, &text, &header);
+  if (!error.empty()) return error;
+  *image = Image(header.width, header.height);
+  for (size_t i = 0; i < image->pixels.size(); ++i) {
+    const int value = SampleAt(header, text.data(), header.channels == 3 ? i : i / 3);
+    image->pixels[i] = static_cast<uint8_t>((value * 255 + header.largest / 2) / header.largest);
   }
-  if (top == 0) return Expected(path, "a largest value from 1 to 65535", "'" + largest + "'");
-  const int channels = magic == "P6" ? 3 : 1, sample_bytes = top > 255 ? 2 : 1;
-  if (!FitsMemory(w, h, 3 * sample_bytes)) return OutOfMemory(path, "read it");
-  const size_t pixels = size_t(w) * size_t(h), need = pixels * size_t(channels * sample_bytes);
-  if (header.remaining() < need) {
-    return Expected(path, std::to_string(need) + " bytes of pixels",
-                    std::to_string(header.remaining()));
-  }
-  *image = Image(w, h);
-  const uint8_t* data = header.data();
-  for (size_t i = 0; i < pixels * 3; ++i) {
-    const size_t source = channels == 3 ? i : i / 3;
-    image->pixels[i] = Sample(data + source * size_t(sample_bytes), sample_bytes, top);
+  return "";
+}
+
+std::string DecodePnmSamples(const std::string& path, const Bytes& bytes, PnmSamples* result) {
+  TextHeader text(bytes);
+  PnmHeader header;
+  const std::string error = ReadHeader(path, &text, &header);
+  if (!error.empty()) return error;
+  *result = {header.width, header.height, header.channels, header.largest, {}};
+  const size_t count = header.samples();
+  result->samples.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    result->samples.push_back(static_cast<uint16_t>(SampleAt(header, text.data(), i)));
   }
   return "";
 }

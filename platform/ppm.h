@@ -4,7 +4,9 @@
 #ifndef STARFOCUS_PLATFORM_PPM_H_
 #define STARFOCUS_PLATFORM_PPM_H_
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "platform/file.h"
 #include "platform/image.h"
@@ -14,6 +16,14 @@ namespace starfocus {
 // Decodes P6 or P5 (grey becomes RGB) with any largest value up to 65535, scaled to 8 bits.
 // `path` only names the file in the error.
 std::string DecodePpm(const std::string& path, const Bytes& bytes, Image* image);
+
+// Samples as a P6 or P5 file has them, 0 to `largest`.
+struct PnmSamples {
+  int width = 0, height = 0, channels = 0, largest = 0;
+  std::vector<uint16_t> samples;
+};
+
+std::string DecodePnmSamples(const std::string& path, const Bytes& bytes, PnmSamples* result);
 
 Bytes EncodePpm(const Image& image);
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "platform/image_io.h"
+#include "platform/levels.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/multi_picture.h"
 

@@ -81,7 +81,7 @@ std::string OpenFolder(const std::string& folder, Capture* capture) {
 std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Capture* capture) {
   DepthPhoto photo;
   std::string depth = options.depth;
-  std::string error = ReadDepthPhotoFile(path, &depth, options.near, &photo);
+  std::string error = ReadDepthPhotoFile(path, options.map, &depth, &photo);
   if (error.empty()) error = MakeLightField(path, &photo, &capture->light_field);
   if (!error.empty()) return error;
   const LightField& light_field = capture->light_field;

@@ -17,7 +17,7 @@ enum class MapCare { kNone, kFill, kRepair };
 
 struct CaptureOptions {
   std::string depth;  // a depth picture for a photograph; empty: what is in or beside it
-  Near near = Near::kUnknown;
+  DepthOptions map;   // how that picture is read
 };
 
 struct Capture {

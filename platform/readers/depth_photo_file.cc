@@ -61,6 +61,17 @@ std::string DecodeJpegPhoto(const std::string& where, Span file, bool with_map, 
   return DecodeByFormat(where, file, parts, xmp, near, photo);
 }
 
+// What a map within the photo says about itself, no option overrides.
+std::string CheckOptions(const std::string& path, const DepthOptions& options) {
+  const char* option = options.unit != DepthUnit::kNone                    ? "--depth-unit"
+                       : options.has_unknown                               ? "--unknown"
+                       : options.orientation != DepthOrientation::kUnknown ? "--depth-orientation"
+                                                                           : nullptr;
+  if (option == nullptr) return "";
+  return Expected(path, std::string("a depth picture for ") + option + " (--depth FILE)",
+                  "a map in the photo");
+}
+
 std::string NoMap(const std::string& path) {
   return Expected(path,
                   "a depth map in the file, beside it as NAME-depth.png or .jpg, or by --depth",
@@ -78,16 +89,17 @@ std::string DecodeDepthPhoto(const std::string& where, Span file, bool with_map,
   return DecodeImage(where, &bytes, &photo->picture);
 }
 
-std::string ReadDepthPhotoFile(const std::string& path, std::string* depth, Near near,
-                               DepthPhoto* photo) {
+std::string ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
+                               std::string* depth, DepthPhoto* photo) {
   Bytes bytes;
   std::string error = ReadFile(path, &bytes);
   const Span file = {bytes.data(), bytes.size()};
-  if (error.empty()) error = DecodeDepthPhoto(path, file, depth->empty(), near, photo);
+  if (error.empty()) error = DecodeDepthPhoto(path, file, depth->empty(), options.near, photo);
   if (!error.empty()) return error;
-  if (depth->empty() && !photo->map.values.empty()) return "";
-  if (depth->empty()) *depth = FindDepthPicture(path);
-  return depth->empty() ? NoMap(path) : ReadDepthPicture(*depth, near, photo);
+  if (depth->empty() && !photo->map.values.empty()) return CheckOptions(path, options);
+  if (depth->empty()) error = FindDepthPicture(path, photo, depth);
+  if (!error.empty()) return error;
+  return depth->empty() ? NoMap(path) : ReadDepthPicture(*depth, options, photo);
 }
 
 }  // namespace starfocus

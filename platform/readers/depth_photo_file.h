@@ -12,8 +12,10 @@ namespace starfocus {
 
 // Reads a photograph and its map: from the depth picture *depth if that is named, else from within
 // the file, else from a depth picture beside it, whose name *depth becomes.
-std::string ReadDepthPhotoFile(const std::string& path, std::string* depth, Near near,
-                               DepthPhoto* photo);
+// `options` are about the depth picture: what they say of a map within the file beyond its near end
+// is an error.
+std::string ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
+                               std::string* depth, DepthPhoto* photo);
 
 // The same of bytes in memory, without what lies beside: photo->map is empty if they have none.
 std::string DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near,

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "platform/image_io.h"
+#include "platform/levels.h"
 #include "platform/readers/depth_levels.h"
 
 namespace starfocus {

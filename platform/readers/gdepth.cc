@@ -2,6 +2,7 @@
 #include "platform/readers/gdepth.h"
 
 #include "platform/image_io.h"
+#include "platform/levels.h"
 #include "platform/readers/base64.h"
 #include "platform/readers/depth_levels.h"
 

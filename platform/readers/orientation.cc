@@ -46,6 +46,8 @@ void TurnPicture(int orientation, Image* image) {
   *image = std::move(result);
 }
 
+}  // namespace
+
 void TurnMap(int orientation, FloatMap* map) {
   const bool swaps = SwapsSides(orientation);
   FloatMap result;
@@ -62,8 +64,6 @@ void TurnMap(int orientation, FloatMap* map) {
   }
   *map = std::move(result);
 }
-
-}  // namespace
 
 void ApplyOrientation(DepthPhoto* photo) {
   const int orientation = photo->orientation;

@@ -7,6 +7,9 @@
 
 namespace starfocus {
 
+// Turns and mirrors a map.
+void TurnMap(int orientation, FloatMap* map);
+
 // Turns and mirrors picture, map and focus as `orientation` says, makes it 1, and adds a fact.
 void ApplyOrientation(DepthPhoto* photo);
 

@@ -1,72 +1,142 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/pair.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
+#include <tuple>
 
-#include "platform/image_io.h"
+#include "platform/levels.h"
 #include "platform/readers/depth_levels.h"
-#include "platform/readers/orientation.h"
+#include "platform/readers/map_orientation.h"
+#include "platform/readers/unknown_depth.h"
 
 namespace starfocus {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string ReadLevels(const std::string& path, FloatMap* map) {
-  Bytes bytes;
-  const std::string error = ReadFile(path, &bytes);
-  return error.empty() ? DecodeLevels(path, &bytes, map) : error;
+constexpr char kSeparators[] = "-_.", kDepth[] = "depth";
+constexpr size_t kDepthLength = sizeof(kDepth) - 1;
+constexpr const char* kExtensions[] = {".png", ".pgm", ".pfm", ".jpg", ".jpeg"};
+
+std::string Lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return text;
 }
 
-bool Lies(int width, int height) { return width > height; }
+bool EndsIn(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
 
-// A depth picture is turned with its photo, unless it stands already as the photo will.
-void TurnPictureFirst(DepthPhoto* photo) {
-  const bool turns = photo->orientation >= 5;
-  if (!turns || Lies(photo->map.width, photo->map.height) ==
-                    Lies(photo->picture.width, photo->picture.height)) {
-    return;
+// What a depth picture's name has before "-depth"; empty if it is another file.
+std::string NameBefore(const std::string& stem) {
+  const std::string lower = Lower(stem);
+  if (!EndsIn(lower, kDepth)) return "";
+  const size_t at = lower.size() - kDepthLength - 1;
+  return std::string(kSeparators).find(lower[at]) == std::string::npos ? "" : stem.substr(0, at);
+}
+
+// A file beside the photo, and how well its name fits: the least comes first.
+struct Candidate {
+  bool other_case;
+  size_t separator, extension;
+  std::string name;
+
+  bool operator<(const Candidate& other) const {
+    return std::tie(other_case, separator, extension, name) <
+           std::tie(other.other_case, other.separator, other.extension, other.name);
   }
-  FloatMap map;
-  std::swap(map, photo->map);
-  ApplyOrientation(photo);
-  std::swap(map, photo->map);
+};
+
+// Whether the file is a depth picture of the photo of that name.
+bool Fits(const std::string& photo, const std::string& file, Candidate* candidate) {
+  const fs::path path(file);
+  const std::string stem = path.stem().string(), name = NameBefore(stem);
+  const auto* extension =
+      std::find(std::begin(kExtensions), std::end(kExtensions), Lower(path.extension().string()));
+  if (name.empty() || Lower(name) != Lower(photo) || extension == std::end(kExtensions)) {
+    return false;
+  }
+  *candidate = {name != photo, std::string(kSeparators).find(stem[name.size()]),
+                static_cast<size_t>(extension - std::begin(kExtensions)), file};
+  return true;
+}
+
+std::string ReadSamples(const std::string& path, bool use_alpha, Samples* samples) {
+  if (LowerExtension(path) == ".pfm") return ReadPfm(path, &samples->map);
+  Bytes bytes;
+  const std::string error = ReadFile(path, &bytes);
+  return error.empty() ? DecodeSamples(path, use_alpha, &bytes, samples) : error;
+}
+
+// Gives the numbers of the map the meaning that the options say.
+void Understand(const DepthOptions& options, bool is_pfm, DepthPhoto* photo) {
+  if (options.unit == DepthUnit::kDisparity) {
+    TellMap("disparities in pixels", photo);
+    photo->meaning = MapMeaning::kDisparity;
+  } else if (options.unit == DepthUnit::kNone) {
+    TellMap("in an order, without distances", photo);
+    ToOrder(is_pfm && options.near == Near::kUnknown ? Near::kWhite : options.near, photo);
+  } else {
+    const bool millimetres = options.unit == DepthUnit::kMillimetres;
+    TellMap(millimetres ? "distances in millimetres" : "distances in metres", photo);
+    if (millimetres) ToRange(0, 0.001, &photo->map);
+    Invert(&photo->map);
+    photo->meaning = MapMeaning::kInverseMetres;
+  }
 }
 
 }  // namespace
 
-std::string FindDepthPicture(const std::string& photo) {
-  const fs::path path(photo);
-  const std::string stem = path.stem().string(), ending = "-image";
-  std::string name = stem;
-  if (stem.size() > ending.size() &&
-      stem.compare(stem.size() - ending.size(), ending.size(), ending) == 0) {
-    name.erase(stem.size() - ending.size());
+bool IsDepthPictureName(const std::string& name) {
+  return !NameBefore(fs::path(name).stem().string()).empty();
+}
+
+std::string FindDepthPicture(const std::string& path, DepthPhoto* photo, std::string* depth) {
+  const fs::path file(path);
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const std::string ending = "-image";
+  std::string name = file.stem().string();
+  if (EndsIn(Lower(name), ending)) name.erase(name.size() - ending.size());
+  std::vector<Candidate> found;
+  std::error_code error, ignored;
+  fs::directory_iterator at(folder, error);
+  for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
+    Candidate candidate;
+    const std::string beside = at->path().filename().string();
+    if (!Fits(name, beside, &candidate) || beside == file.filename().string() ||
+        !at->is_regular_file(ignored)) {
+      continue;
+    }
+    found.push_back(candidate);
   }
-  for (const char* extension : {".png", ".jpg", ".jpeg"}) {
-    const fs::path depth = path.parent_path() / (name + "-depth" + extension);
-    std::error_code error;
-    if (depth != path && fs::is_regular_file(depth, error)) return depth.string();
+  if (error) return Expected(folder.string(), "a folder that can be read", error.message());
+  if (found.empty()) return "";
+  std::sort(found.begin(), found.end());
+  *depth = (file.parent_path() / found[0].name).string();
+  if (found.size() > 1) {
+    photo->notes.push_back(std::to_string(found.size()) + " depth pictures are beside the photo, " +
+                           found[0].name + " is used (else: --depth FILE)");
   }
   return "";
 }
 
-std::string ReadDepthPicture(const std::string& path, Near near, DepthPhoto* photo) {
+std::string ReadDepthPicture(const std::string& path, const DepthOptions& options,
+                             DepthPhoto* photo) {
   photo->format = "photo and depth picture";
   photo->facts.emplace_back("depth picture", path);
+  Samples samples;
   std::string error = CheckPlainFile(path);
+  if (error.empty()) error = ReadSamples(path, options.use_alpha, &samples);
   if (!error.empty()) return error;
-  if (LowerExtension(path) == ".pfm") {
-    error = ReadPfm(path, &photo->map);
-    near = Near::kWhite;
-  } else {
-    error = ReadLevels(path, &photo->map);
-  }
-  if (!error.empty()) return error;
-  TurnPictureFirst(photo);
-  TellMap("in an order, without distances", photo);
-  ToOrder(near, photo);
+  photo->map = std::move(samples.map);
+  MarkUnknown(options, samples.largest, photo);
+  StandWithPhoto(options.orientation, photo);
+  Understand(options, samples.largest == 0, photo);
   return "";
 }
 

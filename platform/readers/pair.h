@@ -9,13 +9,19 @@
 
 namespace starfocus {
 
-// The depth picture that lies beside a photograph: NAME-depth.png, .jpg or .jpeg beside NAME.jpg or
-// NAME-image.jpg. Empty if there is none.
-std::string FindDepthPicture(const std::string& photo);
+// Whether a file of that name is a depth picture: its name without the extension ends in -depth,
+// _depth or .depth, in any case.
+bool IsDepthPictureName(const std::string& name);
 
-// Reads the depth picture, PNG (16 bits, too), PPM, JPEG or PFM, into a photo whose picture is
-// there. A PFM file has disparities: larger is nearer.
-std::string ReadDepthPicture(const std::string& path, Near near, DepthPhoto* photo);
+// Finds the depth picture beside a photograph NAME.jpg or NAME-image.jpg: NAME-depth, NAME_depth or
+// NAME.depth with .png, .pgm, .pfm, .jpg or .jpeg, in any case. *depth is empty if there is none.
+// If there are several, a note names the one that is taken.
+std::string FindDepthPicture(const std::string& path, DepthPhoto* photo, std::string* depth);
+
+// Reads the depth picture, PNG, PGM, PPM, JPEG or PFM, into a photo whose picture is there. Without
+// options larger is nearer in a PFM file, and the near end of others is guessed.
+std::string ReadDepthPicture(const std::string& path, const DepthOptions& options,
+                             DepthPhoto* photo);
 
 }  // namespace starfocus
 

@@ -13,6 +13,7 @@
 #include "platform/image.h"
 #include "platform/metadata.h"
 #include "platform/pfm.h"
+#include "platform/readers/depth_options.h"
 
 namespace starfocus {
 
@@ -22,11 +23,9 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 enum class MapMeaning {
   kInverseMetres,  // 1 / distance in metres
   kInverse,        // 1 / distance, up to a factor that nobody knows
-  kOrder           // larger is nearer, and that is all
+  kOrder,          // larger is nearer, and that is all
+  kDisparity       // disparities of the upright photo, in pixels
 };
-
-// Which end of a depth picture is near.
-enum class Near { kUnknown, kWhite, kBlack };
 
 struct DepthPhoto {
   std::string format;

@@ -7,7 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "platform/readers/map_orientation.h"
 #include "platform/readers/orientation.h"
+#include "platform/readers/robust_range.h"
+#include "platform/readers/unknown_depth.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -33,20 +36,6 @@ std::vector<Between> Places(int from, int to) {
   return places;
 }
 
-struct Ends {
-  float low = std::numeric_limits<float>::infinity(), high = -low;
-};
-
-Ends EndsOf(const FloatMap& map) {
-  Ends ends;
-  for (const float value : map.values) {
-    if (!std::isfinite(value)) continue;
-    ends.low = std::min(ends.low, value);
-    ends.high = std::max(ends.high, value);
-  }
-  return ends;
-}
-
 std::string Rounded(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.3g", value);
@@ -59,19 +48,19 @@ double DisparityPerDiopter(double focal_35mm, double diagonal_pixels) {
   return focal_35mm / kDiagonal * diagonal_pixels * focal_35mm / 1000 / 2;
 }
 
-// disparity = factor * (value - zero)
-void Scale(double factor, double zero, DepthPhoto* photo) {
+// disparity = factor * (value - zero), at most `most`
+void Scale(double factor, double zero, double most, DepthPhoto* photo) {
   photo->focus_value = factor * (photo->focus_value - zero);
   for (float& value : photo->map.values) {
-    value = static_cast<float>(
-        std::clamp(factor * (double(value) - zero), -SF_MAX_DISPARITY, SF_MAX_DISPARITY));
+    value =
+        static_cast<float>(std::clamp(factor * (double(value) - zero), -SF_MAX_DISPARITY, most));
   }
 }
 
-void ToDisparity(const Ends& ends, double diagonal, DepthPhoto* photo) {
+void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
   if (photo->meaning == MapMeaning::kInverseMetres) {
     const double focal = photo->focal_35mm > 0 ? photo->focal_35mm : kPortraitLens;
-    Scale(DisparityPerDiopter(focal, diagonal), 0, photo);
+    Scale(DisparityPerDiopter(focal, diagonal), 0, SF_MAX_DISPARITY, photo);
     photo->facts.emplace_back("scale", "f-stops are those of a " + Rounded(focal) +
                                            " mm lens on full frame" +
                                            (photo->focal_35mm > 0 ? "" : " (assumed)"));
@@ -79,11 +68,38 @@ void ToDisparity(const Ends& ends, double diagonal, DepthPhoto* photo) {
   }
   const bool order = photo->meaning == MapMeaning::kOrder;
   const double nearest = DisparityPerDiopter(kPortraitLens, diagonal) / kPortraitDistance;
-  const double zero = order ? double(ends.low) : 0, range = double(ends.high) - zero;
-  Scale(range > 0 ? nearest / range : 0, zero, photo);
+  const double zero = order ? double(range.low) : 0, extent = double(range.high) - zero;
+  if (order) {
+    for (float& value : photo->map.values) value = std::max(value, range.low);
+  }
+  Scale(extent > 0 ? nearest / extent : 0, zero, std::min(nearest, SF_MAX_DISPARITY), photo);
   photo->facts.emplace_back("scale", std::string("unknown: what is nearest is taken to be 1.5 m ") +
                                          (order ? "and what is farthest infinitely far " : "") +
                                          "before a 50 mm lens on full frame");
+}
+
+// Disparities stay as they are.
+std::string CheckDisparities(const std::string& where, DepthPhoto* photo) {
+  const auto [low, high] = std::minmax_element(photo->map.values.begin(), photo->map.values.end());
+  if (double(*low) >= -SF_MAX_DISPARITY && double(*high) <= SF_MAX_DISPARITY) {
+    photo->facts.emplace_back("scale", "disparities of the map, in pixels");
+    return "";
+  }
+  const double limit = SF_MAX_DISPARITY;
+  return Expected(where, "disparities within +-" + Rounded(limit),
+                  Rounded(double(*low)) + " to " + Rounded(double(*high)));
+}
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+// Fills what the map does not know, which a note reports.
+void FillUnknown(DepthPhoto* photo) {
+  const size_t filled = FillBehind(&photo->map), all = photo->map.values.size();
+  if (filled == 0) return;
+  photo->notes.push_back(std::to_string(filled) + " of " + std::to_string(all) +
+                         " pixels of the depth map are unknown and filled with what is behind");
 }
 
 }  // namespace
@@ -119,18 +135,23 @@ std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightFie
   ApplyOrientation(photo);
   const Image& picture = photo->picture;
   FloatMap& map = photo->map;
-  if ((picture.width > picture.height) != (map.width > map.height) &&
-      picture.width != picture.height && map.width != map.height) {
-    return Expected(where, "a map that stands as the picture does",
-                    std::to_string(map.width) + "x" + std::to_string(map.height) + " for " +
-                        std::to_string(picture.width) + "x" + std::to_string(picture.height));
+  if (!HasSameProportions(map, picture.width, picture.height)) {
+    return Expected(
+        where, "a map of the picture's proportions",
+        SizeText(map.width, map.height) + " for " + SizeText(picture.width, picture.height));
   }
-  const Ends ends = EndsOf(map);
-  if (!(ends.low <= ends.high)) return Expected(where, "a map with a known depth", "none");
+  const RobustRange range = RobustRangeOf(map.values);
+  if (!range.known) return Expected(where, "a map with a known depth", "none");
+  FillUnknown(photo);
   // Scaled last, so that the limit of disparities holds: rounding may take a mean beyond its
   // values.
   map = Resize(map, picture.width, picture.height);
-  ToDisparity(ends, std::hypot(picture.width, picture.height), photo);
+  if (photo->meaning == MapMeaning::kDisparity) {
+    const std::string error = CheckDisparities(where, photo);
+    if (!error.empty()) return error;
+  } else {
+    ToDisparity(range, std::hypot(picture.width, picture.height), photo);
+  }
   light_field->disparity = std::move(map);
   light_field->views = {std::move(photo->picture)};
   light_field->positions = {{0, 0}};

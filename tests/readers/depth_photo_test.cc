@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "platform/levels.h"
 #include "platform/readers/capture.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/xmp.h"
@@ -191,7 +192,7 @@ TEST_CASE("GDepth: what is wrong is said in one line") {
         std::string::npos);
   CHECK(error(kInverse, Data("no picture")).find("picture") != std::string::npos);
   const std::string tall = Encode(Plain(kHeight, kWidth, 9), ".png");
-  CHECK(error(kInverse, Data(tall)).find("stands as the picture") != std::string::npos);
+  CHECK(error(kInverse, Data(tall)).find("the picture's proportions") != std::string::npos);
   const std::string whole = Gdepth(Photo(), kInverse, data);
   for (const size_t part : {size_t{3}, size_t{30}, whole.size() / 2, whole.size() - 2}) {
     CHECK(Open(whole.substr(0, part), &capture).find("expected") != std::string::npos);
@@ -224,7 +225,7 @@ TEST_CASE("Dynamic Depth: the item that the container names") {
       "Item:Length=\"" +
           std::to_string(RampPng().size()) + "\"/></rdf:li></rdf:Seq></Container:Directory>");
   CaptureOptions white;
-  white.near = Near::kWhite;
+  white.map.near = Near::kWhite;
   REQUIRE(Open(Insert(Photo(), XmpSegment(packet)) + RampPng(), &capture, white) == "");
   CheckRamp(capture, 0, PerDiopter(50) / 1.5);
 }
@@ -269,7 +270,7 @@ TEST_CASE("a photo and a depth picture: beside it or named, near guessed or told
   REQUIRE(capture.notes.size() == 1);
   CHECK(capture.notes[0].find("black") != std::string::npos);
   CaptureOptions options;
-  options.near = Near::kWhite;
+  options.map.near = Near::kWhite;
   REQUIRE(OpenCapture(folder.file("a-image.jpg"), options, &capture) == "");
   CHECK(map.at(0, kHeight - 1) < map.at(0, 0));
   CHECK(capture.notes.empty());

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "platform/image_io.h"
+#include "platform/levels.h"
 #include "platform/light_field.h"
 #include "platform/readers/capture.h"
 #include "platform/readers/heic.h"

@@ -44,7 +44,9 @@ std::string Trace(const std::string& name, SceneTimes* times) {
 
 Error Load(const std::string& folder, SceneTimes* times) {
   Capture capture;
-  Error error = OpenInput({folder, "", ""}, &capture);
+  InputOptions input;
+  input.path = folder;
+  Error error = OpenInput(input, &capture);
   if (error.empty()) error = LoadInput({}, 1, &capture);
   return error.empty() ? times->Open(folder, std::move(capture.light_field)) : error;
 }

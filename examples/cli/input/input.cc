@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/input/input.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -17,6 +18,68 @@ Error ParseNear(const std::string& text, Near* near) {
   }
   *near = text == "white" ? Near::kWhite : Near::kBlack;
   return "";
+}
+
+Error ParseUnit(const std::string& text, DepthUnit* unit) {
+  if (text.empty()) return "";
+  if (text != "m" && text != "mm" && text != "disparity") {
+    return Error::Usage("--depth-unit", "m, mm or disparity", "'" + text + "'");
+  }
+  *unit = text == "m"    ? DepthUnit::kMetres
+          : text == "mm" ? DepthUnit::kMillimetres
+                         : DepthUnit::kDisparity;
+  return "";
+}
+
+Error ParseOrientation(const std::string& text, DepthOrientation* orientation) {
+  if (text.empty()) return "";
+  if (text != "photo" && text != "upright") {
+    return Error::Usage("--depth-orientation", "photo or upright", "'" + text + "'");
+  }
+  *orientation = text == "photo" ? DepthOrientation::kPhoto : DepthOrientation::kUpright;
+  return "";
+}
+
+// none, or numbers with commas between them.
+Error ParseUnknown(const std::string& text, DepthOptions* options) {
+  if (text.empty()) return "";
+  options->has_unknown = true;
+  options->use_alpha = text != "none";
+  if (!options->use_alpha) return "";
+  for (size_t at = 0; at <= text.size();) {
+    const size_t end = std::min(text.find(',', at), text.size());
+    double value = 0;
+    if (!ParseNumber("", text.substr(at, end - at), &value).empty()) {
+      return Error::Usage("--unknown", "none, or values V,V,... of the depth picture",
+                          "'" + text.substr(0, 60) + "'");
+    }
+    options->unknown.push_back(value);
+    at = end + 1;
+  }
+  return "";
+}
+
+Error ParseDepthOptions(const InputOptions& typed, DepthOptions* options) {
+  Error error = ParseNear(typed.near, &options->near);
+  if (error.empty()) error = ParseUnit(typed.depth_unit, &options->unit);
+  if (error.empty()) error = ParseOrientation(typed.depth_orientation, &options->orientation);
+  if (error.empty()) error = ParseUnknown(typed.unknown, options);
+  if (!error.empty() || options->unit == DepthUnit::kNone) return error;
+  const bool disparity = options->unit == DepthUnit::kDisparity;
+  if (options->near != (disparity ? Near::kBlack : Near::kWhite)) return "";
+  return Error::Usage(
+      "--near",
+      (disparity ? "white for --depth-unit " : "black for --depth-unit ") + typed.depth_unit,
+      typed.near);
+}
+
+// The option about a depth picture that is typed first in the help; null if there is none.
+const char* DepthOption(const InputOptions& options) {
+  if (!options.depth.empty()) return "--depth";
+  if (!options.near.empty()) return "--near";
+  if (!options.depth_unit.empty()) return "--depth-unit";
+  if (!options.depth_orientation.empty()) return "--depth-orientation";
+  return options.unknown.empty() ? nullptr : "--unknown";
 }
 
 // A map from the views that are loaded.
@@ -51,13 +114,30 @@ void AddInputOptions(CLI::App* command, InputOptions* options, std::vector<std::
   source->type_name("DIR|PHOTO")->required();
   command
       ->add_option("--depth", options->depth,
-                   "Depth picture of a photo: .png, .jpg, .ppm or .pfm; default: the map in the "
-                   "photo, or NAME-depth.png or .jpg beside it")
+                   "Depth picture of a photo: .png, .pgm, .jpg or .pfm; default: the map in the "
+                   "photo, or NAME-depth.png, _depth or .depth beside it")
       ->type_name("FILE");
   command
       ->add_option("--near", options->near,
-                   "What is near in a depth picture; default: guessed from what is low in it")
+                   "What is near in a depth picture; default: guessed from what is low in it, "
+                   "white in a .pfm file")
       ->type_name("white|black");
+  command
+      ->add_option("--depth-unit", options->depth_unit,
+                   "What the values of a depth picture are: distances, or disparities in pixels of "
+                   "the photo; default: an order without a unit")
+      ->type_name("m|mm|disparity");
+  command
+      ->add_option("--depth-orientation", options->depth_orientation,
+                   "Whether a depth picture is turned by the photo's EXIF or stands upright "
+                   "already; default: by proportions and edges")
+      ->type_name("photo|upright");
+  command
+      ->add_option("--unknown", options->unknown,
+                   "Values of a depth picture that stand for an unknown depth; none: transparent "
+                   "pixels are known, too; default: 0 and 65535 of 16 bits, unless other values "
+                   "show that they are depths")
+      ->type_name("none|V,V,...");
 }
 
 void AddMapOptions(CLI::App* command, MapOptions* options) {
@@ -74,11 +154,10 @@ void AddMapOptions(CLI::App* command, MapOptions* options) {
 Error OpenInput(const InputOptions& options, Capture* capture) {
   CaptureOptions wanted;
   wanted.depth = options.depth;
-  Error error = ParseNear(options.near, &wanted.near);
+  Error error = ParseDepthOptions(options, &wanted.map);
   std::error_code ignored;
-  const char* option = !options.depth.empty() ? "--depth" : "--near";
-  if (error.empty() && !(options.depth.empty() && options.near.empty()) &&
-      std::filesystem::is_directory(options.path, ignored)) {
+  const char* option = DepthOption(options);
+  if (error.empty() && option != nullptr && std::filesystem::is_directory(options.path, ignored)) {
     error = Error::Usage(option, "a photo, not a folder", options.path);
   }
   if (error.empty()) error = OpenCapture(options.path, wanted, capture);

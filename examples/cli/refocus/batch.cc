@@ -14,6 +14,7 @@
 #include "platform/file.h"
 #include "platform/progress.h"
 #include "platform/readers/capture.h"
+#include "platform/readers/pair.h"
 #include "platform/standard_stream.h"
 #include "platform/writers/picture.h"
 
@@ -29,11 +30,8 @@ bool IsLightField(const fs::path& folder) {
 
 // A depth picture stands beside the photograph that it is of.
 bool IsPhoto(const fs::path& path) {
-  const std::string extension = LowerExtension(path.string()), stem = path.stem().string();
-  constexpr char kDepth[] = "-depth";
-  const size_t length = sizeof(kDepth) - 1;
-  if (stem.size() >= length && stem.compare(stem.size() - length, length, kDepth) == 0)
-    return false;
+  const std::string extension = LowerExtension(path.string());
+  if (IsDepthPictureName(path.filename().string())) return false;
   return extension == ".jpg" || extension == ".jpeg" || extension == ".heic" ||
          extension == ".heif";
 }

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/levels.h"
+
+#include <stb/stb_image.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "platform/container.h"
+#include "platform/image_io.h"
+#include "platform/png.h"
+#include "platform/ppm.h"
+#include "platform/stb_memory.h"
+
+namespace starfocus {
+namespace {
+
+// Pixels whose channels differ by more than a tenth of white are coloured: JPEG changes grey by
+// less. From one pixel in a hundred on the picture is one in colours.
+constexpr int kColourPart = 10;
+constexpr size_t kColouredPart = 100;
+
+// Grey levels of interleaved samples of 1 (grey) to 4 (RGB and alpha) channels.
+template <class Sample>
+std::string TakeGrey(const std::string& where, const Sample* pixel, int channels, bool use_alpha,
+                     Samples* result) {
+  const bool has_alpha = channels % 2 == 0, is_grey = channels < 3;
+  const size_t count = size_t(result->map.width) * size_t(result->map.height);
+  size_t coloured = 0;
+  result->map.values.reserve(count);
+  for (size_t k = 0; k < count; ++k, pixel += channels) {
+    if (has_alpha && use_alpha && 2 * pixel[channels - 1] < result->largest) {
+      result->map.values.push_back(std::numeric_limits<float>::quiet_NaN());
+    } else if (is_grey) {
+      result->map.values.push_back(static_cast<float>(pixel[0]));
+    } else {
+      const auto [low, high] = std::minmax({int{pixel[0]}, int{pixel[1]}, int{pixel[2]}});
+      if ((high - low) * kColourPart > result->largest) ++coloured;
+      result->map.values.push_back(static_cast<float>(pixel[0] + pixel[1] + pixel[2]) / 3);
+    }
+  }
+  if (coloured * kColouredPart < count) return "";
+  return Expected(where, "a depth picture in grey levels",
+                  "one in colours: false colours do not say what is nearer");
+}
+
+// Decodes a PNG file that DecodeImage has read without an error.
+std::string DecodePngSamples(const std::string& where, const Bytes& bytes, bool use_alpha,
+                             Samples* result) {
+  PngHeader header = {};
+  ReadPngHeader(bytes, &header);
+  constexpr int kColour = 2;  // this bit of the colour type: RGB or a palette of RGB
+  const int channels = (header.colour & kColour) != 0 ? 4 : 2;
+  const auto size = static_cast<int>(bytes.size());
+  const StbMemory memory;
+  int own = 0, *width = &result->map.width, *height = &result->map.height;
+  if (header.depth == 16) {
+    result->largest = 65535;
+    const stbi_us* pixels =
+        stbi_load_16_from_memory(bytes.data(), size, width, height, &own, channels);
+    if (pixels != nullptr) return TakeGrey(where, pixels, channels, use_alpha, result);
+  } else {
+    result->largest = 255;
+    const stbi_uc* pixels =
+        stbi_load_from_memory(bytes.data(), size, width, height, &own, channels);
+    if (pixels != nullptr) return TakeGrey(where, pixels, channels, use_alpha, result);
+  }
+  return Expected(where, "an undamaged picture",
+                  "a broken one (" + std::string(stbi_failure_reason()) + ")");
+}
+
+}  // namespace
+
+std::string DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes,
+                          Samples* samples) {
+  Samples result;
+  std::string error;
+  if (!bytes->empty() && bytes->front() == 'P') {
+    PnmSamples pnm;
+    error = DecodePnmSamples(where, *bytes, &pnm);
+    if (!error.empty()) return error;
+    result.map.width = pnm.width;
+    result.map.height = pnm.height;
+    result.largest = pnm.largest;
+    error = TakeGrey(where, pnm.samples.data(), pnm.channels, use_alpha, &result);
+  } else {
+    const Bytes file = IsPng(*bytes) ? *bytes : Bytes();  // DecodeImage changes palettes
+    Image image;
+    error = DecodeImage(where, bytes, &image);
+    if (!error.empty()) return error;
+    result.map.width = image.width;
+    result.map.height = image.height;
+    result.largest = 255;
+    error = file.empty() ? TakeGrey(where, image.pixels.data(), 3, use_alpha, &result)
+                         : DecodePngSamples(where, file, use_alpha, &result);
+  }
+  if (error.empty()) *samples = std::move(result);
+  return error;
+}
+
+std::string DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels) {
+  Samples samples;
+  const std::string error = DecodeSamples(where, true, bytes, &samples);
+  if (!error.empty()) return error;
+  for (float& value : samples.map.values) value /= static_cast<float>(samples.largest);
+  *levels = std::move(samples.map);
+  return "";
+}
+
+}  // namespace starfocus

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/map_orientation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "platform/readers/orientation.h"
+#include "platform/readers/photo_scale.h"
+#include "platform/readers/robust_range.h"
+
+namespace starfocus {
+namespace {
+
+// Longer side of the pictures whose edges are compared.
+constexpr int kSmall = 192;
+
+// The mean brightness of each cell of the picture.
+FloatMap ShrinkPicture(const Image& picture, int width, int height) {
+  FloatMap small = {width, height, {}};
+  small.values.reserve(size_t(width) * size_t(height));
+  for (int y = 0; y < height; ++y) {
+    const auto top = static_cast<int>(int64_t{picture.height} * y / height);
+    const auto bottom = static_cast<int>(int64_t{picture.height} * (y + 1) / height);
+    for (int x = 0; x < width; ++x) {
+      const auto left = static_cast<int>(int64_t{picture.width} * x / width);
+      const auto right = static_cast<int>(int64_t{picture.width} * (x + 1) / width);
+      double sum = 0;
+      for (int row = top; row < bottom; ++row) {
+        const uint8_t* at = picture.row(row) + 3 * size_t(left);
+        for (int k = 0; k < 3 * (right - left); ++k) sum += at[k];
+      }
+      small.values.push_back(static_cast<float>(sum / (3.0 * (right - left) * (bottom - top))));
+    }
+  }
+  return small;
+}
+
+struct Slope {
+  double x, y;
+};
+
+Slope SlopeAt(const FloatMap& map, int x, int y) {
+  return {double(map.at(x + 1, y)) - double(map.at(x - 1, y)),
+          double(map.at(x, y + 1)) - double(map.at(x, y - 1))};
+}
+
+// How well the edges of two maps of one size agree in place and direction: 0, not at all, to 1.
+double Agreement(const FloatMap& picture, const FloatMap& map) {
+  double both = 0, first = 0, second = 0;
+  for (int y = 1; y + 1 < map.height; ++y) {
+    for (int x = 1; x + 1 < map.width; ++x) {
+      const Slope a = SlopeAt(picture, x, y), b = SlopeAt(map, x, y);
+      if (!std::isfinite(b.x + b.y)) continue;
+      both += std::fabs(a.x * b.x + a.y * b.y);
+      first += a.x * a.x + a.y * a.y;
+      second += b.x * b.x + b.y * b.y;
+    }
+  }
+  return first > 0 && second > 0 ? both / std::sqrt(first * second) : 0;
+}
+
+// Whether the edges say that the map is upright already.
+bool EdgesSayUpright(const DepthPhoto& photo, bool* sure) {
+  constexpr double kSure = 1.05;
+  const Image& picture = photo.picture;
+  const int longer = std::max(picture.width, picture.height), side = std::min(longer, kSmall);
+  const auto scaled = [&](int size) {
+    return std::max(1, static_cast<int>(int64_t{size} * side / longer));
+  };
+  FloatMap map = photo.map;
+  const RobustRange range = RobustRangeOf(map.values);
+  for (float& value : map.values) {
+    if (std::isfinite(value)) value = std::clamp(value, range.low, range.high);
+  }
+  FloatMap small = ShrinkPicture(picture, scaled(picture.width), scaled(picture.height));
+  const double turned = Agreement(small, Resize(map, small.width, small.height));
+  TurnMap(photo.orientation, &small);
+  const double upright = Agreement(small, Resize(map, small.width, small.height));
+  *sure = std::max(turned, upright) > kSure * std::min(turned, upright);
+  return *sure && upright > turned;
+}
+
+// Whether the map is upright, where proportions leave the choice; a note reports it.
+bool ChooseByEdges(DepthPhoto* photo) {
+  bool sure = false;
+  const bool upright = EdgesSayUpright(*photo, &sure);
+  photo->notes.push_back(
+      std::string("the depth picture is taken to be ") +
+      (upright ? "upright already" : "turned as the photo's file is") +
+      (sure ? ", as its edges agree better with the photo's so"
+            : ", though its edges do not show it") +
+      (upright ? " (else: --depth-orientation photo)" : " (else: --depth-orientation upright)"));
+  return upright;
+}
+
+}  // namespace
+
+bool HasSameProportions(const FloatMap& map, int width, int height) {
+  constexpr double kTolerance = 0.03;
+  const double a = double(map.width) * height, b = double(map.height) * width;
+  // The size of the map that is less by rounding may be off by a pixel.
+  return std::fabs(a - b) <= std::max({kTolerance * std::min(a, b), double(width), double(height)});
+}
+
+void StandWithPhoto(DepthOrientation choice, DepthPhoto* photo) {
+  const int orientation = photo->orientation;
+  if (orientation <= 1) return;
+  const Image& picture = photo->picture;
+  bool upright = choice == DepthOrientation::kUpright;
+  if (choice == DepthOrientation::kUnknown) {
+    const bool swaps = orientation >= 5;
+    const bool as_file = HasSameProportions(photo->map, picture.width, picture.height);
+    const bool as_turned =
+        swaps ? HasSameProportions(photo->map, picture.height, picture.width) : as_file;
+    upright = as_file && as_turned ? ChooseByEdges(photo) : as_turned;
+  }
+  if (!upright) return;
+  FloatMap map;
+  std::swap(map, photo->map);
+  ApplyOrientation(photo);
+  std::swap(map, photo->map);
+}
+
+}  // namespace starfocus

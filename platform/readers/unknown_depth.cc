@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/unknown_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "platform/readers/robust_range.h"
+
+namespace starfocus {
+namespace {
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr float kTop = 65535;  // of 16 bits
+// A value that is as near to the others as this part of their range belongs to them. Sensors see
+// nothing so near to 0: the nearest distance is 5 % of the range and more.
+constexpr float kBesidePart = 0.02F;
+
+// What the values of a map of 16 bits say about its ends.
+struct Ends {
+  size_t zeros = 0, tops = 0;
+  bool are_depths = false;
+};
+
+// Maps whose values run up to an end, and maps whose values lie between two ends that both occur,
+// were stretched to the whole range: 0 and 65535 are the farthest and the nearest depth.
+Ends JudgeEnds(const FloatMap& map) {
+  Ends ends;
+  std::vector<float> others;
+  for (const float value : map.values) {
+    if (value == 0) {
+      ++ends.zeros;
+    } else if (value == kTop) {
+      ++ends.tops;
+    } else {
+      others.push_back(value);
+    }
+  }
+  const RobustRange range = RobustRangeOf(others);
+  if (ends.zeros > 0 && ends.tops > 0) {
+    ends.are_depths = !range.known || range.high >= kTop / 2;
+  } else if (!range.known) {
+    ends.are_depths = true;  // a map of one value
+  }
+  const float beside = kBesidePart * (range.high - range.low);
+  if (range.known && range.high > range.low) {
+    ends.are_depths |=
+        (ends.zeros > 0 && range.low <= beside) || (ends.tops > 0 && kTop - range.high <= beside);
+  }
+  return ends;
+}
+
+void Forget(float unknown, FloatMap* map) {
+  std::replace(map->values.begin(), map->values.end(), unknown, kUnknown);
+}
+
+// Where the known values around a gap lie, for one direction of a map.
+struct Gap {
+  float behind = kUnknown;  // the smaller of the values at its ends
+  int length = std::numeric_limits<int>::max();
+};
+
+// Tells `visit` the gap of each unknown pixel of a line of `count` values, `step` apart. A gap that
+// ends at the border counts twice: nothing confirms the value of its only end.
+template <class Visit>
+void FindGaps(const float* line, size_t step, int count, const Visit& visit) {
+  for (int k = 0; k < count;) {
+    if (!std::isnan(line[size_t(k) * step])) {
+      ++k;
+      continue;
+    }
+    int end = k;
+    while (end < count && std::isnan(line[size_t(end) * step])) ++end;
+    const bool before = k > 0, after = end < count;
+    Gap gap;
+    if (before) gap.behind = line[size_t(k - 1) * step];
+    if (after) gap.behind = std::fmin(gap.behind, line[size_t(end) * step]);
+    if (before || after) gap.length = (end - k) * (before && after ? 1 : 2);
+    for (; k < end; ++k) visit(k, gap);
+  }
+}
+
+// Fills every pixel that has a known one in its row or column.
+size_t FillOnce(FloatMap* map) {
+  const size_t width = size_t(map->width);
+  std::vector<Gap> gaps(map->values.size());
+  for (int y = 0; y < map->height; ++y) {
+    Gap* row = gaps.data() + size_t(y) * width;
+    FindGaps(map->values.data() + size_t(y) * width, 1, map->width,
+             [row](int x, const Gap& gap) { row[x] = gap; });
+  }
+  for (int x = 0; x < map->width; ++x) {
+    Gap* column = gaps.data() + x;
+    FindGaps(map->values.data() + x, width, map->height, [&](int y, const Gap& gap) {
+      Gap* at = column + size_t(y) * width;
+      if (gap.length == at->length) at->behind = std::fmin(at->behind, gap.behind);
+      if (gap.length < at->length) *at = gap;
+    });
+  }
+  size_t filled = 0;
+  for (size_t k = 0; k < gaps.size(); ++k) {
+    if (!std::isnan(map->values[k]) || std::isnan(gaps[k].behind)) continue;
+    map->values[k] = gaps[k].behind;
+    ++filled;
+  }
+  return filled;
+}
+
+}  // namespace
+
+void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo) {
+  FloatMap* map = &photo->map;
+  for (float& value : map->values) {
+    if (!std::isfinite(value)) value = kUnknown;
+  }
+  for (const double value : options.unknown) Forget(static_cast<float>(value), map);
+  const bool distances =
+      options.unit == DepthUnit::kMetres || options.unit == DepthUnit::kMillimetres;
+  if (distances) Forget(0, map);  // nothing is there
+  if (options.has_unknown || largest <= 255) return;
+  const Ends ends = JudgeEnds(*map);
+  if (ends.zeros + ends.tops == 0) return;
+  const bool both = ends.zeros > 0 && ends.tops > 0;
+  const std::string end = ends.tops == 0 ? "0" : "65535", which = both ? "0 and 65535" : end;
+  if (ends.are_depths) {
+    photo->notes.push_back(which + " of the depth picture count" + (both ? "" : "s") +
+                           " as a depth, as its other values reach there (else: --unknown " +
+                           (both ? "0,65535" : end) + ")");
+    return;
+  }
+  photo->notes.push_back(which + " of the depth picture stand" + (both ? "" : "s") +
+                         " for an unknown depth (else: --unknown none)");
+  Forget(0, map);
+  Forget(kTop, map);
+}
+
+size_t FillBehind(FloatMap* map) {
+  const auto unknown = std::count_if(map->values.begin(), map->values.end(),
+                                     [](float value) { return std::isnan(value); });
+  // After the first time every row that has a known pixel is full, and so is some column.
+  for (auto left = static_cast<size_t>(unknown); left > 0;) left -= FillOnce(map);
+  return static_cast<size_t>(unknown);
+}
+
+}  // namespace starfocus

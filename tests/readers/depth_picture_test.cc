@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth pictures as files of their own: which values are unknown, what fills them, units, which end
+// is near, how the picture stands, and by which names it is found.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "platform/levels.h"
+#include "platform/readers/capture.h"
+#include "platform/readers/orientation.h"
+#include "platform/readers/unknown_depth.h"
+#include "tests/support/photo_files.h"
+
+namespace starfocus {
+namespace {
+
+using namespace photos;
+
+constexpr int kWidth = 48, kHeight = 36;
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// What a map says of a scene: a wall, a floor below that comes nearer, and a box before them.
+struct Scene {
+  double wall, floor, box;
+
+  double At(int x, int y) const {
+    if (x >= 16 && x < 28 && y >= 8 && y < 26) return box;
+    return y < 20 ? wall : wall + (floor - wall) * (y - 19) / (kHeight - 20);
+  }
+};
+
+FloatMap MapOf(const Scene& scene) {
+  FloatMap map = {kWidth, kHeight, {}};
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) map.values.push_back(static_cast<float>(scene.At(x, y)));
+  }
+  return map;
+}
+
+std::vector<uint16_t> LevelsOf(const Scene& scene) {
+  std::vector<uint16_t> levels;
+  for (const float value : MapOf(scene).values) {
+    levels.push_back(static_cast<uint16_t>(std::lround(value)));
+  }
+  return levels;
+}
+
+size_t Index(int x, int y) { return size_t(y) * kWidth + size_t(x); }
+
+std::string Png(const std::vector<uint16_t>& levels) { return Png16(kWidth, kHeight, levels); }
+
+// Opens a grey photo with a depth picture of that name and content.
+struct Opened {
+  std::string error;
+  Capture capture;
+
+  Opened(const std::string& name, const std::string& depth, const DepthOptions& options) {
+    TempFolder folder;
+    Write(folder.file("photo.jpg"), Encode(Plain(kWidth, kHeight, 128), ".jpg"));
+    Write(folder.file(name), depth);
+    error = OpenCapture(folder.file("photo.jpg"), {folder.file(name), options}, &capture);
+  }
+
+  double At(int x, int y) const { return double(capture.light_field.disparity.at(x, y)); }
+  bool HasNote(const std::string& part) const {
+    for (const std::string& note : capture.notes) {
+      if (Contains(note, part)) return true;
+    }
+    return false;
+  }
+};
+
+std::string PfmOf(const FloatMap& map, ByteOrder order = ByteOrder::kLittle) {
+  TempFolder folder;
+  Bytes bytes;
+  Require(WritePfm(folder.file("map.pfm"), map, order));
+  Require(ReadFile(folder.file("map.pfm"), &bytes));
+  return {bytes.begin(), bytes.end()};
+}
+
+DepthOptions NearIs(Near near) {
+  DepthOptions options;
+  options.near = near;
+  return options;
+}
+
+const Scene kMillimetres = {3000, 1500, 900};
+constexpr int kWall[] = {40, 4}, kFloor[] = {40, 35}, kBox[] = {20, 15};
+
+// The nearest of an order: a portrait of 1.5 m before a 50 mm lens.
+const double kNearest = 50.0 * 50 / 1000 / 2 / 43.2666 * std::hypot(kWidth, kHeight) / 1.5;
+
+void CheckScene(const Opened& opened) {
+  REQUIRE(opened.error == "");
+  CHECK(opened.At(kWall[0], kWall[1]) == doctest::Approx(0));
+  CHECK(opened.At(kBox[0], kBox[1]) == doctest::Approx(kNearest));
+  CHECK(opened.At(kFloor[0], kFloor[1]) == doctest::Approx(kNearest * 1500 / 2100).epsilon(0.001));
+}
+
+TEST_CASE("unknown depth: 0 and 65535 of 16 bits, filled with what is behind") {
+  for (const uint16_t unknown : {uint16_t{0}, uint16_t{65535}}) {
+    CAPTURE(unknown);
+    std::vector<uint16_t> levels = LevelsOf(kMillimetres);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < 5; ++x) levels[Index(x, y)] = unknown;    // a border
+      for (int x = 28; x < 31; ++x) levels[Index(x, y)] = unknown;  // beside the box
+    }
+    const Opened opened("map.png", Png(levels), NearIs(Near::kBlack));
+    CheckScene(opened);
+    CHECK(opened.At(0, 4) == doctest::Approx(0));
+    CHECK(opened.At(28, 15) == doctest::Approx(0));  // the wall, not the box
+    CHECK(opened.At(0, 35) == doctest::Approx(opened.At(40, 35)));
+    CHECK(opened.HasNote("288 of 1728 pixels of the depth map are unknown"));
+    CHECK(opened.HasNote("--unknown none"));
+    DepthOptions none = NearIs(Near::kBlack);
+    none.has_unknown = true;
+    none.use_alpha = false;
+    const Opened known("map.png", Png(levels), none);
+    REQUIRE(known.error == "");
+    CHECK(known.capture.notes.empty());
+    CHECK(known.At(0, 4) == doctest::Approx(unknown == 0 ? kNearest : 0));
+  }
+}
+
+TEST_CASE("unknown depth: 0 and 65535 are depths of a map that uses the whole range") {
+  for (const bool inverted : {false, true}) {
+    CAPTURE(inverted);
+    const Scene scene = inverted ? Scene{65535, 18725, 0} : Scene{0, 46811, 65535};
+    const Opened opened("map.png", Png(LevelsOf(scene)),
+                        NearIs(inverted ? Near::kBlack : Near::kWhite));
+    CheckScene(opened);
+    CHECK(opened.HasNote("as a depth"));
+    CHECK(opened.HasNote("--unknown"));
+  }
+  std::vector<uint16_t> both = LevelsOf(kMillimetres);  // of a sensor, both are unknown
+  both[Index(40, 2)] = 65535;
+  both[Index(41, 2)] = 0;
+  const Opened sensor("map.png", Png(both), NearIs(Near::kBlack));
+  CheckScene(sensor);
+  CHECK(sensor.HasNote("0 and 65535 of the depth picture stand"));
+}
+
+TEST_CASE(
+    "unknown depth: values that are named, of 8 bits too, and 8 bits have none of their own") {
+  Image map = Plain(kWidth, kHeight, 100);
+  std::fill_n(map.row(0), map.stride(), uint8_t{0});
+  std::fill_n(map.row(35), map.stride(), uint8_t{200});
+  const Opened own("map.png", Encode(map, ".png"), NearIs(Near::kWhite));
+  REQUIRE(own.error == "");
+  CHECK(own.capture.notes.empty());
+  CHECK(own.At(3, 5) == doctest::Approx(kNearest / 2));
+  DepthOptions zero = NearIs(Near::kWhite);
+  zero.has_unknown = true;
+  zero.unknown = {0};
+  const Opened named("map.png", Encode(map, ".png"), zero);
+  REQUIRE(named.error == "");
+  CHECK(named.At(3, 0) == doctest::Approx(0));
+  CHECK(named.At(3, 5) == doctest::Approx(0));
+}
+
+// A PNG file whose samples are stored as they are: other colour types than Png16.
+std::string PngOf(int depth, int colour, const std::string& samples, size_t row,
+                  const std::string& more) {
+  std::string png = Png16(kWidth, kHeight, std::vector<uint16_t>(size_t(kWidth) * kHeight, 0));
+  std::string data;
+  for (size_t at = 0; at < samples.size(); at += row) data += '\0' + samples.substr(at, row);
+  uint32_t low = 1, high = 0;
+  for (const char byte : data) {
+    low = (low + static_cast<uint8_t>(byte)) % 65521;
+    high = (high + low) % 65521;
+  }
+  std::string packed = "\x78\x01\x01";
+  const auto size = static_cast<uint32_t>(data.size());
+  for (const uint32_t length : {size, ~size}) {
+    packed += static_cast<char>(length);
+    packed += static_cast<char>(length >> 8);
+  }
+  packed += data + Big(high << 16 | low, 4);
+  const auto chunk = [](const std::string& type, const std::string& content) {
+    return Big(static_cast<uint32_t>(content.size()), 4) + type + content +
+           Big(Crc(type + content), 4);
+  };
+  const std::string header = Big(kWidth, 4) + Big(kHeight, 4) + static_cast<char>(depth) +
+                             static_cast<char>(colour) + std::string(3, '\0');
+  return png.substr(0, 8) + chunk("IHDR", header) + more + chunk("IDAT", packed) +
+         chunk("IEND", "");
+}
+
+std::string Chunk(const std::string& type, const std::string& content) {
+  return Big(static_cast<uint32_t>(content.size()), 4) + type + content +
+         Big(Crc(type + content), 4);
+}
+
+TEST_CASE("unknown depth: transparent pixels, by an alpha channel, a colour or a palette") {
+  const Scene scene = {50, 160, 204};
+  const auto make = [&](int depth, int colour) {
+    std::string samples;
+    const int bytes = depth / 8;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const bool unknown = x < 6;
+        const auto level = static_cast<uint32_t>(unknown ? 7 : std::lround(scene.At(x, y)));
+        const int channels = colour == 6 ? 3 : 1;
+        for (int c = 0; c < channels; ++c) samples += Big(level * (bytes == 2 ? 257 : 1), bytes);
+        if (colour == 4 || colour == 6) samples += Big(unknown ? 0 : 0xffffffff, bytes);
+      }
+    }
+    return samples;
+  };
+  std::string palette, opacities(8, '\xff');
+  for (int level = 0; level < 256; ++level) palette += std::string(3, static_cast<char>(level));
+  opacities[7] = 0;
+  const std::string files[] = {
+      PngOf(8, 4, make(8, 4), 2 * kWidth, ""),
+      PngOf(16, 4, make(16, 4), 4 * kWidth, ""),
+      PngOf(8, 6, make(8, 6), 4 * kWidth, ""),
+      PngOf(16, 6, make(16, 6), 8 * kWidth, ""),
+      PngOf(8, 0, make(8, 0), kWidth, Chunk("tRNS", Big(7, 2))),
+      PngOf(16, 0, make(16, 0), 2 * kWidth, Chunk("tRNS", Big(7 * 257, 2))),
+      PngOf(8, 3, make(8, 3), kWidth, Chunk("PLTE", palette) + Chunk("tRNS", opacities))};
+  for (size_t k = 0; k < std::size(files); ++k) {
+    CAPTURE(k);
+    const Opened opened("map.png", files[k], NearIs(Near::kWhite));
+    REQUIRE(opened.error == "");
+    CHECK(opened.At(40, 4) == doctest::Approx(0));
+    CHECK(opened.At(0, 4) == doctest::Approx(0));
+    CHECK(opened.At(20, 15) == doctest::Approx(kNearest));
+    CHECK(opened.At(40, 35) == doctest::Approx(kNearest * 110 / 154));
+    CHECK(opened.HasNote("216 of 1728 pixels"));
+    DepthOptions none = NearIs(Near::kWhite);
+    none.has_unknown = true;
+    none.use_alpha = false;
+    CHECK(Opened("map.png", files[k], none).At(40, 4) == doctest::Approx(kNearest * 43 / 197));
+  }
+}
+
+TEST_CASE(
+    "unknown depth: what is not finite in PFM of either byte order, and single wrong values") {
+  for (const ByteOrder order : {ByteOrder::kLittle, ByteOrder::kBig}) {
+    FloatMap map = MapOf({5, 5 + 25.0F * 1500 / 2100, 30});
+    for (int y = 0; y < kHeight; ++y) {
+      map.values[Index(0, y)] = HUGE_VALF;
+      map.values[Index(1, y)] = -HUGE_VALF;
+      map.values[Index(47, y)] = kNan;
+    }
+    map.values[Index(30, 1)] = 1e6F;  // one in 1728
+    const Opened opened("map.pfm", PfmOf(map, order), {});
+    CheckScene(opened);
+    CHECK(opened.At(0, 4) == doctest::Approx(0));
+    CHECK(opened.At(30, 1) == doctest::Approx(kNearest));
+    CHECK(opened.HasNote("108 of 1728 pixels"));
+  }
+  const Opened nothing("map.pfm", PfmOf({kWidth, kHeight, std::vector<float>(1728, kNan)}), {});
+  CHECK(Contains(nothing.error, "a map with a known depth"));
+}
+
+TEST_CASE("unknown depth: gaps take the farther end of the shorter direction") {
+  FloatMap map = {5, 4, {1, kNan, kNan, 7, 7,     //
+                         1, kNan, 4,    7, kNan,  //
+                         1, kNan, kNan, 7, kNan,  //
+                         1, 2,    2,    7, kNan}};
+  CHECK(FillBehind(&map) == 8);
+  CHECK(map.values == std::vector<float>{1, 1, 1, 7, 7,  //
+                                         1, 1, 4, 7, 7,  //
+                                         1, 1, 2, 7, 7,  //
+                                         1, 2, 2, 7, 7});
+  FloatMap one = {3, 3, std::vector<float>(9, kNan)};
+  one.values[4] = 3;
+  CHECK(FillBehind(&one) == 8);
+  CHECK(one.values == std::vector<float>(9, 3));
+}
+
+TEST_CASE("depth pictures: PFM by --near, and units that keep values as they are") {
+  const Scene metres = {3, 1.5, 0.9};
+  CheckScene(Opened("map.pfm", PfmOf(MapOf(metres)), NearIs(Near::kBlack)));
+  DepthOptions options;
+  options.unit = DepthUnit::kMetres;
+  const Opened by_metre("map.pfm", PfmOf(MapOf(metres)), options);
+  REQUIRE(by_metre.error == "");
+  CHECK(by_metre.At(kWall[0], kWall[1]) == doctest::Approx(kNearest * 1.5 / 3));
+  CHECK(by_metre.At(kBox[0], kBox[1]) == doctest::Approx(kNearest * 1.5 / 0.9));
+  options.unit = DepthUnit::kMillimetres;
+  std::vector<uint16_t> levels = LevelsOf(kMillimetres);
+  levels[0] = 0;
+  const Opened by_millimetre("map.png", Png(levels), options);
+  REQUIRE(by_millimetre.error == "");
+  CHECK(by_millimetre.At(0, 0) == doctest::Approx(kNearest * 1.5 / 3));
+  CHECK(by_millimetre.At(kBox[0], kBox[1]) == doctest::Approx(kNearest * 1.5 / 0.9));
+  options.unit = DepthUnit::kDisparity;
+  const Opened pixels("map.pfm", PfmOf(MapOf({-2, 3, 17.5})), options);
+  REQUIRE(pixels.error == "");
+  CHECK(pixels.At(kWall[0], kWall[1]) == -2);
+  CHECK(pixels.At(kBox[0], kBox[1]) == 17.5);
+  CHECK(Contains(Opened("map.pfm", PfmOf(MapOf({2, 3, 501})), options).error,
+                 "disparities within +-500"));
+}
+
+TEST_CASE("depth pictures: PGM keeps its 16 bits, and colours are refused") {
+  std::string pgm = "P5\n48 36\n4095\n";
+  for (const uint16_t level : LevelsOf(kMillimetres)) pgm += Big(level, 2);
+  CheckScene(Opened("map.pgm", pgm, NearIs(Near::kBlack)));
+  Bytes bytes(pgm.begin(), pgm.end());
+  Samples samples;
+  REQUIRE(DecodeSamples("x", true, &bytes, &samples) == "");
+  CHECK(samples.largest == 4095);
+  CHECK(samples.map.values[Index(kBox[0], kBox[1])] == 900);
+  Image colours(kWidth, kHeight);
+  for (size_t k = 0; k < colours.pixels.size(); k += 3) {
+    colours.pixels[k] = static_cast<uint8_t>(k / 21);
+    colours.pixels[k + 2] = static_cast<uint8_t>(255 - k / 21);
+  }
+  for (const std::string extension : {".png", ".jpg", ".ppm"}) {
+    CAPTURE(extension);
+    CHECK(Contains(Opened("map" + extension, Encode(colours, extension), {}).error,
+                   "one in colours"));
+  }
+  // What JPEG makes of grey stays grey.
+  CHECK(Opened("map.jpg", Encode(Ramp(kWidth, kHeight), ".jpg"), {}).error == "");
+}
+
+Image GreyOf(const FloatMap& map) {
+  Image picture(map.width, map.height);
+  for (size_t k = 0; k < picture.pixels.size(); ++k) {
+    picture.pixels[k] = static_cast<uint8_t>(map.values[k / 3]);
+  }
+  return picture;
+}
+
+// A photo whose edges are those of the scene.
+Image PictureOf(const FloatMap& map) {
+  Image picture(map.width, map.height);
+  for (size_t k = 0; k < map.values.size(); ++k) {
+    for (size_t c = 0; c < 3; ++c) {
+      picture.pixels[3 * k + c] =
+          static_cast<uint8_t>(40 + 20 * c + double(map.values[k]) * (c == 1 ? 0.4 : 0.7));
+    }
+  }
+  return picture;
+}
+
+#ifdef STARFOCUS_HAS_EXIF
+TEST_CASE("depth pictures: upright already or turned with the photo, by proportions and edges") {
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    for (const bool square : {false, true}) {
+      CAPTURE(orientation);
+      CAPTURE(square);
+      FloatMap map = MapOf({30, 140, 220});
+      if (square) {
+        map.values.resize(size_t(kHeight) * kHeight);
+        for (int y = 0; y < kHeight; ++y) {
+          for (int x = 0; x < kHeight; ++x) {
+            map.values[size_t(y * kHeight + x)] = static_cast<float>(Scene{30, 140, 220}.At(x, y));
+          }
+        }
+        map.width = kHeight;
+      }
+      const Image as_file = PictureOf(map);
+      FloatMap upright = map;
+      TurnMap(orientation, &upright);
+      TempFolder folder;
+      Write(folder.file("photo.jpg"), Insert(Encode(as_file, ".jpg"), ExifSegment(orientation, 0)));
+      Write(folder.file("file.png"), Encode(GreyOf(map), ".png"));
+      Write(folder.file("upright.png"), Encode(GreyOf(upright), ".png"));
+      Capture by_file, by_upright, wrong;
+      DepthOptions options = NearIs(Near::kWhite);
+      const std::string path = folder.file("photo.jpg");
+      REQUIRE(OpenCapture(path, {folder.file("file.png"), options}, &by_file) == "");
+      REQUIRE(OpenCapture(path, {folder.file("upright.png"), options}, &by_upright) == "");
+      CHECK(by_file.light_field.disparity.values == by_upright.light_field.disparity.values);
+      CHECK(by_file.light_field.disparity.width == upright.width);
+      const bool judged = orientation > 1 && (orientation < 5 || square);
+      REQUIRE(by_upright.notes.size() == (judged ? 1 : 0));
+      if (!judged) continue;
+      CHECK(Contains(by_upright.notes[0], "upright already"));
+      CHECK(Contains(by_upright.notes[0], "--depth-orientation photo"));
+      CHECK(Contains(by_file.notes[0], "--depth-orientation upright"));
+      options.orientation = DepthOrientation::kPhoto;
+      REQUIRE(OpenCapture(path, {folder.file("upright.png"), options}, &wrong) == "");
+      CHECK(wrong.notes.empty());
+      CHECK(wrong.light_field.disparity.values != by_file.light_field.disparity.values);
+      options.orientation = DepthOrientation::kUpright;
+      REQUIRE(OpenCapture(path, {folder.file("upright.png"), options}, &wrong) == "");
+      CHECK(wrong.light_field.disparity.values == by_file.light_field.disparity.values);
+    }
+  }
+}
+#endif
+
+TEST_CASE("depth pictures: other proportions than the photo's are refused, rounding is not") {
+  const auto open = [](int width, int height) {
+    return Opened("map.png", Encode(Ramp(width, height), ".png"), NearIs(Near::kWhite)).error;
+  };
+  CHECK(open(24, 18) == "");
+  CHECK(open(16, 12) == "");
+  CHECK(open(11, 8) == "");
+  CHECK(open(518, 392) == "");
+  for (const auto& [width, height] : {std::pair<int, int>{48, 32}, {48, 40}, {36, 36}, {36, 48}}) {
+    CHECK(Contains(open(width, height), "a map of the picture's proportions"));
+  }
+}
+
+TEST_CASE("depth pictures: names beside the photo") {
+  for (const char* name : {"photo-depth.png", "photo_depth.png", "photo.depth.png",
+                           "photo-depth.PNG", "PHOTO_Depth.Png", "Photo-DEPTH.png"}) {
+    CAPTURE(name);
+    TempFolder folder;
+    Write(folder.file("photo.jpg"), Encode(Plain(kWidth, kHeight, 128), ".jpg"));
+    Write(folder.file("photodepth.png"), "no picture");
+    Write(folder.file("photo2-depth.png"), "no picture");
+    Write(folder.file("depth.png"), "no picture");
+    Write(folder.file(name), Encode(Ramp(kWidth, kHeight), ".png"));
+    Capture capture;
+    REQUIRE(OpenCapture(folder.file("photo.jpg"), {}, &capture) == "");
+    CHECK(capture.map_path == folder.file(name));
+    CHECK(capture.notes.size() == 1);
+    Write(folder.file("photo-depth.jpg"), Encode(Ramp(kWidth, kHeight), ".jpg"));
+    REQUIRE(OpenCapture(folder.file("photo.jpg"), {"", NearIs(Near::kWhite)}, &capture) == "");
+    REQUIRE(capture.notes.size() == 1);
+    CHECK(Contains(capture.notes[0], "2 depth pictures"));
+  }
+}
+
+}  // namespace
+}  // namespace starfocus
