@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 
 #include "platform/image_io.h"
@@ -23,7 +24,8 @@ std::string SizeText(int width, int height) {
 }
 
 constexpr char kDisparityName[] = "disparity.pfm";
-constexpr char kPairDisparityName[] = "disp0.pfm";  // of a Middlebury pair
+// Maps of stereo pairs: Middlebury's and ETH3D's.
+constexpr const char* kPairDisparityNames[] = {"disp0.pfm", "disp0GT.pfm"};
 
 struct SaveJob {
   const std::string& folder;
@@ -48,13 +50,19 @@ void ConfigureViews(const LightField& light_field, sf_config* config) {
 }
 
 std::string DisparityPath(const std::string& folder) {
-  const std::string path = Join(folder, kDisparityName), pair = Join(folder, kPairDisparityName);
+  const std::string path = Join(folder, kDisparityName);
   std::error_code error;
-  return !fs::exists(path, error) && fs::exists(pair, error) ? pair : path;
+  if (fs::exists(path, error)) return path;
+  for (const char* name : kPairDisparityNames) {
+    if (fs::exists(Join(folder, name), error)) return Join(folder, name);
+  }
+  return path;
 }
 
 bool IsLightFieldFile(const std::string& name) {
-  return IsViewFile(name) || name == kDisparityName || name == kPairDisparityName;
+  return IsViewFile(name) || name == kDisparityName ||
+         std::find(std::begin(kPairDisparityNames), std::end(kPairDisparityNames), name) !=
+             std::end(kPairDisparityNames);
 }
 
 std::vector<std::string> LightFieldFiles(const std::string& folder) {
@@ -108,7 +116,10 @@ std::string LoadMap(const std::string& path, LightField* light_field) {
   FloatMap map;
   std::string error = CheckPlainFile(path);
   if (error.empty()) error = ReadPfm(path, &map);
-  if (!error.empty()) return error;
+  return error.empty() ? TakeMap(path, std::move(map), light_field) : error;
+}
+
+std::string TakeMap(const std::string& path, FloatMap map, LightField* light_field) {
   const Image& centre = light_field->views[0];
   if (map.width != centre.width || map.height != centre.height) {
     return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",

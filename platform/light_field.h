@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light-field folder: captured views (view_files.h), and disparity.pfm, or disp0.pfm of a stereo
-// pair, with the disparity of the centre view.
+// A light-field folder: captured views (view_files.h), and disparity.pfm, or disp0.pfm or
+// disp0GT.pfm of a stereo pair, with the disparity of the centre view.
 #ifndef STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 #define STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 
@@ -50,6 +50,9 @@ std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_
 
 // Loads the map of views that are there, of the same size.
 std::string LoadMap(const std::string& path, LightField* light_field);
+
+// Takes a map that was read from `path` for views that are there, of the same size.
+std::string TakeMap(const std::string& path, FloatMap map, LightField* light_field);
 
 // Loads these views and the disparity map, of the same size.
 std::string LoadLightField(const std::string& folder, const Positions& wanted,

@@ -71,6 +71,7 @@ std::string OpenFolder(const std::string& folder, Capture* capture) {
   Names names;
   const std::string error = ListFolder(folder, &names);
   if (!error.empty()) return error;
+  if (FindGreyMapPair(folder, names, capture)) return "";
   const Names pictures = PicturesOf(names);
   if (pictures.empty() || std::any_of(names.begin(), names.end(), IsViewFile)) {
     return OpenOwn(folder, names, capture);
@@ -132,6 +133,7 @@ std::string LoadCapture(const Positions& wanted, Capture* capture) {
   if (!error.empty() || capture->photo) return error;
   error = LoadViewFiles(chosen, &capture->light_field);
   if (!error.empty() || capture->map_path.empty()) return error;
+  if (LowerExtension(capture->map_path) != ".pfm") return LoadGreyMap(capture);
   error = LoadMap(capture->map_path, &capture->light_field);
   if (capture->map_scale == 1) return error;
   for (float& value : capture->light_field.disparity.values) {

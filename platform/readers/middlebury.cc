@@ -1,11 +1,92 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/middlebury.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <limits>
 
+#include "platform/levels.h"
 #include "platform/readers/key_values.h"
 
 namespace starfocus {
+namespace {
+
+// Sizes at which a scene is published: the multiple of the disparity that its levels are. The
+// largest pictures come first.
+struct Size {
+  int least_height, multiple;
+};
+
+// A pair whose map is a grey picture, and its sizes.
+struct GreyMapPair {
+  const char *format, *left, *right, *map;
+  Size sizes[4];
+};
+
+constexpr const char* kExtensions[] = {".png", ".ppm", ".pgm"};
+// Pictures of 2003 are 375, 750 or 1500 high, those of 2005 and 2006 370, 555 or 1110. Levels of
+// 2001, which has the names of 2003, are 8 times the disparity.
+constexpr GreyMapPair kPairs[] = {{"Middlebury stereo pair of 2003",
+                                   "im2",
+                                   "im6",
+                                   "disp2",
+                                   {{1125, 1}, {560, 2}, {0, 4}, {0, 8}}},
+                                  {"Middlebury stereo pair of 2005 or 2006",
+                                   "view1",
+                                   "view5",
+                                   "disp1",
+                                   {{830, 1}, {460, 2}, {0, 3}, {0, 3}}}};
+
+// The file of that name with one of the extensions; empty if there is none.
+std::string Find(const std::vector<std::string>& names, const std::string& name) {
+  for (const char* extension : kExtensions) {
+    if (std::binary_search(names.begin(), names.end(), name + extension)) return name + extension;
+  }
+  return "";
+}
+
+// The mean difference of the two pictures where the map says that they show the same, if its levels
+// are that multiple of the disparity. The least multiple decides which pixels count.
+double Difference(const LightField& field, const FloatMap& levels, int multiple) {
+  constexpr int kCutOff = 90, kStep = 2;  // of what only one picture shows; every other row
+  const Image &left = field.views[0], &right = field.views[1];
+  double sum = 0, count = 0;
+  for (int y = 0; y < levels.height; y += kStep) {
+    for (int x = 0; x < levels.width; ++x) {
+      const double level = double(levels.at(x, y));
+      if (std::isnan(level) || level > x) continue;
+      const uint8_t* a = left.row(y) + 3 * size_t(x);
+      const uint8_t* b = right.row(y) + 3 * static_cast<size_t>(std::lround(x - level / multiple));
+      int difference = 0;
+      for (int c = 0; c < 3; ++c) difference += std::abs(a[c] - b[c]);
+      sum += std::min(difference, kCutOff);
+      count += 1;
+    }
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+int ChooseMultiple(const GreyMapPair& pair, const LightField& field, const FloatMap& levels) {
+  constexpr double kClearly = 0.7;
+  const Size* own =
+      std::find_if(std::begin(pair.sizes), std::end(pair.sizes),
+                   [&](const Size& size) { return levels.height >= size.least_height; });
+  int best = own->multiple;
+  if (field.views.size() < 2) return best;
+  double least = kClearly * Difference(field, levels, best);
+  for (const Size& size : pair.sizes) {
+    const double difference = Difference(field, levels, size.multiple);
+    if (difference >= least) continue;
+    least = difference;
+    best = size.multiple;
+  }
+  return best;
+}
+
+}  // namespace
 
 std::string ReadMiddlebury(const std::string& folder, Capture* capture) {
   KeyValues values;
@@ -21,6 +102,45 @@ std::string ReadMiddlebury(const std::string& folder, Capture* capture) {
   if (NumberOf(values, "doffs", &offset)) {
     capture->facts.emplace_back("infinity", "at disparity -" + values["doffs"]);
   }
+  return "";
+}
+
+bool FindGreyMapPair(const std::string& folder, const std::vector<std::string>& names,
+                     Capture* capture) {
+  for (const GreyMapPair& pair : kPairs) {
+    const std::string left = Find(names, pair.left), right = Find(names, pair.right);
+    const std::string map = Find(names, pair.map);
+    if (left.empty() || right.empty() || map.empty()) continue;
+    const std::filesystem::path path(folder);
+    capture->format = pair.format;
+    capture->care = MapCare::kFill;
+    capture->files = {{{0, 0}, (path / left).string()}, {{1, 0}, (path / right).string()}};
+    capture->map_path = (path / map).string();
+    return true;
+  }
+  return false;
+}
+
+std::string LoadGreyMap(Capture* capture) {
+  const std::string& path = capture->map_path;
+  Bytes bytes;
+  Samples samples;
+  std::string error = CheckPlainFile(path);
+  if (error.empty()) error = ReadFile(path, &bytes);
+  if (error.empty()) error = DecodeSamples(path, true, &bytes, &samples);
+  if (!error.empty()) return error;
+  std::replace(samples.map.values.begin(), samples.map.values.end(), 0.0F,
+               std::numeric_limits<float>::quiet_NaN());
+  LightField* field = &capture->light_field;
+  error = TakeMap(path, std::move(samples.map), field);
+  if (!error.empty()) return error;
+  const auto* pair =
+      std::find_if(std::begin(kPairs), std::end(kPairs),
+                   [&](const GreyMapPair& one) { return capture->format == one.format; });
+  const int multiple = ChooseMultiple(*pair, *field, field->disparity);
+  for (float& value : field->disparity.values) value /= static_cast<float>(multiple);
+  capture->facts.emplace_back(
+      "map", "levels of " + std::to_string(multiple) + " times the disparity, 0 unknown");
   return "";
 }
 

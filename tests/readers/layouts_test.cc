@@ -26,6 +26,10 @@ std::string Number(int value, int digits) {
   return text;
 }
 
+bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 // A picture whose level tells its place.
 void WriteView(const TempFolder& folder, const std::string& name, int level) {
   Require(WriteImage(folder.file(name), Plain(4, 3, level)));
@@ -171,6 +175,88 @@ TEST_CASE("Middlebury: a pair whose unknown disparities are filled") {
   CHECK(LevelAt(capture, 1, 0) == 2);
   CHECK(FactOf(capture, "cameras") == "193.001 mm apart");
   CHECK(FactOf(capture, "infinity") == "at disparity -124.3");
+}
+
+TEST_CASE("stereo pairs: disp0GT.pfm, as ETH3D names it, is the map") {
+  TempFolder folder;
+  WriteView(folder, "im0.png", 1);
+  WriteView(folder, "im1.png", 2);
+  Require(WritePfm(folder.file("disp0GT.pfm"), {4, 3, std::vector<float>(12, 7)}));
+  Write(folder.file("calib.txt"), "doffs=0\nbaseline=60\n");
+  Capture capture;
+  REQUIRE(OpenAndLoad(folder, &capture) == "");
+  CHECK(capture.light_field.disparity.values[5] == 7);
+  CHECK(capture.map_path == folder.file("disp0GT.pfm"));
+  CHECK(IsLightFieldFile("disp0GT.pfm"));
+}
+
+// A pair of random pictures of a wall at the disparity 9, whose map has levels `multiple` times
+// that, and 0 in its first row.
+void WriteGreyMapPair(const TempFolder& folder, const std::vector<std::string>& names, int height,
+                      int multiple) {
+  constexpr int kWidth = 160, kDisparity = 9;
+  Image left(kWidth, height), right(kWidth, height), map = Plain(kWidth, height, 0);
+  uint32_t seed = 1;
+  for (uint8_t& value : left.pixels) {
+    seed = seed * 1664525 + 1013904223;
+    value = static_cast<uint8_t>(seed >> 24);
+  }
+  for (int y = 0; y < height; ++y) {
+    for (int k = 0; k < 3 * kWidth; ++k) {
+      const int from = k + 3 * kDisparity;
+      right.row(y)[k] = from < 3 * kWidth ? left.row(y)[from] : uint8_t{0};
+      if (y > 0) map.row(y)[k] = static_cast<uint8_t>(multiple * kDisparity);
+    }
+  }
+  Require(WriteImage(folder.file(names[0]), left));
+  Require(WriteImage(folder.file(names[1]), right));
+  if (names[2].substr(names[2].size() - 4) == ".pgm") {
+    std::string pgm = "P5 " + std::to_string(kWidth) + " " + std::to_string(height) + " 255\n";
+    for (size_t k = 0; k < map.pixels.size(); k += 3) pgm += static_cast<char>(map.pixels[k]);
+    Write(folder.file(names[2]), pgm);
+  } else {
+    Require(WriteImage(folder.file(names[2]), map));
+  }
+}
+
+TEST_CASE("Middlebury of 2003 to 2006: grey maps of the multiple that their size says") {
+  const std::vector<std::string> ppm = {"im2.ppm", "im6.ppm", "disp2.pgm"},
+                                 png = {"im2.png", "im6.png", "disp2.png"},
+                                 views = {"view1.png", "view5.png", "disp1.png"};
+  struct Case {
+    const std::vector<std::string>& names;
+    int height, multiple;
+  };
+  // The last three have sizes that are not published: their pictures show the multiple.
+  for (const Case& one :
+       {Case{ppm, 375, 4}, Case{png, 375, 4}, Case{png, 750, 2}, Case{png, 1500, 1},
+        Case{views, 370, 3}, Case{views, 555, 2}, Case{views, 1110, 1}, Case{views, 60, 1},
+        Case{png, 60, 2}, Case{ppm, 380, 8}}) {
+    CAPTURE(one.names[2]);
+    CAPTURE(one.height);
+    TempFolder folder;
+    WriteGreyMapPair(folder, one.names, one.height, one.multiple);
+    WriteView(folder, "im0.png", 1);  // other views of the scene
+    WriteView(folder, "im1.png", 1);
+    Write(folder.file("dmin.txt"), "70\n");
+    Capture capture;
+    REQUIRE(OpenAndLoad(folder, &capture) == "");
+    CHECK(Contains(capture.format, one.names == views ? "2005 or 2006" : "2003"));
+    REQUIRE(capture.light_field.views.size() == 2);
+    CHECK(SamePosition(capture.light_field.positions[1], {1, 0}));
+    CHECK(capture.light_field.disparity.at(20, 20) == 9);
+    CHECK(std::isnan(capture.light_field.disparity.at(20, 0)));
+    CHECK(capture.care == MapCare::kFill);
+  }
+  TempFolder folder;  // without a picture beside it the size decides
+  WriteGreyMapPair(folder, ppm, 375, 4);
+  Capture capture;
+  REQUIRE(OpenCapture(folder.path(), {}, &capture) == "");
+  REQUIRE(LoadCapture(StarPositions(1), &capture) == "");
+  CHECK(capture.light_field.disparity.at(20, 20) == 9);
+  Require(WriteImage(folder.file("disp2.png"), Plain(4, 3, 40)));
+  REQUIRE(OpenCapture(folder.path(), {}, &capture) == "");
+  CHECK(Contains(LoadCapture({}, &capture), "as the centre view"));
 }
 
 TEST_CASE("orientation: the corners stand where EXIF says") {
