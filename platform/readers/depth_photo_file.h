@@ -11,11 +11,14 @@
 namespace starfocus {
 
 // Reads a photograph and its map: from the depth picture *depth if that is named, else from within
-// the file, else from a depth picture beside it, whose name *depth becomes.
+// the file, else from a depth picture beside it, whose name *depth becomes. Where there is no map,
+// the file may be a stereo pair: photo->right is its other picture then. What cannot be read but is
+// not needed is ignored, which photo->notes say.
 std::string ReadDepthPhotoFile(const std::string& path, std::string* depth, Near near,
                                DepthPhoto* photo);
 
-// The same of bytes in memory, without what lies beside: photo->map is empty if they have none.
+// The same of bytes in memory, without what lies beside: photo->map is empty if they have none that
+// can be read.
 std::string DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near,
                              DepthPhoto* photo);
 

@@ -218,8 +218,13 @@ std::string Understand(const std::string& where, const heif_image_handle* primar
   if (!xmp.empty() && CanReadXmp()) {
     XmpNode root;
     const std::string error =
-        ParseXmp(where, reinterpret_cast<const char*>(xmp.data()), xmp.size(), &root);
-    return error.empty() ? UnderstandApple(where, root, photo) : error;
+        ParseXmp("the XMP of the depth map is ignored", reinterpret_cast<const char*>(xmp.data()),
+                 xmp.size(), &root);
+    if (error.empty()) {
+      UnderstandApple(root, photo);
+      return "";
+    }
+    photo->notes.push_back(error);
   }
   const Information* information = nullptr;
   if (heif_image_handle_get_depth_image_representation_info(primary, id, &information) &&
@@ -263,7 +268,9 @@ std::string Read(const std::string& where, Span file, Near near, DepthPhoto* pho
   if (!error.empty()) return error;
   ReadProfiles(raw, photo);
   TellGainMap(raw, photo);
-  return ReadMap(where, raw, file.size, near, photo);
+  photo->map_problem = ReadMap(where, raw, file.size, near, photo);
+  if (!photo->map_problem.empty()) photo->map = {};
+  return "";
 }
 
 }  // namespace
