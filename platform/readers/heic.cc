@@ -251,6 +251,22 @@ std::string ReadMap(const std::string& where, const heif_image_handle* primary, 
   return error.empty() ? Understand(where, primary, raw, id, near, photo) : error;
 }
 
+// Whether a box at the top (ISO/IEC 14496-12, 4.2) is longer than what is left of the file.
+bool EndsWithinBox(Span file) {
+  constexpr uint64_t kToTheEnd = 0, kLong = 1;  // instead of a size
+  uint64_t at = 0;
+  while (at + 16 <= file.size) {
+    const uint8_t* box = file.data + at;
+    uint64_t size = ReadBigEndian32(box);
+    if (size == kToTheEnd) return false;
+    if (size == kLong) size = uint64_t{ReadBigEndian32(box + 8)} << 32 | ReadBigEndian32(box + 12);
+    if (size > file.size - at) return true;
+    if (size < 8) return false;
+    at += size;
+  }
+  return at < file.size;
+}
+
 std::string Read(const std::string& where, Span file, Near near, DepthPhoto* photo) {
   const Context context(heif_context_alloc());
   if (context == nullptr) return OutOfMemory(where, "read it");
@@ -277,7 +293,8 @@ std::string Read(const std::string& where, Span file, Near near, DepthPhoto* pho
 
 std::string ReadHeif(const std::string& where, Span file, Near near, DepthPhoto* photo) {
   try {
-    return Read(where, file, near, photo);
+    const std::string error = Read(where, file, near, photo);
+    return !error.empty() && EndsWithinBox(file) ? Truncated(where, "HEIF") : error;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& failure) {  // libheif's, which its C functions let through

@@ -45,8 +45,8 @@ void PrintText(const Capture& capture, const sf_disparity_stats& stats,
   std::printf("%s\n", capture.path.c_str());
   PrintRow("format", capture.format);
   for (const auto& fact : capture.facts) PrintRow(fact.first, fact.second);
-  PrintRow("size", std::to_string(light_field.width()) + "x" +
-                       std::to_string(light_field.height()) + " pixels");
+  const Image& view = light_field.views[0];
+  PrintRow("size", std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels");
   PrintRow("views", views);
   if (light_field.disparity.values.empty()) {
     return PrintRow("disparity", "no map, and none is estimated from these views");
@@ -70,8 +70,8 @@ void PrintJson(const Capture& capture, const sf_disparity_stats& stats,
   json["format"] = capture.format;
   for (const auto& fact : capture.facts) json["facts"][fact.first] = fact.second;
   if (capture.widest > 0) json["widest_f_stop"] = capture.widest;
-  json["width"] = light_field.width();
-  json["height"] = light_field.height();
+  json["width"] = light_field.views[0].width;
+  json["height"] = light_field.views[0].height;
   json["views"] = light_field.views.size();
   for (const sf_position& at : light_field.positions) json["positions"].push_back({at.u, at.v});
   if (!light_field.disparity.values.empty()) {
