@@ -38,8 +38,8 @@ void AddPacket(const std::string& name, const char* text, size_t size, XmpNode* 
 }
 
 // Reads the packets of a JPEG file: those of its segments, and then the extended ones that they
-// name.
-XmpNode ReadXmp(const JpegParts& parts, DepthPhoto* photo) {
+// name, or all of them.
+XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
   XmpNode root;
   if (!CanReadXmp()) return root;
   for (const Span& packet : parts.xmp) {
@@ -49,6 +49,8 @@ XmpNode ReadXmp(const JpegParts& parts, DepthPhoto* photo) {
   std::set<std::string> names;
   FindOwners(root, kExtendedXmp, &owners);
   for (const XmpNode* owner : owners) names.insert(*OwnProperty(*owner, kExtendedXmp));
+  for (size_t k = 0; k < parts.extensions.size() && all; ++k)
+    names.insert(parts.extensions[k].guid);
   for (const std::string& name : names) {
     std::string text;
     const std::string error = JoinExtensions("the extended XMP is ignored", parts, name, &text);
@@ -79,11 +81,28 @@ std::string DecodeJpegPhoto(const std::string& where, Span file, bool with_map, 
   std::string error = ReadJpegParts(where, file, &parts);
   if (error.empty()) error = ReadJpegPicture(where, file, parts, photo);
   if (!error.empty()) return error;
-  const XmpNode xmp = ReadXmp(parts, photo);
+  const XmpNode xmp = ReadXmp(parts, false, photo);
   photo->metadata.xmp = KeptXmp(xmp);
   if (FindProperty(xmp, kGainMap) != nullptr) photo->facts.emplace_back("gain map", "left out");
   if (with_map) ReadMap(file, parts, xmp, near, photo);
   return "";
+}
+
+// Reads the map from extended XMP that no packet names, as an editor leaves it that writes the
+// packet anew. By the specification it does not count, so that every other map comes first.
+bool ReadStrayMap(Span file, Near near, DepthPhoto* photo) {
+  JpegParts parts;
+  if (!IsJpeg(file) || !ReadJpegParts("", file, &parts).empty() || parts.extensions.empty()) {
+    return false;
+  }
+  DepthPhoto ignored;
+  const XmpNode xmp = ReadXmp(parts, true, &ignored);
+  if (!HasGdepth(xmp) || !ReadGdepth(xmp, near, photo).empty()) {
+    photo->map = {};
+    return false;
+  }
+  photo->notes.push_back("the depth map is that of extended XMP which no packet names");
+  return true;
 }
 
 std::string NoMap(const std::string& path, const std::string& problem) {
@@ -122,7 +141,8 @@ std::string ReadDepthPhotoFile(const std::string& path, std::string* depth, Near
   if (depth->empty() && !photo->map.values.empty()) return "";
   if (depth->empty()) *depth = FindDepthPicture(path);
   if (depth->empty()) {
-    return ReadStereoPair(path, file, photo) ? "" : NoMap(path, photo->map_problem);
+    const bool read = ReadStrayMap(file, near, photo) || ReadStereoPair(path, file, photo);
+    return read ? "" : NoMap(path, photo->map_problem);
   }
   NoteProblem(photo);
   return ReadDepthPicture(*depth, near, photo);

@@ -147,7 +147,11 @@ std::string ReadJpegParts(const std::string& where, Span file, JpegParts* parts)
     }
     if (at + 2 > file.size) break;
     const size_t length = size_t(file.data[at]) * 256 + file.data[at + 1];
-    if (length < 2 || length > file.size - at) break;
+    if (length > file.size - at) break;
+    if (length < 2) {
+      return Expected(where, "an undamaged JPEG file",
+                      "a segment of " + std::to_string(length) + " bytes");
+    }
     if (++segments > kMostSegments) {
       return Expected(where, "at most " + std::to_string(kMostSegments) + " segments", "more");
     }

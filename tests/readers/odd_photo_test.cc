@@ -75,15 +75,12 @@ TEST_CASE("XMP that is lost or malformed is ignored, and the depth picture besid
   const std::string text = Packet(kGoogle, Data(RampPng()));
   std::vector<std::string> gap = ExtensionSegments(text, text.size() / 5);
   gap.erase(gap.begin() + 2);
-  std::string other = Joined(ExtensionSegments(text, 60000));
-  other.replace(other.find(kGuid), 1, "F");
   struct Case {
     std::string segments, note;
   };
   const Case cases[] = {
       {XmpSegment(lost), "the extended XMP is ignored"},
       {XmpSegment(lost) + Joined(gap), "the extended XMP is ignored"},
-      {XmpSegment(lost) + other, "the extended XMP is ignored"},
       {XmpSegment(lost.substr(0, lost.size() / 2)), "XMP is ignored"},
       {XmpSegment("<a><b></a>"), "XMP is ignored"},
       {XmpSegment(Packet(kGoogle, kInverse + "GDepth:Data=\"????\"")), "base64"},
@@ -100,6 +97,23 @@ TEST_CASE("XMP that is lost or malformed is ignored, and the depth picture besid
     const std::string error = Open(file, &capture);
     CHECK(error.find(": expected a depth map") != std::string::npos);
     if (one.note.find("the depth map") != 0) CHECK(error.find(one.note) != std::string::npos);
+  }
+}
+
+TEST_CASE("extended XMP that no packet names is used if there is no other map") {
+  if (!CanReadXmp()) return;
+  const std::string names = std::string("xmpNote:HasExtendedXMP=\"") + kGuid + "\" ";
+  std::string other = Joined(ExtensionSegments(Packet(kGoogle, Data(RampPng())), 300));
+  for (size_t at = 0; (at = other.find(kGuid, at)) != std::string::npos;) other[at] = 'F';
+  for (const std::string& packet : {Packet(kGoogle, names + kInverse), Packet(kGoogle, kInverse)}) {
+    const std::string file = Insert(Photo(), XmpSegment(packet) + other);
+    Capture capture;
+    REQUIRE(Open(file, &capture) == "");
+    CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+    CHECK(HasNote(capture, "no packet names"));
+    REQUIRE(OpenBeside(file, &capture) == "");
+    CheckRamp(capture, 0, PerDiopter(50) / 1.5);
+    CHECK(!capture.notes.empty());
   }
 }
 
