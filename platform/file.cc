@@ -94,16 +94,17 @@ std::string Replace(const std::string& path, const fs::path& target, const Bytes
   return whole ? "" : Cannot("write", path, Reason(errno));
 }
 
-// A pipe has no size to ask for, and may never end.
-constexpr uint64_t kMostPipeBytes = uint64_t{1} << 31;
+// A picture of 2^28 pixels, the most that is read, has less as a PPM of 16 bits. A pipe has no size
+// to ask for, and may never end.
+constexpr uint64_t kMostBytes = uint64_t{1} << 31;
 
 std::string TooLarge(const std::string& path, uint64_t most, const std::string& found) {
   return OneLine(path) + ": the file is too large (expected at most " + std::to_string(most) +
          " bytes, found " + found + ")";
 }
 
-// Opens a regular file or pipe. `size` is 0 for a pipe, whose `most` becomes at most 2 GiB.
-std::string OpenFile(const std::string& path, File* file, uint64_t* size, uint64_t* most) {
+// Opens a regular file of at most `most` bytes, or a pipe, whose `size` is 0.
+std::string OpenFile(const std::string& path, uint64_t most, File* file, size_t* size) {
   // Standard input is read by a handle of its own, which may be closed.
   const bool standard = path == "-";
   file->reset(standard ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
@@ -115,21 +116,21 @@ std::string OpenFile(const std::string& path, File* file, uint64_t* size, uint64
   if (!standard && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode))) {
     return Cannot("read", path, "it is a device");
   }
-  if (!S_ISREG(status.st_mode)) {
-    *most = std::min(*most, kMostPipeBytes);
-    return "";
-  }
-  *size = static_cast<uint64_t>(status.st_size);
-  return *size <= *most ? "" : TooLarge(path, *most, std::to_string(*size));
+  *size = 0;
+  if (!S_ISREG(status.st_mode)) return "";
+  const auto bytes = static_cast<uint64_t>(status.st_size);
+  if (bytes > most) return TooLarge(path, most, std::to_string(bytes));
+  *size = static_cast<size_t>(bytes);
+  return "";
 }
 
 std::string ReadAtMost(const std::string& path, uint64_t most, Bytes* bytes) {
   bytes->clear();
   File file;
-  uint64_t size = 0;
-  const std::string error = OpenFile(path, &file, &size, &most);
+  size_t size = 0;
+  const std::string error = OpenFile(path, most, &file, &size);
   if (!error.empty()) return error;
-  bytes->reserve(static_cast<size_t>(size));
+  bytes->reserve(size);
   uint8_t buffer[65536];
   for (;;) {
     const size_t got = std::fread(buffer, 1, sizeof(buffer), file.get());
@@ -164,7 +165,7 @@ std::string OutOfMemory(const std::string& where, const std::string& purpose) {
 }
 
 std::string ReadFile(const std::string& path, Bytes* bytes) {
-  return ReadAtMost(path, UINT64_MAX, bytes);
+  return ReadAtMost(path, kMostBytes, bytes);
 }
 
 std::string ReadSmallFile(const std::string& path, Bytes* bytes) {

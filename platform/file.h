@@ -28,7 +28,7 @@ std::string Cannot(const std::string& action, const std::string& path, std::erro
 // The error of whoever caught std::bad_alloc: "<where>: expected enough memory to <purpose>, ...".
 std::string OutOfMemory(const std::string& where, const std::string& purpose);
 
-// Reads a regular file, or a pipe of at most 2 GiB. Rejects folders and devices: a device such as
+// Reads a regular file or a pipe of at most 2 GiB. Rejects folders and devices: a device such as
 // /dev/zero never ends. "-" is standard input, here and below.
 std::string ReadFile(const std::string& path, Bytes* bytes);
 

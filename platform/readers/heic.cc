@@ -14,6 +14,7 @@
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/exif.h"
+#include "platform/readers/kept_metadata.h"
 #endif
 
 namespace starfocus {
@@ -159,6 +160,15 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
                             "ICC, " + std::to_string(profile) + " bytes; pixels stay as they are");
 }
 
+// Captions of the picture. XMP that is not well-formed has none.
+void ReadCaptions(const heif_image_handle* handle, DepthPhoto* photo) {
+  const Bytes xmp = ReadMetadata(handle, "mime", "application/rdf+xml");
+  XmpNode root;
+  if (xmp.empty() || !CanReadXmp()) return;
+  const char* text = reinterpret_cast<const char*>(xmp.data());
+  if (ParseXmp("", text, xmp.size(), &root).empty()) photo->metadata.xmp = KeptXmp(root);
+}
+
 // Whether an auxiliary picture is something that refocusing has no use for.
 void TellGainMap(const heif_image_handle* handle, DepthPhoto* photo) {
   heif_item_id ids[16];
@@ -283,6 +293,7 @@ std::string Read(const std::string& where, Span file, Near near, DepthPhoto* pho
   if (error.empty()) error = DecodePicture(where, raw, &photo->picture);
   if (!error.empty()) return error;
   ReadProfiles(raw, photo);
+  ReadCaptions(raw, photo);
   TellGainMap(raw, photo);
   photo->map_problem = ReadMap(where, raw, file.size, near, photo);
   if (!photo->map_problem.empty()) photo->map = {};

@@ -97,6 +97,11 @@ TEST_CASE("file: devices and endless pipes are not read, and small files have a 
         folder.file("more") +
             ": the file is too large (expected at most 1048576 bytes, found 1048577)");
   CHECK(ReadFile(folder.file("more"), &bytes) == "");
+  // A file with a hole of its size, so that the disk has room.
+  REQUIRE(truncate(folder.file("more").c_str(), (off_t{1} << 31) + 1) == 0);
+  CHECK(ReadFile(folder.file("more"), &bytes) ==
+        folder.file("more") +
+            ": the file is too large (expected at most 2147483648 bytes, found 2147483649)");
   // A pipe that ends is read; one that does not is read up to the limit.
   for (const bool endless : {false, true}) {
     const std::string path = folder.file(endless ? "endless" : "pipe");
