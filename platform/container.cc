@@ -2,6 +2,8 @@
 #include "platform/container.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <numeric>
 
 namespace starfocus {
@@ -98,7 +100,55 @@ Container CheckJpeg(const Bytes& bytes) {
   return Container::kTruncated;
 }
 
+// Beginnings of files that are taken for pictures, at byte `at`.
+struct Beginning {
+  size_t at;
+  const char* bytes;
+  const char* what;
+};
+constexpr Beginning kBeginnings[] = {
+    {0, "\x89PNG", "a damaged PNG file"},
+    {0, "\xff\xd8", "a damaged JPEG file"},
+    {0, "GIF8", "a GIF file"},
+    {0, "BM", "a BMP file"},
+    {0, "II*", "a TIFF or raw file"},
+    {0, "MM", "a TIFF or raw file"},
+    {0, "%PDF", "a PDF file"},
+    {0, "PK\x03\x04", "a ZIP archive"},
+    {0, "\x1f\x8b", "a gzip archive"},
+    {0, "version https://git-lfs", "a pointer of Git LFS, not the file itself"},
+    {8, "WEBP", "a WebP file"},
+    {4, "ftyp", "a HEIF, AVIF or MP4 file"},
+};
+
+// Whether the first bytes are those of a text: no control characters other than white space.
+bool IsText(const Bytes& bytes) {
+  const auto end = bytes.begin() + static_cast<ptrdiff_t>(std::min(bytes.size(), size_t{512}));
+  return std::all_of(bytes.begin(), end, [](uint8_t c) {
+    return (c >= 0x20 && c != 0x7f) || (c >= '\t' && c <= '\r') || c == 0x1b;
+  });
+}
+
 }  // namespace
+
+std::string Truncated(const std::string& where, const std::string& format) {
+  return where + ": the " + format +
+         " file is truncated (expected its last part, found the end of the file)";
+}
+
+std::string DescribeFile(const Bytes& bytes) {
+  if (bytes.empty()) return "an empty file";
+  for (const Beginning& beginning : kBeginnings) {
+    const size_t size = std::strlen(beginning.bytes);
+    if (bytes.size() >= beginning.at + size &&
+        std::memcmp(&bytes[beginning.at], beginning.bytes, size) == 0) {
+      return beginning.what;
+    }
+  }
+  const bool blank = std::all_of(bytes.begin(), bytes.end(), [](uint8_t c) { return c == 0; });
+  if (blank) return "a file of zeros";
+  return IsText(bytes) ? "a text file" : "a file of an unknown format";
+}
 
 uint32_t ReadBigEndian32(const uint8_t* bytes) {
   return uint32_t(bytes[0]) << 24 | uint32_t(bytes[1]) << 16 | uint32_t(bytes[2]) << 8 | bytes[3];

@@ -4,6 +4,7 @@
 #define STARFOCUS_PLATFORM_CONTAINER_H_
 
 #include <cstdint>
+#include <string>
 
 #include "platform/file.h"
 
@@ -17,6 +18,13 @@ enum class Container {
 };
 
 Container CheckContainer(const Bytes& bytes);
+
+// The error of a file of that format which ends before its last part.
+std::string Truncated(const std::string& where, const std::string& format);
+
+// Describes a file that is no picture this program reads, for errors: "a text file", "a GIF file",
+// "an empty file". "a file of an unknown format" if nothing is recognised.
+std::string DescribeFile(const Bytes& bytes);
 
 // Whether the file begins as a PNG file does.
 bool IsPng(const Bytes& bytes);

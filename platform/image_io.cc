@@ -25,17 +25,14 @@ std::string SizeText(int64_t width, int64_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-std::string Truncated(const std::string& path) {
-  return Expected(path, "an undamaged picture", "a truncated one");
-}
-
-std::string CheckWhole(const std::string& path, Container container) {
+std::string CheckWhole(const std::string& path, const Bytes& bytes) {
+  const Container container = CheckContainer(bytes);
   if (container == Container::kWhole) return "";
-  if (container == Container::kTruncated) return Truncated(path);
+  if (container == Container::kTruncated) return Truncated(path, IsPng(bytes) ? "PNG" : "JPEG");
   if (container == Container::kBroken) {
     return Expected(path, "an undamaged picture", "a broken one (checksum or code table)");
   }
-  return Expected(path, "a PNG, PPM or JPEG picture", "something else");
+  return Expected(path, "a PNG, PPM or JPEG picture", DescribeFile(bytes));
 }
 
 std::string CheckSize(const std::string& path, int64_t width, int64_t height) {
@@ -106,7 +103,7 @@ std::string CheckPngHeader(const std::string& path, const Bytes& png, PngHeader*
   }
   const std::string error = CheckSize(path, header->width, header->height);
   if (!error.empty()) return error;
-  return CanHold(png, *header) ? "" : Truncated(path);
+  return CanHold(png, *header) ? "" : Truncated(path, "PNG");
 }
 
 std::string DecodePng(const std::string& path, Bytes* bytes, Image* image) {
@@ -137,7 +134,7 @@ std::string DecodeJpeg(const std::string& path, const Bytes& bytes, Image* image
   }
   const std::string error = CheckSize(path, width, height);
   if (!error.empty()) return error;
-  return CanHold(bytes, width, height) ? DecodeStb(path, bytes, image) : Truncated(path);
+  return CanHold(bytes, width, height) ? DecodeStb(path, bytes, image) : Truncated(path, "JPEG");
 }
 
 std::string CheckExtension(const std::string& path) {
@@ -153,7 +150,7 @@ std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image) {
   if (bytes->empty()) return Expected(where, "a PNG, PPM or JPEG picture", "an empty file");
   if (bytes->front() == 'P') return DecodePpm(where, *bytes, image);
   if (bytes->size() > INT_MAX) return Expected(where, "a file below 2 GiB", "a larger one");
-  const std::string error = CheckWhole(where, CheckContainer(*bytes));
+  const std::string error = CheckWhole(where, *bytes);
   if (!error.empty()) return error;
   return IsPng(*bytes) ? DecodePng(where, bytes, image) : DecodeJpeg(where, *bytes, image);
 }

@@ -3,13 +3,19 @@
 #ifndef STARFOCUS_PLATFORM_METADATA_H_
 #define STARFOCUS_PLATFORM_METADATA_H_
 
+#include <string>
+
 #include "platform/file.h"
 
 namespace starfocus {
 
 struct Metadata {
-  Bytes exif;  // the TIFF structure, from its byte order "II" or "MM" on; empty: none
-  Bytes icc;   // the whole profile; empty: none, which is sRGB
+  Bytes exif;       // the TIFF structure, from its byte order "II" or "MM" on; empty: none
+  Bytes icc;        // the whole profile; empty: none, which is sRGB
+  Bytes iptc = {};  // the records of IPTC-IIM: title, caption, copyright and so on; empty: none
+  // The descriptions of an XMP packet, without what surrounds them; empty: none. They hold title,
+  // caption, rating, copyright and so on, but nothing on the file's parts (kept_metadata.h).
+  std::string xmp = {};
 };
 
 }  // namespace starfocus

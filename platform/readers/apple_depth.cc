@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/apple_depth.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "platform/levels.h"
 #include "platform/readers/depth_levels.h"
@@ -20,20 +20,42 @@ std::string TypeOf(const XmpNode& xmp) {
 
 bool IsMap(const std::string& type) { return type == "disparity" || type == "depth"; }
 
+// The XMP of an auxiliary picture; one that is not well-formed is none.
+XmpNode ReadPackets(const JpegParts& parts) {
+  XmpNode root;
+  for (const Span& packet : parts.xmp) {
+    XmpNode node;
+    const char* text = reinterpret_cast<const char*>(packet.data);
+    if (ParseXmp("", text, packet.size, &node).empty()) root.children.push_back(std::move(node));
+  }
+  return root;
+}
+
+void NoteIndex(const JpegParts& parts, const MultiPicture& picture, DepthPhoto* photo) {
+  if (picture.indexed) return;
+  photo->notes.push_back(
+      parts.multi_picture.empty()
+          ? "the file has no multi-picture index: the depth map was found behind the picture"
+          : "the multi-picture index is wrong and ignored: the depth map was found behind the "
+            "picture");
+}
+
 }  // namespace
 
-std::string UnderstandApple(const std::string& where, const XmpNode& xmp, DepthPhoto* photo) {
+void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo) {
   const bool disparity = TypeOf(xmp) != "depth";
   const std::string* low = FindProperty(xmp, kPixels + "FloatMinValue");
   const std::string* high = FindProperty(xmp, kPixels + "FloatMaxValue");
   double from = 0, to = 0;
-  if (!ReadXmpNumber(low, &from) || !ReadXmpNumber(high, &to)) {
+  const bool both = ReadXmpNumber(low, &from) && ReadXmpNumber(high, &to);
+  if (!both || !(from >= 0) || !(to > from)) {
+    if (both) {
+      photo->notes.push_back("the range of the depth map is ignored (from " + *low + " to " +
+                             *high + "): its levels are an order");
+    }
     TellMap(std::string(disparity ? "disparities" : "depths") + " without a range", photo);
     ToOrder(disparity ? Near::kWhite : Near::kBlack, photo);
-    return "";
-  }
-  if (!(from >= 0) || !(to > from)) {
-    return Expected(where, "a depth map from 0 or more to more", *low + " to " + *high);
+    return;
   }
   ToRange(from, to, &photo->map);
   if (!disparity) Invert(&photo->map);
@@ -44,40 +66,26 @@ std::string UnderstandApple(const std::string& where, const XmpNode& xmp, DepthP
               (disparity ? " per metre, " : " metres, ") +
               (absolute ? "absolute" : "right up to a factor"),
           photo);
-  return "";
 }
 
-std::string FindAppleMap(const std::string& where, Span file, const JpegParts& parts, Span* map,
-                         XmpNode* xmp, bool* gain_map) {
+std::string ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
   if (!CanReadXmp()) return "";
-  std::vector<Span> pictures;
-  std::string error = ListMultiPictures(where, file, parts, &pictures);
-  if (!error.empty()) return error;
-  for (const Span& picture : pictures) {
-    JpegParts inner;
-    if (!IsJpeg(picture) || !ReadJpegParts(where, picture, &inner).empty() || inner.xmp.empty()) {
-      continue;
-    }
-    XmpNode root;
-    error = ParseXmp(where, reinterpret_cast<const char*>(inner.xmp.data), inner.xmp.size, &root);
-    if (!error.empty()) return error;
-    const std::string type = TypeOf(root);
-    if (type.find("gainmap") != std::string::npos) *gain_map = true;
-    if (!IsMap(type) || !map->empty()) continue;
-    *map = picture;
-    *xmp = std::move(root);
+  bool gain_map = false;
+  std::string error;
+  for (const MultiPicture& picture : ListMultiPictures(file, parts)) {
+    const XmpNode xmp = ReadPackets(picture.parts);
+    const std::string type = TypeOf(xmp);
+    gain_map = gain_map || type.find("gainmap") != std::string::npos;
+    if (!IsMap(type) || !photo->map.values.empty()) continue;
+    Bytes bytes(picture.file.data, picture.file.data + picture.file.size);
+    error = DecodeLevels("auxiliary picture", &bytes, &photo->map);
+    if (!error.empty()) continue;
+    photo->format = "Apple depth photo (JPEG)";
+    NoteIndex(parts, picture, photo);
+    UnderstandApple(xmp, photo);
   }
-  return "";
-}
-
-std::string ReadAppleJpeg(const std::string& where, Span file, const JpegParts& parts, Span map,
-                          const XmpNode& xmp, DepthPhoto* photo) {
-  photo->format = "Apple depth photo (JPEG)";
-  std::string error = ReadJpegPicture(where, file, parts, photo);
-  if (!error.empty()) return error;
-  Bytes bytes(map.data, map.data + map.size);
-  error = DecodeLevels(where + " (auxiliary picture)", &bytes, &photo->map);
-  return error.empty() ? UnderstandApple(where, xmp, photo) : error;
+  if (gain_map) photo->facts.emplace_back("gain map", "left out");
+  return photo->map.values.empty() ? error : "";
 }
 
 }  // namespace starfocus

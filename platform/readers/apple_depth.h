@@ -10,16 +10,13 @@
 
 namespace starfocus {
 
-// From levels to inverse distances, by the XMP of the auxiliary picture.
-std::string UnderstandApple(const std::string& where, const XmpNode& xmp, DepthPhoto* photo);
+// From levels to inverse distances, by the XMP of the auxiliary picture. Where it has no range, or
+// one that is no range, the map becomes an order.
+void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo);
 
-// Looks among the pictures of a multi-picture file for one of disparities or depths. `map` is empty
-// if there is none; `gain_map` tells of another kind of auxiliary picture.
-std::string FindAppleMap(const std::string& where, Span file, const JpegParts& parts, Span* map,
-                         XmpNode* xmp, bool* gain_map);
-
-std::string ReadAppleJpeg(const std::string& where, Span file, const JpegParts& parts, Span map,
-                          const XmpNode& xmp, DepthPhoto* photo);
+// Reads the map of disparities or depths among the pictures behind the first one, if there is one,
+// into a photo whose picture is there. A gain map is told as a fact.
+std::string ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo);
 
 }  // namespace starfocus
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <new>
 #include <system_error>
+#include <utility>
 
 #include "platform/folder.h"
 #include "platform/readers/depth_photo_file.h"
@@ -79,14 +80,29 @@ std::string OpenFolder(const std::string& folder, Capture* capture) {
   return IsHci(names) ? OpenHci(folder, names, capture) : OpenArray(folder, pictures, capture);
 }
 
+// Takes the two views of a stereo pair, which have no map.
+void TakePair(const std::string& path, DepthPhoto* photo, Capture* capture) {
+  capture->files = {{{0, 0}, path}, {{1, 0}, path}};
+  capture->light_field.positions = {{0, 0}, {1, 0}};
+  capture->light_field.views = {std::move(photo->picture), std::move(photo->right)};
+}
+
 std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Capture* capture) {
   DepthPhoto photo;
   std::string depth = options.depth;
   std::string error = ReadDepthPhotoFile(path, options.map, &depth, &photo);
-  if (error.empty()) error = MakeLightField(path, &photo, &capture->light_field);
+  const bool pair = !photo.right.pixels.empty();
+  if (error.empty() && !pair) error = MakeLightField(path, &photo, &capture->light_field);
   if (!error.empty()) return error;
-  const LightField& light_field = capture->light_field;
   capture->format = photo.format;
+  capture->metadata = std::move(photo.metadata);
+  capture->facts = std::move(photo.facts);
+  capture->notes = std::move(photo.notes);
+  if (pair) {
+    TakePair(path, &photo, capture);
+    return "";
+  }
+  const LightField& light_field = capture->light_field;
   capture->photo = true;
   capture->files = {{{0, 0}, path}};
   capture->map_path = depth.empty() ? path : depth;
@@ -99,10 +115,20 @@ std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Ca
   capture->focus_y =
       std::min(static_cast<int>(photo.focus_y * light_field.height()), light_field.height() - 1);
   capture->focus = photo.focus_value;
-  capture->metadata = std::move(photo.metadata);
-  capture->facts = std::move(photo.facts);
-  capture->notes = std::move(photo.notes);
   return "";
+}
+
+// Leaves the chosen ones of views that are loaded.
+void SelectViews(const std::vector<ViewFile>& chosen, LightField* light_field) {
+  LightField result;
+  for (const ViewFile& file : chosen) {
+    for (size_t k = 0; k < light_field->views.size(); ++k) {
+      if (!SamePosition(light_field->positions[k], file.position)) continue;
+      result.positions.push_back(file.position);
+      result.views.push_back(light_field->views[k]);
+    }
+  }
+  *light_field = std::move(result);
 }
 
 }  // namespace
@@ -111,13 +137,11 @@ std::string OpenCapture(const std::string& path, const CaptureOptions& options, 
   try {
     Capture result;
     result.path = path;
-    std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
+    std::error_code failure;
+    const fs::file_status status = fs::status(path, failure);
     std::string error = CheckPlainFile(path);
     if (!error.empty()) return error;
-    if (!fs::exists(status)) {
-      return Expected(path, "a light-field folder or a depth photo", "nothing");
-    }
+    if (!fs::exists(status)) return Cannot("read", path, failure);
     error =
         fs::is_directory(status) ? OpenFolder(path, &result) : OpenPhoto(path, options, &result);
     if (error.empty()) *capture = std::move(result);
@@ -131,6 +155,10 @@ std::string LoadCapture(const Positions& wanted, Capture* capture) {
   std::vector<ViewFile> chosen;
   std::string error = SelectViewFiles(capture->path, capture->files, wanted, &chosen);
   if (!error.empty() || capture->photo) return error;
+  if (!capture->light_field.views.empty()) {
+    SelectViews(chosen, &capture->light_field);
+    return "";
+  }
   error = LoadViewFiles(chosen, &capture->light_field);
   if (!error.empty() || capture->map_path.empty()) return error;
   if (LowerExtension(capture->map_path) != ".pfm") return LoadGreyMap(capture);

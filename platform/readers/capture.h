@@ -35,7 +35,7 @@ struct Capture {
   Metadata metadata;
   Facts facts;
   std::vector<std::string> notes;
-  LightField light_field;  // of a photo from the beginning
+  LightField light_field;  // of a photo or a pair in one file from the beginning
 };
 
 // Finds out what `path` is. Of a photograph everything is read, of a folder its list of files and

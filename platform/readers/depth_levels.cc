@@ -12,17 +12,6 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-std::string Lower(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
-
-std::string Quoted(const std::string* text) {
-  return text == nullptr ? "none" : "'" + text->substr(0, 40) + "'";
-}
-
 // The mean of a third of the map.
 double MeanOfRows(const FloatMap& map, int from, int to) {
   double sum = 0, count = 0;
@@ -43,20 +32,6 @@ Near Guess(const FloatMap& map) {
 }
 
 }  // namespace
-
-std::string ReadDepthRange(const std::string& where, const std::string* format,
-                           const std::string* near, const std::string* far, DepthRange* range) {
-  const std::string name = format == nullptr ? "" : Lower(*format);
-  if (name != "rangeinverse" && name != "rangelinear") {
-    return Expected(where, "a depth map in RangeInverse or RangeLinear", Quoted(format));
-  }
-  range->inverse = name == "rangeinverse";
-  if (!ReadXmpNumber(near, &range->near) || !ReadXmpNumber(far, &range->far) ||
-      !(range->near > 0) || !(range->far > range->near)) {
-    return Expected(where, "depths with 0 < near < far", Quoted(near) + " and " + Quoted(far));
-  }
-  return "";
-}
 
 void ToInverse(const DepthRange& range, FloatMap* map) {
   if (range.inverse) return ToRange(1 / range.near, 1 / range.far, map);
@@ -95,6 +70,7 @@ std::string ReadJpegPicture(const std::string& where, Span file, const JpegParts
   const std::string error = DecodeImage(where, &bytes, &photo->picture);
   if (!error.empty()) return error;
   photo->metadata = parts.metadata;
+  if (!parts.ignored.empty()) photo->notes.push_back(parts.ignored);
   ReadExif(photo);
   if (!parts.metadata.icc.empty()) {
     photo->facts.emplace_back(

@@ -7,19 +7,14 @@
 
 #include "platform/readers/jpeg_parts.h"
 #include "platform/readers/photo.h"
-#include "platform/readers/xmp.h"
 
 namespace starfocus {
 
-// A distance range as Google's formats have it, 0 < near < far.
+// A distance range, 0 < near < far; far may be infinite if `inverse`.
 struct DepthRange {
   bool inverse = true;  // levels are linear in 1 / distance, or in the distance
   double near = 0, far = 0;
 };
-
-// "RangeInverse" or "RangeLinear" in any case, and two numbers; an error names `where`.
-std::string ReadDepthRange(const std::string& where, const std::string* format,
-                           const std::string* near, const std::string* far, DepthRange* range);
 
 // Level 0 is `near` away, level 1 `far`: distances become their inverse.
 void ToInverse(const DepthRange& range, FloatMap* map);

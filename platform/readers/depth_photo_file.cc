@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/depth_photo_file.h"
 
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
 #include "platform/image_io.h"
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/dynamic_depth.h"
 #include "platform/readers/gdepth.h"
 #include "platform/readers/heic.h"
+#include "platform/readers/kept_metadata.h"
 #include "platform/readers/pair.h"
+#include "platform/readers/stereo_pair.h"
 #include "platform/readers/xmp.h"
 
 namespace starfocus {
@@ -16,49 +23,69 @@ namespace {
 constexpr char kGainMap[] = "http://ns.adobe.com/hdr-gain-map/1.0/|Version";
 constexpr char kExtendedXmp[] = "http://ns.adobe.com/xmp/note/|HasExtendedXMP";
 
-// Both packets of a JPEG file, the extended one as a child of the other.
-std::string ReadXmp(const std::string& where, const JpegParts& parts, XmpNode* root) {
-  if (parts.xmp.empty() || !CanReadXmp()) return "";
-  std::string error =
-      ParseXmp(where, reinterpret_cast<const char*>(parts.xmp.data), parts.xmp.size, root);
-  if (!error.empty()) return error;
-  const std::string* guid = FindProperty(*root, kExtendedXmp);
-  if (guid == nullptr) return "";
-  std::string text;
-  error = JoinExtensions(where, parts, *guid, &text);
-  if (!error.empty()) return error;
-  XmpNode extended;
-  error = ParseXmp(where, text.data(), text.size(), &extended);
-  root->children.push_back(std::move(extended));
-  return error;
+void IgnoreXmp(const std::string& error, DepthPhoto* photo) {
+  photo->notes.push_back(error);
+  if (photo->map_problem.empty()) photo->map_problem = error;
 }
 
-// The picture and what map there is, by the first of the formats that the file has.
-std::string DecodeByFormat(const std::string& where, Span file, const JpegParts& parts,
-                           const XmpNode& xmp, Near near, DepthPhoto* photo) {
-  if (HasGdepth(xmp)) return ReadGdepth(where, file, parts, xmp, photo);
-  if (HasDynamicDepth(xmp)) return ReadDynamicDepth(where, file, parts, xmp, near, photo);
-  Span map;
-  XmpNode apple;
-  bool gain_map = false;
-  std::string error = FindAppleMap(where, file, parts, &map, &apple, &gain_map);
-  if (!error.empty()) return error;
-  if (gain_map) photo->facts.emplace_back("gain map", "left out");
-  return map.empty() ? ReadJpegPicture(where, file, parts, photo)
-                     : ReadAppleJpeg(where, file, parts, map, apple, photo);
+// Adds a packet to those under `root`. A packet that cannot be read is ignored, which a note says.
+void AddPacket(const std::string& name, const char* text, size_t size, XmpNode* root,
+               DepthPhoto* photo) {
+  XmpNode packet;
+  const std::string error = ParseXmp(name + " is ignored", text, size, &packet);
+  if (!error.empty()) return IgnoreXmp(error, photo);
+  root->children.push_back(std::move(packet));
+}
+
+// Reads the packets of a JPEG file: those of its segments, and then the extended ones that they
+// name, or all of them.
+XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
+  XmpNode root;
+  if (!CanReadXmp()) return root;
+  for (const Span& packet : parts.xmp) {
+    AddPacket("XMP", reinterpret_cast<const char*>(packet.data), packet.size, &root, photo);
+  }
+  std::vector<const XmpNode*> owners;
+  std::set<std::string> names;
+  FindOwners(root, kExtendedXmp, &owners);
+  for (const XmpNode* owner : owners) names.insert(*OwnProperty(*owner, kExtendedXmp));
+  for (size_t k = 0; k < parts.extensions.size() && all; ++k)
+    names.insert(parts.extensions[k].guid);
+  for (const std::string& name : names) {
+    std::string text;
+    const std::string error = JoinExtensions("the extended XMP is ignored", parts, name, &text);
+    if (error.empty()) {
+      AddPacket("the extended XMP", text.data(), text.size(), &root, photo);
+    } else {
+      IgnoreXmp(error, photo);
+    }
+  }
+  return root;
+}
+
+// Reads the map by the first of the formats whose map can be read.
+void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near, DepthPhoto* photo) {
+  const auto read = [photo](const std::string& error) {
+    if (!error.empty()) photo->map = {};
+    if (photo->map_problem.empty()) photo->map_problem = error;
+    return !photo->map.values.empty();
+  };
+  if (HasGdepth(xmp) && read(ReadGdepth(xmp, near, photo))) return;
+  if (HasDynamicDepth(xmp) && read(ReadDynamicDepth(file, parts, xmp, near, photo))) return;
+  read(ReadAppleJpeg(file, parts, photo));
 }
 
 std::string DecodeJpegPhoto(const std::string& where, Span file, bool with_map, Near near,
                             DepthPhoto* photo) {
   JpegParts parts;
-  XmpNode xmp;
   std::string error = ReadJpegParts(where, file, &parts);
+  if (error.empty()) error = ReadJpegPicture(where, file, parts, photo);
   if (!error.empty()) return error;
-  if (!with_map) return ReadJpegPicture(where, file, parts, photo);
-  error = ReadXmp(where, parts, &xmp);
-  if (!error.empty()) return error;
+  const XmpNode xmp = ReadXmp(parts, false, photo);
+  photo->metadata.xmp = KeptXmp(xmp);
   if (FindProperty(xmp, kGainMap) != nullptr) photo->facts.emplace_back("gain map", "left out");
-  return DecodeByFormat(where, file, parts, xmp, near, photo);
+  if (with_map) ReadMap(file, parts, xmp, near, photo);
+  return "";
 }
 
 // What a map within the photo says about itself, no option overrides.
@@ -72,11 +99,37 @@ std::string CheckOptions(const std::string& path, const DepthOptions& options) {
                   "a map in the photo");
 }
 
-std::string NoMap(const std::string& path) {
-  return Expected(path,
-                  "a depth map in the file, beside it as NAME-depth.png or .jpg, or by --depth",
-                  CanReadXmp() ? "a picture without one"
-                               : "a picture without one that is read (this build has no expat)");
+// Reads the map from extended XMP that no packet names, as an editor leaves it that writes the
+// packet anew. By the specification it does not count, so that every other map comes first.
+bool ReadStrayMap(Span file, Near near, DepthPhoto* photo) {
+  JpegParts parts;
+  if (!IsJpeg(file) || !ReadJpegParts("", file, &parts).empty() || parts.extensions.empty()) {
+    return false;
+  }
+  DepthPhoto ignored;
+  const XmpNode xmp = ReadXmp(parts, true, &ignored);
+  if (!HasGdepth(xmp) || !ReadGdepth(xmp, near, photo).empty()) {
+    photo->map = {};
+    return false;
+  }
+  photo->notes.push_back("the depth map is that of extended XMP which no packet names");
+  return true;
+}
+
+std::string NoMap(const std::string& path, const std::string& problem) {
+  std::string found = "a picture without one";
+  if (!CanReadXmp()) found += " that is read (this build has no expat)";
+  if (!problem.empty()) found += " that can be read (" + problem + ")";
+  return Expected(
+      path, "a depth map in the file, beside it as NAME-depth.png or .jpg, or by --depth", found);
+}
+
+// Notes why the map in the file is not used, unless a note says so already.
+void NoteProblem(DepthPhoto* photo) {
+  const std::string& problem = photo->map_problem;
+  const std::vector<std::string>& notes = photo->notes;
+  if (problem.empty() || std::find(notes.begin(), notes.end(), problem) != notes.end()) return;
+  photo->notes.push_back("the depth map in the file is ignored: " + problem);
 }
 
 }  // namespace
@@ -99,7 +152,12 @@ std::string ReadDepthPhotoFile(const std::string& path, const DepthOptions& opti
   if (depth->empty() && !photo->map.values.empty()) return CheckOptions(path, options);
   if (depth->empty()) error = FindDepthPicture(path, photo, depth);
   if (!error.empty()) return error;
-  return depth->empty() ? NoMap(path) : ReadDepthPicture(*depth, options, photo);
+  if (depth->empty()) {
+    const bool read = ReadStrayMap(file, options.near, photo) || ReadStereoPair(path, file, photo);
+    return read ? "" : NoMap(path, photo->map_problem);
+  }
+  NoteProblem(photo);
+  return ReadDepthPicture(*depth, options, photo);
 }
 
 }  // namespace starfocus

@@ -11,13 +11,15 @@
 namespace starfocus {
 
 // Reads a photograph and its map: from the depth picture *depth if that is named, else from within
-// the file, else from a depth picture beside it, whose name *depth becomes.
-// `options` are about the depth picture: what they say of a map within the file beyond its near end
-// is an error.
+// the file, else from a depth picture beside it, whose name *depth becomes. Where there is no map,
+// the file may be a stereo pair: photo->right is its other picture then. What cannot be read but is
+// not needed is ignored, which photo->notes say. `options` are about the depth picture: an option
+// beyond the near end is an error for a map within the file.
 std::string ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                std::string* depth, DepthPhoto* photo);
 
-// The same of bytes in memory, without what lies beside: photo->map is empty if they have none.
+// The same of bytes in memory, without what lies beside: photo->map is empty if they have none that
+// can be read.
 std::string DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near,
                              DepthPhoto* photo);
 

@@ -13,8 +13,9 @@ namespace starfocus {
 bool HasDynamicDepth(const XmpNode& xmp);
 
 // `near` counts only where the file does not say which end of the map is near.
-std::string ReadDynamicDepth(const std::string& where, Span file, const JpegParts& parts,
-                             const XmpNode& xmp, Near near, DepthPhoto* photo);
+// Reads the map into a photo whose picture is there.
+std::string ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
+                             DepthPhoto* photo);
 
 }  // namespace starfocus
 

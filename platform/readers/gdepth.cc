@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/gdepth.h"
 
+#include <utility>
+
 #include "platform/image_io.h"
 #include "platform/levels.h"
 #include "platform/readers/base64.h"
-#include "platform/readers/depth_levels.h"
+#include "platform/readers/depth_range.h"
 
 namespace starfocus {
 namespace {
@@ -18,58 +20,46 @@ std::string DecodeData(const std::string& where, const std::string& text, Bytes*
   return Expected(where, "a picture in base64", "something else");
 }
 
-// How many metres a unit of distance is; 0 for an unknown one.
-double MetresOf(const std::string* units) {
-  if (units == nullptr) return 0;
-  return *units == "m" ? 1 : *units == "mm" ? 0.001 : 0;
-}
-
-std::string ReadMap(const std::string& where, const XmpNode& xmp, DepthPhoto* photo) {
+std::string ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   const std::string* data = FindProperty(xmp, kDepth + "Data");
   if (data == nullptr) {
-    return Expected(where, "GDepth:Data, the map, in its XMP or extended XMP", "none");
+    return Expected("GDepth", "GDepth:Data, the map, in its XMP or extended XMP", "none");
   }
   Bytes bytes;
-  std::string error = DecodeData(where + " (GDepth:Data)", *data, &bytes);
-  if (error.empty()) error = DecodeLevels(where + " (GDepth:Data)", &bytes, &photo->map);
-  DepthRange range;
-  const std::string* format = FindProperty(xmp, kDepth + "Format");
-  const std::string* near = FindProperty(xmp, kDepth + "Near");
-  const std::string* far = FindProperty(xmp, kDepth + "Far");
-  if (error.empty()) error = ReadDepthRange(where, format, near, far, &range);
+  std::string error = DecodeData("GDepth:Data", *data, &bytes);
+  if (error.empty()) error = DecodeLevels("GDepth:Data", &bytes, &photo->map);
   if (!error.empty()) return error;
-  const std::string* units = FindProperty(xmp, kDepth + "Units");
-  const double metres = MetresOf(units);
-  const double unit = metres > 0 ? metres : 1;
-  range.near *= unit;
-  range.far *= unit;
-  ToInverse(range, &photo->map);
-  photo->meaning = metres > 0 ? MapMeaning::kInverseMetres : MapMeaning::kInverse;
-  TellMap(*format + " from " + *near + " to " + *far +
-              (metres > 0 ? " " + *units : " of unknown units"),
-          photo);
+  const RangeProperties range = {
+      FindProperty(xmp, kDepth + "Format"), FindProperty(xmp, kDepth + "Near"),
+      FindProperty(xmp, kDepth + "Far"), FindProperty(xmp, kDepth + "Units")};
+  const double unit = ApplyRange(range, near, photo);
   double distance = 0;
-  if (ReadXmpNumber(FindProperty(xmp, kFocus + "FocalDistance"), &distance) && distance > 0) {
+  if (unit > 0 && ReadXmpNumber(FindProperty(xmp, kFocus + "FocalDistance"), &distance) &&
+      distance > 0) {
     photo->focus_value = 1 / (distance * unit);
   }
   const std::string* measure = FindProperty(xmp, kDepth + "MeasureType");
-  if (measure != nullptr && *measure == "OpticRay") {
+  if (unit > 0 && measure != nullptr && *measure == "OpticRay") {
     photo->facts.emplace_back("distances", "along rays, taken for those along the axis");
   }
   return "";
 }
 
-// The sharp picture in the place of the one that shows it blurred.
-std::string ReadSharp(const std::string& where, const XmpNode& xmp, DepthPhoto* photo) {
+// Replaces the picture, which is blurred already, by the sharp one inside. A sharp one that cannot
+// be read is ignored, which a note says.
+void ReadSharp(const XmpNode& xmp, DepthPhoto* photo) {
   const std::string* data = FindProperty(xmp, kImage + "Data");
-  if (data == nullptr) return "";
+  if (data == nullptr) return;
   Bytes bytes;
-  std::string error = DecodeData(where + " (GImage:Data)", *data, &bytes);
-  if (error.empty()) error = DecodeImage(where + " (GImage:Data)", &bytes, &photo->picture);
-  if (error.empty()) {
-    photo->facts.emplace_back("picture", "the sharp one inside (GImage:Data)");
+  Image sharp;
+  std::string error = DecodeData("GImage:Data", *data, &bytes);
+  if (error.empty()) error = DecodeImage("GImage:Data", &bytes, &sharp);
+  if (!error.empty()) {
+    photo->notes.push_back("the sharp picture inside is ignored: " + error);
+    return;
   }
-  return error;
+  photo->picture = std::move(sharp);
+  photo->facts.emplace_back("picture", "the sharp one inside (GImage:Data)");
 }
 
 void ReadFocus(const XmpNode& xmp, DepthPhoto* photo) {
@@ -92,14 +82,13 @@ bool HasGdepth(const XmpNode& xmp) {
          FindProperty(xmp, kDepth + "Data") != nullptr;
 }
 
-std::string ReadGdepth(const std::string& where, Span file, const JpegParts& parts,
-                       const XmpNode& xmp, DepthPhoto* photo) {
+std::string ReadGdepth(const XmpNode& xmp, Near near, DepthPhoto* photo) {
+  const std::string error = ReadMap(xmp, near, photo);
+  if (!error.empty()) return error;
   photo->format = "GDepth photo (JPEG)";
-  std::string error = ReadJpegPicture(where, file, parts, photo);
-  if (error.empty()) error = ReadSharp(where, xmp, photo);
-  if (error.empty()) error = ReadMap(where, xmp, photo);
-  if (error.empty()) ReadFocus(xmp, photo);
-  return error;
+  ReadSharp(xmp, photo);
+  ReadFocus(xmp, photo);
+  return "";
 }
 
 }  // namespace starfocus

@@ -5,7 +5,6 @@
 #ifndef STARFOCUS_PLATFORM_READERS_GDEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_GDEPTH_H_
 
-#include "platform/readers/jpeg_parts.h"
 #include "platform/readers/photo.h"
 #include "platform/readers/xmp.h"
 
@@ -13,9 +12,9 @@ namespace starfocus {
 
 bool HasGdepth(const XmpNode& xmp);
 
-// `xmp` has both packets of the file.
-std::string ReadGdepth(const std::string& where, Span file, const JpegParts& parts,
-                       const XmpNode& xmp, DepthPhoto* photo);
+// Reads the map, and the sharp picture and the focus if there are any, into a photo whose picture
+// is there. `xmp` has all packets of the file, the extended ones too.
+std::string ReadGdepth(const XmpNode& xmp, Near near, DepthPhoto* photo);
 
 }  // namespace starfocus
 

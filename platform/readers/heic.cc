@@ -14,6 +14,7 @@
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/exif.h"
+#include "platform/readers/kept_metadata.h"
 #endif
 
 namespace starfocus {
@@ -159,6 +160,15 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
                             "ICC, " + std::to_string(profile) + " bytes; pixels stay as they are");
 }
 
+// Captions of the picture. XMP that is not well-formed has none.
+void ReadCaptions(const heif_image_handle* handle, DepthPhoto* photo) {
+  const Bytes xmp = ReadMetadata(handle, "mime", "application/rdf+xml");
+  XmpNode root;
+  if (xmp.empty() || !CanReadXmp()) return;
+  const char* text = reinterpret_cast<const char*>(xmp.data());
+  if (ParseXmp("", text, xmp.size(), &root).empty()) photo->metadata.xmp = KeptXmp(root);
+}
+
 // Whether an auxiliary picture is something that refocusing has no use for.
 void TellGainMap(const heif_image_handle* handle, DepthPhoto* photo) {
   heif_item_id ids[16];
@@ -218,8 +228,13 @@ std::string Understand(const std::string& where, const heif_image_handle* primar
   if (!xmp.empty() && CanReadXmp()) {
     XmpNode root;
     const std::string error =
-        ParseXmp(where, reinterpret_cast<const char*>(xmp.data()), xmp.size(), &root);
-    return error.empty() ? UnderstandApple(where, root, photo) : error;
+        ParseXmp("the XMP of the depth map is ignored", reinterpret_cast<const char*>(xmp.data()),
+                 xmp.size(), &root);
+    if (error.empty()) {
+      UnderstandApple(root, photo);
+      return "";
+    }
+    photo->notes.push_back(error);
   }
   const Information* information = nullptr;
   if (heif_image_handle_get_depth_image_representation_info(primary, id, &information) &&
@@ -246,6 +261,22 @@ std::string ReadMap(const std::string& where, const heif_image_handle* primary, 
   return error.empty() ? Understand(where, primary, raw, id, near, photo) : error;
 }
 
+// Whether a box at the top (ISO/IEC 14496-12, 4.2) is longer than what is left of the file.
+bool EndsWithinBox(Span file) {
+  constexpr uint64_t kToTheEnd = 0, kLong = 1;  // instead of a size
+  uint64_t at = 0;
+  while (at + 16 <= file.size) {
+    const uint8_t* box = file.data + at;
+    uint64_t size = ReadBigEndian32(box);
+    if (size == kToTheEnd) return false;
+    if (size == kLong) size = uint64_t{ReadBigEndian32(box + 8)} << 32 | ReadBigEndian32(box + 12);
+    if (size > file.size - at) return true;
+    if (size < 8) return false;
+    at += size;
+  }
+  return at < file.size;
+}
+
 std::string Read(const std::string& where, Span file, Near near, DepthPhoto* photo) {
   const Context context(heif_context_alloc());
   if (context == nullptr) return OutOfMemory(where, "read it");
@@ -262,15 +293,19 @@ std::string Read(const std::string& where, Span file, Near near, DepthPhoto* pho
   if (error.empty()) error = DecodePicture(where, raw, &photo->picture);
   if (!error.empty()) return error;
   ReadProfiles(raw, photo);
+  ReadCaptions(raw, photo);
   TellGainMap(raw, photo);
-  return ReadMap(where, raw, file.size, near, photo);
+  photo->map_problem = ReadMap(where, raw, file.size, near, photo);
+  if (!photo->map_problem.empty()) photo->map = {};
+  return "";
 }
 
 }  // namespace
 
 std::string ReadHeif(const std::string& where, Span file, Near near, DepthPhoto* photo) {
   try {
-    return Read(where, file, near, photo);
+    const std::string error = Read(where, file, near, photo);
+    return !error.empty() && EndsWithinBox(file) ? Truncated(where, "HEIF") : error;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& failure) {  // libheif's, which its C functions let through

@@ -2,9 +2,12 @@
 #include "platform/readers/jpeg_parts.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
+#include <utility>
 
 #include "platform/container.h"
+#include "platform/icc_profile.h"
 
 namespace starfocus {
 namespace {
@@ -19,7 +22,8 @@ enum Marker : uint8_t {
   kLastRestart = 0xd7,
   kEndOfImage = 0xd9,
   kApp1 = 0xe1,
-  kApp2 = 0xe2
+  kApp2 = 0xe2,
+  kApp13 = 0xed
 };
 
 // The rest of a segment that begins with `name` and its zero byte.
@@ -52,17 +56,63 @@ void TakeApp1(Span segment, JpegParts* parts) {
   if (Strip("http://ns.adobe.com/xmp/extension/", &segment)) {
     return TakeExtension(segment, &parts->extensions);
   }
-  if (parts->xmp.empty() && Strip("http://ns.adobe.com/xap/1.0/", &segment)) parts->xmp = segment;
+  if (Strip("http://ns.adobe.com/xap/1.0/", &segment)) parts->xmp.push_back(segment);
 }
 
-// ICC.1 annex B.4: a number from 1 on and how many there are, then a part of the profile.
-void TakeApp2(Span segment, size_t* profiles, JpegParts* parts) {
+void TakeApp2(Span segment, std::vector<Span>* profile, JpegParts* parts) {
   if (parts->multi_picture.empty() && Strip("MPF", &segment)) parts->multi_picture = segment;
-  if (!Strip("ICC_PROFILE", &segment) || segment.size < 2) return;
-  if (segment.data[0] != *profiles + 1) return;
-  ++*profiles;
-  parts->metadata.icc.insert(parts->metadata.icc.end(), segment.data + 2,
-                             segment.data + segment.size);
+  if (Strip("ICC_PROFILE", &segment) && segment.size >= 2) profile->push_back(segment);
+}
+
+// Joins the parts of a profile (ICC.1 annex B.4): each begins with its number, from 1 on, and how
+// many there are.
+void JoinProfile(std::vector<Span> profile, JpegParts* result) {
+  if (profile.empty()) return;
+  std::stable_sort(profile.begin(), profile.end(),
+                   [](const Span& a, const Span& b) { return a.data[0] < b.data[0]; });
+  const size_t count = profile[0].data[1];
+  bool whole = profile.size() == count;
+  Bytes icc;
+  for (size_t k = 0; k < profile.size(); ++k) {
+    whole = whole && profile[k].data[0] == k + 1 && profile[k].data[1] == count;
+    icc.insert(icc.end(), profile[k].data + 2, profile[k].data + profile[k].size);
+  }
+  if (whole && IsRgbProfile(icc)) {
+    result->metadata.icc = std::move(icc);
+    return;
+  }
+  result->ignored = std::string("the colour profile is left out: ") +
+                    (whole ? "it is damaged or not of RGB colours"
+                           : "not all of its " + std::to_string(count) + " parts are there");
+}
+
+// Image resources of Photoshop, which may go on in the next segment: "8BIM", a number, a name of
+// even length with its length first, and data of even length with its length first.
+Bytes FindIptc(const std::vector<Span>& segments) {
+  constexpr size_t kHeader = 6;
+  constexpr uint8_t kIptc[] = {'8', 'B', 'I', 'M', 0x04, 0x04};
+  Bytes all;
+  for (const Span& segment : segments) {
+    all.insert(all.end(), segment.data, segment.data + segment.size);
+  }
+  for (size_t at = 0; at + kHeader < all.size();) {
+    const size_t name = (size_t(all[at + kHeader]) + 2) / 2 * 2, sizes = at + kHeader + name;
+    if (!std::equal(kIptc, kIptc + 4, &all[at]) || sizes + 4 > all.size()) return {};
+    const size_t size = ReadBigEndian32(&all[sizes]), data = sizes + 4;
+    if (size > all.size() - data) return {};
+    if (std::equal(kIptc, kIptc + kHeader, &all[at])) {
+      return {all.begin() + static_cast<ptrdiff_t>(data),
+              all.begin() + static_cast<ptrdiff_t>(data + size)};
+    }
+    at = data + (size + 1) / 2 * 2;
+  }
+  return {};
+}
+
+// Names of extended XMP are in hexadecimal digits, in capitals by the specification.
+bool SameHex(const std::string& a, const std::string& b) {
+  const auto same = [](char x, char y) { return std::toupper(x) == std::toupper(y); };
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), same);
 }
 
 bool HasNoLength(uint8_t marker) {
@@ -78,7 +128,8 @@ bool IsJpeg(Span file) {
 
 std::string ReadJpegParts(const std::string& where, Span file, JpegParts* parts) {
   JpegParts result;
-  size_t segments = 0, profiles = 0;
+  std::vector<Span> profile, resources;
+  size_t segments = 0;
   for (size_t at = 2; at + 1 < file.size;) {
     const uint8_t marker = file.data[at + 1];
     if (file.data[at] != 0xff || marker == 0xff) {
@@ -89,40 +140,52 @@ std::string ReadJpegParts(const std::string& where, Span file, JpegParts* parts)
     if (HasNoLength(marker)) continue;
     if (marker == kEndOfImage) {
       result.end = at;
+      JoinProfile(std::move(profile), &result);
+      result.metadata.iptc = FindIptc(resources);
       *parts = std::move(result);
       return "";
     }
     if (at + 2 > file.size) break;
     const size_t length = size_t(file.data[at]) * 256 + file.data[at + 1];
-    if (length < 2 || length > file.size - at) break;
+    if (length > file.size - at) break;
+    if (length < 2) {
+      return Expected(where, "an undamaged JPEG file",
+                      "a segment of " + std::to_string(length) + " bytes");
+    }
     if (++segments > kMostSegments) {
       return Expected(where, "at most " + std::to_string(kMostSegments) + " segments", "more");
     }
-    const Span segment = {file.data + at + 2, length - 2};
+    Span segment = {file.data + at + 2, length - 2};
     if (marker == kApp1) TakeApp1(segment, &result);
-    if (marker == kApp2) TakeApp2(segment, &profiles, &result);
+    if (marker == kApp2) TakeApp2(segment, &profile, &result);
+    if (marker == kApp13 && Strip("Photoshop 3.0", &segment)) resources.push_back(segment);
     at += length;
   }
-  return Expected(where, "an undamaged picture", "a truncated one");
+  return Truncated(where, "JPEG");
 }
 
 std::string JoinExtensions(const std::string& where, const JpegParts& parts,
                            const std::string& guid, std::string* text) {
   std::vector<const XmpExtension*> chosen;
   for (const XmpExtension& extension : parts.extensions) {
-    if (extension.guid == guid) chosen.push_back(&extension);
+    if (SameHex(extension.guid, guid)) chosen.push_back(&extension);
   }
   std::stable_sort(chosen.begin(), chosen.end(), [](const XmpExtension* a, const XmpExtension* b) {
     return a->offset < b->offset;
   });
   std::string joined;
   for (const XmpExtension* extension : chosen) {
-    if (extension->offset != joined.size()) break;
+    if (extension->offset < joined.size()) continue;  // a part that is there twice
+    if (extension->offset > joined.size()) break;
     joined.append(reinterpret_cast<const char*>(extension->text.data), extension->text.size);
   }
   const size_t total = chosen.empty() ? 0 : chosen[0]->total;
-  if (chosen.empty() || joined.size() != total) {
-    return Expected(where, "the extended XMP that it names, " + std::to_string(total) + " bytes",
+  if (chosen.empty()) {
+    return Expected(where, "the extended XMP " + guid.substr(0, kGuidSize) + " that its XMP names",
+                    parts.extensions.empty() ? "none" : "another");
+  }
+  if (joined.size() != total) {
+    return Expected(where, std::to_string(total) + " bytes of extended XMP",
                     std::to_string(joined.size()) + " of them in a row");
   }
   *text = std::move(joined);

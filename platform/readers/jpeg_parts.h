@@ -28,8 +28,9 @@ struct XmpExtension {
 };
 
 struct JpegParts {
-  Metadata metadata;
-  Span xmp;
+  Metadata metadata;      // EXIF, the profile and IPTC
+  std::string ignored;    // why a profile was left out; empty if none was
+  std::vector<Span> xmp;  // packets; a second one is against the specification, but is found
   std::vector<XmpExtension> extensions;
   Span multi_picture;  // from the TIFF header of CIPA DC-007 to the end of the segment
   size_t end = 0;      // of the first picture: what follows belongs to others
@@ -38,7 +39,8 @@ struct JpegParts {
 // Whether the bytes begin as a JPEG file does.
 bool IsJpeg(Span file);
 
-// Reads the segments of the first picture. An ICC profile in parts counts if they are in order.
+// Reads the segments of the first picture. The parts of an ICC profile are joined by their numbers,
+// in any order; a profile that is not whole or not of RGB colours is left out.
 std::string ReadJpegParts(const std::string& where, Span file, JpegParts* parts);
 
 // The extended XMP of that GUID, put together.

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/multi_picture.h"
 
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
 namespace starfocus {
 namespace {
 
-constexpr size_t kMostPictures = 64, kEntrySize = 16;
-constexpr uint32_t kEntryTag = 0xb002;
+// Attempts count, too: a beginning that no picture follows costs a look at the rest of the file.
+constexpr size_t kMostPictures = 64;
+constexpr size_t kEntrySize = 16;
+constexpr uint32_t kEntryTag = 0xb002, kTypeBits = 0xffffff;
 
 // Whole numbers of a TIFF header in either byte order; 0 beyond its end.
 struct Tiff {
@@ -22,40 +28,88 @@ struct Tiff {
   }
 };
 
-// Where the entries lie and how many there are, from the first directory.
-bool FindEntries(const Tiff& tiff, size_t* at, size_t* count) {
+// An entry of the index: where its picture begins, and what it is.
+struct Entry {
+  size_t begin = 0;
+  uint32_t type = 0;
+};
+
+// Lists the entries behind the first picture's. `counted` is how many of them the index counts; a
+// wrong count leaves out entries that are there.
+std::vector<Entry> ListEntries(Span file, Span index, size_t pictures, size_t* counted) {
+  std::vector<Entry> entries;
+  const Tiff tiff = {index, index.size > 0 && index.data[0] == 'I'};
+  const size_t base = index.empty() ? 0 : static_cast<size_t>(index.data - file.data);
   const size_t directory = tiff.Whole(4, 4), tags = tiff.Whole(directory, 2);
-  for (size_t k = 0; k < tags; ++k) {
+  *counted = 0;
+  for (size_t k = 0; k < tags && directory + 12 * k < index.size; ++k) {
     const size_t tag = directory + 2 + 12 * k;
-    if (tag >= tiff.bytes.size) return false;
     if (tiff.Whole(tag, 2) != kEntryTag) continue;
-    *count = tiff.Whole(tag + 4, 4) / kEntrySize;
-    *at = tiff.Whole(tag + 8, 4);
-    return true;
+    const size_t count = tiff.Whole(tag + 4, 4) / kEntrySize, first = tiff.Whole(tag + 8, 4);
+    *counted = std::max(count, size_t{1}) - 1;
+    for (size_t n = 1; n <= pictures; ++n) {
+      const size_t at = first + n * kEntrySize;
+      if (at > index.size || kEntrySize > index.size - at) break;
+      entries.push_back({base + tiff.Whole(at + 8, 4), tiff.Whole(at, 4) & kTypeBits});
+    }
+    break;
   }
-  return false;
+  return entries;
+}
+
+// The next place from `at` on where a JPEG file may begin; the file's size if there is none.
+size_t FindBeginning(Span file, size_t at) {
+  while (at + 2 < file.size) {
+    const void* found = std::memchr(file.data + at, 0xff, file.size - at);
+    if (found == nullptr) break;
+    at = static_cast<size_t>(static_cast<const uint8_t*>(found) - file.data);
+    if (IsJpeg({file.data + at, file.size - at})) return at;
+    ++at;
+  }
+  return file.size;
+}
+
+// Types by place; where the index has none of the places, they were moved, and types go by order.
+void TakeEntries(Span file, const std::vector<Entry>& entries, size_t counted,
+                 std::vector<MultiPicture>* pictures) {
+  bool any = false;
+  for (MultiPicture& picture : *pictures) {
+    const auto begin = static_cast<size_t>(picture.file.data - file.data);
+    for (size_t k = 0; k < entries.size(); ++k) {
+      if (entries[k].begin != begin) continue;
+      picture.type = entries[k].type;
+      picture.indexed = k < counted;
+      any = true;
+    }
+  }
+  if (any) return;
+  const size_t both = std::min(entries.size(), pictures->size());
+  for (size_t k = 0; k < both; ++k) (*pictures)[k].type = entries[k].type;
 }
 
 }  // namespace
 
-std::string ListMultiPictures(const std::string& where, Span file, const JpegParts& parts,
-                              std::vector<Span>* pictures) {
-  if (parts.multi_picture.size < 8) return "";
-  const Tiff tiff = {parts.multi_picture, parts.multi_picture.data[0] == 'I'};
-  size_t entries = 0, count = 0;
-  if (!FindEntries(tiff, &entries, &count)) return "";
-  if (count > kMostPictures) {
-    return Expected(where, "a multi-picture file of at most " + std::to_string(kMostPictures),
-                    std::to_string(count));
+std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts) {
+  std::vector<MultiPicture> pictures;
+  size_t at = parts.end;
+  for (size_t attempt = 0; attempt < kMostPictures; ++attempt) {
+    at = FindBeginning(file, at);
+    if (at >= file.size) break;
+    MultiPicture picture;
+    picture.file = {file.data + at, file.size - at};
+    if (!ReadJpegParts("", picture.file, &picture.parts).empty()) {
+      ++at;
+      continue;
+    }
+    picture.file.size = picture.parts.end;
+    at += picture.parts.end;
+    pictures.push_back(std::move(picture));
   }
-  const auto base = static_cast<size_t>(parts.multi_picture.data - file.data);
-  for (size_t k = 1; k < count; ++k) {
-    const size_t entry = entries + k * kEntrySize;
-    const size_t size = tiff.Whole(entry + 4, 4), offset = tiff.Whole(entry + 8, 4);
-    if (offset > file.size - base || size > file.size - base - offset) continue;  // cut off
-    pictures->push_back({file.data + base + offset, size});
-  }
-  return "";
+  size_t counted = 0;
+  const std::vector<Entry> entries =
+      ListEntries(file, parts.multi_picture, pictures.size(), &counted);
+  TakeEntries(file, entries, counted, &pictures);
+  return pictures;
 }
 
 }  // namespace starfocus

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Multi-Picture Format (CIPA DC-007): an index in a JPEG file of those that follow it.
+// The pictures behind the first one of a JPEG file, and what the Multi-Picture Format's index (CIPA
+// DC-007) says of them. Editors move or drop the index, so that the pictures themselves are looked
+// for.
 #ifndef STARFOCUS_PLATFORM_READERS_MULTI_PICTURE_H_
 #define STARFOCUS_PLATFORM_READERS_MULTI_PICTURE_H_
 
-#include <string>
+#include <cstdint>
 #include <vector>
 
 #include "platform/readers/jpeg_parts.h"
 
 namespace starfocus {
 
-// The pictures behind the first one that the index names, 64 at most. None without an index.
-std::string ListMultiPictures(const std::string& where, Span file, const JpegParts& parts,
-                              std::vector<Span>* pictures);
+struct MultiPicture {
+  Span file;             // the JPEG file of this picture
+  JpegParts parts;       // its segments
+  bool indexed = false;  // the index has its place
+  uint32_t type = 0;     // by the index: 0x020002 is one of a stereo pair, 0 unknown
+};
+
+// Lists the whole JPEG files behind the first picture, 64 at most.
+std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts);
 
 }  // namespace starfocus
 

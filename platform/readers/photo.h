@@ -30,7 +30,9 @@ enum class MapMeaning {
 struct DepthPhoto {
   std::string format;
   Image picture;
-  FloatMap map;  // NaN: unknown
+  FloatMap map;             // NaN: unknown; empty: none that can be read
+  std::string map_problem;  // why a map in the file cannot be read
+  Image right;              // of a stereo pair, whose left picture is `picture`; empty: none
   MapMeaning meaning = MapMeaning::kOrder;
   int orientation = 1;    // of EXIF: what is still to be done to picture and map
   double focal_35mm = 0;  // equivalent focal length in millimetres; 0: nobody knows

@@ -65,10 +65,14 @@ std::string EncodeDepthPhoto(const std::string& path, const Image& picture,
       FocusAttributes(photo, *low);
   const std::string extended =
       Attribute("GDepth:Data", EncodeBase64(map)) + Attribute("GImage:Data", EncodeBase64(before));
-  if (!AppendXmp(kNamespaces, attributes, extended, &segments)) {
+  // Descriptions that have no room beside those of the map are left out.
+  if (!AppendExtendedXmp(kNamespaces, attributes, extended, metadata.xmp, &segments) &&
+      !AppendExtendedXmp(kNamespaces, attributes, extended, "", &segments)) {
     return Expected(path, "less than 4 GiB beside the picture", "more");
   }
-  return EncodeJpeg(path, picture, quality, metadata, segments, jpeg);
+  Metadata others = metadata;
+  others.xmp.clear();  // a file has one packet
+  return EncodeJpeg(path, picture, quality, others, segments, jpeg);
 }
 
 }  // namespace starfocus

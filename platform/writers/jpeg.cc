@@ -16,6 +16,8 @@ std::string EncodeJpeg(const std::string& path, const Image& image, int quality,
   if (MarkEdited("starfocus " SF_VERSION_STRING, image.width, image.height, &exif)) {
     AppendExif(exif, &all);
   }
+  AppendXmp(metadata.xmp, &all);
+  AppendIptc(metadata.iptc, &all);
   AppendProfile(metadata.icc, &all);
   all.insert(all.end(), segments.begin(), segments.end());
   InsertSegments(all, jpeg);

@@ -16,7 +16,7 @@ namespace starfocus {
 std::string EncodeJpegPixels(const std::string& path, const Image& image, int quality, Bytes* jpeg);
 
 // A file with `segments` (jpeg_segments.h), and with metadata changed to what is true of the
-// picture (exif.h). EXIF that cannot be followed, or is too long, is left out.
+// picture (exif.h). EXIF that cannot be followed is left out, and metadata that has no room.
 std::string EncodeJpeg(const std::string& path, const Image& image, int quality,
                        const Metadata& metadata, const Bytes& segments, Bytes* jpeg);
 

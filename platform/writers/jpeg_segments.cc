@@ -10,11 +10,12 @@ namespace starfocus {
 namespace {
 
 constexpr size_t kMostPayload = 65533;  // the length of a segment counts its own two bytes
-constexpr uint8_t kApp0 = 0xe0, kApp1 = 0xe1, kApp2 = 0xe2;
+constexpr uint8_t kApp0 = 0xe0, kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed;
 
 // Headers of segments end in a zero, as the formats have it.
 const std::string kExifHeader("Exif\0\0", 6);
 const std::string kProfileHeader("ICC_PROFILE\0", 12);
+const std::string kResourcesHeader("Photoshop 3.0\0", 14);
 const std::string kXmpHeader("http://ns.adobe.com/xap/1.0/\0", 29);
 const std::string kExtensionHeader("http://ns.adobe.com/xmp/extension/\0", 35);
 
@@ -36,11 +37,14 @@ void Append(uint8_t marker, const std::string& header, Iterator first, Iterator 
   segments->insert(segments->end(), first, last);
 }
 
-std::string Packet(const std::string& namespaces, const std::string& attributes) {
+std::string Packet(const std::string& descriptions) {
   return "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF "
-         "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"><rdf:Description "
-         "rdf:about=\"\"" +
-         namespaces + attributes + "/></rdf:RDF></x:xmpmeta>";
+         "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">" +
+         descriptions + "</rdf:RDF></x:xmpmeta>";
+}
+
+std::string Description(const std::string& namespaces, const std::string& attributes) {
+  return "<rdf:Description rdf:about=\"\"" + namespaces + attributes + "/>";
 }
 
 // What programs that look for the packet anywhere in a file find it by.
@@ -70,12 +74,35 @@ bool AppendProfile(const Bytes& icc, Bytes* segments) {
   return true;
 }
 
-bool AppendXmp(const std::string& namespaces, const std::string& attributes,
-               const std::string& extended, Bytes* segments) {
-  const std::string more = Packet(namespaces, extended), name = Md5(more);
-  const std::string first =
-      Wrapped(Packet(namespaces + " xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\"",
-                     attributes + " xmpNote:HasExtendedXMP=\"" + name + "\""));
+// An image resource of Photoshop without a name, of even length.
+bool AppendIptc(const Bytes& iptc, Bytes* segments) {
+  if (iptc.empty()) return true;
+  const std::string header = kResourcesHeader + "8BIM" + std::string("\x04\x04\0\0", 4);
+  Bytes resource(iptc);
+  if (resource.size() % 2 != 0) resource.push_back(0);
+  if (resource.size() > kMostPayload - header.size() - 4) return false;
+  Append(kApp13, header + BigEndian32(iptc.size()), resource.begin(), resource.end(), segments);
+  return true;
+}
+
+std::string XmpPacket(const std::string& descriptions) {
+  return descriptions.empty() ? "" : Wrapped(Packet(descriptions));
+}
+
+bool AppendXmp(const std::string& descriptions, Bytes* segments) {
+  const std::string packet = XmpPacket(descriptions);
+  if (packet.size() > kMostPayload - kXmpHeader.size()) return false;
+  if (!packet.empty()) Append(kApp1, kXmpHeader, packet.begin(), packet.end(), segments);
+  return true;
+}
+
+bool AppendExtendedXmp(const std::string& namespaces, const std::string& attributes,
+                       const std::string& extended, const std::string& descriptions,
+                       Bytes* segments) {
+  const std::string more = Packet(Description(namespaces, extended)), name = Md5(more);
+  const std::string first = Wrapped(Packet(
+      descriptions + Description(namespaces + " xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\"",
+                                 attributes + " xmpNote:HasExtendedXMP=\"" + name + "\"")));
   if (first.size() > kMostPayload - kXmpHeader.size() || uint64_t{more.size()} > UINT32_MAX) {
     return false;
   }

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "platform/writers/exif.h"
+#include "platform/writers/jpeg_segments.h"
 #include "starfocus/version.h"
 
 namespace starfocus {
@@ -28,6 +29,7 @@ struct Call {
   Bytes* png;
   bool no_memory = false;
   char reason[100] = "";
+  std::string xmp = {};  // a packet, which must outlive the library's jumps
 };
 
 // The library and zlib say in words of their own that there is too little memory.
@@ -60,6 +62,19 @@ void Fail(png_structp png, png_const_charp reason) {
 
 void KeepSilent(png_structp, png_const_charp) {}
 
+// XMP is a text of a name of its own (XMP specification part 3, 1.1.5).
+void SetXmp(const std::string& packet, png_structp png, png_infop info) {
+  if (packet.empty()) return;
+  static char name[] = "XML:com.adobe.xmp", none[] = "";
+  png_text text = {};
+  text.compression = PNG_ITXT_COMPRESSION_NONE;
+  text.key = name;
+  text.lang = text.lang_key = none;
+  text.text = const_cast<char*>(packet.c_str());  // libpng copies it
+  text.itxt_length = packet.size();
+  png_set_text(png, info, &text, 1);
+}
+
 void SetMetadata(const Metadata& metadata, Bytes* exif, png_structp png, png_infop info) {
   if (!metadata.icc.empty()) {
     png_set_iCCP(png, info, "ICC", PNG_COMPRESSION_TYPE_BASE, metadata.icc.data(),
@@ -68,6 +83,7 @@ void SetMetadata(const Metadata& metadata, Bytes* exif, png_structp png, png_inf
   if (!exif->empty()) {
     png_set_eXIf_1(png, info, static_cast<png_uint_32>(exif->size()), exif->data());
   }
+  SetXmp(static_cast<const Call*>(png_get_error_ptr(png))->xmp, png, info);
 }
 
 // False with the reason. Nothing here has a destructor: an error of the library jumps over them.
@@ -98,6 +114,7 @@ std::string Encode(const std::string& path, const Rows& rows, const Metadata& me
   if (!MarkEdited("starfocus " SF_VERSION_STRING, rows.width, rows.height, &exif)) exif.clear();
   png->clear();
   Call call = {png};
+  call.xmp = XmpPacket(metadata.xmp);
   if (Write(rows, metadata, &exif, &call)) return "";
   if (call.no_memory || call.reason[0] == '\0') return OutOfMemory(path, "write it");
   return Expected(path, "a picture that libpng can write", call.reason);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "platform/writers/exif.h"
+#include "platform/writers/jpeg_segments.h"
 #include "starfocus/version.h"
 
 namespace starfocus {
@@ -104,9 +105,12 @@ std::string WebpWriter::Finish(const Metadata& metadata, Bytes* webp) {
   }
   Bytes exif = metadata.exif;
   if (!MarkEdited("starfocus " SF_VERSION_STRING, state.width, state.height, &exif)) exif.clear();
+  const std::string packet = XmpPacket(metadata.xmp);
   WebPMux* mux = WebPMuxCreate(&coded.data, 0);
   const bool made = mux != nullptr && SetChunk(mux, "ICCP", metadata.icc) &&
-                    SetChunk(mux, "EXIF", exif) && WebPMuxAssemble(mux, &whole.data) == WEBP_MUX_OK;
+                    SetChunk(mux, "EXIF", exif) &&
+                    SetChunk(mux, "XMP ", {packet.begin(), packet.end()}) &&
+                    WebPMuxAssemble(mux, &whole.data) == WEBP_MUX_OK;
   WebPMuxDelete(mux);
   if (!made) return OutOfMemory(state.path, "write it");
   webp->assign(whole.data.bytes, whole.data.bytes + whole.data.size);

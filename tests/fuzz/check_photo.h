@@ -9,15 +9,35 @@
 
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/photo_scale.h"
+#include "platform/readers/stereo_pair.h"
+#include "platform/readers/xmp.h"
+#include "platform/writers/jpeg_segments.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus::fuzz {
+
+// What is written of the XMP is well-formed; it may be nested deeper than what was read.
+inline void CheckCaptions(const Metadata& metadata) {
+  const std::string packet = XmpPacket(metadata.xmp);
+  XmpNode root;
+  if (packet.empty() || !CanReadXmp()) return;
+  const std::string error = ParseXmp("captions", packet.data(), packet.size(), &root);
+  if (error.find("well-formed") != std::string::npos) std::abort();
+}
 
 inline void CheckPhoto(const uint8_t* data, size_t size) {
   DepthPhoto photo;
   const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
   const std::string error = DecodeDepthPhoto("photo", {data, size}, true, near, &photo);
-  if (!error.empty() || photo.map.values.empty()) return;
+  if (!error.empty()) return;
+  CheckCaptions(photo.metadata);
+  if (photo.map.values.empty()) {
+    if (ReadStereoPair("photo", {data, size}, &photo) &&
+        photo.right.pixels.size() != photo.picture.pixels.size()) {
+      std::abort();
+    }
+    return;
+  }
   if (photo.map.values.size() != size_t(photo.map.width) * size_t(photo.map.height)) std::abort();
   // Small ones: the engine's own fuzz target is for what follows.
   if (photo.picture.pixels.size() > 1 << 20) return;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The readers of single files: PFM maps, and PNG, PPM and JPEG pictures.
+// The readers of single files: PFM maps, PNG, PPM and JPEG pictures, and small texts.
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <string>
 
+#include "platform/container.h"
 #include "platform/image_io.h"
 #include "platform/pfm.h"
 #include "tests/fuzz/input.h"
@@ -36,6 +37,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (starfocus::ReadPfm(file.path(), &map).empty()) {
     if (map.values.size() != size_t(map.width) * size_t(map.height)) std::abort();
   }
+  starfocus::Bytes bytes;
+  const bool small = starfocus::ReadSmallFile(file.path(), &bytes).empty();
+  if (small != (size <= starfocus::kMostSmallBytes) || (small && bytes.size() != size))
+    std::abort();
+  if (starfocus::DescribeFile(bytes).empty()) std::abort();
   starfocus::Image image;
   if (starfocus::ReadImage(file.path(), &image).empty()) {
     if (image.pixels.size() != image.stride() * size_t(image.height)) std::abort();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/icc_profile.h"
 #include "platform/readers/jpeg_parts.h"
 #include "platform/readers/key_values.h"
 #include "platform/readers/multi_picture.h"
@@ -42,13 +43,14 @@ void CheckParts(const uint8_t* data, size_t size) {
   starfocus::JpegParts parts;
   if (!starfocus::ReadJpegParts("photo", {data, size}, &parts).empty()) return;
   if (parts.end > size) std::abort();
-  std::vector<starfocus::Span> pictures;
   std::string text;
-  if (starfocus::ListMultiPictures("photo", {data, size}, parts, &pictures).empty()) {
-    for (const starfocus::Span& picture : pictures) {
-      if (picture.data < data || picture.data + picture.size > data + size) std::abort();
-    }
+  for (const starfocus::MultiPicture& picture : starfocus::ListMultiPictures({data, size}, parts)) {
+    const starfocus::Span& file = picture.file;
+    if (file.data < data + parts.end || file.data + file.size > data + size) std::abort();
+    if (file.size != picture.parts.end) std::abort();
   }
+  if (!parts.metadata.icc.empty() && !starfocus::IsRgbProfile(parts.metadata.icc)) std::abort();
+  if (parts.metadata.iptc.size() > size) std::abort();
   if (!parts.extensions.empty()) {
     if (starfocus::JoinExtensions("photo", parts, parts.extensions[0].guid, &text).empty() &&
         text.size() > size) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "platform/readers/depth_photo_file.h"
+#include "tests/fuzz/check_photo.h"
 #include "tests/fuzz/input.h"
 #include "tests/support/photo_files.h"
 
@@ -22,6 +23,7 @@ void Decode(const std::string& file) {
   const std::string error = starfocus::DecodeDepthPhoto("photo", {bytes, file.size()}, true,
                                                         starfocus::Near::kUnknown, &photo);
   if (error.empty() && photo.picture.pixels.empty()) std::abort();
+  starfocus::fuzz::CheckCaptions(photo.metadata);
 }
 
 }  // namespace
@@ -36,8 +38,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     Decode(Gdepth(pictures.jpeg,
                   "GDepth:Format=\"RangeInverse\" GDepth:Near=\"1\" GDepth:Far=\"2\"",
                   "/>" + packet, 1 + size / 3));
-  } else {
+  } else if (data[0] % 4 == 2) {
     Decode(Insert(pictures.jpeg, XmpSegment(packet)) + pictures.png);
+  } else {  // a second packet
+    Decode(Insert(pictures.jpeg,
+                  XmpSegment(Packet(kGoogle, "GDepth:Near=\"1\"")) + XmpSegment(packet)) +
+           pictures.png);
   }
   return 0;
 }

@@ -22,6 +22,11 @@ const std::string kMap =
     "DepthMap:Format=\"RangeLinear\" DepthMap:Near=\"1\" DepthMap:Far=\"9\" "
     "DepthMap:Units=\"Meters\"";
 
+const std::string kDiopters =
+    "DepthMap:Format=\"RangeInverse\" DepthMap:Near=\"0.1\" DepthMap:Far=\"0.2\" "
+    "DepthMap:Units=\"Diopters\"";
+const std::string kCaptions = "xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\"";
+
 void WritePhotos(const std::string& folder) {
   const std::string jpeg = Encode(Ramp(8, 6), ".jpg"), png = Encode(Ramp(4, 3), ".png");
   const std::string data = "GDepth:Data=\"" + Base64(png) + "\"";
@@ -30,6 +35,18 @@ void WritePhotos(const std::string& folder) {
         Gdepth(jpeg, kRange, "GDepth:Data=\"" + Base64(Png16(2, 2, {0, 9, 99, 65535})) + "\""));
   Write(folder + "/dynamic.jpg", DynamicDepth(jpeg, png, kMap));
   Write(folder + "/apple.jpg", MultiPicture(jpeg, AppleMap(jpeg, kDisparities)));
+  // Odd ones: no index, a wrong one, a pair, diopters with wrong lengths, two packets, and a
+  // profile in parts out of order.
+  Write(folder + "/no_index.jpg", jpeg + AppleMap(jpeg, kDisparities));
+  Write(folder + "/wrong_index.jpg",
+        MultiPicture(jpeg, AppleMap(jpeg, kDisparities), {true, 2, 9}));
+  Write(folder + "/pair.jpg", MultiPicture(jpeg, jpeg, {true, 32, 0, 0x020002}));
+  Write(folder + "/diopters.jpg", DynamicDepth(jpeg, png, kDiopters, 5));
+  const std::vector<std::string> parts = ProfileSegments(Profile(200), 2);
+  Write(folder + "/captions.jpg",
+        Insert(jpeg, parts[1] + IptcSegment("\x1c\2\x78") + parts[0] +
+                         XmpSegment(Packet(kCaptions, "xmp:Rating=\"4\"")) +
+                         XmpSegment(Packet(kGoogle, kRange + " " + data))));
 }
 
 void WritePackets(const std::string& folder) {
@@ -38,6 +55,11 @@ void WritePackets(const std::string& folder) {
   Write(folder + "/extended", "\1" + Packet(kGoogle, "GDepth:Data=\"" + Base64(png) + "\""));
   Write(folder + "/gdepth",
         "\2" + Packet(kGoogle, kRange + " GDepth:Data=\"" + Base64(png) + "\""));
+  Write(folder + "/captions",
+        "\3" + Packet(kCaptions + " xmlns:dc=\"http://purl.org/dc/elements/1.1/\"",
+                      "xmp:Rating=\"4\"",
+                      "<dc:title><rdf:Alt><rdf:li xml:lang=\"x-default\">a&amp;b</rdf:li></rdf:Alt>"
+                      "</dc:title>"));
   const std::string dynamic = DynamicDepth(Encode(Ramp(8, 8), ".jpg"), png, kMap);
   const size_t begin = dynamic.find("<x:xmpmeta"), end = dynamic.find("</x:xmpmeta>");
   Write(folder + "/dynamic", "\2" + dynamic.substr(begin, end + 12 - begin));

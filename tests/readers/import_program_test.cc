@@ -68,6 +68,66 @@ TEST_CASE("photos: a GDepth photo is refocused at a pixel, at its own focus, and
   CHECK(folder.count() == 4);
 }
 
+TEST_CASE("photos: a stereo pair in one file is told of, and has no map to refocus by") {
+  TempFolder folder;
+  const std::string left = Encode(Plain(40, 24, 90), ".jpg"), right = Encode(Ramp(40, 24), ".jpg");
+  Write(folder.file("pair.mpo"), MultiPicture(left, right));
+  const Outcome info = Call(folder, "info pair.mpo");
+  CHECK(info.code == 0);
+  CHECK(Contains(info.out, "  format     stereo pair (MPO)\n"));
+  CHECK(Contains(info.out, "  size       40x24 pixels\n"));
+  CHECK(Contains(info.out, "  views      2 views at (0, 0) (1, 0)\n"));
+  CHECK(Contains(Call(folder, "info pair.mpo --json").out, "\"positions\":[[0.0,0.0],[1.0,0.0]]"));
+  const Outcome refocus = Call(folder, "refocus pair.mpo -o x.png --focus 1");
+  CHECK(refocus.code == 1);
+  CHECK(Contains(refocus.err, "starfocus: pair.mpo: expected a disparity map"));
+}
+
+TEST_CASE("photos: captions reach every output, and no depth map is claimed there") {
+  if (!CanReadXmp()) return;
+  TempFolder folder;
+  const std::string names =
+      "xmlns:dc=\"http://purl.org/dc/elements/1.1/\" xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\"";
+  const std::string title =
+      "<dc:title><rdf:Alt><rdf:li xml:lang=\"x-default\">Cats &amp; dogs</rdf:li></rdf:Alt>"
+      "</dc:title>";
+  Write(folder.file("photo.jpg"),
+        Insert(GdepthPhoto(), IptcSegment(std::string("\x1c\x02\x78\0\4cats", 9)) +
+                                  XmpSegment(Packet(names, "xmp:Rating=\"4\"", title))));
+  for (const std::string name : {"out.jpg", "out.png", "out.webp", "deep.jpg"}) {
+    const std::string option = name == "deep.jpg" ? " --depth-photo" : "";
+    const Outcome outcome = Call(folder, "refocus photo.jpg --focus 1 -o " + name + option);
+    if (Contains(outcome.err, "libwebp") || Contains(outcome.err, "libpng")) continue;
+    REQUIRE(outcome.code == 0);
+    Bytes bytes;
+    REQUIRE(ReadFile(folder.file(name), &bytes) == "");
+    const std::string file(bytes.begin(), bytes.end());
+    CAPTURE(name);
+    CHECK(Contains(file, "Cats &amp; dogs"));
+    CHECK(Contains(file, "<xmp:Rating>4</xmp:Rating>"));
+    CHECK(Contains(file, "GDepth") == (name == "deep.jpg"));
+    if (Contains(name, ".jpg"))
+      CHECK(Contains(file,
+                     "\x04"
+                     "cats"));
+  }
+  if (std::system("command -v exiftool >/dev/null 2>&1") != 0) return;
+  for (const char* name : {"out.jpg", "out.png", "out.webp", "deep.jpg"}) {
+    CAPTURE(name);
+    if (!fs::exists(folder.file(name))) continue;
+    REQUIRE(std::system(("exiftool -s -G -Title -Rating -Caption-Abstract -Warning '" +
+                         folder.file(name) + "' > '" + folder.file("tags") + "'")
+                            .c_str()) == 0);
+    Bytes tags;
+    REQUIRE(ReadFile(folder.file("tags"), &tags) == "");
+    const std::string text(tags.begin(), tags.end());
+    CHECK(Contains(text, "Cats & dogs"));
+    CHECK(Contains(text, "Rating                          : 4"));
+    CHECK(!Contains(text, "Warning"));
+    if (std::string(name).find(".jpg") != std::string::npos) CHECK(Contains(text, ": cats"));
+  }
+}
+
 TEST_CASE("photos: import writes a folder that gives the same picture") {
   if (!CanReadXmp()) return;
   TempFolder folder;
@@ -124,7 +184,10 @@ TEST_CASE("photos: HEIC with an auxiliary depth picture") {
   CHECK(photo.picture.width == 16);
   REQUIRE(photo.map.values.size() == 16 * 16);
   CHECK(std::fabs(photo.map.at(0, 8) - photo.map.at(15, 8)) > 0.8F);  // it runs from side to side
-  CHECK(ReadHeif("x", {bytes.data(), bytes.size() / 2}, Near::kUnknown, &photo) != "");
+  for (const size_t size : {size_t{30}, bytes.size() / 2, bytes.size() - 1}) {
+    CHECK(Contains(ReadHeif("x", {bytes.data(), size}, Near::kUnknown, &photo),
+                   "the HEIF file is truncated"));
+  }
 #else
   CHECK(Contains(error, "a build with libheif"));
 #endif

@@ -174,19 +174,66 @@ inline std::string ExifSegment(int orientation, int focal_35mm) {
   return Segment(0xe1, std::string("Exif\0\0MM\0\x2a\0\0\0\x08", 14) + first + second);
 }
 
+// How the index of a multi-picture file is written, rightly or wrongly.
+struct IndexOptions {
+  bool little = false;        // byte order
+  uint32_t entry_bytes = 32;  // what the index counts
+  uint32_t moved = 0;         // by how much the second picture's place is wrong
+  uint32_t type = 0;          // of the second picture
+};
+
 // A file of two pictures: the index in the first one's APP2 (CIPA DC-007, 5.2).
-inline std::string MultiPicture(const std::string& first, const std::string& second) {
+inline std::string MultiPicture(const std::string& first, const std::string& second,
+                                const IndexOptions& options = {}) {
+  const auto number = [&](uint32_t value, int bytes) {
+    std::string text = Big(value, bytes);
+    if (options.little) std::reverse(text.begin(), text.end());
+    return text;
+  };
   const auto index = [&](uint32_t size, uint32_t offset) {
-    const std::string entries = Big(0x030000, 4) + Big(size, 4) + Big(0, 4) + Big(0, 4) +
-                                Big(0, 4) + Big(static_cast<uint32_t>(second.size()), 4) +
-                                Big(offset, 4) + Big(0, 4);
-    const std::string directory =
-        Big(1, 2) + Big(0xb002, 2) + Big(7, 2) + Big(32, 4) + Big(8 + 2 + 12 + 4, 4) + Big(0, 4);
-    return Segment(0xe2, std::string("MPF\0MM\0\x2a\0\0\0\x08", 12) + directory + entries);
+    const std::string entries = number(0x030000, 4) + number(size, 4) + number(0, 4) +
+                                number(0, 4) + number(options.type, 4) +
+                                number(static_cast<uint32_t>(second.size()), 4) +
+                                number(offset, 4) + number(0, 4);
+    const std::string directory = number(1, 2) + number(0xb002, 2) + number(7, 2) +
+                                  number(options.entry_bytes, 4) + number(8 + 2 + 12 + 4, 4) +
+                                  number(0, 4);
+    return Segment(0xe2, std::string("MPF\0", 4) + (options.little ? "II" : "MM") + number(42, 2) +
+                             number(8, 4) + directory + entries);
   };
   // The TIFF header is 4 + 4 bytes into the segment, that 2 into the file.
   const auto size = static_cast<uint32_t>(Insert(first, index(0, 0)).size());
-  return Insert(first, index(size, size - 10)) + second;
+  return Insert(first, index(size, size - 10 + options.moved)) + second;
+}
+
+// The segments of an ICC profile in parts, in their order (ICC.1, annex B.4).
+inline std::vector<std::string> ProfileSegments(const std::string& icc, size_t parts) {
+  std::vector<std::string> segments;
+  const size_t size = (icc.size() + parts - 1) / parts;
+  for (size_t k = 0; k < parts; ++k) {
+    segments.push_back(Segment(0xe2, std::string("ICC_PROFILE\0", 12) + static_cast<char>(k + 1) +
+                                         static_cast<char>(parts) + icc.substr(k * size, size)));
+  }
+  return segments;
+}
+
+// A profile without tags, of RGB or other colours (ICC.1, 7.2).
+inline std::string Profile(size_t size, const std::string& space = "RGB ") {
+  std::string icc(size, '\0');
+  icc.replace(0, 4, Big(static_cast<uint32_t>(size), 4));
+  icc.replace(16, 4, space);
+  icc.replace(36, 4, "acsp");
+  for (size_t k = 132; k < size; ++k) icc[k] = static_cast<char>(k % 251);
+  return icc;
+}
+
+// A Photoshop segment with a resource to skip, and IPTC records.
+inline std::string IptcSegment(const std::string& records) {
+  const std::string even = records.size() % 2 == 0 ? records : records + '\0';
+  return Segment(0xed, std::string("Photoshop 3.0\0", 14) + "8BIM" + Big(0x03ed, 2) +
+                           std::string("\3abc") + Big(3, 4) + "xyz" + '\0' + "8BIM" +
+                           Big(0x0404, 2) + std::string(2, '\0') +
+                           Big(static_cast<uint32_t>(records.size()), 4) + even);
 }
 
 constexpr char kDynamic[] =
@@ -204,13 +251,14 @@ inline std::string ContainerItem(const std::string& mime, size_t length, const s
 }
 
 // Dynamic Depth 1.0: a picture, something else and the map, in one file.
+// `wrong` is by how much the other item's length is wrong.
 inline std::string DynamicDepth(const std::string& jpeg, const std::string& map,
-                                const std::string& attributes) {
+                                const std::string& attributes, size_t wrong = 0) {
   const std::string other = "a confidence map would stand here";
   const std::string inside =
       "<Device:Container rdf:parseType=\"Resource\"><Container:Directory><rdf:Seq>" +
       ContainerItem("image/jpeg", 0, "primary_image") +
-      ContainerItem("image/jpeg", other.size(), "other") +
+      ContainerItem("image/jpeg", other.size() + wrong, "other") +
       ContainerItem("image/png", map.size(), "android/depthmap") +
       "</rdf:Seq></Container:Directory></Device:Container>"
       "<Device:Cameras><rdf:Seq><rdf:li rdf:parseType=\"Resource\"><Device:Camera "

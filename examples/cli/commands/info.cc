@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
+#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/disparity/map_figures.h"
 #include "examples/cli/input/input.h"
 #include "examples/command_line/options.h"
@@ -44,9 +45,12 @@ void PrintText(const Capture& capture, const sf_disparity_stats& stats,
   std::printf("%s\n", capture.path.c_str());
   PrintRow("format", capture.format);
   for (const auto& fact : capture.facts) PrintRow(fact.first, fact.second);
-  PrintRow("size", std::to_string(light_field.width()) + "x" +
-                       std::to_string(light_field.height()) + " pixels");
+  const Image& view = light_field.views[0];
+  PrintRow("size", std::to_string(view.width) + "x" + std::to_string(view.height) + " pixels");
   PrintRow("views", views);
+  if (light_field.disparity.values.empty()) {
+    return PrintRow("disparity", "no map, and none is estimated from these views");
+  }
   PrintRow("disparity", Short(stats.min) + " to " + Short(stats.max) + " pixels per unit u, " +
                             std::to_string(stats.invalid) + " invalid");
   int64_t most = 1;
@@ -66,30 +70,47 @@ void PrintJson(const Capture& capture, const sf_disparity_stats& stats,
   json["format"] = capture.format;
   for (const auto& fact : capture.facts) json["facts"][fact.first] = fact.second;
   if (capture.widest > 0) json["widest_f_stop"] = capture.widest;
-  json["width"] = light_field.width();
-  json["height"] = light_field.height();
+  json["width"] = light_field.views[0].width;
+  json["height"] = light_field.views[0].height;
   json["views"] = light_field.views.size();
   for (const sf_position& at : light_field.positions) json["positions"].push_back({at.u, at.v});
-  json["disparity_min"] = stats.min;
-  json["disparity_max"] = stats.max;
-  json["invalid"] = stats.invalid;
-  json["histogram"] = counts;
+  if (!light_field.disparity.values.empty()) {
+    json["disparity_min"] = stats.min;
+    json["disparity_max"] = stats.max;
+    json["invalid"] = stats.invalid;
+    json["histogram"] = counts;
+  }
   std::printf("%s\n", json.dump().c_str());
+}
+
+// Whether there is a map, or enough views to estimate one: not of a stereo pair or a row.
+bool HasMap(const Capture& capture) {
+  Positions positions;
+  for (const ViewFile& file : capture.files) positions.push_back(file.position);
+  return !capture.map_path.empty() || StarWithin(positions) > 1;
+}
+
+Error Measure(const Capture& capture, sf_disparity_stats* stats, std::vector<int64_t>* counts) {
+  const FloatMap& map = capture.light_field.disparity;
+  if (map.values.empty()) return "";
+  const sf_status status = sf_measure_disparity(
+      map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, stats);
+  if (status != SF_OK) {
+    return Expected(MapName(capture), "disparities that can be measured", sf_status_string(status));
+  }
+  *counts = Histogram(map, *stats, kBins);
+  return "";
 }
 
 Error Run(const Options& options) {
   Capture capture;
-  Error error = OpenInput(options.input, &capture);
-  if (error.empty()) error = LoadInput({}, 1, &capture);
-  if (!error.empty()) return error;
-  const FloatMap& map = capture.light_field.disparity;
   sf_disparity_stats stats = {};
-  const sf_status status = sf_measure_disparity(
-      map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, &stats);
-  if (status != SF_OK) {
-    return Expected(MapName(capture), "disparities that can be measured", sf_status_string(status));
-  }
-  const std::vector<int64_t> counts = Histogram(map, stats, kBins);
+  std::vector<int64_t> counts;
+  Error error = OpenInput(options.input, &capture);
+  if (!error.empty()) return error;
+  error = HasMap(capture) ? LoadInput({}, 1, &capture) : LoadCapture({}, &capture);
+  if (error.empty()) error = Measure(capture, &stats, &counts);
+  if (!error.empty()) return error;
   if (options.json) {
     PrintJson(capture, stats, counts);
   } else {

@@ -198,7 +198,10 @@ Error FillHoles(const std::string& where, FloatMap* map) {
 }
 
 std::string MapName(const Capture& capture) {
-  return capture.map_path.empty() ? DisparityPath(capture.path) : capture.map_path;
+  if (!capture.map_path.empty()) return capture.map_path;
+  std::error_code ignored;
+  const bool folder = std::filesystem::is_directory(capture.path, ignored);
+  return folder ? DisparityPath(capture.path) : capture.path;
 }
 
 }  // namespace starfocus

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/stereo_pair.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "platform/image_io.h"
+#include "platform/readers/multi_picture.h"
+
+namespace starfocus {
+namespace {
+
+constexpr uint32_t kUndefined = 0, kStereo = 0x020002;  // types of pictures
+
+bool Contains(Span text, const std::string& part) {
+  const uint8_t* end = text.data + text.size;
+  return std::search(text.data, end, part.begin(), part.end()) != end;
+}
+
+// Whether the picture's XMP tells that it is no view: a gain map, a matte and the like.
+bool IsAuxiliary(const MultiPicture& picture) {
+  return std::any_of(picture.parts.xmp.begin(), picture.parts.xmp.end(), [](const Span& xmp) {
+    return Contains(xmp, "AuxiliaryImageType") || Contains(xmp, "hdr-gain-map");
+  });
+}
+
+}  // namespace
+
+bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
+  JpegParts parts;
+  if (!IsJpeg(file) || !ReadJpegParts(path, file, &parts).empty()) return false;
+  if (parts.multi_picture.empty() && LowerExtension(path) != ".mpo") return false;
+  const std::vector<MultiPicture> pictures = ListMultiPictures(file, parts);
+  if (pictures.empty() || IsAuxiliary(pictures[0])) return false;
+  const uint32_t type = pictures[0].type;
+  if (type != kUndefined && type != kStereo) return false;
+  Bytes bytes(pictures[0].file.data, pictures[0].file.data + pictures[0].file.size);
+  Image right;
+  if (!DecodeImage(path, &bytes, &right).empty() || right.width != photo->picture.width ||
+      right.height != photo->picture.height) {
+    return false;
+  }
+  if (!pictures[0].indexed) {
+    photo->notes.push_back(
+        "the multi-picture index is wrong or absent: the right picture was found behind the left");
+  }
+  if (photo->orientation != 1) {
+    photo->notes.push_back("the orientation of EXIF is ignored: a stereo pair stays as it is");
+  }
+  photo->format = "stereo pair (MPO)";
+  photo->right = std::move(right);
+  return true;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photos that are sound but odd, as editors and some cameras leave them: less is read of them
+// rather than nothing, with a note; and what is kept of their metadata.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "platform/readers/xmp.h"
+#include "platform/writers/jpeg.h"
+#include "tests/support/opened_photo.h"
+#include "tests/support/photo_files.h"
+
+namespace starfocus {
+namespace {
+
+using namespace photos;
+
+// A GDepth photo with those attributes opens with a note: an order, in which black is near.
+void CheckOrder(const std::string& attributes) {
+  CAPTURE(attributes);
+  Capture capture;
+  const std::string file = Gdepth(Photo(), attributes, Data(RampPng()));
+  REQUIRE(Open(file, &capture) == "");
+  CheckRamp(capture, PerDiopter(50) / 1.5, 0);
+  CHECK(HasNote(capture, "the range of the depth map is ignored"));
+  CaptureOptions white;
+  white.map.near = Near::kWhite;
+  REQUIRE(Open(file, &capture, white) == "");
+  CheckRamp(capture, 0, PerDiopter(50) / 1.5);
+}
+
+TEST_CASE("GDepth: a range that is none is ignored, and levels are an order") {
+  if (!CanReadXmp()) return;
+  const std::string inverse = "GDepth:Format=\"RangeInverse\" GDepth:Units=\"m\" ";
+  const std::string linear = "GDepth:Format=\"RangeLinear\" GDepth:Mime=\"image/png\" ";
+  for (const std::string& format : {inverse, linear}) {
+    CheckOrder(format);
+    CheckOrder(format + "GDepth:Near=\"0\" GDepth:Far=\"4\"");
+    CheckOrder(format + "GDepth:Near=\"4\" GDepth:Far=\"4\"");
+    CheckOrder(format + "GDepth:Near=\"nan\" GDepth:Far=\"4\"");
+    CheckOrder(format + "GDepth:Near=\"0.5\"");
+    CheckOrder(format + "GDepth:Near=\"0\" GDepth:Far=\"inf\"");
+  }
+  CheckOrder(linear + "GDepth:Near=\"0.5\" GDepth:Far=\"INF\"");
+  CheckOrder("GDepth:Near=\"0.5\" GDepth:Far=\"4\"");
+  CheckOrder("GDepth:Format=\"other\" GDepth:Near=\"0.5\" GDepth:Far=\"4\"");
+  // Levels that are linear in 1 / distance may end at infinity.
+  for (const char* far : {"INF", "inf", "Infinity", "+inf"}) {
+    Capture capture;
+    REQUIRE(Open(Gdepth(Photo(), inverse + "GDepth:Near=\"0.5\" GDepth:Far=\"" + far + "\"",
+                        Data(RampPng())),
+                 &capture) == "");
+    CheckRamp(capture, PerDiopter(50) / 0.5, 0);
+    CHECK(HasNote(capture, "infinite"));
+  }
+}
+
+// The photo with a depth picture beside it, whose right end is near.
+std::string OpenBeside(const std::string& photo, Capture* capture) {
+  TempFolder folder;
+  Write(folder.file("photo.jpg"), photo);
+  Write(folder.file("photo-depth.png"), RampPng());
+  CaptureOptions options;
+  options.map.near = Near::kWhite;
+  return OpenCapture(folder.file("photo.jpg"), options, capture);
+}
+
+TEST_CASE("XMP that is lost or malformed is ignored, and the depth picture beside it is used") {
+  if (!CanReadXmp()) return;
+  const std::string lost =
+      Packet(kGoogle, std::string("xmpNote:HasExtendedXMP=\"") + kGuid + "\" " + kInverse);
+  const std::string text = Packet(kGoogle, Data(RampPng()));
+  std::vector<std::string> gap = ExtensionSegments(text, text.size() / 5);
+  gap.erase(gap.begin() + 2);
+  struct Case {
+    std::string segments, note;
+  };
+  const Case cases[] = {
+      {XmpSegment(lost), "the extended XMP is ignored"},
+      {XmpSegment(lost) + Joined(gap), "the extended XMP is ignored"},
+      {XmpSegment(lost.substr(0, lost.size() / 2)), "XMP is ignored"},
+      {XmpSegment("<a><b></a>"), "XMP is ignored"},
+      {XmpSegment(Packet(kGoogle, kInverse + "GDepth:Data=\"????\"")), "base64"},
+      {XmpSegment(Packet(kGoogle, kInverse + Data("no picture"))), "the depth map in the file"},
+  };
+  for (const Case& one : cases) {
+    Capture capture;
+    const std::string file = Insert(Photo(), one.segments);
+    REQUIRE(OpenBeside(file, &capture) == "");
+    CHECK(capture.format == "photo and depth picture");
+    CheckRamp(capture, 0, PerDiopter(50) / 1.5);
+    CHECK(HasNote(capture, one.note));
+    // Without a picture beside it the same is the cause of the error.
+    const std::string error = Open(file, &capture);
+    CHECK(error.find(": expected a depth map") != std::string::npos);
+    if (one.note.find("the depth map") != 0) CHECK(error.find(one.note) != std::string::npos);
+  }
+}
+
+TEST_CASE("extended XMP that no packet names is used if there is no other map") {
+  if (!CanReadXmp()) return;
+  const std::string names = std::string("xmpNote:HasExtendedXMP=\"") + kGuid + "\" ";
+  std::string other = Joined(ExtensionSegments(Packet(kGoogle, Data(RampPng())), 300));
+  for (size_t at = 0; (at = other.find(kGuid, at)) != std::string::npos;) other[at] = 'F';
+  for (const std::string& packet : {Packet(kGoogle, names + kInverse), Packet(kGoogle, kInverse)}) {
+    const std::string file = Insert(Photo(), XmpSegment(packet) + other);
+    Capture capture;
+    REQUIRE(Open(file, &capture) == "");
+    CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+    CHECK(HasNote(capture, "no packet names"));
+    REQUIRE(OpenBeside(file, &capture) == "");
+    CheckRamp(capture, 0, PerDiopter(50) / 1.5);
+    CHECK(!capture.notes.empty());
+  }
+}
+
+TEST_CASE("XMP: a second packet counts, beside one that is malformed, too") {
+  if (!CanReadXmp()) return;
+  const std::string rights = "xmlns:dc=\"http://purl.org/dc/elements/1.1/\" dc:format=\"x\"";
+  const std::string depth = XmpSegment(Packet(kGoogle, kInverse + Data(RampPng())));
+  for (const std::string& first : {Packet(rights, ""), std::string("<a")}) {
+    for (const std::string& segments : {XmpSegment(first) + depth, depth + XmpSegment(first)}) {
+      Capture capture;
+      REQUIRE(Open(Insert(Photo(), segments), &capture) == "");
+      CheckRamp(capture, PerDiopter(50) / 1.5, PerDiopter(50) / 1.5 / 8);
+      CHECK(HasNote(capture, "XMP is ignored") == (first == "<a"));
+    }
+  }
+}
+
+TEST_CASE("Apple's JPEG: the map is found where its index is wrong, moved or lost") {
+  if (!CanReadXmp()) return;
+  const std::string map = AppleMap(Encode(Ramp(kWidth, kHeight), ".jpg"),
+                                   "<apdi:AuxiliaryImageType>disparity</apdi:AuxiliaryImageType>"
+                                   "<apdi:FloatMinValue>1</apdi:FloatMinValue>"
+                                   "<apdi:FloatMaxValue>2</apdi:FloatMaxValue>");
+  Capture capture;
+  const auto check = [&](const std::string& file, const std::string& note) {
+    REQUIRE(Open(file, &capture) == "");
+    const FloatMap& disparity = capture.light_field.disparity;
+    CHECK(double(disparity.at(kWidth - 1, 5)) ==
+          doctest::Approx(PerDiopter(50) / 1.5).epsilon(0.02));
+    CHECK(double(disparity.at(0, 5)) == doctest::Approx(PerDiopter(50) / 3).epsilon(0.02));
+    CHECK(capture.notes.empty() == note.empty());
+    if (!note.empty()) CHECK(HasNote(capture, note));
+  };
+  const std::string wrong = "the multi-picture index is wrong and ignored";
+  for (const bool little : {false, true}) {
+    check(MultiPicture(Photo(), map, {little}), "");
+    check(MultiPicture(Photo(), map, {little, 2}), wrong);
+    check(MultiPicture(Photo(), map, {little, 0xffffffff}), "");
+    check(MultiPicture(Photo(), map, {little, 32, 1000}), wrong);
+    check(MultiPicture(Photo(), map, {little, 32, 0x80000000}), wrong);
+    // An editor puts a segment before the index: the places count from the index, and stay right.
+    check(Insert(MultiPicture(Photo(), map, {little}), ExifSegment(1, 50)), "");
+  }
+  check(Photo() + map, "the file has no multi-picture index");
+  check(Photo() + "something between\xff\xd8\xff" + map, "the file has no multi-picture index");
+  CHECK(Open(Photo() + map.substr(0, map.size() - 2), &capture) != "");
+}
+
+TEST_CASE("a stereo pair in one file has two views and no map") {
+  Image right = Ramp(kWidth, kHeight);
+  const std::string second = Encode(right, ".jpg");
+  TempFolder folder;
+  Capture capture;
+  const auto open = [&](const std::string& name, const std::string& file) {
+    Write(folder.file(name), file);
+    std::string error = OpenCapture(folder.file(name), {}, &capture);
+    if (error.empty()) error = LoadCapture({}, &capture);
+    return error.empty() && capture.light_field.views.size() == 2;
+  };
+  for (const bool little : {false, true}) {
+    for (const uint32_t type : {0u, 0x020002u, 0x20020002u}) {
+      for (const uint32_t bytes : {32u, 2u}) {
+        REQUIRE(open("a.mpo", MultiPicture(Photo(), second, {little, bytes, 0, type})));
+        CHECK(capture.notes.empty() == (bytes == 32));
+        CHECK(capture.map_path.empty());
+        CHECK(!capture.photo);
+        CHECK(capture.light_field.positions[0].u == 0);
+        CHECK(capture.light_field.positions[1].u == 1);
+        CHECK(capture.light_field.positions[1].v == 0);
+        const Image& view = capture.light_field.views[1];
+        CHECK(std::abs(view.row(5)[3 * (kWidth - 1)] - 255) < 8);
+        CHECK(view.row(5)[0] < 8);
+        REQUIRE(LoadCapture({{0, 0}}, &capture) == "");
+        CHECK(capture.light_field.views.size() == 1);
+      }
+    }
+  }
+  CHECK(open("a.mpo", Photo() + second));
+  CHECK(open("a.jpg", MultiPicture(Photo(), second)));
+  // No pair: nothing says so, another size, a large preview, a gain map.
+  CHECK(!open("a.jpg", Photo() + second));
+  CHECK(!open("a.mpo", MultiPicture(Photo(), Encode(Ramp(kWidth / 2, kHeight / 2), ".jpg"))));
+  CHECK(!open("a.mpo", MultiPicture(Photo(), second, {false, 32, 0, 0x010002})));
+  const std::string gain = "xmlns:hdrgm=\"http://ns.adobe.com/hdr-gain-map/1.0/\"";
+  CHECK(!open("a.jpg", MultiPicture(Photo(), Insert(second, XmpSegment(Packet(gain, ""))))));
+}
+
+TEST_CASE("profiles: parts are joined by number, and what is not whole or RGB is left out") {
+  TempFolder folder;
+  Write(folder.file("photo-depth.png"), RampPng());
+  Capture capture;
+  const auto open = [&](const std::string& segments) {
+    Write(folder.file("photo.jpg"), Insert(Photo(), segments));
+    REQUIRE(OpenCapture(folder.file("photo.jpg"), {}, &capture) == "");
+    const Bytes& icc = capture.metadata.icc;
+    return std::string(icc.begin(), icc.end());
+  };
+  const std::string icc = Profile(1000);
+  const auto left_out = [&](const std::string& segments) {
+    return open(segments).empty() && HasNote(capture, "the colour profile is left out");
+  };
+  std::vector<std::string> parts = ProfileSegments(icc, 4);
+  CHECK(open(Joined(parts)) == icc);
+  CHECK(!HasNote(capture, "profile"));
+  std::reverse(parts.begin(), parts.end());
+  CHECK(open(Joined(parts)) == icc);
+  std::swap(parts[0], parts[2]);
+  CHECK(open(Joined(parts)) == icc);
+  CHECK(open("") == "");
+  CHECK(!HasNote(capture, "profile"));
+  CHECK(left_out(Joined({parts[0], parts[1], parts[2]})));
+  CHECK(left_out(Joined({parts[0], parts[1], parts[2], parts[2]})));
+  CHECK(left_out(Joined(ProfileSegments(icc.substr(0, 900), 2))));
+  CHECK(left_out(Joined(ProfileSegments(Profile(300, "GRAY"), 1))));
+  CHECK(left_out(Joined(ProfileSegments(Profile(300, "CMYK"), 2))));
+}
+
+TEST_CASE("captions: XMP and IPTC of a photo are kept, but nothing on its depth map") {
+  if (!CanReadXmp()) return;
+  const std::string names =
+      std::string(kGoogle) +
+      " xmlns:dc=\"http://purl.org/dc/elements/1.1/\" xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\" "
+      "xmlns:tiff=\"http://ns.adobe.com/tiff/1.0/\"";
+  const std::string title =
+      "<dc:title><rdf:Alt><rdf:li xml:lang=\"x-default\">Cats &amp; dogs</rdf:li></rdf:Alt>"
+      "</dc:title><GFocus:Extra>1</GFocus:Extra>";
+  const std::string records("\x1c\x02\x78\0\3abc", 8);
+  const std::string packet =
+      Packet(names, kInverse + "xmp:Rating=\"4\" tiff:Orientation=\"6\" " + Data(RampPng()), title);
+  Capture capture;
+  REQUIRE(Open(Insert(Photo(), IptcSegment(records) + XmpSegment(packet) +
+                                   XmpSegment(Packet(names, "xmp:Rating=\"1\""))),
+               &capture) == "");
+  CHECK(capture.metadata.xmp ==
+        "<rdf:Description rdf:about=\"\" xmlns:dc=\"http://purl.org/dc/elements/1.1/\" "
+        "xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\"><xmp:Rating>4</xmp:Rating><dc:title><rdf:Alt>"
+        "<rdf:li xml:lang=\"x-default\">Cats &amp; dogs</rdf:li></rdf:Alt></dc:title>"
+        "</rdf:Description>");
+  CHECK(std::string(capture.metadata.iptc.begin(), capture.metadata.iptc.end()) == records);
+  // What is written is read again, and no depth map is claimed.
+  Bytes jpeg;
+  REQUIRE(EncodeJpeg("x", Plain(kWidth, kHeight, 9), 90, capture.metadata, {}, &jpeg) == "");
+  Capture again;
+  CHECK(Open({jpeg.begin(), jpeg.end()}, &again).find("a picture without one") !=
+        std::string::npos);
+  REQUIRE(OpenBeside({jpeg.begin(), jpeg.end()}, &again) == "");
+  CHECK(again.metadata.xmp == capture.metadata.xmp);
+  CHECK(again.metadata.iptc == capture.metadata.iptc);
+  // A photo without captions has none, and IPTC that is cut off is none.
+  REQUIRE(OpenBeside(Insert(Photo(), XmpSegment(Packet(kGoogle, kInverse)) +
+                                         Segment(0xed, std::string("Photoshop 3.0\0", 14) +
+                                                           "8BIM\4\4" + std::string(3, '\0'))),
+                     &again) == "");
+  CHECK(again.metadata.xmp.empty());
+  CHECK(again.metadata.iptc.empty());
+}
+
+TEST_CASE("photos: an error names what the file is") {
+  Capture capture;
+  const std::string photo = Photo(), png = RampPng();
+  const auto error = [&](const std::string& bytes) { return Open(bytes, &capture); };
+  CHECK(error("").find("found an empty file") != std::string::npos);
+  CHECK(error("A letter.\n").find("found a text file") != std::string::npos);
+  CHECK(error("GIF89a\1").find("found a GIF file") != std::string::npos);
+  CHECK(error(std::string("II*\0\1", 5)).find("found a TIFF or raw file") != std::string::npos);
+  CHECK(error("version https://git-lfs.github.com/spec/v1\n").find("a pointer of Git LFS") !=
+        std::string::npos);
+  CHECK(error(std::string(100, '\0')).find("found a file of zeros") != std::string::npos);
+  CHECK(error(png.substr(0, png.size() - 5)).find("the PNG file is truncated") !=
+        std::string::npos);
+  CHECK(error(photo.substr(0, photo.size() / 2)).find("the JPEG file is truncated") !=
+        std::string::npos);
+  TempFolder folder;
+  CHECK(OpenCapture(folder.file("none.jpg"), {}, &capture) ==
+        "cannot read " + folder.file("none.jpg") + ": no such file or directory");
+}
+
+}  // namespace
+}  // namespace starfocus

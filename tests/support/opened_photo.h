@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small depth photo, and what comes out when it is opened: for the tests of its readers.
+#ifndef STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
+#define STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "platform/readers/capture.h"
+#include "tests/support/photo_files.h"
+
+namespace starfocus::photos {
+
+constexpr int kWidth = 40, kHeight = 24;
+
+inline std::string Photo() { return Encode(Plain(kWidth, kHeight, 128), ".jpg"); }
+inline std::string RampPng() { return Encode(Ramp(kWidth, kHeight), ".png"); }
+
+inline std::string Data(const std::string& map) { return "GDepth:Data=\"" + Base64(map) + "\""; }
+
+inline std::string Open(const std::string& bytes, Capture* capture,
+                        const CaptureOptions& options = {}) {
+  TempFolder folder;
+  Write(folder.file("photo.jpg"), bytes);
+  return OpenCapture(folder.file("photo.jpg"), options, capture);
+}
+
+// docs/formats.md: a lens of f/1 on full frame.
+inline double PerDiopter(double focal) {
+  return focal * focal / 1000 / 2 / 43.2666 * std::hypot(kWidth, kHeight);
+}
+
+inline void CheckRamp(const Capture& capture, double at_black, double at_white) {
+  const FloatMap& map = capture.light_field.disparity;
+  REQUIRE(map.width == kWidth);
+  REQUIRE(map.height == kHeight);
+  CHECK(double(map.at(0, 3)) == doctest::Approx(at_black).epsilon(1e-4));
+  CHECK(double(map.at(kWidth - 1, 3)) == doctest::Approx(at_white).epsilon(1e-4));
+}
+
+inline std::string FactOf(const Capture& capture, const std::string& name) {
+  for (const auto& fact : capture.facts) {
+    if (fact.first == name) return fact.second;
+  }
+  return "";
+}
+
+inline const std::string kInverse =
+    "GDepth:Format=\"RangeInverse\" GDepth:Near=\"0.5\" GDepth:Far=\"4\" ";
+
+inline bool HasNote(const Capture& capture, const std::string& part) {
+  for (const std::string& note : capture.notes) {
+    if (note.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace starfocus::photos
+
+#endif  // STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
