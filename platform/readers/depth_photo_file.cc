@@ -9,6 +9,7 @@
 #include "platform/readers/heic.h"
 #include "platform/readers/pair.h"
 #include "platform/readers/xmp.h"
+#include "platform/standard_stream.h"
 
 namespace starfocus {
 namespace {
@@ -81,13 +82,16 @@ std::string DecodeDepthPhoto(const std::string& where, Span file, bool with_map,
 std::string ReadDepthPhotoFile(const std::string& path, std::string* depth, Near near,
                                DepthPhoto* photo) {
   Bytes bytes;
+  const bool stream = path == "-";  // no depth picture lies beside it
+  const std::string where = InputName(path);
   std::string error = ReadFile(path, &bytes);
   const Span file = {bytes.data(), bytes.size()};
-  if (error.empty()) error = DecodeDepthPhoto(path, file, depth->empty(), near, photo);
+  if (error.empty() && stream && bytes.empty()) error = Expected(where, "a photo", "nothing");
+  if (error.empty()) error = DecodeDepthPhoto(where, file, depth->empty(), near, photo);
   if (!error.empty()) return error;
   if (depth->empty() && !photo->map.values.empty()) return "";
-  if (depth->empty()) *depth = FindDepthPicture(path);
-  return depth->empty() ? NoMap(path) : ReadDepthPicture(*depth, near, photo);
+  if (depth->empty() && !stream) *depth = FindDepthPicture(path);
+  return depth->empty() ? NoMap(where) : ReadDepthPicture(*depth, near, photo);
 }
 
 }  // namespace starfocus
