@@ -27,7 +27,7 @@ Error CheckFolder(const std::string& folder) {
 
 void Tell(const Options& options, const Capture& capture) {
   const LightField& light_field = capture.light_field;
-  std::printf("%s: %s\n", options.input.path.c_str(), capture.format.c_str());
+  std::printf("%s: %s\n", capture.path.c_str(), capture.format.c_str());
   for (const auto& fact : capture.facts) {
     std::printf("  %s: %s\n", fact.first.c_str(), fact.second.c_str());
   }

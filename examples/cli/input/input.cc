@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/input/input.h"
 
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
 #include "examples/cli/disparity/estimate_run.h"
 #include "examples/command_line/options.h"
+#include "platform/standard_stream.h"
 
 namespace starfocus {
 namespace {
@@ -44,7 +48,9 @@ Error Estimate(int threads, Capture* capture) {
 }  // namespace
 
 void AddInputOptions(CLI::App* command, InputOptions* options, std::vector<std::string>* several) {
-  const std::string what = "Light-field folder, folder of views as others have it, or depth photo";
+  const std::string what =
+      "Light-field folder, folder of views as others have it, or depth photo; -: a photo on "
+      "standard input";
   CLI::Option* source = several == nullptr
                             ? command->add_option("SRC", options->path, what)
                             : command->add_option("SRC", *several, what + "; or several");
@@ -72,19 +78,27 @@ void AddMapOptions(CLI::App* command, MapOptions* options) {
 }
 
 Error OpenInput(const InputOptions& options, Capture* capture) {
+  if (options.path == "-") {
+    if (options.depth == "-") {
+      return Error::Usage("--depth", "a file, as SRC is standard input", "-");
+    }
+    if (isatty(STDIN_FILENO) == 1) {
+      return Expected(InputName(options.path), "a photo from a file or pipe", "a terminal");
+    }
+  }
   CaptureOptions wanted;
   wanted.depth = options.depth;
   Error error = ParseNear(options.near, &wanted.near);
   std::error_code ignored;
   const char* option = !options.depth.empty() ? "--depth" : "--near";
-  if (error.empty() && !(options.depth.empty() && options.near.empty()) &&
+  if (error.empty() && !(options.depth.empty() && options.near.empty()) && options.path != "-" &&
       std::filesystem::is_directory(options.path, ignored)) {
     error = Error::Usage(option, "a photo, not a folder", options.path);
   }
   if (error.empty()) error = OpenCapture(options.path, wanted, capture);
   if (!error.empty()) return error;
   for (const std::string& note : capture->notes) {
-    std::fprintf(stderr, "%s: %s\n", options.path.c_str(), note.c_str());
+    std::fprintf(stderr, "%s: %s\n", capture->path.c_str(), note.c_str());
   }
   return "";
 }
@@ -102,10 +116,14 @@ Error LoadInput(const Positions& views, int threads, Capture* capture) {
   return error.empty() && capture->map_path.empty() ? Estimate(threads, capture) : error;
 }
 
+bool WillRepair(const MapOptions& options, const Capture& capture) {
+  if (capture.map_path.empty()) return false;
+  return options.repair || (!options.no_repair && capture.care == MapCare::kRepair);
+}
+
 Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
   if (capture->map_path.empty()) return "";
-  const bool repair = options.repair || (!options.no_repair && capture->care == MapCare::kRepair);
-  if (repair) {
+  if (WillRepair(options, *capture)) {
     return RepairDisparity(MapName(*capture), threads, &capture->light_field, nullptr);
   }
   if (!options.fill && capture->care == MapCare::kNone) return "";
@@ -119,7 +137,7 @@ Error FillHoles(const std::string& where, FloatMap* map) {
 }
 
 std::string MapName(const Capture& capture) {
-  return capture.map_path.empty() ? DisparityPath(capture.path) : capture.map_path;
+  return capture.map_path.empty() ? DisparityPath(capture.path) : InputName(capture.map_path);
 }
 
 }  // namespace starfocus

@@ -4,12 +4,15 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "examples/command_line/error.h"
 #include "platform/readers/capture.h"
+
+namespace CLI {
+class App;
+}
 
 namespace starfocus {
 
@@ -34,6 +37,9 @@ Error OpenInput(const InputOptions& options, Capture* capture);
 // Reads the views wanted, or all if none are, and the map; one that is not there is estimated from
 // these views, and a line on stderr says so.
 Error LoadInput(const Positions& views, int threads, Capture* capture);
+
+// Whether CareForMap repairs the map, which takes seconds for each megapixel.
+bool WillRepair(const MapOptions& options, const Capture& capture);
 
 // Repairs the map or fills its holes, as asked for or as its format needs; one that was estimated
 // stays.

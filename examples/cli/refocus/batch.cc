@@ -113,6 +113,10 @@ Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folde
   std::vector<Output> outputs;
   Inputs read;
   for (const std::string& input : inputs) {
+    if (input == "-") {
+      return Error::Usage("SRC", "files for a folder of pictures, or a file for --output",
+                          "- (standard input)");
+    }
     const std::vector<std::string> parts = Expand(input);
     if (parts.empty())
       return Expected(input, "a light field, or photographs or such in it", "none");

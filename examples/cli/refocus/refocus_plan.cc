@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/refocus/refocus_plan.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/timing_file.h"
 #include "examples/cli/refocus/refocus_report.h"
 #include "examples/command_line/options.h"
@@ -39,20 +41,6 @@ Error ParseLargestBlock(const std::string& text, int* side) {
   return Error::Usage("--largest-block", "32, 64, 128 or 256", "'" + text + "'");
 }
 
-// --f-stop and --widest; `known` is the input's widest.
-Error ParseFStop(const LensOptions& options, double known, double* aperture) {
-  double f_stop = 0, widest = known > 0 ? known : 1;
-  Error error;
-  if (!options.widest.empty()) error = ParseNumber("--widest", options.widest, &widest);
-  if (error.empty() && widest <= 0) {
-    error = Error::Usage("--widest", "an f-stop above 0", "'" + options.widest + "'");
-  }
-  if (error.empty()) error = ParseNumber("--f-stop", options.f_stop, &f_stop);
-  if (!error.empty() || sf_aperture_of_f_stop(f_stop, widest, aperture) == SF_OK) return error;
-  return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(widest),
-                      "'" + options.f_stop + "'");
-}
-
 // Sets what block mode adds to the plan.
 Error PlanBlocks(const LensOptions& options, LensPlan* plan) {
   Error error = ParseLargestBlock(options.largest_block, &plan->largest_block);
@@ -84,6 +72,40 @@ void AddOpticsOptions(CLI::App* command, LensOptions* options) {
   command->add_option("--focus-at", options->focus_at,
                       "X,Y: the disparity of what is at that pixel, the median of its surface "
                       "there");
+  AddApertureOptions(command, &options->aperture);
+  AddShapeOptions(command, &options->shape);
+}
+
+// The disparity at a pixel of the picture, whose unknown neighbours are filled. Returns false where
+// nothing around is known.
+bool FocusAround(const FloatMap& map, int x, int y, double* focus) {
+  constexpr int kAround = 16;  // pixels: more than sf_focus_at looks at
+  const int left = std::max(0, x - kAround), top = std::max(0, y - kAround);
+  FloatMap part;
+  part.width = std::min(map.width, x + kAround + 1) - left;
+  part.height = std::min(map.height, y + kAround + 1) - top;
+  for (int row = top; row < top + part.height; ++row) {
+    for (int column = left; column < left + part.width; ++column) {
+      part.values.push_back(map.at(column, row));
+    }
+  }
+  const size_t stride = sizeof(float) * size_t(part.width);
+  return sf_fill_disparity(part.values.data(), stride, part.width, part.height) == SF_OK &&
+         sf_focus_at(part.values.data(), stride, part.width, part.height, x - left, y - top,
+                     focus) == SF_OK;
+}
+
+Error CheckPixel(const FloatMap& map, const LensPlan& plan) {
+  if (plan.x < map.width && plan.y < map.height) return "";
+  return Error::Usage("--focus-at",
+                      "a pixel of the picture, up to " + std::to_string(map.width - 1) + "," +
+                          std::to_string(map.height - 1),
+                      std::to_string(plan.x) + "," + std::to_string(plan.y));
+}
+
+}  // namespace
+
+void AddApertureOptions(CLI::App* command, ApertureOptions* options) {
   command->add_option("--aperture", options->aperture,
                       "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8");
   command->add_option("--f-stop", options->f_stop,
@@ -96,11 +118,8 @@ void AddOpticsOptions(CLI::App* command, LensOptions* options) {
   command
       ->add_option("--strength", options->strength,
                    "0 to 100 percent of that radius; 0: the centre view to the byte")
-      ->capture_default_str();
-  AddShapeOptions(command, &options->shape);
+      ->default_str("100");
 }
-
-}  // namespace
 
 void AddLensOptions(CLI::App* command, LensOptions* options) {
   AddOpticsOptions(command, options);
@@ -168,37 +187,25 @@ Error PlanLens(const LensOptions& options, LensPlan* plan) {
   return error.empty() ? PlanBlocks(options, plan) : error;
 }
 
-Error PlanAperture(const LensOptions& options, const Capture& capture, LensPlan* plan) {
-  if (!options.aperture.empty() && !options.f_stop.empty()) {
-    return Error::Usage("--f-stop", "either --aperture U or --f-stop N", "both");
-  }
-  if (!options.widest.empty() && options.f_stop.empty()) {
-    return Error::Usage("--widest", "--f-stop N beside it", "none");
-  }
-  Error error;
-  if (capture.f_stop > 0) plan->aperture = capture.widest / capture.f_stop;
-  if (!options.aperture.empty()) {
-    error = ParseAperture("--aperture", options.aperture, &plan->aperture);
-  }
-  if (!options.f_stop.empty()) error = ParseFStop(options, capture.widest, &plan->aperture);
-  double strength = 0;
-  if (error.empty()) error = ParsePercentage("--strength", options.strength, &strength);
-  plan->aperture *= strength / 100;
-  return error;
-}
-
 Error PlanFocus(const LensOptions& options, LensPlan* plan) {
-  if (options.focus.empty() == options.focus_at.empty()) {
-    return Error::Usage("--focus", "either --focus D or --focus-at X,Y",
-                        options.focus.empty() ? "neither" : "both");
+  if (!options.focus.empty() && !options.focus_at.empty()) {
+    return Error::Usage("--focus", "either --focus D or --focus-at X,Y", "both");
   }
-  if (options.focus.empty()) {
+  if (!options.focus_at.empty()) {
     plan->focus_option = "--focus-at";
     return ParsePair("--focus-at", options.focus_at, ',', &plan->x, &plan->y);
   }
+  if (options.focus.empty()) return "";
   plan->focus_option = "--focus";
   plan->foci.resize(1);
   return ParseNumber("--focus", options.focus, &plan->foci[0]);
+}
+
+void UseFocus(const DefaultFocus& focus, LensPlan* plan) {
+  plan->focus_option = focus.at_pixel ? "--focus-at" : "--focus";
+  plan->x = focus.x;
+  plan->y = focus.y;
+  if (!focus.at_pixel) plan->foci = {focus.disparity};
 }
 
 Error CheckRule(const std::string& where, const LensPlan& plan, const Positions& views) {
@@ -226,33 +233,47 @@ std::string PrepareDisparity(const std::string& where, const FloatMap& map,
 Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   if (!plan->foci.empty()) return "";
   double focus = 0;
-  // The map is a good one (PrepareDisparity): only the position may be wrong.
-  if (sf_focus_at(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height,
-                  plan->x, plan->y, &focus) != SF_OK) {
-    return Error::Usage("--focus-at",
-                        "a pixel of the picture, up to " + std::to_string(map.width - 1) + "," +
-                            std::to_string(map.height - 1),
-                        std::to_string(plan->x) + "," + std::to_string(plan->y));
-  }
+  const Error error = CheckPixel(map, *plan);
+  if (!error.empty()) return error;
+  // The map is a good one (PrepareDisparity).
+  sf_focus_at(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, plan->x,
+              plan->y, &focus);
   plan->foci = {focus};
   return "";
 }
 
-Error ChooseBlur(const LensPlan& plan, const sf_disparity_stats& stats, double* max_blur) {
-  double focus = plan.foci[0], range = 0;
-  for (const double f : plan.foci) {
-    const double r = std::max(std::fabs(stats.min - f), std::fabs(stats.max - f));
-    if (r <= range) continue;
-    range = r;
-    focus = f;
+Error ForeseeBlur(const FloatMap& map, bool repaired, LensPlan* plan) {
+  std::vector<double> foci = plan->foci;
+  if (foci.empty()) {
+    const Error error = CheckPixel(map, *plan);
+    if (!error.empty()) return error;
+    foci.resize(1);
+    if (!FocusAround(map, plan->x, plan->y, &foci[0])) return "";
   }
-  const double needed = plan.aperture * range;
-  *max_blur = std::max(1.0, std::ceil(needed));
-  if (needed <= SF_MAX_BLUR && std::fabs(focus) <= SF_MAX_FOCUS) return "";
-  return Error::Usage(plan.focus_option, "blur radii up to " + Short(SF_MAX_BLUR) + " pixels",
-                      Short(needed) + " (aperture " + Short(plan.aperture) + ", focus " +
-                          Short(focus) + ", disparities " + Short(stats.min) + " to " +
-                          Short(stats.max) + ")");
+  sf_disparity_stats stats = {};
+  // Where nothing is known, the care of the map reports it.
+  if (sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width,
+                           map.height, &stats) != SF_OK ||
+      stats.invalid == int64_t{map.width} * map.height) {
+    return "";
+  }
+  if (repaired) {
+    stats.min -= kRepairReach;
+    stats.max += kRepairReach;
+  }
+  return FitAperture(FarthestFromFocus(stats, foci), &plan->aperture);
+}
+
+Error ChooseBlur(const sf_disparity_stats& stats, LensPlan* plan, double* max_blur) {
+  for (const double focus : plan->foci) {
+    if (std::fabs(focus) <= SF_MAX_FOCUS) continue;
+    return Error::Usage(plan->focus_option, "a disparity within +-" + Short(SF_MAX_FOCUS),
+                        Short(focus));
+  }
+  const double range = FarthestFromFocus(stats, plan->foci);
+  const Error error = FitAperture(range, &plan->aperture);
+  *max_blur = std::max(1.0, std::ceil(plan->aperture.radius * range));
+  return error;
 }
 
 EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
@@ -277,7 +298,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.params.mode = plan.mode;
   task.params.rule = plan.rule;
   task.params.focus = plan.foci[0];
-  task.params.aperture = plan.aperture;
+  task.params.aperture = plan.aperture.radius;
   task.params.region = plan.region;
   if (reported) task.params.clock = ThreadNanoseconds;
   task.threads = plan.threads;
