@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -23,7 +24,15 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-std::string Reason(int error) { return std::generic_category().message(error); }
+std::error_code Reason(int error) { return {error, std::generic_category()}; }
+
+// Replaces line breaks and other control characters, which a file's name or content may have.
+std::string OneLine(std::string line) {
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return line;
+}
 
 bool IsSpecial(const fs::path& path) {
   std::error_code error;
@@ -43,24 +52,27 @@ fs::path FollowLink(const fs::path& path) {
   return error ? path : real;
 }
 
-// Empty, or the reason why the existing file must not be replaced.
-std::string WhyProtected(const fs::path& target) {
+// Root may write to every file, but a file that nobody may write to is meant to stay.
+bool IsProtected(const fs::path& target) {
   struct stat status;
-  if (stat(target.c_str(), &status) != 0) return "";
-  // Root may write to every file; one that nobody may write to is meant to stay.
-  const bool writable = (status.st_mode & 0222) != 0 && access(target.c_str(), W_OK) == 0;
-  return writable ? "" : "a read-only one";
+  if (stat(target.c_str(), &status) != 0) return false;
+  return (status.st_mode & 0222) == 0 || access(target.c_str(), W_OK) != 0;
 }
 
-// Gives the new file the owner and permissions of the one that it will replace.
-std::string TakeStatus(const fs::path& target, std::FILE* file) {
+std::string ReadOnly(const std::string& path) {
+  return Cannot("write", path, "the file is read-only");
+}
+
+// Gives the new file the owner and permissions of the one that it will replace. False with errno
+// where that fails.
+bool TakeStatus(const fs::path& target, std::FILE* file) {
   struct stat old, own;
-  if (stat(target.c_str(), &old) != 0) return "";
+  if (stat(target.c_str(), &old) != 0) return true;
   const int handle = fileno(file);
-  if (fstat(handle, &own) != 0) return Reason(errno);
+  if (fstat(handle, &own) != 0) return false;
   const bool foreign = own.st_uid != old.st_uid || own.st_gid != old.st_gid;
-  if (foreign && fchown(handle, old.st_uid, old.st_gid) != 0) return Reason(errno);
-  return fchmod(handle, old.st_mode & 07777) == 0 ? "" : Reason(errno);
+  if (foreign && fchown(handle, old.st_uid, old.st_gid) != 0) return false;
+  return fchmod(handle, old.st_mode & 07777) == 0;
 }
 
 bool WriteAll(const Bytes& bytes, std::FILE* file) {
@@ -70,30 +82,81 @@ bool WriteAll(const Bytes& bytes, std::FILE* file) {
 // A device or pipe has no other file to be replaced by.
 std::string WriteInPlace(const std::string& path, const Bytes& bytes) {
   File file(std::fopen(path.c_str(), "wb"));
-  if (!file || !WriteAll(bytes, file.get())) return Reason(errno);
-  return std::fclose(file.release()) == 0 ? "" : Reason(errno);
+  const bool whole = file && WriteAll(bytes, file.get()) && std::fclose(file.release()) == 0;
+  return whole ? "" : Cannot("write", path, Reason(errno));
 }
 
-std::string Replace(const fs::path& target, const Bytes& bytes) {
-  std::string reason = WhyProtected(target);
-  if (!reason.empty()) return reason;
+std::string Replace(const std::string& path, const fs::path& target, const Bytes& bytes) {
+  if (IsProtected(target)) return ReadOnly(path);
   TemporaryFile temporary(FolderOf(target).string());
-  if (temporary.file() == nullptr) return Reason(errno);
-  reason = TakeStatus(target, temporary.file());
-  if (!reason.empty()) return reason;
-  const bool whole = WriteAll(bytes, temporary.file()) && temporary.MoveTo(target.string());
-  return whole ? "" : Reason(errno);
+  const bool whole = temporary.file() != nullptr && TakeStatus(target, temporary.file()) &&
+                     WriteAll(bytes, temporary.file()) && temporary.MoveTo(target.string());
+  return whole ? "" : Cannot("write", path, Reason(errno));
+}
+
+// A pipe has no size to ask for, and may never end.
+constexpr uint64_t kMostPipeBytes = uint64_t{1} << 31;
+
+std::string TooLarge(const std::string& path, uint64_t most, const std::string& found) {
+  return OneLine(path) + ": the file is too large (expected at most " + std::to_string(most) +
+         " bytes, found " + found + ")";
+}
+
+// Opens a regular file or pipe. `size` is 0 for a pipe, whose `most` becomes at most 2 GiB.
+std::string OpenFile(const std::string& path, File* file, uint64_t* size, uint64_t* most) {
+  // Standard input is read by a handle of its own, which may be closed.
+  const bool standard = path == "-";
+  file->reset(standard ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
+  struct stat status;
+  if (*file == nullptr || fstat(fileno(file->get()), &status) != 0) {
+    return Cannot("read", path, Reason(errno));
+  }
+  if (S_ISDIR(status.st_mode)) return Cannot("read", path, "it is a folder");
+  if (!standard && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode))) {
+    return Cannot("read", path, "it is a device");
+  }
+  if (!S_ISREG(status.st_mode)) {
+    *most = std::min(*most, kMostPipeBytes);
+    return "";
+  }
+  *size = static_cast<uint64_t>(status.st_size);
+  return *size <= *most ? "" : TooLarge(path, *most, std::to_string(*size));
+}
+
+std::string ReadAtMost(const std::string& path, uint64_t most, Bytes* bytes) {
+  bytes->clear();
+  File file;
+  uint64_t size = 0;
+  const std::string error = OpenFile(path, &file, &size, &most);
+  if (!error.empty()) return error;
+  bytes->reserve(static_cast<size_t>(size));
+  uint8_t buffer[65536];
+  for (;;) {
+    const size_t got = std::fread(buffer, 1, sizeof(buffer), file.get());
+    bytes->insert(bytes->end(), buffer, buffer + got);
+    if (bytes->size() > most) return TooLarge(path, most, "more");
+    if (got < sizeof(buffer)) break;
+  }
+  return std::ferror(file.get()) ? Cannot("read", path, Reason(errno)) : "";
 }
 
 }  // namespace
 
 std::string Expected(const std::string& where, const std::string& expected,
                      const std::string& found) {
-  std::string line = where + ": expected " + expected + ", found " + found;
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return OneLine(where + ": expected " + expected + ", found " + found);
+}
+
+std::string Cannot(const std::string& action, const std::string& path, const std::string& reason) {
+  return OneLine("cannot " + action + " " + path + ": " + reason);
+}
+
+std::string Cannot(const std::string& action, const std::string& path, std::error_code reason) {
+  std::string text = reason.message();
+  if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') {
+    text[0] = static_cast<char>(text[0] - 'A' + 'a');
   }
-  return line;
+  return Cannot(action, path, text);
 }
 
 std::string OutOfMemory(const std::string& where, const std::string& purpose) {
@@ -101,57 +164,50 @@ std::string OutOfMemory(const std::string& where, const std::string& purpose) {
 }
 
 std::string ReadFile(const std::string& path, Bytes* bytes) {
-  bytes->clear();
-  // Standard input is read by a handle of its own, which may be closed.
-  File file(path == "-" ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
-  if (!file) return Expected(path, "a readable file", Reason(errno));
-  struct stat status;
-  if (fstat(fileno(file.get()), &status) == 0 && S_ISREG(status.st_mode)) {
-    bytes->reserve(static_cast<size_t>(status.st_size));
-  }
-  uint8_t buffer[65536];
-  for (;;) {
-    const size_t got = std::fread(buffer, 1, sizeof(buffer), file.get());
-    bytes->insert(bytes->end(), buffer, buffer + got);
-    if (got < sizeof(buffer)) break;
-  }
-  if (std::ferror(file.get())) return Expected(path, "a readable file", Reason(errno));
-  return "";
+  return ReadAtMost(path, UINT64_MAX, bytes);
+}
+
+std::string ReadSmallFile(const std::string& path, Bytes* bytes) {
+  return ReadAtMost(path, kMostSmallBytes, bytes);
 }
 
 std::string WriteFile(const std::string& path, const Bytes& bytes) {
   if (IsStandardStream(path)) {
     const bool whole = WriteAll(bytes, stdout) && std::fflush(stdout) == 0;
-    return whole ? "" : Expected("standard output", "room for " + path, Reason(errno));
+    return whole ? "" : Cannot("write", path + " to standard output", Reason(errno));
   }
   const fs::path target = FollowLink(path);
-  const std::string reason = IsSpecial(target) ? WriteInPlace(path, bytes) : Replace(target, bytes);
-  return reason.empty() ? "" : Expected(path, "a writable file", reason);
+  return IsSpecial(target) ? WriteInPlace(path, bytes) : Replace(path, target, bytes);
 }
 
 std::string CheckPlainFile(const std::string& path) {
-  return IsSpecial(path) ? Expected(path, "a file", "a device or pipe") : "";
+  return IsSpecial(path) ? Cannot("read", path, "it is a device or pipe") : "";
 }
 
 std::string CheckOutputPath(const std::string& path) {
   std::error_code error;
   if (path.empty()) return Expected("output", "a file name", "an empty one");
   if (IsStandardStream(path)) return "";
-  if (fs::is_directory(path, error)) return Expected(path, "a file name", "a folder");
+  if (fs::is_directory(path, error)) return Cannot("write", path, "it is a folder");
   const fs::path folder = FolderOf(FollowLink(path));
-  if (!fs::is_directory(folder, error)) {
-    return Expected(path, "an existing folder", "no folder " + folder.string());
+  const fs::file_status folder_status = fs::status(folder, error);
+  if (!fs::exists(folder_status)) {
+    const bool absent = !error || error == std::errc::no_such_file_or_directory;
+    return absent ? Cannot("write", path, "folder " + folder.string() + " does not exist")
+                  : Cannot("write", path, error);
+  }
+  if (!fs::is_directory(folder_status)) {
+    return Cannot("write", path, folder.string() + " is not a folder");
   }
   struct stat status;
   if (stat(path.c_str(), &status) != 0 && errno != ENOENT) {
-    return Expected(path, "a name for a file", Reason(errno));
+    return Cannot("write", path, Reason(errno));
   }
   if (IsSpecial(path)) return "";
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    return Expected(path, "a folder that can be written into", Reason(errno));
+    return Cannot("write into folder", folder.string(), Reason(errno));
   }
-  const std::string reason = WhyProtected(path);
-  return reason.empty() ? "" : Expected(path, "a writable file", reason);
+  return IsProtected(path) ? ReadOnly(path) : "";
 }
 
 std::string LowerExtension(const std::string& path) {

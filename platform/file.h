@@ -2,12 +2,14 @@
 // Whole files in and out of memory.
 //
 // Every function of platform/ that can fail returns an error: empty for success, otherwise one
-// line "<file>: expected ..., found ...".
+// line that names the file and the cause.
 #ifndef STARFOCUS_PLATFORM_FILE_H_
 #define STARFOCUS_PLATFORM_FILE_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace starfocus {
@@ -18,11 +20,21 @@ using Bytes = std::vector<uint8_t>;
 std::string Expected(const std::string& where, const std::string& expected,
                      const std::string& found);
 
+// "cannot <action> <path>: <reason>", with control characters removed. A system's reason begins in
+// lower case: "cannot read photo.jpg: permission denied".
+std::string Cannot(const std::string& action, const std::string& path, const std::string& reason);
+std::string Cannot(const std::string& action, const std::string& path, std::error_code reason);
+
 // The error of whoever caught std::bad_alloc: "<where>: expected enough memory to <purpose>, ...".
 std::string OutOfMemory(const std::string& where, const std::string& purpose);
 
-// "-" is standard input.
+// Reads a regular file, or a pipe of at most 2 GiB. Rejects folders and devices: a device such as
+// /dev/zero never ends. "-" is standard input, here and below.
 std::string ReadFile(const std::string& path, Bytes* bytes);
+
+// Reads a file of at most kMostSmallBytes: timings, calibrations and other texts.
+constexpr size_t kMostSmallBytes = size_t{1} << 20;
+std::string ReadSmallFile(const std::string& path, Bytes* bytes);
 
 // Writes to a temporary file in the same folder and renames it, so that `path` holds either what
 // it held before or all of `bytes`. A file that is there keeps its owner and permissions, and a

@@ -21,9 +21,17 @@ std::string ListFolder(const std::string& folder, std::vector<std::string>* name
     names->push_back(at->path().filename().string());
   }
   if (error == std::errc::not_enough_memory) return OutOfMemory(folder, "list its files");
-  if (error) return Expected(folder, "a folder that can be read", error.message());
+  if (error) return Cannot("read folder", folder, error);
   std::sort(names->begin(), names->end());
   return "";
+}
+
+std::string MakeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return Cannot("create folder", folder, error);
+  if (std::filesystem::is_directory(folder, error)) return "";
+  return Cannot("create folder", folder, "a file of that name exists");
 }
 
 }  // namespace starfocus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a folder holds.
+// Lists and makes folders.
 #ifndef STARFOCUS_PLATFORM_FOLDER_H_
 #define STARFOCUS_PLATFORM_FOLDER_H_
 
@@ -10,6 +10,9 @@ namespace starfocus {
 
 // The names of everything in a folder of at most 100 000, sorted.
 std::string ListFolder(const std::string& folder, std::vector<std::string>* names);
+
+// Makes the folder and those above it, unless it is there.
+std::string MakeFolder(const std::string& folder);
 
 }  // namespace starfocus
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "platform/folder.h"
 #include "platform/image_io.h"
 #include "platform/progress.h"
 #include "starfocus/starfocus.h"
@@ -129,9 +130,8 @@ std::string LoadLightField(const std::string& folder, const Positions& wanted,
 
 std::string SaveLightField(const std::string& folder, const LightField& light_field,
                            ThreadRunner* runner) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure) return Expected(folder, "a folder that can be made", failure.message());
+  const std::string failure = MakeFolder(folder);
+  if (!failure.empty()) return failure;
   const Positions& given = light_field.positions;
   const auto views = static_cast<int>(light_field.views.size());
   SaveJob save = {folder,

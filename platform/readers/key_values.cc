@@ -9,8 +9,6 @@
 namespace starfocus {
 namespace {
 
-constexpr size_t kMostBytes = 65536;
-
 std::string Trimmed(const std::string& text) {
   const size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
   return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
@@ -40,11 +38,8 @@ void TakeKeyValues(const std::string& text, KeyValues* values) {
 std::string ReadKeyValues(const std::string& path, KeyValues* values) {
   Bytes bytes;
   std::string error = CheckPlainFile(path);
-  if (error.empty()) error = ReadFile(path, &bytes);
+  if (error.empty()) error = ReadSmallFile(path, &bytes);
   if (!error.empty()) return error;
-  if (bytes.size() > kMostBytes) {
-    return Expected(path, "a text of at most 64 KiB", std::to_string(bytes.size()) + " bytes");
-  }
   TakeKeyValues({bytes.begin(), bytes.end()}, values);
   return "";
 }

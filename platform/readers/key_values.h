@@ -14,7 +14,7 @@ using KeyValues = std::map<std::string, std::string>;
 // that do not print are left out.
 void TakeKeyValues(const std::string& text, KeyValues* values);
 
-// Those of a file of at most 64 KiB.
+// Those of a file of at most 1 MiB (ReadSmallFile).
 std::string ReadKeyValues(const std::string& path, KeyValues* values);
 
 // Whether the key is there and its value a finite number.

@@ -2,6 +2,7 @@
 #include "platform/file.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -12,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "platform/folder.h"
 #include "platform/temporary_file.h"
 #include "tests/support/temp_folder.h"
 
@@ -45,9 +47,80 @@ TEST_CASE("file: a link stays a link") {
 
 TEST_CASE("file: errors are one line") {
   CHECK(Expected("a\nb", "c", "d\te") == "a b: expected c, found d e");
+  CHECK(Cannot("read", "a\nb", "c") == "cannot read a b: c");
+}
+
+TEST_CASE("file: an error names its true cause") {
+  TempFolder folder;
   Bytes bytes;
-  CHECK(ReadFile("/", &bytes) != "");
-  CHECK(ReadFile("/no such file", &bytes) != "");
+  CHECK(ReadFile(folder.path(), &bytes) == "cannot read " + folder.path() + ": it is a folder");
+  CHECK(ReadFile(folder.file("a"), &bytes) ==
+        "cannot read " + folder.file("a") + ": no such file or directory");
+  CHECK(CheckOutputPath(folder.path()) == "cannot write " + folder.path() + ": it is a folder");
+  CHECK(CheckOutputPath(folder.file("a/b")) ==
+        "cannot write " + folder.file("a/b") + ": folder " + folder.file("a") + " does not exist");
+  REQUIRE(WriteFile(folder.file("a"), FromText("x")) == "");
+  CHECK(CheckOutputPath(folder.file("a/b")) ==
+        "cannot write " + folder.file("a/b") + ": " + folder.file("a") + " is not a folder");
+  CHECK(MakeFolder(folder.file("a")) ==
+        "cannot create folder " + folder.file("a") + ": not a directory");
+  CHECK(MakeFolder(folder.file("b/c")) == "");
+  CHECK(fs::is_directory(folder.file("b/c")));
+  if (geteuid() == 0) return;  // root may do everything
+  REQUIRE(chmod(folder.file("a").c_str(), 0) == 0);
+  REQUIRE(chmod(folder.file("b").c_str(), 0500) == 0);
+  CHECK(ReadFile(folder.file("a"), &bytes) ==
+        "cannot read " + folder.file("a") + ": permission denied");
+  CHECK(MakeFolder(folder.file("b/d")) ==
+        "cannot create folder " + folder.file("b/d") + ": permission denied");
+  CHECK(CheckOutputPath(folder.file("b/d")) ==
+        "cannot write into folder " + folder.file("b") + ": permission denied");
+  REQUIRE(chmod(folder.file("b").c_str(), 0700) == 0);
+}
+
+TEST_CASE("file: devices and endless pipes are not read, and small files have a limit") {
+  TempFolder folder;
+  Bytes bytes;
+  const auto device = [](const char* path) {
+    return std::string("cannot read ") + path + ": it is a device";
+  };
+  for (const char* path : {"/dev/zero", "/dev/null"}) {
+    if (!fs::exists(path)) continue;
+    CHECK(ReadFile(path, &bytes) == device(path));
+    CHECK(ReadSmallFile(path, &bytes) == device(path));
+  }
+  REQUIRE(WriteFile(folder.file("most"), Bytes(kMostSmallBytes)) == "");
+  CHECK(ReadSmallFile(folder.file("most"), &bytes) == "");
+  CHECK(bytes.size() == kMostSmallBytes);
+  REQUIRE(WriteFile(folder.file("more"), Bytes(kMostSmallBytes + 1)) == "");
+  CHECK(ReadSmallFile(folder.file("more"), &bytes) ==
+        folder.file("more") +
+            ": the file is too large (expected at most 1048576 bytes, found 1048577)");
+  CHECK(ReadFile(folder.file("more"), &bytes) == "");
+  // A pipe that ends is read; one that does not is read up to the limit.
+  for (const bool endless : {false, true}) {
+    const std::string path = folder.file(endless ? "endless" : "pipe");
+    REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      ::signal(SIGPIPE, SIG_DFL);
+      const int handle = open(path.c_str(), O_WRONLY);
+      const char text[1000] = {};
+      while (write(handle, text, sizeof(text)) > 0 && endless) {
+      }
+      _exit(0);
+    }
+    const std::string error = ReadSmallFile(path, &bytes);
+    if (endless) {
+      CHECK(error == path + ": the file is too large (expected at most 1048576 bytes, found more)");
+    } else {
+      CHECK(error == "");
+      CHECK(bytes.size() == 1000);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+  }
 }
 
 TEST_CASE("file: what is replaced keeps its permissions") {

@@ -14,6 +14,7 @@
 #include "examples/cli/refocus/refocus_report.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
+#include "platform/folder.h"
 #include "platform/image_io.h"
 
 namespace starfocus {
@@ -189,9 +190,8 @@ Error Run(const Options& options) {
   if (error.empty()) error = CheckOutputs(options, video);
   if (error.empty()) error = Scan(options, &plan, &video);
   if (!error.empty()) return error;
-  std::error_code failure;
-  fs::create_directory(options.out, failure);
-  if (failure) return Expected(options.out, "a folder that can be made", failure.message());
+  error = MakeFolder(options.out);
+  if (!error.empty()) return error;
   SeriesReport report;
   error = RefocusFrames(options, plan, video, &report);
   if (!error.empty() || options.report.empty()) return error;

@@ -35,7 +35,7 @@ nlohmann::ordered_json TimingJson(const sf_timing& timing) {
 
 std::string ReadTiming(const std::string& path, sf_timing* timing) {
   Bytes bytes;
-  std::string error = ReadFile(path, &bytes);
+  std::string error = ReadSmallFile(path, &bytes);
   if (!error.empty()) return error;
   const nlohmann::json json = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
   if (json.is_discarded()) return Expected(path, "a JSON file", "other text");

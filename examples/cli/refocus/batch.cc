@@ -12,6 +12,7 @@
 
 #include "examples/command_line/outputs.h"
 #include "platform/file.h"
+#include "platform/folder.h"
 #include "platform/progress.h"
 #include "platform/readers/capture.h"
 #include "platform/standard_stream.h"
@@ -128,12 +129,7 @@ Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folde
     }
   }
   const Error error = CheckApart(outputs, read);
-  if (!error.empty()) return error;
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (!failure && fs::is_directory(folder, failure)) return "";
-  return Expected(folder, "a folder for the pictures of several inputs",
-                  failure ? failure.message() : "a file");
+  return error.empty() ? MakeFolder(folder) : error;
 }
 
 Error RunBatch(const std::vector<BatchItem>& items, int jobs,

@@ -66,7 +66,7 @@ std::vector<TruthFile> FindTruths(const std::string& folder) {
 
 std::string TransferOf(const std::string& folder) {
   Bytes bytes;
-  if (!ReadFile((fs::path(folder) / "meta.txt").string(), &bytes).empty()) return "srgb";
+  if (!ReadSmallFile((fs::path(folder) / "meta.txt").string(), &bytes).empty()) return "srgb";
   const std::string text(bytes.begin(), bytes.end());
   return text.find("transfer: none\n") != std::string::npos ? "none" : "srgb";
 }
