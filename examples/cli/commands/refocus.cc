@@ -122,7 +122,8 @@ Error CheckRegion(const FloatMap& map, const Options& options, const sf_region& 
 Error Open(const Options& options, LensPlan* plan, Capture* capture) {
   Error error = OpenInput(options.input, capture);
   if (error.empty()) {
-    error = CheckApart(ListOutputs(options, *plan), {{}, CaptureFiles(*capture)});
+    error = CheckApart(ListOutputs(options, *plan),
+                       {{}, CaptureFiles(*capture), GridsOf(options.input, *capture)});
   }
   return error.empty() ? PlanAperture(options.lens.aperture, *capture, &plan->aperture) : error;
 }
@@ -255,13 +256,18 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   command
       ->add_option("--jobs", options->jobs,
                    "1 to 64: how many of several inputs at a time, each on --threads")
+      ->type_name("N")
       ->capture_default_str();
   AddLensOptions(command, &options->lens);
-  command->add_option("--sweep", options->sweep,
-                      "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
-                      "out_001.png, ..., or of -o out.webp one animation");
-  command->add_option("--region", options->region,
-                      "X,Y,W,H: only that part of the picture, at its share of the time");
+  command
+      ->add_option("--sweep", options->sweep,
+                   "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
+                   "out_001.png, ..., or of -o out.webp one animation")
+      ->type_name("D0:D1:N");
+  command
+      ->add_option("--region", options->region,
+                   "X,Y,W,H: only that part of the picture, at its share of the time")
+      ->type_name("X,Y,W,H");
   command->add_flag("--stream", options->stream, "Row by row instead of whole pictures");
   AddMapOptions(command, &options->disparities);
   command

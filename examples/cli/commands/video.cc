@@ -77,11 +77,11 @@ Error CheckOutputs(const Options& options, const Video& video) {
     for (size_t i = 0; i < video.folders.size() && error.empty(); ++i) {
       error = CheckImageOutput(FramePath(options.out, i));
     }
-  } else if (fs::exists(options.out, failure)) {
-    return Expected(options.out, "a folder", "a file");
   } else {
-    error = CheckOutputPath(options.out);
+    error = CheckFolderOutput(options.out);
+    if (error.empty()) error = CheckOutputPath(options.out);
   }
+  if (error.empty()) error = CheckFolderApart({"--output", options.out}, video.folders);
   if (!error.empty()) return error;
   std::vector<Output> outputs = {{"--output", options.out}};
   for (size_t i = 0; i < video.folders.size(); ++i) {

@@ -153,8 +153,9 @@ Error Open(const Options& options, int* threads, Aperture* aperture, Capture* ca
   }
   if (error.empty()) error = CheckOutputPath(options.out);
   if (error.empty()) {
-    error = CheckApart({{"--output", options.out}},
-                       {{options.input.path}, {options.input.path, options.input.depth}});
+    std::vector<std::string> files = {options.input.path, options.input.depth};
+    for (const TruthFile& truth : FindTruths(options.input.path)) files.push_back(truth.path);
+    error = CheckApart({{"--output", options.out}}, {{options.input.path}, files, {}});
   }
   if (error.empty()) error = OpenInput(options.input, capture);
   if (error.empty()) error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(*capture)});
@@ -202,7 +203,8 @@ void AddViewCommand(CLI::App* app, Action* action) {
       ->type_name("FILE")
       ->required();
   AddApertureOptions(command, &options->aperture);
-  command->add_option("--threads", options->threads, "1 to 64; default: all of the machine");
+  command->add_option("--threads", options->threads, "1 to 64; default: all of the machine")
+      ->type_name("N");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }
 

@@ -136,6 +136,12 @@ Error FillHoles(const std::string& where, FloatMap* map) {
   return status == SF_OK ? "" : Expected(where, "a disparity map", sf_status_string(status));
 }
 
+std::vector<std::string> GridsOf(const InputOptions& options, const Capture& capture) {
+  const std::filesystem::path first = capture.files[0].path;
+  if (capture.photo || IsViewFile(first.filename().string())) return {};
+  return {options.path};
+}
+
 std::string MapName(const Capture& capture) {
   return capture.map_path.empty() ? DisparityPath(capture.path) : InputName(capture.map_path);
 }

@@ -48,6 +48,10 @@ Error CareForMap(const MapOptions& options, int threads, Capture* capture);
 // Replaces what a map does not know by its nearest neighbour. Errors are about `where`.
 Error FillHoles(const std::string& where, FloatMap* map);
 
+// The folder of the input where its views have other names than ours: every picture in it is taken
+// for a view.
+std::vector<std::string> GridsOf(const InputOptions& options, const Capture& capture);
+
 // What errors about the map name.
 std::string MapName(const Capture& capture);
 

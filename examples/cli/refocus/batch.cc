@@ -128,7 +128,8 @@ Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folde
       (fs::is_directory(part, ignored) ? read.folders : read.files).push_back(part);
     }
   }
-  const Error error = CheckApart(outputs, read);
+  Error error = CheckFolderApart({"--output", folder}, read.folders);
+  if (error.empty()) error = CheckApart(outputs, read);
   return error.empty() ? MakeFolder(folder) : error;
 }
 

@@ -68,10 +68,12 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
 
 // The lens: where it is focused, and its opening.
 void AddOpticsOptions(CLI::App* command, LensOptions* options) {
-  command->add_option("--focus", options->focus, "Disparity in focus");
-  command->add_option("--focus-at", options->focus_at,
-                      "X,Y: the disparity of what is at that pixel, the median of its surface "
-                      "there");
+  command->add_option("--focus", options->focus, "Disparity in focus")->type_name("D");
+  command
+      ->add_option("--focus-at", options->focus_at,
+                   "X,Y: the disparity of what is at that pixel, the median of its surface "
+                   "there")
+      ->type_name("X,Y");
   AddApertureOptions(command, &options->aperture);
   AddShapeOptions(command, &options->shape);
 }
@@ -106,18 +108,25 @@ Error CheckPixel(const FloatMap& map, const LensPlan& plan) {
 }  // namespace
 
 void AddApertureOptions(CLI::App* command, ApertureOptions* options) {
-  command->add_option("--aperture", options->aperture,
-                      "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8");
-  command->add_option("--f-stop", options->f_stop,
-                      "The same as an f-stop, from the widest on: radius --widest / N");
-  command->add_option(
-      "--widest", options->widest,
-      "F-stop of radius 1: focal length over twice the distance of view (1, 0) from "
-      "the centre; default: what the input knows of itself, else 1, for f-stops relative to that "
-      "radius");
+  command
+      ->add_option("--aperture", options->aperture,
+                   "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8")
+      ->type_name("U");
+  command
+      ->add_option("--f-stop", options->f_stop,
+                   "The same as an f-stop, from the widest on: radius --widest / N")
+      ->type_name("N");
+  command
+      ->add_option("--widest", options->widest,
+                   "F-stop of radius 1: focal length over twice the distance of view (1, 0) from "
+                   "the centre; default: what the input knows of itself, else 1, for f-stops "
+                   "relative to that "
+                   "radius")
+      ->type_name("W");
   command
       ->add_option("--strength", options->strength,
                    "0 to 100 percent of that radius; 0: the centre view to the byte")
+      ->type_name("S")
       ->default_str("100");
 }
 
@@ -138,13 +147,20 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
   command
       ->add_option("--highlights", options->highlights,
                    "1 to 64: how many times white the lamps are that the pictures clip")
+      ->type_name("X")
       ->capture_default_str();
-  command->add_option(
-      "--views", options->views,
-      "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder");
-  command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
-  command->add_option("--largest-block", options->largest_block,
-                      "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128");
+  command
+      ->add_option(
+          "--views", options->views,
+          "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder")
+      ->type_name("17|9|5|1|U,V:U,V");
+  command->add_option("--threads", options->threads, "1 to 64")
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      ->add_option("--largest-block", options->largest_block,
+                   "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128")
+      ->type_name("32|64|128|256");
   command
       ->add_option(
           "--rule", options->rule,
@@ -155,12 +171,15 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
       ->add_option("--n-scale", options->n_scale,
                    "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "
                    "closer to the benchmark")
+      ->type_name("X")
       ->capture_default_str();
   command->add_option("--max-layer", options->max_layer, "0, 1 or 2: may subsample by 2^L")
+      ->type_name("0|1|2")
       ->capture_default_str();
   command
       ->add_option("--deblocking", options->deblocking,
                    "0 to 255 grey levels: the largest step smoothed between layers; 0: off")
+      ->type_name("N")
       ->capture_default_str();
   command
       ->add_option("--timing", options->timing,
