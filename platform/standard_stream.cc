@@ -20,6 +20,8 @@ std::string Prefix(const std::string& path) {
 
 bool IsStandardStream(const std::string& path) { return path == "-" || !Prefix(path).empty(); }
 
+std::string InputName(const std::string& path) { return path == "-" ? "standard input" : path; }
+
 std::string FormatExtension(const std::string& path) {
   if (path == "-") return ".png";
   const std::string prefix = Prefix(path);

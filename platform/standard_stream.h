@@ -11,6 +11,9 @@ namespace starfocus {
 // "-", or a format and ":-".
 bool IsStandardStream(const std::string& path);
 
+// What errors call a file that is read: "standard input" for "-".
+std::string InputName(const std::string& path);
+
 // The extension that tells the format of a picture to be written, in lower case with its dot.
 std::string FormatExtension(const std::string& path);
 

@@ -3,12 +3,15 @@
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "examples/command_line/error.h"
 #include "platform/view_files.h"
 #include "starfocus/starfocus.h"
+
+namespace CLI {
+class App;
+}
 
 namespace starfocus {
 

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/command_line/outputs.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <set>
+#include <system_error>
 
+#include "platform/file.h"
 #include "platform/light_field.h"
 #include "platform/standard_stream.h"
+#include "platform/writers/picture.h"
 
 namespace starfocus {
 namespace {
@@ -32,7 +38,8 @@ std::vector<std::string> FindLinks(const std::string& folder) {
 }  // namespace
 
 Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
-  std::set<fs::path> folders, files, names;
+  std::set<fs::path> folders, files, grids, names;
+  for (const std::string& folder : inputs.grids) grids.insert(NameOf(folder));
   for (const std::string& folder : inputs.folders) {
     folders.insert(NameOf(folder));
     for (const std::string& path : FindLinks(folder)) files.insert(NameOf(path));
@@ -54,8 +61,37 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
     if (folders.count(name.parent_path()) != 0 && IsLightFieldFile(name.filename().string())) {
       return Error::Usage(output.option, "a file of its own", output.path + " of the light field");
     }
+    if (grids.count(name.parent_path()) != 0 && IsPictureExtension(FormatExtension(output.path))) {
+      return Error::Usage(output.option, "a file outside of the folder of views",
+                          output.path + ", which would be taken for a view");
+    }
   }
   return "";
+}
+
+Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders) {
+  for (const std::string& folder : folders) {
+    if (NameOf(folder) != NameOf(output.path)) continue;
+    return Error::Usage(output.option, "a folder of its own",
+                        output.path + ", a light field that is read");
+  }
+  return "";
+}
+
+std::string CheckFolderOutput(const std::string& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {
+    return Cannot("create folder", folder, "a file of that name exists");
+  }
+  fs::path at = NameOf(folder);
+  while (at.has_relative_path() && !fs::exists(at, ignored)) at = at.parent_path();
+  if (!fs::is_directory(at, ignored)) {
+    return Cannot("create folder", folder, at.string() + " is not a folder");
+  }
+  if (access(at.c_str(), W_OK | X_OK) == 0) return "";
+  const std::error_code reason(errno, std::generic_category());
+  return Cannot(fs::is_directory(folder, ignored) ? "write into folder" : "create folder", folder,
+                reason);
 }
 
 }  // namespace starfocus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/command_line/shape.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <vector>
 
@@ -77,11 +78,13 @@ void AddShapeOptions(CLI::App* command, ShapeOptions* options) {
   command
       ->add_option("--theta", options->theta,
                    "0.05 to 0.45: the angle of the fall-off, as a part of pi")
+      ->type_name("T")
       ->capture_default_str();
   command
       ->add_option("--cats-eye", options->cats_eye,
                    "0 to 1: how far a second rim moves into the opening towards the corners, in "
                    "radii")
+      ->type_name("X")
       ->capture_default_str();
 }
 

@@ -3,11 +3,14 @@
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_SHAPE_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_SHAPE_H_
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "examples/command_line/error.h"
 #include "starfocus/starfocus.h"
+
+namespace CLI {
+class App;
+}
 
 namespace starfocus {
 

@@ -247,15 +247,24 @@ Error Tap(const Options& options) {
 Error Main(int argc, char** argv) {
   CLI::App app("Tap to focus: previews, a focus pull and full pictures, with their times.", "tap");
   Options options;
-  app.add_option("DIR", options.folder, "Light-field folder; default: a traced portrait");
-  app.add_option("--size", options.size, "Of the portrait, WxH")->capture_default_str();
-  app.add_option("--first", options.first, "Pixel X,Y that is tapped first");
-  app.add_option("--second", options.second, "Pixel X,Y that the focus is then pulled to");
-  app.add_option("--preview", options.shift, "1, 2 or 3: previews are 1/2, 1/4 or 1/8 of the size")
+  app.add_option("DIR", options.folder, "Light-field folder; default: a traced portrait")
+      ->type_name("DIR");
+  app.add_option("--size", options.size, "Of the portrait, WxH")
+      ->type_name("WxH")
       ->capture_default_str();
-  app.add_option("--frames", options.frames, "Previews of the focus pull")->capture_default_str();
-  app.add_option("--threads", options.threads, "1 to 64; default: all of the machine");
-  app.add_option("--out", options.out, "Folder for all pictures, as frame_0000.png and so on");
+  app.add_option("--first", options.first, "Pixel X,Y that is tapped first")->type_name("X,Y");
+  app.add_option("--second", options.second, "Pixel X,Y that the focus is then pulled to")
+      ->type_name("X,Y");
+  app.add_option("--preview", options.shift, "1, 2 or 3: previews are 1/2, 1/4 or 1/8 of the size")
+      ->type_name("1|2|3")
+      ->capture_default_str();
+  app.add_option("--frames", options.frames, "Previews of the focus pull")
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "1 to 64; default: all of the machine")
+      ->type_name("N");
+  app.add_option("--out", options.out, "Folder for all pictures, as frame_0000.png and so on")
+      ->type_name("DIR");
   app.set_version_flag("--version", VersionText("tap"));
   app.footer(kExitCodes);
   Error error;

@@ -14,6 +14,7 @@
 #include "platform/readers/photo_scale.h"
 #include "platform/readers/stanford.h"
 #include "platform/readers/view_array.h"
+#include "platform/standard_stream.h"
 
 namespace starfocus {
 namespace {
@@ -87,12 +88,17 @@ void TakePair(const std::string& path, DepthPhoto* photo, Capture* capture) {
   capture->light_field.views = {std::move(photo->picture), std::move(photo->right)};
 }
 
+// The pixel at a share of the width or height, from 0 to 1.
+int PixelAt(double share, int pixels) {
+  return std::min(static_cast<int>(share * pixels), pixels - 1);
+}
+
 std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Capture* capture) {
   DepthPhoto photo;
   std::string depth = options.depth;
   std::string error = ReadDepthPhotoFile(path, options.map, &depth, &photo);
   const bool pair = !photo.right.pixels.empty();
-  if (error.empty() && !pair) error = MakeLightField(path, &photo, &capture->light_field);
+  if (error.empty() && !pair) error = MakeLightField(capture->path, &photo, &capture->light_field);
   if (!error.empty()) return error;
   capture->format = photo.format;
   capture->metadata = std::move(photo.metadata);
@@ -110,10 +116,11 @@ std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Ca
   capture->widest = 1;
   capture->f_stop = kPhotoFStop;
   capture->has_focus = photo.has_focus;
-  capture->focus_x =
-      std::min(static_cast<int>(photo.focus_x * light_field.width()), light_field.width() - 1);
-  capture->focus_y =
-      std::min(static_cast<int>(photo.focus_y * light_field.height()), light_field.height() - 1);
+  capture->focus_x = PixelAt(photo.focus_x, light_field.width());
+  capture->focus_y = PixelAt(photo.focus_y, light_field.height());
+  capture->has_subject = photo.has_subject;
+  capture->subject_x = PixelAt(photo.subject_x, light_field.width());
+  capture->subject_y = PixelAt(photo.subject_y, light_field.height());
   capture->focus = photo.focus_value;
   return "";
 }
@@ -136,8 +143,13 @@ void SelectViews(const std::vector<ViewFile>& chosen, LightField* light_field) {
 std::string OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture) {
   try {
     Capture result;
-    result.path = path;
+    result.path = InputName(path);
     std::error_code failure;
+    if (path == "-") {
+      std::string error = OpenPhoto(path, options, &result);
+      if (error.empty()) *capture = std::move(result);
+      return error;
+    }
     const fs::file_status status = fs::status(path, failure);
     std::string error = CheckPlainFile(path);
     if (!error.empty()) return error;

@@ -31,15 +31,18 @@ struct Capture {
   double f_stop = 0;  // to be used where no other is asked for; 0: the widest
   bool has_focus = false;
   int focus_x = 0, focus_y = 0;  // the pixel that the format says is in focus
-  double focus = NAN;            // or the disparity
+  bool has_subject = false;
+  int subject_x = 0, subject_y = 0;  // the pixel of the subject that EXIF names
+  double focus = NAN;                // or the disparity
   Metadata metadata;
   Facts facts;
   std::vector<std::string> notes;
   LightField light_field;  // of a photo or a pair in one file from the beginning
 };
 
-// Finds out what `path` is. Of a photograph everything is read, of a folder its list of files and
-// what lies beside the pictures. The error says what was found and what is missing.
+// Finds out what `path` is; "-" is a photograph on standard input. Of a photograph everything is
+// read, of a folder its list of files and what lies beside the pictures. The error says what was
+// found and what is missing.
 std::string OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture);
 
 // Reads the views at the positions wanted, or all if none are, and the map if there is one.

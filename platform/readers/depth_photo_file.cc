@@ -16,6 +16,7 @@
 #include "platform/readers/pair.h"
 #include "platform/readers/stereo_pair.h"
 #include "platform/readers/xmp.h"
+#include "platform/standard_stream.h"
 
 namespace starfocus {
 namespace {
@@ -145,16 +146,19 @@ std::string DecodeDepthPhoto(const std::string& where, Span file, bool with_map,
 std::string ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                std::string* depth, DepthPhoto* photo) {
   Bytes bytes;
+  const bool stream = path == "-";  // no depth picture lies beside it
+  const std::string where = InputName(path);
   std::string error = ReadFile(path, &bytes);
   const Span file = {bytes.data(), bytes.size()};
-  if (error.empty()) error = DecodeDepthPhoto(path, file, depth->empty(), options.near, photo);
+  if (error.empty() && stream && bytes.empty()) error = Expected(where, "a photo", "nothing");
+  if (error.empty()) error = DecodeDepthPhoto(where, file, depth->empty(), options.near, photo);
   if (!error.empty()) return error;
-  if (depth->empty() && !photo->map.values.empty()) return CheckOptions(path, options);
-  if (depth->empty()) error = FindDepthPicture(path, photo, depth);
+  if (depth->empty() && !photo->map.values.empty()) return CheckOptions(where, options);
+  if (depth->empty() && !stream) error = FindDepthPicture(path, photo, depth);
   if (!error.empty()) return error;
   if (depth->empty()) {
     const bool read = ReadStrayMap(file, options.near, photo) || ReadStereoPair(path, file, photo);
-    return read ? "" : NoMap(path, photo->map_problem);
+    return read ? "" : NoMap(where, photo->map_problem);
   }
   NoteProblem(photo);
   return ReadDepthPicture(*depth, options, photo);

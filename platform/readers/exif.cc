@@ -3,6 +3,8 @@
 
 #ifdef STARFOCUS_HAS_EXIF
 #include <libexif/exif-data.h>
+
+#include <cmath>
 #endif
 
 namespace starfocus {
@@ -12,11 +14,49 @@ namespace {
 
 constexpr size_t kMostBytes = 65535;  // of a JPEG segment
 
+// Whole numbers of 16 or 32 bits, at most four; none when the tag is not there or another type.
+std::vector<double> NumbersOf(ExifData* data, ExifIfd directory, ExifTag tag) {
+  std::vector<double> numbers;
+  ExifEntry* entry = exif_content_get_entry(data->ifd[directory], tag);
+  if (entry == nullptr) return numbers;
+  const bool is_short = entry->format == EXIF_FORMAT_SHORT;
+  if (!is_short && entry->format != EXIF_FORMAT_LONG) return numbers;
+  const ExifByteOrder order = exif_data_get_byte_order(data);
+  const size_t step = is_short ? 2 : 4, count = entry->size / step;
+  for (size_t k = 0; k < count && k < 4; ++k) {
+    const unsigned char* at = entry->data + k * step;
+    numbers.push_back(is_short ? exif_get_short(at, order) : exif_get_long(at, order));
+  }
+  return numbers;
+}
+
 // A whole number of 16 bits; 0 when the tag is not there or another type.
 int ShortOf(ExifData* data, ExifIfd directory, ExifTag tag) {
-  ExifEntry* entry = exif_content_get_entry(data->ifd[directory], tag);
-  if (entry == nullptr || entry->format != EXIF_FORMAT_SHORT || entry->size < 2) return 0;
-  return exif_get_short(entry->data, exif_data_get_byte_order(data));
+  const ExifEntry* entry = exif_content_get_entry(data->ifd[directory], tag);
+  const std::vector<double> numbers = NumbersOf(data, directory, tag);
+  if (numbers.empty() || entry->format != EXIF_FORMAT_SHORT) return 0;
+  return static_cast<int>(numbers[0]);
+}
+
+// A subject begins with the pixel of its centre; a circle's diameter or a rectangle's sides follow
+// (EXIF 2.32, 4.6.6.5).
+void ReadSubject(ExifData* data, double width, double height, DepthPhoto* photo) {
+  std::vector<double> subject = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_SUBJECT_AREA);
+  if (subject.size() < 2) subject = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_SUBJECT_LOCATION);
+  const std::vector<double> x = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_PIXEL_X_DIMENSION);
+  const std::vector<double> y = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_PIXEL_Y_DIMENSION);
+  if (subject.size() < 2 || !(width > 0 && height > 0)) return;
+  if (x.size() == 1 && y.size() == 1 && x[0] > 0 && y[0] > 0) {
+    // A picture of another shape is a part, and EXIF does not say which.
+    constexpr double kSameShape = 0.01;
+    if (std::fabs(x[0] * height / (y[0] * width) - 1) > kSameShape) return;
+    width = x[0];
+    height = y[0];
+  }
+  if (subject[0] >= width || subject[1] >= height) return;
+  photo->has_subject = true;
+  photo->subject_x = (subject[0] + 0.5) / width;
+  photo->subject_y = (subject[1] + 0.5) / height;
 }
 
 #endif
@@ -25,7 +65,7 @@ int ShortOf(ExifData* data, ExifIfd directory, ExifTag tag) {
 
 #ifdef STARFOCUS_HAS_EXIF
 
-void ReadExif(DepthPhoto* photo) {
+void ReadExif(int width, int height, DepthPhoto* photo) {
   const Bytes& exif = photo->metadata.exif;
   if (exif.empty() || exif.size() > kMostBytes) return;
   Bytes segment = {'E', 'x', 'i', 'f', 0, 0};
@@ -37,6 +77,7 @@ void ReadExif(DepthPhoto* photo) {
   exif_data_load_data(data, segment.data(), static_cast<unsigned>(segment.size()));
   const int orientation = ShortOf(data, EXIF_IFD_0, EXIF_TAG_ORIENTATION);
   const int focal = ShortOf(data, EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH_IN_35MM_FILM);
+  ReadSubject(data, width, height, photo);
   exif_data_unref(data);
   if (orientation >= 1 && orientation <= 8) photo->orientation = orientation;
   photo->focal_35mm = focal;
@@ -47,11 +88,13 @@ void ReadExif(DepthPhoto* photo) {
 
 #else
 
-void ReadExif(DepthPhoto* photo) {
+void ReadExif(int, int, DepthPhoto* photo) {
   if (photo->metadata.exif.empty()) return;
   photo->facts.emplace_back("EXIF", "not read: this build has no libexif");
 }
 
 #endif
+
+void ReadExif(DepthPhoto* photo) { ReadExif(photo->picture.width, photo->picture.height, photo); }
 
 }  // namespace starfocus

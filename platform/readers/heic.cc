@@ -15,6 +15,7 @@
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/exif.h"
 #include "platform/readers/kept_metadata.h"
+#include "platform/readers/orientation.h"
 #endif
 
 namespace starfocus {
@@ -150,8 +151,16 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
       photo->metadata.exif.assign(exif.begin() + 4 + static_cast<ptrdiff_t>(skip), exif.end());
     }
   }
-  ReadExif(photo);
-  photo->orientation = 1;  // libheif has turned the pictures as the file's own boxes say
+  // libheif has turned the pictures as the file's own boxes say. EXIF's orientation says the same
+  // in most files: it turns the subject, unless the sizes show that the boxes are others.
+  const int stored_width = heif_image_handle_get_ispe_width(handle);
+  const int stored_height = heif_image_handle_get_ispe_height(handle);
+  ReadExif(stored_width, stored_height, photo);
+  const bool swaps = photo->orientation >= 5;
+  const bool agrees = photo->picture.width == (swaps ? stored_height : stored_width);
+  photo->has_subject = photo->has_subject && agrees;
+  TurnPoint(photo->orientation, &photo->subject_x, &photo->subject_y);
+  photo->orientation = 1;
   const size_t profile = heif_image_handle_get_raw_color_profile_size(handle);
   if (profile == 0 || profile > kMostMetadata) return;
   photo->metadata.icc.resize(profile);

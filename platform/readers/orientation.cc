@@ -65,14 +65,19 @@ void TurnMap(int orientation, FloatMap* map) {
   *map = std::move(result);
 }
 
+void TurnPoint(int orientation, double* x, double* y) {
+  if (FromRight(orientation)) *x = 1 - *x;
+  if (FromBelow(orientation)) *y = 1 - *y;
+  if (SwapsSides(orientation)) std::swap(*x, *y);
+}
+
 void ApplyOrientation(DepthPhoto* photo) {
   const int orientation = photo->orientation;
   if (orientation <= 1 || orientation > 8) return;
   TurnPicture(orientation, &photo->picture);
   TurnMap(orientation, &photo->map);
-  if (FromRight(orientation)) photo->focus_x = 1 - photo->focus_x;
-  if (FromBelow(orientation)) photo->focus_y = 1 - photo->focus_y;
-  if (SwapsSides(orientation)) std::swap(photo->focus_x, photo->focus_y);
+  TurnPoint(orientation, &photo->focus_x, &photo->focus_y);
+  TurnPoint(orientation, &photo->subject_x, &photo->subject_y);
   photo->facts.emplace_back("orientation",
                             std::to_string(orientation) + " of EXIF, applied to picture and map");
   photo->orientation = 1;

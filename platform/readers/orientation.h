@@ -10,7 +10,11 @@ namespace starfocus {
 // Turns and mirrors a map.
 void TurnMap(int orientation, FloatMap* map);
 
-// Turns and mirrors picture, map and focus as `orientation` says, makes it 1, and adds a fact.
+// Turns and mirrors a point, in parts of width and height from 0 to 1.
+void TurnPoint(int orientation, double* x, double* y);
+
+// Turns and mirrors picture, map, focus and subject as `orientation` says, makes it 1, and adds a
+// fact.
 void ApplyOrientation(DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -38,7 +38,9 @@ struct DepthPhoto {
   double focal_35mm = 0;  // equivalent focal length in millimetres; 0: nobody knows
   bool has_focus = false;
   double focus_x = 0, focus_y = 0;  // in parts of width and height, before `orientation`
-  double focus_value = NAN;         // of the map, where a distance in focus is told
+  bool has_subject = false;
+  double subject_x = 0, subject_y = 0;  // of EXIF, likewise
+  double focus_value = NAN;             // of the map, where a distance in focus is told
   Metadata metadata;
   Facts facts;
   std::vector<std::string> notes;  // what was guessed, for whoever may know better

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,58 +12,13 @@
 #include "platform/image_io.h"
 #include "platform/light_field.h"
 #include "tests/cli/call_program.h"
+#include "tests/cli/refusals.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Nothing on stdout, no new file, and exit code 2 where the error line is about the command line, 1
-// where it is about a file.
-void CheckRefused(const TempFolder& folder, const std::string& arguments,
-                  const std::string& mention) {
-  CAPTURE(arguments);
-  const int before = folder.count();
-  const Outcome outcome = Call(folder, arguments);
-  CAPTURE(outcome.err);
-  bool usage = false;
-  for (const char* what : {"-", "command line: ", "DIR: ", "SRC: ", "COMMAND: "}) {
-    usage = usage || outcome.err.rfind("starfocus: " + std::string(what), 0) == 0;
-  }
-  CHECK(outcome.code == (usage ? 2 : 1));
-  CHECK(outcome.out == "");
-  CheckErrorLine(outcome.err);
-  CHECK(outcome.err.find(mention) != std::string::npos);
-  CHECK(folder.count() == before);
-}
-
-// A folder with a 40x30 light field `lf` of 5 views and some broken things around it.
-void Prepare(const TempFolder& folder) {
-  REQUIRE(Call(folder, "scene lf --size 40x30 --views 5 --name wires").code == 0);
-  REQUIRE(WriteFile(folder.file("text.png"), Bytes{'h', 'e', 'l', 'l', 'o'}) == "");
-  REQUIRE(WriteImage(folder.file("small.png"), Image(4, 4)) == "");
-  REQUIRE(WriteImage(folder.file("large.png"), Image(5, 4)) == "");
-  for (const char* name : {"missing", "broken", "nan", "huge", "short"}) {
-    fs::copy(folder.file("lf"), folder.file(name));
-  }
-  fs::copy(folder.file("lf"), folder.file("linked"));
-  fs::rename(folder.file("linked/view_+1.0_+0.0.png"), folder.file("target.png"));
-  fs::create_symlink("../target.png", folder.file("linked/view_+1.0_+0.0.png"));
-  fs::create_symlink("../target.png", folder.file("linked/out.png"));
-  fs::remove(folder.file("missing/view_+0.0_+0.0.png"));
-  REQUIRE(WriteFile(folder.file("broken/view_-1.0_+0.0.png"), Bytes{1, 2, 3}) == "");
-  FloatMap map;
-  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
-  map.values[45] = std::numeric_limits<float>::quiet_NaN();
-  REQUIRE(WritePfm(folder.file("nan/disparity.pfm"), map) == "");
-  map.values[45] = 1e9f;
-  REQUIRE(WritePfm(folder.file("huge/disparity.pfm"), map) == "");
-  fs::resize_file(folder.file("short/disparity.pfm"), 100);
-  fs::create_directory(folder.file("taken_002.png"));
-  REQUIRE(Call(folder, "scene tiny --size 20x10 --views 5").code == 0);
-  REQUIRE(Call(folder, "scene single --size 40x30 --views 1").code == 0);
-}
 
 TEST_CASE("cli: refocus refuses bad input") {
   TempFolder folder;
@@ -76,7 +30,6 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"frobnicate", "frobnicate"},
              {"refocus", "SRC"},
              {"refocus lf --focus 1", "--output"},
-             {"refocus lf -o x.png", "--focus"},
              {"refocus lf -o x.png --focus", "--focus"},
              {"refocus lf -o x.png --focus 1 --focus-at 1,1", "--focus"},
              {"refocus lf -o x.png --focus abc", "--focus"},
@@ -85,8 +38,8 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --focus 1e999", "--focus"},
              {"refocus lf -o x.png --focus 1x", "--focus"},
              {"refocus lf -o x.png --focus=", "--focus"},
-             {"refocus lf -o x.png --focus 1000", "128"},
-             {"refocus lf -o x.png --focus 1e300", "128"},
+             {"refocus lf -o x.png --focus 1000 --aperture 1", "128"},
+             {"refocus lf -o x.png --focus 1e300", "1e+06"},
              {"refocus lf -o x.png --focus-at 40,0", "39,29"},
              {"refocus lf -o x.png --focus-at 0,30", "39,29"},
              {"refocus lf -o x.png --focus-at -1,0", "--focus-at"},
@@ -171,7 +124,7 @@ TEST_CASE("cli: refocus refuses bad input") {
              {"refocus lf -o x.png --sweep 1:2:1001", "--sweep"},
              {"refocus lf -o x.png --sweep 1:nan:3", "--sweep"},
              {"refocus lf -o x.png --sweep 1:2:3:4", "--sweep"},
-             {"refocus lf -o x.png --sweep 0:900:3", "--sweep"},
+             {"refocus lf -o x.png --sweep 0:900:3 --strength 100", "--strength"},
              {"refocus lf -o x.png --sweep 0:1:3 --focus 1", "--focus"},
              {"refocus lf -o x.png --sweep 0:1:3 --stream", "--stream"},
              {"refocus lf -o x.png --sweep 0:1:3 --map m.png", "--map"},
@@ -235,18 +188,19 @@ TEST_CASE("cli: scene, compare, info, sheet and analyze refuse bad input") {
              {"info missing", "view_+0.0_+0.0"},
              {"info short", "disparity.pfm"},
              {"video lf", "--output"},
-             {"video lf -o out", "--focus"},
              {"video lf -o text.png --focus 1", "text.png"},
              {"video lf -o none/out --focus 1", "none"},
              {"video lf -o out --focus 1 --report none/r.json", "none"},
              {"video lf -o out --focus 1 --report lf/disparity.pfm", "light field"},
              {"video lf -o out --focus 1 --report out", "--report"},
-             {"video lf -o lf --focus 1 --report lf/frame_0000.png", "--report"},
+             {"video lf -o missing --focus 1 --report missing/frame_0000.png", "--report"},
+             {"video lf -o lf --focus 1", "a light field that is read"},
+             {"video tiny lf -o ./lf/ --focus 1", "a light field that is read"},
              {"video lf none -o out --focus 1", "none"},
              {"video lf nan -o out --focus 1", "first at 5,1"},
              {"video lf tiny -o out --focus 1", "40x30"},
              {"video lf single -o out --focus 1", "5 views"},
-             {"video lf --focus 900 -o out", "128"},
+             {"video lf --focus 900 --f-stop 1 -o out", "128"},
              {"video taken_002.png -o out --focus 1", "light-field folders"},
              {"sheet -o x.png", "IMG"},
              {"sheet -o x.tif small.png", ".tif"},

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <string>
 
@@ -13,6 +14,8 @@
 
 namespace starfocus {
 namespace {
+
+namespace fs = std::filesystem;
 
 TEST_CASE("cli: f-stops and strengths are apertures; strength 0 is the centre view") {
   TempFolder folder;
@@ -155,6 +158,121 @@ TEST_CASE(
   CHECK(Text(folder.file("lf/truth_dt1_ut1_polygon-5-12.5-0.5_cats-eye0.5.png")) != truth);
   const std::string meta = Text(folder.file("lf/meta.txt"));
   CHECK(meta.find("aperture polygon:5,12.5,0.5, cat's eyes 0.5") != std::string::npos);
+}
+
+bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// A folder `lf` with disparities of 300 on the left and 0 on the right: at focus 0 an aperture of
+// 128/300 = 0.42667, f/2.34375, blurs by 128 pixels.
+void MakeDeepFolder(const TempFolder& folder) {
+  REQUIRE(Call(folder, "scene lf --size 40x30 --views 1").code == 0);
+  FloatMap map;
+  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  for (size_t i = 0; i < map.values.size(); ++i) map.values[i] = i % 40 < 20 ? 300.0f : 0.0f;
+  REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), map) == "");
+}
+
+TEST_CASE("cli: the default aperture is the widest that fits the limit of blur, and is named") {
+  TempFolder folder;
+  MakeDeepFolder(folder);
+  const std::string at = "refocus lf --focus 0 -o ";
+  const Outcome outcome = Call(folder, at + "default.png");
+  CHECK(outcome.code == 0);
+  CHECK(Contains(outcome.err, "lf: aperture f/2.35 (--f-stop)"));
+  const Outcome same = Call(folder, at + "same.png --f-stop 2.35");
+  CHECK(same.code == 0);
+  CHECK(same.err == "");
+  CHECK(Text(folder.file("default.png")) == Text(folder.file("same.png")));
+  for (const char* fits : {"--aperture 0.426", "--strength 42.6", "--f-stop 2 --strength 85.3",
+                           "--f-stop 4.7 --widest 2", "--strength 0"}) {
+    CAPTURE(fits);
+    CHECK(Call(folder, at + "x.png " + fits).code == 0);
+  }
+  const struct {
+    const char* option;
+    const char* fits;
+  } wide[] = {{"--f-stop 2.34", "--f-stop: expected f/2.35 or narrower"},
+              {"--f-stop 1", "f/2.35 or narrower"},
+              {"--f-stop 4.68 --widest 2", "f/4.69 or narrower"},
+              {"--f-stop 2 --strength 90", "f/2.11 or narrower"},
+              {"--aperture 0.427", "--aperture: expected at most 0.426"},
+              {"--aperture 1 --strength 50", "at most 0.853"},
+              {"--strength 42.7", "--strength: expected at most 42.6 percent"},
+              {"--strength 100", "at most 42.6 percent"}};
+  fs::remove(folder.file("x.png"));
+  for (const auto& row : wide) {
+    CAPTURE(row.option);
+    const Outcome refused = Call(folder, at + "x.png " + row.option);
+    CHECK(refused.code == 2);
+    CheckErrorLine(refused.err);
+    CHECK(Contains(refused.err, row.fits));
+    CHECK(!fs::exists(folder.file("x.png")));
+  }
+}
+
+TEST_CASE("cli: sweeps, videos, pages and batches fit the limit of blur, too") {
+  TempFolder folder;
+  MakeDeepFolder(folder);
+  fs::copy(folder.file("lf"), folder.file("second"));
+  const struct {
+    const char* arguments;
+    const char* named;
+  } calls[] = {{"refocus lf --sweep -100:0:2 -o s.png", "f/3.13"},
+               {"video lf second --focus 0 -o out", "f/2.35"},
+               {"refocus lf second --focus 0 -o batch/", "f/2.35"},
+               {"view lf -o page.html", "f/2.35"}};
+  for (const auto& call : calls) {
+    CAPTURE(call.arguments);
+    const Outcome outcome = Call(folder, call.arguments);
+    CHECK(outcome.code == 0);
+    CHECK(Contains(outcome.err, std::string("aperture ") + call.named));
+    const Outcome refused = Call(folder, call.arguments + std::string(" --f-stop 2.34"));
+    CHECK(refused.code != 0);
+    CHECK(Contains(refused.err, std::string(call.named) + " or narrower"));
+    const std::string same = call.arguments + std::string(" --f-stop ") + (call.named + 2);
+    const Outcome named = Call(folder, same);
+    CHECK(named.code == 0);
+    CHECK(!Contains(named.err, "aperture"));
+  }
+  CHECK(Contains(Call(folder, "refocus lf second --focus 0 -o batch/").err, "second: aperture f/"));
+}
+
+TEST_CASE("cli: without a hint the nearest large surface near the centre is in focus") {
+  TempFolder folder;
+  REQUIRE(Call(folder, "scene lf --size 160x120 --views 1").code == 0);
+  FloatMap map;
+  REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
+  // A wall at 1, a subject at 6 right of the centre, a wire at 9, and something at 20 in a corner.
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      float& value = map.values[size_t(y) * size_t(map.width) + size_t(x)];
+      value = 1;
+      if (x >= 84 && x < 116 && y >= 40 && y < 84) value = 6;
+      if (x >= 60 && x < 62) value = 9;
+      if (x < 36 && y >= 92) value = 20;
+    }
+  }
+  REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), map) == "");
+  const Outcome outcome = Call(folder, "refocus lf -o a.png --report a.json");
+  CHECK(outcome.code == 0);
+  CHECK(Contains(outcome.err, "lf: focused at "));
+  CHECK(Contains(outcome.err, "the nearest large surface near the centre"));
+  CHECK(Contains(Text(folder.file("a.json")), "\"focus\": 6.0"));
+  const Outcome video = Call(folder, "video lf -o out --report v.json");
+  CHECK(video.code == 0);
+  CHECK(Contains(Text(folder.file("v.json")), "\"focus\": 6.0"));
+  // Each input of a batch has its own.
+  fs::copy(folder.file("lf"), folder.file("other"));
+  for (float& value : map.values) value = -2;
+  REQUIRE(WritePfm(folder.file("other/disparity.pfm"), map) == "");
+  const Outcome batch = Call(folder, "refocus lf other -o both/");
+  CHECK(batch.code == 0);
+  CHECK(Contains(batch.err, "other: focused at "));
+  REQUIRE(Call(folder, "refocus other --focus -2 -o b.png").code == 0);
+  CHECK(Text(folder.file("both/other.png")) == Text(folder.file("b.png")));
+  CHECK(Text(folder.file("both/lf.png")) == Text(folder.file("a.png")));
 }
 
 }  // namespace

@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every subcommand has in common: exit codes, help, the version, and output that is lost.
+// What every subcommand has in common: exit codes, help, the version, refusals, and output that is
+// lost.
 #include "examples/command_line/program.h"
 
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
 
+#include "platform/light_field.h"
 #include "platform/temporary_file.h"
 #include "tests/cli/call_program.h"
+#include "tests/cli/refusals.h"
 
 namespace starfocus {
 namespace {
+
+namespace fs = std::filesystem;
 
 TEST_CASE("program: exit codes tell whose an error is") {
   CHECK(RunProgram("test", [] { return Error(); }) == 0);
@@ -66,6 +72,8 @@ TEST_CASE("program: every way to ask for help tells the same") {
     CHECK(one.code == 0);
     CHECK(one.out.find("starfocus " + command + " [OPTIONS]") != std::string::npos);
     for (const char* way : {" --help", " -h"}) CHECK(Call(folder, command + way).out == one.out);
+    // Each option says what it takes.
+    CHECK(one.out.find(" TEXT") == std::string::npos);
   }
 }
 
@@ -83,7 +91,7 @@ TEST_CASE("program: the manual and the completion have every option") {
   CHECK(manual.code == 0);
   CHECK(script.code == 0);
   for (const char* part : {".TH STARFOCUS 1", ".SS refocus SRC\n", ".SS help COMMAND\n",
-                           "\\-\\-focus\\-at", ".SH EXIT STATUS"}) {
+                           "\\-\\-focus\\-at\\fR \\fIX,Y", ".SH EXIT STATUS"}) {
     CHECK(manual.out.find(part) != std::string::npos);
   }
   const auto complete = [&](const std::string& words) {
@@ -100,6 +108,8 @@ TEST_CASE("program: the manual and the completion have every option") {
   CHECK(complete("refocus --focus-") == "--focus-index --focus-at\n");
   CHECK(complete("refocus lf --mode be") == "benchmark\n");
   CHECK(complete("refocus lf --focus ''") == "\n");
+  CHECK(complete("refocus lf --views ''") == "17 9 5 1\n");
+  CHECK(complete("refocus lf --shape ''") == "fall-off disc\n");
   CHECK(complete("refocus lf -o sc") == "script\n");
   CHECK(complete("help vid") == "video\n");
 }
@@ -123,6 +133,89 @@ TEST_CASE("program: output that does not arrive is an error") {
     CHECK(closed.err.find("standard output") != std::string::npos);
   }
   CHECK(Call(folder, "refocus lf --focus 1 -o a.png --report /dev/full").code == 1);
+}
+
+TEST_CASE("program: a refusal names its true cause") {
+  TempFolder folder;
+  Prepare(folder);
+  const struct {
+    const char* arguments;
+    const char* mention;
+  } bad[] = {
+      {"refocus lf -o x.png --focs 1",
+       "--focs: expected an option of refocus (the nearest is --focus)"},
+      {"refocus lf --outptu x.png",
+       "--outptu: expected an option of refocus (the nearest is --output)"},
+      {"refocus lf -o x.png --fstop=2",
+       "--fstop: expected an option of refocus (the nearest is --f-stop)"},
+      {"refocus lf -o x.png --depth-pho", "(the nearest is --depth-photo)"},
+      {"refocus lf -o x.png --zzzzzz 1", "`starfocus refocus --help` lists them"},
+      {"refcous lf -o x.png", "a subcommand (the nearest is refocus), found 'refcous'"},
+      {"help refocsu", "a subcommand (the nearest is refocus)"},
+      {"refocus lf -o x.png --focus-at 16 12",
+       "as in --focus-at 16,12, found '16 12' (a comma is missing)"},
+      {"refocus lf --focus-at 16 12 -o x.png", "(a comma is missing)"},
+      {"refocus lf -o x.png --focus-at '16 12'", "(a comma is missing)"},
+      {"refocus lf -o x.png --focus-at=16 12", "(a comma is missing)"},
+      {"refocus lf -o x.png --focus-at 16, 12", "found '16, 12' (with spaces)"},
+      {"refocus lf -o x.png --focus 1 --region 1 2 3 4", "--region 1,2,3,4, found"},
+      {"refocus lf -o x.png --sweep -1 2 4", "--sweep -1:2:4, found '-1 2 4' (a colon is missing)"},
+      {"disparity lf -o map.pfm --range -4 9", "--range -4:9, found"},
+      {"scene new --size 40 30", "--size 40x30, found '40 30' (an x is missing)"},
+      {"scene new --truth 4 1", "--truth 4,1, found"},
+      {"refocus lf -o", "--output: expected a value FILE, found none"},
+      {"refocus lf -o x.png --focus", "--focus: expected a value D, found none"},
+      {"refocus lf --focus 1", "--output: expected --output FILE, found none"},
+      {"refocus -o x.png", "SRC: expected DIR|PHOTO, found none"},
+      {"compare small.png large.png text.png", "no other argument of compare, found 'text.png'"},
+      {"info lf --json lf", "no other argument of info, found 'lf'"},
+      {"import lf text.png", "cannot create folder text.png: a file of that name exists"},
+      {"import lf text.png/new", "cannot create folder text.png/new: "},
+      {"video lf -o text.png --focus 1",
+       "cannot create folder text.png: a file of that name exists"},
+      {"scene text.png", "cannot create folder text.png: a file of that name exists"},
+      {"refocus lf tiny -o text.png/ --focus 1", "cannot create folder text.png/: "}};
+  for (const auto& row : bad) CheckRefused(folder, row.arguments, row.mention);
+  if (geteuid() == 0) return;  // root may write everywhere
+  fs::create_directory(folder.file("locked"));
+  fs::permissions(folder.file("locked"), fs::perms::owner_read | fs::perms::owner_exec);
+  for (const char* arguments : {"import lf locked/new", "scene locked/new", "analyze -o locked/new",
+                                "refocus lf tiny -o locked/new --focus 1"}) {
+    CheckRefused(folder, arguments, "cannot create folder locked/new: permission denied");
+  }
+}
+
+TEST_CASE("program: no output goes into a light field that is read") {
+  TempFolder folder;
+  Prepare(folder);
+  fs::create_directory_symlink("lf", folder.file("link"));
+  fs::create_directory(folder.file("grid"));
+  for (const char* name : {"v_0_0.png", "v_0_1.png", "v_0_2.png"}) {
+    fs::copy_file(folder.file("lf/view_+0.0_+0.0.png"), folder.file(std::string("grid/") + name));
+  }
+  fs::copy_file(folder.file("lf/disparity.pfm"), folder.file("grid/disparity.pfm"));
+  REQUIRE(Call(folder, "scene truths --size 40x30 --views 1 --truth 1,1").code == 0);
+  const size_t before = LightFieldFiles(folder.file("lf")).size();
+  const struct {
+    const char* arguments;
+    const char* mention;
+  } bad[] = {{"refocus lf tiny -o lf --focus 1", "lf, a light field that is read"},
+             {"refocus tiny lf -o ./lf/ --focus 1", "a light field that is read"},
+             {"refocus lf tiny -o link --focus 1", "a light field that is read"},
+             {"refocus link tiny -o lf/../lf --focus 1", "a light field that is read"},
+             {"refocus lf -o lf --focus 1", "a light field that is read"},
+             {"refocus grid -o grid/out.png --focus 1", "would be taken for a view"},
+             {"refocus grid -o x.png --focus 1 --map grid/map.png", "would be taken for a view"},
+             {"import lf link", "a light field that is read"},
+             {"import grid ./grid/", "a light field that is read"},
+             {"view truths -o truths/truth_dt1_ut1.png", "which is read"},
+             {"video lf lf -o link --focus 1", "a light field that is read"}};
+  for (const auto& row : bad) CheckRefused(folder, row.arguments, row.mention);
+  CHECK(LightFieldFiles(folder.file("lf")).size() == before);
+  CHECK(!fs::exists(folder.file("lf/lf.png")));
+  // A folder within one, or one that holds inputs, is another.
+  CHECK(Call(folder, "refocus lf tiny -o lf/out --focus 1").code == 0);
+  CHECK(Call(folder, "refocus lf tiny -o . --focus 1").code == 0);
 }
 
 }  // namespace

@@ -49,7 +49,11 @@ TEST_CASE("photos: a GDepth photo is refocused at a pixel, at its own focus, and
   TempFolder folder;
   Write(folder.file("photo.jpg"), GdepthPhoto());
   REQUIRE(Call(folder, "refocus photo.jpg -o near.png --focus-at 24,32 --f-stop 1.8").code == 0);
-  REQUIRE(Call(folder, "refocus photo.jpg -o own.png").code == 0);
+  const Outcome own = Call(folder, "refocus photo.jpg -o own.png");
+  REQUIRE(own.code == 0);
+  CHECK(own.err ==
+        "photo.jpg: focused at 24,32, the focus in the file (--focus-at or --focus sets "
+        "another)\n");
   REQUIRE(Call(folder, "refocus photo.jpg -o far.png --focus-at 80,32 --f-stop 1.8").code == 0);
   CHECK(Call(folder, "compare near.png own.png").out == "PSNR inf, largest difference 0\n");
   CHECK(!Contains(Call(folder, "compare near.png far.png").out, "difference 0\n"));
@@ -126,6 +130,97 @@ TEST_CASE("photos: captions reach every output, and no depth map is claimed ther
     CHECK(!Contains(text, "Warning"));
     if (std::string(name).find(".jpg") != std::string::npos) CHECK(Contains(text, ": cats"));
   }
+}
+
+// A photo whose left half is near, 96 x 64, with a depth picture beside it.
+void MakePhoto(const TempFolder& folder, const std::string& exif) {
+  Image map(96, 64);
+  for (int y = 0; y < map.height; ++y) std::fill_n(map.row(y), 3 * 48, uint8_t{255});
+  Write(folder.file("a.jpg"), Insert(Encode(Ramp(96, 64), ".jpg"), exif));
+  Write(folder.file("a-depth.png"), Encode(map, ".png"));
+}
+
+#ifdef STARFOCUS_HAS_EXIF
+TEST_CASE("photos: the default focus is the subject of EXIF, turned and scaled as the photo is") {
+  constexpr int kArea = 0x9214, kLocation = 0xa214;
+  const struct {
+    std::string exif;
+    const char* focus;
+  } kinds[] = {{SubjectSegment(1, kArea, {72, 20}), "72,20, the subject in its EXIF"},
+               {SubjectSegment(1, kArea, {72, 20, 9}), "72,20, the subject"},
+               {SubjectSegment(1, kArea, {72, 20, 9, 5}), "72,20, the subject"},
+               {SubjectSegment(1, kLocation, {72, 20}), "72,20, the subject"},
+               {SubjectSegment(3, kArea, {72, 20}), "23,43, the subject"},
+               {SubjectSegment(6, kArea, {72, 20, 9, 5}), "43,72, the subject"},
+               {SubjectSegment(8, kArea, {72, 20}), "20,23, the subject"},
+               {SubjectSegment(1, kArea, {144, 40}, 192, 128), "72,20, the subject"},
+               {SubjectSegment(6, kLocation, {144, 40}, 192, 128), "43,72, the subject"},
+               // Of a part of a picture, and beyond the picture.
+               {SubjectSegment(1, kArea, {72, 20}, 128, 128), "the nearest large surface"},
+               {SubjectSegment(1, kArea, {96, 20}), "the nearest large surface"},
+               {SubjectSegment(1, kArea, {72}), "the nearest large surface"},
+               {"", "the nearest large surface"}};
+  const std::string map = " --near white --depth-orientation photo";
+  for (const auto& photo : kinds) {
+    TempFolder folder;
+    MakePhoto(folder, photo.exif);
+    const Outcome outcome = Call(folder, "refocus a.jpg" + map + " -o default.png");
+    CAPTURE(photo.focus);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(Contains(outcome.err, photo.focus));
+    CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
+    const size_t begin = outcome.err.find("focused at ") + 11;
+    const std::string pixel = outcome.err.substr(begin, outcome.err.find(", ", begin) - begin);
+    REQUIRE(Call(folder, "refocus a.jpg" + map + " -o at.png --focus-at " + pixel).code == 0);
+    CHECK(Text(folder.file("default.png")) == Text(folder.file("at.png")));
+  }
+}
+#endif
+
+TEST_CASE("photos: - is a photo on standard input") {
+  TempFolder folder;
+  Write(folder.file("a.jpg"), Encode(Ramp(96, 64), ".jpg"));
+  Write(folder.file("a.png"), Encode(Ramp(96, 64), ".png"));
+  Image map = Plain(96, 64, 255);
+  for (int y = 0; y < 20; ++y) std::fill_n(map.row(y), map.stride(), uint8_t{0});
+  Write(folder.file("map.png"), Encode(map, ".png"));
+  const std::string options = " --depth map.png --near white --focus-at 48,40 -o ";
+  for (const std::string name : {"a.jpg", "a.png"}) {
+    CAPTURE(name);
+    REQUIRE(Call(folder, "refocus - <" + name + options + "stream.png").code == 0);
+    REQUIRE(Call(folder, "refocus " + name + options + "file.png").code == 0);
+    CHECK(Text(folder.file("stream.png")) == Text(folder.file("file.png")));
+    REQUIRE(Call(folder, "refocus -" + options + "pipe.png", "cat " + name + " |").code == 0);
+    CHECK(Text(folder.file("pipe.png")) == Text(folder.file("file.png")));
+  }
+  CHECK(Contains(Call(folder, "info - --depth map.png --near white <a.jpg").out, "96x64 pixels"));
+  REQUIRE(Call(folder, "import - lf --depth map.png --near white <a.jpg").code == 0);
+  CHECK(fs::exists(folder.file("lf/disparity.pfm")));
+  CHECK(Call(folder, "view - --depth map.png --near white -o page.html <a.jpg").code == 0);
+#ifdef STARFOCUS_HAS_HEIF
+  const std::string heic = STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic";
+  CHECK(Call(folder, "refocus - -o heic.png <'" + heic + "'").code == 0);
+  CHECK(fs::exists(folder.file("heic.png")));
+#endif
+  const int files = folder.count();
+  const struct {
+    const char* arguments;
+    const char* mention;
+  } bad[] = {{"refocus - -o x.png </dev/null", "standard input: "},
+             {"refocus - -o x.png <a.jpg", "standard input: "},
+             {"refocus - --depth map.png --near white -o x.png </dev/null", "found nothing"},
+             {"refocus - --depth - -o x.png <a.jpg", "--depth: "},
+             {"refocus - a.jpg -o out/ <a.jpg", "standard input"},
+             {"refocus - -o out/ <a.jpg", "standard input"}};
+  for (const auto& row : bad) {
+    CAPTURE(row.arguments);
+    const Outcome outcome = Call(folder, row.arguments);
+    CHECK((outcome.code == 1 || outcome.code == 2));
+    CheckErrorLine(outcome.err);
+    CHECK(Contains(outcome.err, row.mention));
+  }
+  CHECK(folder.count() == files);
 }
 
 TEST_CASE("photos: import writes a folder that gives the same picture") {

@@ -174,6 +174,34 @@ inline std::string ExifSegment(int orientation, int focal_35mm) {
   return Segment(0xe1, std::string("Exif\0\0MM\0\x2a\0\0\0\x08", 14) + first + second);
 }
 
+// EXIF with an orientation and a subject of two to four numbers, little endian, and the size that
+// they count in, unless that is 0 (EXIF 2.32, 4.6).
+inline std::string SubjectSegment(int orientation, int tag, const std::vector<int>& subject,
+                                  int width = 0, int height = 0) {
+  const auto little = [](int value, int bytes) {
+    std::string text;
+    for (int k = 0; k < bytes; ++k) text += static_cast<char>(value >> 8 * k);
+    return text;
+  };
+  const auto entry = [&](int its_tag, int type, int count, const std::string& value) {
+    return little(its_tag, 2) + little(type, 2) + little(count, 4) + value;
+  };
+  std::string numbers;
+  for (const int number : subject) numbers += little(number, 2);
+  const bool inside = numbers.size() <= 4, sized = width > 0;
+  const int exif = 8 + 2 + 24 + 4, behind = exif + 2 + (sized ? 36 : 12) + 4;
+  const std::string its =
+      entry(tag, 3, static_cast<int>(subject.size()), inside ? numbers : little(behind, 4));
+  const std::string sizes =
+      sized ? entry(0xa002, 4, 1, little(width, 4)) + entry(0xa003, 4, 1, little(height, 4)) : "";
+  // Tags are in order: SubjectArea is before the sizes, SubjectLocation behind them.
+  std::string text = std::string("Exif\0\0II\x2a\0\x08\0\0\0", 14) + little(2, 2) +
+                     entry(0x0112, 3, 1, little(orientation, 4)) +
+                     entry(0x8769, 4, 1, little(exif, 4)) + little(0, 4);
+  text += little(sized ? 3 : 1, 2) + (tag < 0xa002 ? its + sizes : sizes + its) + little(0, 4);
+  return Segment(0xe1, inside ? text : text + numbers);
+}
+
 // How the index of a multi-picture file is written, rightly or wrongly.
 struct IndexOptions {
   bool little = false;        // byte order

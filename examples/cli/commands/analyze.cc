@@ -8,6 +8,7 @@
 #include "examples/cli/analyze/figures.h"
 #include "examples/cli/commands.h"
 #include "examples/command_line/options.h"
+#include "platform/folder.h"
 #include "platform/gnuplot.h"
 
 namespace starfocus {
@@ -41,9 +42,8 @@ Error Run(const Options& options) {
   Error error = ParseWhole("--max-blur", options.max_blur, 1, 128, &max_blur);
   if (!error.empty()) return error;
   if (!options.folder.empty()) {
-    std::error_code failure;
-    fs::create_directories(options.folder, failure);
-    if (failure) return Expected(options.folder, "a folder to write into", failure.message());
+    error = MakeFolder(options.folder);
+    if (!error.empty()) return error;
   }
   constexpr int kEngineBlur = 40;  // larger radii take hours
   std::string engine_error;
@@ -77,10 +77,12 @@ void AddAnalyzeCommand(CLI::App* app, Action* action) {
       ->add_option("-o,--output", options->folder,
                    "Folder for CSV files and, with gnuplot, SVG drawings of Figs. 4, 5, 6, 8")
       ->type_name("DIR");
-  command->add_option(
-      "--max-blur", options->max_blur,
-      "Largest blur radius of the rule for subapertures, 1 to 128 (default 40; 128 takes "
-      "minutes), and of the engine's kernels, which end at 40");
+  command
+      ->add_option(
+          "--max-blur", options->max_blur,
+          "Largest blur radius of the rule for subapertures, 1 to 128 (default 40; 128 takes "
+          "minutes), and of the engine's kernels, which end at 40")
+      ->type_name("N");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }
 

@@ -160,12 +160,18 @@ void AddDisparityCommand(CLI::App* app, Action* action) {
   command->add_flag("--repair", options->repair,
                     "Repair the folder's map by the views instead: edges that lie beside those of "
                     "the picture or are blurred, noise; needs --output");
-  command->add_option("--range", options->range,
-                      "MIN:MAX, the disparities to look for; default: those found in small "
-                      "pictures, up to an eighth of the width");
-  command->add_option("--views", options->views,
-                      "17, 9 or 5, 1 as well of a repair; default: all of the folder");
-  command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
+  command
+      ->add_option("--range", options->range,
+                   "MIN:MAX, the disparities to look for; default: those found in small "
+                   "pictures, up to an eighth of the width")
+      ->type_name("MIN:MAX");
+  command
+      ->add_option("--views", options->views,
+                   "17, 9 or 5, 1 as well of a repair; default: all of the folder")
+      ->type_name("17|9|5|1|U,V:U,V");
+  command->add_option("--threads", options->threads, "1 to 64")
+      ->type_name("N")
+      ->capture_default_str();
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }
 

@@ -7,6 +7,7 @@
 #include "examples/cli/commands.h"
 #include "examples/cli/input/input.h"
 #include "examples/command_line/options.h"
+#include "examples/command_line/outputs.h"
 #include "platform/light_field.h"
 #include "platform/runner.h"
 
@@ -27,7 +28,7 @@ Error CheckFolder(const std::string& folder) {
 
 void Tell(const Options& options, const Capture& capture) {
   const LightField& light_field = capture.light_field;
-  std::printf("%s: %s\n", options.input.path.c_str(), capture.format.c_str());
+  std::printf("%s: %s\n", capture.path.c_str(), capture.format.c_str());
   for (const auto& fact : capture.facts) {
     std::printf("  %s: %s\n", fact.first.c_str(), fact.second.c_str());
   }
@@ -48,6 +49,8 @@ Error Run(const Options& options) {
   if (error.empty() && !options.views.empty()) {
     error = ParseViews("--views", options.views, &views);
   }
+  if (error.empty()) error = CheckFolderApart({"DIR", options.folder}, {options.input.path});
+  if (error.empty()) error = CheckFolderOutput(options.folder);
   if (error.empty()) error = CheckFolder(options.folder);
   Capture capture;
   if (error.empty()) error = OpenInput(options.input, &capture);
@@ -69,9 +72,13 @@ void AddImportCommand(CLI::App* app, Action* action) {
   AddInputOptions(command, &options->input);
   command->add_option("DIR", options->folder, "Folder to write")->type_name("DIR")->required();
   AddMapOptions(command, &options->map);
-  command->add_option("--views", options->views,
-                      "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all");
-  command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
+  command
+      ->add_option("--views", options->views,
+                   "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all")
+      ->type_name("17|9|5|1|U,V:U,V");
+  command->add_option("--threads", options->threads, "1 to 64")
+      ->type_name("N")
+      ->capture_default_str();
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }
 

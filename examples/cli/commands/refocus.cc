@@ -18,6 +18,7 @@
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
 #include "platform/image_io.h"
+#include "platform/standard_stream.h"
 
 namespace starfocus {
 namespace {
@@ -80,11 +81,7 @@ Error ParseSweep(const std::string& text, std::vector<double>* foci) {
 
 Error PlanFoci(const Options& options, LensPlan* plan) {
   const bool focus = !options.lens.focus.empty(), pixel = !options.lens.focus_at.empty();
-  std::error_code ignored;
-  const bool photo = std::filesystem::is_regular_file(options.input.path, ignored);
-  if (options.sweep.empty()) {
-    return photo && !focus && !pixel ? "" : PlanFocus(options.lens, plan);
-  }
+  if (options.sweep.empty()) return PlanFocus(options.lens, plan);
   if (focus || pixel || options.stream || !options.map.empty()) {
     return Error::Usage("--sweep", "no other focus, no --stream and no --map",
                         focus            ? "--focus"
@@ -122,28 +119,27 @@ Error CheckRegion(const FloatMap& map, const Options& options, const sf_region& 
       options.region);
 }
 
-// What the photograph itself says is in focus, where nobody else does.
-Error TakeFocus(const Options& options, const Capture& capture, LensPlan* plan) {
-  if (!plan->focus_option.empty()) return "";
-  if (!capture.has_focus) {
-    if (!std::isfinite(capture.focus)) return PlanFocus(options.lens, plan);
-    plan->focus_option = "--focus";
-    plan->foci = {capture.focus};
-    return "";
-  }
-  plan->focus_option = "--focus-at";
-  plan->x = capture.focus_x;
-  plan->y = capture.focus_y;
-  return "";
-}
-
 Error Open(const Options& options, LensPlan* plan, Capture* capture) {
   Error error = OpenInput(options.input, capture);
   if (error.empty()) {
-    error = CheckApart(ListOutputs(options, *plan), {{}, CaptureFiles(*capture)});
+    error = CheckApart(ListOutputs(options, *plan),
+                       {{}, CaptureFiles(*capture), GridsOf(options.input, *capture)});
   }
-  if (error.empty()) error = PlanAperture(options.lens, *capture, plan);
-  return error.empty() ? TakeFocus(options, *capture, plan) : error;
+  return error.empty() ? PlanAperture(options.lens.aperture, *capture, &plan->aperture) : error;
+}
+
+// What can be refused before the care of the map, which takes long.
+Error Foresee(const Options& options, const Capture& capture, LensPlan* plan) {
+  const FloatMap& map = capture.light_field.disparity;
+  Error error = CheckRule(capture.path, *plan, capture.light_field.positions);
+  if (error.empty()) error = CheckRegion(map, options, plan->region);
+  if (!error.empty()) return error;
+  if (plan->focus_option.empty()) {
+    const DefaultFocus focus = FindDefaultFocus(capture);
+    TellFocus(capture.path, focus);
+    UseFocus(focus, plan);
+  }
+  return ForeseeBlur(map, WillRepair(options.disparities, capture), plan);
 }
 
 Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
@@ -151,12 +147,13 @@ Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
   const FloatMap& map = capture->light_field.disparity;
   Error error = Open(options, plan, capture);
   if (error.empty()) error = LoadInput(plan->views, plan->threads, capture);
-  if (error.empty()) error = CheckRule(capture->path, *plan, capture->light_field.positions);
+  if (error.empty()) error = Foresee(options, *capture, plan);
   if (error.empty()) error = CareForMap(options.disparities, plan->threads, capture);
   if (error.empty()) error = PrepareDisparity(MapName(*capture), map, &loaded->stats);
   if (error.empty()) error = ChooseFocus(map, plan);
-  if (error.empty()) error = CheckRegion(map, options, plan->region);
-  return error.empty() ? ChooseBlur(*plan, loaded->stats, &loaded->max_blur) : error;
+  if (error.empty()) error = ChooseBlur(loaded->stats, plan, &loaded->max_blur);
+  if (error.empty()) TellAperture(capture->path, plan->aperture);
+  return error;
 }
 
 std::string WriteReport(const Options& options, const std::string& text) {
@@ -174,8 +171,8 @@ Error RunOne(const Options& options, const PictureOptions& how, const EngineTask
   task.stream = options.stream;
   EngineRun run(task.threads, 1);
   EngineResult result;
-  Error error = run.Start(options.input.path, task);
-  if (error.empty()) error = run.Refocus(options.input.path, task, &result);
+  Error error = run.Start(InputName(options.input.path), task);
+  if (error.empty()) error = run.Refocus(InputName(options.input.path), task, &result);
   if (error.empty()) error = WriteRefocused(options.output, how, task, result.picture);
   if (error.empty() && !options.map.empty()) {
     const sf_region& region = task.params.region;
@@ -191,13 +188,13 @@ Error RunSweep(const Options& options, const PictureOptions& how, const std::vec
   SeriesReport report;
   StackWriter stack(options.output, how);
   Error error = WritePair(options.output, how, *task.light_field, foci);
-  if (error.empty()) error = run.Start(options.input.path, task);
-  if (error.empty()) error = run.Prepare(options.input.path, task);
+  if (error.empty()) error = run.Start(InputName(options.input.path), task);
+  if (error.empty()) error = run.Prepare(InputName(options.input.path), task);
   for (size_t i = 0; i < foci.size() && error.empty(); ++i) {
     task.params.focus = foci[i];
     std::string out;
     EngineResult result;
-    error = run.Refocus(options.input.path, task, &result);
+    error = run.Refocus(InputName(options.input.path), task, &result);
     if (error.empty()) error = stack.Add(result.picture, &out);
     report.Add(out, task, result);
   }
@@ -259,13 +256,18 @@ void AddRefocusCommand(CLI::App* app, Action* action) {
   command
       ->add_option("--jobs", options->jobs,
                    "1 to 64: how many of several inputs at a time, each on --threads")
+      ->type_name("N")
       ->capture_default_str();
   AddLensOptions(command, &options->lens);
-  command->add_option("--sweep", options->sweep,
-                      "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
-                      "out_001.png, ..., or of -o out.webp one animation");
-  command->add_option("--region", options->region,
-                      "X,Y,W,H: only that part of the picture, at its share of the time");
+  command
+      ->add_option("--sweep", options->sweep,
+                   "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
+                   "out_001.png, ..., or of -o out.webp one animation")
+      ->type_name("D0:D1:N");
+  command
+      ->add_option("--region", options->region,
+                   "X,Y,W,H: only that part of the picture, at its share of the time")
+      ->type_name("X,Y,W,H");
   command->add_flag("--stream", options->stream, "Row by row instead of whole pictures");
   AddMapOptions(command, &options->disparities);
   command

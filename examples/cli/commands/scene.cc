@@ -8,6 +8,7 @@
 
 #include "examples/cli/commands.h"
 #include "examples/command_line/options.h"
+#include "examples/command_line/outputs.h"
 #include "examples/command_line/shape.h"
 #include "examples/scene/render.h"
 #include "platform/image_io.h"
@@ -84,9 +85,8 @@ Error MakePlan(const Options& options, Plan* plan) {
 // Views of an earlier, larger set or in another format would mix with the new ones.
 Error CheckFolder(const std::string& folder, const Positions& views) {
   std::error_code failure;
-  if (fs::exists(folder, failure) && !fs::is_directory(folder, failure)) {
-    return Expected(folder, "a folder or nothing", "a file");
-  }
+  const std::string error = CheckFolderOutput(folder);
+  if (!error.empty()) return error;
   for (const auto& entry : fs::directory_iterator(folder, failure)) {
     const std::string name = entry.path().filename().string();
     const bool replaced = std::any_of(views.begin(), views.end(), [&](const sf_position& view) {
@@ -166,11 +166,15 @@ void AddSceneCommand(CLI::App* app, Action* action) {
       app->add_subcommand("scene", "Ray-trace a light field with exact disparity into a folder");
   command->add_option("DIR", options->folder, "Folder to write")->type_name("DIR")->required();
   command->add_option("--name", options->name, "portrait, wires, ramp or lamps")
+      ->type_name("portrait|wires|ramp|lamps")
       ->capture_default_str();
-  command->add_option("--size", options->size, "Width and height, WxH")->capture_default_str();
+  command->add_option("--size", options->size, "Width and height, WxH")
+      ->type_name("WxH")
+      ->capture_default_str();
   command
       ->add_option("--views", options->views,
                    "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0")
+      ->type_name("17|9|5|1|U,V:U,V")
       ->capture_default_str();
   command
       ->add_option("--truth", options->truths,
@@ -180,7 +184,8 @@ void AddSceneCommand(CLI::App* app, Action* action) {
   AddTransferOption(command, "Pictures average light, coded as sRGB, or values as they are",
                     &options->transfer);
   AddShapeOptions(command, &options->shape);
-  command->add_option("--threads", options->threads, "1 to 64; default: all of the machine");
+  command->add_option("--threads", options->threads, "1 to 64; default: all of the machine")
+      ->type_name("N");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }
 

@@ -80,9 +80,11 @@ void AddSheetCommand(CLI::App* app, Action* action) {
       ->type_name("FILE")
       ->required();
   command->add_option("--labels", options->labels, "A,B,...: text below each picture")
+      ->type_name("A,B,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--width", options->width, "Largest width of the sheet")
+      ->type_name("N")
       ->capture_default_str();
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }

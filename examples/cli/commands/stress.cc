@@ -108,11 +108,15 @@ void AddStressCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "stress", "Try to break the engine with random refocusings whose result is known or bounded");
-  command->add_option("--seconds", options->seconds, "How long to try")->capture_default_str();
-  command->add_option("--seed", options->seed, "Which cases to try: others with every seed")
+  command->add_option("--seconds", options->seconds, "How long to try")
+      ->type_name("S")
       ->capture_default_str();
-  command->add_option("--family", options->family, "Only this family: " + Names());
-  command->add_option("--case", options->number, "Repeat one case of --family");
+  command->add_option("--seed", options->seed, "Which cases to try: others with every seed")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--family", options->family, "Only this family: " + Names())
+      ->type_name("FAMILY");
+  command->add_option("--case", options->number, "Repeat one case of --family")->type_name("N");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }
 

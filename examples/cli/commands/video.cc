@@ -77,11 +77,11 @@ Error CheckOutputs(const Options& options, const Video& video) {
     for (size_t i = 0; i < video.folders.size() && error.empty(); ++i) {
       error = CheckImageOutput(FramePath(options.out, i));
     }
-  } else if (fs::exists(options.out, failure)) {
-    return Expected(options.out, "a folder", "a file");
   } else {
-    error = CheckOutputPath(options.out);
+    error = CheckFolderOutput(options.out);
+    if (error.empty()) error = CheckOutputPath(options.out);
   }
+  if (error.empty()) error = CheckFolderApart({"--output", options.out}, video.folders);
   if (!error.empty()) return error;
   std::vector<Output> outputs = {{"--output", options.out}};
   for (size_t i = 0; i < video.folders.size(); ++i) {
@@ -110,6 +110,16 @@ Error Prepare(const Options& options, const std::string& folder, FloatMap* map,
   return error.empty() ? PrepareDisparity(path, *map, stats) : error;
 }
 
+// The focus of all frames: that of the first one.
+Error FocusFirst(const std::string& folder, const FloatMap& map, LensPlan* plan) {
+  if (plan->focus_option.empty()) {
+    const DefaultFocus focus = FindSurface(map);
+    TellFocus(folder, focus);
+    UseFocus(focus, plan);
+  }
+  return ChooseFocus(map, plan);
+}
+
 // Looks at all frames: their views and disparities.
 Error Scan(const Options& options, LensPlan* plan, Video* video) {
   std::vector<ViewFile> files;
@@ -126,11 +136,13 @@ Error Scan(const Options& options, LensPlan* plan, Video* video) {
     if (i == 0) video->width = map.width, video->height = map.height;
     error = CheckSize(folder, map, *video);
     if (error.empty()) error = Prepare(options, folder, &map, &stats);
-    if (i == 0 && error.empty()) error = ChooseFocus(map, plan);
+    if (i == 0 && error.empty()) error = FocusFirst(folder, map, plan);
     video->stats.min = i == 0 ? stats.min : std::min(video->stats.min, stats.min);
     video->stats.max = i == 0 ? stats.max : std::max(video->stats.max, stats.max);
+    if (error.empty()) error = ChooseBlur(video->stats, plan, &video->max_blur);
   }
-  return error.empty() ? ChooseBlur(*plan, video->stats, &video->max_blur) : error;
+  if (error.empty()) TellAperture(video->folders[0], plan->aperture);
+  return error;
 }
 
 Error LoadFrame(const Options& options, const Video& video, size_t index, LightField* light_field) {
@@ -173,7 +185,7 @@ Error Run(const Options& options) {
   Video video;
   Error error = PlanFocus(options.lens, &plan);
   if (error.empty()) error = PlanLens(options.lens, &plan);
-  if (error.empty()) error = PlanAperture(options.lens, {}, &plan);
+  if (error.empty()) error = PlanAperture(options.lens.aperture, {}, &plan.aperture);
   if (error.empty()) error = FindFrames(options, &video);
   if (error.empty()) error = CheckOutputs(options, video);
   if (error.empty()) error = Scan(options, &plan, &video);
@@ -210,8 +222,8 @@ void AddVideoCommand(CLI::App* app, Action* action) {
                    "JSON file for figures of every frame, reused blocks among them")
       ->type_name("FILE");
   command->footer(
-      "--focus-at means the first frame. The frame modes choose N for the disparities of all "
-      "frames.");
+      "The first frame decides what --focus-at means, and the focus where no option sets it. The "
+      "frame modes choose N for the disparities of all frames.");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }
 

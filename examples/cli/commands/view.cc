@@ -29,6 +29,7 @@ constexpr int kWhite = 32;                  // difference that is white in an er
 
 struct Options {
   InputOptions input;
+  ApertureOptions aperture;
   std::string out, threads;
 };
 
@@ -87,7 +88,7 @@ Error WritePage(const Options& options, const Capture& capture, const sf_dispari
   const LightField& light_field = capture.light_field;
   const std::string size =
       std::to_string(light_field.width()) + " × " + std::to_string(light_field.height());
-  Page page(std::filesystem::path(options.input.path + "/").parent_path().filename().string(),
+  Page page(std::filesystem::path(capture.path + "/").parent_path().filename().string(),
             capture.metadata.icc);
   page.AddTable({{"Format", capture.format},
                  {"Size", size + " pixels"},
@@ -113,36 +114,75 @@ Error WritePage(const Options& options, const Capture& capture, const sf_dispari
   return error.empty() ? WriteFile(out, Bytes(html.begin(), html.end())) : error;
 }
 
-Error Run(const Options& options) {
-  int threads = sf_pool_cores();
+// The lenses of the strip, and of the truths that are within the limit of blur.
+Error ChooseLenses(const Capture& capture, const sf_disparity_stats& stats, Aperture* aperture,
+                   Contents* contents) {
+  const std::vector<double> foci = StripFoci(capture.light_field.disparity, kFoci);
+  const Error error = FitAperture(FarthestFromFocus(stats, foci), aperture);
+  if (!error.empty()) return error;
+  TellAperture(capture.path, *aperture);
+  for (const double focus : foci) contents->lenses.push_back({focus, aperture->radius});
+  for (const TruthFile& truth : FindTruths(capture.path)) {
+    const double blur = BlurOf(truth.lens, stats);
+    if (blur > SF_MAX_BLUR) {
+      std::fprintf(stderr, "%s: left out: its lens blurs by %s pixels, and the limit is %s\n",
+                   truth.path.c_str(), Short(blur).c_str(), Short(SF_MAX_BLUR).c_str());
+      continue;
+    }
+    contents->truths.push_back(truth);
+    contents->lenses.push_back(truth.lens);
+  }
+  return "";
+}
+
+// Refuses an aperture that is too wide before the care of the map, which takes long.
+Error ForeseeAperture(const Capture& capture, const MapOptions& care, Aperture* aperture) {
+  LensPlan plan;
+  plan.foci = StripFoci(capture.light_field.disparity, kFoci);
+  plan.aperture = *aperture;
+  const Error error = ForeseeBlur(capture.light_field.disparity, WillRepair(care, capture), &plan);
+  *aperture = plan.aperture;
+  return error;
+}
+
+Error Open(const Options& options, int* threads, Aperture* aperture, Capture* capture) {
+  *threads = sf_pool_cores();
   Error error;
   if (!options.threads.empty()) {
-    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &threads);
+    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, threads);
   }
   if (error.empty()) error = CheckOutputPath(options.out);
   if (error.empty()) {
-    error = CheckApart({{"--output", options.out}},
-                       {{options.input.path}, {options.input.path, options.input.depth}});
+    std::vector<std::string> files = {options.input.path, options.input.depth};
+    for (const TruthFile& truth : FindTruths(options.input.path)) files.push_back(truth.path);
+    error = CheckApart({{"--output", options.out}}, {{options.input.path}, files, {}});
   }
+  if (error.empty()) error = OpenInput(options.input, capture);
+  if (error.empty()) error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(*capture)});
+  if (error.empty()) error = PlanAperture(options.aperture, *capture, aperture);
+  return error.empty() ? LoadInput({}, *threads, capture) : error;
+}
+
+Error Run(const Options& options) {
+  int threads = 1;
   Capture capture;
-  if (error.empty()) error = OpenInput(options.input, &capture);
-  if (error.empty()) error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(capture)});
-  if (error.empty()) error = LoadInput({}, threads, &capture);
+  Aperture aperture;
+  Error error = Open(options, &threads, &aperture, &capture);
   if (!error.empty()) return error;
   sf_disparity_stats stats = {}, known = {};
   const LightField& light_field = capture.light_field;
   const FloatMap& map = light_field.disparity;
   sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height,
                        &known);
-  error = CareForMap({0, known.invalid > 0}, threads, &capture);
+  MapOptions care;
+  care.fill = known.invalid > 0;
+  error = ForeseeAperture(capture, care, &aperture);
+  if (error.empty()) error = CareForMap(care, threads, &capture);
   if (error.empty()) error = PrepareDisparity(MapName(capture), map, &stats);
+  Contents contents;
+  if (error.empty()) error = ChooseLenses(capture, stats, &aperture, &contents);
   if (!error.empty()) return error;
   stats.invalid = known.invalid;  // of the map as it is; its holes are filled
-  const double aperture = capture.f_stop > 0 ? capture.widest / capture.f_stop : 1;
-  Contents contents;
-  for (const double focus : StripFoci(map, kFoci)) contents.lenses.push_back({focus, aperture});
-  contents.truths = FindTruths(options.input.path);
-  for (const TruthFile& truth : contents.truths) contents.lenses.push_back(truth.lens);
   error = RefocusEach(options.input.path, light_field, stats, TransferOf(options.input.path),
                       threads, contents.lenses,
                       [&](size_t i, const Image& picture, const std::vector<sf_block>& blocks) {
@@ -162,7 +202,9 @@ void AddViewCommand(CLI::App* app, Action* action) {
   command->add_option("-o,--output", options->out, "HTML file to write; -: standard output")
       ->type_name("FILE")
       ->required();
-  command->add_option("--threads", options->threads, "1 to 64; default: all of the machine");
+  AddApertureOptions(command, &options->aperture);
+  command->add_option("--threads", options->threads, "1 to 64; default: all of the machine")
+      ->type_name("N");
   command->callback([options, action] { *action = [options] { return Run(*options); }; });
 }
 

@@ -172,8 +172,8 @@ Error RepairDisparity(const std::string& where, int threads, LightField* light_f
     return Expected(where, "disparities within +-" + Short(most),
                     Short(stats.min) + " to " + Short(stats.max));
   }
-  // What blurs a map takes its peaks off.
-  const DisparityRange range = {std::max(stats.min - 1, -most), std::min(stats.max + 1, most)};
+  const DisparityRange range = {std::max(stats.min - kRepairReach, -most),
+                                std::min(stats.max + kRepairReach, most)};
   Maker maker(threads, "repairing disparities");
   FloatMap map;
   std::vector<uint8_t> sure;

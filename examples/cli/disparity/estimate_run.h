@@ -13,6 +13,10 @@
 
 namespace starfocus {
 
+// A repair finds disparities up to this many pixels beyond those of the map: what blurs a map takes
+// its peaks off.
+constexpr float kRepairReach = 1;
+
 struct DisparityRange {
   float min = 0, max = 0;
 };

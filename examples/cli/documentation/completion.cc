@@ -20,14 +20,25 @@ std::string AllNames(const CLI::App& app) {
   return names.empty() ? names : names.substr(1);
 }
 
+// "polygon:N" stands for several words: parts of a type in capitals are to be replaced.
+bool IsPattern(const std::string& word) {
+  return std::any_of(word.begin(), word.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+}
+
 // The shell command that sets COMPREPLY to the values of an option; empty where nobody knows them.
 std::string Values(const CLI::Option& option) {
-  std::string type = option.get_type_name();
+  const std::string type = option.get_type_name();
   if (type == "FILE") return "COMPREPLY=($(compgen -f -- \"$word\"))";
   if (type == "DIR") return "COMPREPLY=($(compgen -d -- \"$word\"))";
   if (type.find('|') == std::string::npos) return "";
-  std::replace(type.begin(), type.end(), '|', ' ');
-  return "COMPREPLY=($(compgen -W '" + type + "' -- \"$word\"))";
+  std::string words;
+  for (size_t begin = 0; begin < type.size();) {
+    const size_t end = std::min(type.find('|', begin), type.size());
+    const std::string word = type.substr(begin, end - begin);
+    if (!IsPattern(word)) words += (words.empty() ? "" : " ") + word;
+    begin = end + 1;
+  }
+  return "COMPREPLY=($(compgen -W '" + words + "' -- \"$word\"))";
 }
 
 // A branch for each option of the command that takes a value.

@@ -13,7 +13,7 @@ namespace starfocus {
 std::string ManualText(CLI::App* app);
 
 // The completion script for bash. An option whose type name lists words, "near|far", is completed
-// by these, one of DIR or FILE by names of files.
+// by those without capitals, one of DIR or FILE by names of files.
 std::string CompletionText(CLI::App* app);
 
 }  // namespace starfocus

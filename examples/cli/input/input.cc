@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/input/input.h"
 
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 #include "examples/cli/disparity/estimate_run.h"
 #include "examples/command_line/options.h"
+#include "platform/standard_stream.h"
 
 namespace starfocus {
 namespace {
@@ -107,7 +111,9 @@ Error Estimate(int threads, Capture* capture) {
 }  // namespace
 
 void AddInputOptions(CLI::App* command, InputOptions* options, std::vector<std::string>* several) {
-  const std::string what = "Light-field folder, folder of views as others have it, or depth photo";
+  const std::string what =
+      "Light-field folder, folder of views as others have it, or depth photo; -: a photo on "
+      "standard input";
   CLI::Option* source = several == nullptr
                             ? command->add_option("SRC", options->path, what)
                             : command->add_option("SRC", *several, what + "; or several");
@@ -152,18 +158,27 @@ void AddMapOptions(CLI::App* command, MapOptions* options) {
 }
 
 Error OpenInput(const InputOptions& options, Capture* capture) {
+  if (options.path == "-") {
+    if (options.depth == "-") {
+      return Error::Usage("--depth", "a file, as SRC is standard input", "-");
+    }
+    if (isatty(STDIN_FILENO) == 1) {
+      return Expected(InputName(options.path), "a photo from a file or pipe", "a terminal");
+    }
+  }
   CaptureOptions wanted;
   wanted.depth = options.depth;
   Error error = ParseDepthOptions(options, &wanted.map);
   std::error_code ignored;
   const char* option = DepthOption(options);
-  if (error.empty() && option != nullptr && std::filesystem::is_directory(options.path, ignored)) {
+  if (error.empty() && option != nullptr && options.path != "-" &&
+      std::filesystem::is_directory(options.path, ignored)) {
     error = Error::Usage(option, "a photo, not a folder", options.path);
   }
   if (error.empty()) error = OpenCapture(options.path, wanted, capture);
   if (!error.empty()) return error;
   for (const std::string& note : capture->notes) {
-    std::fprintf(stderr, "%s: %s\n", options.path.c_str(), note.c_str());
+    std::fprintf(stderr, "%s: %s\n", capture->path.c_str(), note.c_str());
   }
   return "";
 }
@@ -181,10 +196,14 @@ Error LoadInput(const Positions& views, int threads, Capture* capture) {
   return error.empty() && capture->map_path.empty() ? Estimate(threads, capture) : error;
 }
 
+bool WillRepair(const MapOptions& options, const Capture& capture) {
+  if (capture.map_path.empty()) return false;
+  return options.repair || (!options.no_repair && capture.care == MapCare::kRepair);
+}
+
 Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
   if (capture->map_path.empty()) return "";
-  const bool repair = options.repair || (!options.no_repair && capture->care == MapCare::kRepair);
-  if (repair) {
+  if (WillRepair(options, *capture)) {
     return RepairDisparity(MapName(*capture), threads, &capture->light_field, nullptr);
   }
   if (!options.fill && capture->care == MapCare::kNone) return "";
@@ -197,8 +216,14 @@ Error FillHoles(const std::string& where, FloatMap* map) {
   return status == SF_OK ? "" : Expected(where, "a disparity map", sf_status_string(status));
 }
 
+std::vector<std::string> GridsOf(const InputOptions& options, const Capture& capture) {
+  const std::filesystem::path first = capture.files[0].path;
+  if (capture.photo || IsViewFile(first.filename().string())) return {};
+  return {options.path};
+}
+
 std::string MapName(const Capture& capture) {
-  if (!capture.map_path.empty()) return capture.map_path;
+  if (!capture.map_path.empty()) return InputName(capture.map_path);
   std::error_code ignored;
   const bool folder = std::filesystem::is_directory(capture.path, ignored);
   return folder ? DisparityPath(capture.path) : capture.path;

@@ -4,12 +4,15 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_H_
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "examples/command_line/error.h"
 #include "platform/readers/capture.h"
+
+namespace CLI {
+class App;
+}
 
 namespace starfocus {
 
@@ -35,12 +38,19 @@ Error OpenInput(const InputOptions& options, Capture* capture);
 // these views, and a line on stderr says so.
 Error LoadInput(const Positions& views, int threads, Capture* capture);
 
+// Whether CareForMap repairs the map, which takes seconds for each megapixel.
+bool WillRepair(const MapOptions& options, const Capture& capture);
+
 // Repairs the map or fills its holes, as asked for or as its format needs; one that was estimated
 // stays.
 Error CareForMap(const MapOptions& options, int threads, Capture* capture);
 
 // Replaces what a map does not know by its nearest neighbour. Errors are about `where`.
 Error FillHoles(const std::string& where, FloatMap* map);
+
+// The folder of the input where its views have other names than ours: every picture in it is taken
+// for a view.
+std::vector<std::string> GridsOf(const InputOptions& options, const Capture& capture);
 
 // What errors about the map name.
 std::string MapName(const Capture& capture);

@@ -112,6 +112,10 @@ Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folde
   std::vector<Output> outputs;
   Inputs read;
   for (const std::string& input : inputs) {
+    if (input == "-") {
+      return Error::Usage("SRC", "files for a folder of pictures, or a file for --output",
+                          "- (standard input)");
+    }
     const std::vector<std::string> parts = Expand(input);
     if (parts.empty())
       return Expected(input, "a light field, or photographs or such in it", "none");
@@ -122,7 +126,8 @@ Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folde
       (fs::is_directory(part, ignored) ? read.folders : read.files).push_back(part);
     }
   }
-  const Error error = CheckApart(outputs, read);
+  Error error = CheckFolderApart({"--output", folder}, read.folders);
+  if (error.empty()) error = CheckApart(outputs, read);
   return error.empty() ? MakeFolder(folder) : error;
 }
 

@@ -51,6 +51,7 @@ void AddOutputOptions(CLI::App* command, OutputOptions* options) {
       ->type_name("FILE")
       ->required();
   command->add_option("--quality", options->quality, "1 to 100, of JPEG and WebP")
+      ->type_name("N")
       ->capture_default_str();
   command->add_flag("--depth-photo", options->depth_photo,
                     "Put the sharp picture and the disparity map into the JPEG file, as GDepth, so "

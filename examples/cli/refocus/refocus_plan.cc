@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/refocus/refocus_plan.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/timing_file.h"
 #include "examples/cli/refocus/refocus_report.h"
 #include "examples/command_line/options.h"
@@ -39,20 +41,6 @@ Error ParseLargestBlock(const std::string& text, int* side) {
   return Error::Usage("--largest-block", "32, 64, 128 or 256", "'" + text + "'");
 }
 
-// --f-stop and --widest; `known` is the input's widest.
-Error ParseFStop(const LensOptions& options, double known, double* aperture) {
-  double f_stop = 0, widest = known > 0 ? known : 1;
-  Error error;
-  if (!options.widest.empty()) error = ParseNumber("--widest", options.widest, &widest);
-  if (error.empty() && widest <= 0) {
-    error = Error::Usage("--widest", "an f-stop above 0", "'" + options.widest + "'");
-  }
-  if (error.empty()) error = ParseNumber("--f-stop", options.f_stop, &f_stop);
-  if (!error.empty() || sf_aperture_of_f_stop(f_stop, widest, aperture) == SF_OK) return error;
-  return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(widest),
-                      "'" + options.f_stop + "'");
-}
-
 // Sets what block mode adds to the plan.
 Error PlanBlocks(const LensOptions& options, LensPlan* plan) {
   Error error = ParseLargestBlock(options.largest_block, &plan->largest_block);
@@ -80,27 +68,67 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
 
 // The lens: where it is focused, and its opening.
 void AddOpticsOptions(CLI::App* command, LensOptions* options) {
-  command->add_option("--focus", options->focus, "Disparity in focus");
-  command->add_option("--focus-at", options->focus_at,
-                      "X,Y: the disparity of what is at that pixel, the median of its surface "
-                      "there");
-  command->add_option("--aperture", options->aperture,
-                      "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8");
-  command->add_option("--f-stop", options->f_stop,
-                      "The same as an f-stop, from the widest on: radius --widest / N");
-  command->add_option(
-      "--widest", options->widest,
-      "F-stop of radius 1: focal length over twice the distance of view (1, 0) from "
-      "the centre; default: what the input knows of itself, else 1, for f-stops relative to that "
-      "radius");
+  command->add_option("--focus", options->focus, "Disparity in focus")->type_name("D");
   command
-      ->add_option("--strength", options->strength,
-                   "0 to 100 percent of that radius; 0: the centre view to the byte")
-      ->capture_default_str();
+      ->add_option("--focus-at", options->focus_at,
+                   "X,Y: the disparity of what is at that pixel, the median of its surface "
+                   "there")
+      ->type_name("X,Y");
+  AddApertureOptions(command, &options->aperture);
   AddShapeOptions(command, &options->shape);
 }
 
+// The disparity at a pixel of the picture, whose unknown neighbours are filled. Returns false where
+// nothing around is known.
+bool FocusAround(const FloatMap& map, int x, int y, double* focus) {
+  constexpr int kAround = 16;  // pixels: more than sf_focus_at looks at
+  const int left = std::max(0, x - kAround), top = std::max(0, y - kAround);
+  FloatMap part;
+  part.width = std::min(map.width, x + kAround + 1) - left;
+  part.height = std::min(map.height, y + kAround + 1) - top;
+  for (int row = top; row < top + part.height; ++row) {
+    for (int column = left; column < left + part.width; ++column) {
+      part.values.push_back(map.at(column, row));
+    }
+  }
+  const size_t stride = sizeof(float) * size_t(part.width);
+  return sf_fill_disparity(part.values.data(), stride, part.width, part.height) == SF_OK &&
+         sf_focus_at(part.values.data(), stride, part.width, part.height, x - left, y - top,
+                     focus) == SF_OK;
+}
+
+Error CheckPixel(const FloatMap& map, const LensPlan& plan) {
+  if (plan.x < map.width && plan.y < map.height) return "";
+  return Error::Usage("--focus-at",
+                      "a pixel of the picture, up to " + std::to_string(map.width - 1) + "," +
+                          std::to_string(map.height - 1),
+                      std::to_string(plan.x) + "," + std::to_string(plan.y));
+}
+
 }  // namespace
+
+void AddApertureOptions(CLI::App* command, ApertureOptions* options) {
+  command
+      ->add_option("--aperture", options->aperture,
+                   "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8")
+      ->type_name("U");
+  command
+      ->add_option("--f-stop", options->f_stop,
+                   "The same as an f-stop, from the widest on: radius --widest / N")
+      ->type_name("N");
+  command
+      ->add_option("--widest", options->widest,
+                   "F-stop of radius 1: focal length over twice the distance of view (1, 0) from "
+                   "the centre; default: what the input knows of itself, else 1, for f-stops "
+                   "relative to that "
+                   "radius")
+      ->type_name("W");
+  command
+      ->add_option("--strength", options->strength,
+                   "0 to 100 percent of that radius; 0: the centre view to the byte")
+      ->type_name("S")
+      ->default_str("100");
+}
 
 void AddLensOptions(CLI::App* command, LensOptions* options) {
   AddOpticsOptions(command, options);
@@ -119,13 +147,20 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
   command
       ->add_option("--highlights", options->highlights,
                    "1 to 64: how many times white the lamps are that the pictures clip")
+      ->type_name("X")
       ->capture_default_str();
-  command->add_option(
-      "--views", options->views,
-      "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder");
-  command->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
-  command->add_option("--largest-block", options->largest_block,
-                      "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128");
+  command
+      ->add_option(
+          "--views", options->views,
+          "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder")
+      ->type_name("17|9|5|1|U,V:U,V");
+  command->add_option("--threads", options->threads, "1 to 64")
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      ->add_option("--largest-block", options->largest_block,
+                   "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128")
+      ->type_name("32|64|128|256");
   command
       ->add_option(
           "--rule", options->rule,
@@ -136,12 +171,15 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
       ->add_option("--n-scale", options->n_scale,
                    "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "
                    "closer to the benchmark")
+      ->type_name("X")
       ->capture_default_str();
   command->add_option("--max-layer", options->max_layer, "0, 1 or 2: may subsample by 2^L")
+      ->type_name("0|1|2")
       ->capture_default_str();
   command
       ->add_option("--deblocking", options->deblocking,
                    "0 to 255 grey levels: the largest step smoothed between layers; 0: off")
+      ->type_name("N")
       ->capture_default_str();
   command
       ->add_option("--timing", options->timing,
@@ -168,37 +206,25 @@ Error PlanLens(const LensOptions& options, LensPlan* plan) {
   return error.empty() ? PlanBlocks(options, plan) : error;
 }
 
-Error PlanAperture(const LensOptions& options, const Capture& capture, LensPlan* plan) {
-  if (!options.aperture.empty() && !options.f_stop.empty()) {
-    return Error::Usage("--f-stop", "either --aperture U or --f-stop N", "both");
-  }
-  if (!options.widest.empty() && options.f_stop.empty()) {
-    return Error::Usage("--widest", "--f-stop N beside it", "none");
-  }
-  Error error;
-  if (capture.f_stop > 0) plan->aperture = capture.widest / capture.f_stop;
-  if (!options.aperture.empty()) {
-    error = ParseAperture("--aperture", options.aperture, &plan->aperture);
-  }
-  if (!options.f_stop.empty()) error = ParseFStop(options, capture.widest, &plan->aperture);
-  double strength = 0;
-  if (error.empty()) error = ParsePercentage("--strength", options.strength, &strength);
-  plan->aperture *= strength / 100;
-  return error;
-}
-
 Error PlanFocus(const LensOptions& options, LensPlan* plan) {
-  if (options.focus.empty() == options.focus_at.empty()) {
-    return Error::Usage("--focus", "either --focus D or --focus-at X,Y",
-                        options.focus.empty() ? "neither" : "both");
+  if (!options.focus.empty() && !options.focus_at.empty()) {
+    return Error::Usage("--focus", "either --focus D or --focus-at X,Y", "both");
   }
-  if (options.focus.empty()) {
+  if (!options.focus_at.empty()) {
     plan->focus_option = "--focus-at";
     return ParsePair("--focus-at", options.focus_at, ',', &plan->x, &plan->y);
   }
+  if (options.focus.empty()) return "";
   plan->focus_option = "--focus";
   plan->foci.resize(1);
   return ParseNumber("--focus", options.focus, &plan->foci[0]);
+}
+
+void UseFocus(const DefaultFocus& focus, LensPlan* plan) {
+  plan->focus_option = focus.at_pixel ? "--focus-at" : "--focus";
+  plan->x = focus.x;
+  plan->y = focus.y;
+  if (!focus.at_pixel) plan->foci = {focus.disparity};
 }
 
 Error CheckRule(const std::string& where, const LensPlan& plan, const Positions& views) {
@@ -226,33 +252,47 @@ std::string PrepareDisparity(const std::string& where, const FloatMap& map,
 Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   if (!plan->foci.empty()) return "";
   double focus = 0;
-  // The map is a good one (PrepareDisparity): only the position may be wrong.
-  if (sf_focus_at(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height,
-                  plan->x, plan->y, &focus) != SF_OK) {
-    return Error::Usage("--focus-at",
-                        "a pixel of the picture, up to " + std::to_string(map.width - 1) + "," +
-                            std::to_string(map.height - 1),
-                        std::to_string(plan->x) + "," + std::to_string(plan->y));
-  }
+  const Error error = CheckPixel(map, *plan);
+  if (!error.empty()) return error;
+  // The map is a good one (PrepareDisparity).
+  sf_focus_at(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, plan->x,
+              plan->y, &focus);
   plan->foci = {focus};
   return "";
 }
 
-Error ChooseBlur(const LensPlan& plan, const sf_disparity_stats& stats, double* max_blur) {
-  double focus = plan.foci[0], range = 0;
-  for (const double f : plan.foci) {
-    const double r = std::max(std::fabs(stats.min - f), std::fabs(stats.max - f));
-    if (r <= range) continue;
-    range = r;
-    focus = f;
+Error ForeseeBlur(const FloatMap& map, bool repaired, LensPlan* plan) {
+  std::vector<double> foci = plan->foci;
+  if (foci.empty()) {
+    const Error error = CheckPixel(map, *plan);
+    if (!error.empty()) return error;
+    foci.resize(1);
+    if (!FocusAround(map, plan->x, plan->y, &foci[0])) return "";
   }
-  const double needed = plan.aperture * range;
-  *max_blur = std::max(1.0, std::ceil(needed));
-  if (needed <= SF_MAX_BLUR && std::fabs(focus) <= SF_MAX_FOCUS) return "";
-  return Error::Usage(plan.focus_option, "blur radii up to " + Short(SF_MAX_BLUR) + " pixels",
-                      Short(needed) + " (aperture " + Short(plan.aperture) + ", focus " +
-                          Short(focus) + ", disparities " + Short(stats.min) + " to " +
-                          Short(stats.max) + ")");
+  sf_disparity_stats stats = {};
+  // Where nothing is known, the care of the map reports it.
+  if (sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width,
+                           map.height, &stats) != SF_OK ||
+      stats.invalid == int64_t{map.width} * map.height) {
+    return "";
+  }
+  if (repaired) {
+    stats.min -= kRepairReach;
+    stats.max += kRepairReach;
+  }
+  return FitAperture(FarthestFromFocus(stats, foci), &plan->aperture);
+}
+
+Error ChooseBlur(const sf_disparity_stats& stats, LensPlan* plan, double* max_blur) {
+  for (const double focus : plan->foci) {
+    if (std::fabs(focus) <= SF_MAX_FOCUS) continue;
+    return Error::Usage(plan->focus_option, "a disparity within +-" + Short(SF_MAX_FOCUS),
+                        Short(focus));
+  }
+  const double range = FarthestFromFocus(stats, plan->foci);
+  const Error error = FitAperture(range, &plan->aperture);
+  *max_blur = std::max(1.0, std::ceil(plan->aperture.radius * range));
+  return error;
 }
 
 EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
@@ -277,7 +317,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.params.mode = plan.mode;
   task.params.rule = plan.rule;
   task.params.focus = plan.foci[0];
-  task.params.aperture = plan.aperture;
+  task.params.aperture = plan.aperture.radius;
   task.params.region = plan.region;
   if (reported) task.params.clock = ThreadNanoseconds;
   task.threads = plan.threads;

@@ -4,20 +4,26 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "examples/cli/engine/engine_run.h"
+#include "examples/cli/refocus/aperture.h"
+#include "examples/cli/refocus/default_focus.h"
 #include "examples/command_line/shape.h"
 #include "platform/readers/capture.h"
 #include "starfocus/starfocus.h"
+
+namespace CLI {
+class App;
+}
 
 namespace starfocus {
 
 // As typed.
 struct LensOptions {
-  std::string focus, focus_at, aperture, f_stop, widest, strength = "100";
+  std::string focus, focus_at;
+  ApertureOptions aperture;
   std::string mode = "block", rule, views, threads = "1";
   std::string largest_block, max_layer = "2", deblocking = "35", n_scale = "1", timing;
   std::string transfer = "srgb", highlights = "1";
@@ -25,13 +31,15 @@ struct LensOptions {
 };
 
 void AddLensOptions(CLI::App* command, LensOptions* options);
+// The part of them that sets the aperture.
+void AddApertureOptions(CLI::App* command, ApertureOptions* options);
 
 struct LensPlan {
-  std::string focus_option;  // that the foci come from
+  std::string focus_option;  // that the foci come from; empty: none is set yet
   std::vector<double> foci;  // one, or those of a sweep; none while they depend on a pixel
   int x = 0, y = 0;          // that pixel
-  double aperture = 1;       // at the strength asked for
-  sf_region region = {};     // all 0: the whole picture
+  Aperture aperture;
+  sf_region region = {};  // all 0: the whole picture
   sf_mode mode = SF_MODE_BLOCK;
   sf_rule rule = SF_RULE_DEFAULT;
   Positions views;  // none: all there are
@@ -47,10 +55,9 @@ struct LensPlan {
 
 // All that can be refused before a light field is read, but for the aperture and the focus.
 Error PlanLens(const LensOptions& options, LensPlan* plan);
-// --aperture or --f-stop, or what the input knows: its widest f-stop, or none.
-Error PlanAperture(const LensOptions& options, const Capture& capture, LensPlan* plan);
-// --focus or --focus-at.
+// --focus or --focus-at, if one of them is there.
 Error PlanFocus(const LensOptions& options, LensPlan* plan);
+void UseFocus(const DefaultFocus& focus, LensPlan* plan);
 
 // Checks that the rule is one for these views: the paper's needs a star.
 Error CheckRule(const std::string& where, const LensPlan& plan, const Positions& views);
@@ -62,8 +69,13 @@ std::string PrepareDisparity(const std::string& where, const FloatMap& map,
 // The disparity of what is at the chosen pixel, if the focus depends on it.
 Error ChooseFocus(const FloatMap& map, LensPlan* plan);
 
-// The largest blur radius of any focus, rounded up to whole pixels.
-Error ChooseBlur(const LensPlan& plan, const sf_disparity_stats& stats, double* max_blur);
+// Fits the aperture to the blur of a map before its care, which may take long: a repair, where
+// `repaired` is true. The map may have unknown values.
+Error ForeseeBlur(const FloatMap& map, bool repaired, LensPlan* plan);
+
+// Fits the aperture to the blur of the map that is used. Returns the largest blur radius of any
+// focus, rounded up to whole pixels.
+Error ChooseBlur(const sf_disparity_stats& stats, LensPlan* plan, double* max_blur);
 
 // The task of the first focus; with a clock when it is to be reported.
 EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,

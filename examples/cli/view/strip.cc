@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 
 #include "examples/cli/refocus/partition_map.h"
 #include "examples/cli/refocus/refocus_plan.h"
@@ -28,7 +29,10 @@ bool ParseTruthName(const fs::path& name, LensAt* lens) {
 }  // namespace
 
 std::vector<double> StripFoci(const FloatMap& map, int count) {
-  std::vector<float> values = map.values;
+  std::vector<float> values;
+  std::copy_if(map.values.begin(), map.values.end(), std::back_inserter(values),
+               [](float value) { return std::isfinite(value); });
+  if (values.empty()) return {0};
   const auto at = [&values](size_t place) {
     const auto middle = values.begin() + static_cast<ptrdiff_t>(place);
     std::nth_element(values.begin(), middle, values.end());
@@ -40,6 +44,10 @@ std::vector<double> StripFoci(const FloatMap& map, int count) {
   std::vector<double> foci;
   for (int i = 0; i < count; ++i) foci.push_back(far + (near - far) * i / (count - 1));
   return foci;
+}
+
+double BlurOf(const LensAt& lens, const sf_disparity_stats& stats) {
+  return lens.aperture * FarthestFromFocus(stats, {lens.focus});
 }
 
 std::vector<TruthFile> FindTruths(const std::string& folder) {
@@ -70,12 +78,13 @@ Error RefocusEach(
   LensOptions options;
   options.transfer = transfer;
   LensPlan plan;
-  double max_blur = 0;
+  double max_blur = 1;
   Error error = PlanLens(options, &plan);
-  plan.focus_option = where;
-  for (const LensAt& lens : lenses) plan.foci.push_back(lens.focus);
-  if (error.empty()) error = ChooseBlur(plan, stats, &max_blur);
   if (!error.empty()) return error;
+  for (const LensAt& lens : lenses) {
+    max_blur = std::max(max_blur, std::ceil(BlurOf(lens, stats)));
+    plan.foci.push_back(lens.focus);
+  }
   EngineTask task = MakeTask(plan, light_field, stats, max_blur, false);
   std::vector<sf_block> blocks;
   task.threads = threads;

@@ -18,8 +18,11 @@ struct LensAt {
   double focus = 0, aperture = 1;
 };
 
+// The largest blur radius of a picture by this lens.
+double BlurOf(const LensAt& lens, const sf_disparity_stats& stats);
+
 // So many foci at equal steps of disparity, from far to near, between all but the outermost
-// hundredths of the map's values. One where all values are alike.
+// hundredths of the map's known values. One where all values are alike.
 std::vector<double> StripFoci(const FloatMap& map, int count);
 
 // A picture that a real lens took of what a folder holds: truth_dt<D>_ut<U>.png, as
@@ -35,7 +38,8 @@ std::vector<TruthFile> FindTruths(const std::string& folder);
 // "none" where the folder's meta.txt says that pictures average codes, else "srgb".
 std::string TransferOf(const std::string& folder);
 
-// Refocuses by each of the lenses, and shows the result with its blocks.
+// Refocuses by each of the lenses, whose blur is at most SF_MAX_BLUR, and shows the result with its
+// blocks.
 Error RefocusEach(
     const std::string& where, const LightField& light_field, const sf_disparity_stats& stats,
     const std::string& transfer, int threads, const std::vector<LensAt>& lenses,

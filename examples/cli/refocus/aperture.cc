@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/cli/refocus/aperture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "examples/command_line/options.h"
+
+namespace starfocus {
+namespace {
+
+// --f-stop and --widest.
+Error ParseFStop(const ApertureOptions& options, Aperture* aperture) {
+  double f_stop = 0;
+  Error error;
+  if (!options.widest.empty()) error = ParseNumber("--widest", options.widest, &aperture->widest);
+  if (error.empty() && aperture->widest <= 0) {
+    error = Error::Usage("--widest", "an f-stop above 0", "'" + options.widest + "'");
+  }
+  if (error.empty()) error = ParseNumber("--f-stop", options.f_stop, &f_stop);
+  if (!error.empty() ||
+      sf_aperture_of_f_stop(f_stop, aperture->widest, &aperture->radius) == SF_OK) {
+    return error;
+  }
+  return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(aperture->widest),
+                      "'" + options.f_stop + "'");
+}
+
+// Names the option that the user chose the radius by. A strength alone chooses it, too.
+void NameOption(const ApertureOptions& options, Aperture* aperture) {
+  for (const auto& [name, value] :
+       {std::pair<const char*, const std::string&>{"--f-stop", options.f_stop},
+        {"--aperture", options.aperture},
+        {"--strength", options.strength}}) {
+    if (value.empty()) continue;
+    aperture->option = name;
+    aperture->value = value;
+    return;
+  }
+}
+
+std::string ThreeDigits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+// The first number of three digits that fits, from `value` on, up or down by a unit of its third
+// digit at a time. Numbers are those that are printed, so that a user who types one gets the same.
+template <class Fits>
+double FirstThatFits(double value, int direction, const Fits& fits) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
+  for (double count = std::round(value / unit) - direction;; count += direction) {
+    const double printed = std::strtod(ThreeDigits(count * unit).c_str(), nullptr);
+    if (fits(printed)) return printed;
+  }
+}
+
+// The values of three digits next to the limit of blur, each with the others as they are.
+double WidestFStop(double range, const Aperture& aperture) {
+  const double factor = aperture.widest * aperture.strength;
+  return FirstThatFits(factor * range / SF_MAX_BLUR, 1, [&](double f_stop) {
+    return aperture.widest / f_stop * aperture.strength * range <= SF_MAX_BLUR;
+  });
+}
+
+double LargestRadius(double range, const Aperture& aperture) {
+  return FirstThatFits(SF_MAX_BLUR / range / aperture.strength, -1, [&](double radius) {
+    return radius * aperture.strength * range <= SF_MAX_BLUR;
+  });
+}
+
+double LargestPercentage(double range, const Aperture& aperture) {
+  const double base = aperture.radius / aperture.strength;
+  return FirstThatFits(100 * SF_MAX_BLUR / range / base, -1, [&](double percentage) {
+    return base * (percentage / 100) * range <= SF_MAX_BLUR;
+  });
+}
+
+// What a user may type in place of the value that is too wide.
+std::string WhatFits(double range, const Aperture& aperture) {
+  if (aperture.option == "--f-stop") {
+    return "f/" + ThreeDigits(WidestFStop(range, aperture)) + " or narrower";
+  }
+  return aperture.option == "--aperture"
+             ? "at most " + ThreeDigits(LargestRadius(range, aperture))
+             : "at most " + ThreeDigits(LargestPercentage(range, aperture)) + " percent";
+}
+
+}  // namespace
+
+Error PlanAperture(const ApertureOptions& options, const Capture& capture, Aperture* aperture) {
+  if (!options.aperture.empty() && !options.f_stop.empty()) {
+    return Error::Usage("--f-stop", "either --aperture U or --f-stop N", "both");
+  }
+  if (!options.widest.empty() && options.f_stop.empty()) {
+    return Error::Usage("--widest", "--f-stop N beside it", "none");
+  }
+  Error error;
+  *aperture = {};
+  if (capture.widest > 0) aperture->widest = capture.widest;
+  if (capture.f_stop > 0) aperture->radius = capture.widest / capture.f_stop;
+  if (!options.aperture.empty()) {
+    error = ParseAperture("--aperture", options.aperture, &aperture->radius);
+  }
+  if (!options.f_stop.empty()) error = ParseFStop(options, aperture);
+  double percentage = 100;
+  if (error.empty() && !options.strength.empty()) {
+    error = ParsePercentage("--strength", options.strength, &percentage);
+  }
+  aperture->strength = percentage / 100;
+  aperture->radius *= aperture->strength;
+  NameOption(options, aperture);
+  return error;
+}
+
+double FarthestFromFocus(const sf_disparity_stats& stats, const std::vector<double>& foci) {
+  double range = 0;
+  for (const double focus : foci) {
+    range = std::max({range, std::fabs(stats.min - focus), std::fabs(stats.max - focus)});
+  }
+  return range;
+}
+
+Error FitAperture(double range, Aperture* aperture) {
+  const double blur = aperture->radius * range;
+  if (blur <= SF_MAX_BLUR) return "";
+  if (aperture->option.empty()) {
+    aperture->radius = aperture->widest / WidestFStop(range, *aperture);
+    aperture->narrowed = true;
+    return "";
+  }
+  return Error::Usage(
+      aperture->option,
+      WhatFits(range, *aperture) + " (blur of at most " + Short(SF_MAX_BLUR) + " pixels)",
+      aperture->value + ", which blurs by " + ThreeDigits(blur) + " pixels");
+}
+
+void TellAperture(const std::string& path, const Aperture& aperture) {
+  if (!aperture.narrowed) return;
+  std::fprintf(stderr,
+               "%s: aperture f/%s (--f-stop): the widest whose blur is at most %s pixels here\n",
+               path.c_str(), ThreeDigits(aperture.widest / aperture.radius).c_str(),
+               Short(SF_MAX_BLUR).c_str());
+}
+
+}  // namespace starfocus

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/cli/refocus/default_focus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace starfocus {
+namespace {
+
+constexpr int kSamples = 64;                   // each way, over the middle half of the picture
+constexpr double kShare = 0.1, kAlike = 0.06;  // of the samples; of the range of disparities
+constexpr double kLeastAlike = 0.75;           // pixels, within which sf_focus_at sees one surface
+
+struct Sample {
+  int x, y;
+  float disparity;
+};
+
+// A regular grid over the middle half of width and height.
+struct Grid {
+  const FloatMap& map;
+
+  static int Place(int k, int pixels) {
+    return std::min(pixels - 1, pixels / 4 + (2 * k + 1) * pixels / (4 * kSamples));
+  }
+  Sample At(int column, int row) const {
+    const int x = Place(column, map.width), y = Place(row, map.height);
+    return {x, y, map.at(x, y)};
+  }
+};
+
+// Disparities from `low` to `high` are alike.
+struct Surface {
+  float low, high;
+
+  bool Has(float disparity) const { return disparity >= low && disparity <= high; }
+};
+
+// The nearest disparities that `count` samples, sorted from near to far, have alike. The median
+// where no such surface is there, as on a slope.
+Surface FindNearest(const std::vector<float>& sorted, size_t count) {
+  const float alike = std::max(static_cast<float>(kLeastAlike),
+                               static_cast<float>(kAlike) * (sorted.front() - sorted.back()));
+  for (size_t first = 0; first + count <= sorted.size(); ++first) {
+    const float low = sorted[first + count - 1];
+    if (sorted[first] - low <= alike) return {low, sorted[first]};
+  }
+  const float median = sorted[sorted.size() / 2];
+  return {median - alike / 2, median + alike / 2};
+}
+
+// How many of the sample and its neighbours in the grid belong to the surface.
+int CountAround(const Grid& grid, const Surface& surface, int column, int row) {
+  int count = 0;
+  for (int r = std::max(0, row - 1); r <= std::min(kSamples - 1, row + 1); ++r) {
+    for (int c = std::max(0, column - 1); c <= std::min(kSamples - 1, column + 1); ++c) {
+      count += surface.Has(grid.At(c, r).disparity) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+// The sample of the surface with most of it around, and of these the one nearest to the centre.
+Sample ChooseSample(const Grid& grid, const Surface& surface) {
+  Sample best = {grid.map.width / 2, grid.map.height / 2, 0};
+  int most = 0, least_distance = 0;
+  for (int row = 0; row < kSamples; ++row) {
+    for (int column = 0; column < kSamples; ++column) {
+      const Sample sample = grid.At(column, row);
+      if (!surface.Has(sample.disparity)) continue;
+      const int count = CountAround(grid, surface, column, row);
+      const int across = 2 * column + 1 - kSamples, down = 2 * row + 1 - kSamples;
+      const int distance = across * across + down * down;
+      if (count < most || (count == most && distance >= least_distance)) continue;
+      most = count;
+      least_distance = distance;
+      best = sample;
+    }
+  }
+  return best;
+}
+
+DefaultFocus AtPixel(int x, int y, const std::string& source) { return {true, x, y, 0, source}; }
+
+}  // namespace
+
+DefaultFocus FindDefaultFocus(const Capture& capture) {
+  if (capture.has_subject) {
+    return AtPixel(capture.subject_x, capture.subject_y, "the subject in its EXIF");
+  }
+  if (capture.has_focus) {
+    return AtPixel(capture.focus_x, capture.focus_y, "the focus in the file");
+  }
+  if (std::isfinite(capture.focus)) {
+    return {false, 0, 0, capture.focus, "the focus distance in the file"};
+  }
+  return FindSurface(capture.light_field.disparity);
+}
+
+DefaultFocus FindSurface(const FloatMap& map) {
+  const Grid grid = {map};
+  std::vector<float> known;
+  for (int row = 0; row < kSamples; ++row) {
+    for (int column = 0; column < kSamples; ++column) {
+      const float disparity = grid.At(column, row).disparity;
+      if (std::isfinite(disparity)) known.push_back(disparity);
+    }
+  }
+  if (known.empty()) return AtPixel(map.width / 2, map.height / 2, "the centre");
+  std::sort(known.begin(), known.end(), [](float a, float b) { return a > b; });
+  const auto count = static_cast<size_t>(std::ceil(kShare * static_cast<double>(known.size())));
+  const Sample sample = ChooseSample(grid, FindNearest(known, count));
+  return AtPixel(sample.x, sample.y, "the nearest large surface near the centre");
+}
+
+void TellFocus(const std::string& path, const DefaultFocus& focus) {
+  if (focus.at_pixel) {
+    std::fprintf(stderr, "%s: focused at %d,%d, %s (--focus-at or --focus sets another)\n",
+                 path.c_str(), focus.x, focus.y, focus.source.c_str());
+  } else {
+    std::fprintf(stderr, "%s: focused at disparity %g, %s (--focus-at or --focus sets another)\n",
+                 path.c_str(), focus.disparity, focus.source.c_str());
+  }
+}
+
+}  // namespace starfocus

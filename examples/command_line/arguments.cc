@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/command_line/arguments.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace starfocus {
+namespace {
+
+// Letters to insert, remove, replace or swap with the next one to get from `a` to `b` (optimal
+// string alignment).
+size_t Distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<size_t>> least(a.size() + 1, std::vector<size_t>(b.size() + 1));
+  for (size_t i = 0; i <= a.size(); ++i) {
+    for (size_t k = 0; k <= b.size(); ++k) {
+      size_t& here = least[i][k];
+      if (i == 0 || k == 0) {
+        here = i + k;
+        continue;
+      }
+      const bool same = a[i - 1] == b[k - 1];
+      here = std::min(
+          {least[i - 1][k] + 1, least[i][k - 1] + 1, least[i - 1][k - 1] + (same ? 0 : 1)});
+      const bool swapped = i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1];
+      if (swapped) here = std::min(here, least[i - 2][k - 2] + 1);
+    }
+  }
+  return least[a.size()][b.size()];
+}
+
+std::string WithoutDashes(const std::string& name) {
+  return name.substr(std::min(name.find_first_not_of('-'), name.size()));
+}
+
+// The separator between the parts of values of this type, and how many parts there are: "X,Y" has
+// two, "D0:D1:N" three. A separator of 0: values have no parts.
+struct Parts {
+  char separator = 0;
+  size_t count = 1;
+};
+
+bool IsPartName(char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
+
+Parts PartsOf(const std::string& type) {
+  Parts parts;
+  const std::string text = type.substr(0, type.find(' '));  // "D,U ..." may be repeated
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (IsPartName(text[i])) continue;
+    const bool inside = i > 0 && i + 1 < text.size() && IsPartName(text[i + 1]);
+    const bool known = text[i] == ',' || text[i] == ':' || text[i] == 'x';
+    if (!inside || !known || (parts.separator != 0 && parts.separator != text[i])) return {};
+    parts.separator = text[i];
+    ++parts.count;
+  }
+  return parts;
+}
+
+// Adds the numbers of a text with separators or spaces between them; false where it has others.
+bool AddNumbers(const std::string& text, char separator, std::vector<std::string>* numbers) {
+  const std::string between = std::string(" ") + separator;
+  for (size_t begin = text.find_first_not_of(between); begin < text.size();) {
+    const size_t end = std::min(text.find_first_of(between, begin), text.size());
+    const std::string number = text.substr(begin, end - begin);
+    if (number.find_first_not_of("0123456789+-.") != std::string::npos) return false;
+    numbers->push_back(number);
+    begin = text.find_first_not_of(between, end);
+  }
+  return true;
+}
+
+// The value that begins with `first` and goes on in the arguments from `next` on; empty where it is
+// whole, or cannot be made whole by separators.
+std::string Joined(const std::string& first, const std::vector<std::string>& arguments, size_t next,
+                   const Parts& parts, std::string* found) {
+  std::vector<std::string> numbers;
+  *found = first;
+  if (!AddNumbers(first, parts.separator, &numbers) || numbers.empty()) return "";
+  const bool spaces = first.find(' ') != std::string::npos;
+  if (numbers.size() >= parts.count && !spaces) return "";
+  for (; numbers.size() < parts.count && next < arguments.size(); ++next) {
+    if (!AddNumbers(arguments[next], parts.separator, &numbers)) return "";
+    *found += " " + arguments[next];
+  }
+  if (numbers.size() != parts.count) return "";
+  std::string joined = numbers[0];
+  for (size_t k = 1; k < numbers.size(); ++k) joined += parts.separator + numbers[k];
+  return joined;
+}
+
+Error WrongParts(const std::string& name, const std::string& type, const Parts& parts,
+                 const std::string& joined, const std::string& found) {
+  std::string fault = " (a comma is missing)";
+  if (parts.separator == ':') fault = " (a colon is missing)";
+  if (parts.separator == 'x') fault = " (an x is missing)";
+  if (found.find(parts.separator) != std::string::npos) fault = " (with spaces)";
+  return Error::Usage(
+      name, type.substr(0, type.find(' ')) + " without spaces, as in " + name + " " + joined,
+      "'" + found + "'" + fault);
+}
+
+}  // namespace
+
+std::string NearestName(const std::string& typed, const std::vector<std::string>& names) {
+  const std::string wanted = WithoutDashes(typed);
+  const size_t far = std::max<size_t>(wanted.size() < 4 ? 2 : 3, wanted.size() / 3 + 1);
+  size_t least = far;
+  std::string nearest;
+  for (const std::string& name : names) {
+    const std::string its = WithoutDashes(name);
+    // What was typed may be its beginning.
+    const bool beginning = wanted.size() >= 3 && its.compare(0, wanted.size(), wanted) == 0;
+    const size_t distance = beginning ? 1 : Distance(wanted, its);
+    if (distance >= least || distance >= its.size()) continue;
+    least = distance;
+    nearest = name;
+  }
+  return nearest;
+}
+
+Error CheckSeparators(const std::vector<std::string>& arguments,
+                      const std::vector<ValueOption>& options) {
+  for (size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
+    const size_t equals = arguments[i].find('=');
+    const std::string name = arguments[i].substr(0, equals);
+    for (const ValueOption& option : options) {
+      const Parts parts = PartsOf(option.type);
+      const auto& names = option.names;
+      if (parts.separator == 0 || std::find(names.begin(), names.end(), name) == names.end()) {
+        continue;
+      }
+      const bool inside = equals != std::string::npos;
+      if (!inside && i + 1 == arguments.size()) continue;
+      const std::string value = inside ? arguments[i].substr(equals + 1) : arguments[i + 1];
+      std::string found;
+      const std::string joined = Joined(value, arguments, i + (inside ? 1 : 2), parts, &found);
+      if (joined.empty()) continue;
+      return WrongParts(name, option.type, parts, joined, found);
+    }
+  }
+  return "";
+}
+
+}  // namespace starfocus
