@@ -112,7 +112,7 @@ std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Ca
   capture->photo = true;
   capture->files = {{{0, 0}, path}};
   capture->map_path = depth.empty() ? path : depth;
-  capture->care = MapCare::kRepair;
+  capture->care = photo.is_ready ? MapCare::kNone : MapCare::kRepair;
   capture->widest = 1;
   capture->f_stop = kPhotoFStop;
   capture->has_focus = photo.has_focus;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/gdepth.h"
 
+#include <cmath>
 #include <utility>
 
 #include "platform/image_io.h"
 #include "platform/levels.h"
 #include "platform/readers/base64.h"
+#include "platform/readers/depth_levels.h"
 #include "platform/readers/depth_range.h"
+#include "platform/writers/depth_photo.h"
 
 namespace starfocus {
 namespace {
@@ -43,6 +46,27 @@ std::string ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
     photo->facts.emplace_back("distances", "along rays, taken for those along the axis");
   }
   return "";
+}
+
+// Turns inverse distances of a file that this program wrote into its disparities, for pixels of
+// photo->picture.
+void ReadOwnDisparities(const XmpNode& xmp, DepthPhoto* photo) {
+  const std::string own = std::string(kOwnNamespace) + "|";
+  double low = 0, high = 0, near = 0, far = 0;
+  if (photo->meaning != MapMeaning::kInverse ||
+      !ReadXmpNumber(FindProperty(xmp, own + kFarDisparity), &low) ||
+      !ReadXmpNumber(FindProperty(xmp, own + kNearDisparity), &high) || !(low < high) ||
+      !ReadXmpNumber(FindProperty(xmp, kDepth + "Near"), &near) ||
+      !ReadXmpNumber(FindProperty(xmp, kDepth + "Far"), &far)) {
+    return;
+  }
+  const double diagonal = std::hypot(photo->picture.width, photo->picture.height);
+  const double factor = diagonal * (high - low) / (1 / near - 1 / far);
+  const double zero = diagonal * low - factor / far;
+  ToRange(zero, zero + factor, &photo->map);
+  photo->focus_value = zero + factor * photo->focus_value;
+  photo->meaning = MapMeaning::kDisparity;
+  photo->is_ready = true;
 }
 
 // Replaces the picture, which is blurred already, by the sharp one inside. A sharp one that cannot
@@ -87,6 +111,7 @@ std::string ReadGdepth(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   if (!error.empty()) return error;
   photo->format = "GDepth photo (JPEG)";
   ReadSharp(xmp, photo);
+  ReadOwnDisparities(xmp, photo);
   ReadFocus(xmp, photo);
   return "";
 }

@@ -40,6 +40,7 @@ struct DepthPhoto {
   double focus_x = 0, focus_y = 0;  // in parts of width and height, before `orientation`
   bool has_subject = false;
   double subject_x = 0, subject_y = 0;  // of EXIF, likewise
+  bool is_ready = false;                // the map has made pictures: nothing is to be repaired
   double focus_value = NAN;             // of the map, where a distance in focus is told
   Metadata metadata;
   Facts facts;

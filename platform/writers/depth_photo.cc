@@ -9,14 +9,17 @@
 #include "platform/writers/jpeg.h"
 #include "platform/writers/jpeg_segments.h"
 #include "platform/writers/png.h"
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
 namespace {
 
-constexpr char kNamespaces[] =
+const std::string kNamespaces =
     " xmlns:GDepth=\"http://ns.google.com/photos/1.0/depthmap/\""
     " xmlns:GImage=\"http://ns.google.com/photos/1.0/image/\""
-    " xmlns:GFocus=\"http://ns.google.com/photos/1.0/focus/\"";
+    " xmlns:GFocus=\"http://ns.google.com/photos/1.0/focus/\""
+    " xmlns:Starfocus=\"" +
+    std::string(kOwnNamespace) + "\"";
 
 std::string Attribute(const std::string& name, const std::string& value) {
   return " " + name + "=\"" + value + "\"";
@@ -28,18 +31,47 @@ std::string Attribute(const std::string& name, double value) {
   return Attribute(name, std::string(text));
 }
 
+// Disparities of a map. A flat map has a range, too: readers want near < far.
+struct Range {
+  double low, high;
+
+  explicit Range(const FloatMap& map) {
+    const auto [least, most] = std::minmax_element(map.values.begin(), map.values.end());
+    high = double(*most);
+    low = std::min(double(*least), high - 1e-3);
+  }
+};
+
 // 0 where it is nearest, 255 where it is farthest.
-GreyImage Levels(const FloatMap& map, float low, float high) {
+GreyImage Levels(const FloatMap& map, const Range& range) {
   GreyImage grey = {map.width, map.height, {}};
   grey.levels.reserve(map.values.size());
-  const double range = std::max(1e-6, double(high) - low);
   for (const float d : map.values) {
-    grey.levels.push_back(static_cast<uint16_t>(std::lround(255 * (double(high) - d) / range)));
+    grey.levels.push_back(static_cast<uint16_t>(
+        std::lround(255 * (range.high - double(d)) / (range.high - range.low))));
   }
   return grey;
 }
 
-std::string FocusAttributes(const SharpOriginal& photo, float low) {
+// Our own properties. Disparities at f/1 beyond the limit are moved to it, which changes no blur.
+std::string OwnAttributes(const std::string& path, const SharpOriginal& photo, const Range& range,
+                          std::string* attributes) {
+  double near = photo.widest * range.high, far = photo.widest * range.low;
+  const double moved = std::clamp(0.0, -SF_MAX_DISPARITY - far,
+                                  std::max(-SF_MAX_DISPARITY - far, SF_MAX_DISPARITY - near));
+  near += moved;
+  far += moved;
+  if (near > SF_MAX_DISPARITY) {
+    return Expected(path, "at most 1000 pixels from the least to the largest disparity at f/1",
+                    std::to_string(near - far));
+  }
+  const double diagonal = std::hypot(photo.before->width, photo.before->height);
+  *attributes = Attribute(std::string("Starfocus:") + kNearDisparity, near / diagonal) +
+                Attribute(std::string("Starfocus:") + kFarDisparity, far / diagonal);
+  return "";
+}
+
+std::string FocusAttributes(const SharpOriginal& photo, double low) {
   const auto longer = double(std::max(photo.before->width, photo.before->height));
   const double nearness = photo.focus - low + 1;  // one over its distance; infinity is at 0
   return Attribute("GFocus:BlurAtInfinity", photo.aperture * std::fabs(nearness) / longer) +
@@ -51,18 +83,18 @@ std::string FocusAttributes(const SharpOriginal& photo, float low) {
 std::string EncodeDepthPhoto(const std::string& path, const Image& picture,
                              const SharpOriginal& photo, int quality, const Metadata& metadata,
                              Bytes* jpeg) {
-  const std::vector<float>& values = photo.disparity->values;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const Range range(*photo.disparity);
   Bytes map, before, segments;
-  std::string error = EncodeGreyPng(path, Levels(*photo.disparity, *low, *high), &map);
+  std::string own, error = OwnAttributes(path, photo, range, &own);
+  if (error.empty()) error = EncodeGreyPng(path, Levels(*photo.disparity, range), &map);
   if (error.empty())
     error = EncodeJpeg(path, *photo.before, quality, {{}, metadata.icc}, {}, &before);
   if (!error.empty()) return error;
   const std::string attributes =
       Attribute("GDepth:Format", "RangeInverse") +
-      Attribute("GDepth:Near", 1 / (double(*high) - *low + 1)) + Attribute("GDepth:Far", 1) +
+      Attribute("GDepth:Near", 1 / (range.high - range.low + 1)) + Attribute("GDepth:Far", 1) +
       Attribute("GDepth:Mime", "image/png") + Attribute("GImage:Mime", "image/jpeg") +
-      FocusAttributes(photo, *low);
+      FocusAttributes(photo, range.low) + own;
   const std::string extended =
       Attribute("GDepth:Data", EncodeBase64(map)) + Attribute("GImage:Data", EncodeBase64(before));
   // Descriptions that have no room beside those of the map are left out.

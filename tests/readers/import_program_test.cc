@@ -16,6 +16,7 @@
 #include "platform/readers/capture.h"
 #include "platform/readers/heic.h"
 #include "platform/readers/xmp.h"
+#include "platform/runner.h"
 #include "tests/cli/call_program.h"
 #include "tests/support/photo_files.h"
 
@@ -267,6 +268,78 @@ TEST_CASE("folders: a grid without a map is estimated, and imported without one"
   CHECK(Call(folder, "refocus grid -o grid/v_1_1.png --focus 0").code == 2);
   CHECK(Call(folder, "compare copy/view_+0.0_+0.0.png lf/view_+0.0_+0.0.png").out ==
         "PSNR inf, largest difference 0\n");
+}
+
+// A folder of one view, a random picture whose disparities fall from `high` to `low` in steps.
+void MakeSteps(const TempFolder& folder, const std::string& name, float low, float high) {
+  constexpr int kSteps = 8;
+  LightField field;
+  field.positions = {{0, 0}};
+  field.views = {Image(128, 96)};
+  field.disparity = {128, 96, {}};
+  uint32_t seed = 1;
+  for (uint8_t& value : field.views[0].pixels) {
+    seed = seed * 1664525 + 1013904223;
+    value = static_cast<uint8_t>(64 + (seed >> 25));
+  }
+  for (int k = 0; k < 128 * 96; ++k) {
+    const int step = k % 128 / (128 / kSteps);
+    field.disparity.values.push_back(high - (high - low) * static_cast<float>(step) / (kSteps - 1));
+  }
+  ThreadRunner runner(1);
+  REQUIRE(SaveLightField(folder.file(name), field, &runner) == "");
+}
+
+TEST_CASE("photos: a saved depth photo has the disparities and the blur of what it was made of") {
+  if (!CanReadXmp()) return;
+  const struct {
+    float low, high;
+    const char* widest;
+    double factor, moved;  // of its disparities
+  } kinds[] = {{33, 97, "", 1, 0},
+               {-40, -3, "", 1, 0},
+               {0, 1.5F, "", 1, 0},
+               {7, 7, "", 1, 0},
+               {-6, 30, " --widest 2.5", 2.5, 0},
+               {300, 340, " --widest 2", 2, -180}};
+  for (const auto& kind : kinds) {
+    CAPTURE(kind.low);
+    TempFolder folder;
+    MakeSteps(folder, "lf", kind.low, kind.high);
+    const std::string lens = " --focus-at 40,40 --f-stop 4 -o ";
+    REQUIRE(Call(folder, "refocus lf" + std::string(kind.widest) + lens +
+                             "saved.jpg --quality 100 --depth-photo")
+                .code == 0);
+    Capture capture;
+    REQUIRE(OpenCapture(folder.file("saved.jpg"), {}, &capture) == "");
+    const FloatMap& map = capture.light_field.disparity;
+    const double step = kind.factor * double(kind.high - kind.low) / 255;
+    CHECK(std::fabs(double(map.at(0, 9)) - (kind.factor * kind.high + kind.moved)) <=
+          0.51 * step + 1e-3);
+    CHECK(std::fabs(double(map.at(127, 9)) - (kind.factor * kind.low + kind.moved)) <=
+          0.51 * step + 1e-3);
+    CHECK(capture.care == MapCare::kNone);
+    CHECK(capture.focus == doctest::Approx(map.at(40, 40)).epsilon(0.01));
+    // The same blur: that of a quarter more would differ by several levels.
+    REQUIRE(Call(folder, "refocus lf" + std::string(kind.widest) + lens + "first.png").code == 0);
+    REQUIRE(Call(folder, "refocus saved.jpg" + lens + "again.png").code == 0);
+    Image first, again;
+    REQUIRE(ReadImage(folder.file("first.png"), &first) == "");
+    REQUIRE(ReadImage(folder.file("again.png"), &again) == "");
+    double squares = 0;
+    for (size_t k = 0; k < first.pixels.size(); ++k) {
+      const double difference = double(first.pixels[k]) - double(again.pixels[k]);
+      squares += difference * difference;
+    }
+    CHECK(std::sqrt(squares / double(first.pixels.size())) < 1.5);
+  }
+  TempFolder folder;
+  MakeSteps(folder, "lf", -300, 300);
+  const Outcome wide =
+      Call(folder, "refocus lf --focus 0 --widest 2 --f-stop 8 -o a.jpg --depth-photo");
+  CHECK(wide.code == 1);
+  CHECK(Contains(wide.err, "at f/1"));
+  CHECK(!fs::exists(folder.file("a.jpg")));
 }
 
 TEST_CASE("photos: HEIC with an auxiliary depth picture") {

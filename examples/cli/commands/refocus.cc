@@ -160,8 +160,8 @@ std::string WriteReport(const Options& options, const std::string& text) {
   return WriteFile(options.report, Bytes(text.begin(), text.end()));
 }
 
-Error RunOne(const Options& options, const PictureOptions& how, const EngineTask& one,
-             double start) {
+Error RunOne(const Options& options, const PictureOptions& how, double widest,
+             const EngineTask& one, double start) {
   EngineTask task = one;
   std::vector<sf_block> blocks;
   if (!options.map.empty()) {
@@ -173,7 +173,7 @@ Error RunOne(const Options& options, const PictureOptions& how, const EngineTask
   EngineResult result;
   Error error = run.Start(InputName(options.input.path), task);
   if (error.empty()) error = run.Refocus(InputName(options.input.path), task, &result);
-  if (error.empty()) error = WriteRefocused(options.output, how, task, result.picture);
+  if (error.empty()) error = WriteRefocused(options.output, how, widest, task, result.picture);
   if (error.empty() && !options.map.empty()) {
     const sf_region& region = task.params.region;
     error = WriteImage(options.map, DrawPartition(result.picture, region.x, region.y, blocks));
@@ -214,7 +214,7 @@ Error RunInput(const Options& options) {
   how.metadata = loaded.capture.metadata;
   const EngineTask task = MakeTask(plan, loaded.capture.light_field, loaded.stats, loaded.max_blur,
                                    !options.report.empty());
-  return options.sweep.empty() ? RunOne(options, how, task, start)
+  return options.sweep.empty() ? RunOne(options, how, plan.aperture.widest, task, start)
                                : RunSweep(options, how, plan.foci, task, start);
 }
 

@@ -102,7 +102,7 @@ Error PlanOutput(const OutputOptions& options, bool sweep, bool region, int* qua
                                : options.out);
 }
 
-Error WriteRefocused(const OutputOptions& options, const PictureOptions& how,
+Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, double widest,
                      const EngineTask& task, const Image& picture) {
   if (!options.depth_photo) return WriteImage(options.out, picture, how);
   SharpOriginal photo = {};
@@ -110,6 +110,7 @@ Error WriteRefocused(const OutputOptions& options, const PictureOptions& how,
   photo.disparity = &task.light_field->disparity;
   photo.focus = task.params.focus;
   photo.aperture = task.params.aperture;
+  photo.widest = widest;
   Bytes bytes;
   const std::string error =
       EncodeDepthPhoto(options.out, picture, photo, how.quality, how.metadata, &bytes);

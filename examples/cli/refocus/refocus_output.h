@@ -31,8 +31,8 @@ std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures);
 // part of the picture is made.
 Error PlanOutput(const OutputOptions& options, bool sweep, bool region, int* quality);
 
-// Writes the picture of a task as its options have it.
-Error WriteRefocused(const OutputOptions& options, const PictureOptions& how,
+// Writes the picture of a task as its options have it. `widest`: the f-stop of aperture radius 1.
+Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, double widest,
                      const EngineTask& task, const Image& picture);
 
 // Writes the pair that stands for a sweep, where asked for: the centre view, which is sharp
