@@ -91,8 +91,12 @@ std::string DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes
     result.map.width = image.width;
     result.map.height = image.height;
     result.largest = 255;
-    error = file.empty() ? TakeGrey(where, image.pixels.data(), 3, use_alpha, &result)
-                         : DecodePngSamples(where, file, use_alpha, &result);
+    if (file.empty()) {
+      error = TakeGrey(where, image.pixels.data(), 3, use_alpha, &result);
+    } else {
+      image = {};  // makes room
+      error = DecodePngSamples(where, file, use_alpha, &result);
+    }
   }
   if (error.empty()) *samples = std::move(result);
   return error;

@@ -70,13 +70,13 @@ double Difference(const LightField& field, const FloatMap& levels, int multiple)
 }
 
 int ChooseMultiple(const GreyMapPair& pair, const LightField& field, const FloatMap& levels) {
-  constexpr double kClearly = 0.7;
+  constexpr double kClearly = 0.7, kLevel = 1;  // and more than rounding
   const Size* own =
       std::find_if(std::begin(pair.sizes), std::end(pair.sizes),
                    [&](const Size& size) { return levels.height >= size.least_height; });
   int best = own->multiple;
   if (field.views.size() < 2) return best;
-  double least = kClearly * Difference(field, levels, best);
+  double least = kClearly * Difference(field, levels, best) - kLevel;
   for (const Size& size : pair.sizes) {
     const double difference = Difference(field, levels, size.multiple);
     if (difference >= least) continue;

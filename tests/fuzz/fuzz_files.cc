@@ -8,6 +8,7 @@
 
 #include "platform/container.h"
 #include "platform/image_io.h"
+#include "platform/levels.h"
 #include "platform/pfm.h"
 #include "tests/fuzz/input.h"
 
@@ -45,6 +46,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   starfocus::Image image;
   if (starfocus::ReadImage(file.path(), &image).empty()) {
     if (image.pixels.size() != image.stride() * size_t(image.height)) std::abort();
+  }
+  starfocus::Bytes copy(data, data + size);
+  starfocus::FloatMap levels;
+  if (starfocus::DecodeLevels("levels", &copy, &levels).empty()) {
+    if (levels.values.size() != size_t(levels.width) * size_t(levels.height)) std::abort();
+    for (const float level : levels.values) {
+      if (level < 0 || level > 1) std::abort();
+    }
   }
   return 0;
 }
