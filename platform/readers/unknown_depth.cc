@@ -55,53 +55,61 @@ void Forget(float unknown, FloatMap* map) {
   std::replace(map->values.begin(), map->values.end(), unknown, kUnknown);
 }
 
-// Where the known values around a gap lie, for one direction of a map.
+// What an unknown pixel takes along one direction of a map.
 struct Gap {
-  float behind = kUnknown;  // the smaller of the values at its ends
-  int length = std::numeric_limits<int>::max();
+  float value = kUnknown;
+  int length = std::numeric_limits<int>::max();  // of the gap that the pixel is in
 };
 
-// Tells `visit` the gap of each unknown pixel of a line of `count` values, `step` apart. A gap that
-// ends at the border counts twice: nothing confirms the value of its only end.
+// Tells `visit` the gap of each unknown pixel of a line of `count` values, `step` apart. Ends that
+// differ by at most `alike` are one surface, between whose values the pixel lies. Of others the
+// smaller one is behind. A gap that ends at the border counts twice: nothing confirms the value of
+// its only end.
 template <class Visit>
-void FindGaps(const float* line, size_t step, int count, const Visit& visit) {
+void FindGaps(const float* line, size_t step, int count, float alike, const Visit& visit) {
+  const auto at = [&](int k) { return line[size_t(k) * step]; };
   for (int k = 0; k < count;) {
-    if (!std::isnan(line[size_t(k) * step])) {
+    if (!std::isnan(at(k))) {
       ++k;
       continue;
     }
+    const int begin = k;
     int end = k;
-    while (end < count && std::isnan(line[size_t(end) * step])) ++end;
-    const bool before = k > 0, after = end < count;
-    Gap gap;
-    if (before) gap.behind = line[size_t(k - 1) * step];
-    if (after) gap.behind = std::fmin(gap.behind, line[size_t(end) * step]);
-    if (before || after) gap.length = (end - k) * (before && after ? 1 : 2);
-    for (; k < end; ++k) visit(k, gap);
+    while (end < count && std::isnan(at(end))) ++end;
+    const bool before = begin > 0, after = end < count;
+    if (!before && !after) return;
+    const float first = at(before ? begin - 1 : end), last = at(after ? end : begin - 1);
+    const float slope = (last - first) / static_cast<float>(end - begin + 1);
+    const bool one_surface = std::fabs(last - first) <= alike;
+    const int length = (end - begin) * (before && after ? 1 : 2);
+    for (; k < end; ++k) {
+      const float between = first + slope * static_cast<float>(k - begin + 1);
+      visit(k, Gap{one_surface ? between : std::fmin(first, last), length});
+    }
   }
 }
 
 // Fills every pixel that has a known one in its row or column.
-size_t FillOnce(FloatMap* map) {
+size_t FillOnce(float alike, FloatMap* map) {
   const size_t width = size_t(map->width);
   std::vector<Gap> gaps(map->values.size());
   for (int y = 0; y < map->height; ++y) {
     Gap* row = gaps.data() + size_t(y) * width;
-    FindGaps(map->values.data() + size_t(y) * width, 1, map->width,
+    FindGaps(map->values.data() + size_t(y) * width, 1, map->width, alike,
              [row](int x, const Gap& gap) { row[x] = gap; });
   }
   for (int x = 0; x < map->width; ++x) {
     Gap* column = gaps.data() + x;
-    FindGaps(map->values.data() + x, width, map->height, [&](int y, const Gap& gap) {
+    FindGaps(map->values.data() + x, width, map->height, alike, [&](int y, const Gap& gap) {
       Gap* at = column + size_t(y) * width;
-      if (gap.length == at->length) at->behind = std::fmin(at->behind, gap.behind);
+      if (gap.length == at->length) at->value = std::fmin(at->value, gap.value);
       if (gap.length < at->length) *at = gap;
     });
   }
   size_t filled = 0;
   for (size_t k = 0; k < gaps.size(); ++k) {
-    if (!std::isnan(map->values[k]) || std::isnan(gaps[k].behind)) continue;
-    map->values[k] = gaps[k].behind;
+    if (!std::isnan(map->values[k]) || std::isnan(gaps[k].value)) continue;
+    map->values[k] = gaps[k].value;
     ++filled;
   }
   return filled;
@@ -138,8 +146,12 @@ void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo) {
 size_t FillBehind(FloatMap* map) {
   const auto unknown = std::count_if(map->values.begin(), map->values.end(),
                                      [](float value) { return std::isnan(value); });
+  if (unknown == 0) return 0;
+  constexpr float kAlikePart = 0.05F;  // of the range
+  const RobustRange range = RobustRangeOf(map->values);
+  const float alike = kAlikePart * (range.high - range.low);
   // After the first time every row that has a known pixel is full, and so is some column.
-  for (auto left = static_cast<size_t>(unknown); left > 0;) left -= FillOnce(map);
+  for (auto left = static_cast<size_t>(unknown); left > 0;) left -= FillOnce(alike, map);
   return static_cast<size_t>(unknown);
 }
 

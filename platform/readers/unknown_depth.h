@@ -15,8 +15,9 @@ namespace starfocus {
 void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo);
 
 // Replaces NaN in a map in which larger is nearer by what is behind: along the row or the column,
-// whichever has the shorter gap, the smaller of the two values at its ends. At least one value has
-// to be known. Returns the number of pixels that were filled.
+// whichever has the shorter gap, the smaller of the two values at its ends, or a value between them
+// if they differ by at most 5 % of the range. At least one value has to be known. Returns the
+// number of pixels that were filled.
 size_t FillBehind(FloatMap* map);
 
 }  // namespace starfocus

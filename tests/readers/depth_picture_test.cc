@@ -271,6 +271,10 @@ TEST_CASE("unknown depth: gaps take the farther end of the shorter direction") {
                                          1, 1, 4, 7, 7,  //
                                          1, 1, 2, 7, 7,  //
                                          1, 2, 2, 7, 7});
+  FloatMap slope = {1, 6, {0, 9.6F, kNan, kNan, 9.9F, 10}};  // one surface
+  CHECK(FillBehind(&slope) == 2);
+  CHECK(double(slope.values[2]) == doctest::Approx(9.7));
+  CHECK(double(slope.values[3]) == doctest::Approx(9.8));
   FloatMap one = {3, 3, std::vector<float>(9, kNan)};
   one.values[4] = 3;
   CHECK(FillBehind(&one) == 8);
