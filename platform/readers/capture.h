@@ -18,6 +18,7 @@ enum class MapCare { kNone, kFill, kRepair };
 struct CaptureOptions {
   std::string depth;  // a depth picture for a photograph; empty: what is in or beside it
   Near near = Near::kUnknown;
+  bool small_map = false;  // the map of a photo keeps its own size until LoadCapture
 };
 
 struct Capture {

@@ -88,6 +88,7 @@ Error OpenInput(const InputOptions& options, Capture* capture) {
   }
   CaptureOptions wanted;
   wanted.depth = options.depth;
+  wanted.small_map = true;
   Error error = ParseNear(options.near, &wanted.near);
   std::error_code ignored;
   const char* option = !options.depth.empty() ? "--depth" : "--near";
