@@ -129,8 +129,7 @@ Error Open(const Options& options, LensPlan* plan, Capture* capture) {
   return error.empty() ? PlanAperture(options.lens.aperture, *capture, &plan->aperture) : error;
 }
 
-// What can be refused before the map is brought to the picture's size and cared for, which takes
-// long.
+// Checks everything that does not need the map in the picture's size or repaired, which takes long.
 Error Foresee(const Options& options, const Capture& capture, LensPlan* plan) {
   const LightField& light_field = capture.light_field;
   Error error = CheckRule(capture.path, *plan, light_field.positions);

@@ -68,7 +68,12 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
 
 // The lens: where it is focused, and its opening.
 void AddOpticsOptions(CLI::App* command, LensOptions* options) {
-  command->add_option("--focus", options->focus, "Disparity in focus")->type_name("D");
+  command
+      ->add_option(
+          "--focus", options->focus,
+          "Disparity in focus; default: the subject in EXIF, the focus in the file, or the "
+          "nearest large surface near the centre")
+      ->type_name("D");
   command
       ->add_option("--focus-at", options->focus_at,
                    "X,Y: the disparity of what is at that pixel, the median of its surface "
@@ -109,8 +114,10 @@ Error CheckPixel(int width, int height, const LensPlan& plan) {
 
 void AddApertureOptions(CLI::App* command, ApertureOptions* options) {
   command
-      ->add_option("--aperture", options->aperture,
-                   "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8")
+      ->add_option(
+          "--aperture", options->aperture,
+          "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8, and less where that "
+          "blurs by more than 128 pixels")
       ->type_name("U");
   command
       ->add_option("--f-stop", options->f_stop,
