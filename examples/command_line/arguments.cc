@@ -61,7 +61,10 @@ bool AddNumbers(const std::string& text, char separator, std::vector<std::string
   for (size_t begin = text.find_first_not_of(between); begin < text.size();) {
     const size_t end = std::min(text.find_first_of(between, begin), text.size());
     const std::string number = text.substr(begin, end - begin);
-    if (number.find_first_not_of("0123456789+-.") != std::string::npos) return false;
+    if (number.find_first_not_of("0123456789+-.") != std::string::npos ||
+        number.find_first_of("0123456789") == std::string::npos) {
+      return false;
+    }
     numbers->push_back(number);
     begin = text.find_first_not_of(between, end);
   }

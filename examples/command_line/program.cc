@@ -108,7 +108,7 @@ Error Unexpected(CLI::App* app, const std::string& argument) {
   return Error::Usage("command line", "no other argument of " + name, "'" + argument + "'");
 }
 
-// What CLI11 missed or could not place.
+// Names the argument that is unknown, missing or in excess.
 Error WrongLine(CLI::App* app, const CLI::ParseError& wrong) {
   const std::vector<std::string> others = app->remaining(true);
   const auto is_option = [](const std::string& text) { return text.size() > 1 && text[0] == '-'; };

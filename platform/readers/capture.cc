@@ -98,7 +98,7 @@ std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Ca
   std::string depth = options.depth;
   std::string error = ReadDepthPhotoFile(path, options.map, &depth, &photo);
   const bool pair = !photo.right.pixels.empty();
-  if (error.empty() && !pair) error = MakeLightField(capture->path, &photo, &capture->light_field);
+  if (error.empty() && !pair) error = MakeSmallMap(capture->path, &photo, &capture->light_field);
   if (!error.empty()) return error;
   capture->format = photo.format;
   capture->metadata = std::move(photo.metadata);
@@ -108,7 +108,8 @@ std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Ca
     TakePair(path, &photo, capture);
     return "";
   }
-  const LightField& light_field = capture->light_field;
+  if (!options.small_map) FitMap(&capture->light_field);
+  const Image& picture = capture->light_field.views[0];
   capture->photo = true;
   capture->files = {{{0, 0}, path}};
   capture->map_path = depth.empty() ? path : depth;
@@ -116,11 +117,11 @@ std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Ca
   capture->widest = 1;
   capture->f_stop = kPhotoFStop;
   capture->has_focus = photo.has_focus;
-  capture->focus_x = PixelAt(photo.focus_x, light_field.width());
-  capture->focus_y = PixelAt(photo.focus_y, light_field.height());
+  capture->focus_x = PixelAt(photo.focus_x, picture.width);
+  capture->focus_y = PixelAt(photo.focus_y, picture.height);
   capture->has_subject = photo.has_subject;
-  capture->subject_x = PixelAt(photo.subject_x, light_field.width());
-  capture->subject_y = PixelAt(photo.subject_y, light_field.height());
+  capture->subject_x = PixelAt(photo.subject_x, picture.width);
+  capture->subject_y = PixelAt(photo.subject_y, picture.height);
   capture->focus = photo.focus_value;
   return "";
 }
@@ -166,7 +167,11 @@ std::string OpenCapture(const std::string& path, const CaptureOptions& options, 
 std::string LoadCapture(const Positions& wanted, Capture* capture) {
   std::vector<ViewFile> chosen;
   std::string error = SelectViewFiles(capture->path, capture->files, wanted, &chosen);
-  if (!error.empty() || capture->photo) return error;
+  if (!error.empty()) return error;
+  if (capture->photo) {
+    FitMap(&capture->light_field);
+    return "";
+  }
   if (!capture->light_field.views.empty()) {
     SelectViews(chosen, &capture->light_field);
     return "";

@@ -16,8 +16,9 @@ namespace starfocus {
 enum class MapCare { kNone, kFill, kRepair };
 
 struct CaptureOptions {
-  std::string depth;  // a depth picture for a photograph; empty: what is in or beside it
-  DepthOptions map;   // how that picture is read
+  std::string depth;       // a depth picture for a photograph; empty: what is in or beside it
+  DepthOptions map;        // how that picture is read
+  bool small_map = false;  // the map of a photo keeps its own size until LoadCapture
 };
 
 struct Capture {

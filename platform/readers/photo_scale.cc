@@ -113,25 +113,28 @@ FloatMap Resize(const FloatMap& map, int width, int height) {
   result.values.reserve(size_t(width) * size_t(height));
   for (const Between& row : rows) {
     for (const Between& column : columns) {
-      float sum = 0, weights = 0;
+      float sum = 0, weights = 0, low = std::numeric_limits<float>::infinity(), high = -low;
       const auto add = [&](int x, int y, float weight) {
         const float value = map.at(x, y);
         if (!std::isfinite(value)) return;
         sum += weight * value;
         weights += weight;
+        low = std::min(low, value);
+        high = std::max(high, value);
       };
       add(column.first, row.first, (1 - column.weight) * (1 - row.weight));
       add(column.second, row.first, column.weight * (1 - row.weight));
       add(column.first, row.second, (1 - column.weight) * row.weight);
       add(column.second, row.second, column.weight * row.weight);
-      result.values.push_back(weights > 0 ? sum / weights
+      // Rounding may take a mean beyond its values.
+      result.values.push_back(weights > 0 ? std::clamp(sum / weights, low, high)
                                           : std::numeric_limits<float>::quiet_NaN());
     }
   }
   return result;
 }
 
-std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field) {
+std::string MakeSmallMap(const std::string& where, DepthPhoto* photo, LightField* light_field) {
   ApplyOrientation(photo);
   const Image& picture = photo->picture;
   FloatMap& map = photo->map;
@@ -143,9 +146,6 @@ std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightFie
   const RobustRange range = RobustRangeOf(map.values);
   if (!range.known) return Expected(where, "a map with a known depth", "none");
   FillUnknown(photo);
-  // Scaled last, so that the limit of disparities holds: rounding may take a mean beyond its
-  // values.
-  map = Resize(map, picture.width, picture.height);
   if (photo->meaning == MapMeaning::kDisparity) {
     const std::string error = CheckDisparities(where, photo);
     if (!error.empty()) return error;
@@ -156,6 +156,19 @@ std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightFie
   light_field->views = {std::move(photo->picture)};
   light_field->positions = {{0, 0}};
   return "";
+}
+
+void FitMap(LightField* light_field) {
+  const Image& picture = light_field->views[0];
+  FloatMap& map = light_field->disparity;
+  if (map.width == picture.width && map.height == picture.height) return;
+  map = Resize(map, picture.width, picture.height);
+}
+
+std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field) {
+  const std::string error = MakeSmallMap(where, photo, light_field);
+  if (error.empty()) FitMap(light_field);
+  return error;
 }
 
 }  // namespace starfocus

@@ -12,9 +12,15 @@ namespace starfocus {
 // near they are; unknown ones count nothing.
 FloatMap Resize(const FloatMap& map, int width, int height);
 
-// Turns the photo upright, brings the map to the picture's size, and makes its values disparities
-// such that an aperture of radius 1 is a lens of f/1 on full frame (docs/formats.md). The light
-// field takes over picture and map; photo->focus_value becomes a disparity, too.
+// Turns the photo upright and makes the map's values disparities of the picture such that an
+// aperture of radius 1 is a lens of f/1 on full frame (docs/formats.md). The light field takes over
+// picture and map, which keeps its own size; photo->focus_value becomes a disparity, too.
+std::string MakeSmallMap(const std::string& where, DepthPhoto* photo, LightField* light_field);
+
+// Brings the map of a photo to the picture's size.
+void FitMap(LightField* light_field);
+
+// MakeSmallMap and FitMap.
 std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field);
 
 }  // namespace starfocus

@@ -11,6 +11,7 @@ namespace {
 
 constexpr uint32_t kOrientation = 0x0112, kSoftware = 0x0131, kExifFolder = 0x8769;
 constexpr uint32_t kPixelWidth = 0xa002, kPixelHeight = 0xa003;
+constexpr uint32_t kSubjectArea = 0x9214, kSubjectLocation = 0xa214;
 constexpr uint32_t kAscii = 2, kShort = 3, kLong = 4;
 constexpr size_t kEntry = 12;  // bytes: tag, type, count, value or where it is
 
@@ -34,6 +35,14 @@ class Tiff {
       bytes_[at + (little_ ? i : size - 1 - i)] = static_cast<uint8_t>(value >> (8 * i));
     }
   }
+  // Removes an entry of a folder's list of `count`; what follows in the list moves up.
+  void Remove(size_t folder, size_t entry, size_t count) {
+    const size_t end = folder + 2 + count * kEntry + 4;
+    std::copy(bytes_.begin() + static_cast<ptrdiff_t>(entry + kEntry),
+              bytes_.begin() + static_cast<ptrdiff_t>(end),
+              bytes_.begin() + static_cast<ptrdiff_t>(entry));
+    Set(folder, 2, static_cast<uint32_t>(count - 1));
+  }
   // The first entry of a folder's list and how many there are; false where they are not all there.
   bool Entries(size_t folder, size_t* first, size_t* count) const {
     if (!Has(folder, 2)) return false;
@@ -50,6 +59,30 @@ class Tiff {
 bool IsTiff(const Bytes& bytes, const Tiff& tiff) {
   if (bytes.size() < 8 || bytes[0] != bytes[1]) return false;
   return (bytes[0] == 'I' || bytes[0] == 'M') && tiff.Get(2, 2) == 42;
+}
+
+// Removes the subject, whose pixels are those of the picture as it was, unless the folder says that
+// it had this size.
+void RemoveSubject(size_t folder, int width, int height, bool turned, Tiff* tiff) {
+  size_t first = 0, count = 0;
+  if (!tiff->Entries(folder, &first, &count)) return;
+  bool same_width = false, same_height = false;
+  for (size_t at = first; at < first + count * kEntry; at += kEntry) {
+    const uint32_t tag = tiff->Get(at, 2), type = tiff->Get(at + 2, 2);
+    if (type != kShort && type != kLong) continue;
+    const uint32_t value = tiff->Get(at + 8, type == kShort ? 2 : 4);
+    same_width = same_width || (tag == kPixelWidth && value == static_cast<uint32_t>(width));
+    same_height = same_height || (tag == kPixelHeight && value == static_cast<uint32_t>(height));
+  }
+  if (!turned && same_width && same_height) return;
+  for (size_t at = first; at < first + count * kEntry;) {
+    const uint32_t tag = tiff->Get(at, 2);
+    if (tag == kSubjectArea || tag == kSubjectLocation) {
+      tiff->Remove(folder, at, count--);
+    } else {
+      at += kEntry;
+    }
+  }
 }
 
 // A width or height, where the folder has it.
@@ -71,9 +104,14 @@ bool MarkEdited(const std::string& software, int width, int height, Bytes* bytes
   size_t first = 0, count = 0;
   if (!IsTiff(*bytes, tiff) || !tiff.Entries(tiff.Get(4, 4), &first, &count)) return false;
   std::vector<std::pair<uint32_t, size_t>> entries;  // tag, and where it is; tags are in order
+  bool turned = false;
   for (size_t at = first; at < first + count * kEntry; at += kEntry) {
     const uint32_t tag = tiff.Get(at, 2);
-    if (tag == kExifFolder) SetSizes(tiff.Get(at + 8, 4), width, height, &tiff);
+    if (tag == kOrientation) turned = tiff.Get(at + 8, 2) != 1;  // before the next folder's tag
+    if (tag == kExifFolder) {
+      RemoveSubject(tiff.Get(at + 8, 4), width, height, turned, &tiff);
+      SetSizes(tiff.Get(at + 8, 4), width, height, &tiff);
+    }
     if (tag != kOrientation && tag != kSoftware) entries.emplace_back(tag, at);
   }
   entries.emplace_back(kOrientation, 0);

@@ -10,7 +10,8 @@
 namespace starfocus {
 
 // Sets the Software tag, orientation 1 and the size, and leaves the thumbnail out, which shows the
-// picture as it was. Everything else stays, at its place. False, and nothing changed, where `tiff`
+// picture as it was. Removes the subject unless the picture has its size and orientation still.
+// Everything else stays, at its place. False, and nothing changed, where `tiff`
 // is no TIFF structure that can be followed.
 bool MarkEdited(const std::string& software, int width, int height, Bytes* tiff);
 

@@ -237,6 +237,14 @@ TEST_CASE("cli: sweeps, videos, pages and batches fit the limit of blur, too") {
     CHECK(!Contains(named.err, "aperture"));
   }
   CHECK(Contains(Call(folder, "refocus lf second --focus 0 -o batch/").err, "second: aperture f/"));
+  // What fits a video fits all of its frames.
+  FloatMap map;
+  REQUIRE(ReadPfm(folder.file("second/disparity.pfm"), &map) == "");
+  for (float& value : map.values) value *= 4.0f / 3;
+  REQUIRE(WritePfm(folder.file("second/disparity.pfm"), map) == "");
+  const Outcome frames = Call(folder, "video lf second --focus 0 --f-stop 1 -o none");
+  CHECK(frames.code == 2);
+  CHECK(Contains(frames.err, "f/3.13 or narrower"));
 }
 
 TEST_CASE("cli: without a hint the nearest large surface near the centre is in focus") {

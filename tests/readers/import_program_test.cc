@@ -170,13 +170,43 @@ TEST_CASE("photos: the default focus is the subject of EXIF, turned and scaled a
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
     CHECK(Contains(outcome.err, photo.focus));
-    CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
     const size_t begin = outcome.err.find("focused at ") + 11;
+    CHECK(outcome.err.find("focused at ", begin) == std::string::npos);
     const std::string pixel = outcome.err.substr(begin, outcome.err.find(", ", begin) - begin);
     REQUIRE(Call(folder, "refocus a.jpg" + map + " -o at.png --focus-at " + pixel).code == 0);
     CHECK(Text(folder.file("default.png")) == Text(folder.file("at.png")));
   }
 }
+TEST_CASE("photos: the subject stays in EXIF where its pixels are those of the picture") {
+  constexpr int kArea = 0x9214, kLocation = 0xa214;
+  const struct {
+    std::string exif;
+    const char* options;
+    bool stays;
+  } kinds[] = {{SubjectSegment(1, kArea, {72, 20}, 96, 64), "", true},
+               {SubjectSegment(1, kLocation, {72, 20}, 96, 64), "", true},
+               {SubjectSegment(3, kArea, {72, 20}, 96, 64), "", false},
+               {SubjectSegment(6, kLocation, {72, 20, 5}, 96, 64), "", false},
+               {SubjectSegment(1, kArea, {72, 20, 5, 9}, 96, 64), "--region 10,0,80,64", false},
+               {SubjectSegment(1, kArea, {72, 20}, 192, 128), "", false},
+               {SubjectSegment(1, kArea, {72, 20}), "", false}};
+  for (const auto& kind : kinds) {
+    TempFolder folder;
+    MakePhoto(folder, kind.exif);
+    const std::string refocus = "refocus a.jpg --near white --focus-at 30,30 -o b.jpg ";
+    REQUIRE(Call(folder, refocus + kind.options).code == 0);
+    Image picture;
+    REQUIRE(ReadImage(folder.file("b.jpg"), &picture) == "");
+    Image map(picture.width, picture.height);
+    std::fill_n(map.pixels.begin(), map.pixels.size() / 2, uint8_t{255});
+    Write(folder.file("b-depth.png"), Encode(map, ".png"));
+    const Outcome again = Call(folder, "refocus b.jpg --near white -o c.jpg");
+    CAPTURE(again.err);
+    CHECK(again.code == 0);
+    CHECK(Contains(again.err, kind.stays ? "72,20, the subject" : "the nearest large surface"));
+  }
+}
+
 #endif
 
 TEST_CASE("photos: - is a photo on standard input") {

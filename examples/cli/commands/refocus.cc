@@ -111,12 +111,13 @@ Error MakePlan(const Options& options, LensPlan* plan, PictureOptions* how) {
   return error.empty() ? PlanLens(options.lens, plan) : error;
 }
 
-Error CheckRegion(const FloatMap& map, const Options& options, const sf_region& region) {
-  if (region.x + region.width <= map.width && region.y + region.height <= map.height) return "";
-  return Error::Usage(
-      "--region",
-      "pixels of the picture, " + std::to_string(map.width) + "x" + std::to_string(map.height),
-      options.region);
+Error CheckRegion(const Image& picture, const Options& options, const sf_region& region) {
+  if (region.x + region.width <= picture.width && region.y + region.height <= picture.height)
+    return "";
+  return Error::Usage("--region",
+                      "pixels of the picture, " + std::to_string(picture.width) + "x" +
+                          std::to_string(picture.height),
+                      options.region);
 }
 
 Error Open(const Options& options, LensPlan* plan, Capture* capture) {
@@ -128,26 +129,27 @@ Error Open(const Options& options, LensPlan* plan, Capture* capture) {
   return error.empty() ? PlanAperture(options.lens.aperture, *capture, &plan->aperture) : error;
 }
 
-// What can be refused before the care of the map, which takes long.
+// Checks everything that does not need the map in the picture's size or repaired, which takes long.
 Error Foresee(const Options& options, const Capture& capture, LensPlan* plan) {
-  const FloatMap& map = capture.light_field.disparity;
-  Error error = CheckRule(capture.path, *plan, capture.light_field.positions);
-  if (error.empty()) error = CheckRegion(map, options, plan->region);
+  const LightField& light_field = capture.light_field;
+  Error error = CheckRule(capture.path, *plan, light_field.positions);
+  if (error.empty()) error = CheckRegion(light_field.views[0], options, plan->region);
   if (!error.empty()) return error;
   if (plan->focus_option.empty()) {
     const DefaultFocus focus = FindDefaultFocus(capture);
     TellFocus(capture.path, focus);
     UseFocus(focus, plan);
   }
-  return ForeseeBlur(map, WillRepair(options.disparities, capture), plan);
+  return ForeseeBlur(light_field, WillRepair(options.disparities, capture), plan);
 }
 
 Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
   Capture* capture = &loaded->capture;
   const FloatMap& map = capture->light_field.disparity;
   Error error = Open(options, plan, capture);
+  if (error.empty() && capture->photo) error = Foresee(options, *capture, plan);
   if (error.empty()) error = LoadInput(plan->views, plan->threads, capture);
-  if (error.empty()) error = Foresee(options, *capture, plan);
+  if (error.empty() && !capture->photo) error = Foresee(options, *capture, plan);
   if (error.empty()) error = CareForMap(options.disparities, plan->threads, capture);
   if (error.empty()) error = PrepareDisparity(MapName(*capture), map, &loaded->stats);
   if (error.empty()) error = ChooseFocus(map, plan);

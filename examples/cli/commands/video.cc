@@ -139,8 +139,8 @@ Error Scan(const Options& options, LensPlan* plan, Video* video) {
     if (i == 0 && error.empty()) error = FocusFirst(folder, map, plan);
     video->stats.min = i == 0 ? stats.min : std::min(video->stats.min, stats.min);
     video->stats.max = i == 0 ? stats.max : std::max(video->stats.max, stats.max);
-    if (error.empty()) error = ChooseBlur(video->stats, plan, &video->max_blur);
   }
+  if (error.empty()) error = ChooseBlur(video->stats, plan, &video->max_blur);
   if (error.empty()) TellAperture(video->folders[0], plan->aperture);
   return error;
 }

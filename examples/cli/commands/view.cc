@@ -135,12 +135,13 @@ Error ChooseLenses(const Capture& capture, const sf_disparity_stats& stats, Aper
   return "";
 }
 
-// Refuses an aperture that is too wide before the care of the map, which takes long.
-Error ForeseeAperture(const Capture& capture, const MapOptions& care, Aperture* aperture) {
+// Refuses an aperture that is too wide before the map is brought to the picture's size and cared
+// for, which takes long.
+Error ForeseeAperture(const Capture& capture, Aperture* aperture) {
   LensPlan plan;
   plan.foci = StripFoci(capture.light_field.disparity, kFoci);
   plan.aperture = *aperture;
-  const Error error = ForeseeBlur(capture.light_field.disparity, WillRepair(care, capture), &plan);
+  const Error error = ForeseeBlur(capture.light_field, WillRepair({}, capture), &plan);
   *aperture = plan.aperture;
   return error;
 }
@@ -160,7 +161,9 @@ Error Open(const Options& options, int* threads, Aperture* aperture, Capture* ca
   if (error.empty()) error = OpenInput(options.input, capture);
   if (error.empty()) error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(*capture)});
   if (error.empty()) error = PlanAperture(options.aperture, *capture, aperture);
-  return error.empty() ? LoadInput({}, *threads, capture) : error;
+  if (error.empty() && capture->photo) error = ForeseeAperture(*capture, aperture);
+  if (error.empty()) error = LoadInput({}, *threads, capture);
+  return error.empty() && !capture->photo ? ForeseeAperture(*capture, aperture) : error;
 }
 
 Error Run(const Options& options) {
@@ -176,8 +179,7 @@ Error Run(const Options& options) {
                        &known);
   MapOptions care;
   care.fill = known.invalid > 0;
-  error = ForeseeAperture(capture, care, &aperture);
-  if (error.empty()) error = CareForMap(care, threads, &capture);
+  error = CareForMap(care, threads, &capture);
   if (error.empty()) error = PrepareDisparity(MapName(capture), map, &stats);
   Contents contents;
   if (error.empty()) error = ChooseLenses(capture, stats, &aperture, &contents);

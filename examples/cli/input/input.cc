@@ -168,6 +168,7 @@ Error OpenInput(const InputOptions& options, Capture* capture) {
   }
   CaptureOptions wanted;
   wanted.depth = options.depth;
+  wanted.small_map = true;
   Error error = ParseDepthOptions(options, &wanted.map);
   std::error_code ignored;
   const char* option = DepthOption(options);

@@ -31,7 +31,8 @@ void AddInputOptions(CLI::App* command, InputOptions* options,
                      std::vector<std::string>* several = nullptr);
 void AddMapOptions(CLI::App* command, MapOptions* options);
 
-// Finds out what it is (OpenCapture); what was guessed goes to stderr.
+// Finds out what it is (OpenCapture); what was guessed goes to stderr. The map of a photo keeps its
+// own size until LoadInput.
 Error OpenInput(const InputOptions& options, Capture* capture);
 
 // Reads the views wanted, or all if none are, and the map; one that is not there is estimated from

@@ -59,7 +59,8 @@ double FirstThatFits(double value, int direction, const Fits& fits) {
   }
 }
 
-// The values of three digits next to the limit of blur, each with the others as they are.
+// The widest f-stop, of three digits, within the limit of blur; below the same for --aperture and
+// --strength.
 double WidestFStop(double range, const Aperture& aperture) {
   const double factor = aperture.widest * aperture.strength;
   return FirstThatFits(factor * range / SF_MAX_BLUR, 1, [&](double f_stop) {
@@ -80,7 +81,7 @@ double LargestPercentage(double range, const Aperture& aperture) {
   });
 }
 
-// What a user may type in place of the value that is too wide.
+// Returns the largest value that a user may type in place of the one that is too wide.
 std::string WhatFits(double range, const Aperture& aperture) {
   if (aperture.option == "--f-stop") {
     return "f/" + ThreeDigits(WidestFStop(range, aperture)) + " or narrower";

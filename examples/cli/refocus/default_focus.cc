@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <vector>
 
@@ -84,6 +85,11 @@ Sample ChooseSample(const Grid& grid, const Surface& surface) {
 
 DefaultFocus AtPixel(int x, int y, const std::string& source) { return {true, x, y, 0, source}; }
 
+// The pixel of another size at the middle of this one.
+int Scaled(int at, int from, int to) {
+  return static_cast<int>((2 * int64_t{at} + 1) * to / (2 * int64_t{from}));
+}
+
 }  // namespace
 
 DefaultFocus FindDefaultFocus(const Capture& capture) {
@@ -96,7 +102,12 @@ DefaultFocus FindDefaultFocus(const Capture& capture) {
   if (std::isfinite(capture.focus)) {
     return {false, 0, 0, capture.focus, "the focus distance in the file"};
   }
-  return FindSurface(capture.light_field.disparity);
+  const FloatMap& map = capture.light_field.disparity;
+  const Image& picture = capture.light_field.views[0];
+  DefaultFocus focus = FindSurface(map);
+  focus.x = Scaled(focus.x, map.width, picture.width);
+  focus.y = Scaled(focus.y, map.height, picture.height);
+  return focus;
 }
 
 DefaultFocus FindSurface(const FloatMap& map) {

@@ -16,12 +16,13 @@ struct DefaultFocus {
   std::string source;    // where the focus comes from, for people
 };
 
-// The subject that EXIF names, else the focus of the file, else FindSurface. The map is read
-// already; it may have unknown values.
+// The subject that EXIF names, else the focus of the file, else FindSurface, in pixels of the
+// picture. The map is read already; it may have unknown values and another size than the picture.
 DefaultFocus FindDefaultFocus(const Capture& capture);
 
 // A pixel of the nearest large surface near the centre: disparities alike on a tenth, at least, of
-// the middle half of width and height. The centre where no disparity is known there.
+// the middle half of width and height. The centre where no disparity is known there. In pixels of
+// the map.
 DefaultFocus FindSurface(const FloatMap& map);
 
 // Prints the focus and its source to stderr.

@@ -68,7 +68,12 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
 
 // The lens: where it is focused, and its opening.
 void AddOpticsOptions(CLI::App* command, LensOptions* options) {
-  command->add_option("--focus", options->focus, "Disparity in focus")->type_name("D");
+  command
+      ->add_option(
+          "--focus", options->focus,
+          "Disparity in focus; default: the subject in EXIF, the focus in the file, or the "
+          "nearest large surface near the centre")
+      ->type_name("D");
   command
       ->add_option("--focus-at", options->focus_at,
                    "X,Y: the disparity of what is at that pixel, the median of its surface "
@@ -97,11 +102,11 @@ bool FocusAround(const FloatMap& map, int x, int y, double* focus) {
                      focus) == SF_OK;
 }
 
-Error CheckPixel(const FloatMap& map, const LensPlan& plan) {
-  if (plan.x < map.width && plan.y < map.height) return "";
+Error CheckPixel(int width, int height, const LensPlan& plan) {
+  if (plan.x < width && plan.y < height) return "";
   return Error::Usage("--focus-at",
-                      "a pixel of the picture, up to " + std::to_string(map.width - 1) + "," +
-                          std::to_string(map.height - 1),
+                      "a pixel of the picture, up to " + std::to_string(width - 1) + "," +
+                          std::to_string(height - 1),
                       std::to_string(plan.x) + "," + std::to_string(plan.y));
 }
 
@@ -109,8 +114,10 @@ Error CheckPixel(const FloatMap& map, const LensPlan& plan) {
 
 void AddApertureOptions(CLI::App* command, ApertureOptions* options) {
   command
-      ->add_option("--aperture", options->aperture,
-                   "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8")
+      ->add_option(
+          "--aperture", options->aperture,
+          "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8, and less where that "
+          "blurs by more than 128 pixels")
       ->type_name("U");
   command
       ->add_option("--f-stop", options->f_stop,
@@ -252,7 +259,7 @@ std::string PrepareDisparity(const std::string& where, const FloatMap& map,
 Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   if (!plan->foci.empty()) return "";
   double focus = 0;
-  const Error error = CheckPixel(map, *plan);
+  const Error error = CheckPixel(map.width, map.height, *plan);
   if (!error.empty()) return error;
   // The map is a good one (PrepareDisparity).
   sf_focus_at(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, plan->x,
@@ -261,13 +268,17 @@ Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   return "";
 }
 
-Error ForeseeBlur(const FloatMap& map, bool repaired, LensPlan* plan) {
+Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) {
+  const FloatMap& map = light_field.disparity;
+  const Image& picture = light_field.views[0];
   std::vector<double> foci = plan->foci;
   if (foci.empty()) {
-    const Error error = CheckPixel(map, *plan);
+    const Error error = CheckPixel(picture.width, picture.height, *plan);
     if (!error.empty()) return error;
+    const auto x = static_cast<int>(int64_t{plan->x} * map.width / picture.width);
+    const auto y = static_cast<int>(int64_t{plan->y} * map.height / picture.height);
     foci.resize(1);
-    if (!FocusAround(map, plan->x, plan->y, &foci[0])) return "";
+    if (!FocusAround(map, x, y, &foci[0])) return "";
   }
   sf_disparity_stats stats = {};
   // Where nothing is known, the care of the map reports it.

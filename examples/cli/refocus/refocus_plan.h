@@ -70,8 +70,8 @@ std::string PrepareDisparity(const std::string& where, const FloatMap& map,
 Error ChooseFocus(const FloatMap& map, LensPlan* plan);
 
 // Fits the aperture to the blur of a map before its care, which may take long: a repair, where
-// `repaired` is true. The map may have unknown values.
-Error ForeseeBlur(const FloatMap& map, bool repaired, LensPlan* plan);
+// `repaired` is true. The map may have unknown values and another size than the picture.
+Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan);
 
 // Fits the aperture to the blur of the map that is used. Returns the largest blur radius of any
 // focus, rounded up to whole pixels.
