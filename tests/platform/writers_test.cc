@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 
+#include "platform/icc_profile.h"
 #include "platform/image_io.h"
 #include "platform/png.h"
 #include "platform/writers/base64.h"
@@ -94,6 +95,35 @@ Bytes Profile(size_t size) {
   put(36, "acsp");
   put(68, std::string("\0\0\xf6\xd6\0\1\0\0\0\0\xd3\x2d", 12));
   return icc;
+}
+
+TEST_CASE("profiles: whole ones of RGB alone are passed on") {
+  const auto changed = [](size_t at, uint8_t value) {
+    Bytes icc = Profile(200);
+    icc[at] = value;
+    return icc;
+  };
+  CHECK(IsRgbProfile(Profile(132)));
+  CHECK(IsRgbProfile(Profile(150000)));
+  for (const std::string space : {"GRAY", "CMYK", "Lab ", "XYZ "}) {
+    Bytes icc = Profile(200);
+    std::copy(space.begin(), space.end(), icc.begin() + 16);
+    CHECK_FALSE(IsRgbProfile(icc));
+  }
+  for (const size_t size : {size_t{0}, size_t{3}, size_t{131}, size_t{199}, size_t{201}}) {
+    Bytes icc = Profile(200);
+    icc.resize(size);
+    CHECK_FALSE(IsRgbProfile(icc));
+  }
+  CHECK_FALSE(IsRgbProfile(changed(36, 'x')));
+  CHECK_FALSE(IsRgbProfile(changed(131, 6)));  // tags: 132 + 6 * 12 bytes are more than there are
+  Bytes tagged = changed(131, 1);
+  tagged[132 + 7] = 190, tagged[132 + 11] = 10;  // from 190 on, 10 bytes
+  CHECK(IsRgbProfile(tagged));
+  ++tagged[132 + 11];
+  CHECK_FALSE(IsRgbProfile(tagged));
+  tagged[132 + 4] = 0xff;
+  CHECK_FALSE(IsRgbProfile(tagged));
 }
 
 bool Has(const std::string& program) {
