@@ -18,6 +18,9 @@ enum class Container {
 
 Container CheckContainer(const Bytes& bytes);
 
+// Returns true if a chunk of a PNG file reaches beyond its end, or the last chunk is missing.
+bool IsTruncatedPng(const Bytes& png);
+
 // Whether the file begins as a PNG file does.
 bool IsPng(const Bytes& bytes);
 

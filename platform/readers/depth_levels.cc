@@ -6,6 +6,7 @@
 
 #include "platform/image_io.h"
 #include "platform/readers/exif.h"
+#include "platform/readers/profile.h"
 
 namespace starfocus {
 namespace {
@@ -96,11 +97,7 @@ std::string ReadJpegPicture(const std::string& where, Span file, const JpegParts
   if (!error.empty()) return error;
   photo->metadata = parts.metadata;
   ReadExif(photo);
-  if (!parts.metadata.icc.empty()) {
-    photo->facts.emplace_back(
-        "colour profile",
-        "ICC, " + std::to_string(parts.metadata.icc.size()) + " bytes; pixels stay as they are");
-  }
+  CheckProfile(photo);
   return "";
 }
 

@@ -14,6 +14,7 @@
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/exif.h"
+#include "platform/readers/profile.h"
 #endif
 
 namespace starfocus {
@@ -155,8 +156,7 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   if (profile == 0 || profile > kMostMetadata) return;
   photo->metadata.icc.resize(profile);
   heif_image_handle_get_raw_color_profile(handle, photo->metadata.icc.data());
-  photo->facts.emplace_back("colour profile",
-                            "ICC, " + std::to_string(profile) + " bytes; pixels stay as they are");
+  CheckProfile(photo);
 }
 
 // Whether an auxiliary picture is something that refocusing has no use for.
