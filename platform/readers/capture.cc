@@ -126,11 +126,11 @@ std::string OpenCapture(const std::string& path, const CaptureOptions& options, 
   }
 }
 
-std::string LoadCapture(const Positions& wanted, Capture* capture) {
+std::string LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner) {
   std::vector<ViewFile> chosen;
   std::string error = SelectViewFiles(capture->path, capture->files, wanted, &chosen);
   if (!error.empty() || capture->photo) return error;
-  error = LoadViewFiles(chosen, &capture->light_field);
+  error = LoadViewFiles(chosen, &capture->light_field, runner);
   if (!error.empty() || capture->map_path.empty()) return error;
   error = LoadMap(capture->map_path, &capture->light_field);
   if (capture->map_scale == 1) return error;
