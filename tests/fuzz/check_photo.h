@@ -10,13 +10,19 @@
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/photo_scale.h"
 #include "starfocus/starfocus.h"
+#include "tests/fuzz/memory_budget.h"
 
 namespace starfocus::fuzz {
 
+inline std::string Decode(const uint8_t* data, size_t size, DepthPhoto* photo) {
+  const MemoryBudget budget(data, size);
+  const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
+  return DecodeDepthPhoto("photo", {data, size}, true, near, photo);
+}
+
 inline void CheckPhoto(const uint8_t* data, size_t size) {
   DepthPhoto photo;
-  const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
-  const std::string error = DecodeDepthPhoto("photo", {data, size}, true, near, &photo);
+  const std::string error = Decode(data, size, &photo);
   if (!error.empty() || photo.map.values.empty()) return;
   if (photo.map.values.size() != size_t(photo.map.width) * size_t(photo.map.height)) std::abort();
   // Small ones: the engine's own fuzz target is for what follows.
