@@ -8,7 +8,7 @@ BUILD=build/release
 LOGS=build/log
 PROGRAM=$BUILD/starfocus
 PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev
-  libjpeg62-turbo-dev libpng-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev"
+  libjpeg62-turbo-dev libpng-dev libdeflate-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev"
 # Programs by which tests judge what starfocus reads and writes.
 JUDGES="libimage-exiftool-perl webp"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
@@ -113,6 +113,7 @@ has() {
     nlohmann-json3-dev) has_header nlohmann/json.hpp ;;
     libjpeg62-turbo-dev) has_header jpeglib.h ;;
     libpng-dev) has_header png.h ;;
+    libdeflate-dev) has_header libdeflate.h ;;
     libwebp-dev) has_header webp/mux.h ;;
     libimage-exiftool-perl) command -v exiftool ;;
     webp) command -v webpinfo ;;

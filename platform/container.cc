@@ -37,13 +37,14 @@ uint32_t Crc(const uint8_t* bytes, size_t size) {
 
 // stb_image allocates what a chunk says it holds before it looks for it, and never looks at its
 // checksum.
-Container CheckPng(const Bytes& bytes) {
+Container CheckPng(const Bytes& bytes, bool checksums) {
   for (size_t at = sizeof(kPngSignature); at + 12 <= bytes.size();) {
     const uint8_t* chunk = &bytes[at];
     const size_t length = ReadBigEndian32(chunk);
     if (length > bytes.size() - at - 12) return Container::kTruncated;
-    if (Crc(chunk + 4, length + 4) != ReadBigEndian32(chunk + 8 + length))
+    if (checksums && Crc(chunk + 4, length + 4) != ReadBigEndian32(chunk + 8 + length)) {
       return Container::kBroken;
+    }
     if (std::equal(chunk + 4, chunk + 8, "IEND")) return Container::kWhole;
     at += 12 + length;
   }
@@ -156,8 +157,10 @@ uint32_t ReadBigEndian32(const uint8_t* bytes) {
 
 bool IsPng(const Bytes& bytes) { return StartsWith(bytes, kPngSignature); }
 
+bool IsTruncatedPng(const Bytes& png) { return CheckPng(png, false) == Container::kTruncated; }
+
 Container CheckContainer(const Bytes& bytes) {
-  if (IsPng(bytes)) return CheckPng(bytes);
+  if (IsPng(bytes)) return CheckPng(bytes, true);
   if (StartsWith(bytes, kJpegSignature)) return CheckJpeg(bytes);
   return Container::kUnknown;
 }

@@ -26,6 +26,9 @@ std::string Truncated(const std::string& where, const std::string& format);
 // "an empty file". "a file of an unknown format" if nothing is recognised.
 std::string DescribeFile(const Bytes& bytes);
 
+// Returns true if a chunk of a PNG file reaches beyond its end, or the last chunk is missing.
+bool IsTruncatedPng(const Bytes& png);
+
 // Whether the file begins as a PNG file does.
 bool IsPng(const Bytes& bytes);
 

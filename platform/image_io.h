@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Picture files: PNG, PPM and JPEG to and from 8-bit RGB, and WebP from it.
+// Picture files: PNG, PPM, JPEG and WebP to and from 8-bit RGB.
 #ifndef STARFOCUS_PLATFORM_IMAGE_IO_H_
 #define STARFOCUS_PLATFORM_IMAGE_IO_H_
 
@@ -7,16 +7,20 @@
 
 #include "platform/file.h"
 #include "platform/image.h"
+#include "platform/metadata.h"
 #include "platform/writers/picture.h"
 
 namespace starfocus {
 
-// Reads a picture, whatever its name says, by its content. Grey becomes RGB, alpha is dropped. PNG
-// and JPEG pictures may have 2^28 pixels, here and below.
+// Reads a picture, whatever its name says, by its content. Grey and CMYK become RGB, alpha is
+// dropped. Pictures may have 2^28 pixels, here and below.
 std::string ReadImage(const std::string& path, Image* image);
 
 // The same of bytes in memory, which may be changed; `where` only names them in the error.
-std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image);
+// `metadata`, unless it is null, gets the profile and EXIF of PNG and WebP files as they are; those
+// of JPEG files are read with the other segments (readers/jpeg_parts.h).
+std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image,
+                        Metadata* metadata = nullptr);
 
 // Writes by extension (writers/picture.h).
 std::string WriteImage(const std::string& path, const Image& image,

@@ -43,6 +43,22 @@ struct SaveJob {
   }
 };
 
+struct LoadJob {
+  const std::vector<ViewFile>& files;
+  std::vector<Image>* views;
+  std::vector<std::string> errors;  // of each view
+  Progress progress;
+
+  static void Run(void* data, int32_t index, int32_t) {
+    LoadJob* self = static_cast<LoadJob*>(data);
+    const std::string& path = self->files[size_t(index)].path;
+    std::string* error = &self->errors[size_t(index)];
+    *error = CheckPlainFile(path);
+    if (error->empty()) *error = ReadImage(path, &(*self->views)[size_t(index)]);
+    self->progress.Step();
+  }
+};
+
 }  // namespace
 
 void ConfigureViews(const LightField& light_field, sf_config* config) {
@@ -85,32 +101,38 @@ bool HasDisparity(const std::string& folder) {
   return fs::exists(DisparityPath(folder), error);
 }
 
-std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field) {
+std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
+                          ThreadRunner* runner) {
   LightField result;
-  Progress progress("reading views", static_cast<int64_t>(files.size()));
-  for (const ViewFile& file : files) {
-    Image view;
-    std::string error = CheckPlainFile(file.path);
-    if (error.empty()) error = ReadImage(file.path, &view);
-    if (!error.empty()) return error;
-    result.positions.push_back(file.position);
-    result.views.push_back(std::move(view));
-    const Image &centre = result.views[0], &last = result.views.back();
-    if (last.width != centre.width || last.height != centre.height) {
-      return Expected(file.path, SizeText(centre.width, centre.height) + " as the centre view",
-                      SizeText(last.width, last.height));
+  for (const ViewFile& file : files) result.positions.push_back(file.position);
+  result.views.resize(files.size());
+  LoadJob load = {files,
+                  &result.views,
+                  std::vector<std::string>(files.size()),
+                  {"reading views", static_cast<int64_t>(files.size())}};
+  const auto count = static_cast<int32_t>(files.size());
+  if (runner != nullptr) {
+    ThreadRunner::Run(runner, LoadJob::Run, &load, count);
+  } else {
+    for (int32_t k = 0; k < count; ++k) LoadJob::Run(&load, k, 0);
+  }
+  for (size_t k = 0; k < files.size(); ++k) {
+    if (!load.errors[k].empty()) return load.errors[k];
+    const Image &centre = result.views[0], &view = result.views[k];
+    if (view.width != centre.width || view.height != centre.height) {
+      return Expected(files[k].path, SizeText(centre.width, centre.height) + " as the centre view",
+                      SizeText(view.width, view.height));
     }
-    progress.Step();
   }
   *light_field = std::move(result);
   return "";
 }
 
 std::string LoadCaptured(const std::string& folder, const Positions& wanted,
-                         LightField* light_field) {
+                         LightField* light_field, ThreadRunner* runner) {
   std::vector<ViewFile> files;
   const std::string error = ChooseViewFiles(folder, wanted, &files);
-  return error.empty() ? LoadViewFiles(files, light_field) : error;
+  return error.empty() ? LoadViewFiles(files, light_field, runner) : error;
 }
 
 std::string LoadMap(const std::string& path, LightField* light_field) {
@@ -131,9 +153,9 @@ std::string TakeMap(const std::string& path, FloatMap map, LightField* light_fie
 }
 
 std::string LoadLightField(const std::string& folder, const Positions& wanted,
-                           LightField* light_field) {
+                           LightField* light_field, ThreadRunner* runner) {
   LightField result;
-  std::string error = LoadCaptured(folder, wanted, &result);
+  std::string error = LoadCaptured(folder, wanted, &result, runner);
   if (error.empty()) error = LoadMap(DisparityPath(folder), &result);
   if (error.empty()) *light_field = std::move(result);
   return error;

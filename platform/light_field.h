@@ -41,12 +41,14 @@ std::string ReadDisparity(const std::string& folder, FloatMap* map);
 bool HasDisparity(const std::string& folder);
 
 // Loads the views at these positions, or all of the folder's if there are none, without the map.
-// All sizes must agree.
+// All sizes must agree. Here and below views are decoded several at a time on `runner`; null: one
+// after the other.
 std::string LoadCaptured(const std::string& folder, const Positions& wanted,
-                         LightField* light_field);
+                         LightField* light_field, ThreadRunner* runner = nullptr);
 
 // Loads these views without a map. All sizes must agree.
-std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field);
+std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
+                          ThreadRunner* runner = nullptr);
 
 // Loads the map of views that are there, of the same size.
 std::string LoadMap(const std::string& path, LightField* light_field);
@@ -56,7 +58,7 @@ std::string TakeMap(const std::string& path, FloatMap map, LightField* light_fie
 
 // Loads these views and the disparity map, of the same size.
 std::string LoadLightField(const std::string& folder, const Positions& wanted,
-                           LightField* light_field);
+                           LightField* light_field, ThreadRunner* runner = nullptr);
 
 // Makes the folder if needed and writes PNG views, several at a time on `runner`, and the disparity
 // map if there is one.

@@ -164,7 +164,7 @@ std::string OpenCapture(const std::string& path, const CaptureOptions& options, 
   }
 }
 
-std::string LoadCapture(const Positions& wanted, Capture* capture) {
+std::string LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner) {
   std::vector<ViewFile> chosen;
   std::string error = SelectViewFiles(capture->path, capture->files, wanted, &chosen);
   if (!error.empty()) return error;
@@ -176,7 +176,7 @@ std::string LoadCapture(const Positions& wanted, Capture* capture) {
     SelectViews(chosen, &capture->light_field);
     return "";
   }
-  error = LoadViewFiles(chosen, &capture->light_field);
+  error = LoadViewFiles(chosen, &capture->light_field, runner);
   if (!error.empty() || capture->map_path.empty()) return error;
   if (LowerExtension(capture->map_path) != ".pfm") return LoadGreyMap(capture);
   error = LoadMap(capture->map_path, &capture->light_field);

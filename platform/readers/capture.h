@@ -46,8 +46,9 @@ struct Capture {
 // found and what is missing.
 std::string OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture);
 
-// Reads the views at the positions wanted, or all if none are, and the map if there is one.
-std::string LoadCapture(const Positions& wanted, Capture* capture);
+// Reads the views at the positions wanted, or all if none are, and the map if there is one. Views
+// are decoded several at a time on `runner`; null: one after the other.
+std::string LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner = nullptr);
 
 // Every file that is read for it, as far as it is open.
 std::vector<std::string> CaptureFiles(const Capture& capture);

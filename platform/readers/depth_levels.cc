@@ -6,6 +6,7 @@
 
 #include "platform/image_io.h"
 #include "platform/readers/exif.h"
+#include "platform/readers/profile.h"
 
 namespace starfocus {
 namespace {
@@ -72,11 +73,7 @@ std::string ReadJpegPicture(const std::string& where, Span file, const JpegParts
   photo->metadata = parts.metadata;
   if (!parts.ignored.empty()) photo->notes.push_back(parts.ignored);
   ReadExif(photo);
-  if (!parts.metadata.icc.empty()) {
-    photo->facts.emplace_back(
-        "colour profile",
-        "ICC, " + std::to_string(parts.metadata.icc.size()) + " bytes; pixels stay as they are");
-  }
+  CheckProfile(photo);
   return "";
 }
 

@@ -10,10 +10,12 @@
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/dynamic_depth.h"
+#include "platform/readers/exif.h"
 #include "platform/readers/gdepth.h"
 #include "platform/readers/heic.h"
 #include "platform/readers/kept_metadata.h"
 #include "platform/readers/pair.h"
+#include "platform/readers/profile.h"
 #include "platform/readers/stereo_pair.h"
 #include "platform/readers/xmp.h"
 #include "platform/standard_stream.h"
@@ -140,7 +142,11 @@ std::string DecodeDepthPhoto(const std::string& where, Span file, bool with_map,
   if (IsHeif(file)) return ReadHeif(where, file, near, photo);
   if (IsJpeg(file)) return DecodeJpegPhoto(where, file, with_map, near, photo);
   Bytes bytes(file.data, file.data + file.size);
-  return DecodeImage(where, &bytes, &photo->picture);
+  const std::string error = DecodeImage(where, &bytes, &photo->picture, &photo->metadata);
+  if (!error.empty()) return error;
+  ReadExif(photo);
+  CheckProfile(photo);
+  return "";
 }
 
 std::string ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,

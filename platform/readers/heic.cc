@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/heic.h"
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <new>
 
 #include "platform/container.h"
+#include "platform/readers/heif_boxes.h"
 
 #ifdef STARFOCUS_HAS_HEIF
 #include <libheif/heif.h>
@@ -14,16 +17,19 @@
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/exif.h"
+#include "platform/readers/heif_limits.h"
 #include "platform/readers/kept_metadata.h"
 #include "platform/readers/orientation.h"
+#include "platform/readers/profile.h"
 #endif
 
 namespace starfocus {
 
 bool IsHeif(Span file) {
-  if (file.size < 12 || std::memcmp(file.data + 4, "ftyp", 4) != 0) return false;
-  for (const char* brand : {"heic", "heix", "hevc", "mif1", "msf1", "avif", "heim", "heis"}) {
-    if (std::memcmp(file.data + 8, brand, 4) == 0) return true;
+  constexpr const char* kBrands[] = {"heic", "heix", "hevc", "hevx", "heim", "heis",
+                                     "mif1", "mif2", "msf1", "avif", "avis", "miaf"};
+  for (const std::string& brand : HeifBrands(file)) {
+    if (std::find(std::begin(kBrands), std::end(kBrands), brand) != std::end(kBrands)) return true;
   }
   return false;
 }
@@ -32,11 +38,7 @@ bool IsHeif(Span file) {
 
 namespace {
 
-// Sides of pictures: libheif makes room for what a file says within them, which is 2^28 pixels.
 constexpr int kMostSide = 16384;
-// And how many pixels a file can have by its size: a picture of one colour has 31 000 for each byte
-// as AVIF.
-constexpr int64_t kMostPixelsPerByte = 32768, kAnyFilesPixels = int64_t{1} << 20;
 constexpr size_t kMostMetadata = size_t{1} << 26;
 
 template <class Type, void (*kFree)(Type*)>
@@ -55,15 +57,8 @@ std::string Broken(const std::string& where, const heif_error& error) {
 }
 
 std::string CheckSize(const std::string& where, const heif_image_handle* handle, size_t file) {
-  const int64_t width = heif_image_handle_get_width(handle);
-  const int64_t height = heif_image_handle_get_height(handle);
-  const std::string found = std::to_string(width) + "x" + std::to_string(height);
-  if (width < 1 || height < 1 || width > kMostSide || height > kMostSide) {
-    return Expected(where, "a HEIF picture of at most 16384 pixels each way", found);
-  }
-  if (width * height <= kAnyFilesPixels + kMostPixelsPerByte * static_cast<int64_t>(file))
-    return "";
-  return Expected(where, "a HEIF picture of at most 32768 pixels for each byte of its file", found);
+  return CheckHeifSize(where, heif_image_handle_get_width(handle),
+                       heif_image_handle_get_height(handle), file);
 }
 
 std::string DecodePicture(const std::string& where, const heif_image_handle* handle, Image* image) {
@@ -165,8 +160,7 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   if (profile == 0 || profile > kMostMetadata) return;
   photo->metadata.icc.resize(profile);
   heif_image_handle_get_raw_color_profile(handle, photo->metadata.icc.data());
-  photo->facts.emplace_back("colour profile",
-                            "ICC, " + std::to_string(profile) + " bytes; pixels stay as they are");
+  CheckProfile(photo);
 }
 
 // Captions of the picture. XMP that is not well-formed has none.
@@ -287,6 +281,8 @@ bool EndsWithinBox(Span file) {
 }
 
 std::string Read(const std::string& where, Span file, Near near, DepthPhoto* photo) {
+  std::string error = CheckHeif(where, file);
+  if (!error.empty()) return error;
   const Context context(heif_context_alloc());
   if (context == nullptr) return OutOfMemory(where, "read it");
   heif_context_set_maximum_image_size_limit(context.get(), kMostSide);
@@ -298,7 +294,7 @@ std::string Read(const std::string& where, Span file, Near near, DepthPhoto* pho
   const Handle primary(raw);
   if (failure.code != heif_error_Ok) return Broken(where, failure);
   photo->format = "HEIF depth photo";
-  std::string error = CheckSize(where, raw, file.size);
+  error = CheckSize(where, raw, file.size);
   if (error.empty()) error = DecodePicture(where, raw, &photo->picture);
   if (!error.empty()) return error;
   ReadProfiles(raw, photo);

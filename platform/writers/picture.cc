@@ -46,7 +46,9 @@ std::string EncodePicture(const std::string& path, const Image& image,
   }
   const std::string error = CheckSize(path, image);
   if (!error.empty()) return error;
-  if (extension == ".png") return EncodePng(path, image, options.metadata, bytes);
+  if (extension == ".png") {
+    return EncodePng(path, image, options.metadata, options.png_size, bytes);
+  }
   if (extension == ".webp") return EncodeWebp(path, image, options, bytes);
   return EncodeJpeg(path, image, options.quality, options.metadata, {}, bytes);
 }

@@ -7,12 +7,14 @@
 
 #include "platform/image.h"
 #include "platform/metadata.h"
+#include "platform/writers/png.h"
 
 namespace starfocus {
 
 struct PictureOptions {
   int quality = 95;  // 1 to 100, of JPEG and WebP
   Metadata metadata;
+  PngSize png_size = PngSize::kQuick;
 };
 
 // The names that EncodePicture knows, for a sentence.

@@ -29,7 +29,8 @@ std::string Encode(const std::string& path, int width, int height, int channels,
 
 }  // namespace
 
-std::string EncodePng(const std::string& path, const Image& image, const Metadata&, Bytes* png) {
+std::string EncodePng(const std::string& path, const Image& image, const Metadata&, PngSize,
+                      Bytes* png) {
   return Encode(path, image.width, image.height, 3, image.pixels.data(), png);
 }
 

@@ -13,6 +13,7 @@
 #include "platform/readers/xmp.h"
 #include "platform/writers/jpeg_segments.h"
 #include "starfocus/starfocus.h"
+#include "tests/fuzz/memory_budget.h"
 
 namespace starfocus::fuzz {
 
@@ -25,10 +26,15 @@ inline void CheckCaptions(const Metadata& metadata) {
   if (error.find("well-formed") != std::string::npos) std::abort();
 }
 
+inline std::string Decode(const uint8_t* data, size_t size, DepthPhoto* photo) {
+  const MemoryBudget budget(data, size);
+  const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
+  return DecodeDepthPhoto("photo", {data, size}, true, near, photo);
+}
+
 inline void CheckPhoto(const uint8_t* data, size_t size) {
   DepthPhoto photo;
-  const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
-  const std::string error = DecodeDepthPhoto("photo", {data, size}, true, near, &photo);
+  const std::string error = Decode(data, size, &photo);
   if (!error.empty()) return;
   CheckCaptions(photo.metadata);
   if (photo.map.values.empty()) {

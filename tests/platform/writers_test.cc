@@ -18,6 +18,7 @@
 #include "platform/writers/md5.h"
 #include "platform/writers/png.h"
 #include "platform/writers/webp.h"
+#include "tests/support/photo_files.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus {
@@ -210,6 +211,81 @@ TEST_CASE("writers: EXIF and the profile stay, edited where the picture is") {
       CHECK(tags.find("Compression: 6") == std::string::npos);  // the thumbnail's
       CHECK(Ask(folder, "exiftool -b -icc_profile '" + path + "'").size() == 150000);
     }
+  }
+}
+
+TEST_CASE("writers: what PNG and WebP files say of a picture is read again") {
+  TempFolder folder;
+  PictureOptions how = {95, {CameraExif(true), Profile(588)}, PngSize::kQuick};
+  // libpng reads no profile that is compressed to fewer bytes than its keyword may have.
+  for (size_t k = 132; k < 588; ++k) how.metadata.icc[k] = static_cast<uint8_t>(k * k >> 3);
+  for (const std::string name : {"a.png", "a.webp"}) {
+    if (name == "a.webp" && !WebpWriter::Check(name, 1, 1).empty()) continue;
+    if (name == "a.png" && !HasLibpng()) continue;
+    CAPTURE(name);
+    REQUIRE(WriteImage(folder.file(name), Ramp(40, 30), how) == "");
+    Bytes bytes;
+    REQUIRE(ReadFile(folder.file(name), &bytes) == "");
+    Image image;
+    Metadata metadata;
+    REQUIRE(DecodeImage(name, &bytes, &image, &metadata) == "");
+    CHECK(metadata.icc == how.metadata.icc);
+    const std::string exif(metadata.exif.begin(), metadata.exif.end());
+    CHECK(exif.find("II") == 0);
+    CHECK(exif.find("Holgaro") != std::string::npos);
+  }
+}
+
+TEST_CASE("writers: a small PNG is smaller, with the same pixels") {
+  if (!HasLibpng()) return;
+  const Image image = Ramp(200, 150);
+  Bytes quick, small;
+  REQUIRE(EncodePng("a.png", image, {}, PngSize::kQuick, &quick) == "");
+  REQUIRE(EncodePng("a.png", image, {}, PngSize::kSmall, &small) == "");
+  CHECK(small.size() < quick.size());
+  for (Bytes* bytes : {&quick, &small}) {
+    Image back;
+    REQUIRE(DecodeImage("a.png", bytes, &back) == "");
+    CHECK(back.pixels == image.pixels);
+  }
+}
+
+// A PNG of one pixel with a chunk before its pixels.
+Bytes PngWithChunk(const std::string& name, const std::string& content) {
+  Bytes png;
+  REQUIRE(EncodePng("a.png", Ramp(1, 1), {}, PngSize::kQuick, &png) == "");
+  std::string chunk = photos::Big(static_cast<uint32_t>(content.size()), 4) + name + content +
+                      photos::Big(photos::Crc(name + content), 4);
+  png.insert(png.begin() + 33, chunk.begin(), chunk.end());
+  return png;
+}
+
+TEST_CASE("writers: EXIF in a text chunk of a PNG, as ImageMagick has it, is read") {
+  if (!HasLibpng()) return;
+  const Bytes exif = CameraExif(false);
+  std::string digits, text = "Exif";
+  text += std::string(2, '\0');
+  text.append(exif.begin(), exif.end());
+  for (size_t k = 0; k < text.size(); ++k) {
+    constexpr char kDigits[] = "0123456789abcdef";
+    if (k % 36 == 0) digits += '\n';
+    digits += kDigits[static_cast<uint8_t>(text[k]) >> 4];
+    digits += kDigits[static_cast<uint8_t>(text[k]) & 15];
+  }
+  for (const std::string type : {"exif", "APP1"}) {
+    Bytes png = PngWithChunk("tEXt", "Raw profile type " + type + '\0' + "\n" + type + "\n     " +
+                                         std::to_string(text.size()) + digits + "\n");
+    Image image;
+    Metadata metadata;
+    REQUIRE(DecodeImage("a.png", &png, &image, &metadata) == "");
+    CHECK(metadata.exif == exif);
+  }
+  for (const std::string content : {"Raw profile type exif", "", "\n", "\nexif\n 4\n4578", "xx"}) {
+    Bytes png = PngWithChunk("zTXt", "Raw profile type exif" + std::string(2, '\0') + content);
+    Image image;
+    Metadata metadata;
+    REQUIRE(DecodeImage("a.png", &png, &image, &metadata) == "");
+    CHECK(metadata.exif.empty());
   }
 }
 

@@ -8,7 +8,11 @@
 
 #include "platform/levels.h"
 #include "platform/readers/capture.h"
+#include "platform/readers/coded_size.h"
 #include "platform/readers/depth_photo_file.h"
+#include "platform/readers/heic.h"
+#include "platform/readers/heif_boxes.h"
+#include "platform/readers/heif_limits.h"
 #include "platform/readers/xmp.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
@@ -316,6 +320,136 @@ TEST_CASE("XMP: limits are named, and nothing else than elements is read") {
   CHECK((ReadXmpNumber(FindProperty(root, "space|p"), &value) && value == 1));
   CHECK((ReadXmpNumber(FindProperty(root, "space|q"), &value) && value == 2));
   CHECK(!ReadXmpNumber(FindProperty(root, "space|r"), &value));
+}
+
+std::string Seed(const std::string& name) {
+  Bytes bytes;
+  Require(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/" + name, &bytes));
+  return {bytes.begin(), bytes.end()};
+}
+
+Span SpanOf(const std::string& bytes) {
+  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+}
+
+// The file with orientation 6 in its EXIF, where writers put 1.
+std::string Turned(std::string file) {
+  const size_t at = file.rfind(std::string("\1\x12\0\3\0\0\0\1\0\1", 10));
+  REQUIRE(at != std::string::npos);
+  file[at + 9] = 6;
+  const size_t chunk = file.find("eXIf");
+  if (chunk == std::string::npos) return file;
+  const size_t size = static_cast<uint8_t>(file[chunk - 2]) * 256u +
+                      static_cast<uint8_t>(file[chunk - 1]) + 4;  // with the chunk's name
+  return file.replace(chunk + size, 4, Big(Crc(file.substr(chunk, size)), 4));
+}
+
+TEST_CASE("photos: EXIF of PNG and WebP turns the picture as that of JPEG does") {
+  const std::string segment = ExifSegment(1, 26);  // marker, length and "Exif" stand first
+  PictureOptions how;
+  how.metadata.exif.assign(segment.begin() + 10, segment.end());
+  for (const std::string name : {"photo.png", "photo.webp"}) {
+    CAPTURE(name);
+    TempFolder folder;
+    if (!CheckImageOutput(folder.file(name)).empty()) continue;
+    Require(WriteImage(folder.file(name), Ramp(kWidth, kHeight), how));
+    Bytes bytes;
+    Require(ReadFile(folder.file(name), &bytes));
+    const std::string written(bytes.begin(), bytes.end());
+    if (written.find("starfocus") == std::string::npos) continue;  // a build without libpng
+    DepthPhoto photo;
+    REQUIRE(DecodeDepthPhoto(name, SpanOf(Turned(written)), true, Near::kUnknown, &photo) == "");
+    CHECK(!photo.metadata.exif.empty());
+#ifdef STARFOCUS_HAS_EXIF
+    CHECK(photo.orientation == 6);
+    CHECK(photo.focal_35mm == doctest::Approx(26));
+#endif
+  }
+}
+
+TEST_CASE("photos: profiles of grey, or with parts missing, are left out with a note") {
+  std::string profile(200, '\0');
+  profile[3] = static_cast<char>(200);
+  profile.replace(12, 12, "mntrRGB XYZ ");
+  profile.replace(36, 4, "acsp");
+  const auto read = [](const std::string& icc) {
+    DepthPhoto photo;
+    const std::string file =
+        Insert(Photo(), Segment(0xe2, std::string("ICC_PROFILE\0\1\1", 14) + icc));
+    REQUIRE(DecodeDepthPhoto("photo.jpg", SpanOf(file), true, Near::kUnknown, &photo) == "");
+    return photo;
+  };
+  CHECK(read(profile).metadata.icc.size() == 200);
+  CHECK(read(profile.substr(0, 199)).metadata.icc.empty());
+  profile.replace(16, 4, "GRAY");
+  const DepthPhoto photo = read(profile);
+  CHECK(photo.metadata.icc.empty());
+  REQUIRE(photo.notes.size() == 1);
+  CHECK(photo.notes[0].find("profile") != std::string::npos);
+}
+
+TEST_CASE("HEIF: the brands of still pictures and of sequences, anywhere in their list") {
+  std::string file = Seed("heif/plain.avif");
+  for (const std::string brand : {"avif", "avis", "miaf", "mif1"}) {
+    CHECK(IsHeif(SpanOf(file.replace(8, 4, brand))));
+  }
+  CHECK(IsHeif(SpanOf(file.replace(8, 4, "abcd"))));  // others follow
+  CHECK(
+      !IsHeif(SpanOf(std::string("\0\0\0\x10"
+                                 "ftypisom\0\0\0\0",
+                                 16))));
+  CHECK(!IsHeif(SpanOf(file.substr(0, 7))));
+}
+
+TEST_CASE("HEIF: sizes in the headers of the coders") {
+  HeifItems items;
+  const std::string heic = Seed("heif/depth.heic");
+  REQUIRE(ReadHeifItems(SpanOf(heic), &items));
+  REQUIRE(items.size() == 4);
+  CHECK(items[2].type == "grid");
+  CHECK(items[2].inputs == std::vector<uint32_t>{1});
+  int64_t width = 0, height = 0;
+  CHECK(items[1].width == 64);
+  REQUIRE(HevcSize(items[1].configuration, items[1].head, &width, &height));
+  CHECK(width == 64);
+  CHECK(height == 64);
+  items.clear();
+  width = height = 0;
+  const std::string avif = Seed("heif/plain.avif");
+  REQUIRE(ReadHeifItems(SpanOf(avif), &items));
+  REQUIRE(Av1Size(items[1].configuration, items[1].head, &width, &height));
+  CHECK(width == 24);
+  CHECK(height == 16);
+}
+
+// The seed with the bytes behind a text changed.
+std::string Changed(const std::string& name, const std::string& text, size_t behind,
+                    const std::string& bytes) {
+  std::string file = Seed(name);
+  const size_t at = file.find(text);
+  REQUIRE(at != std::string::npos);
+  return file.replace(at + text.size() + behind, bytes.size(), bytes);
+}
+
+TEST_CASE("HEIF: a picture made of itself, or declared larger than it is, is refused at once") {
+  const auto error = [](const std::string& file) { return CheckHeif("a.heic", SpanOf(file)); };
+  CHECK(error(Seed("heif/depth.heic")) == "");
+  CHECK(error(Seed("heif/plain.avif")) == "");
+  CHECK(error(Seed("heif/grid_of_itself.heic")).find("'grid' picture in it") != std::string::npos);
+  CHECK(error(Seed("heif/malformed_references.heic")).find("boxes") != std::string::npos);
+  const std::string depth = "heif/depth.heic", size("\0\0\0\0", 4);
+  // idat: two columns of one tile; another width than ispe's.
+  CHECK(error(Changed(depth, "idat", 3, "\1")).find("grid") != std::string::npos);
+  CHECK(error(Changed(depth, "idat", 4, std::string("\x40\0", 2))).find("grid") !=
+        std::string::npos);
+  CHECK(error(Changed(depth, "ispe", 4, std::string("\0\0\x40\0\0\0\x40\0", 8)))
+            .find("32768 pixels for each byte") != std::string::npos);
+  CHECK(error(Changed(depth, "ispe", 4, std::string("\0\0\x10\0\0\0\x10\0", 8)))
+            .find("not much larger") != std::string::npos);
+  CHECK(error(Changed(depth, "dimg", 4, std::string("\0\x09", 2))).find("not there") !=
+        std::string::npos);
+  const std::string whole = Seed(depth);
+  for (size_t cut = 40; cut < whole.size(); cut += 7) error(whole.substr(0, cut));
 }
 
 }  // namespace

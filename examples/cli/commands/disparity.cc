@@ -120,10 +120,10 @@ Error Run(const Options& options) {
   Plan plan;
   LightField light_field;
   Error error = MakePlan(options, &plan);
-  if (error.empty()) {
-    error = options.repair ? LoadLightField(options.folder, plan.views, &light_field)
-                           : LoadCaptured(options.folder, plan.views, &light_field);
-  }
+  if (!error.empty()) return error;
+  ThreadRunner runner(plan.threads);
+  error = options.repair ? LoadLightField(options.folder, plan.views, &light_field, &runner)
+                         : LoadCaptured(options.folder, plan.views, &light_field, &runner);
   if (!error.empty()) return error;
   const double start = Seconds();
   DisparityEstimate estimate;

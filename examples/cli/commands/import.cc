@@ -54,10 +54,11 @@ Error Run(const Options& options) {
   if (error.empty()) error = CheckFolder(options.folder);
   Capture capture;
   if (error.empty()) error = OpenInput(options.input, &capture);
-  if (error.empty()) error = LoadCapture(views, &capture);
-  if (error.empty()) error = CareForMap(options.map, threads, &capture);
   if (!error.empty()) return error;
   ThreadRunner runner(threads);
+  error = LoadCapture(views, &capture, &runner);
+  if (error.empty()) error = CareForMap(options.map, threads, &capture);
+  if (!error.empty()) return error;
   error = SaveLightField(options.folder, capture.light_field, &runner);
   if (error.empty()) Tell(options, capture);
   return error;

@@ -106,6 +106,7 @@ Error MakePlan(const Options& options, LensPlan* plan, PictureOptions* how) {
     error =
         PlanOutput(options.output, !options.sweep.empty(), !options.region.empty(), &how->quality);
   }
+  if (options.output.small_png) how->png_size = PngSize::kSmall;
   if (error.empty()) error = CheckOutputs(options, *plan);
   if (error.empty()) error = PlanRegion(options, plan);
   return error.empty() ? PlanLens(options.lens, plan) : error;
@@ -188,7 +189,7 @@ Error RunSweep(const Options& options, const PictureOptions& how, const std::vec
                EngineTask task, double start) {
   EngineRun run(task.threads, static_cast<int>(foci.size()));
   SeriesReport report;
-  StackWriter stack(options.output, how);
+  StackWriter stack(options.output, how, run.runner());
   Error error = WritePair(options.output, how, *task.light_field, foci);
   if (error.empty()) error = run.Start(InputName(options.input.path), task);
   if (error.empty()) error = run.Prepare(InputName(options.input.path), task);
@@ -197,7 +198,7 @@ Error RunSweep(const Options& options, const PictureOptions& how, const std::vec
     std::string out;
     EngineResult result;
     error = run.Refocus(InputName(options.input.path), task, &result);
-    if (error.empty()) error = stack.Add(result.picture, &out);
+    if (error.empty()) error = stack.Add(std::move(result.picture), &out);
     report.Add(out, task, result);
   }
   if (error.empty()) error = stack.Finish();

@@ -59,6 +59,9 @@ class EngineRun {
   Error RefocusAfter(const std::string& where, const EngineTask& task, const LightField& before,
                      const Image& picture, EngineResult* result);
 
+  // The threads of the engine, for other work between its pictures.
+  ThreadRunner* runner() { return &runner_; }
+
  private:
   sf_status RunStream(const EngineTask& task, const sf_params& params, EngineResult* result);
   Error Run(const std::string& where, const EngineTask& task, const sf_previous* previous,

@@ -193,7 +193,8 @@ Error LoadInput(const Positions& views, int threads, Capture* capture) {
         "--views", "some of the " + std::to_string(capture->files.size()) + " in " + capture->path,
         std::to_string(views.size()) + " with " + ViewName(view));
   }
-  const Error error = LoadCapture(views, capture);
+  ThreadRunner runner(threads);
+  const Error error = LoadCapture(views, capture, &runner);
   return error.empty() && capture->map_path.empty() ? Estimate(threads, capture) : error;
 }
 

@@ -11,6 +11,7 @@
 #include "examples/cli/engine/engine_run.h"
 #include "examples/command_line/error.h"
 #include "examples/command_line/outputs.h"
+#include "platform/runner.h"
 #include "platform/writers/picture.h"
 #include "platform/writers/webp.h"
 
@@ -19,7 +20,7 @@ namespace starfocus {
 // As typed.
 struct OutputOptions {
   std::string out, quality = "95", all_in_focus, focus_index;
-  bool depth_photo = false;
+  bool depth_photo = false, small_png = false;
 };
 
 void AddOutputOptions(CLI::App* command, OutputOptions* options);
@@ -40,19 +41,31 @@ Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, do
 Error WritePair(const OutputOptions& options, const PictureOptions& how,
                 const LightField& light_field, const std::vector<double>& foci);
 
-// The pictures of a sweep as they come: numbered files, or one that shows them.
+// The pictures of a sweep as they come: numbered files, or one that shows them. Numbered files are
+// encoded as many at a time as `runner` has workers.
 class StackWriter {
  public:
-  StackWriter(const OutputOptions& options, const PictureOptions& how);
+  StackWriter(const OutputOptions& options, const PictureOptions& how, ThreadRunner* runner);
 
-  // `name` is that of the file.
-  Error Add(const Image& picture, std::string* name);
+  // Takes the picture; `name` is that of its file, which may be written by a later call.
+  Error Add(Image picture, std::string* name);
   Error Finish();
 
  private:
+  struct Numbered {
+    std::string name;
+    Image picture;
+    std::string error;
+  };
+
+  static void Write(void* self, int32_t index, int32_t worker);
+  Error WriteWaiting();
+
   const std::string out_;
   const PictureOptions how_;
+  ThreadRunner* const runner_;
   size_t pictures_ = 0;
+  std::vector<Numbered> waiting_;
   std::unique_ptr<WebpWriter> animation_;  // none: numbered files
 };
 

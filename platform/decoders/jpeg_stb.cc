@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// JPEG by stb_image, where libjpeg-turbo is absent.
+#include <stb/stb_image.h>
+
+#include "platform/container.h"
+#include "platform/decoders/jpeg.h"
+#include "platform/decoders/limits.h"
+#include "platform/decoders/stb_pixels.h"
+#include "platform/stb_memory.h"
+
+namespace starfocus {
+
+std::string DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image) {
+  std::string error = CheckStbContainer(where, jpeg);
+  if (!error.empty()) return error;
+  int width = 0, height = 0, channels = 0;
+  {
+    const StbMemory memory;
+    if (!stbi_info_from_memory(jpeg.data(), static_cast<int>(jpeg.size()), &width, &height,
+                               &channels)) {
+      return StbFailed(where);
+    }
+  }
+  error = CheckPictureSize(where, width, height);
+  if (!error.empty()) return error;
+  // stb_image would fill hundreds of megabytes for a file of a few bytes first.
+  return JpegCanHold(jpeg.size(), false, width, height) ? DecodeStb(where, jpeg, image)
+                                                        : Truncated(where, "JPEG");
+}
+
+}  // namespace starfocus

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// JPEG by libjpeg-turbo.
+#include <csetjmp>
+#include <cstdio>
+#include <memory>
+
+// After <cstdio>, whose FILE it names.
+#include <jpeglib.h>
+
+// After <jpeglib.h>, which says whether there are codes of arithmetic coding.
+#include <jerror.h>
+
+#include "platform/container.h"
+#include "platform/decoders/jpeg.h"
+#include "platform/decoders/limits.h"
+
+namespace starfocus {
+namespace {
+
+// A progressive file may repeat scans of a few bytes, each of which visits all of the picture.
+constexpr int kMostScans = 500;
+
+// What the library is given back with. It frees its memory when this is destroyed.
+struct Decoder {
+  jpeg_error_mgr manager;  // first: the library knows this part alone
+  std::jmp_buf back;
+  jpeg_decompress_struct info;
+  jpeg_progress_mgr progress;
+  bool truncated = false, many_scans = false;
+  char reason[JMSG_LENGTH_MAX] = "";  // why the picture is damaged
+
+  Decoder() {
+    info.err = jpeg_std_error(&manager);
+    info.mem = nullptr;  // where nothing has been created
+  }
+  ~Decoder() { jpeg_destroy_decompress(&info); }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+};
+
+void Fail(j_common_ptr info) {
+  Decoder* decoder = reinterpret_cast<Decoder*>(info->err);
+  decoder->manager.format_message(info, decoder->reason);
+  std::longjmp(decoder->back, 1);
+}
+
+void KeepSilent(j_common_ptr) {}
+
+// Returns true if pixels are missing or wrong after this warning. Others are about bytes between
+// the parts of a file, or about numbers that nobody uses.
+bool LosesPixels(int code) {
+  return code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE ||
+         code == JWRN_ARITH_BAD_CODE || code == JWRN_MUST_RESYNC || code == JWRN_NOT_SEQUENTIAL;
+}
+
+void Warn(j_common_ptr info, int level) {
+  Decoder* decoder = reinterpret_cast<Decoder*>(info->err);
+  const int code = decoder->manager.msg_code;
+  if (level >= 0 || !LosesPixels(code) || decoder->reason[0] != '\0') return;
+  decoder->truncated = code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER;
+  decoder->manager.format_message(info, decoder->reason);
+}
+
+void CountScans(j_common_ptr info) {
+  Decoder* decoder = reinterpret_cast<Decoder*>(info->err);
+  if (decoder->info.input_scan_number <= kMostScans) return;
+  decoder->many_scans = true;
+  std::longjmp(decoder->back, 1);
+}
+
+bool IsCmyk(const jpeg_decompress_struct& info) { return info.out_color_space == JCS_CMYK; }
+
+// Functions that call setjmp are false with the reason in the decoder. Nothing in them has
+// a destructor: an error of the library jumps over them.
+bool ReadHeader(const Bytes& jpeg, Decoder* decoder) {
+  jpeg_decompress_struct& info = decoder->info;
+  decoder->manager.error_exit = Fail;
+  decoder->manager.output_message = KeepSilent;
+  decoder->manager.emit_message = Warn;
+  if (setjmp(decoder->back) != 0) return false;
+  jpeg_create_decompress(&info);
+  decoder->progress.progress_monitor = CountScans;
+  info.progress = &decoder->progress;
+  jpeg_mem_src(&info, jpeg.data(), static_cast<unsigned long>(jpeg.size()));
+  jpeg_read_header(&info, TRUE);
+  const bool cmyk = info.jpeg_color_space == JCS_CMYK || info.jpeg_color_space == JCS_YCCK;
+  info.out_color_space = cmyk ? JCS_CMYK : JCS_RGB;
+  return true;
+}
+
+// Files hold 255 minus the ink, as Adobe's programs store it. Those without Adobe's marker are
+// taken for the same, as by libjpeg-turbo's own program.
+void ToRgb(const uint8_t* cmyk, int width, uint8_t* rgb) {
+  for (int x = 0; x < width; ++x, cmyk += 4, rgb += 3) {
+    for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>((cmyk[c] * cmyk[3] + 127) / 255);
+  }
+}
+
+// `cmyk` has room for a row, or is null for RGB.
+bool ReadRows(Decoder* decoder, uint8_t* cmyk, Image* image) {
+  jpeg_decompress_struct& info = decoder->info;
+  if (setjmp(decoder->back) != 0) return false;
+  jpeg_start_decompress(&info);
+  while (info.output_scanline < info.output_height) {
+    uint8_t* const row = image->row(static_cast<int>(info.output_scanline));
+    JSAMPROW target = cmyk != nullptr ? cmyk : row;
+    jpeg_read_scanlines(&info, &target, 1);
+    if (cmyk != nullptr) ToRgb(cmyk, image->width, row);
+  }
+  jpeg_finish_decompress(&info);
+  return decoder->reason[0] == '\0';
+}
+
+std::string Failed(const std::string& where, const Decoder& decoder) {
+  if (decoder.many_scans) {
+    return Expected(where, "at most " + std::to_string(kMostScans) + " scans", "more");
+  }
+  if (decoder.manager.msg_code == JERR_OUT_OF_MEMORY) return OutOfMemory(where, "read it");
+  if (decoder.truncated) {
+    return Expected(where, "an undamaged picture",
+                    "a truncated one (" + std::string(decoder.reason) + ")");
+  }
+  return Expected(where, "a JPEG picture that libjpeg-turbo reads", decoder.reason);
+}
+
+}  // namespace
+
+std::string DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image) {
+  const auto decoder = std::make_unique<Decoder>();
+  if (!ReadHeader(jpeg, decoder.get())) return Failed(where, *decoder);
+  const jpeg_decompress_struct& info = decoder->info;
+  const std::string error = CheckPictureSize(where, info.image_width, info.image_height);
+  if (!error.empty()) return error;
+  if (!JpegCanHold(jpeg.size(), info.arith_code != FALSE, info.image_width, info.image_height)) {
+    return Truncated(where, "JPEG");
+  }
+  Image result(static_cast<int>(info.image_width), static_cast<int>(info.image_height));
+  Bytes cmyk(IsCmyk(info) ? 4 * size_t(result.width) : 0);
+  if (!ReadRows(decoder.get(), cmyk.empty() ? nullptr : cmyk.data(), &result)) {
+    return Failed(where, *decoder);
+  }
+  *image = std::move(result);
+  return "";
+}
+
+}  // namespace starfocus

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// PNG by libpng.
+#include "platform/decoders/png.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "platform/decoders/exif_bytes.h"
+#include "platform/decoders/png_text.h"
+
+namespace starfocus {
+namespace {
+
+// Where the library reads, and what went wrong.
+struct Call {
+  const Bytes& png;
+  size_t at = 0;
+  bool truncated = false, no_memory = false;
+  char reason[100] = "";
+  Bytes exif = {};  // of a text chunk
+};
+
+png_voidp Allocate(png_structp png, png_alloc_size_t size) {
+  void* memory = std::malloc(size);
+  if (memory == nullptr) static_cast<Call*>(png_get_mem_ptr(png))->no_memory = true;
+  return memory;
+}
+
+void Free(png_structp, png_voidp memory) { std::free(memory); }
+
+void Take(png_structp png, png_bytep data, png_size_t size) {
+  Call* call = static_cast<Call*>(png_get_io_ptr(png));
+  if (size > call->png.size() - call->at) {
+    call->truncated = true;
+    png_error(png, "truncated");
+  }
+  std::copy_n(call->png.data() + call->at, size, data);
+  call->at += size;
+}
+
+void Fail(png_structp png, png_const_charp reason) {
+  Call* call = static_cast<Call*>(png_get_error_ptr(png));
+  std::snprintf(call->reason, sizeof(call->reason), "%s", reason);
+  png_longjmp(png, 1);
+}
+
+void KeepSilent(png_structp, png_const_charp) {}
+
+// Chunks that libpng would store and, where they are compressed, inflate. They are read here, and
+// nothing of them is kept but EXIF.
+int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
+  Call* call = static_cast<Call*>(png_get_user_chunk_ptr(png));
+  const bool packed = std::memcmp(chunk->name, "zTXt", 4) == 0;
+  if (!packed && std::memcmp(chunk->name, "tEXt", 4) != 0) return 1;
+  try {
+    ReadRawProfile(packed, chunk->data, chunk->size, &call->exif);
+    return 1;
+  } catch (const std::bad_alloc&) {
+    call->no_memory = true;
+  }
+  return -1;  // the library calls Fail, outside of the handler, which a jump must not leave
+}
+
+// The library's structures, freed with this object.
+struct Reader {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  Reader() = default;
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+};
+
+// Functions that call setjmp are false with the reason in the call. Nothing in them has
+// a destructor: an error of the library jumps over them.
+bool ReadHeader(Call* call, Reader* reader) {
+  constexpr char kOwn[] = "tEXt\0zTXt\0iTXt\0sPLT";
+  reader->png =
+      png_create_read_struct_2(PNG_LIBPNG_VER_STRING, call, Fail, KeepSilent, call, Allocate, Free);
+  if (reader->png != nullptr) reader->info = png_create_info_struct(reader->png);
+  if (reader->info == nullptr) {
+    call->no_memory = true;
+    return false;
+  }
+  png_structp png = reader->png;
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_read_fn(png, call, Take);
+  png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, reinterpret_cast<png_const_bytep>(kOwn),
+                              sizeof(kOwn) / 5);
+  png_set_read_user_chunk_fn(png, call, TakeChunk);
+  png_read_info(png, reader->info);
+  png_set_packing(png);
+  png_set_scale_16(png);
+  png_set_strip_alpha(png);
+  const png_byte colour = png_get_color_type(png, reader->info);
+  if (colour == PNG_COLOR_TYPE_GRAY) png_set_expand_gray_1_2_4_to_8(png);
+  if ((colour & PNG_COLOR_MASK_COLOR) == 0) png_set_gray_to_rgb(png);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, reader->info);
+  return true;
+}
+
+bool ReadRows(const Reader& reader, int height, size_t row_bytes, uint8_t* rows) {
+  png_structp png = reader.png;
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  const bool whole = png_get_interlace_type(png, reader.info) == PNG_INTERLACE_NONE;
+  for (int pass = 0; pass < (whole ? 1 : PNG_INTERLACE_ADAM7_PASSES); ++pass) {
+    for (int y = 0; y < height; ++y) png_read_row(png, rows + size_t(y) * row_bytes, nullptr);
+  }
+  png_read_end(png, reader.info);
+  return true;
+}
+
+std::string Failed(const std::string& where, const Call& call) {
+  if (call.no_memory) return OutOfMemory(where, "read it");
+  if (call.truncated) return Expected(where, "an undamaged picture", "a truncated one");
+  return Expected(where, "an undamaged picture", "a broken one (" + std::string(call.reason) + ")");
+}
+
+// libpng takes an index beyond the palette for black.
+std::string LookUp(const std::string& where, const Reader& reader, const Bytes& indices,
+                   Image* image) {
+  png_colorp palette = nullptr;
+  int colours = 0;
+  png_get_PLTE(reader.png, reader.info, &palette, &colours);
+  for (size_t i = 0; i < indices.size(); ++i) {
+    if (indices[i] >= colours) {
+      return Expected(where, "indices below the palette's " + std::to_string(colours) + " colours",
+                      std::to_string(indices[i]));
+    }
+    const png_color& colour = palette[indices[i]];
+    image->pixels[3 * i] = colour.red;
+    image->pixels[3 * i + 1] = colour.green;
+    image->pixels[3 * i + 2] = colour.blue;
+  }
+  return "";
+}
+
+void TakeMetadata(const Reader& reader, Call* call, Metadata* metadata) {
+  png_charp name = nullptr;
+  png_bytep profile = nullptr, exif = nullptr;
+  png_uint_32 size = 0;
+  int method = 0;
+  if (png_get_iCCP(reader.png, reader.info, &name, &method, &profile, &size) != 0) {
+    metadata->icc.assign(profile, profile + size);
+  }
+  if (png_get_eXIf_1(reader.png, reader.info, &size, &exif) != 0) {
+    metadata->exif.assign(exif, exif + size);
+    TrimExif(&metadata->exif);
+  }
+  if (metadata->exif.empty()) metadata->exif = std::move(call->exif);
+}
+
+}  // namespace
+
+std::string DecodePngPixels(const std::string& where, const Bytes& png, Image* image,
+                            Metadata* metadata) {
+  Call call = {png};
+  Reader reader;
+  if (!ReadHeader(&call, &reader)) return Failed(where, call);
+  const bool palette = png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE;
+  Image result(static_cast<int>(png_get_image_width(reader.png, reader.info)),
+               static_cast<int>(png_get_image_height(reader.png, reader.info)));
+  Bytes indices(palette ? result.pixels.size() / 3 : 0);
+  const size_t row_bytes = palette ? size_t(result.width) : result.stride();
+  if (png_get_rowbytes(reader.png, reader.info) != row_bytes) {
+    return Expected(where, "a PNG picture that libpng makes RGB", "another");
+  }
+  uint8_t* const rows = palette ? indices.data() : result.pixels.data();
+  if (!ReadRows(reader, result.height, row_bytes, rows)) return Failed(where, call);
+  const std::string error = palette ? LookUp(where, reader, indices, &result) : "";
+  if (!error.empty()) return error;
+  TakeMetadata(reader, &call, metadata);
+  *image = std::move(result);
+  return "";
+}
+
+}  // namespace starfocus

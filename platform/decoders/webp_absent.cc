@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// The error where libwebp is absent.
+#include "platform/decoders/webp.h"
+
+namespace starfocus {
+
+std::string DecodeWebp(const std::string& where, const Bytes&, Image*, Metadata*) {
+  return Expected(where, "a program built with libwebp to read WebP (Debian: libwebp-dev)", "none");
+}
+
+}  // namespace starfocus

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// WebP by libwebp.
+#include "platform/decoders/webp.h"
+
+#include <webp/decode.h>
+#include <webp/mux.h>
+
+#include <memory>
+
+#include "platform/container.h"
+#include "platform/decoders/exif_bytes.h"
+#include "platform/decoders/limits.h"
+
+namespace starfocus {
+namespace {
+
+// The format itself has no limit: 38 bytes hold 8000x8000 pixels of one colour, for which the
+// decoder needs 7 bytes each. Photographs have a few pixels for each byte.
+constexpr int64_t kMostPixelsPerByte = 65536, kAnyFilesPixels = int64_t{1} << 24;
+
+std::string Failed(const std::string& where, VP8StatusCode status) {
+  if (status == VP8_STATUS_OUT_OF_MEMORY) return OutOfMemory(where, "read it");
+  if (status == VP8_STATUS_NOT_ENOUGH_DATA) return Truncated(where, "WebP");
+  return Expected(where, "an undamaged picture", "a broken one (libwebp)");
+}
+
+// The size of the file as its header has it, in bytes from the second four on.
+uint64_t SizeOf(const Bytes& webp) {
+  return 8 + (uint64_t(webp[4]) | uint64_t(webp[5]) << 8 | uint64_t(webp[6]) << 16 |
+              uint64_t(webp[7]) << 24);
+}
+
+struct FreeMux {
+  void operator()(WebPMux* mux) const { WebPMuxDelete(mux); }
+};
+
+Bytes ChunkOf(const WebPMux* mux, const char* name) {
+  WebPData data = {};
+  if (WebPMuxGetChunk(mux, name, &data) != WEBP_MUX_OK) return {};
+  return Bytes(data.bytes, data.bytes + data.size);
+}
+
+void ReadMetadata(const Bytes& webp, Metadata* metadata) {
+  const WebPData file = {webp.data(), webp.size()};
+  const std::unique_ptr<WebPMux, FreeMux> mux(WebPMuxCreate(&file, 0));
+  if (mux == nullptr) return;  // a picture alone
+  metadata->icc = ChunkOf(mux.get(), "ICCP");
+  metadata->exif = ChunkOf(mux.get(), "EXIF");
+  TrimExif(&metadata->exif);
+}
+
+}  // namespace
+
+std::string DecodeWebp(const std::string& where, const Bytes& webp, Image* image,
+                       Metadata* metadata) {
+  if (SizeOf(webp) > webp.size()) return Truncated(where, "WebP");
+  WebPDecoderConfig config;
+  if (!WebPInitDecoderConfig(&config)) {
+    return Expected(where, "the libwebp that this program was built with", "another version");
+  }
+  VP8StatusCode status = WebPGetFeatures(webp.data(), webp.size(), &config.input);
+  if (status != VP8_STATUS_OK) return Failed(where, status);
+  if (config.input.has_animation) return Expected(where, "a still WebP picture", "an animation");
+  const int width = config.input.width, height = config.input.height;
+  const std::string error = CheckPictureSize(where, width, height);
+  if (!error.empty()) return error;
+  if (int64_t{width} * height >
+      kAnyFilesPixels + kMostPixelsPerByte * static_cast<int64_t>(webp.size())) {
+    return Expected(where,
+                    "a WebP picture of at most 2^24 pixels and 65536 for each byte of its file",
+                    std::to_string(width) + "x" + std::to_string(height));
+  }
+  Image result(width, height);
+  config.output.colorspace = MODE_RGB;
+  config.output.is_external_memory = 1;
+  config.output.u.RGBA = {result.pixels.data(), static_cast<int>(result.stride()),
+                          result.pixels.size()};
+  status = WebPDecode(webp.data(), webp.size(), &config);
+  if (status != VP8_STATUS_OK) return Failed(where, status);
+  ReadMetadata(webp, metadata);
+  *image = std::move(result);
+  return "";
+}
+
+}  // namespace starfocus

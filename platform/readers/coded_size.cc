@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/coded_size.h"
+
+#include <algorithm>
+
+namespace starfocus {
+namespace {
+
+// Numbers of bits; zeros follow the last one, and `good` is false then.
+class Bits {
+ public:
+  explicit Bits(Span bytes) : bytes_(bytes) {}
+
+  bool good() const { return at_ <= 8 * bytes_.size; }
+  uint32_t Read(int count) {
+    uint32_t value = 0;
+    for (int k = 0; k < count; ++k, ++at_) {
+      const uint32_t byte = at_ < 8 * bytes_.size ? bytes_.data[at_ / 8] : 0u;
+      value = value << 1 | (byte >> (7 - at_ % 8) & 1);
+    }
+    return value;
+  }
+  void Skip(size_t count) { at_ += count; }
+  // Exponential Golomb code (23008-2, 9.2), as AV1's uvlc().
+  uint32_t ReadGolomb() {
+    int zeros = 0;
+    while (good() && zeros < 32 && Read(1) == 0) ++zeros;
+    return zeros < 32 ? (1u << zeros) - 1 + Read(zeros) : UINT32_MAX;
+  }
+
+ private:
+  const Span bytes_;
+  size_t at_ = 0;
+};
+
+void Widen(int64_t width, int64_t height, int64_t* most_width, int64_t* most_height) {
+  *most_width = std::max(*most_width, width);
+  *most_height = std::max(*most_height, height);
+}
+
+// A NAL unit without the bytes that keep start codes out of it.
+Bytes Unescape(Span unit) {
+  Bytes bytes;
+  size_t zeros = 0;
+  for (size_t k = 0; k < unit.size; ++k) {
+    if (zeros >= 2 && unit.data[k] == 3) {
+      zeros = 0;
+      continue;
+    }
+    zeros = unit.data[k] == 0 ? zeros + 1 : 0;
+    bytes.push_back(unit.data[k]);
+  }
+  return bytes;
+}
+
+// 23008-2, 7.3.2.2, up to the size.
+void ReadParameterSet(Span unit, int64_t* width, int64_t* height) {
+  constexpr int kSequenceSet = 33;
+  if (unit.size < 2 || (unit.data[0] >> 1 & 63) != kSequenceSet) return;
+  unit.size = std::min(unit.size, size_t{512});
+  const Bytes bytes = Unescape(unit);
+  Bits bits({bytes.data(), bytes.size()});
+  bits.Skip(16 + 4);
+  const uint32_t layers = bits.Read(3);  // beside the first
+  bits.Skip(1 + 88 + 8);                 // profile and level
+  size_t more = 0;
+  for (uint32_t k = 0; k < layers; ++k) {
+    if (bits.Read(1) != 0) more += 88;
+    if (bits.Read(1) != 0) more += 8;
+  }
+  if (layers > 0) bits.Skip(2 * (8 - layers));
+  bits.Skip(more);
+  bits.ReadGolomb();                         // number of the set
+  if (bits.ReadGolomb() == 3) bits.Skip(1);  // colour planes apart
+  const uint32_t own_width = bits.ReadGolomb(), own_height = bits.ReadGolomb();
+  if (bits.good()) Widen(own_width, own_height, width, height);
+}
+
+// AV1 specification, 5.5.1, up to the size.
+void ReadSequenceHeader(Span header, int64_t* width, int64_t* height) {
+  Bits bits(header);
+  bits.Skip(3 + 1);
+  if (bits.Read(1) != 0) {
+    bits.Skip(5);  // of a still picture: its level
+  } else {
+    bool model = false;
+    uint32_t delay_bits = 0;
+    if (bits.Read(1) != 0) {  // timing
+      bits.Skip(64);
+      if (bits.Read(1) != 0) bits.ReadGolomb();
+      model = bits.Read(1) != 0;
+      if (model) {
+        delay_bits = bits.Read(5) + 1;
+        bits.Skip(32 + 5 + 5);
+      }
+    }
+    const bool delay = bits.Read(1) != 0;
+    const uint32_t points = bits.Read(5) + 1;
+    for (uint32_t k = 0; k < points; ++k) {
+      bits.Skip(12);
+      if (bits.Read(5) > 7) bits.Skip(1);
+      if (model && bits.Read(1) != 0) bits.Skip(2 * size_t{delay_bits} + 1);
+      if (delay && bits.Read(1) != 0) bits.Skip(4);
+    }
+  }
+  const int width_bits = static_cast<int>(bits.Read(4)) + 1;
+  const int height_bits = static_cast<int>(bits.Read(4)) + 1;
+  const int64_t own_width = int64_t{bits.Read(width_bits)} + 1;
+  const int64_t own_height = int64_t{bits.Read(height_bits)} + 1;
+  if (bits.good()) Widen(own_width, own_height, width, height);
+}
+
+// AV1 specification, 5.3: a header, its size in groups of seven bits, and what it is of.
+void ReadUnits(Span units, int64_t* width, int64_t* height) {
+  constexpr int kSequenceHeader = 1;
+  while (units.size >= 2) {
+    const uint8_t first = units.data[0];
+    const bool extended = (first & 4) != 0, sized = (first & 2) != 0;
+    size_t at = extended ? 2 : 1, size = units.size - std::min(units.size, at);
+    if (sized) {
+      size = 0;
+      for (int shift = 0; at < units.size && shift < 28; shift += 7) {
+        const uint8_t byte = units.data[at++];
+        size |= size_t{byte & 127u} << shift;
+        if (byte < 128) break;
+      }
+    }
+    if (at > units.size) return;
+    const size_t held = std::min(size, units.size - at);  // the head of an item may cut it
+    if ((first >> 3 & 15) == kSequenceHeader) {
+      ReadSequenceHeader({units.data + at, held}, width, height);
+    }
+    units = {units.data + at + held, units.size - at - held};
+  }
+}
+
+}  // namespace
+
+// 14496-15, 8.3.3.1: 22 bytes, then arrays of units.
+bool HevcSize(Span configuration, const Bytes& head, int64_t* width, int64_t* height) {
+  constexpr size_t kArrays = 22;
+  const Span all = configuration;
+  size_t at = kArrays + 1;
+  const int arrays = all.size > kArrays ? all.data[kArrays] : 0;
+  for (int k = 0; k < arrays && at + 3 <= all.size; ++k) {
+    const int units = all.data[at + 1] * 256 + all.data[at + 2];
+    at += 3;
+    for (int i = 0; i < units && at + 2 <= all.size; ++i) {
+      const size_t size = size_t{all.data[at]} * 256 + all.data[at + 1];
+      at += 2;
+      if (size > all.size - at) return *width > 0;
+      ReadParameterSet({all.data + at, size}, width, height);
+      at += size;
+    }
+  }
+  for (size_t from = 0; from + 4 < head.size();) {  // units with their size in four bytes
+    const size_t size = size_t{head[from]} << 24 | size_t{head[from + 1]} << 16 |
+                        size_t{head[from + 2]} << 8 | head[from + 3];
+    from += 4;
+    const size_t held = std::min(size, head.size() - from);
+    ReadParameterSet({head.data() + from, held}, width, height);
+    from += held;
+  }
+  return *width > 0;
+}
+
+bool Av1Size(Span configuration, const Bytes& head, int64_t* width, int64_t* height) {
+  constexpr size_t kUnits = 4;
+  if (configuration.size > kUnits) {
+    ReadUnits({configuration.data + kUnits, configuration.size - kUnits}, width, height);
+  }
+  ReadUnits({head.data(), head.size()}, width, height);
+  return *width > 0;
+}
+
+}  // namespace starfocus

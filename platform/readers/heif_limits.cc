@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/heif_limits.h"
+
+#include "platform/readers/coded_size.h"
+#include "platform/readers/heif_boxes.h"
+
+namespace starfocus {
+namespace {
+
+// Sides of pictures: libheif makes room for what a file says within them, which is 2^28 pixels.
+constexpr int64_t kMostSide = 16384;
+// And how many pixels a file can have by its size: a picture of one colour has 31 000 for each byte
+// as AVIF.
+constexpr int64_t kMostPixelsPerByte = 32768, kAnyFilesPixels = int64_t{1} << 20;
+// Pixels of all tiles, for each pixel of the picture that they make, beside kAnyFilesPixels.
+constexpr int64_t kMostOverlap = 4;
+
+int64_t AreaOf(const HeifItem& item) { return int64_t{item.width} * int64_t{item.height}; }
+
+bool IsMadeOfOthers(const HeifItem& item) {
+  return item.type == "grid" || item.type == "iovl" || item.type == "iden";
+}
+
+uint32_t WholeOf(const Bytes& bytes, size_t at, size_t size) {
+  uint32_t value = 0;
+  for (size_t k = 0; k < size; ++k) value = value << 8 | bytes[at + k];
+  return value;
+}
+
+// Whether a grid or overlay has as many inputs and the size that it says (23008-12, 6.6.2).
+bool FitsItsData(const HeifItem& item) {
+  const bool grid = item.type == "grid";
+  const size_t number = item.head.size() > 1 && (item.head[1] & 1) != 0 ? 4 : 2;
+  const size_t sizes = grid ? 4 : 10;  // behind version, flags, and tiles or a colour
+  if (item.head.size() < sizes + 2 * number) return false;
+  const size_t tiles = (size_t{item.head[2]} + 1) * (size_t{item.head[3]} + 1);
+  if (grid && tiles != item.inputs.size()) return false;
+  return WholeOf(item.head, sizes, number) == item.width &&
+         WholeOf(item.head, sizes + number, number) == item.height;
+}
+
+std::string CheckInputs(const std::string& where, const HeifItems& items, const HeifItem& item) {
+  const std::string name = "'" + item.type + "'";
+  if (item.type != "iden" && !FitsItsData(item)) {
+    return Expected(where, "a " + name + " picture of the size and parts that its item declares",
+                    "another");
+  }
+  int64_t pixels = 0;
+  for (const uint32_t input : item.inputs) {
+    const auto found = items.find(input);
+    const bool whole = found != items.end() && item.type == "iden" && found->second.type == "grid";
+    if (found == items.end() || (IsMadeOfOthers(found->second) && !whole)) {
+      return Expected(where, "a " + name + " picture made of coded pictures",
+                      found == items.end() ? "one that is not there"
+                                           : "a '" + found->second.type + "' picture in it");
+    }
+    pixels += AreaOf(found->second);
+  }
+  if (pixels <= kAnyFilesPixels + kMostOverlap * AreaOf(item)) return "";
+  return Expected(where, "parts of a " + name + " picture that are not much larger than it",
+                  std::to_string(pixels) + " pixels for " + std::to_string(AreaOf(item)));
+}
+
+std::string CheckCoded(const std::string& where, const HeifItem& item) {
+  constexpr int64_t kPadding = 128;  // to whole blocks of either coder
+  int64_t width = 0, height = 0;
+  const bool hevc = item.type == "hvc1";
+  if (!hevc && item.type != "av01") return "";
+  if (hevc ? !HevcSize(item.configuration, item.head, &width, &height)
+           : !Av1Size(item.configuration, item.head, &width, &height)) {
+    return "";  // libheif finds none either
+  }
+  if (width <= item.width + kPadding && height <= item.height + kPadding) return "";
+  return Expected(where,
+                  "a coded picture of " + std::to_string(item.width) + "x" +
+                      std::to_string(item.height) + ", as its item declares",
+                  std::to_string(width) + "x" + std::to_string(height));
+}
+
+}  // namespace
+
+std::string CheckHeifSize(const std::string& where, int64_t width, int64_t height, size_t file) {
+  const std::string found = std::to_string(width) + "x" + std::to_string(height);
+  if (width < 1 || height < 1 || width > kMostSide || height > kMostSide) {
+    return Expected(where, "a HEIF picture of at most 16384 pixels each way", found);
+  }
+  if (width * height <= kAnyFilesPixels + kMostPixelsPerByte * static_cast<int64_t>(file))
+    return "";
+  return Expected(where, "a HEIF picture of at most 32768 pixels for each byte of its file", found);
+}
+
+std::string CheckHeif(const std::string& where, Span file) {
+  HeifItems items;
+  if (!ReadHeifItems(file, &items)) {
+    return Expected(where, "a HEIF file of at most 4096 items in whole boxes", "another");
+  }
+  for (const auto& [id, item] : items) {
+    std::string error;
+    if (AreaOf(item) != 0) error = CheckHeifSize(where, item.width, item.height, file.size);
+    if (error.empty()) {
+      error = IsMadeOfOthers(item) ? CheckInputs(where, items, item) : CheckCoded(where, item);
+    }
+    if (!error.empty()) return error;
+  }
+  return "";
+}
+
+}  // namespace starfocus

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Memory that reading a picture may take: 64 MiB, and 16 bytes for each pixel that the file
+// declares. Aborts where it took more. Linux alone can measure it for each input; elsewhere nothing
+// is checked.
+#ifndef STARFOCUS_TESTS_FUZZ_MEMORY_BUDGET_H_
+#define STARFOCUS_TESTS_FUZZ_MEMORY_BUDGET_H_
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "platform/readers/heif_boxes.h"
+
+namespace starfocus::fuzz {
+
+inline int64_t WholeAt(const uint8_t* data, int bytes, bool big) {
+  int64_t value = 0;
+  for (int k = 0; k < bytes; ++k) value = value << 8 | data[big ? k : bytes - 1 - k];
+  return value;
+}
+
+// Pixels of all PNG headers and JPEG frames anywhere in the file: a photo may hold several.
+inline int64_t PixelsOfHeaders(const uint8_t* data, size_t size) {
+  int64_t pixels = 0;
+  for (size_t at = 0; at + 12 <= size; ++at) {
+    const uint8_t* here = data + at;
+    if (std::memcmp(here, "IHDR", 4) == 0)
+      pixels += WholeAt(here + 4, 4, true) * WholeAt(here + 8, 4, true);
+    if (here[0] == 0xff && here[1] >= 0xc0 && here[1] <= 0xcf && here[1] != 0xc4) {
+      pixels += WholeAt(here + 5, 2, true) * WholeAt(here + 7, 2, true);
+    }
+  }
+  return pixels;
+}
+
+// The canvas, or the only picture (RFC 9649, 2.5 to 2.7).
+inline int64_t PixelsOfWebp(const uint8_t* data, size_t size) {
+  if (size < 30) return 0;
+  if (std::memcmp(data + 12, "VP8X", 4) == 0) {
+    return (WholeAt(data + 24, 3, false) + 1) * (WholeAt(data + 27, 3, false) + 1);
+  }
+  if (std::memcmp(data + 12, "VP8L", 4) == 0) {
+    const int64_t bits = WholeAt(data + 21, 4, false);
+    return ((bits & 0x3fff) + 1) * ((bits >> 14 & 0x3fff) + 1);
+  }
+  return (WholeAt(data + 26, 2, false) & 0x3fff) * (WholeAt(data + 28, 2, false) & 0x3fff);
+}
+
+inline int64_t DeclaredPixels(const uint8_t* data, size_t size) {
+  if (size >= 12 && std::memcmp(data, "RIFF", 4) == 0) return PixelsOfWebp(data, size);
+  HeifItems items;
+  if (!HeifBrands({data, size}).empty() && ReadHeifItems({data, size}, &items)) {
+    int64_t pixels = 0;
+    for (const auto& [id, item] : items) pixels += int64_t{item.width} * int64_t{item.height};
+    return pixels;
+  }
+  return PixelsOfHeaders(data, size);
+}
+
+// KiB of a line of /proc/self/status; -1 where there is none.
+inline int64_t StatusOf(const std::string& name) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, name.size(), name) == 0) return std::atoll(line.c_str() + name.size());
+  }
+  return -1;
+}
+
+class MemoryBudget {
+ public:
+  MemoryBudget(const uint8_t* data, size_t size) : pixels_(DeclaredPixels(data, size)) {
+    std::ofstream("/proc/self/clear_refs") << 5;  // the peak becomes what is used now
+    before_ = StatusOf("VmHWM:");
+  }
+  ~MemoryBudget() {
+    const int64_t most = kShare * (64 * 1024 + 16 * pixels_ / 1024),
+                  used = StatusOf("VmHWM:") - before_;
+    if (before_ < 0 || used <= most) return;
+    std::fprintf(stderr, "%lld KiB for %lld declared pixels, expected at most %lld\n",
+                 static_cast<long long>(used), static_cast<long long>(pixels_),
+                 static_cast<long long>(most));
+    std::abort();
+  }
+  MemoryBudget(const MemoryBudget&) = delete;
+  MemoryBudget& operator=(const MemoryBudget&) = delete;
+
+ private:
+#if defined(__SANITIZE_ADDRESS__)
+  static constexpr int64_t kShare = 4;  // what was freed stays for a while
+#elif defined(__has_feature)
+  static constexpr int64_t kShare = __has_feature(address_sanitizer) ? 4 : 1;
+#else
+  static constexpr int64_t kShare = 1;
+#endif
+
+  const int64_t pixels_;
+  int64_t before_ = 0;
+};
+
+}  // namespace starfocus::fuzz
+
+#endif  // STARFOCUS_TESTS_FUZZ_MEMORY_BUDGET_H_
