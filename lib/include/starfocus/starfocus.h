@@ -241,7 +241,8 @@ typedef enum sf_mode {
 
 /** How many views a blur radius needs. */
 typedef enum sf_rule {
-  SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME of a star, else SF_RULE_SUBAPERTURE */
+  SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME of a star of 5 or more views, else
+                          SF_RULE_SUBAPERTURE */
   SF_RULE_PAPER = 1, /**< (9): views at most a pixel or so apart, rendered line by line (IV); needs
                           the star of sf_view_position, else SF_ERROR_STAR */
   SF_RULE_SUBAPERTURE = 2 /**< each view stands for its subaperture, however wide, and shows
