@@ -107,7 +107,8 @@ typedef struct sf_position {
 /** How the codes 0 to 255 of a picture stand for light, which is what a lens adds. A picture of one
  *  code comes out as it went in. Where depth varies from pixel to pixel, some pixels of the darkest
  *  codes of SF_TRANSFER_SRGB may be one code off: of codes up to 20 through steep openings (theta
- *  from 0.3 pi on, cats_eye) or with n_scale other than 1, of code 1 with blurs beyond 30 pixels. */
+ *  from 0.3 pi on, cats_eye) or with n_scale other than 1, of code 1 with blurs beyond 30 pixels.
+ */
 typedef enum sf_transfer {
   SF_TRANSFER_SRGB = 0, /**< the curve of sRGB (IEC 61966-2-1), as in pictures of cameras: codes are
                              decoded to light of 15 bits as they are read, and light is coded where
