@@ -53,7 +53,7 @@ LampRun CountRun(const Line& line, int32_t at) {
 int32_t RunThrough(const Line& line, int32_t at) {
   LampRun* const runs = line.is_row ? line.view.runs->along : line.view.runs->down;
   const int32_t span = at >> LampRuns::kSpanBits;
-  LampRun& run = runs[(line.index + 127 * span + 331 * line.view.index) % LampRuns::kCount];
+  LampRun& run = runs[(line.index + 127 * span + 331 * line.view.index) & (LampRuns::kCount - 1)];
   const bool known = run.view == line.view.index && run.line == line.index && at >= run.first - 1 &&
                      at <= run.last + 1;
   if (!known) {

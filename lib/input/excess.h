@@ -33,8 +33,8 @@ struct LampRun {
 // The runs that were found last, so that neighbours do not count the same pixels again. A worker
 // has one for as long as it renders a block.
 struct LampRuns {
-  static constexpr int32_t kCount = 1024;
-  static constexpr int kSpanBits = 6;  // a line has a place for each 64 pixels
+  static constexpr int32_t kCount = 1024;  // a power of two
+  static constexpr int kSpanBits = 6;      // a line has a place for each 64 pixels
 
   LampRun along[kCount], down[kCount];
 
