@@ -82,6 +82,7 @@ void ReadExcess(const LampView& view, int32_t x, int32_t y, int16_t* rgb) {
   int32_t run = RunThrough({view, true, y}, x);
   if (run > view.lamp) run = Min(run, RunThrough({view, false, x}, y));
   const int32_t share = Clamp(LampReach(view.lamp) - run, 0, view.lamp);
+  if (share == 0) return;
   for (int c = 0; c < 3; ++c) {
     rgb[c] = static_cast<int16_t>(ExcessOf(codes[c]) * share / view.lamp);
   }
