@@ -12,13 +12,13 @@ constexpr uint32_t kLeastShare = 4;
 // share of the last light may be too large by, and for the rounding of each slice.
 constexpr uint32_t kGroupSum = 58000;
 
-// Steep openings, whose middle view weighs more than kSteep times the mean (theta from 0.345 pi
+// Steep openings, whose middle view weighs more than kSteep times the mean (theta from 0.3 pi
 // on): their views weigh at least kLeastMean on average, up to kMostShares times what a group takes
 // at once. The product of each view with light is rounded, and small weights would turn dark codes
 // into others.
 constexpr uint64_t kSteep = 3;
-constexpr uint64_t kLeastMean = 4 * kGroupSum / kGroupViews;
-constexpr uint64_t kMostShares = 64;
+constexpr uint64_t kLeastMean = 2 * kGroupSum / kGroupViews;
+constexpr uint64_t kMostShares = 32;
 
 // Returns the sum of the weights of views (i, first) to (i, last), or four times the largest.
 uint32_t GroupSum(const Aperture& aperture, int32_t i, int32_t first, int32_t last) {

@@ -193,7 +193,7 @@ TEST_CASE("constant: wide subapertures") {
 
 // Through openings much brighter in the middle most views have little weight, and codes of the dark
 // are few levels of light: products of both are summed in shares of larger weights. What is left is
-// the rounding of slices that cover parts of a pixel: a single pixel of a few pictures.
+// the rounding of slices that cover parts of a pixel: up to three pixels of a few pictures.
 TEST_CASE("constant: dark codes through steep openings") {
   Trial t;
   t.width = t.height = 64;
@@ -214,7 +214,7 @@ TEST_CASE("constant: dark codes through steep openings") {
         std::fill(t.color, t.color + 3, static_cast<uint8_t>(code));
         const int changed = Changed(t);
         CHECK_MESSAGE(changed >= 0, Text(t) << " code " << code);
-        CHECK_MESSAGE(changed <= 3, Text(t) << " code " << code);
+        CHECK_MESSAGE(changed <= 9, Text(t) << " code " << code);
         pictures += changed > 0;
       }
     }
