@@ -42,15 +42,16 @@ bool FillRow(int32_t width, int16_t* row) {
   return true;
 }
 
-// Fills rows [first, end), which lie between two known ones or at the picture's edge.
+// Fills rows [first, end), which lie between two known rows or between one and the map's edge.
 void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map) {
   const auto width = static_cast<size_t>(plan.width);
+  // At an edge the pointer stays inside the map and is not read.
+  const int16_t* above = map + static_cast<size_t>(Max(first - 1, 0)) * width;
+  const int16_t* below = map + static_cast<size_t>(Min(end, plan.height - 1)) * width;
   for (int32_t y = first; y < end; ++y) {
     const int32_t before = first == 0 ? INT32_MAX : y - first + 1;
     const int32_t after = end == plan.height ? INT32_MAX : end - y;
     int16_t* row = map + static_cast<size_t>(y) * width;
-    const int16_t* above = map + static_cast<size_t>(first - 1) * width;
-    const int16_t* below = map + static_cast<size_t>(end) * width;
     if (before != after) {
       std::memcpy(row, before < after ? above : below, width * sizeof(int16_t));
       continue;
@@ -103,10 +104,10 @@ bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int3
   const int32_t own = map.disparity[map.At(x, y)];
   const Rect around = Widened(map.plan, {x, y, 1, 1}, kDisplacement);
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const uint8_t* doubts = doubt + (row - region.y) * region.width - region.x;
+    const uint8_t* doubts = doubt + (row - region.y) * region.width;
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
       const int32_t difference = Abs(map.disparity[map.At(column, row)] - own);
-      if (doubts[column] > kDisplacement && difference <= kPixel) return false;
+      if (doubts[column - region.x] > kDisplacement && difference <= kPixel) return false;
     }
   }
   return true;

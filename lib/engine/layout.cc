@@ -147,6 +147,7 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
     worker.aperture_weights =
         carver->Take<uint16_t>(FullApertureSize(Max(max_n, LargestSubapertureN(config))));
   }
+  if (config.highlights > 1) worker.lamp_runs = carver->Take<LampRuns>(1);
   const size_t shared = carver->Mark();
   TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.line_scan);
   carver->Reuse(shared);

@@ -43,7 +43,8 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   const double r_max = LargestBlur(config, params);
   if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
   lens->params = params;
-  if (params.rule == SF_RULE_DEFAULT && !HasStar(config)) {
+  // One view shows nothing behind edges: line scans would put a halo there, as wide as the blur.
+  if (params.rule == SF_RULE_DEFAULT && (config.views == 1 || !HasStar(config))) {
     lens->params.rule = SF_RULE_SUBAPERTURE;
   }
   lens->region = RegionOf(config, params);

@@ -42,7 +42,8 @@ inline bool IsBlockMode(const Lens& lens) { return lens.params.mode == SF_MODE_B
 
 inline bool IsBenchmark(const Lens& lens) { return lens.params.mode == SF_MODE_BENCHMARK; }
 
-// Whether views stand for subapertures, and show slices.
+// Whether views stand for subapertures, and show slices. MakeLens resolves SF_RULE_DEFAULT where
+// the views decide.
 inline bool UsesSubapertures(const Lens& lens) {
   const int32_t rule = lens.params.rule;
   if (lens.params.mode == SF_MODE_FRAME) return rule == SF_RULE_SUBAPERTURE;

@@ -139,9 +139,11 @@ ExcessSum ExcessOf(const BlockInputs& in) {
 }
 
 // The pictures as a window of what highlights have beyond white.
-Window ExcessWindow(const BlockInputs& in) {
+Window ExcessWindow(const BlockInputs& in, Worker* worker) {
   Window window = in.windows[0];
   window.lamp = LargestLamp(in.config->width);
+  window.runs = worker->lamp_runs;
+  worker->lamp_runs->Clear();
   return window;
 }
 
@@ -149,7 +151,7 @@ Window ExcessWindow(const BlockInputs& in) {
 // view.
 uint64_t RenderExcess(const BlockInputs& in, const Block& block, RenderJob job,
                       const Plane<uint8_t>& out, Worker* worker) {
-  const Window window = ExcessWindow(in);
+  const Window window = ExcessWindow(in, worker);
   job.window = &window;
   const uint64_t samples = RenderSums(in, block, job, worker);
   if (!worker->patience.Spend(0)) return 0;
@@ -263,7 +265,7 @@ void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& 
     BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
   };
   blur(in.windows[0], {in.kernels, in.windows[0].transfer, 0});
-  if (block.has_highlights) blur(ExcessWindow(in), ExcessOf(in));
+  if (block.has_highlights) blur(ExcessWindow(in, worker), ExcessOf(in));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "lib/base/watch.h"
 #include "lib/filter/blur.h"
 #include "lib/filter/layers.h"
+#include "lib/input/excess.h"
 #include "lib/line_scan/triangles.h"
 #include "lib/plan/partition.h"
 #include "lib/slices/compositor.h"
@@ -37,6 +38,7 @@ struct FieldMemory {
 struct Worker {
   uint32_t* sums;              // 3 R^2
   uint16_t* aperture_weights;  // with cat's eyes: of a block, of the largest N
+  LampRuns* lamp_runs;         // with highlights
   FieldMemory field;           // of blocks that are gathered, or blurred by depth
   SpanMemory spans;            // of blocks blurred by depth
   LineScanScratch line_scan;

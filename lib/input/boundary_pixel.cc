@@ -19,24 +19,41 @@ int32_t Compared(int32_t light) {
   return static_cast<int32_t>(RoundShift(light, kLightBits - kColourBits));
 }
 
+// Where a colour lies beside the line from `far` to `near`: its place along the line and its
+// squared distance from it, both times `contrast`, the squared length of the line.
+struct Place {
+  int64_t along = 0, contrast = 0, beside = 0;
+
+  Place(const Colour& near, const Colour& far, const Colour& mixed) {
+    int64_t distance = 0;
+    for (int c = 0; c < 3; ++c) {
+      const int64_t whole = Compared(near[c]) - Compared(far[c]);
+      const int64_t part = Compared(mixed[c]) - Compared(far[c]);
+      along += part * whole;
+      contrast += whole * whole;
+      distance += part * part;
+    }
+    beside = distance * contrast - along * along;
+  }
+
+  // The largest kContrastParts * beside of a mixture.
+  int64_t Limit() const { return contrast * (kContrastParts * kNoise + contrast); }
+
+  int32_t Share() const {
+    return static_cast<int32_t>((static_cast<uint64_t>(along) << kShareBits) /
+                                static_cast<uint64_t>(contrast));
+  }
+};
+
 // Returns how much of `mixed` shows `near`, the rest being `far`: kShareBits, 0 when it is no
 // mixture. The far surface has the pixel's centre, so that more than 4/5 says that `far` is
 // something else. The share is rounded down, so that to round it once more, to fewer bits, rounds
 // what it really is.
 int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
-  int64_t along = 0, contrast = 0, distance = 0;
-  for (int c = 0; c < 3; ++c) {
-    const int64_t whole = Compared(near[c]) - Compared(far[c]);
-    const int64_t part = Compared(mixed[c]) - Compared(far[c]);
-    along += part * whole;
-    contrast += whole * whole;
-    distance += part * part;
-  }
-  if (contrast < kLeastContrast || along <= 0 || 5 * along > 4 * contrast) return 0;
-  const int64_t beside = distance * contrast - along * along;  // squared, times the contrast
-  if (kContrastParts * beside > contrast * (kContrastParts * kNoise + contrast)) return 0;
-  return static_cast<int32_t>((static_cast<uint64_t>(along) << kShareBits) /
-                              static_cast<uint64_t>(contrast));
+  const Place place(near, far, mixed);
+  if (place.contrast < kLeastContrast || place.along <= 0) return 0;
+  if (5 * place.along > 4 * place.contrast) return 0;
+  return kContrastParts * place.beside > place.Limit() ? 0 : place.Share();
 }
 
 // The pixel beside it, away from the nearer surface, if it is of the same surface, else the pixel
@@ -106,6 +123,24 @@ Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
     mixture.share = ShareOf(mixture.near, mixture.far, mixed);
   }
   return mixture;
+}
+
+int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
+  constexpr int64_t kOne = 1 << kShareBits;
+  const auto limited = [](int64_t fade) { return fade < 0 ? 0 : fade > kOne ? kOne : fade; };
+  const Place place(near, far, mixed);
+  if (place.contrast <= kLeastContrast || place.along <= 0 || place.along >= place.contrast) {
+    return 0;
+  }
+  const int64_t contrast = limited((place.contrast - kLeastContrast) * kOne / kLeastContrast);
+  const int64_t outside = kContrastParts * place.beside / (place.Limit() >> kShareBits);
+  int64_t share = place.Share();
+  const int64_t most = limited(5 * (kOne - share));
+  const int64_t fades[] = {contrast, limited(2 * kOne - outside), most};
+  for (const int64_t fade : fades) {
+    share = share * fade >> kShareBits;
+  }
+  return static_cast<int32_t>(share);
 }
 
 }  // namespace starfocus

@@ -51,7 +51,13 @@ struct Mixture {
 // of excess the share is that of light, and the colours are excess.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
-// Calls visit(column, row) for those pixels of a field at layer 0 that are farther away, by more
+// Returns the share of `near` in a pixel of level 1 or 2, kShareBits. Filtered pixels differ by
+// rounding, so the share fades to 0 where FindMixture's has limits: from twice the least contrast,
+// between one and two times the largest distance from the line between both colours, and from 4/5
+// to 1.
+int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
+
+// Calls visit(column, row) for those pixels of a field that are farther away, by more
 // than `step`, than one beside, above or below them; of those in the picture, but for the field's
 // outermost ones.
 template <class Visit>

@@ -23,12 +23,34 @@ constexpr int32_t LampReach(int32_t lamp) { return 2 * lamp; }
 inline constexpr int32_t kFirstExcess = 251;
 bool IsHighlight(const uint8_t* codes);
 
+// Highlights that follow each other along a row or a column: pixels [first, last] of one such run,
+// which all have its length, LampReach at most.
+struct LampRun {
+  int16_t view = -1;  // -1: none
+  uint16_t line = 0, first = 0, last = 0, length = 0;
+};
+
+// The runs that were found last, so that neighbours do not count the same pixels again. A worker
+// has one for as long as it renders a block.
+struct LampRuns {
+  static constexpr int32_t kCount = 1024;  // a power of two
+  static constexpr int kSpanBits = 6;      // a line has a place for each 64 pixels
+
+  LampRun along[kCount], down[kCount];
+
+  void Clear() {
+    for (LampRun& run : along) run = LampRun();
+    for (LampRun& run : down) run = LampRun();
+  }
+};
+
 // A captured view at layer 0, in which highlights of up to `lamp` pixels are lamps.
 struct LampView {
   const Plane<const uint8_t>& codes;  // without a reader
   int32_t width, height, lamp;
   const CodeReader* reader;  // null: there is none
   int index;                 // of the view, for the reader
+  LampRuns* runs;            // of any views of these pictures
 };
 
 // The light that highlights have beyond white at pixel (x, y), inside the picture, for a clipped

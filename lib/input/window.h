@@ -42,6 +42,7 @@ struct Window {
   // Largest lamp in pixels (LargestLamp): what is read is then not light, but what highlights have
   // of it beyond white, at layer 0. 0: light.
   int32_t lamp = 0;
+  LampRuns* runs = nullptr;  // with lamps
 };
 
 // Places one after the other in a captured view: the first at (x, y) of the layer, kShiftBits, each
@@ -72,7 +73,8 @@ void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, 
 // A captured view with the window's lamps.
 inline LampView ViewOf(const Window& window, int index) {
   return {window.view[index], window.picture_width, window.picture_height,
-          window.lamp,        window.reader,        index};
+          window.lamp,        window.reader,        index,
+          window.runs};
 }
 
 // Whether any of the views has codes of kFirstExcess or more in the columns and rows of `rect`.

@@ -71,12 +71,20 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
                         const Surroundings& surroundings, int32_t column, int32_t row) {
   simd::BlockReach reach;
   kernels.ReachBlock(surroundings.At(column, row), surroundings.around, kLayerMargin, &reach);
-  BlockStats stats = {INT32_MAX, reach.radius, reach.edge, {}, {}};
+  BlockStats stats = {INT32_MAX, INT32_MAX, reach.radius, reach.edge, {}, {}};
   for (int32_t y = row; y < Min(row + 2, grid.rows); ++y) {
     for (int32_t x = column; x < Min(column + 2, grid.columns); ++x) {
       const Cell& cell = *grid.At(x, y);
       stats.r_min = Min(stats.r_min, cell.r_min);
       AddCell(cell, &stats.content);
+    }
+  }
+  // Upsampling from level 1 also reads what lies up to kLayerMargin[1] pixels around the block.
+  static_assert(kLayerMargin[1] <= kCellSize, "the cells around the block hold the margin");
+  const int32_t top = Max(row - 1, grid.first_row), bottom = Min(row + 3, grid.last_row);
+  for (int32_t y = top; y < bottom; ++y) {
+    for (int32_t x = Max(column - 1, 0); x < Min(column + 3, grid.columns); ++x) {
+      stats.r_shown = Min(stats.r_shown, grid.At(x, y)->r_shown);
     }
   }
   for (int layer = 0; layer < 3; ++layer) {

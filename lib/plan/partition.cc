@@ -201,9 +201,12 @@ class Partition {
   }
 
   int32_t Layer(const BlockStats& stats) const {
-    const double r_min = static_cast<double>(stats.r_min) / kRadiusOne;
-    if (!rules_.subapertures) return Min(LayerByPaper(r_min, rules_.demand), rules_.max_layer);
-    return Min(LayerBySubaperture(r_min, stats.r_edge > 0, rules_.demand), rules_.max_layer);
+    const int32_t r_min = rules_.subapertures ? stats.r_shown : stats.r_min;
+    const double radius = static_cast<double>(r_min) / kRadiusOne;
+    const int32_t layer = rules_.subapertures
+                              ? LayerBySubaperture(radius, stats.r_edge > 0, rules_.demand)
+                              : LayerByPaper(radius, rules_.demand);
+    return Min(layer, rules_.max_layer);
   }
 
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {

@@ -18,16 +18,18 @@ class MatteFinder {
         grid_(grid),
         field_(field),
         surfaces_(*surfaces),
+        step_(static_cast<int16_t>(kDepthEdge << window.layer)),
         rim_(grid.Move(grid.n())) {}
 
+  int16_t step() const { return step_; }
+
   void FindPixel(int32_t column, int32_t row) {
-    const int32_t x = field_.x + column, y = field_.y + row;
     const int32_t disparity = *field_.Disparity(column, row);
     Parts parts;
     for (int side = 0; side < kSideCount; ++side) {
       const int32_t near = *field_.Disparity(column + kSides[side][0], row + kSides[side][1]);
-      if (near - disparity <= kDepthEdge || !Moves(near, disparity)) continue;
-      parts.Add(FindMixture(centre_, {x, y, side, disparity, near, kDepthEdge}), near);
+      if (near - disparity <= step_ || !Moves(near, disparity)) continue;
+      parts.Add(MixtureAt({column, row, side, disparity, near, step_}), near);
     }
     const int32_t share = RoundShift(parts.most * simd::kSliceWhole, kShareBits);
     if (share > 0) Part(column, row, disparity, share, parts);
@@ -54,6 +56,63 @@ class MatteFinder {
     }
   };
 
+  // `pixel` is in pixels of the field.
+  Mixture MixtureAt(const BoundaryPixel& pixel) const {
+    if (centre_.window.layer > 0) return MixtureOfLevel(pixel);
+    BoundaryPixel of_picture = pixel;
+    of_picture.x += field_.x;
+    of_picture.y += field_.y;
+    return FindMixture(centre_, of_picture);
+  }
+
+  // The pixel of the field, or the nearest one in it.
+  Colour ColourAt(int32_t column, int32_t row) const {
+    const int16_t* rgb =
+        field_.Rgb(Clamp(column, 0, field_.width - 1), Clamp(row, 0, field_.height - 1));
+    return {{rgb[0], rgb[1], rgb[2]}};
+  }
+  int32_t DisparityAt(int32_t column, int32_t row) const {
+    return *field_.Disparity(Clamp(column, 0, field_.width - 1), Clamp(row, 0, field_.height - 1));
+  }
+
+  // The same as FindMixture of a subsampled pixel, but that what is left of the pixel without the
+  // near colour is its far one.
+  Mixture MixtureOfLevel(const BoundaryPixel& pixel) const {
+    const int32_t x = pixel.x, y = pixel.y;
+    const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
+    const Colour mixed = ColourAt(x, y);
+    const bool wide = Abs(DisparityAt(x + 2 * dx, y + 2 * dy) - pixel.near) <= pixel.step;
+    Mixture mixture;
+    mixture.near = ColourAt(x + (wide ? 2 : 1) * dx, y + (wide ? 2 : 1) * dy);
+    mixture.share = FadedShareOf(mixture.near, FarAt(pixel, mixed), mixed);
+    for (int c = 0; c < 3; ++c) {
+      const int32_t left = (1 << kShareBits) - mixture.share;
+      const int32_t far = (mixed[c] * (1 << kShareBits) - mixture.share * mixture.near[c]) / left;
+      mixture.far.rgb[c] =
+          static_cast<int16_t>(Clamp(far, ranges::kUnmixed.low, ranges::kUnmixed.high));
+    }
+    return mixture;
+  }
+
+  // What the far surface of a subsampled pixel is estimated to be: as the captured view away from
+  // the edge shows it, else as the pixel on that side.
+  Colour FarAt(const BoundaryPixel& pixel, const Colour& mixed) const {
+    const Window& window = centre_.window;
+    const LookView& look = window.looks.Last(pixel.side ^ 1);
+    if (look.view == 0) {
+      const int32_t x = pixel.x - kSides[pixel.side][0], y = pixel.y - kSides[pixel.side][1];
+      return Abs(DisparityAt(x, y) - pixel.disparity) <= pixel.step ? ColourAt(x, y) : mixed;
+    }
+    const int bits = kViewBits + kDisparityBits - kShiftBits + window.layer;
+    const CapturedLine line = {
+        (field_.x + pixel.x) * kShiftOne - ScaledByView(look.at.u, pixel.disparity, bits),
+        (field_.y + pixel.y) * kShiftOne - ScaledByView(look.at.v, pixel.disparity, bits), 1, 0};
+    Colour far;
+    if (window.reads != nullptr) ++window.reads->side_colours;
+    ReadCaptured(window, look.view, line, 1, far.rgb);
+    return far;
+  }
+
   bool Moves(int32_t near, int32_t far) const {
     return Abs(grid_.Shift(rim_, near) - grid_.Shift(rim_, far)) > kLeastMove;
   }
@@ -77,6 +136,7 @@ class MatteFinder {
   const ViewGrid& grid_;
   const Field& field_;
   LayeredDepth& surfaces_;
+  const int16_t step_;  // a larger one from pixel to pixel is a depth edge
   const int64_t rim_;
 };
 
@@ -84,9 +144,8 @@ class MatteFinder {
 
 void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                const Field& field, LayeredDepth* surfaces) {
-  if (window.layer != 0) return;
   MatteFinder finder(window, grid, field, surfaces);
-  ForEachBesideEdge(kernels, window, field, kDepthEdge,
+  ForEachBesideEdge(kernels, window, field, finder.step(),
                     [&](int32_t column, int32_t row) { finder.FindPixel(column, row); });
 }
 

@@ -12,6 +12,14 @@ constexpr uint32_t kLeastShare = 4;
 // share of the last light may be too large by, and for the rounding of each slice.
 constexpr uint32_t kGroupSum = 58000;
 
+// Steep openings, whose middle view weighs more than kSteep times the mean (theta from 0.3 pi
+// on): their views weigh at least kLeastMean on average, up to kMostShares times what a group takes
+// at once. The product of each view with light is rounded, and small weights would turn dark codes
+// into others.
+constexpr uint64_t kSteep = 3;
+constexpr uint64_t kLeastMean = 2 * kGroupSum / kGroupViews;
+constexpr uint64_t kMostShares = 32;
+
 // Returns the sum of the weights of views (i, first) to (i, last), or four times the largest.
 uint32_t GroupSum(const Aperture& aperture, int32_t i, int32_t first, int32_t last) {
   uint32_t sum = 0, most = 0;
@@ -38,6 +46,11 @@ int RankOf(uint32_t weight, uint32_t largest) {
 
 }  // namespace
 
+uint32_t ViewWeights::Shares(int32_t i, int32_t first, int32_t last) const {
+  const uint64_t sum = (GroupSum(*aperture, i, first, last) * scale) >> 16;
+  return sum <= kGroupSum ? 1 : static_cast<uint32_t>((sum + kGroupSum - 1) / kGroupSum);
+}
+
 int32_t ViewWeights::LastAlike(int32_t i, int32_t first, int32_t last) const {
   const int rank = RankOf(aperture->Weight(i, first), largest);
   int32_t j = first;
@@ -56,12 +69,14 @@ int ViewWeights::ExtraBits(int32_t i, int32_t first, int32_t last) const {
 ViewWeights ScaleWeights(const Aperture& aperture) {
   ViewWeights weights = {&aperture, 0, 0, 0};
   uint32_t largest = 0;
+  uint64_t views = 0;
   // Columns on either side of the middle are alike but in full apertures.
   for (int32_t i = aperture.full ? -aperture.last : 0; i <= aperture.last; ++i) {
     const int32_t last = weights.LastAcross(Abs(i));
     for (int32_t j = -last; j <= last; ++j) {
       const uint32_t weight = aperture.Weight(i, j);
       weights.largest = weight > weights.largest ? weight : weights.largest;
+      if (weight > 0) views += aperture.full || i == 0 ? 1 : 2;
     }
     for (int32_t first = -last; first <= last; first += kGroupViews) {
       const uint32_t sum = GroupSum(aperture, i, first, Min(first + kGroupViews - 1, last));
@@ -69,6 +84,11 @@ ViewWeights ScaleWeights(const Aperture& aperture) {
     }
   }
   weights.scale = (uint64_t{kGroupSum} << 16) / largest;
+  if (weights.largest * views > kSteep << aperture.sum_bits) {
+    const uint64_t sum = (weights.scale << aperture.sum_bits) >> 16;
+    const uint64_t shares = (views * kLeastMean + sum - 1) / sum;
+    weights.scale *= shares < kMostShares ? shares : kMostShares;
+  }
   weights.least_covered =
       static_cast<uint32_t>(((weights.scale << aperture.sum_bits) >> 16) / kLeastShare);
   return weights;

@@ -18,16 +18,27 @@ namespace starfocus {
 // faint light would be rounded to nothing.
 inline constexpr int32_t kGroupViews = 16;
 
-// Weights of views as the kernels sum them: aperture weights times scale / 2^16.
+// One of the equal shares of the weights of a group.
+struct WeightShare {
+  uint32_t index, count;
+};
+
+// Weights of views as the kernels sum them: aperture weights times scale / 2^16. A group of larger
+// weights than the kernels take is added share by share.
 struct ViewWeights {
   const Aperture* aperture;
-  uint64_t scale;          // 16 bits
+  uint64_t scale;          // 21 bits
   uint32_t largest;        // weight of the aperture
   uint32_t least_covered;  // sums of less than this are no colour: what rounding adds would show
 
-  int16_t Weight(int32_t i, int32_t j, int extra_bits) const {
-    return static_cast<int16_t>((aperture->Weight(i, j) * (scale << extra_bits)) >> 16);
+  int16_t Weight(int32_t i, int32_t j, int extra_bits, const WeightShare& share) const {
+    const uint64_t weight = (aperture->Weight(i, j) * (scale << extra_bits)) >> 16;
+    return static_cast<int16_t>(weight * (share.index + 1) / share.count -
+                                weight * share.index / share.count);
   }
+
+  // Returns the number of shares that the weights of views (i, first) to (i, last) are added in.
+  uint32_t Shares(int32_t i, int32_t first, int32_t last) const;
 
   // Returns the last j of the views from (i, first) to at most (i, last) whose weights are alike:
   // of the same power of sixteen below the aperture's largest. Steep openings have views of much
@@ -48,7 +59,7 @@ struct ViewWeights {
 };
 
 // Scales the weights of an aperture so that those of a group are at most kGroupSum together, and
-// each of them a quarter of it.
+// each of them a quarter of it; of steep openings a multiple of that.
 ViewWeights ScaleWeights(const Aperture& aperture);
 
 // The nearest slice comes first.

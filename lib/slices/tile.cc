@@ -106,9 +106,14 @@ class Tile {
 
   // Adds views (i, first) to (i, last).
   void AddGroup(int32_t i, int32_t first, int32_t last) {
+    const uint32_t shares = stack_.weights.Shares(i, first, last);
+    for (uint32_t share = 0; share < shares; ++share) AddShare(i, first, last, {share, shares});
+  }
+
+  void AddShare(int32_t i, int32_t first, int32_t last, const WeightShare& share) {
     const int extra_bits = stack_.weights.ExtraBits(i, first, last);
     for (int32_t j = first; j <= last; ++j) {
-      job_.weights[j - first] = stack_.weights.Weight(i, j, extra_bits);
+      job_.weights[j - first] = stack_.weights.Weight(i, j, extra_bits, share);
     }
     for (const SectionPart* part = parts_.first; part < parts_.end; ++part) {
       const simd::SliceViews views = {job_.weights,

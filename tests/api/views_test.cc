@@ -48,6 +48,18 @@ TEST_CASE("views: the star by its positions is the star, in any order by subaper
   }
 }
 
+// By line scans a silhouette of one view has a halo as wide as the blur.
+TEST_CASE("views: one view takes subapertures in every mode unless the paper's rule is asked for") {
+  const test::Scene scene = test::RandomScene(70, 50, 1, -4, 6, 5);
+  for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
+    CHECK(Picture(scene, mode, SF_RULE_DEFAULT) == Picture(scene, mode, SF_RULE_SUBAPERTURE));
+    CHECK(Picture(scene, mode, SF_RULE_PAPER) != Picture(scene, mode, SF_RULE_SUBAPERTURE));
+  }
+  const test::Scene star = test::RandomScene(70, 50, 5, -4, 6, 5);
+  CHECK(Picture(star, SF_MODE_FRAME, SF_RULE_DEFAULT) ==
+        Picture(star, SF_MODE_FRAME, SF_RULE_PAPER));
+}
+
 TEST_CASE("views: a pair reads its second view, and another position of it elsewhere") {
   const test::Scene pair = Scene({{0, 0}, {1, 0}});
   test::Scene one = pair;

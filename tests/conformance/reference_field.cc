@@ -54,6 +54,21 @@ double Strength(const Lens& lens, int near, int far) {
 
 }  // namespace
 
+double FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
+  double along = 0, contrast = 0, distance = 0;
+  for (size_t c = 0; c < 3; ++c) {
+    const double whole = near[c] - far[c], part = mixed[c] - far[c];
+    along += part * whole;
+    contrast += whole * whole;
+    distance += part * part;
+  }
+  if (contrast <= 64 || along <= 0 || along >= contrast) return 0;
+  const double share = along / contrast;
+  const double outside = 16 * (distance - along * share) / (432 + contrast);
+  const auto fade = [](double value) { return std::clamp(value, 0.0, 1.0); };
+  return share * fade(contrast / 64 - 1) * fade(2 - outside) * fade(5 * (1 - share));
+}
+
 std::vector<Position> LooksOn(const LightField& field, const Direction& side) {
   const auto along = [&](const Position& at) { return at.first * side.x + at.second * side.y; };
   const auto across = [&](const Position& at) {

@@ -38,6 +38,9 @@ struct Mixed {
 };
 Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step);
 
+// The share of `near` in a subsampled pixel, which fades to 0 towards the limits of a mixture.
+double FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
+
 // At layer 0: in the rectangle's sharp pixels beside a more defocused surface that surface's part
 // gives way to the far colour. The outermost pixels reach nothing.
 void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre);

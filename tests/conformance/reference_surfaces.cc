@@ -70,8 +70,7 @@ class SurfaceFinder {
   void Part(int x, int y, std::vector<Surface>* surfaces) const {
     const bool outermost =
         x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1;
-    if (lens_.layer != 0 || outermost) return;
-    if (!field_.at({0, 0}).Inside(x0_ + x, y0_ + y)) return;
+    if (outermost || !InPicture(x0_ + x, y0_ + y)) return;
     Surface near = {INT16_MIN, {0, 0, 0}, 0}, far = {Disparity(x, y), {0, 0, 0}};
     double shares = 0;
     for (const Direction& side : kDirections) {
@@ -79,7 +78,9 @@ class SurfaceFinder {
       if (!IsEdge(disparity, far.disparity)) continue;
       const int moved = lens_.Shift(lens_.n, disparity) - lens_.Shift(lens_.n, far.disparity);
       if (std::abs(moved) <= 256) continue;
-      const Mixed mixed = MixtureAt(field_, x0_ + x, y0_ + y, side, unit_ * 3 / 4);
+      const Mixed mixed = lens_.layer == 0
+                              ? MixtureAt(field_, x0_ + x, y0_ + y, side, unit_ * 3 / 4)
+                              : MixtureOfLevel(x, y, side);
       if (mixed.share == 0) continue;
       for (size_t c = 0; c < 3; ++c) {
         near.colour[c] += mixed.share * mixed.near[c];
@@ -98,6 +99,45 @@ class SurfaceFinder {
     surfaces->front() = far;
     surfaces->insert(surfaces->begin(), near);
     if (surfaces->size() > starfocus::simd::kSurfaces) surfaces->pop_back();
+  }
+
+  // Whether the layer has that pixel: one more than the picture before it has, halved.
+  bool InPicture(int x, int y) const {
+    int width = field_.at({0, 0}).width, height = field_.at({0, 0}).height;
+    for (int layer = 0; layer < lens_.layer; ++layer) {
+      width = (width + 1) / 2 + 1;
+      height = (height + 1) / 2 + 1;
+    }
+    return x >= 0 && y >= 0 && x < width && y < height;
+  }
+
+  // The mixture of a subsampled pixel: the share of the near surface is estimated from what its
+  // neighbours, or a captured view, show of both surfaces, and what is left is the far one's.
+  Mixed MixtureOfLevel(int x, int y, const Direction& side) const {
+    const auto at = [&](int k) {
+      return extended_.At(std::clamp(x + k * side.x, 0, extended_.width - 1),
+                          std::clamp(y + k * side.y, 0, extended_.height - 1));
+    };
+    const auto same = [&](int a, int b) {
+      return std::abs(extended_.disparities[at(a)] - extended_.disparities[at(b)]) <= unit_ * 3 / 4;
+    };
+    const Colour& mixed = extended_.colours[at(0)];
+    const std::vector<Position> looks = LooksOn(field_, {-side.x, -side.y});
+    Colour far = extended_.colours[at(same(-1, 0) ? -1 : 0)];
+    if (!looks.empty()) {
+      const auto [u, v] = looks.back();
+      const int disparity = extended_.disparities[at(0)];
+      far = Read(field_, lens_.layer, looks.back(), x0_ + x - Moved(u, disparity, lens_.layer),
+                 y0_ + y - Moved(v, disparity, lens_.layer));
+    }
+    Mixed result;
+    result.near = extended_.colours[at(same(2, 1) ? 2 : 1)];
+    result.share = FadedShareOf(result.near, far, mixed);
+    for (size_t c = 0; c < 3; ++c) {
+      result.far[c] =
+          std::clamp((mixed[c] - result.share * result.near[c]) / (1 - result.share), 0.0, 255.0);
+    }
+    return result;
   }
 
   // Behind the visible surface.

@@ -27,6 +27,7 @@ constexpr Pinned kPinned[] = {
     {1382, "slices of four views along the radius that overran their memory: 3 levels"},
     {6087, "a gathered kernel of a disc with a hard rim, integrated over too few points"},
     {6293, "the same of a smaller radius"},
+    {7700777, "lamps through subapertures on the rim, by other points than the engine's: 3 levels"},
 };
 
 TEST_CASE("trials: what once differed from the reference") {

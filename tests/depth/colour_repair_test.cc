@@ -13,7 +13,12 @@
 #include <new>
 #include <vector>
 
+#include "lib/base/fixed.h"
+#include "lib/depth/colour_map.h"
+
 namespace {
+
+using starfocus::kDisparityBits;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -183,6 +188,25 @@ TEST_CASE("colour repair: one known pixel is enough, wherever it is") {
     photo.map[size_t(at)] = 2.5F;
     for (const float d : Repair(photo).map) CHECK(d == 2.5F);
   }
+}
+
+TEST_CASE("colour repair: rows without a known value are those of the nearest known row") {
+  Photo photo(2, 8);
+  std::fill(photo.map.begin(), photo.map.end(), kNan);
+  photo.Map(0, 2) = 1, photo.Map(1, 2) = 4;
+  photo.Map(0, 6) = 3, photo.Map(1, 6) = 2;
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  config.width = photo.width;
+  config.height = photo.height;
+  sf_light_field field = {};
+  field.disparity = photo.map.data();
+  field.disparity_stride = 2 * sizeof(float);
+  std::vector<int16_t> filled(photo.map.size());
+  starfocus::ReadMap(starfocus::MakePlan(config), field, filled.data());
+  // In the middle, as far from both, the farther surface counts.
+  const int expected[] = {1, 4, 1, 4, 1, 4, 1, 4, 1, 2, 3, 2, 3, 2, 3, 2};
+  for (size_t k = 0; k < filled.size(); ++k) CHECK(filled[k] == expected[k] << kDisparityBits);
 }
 
 TEST_CASE("colour repair: mirrored pictures have mirrored maps") {

@@ -247,9 +247,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (int round = 0; round < 2; ++round) {
     const sf_params params = MakeParams(config, &input);
     const double scale = params.mode == SF_MODE_BENCHMARK ? 2 : config.n_scale;
-    const bool subapertures = params.mode == SF_MODE_BLOCK ? params.rule != SF_RULE_PAPER
-                                                           : params.mode == SF_MODE_FRAME &&
-                                                                 params.rule == SF_RULE_SUBAPERTURE;
+    const bool frame = params.mode == SF_MODE_FRAME;
+    const bool by_default = params.mode == SF_MODE_BLOCK || (frame && config.views == 1);
+    const bool subapertures =
+        by_default ? params.rule != SF_RULE_PAPER : frame && params.rule == SF_RULE_SUBAPERTURE;
     // At most 13 views along the radius stand for subapertures, however wide the blur is.
     const double n = scale * (subapertures ? std::min(config.max_blur, 13.0) : config.max_blur);
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;

@@ -317,6 +317,73 @@ public final class RefocuserTest {
     }
   }
 
+  /** Whether all bytes of the buffer but [first, end) are still `guard`. */
+  private static boolean isGuarded(ByteBuffer buffer, int first, int end, byte guard) {
+    for (int i = 0; i < buffer.capacity(); ++i) {
+      if ((i < first || i >= end) && buffer.get(i) != guard)
+        return false;
+    }
+    return true;
+  }
+
+  /** Arguments at random: what is not refused writes nothing beyond the output's buffer. */
+  private static void randomArgumentsWriteNothingBeyondTheOutput() {
+    final int[] odd = {0, 0, 0, 1, -1, 2, 5, 20, 119, 120, 121, 160, 161, 1 << 16,
+        Integer.MAX_VALUE, Integer.MIN_VALUE};
+    final int[] sizes = {0, 1, 29, 480, 900, 57599, 57600, 57600, 57600, 60000};
+    final java.util.Random random = new java.util.Random(71);
+    final Configuration configuration = configuration();
+    configuration.previews = 3;
+    configuration.maxBlur = 4;
+    final byte guard = (byte) 0xEE;
+    final int before = 4096, capacity = 4 * WIDTH * HEIGHT;
+    final ByteBuffer backing = bytes(before + capacity);
+    int done = 0, refused = 0;
+    try (Refocuser refocuser = new Refocuser(configuration)) {
+      final LightField field = field(picture());
+      refocuser.prepare(field);
+      for (int round = 0; round < 400; ++round) {
+        for (int i = 0; i < backing.capacity(); ++i) backing.put(i, guard);
+        final int size = sizes[random.nextInt(sizes.length)];
+        final ByteBuffer pixels = backing.duplicate();
+        pixels.position(before);
+        pixels.limit(before + size);
+        final Parameters parameters = new Parameters();
+        if (random.nextInt(2) == 0) {
+          parameters.regionX = odd[random.nextInt(odd.length)];
+          parameters.regionY = odd[random.nextInt(odd.length)];
+          parameters.regionWidth = odd[random.nextInt(odd.length)];
+          parameters.regionHeight = odd[random.nextInt(odd.length)];
+        }
+        final int stride = random.nextInt(4) > 0 ? 3 * WIDTH : odd[random.nextInt(odd.length)];
+        final Image out = new Image(random.nextInt(2), pixels, stride);
+        if (random.nextInt(3) == 0)
+          out.pixelStride = odd[random.nextInt(odd.length)];
+        try {
+          switch (random.nextInt(3)) {
+            case 0:
+              refocuser.refocus(field, parameters, out);
+              break;
+            case 1:
+              refocuser.refocusPrepared(parameters, out);
+              break;
+            default:
+              refocuser.preview(odd[random.nextInt(odd.length)], parameters, out);
+          }
+          ++done;
+        } catch (IllegalArgumentException | StarfocusException error) {
+          ++refused;
+        }
+        if (!isGuarded(backing, before, before + size, guard)) {
+          check(false, "bytes beyond the output in round " + round);
+          return;
+        }
+      }
+    }
+    check(
+        done > 30 && refused > 100, "random arguments: " + done + " done, " + refused + " refused");
+  }
+
   private static void configurationsAndStatesAreChecked() {
     final Configuration wrong = configuration();
     wrong.views = 4;
@@ -335,6 +402,10 @@ public final class RefocuserTest {
         () -> closed.refocus(field(picture()), new Parameters(), out(bytes(3 * WIDTH * HEIGHT))));
     check(Refocuser.focusAt(depth(ramp()), WIDTH / 2, 10) < 0.5, "focus at a pixel");
     checkThrows(StarfocusException.class, "", () -> Refocuser.focusAt(depth(ramp()), WIDTH, 10));
+    final DepthMap holes = depth(ramp());
+    holes.hasInvalid = 1;
+    checkThrows(IllegalArgumentException.class, "without an invalid value",
+        () -> Refocuser.focusAt(holes, WIDTH / 2, 10));
   }
 
   private static void anotherThreadCallsOff() throws InterruptedException {
@@ -378,6 +449,7 @@ public final class RefocuserTest {
     aPreviewIsOfTheReducedLightField();
     chromaOfACameraComesBack();
     buffersAreChecked();
+    randomArgumentsWriteNothingBeyondTheOutput();
     configurationsAndStatesAreChecked();
     anotherThreadCallsOff();
     if (failures == 0)

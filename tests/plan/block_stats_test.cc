@@ -175,6 +175,8 @@ struct Exact {
   double around_max = 0;                    // of all within the analysis' sight
   double edge_max = 0;                      // of the nearer side of depth edges that concern it
   double around_edge_max = 0;               // of all edges in sight
+  double shown_min = 1e9;  // of pixels up to kLayerMargin[1] around, and of edges there
+  double ring_min = 1e9;   // of pixels up to 8 around
 };
 
 Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
@@ -200,14 +202,24 @@ Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
       }
     }
   }
+  const auto is_around = [&](int x, int y, int pixels) {
+    return x >= x0 - pixels && x <= x1 + pixels && y >= y0 - pixels && y <= y1 + pixels;
+  };
   for (int y = y0 - sight - 24; y < y0 + side + sight + 24; ++y) {
     for (int x = x0 - sight - 24; x < x0 + side + sight + 24; ++x) {
       exact.around_max = std::max(exact.around_max, map.Radius(x, y));
+      if (is_around(x, y, kCellSize)) exact.ring_min = std::min(exact.ring_min, map.Radius(x, y));
+      if (is_around(x, y, kLayerMargin[1])) {
+        exact.shown_min = std::min(exact.shown_min, map.Radius(x, y));
+      }
       for (const bool below : {false, true}) {
         const int other_x = x + !below, other_y = y + below;
         const double radius = map.EdgeRadius(x, y, below);
         if (radius < 0) continue;
         exact.around_edge_max = std::max(exact.around_edge_max, radius);
+        if (is_around(x, y, kLayerMargin[1]) || is_around(other_x, other_y, kLayerMargin[1])) {
+          exact.shown_min = std::min(exact.shown_min, radius);
+        }
         // An edge concerns the block when a pixel on either side is or lands in it.
         if (Reaches(x, y, map.Radius(x, y), x0, y0, x1, y1) ||
             Reaches(other_x, other_y, map.Radius(other_x, other_y), x0, y0, x1, y1)) {
@@ -272,6 +284,9 @@ void CheckBlock(const Map& map, int x0, int y0, int level, double largest,
   const double r_edge = double(stats.r_edge) / kDisparityOne;
   CHECK(r_edge >= exact.edge_max);
   CHECK(r_edge <= exact.around_edge_max + unit);
+  const double r_shown = double(stats.r_shown) / kDisparityOne;
+  CHECK(r_shown <= exact.shown_min);
+  if (exact.around_edge_max == 0) CHECK(r_shown > exact.ring_min - unit);
 }
 
 // Checks all blocks of a picture, as the engine's quadtree makes them.

@@ -171,6 +171,133 @@ class Errors(unittest.TestCase):
         self.assertEqual(raised.exception.status, starfocus.Status.NOT_FINITE)
 
 
+class Arguments(unittest.TestCase):
+    """Values mean what they mean in C, and none makes a call write beyond what it was given."""
+
+    def test_four_zeros_are_the_whole_picture(self):
+        engine = refocuser(images=1, previews=2)
+        whole = engine.refocus(VIEWS, DISPARITY, focus=1)
+        zeros = (0, 0, 0, 0)
+        np.testing.assert_array_equal(engine.refocus(VIEWS, DISPARITY, focus=1, region=zeros), whole)
+        prepared = engine.prepare(VIEWS, DISPARITY)
+        np.testing.assert_array_equal(prepared.refocus(focus=1, region=np.zeros(4, int)), whole)
+        np.testing.assert_array_equal(prepared.preview(2, focus=1, region=zeros), prepared.preview(2, focus=1))
+        views = [starfocus.Image(starfocus.Format.RGB, [view]) for view in VIEWS]
+        backing = np.full((2 * HEIGHT, 3 * WIDTH), 0xEE, np.uint8)
+        with self.assertRaisesRegex(ValueError, f"out, plane 0: expected {HEIGHT} rows"):
+            engine.refocus_images(views, starfocus.DepthMap(DISPARITY), focus=1, region=zeros,
+                                  out=starfocus.Image(starfocus.Format.RGB, [backing[:1]]))
+        self.assertTrue((backing == 0xEE).all())
+
+    def test_regions_beyond_the_picture_or_of_too_large_numbers(self):
+        engine = refocuser(previews=1)
+        prepared = engine.prepare(VIEWS, DISPARITY)
+        calls = (lambda region: engine.refocus(VIEWS, DISPARITY, focus=1, region=region),
+                 lambda region: prepared.refocus(focus=1, region=region),
+                 lambda region: prepared.preview(1, focus=1, region=region))
+        for call in calls:
+            for region in ((0, 0, 0, 1), (5, 5, 0, 0), (-1, 0, 4, 4), (0, 0, WIDTH + 1, 1), (0, 0, -4, -4)):
+                with self.assertRaises(starfocus.ArgumentError) as raised:
+                    call(region)
+                self.assertEqual(raised.exception.status, starfocus.Status.REGION)
+            for region in ((2**32, 0, 4, 4), (0, 0, 4 - 2**32, 4)):
+                with self.assertRaisesRegex(ValueError, "region: expected a whole number of 32 bits"):
+                    call(region)
+            with self.assertRaisesRegex(TypeError, "region: expected a whole number, found 4.5"):
+                call((0, 0, 4.5, 4))
+            with self.assertRaisesRegex(ValueError, "region: expected x, y, width and height"):
+                call((0, 0, 4))
+
+    def test_numbers_that_do_not_fit_their_field(self):
+        for name in ("width", "views", "blades", "max_layer", "previews"):
+            for beyond in (2**16, 2**32, -2**40):
+                with self.assertRaises(ValueError):
+                    starfocus.Refocuser(**{"width": 9, "height": 9, "disparity_min": 0, "disparity_max": 1,
+                                           name: 5 + beyond})
+        with self.assertRaisesRegex(ValueError, "hole: expected a whole number that fits"):
+            refocuser(timing=(0, 0, 0, 0, 0, 0, 0, 2**32))
+        engine = refocuser(images=1, previews=1)
+        prepared = engine.prepare(VIEWS, DISPARITY)
+        for call in (lambda: engine.refocus(VIEWS, DISPARITY, focus=1, mode=2**32), lambda: refocuser(workers=2**32),
+                     lambda: starfocus.focus_at(DISPARITY, 2**32, 0), lambda: prepared.preview(2**32 + 1, focus=1),
+                     lambda: starfocus.Image(starfocus.Format.RGB, VIEWS[:1], pixel_stride=256 - 2**32)
+                     .as_structure(WIDTH, HEIGHT, "out")):
+            with self.assertRaisesRegex(ValueError, "expected a whole number"):
+                call()
+
+    def test_maps_of_other_floating_point_types_are_converted(self):
+        engine = refocuser(images=1)
+        whole = engine.refocus(VIEWS, DISPARITY, focus=1)
+        images = [starfocus.Image(starfocus.Format.RGB, [view]) for view in VIEWS]
+        for kind in (np.float64, ">f4", ">f8"):
+            given = DISPARITY.astype(kind)
+            np.testing.assert_array_equal(engine.refocus(VIEWS, given, focus=1), whole)
+            out = starfocus.Image.empty(starfocus.Format.RGB, WIDTH, HEIGHT)
+            engine.refocus_images(images, starfocus.DepthMap(given), focus=1, out=out)
+            np.testing.assert_array_equal(out.planes[0].reshape(whole.shape), whole)
+        half = np.clip(DISPARITY, -2, 2).astype(np.float16)
+        engine = refocuser()
+        np.testing.assert_array_equal(engine.refocus(VIEWS, half, focus=1),
+                                      engine.refocus(VIEWS, half.astype(np.float32), focus=1))
+        self.assertEqual(starfocus.measure_disparity(half), (half.min(), half.max(), 0))
+        for call in (lambda: engine.refocus(VIEWS, np.full((HEIGHT, WIDTH), 1e200), focus=1),
+                     lambda: starfocus.fill_disparity(np.full((2, 3), 1e200))):
+            with self.assertRaises(starfocus.DisparityError):
+                call()
+        with self.assertRaisesRegex(TypeError, "disparity: expected float32, found int64"):
+            engine.refocus(VIEWS, DISPARITY.astype(np.int64), focus=1)
+        for shape in ((0, 4), (4, 0), (4,), (1, 4, 4)):
+            with self.assertRaisesRegex(ValueError, "disparity: expected the shape"):
+                starfocus.measure_disparity(np.zeros(shape, np.float32))
+
+    def test_one_array_of_a_picture_is_one_view(self):
+        for view in (VIEWS[0], VIEWS[0][np.newaxis]):
+            engine = starfocus.Refocuser.for_light_field(view, DISPARITY.astype(float))
+            np.testing.assert_array_equal(engine.refocus(view, DISPARITY, focus=1),
+                                          engine.refocus(VIEWS[:1], DISPARITY, focus=1))
+        repaired = starfocus.repair_disparity(VIEWS[0], DISPARITY)
+        self.assertEqual(repaired.disparity.shape, DISPARITY.shape)
+        with self.assertRaisesRegex(ValueError, "views: expected 5, found 1"):
+            refocuser().refocus(VIEWS[0], DISPARITY, focus=1)
+
+    def test_random_arguments_write_nothing_beyond_the_output(self):
+        width, height, guard = 37, 23, 4096
+        random = np.random.default_rng(71)
+        engine = starfocus.Refocuser(width, height, 1, disparity_min=-1, disparity_max=1, workers=1, images=1,
+                                     max_blur=2.0, previews=3)
+        view = random.integers(0, 256, (height, width, 3), np.uint8)
+        prepared = engine.prepare([view], np.zeros((height, width)))
+        odd = [0, 0, 0, 1, -1, 2, 3, 17, 23, 37, 38, 2**16, 2**31 - 1, -2**31, 2**32, 2**32 + 1, 37 - 2**32, 256 - 2**32]
+        counts = {"done": 0, "refused": 0}
+        for _ in range(3000):
+            backing = np.full(2 * guard + 4 * width * height, 0xEE, np.uint8)
+            region = tuple(int(random.choice(odd)) for _ in range(4)) if random.integers(2) else None
+            shape = [int(random.choice([0, 1, 3, 6, 12, height])), int(random.choice([0, 1, 5, 10, 19, width]))]
+            if random.integers(2):
+                shape = [height, width]
+            pixel = int(random.choice([3, 3, 4]))
+            out = backing[guard:guard + shape[0] * shape[1] * pixel].reshape(*shape, pixel)
+            kind = random.integers(3)
+            try:
+                if kind == 0:
+                    prepared.preview(int(random.choice(odd)), focus=0.5, region=region, out=out)
+                elif kind == 1:
+                    prepared.refocus(focus=0.5, region=region, out=out)
+                else:
+                    image = starfocus.Image(starfocus.Format(int(random.integers(4))), [out],
+                                            pixel_stride=int(random.choice(odd)) * int(random.integers(2)))
+                    engine.refocus_images([starfocus.Image(starfocus.Format.RGB, [view])],
+                                          starfocus.DepthMap(np.zeros((height, width))), focus=0.5, out=image,
+                                          region=region)
+                counts["done"] += 1
+            except (ValueError, TypeError):
+                counts["refused"] += 1
+            self.assertTrue((backing[:guard] == 0xEE).all() and (backing[guard + out.size:] == 0xEE).all(),
+                            (kind, region, shape))
+        self.assertGreater(counts["done"], 100)
+        self.assertGreater(counts["refused"], 1000)
+
+
 class Calls(unittest.TestCase):
     """Progress, threads, reports."""
 

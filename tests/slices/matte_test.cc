@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include "starfocus/starfocus.h"
@@ -127,6 +129,79 @@ TEST_CASE("matte: where slices of a slope overlap, its end still covers a quarte
   for (int y = 2; y < kHeight - 2; ++y) {
     CAPTURE(y);
     CHECK(std::abs(picture.rgb[size_t(3 * (y * kWidth + kEdge - 1))] - 90) <= 16);
+  }
+}
+
+// A disc of one colour before a wall of another, with mixed pixels around it in every view.
+test::Scene Disc(int views, double near, double far, int bright, int dark) {
+  constexpr int kSide = 160, kParts = 4;
+  test::Scene scene = test::EmptyScene(kSide, kSide, views, float(far), float(near));
+  const auto covers = [](double x, double y) {
+    return (x - 83.3) * (x - 83.3) + (y - 78.2) * (y - 78.2) < 30 * 30;
+  };
+  for (int view = 0; view < views; ++view) {
+    const sf_position at = scene.PositionOf(view);
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        int covered = 0;
+        for (int part = 0; part < kParts * kParts; ++part) {
+          const double dx = (part % kParts + 0.5) / kParts - 0.5;
+          const double dy = (part / kParts + 0.5) / kParts - 0.5;
+          covered += covers(x + dx + at.u * near, y + dy + at.v * near);
+        }
+        const int parts = kParts * kParts;
+        std::fill_n(scene.Pixel(view, x, y), 3,
+                    uint8_t((covered * bright + (parts - covered) * dark + parts / 2) / parts));
+        if (view == 0) scene.Disparity(x, y) = float(covers(x, y) ? near : far);
+      }
+    }
+  }
+  return scene;
+}
+
+// The largest difference from the wall's colour where no light of the disc may be: farther outside
+// than its blur and its mixed pixels reach.
+int GlowOf(const test::Scene& scene, const sf_config& config, double focus, double near, int wall) {
+  const test::Refocused picture =
+      test::RefocusScene(scene, config, test::Params(focus, 1, SF_MODE_BLOCK));
+  const double reach = 30 + std::abs(near - focus) + 3;
+  int most = 0;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      if ((x - 83.3) * (x - 83.3) + (y - 78.2) * (y - 78.2) < reach * reach) continue;
+      for (int c = 0; c < 3; ++c) {
+        const int value = picture.rgb[size_t(3 * (y * scene.width + x) + c)];
+        most = std::max(most, std::abs(value - wall));
+      }
+    }
+  }
+  return most;
+}
+
+TEST_CASE("matte: no light leaves a subject for the wall behind, at any level and size of block") {
+  constexpr double kSubject = 4, kWall = -32;
+  for (const int views : {1, 5, 9, 17}) {
+    for (const bool dark_subject : {false, true}) {
+      const int subject = dark_subject ? 20 : 240, wall = dark_subject ? 240 : 20;
+      const test::Scene scene = Disc(views, kSubject, kWall, subject, wall);
+      for (const double focus : {4.0, 2.5, -2.0, -4.0, -10.0}) {
+        for (const int max_layer : {0, 1, 2}) {
+          for (const int block : {32, 64, 128, 256}) {
+            sf_config config = test::ConfigFor(scene, 40);
+            config.transfer = SF_TRANSFER_NONE;
+            config.max_layer = max_layer;
+            config.largest_block = block;
+            CAPTURE(views);
+            CAPTURE(dark_subject);
+            CAPTURE(focus);
+            CAPTURE(max_layer);
+            CAPTURE(block);
+            // With one view what is behind mixed pixels is told by their neighbours.
+            CHECK(GlowOf(scene, config, focus, kSubject, wall) <= (views == 1 ? 3 : 1));
+          }
+        }
+      }
+    }
   }
 }
 

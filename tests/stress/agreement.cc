@@ -34,9 +34,10 @@ int LayerOf(const sf_report& report) {
 }
 
 // Whether views stand for wide subapertures; not told of blur mode, whose kernels are others.
-bool UsesSubapertures(const sf_params& params) {
-  return params.rule != SF_RULE_PAPER &&
-         (params.mode != SF_MODE_FRAME || params.rule == SF_RULE_SUBAPERTURE);
+bool UsesSubapertures(const Setup& setup) {
+  const sf_params& params = setup.params;
+  if (params.mode != SF_MODE_FRAME || setup.config.views == 1) return params.rule != SF_RULE_PAPER;
+  return params.rule == SF_RULE_SUBAPERTURE;
 }
 
 int MostJump(const Setup& setup, const sf_report& a, const sf_report& b) {
@@ -48,7 +49,7 @@ int MostJump(const Setup& setup, const sf_report& a, const sf_report& b) {
     sf_config_init(&config);
     most = setup.config.theta == config.theta ? kLayerJump : kLayerJumpOfTheta;
   }
-  return a.n != b.n && !UsesSubapertures(params) ? std::max(most, kViewsJump) : most;
+  return a.n != b.n && !UsesSubapertures(setup) ? std::max(most, kViewsJump) : most;
 }
 
 Outcome Fail(const Setup& setup, const std::string& what) {
@@ -86,8 +87,7 @@ Outcome Mirrors(test::Random* random) {
   setup.config.cats_eye = 0;
   test::Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1,
                              random->Int(0, 1) == 1};
-  if (setup.params.mode != SF_MODE_BLUR && UsesSubapertures(setup.params))
-    symmetry.transpose = false;
+  if (setup.params.mode != SF_MODE_BLUR && UsesSubapertures(setup)) symmetry.transpose = false;
   std::string failure;
   const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random), &failure);
   Setup other = setup;

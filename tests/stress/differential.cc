@@ -22,7 +22,7 @@ constexpr Bounds kRegimes[] = {
 bool IsLineByLine(const Setup& setup) {
   const sf_params& params = setup.params;
   return params.rule == SF_RULE_PAPER || params.mode == SF_MODE_BENCHMARK ||
-         (params.mode == SF_MODE_FRAME && params.rule == SF_RULE_DEFAULT);
+         (params.mode == SF_MODE_FRAME && params.rule == SF_RULE_DEFAULT && setup.config.views > 1);
 }
 
 // Line by line the views are as many as the square of the radius.

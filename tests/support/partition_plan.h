@@ -256,7 +256,8 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   block.rect = {x, y, std::min(side, plan.rules.width - x), std::min(side, plan.rules.height - y)};
   const bool subapertures = plan.rules.subapertures;
   block.layer =
-      std::min(LayerOf(subapertures, stats.r_min / kRadiusOne, stats.r_edge > 0, plan.rules.demand),
+      std::min(LayerOf(subapertures, (subapertures ? stats.r_shown : stats.r_min) / kRadiusOne,
+                       stats.r_edge > 0, plan.rules.demand),
                plan.rules.max_layer);
   const int scale = 1 << block.layer;
   const int views = ViewsOf(subapertures, stats.r_max / (kRadiusOne * scale), plan.rules.demand);

@@ -172,7 +172,7 @@ void AddLensOptions(CLI::App* command, LensOptions* options) {
       ->add_option(
           "--rule", options->rule,
           "How many views a blur needs, and whether they are rendered line by line (paper) "
-          "or show slices; default: paper in frame mode, else subaperture")
+          "or show slices; default: paper in frame mode of 5 or more views, else subaperture")
       ->type_name("paper|subaperture");
   command
       ->add_option("--n-scale", options->n_scale,

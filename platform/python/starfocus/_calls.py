@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 import weakref
 from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
 
@@ -10,12 +11,52 @@ import numpy as np
 
 from . import _abi
 from ._abi import library
-from .errors import check
+from .constants import Status
+from .errors import ArgumentError, check
 
 #: Is told of the rows done and of all rows; what counts as true calls the work off.
 ProgressFunction = Callable[[int, int], Any]
-#: Views as one array of shape (views, height, width, 3), or as one of (height, width, 3) each.
+#: Views as one array of shape (views, height, width, 3), or as one of (height, width, 3) each. One array of
+#: (height, width, 3) is one view.
 Views = Union[np.ndarray, Sequence[np.ndarray]]
+#: x, y, width and height in pixels.
+RegionOfPicture = Tuple[int, int, int, int]
+
+
+def whole(value: Any, what: str) -> int:
+    """The value as an int32_t; ctypes would cut off one that does not fit."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what}: expected a whole number, found {value!r}") from None
+    if not -2**31 <= number < 2**31:
+        raise ValueError(f"{what}: expected a whole number of 32 bits, found {number}")
+    return number
+
+
+def set_field(structure: ctypes.Structure, name: str, value: Any) -> None:
+    """Sets a field of a structure; ValueError for an integer that ctypes would cut off."""
+    setattr(structure, name, value)
+    stored = getattr(structure, name)
+    if isinstance(stored, ctypes.Structure) and isinstance(value, tuple):
+        for (part, _), number in zip(stored._fields_, value):
+            set_field(stored, part, number)
+    elif isinstance(stored, int) and stored != value:
+        raise ValueError(f"{name}: expected a whole number that fits the field of the C structure, found {value}")
+
+
+def part_of(region: Optional[RegionOfPicture], width: int, height: int) -> RegionOfPicture:
+    """The region of a picture of this size. None and, as in sf_params, four zeros are the whole picture."""
+    if region is None:
+        return 0, 0, width, height
+    if len(region) != 4:
+        raise ValueError(f"region: expected x, y, width and height, found {region!r}")
+    x, y, columns, rows = (whole(value, "region") for value in region)
+    if not (x or y or columns or rows):
+        return 0, 0, width, height
+    if min(x, y) < 0 or min(columns, rows) < 1 or x + columns > width or y + rows > height:
+        raise ArgumentError(Status.REGION)
+    return x, y, columns, rows
 
 
 def rows_of(array: Any, dtype: Any, shape: Tuple[int, ...], what: str) -> np.ndarray:
@@ -56,10 +97,27 @@ def output(out: Optional[np.ndarray], shape: Tuple[int, ...], what: str) -> np.n
     return out
 
 
+def as_list(views: Views) -> Union[np.ndarray, Sequence[np.ndarray]]:
+    """The views one by one: an array of (height, width, 3) is one view."""
+    return [views] if isinstance(views, np.ndarray) and views.ndim == 3 else views
+
+
+def as_map(disparity: Any) -> np.ndarray:
+    """A disparity map of float32; maps of other floating-point types are converted."""
+    disparity = np.asarray(disparity)
+    if disparity.ndim != 2 or 0 in disparity.shape:
+        raise ValueError(f"disparity: expected the shape (height, width), found {disparity.shape}")
+    if disparity.dtype != np.float32 and np.issubdtype(disparity.dtype, np.floating):
+        with np.errstate(over="ignore"):  # the library rejects infinite values
+            disparity = disparity.astype(np.float32)
+    return rows_of(disparity, np.float32, disparity.shape, "disparity")
+
+
 def light_field(views: Views, disparity: Any, count: int, height: int,
                 width: int) -> Tuple[_abi.LightField, List[np.ndarray]]:
     """sf_light_field of the arrays, and what must be kept as long as the library may read it. Without a
     disparity map (None) its place stays empty."""
+    views = as_list(views)
     if len(views) != count:
         raise ValueError(f"views: expected {count}, found {len(views)}")
     field, kept = _abi.LightField(), []
@@ -68,7 +126,7 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
         field.views[i] = _abi.Plane(view.ctypes.data, stride_of(view))
         kept.append(view)
     if disparity is not None:
-        disparity = rows_of(disparity, np.float32, (height, width), "disparity")
+        disparity = rows_of(as_map(disparity), np.float32, (height, width), "disparity")
         field.disparity, field.disparity_stride = disparity.ctypes.data, stride_of(disparity)
         kept.append(disparity)
     return field, kept
@@ -97,7 +155,7 @@ class Pool:
         self.runner = None
         self.workers = 1
         if workers != 1:
-            self.handle = library.sf_pool_create(workers)
+            self.handle = library.sf_pool_create(whole(workers, "workers"))
             if not self.handle:
                 raise MemoryError("no memory for a pool of threads")
             weakref.finalize(self, library.sf_pool_destroy, self.handle)

@@ -8,7 +8,7 @@ from typing import Optional, Sequence, Tuple
 import numpy as np
 
 from . import _abi
-from ._calls import has_rows, stride_of
+from ._calls import has_rows, stride_of, whole
 from .constants import DepthMeaning, Format, Matrix, Range
 
 _PIXEL_BYTES = {Format.RGB: 3, Format.BGR: 3, Format.RGBX: 4, Format.BGRX: 4}
@@ -40,8 +40,9 @@ class Image:
 
     def as_structure(self, width: int, height: int, what: str, written: bool = False) -> _abi.Image:
         """sf_image; ValueError when a plane is too small for a picture of this size."""
-        image = _abi.Image(self.format, self.matrix, self.range, self.pixel_stride)
-        sizes = _plane_sizes(self.format, self.pixel_stride, width, height)
+        form, pixel_stride = Format(self.format), whole(self.pixel_stride, f"{what}, pixel_stride")
+        image = _abi.Image(form, Matrix(self.matrix), Range(self.range), pixel_stride)
+        sizes = _plane_sizes(form, pixel_stride, width, height)
         if len(self.planes) != len(sizes):
             raise ValueError(f"{what}: expected {len(sizes)} planes, found {len(self.planes)}")
         for i, (plane, (rows, row_bytes)) in enumerate(zip(self.planes, sizes)):
@@ -54,7 +55,7 @@ class Image:
 class DepthMap:
     """Depths of the centre view, as large as the picture or smaller.
 
-    `values` are float32, float16, uint16 or uint8. Disparity is scale * z + offset (LINEAR) or
+    `values` are float32, float16, uint16 or uint8; float64 is converted to float32. Disparity is scale * z + offset (LINEAR) or
     scale / z + offset (RECIPROCAL: z is a distance). `invalid` is the value that stands for an unknown depth,
     if one does.
     """
@@ -65,18 +66,23 @@ class DepthMap:
     offset: float = 0.0
     invalid: Optional[float] = None
 
-    def as_structure(self) -> _abi.DepthMap:
-        """sf_depth_map."""
-        values = self.values
+    def as_structure(self) -> Tuple[_abi.DepthMap, np.ndarray]:
+        """sf_depth_map, and the array that it points to."""
+        values = np.asarray(self.values)
+        native = np.dtype(np.float32) if values.dtype.type == np.float64 else values.dtype.newbyteorder("=")
+        if values.dtype != native:
+            with np.errstate(over="ignore"):  # the library rejects infinite values
+                values = values.astype(native)
         if values.dtype not in _DEPTH_TYPES:
             raise TypeError(f"depth: expected float32, float16, uint16 or uint8, found {values.dtype}")
         if values.ndim != 2 or 0 in values.shape or not has_rows(values):
             raise ValueError(f"depth: expected rows of values, contiguous and aligned, found the shape "
                              f"{values.shape} with the strides {values.strides}")
         height, width = values.shape
-        return _abi.DepthMap(values.ctypes.data, stride_of(values), width, height,
-                                 _DEPTH_TYPES[values.dtype], self.meaning, self.scale, self.offset,
-                                 self.invalid is not None, self.invalid or 0.0)
+        depth = _abi.DepthMap(values.ctypes.data, stride_of(values), width, height, _DEPTH_TYPES[values.dtype],
+                              DepthMeaning(self.meaning), self.scale, self.offset, self.invalid is not None,
+                              self.invalid or 0.0)
+        return depth, values
 
 
 def _plane_sizes(form: Format, pixel_stride: int, width: int, height: int) -> Sequence[Tuple[int, int]]:
@@ -92,7 +98,7 @@ def _plane_sizes(form: Format, pixel_stride: int, width: int, height: int) -> Se
 def _check_plane(plane: np.ndarray, rows: int, row_bytes: int, what: str, written: bool) -> None:
     if plane.dtype != np.uint8:
         raise TypeError(f"{what}: expected uint8, found {plane.dtype}")
-    if plane.ndim < 2 or not has_rows(plane):
+    if plane.ndim < 2 or 0 in plane.shape or not has_rows(plane):
         raise ValueError(f"{what}: expected contiguous rows, found the shape {plane.shape} with the strides "
                          f"{plane.strides}")
     found = plane.shape[0], plane[0].size

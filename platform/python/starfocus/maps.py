@@ -9,7 +9,8 @@ from typing import Any, List, NamedTuple, Optional, Tuple
 import numpy as np
 
 from . import _abi
-from ._calls import Pool, ProgressFunction, Views, Watch, aligned, light_field, pointer, rows_of, stride_of
+from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, as_list, as_map, light_field, pointer,
+                     set_field, stride_of, whole)
 from ._abi import library
 from .errors import check
 
@@ -41,8 +42,8 @@ def view_positions(count: int = 17) -> List[Tuple[float, float]]:
 
 
 def measure_disparity(disparity: np.ndarray) -> DisparityStats:
-    """The range of a map of float32."""
-    disparity = _checked(disparity)
+    """The range of a map."""
+    disparity = as_map(disparity)
     stats = _abi.DisparityStats()
     check(library.sf_measure_disparity(*_rows(disparity), byref(stats)))
     return DisparityStats(stats.min, stats.max, stats.invalid)
@@ -50,7 +51,7 @@ def measure_disparity(disparity: np.ndarray) -> DisparityStats:
 
 def fill_disparity(disparity: np.ndarray) -> np.ndarray:
     """A copy whose values that are not finite are those of the farther neighbour in their row."""
-    filled = np.array(_checked(disparity), order="C")
+    filled = np.array(as_map(disparity), order="C")
     check(library.sf_fill_disparity(*_rows(filled)))
     return filled
 
@@ -58,7 +59,7 @@ def fill_disparity(disparity: np.ndarray) -> np.ndarray:
 def focus_at(disparity: np.ndarray, x: int, y: int) -> float:
     """The focus for what is at the pixel (x, y): the median of its surface around there."""
     focus = ctypes.c_double()
-    check(library.sf_focus_at(*_rows(_checked(disparity)), x, y, byref(focus)))
+    check(library.sf_focus_at(*_rows(as_map(disparity)), whole(x, "x"), whole(y, "y"), byref(focus)))
     return focus.value
 
 
@@ -90,11 +91,16 @@ def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optiona
 
 def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray], span: Tuple[float, float],
               workers: int, progress: Optional[ProgressFunction]) -> DisparityMap:
-    height, width = np.asarray(views[0]).shape[:2]
+    views = as_list(views)
+    shape = np.asarray(views[0]).shape if len(views) > 0 else ()
+    if len(shape) != 3:
+        raise ValueError(f"views: expected arrays of the shape (height, width, 3), found {len(views)} of {shape}")
+    height, width = shape[:2]
     pool, watch, size = Pool(workers), Watch(progress), ctypes.c_size_t()
     config = _abi.DepthConfig()
     library.sf_depth_config_init(byref(config))
-    config.width, config.height, config.views = width, height, len(views)
+    for name, value in (("width", width), ("height", height), ("views", len(views))):
+        set_field(config, name, value)
     config.disparity_min, config.disparity_max = span
     config.max_workers, config.progress = pool.workers, watch.function
     check(size_of(byref(config), byref(size)))
@@ -107,13 +113,6 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
     del kept
     watch.check(status)
     return made
-
-
-def _checked(disparity: np.ndarray) -> np.ndarray:
-    disparity = np.asarray(disparity)
-    if disparity.ndim != 2:
-        raise ValueError(f"disparity: expected the shape (height, width), found {disparity.shape}")
-    return rows_of(disparity, np.float32, disparity.shape, "disparity")
 
 
 def _rows(disparity: np.ndarray) -> Tuple[Any, int, int, int]:

@@ -7,21 +7,18 @@ import math
 import threading
 import weakref
 from ctypes import byref
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence
 
 import numpy as np
 
 from . import _abi
-from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, light_field, output, pointer,
-                     positions_of, stride_of)
+from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_list, light_field,
+                     output, part_of, pointer, positions_of, set_field, stride_of, whole)
 from ._abi import library
-from .constants import Mode, Rule
-from .errors import check
+from .constants import Mode, Rule, Status
+from .errors import ArgumentError, check
 from .images import DepthMap, Image
 from .maps import measure_disparity
-
-#: x, y, width and height in pixels.
-RegionOfPicture = Tuple[int, int, int, int]
 
 
 class Refocuser:
@@ -52,7 +49,7 @@ class Refocuser:
                             "disparity_min": disparity_min, "disparity_max": disparity_max}.items():
             if name not in known:
                 raise TypeError(f"Refocuser: unknown field of the configuration '{name}'")
-            setattr(self._config, name, value)
+            set_field(self._config, name, value)
         if positions is not None:
             self._config.positions = positions_of(positions, views)
         self._pool = Pool(workers)
@@ -70,8 +67,9 @@ class Refocuser:
                         **config: Any) -> "Refocuser":
         """A refocuser for this light field and others like it: of its size, number of views and range of
         disparities, with room for the blur of every focus among these."""
-        height, width = disparity.shape
         stats = measure_disparity(disparity)
+        height, width = np.shape(disparity)
+        views = as_list(views)
         room = min(128.0, max(1.0, math.ceil(stats.max - stats.min)))
         return cls(width, height, len(views), disparity_min=stats.min, disparity_max=stats.max,
                    workers=workers, **{"max_blur": room, **config})
@@ -100,15 +98,15 @@ class Refocuser:
 
         Args:
             views: uint8 of (height, width, 3) each. Where rows are contiguous they are read where they are.
-            disparity: float32 of (height, width), of the centre view.
-            region: only this part of the picture, with the same bytes.
+            disparity: (height, width), of the centre view; float32, other floating-point types are converted.
+            region: only this part of the picture, with the same bytes. Four zeros, as None: the whole picture.
             out: written and returned in place of a new array.
             progress: is told of the rows done and of all; what counts as true calls it off (Cancelled).
 
         Raises StarfocusError, of which there are kinds, and TypeError or ValueError for arrays.
         """
         field, kept = light_field(views, disparity, self._config.views, self.height, self.width)
-        width, height = region[2:] if region else (self.width, self.height)
+        *_, width, height = part_of(region, self.width, self.height)
         return self._picture(focus, aperture, mode, rule, region, output(out, (height, width, 3), "out"),
                              progress, library.sf_refocus, byref(field), keep=kept)
 
@@ -125,14 +123,16 @@ class Refocuser:
         the configuration has `images=1`."""
         if len(views) != self._config.views:
             raise ValueError(f"views: expected {self._config.views}, found {len(views)}")
-        field = _abi.ImageField(depth=depth.as_structure())
+        structure, kept = depth.as_structure()
+        field = _abi.ImageField(depth=structure)
         for i, view in enumerate(views):
             field.views[i] = view.as_structure(self.width, self.height, f"view {i}")
-        width, height = region[2:] if region else (self.width, self.height)
+        *_, width, height = part_of(region, self.width, self.height)
         target = out.as_structure(width, height, "out", written=True)
         watch = Watch(progress)
         params = self._params(focus, aperture, mode, rule, region, watch)
         self._call(watch, library.sf_refocus_images, byref(params), byref(field), byref(target))
+        del kept
         return out
 
     def _picture(self, focus: float, aperture: float, mode: Mode, rule: Rule,
@@ -150,10 +150,11 @@ class Refocuser:
                 region: Optional[RegionOfPicture], watch: Watch) -> _abi.Params:
         params = _abi.Params()
         library.sf_params_init(byref(params))
-        params.focus, params.aperture, params.mode, params.rule = focus, aperture, mode, rule
+        for name, value in (("focus", focus), ("aperture", aperture), ("mode", mode), ("rule", rule)):
+            set_field(params, name, value)
         params.progress = watch.function
         if region is not None:
-            params.region = _abi.Region(*region)
+            set_field(params, "region", tuple(region))
         return params
 
     def _call(self, watch: Watch, function: Any, *arguments: Any) -> None:
@@ -189,7 +190,7 @@ class Prepared:
                 out: Optional[np.ndarray] = None,
                 progress: Optional[ProgressFunction] = None) -> np.ndarray:
         """As Refocuser.refocus of the light field, with the same bytes."""
-        width, height = region[2:] if region else (self._refocuser.width, self._refocuser.height)
+        *_, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
         return self._refocuser._picture(  # pylint: disable=protected-access
             focus, aperture, mode, rule, region, output(out, (height, width, 3), "out"), progress,
             library.sf_refocus_prepared, self._handle, keep=self._kept)
@@ -201,10 +202,13 @@ class Prepared:
         """As `refocus` at 1 / 2**shift of the size, from 1 to the `previews` of the refocuser's
         configuration. Focus and region are in pixels of the full size; the picture has the pixels that
         have a part of the region."""
-        x, y, width, height = region or (0, 0, self._refocuser.width, self._refocuser.height)
-        side = 1 << min(max(shift, 0), 30)  # any other is refused below
+        # pylint: disable=protected-access
+        x, y, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
+        if not 1 <= whole(shift, "shift") <= self._refocuser._config.previews:
+            raise ArgumentError(Status.PREVIEW)
+        side = 1 << shift
         shape = (-(-(y + height) // side) - y // side, -(-(x + width) // side) - x // side, 3)
-        return self._refocuser._picture(  # pylint: disable=protected-access
+        return self._refocuser._picture(
             focus, aperture, mode, rule, region, output(out, shape, "out"), progress,
             library.sf_refocus_preview, self._handle, shift, keep=self._kept)
 

@@ -43,17 +43,18 @@ export function readDepth(depth, config) {
   expect(known.some(type => data instanceof type), 'depth',
          'a Float32Array, a Uint16Array or a Uint8Array', typeof data);
   expect(data.length === width * height, 'depth', `${width} x ${height} values`, data.length);
-  expect(width >= 1 && width <= config.width && height >= 1 && height <= config.height, 'depth',
-         `at most ${config.width} x ${config.height} values`, `${width} x ${height}`);
-  expect(Number.isFinite(scale) && scale !== 0 && Number.isFinite(offset), 'depth',
+  expect(Number.isInteger(width) && width >= 1 && width <= config.width && Number.isInteger(height) &&
+             height >= 1 && height <= config.height,
+         'depth', `at most ${config.width} x ${config.height} values`, `${width} x ${height}`);
+  // In single precision, each operation rounded, as in starfocus/image.h.
+  const f = Math.fround, a = f(scale), b = f(offset), unknown = f(invalid);
+  expect(Number.isFinite(a) && a !== 0 && Number.isFinite(b), 'depth',
          'a finite scale other than 0 and a finite offset', `${scale} and ${offset}`);
   if (data instanceof Float32Array && map.scale === undefined && !offset && !map.reciprocal &&
       invalid === undefined) {
     return {data, width, height};
   }
-  // In single precision, each operation rounded, as in starfocus/image.h.
-  const f = Math.fround, a = f(scale), b = f(offset);
   const disparity = map.reciprocal ? z => f(f(a / z) + b) : z => f(f(a * z) + b);
-  const values = Float32Array.from(data, z => z === invalid ? NaN : disparity(z));
+  const values = Float32Array.from(data, z => z === unknown ? NaN : disparity(z));
   return {data: values, width, height};
 }

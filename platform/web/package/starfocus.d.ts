@@ -91,7 +91,7 @@ export interface Params extends Call {
   aperture?: number;
   mode?: 0 | 1 | 2 | 3;
   rule?: 0 | 1 | 2;
-  /** Only this part of the picture, in its pixels. */
+  /** Only this part of the picture, in its pixels; four zeros: the whole picture. */
   region?: {x: number, y: number, width: number, height: number};
   /** True: the picture has a list of its blocks, of the first 65536 of them. */
   blocks?: boolean;

@@ -63,8 +63,9 @@ class Refocuser {
     return this.#call('configure', values);
   }
 
-  preview(params = {}) {
+  async preview(params = {}) {
     const {shift = 1, signal, ...rest} = params;
+    if (![1, 2, 3].includes(shift)) throw new TypeError(`preview: expected a shift of 1, 2 or 3, found ${shift}.`);
     return this.#call('refocus', {shift, ...rest}, {signal});
   }
 
@@ -74,7 +75,8 @@ class Refocuser {
     return this.#call('refocus', {shift: 0, watched, ...rest}, {signal, onProgress});
   }
 
-  focusAt(x, y) {
+  async focusAt(x, y) {
+    if ((x | 0) !== x || (y | 0) !== y) throw new TypeError(`focusAt: expected whole numbers, found ${x}, ${y}.`);
     return this.#call('focusAt', {x, y});
   }
 
@@ -155,8 +157,10 @@ class Refocuser {
 
 export async function createRefocuser(options) {
   const {threads, simd = true, ...config} = options ?? {};
-  const cores = threads ?? (canShare ? await countCores() : 1);
-  const workers = canShare ? Math.max(1, Math.min(cores, MAX_WORKERS)) : 1;
+  if (threads !== undefined && !(Number.isInteger(threads) && threads >= 1 && threads <= MAX_WORKERS)) {
+    throw new TypeError(`createRefocuser: expected 1 to ${MAX_WORKERS} threads, found ${threads}.`);
+  }
+  const workers = canShare ? threads ?? Math.min(await countCores(), MAX_WORKERS) : 1;
   const refocuser = new Refocuser(await startWorker(), config);
   try {
     return await refocuser.open({config, simd, threads: workers});

@@ -30,12 +30,17 @@ function setFields(set, values, what, prefix = '') {
   for (const [key, value] of Object.entries(values)) {
     if (value === undefined) continue;
     const name = prefix + key.replace(/[A-Z]/g, letter => '_' + letter.toLowerCase());
-    if (typeof value === 'object' && value !== null) {
+    if ((key === 'region' || key === 'timing') && typeof value === 'object' && value !== null) {
       setFields(set, value, what, `${name}.`);
       continue;
     }
     writeText(memory, engine.text(), name.slice(0, 63));
-    if (!set(Number(value))) throw new Error(`${what}: there is no field '${prefix}${key}'.`);
+    if (!/^[A-Za-z]+$/.test(key) || !set(Number(value))) {
+      throw new Error(`${what}: there is no field '${prefix}${key}'.`);
+    }
+    if (!['number', 'boolean'].includes(typeof value)) {
+      throw new Error(`${what}: expected a number as '${prefix}${key}', found ${typeof value}.`);
+    }
   }
 }
 
@@ -104,6 +109,8 @@ const calls = {
   async refocus({shift, blocks, watched, ...params}) {
     const what = shift > 0 ? 'preview' : 'refocus';
     expectPrepared(what);
+    const missing = params.region && ['x', 'y', 'width', 'height'].find(part => !(part in params.region));
+    if (missing) throw new Error(`${what}: expected a region with '${missing}'.`);
     const start = performance.now();
     engine.aim(current);
     setFields(engine.set, params, what);

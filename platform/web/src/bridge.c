@@ -181,8 +181,8 @@ EXPORT(set) int Set(double value) { return SetParamsField(&params, text, value);
 EXPORT(watch) void WatchBlocks(void) { params.on_block = KeepBlock; }
 
 /* Pixels of the picture, of those of [start, start + size), at 1 / 2^shift of the size. */
-static int32_t Reduced(int32_t start, int32_t size, int32_t shift) {
-  return size < 1 ? 0 : ((start + size - 1) >> shift) - (start >> shift) + 1;
+static int32_t Reduced(int64_t start, int64_t size, int32_t shift) {
+  return size < 1 ? 0 : (int32_t)(((start + size - 1) >> shift) - (start >> shift) + 1);
 }
 
 /* Refocuses as params say, at 1 / 2^shift of the size, into rows of R, G, B, 255 one after the

@@ -41,22 +41,24 @@ static const Field kParamsFields[] = {
     PARAMS(region.width, kInt32), PARAMS(region.height, kInt32),
 };
 
-/* What does not fit stays out of range: the library shall see that. NaN becomes the lowest. */
-static int64_t Whole(double value, int64_t low, int64_t high) {
-  if (!(value > (double)low)) return low;
-  return value < (double)high ? (int64_t)value : high;
+/* Returns `value`, or `wrong` if it is not a whole number in [low, high]. `wrong` is outside the
+ * range of every field, so that the library rejects it. */
+static int64_t Whole(double value, int64_t low, int64_t high, int64_t wrong) {
+  if (!(value >= (double)low && value <= (double)high)) return wrong;
+  const int64_t whole = (int64_t)value;
+  return (double)whole == value ? whole : wrong;
 }
 
 static void Store(void* to, FieldType type, double value) {
   switch (type) {
     case kInt16:
-      *(int16_t*)to = (int16_t)Whole(value, INT16_MIN, INT16_MAX);
+      *(int16_t*)to = (int16_t)Whole(value, INT16_MIN, INT16_MAX, INT16_MIN);
       break;
     case kInt32:
-      *(int32_t*)to = (int32_t)Whole(value, INT32_MIN, INT32_MAX);
+      *(int32_t*)to = (int32_t)Whole(value, INT32_MIN, INT32_MAX, INT32_MIN);
       break;
     case kUint32:
-      *(uint32_t*)to = (uint32_t)Whole(value, 0, UINT32_MAX);
+      *(uint32_t*)to = (uint32_t)Whole(value, 0, UINT32_MAX, UINT32_MAX);
       break;
     case kFloat:
       *(float*)to = (float)value;

@@ -261,8 +261,10 @@ STARFOCUS_NATIVE(jdouble, focusAt)(JNIEnv* env, jclass, jobject disparity, jint 
   sf_depth_map map;
   if (!ReadDepthMap(env, disparity, &map)) return 0;
   if (map.type != SF_DEPTH_FLOAT || map.meaning != SF_DEPTH_LINEAR || map.scale != 1 ||
-      map.offset != 0) {
-    ThrowArgument(env, "focusAt: expected a map of FLOAT, LINEAR of scale 1 and offset 0");
+      map.offset != 0 || map.has_invalid != 0) {
+    ThrowArgument(env,
+                  "focusAt: expected a map of FLOAT, LINEAR of scale 1 and offset 0, without an "
+                  "invalid value");
     return 0;
   }
   double focus = 0;
