@@ -48,8 +48,9 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
   return distance;
 }
 
-// By either transfer.
-Distance Check(const test::Scene& scene, const sf_params& params, int block, double theta) {
+// Line scans, by either transfer: block_conformance_test has slices.
+Distance Check(const test::Scene& scene, sf_params params, int block, double theta) {
+  params.rule = SF_RULE_PAPER;
   sf_config config = test::ConfigFor(scene, 16);
   config.largest_block = block;
   config.theta = theta;
@@ -61,9 +62,7 @@ Distance Check(const test::Scene& scene, const sf_params& params, int block, dou
   return all;
 }
 
-// Line scans: block_conformance_test has slices.
-Distance Check(const test::Scene& scene, sf_params params, int block = 32) {
-  params.rule = SF_RULE_PAPER;
+Distance Check(const test::Scene& scene, const sf_params& params, int block = 32) {
   return Check(scene, params, block, 0.26 * 3.14159265358979323846);
 }
 
