@@ -70,9 +70,9 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo) {
 
 std::string ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
   if (!CanReadXmp()) return "";
-  bool gain_map = false;
+  bool gain_map = false, missing = false;
   std::string error;
-  for (const MultiPicture& picture : ListMultiPictures(file, parts)) {
+  for (const MultiPicture& picture : ListMultiPictures(file, parts, &missing)) {
     const XmpNode xmp = ReadPackets(picture.parts);
     const std::string type = TypeOf(xmp);
     gain_map = gain_map || type.find("gainmap") != std::string::npos;
@@ -85,7 +85,9 @@ std::string ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) 
     UnderstandApple(xmp, photo);
   }
   if (gain_map) photo->facts.emplace_back("gain map", "left out");
-  return photo->map.values.empty() ? error : "";
+  if (!photo->map.values.empty()) return "";
+  if (!error.empty() || !missing) return error;
+  return Expected("multi-picture index", "all pictures that it names", "one cut off or not there");
 }
 
 }  // namespace starfocus

@@ -89,7 +89,7 @@ void TakeEntries(Span file, const std::vector<Entry>& entries, size_t counted,
 
 }  // namespace
 
-std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts) {
+std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts, bool* missing) {
   std::vector<MultiPicture> pictures;
   size_t at = parts.end;
   for (size_t attempt = 0; attempt < kMostPictures; ++attempt) {
@@ -109,6 +109,7 @@ std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts) {
   const std::vector<Entry> entries =
       ListEntries(file, parts.multi_picture, pictures.size(), &counted);
   TakeEntries(file, entries, counted, &pictures);
+  if (missing != nullptr) *missing = counted > pictures.size();
   return pictures;
 }
 

@@ -20,7 +20,10 @@ struct MultiPicture {
 };
 
 // Lists the whole JPEG files behind the first picture, 64 at most.
-std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts);
+//
+// @param missing set to true if the index names a picture that is cut off or not there; may be null
+std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts,
+                                            bool* missing = nullptr);
 
 }  // namespace starfocus
 

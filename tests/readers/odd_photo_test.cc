@@ -159,7 +159,11 @@ TEST_CASE("Apple's JPEG: the map is found where its index is wrong, moved or los
   }
   check(Photo() + map, "the file has no multi-picture index");
   check(Photo() + "something between\xff\xd8\xff" + map, "the file has no multi-picture index");
-  CHECK(Open(Photo() + map.substr(0, map.size() - 2), &capture) != "");
+  const std::string whole = MultiPicture(Photo(), map);
+  for (const size_t cut : {size_t{2}, map.size() / 2, map.size()}) {
+    CHECK(Open(whole.substr(0, whole.size() - cut), &capture).find("one cut off or not there") !=
+          std::string::npos);
+  }
 }
 
 TEST_CASE("a stereo pair in one file has two views and no map") {
