@@ -13,8 +13,8 @@ namespace starfocus {
 // Parts what the centre view mixes on the far side of depth edges: there the nearer surface covers
 // its share of the pixel, and behind it lies the far one in its own colour. Only where views show
 // the two moved against each other by more than a pixel, and neither what lies beyond the picture
-// nor the field's outermost pixels, which splat into no rectangle. `surfaces` as FindLayeredDepth left them; of four surfaces the farthest
-// is dropped.
+// nor the field's outermost pixels, which splat into no rectangle. `surfaces` as FindLayeredDepth
+// left them; of four surfaces the farthest is dropped.
 void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                const Field& field, LayeredDepth* surfaces);
 
