@@ -95,15 +95,14 @@ class CellRow {
     const int32_t farthest = Farthest(cell.low, cell.high, scale_.focus);
     cell.r_min = static_cast<uint16_t>(scale_.Radius(nearest));
     cell.r_max = static_cast<uint16_t>(scale_.RadiusAbove(farthest));
-    cell.r_shown = cell.r_min;
+    int32_t shown = cell.r_min;
     if (found.edge_low <= found.edge_high) {
       const int32_t sharpest =
           Abs(scale_.focus - Clamp(scale_.focus, found.edge_low, found.edge_high));
-      cell.r_shown = static_cast<uint16_t>(Min(cell.r_min, scale_.Radius(sharpest)));
-      // An edge in focus is one, too.
-      cell.r_edge = static_cast<uint16_t>(
-          Max(1, scale_.RadiusAbove(Farthest(found.edge_low, found.edge_high, scale_.focus))));
+      shown = Min(shown, scale_.Radius(sharpest));
+      cell.has_edge = 1;
     }
+    cell.r_shown = static_cast<uint16_t>(shown) & 0x7FFF;
     const int32_t reach = ReachOf(cell.r_max);
     if (reach == ReachOf(scale_.RadiusAbove(nearest))) {
       StoreSides(reach, &cell);
@@ -168,7 +167,7 @@ void MeasureCells(const simd::Kernels& kernels, const Window& window, const Blur
 }
 
 BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {
-  BlockStats merged = {INT32_MAX, INT32_MAX, 0, 0, {}, {}};
+  BlockStats merged = {INT32_MAX, INT32_MAX, 0, false, {}, {}};
   for (int child = 0; child < 4; ++child) {
     if (children[child] == nullptr) continue;
     const BlockStats& from = *children[child];
@@ -176,7 +175,7 @@ BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {
     merged.r_min = Min(merged.r_min, from.r_min);
     merged.r_shown = Min(merged.r_shown, from.r_shown);
     merged.r_max = Max(merged.r_max, from.r_max);
-    merged.r_edge = Max(merged.r_edge, from.r_edge);
+    merged.has_edge = merged.has_edge || from.has_edge;
     AddContent(from.content, &merged.content);
     for (int layer = 0; layer < 3; ++layer) {
       Border& border = merged.border[layer];

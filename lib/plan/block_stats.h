@@ -27,11 +27,11 @@ struct Content {
 // Blur radii carry kDisparityBits fractional bits: 128 px are 8192.
 struct Cell {
   uint16_t r_min, r_max;  // rounded down, up
-  // The least of what pixels show, rounded down: beside a depth edge they also show a part of the
-  // nearer surface.
-  uint16_t r_shown;
-  int16_t low, high;  // disparities, kDisparityBits
-  uint16_t r_edge;    // of the nearer surface at any depth edge here, 0: none
+  // The least blur of what pixels show, rounded down: beside a depth edge they also show a part of
+  // the nearer surface.
+  uint16_t r_shown : 15;
+  uint16_t has_edge : 1;  // a depth edge inside or at a side
+  int16_t low, high;      // disparities, kDisparityBits
   // How many pixels from its right, left, bottom and top edge on the cell splats to the left,
   // right, top and bottom, and how deep inside lie the pixels that splat beyond it.
   uint8_t span[4];
@@ -96,7 +96,8 @@ constexpr int32_t LayerMargin(int32_t layer) { return kLayerMargin[layer] >> lay
 // splat into it, and for each layer the border beyond which no pixel splats into the block and its
 // margin.
 struct BlockStats {
-  int32_t r_min, r_shown, r_max, r_edge;
+  int32_t r_min, r_shown, r_max;
+  bool has_edge;
   Border border[3];
   Content content[2];  // of the pixels inside, along rows and along columns
 };

@@ -20,7 +20,7 @@ void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t 
   out[simd::kNearPlane * plane] =
       static_cast<int16_t>(ReachOf(scale.RadiusAbove(Abs(cell.high - scale.focus))));
   out[simd::kRadiusPlane * plane] = static_cast<int16_t>(cell.r_max);
-  out[simd::kEdgePlane * plane] = static_cast<int16_t>(cell.r_edge);
+  out[simd::kEdgePlane * plane] = cell.has_edge;
   out[simd::kLowPlane * plane] = cell.low;
   out[simd::kHighPlane * plane] = cell.high;
 }
@@ -71,7 +71,7 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
                         const Surroundings& surroundings, int32_t column, int32_t row) {
   simd::BlockReach reach;
   kernels.ReachBlock(surroundings.At(column, row), surroundings.around, kLayerMargin, &reach);
-  BlockStats stats = {INT32_MAX, INT32_MAX, reach.radius, reach.edge, {}, {}};
+  BlockStats stats = {INT32_MAX, INT32_MAX, reach.radius, reach.edge > 0, {}, {}};
   for (int32_t y = row; y < Min(row + 2, grid.rows); ++y) {
     for (int32_t x = column; x < Min(column + 2, grid.columns); ++x) {
       const Cell& cell = *grid.At(x, y);

@@ -204,7 +204,7 @@ class Partition {
     const int32_t r_min = rules_.subapertures ? stats.r_shown : stats.r_min;
     const double radius = static_cast<double>(r_min) / kRadiusOne;
     const int32_t layer = rules_.subapertures
-                              ? LayerBySubaperture(radius, stats.r_edge > 0, rules_.demand)
+                              ? LayerBySubaperture(radius, stats.has_edge, rules_.demand)
                               : LayerByPaper(radius, rules_.demand);
     return Min(layer, rules_.max_layer);
   }

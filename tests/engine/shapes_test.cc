@@ -87,7 +87,8 @@ TEST_CASE("shapes: the light of a patch stays, whatever the opening") {
     for (const sf_mode mode : kModes) {
       CAPTURE(shape.name);
       CAPTURE(mode);
-      const Patch patch(shape, 9, mode, SF_RULE_DEFAULT, {});
+      const sf_rule rule = mode == SF_MODE_FRAME ? SF_RULE_PAPER : SF_RULE_DEFAULT;
+      const Patch patch(shape, 9, mode, rule, {});
       CHECK(patch.Light() == doctest::Approx(9 * 255).epsilon(0.03));
     }
   }

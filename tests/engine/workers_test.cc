@@ -107,7 +107,7 @@ TEST_CASE("workers: each block is a job, those of the most predicted time come f
   test::Scene scene = test::RandomScene(kColumns * kSide, kSide, 5, -9, 9, 31);
   for (int y = 0; y < kSide; ++y) {
     float* row = scene.disparity.data() + size_t(y) * scene.disparity_width;
-    std::fill(row + kSide / 2, row + scene.width, 9.0F);
+    std::fill(row + kSide / 4, row + scene.width, 9.0F);
   }
   sf_config config = test::ConfigFor(scene);
   config.largest_block = kSide;

@@ -74,7 +74,7 @@ struct Cells {
         const int between = std::max(std::abs(x - column), std::abs(y - row)) - 1;
         const int nearer = cell.high > own.high ? NearReach(cell) : 0;
         if (between * kCellSize >= std::max(nearer, Reach(own))) continue;
-        if (cell.r_edge > 0) return Smoothness::kRough;
+        if (cell.has_edge) return Smoothness::kRough;
         widest = std::max(widest, cell.high - cell.low);
         low = std::min(low, int{cell.low});
         high = std::max(high, int{cell.high});

@@ -257,7 +257,7 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   const bool subapertures = plan.rules.subapertures;
   block.layer =
       std::min(LayerOf(subapertures, (subapertures ? stats.r_shown : stats.r_min) / kRadiusOne,
-                       stats.r_edge > 0, plan.rules.demand),
+                       stats.has_edge, plan.rules.demand),
                plan.rules.max_layer);
   const int scale = 1 << block.layer;
   const int views = ViewsOf(subapertures, stats.r_max / (kRadiusOne * scale), plan.rules.demand);

@@ -105,10 +105,7 @@ typedef struct sf_position {
 } sf_position;
 
 /** How the codes 0 to 255 of a picture stand for light, which is what a lens adds. A picture of one
- *  code comes out as it went in. Where depth varies from pixel to pixel, some pixels of the darkest
- *  codes of SF_TRANSFER_SRGB may be one code off: of codes up to 20 through steep openings (theta
- *  from 0.3 pi on, cats_eye) or with n_scale other than 1, of code 1 with blurs beyond 30 pixels.
- */
+ *  code keeps it; docs/library.md says when dark pixels may be one code off. */
 typedef enum sf_transfer {
   SF_TRANSFER_SRGB = 0, /**< the curve of sRGB (IEC 61966-2-1), as in pictures of cameras: codes are
                              decoded to light of 15 bits as they are read, and light is coded where
@@ -244,8 +241,7 @@ typedef enum sf_mode {
 
 /** How many views a blur radius needs. */
 typedef enum sf_rule {
-  SF_RULE_DEFAULT = 0, /**< SF_RULE_PAPER for SF_MODE_FRAME of a star of 5 or more views, else
-                          SF_RULE_SUBAPERTURE */
+  SF_RULE_DEFAULT = 0, /**< PAPER for SF_MODE_FRAME of a star of 5 or more, else SUBAPERTURE */
   SF_RULE_PAPER = 1, /**< (9): views at most a pixel or so apart, rendered line by line (IV); needs
                           the star of sf_view_position, else SF_ERROR_STAR */
   SF_RULE_SUBAPERTURE = 2 /**< each view stands for its subaperture, however wide, and shows
