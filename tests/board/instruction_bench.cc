@@ -29,7 +29,8 @@ constexpr Case kCases[] = {
     {"17-layers-frame-8", 17, test::Depth::kLayers, SF_MODE_FRAME, -4, 1},
     {"17-slanted-frame-8", 17, test::Depth::kSlanted, SF_MODE_FRAME, 4, 1},
     {"5-layers-frame-6", 5, test::Depth::kLayers, SF_MODE_FRAME, 2, 1},
-    {"1-layers-frame-4", 1, test::Depth::kLayers, SF_MODE_FRAME, 0, 1},
+    {"1-layers-frame-paper-4", 1, test::Depth::kLayers, SF_MODE_FRAME, 0, 1, 192, 128,
+     SF_RULE_PAPER},
     {"17-layers-block-8", 17, test::Depth::kLayers, SF_MODE_BLOCK, -4, 1},
     {"5-slanted-block-4", 5, test::Depth::kSlanted, SF_MODE_BLOCK, 0, 1},
     // Large enough for partitions to differ.
