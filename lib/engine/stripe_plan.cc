@@ -43,12 +43,15 @@ constexpr int32_t kFineSide = 32;
 bool HasCatsEyes(const PlanJob& job) { return job.tables->opening.cats_eye > 0; }
 
 // Whether blocks in `rect` may show what highlights are beyond white: some view has any as far away
-// as blur and disparity bring them.
+// as blur and disparity bring them. Where all of it is a highlight larger than a lamp, none is.
 bool HasHighlights(const PlanJob& job, const Rect& rect) {
   const sf_config& config = *job.config;
   if (!(config.highlights > 1)) return false;
   const int32_t around = HighlightsAround(config, job.lens->r_max);
-  return MayHaveHighlights(*job.window, Extended(rect, {around, around, around, around}));
+  const Rect near = Extended(rect, {around, around, around, around});
+  if (!MayHaveHighlights(*job.window, near)) return false;
+  const int32_t lamp = LampReach(LargestLamp(config.width));
+  return !AreAllHighlights(*job.window, Extended(near, {lamp, lamp, lamp, lamp}));
 }
 
 Block WholeBlock(const PlanJob& job, const Rect& rect) {

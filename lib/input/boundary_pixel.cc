@@ -106,22 +106,23 @@ Colour CentreView::ColourAt(int32_t x, int32_t y) const {
 }
 
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
+  const bool is_excess = centre.window.lamp > 0;
+  Mixture mixture = {};
+  if (is_excess) {
+    Window light = centre.window;
+    light.lamp = 0;
+    mixture.share = FindMixture({light}, pixel).share;
+    if (mixture.share == 0) return mixture;
+  }
   const int32_t x = pixel.x, y = pixel.y;
   const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
   const Colour mixed = centre.ColourAt(x, y);
   const int32_t beyond = centre.Disparity(x + 2 * dx, y + 2 * dy);
   const int pure = Abs(beyond - pixel.near) <= pixel.step ? 2 : 1;
-  Mixture mixture;
   mixture.near = centre.ColourAt(x + pure * dx, y + pure * dy);
   mixture.far = LookAway(centre.window, pixel).view != 0 ? ReadFar(centre.window, pixel, mixed)
                                                          : ReadBeside(centre, pixel, mixed);
-  if (centre.window.lamp > 0) {
-    Window light = centre.window;
-    light.lamp = 0;
-    mixture.share = FindMixture({light}, pixel).share;
-  } else {
-    mixture.share = ShareOf(mixture.near, mixture.far, mixed);
-  }
+  if (!is_excess) mixture.share = ShareOf(mixture.near, mixture.far, mixed);
   return mixture;
 }
 

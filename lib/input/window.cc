@@ -245,13 +245,39 @@ bool IsBright(const uint8_t* codes, int32_t pixels) {
   return brightest >= kFirstExcess;
 }
 
-// IsBright of pixels of a row of a view that a reader gives.
-bool IsBrightRow(const Window& window, int view, int32_t x, int32_t y, int32_t pixels) {
-  uint8_t codes[3 * Patch::kMost];
-  for (int32_t done = 0; done < pixels; done += Patch::kMost) {
-    const int32_t some = Min(Patch::kMost, pixels - done);
-    window.reader->Read(view, x + done, y, some, codes);
-    if (IsBright(codes, some)) return true;
+// Whether all pixels are highlights.
+bool AreHighlights(const uint8_t* codes, int32_t pixels) {
+  uint8_t least = 255;
+  for (int32_t n = 0; n < 3 * pixels; ++n) least = codes[n] < least ? codes[n] : least;
+  if (least >= kFirstExcess) return true;
+  for (int32_t p = 0; p < pixels; ++p) {
+    if (!IsHighlight(codes + 3 * p)) return false;
+  }
+  return true;
+}
+
+// Whether test(codes, pixels) is true of a piece of some row of any view in `rect`, of which only
+// what lies in the picture counts.
+template <class Test>
+bool AnyPiece(const Window& window, const Rect& rect, const Test& test) {
+  const int32_t left = Clamp(rect.x, 0, window.picture_width - 1);
+  const int32_t right = Clamp(rect.x + rect.width, left + 1, window.picture_width);
+  const int32_t top = Clamp(rect.y, 0, window.picture_height - 1);
+  const int32_t bottom = Clamp(rect.y + rect.height, top + 1, window.picture_height);
+  uint8_t own[3 * Patch::kMost];
+  for (int32_t y = top; y < bottom; ++y) {
+    for (int32_t view = 0; view < window.views; ++view) {
+      for (int32_t x = left; x < right; x += Patch::kMost) {
+        const int32_t pixels = Min(Patch::kMost, right - x);
+        const uint8_t* codes = own;
+        if (window.reader != nullptr) {
+          window.reader->Read(view, x, y, pixels, own);
+        } else {
+          codes = window.view[view].Row(y) + 3 * static_cast<ptrdiff_t>(x);
+        }
+        if (test(codes, pixels)) return true;
+      }
+    }
   }
   return false;
 }
@@ -352,20 +378,13 @@ int32_t CapturedBytes(const Window& window) {
 }
 
 bool MayHaveHighlights(const Window& window, const Rect& rect) {
-  const int32_t left = Clamp(rect.x, 0, window.picture_width - 1);
-  const int32_t right = Clamp(rect.x + rect.width, left + 1, window.picture_width);
-  const int32_t top = Clamp(rect.y, 0, window.picture_height - 1);
-  const int32_t bottom = Clamp(rect.y + rect.height, top + 1, window.picture_height);
-  for (int32_t y = top; y < bottom; ++y) {
-    for (int32_t view = 0; view < window.views; ++view) {
-      const bool bright =
-          window.reader != nullptr
-              ? IsBrightRow(window, view, left, y, right - left)
-              : IsBright(window.view[view].Row(y) + 3 * static_cast<ptrdiff_t>(left), right - left);
-      if (bright) return true;
-    }
-  }
-  return false;
+  return AnyPiece(window, rect, IsBright);
+}
+
+bool AreAllHighlights(const Window& window, const Rect& rect) {
+  return !AnyPiece(window, rect, [](const uint8_t* codes, int32_t pixels) {
+    return !AreHighlights(codes, pixels);
+  });
 }
 
 }  // namespace starfocus

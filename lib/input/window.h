@@ -80,6 +80,9 @@ inline LampView ViewOf(const Window& window, int index) {
 // Whether any of the views has codes of kFirstExcess or more in the columns and rows of `rect`.
 bool MayHaveHighlights(const Window& window, const Rect& rect);
 
+// Whether all pixels of all views in the columns and rows of `rect` are highlights.
+bool AreAllHighlights(const Window& window, const Rect& rect);
+
 // Bytes that one such colour is made of.
 int32_t CapturedBytes(const Window& window);
 

@@ -73,6 +73,7 @@ int main(int argc, char** argv) {
   }
   for (const Kernels* kernels : tables) starfocus::bench::RegisterLineScan(kernels);
   starfocus::bench::RegisterDeblocking();
+  starfocus::bench::RegisterBounds();
   RegisterCopies();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -18,6 +18,9 @@ void RegisterLineScan(const simd::Kernels* kernels);
 // Small pictures through the whole engine, by mode: "blur" is the ideal blur of one view.
 void RegisterWholePictures(const std::string& target);
 
+// The time per pixel of the most expensive legal pictures, beside an ordinary one.
+void RegisterBounds();
+
 }  // namespace starfocus::bench
 
 #endif  // STARFOCUS_TESTS_BENCH_MICRO_H_
