@@ -116,6 +116,23 @@ TEST_CASE("highlights: walls do not glow") {
         2 * LightIn(Picture(tube, 11, 1), SF_TRANSFER_SRGB));
 }
 
+TEST_CASE("highlights: what sees nothing but one large highlight is rendered once") {
+  const auto samples = [](const test::Scene& scene, double highlights) {
+    sf_config config = test::ConfigFor(scene, 20);
+    config.gather = 0;
+    config.highlights = float(highlights);
+    return test::RefocusScene(scene, config, test::Params(9, 1, SF_MODE_BLOCK))
+        .report.rendered_samples;
+  };
+  for (const int views : {1, 5}) {
+    CAPTURE(views);
+    test::Scene white = WhiteRect(0, 0, kSide, kSide, 255, views);
+    CHECK(samples(white, 16) == samples(white, 1));
+    std::fill_n(white.Pixel(views - 1, kSide / 2, kSide / 2), 2, uint8_t{20});
+    CHECK(samples(white, 16) > samples(white, 1));
+  }
+}
+
 TEST_CASE("highlights: a picture without any stays the same to the byte") {
   for (const int views : {1, 5, 17}) {
     test::Scene scene = test::RandomScene(70, 60, views, -4, 4, 77);
