@@ -12,8 +12,9 @@
 namespace starfocus {
 namespace {
 
-// Longer side of the pictures whose edges are compared.
-constexpr int kSmall = 192;
+// Largest longer side of the pictures whose edges are compared. They are smaller by whole factors:
+// cells of different sizes have edges of their own.
+constexpr int kSmall = 512;
 
 // The mean brightness of each cell of the picture.
 FloatMap ShrinkPicture(const Image& picture, int width, int height) {
@@ -64,10 +65,9 @@ double Agreement(const FloatMap& picture, const FloatMap& map) {
 bool EdgesSayUpright(const DepthPhoto& photo, bool* sure) {
   constexpr double kSure = 1.05;
   const Image& picture = photo.picture;
-  const int longer = std::max(picture.width, picture.height), side = std::min(longer, kSmall);
-  const auto scaled = [&](int size) {
-    return std::max(1, static_cast<int>(int64_t{size} * side / longer));
-  };
+  const int longer = std::max(picture.width, picture.height);
+  const int factor = (longer + kSmall - 1) / kSmall;
+  const auto scaled = [&](int size) { return std::max(1, size / factor); };
   FloatMap map = photo.map;
   const RobustRange range = RobustRangeOf(map.values);
   for (float& value : map.values) {
