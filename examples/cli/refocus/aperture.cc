@@ -137,7 +137,7 @@ Error FitAperture(double range, Aperture* aperture) {
   return Error::Usage(
       aperture->option,
       WhatFits(range, *aperture) + " (blur of at most " + Short(SF_MAX_BLUR) + " pixels)",
-      aperture->value + ", which blurs by " + ThreeDigits(blur) + " pixels");
+      aperture->value + ", which blurs by " + Short(std::ceil(10 * blur) / 10) + " pixels");
 }
 
 void TellAperture(const std::string& path, const Aperture& aperture) {
