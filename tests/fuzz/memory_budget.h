@@ -17,6 +17,13 @@
 
 namespace starfocus::fuzz {
 
+// No reader takes a picture of more pixels, so that more count as these.
+inline constexpr int64_t kMostPixels = int64_t{1} << 28;
+
+inline int64_t PixelsOf(int64_t width, int64_t height) {
+  return width > 0 && height > kMostPixels / width ? kMostPixels : width * height;
+}
+
 inline int64_t WholeAt(const uint8_t* data, int bytes, bool big) {
   int64_t value = 0;
   for (int k = 0; k < bytes; ++k) value = value << 8 | data[big ? k : bytes - 1 - k];
@@ -29,7 +36,7 @@ inline int64_t PixelsOfHeaders(const uint8_t* data, size_t size) {
   for (size_t at = 0; at + 12 <= size; ++at) {
     const uint8_t* here = data + at;
     if (std::memcmp(here, "IHDR", 4) == 0)
-      pixels += WholeAt(here + 4, 4, true) * WholeAt(here + 8, 4, true);
+      pixels += PixelsOf(WholeAt(here + 4, 4, true), WholeAt(here + 8, 4, true));
     if (here[0] == 0xff && here[1] >= 0xc0 && here[1] <= 0xcf && here[1] != 0xc4) {
       pixels += WholeAt(here + 5, 2, true) * WholeAt(here + 7, 2, true);
     }
@@ -55,7 +62,7 @@ inline int64_t DeclaredPixels(const uint8_t* data, size_t size) {
   HeifItems items;
   if (!HeifBrands({data, size}).empty() && ReadHeifItems({data, size}, &items)) {
     int64_t pixels = 0;
-    for (const auto& [id, item] : items) pixels += int64_t{item.width} * int64_t{item.height};
+    for (const auto& [id, item] : items) pixels += PixelsOf(item.width, item.height);
     return pixels;
   }
   return PixelsOfHeaders(data, size);
