@@ -301,7 +301,7 @@ fuzz_target() {
   local work=build/fuzz/inputs/$2 length=1024
   case "$2" in heif | layouts | photo | xmp) length=4096 ;; esac
   mkdir -p "$work"
-  build/fuzz/tests/fuzz/fuzz_$2 -max_total_time="$1" -seed=1 -max_len=$length -timeout=30 \
+  LSAN_OPTIONS=suppressions=tests/fuzz/leaks.supp:print_suppressions=0 build/fuzz/tests/fuzz/fuzz_$2 -max_total_time="$1" -seed=1 -max_len=$length -timeout=30 \
     -rss_limit_mb=1024 -malloc_limit_mb=512 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$2" \
     >"$LOGS/fuzz-$2.log" 2>&1 && return
   tail -n 40 "$LOGS/fuzz-$2.log"
