@@ -245,21 +245,20 @@ bool IsBright(const uint8_t* codes, int32_t pixels) {
   return brightest >= kFirstExcess;
 }
 
-// Whether all pixels are highlights.
-bool AreHighlights(const uint8_t* codes, int32_t pixels) {
+// Whether some pixel is no highlight.
+bool HasOthers(const uint8_t* codes, int32_t pixels) {
   uint8_t least = 255;
   for (int32_t n = 0; n < 3 * pixels; ++n) least = codes[n] < least ? codes[n] : least;
-  if (least >= kFirstExcess) return true;
+  if (least >= kFirstExcess) return false;
   for (int32_t p = 0; p < pixels; ++p) {
-    if (!IsHighlight(codes + 3 * p)) return false;
+    if (!IsHighlight(codes + 3 * p)) return true;
   }
-  return true;
+  return false;
 }
 
 // Whether test(codes, pixels) is true of a piece of some row of any view in `rect`, of which only
 // what lies in the picture counts.
-template <class Test>
-bool AnyPiece(const Window& window, const Rect& rect, const Test& test) {
+bool AnyPiece(const Window& window, const Rect& rect, bool (*test)(const uint8_t*, int32_t)) {
   const int32_t left = Clamp(rect.x, 0, window.picture_width - 1);
   const int32_t right = Clamp(rect.x + rect.width, left + 1, window.picture_width);
   const int32_t top = Clamp(rect.y, 0, window.picture_height - 1);
@@ -382,9 +381,7 @@ bool MayHaveHighlights(const Window& window, const Rect& rect) {
 }
 
 bool AreAllHighlights(const Window& window, const Rect& rect) {
-  return !AnyPiece(window, rect, [](const uint8_t* codes, int32_t pixels) {
-    return !AreHighlights(codes, pixels);
-  });
+  return !AnyPiece(window, rect, HasOthers);
 }
 
 }  // namespace starfocus
