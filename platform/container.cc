@@ -155,6 +155,13 @@ uint32_t ReadBigEndian32(const uint8_t* bytes) {
   return uint32_t(bytes[0]) << 24 | uint32_t(bytes[1]) << 16 | uint32_t(bytes[2]) << 8 | bytes[3];
 }
 
+bool MayBePicture(const Bytes& beginning) {
+  if (beginning.size() < 12) return true;  // a short file costs nothing
+  const bool netpbm = beginning[0] == 'P' && beginning[1] >= '1' && beginning[1] <= '6';
+  return netpbm || IsPng(beginning) || StartsWith(beginning, kJpegSignature) ||
+         std::memcmp(&beginning[0], "RIFF", 4) == 0 || std::memcmp(&beginning[4], "ftyp", 4) == 0;
+}
+
 bool IsPng(const Bytes& bytes) { return StartsWith(bytes, kPngSignature); }
 
 bool IsTruncatedPng(const Bytes& png) { return CheckPng(png, false) == Container::kTruncated; }

@@ -29,6 +29,9 @@ std::string DescribeFile(const Bytes& bytes);
 // Returns true if a chunk of a PNG file reaches beyond its end, or the last chunk is missing.
 bool IsTruncatedPng(const Bytes& png);
 
+// Whether the file may be a picture by its first bytes: PNG, JPEG, WebP, HEIF, PPM or PGM.
+bool MayBePicture(const Bytes& beginning);
+
 // Whether the file begins as a PNG file does.
 bool IsPng(const Bytes& bytes);
 

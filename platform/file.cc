@@ -124,17 +124,22 @@ std::string OpenFile(const std::string& path, uint64_t most, File* file, size_t*
   return "";
 }
 
-std::string ReadAtMost(const std::string& path, uint64_t most, Bytes* bytes) {
+using IsWanted = bool (*)(const Bytes& beginning);
+
+// Stops after the first part if `is_wanted`, unless it is null, is false of it.
+std::string ReadAtMost(const std::string& path, uint64_t most, IsWanted is_wanted, Bytes* bytes) {
   bytes->clear();
   File file;
   size_t size = 0;
   const std::string error = OpenFile(path, most, &file, &size);
   if (!error.empty()) return error;
-  bytes->reserve(size);
   uint8_t buffer[65536];
   for (;;) {
     const size_t got = std::fread(buffer, 1, sizeof(buffer), file.get());
+    const bool first = bytes->empty();
     bytes->insert(bytes->end(), buffer, buffer + got);
+    if (first && is_wanted != nullptr && !is_wanted(*bytes)) return "";
+    if (first) bytes->reserve(size);
     if (bytes->size() > most) return TooLarge(path, most, "more");
     if (got < sizeof(buffer)) break;
   }
@@ -165,11 +170,15 @@ std::string OutOfMemory(const std::string& where, const std::string& purpose) {
 }
 
 std::string ReadFile(const std::string& path, Bytes* bytes) {
-  return ReadAtMost(path, kMostBytes, bytes);
+  return ReadAtMost(path, kMostBytes, nullptr, bytes);
+}
+
+std::string ReadFileIf(const std::string& path, IsWanted is_wanted, Bytes* bytes) {
+  return ReadAtMost(path, kMostBytes, is_wanted, bytes);
 }
 
 std::string ReadSmallFile(const std::string& path, Bytes* bytes) {
-  return ReadAtMost(path, kMostSmallBytes, bytes);
+  return ReadAtMost(path, kMostSmallBytes, nullptr, bytes);
 }
 
 std::string WriteFile(const std::string& path, const Bytes& bytes) {

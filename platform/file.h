@@ -32,6 +32,11 @@ std::string OutOfMemory(const std::string& where, const std::string& purpose);
 // /dev/zero never ends. "-" is standard input, here and below.
 std::string ReadFile(const std::string& path, Bytes* bytes);
 
+// The same of a file that is wanted only if its first 64 KiB say so: of any other file `bytes` gets
+// these alone, so that a file of another kind costs no memory and a stream of it ends.
+std::string ReadFileIf(const std::string& path, bool (*is_wanted)(const Bytes& beginning),
+                       Bytes* bytes);
+
 // Reads a file of at most kMostSmallBytes: timings, calibrations and other texts.
 constexpr size_t kMostSmallBytes = size_t{1} << 20;
 std::string ReadSmallFile(const std::string& path, Bytes* bytes);

@@ -75,7 +75,7 @@ std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image, Me
 std::string ReadImage(const std::string& path, Image* image) {
   try {
     Bytes bytes;
-    const std::string error = ReadFile(path, &bytes);
+    const std::string error = ReadFileIf(path, MayBePicture, &bytes);
     return error.empty() ? DecodeImage(path, &bytes, image) : error;
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");

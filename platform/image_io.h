@@ -17,8 +17,8 @@ namespace starfocus {
 std::string ReadImage(const std::string& path, Image* image);
 
 // The same of bytes in memory, which may be changed; `where` only names them in the error.
-// `metadata`, unless it is null, gets the profile and EXIF of PNG and WebP files as they are; those
-// of JPEG files are read with the other segments (readers/jpeg_parts.h).
+// `metadata`, unless it is null, gets the profile, EXIF and whole XMP packet of PNG and WebP files;
+// those of JPEG files are read with the other segments (readers/jpeg_parts.h).
 std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image,
                         Metadata* metadata = nullptr);
 

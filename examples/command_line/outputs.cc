@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <set>
@@ -23,6 +24,12 @@ fs::path NameOf(const fs::path& path) {
   std::error_code ignored;
   const fs::path name = fs::weakly_canonical(fs::absolute(path), ignored);
   return name.has_filename() ? name : name.parent_path();  // "folder/"
+}
+
+// Whether both are one file, also by a hard link.
+bool AreOneFile(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored);
 }
 
 // Files of a light field that stand elsewhere.
@@ -55,7 +62,10 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
       return Error::Usage(output.option, "a file of its own",
                           output.path + ", which another one is");
     }
-    if (files.count(name) != 0) {
+    const bool is_input = std::any_of(
+        inputs.files.begin(), inputs.files.end(),
+        [&](const std::string& path) { return !stream && AreOneFile(path, output.path); });
+    if (is_input || files.count(name) != 0) {
       return Error::Usage(output.option, "a file of its own", output.path + ", which is read");
     }
     if (folders.count(name.parent_path()) != 0 && IsLightFieldFile(name.filename().string())) {

@@ -24,6 +24,7 @@ struct Call {
   bool truncated = false, no_memory = false;
   char reason[100] = "";
   Bytes exif = {};  // of a text chunk
+  std::string xmp = {};
 };
 
 png_voidp Allocate(png_structp png, png_alloc_size_t size) {
@@ -53,12 +54,17 @@ void Fail(png_structp png, png_const_charp reason) {
 void KeepSilent(png_structp, png_const_charp) {}
 
 // Chunks that libpng would store and, where they are compressed, inflate. They are read here, and
-// nothing of them is kept but EXIF.
+// nothing of them is kept but EXIF and XMP.
 int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
   Call* call = static_cast<Call*>(png_get_user_chunk_ptr(png));
   const bool packed = std::memcmp(chunk->name, "zTXt", 4) == 0;
-  if (!packed && std::memcmp(chunk->name, "tEXt", 4) != 0) return 1;
+  const bool is_xmp = std::memcmp(chunk->name, "iTXt", 4) == 0;
+  if (!packed && !is_xmp && std::memcmp(chunk->name, "tEXt", 4) != 0) return 1;
   try {
+    if (is_xmp) {
+      ReadXmpText(chunk->data, chunk->size, &call->xmp);
+      return 1;
+    }
     ReadRawProfile(packed, chunk->data, chunk->size, &call->exif);
     return 1;
   } catch (const std::bad_alloc&) {
@@ -156,6 +162,7 @@ void TakeMetadata(const Reader& reader, Call* call, Metadata* metadata) {
     TrimExif(&metadata->exif);
   }
   if (metadata->exif.empty()) metadata->exif = std::move(call->exif);
+  metadata->xmp = std::move(call->xmp);
 }
 
 }  // namespace

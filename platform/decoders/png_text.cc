@@ -73,4 +73,22 @@ void ReadRawProfile(bool compressed, const uint8_t* data, size_t size, Bytes* ex
   TrimExif(exif);
 }
 
+void ReadXmpText(const uint8_t* data, size_t size, std::string* xmp) {
+  constexpr char kKeyword[] = "XML:com.adobe.xmp";  // its zero ends it
+  constexpr size_t kFlags = 2;                      // whether it is compressed, and how
+  const uint8_t* const last = data + size;
+  if (!xmp->empty() || size < sizeof(kKeyword) + kFlags ||
+      !std::equal(kKeyword, kKeyword + sizeof(kKeyword), data)) {
+    return;
+  }
+  const bool compressed = data[sizeof(kKeyword)] != 0;
+  const uint8_t* text = data + sizeof(kKeyword) + kFlags;
+  for (int part = 0; part < 2; ++part) {  // the language, and the keyword in it
+    text = std::find(text, last, uint8_t{0});
+    if (text == last) return;
+    ++text;
+  }
+  *xmp = compressed ? Inflate(text, size_t(last - text)) : std::string(text, last);
+}
+
 }  // namespace starfocus

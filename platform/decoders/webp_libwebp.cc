@@ -47,6 +47,8 @@ void ReadMetadata(const Bytes& webp, Metadata* metadata) {
   metadata->icc = ChunkOf(mux.get(), "ICCP");
   metadata->exif = ChunkOf(mux.get(), "EXIF");
   TrimExif(&metadata->exif);
+  const Bytes xmp = ChunkOf(mux.get(), "XMP ");
+  metadata->xmp.assign(xmp.begin(), xmp.end());
 }
 
 }  // namespace

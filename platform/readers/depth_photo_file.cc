@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "platform/container.h"
 #include "platform/image_io.h"
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/depth_levels.h"
@@ -127,6 +128,17 @@ std::string NoMap(const std::string& path, const std::string& problem) {
       path, "a depth map in the file, beside it as NAME-depth.png or .jpg, or by --depth", found);
 }
 
+// Leaves of the packet of a PNG or WebP file what describes the photograph.
+void KeepCaptions(DepthPhoto* photo) {
+  const std::string packet = std::move(photo->metadata.xmp);
+  photo->metadata.xmp.clear();
+  if (packet.empty() || !CanReadXmp()) return;
+  XmpNode root;
+  const std::string error = ParseXmp("the XMP", packet.data(), packet.size(), &root);
+  if (!error.empty()) return IgnoreXmp(error, photo);
+  photo->metadata.xmp = KeptXmp(root);
+}
+
 // Notes why the map in the file is not used, unless a note says so already.
 void NoteProblem(DepthPhoto* photo) {
   const std::string& problem = photo->map_problem;
@@ -146,6 +158,7 @@ std::string DecodeDepthPhoto(const std::string& where, Span file, bool with_map,
   if (!error.empty()) return error;
   ReadExif(photo);
   CheckProfile(photo);
+  KeepCaptions(photo);
   return "";
 }
 
@@ -154,7 +167,7 @@ std::string ReadDepthPhotoFile(const std::string& path, const DepthOptions& opti
   Bytes bytes;
   const bool stream = path == "-";  // no depth picture lies beside it
   const std::string where = InputName(path);
-  std::string error = ReadFile(path, &bytes);
+  std::string error = ReadFileIf(path, MayBePicture, &bytes);
   const Span file = {bytes.data(), bytes.size()};
   if (error.empty() && stream && bytes.empty()) error = Expected(where, "a photo", "nothing");
   if (error.empty()) error = DecodeDepthPhoto(where, file, depth->empty(), options.near, photo);
