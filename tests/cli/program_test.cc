@@ -194,6 +194,7 @@ TEST_CASE("program: no output goes into a light field that is read") {
     fs::copy_file(folder.file("lf/view_+0.0_+0.0.png"), folder.file(std::string("grid/") + name));
   }
   fs::copy_file(folder.file("lf/disparity.pfm"), folder.file("grid/disparity.pfm"));
+  fs::create_hard_link(folder.file("grid/v_0_1.png"), folder.file("hard.png"));
   REQUIRE(Call(folder, "scene truths --size 40x30 --views 1 --truth 1,1").code == 0);
   const size_t before = LightFieldFiles(folder.file("lf")).size();
   const struct {
@@ -209,6 +210,7 @@ TEST_CASE("program: no output goes into a light field that is read") {
              {"import lf link", "a light field that is read"},
              {"import grid ./grid/", "a light field that is read"},
              {"view truths -o truths/truth_dt1_ut1.png", "which is read"},
+             {"compare grid/v_0_0.png grid/v_0_1.png --map hard.png", "which is read"},
              {"video lf lf -o link --focus 1", "a light field that is read"}};
   for (const auto& row : bad) CheckRefused(folder, row.arguments, row.mention);
   CHECK(LightFieldFiles(folder.file("lf")).size() == before);

@@ -133,6 +133,25 @@ TEST_CASE("photos: captions reach every output, and no depth map is claimed ther
   }
 }
 
+TEST_CASE("photos: captions of PNG and WebP photos stay, too") {
+  if (!CanReadXmp()) return;
+  TempFolder folder;
+  Write(folder.file("map.png"), Encode(Plain(96, 64, 255), ".png"));
+  PictureOptions options;
+  options.metadata.xmp =
+      "<rdf:Description rdf:about='' xmlns:xmp='http://ns.adobe.com/xap/1.0/'>"
+      "<xmp:Rating>4</xmp:Rating></rdf:Description>";
+  for (const std::string name : {"in.png", "in.webp"}) {
+    CAPTURE(name);
+    if (WriteImage(folder.file(name), Ramp(96, 64), options) != "") continue;
+    for (const std::string out : {"out.png", "out.jpg"}) {
+      const std::string arguments = " --depth map.png --near white --focus-at 48,40 -o ";
+      REQUIRE(Call(folder, "refocus " + name + arguments + out).code == 0);
+      CHECK(Contains(Text(folder.file(out)), "<xmp:Rating>4</xmp:Rating>"));
+    }
+  }
+}
+
 // A photo whose left half is near, 96 x 64, with a depth picture beside it.
 void MakePhoto(const TempFolder& folder, const std::string& exif) {
   Image map(96, 64);
@@ -242,6 +261,7 @@ TEST_CASE("photos: - is a photo on standard input") {
              {"refocus - -o x.png <a.jpg", "standard input: "},
              {"refocus - --depth map.png --near white -o x.png </dev/null", "found nothing"},
              {"refocus - --depth - -o x.png <a.jpg", "--depth: "},
+             {"refocus - -o x.png </dev/zero", "a file of zeros"},
              {"refocus - a.jpg -o out/ <a.jpg", "standard input"},
              {"refocus - -o out/ <a.jpg", "standard input"}};
   for (const auto& row : bad) {
