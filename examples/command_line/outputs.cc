@@ -68,6 +68,11 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
     if (is_input || files.count(name) != 0) {
       return Error::Usage(output.option, "a file of its own", output.path + ", which is read");
     }
+    const bool beside_views =
+        folders.count(name.parent_path()) != 0 || grids.count(name.parent_path()) != 0;
+    if (beside_views && (name.filename() == "calib.txt" || name.filename() == "parameters.cfg")) {
+      return Error::Usage(output.option, "a file of its own", output.path + ", which is read");
+    }
     if (folders.count(name.parent_path()) != 0 && IsLightFieldFile(name.filename().string())) {
       return Error::Usage(output.option, "a file of its own", output.path + " of the light field");
     }

@@ -207,6 +207,7 @@ TEST_CASE("program: no output goes into a light field that is read") {
              {"refocus lf -o lf --focus 1", "a light field that is read"},
              {"refocus grid -o grid/out.png --focus 1", "would be taken for a view"},
              {"refocus grid -o x.png --focus 1 --map grid/map.png", "would be taken for a view"},
+             {"refocus grid -o x.png --focus 1 --report grid/calib.txt", "which is read"},
              {"import lf link", "a light field that is read"},
              {"import grid ./grid/", "a light field that is read"},
              {"view truths -o truths/truth_dt1_ut1.png", "which is read"},

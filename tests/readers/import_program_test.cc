@@ -160,6 +160,19 @@ void MakePhoto(const TempFolder& folder, const std::string& exif) {
   Write(folder.file("a-depth.png"), Encode(map, ".png"));
 }
 
+TEST_CASE("photos: a folder stands for its PNG photos, too, and makes a folder") {
+  TempFolder folder;
+  MakePhoto(folder, "");
+  REQUIRE(std::system(
+              ("cd '" + folder.file(".") + "' && mkdir in && mv a.jpg a-depth.png in").c_str()) ==
+          0);
+  Write(folder.file("in/b.png"), Encode(Ramp(96, 64), ".png"));
+  Write(folder.file("in/b-depth.png"), Text(folder.file("in/a-depth.png")));
+  REQUIRE(Call(folder, "refocus in -o out --near white").code == 0);
+  CHECK(fs::exists(folder.file("out/a.jpg")));
+  CHECK(fs::exists(folder.file("out/b.png")));
+}
+
 #ifdef STARFOCUS_HAS_EXIF
 TEST_CASE("photos: the default focus is the subject of EXIF, turned and scaled as the photo is") {
   constexpr int kArea = 0x9214, kLocation = 0xa214;

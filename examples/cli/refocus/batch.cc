@@ -29,12 +29,20 @@ bool IsLightField(const fs::path& folder) {
   return OpenCapture(folder.string(), {}, &capture).empty();
 }
 
-// A depth picture stands beside the photograph that it is of.
+bool HasDepthPicture(const fs::path& path) {
+  DepthPhoto unused;
+  std::string depth;
+  return FindDepthPicture(path.string(), &unused, &depth).empty() && !depth.empty();
+}
+
+// A depth picture stands beside the photograph that it is of. PNG and WebP pictures without one are
+// no photographs.
 bool IsPhoto(const fs::path& path) {
   const std::string extension = LowerExtension(path.string());
   if (IsDepthPictureName(path.filename().string())) return false;
+  if (extension == ".png" || extension == ".webp") return HasDepthPicture(path);
   return extension == ".jpg" || extension == ".jpeg" || extension == ".heic" ||
-         extension == ".heif";
+         extension == ".heif" || extension == ".avif";
 }
 
 // What stands in place of an input; nothing of a folder that has neither.
@@ -101,7 +109,11 @@ struct Work {
 
 bool IsBatch(const std::vector<std::string>& inputs, const std::string& out) {
   std::error_code ignored;
-  return inputs.size() > 1 || fs::is_directory(out, ignored) || (!out.empty() && out.back() == '/');
+  if (inputs.size() > 1 || fs::is_directory(out, ignored)) return true;
+  if (out.empty() || out.back() == '/') return !out.empty();
+  // A folder of photographs makes several pictures, too.
+  return inputs.size() == 1 && fs::is_directory(inputs[0], ignored) &&
+         FormatExtension(out).empty() && !IsLightField(inputs[0]);
 }
 
 Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folder,
