@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 namespace starfocus {
@@ -69,6 +70,13 @@ size_t FindBeginning(Span file, size_t at) {
   return file.size;
 }
 
+// Whether CIPA DC-007 knows the type; bytes of something else seldom have one.
+bool IsType(uint32_t type) {
+  constexpr uint32_t kTypes[] = {0x000000, 0x010001, 0x010002, 0x020001,
+                                 0x020002, 0x020003, 0x030000};
+  return std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
+}
+
 // Types by place; where the index has none of the places, they were moved, and types go by order.
 void TakeEntries(Span file, const std::vector<Entry>& entries, size_t counted,
                  std::vector<MultiPicture>* pictures) {
@@ -84,7 +92,9 @@ void TakeEntries(Span file, const std::vector<Entry>& entries, size_t counted,
   }
   if (any) return;
   const size_t both = std::min(entries.size(), pictures->size());
-  for (size_t k = 0; k < both; ++k) (*pictures)[k].type = entries[k].type;
+  for (size_t k = 0; k < both; ++k) {
+    if (IsType(entries[k].type)) (*pictures)[k].type = entries[k].type;
+  }
 }
 
 }  // namespace

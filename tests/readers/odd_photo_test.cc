@@ -196,6 +196,8 @@ TEST_CASE("a stereo pair in one file has two views and no map") {
     }
   }
   CHECK(open("a.mpo", Photo() + second));
+  // Entries that are read from a wrong place have a type that none has.
+  CHECK(open("a.mpo", MultiPicture(Photo(), second, {false, 32, 5, 0x123456})));
   CHECK(open("a.jpg", MultiPicture(Photo(), second)));
   // No pair: nothing says so, another size, a large preview, a gain map.
   CHECK(!open("a.jpg", Photo() + second));
