@@ -44,6 +44,8 @@ std::string OpenOwn(const std::string& folder, const Names& names, Capture* capt
   capture->format = "light-field folder";
   std::string error = FindViewFiles(folder, &capture->files);
   if (error.empty() && HasDisparity(folder)) capture->map_path = DisparityPath(folder);
+  // Unknown disparities of a pair are infinite.
+  if (Has(names, "im0.png")) capture->care = MapCare::kFill;
   const bool pair = Has(names, "im0.png") && Has(names, "calib.txt");
   return error.empty() && pair ? ReadMiddlebury(folder, capture) : error;
 }

@@ -94,13 +94,14 @@ std::string ReadMiddlebury(const std::string& folder, Capture* capture) {
       ReadKeyValues((std::filesystem::path(folder) / "calib.txt").string(), &values);
   if (!error.empty()) return error;
   capture->format = "Middlebury stereo pair";
-  capture->care = MapCare::kFill;
   double baseline = 0, offset = 0;
   if (NumberOf(values, "baseline", &baseline)) {
     capture->facts.emplace_back("cameras", values["baseline"] + " mm apart");
   }
   if (NumberOf(values, "doffs", &offset)) {
-    capture->facts.emplace_back("infinity", "at disparity -" + values["doffs"]);
+    const std::string& text = values["doffs"];
+    const std::string there = offset > 0 ? "-" + text : offset < 0 ? text.substr(1) : "0";
+    capture->facts.emplace_back("infinity", "at disparity " + there);
   }
   return "";
 }

@@ -188,6 +188,12 @@ TEST_CASE("stereo pairs: disp0GT.pfm, as ETH3D names it, is the map") {
   CHECK(capture.light_field.disparity.values[5] == 7);
   CHECK(capture.map_path == folder.file("disp0GT.pfm"));
   CHECK(IsLightFieldFile("disp0GT.pfm"));
+  // Without a calibration, too, the map may have infinite values, which are filled.
+  std::filesystem::remove(folder.file("calib.txt"));
+  Capture plain;
+  Require(OpenCapture(folder.file("."), {}, &plain));
+  CHECK(plain.map_path == folder.file("./disp0GT.pfm"));
+  CHECK(plain.care == MapCare::kFill);
 }
 
 // A pair of random pictures of a wall at the disparity 9, whose map has levels `multiple` times
