@@ -83,9 +83,13 @@ TEST_CASE("views: a stereo pair as Middlebury's is opened, unknown disparities f
   field.disparity.values[70] = HUGE_VALF;
   REQUIRE(WritePfm(folder.file("pair/disp0.pfm"), field.disparity) == "");
   CHECK(Call(folder, "info pair").out.find("1 invalid") != std::string::npos);
-  CHECK(Call(folder, "refocus pair -o b.png --focus 0").err.find("--fill-invalid") !=
+  REQUIRE(WritePfm(folder.file("lf/disparity.pfm"), field.disparity) == "");
+  // A pair's map has infinite values by its format, a light field's by mistake.
+  CHECK(Call(folder, "refocus lf -o c.png --focus 0").err.find("--fill-invalid") !=
         std::string::npos);
-  CHECK(Call(folder, "refocus pair -o b.png --focus 0 --fill-invalid").code == 0);
+  REQUIRE(Call(folder, "refocus lf -o c.png --focus 0 --fill-invalid").code == 0);
+  REQUIRE(Call(folder, "refocus pair -o b.png --focus 0").code == 0);
+  CHECK(Call(folder, "compare b.png c.png").out == "PSNR inf, largest difference 0\n");
   CHECK(Call(folder, "refocus pair -o pair/im1.png --focus 0 --fill-invalid").code == 2);
 }
 
