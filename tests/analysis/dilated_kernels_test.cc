@@ -12,8 +12,8 @@
 #include "lib/analysis/kernel.h"
 #include "lib/base/opening.h"
 #include "lib/base/rules.h"
-#include "lib/engine/reach.h"
 #include "lib/plan/block_stats.h"
+#include "tests/support/inside.h"
 
 namespace starfocus {
 namespace {
@@ -126,7 +126,7 @@ TEST_CASE("dilated kernels: the rows that they read of a layer are kept") {
   for (int32_t blur = 1; blur <= SF_MAX_BLUR * 4; ++blur) {
     const double max_blur = blur / 4.0;
     CAPTURE(max_blur);
-    const Reach reach = GetReach(max_blur);
+    const Reach reach = test::BordersOf(max_blur);
     for (int layer = 1; layer < SF_LAYERS; ++layer) {
       const int32_t end = BlurStepCount(LargestGather(max_blur / (1 << layer)));
       for (int32_t step = made.first; step < end; ++step) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lib/api/prepared.h"
-#include "lib/engine/reach.h"
 #include "tests/support/image_field.h"
+#include "tests/support/inside.h"
 #include "tests/support/watch.h"
 
 namespace {
@@ -150,9 +150,9 @@ TEST_CASE("image streams: rings hold pairs of rows, however far away is read") {
   sf_config config = test::ImageConfig(field, 2);
   for (float most = 3; most < 12; most += 0.5f) {
     config.disparity_max = most;
-    const int reach = starfocus::StreamReach(config);
+    const int reach = test::StreamedRows(config);
     CHECK(reach % 2 == 0);
-    CHECK(reach >= starfocus::SideReach(config, config.max_blur));
+    CHECK(reach >= test::SideRows(config));
   }
 }
 

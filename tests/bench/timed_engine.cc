@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/engine/engine.h"
 #include "simd/kernels.h"
+#include "tests/support/inside.h"
 
 namespace starfocus::bench {
 namespace {
@@ -20,7 +20,7 @@ std::string UseTarget(const std::string& name, sf_engine* engine) {
   const simd::Kernels& plain = simd::ReferenceKernels();
   const simd::Kernels* kernels = name == plain.name ? &plain : simd::FindKernels(name.c_str());
   if (kernels == nullptr) return Expected("target", "a SIMD target of this machine", name);
-  reinterpret_cast<EngineState*>(engine)->kernels = kernels;
+  test::UseKernels(kernels, engine);
   return "";
 }
 

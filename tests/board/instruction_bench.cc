@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "simd/kernels.h"
+#include "tests/support/inside.h"
 #include "tests/support/integer_scene.h"
 #include "tests/support/simd_targets.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lib/engine/engine.h"
+#include "tests/support/inside.h"
 
 namespace conformance {
 namespace {
@@ -21,7 +21,7 @@ void AtLayer(const starfocus::Block& block, reference::GatheredCell* cell) {
   find(cell->y, cell->height, rect.y, rect.height, &cell->at_y, &cell->at_height);
 }
 
-std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState& engine,
+std::vector<reference::GatheredCell> GatheredCells(const starfocus::GatherMap& map,
                                                    const starfocus::Block& block) {
   std::vector<reference::GatheredCell> cells;
   if (!block.gathers) return cells;
@@ -29,7 +29,6 @@ std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState&
   const int right = block.rect.x + block.rect.width, bottom = block.rect.y + block.rect.height;
   for (int y = block.rect.y; y < bottom; y += kSide) {
     for (int x = block.rect.x; x < right; x += kSide) {
-      const starfocus::GatherMap& map = engine.stripe.plan.gathered;
       if (map.FirstLayer(x, y) > block.layer) continue;
       const bool on_slope = (map.At(x, y) & starfocus::kSlopeMark) != 0;
       cells.push_back(
@@ -42,20 +41,19 @@ std::vector<reference::GatheredCell> GatheredCells(const starfocus::EngineState&
 
 // The engine tells of each block while the plan of its stripe is the one in memory.
 struct Visit {
-  const starfocus::EngineState* engine;
+  sf_engine* engine;
   std::vector<reference::Block>* blocks;
 
   static void Add(void* self, const sf_block* told) {
     const auto& visit = *static_cast<const Visit*>(self);
-    const starfocus::EngineState& engine = *visit.engine;
-    const starfocus::StripePlan& plan = engine.stripe.plan;
+    const test::StripeBlocks plan = test::PlanOf(visit.engine);
     const starfocus::Block& b = *std::find_if(
-        plan.blocks, plan.blocks + plan.used,
+        plan.blocks.begin(), plan.blocks.end(),
         [&](const auto& block) { return block.rect.x == told->x && block.rect.y == told->y; });
     visit.blocks->push_back({b.rect.x, b.rect.y, b.rect.width, b.rect.height, b.layer, b.n,
                              b.rendered.x, b.rendered.y, b.rendered.width, b.rendered.height,
                              b.border.left, b.border.right, b.border.top, b.border.bottom,
-                             GatheredCells(engine, b)});
+                             GatheredCells(plan.gathered, b)});
   }
 };
 
@@ -64,9 +62,8 @@ struct Visit {
 EngineResult RunEngine(const test::Scene& scene, const sf_params& params,
                        const starfocus::simd::Kernels& kernels, test::Engine* engine) {
   EngineResult result;
-  auto& state = *reinterpret_cast<starfocus::EngineState*>(engine->get());
-  state.kernels = &kernels;
-  Visit visit = {&state, &result.blocks};
+  test::UseKernels(&kernels, engine->get());
+  Visit visit = {engine->get(), &result.blocks};
   sf_params told = params;
   told.on_block = Visit::Add;
   told.on_block_data = &visit;

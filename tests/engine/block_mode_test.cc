@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include "lib/engine/engine.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 #include "tests/filter/deblock_reference.h"
+#include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/rounds.h"
 #include "tests/support/simd_targets.h"
@@ -71,9 +71,7 @@ std::vector<uint8_t> Whole(const test::Scene& scene, const Setup& s, sf_report* 
                            sf_runner runner = nullptr, void* data = nullptr) {
   test::Engine engine(Config(s, scene));
   REQUIRE(engine.status() == SF_OK);
-  if (kernels != nullptr) {
-    reinterpret_cast<starfocus::EngineState*>(engine.get())->kernels = kernels;
-  }
+  if (kernels != nullptr) test::UseKernels(kernels, engine.get());
   test::Output out(scene.width, scene.height, 5);
   REQUIRE(test::Refocus(&engine, s.Params(), scene, &out, runner, data, report) == SF_OK);
   CHECK(out.PaddingUntouched());

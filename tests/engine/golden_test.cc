@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/inside.h"
 #include "tests/support/integer_scene.h"
 #include "tests/support/shapes.h"
 #include "tests/support/simd_targets.h"

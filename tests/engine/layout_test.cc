@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The carving of memory, and the sizes that it gives of engines and prepared light fields.
-#include "lib/engine/layout.h"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +7,7 @@
 
 #include "lib/api/reduced.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/inside.h"
 #include "tests/support/memory_parts.h"
 #include "tests/support/test_scene.h"
 
@@ -135,14 +135,13 @@ TEST_CASE("layout: what grows with the picture comes last, and less of it fits i
     config.images = random.Int(0, 1);
     config.highlights = random.Int(0, 1) == 0 ? 1.0F : 8.0F;
     config.cats_eye = random.Int(0, 1) == 0 ? 0.0F : 0.5F;
-    starfocus::EngineState* counted = nullptr;
-    const size_t bytes = starfocus::LayOut(config, nullptr, &counted);
+    const size_t bytes = test::WorkspaceBytes(config);
     if (bytes == kTooLarge) continue;
     for (int shift = 1; shift <= SF_MAX_PREVIEW; ++shift) {
       const sf_config reduced = starfocus::ReducedConfig(config, shift);
       CAPTURE(round);
       CAPTURE(shift);
-      CHECK(starfocus::LayOut(reduced, nullptr, &counted) <= bytes);
+      CHECK(test::WorkspaceBytes(reduced) <= bytes);
     }
   }
 }
@@ -156,7 +155,7 @@ TEST_CASE("layout: laid out anew, an engine keeps its workers and tables") {
   config.streaming = 1;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
-  auto& state = *reinterpret_cast<starfocus::EngineState*>(engine.get());
+  starfocus::EngineState& state = test::StateOf(engine.get());
   config = state.config;
   const starfocus::Worker* workers = state.crew.workers;
   const uint32_t* sums = workers[1].sums;

@@ -11,16 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "lib/engine/engine.h"
-#include "lib/engine/stripe.h"
 #include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
 namespace {
 
 using starfocus::Block;
-using starfocus::EngineState;
 
 constexpr int kViews[] = {1, 5, 9, 17};
 
@@ -77,14 +75,6 @@ test::Scene SteppedScene(int width, int height, int views, float limit, test::Ra
   return scene;
 }
 
-std::vector<uint8_t> Pixels(const EngineState& engine, const Block& block) {
-  const size_t stride = 3 * static_cast<size_t>(engine.config.width);
-  std::vector<uint8_t> out(stride * static_cast<size_t>(engine.config.height), test::kPoison);
-  starfocus::RefocusBlock(starfocus::InputsOf(engine), block, {out.data(), stride, 0, 0},
-                          &engine.crew.workers[0]);
-  return out;
-}
-
 // What wider borders changed, by layer.
 struct Changes {
   int blocks[SF_LAYERS] = {}, changed[SF_LAYERS] = {}, largest[SF_LAYERS] = {};
@@ -123,16 +113,14 @@ void CheckPicture(const test::Scene& scene, const sf_params& params, int more, C
   REQUIRE(engine.status() == SF_OK);
   test::Output out(scene.width, scene.height);
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
-  const EngineState& state = *reinterpret_cast<EngineState*>(engine.get());
-  for (int k = 0; k < state.stripe.plan.used; ++k) {
+  for (Block block : test::PlanOf(engine.get()).blocks) {
     // Not from `out`, which has been deblocked.
-    Block block = state.stripe.plan.blocks[k];
-    const std::vector<uint8_t> given = Pixels(state, block);
+    const std::vector<uint8_t> given = test::RenderOne(block, engine.get());
     block.border.left += more;
     block.border.right += more;
     block.border.top += more;
     block.border.bottom += more;
-    changes->Add(block, given, Pixels(state, block));
+    changes->Add(block, given, test::RenderOne(block, engine.get()));
   }
 }
 

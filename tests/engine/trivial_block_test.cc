@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What sf_skipped counts: the same bytes as with sf_config.skips = 0, on scenes where each of it is
 // skipped, and nothing where it may not be.
-#include "lib/engine/trivial_block.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>

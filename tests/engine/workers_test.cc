@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/engine/engine.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -113,12 +113,12 @@ TEST_CASE("workers: each block is a job, those of the most predicted time come f
   config.largest_block = kSide;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
-  const starfocus::EngineState& state = *reinterpret_cast<starfocus::EngineState*>(engine.get());
   const sf_params params = test::Params(-9, 1, SF_MODE_BLOCK);
   const auto costs = [&] {
     std::vector<uint64_t> all;
-    const starfocus::StripePlan& plan = state.stripe.plan;
-    for (int32_t k = 0; k < plan.used; ++k) all.push_back(plan.blocks[k].cost);
+    for (const starfocus::Block& block : test::PlanOf(engine.get()).blocks) {
+      all.push_back(block.cost);
+    }
     return all;
   };
   test::Output out(scene.width, scene.height);

@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "lib/engine/engine.h"
 #include "starfocus/starfocus.h"
 #include "tests/plan/measured_cells.h"
+#include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -105,7 +105,7 @@ TEST_CASE("gather: smooth cells are those of the definition") {
   int found[3] = {0, 0, 0};
   for (int round = 0; round < 60; ++round) {
     const Cells cells(random.Int(1, 120), random.Int(1, 100), &random);
-    const int around = starfocus::GetReach(12).cells;
+    const int around = test::BordersOf(12).cells;
     for (int row = 0; row < cells.grid.rows; ++row) {
       for (int column = 0; column < cells.grid.columns; ++column) {
         const Smoothness expected = cells.SmoothnessOf(column, row);

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "lib/engine/engine.h"
 #include "lib/plan/partition.h"
 #include "tests/plan/measured_cells.h"
+#include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
 namespace {
@@ -292,7 +292,7 @@ void CheckBlock(const Map& map, int x0, int y0, int level, double largest,
 void CheckMap(Map map, int largest_block) {
   map.Measure();
   const double largest = map.LargestRadius();
-  const int around = starfocus::GetReach(largest).cells;
+  const int around = test::BordersOf(largest).cells;
   for (int y = 0; y < map.height; y += largest_block) {
     const Cells cells(map, y, largest_block, around);
     // stats[level]: the blocks of one size in the stripe, row by row; null beyond the picture.
@@ -352,7 +352,7 @@ TEST_CASE("cells: borders of one blur are that blur, within a pixel for rounding
   Map map = EmptyMap(64, 64, 0, 1);
   for (const double r : {0.0, 0.25, 1.0, 2.5, 7.0, 11.5, 30.0}) {
     std::fill(map.disparity.begin(), map.disparity.end(), Fixed(r));
-    const int around = starfocus::GetReach(r).cells;
+    const int around = test::BordersOf(r).cells;
     const Cells cells(map, 0, 64, around);
     const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, 2, 2, around);
     CAPTURE(r);
@@ -439,7 +439,7 @@ TEST_CASE("cells: a silhouette counts for the cell behind it too") {
 TEST_CASE("cells: the engine's largest border and sight cover what the analysis asks for") {
   test::Random random(12);
   for (const double r : {0.1, 1.0, 4.9, 13.3, 32.0, 60.0}) {
-    const starfocus::Reach reach = starfocus::GetReach(r);
+    const starfocus::Reach reach = test::BordersOf(r);
     Map map = EmptyMap(280, 280, 0, 1);
     for (int16_t& d : map.disparity) d = Fixed(random.Real(-r, r));
     const Cells cells(map, 0, 280, reach.cells);

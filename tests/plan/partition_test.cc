@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/engine/engine.h"
 #include "tests/plan/measured_cells.h"
+#include "tests/support/inside.h"
 #include "tests/support/partition_plan.h"
 #include "tests/support/test_scene.h"
 
@@ -193,7 +193,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
       const BlurScale scale = {0, int64_t{1} << starfocus::kStepBits};
       plan.rules.scale = scale;
       plan.grid = test::MeasureCells(plan.disparity, 3 * kMiddle, 3 * kMiddle, scale, &plan.cells);
-      plan.around = starfocus::GetReach(r).cells;
+      plan.around = test::BordersOf(r).cells;
       plan.rules.max_layer = max_layer;
       plan.rules.n_scale = 1;
       plan.rules.demand = static_cast<starfocus::Demand>(random.Int(0, 3));
@@ -244,7 +244,7 @@ TEST_CASE("partition: blocks read as many rows around a stripe as its reach says
     plan.rules.scale = {0, int64_t{1} << starfocus::kStepBits};
     std::fill(plan.disparity.begin(), plan.disparity.end(), int16_t(64 * r));
     plan.grid = test::MeasureCells(plan.disparity, 192, 192, plan.rules.scale, &plan.cells);
-    const starfocus::Reach reach = starfocus::GetReach(r);
+    const starfocus::Reach reach = test::BordersOf(r);
     plan.around = reach.cells;
     plan.rules.gathers = plan.rules.subapertures = false;
     int most[3] = {};
@@ -269,7 +269,7 @@ TEST_CASE("partition: nor do blocks of any map") {
   for (int round = 0; round < 60; ++round) {
     const double limit = random.Real(0.5, 30);
     Plan plan(150, 200, 64, limit, &random);
-    const starfocus::Reach reach = starfocus::GetReach(2 * limit);
+    const starfocus::Reach reach = test::BordersOf(2 * limit);
     for (const int y : {0, 64, 128, 192}) {
       int most[3] = {};
       AddRowsBeyond(plan, y, plan.Partition(64, y), &most);

@@ -151,6 +151,17 @@ TEST_CASE("includes: what touches a machine knows the engine by its C ABI only")
   }
 }
 
+TEST_CASE("includes: tests look inside the engine through one header") {
+  const std::string inside = "tests/support/inside.h";
+  int found = 0;
+  for (const Include& include : ReadIncludes("tests")) {
+    if (RoomOf(include.to) != "lib/engine") continue;
+    CHECK_MESSAGE(include.from == inside, include.from << " -> " << include.to);
+    ++found;
+  }
+  CHECK(found > 0);
+}
+
 TEST_CASE("includes: backward ones and circles are seen") {
   const std::vector<Include> backward = {{"lib/plan/timing.cc", "lib/filter/gather.h"}};
   CHECK(FindBackward(backward) ==

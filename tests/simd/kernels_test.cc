@@ -13,6 +13,7 @@
 
 #include "tests/simd/check_kernels.h"
 #include "tests/simd/kernel_cases.h"
+#include "tests/support/inside.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
@@ -161,7 +162,7 @@ std::vector<uint8_t> Refocused(const test::Scene& scene, const sf_params& params
   config.largest_block = 32;
   test::Engine engine(config);
   REQUIRE(engine.status() == SF_OK);
-  reinterpret_cast<starfocus::EngineState*>(engine.get())->kernels = &kernels;
+  test::UseKernels(&kernels, engine.get());
   test::Output out(scene.width, scene.height, 5);
   REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
   CHECK(out.PaddingUntouched());

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "lib/engine/engine.h"
-#include "lib/engine/layout.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/inside.h"
 #include "tests/support/refocused.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
@@ -140,9 +139,7 @@ TEST_CASE("stack: slices made section by section give the same picture") {
   }
   test::Engine engine(test::ConfigFor(scene, 20));
   REQUIRE(engine.status() == SF_OK);
-  size_t& pool = reinterpret_cast<starfocus::EngineState*>(engine.get())
-                     ->crew.workers[0]
-                     .compositor.pool_bytes;
+  size_t& pool = test::PoolBytes(engine.get());
   const auto reach = size_t(starfocus::SliceReach(16 * starfocus::kShiftOne, starfocus::kShiftOne));
   const size_t whole = starfocus::SliceBytes(64, 64, reach) + starfocus::TileBytes(64, reach);
   const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::TileBytes(8, reach);

@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "tests/support/inside.h"
 #include "tests/support/simd_targets.h"
 
 namespace starfocus::stress {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "lib/engine/layout.h"
+#include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
 namespace test {
@@ -60,7 +60,7 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
 inline std::vector<MemoryPart> MeasureParts(const sf_config& config) {
   Engine memory(config);
   if (memory.status() != SF_OK) return {};
-  auto* engine = reinterpret_cast<starfocus::EngineState*>(memory.get());
+  starfocus::EngineState* engine = &StateOf(memory.get());
   struct Walk {
     std::vector<MemoryPart> parts;
     const unsigned char* base;

@@ -12,9 +12,9 @@
 #include <cstring>
 #include <vector>
 
-#include "lib/engine/engine.h"
 #include "lib/plan/partition.h"
 #include "tests/plan/measured_cells.h"
+#include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
 namespace test {
@@ -57,7 +57,7 @@ struct Plan {
     const BlurScale scale = {int32_t(focus * kRadiusOne), int64_t{1} << starfocus::kStepBits};
     rules.scale = scale;
     grid = MeasureCells(disparity, width, height, scale, &cells);
-    around = starfocus::GetReach(2 * limit).cells;
+    around = BordersOf(2 * limit).cells;
     flags.assign(cells.size(), kPoison);
     gathered = {flags.data(), grid.columns, 0};
     for (int n = 0; n <= kMaxN; ++n) views[size_t(n)] = starfocus::CountViews(n);

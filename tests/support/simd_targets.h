@@ -6,11 +6,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "lib/engine/engine.h"
 #include "simd/depth_kernels.h"
 #include "simd/image_kernels.h"
 #include "simd/kernels.h"
-#include "starfocus/starfocus.h"
 
 namespace test {
 
@@ -32,11 +30,6 @@ inline std::vector<const starfocus::simd::DepthKernels*> DepthTargets() {
 }
 inline std::vector<const starfocus::simd::ImageKernels*> ImageTargets() {
   return ListTargets(starfocus::simd::ImageKernelsOfTarget);
-}
-
-// Makes an engine use other kernels than the machine's best. Undone by sf_init.
-inline void UseKernels(const starfocus::simd::Kernels* kernels, sf_engine* engine) {
-  reinterpret_cast<starfocus::EngineState*>(engine)->kernels = kernels;
 }
 
 }  // namespace test

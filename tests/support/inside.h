@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only header of the tests that includes lib/engine. Tests that look inside an engine call these
+// functions, so that a change of lib/engine needs a change of one test file.
+#ifndef STARFOCUS_TESTS_SUPPORT_INSIDE_H_
+#define STARFOCUS_TESTS_SUPPORT_INSIDE_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lib/engine/engine.h"
+#include "lib/engine/layout.h"
+#include "lib/engine/stripe.h"
+#include "tests/support/test_scene.h"
+
+namespace test {
+
+inline starfocus::EngineState& StateOf(sf_engine* engine) {
+  return *reinterpret_cast<starfocus::EngineState*>(engine);
+}
+
+// Makes an engine use other kernels than the machine's best. Undone by sf_init.
+inline void UseKernels(const starfocus::simd::Kernels* kernels, sf_engine* engine) {
+  StateOf(engine).kernels = kernels;
+}
+
+// The borders of a stripe whose blur radii are at most `max_blur` pixels.
+inline starfocus::Reach BordersOf(double max_blur) { return starfocus::GetReach(max_blur); }
+
+// Rows that a stream keeps on either side of a stripe, and those that any view is read in.
+inline int32_t StreamedRows(const sf_config& config) { return starfocus::StreamReach(config); }
+inline int32_t SideRows(const sf_config& config) {
+  return starfocus::SideReach(config, config.max_blur);
+}
+
+// The plan of the stripe that was refocused last.
+struct StripeBlocks {
+  std::vector<starfocus::Block> blocks;
+  starfocus::GatherMap gathered;
+};
+inline StripeBlocks PlanOf(sf_engine* engine) {
+  const starfocus::StripePlan& plan = StateOf(engine).stripe.plan;
+  return {{plan.blocks, plan.blocks + plan.used}, plan.gathered};
+}
+
+// A picture of poison with one block of the stripe that was refocused last, without deblocking.
+inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, sf_engine* engine) {
+  const starfocus::EngineState& state = StateOf(engine);
+  const size_t stride = 3 * static_cast<size_t>(state.config.width);
+  std::vector<uint8_t> out(stride * static_cast<size_t>(state.config.height), kPoison);
+  starfocus::RefocusBlock(starfocus::InputsOf(state), block, {out.data(), stride, 0, 0},
+                          &state.crew.workers[0]);
+  return out;
+}
+
+// Bytes of the first worker's pool of slices, which may be made less.
+inline size_t& PoolBytes(sf_engine* engine) {
+  return StateOf(engine).crew.workers[0].compositor.pool_bytes;
+}
+
+// Bytes of a workspace, or kTooLarge.
+inline size_t WorkspaceBytes(const sf_config& config) {
+  starfocus::EngineState* counted = nullptr;
+  return starfocus::LayOut(config, nullptr, &counted);
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_INSIDE_H_
