@@ -22,8 +22,6 @@ void Add(const Counts& counts, sf_report* report) {
   }
   report->skipped.copied_blocks += counts.skipped.copied_blocks;
   report->skipped.copied_pixels += counts.skipped.copied_pixels;
-  report->skipped.filled_blocks += counts.skipped.filled_blocks;
-  report->skipped.filled_pixels += counts.skipped.filled_pixels;
   report->centre_bytes += counts.centre_bytes;
   report->side_bytes += counts.side_bytes;
   report->gathered_pixels += counts.gathered_pixels;

@@ -3,10 +3,10 @@
 
 #include <cstring>
 
-#include "lib/engine/trivial_block.h"
 #include "lib/filter/add_excess.h"
 #include "lib/filter/gather.h"
 #include "lib/input/excess.h"
+#include "lib/line_scan/nothing_moves.h"
 
 namespace starfocus {
 namespace {
@@ -77,14 +77,6 @@ void CopyCentre(const Window& window, const Rect& rect, const Plane<uint8_t>& ou
     std::memcpy(At(out, rect, row),
                 window.centre.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x),
                 3 * static_cast<size_t>(rect.width));
-  }
-}
-
-void FillColour(const uint8_t* colour, const Rect& rect, const Plane<uint8_t>& out) {
-  uint8_t* first = At(out, rect, 0);
-  for (int32_t x = 0; x < rect.width; ++x) std::memcpy(first + 3 * x, colour, 3);
-  for (int32_t row = 1; row < rect.height; ++row) {
-    std::memcpy(At(out, rect, row), first, 3 * static_cast<size_t>(rect.width));
   }
 }
 
@@ -239,17 +231,9 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   if (in.config->skips == 0 || block.has_highlights || in_part) {
     return Render(in, block, job, out, worker);
   }
-  const Rect& rect = ViewsRect(block);
   // Slices have ends, which move a little even then.
   if (pinhole || (!UsesSubapertures(*in.lens) && NothingMoves(job))) {
-    return CopyBlock(in, rect, out, worker);
-  }
-  uint8_t colour[3];
-  if (IsOneColour(job, colour)) {
-    FillColour(colour, rect, out);
-    worker->counts.skipped.filled_blocks += 1;
-    worker->counts.skipped.filled_pixels += Samples(rect) / 3;
-    return {0, 0};
+    return CopyBlock(in, ViewsRect(block), out, worker);
   }
   return Render(in, block, job, out, worker);
 }

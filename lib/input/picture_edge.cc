@@ -37,13 +37,11 @@ struct Place {
   int32_t x, y;
 };
 
-// Calls take.Colours(edge, k, count, rgb) for the pixels k ... k + count - 1 beyond an edge that
-// the captured view shows, a few at a time, and then take.All(edge, last k).
-template <class Take>
+// Fills a field's pixels beyond the picture's edges.
 class Beyond {
  public:
-  Beyond(const Window& window, const Rect& rect, Take* take)
-      : window_(window), rect_(rect), take_(*take) {}
+  Beyond(const Window& window, Field* field)
+      : window_(window), field_(*field), rect_{field->x, field->y, field->width, field->height} {}
 
   void Look() {
     const int32_t width = rect_.width, height = rect_.height;
@@ -78,7 +76,7 @@ class Beyond {
     if (disparity < 0 && seen > 0) seen = Uncovered(edge, look, disparity, seen);
     if (seen == 0) return;
     Read(edge, look, moved, seen);
-    take_.All(edge, seen);
+    RepeatLast(edge, seen);
   }
 
   // How a surface moves along an axis between the centre view and one at that position, in pixels
@@ -120,59 +118,33 @@ class Beyond {
       const int32_t x = (rect_.x + edge.column + first * dx) * kShiftOne - moved.x;
       const int32_t y = (rect_.y + edge.row + first * dy) * kShiftOne - moved.y;
       ReadCaptured(window_, look.view, {x, y, dx, dy}, count, rgb);
-      take_.Colours(edge, first, count, rgb);
+      for (int32_t k = 0; k < count; ++k) std::memcpy(Rgb(edge, first + k), rgb + 3 * k, kBytes);
     }
   }
 
-  const Window& window_;
-  const Rect rect_;
-  Take& take_;
-};
-
-// Writes the colours beyond an edge into a field, and repeats the last one farther away.
-struct Filler {
-  static constexpr size_t kBytes = 3 * sizeof(int16_t);  // of a pixel
-  Field& field;
-
-  int16_t* Rgb(const Edge& edge, int32_t k) const {
-    return field.Rgb(edge.column + k * edge.out()[0], edge.row + k * edge.out()[1]);
-  }
-  void Colours(const Edge& edge, int32_t k, int32_t count, const int16_t* rgb) {
-    for (const int32_t end = k + count; k < end; ++k, rgb += 3) {
-      std::memcpy(Rgb(edge, k), rgb, kBytes);
-    }
-  }
-  void All(const Edge& edge, int32_t last) {
+  // Repeats the colour of pixel `last` beyond the edge in those farther away.
+  void RepeatLast(const Edge& edge, int32_t last) {
     for (int32_t k = last + 1; k <= edge.beyond; ++k) {
       std::memcpy(Rgb(edge, k), Rgb(edge, last), kBytes);
     }
   }
-};
 
-// Tells whether the colours beyond all edges are one colour.
-struct Matcher {
-  const int16_t* light;
-  bool all = true;
-
-  void Colours(const Edge&, int32_t, int32_t count, const int16_t* rgb) {
-    for (int32_t k = 0; k < 3 * count; ++k) all = all && rgb[k] == light[k % 3];
+  // Pixel k beyond an edge.
+  int16_t* Rgb(const Edge& edge, int32_t k) const {
+    return field_.Rgb(edge.column + k * edge.out()[0], edge.row + k * edge.out()[1]);
   }
-  void All(const Edge&, int32_t) {}
+
+  static constexpr size_t kBytes = 3 * sizeof(int16_t);  // of a pixel
+
+  const Window& window_;
+  const Field& field_;
+  const Rect rect_;
 };
 
 }  // namespace
 
 void LookBeyond(const Window& window, Field* field) {
-  if (window.views == 1) return;
-  Filler filler = {*field};
-  Beyond(window, {field->x, field->y, field->width, field->height}, &filler).Look();
-}
-
-bool ShowsBeyond(const Window& window, const Rect& rect, const int16_t* light) {
-  if (window.views == 1) return true;
-  Matcher matcher = {light};
-  Beyond(window, rect, &matcher).Look();
-  return matcher.all;
+  if (window.views > 1) Beyond(window, field).Look();
 }
 
 }  // namespace starfocus

@@ -19,9 +19,6 @@ inline constexpr int32_t kLookBack = 32;
 // repeats the last of them. Without side views, and beyond corners, nothing changes.
 void LookBeyond(const Window& window, Field* field);
 
-// Whether all that it would take from captured views for `rect` of the layer has this light.
-bool ShowsBeyond(const Window& window, const Rect& rect, const int16_t* light);
-
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_

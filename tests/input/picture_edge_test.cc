@@ -240,16 +240,4 @@ TEST_CASE("beyond: near surfaces look out on the side that others leave free") {
   for (int k = 1; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 102);
 }
 
-TEST_CASE("beyond: whether all that is seen has one colour") {
-  Row scene(5);
-  scene.Fill(0, kWidth, -3);
-  const int16_t colour[3] = {12928, 12928, 12928}, other[3] = {12800, 12800, 12800};
-  const starfocus::Rect left = {-4, 0, 8, kHeight}, inside = {4, 0, 8, kHeight};
-  CHECK(starfocus::ShowsBeyond(scene.window, left, colour));
-  CHECK(!starfocus::ShowsBeyond(scene.window, left, other));
-  CHECK(starfocus::ShowsBeyond(scene.window, inside, other));
-  scene.Fill(0, kWidth, 0);
-  CHECK(starfocus::ShowsBeyond(scene.window, left, other));
-}
-
 }  // namespace

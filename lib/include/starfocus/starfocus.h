@@ -327,7 +327,7 @@ typedef struct sf_layer_report {
   uint64_t blocks; /**< number of blocks */
   uint64_t pixels; /**< picture pixels they cover */
   uint64_t views;  /**< rendered views, summed over the blocks: 1 of a block copied or gathered
-                        whole, 0 of one filled */
+                        whole */
   uint64_t rendered_samples; /**< R, G, B samples of those views inside their blocks; of
                                   SF_RULE_SUBAPERTURE in every slice that part of a block sees */
   uint64_t predicted_ps;     /**< by the timing model, picoseconds */
@@ -338,8 +338,8 @@ typedef struct sf_layer_report {
 typedef struct sf_skipped {
   uint64_t copied_blocks; /**< no rendered view moves a pixel: copied from the centre view */
   uint64_t copied_pixels; /**< picture pixels they cover */
-  uint64_t filled_blocks; /**< one colour within reach, and no depth edge that side views fill */
-  uint64_t filled_pixels; /**< picture pixels they cover */
+  uint64_t filled_blocks; /**< always 0: blocks of one colour are rendered like others */
+  uint64_t filled_pixels; /**< always 0 */
   uint64_t layer_columns; /**< layers, columns of largest blocks and stripes that no block reads */
   uint64_t boundaries;    /**< of 16 pixels, in stripes of one layer: nothing to deblock */
 } sf_skipped;
