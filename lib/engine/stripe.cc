@@ -60,16 +60,9 @@ void DeblockColumnBoundaries(const JoinJob& job, int32_t index, Worker*) {
 sf_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, const Runner& runner,
                   EngineState* engine) {
   const sf_config& config = engine->config;
-  const LayerMap& map = engine->stripe.map;
-  if (config.skips != 0 && map.IsUniform(stripe.y > 0)) {
-    const int32_t inside = map.rows * (map.columns - 1) + (map.rows - 1) * map.columns;
-    engine->report.skipped.boundaries +=
-        static_cast<uint64_t>(inside + (stripe.y > 0 ? map.columns : 0));
-    return SF_OK;
-  }
   const Transfer* transfer = engine->pictures.windows[0].transfer;
-  const JoinJob job = {{&map, out, config.width, config.height, stripe.y, config.deblocking,
-                        transfer, engine->kernels},
+  const JoinJob job = {{&engine->stripe.map, out, config.width, config.height, stripe.y,
+                        config.deblocking, transfer, engine->kernels},
                        config.largest_block / kSmallestBlock,
                        {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)}};
   const sf_status status =

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/filter/deblock.h"
 
-#include <cstring>
-
 #include "lib/plan/partition.h"
 
 namespace starfocus {
@@ -55,12 +53,6 @@ void FilterBoundary(const DeblockJob& job, uint8_t* at, int32_t count, ptrdiff_t
 }
 
 }  // namespace
-
-bool LayerMap::IsUniform(bool above) const {
-  const uint8_t* first = &At(0, above ? -1 : 0);
-  const size_t count = static_cast<size_t>(columns) * static_cast<size_t>(rows + (above ? 1 : 0));
-  return std::memcmp(first, first + 1, count - 1) == 0;
-}
 
 void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end) {
   const LayerMap& map = *job.map;

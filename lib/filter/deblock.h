@@ -28,9 +28,6 @@ struct LayerMap {
   int32_t columns = 0;  // units per row
   int32_t rows = 0;     // of this stripe
 
-  // Whether no layer changes within this stripe, nor (above) from the one before it.
-  bool IsUniform(bool above) const;
-
   // row -1: the stripe before.
   uint8_t& At(int32_t column, int32_t row) const {
     return units[static_cast<size_t>(row + 1) * static_cast<size_t>(columns) +

@@ -341,7 +341,7 @@ typedef struct sf_skipped {
   uint64_t filled_blocks; /**< always 0: blocks of one colour are rendered like others */
   uint64_t filled_pixels; /**< always 0 */
   uint64_t layer_columns; /**< layers, columns of largest blocks and stripes that no block reads */
-  uint64_t boundaries;    /**< of 16 pixels, in stripes of one layer: nothing to deblock */
+  uint64_t boundaries;    /**< always 0: stripes of one layer are deblocked like others */
 } sf_skipped;
 
 /** What a refocusing did. */
