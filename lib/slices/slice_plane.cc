@@ -195,7 +195,6 @@ void PlaceTile(const SlicePlane& placed, int32_t x, const RowRange& seen, Shifte
   while (first < end && empty(first)) ++first;
   while (end > first && empty(end - 1)) --end;
   shifted->filled = {first, end};
-  shifted->moved = {0, 0};
   shifted->plane = (static_cast<size_t>(placed.rows) + simd::kRowsAhead) * simd::kSliceLanes;
   const auto clear = [&](int32_t from, int32_t to) {
     const size_t at = static_cast<size_t>(from), rows = static_cast<size_t>(to - from);
@@ -211,18 +210,17 @@ void PlaceTile(const SlicePlane& placed, int32_t x, const RowRange& seen, Shifte
 }
 
 void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed, const SliceOffset& offset,
-                int32_t x, const RowRange& rows, ShiftedSlice* shifted) {
-  shifted->moved = rows;
-  const int32_t first = Max(rows.first, shifted->filled.first);
-  const int32_t end = Min(rows.last, shifted->filled.last);
+                int32_t x, const RowRange& rows, const ShiftedSlice& shifted) {
+  const int32_t first = Max(rows.first, shifted.filled.first);
+  const int32_t end = Min(rows.last, shifted.filled.last);
   if (first >= end) return;
   const auto row = static_cast<size_t>(first), count = static_cast<size_t>(end - first);
-  int8_t* near = shifted->near + row;
+  int8_t* near = shifted.near + row;
   // The marks are those of the column of views before.
   std::memset(near - simd::kRowsAhead, simd::kNothingNear, count + simd::kRowsAhead);
   const int16_t* from = placed.samples + row * 4 * placed.plane;
   kernels.ShiftSlice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction, count,
-                     shifted->plane, shifted->samples + row * simd::kSliceLanes, near);
+                     shifted.plane, shifted.samples + row * simd::kSliceLanes, near);
 }
 
 }  // namespace starfocus

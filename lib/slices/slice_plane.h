@@ -114,7 +114,6 @@ struct ShiftedSlice {
   int8_t* near = nullptr;
   size_t plane = 0;
   RowRange filled = {0, 0};  // rows outside of these are empty in all views
-  RowRange moved = {0, 0};   // those that are in the tile now
 };
 
 // Chunks of a row (bits of SliceCover) that some view shows in the tile at column `x`.
@@ -131,7 +130,7 @@ void PlaceTile(const SlicePlane& placed, int32_t x, const RowRange& seen, Shifte
 // Writes those of `rows` that are filled, moved by `offset`.
 void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed,
                 const simd::SliceOffset& offset, int32_t x, const RowRange& rows,
-                ShiftedSlice* shifted);
+                const ShiftedSlice& shifted);
 
 }  // namespace starfocus
 

@@ -84,24 +84,14 @@ class Tile {
     }
   }
 
-  // Tells whether two offsets of one slice are alike: the slice's subaperture makes the rest of the
-  // fraction.
-  static bool Same(const simd::SliceOffset& a, const simd::SliceOffset& b) {
-    return a.whole == b.whole && a.fraction.edge == b.fraction.edge;
-  }
-
-  // Moves of slice k what views (i, -last) to (i, last) show; nothing if it is there from the
-  // column of views before.
+  // Moves the rows of slice k that views (i, -last) to (i, last) show into the tile.
   void MoveSlice(int32_t k, int32_t i, int32_t last) {
     const SlicePlane& placed = job_.planes[k];
     const RowRange& seen = rows_[k];
     const int32_t a = stack_.Offset(k, -last).whole, b = stack_.Offset(k, last).whole;
     const RowRange rows = {seen.first + placed.reach + Min(a, b),
                            Min(seen.last + placed.reach + Max(a, b) + kRowsAhead, placed.rows)};
-    const RowRange& moved = shifted_[k].moved;
-    const bool within = moved.first <= rows.first && rows.last <= moved.last;
-    if (within && Same(stack_.Offset(k, i), stack_.Offset(k, i - 1))) return;
-    ShiftSlice(*job_.kernels, placed, stack_.Offset(k, i), parts_.x, rows, &shifted_[k]);
+    ShiftSlice(*job_.kernels, placed, stack_.Offset(k, i), parts_.x, rows, shifted_[k]);
   }
 
   // Adds views (i, first) to (i, last).
