@@ -47,7 +47,6 @@
   KERNEL(FindSteps)               \
   KERNEL(BesideSteps)             \
   KERNEL(LookBehind)              \
-  KERNEL(Interpolate)             \
   KERNEL(TakeFarthest)            \
   KERNEL(SmoothFar)               \
   KERNEL(PutFarthest)             \

@@ -360,26 +360,6 @@ inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   return chunks;
 }
 
-inline void Interpolate(const int16_t* HWY_RESTRICT here, const int16_t* HWY_RESTRICT next,
-                        const uint8_t* HWY_RESTRICT weight, size_t plane,
-                        int16_t* HWY_RESTRICT out) {
-  const ChunkTag d16;
-  const hn::Rebind<uint8_t, ChunkTag> d8;
-  for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
-    ChunkVec r, g, b, next_r, next_g, next_b;
-    hn::LoadInterleaved3(d16, here + 3 * n, r, g, b);
-    hn::LoadInterleaved3(d16, next + 3 * n, next_r, next_g, next_b);
-    const auto share = hn::ShiftLeft<7>(hn::PromoteTo(d16, hn::LoadU(d8, weight + n)));
-    const auto store = [&](ChunkVec from, ChunkVec to, size_t c) HWY_ATTR {
-      const auto more = hn::MulFixedPoint15(hn::Sub(to, from), share);
-      hn::StoreU(hn::Add(from, more), d16, out + c * plane + n);
-    };
-    store(r, next_r, 0);
-    store(g, next_g, 1);
-    store(b, next_b, 2);
-  }
-}
-
 // Lanes beyond `count` are masked before anything depends on them, as what lies there may never
 // have been written.
 inline void FindSteps(const int16_t* HWY_RESTRICT row, size_t count, int16_t step,

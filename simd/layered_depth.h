@@ -133,11 +133,6 @@ void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t ste
 // unspecified.
 uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden);
 
-// Mixes each of kSliceLanes pixels from two: out[c * plane + n] = here[3 n + c] +
-// (next[3 n + c] - here[3 n + c]) weight[n] / 256, the quotient rounded halves up.
-void Interpolate(const int16_t* here, const int16_t* next, const uint8_t* weight, size_t plane,
-                 int16_t* out);
-
 }  // namespace reference
 }  // namespace starfocus::simd
 

@@ -150,12 +150,4 @@ uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   return chunks;
 }
 
-void Interpolate(const int16_t* here, const int16_t* next, const uint8_t* weight, size_t plane,
-                 int16_t* out) {
-  for (size_t n = 0; n < 3 * kSliceLanes; ++n) {
-    const int32_t more = Product15(next[n] - here[n], weight[n / 3] << 7);
-    out[n % 3 * plane + n / 3] = static_cast<int16_t>(here[n] + more);
-  }
-}
-
 }  // namespace starfocus::simd::reference

@@ -230,15 +230,6 @@ void ReadPatches(const Window& window, int index, CapturedLine line, int32_t cou
   }
 }
 
-// Copies pixels of a row that may lie beyond the picture's edges.
-void CopyPixels(const Endless& pixels, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
-  const uint8_t* row = pixels.Row(y);
-  for (int32_t p = 0; p < count; ++p) {
-    const uint8_t* from = row + pixels.Column(x + p);
-    for (int k = 0; k < 3; ++k) rgb[3 * p + k] = pixels.light[from[k]];
-  }
-}
-
 bool IsBright(const uint8_t* codes, int32_t pixels) {
   uint8_t brightest = 0;
   for (int32_t k = 0; k < 3 * pixels; ++k) brightest = codes[k] > brightest ? codes[k] : brightest;
@@ -325,33 +316,6 @@ void PrefetchCaptured(const Window& window, int index, const CapturedLine& line)
   const int32_t ahead = from.y + (kRowsAhead << window.layer);
   Prefetch(pixels.Row(ahead) + pixels.Column(from.x));
   Prefetch(pixels.Row(ahead + 1) + pixels.Column(from.x));
-}
-
-void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
-                  int16_t* rgb) {
-  if (window.lamp > 0) {
-    for (int32_t p = 0; p < count; ++p) ReadExcessBeyond(window, index, x + p, y, rgb + 3 * p);
-    return;
-  }
-  if (window.reader != nullptr) {
-    for (int32_t p = 0; p < count; p += Patch::kMost) {
-      const int32_t some = Min(Patch::kMost, count - p);
-      const Patch patch(window, index, {x + p, y, some, 1});
-      CopyPixels(patch.Pixels(), x + p - patch.x(), 0, some, rgb + 3 * p);
-    }
-    return;
-  }
-  const Endless pixels = EndlessView(window, index);
-  const int16_t* light = pixels.light;
-  const uint8_t* row = pixels.Row(y);
-  if (x >= 0 && x + count <= window.picture_width) {
-    const uint8_t* ahead = pixels.Row(y + kRowsAhead);
-    Prefetch(ahead + 3 * x);
-    Prefetch(ahead + 3 * (x + count - 1));
-    for (int32_t k = 0; k < 3 * count; ++k) rgb[k] = light[row[3 * x + k]];
-    return;
-  }
-  CopyPixels(pixels, x, y, count, rgb);
 }
 
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {

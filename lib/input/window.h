@@ -62,11 +62,6 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
 // row, the processor does not foresee. Only time depends on it.
 void PrefetchCaptured(const Window& window, int index, const CapturedLine& line);
 
-// Copies the light of `count` pixels of a captured view, from (x, y) of the picture on along its
-// row; outside the picture the nearest ones.
-void CopyCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t count,
-                  int16_t* rgb);
-
 // One such colour at L = 0 before it is rounded, with 2 * kShiftBits more.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
 

@@ -24,11 +24,10 @@ struct HiddenChunk {
   const uint16_t* source;
 };
 
-// The colours of hidden pixels, each between two pixels, as `interpolate` takes them.
+// The colours of hidden pixels of a chunk.
 class HiddenColours {
  public:
-  int16_t here[3 * kChunk] = {}, next[3 * kChunk] = {};
-  uint8_t weight[kChunk] = {};
+  int16_t rgb[3 * kChunk + simd::kPadding / sizeof(int16_t)] = {};
 
   HiddenColours(const Window& window, const Field& field) : window_(window), field_(field) {}
 
@@ -45,61 +44,20 @@ class HiddenColours {
   bool Repeats() const { return repeats_; }
 
  private:
-  // Reads pixel k and those after it that are read with it. Returns the first that is not.
+  // Reads pixel k, and those after it that have the same disparity and source. Returns the first
+  // that is not read.
   int32_t ReadFrom(const HiddenChunk& chunk, int32_t k) {
     const uint32_t source = chunk.source[k], sides = source & 15;
     if ((sides & (sides - 1)) != 0) {
       ReadMean(chunk, k);
       return k + 1;
     }
-    const int32_t side = LowestBit(sides);
-    const ViewPosition& at = LookOf(side, source).at;
-    const bool pairs = source >> simd::kSourceDistance == 0 && window_.layer == 0;
-    return pairs && (at.u == 0 || at.v == 0) ? ReadPairs(chunk, k, side)
-                                             : ReadStretch(chunk, k, side);
-  }
-
-  // Reads, at layer 0, pixels as long as they also follow each other in the captured view, which
-  // lies on an axis. Returns the first that does not.
-  int32_t ReadPairs(const HiddenChunk& chunk, int32_t first, int32_t side) {
-    const uint32_t source = chunk.source[first];
-    const LookView& look = LookOf(side, source);
-    const int32_t across = look.at.u != 0 ? 1 : 0, down = 1 - across;
-    const int32_t position = look.at.u + look.at.v;
-    int32_t end = first, place = -Moved(position, chunk.disparity[first]);
-    const int32_t moved = place >> kShiftBits;
-    do {
-      weight[end++] = static_cast<uint8_t>(place & (kShiftOne - 1));
-      if (end == kChunk || chunk.source[end] != source) break;
-      place = -Moved(position, chunk.disparity[end]);
-    } while (place >> kShiftBits == moved);
-    CountReads(end - first);
-    const int view = look.view;
-    const int32_t x = field_.x + chunk.x + first + across * moved;
-    const int32_t y = field_.y + chunk.y + down * moved;
-    const int32_t count = end - first;
-    if (across != 0) {  // all but the outermost pixels are both one's own and the next of another
-      int16_t line[3 * (kChunk + 1)];
-      const size_t bytes = 3 * static_cast<size_t>(count) * sizeof(*line);
-      CopyCaptured(window_, view, x, y, count + 1, line);
-      std::memcpy(here + 3 * first, line, bytes);
-      std::memcpy(next + 3 * first, line + 3, bytes);
-    } else {
-      CopyCaptured(window_, view, x, y, count, here + 3 * first);
-      CopyCaptured(window_, view, x, y + 1, count, next + 3 * first);
+    int32_t end = k + 1;
+    while (end < kChunk && chunk.source[end] == source &&
+           chunk.disparity[end] == chunk.disparity[k]) {
+      ++end;
     }
-    return end;
-  }
-
-  // Reads pixels as long as they have the same disparity and source. Returns the first that has
-  // not.
-  int32_t ReadStretch(const HiddenChunk& chunk, int32_t first, int32_t side) {
-    int32_t end = first;
-    do {
-      weight[end++] = 0;
-    } while (end < kChunk && chunk.source[end] == chunk.source[first] &&
-             chunk.disparity[end] == chunk.disparity[first]);
-    ReadSide(chunk, first, end - first, side, here + 3 * first);
+    ReadSide(chunk, k, end - k, LowestBit(sides), rgb + 3 * k);
     return end;
   }
 
@@ -113,20 +71,19 @@ class HiddenColours {
       ++count;
     });
     for (int c = 0; c < 3; ++c) {
-      here[3 * k + c] = static_cast<int16_t>((sums[c] + count / 2) / count);
+      rgb[3 * k + c] = static_cast<int16_t>((sums[c] + count / 2) / count);
     }
-    weight[k] = 0;
   }
 
   // Reads the colours of `count` pixels from k on, which have one disparity and source.
-  void ReadSide(const HiddenChunk& chunk, int32_t k, int32_t count, int32_t side, int16_t* rgb) {
+  void ReadSide(const HiddenChunk& chunk, int32_t k, int32_t count, int32_t side, int16_t* to) {
     const int dx = kSides[side][0], dy = kSides[side][1];
     const uint32_t source = chunk.source[k];
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
     if (distance != 0) {
       repeats_ = true;
-      std::memcpy(rgb, field_.Rgb(chunk.x + k + dx * distance, chunk.y + dy * distance),
-                  3 * static_cast<size_t>(count) * sizeof(*rgb));
+      std::memcpy(to, field_.Rgb(chunk.x + k + dx * distance, chunk.y + dy * distance),
+                  3 * static_cast<size_t>(count) * sizeof(*to));
       return;
     }
     CountReads(count);
@@ -136,7 +93,7 @@ class HiddenColours {
                                (field_.y + chunk.y) * kShiftOne - Moved(look.at.v, disparity), 1,
                                0};
     PrefetchCaptured(window_, look.view, line);
-    ReadCaptured(window_, look.view, line, count, rgb);
+    ReadCaptured(window_, look.view, line, count, to);
   }
 
   // How far a disparity moves along an axis between the centre view and one at that position, in
@@ -306,8 +263,7 @@ class SurfaceFinder {
     const size_t at = surfaces_.At(x, y);
     colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + at},
                   found);
-    kernels_.Interpolate(colours_.here, colours_.next, colours_.weight, surfaces_.plane,
-                         surfaces_.rgb[behind] + at);
+    kernels_.Split(colours_.rgb, kChunk, surfaces_.plane, surfaces_.rgb[behind] + at);
   }
 
   const simd::Kernels& kernels_;

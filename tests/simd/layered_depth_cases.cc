@@ -314,21 +314,4 @@ void LookBehind(Draw* draw, KernelCall* call) {
   };
 }
 
-void Interpolate(Draw* draw, KernelCall* call) {
-  const size_t groups = draw->Size(1, 3, kTimedSamples / 3 / kSliceLanes);
-  const size_t plane = groups * kSliceLanes + draw->Size(0, 9, 0);
-  const size_t samples = 3 * groups * kSliceLanes;
-  const int16_t* here = call->Input("here", Light(samples, draw));
-  const int16_t* next = call->Input("next", Light(samples, draw));
-  const uint8_t* weight = call->Input("weight", Bytes(groups * kSliceLanes, draw));
-  auto* out = call->Output<int16_t>("out", 3 * plane);
-  for (size_t c = 0; c < 3; ++c) call->Result(out + c * plane, groups * kSliceLanes);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    for (size_t n = 0; n < groups * kSliceLanes; n += kSliceLanes) {
-      kernels.Interpolate(here + 3 * n, next + 3 * n, weight + n, plane, out + n);
-    }
-    return 0;
-  };
-}
-
 }  // namespace test::kernel_cases
