@@ -196,78 +196,33 @@ void FindStack(const RenderJob& job, const SliceRule& rule, const SliceLimits& l
   stack->offsets = scratch->offsets;
 }
 
-// The reaches of a stack's slices, of which follows what a section of them takes.
-class StackSize {
- public:
-  explicit StackSize(const SliceStack& stack)
-      : count_(stack.count), views_(2 * stack.grid->n() + 1) {
-    for (int32_t k = 0; k < count_; ++k) {
-      SlicePlane placed;
-      PlaceSlice(*stack.grid, stack.slices[k].disparity, {0, 0, 0, 0}, &placed);
-      reach_[k] = static_cast<size_t>(placed.reach);
-    }
-  }
-
-  // Bytes of the pool.
-  size_t Bytes(size_t width, size_t height) const {
-    size_t slices = 0, tiles = 0, filtered = 0;
-    for (int32_t k = 0; k < count_; ++k) {
-      slices += SliceBytes(width, height, reach_[k]);
-      tiles += TileBytes(height, reach_[k]);
-      const size_t plane = FilteredBytes(width, height, reach_[k]);
-      if (plane > filtered) filtered = plane;
-    }
-    return slices + (filtered > tiles ? filtered : tiles);
-  }
-
-  // About the work of making the slices of a rectangle in so many sections across and down, in
-  // pixels that are copied into slices: a row costs as much as 48 of them besides, and to move
-  // eight into a tile for a column of views as much as one.
-  uint64_t Work(const Rect& rect, int32_t across, int32_t down) const {
-    const auto width = static_cast<size_t>(rect.width), height = static_cast<size_t>(rect.height);
-    uint64_t pixels = 0;
-    for (int32_t k = 0; k < count_; ++k) {
-      const size_t columns =
-          width + static_cast<size_t>(across) * (2 * reach_[k] + 2 * simd::kSliceLanes + 48);
-      pixels += (height + static_cast<size_t>(down) * ShiftedRows(0, reach_[k])) *
-                (columns + static_cast<size_t>(views_) * width / 8);
-    }
-    return pixels;
-  }
-
- private:
-  int32_t count_, views_;
-  size_t reach_[kMaxSlices];
-};
-
 int32_t RoundUp(int32_t size, int32_t least) { return (size + least - 1) / least * least; }
 
-// Returns the size of sections of which all slices fit into the pool: of the one that is least work
-// for the whole cut.
+// Bytes that sections of that size take of the pool.
+size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
+  const auto width = static_cast<size_t>(columns), height = static_cast<size_t>(rows);
+  size_t slices = 0, tiles = 0, filtered = 0;
+  for (int32_t k = 0; k < stack.count; ++k) {
+    SlicePlane placed;
+    PlaceSlice(*stack.grid, stack.slices[k].disparity, {0, 0, 0, 0}, &placed);
+    const auto reach = static_cast<size_t>(placed.reach);
+    slices += SliceBytes(width, height, reach);
+    tiles += TileBytes(height, reach);
+    const size_t plane = FilteredBytes(width, height, reach);
+    if (plane > filtered) filtered = plane;
+  }
+  return slices + (filtered > tiles ? filtered : tiles);
+}
+
+// Returns the size of sections of which all slices fit into the pool: as wide as possible, and then
+// as high as possible.
 Rect ChooseSection(const SliceStack& stack, const Rect& cut, size_t pool_bytes) {
-  const StackSize size(stack);
-  if (size.Bytes(static_cast<size_t>(cut.width), static_cast<size_t>(cut.height)) <= pool_bytes) {
-    return {0, 0, cut.width, cut.height};
+  int32_t width = RoundUp(cut.width, kLeastColumns), height = RoundUp(cut.height, kLeastRows);
+  while (width > kLeastColumns && PoolBytes(stack, width, kLeastRows) > pool_bytes) {
+    width -= kLeastColumns;
   }
-  Rect section = {0, 0, kLeastColumns, kLeastRows};
-  uint64_t least_work = UINT64_MAX;
-  // The wider a section is, the lower it has to be.
-  int32_t width = kLeastColumns, height = RoundUp(cut.height, kLeastRows);
-  while (width < cut.width + kLeastColumns && height > 0) {
-    if (size.Bytes(static_cast<size_t>(width), static_cast<size_t>(height)) > pool_bytes) {
-      height -= kLeastRows;
-      continue;
-    }
-    const uint64_t work =
-        size.Work(cut, (cut.width + width - 1) / width, (cut.height + height - 1) / height);
-    if (work < least_work) {
-      least_work = work;
-      section.width = width;
-      section.height = height;
-    }
-    width += kLeastColumns;
-  }
-  return section;
+  while (height > kLeastRows && PoolBytes(stack, width, height) > pool_bytes) height -= kLeastRows;
+  return {0, 0, width, height};
 }
 
 // Composites a cut by its slices. Returns the pixels that are rendered in each view, over all
