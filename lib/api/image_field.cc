@@ -6,9 +6,23 @@
 namespace starfocus {
 namespace {
 
-void ReadView(const void* views, int index, int32_t x, int32_t y, int32_t count, uint8_t* rgb) {
-  const auto& field = *static_cast<const ImageField*>(views);
-  ReadCodes(*field.kernels, field.views[index], x, y, count, rgb);
+const uint8_t* CodesOf(const void* self, int view, int32_t x, int32_t y, int32_t count,
+                       uint8_t* room) {
+  const auto& field = *static_cast<const ImageField*>(self);
+  if (view == 0) return ReaderOf(field.centre).Codes(view, x, y, count, room);
+  ReadCodes(*field.kernels, field.views[view], x, y, count, room);
+  return room;
+}
+
+void LightOf(const void* self, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
+  constexpr int32_t kPiece = 256;
+  const PlaneViews& centre = static_cast<const ImageField*>(self)->centre;
+  uint8_t room[3 * kPiece];
+  for (int32_t p = 0; p < count; p += kPiece) {
+    const int32_t some = Min(kPiece, count - p);
+    centre.kernels->Decode(CodesOf(self, view, x + p, y, some, room), 3 * static_cast<size_t>(some),
+                           centre.transfer->encoding, rgb + 3 * p);
+  }
 }
 
 // Converts rows: job `index` of `jobs` has as many as the others, but for one.
@@ -58,16 +72,15 @@ void MakeImageField(const sf_image_field& images, EngineState* engine, ImageFiel
     FillColumns(engine->config.width, memory.map_width, memory.columns);
   }
   field->depth = MakeDepthSource(engine->config, images.depth, memory.columns);
-  field->reader = {ReadView, field};
+  const Plane<uint8_t>& ring = engine->rings[0];
+  field->centre.kernels = engine->kernels;
+  field->centre.transfer = &TransferOf(engine->config.transfer);
+  field->centre.view[0] = {ring.data, ring.stride, ring.rows, 0};
   field->fills = false;
 }
 
 void UseImageField(const ImageField& field, EngineState* engine) {
-  Plane<const uint8_t> views[kMaxViews];
-  const Plane<uint8_t>& centre = engine->rings[0];
-  views[0] = {centre.data, centre.stride, centre.rows, 0};
-  SetViews(engine->config, views, &engine->pictures);
-  for (Window& window : engine->pictures.windows) window.reader = &field.reader;
+  SetViews(engine->config, {LightOf, CodesOf, &field}, field.centre.view[0], &engine->pictures);
 }
 
 sf_status StatusOfDepth(uint32_t flags, const sf_config& config) {

@@ -7,7 +7,7 @@
 #include "lib/convert/depth_rows.h"
 #include "lib/convert/image_rows.h"
 #include "lib/engine/engine.h"
-#include "lib/input/code_reader.h"
+#include "lib/input/view_reader.h"
 #include "starfocus/image.h"
 
 namespace starfocus {
@@ -15,9 +15,9 @@ namespace starfocus {
 struct ImageField {
   const simd::ImageKernels* kernels;
   ImageSource views[kMaxViews];
+  PlaneViews centre;  // view 0 alone: the engine's ring of its rows
   DepthSource depth;
-  CodeReader reader;  // of this object, which may not be moved
-  bool fills;         // some of the depths may be unknown
+  bool fills;  // some of the depths may be unknown
 };
 
 // Returns the bytes of a row of the map.
@@ -26,7 +26,7 @@ uint64_t MapRowBytes(const sf_depth_map& map);
 // Makes *field of a field that has been checked; the map's columns go into the engine's memory.
 void MakeImageField(const sf_image_field& images, EngineState* engine, ImageField* field);
 
-// Points the engine's windows at its ring of the centre view and at the field's reader.
+// Points the engine's windows at its ring of the centre view and at the field, which must stay.
 void UseImageField(const ImageField& field, EngineState* engine);
 
 // Returns the status of a depth map of which these DepthFlags are known.

@@ -19,7 +19,7 @@ void SetPictures(const sf_light_field& light_field, EngineState* engine) {
   for (int view = 0; view < engine->config.views; ++view) {
     views[view] = {light_field.views[view].data, light_field.views[view].stride, 0, 0};
   }
-  SetViews(engine->config, views, &engine->pictures);
+  SetPlanes(engine->config, *engine->kernels, views, &engine->pictures);
 }
 
 }  // namespace starfocus

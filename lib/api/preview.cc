@@ -38,7 +38,7 @@ void UseReduced(const ReducedField& field, EngineState* engine) {
   for (int view = 0; view < engine->config.views; ++view) {
     views[view] = {field.views[view].data, field.views[view].stride, 0, 0};
   }
-  SetViews(engine->config, views, &engine->pictures);
+  SetPlanes(engine->config, *engine->kernels, views, &engine->pictures);
   for (Window& window : engine->pictures.windows) {
     window.disparity = {field.disparity.data, field.disparity.stride, 0, 0};
   }

@@ -20,15 +20,6 @@ struct Part {
   int32_t x, width;
 };
 
-// Codes of the part of a row of a view; in `room` if it has to be converted.
-const uint8_t* CodesOf(const Window& window, int view, const Part& part, int32_t y, uint8_t* room) {
-  const size_t begin = 3 * static_cast<size_t>(part.x);
-  if (view == 0) return window.centre.Row(y) + begin;
-  if (window.reader == nullptr) return window.view[view].Row(y) + begin;
-  window.reader->Read(view, part.x, y, part.width, room);
-  return room;
-}
-
 void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sums) {
   if (is_first) {
     for (size_t n = 0; n < samples; ++n) sums[n] = static_cast<uint32_t>(light[n]);
@@ -45,10 +36,9 @@ bool ReduceView(const ReduceJob& job, int view, const Part& part, Worker* worker
   const size_t samples = 3 * static_cast<size_t>(part.width);
   int16_t* const light = worker->picture_samples;
   int16_t* const mean = light + 6 * engine.config.largest_block;
-  auto* const room = reinterpret_cast<uint8_t*>(worker->layer_samples);
   for (int32_t y = job.rows.first; y < job.rows.last; ++y) {
     if (!worker->patience.Spend(static_cast<int64_t>(samples) * (1 + job.previews))) return false;
-    engine.kernels->Decode(CodesOf(window, view, part, y, room), samples, encoding, light);
+    window.reader.Light(view, part.x, y, part.width, light);
     for (int shift = 1; shift <= job.previews; ++shift) {
       uint32_t* const sums = worker->sums + 3 * shift * engine.config.largest_block;
       const int32_t row = y & ((1 << shift) - 1);

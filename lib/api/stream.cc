@@ -88,7 +88,7 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   for (int view = 0; view < e.config.views; ++view) {
     views[view] = {e.rings[view].data, e.rings[view].stride, e.rings[view].rows, 0};
   }
-  starfocus::SetViews(e.config, views, &e.pictures);
+  starfocus::SetPlanes(e.config, *e.kernels, views, &e.pictures);
   e.stream.active = true;
   return SF_OK;
 }

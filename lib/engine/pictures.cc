@@ -33,7 +33,8 @@ bool ConvertKnown(const sf_config& config, const simd::Kernels& kernels, const f
 
 }  // namespace
 
-void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictures* pictures) {
+void SetViews(const sf_config& config, const ViewReader& reader, const Plane<const uint8_t>& centre,
+              Pictures* pictures) {
   ViewSet set;
   FindViews(config, &set);  // which were checked when the engine was made
   const Looks looks = ChooseLooks(set);
@@ -47,14 +48,22 @@ void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictur
     window.views = config.views;
     window.looks = looks;
     window.transfer = &TransferOf(config.transfer);
-    window.reader = nullptr;
-    for (int view = 0; view < config.views; ++view) window.view[view] = views[view];
+    window.reader = reader;
     window.disparity = {pictures->disparity.data, pictures->disparity.stride,
                         pictures->disparity.rows, 0};
     pictures->layers[layer].width = window.width;
     pictures->layers[layer].height = window.height;
   }
-  pictures->windows[0].centre = views[0];
+  pictures->windows[0].centre = centre;
+}
+
+void SetPlanes(const sf_config& config, const simd::Kernels& kernels,
+               const Plane<const uint8_t>* views, Pictures* pictures) {
+  PlaneViews& planes = pictures->planes;
+  planes.kernels = &kernels;
+  planes.transfer = &TransferOf(config.transfer);
+  for (int view = 0; view < config.views; ++view) planes.view[view] = views[view];
+  SetViews(config, ReaderOf(planes), views[0], pictures);
 }
 
 int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row) {

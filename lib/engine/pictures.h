@@ -17,6 +17,7 @@ namespace starfocus {
 enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
 
 struct Pictures {
+  PlaneViews planes;  // read by the windows if the views lie in memory as rows of codes
   Window windows[SF_LAYERS];
   LayerPlane layers[SF_LAYERS];  // layers 1 and 2, around a stripe
   uint8_t* needed[SF_LAYERS];    // per column of largest blocks: ColumnNeed of its layer 1, 2
@@ -25,8 +26,13 @@ struct Pictures {
   bool prepared;                 // disparities and layers of the windows are a prepared field's
 };
 
-// Points the windows at the views, which are whole pictures or line rings. There is no reader.
-void SetViews(const sf_config& config, const Plane<const uint8_t>* views, Pictures* pictures);
+// Points the windows at views: `reader` must stay valid, `centre` has the codes of the centre view.
+void SetViews(const sf_config& config, const ViewReader& reader, const Plane<const uint8_t>& centre,
+              Pictures* pictures);
+
+// Points the windows at views that lie in memory as rows of codes: pictures or rings of rows.
+void SetPlanes(const sf_config& config, const simd::Kernels& kernels,
+               const Plane<const uint8_t>* views, Pictures* pictures);
 
 // Converts a disparity row to `out`, checking that it lies in the configured range, and fills what
 // is unknown if sf_config.fill_unknown says so: of how many pixels goes into *unknown.

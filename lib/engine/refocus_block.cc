@@ -131,20 +131,33 @@ ExcessSum ExcessOf(const BlockInputs& in) {
 }
 
 // The pictures as a window of what highlights have beyond white.
-Window ExcessWindow(const BlockInputs& in, Worker* worker) {
-  Window window = in.windows[0];
-  window.lamp = LargestLamp(in.config->width);
-  window.runs = worker->lamp_runs;
-  worker->lamp_runs->Clear();
-  return window;
-}
+class ExcessWindow {
+ public:
+  ExcessWindow(const BlockInputs& in, Worker* worker)
+      : views_{in.windows[0].reader, in.config->width, in.config->height,
+               LargestLamp(in.config->width), worker->lamp_runs},
+        window_(in.windows[0]) {
+    worker->lamp_runs->Clear();
+    window_.light = window_.reader;
+    window_.reader = ReaderOf(views_);
+    window_.is_excess = true;
+  }
+  ExcessWindow(const ExcessWindow&) = delete;
+  ExcessWindow& operator=(const ExcessWindow&) = delete;
+
+  const Window& window() const { return window_; }
+
+ private:
+  const ExcessViews views_;
+  Window window_;
+};
 
 // Renders what highlights are beyond white, too, and adds it to the block. Returns the samples of a
 // view.
 uint64_t RenderExcess(const BlockInputs& in, const Block& block, RenderJob job,
                       const Plane<uint8_t>& out, Worker* worker) {
-  const Window window = ExcessWindow(in, worker);
-  job.window = &window;
+  const ExcessWindow excess(in, worker);
+  job.window = &excess.window();
   const uint64_t samples = RenderSums(in, block, job, worker);
   if (!worker->patience.Spend(0)) return 0;
   const size_t row_samples = 3 * static_cast<size_t>(job.rect.width);
@@ -249,7 +262,7 @@ void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& 
     BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
   };
   blur(in.windows[0], {in.kernels, in.windows[0].transfer, 0});
-  if (block.has_highlights) blur(ExcessWindow(in, worker), ExcessOf(in));
+  if (block.has_highlights) blur(ExcessWindow(in, worker).window(), ExcessOf(in));
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ void LoadPixels(const BlurJob& job, int16_t* rgb) {
     int16_t* to = rgb + 3 * static_cast<size_t>(row) * width;
     const int32_t left = job.rect.x - job.border;
     const int32_t first = Clamp(-left, 0, width), last = Clamp(window.width - left, 0, width);
-    LoadLight(*job.kernels, window, left + first, y, last - first, to + 3 * first);
+    LoadLight(window, left + first, y, last - first, to + 3 * first);
     for (int32_t k = 0; k < 3 * first; ++k) to[k] = to[3 * first + k % 3];
     for (int32_t k = 3 * last; k < 3 * width; ++k) to[k] = to[k - 3];
   }

@@ -55,7 +55,7 @@ class Gather {
       }
     }
     loaded_ = {left, top, right - left, bottom - top};
-    LoadField(*job_.kernels, *job_.window, loaded_, {border_, border_, border_, border_}, field_);
+    LoadField(*job_.window, loaded_, {border_, border_, border_, border_}, field_);
   }
 
   // Filters the cells whose kernels are dilated or not, those first: they need the light as it is.

@@ -72,12 +72,10 @@ const LookView& LookAway(const Window& window, const BoundaryPixel& pixel) {
 
 // The point of the far surface in that view.
 Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& mixed) {
-  if (window.reads != nullptr) ++window.reads->side_colours;
   const LookView& look = LookAway(window, pixel);
   constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
   const int32_t x = pixel.x * kShiftOne - ScaledByView(look.at.u, pixel.disparity, kBits);
   const int32_t y = pixel.y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, kBits);
-  PrefetchCaptured(window, look.view, {x, y, 0, 0});
   int32_t sums[3];
   InterpolateCaptured(window, look.view, x, y, sums);
   // Halves are rounded towards the pixel, so that an inverted picture is decided on alike.
@@ -96,21 +94,17 @@ Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& m
 Colour CentreView::ColourAt(int32_t x, int32_t y) const {
   const int32_t column = Clamp(x, 0, window.width - 1), row = Clamp(y, 0, window.height - 1);
   Colour colour;
-  if (window.lamp > 0) {
-    ReadExcess(ViewOf(window, 0), column, row, colour.rgb);
-    return colour;
-  }
-  const uint8_t* codes = window.centre.Row(row) + 3 * static_cast<ptrdiff_t>(column);
-  for (int c = 0; c < 3; ++c) colour.rgb[c] = window.transfer->light[codes[c]];
+  window.reader.Light(0, column, row, 1, colour.rgb);
   return colour;
 }
 
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
-  const bool is_excess = centre.window.lamp > 0;
+  const bool is_excess = centre.window.is_excess;
   Mixture mixture = {};
   if (is_excess) {
     Window light = centre.window;
-    light.lamp = 0;
+    light.reader = light.light;
+    light.is_excess = false;
     mixture.share = FindMixture({light}, pixel).share;
     if (mixture.share == 0) return mixture;
   }

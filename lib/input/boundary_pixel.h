@@ -27,7 +27,7 @@ struct CentreView {
     return window.disparity.Row(
         Clamp(y, 0, window.picture_height - 1))[Clamp(x, 0, window.picture_width - 1)];
   }
-  // Light of a pixel, or its excess (window.lamp).
+  // Light of a pixel, or its excess (window.is_excess).
   Colour ColourAt(int32_t x, int32_t y) const;
 };
 

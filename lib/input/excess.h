@@ -7,7 +7,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
-#include "lib/input/code_reader.h"
+#include "lib/input/view_reader.h"
 
 namespace starfocus {
 
@@ -44,20 +44,19 @@ struct LampRuns {
   }
 };
 
-// A captured view at layer 0, in which highlights of up to `lamp` pixels are lamps.
-struct LampView {
-  const Plane<const uint8_t>& codes;  // without a reader
-  int32_t width, height, lamp;
-  const CodeReader* reader;  // null: there is none
-  int index;                 // of the view, for the reader
-  LampRuns* runs;            // of any views of these pictures
+// Captured views of which highlights up to `lamp` pixels are lamps, at layer 0.
+struct ExcessViews {
+  ViewReader views;
+  int32_t width, height, lamp;  // of the picture; LargestLamp
+  LampRuns* runs;               // of any views of these pictures
 };
 
-// The light that highlights have beyond white at pixel (x, y), inside the picture, for a clipped
-// sample one more white: it rises with the square of the code from kFirstExcess on. Zeros at other
-// pixels. All of it counts where the highlight is at most view.lamp pixels high or wide, less
-// beyond, and nothing from twice as many on, or where it goes on beyond the picture's edges.
-void ReadExcess(const LampView& view, int32_t x, int32_t y, int16_t* rgb);
+// Returns a reader of what highlights have beyond white, as light; `views` must outlive it. For a
+// clipped sample that is one more white: it rises with the square of the code from kFirstExcess on.
+// Other pixels are 0. All of it counts where the highlight is at most views.lamp pixels high or
+// wide, less beyond, and nothing from twice as many on, or where it goes on beyond the picture's
+// edges.
+ViewReader ReaderOf(const ExcessViews& views);
 
 }  // namespace starfocus
 

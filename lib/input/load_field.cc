@@ -49,25 +49,18 @@ void CopyDisparity(const Window& window, const int16_t* row, int32_t x, int32_t 
 
 }  // namespace
 
-void LoadLight(const simd::Kernels& kernels, const Window& window, int32_t x, int32_t y,
-               int32_t count, int16_t* rgb) {
-  const size_t samples = 3 * static_cast<size_t>(count);
-  if (window.lamp > 0) {
-    for (int32_t p = 0; p < count; ++p) ReadExcess(ViewOf(window, 0), x + p, y, rgb + 3 * p);
-    return;
-  }
+void LoadLight(const Window& window, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
   if (window.layer == 0) {
-    kernels.Decode(window.centre.Row(y) + 3 * x, samples, window.transfer->encoding, rgb);
+    if (count > 0) window.reader.Light(0, x, y, count, rgb);
     return;
   }
   const int16_t* from = window.samples.Row(y) + 3 * x;
-  for (size_t k = 0; k < samples; ++k) {
+  for (int32_t k = 0; k < 3 * count; ++k) {
     rgb[k] = static_cast<int16_t>(from[k] << (kLightBits - simd::kLayerBits));
   }
 }
 
-void LoadField(const simd::Kernels& kernels, const Window& window, const Rect& rect,
-               const Border& border, Field* field) {
+void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field) {
   field->transposed = false;
   field->width = border.left + rect.width + border.right;
   field->height = border.top + rect.height + border.bottom;
@@ -82,7 +75,7 @@ void LoadField(const simd::Kernels& kernels, const Window& window, const Rect& r
     int16_t* disparity = field->Disparity(0, row);
     const int16_t* from_disparity =
         window.disparity.Row(Min(y << window.layer, window.picture_height - 1));
-    LoadLight(kernels, window, field->x + first, y, last - first, rgb + 3 * first);
+    LoadLight(window, field->x + first, y, last - first, rgb + 3 * first);
     CopyDisparity(window, from_disparity, field->x + first, last - first, disparity + first);
     RepeatEdges(first, last, field->width, rgb, disparity);
   }

@@ -6,20 +6,17 @@
 #include "lib/base/geometry.h"
 #include "lib/input/field.h"
 #include "lib/input/window.h"
-#include "simd/kernels.h"
 
 namespace starfocus {
 
 // Writes the light of `count` pixels of the centre view, inside the picture, from (x, y) of the
-// layer on, or their excess (window.lamp).
-void LoadLight(const simd::Kernels& kernels, const Window& window, int32_t x, int32_t y,
-               int32_t count, int16_t* rgb);
+// layer on, or their excess (window.is_excess).
+void LoadLight(const Window& window, int32_t x, int32_t y, int32_t count, int16_t* rgb);
 
 // Copies `rect` and its border from the window into field->rgb and ->disparity, which must be set.
 // Codes are decoded here: every sample of the centre view, once for all views of the aperture.
 // Pixels outside the picture repeat its edge, or show what side views see there (picture_edge.h).
-void LoadField(const simd::Kernels& kernels, const Window& window, const Rect& rect,
-               const Border& border, Field* field);
+void LoadField(const Window& window, const Rect& rect, const Border& border, Field* field);
 
 }  // namespace starfocus
 

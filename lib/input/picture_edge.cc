@@ -109,7 +109,6 @@ class Beyond {
   }
 
   void Read(const Edge& edge, const LookView& look, const Place& moved, int32_t seen) {
-    if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(seen);
     const int dx = edge.out()[0], dy = edge.out()[1];
     constexpr int32_t kAtOnce = 16;
     int16_t rgb[3 * kAtOnce];

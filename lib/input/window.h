@@ -11,12 +11,11 @@
 #include "lib/base/geometry.h"
 #include "lib/base/transfer.h"
 #include "lib/base/view_set.h"
-#include "lib/input/code_reader.h"
-#include "lib/input/excess.h"
+#include "lib/input/view_reader.h"
 
 namespace starfocus {
 
-// What was read of the caller's pictures, counted every time.
+// Counts of what was read of the caller's pictures; pixels read twice count twice.
 struct Reads {
   uint64_t centre_pixels = 0;  // of the centre view itself, not of its layers
   uint64_t side_colours = 0;   // of side views; CapturedBytes each
@@ -35,14 +34,11 @@ struct Window {
   Plane<const int16_t> samples;        // of the centre view, simd::kLayerBits; layers 1 and 2
   int32_t picture_width = 0;
   int32_t picture_height = 0;
-  Plane<const uint8_t> view[kMaxViews];  // of the pictures, without a reader
-  const CodeReader* reader = nullptr;    // of the views; null: they lie in view[]
-  Plane<const int16_t> disparity;        // of the pictures, kDisparityBits
-  Reads* reads = nullptr;                // null: nobody counts
-  // Largest lamp in pixels (LargestLamp): what is read is then not light, but what highlights have
-  // of it beyond white, at layer 0. 0: light.
-  int32_t lamp = 0;
-  LampRuns* runs = nullptr;  // with lamps
+  ViewReader reader;               // of the views' light, or of their excess (excess.h)
+  bool is_excess = false;          // which of both; layer 0
+  ViewReader light;                // with is_excess: of light
+  Plane<const int16_t> disparity;  // of the pictures, kDisparityBits
+  Reads* reads = nullptr;          // null: nobody counts
 };
 
 // Places one after the other in a captured view: the first at (x, y) of the layer, kShiftBits, each
@@ -58,19 +54,8 @@ struct CapturedLine {
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
                   int16_t* rgb);
 
-// Asks for what lies a little below the first place of a line: what is read in short pieces, row by
-// row, the processor does not foresee. Only time depends on it.
-void PrefetchCaptured(const Window& window, int index, const CapturedLine& line);
-
 // One such colour at L = 0 before it is rounded, with 2 * kShiftBits more.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
-
-// A captured view with the window's lamps.
-inline LampView ViewOf(const Window& window, int index) {
-  return {window.view[index], window.picture_width, window.picture_height,
-          window.lamp,        window.reader,        index,
-          window.runs};
-}
 
 // Whether any of the views has codes of kFirstExcess or more in the columns and rows of `rect`.
 bool MayHaveHighlights(const Window& window, const Rect& rect);

@@ -65,9 +65,6 @@ void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t
   const Offset across = OffsetOf(view, view.v, view.move_v, disparity);
   const bool diagonal = view.u != 0 && view.v != 0;
   const auto read = [&](int u, int v, int32_t p, int32_t count, int16_t* rgb) {
-    if (view.window->reads != nullptr) {
-      view.window->reads->side_colours += static_cast<uint64_t>(count);
-    }
     const int32_t x = (line.x + line.dx * p) * kShiftOne + (u != 0 ? along.captured : along.centre);
     const int32_t y =
         (line.y + line.dy * p) * kShiftOne + (v != 0 ? across.captured : across.centre);

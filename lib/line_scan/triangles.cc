@@ -51,7 +51,7 @@ class Star {
 
   void Refocus() {
     Field rows = MakeField(0);
-    LoadField(*job_.kernels, *job_.window, job_.rect, job_.border, &rows);
+    LoadField(*job_.window, job_.rect, job_.border, &rows);
     UnmixEdges(*job_.kernels, *job_.window, grid_, &rows);
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
     Clear(scratch_->column_sums);

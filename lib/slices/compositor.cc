@@ -169,7 +169,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   Field field;
   field.rgb = scratch->field_rgb;
   field.disparity = scratch->field_disparity;
-  LoadField(*job.kernels, *job.window, job.rect, job.border, &field);
+  LoadField(*job.window, job.rect, job.border, &field);
   FindLayeredDepth(*job.kernels, *job.window, field, &scratch->surfaces);
   FindMatte(*job.kernels, *job.window, *job.grid, field, &scratch->surfaces);
   const Rect& inner = field.inner;

@@ -86,13 +86,11 @@ class HiddenColours {
                   3 * static_cast<size_t>(count) * sizeof(*to));
       return;
     }
-    CountReads(count);
     const LookView& look = LookOf(side, source);
     const int16_t disparity = chunk.disparity[k];
     const CapturedLine line = {(field_.x + chunk.x + k) * kShiftOne - Moved(look.at.u, disparity),
                                (field_.y + chunk.y) * kShiftOne - Moved(look.at.v, disparity), 1,
                                0};
-    PrefetchCaptured(window_, look.view, line);
     ReadCaptured(window_, look.view, line, count, to);
   }
 
@@ -101,10 +99,6 @@ class HiddenColours {
   int32_t Moved(int32_t position, int32_t disparity) const {
     return ScaledByView(position, disparity,
                         kViewBits + kDisparityBits - kShiftBits + window_.layer);
-  }
-
-  void CountReads(int32_t pixels) const {
-    if (window_.reads != nullptr) window_.reads->side_colours += static_cast<uint64_t>(pixels);
   }
 
   // The view that shows a pixel on that side, if any does.

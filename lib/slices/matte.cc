@@ -108,7 +108,6 @@ class MatteFinder {
         (field_.x + pixel.x) * kShiftOne - ScaledByView(look.at.u, pixel.disparity, bits),
         (field_.y + pixel.y) * kShiftOne - ScaledByView(look.at.v, pixel.disparity, bits), 1, 0};
     Colour far;
-    if (window.reads != nullptr) ++window.reads->side_colours;
     ReadCaptured(window, look.view, line, 1, far.rgb);
     return far;
   }

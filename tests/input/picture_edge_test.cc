@@ -127,7 +127,7 @@ struct Row {
   explicit Row(int views) : side(size_t(views)) {
     for (size_t view = 0; view < side.size(); ++view) {
       side[view].assign(3 * kWidth * kHeight, uint8_t(100 + view));
-      window.view[view] = {side[view].data(), 3 * kWidth, 0, 0};
+      planes.view[view] = {side[view].data(), 3 * kWidth, 0, 0};
     }
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) side[0][size_t(3 * (y * kWidth + x))] = uint8_t(x);
@@ -136,7 +136,7 @@ struct Row {
     window.height = window.picture_height = kHeight;
     test::SetStar(views, &window);
     window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
-    window.centre = window.view[0];
+    test::ReadPlanes(&planes, &window);
     disparity.assign(kWidth * kHeight, 0);
     window.disparity = {disparity.data(), kWidth, 0, 0};
   }
@@ -156,8 +156,7 @@ struct Row {
     starfocus::Field field;
     field.rgb = rgb.data();
     field.disparity = copy.data();
-    starfocus::LoadField(starfocus::simd::BestKernels(), window, {0, 0, kWidth, kHeight},
-                         {kBorder, kBorder, 0, 0}, &field);
+    starfocus::LoadField(window, {0, 0, kWidth, kHeight}, {kBorder, kBorder, 0, 0}, &field);
     std::vector<int> row;
     for (int x = 0; x < width; ++x) row.push_back(*field.Rgb(x, 3) >> starfocus::kLightBits);
     return row;
@@ -165,6 +164,7 @@ struct Row {
 
   std::vector<std::vector<uint8_t>> side;
   std::vector<int16_t> disparity;
+  starfocus::PlaneViews planes;
   starfocus::Window window;
 };
 

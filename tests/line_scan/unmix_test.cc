@@ -29,6 +29,7 @@ struct Scene {
   std::vector<uint8_t> centre, side;
   std::vector<int16_t> disparity;
   std::vector<int16_t> rgb;
+  starfocus::PlaneViews planes;
   Window window;
   Field field;
 
@@ -49,8 +50,8 @@ struct Scene {
     window.height = window.picture_height = kSize;
     test::SetStar(views, &window);
     window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
-    window.centre = {centre.data(), 3 * kSize, 0, 0};
-    for (int view = 1; view < views; ++view) window.view[view] = {side.data(), 3 * kSize, 0, 0};
+    planes.view[0] = {centre.data(), 3 * kSize, 0, 0};
+    for (int view = 1; view < views; ++view) planes.view[view] = {side.data(), 3 * kSize, 0, 0};
     window.disparity = {disparity.data(), kSize, 0, 0};
     field.rgb = rgb.data();
     field.disparity = disparity.data();
@@ -60,8 +61,8 @@ struct Scene {
   std::vector<int> Unmixed(int layer = 0) {
     std::vector<int16_t> copy(disparity.size() + starfocus::simd::kPadding);
     field.disparity = copy.data();
-    starfocus::LoadField(starfocus::simd::BestKernels(), window, {4, 4, kSize - 8, kSize - 8},
-                         {4, 4, 4, 4}, &field);
+    test::ReadPlanes(&planes, &window);
+    starfocus::LoadField(window, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
     starfocus::Aperture aperture;
     aperture.n = aperture.last = 4;
     window.layer = layer;
@@ -100,7 +101,7 @@ TEST_CASE("unmix: the captured view is read where the near surface has moved awa
       std::vector<uint8_t> other(scene.side.size(), 240);
       const int right = views == 17 ? 9 : 1, left = right + 1, behind = mirrored ? right : left;
       for (int view = 1; view < views; ++view) {
-        if (view != behind) scene.window.view[view].data = other.data();
+        if (view != behind) scene.planes.view[view].data = other.data();
       }
       // Of that view the pixel alone; it moves by -u d.
       const int x = mirrored ? kSize - kEdge : kEdge - 1;
@@ -109,7 +110,7 @@ TEST_CASE("unmix: the captured view is read where the near surface has moved awa
       for (int y = 0; y < kSize; ++y) {
         for (int c = 0; c < 3; ++c) one[size_t(3 * (y * kSize + moved) + c)] = 40;
       }
-      scene.window.view[behind].data = one.data();
+      scene.planes.view[behind].data = one.data();
       CHECK(scene.Unmixed()[size_t(x)] == 40);
     }
   }

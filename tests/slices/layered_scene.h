@@ -33,6 +33,7 @@ struct LayeredScene {
   std::vector<uint8_t> edges[4], share;
   std::vector<int16_t> colours[3], rgb;
   std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
+  starfocus::PlaneViews views_of;
   starfocus::Window window;
   LayeredDepth surfaces;
   starfocus::Field field;
@@ -48,7 +49,7 @@ struct LayeredScene {
         pixel[1] = uint8_t(at / kSize);
         pixel[2] = uint8_t(view);
       }
-      window.view[view] = {side[view].data(), 3 * kSize, 0, 0};
+      views_of.view[view] = {side[view].data(), 3 * kSize, 0, 0};
     }
     window.width = window.picture_width = window.height = window.picture_height = kSize;
     test::SetStar(views, &window);
@@ -67,7 +68,8 @@ struct LayeredScene {
 
   void Find() {
     window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
-    window.centre = {centre.data(), 3 * kSize, 0, 0};
+    views_of.view[0] = {centre.data(), 3 * kSize, 0, 0};
+    test::ReadPlanes(&views_of, &window);
     window.disparity = {disparity.data(), kSize, 0, 0};
     for (int k = 0; k < 3; ++k) {
       planes[k].assign(kArea + 2 * kChunk, 0);
@@ -96,8 +98,7 @@ struct LayeredScene {
     field = {};
     field.rgb = rgb.data();
     field.disparity = copy.data();
-    starfocus::LoadField(starfocus::simd::BestKernels(), window, {0, 0, kSize, kSize}, {0, 0, 0, 0},
-                         &field);
+    starfocus::LoadField(window, {0, 0, kSize, kSize}, {0, 0, 0, 0}, &field);
     starfocus::FindLayeredDepth(starfocus::simd::BestKernels(), window, field, &surfaces);
   }
 

@@ -17,6 +17,14 @@ inline void SetViews(const sf_config& config, starfocus::Window* window) {
   window->looks = starfocus::ChooseLooks(views);
 }
 
+// Lets a window read planes of codes, which must outlive it.
+inline void ReadPlanes(starfocus::PlaneViews* planes, starfocus::Window* window) {
+  planes->kernels = &starfocus::simd::BestKernels();
+  planes->transfer = window->transfer;
+  window->reader = starfocus::ReaderOf(*planes);
+  window->centre = planes->view[0];
+}
+
 // The star of 1, 5, 9 or 17 views.
 inline void SetStar(int views, starfocus::Window* window) {
   sf_config config = {};

@@ -62,7 +62,7 @@ void BlockBench::HoldDisparity() {
     const Image& view = light_field_->views[i];
     views[i] = {view.pixels.data(), view.stride(), 0, 0};
   }
-  SetViews(engine_->config, views, &engine_->pictures);
+  SetPlanes(engine_->config, *engine_->kernels, views, &engine_->pictures);
 }
 
 void BlockBench::HoldLayer(int layer) {
