@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/api/preview.h"
 
-#include <cstring>
-
-#include "lib/api/stripe_rows.h"
+#include "lib/api/call.h"
 #include "lib/api/validate.h"
 #include "lib/engine/layout.h"
-#include "lib/engine/stripe.h"
+#include "lib/source/light_field.h"
 
 namespace starfocus {
 namespace {
@@ -44,62 +42,22 @@ void UseReduced(const ReducedField& field, EngineState* engine) {
   }
 }
 
-sf_status RefocusStripes(const Rect& rect, const RowSink& sink, const Runner& runner,
-                         EngineState* engine) {
-  const int32_t side = engine->config.largest_block, rect_end = rect.y + rect.height;
-  const RowRange stripes = StripeRows(*engine);
-  Watch& watch = engine->crew.jobs.watch;
-  for (int32_t y = stripes.first; y < stripes.last; y += side) {
-    sf_status status = RefocusIntoBuffer(engine, y, runner);
-    if (status != SF_OK) return status;
-    const bool is_last = y + side >= stripes.last;
-    const int32_t end = is_last ? rect_end : Min(FinishedRows(engine->config, y), rect_end);
-    status = sink.write(sink.out, BufferRows(*engine, y), {Max(y - kDeblockRows, rect.y), end},
-                        runner, engine);
-    if (status != SF_OK) return status;
-    watch.SetRows(Max(0, end - rect.y));
-  }
-  return watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
-}
-
-// A picture of the caller's for `rect` of the preview.
-struct Picture {
-  uint8_t* data;
-  size_t stride;
-  Rect rect;
-};
-
-sf_status WriteRows(const void* out, const Plane<uint8_t>& from, const RowRange& rows,
-                    const Runner&, EngineState*) {
-  const auto& picture = *static_cast<const Picture*>(out);
-  const Rect& rect = picture.rect;
-  for (int32_t y = rows.first; y < rows.last; ++y) {
-    std::memcpy(picture.data + static_cast<size_t>(y - rect.y) * picture.stride,
-                from.Row(y) + 3 * static_cast<size_t>(rect.x), 3 * static_cast<size_t>(rect.width));
-  }
-  return SF_OK;
-}
-
 sf_status CheckPicture(const Picture& picture, const PreviewRequest& request,
                        const EngineState& engine) {
   const Rect& rect = picture.rect;
   const sf_status status = CheckOutput(rect.width, rect.height, picture.data, picture.stride);
   if (status != SF_OK) return status;
-  const Extent out =
-      ExtentOf(picture.data, picture.stride, rect.height, 3 * static_cast<size_t>(rect.width));
-  const bool overlaps =
-      Overlaps(out, Workspace(engine)) || Overlaps(out, PreparedMemory(request.prepared));
-  return overlaps ? SF_ERROR_OVERLAP : SF_OK;
+  Extents out;
+  out.AddRows(picture.data, picture.stride, rect.height, 3 * static_cast<size_t>(rect.width));
+  return Overlaps(out, MemoryOf(engine, &request.prepared)) ? SF_ERROR_OVERLAP : SF_OK;
 }
 
 }  // namespace
 
 sf_status CheckPreview(const PreviewRequest& request, const EngineState& engine) {
   const sf_config& config = engine.config;
-  sf_status status = CheckParams(config, request.params);
-  if (status == SF_OK) status = CheckRegion(config, request.params.region);
+  const sf_status status = CheckCall(config, request.params, &request.prepared);
   if (status != SF_OK) return status;
-  if (!Fits(request.prepared, config)) return SF_ERROR_PREPARED;
   if (request.shift < 1 || request.shift > request.prepared.config.previews) {
     return SF_ERROR_PREVIEW;
   }
@@ -112,17 +70,10 @@ Rect PreviewRect(const PreviewRequest& request, const EngineState& engine) {
 
 sf_status RefocusPreview(const PreviewRequest& request, const RowSink& sink, const Runner& runner,
                          EngineState* engine, sf_report* report) {
-  const Rect rect = PreviewRect(request, *engine);
-  const sf_params params = ReducedParams(request, rect);
-  engine->stream.active = false;
+  const sf_params params = ReducedParams(request, PreviewRect(request, *engine));
   const Reduction reduction(request.shift, engine);
-  engine->crew.jobs.watch.Begin(params.progress, params.progress_data, 0, rect.height);
-  sf_status status = SetLens(params, engine);
-  if (status != SF_OK) return status;
   UseReduced(request.prepared.reduced[request.shift], engine);
-  status = RefocusStripes(rect, sink, runner, engine);
-  if (status == SF_OK && report != nullptr) *report = engine->report;
-  return status;
+  return RunCall({params, {}, sink, runner}, engine, report);
 }
 
 }  // namespace starfocus
@@ -140,6 +91,6 @@ sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
   const starfocus::Picture picture = {out, out_stride, starfocus::PreviewRect(request, e)};
   status = starfocus::CheckPicture(picture, request, e);
   if (status != SF_OK) return status;
-  return starfocus::RefocusPreview(request, {starfocus::WriteRows, &picture}, {runner, runner_data},
-                                   &e, report);
+  return starfocus::RefocusPreview(request, starfocus::SinkOf(picture), {runner, runner_data}, &e,
+                                   report);
 }

@@ -3,8 +3,9 @@
 #ifndef STARFOCUS_LIB_API_PREVIEW_H_
 #define STARFOCUS_LIB_API_PREVIEW_H_
 
-#include "lib/api/prepared.h"
+#include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
+#include "lib/source/prepared.h"
 
 namespace starfocus {
 
@@ -12,13 +13,6 @@ struct PreviewRequest {
   const sf_params& params;  // in pixels of the full size
   const Prepared& prepared;
   int32_t shift;
-};
-
-// Takes finished rows of a preview, of which `from` has all columns; rows come in order.
-struct RowSink {
-  sf_status (*write)(const void* out, const Plane<uint8_t>& from, const RowRange& rows,
-                     const Runner& runner, EngineState* engine);
-  const void* out;
 };
 
 // Checks all but the output.

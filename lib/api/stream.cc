@@ -2,71 +2,75 @@
 // The streaming half of the C ABI: rows in, finished rows out, through the engine's line rings.
 #include "lib/api/stream.h"
 
-#include <cstring>
-
-#include "lib/api/light_field.h"
 #include "lib/api/validate.h"
-#include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
-#include "lib/engine/lens.h"
 #include "lib/engine/stripe.h"
+#include "lib/source/extents.h"
+#include "lib/source/light_field.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 namespace {
 
-sf_status PushRow(const sf_light_field& light_field, int32_t row, EngineState* engine) {
-  const size_t offset = static_cast<size_t>(row);
-  int32_t unknown = 0;
-  const sf_status status =
-      ReadDisparity(DisparityRow(light_field, row), engine->stream.pushed, engine, &unknown);
-  if (status != SF_OK) return status;
-  engine->report.unknown_pixels += static_cast<uint64_t>(unknown);
-  for (int view = 0; view < engine->config.views; ++view) {
-    const sf_plane& plane = light_field.views[view];
-    std::memcpy(engine->rings[view].Row(engine->stream.pushed), plane.data + offset * plane.stride,
-                3 * static_cast<size_t>(engine->config.width));
-  }
-  const Plane<uint8_t>& alpha = engine->images.alpha;
-  if (alpha.data != nullptr) std::memset(alpha.Row(engine->stream.pushed), 255, alpha.stride);
-  ++engine->stream.pushed;
-  return SF_OK;
-}
-
-// Copies finished rows out of the stripe buffer.
-int32_t CopyRows(EngineState* engine, uint8_t* out, size_t out_stride, int32_t rows) {
-  Stream& stream = engine->stream;
-  const Plane<uint8_t> from = BufferRows(*engine, stream.next - engine->config.largest_block);
-  int32_t copied = 0;
-  for (; copied < rows && StripeWaiting(*engine); ++copied, ++stream.written) {
-    std::memcpy(out + static_cast<size_t>(copied) * out_stride, from.Row(stream.written),
-                from.stride);
-  }
-  return copied;
-}
-
-}  // namespace
-
+// Input rows that the next stripe reads.
 int32_t NeededRows(const EngineState& engine) {
   return Min(engine.config.height,
              engine.stream.next + engine.config.largest_block + StreamReach(engine.config));
 }
 
-bool StripeWaiting(const EngineState& engine) {
-  return engine.stream.written < engine.stream.finished;
-}
-
+// Refocuses the next stripe, whose rows must have been pushed.
 sf_status RefocusNext(EngineState* engine, const Runner& runner) {
   Stream& stream = engine->stream;
   const sf_params& params = engine->lens.params;
   Watch& watch = engine->crew.jobs.watch;
   watch.Begin(params.progress, params.progress_data, stream.finished, engine->config.height);
-  const sf_status status = RefocusIntoBuffer(engine, stream.next, runner);
+  const sf_status status = RefocusStripe(engine, stream.next, runner);
   if (status != SF_OK) return status;
   stream.finished = FinishedRows(engine->config, stream.next);
   stream.next += engine->config.largest_block;
   watch.SetRows(stream.finished);
   return watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
+}
+
+}  // namespace
+
+sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
+                   int32_t* consumed) {
+  Stream& stream = engine->stream;
+  while (*consumed < rows && stream.pushed < NeededRows(*engine)) {
+    const int32_t some = Min(unit, rows - *consumed);
+    const sf_report report = engine->report;
+    // Both rows of a pair, or none.
+    for (int32_t k = 0; k < some; ++k) {
+      const sf_status status = CopyRow(source, stream.pushed + k, engine);
+      if (status == SF_OK) continue;
+      engine->report = report;
+      return status;
+    }
+    stream.pushed += some;
+    *consumed += some;
+  }
+  return SF_OK;
+}
+
+sf_status PullRows(const RowSink& sink, int32_t rows, const Runner& runner, EngineState* engine,
+                   int32_t* written) {
+  Stream& stream = engine->stream;
+  while (*written < rows && stream.written < engine->config.height) {
+    if (stream.written == stream.finished) {
+      if (stream.pushed < NeededRows(*engine)) break;
+      const sf_status status = RefocusNext(engine, runner);
+      if (status != SF_OK) return status;
+    }
+    const int32_t some = Min(rows - *written, stream.finished - stream.written);
+    const sf_status status =
+        sink.store(sink.self, {stream.written, stream.written + some},
+                   BufferRows(*engine, stream.next - engine->config.largest_block), runner, engine);
+    if (status != SF_OK) return status;
+    stream.written += some;
+    *written += some;
+  }
+  return SF_OK;
 }
 
 }  // namespace starfocus
@@ -103,12 +107,8 @@ sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, i
   if (rows < 0 || rows > e.config.height - e.stream.pushed) return SF_ERROR_COUNT;
   const sf_status status = starfocus::CheckLightField(e.config, *light_field);
   if (status != SF_OK) return status;
-  while (*consumed < rows && e.stream.pushed < starfocus::NeededRows(e)) {
-    const sf_status row_status = starfocus::PushRow(*light_field, *consumed, &e);
-    if (row_status != SF_OK) return row_status;
-    ++*consumed;
-  }
-  return SF_OK;
+  const starfocus::LightFieldRows pushed(*light_field, e.stream.pushed, e);
+  return starfocus::PushRows(pushed.Source(), rows, 1, &e, consumed);
 }
 
 sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
@@ -119,23 +119,18 @@ sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   if (!e.stream.active) return SF_ERROR_STATE;
   if (rows < 0) return SF_ERROR_COUNT;
-  sf_status status = starfocus::CheckOutput(e.config.width, e.config.height, out, out_stride);
+  const int32_t width = e.config.width, left = e.config.height - e.stream.written;
+  sf_status status = starfocus::CheckOutput(width, e.config.height, out, out_stride);
   if (status != SF_OK) return status;
-  const int32_t most = starfocus::Min(rows, e.config.height - e.stream.written);
+  const int32_t most = starfocus::Min(rows, left);
   if (starfocus::Overlaps(
           starfocus::Workspace(e),
-          starfocus::ExtentOf(out, out_stride, most, 3 * static_cast<size_t>(e.config.width)))) {
+          starfocus::ExtentOf(out, out_stride, most, 3 * static_cast<size_t>(width)))) {
     return SF_ERROR_OVERLAP;
   }
-  while (*written < rows && e.stream.written < e.config.height) {
-    if (!starfocus::StripeWaiting(e)) {
-      if (e.stream.pushed < starfocus::NeededRows(e)) break;
-      status = starfocus::RefocusNext(&e, {runner, runner_data});
-      if (status != SF_OK) return status;
-    }
-    *written += starfocus::CopyRows(&e, out + static_cast<size_t>(*written) * out_stride,
-                                    out_stride, rows - *written);
-  }
-  if (report != nullptr) *report = e.report;
-  return SF_OK;
+  const starfocus::Picture picture = {out, out_stride, {0, e.stream.written, width, left}};
+  status =
+      starfocus::PullRows(starfocus::SinkOf(picture), rows, {runner, runner_data}, &e, written);
+  if (status == SF_OK && report != nullptr) *report = e.report;
+  return status;
 }

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a streamed refocusing has come, whatever its rows are made of.
+// A streamed refocusing, whatever its rows are made of.
 #ifndef STARFOCUS_LIB_API_STREAM_H_
 #define STARFOCUS_LIB_API_STREAM_H_
 
+#include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 
 namespace starfocus {
 
-// Input rows that the next stripe reads.
-int32_t NeededRows(const EngineState& engine);
+// Copies up to `rows` next rows of the source, `unit` (1 or 2) at a time, as long as the next
+// stripe needs some. *consumed counts them.
+sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
+                   int32_t* consumed);
 
-// Whether there are finished rows that were not pulled.
-bool StripeWaiting(const EngineState& engine);
-
-// Refocuses the next stripe, whose rows must have been pushed.
-sf_status RefocusNext(EngineState* engine, const Runner& runner);
+// Stores up to `rows` next rows, and refocuses the stripes that these need and whose rows are
+// there. *written counts the rows.
+sf_status PullRows(const RowSink& sink, int32_t rows, const Runner& runner, EngineState* engine,
+                   int32_t* written);
 
 }  // namespace starfocus
 

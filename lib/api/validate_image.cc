@@ -85,36 +85,29 @@ sf_image AsImage(const sf_image_out& out) {
           {out.strides[0], out.strides[1], out.strides[2]}};
 }
 
-bool OverlapsImage(const Extent& extent, const sf_image& image, int32_t width, int32_t height) {
+void AddImage(const sf_image& image, int32_t width, int32_t height, Extents* extents) {
   for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {
     const PlaneSize size = SizeOfPlane(image, plane, width, height);
-    if (Overlaps(extent,
-                 ExtentOf(image.planes[plane], image.strides[plane], size.rows, size.row_bytes))) {
-      return true;
-    }
+    extents->AddRows(image.planes[plane], image.strides[plane], size.rows, size.row_bytes);
   }
-  return false;
 }
 
-bool OverlapsField(const Extent& extent, const sf_config& config, const sf_image_field& field) {
+void AddImageField(const sf_config& config, const sf_image_field& field, Extents* extents) {
   const sf_depth_map& map = field.depth;
-  const size_t row_bytes = DepthBytes(map.type) * static_cast<size_t>(map.width);
-  if (Overlaps(extent, ExtentOf(map.data, map.stride, map.height, row_bytes))) return true;
+  extents->AddRows(map.data, map.stride, map.height,
+                   DepthBytes(map.type) * static_cast<size_t>(map.width));
   for (int view = 0; view < config.views; ++view) {
-    if (OverlapsImage(extent, field.views[view], config.width, config.height)) return true;
+    AddImage(field.views[view], config.width, config.height, extents);
   }
-  return false;
 }
 
-bool OverlapsField(const sf_image& out, int32_t width, int32_t height, const sf_config& config,
-                   const sf_image_field& field) {
-  for (int plane = 0; plane < PlanesOfFormat(out.format); ++plane) {
-    const PlaneSize size = SizeOfPlane(out, plane, width, height);
-    const Extent extent =
-        ExtentOf(out.planes[plane], out.strides[plane], size.rows, size.row_bytes);
-    if (OverlapsField(extent, config, field)) return true;
-  }
-  return false;
+sf_status CheckImageOutput(const sf_image& image, int32_t width, int32_t height,
+                           const Extents& read) {
+  const sf_status status = CheckImage(image, width, height);
+  if (status != SF_OK) return status;
+  Extents written;
+  AddImage(image, width, height, &written);
+  return Overlaps(written, read) ? SF_ERROR_OVERLAP : SF_OK;
 }
 
 }  // namespace starfocus

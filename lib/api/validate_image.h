@@ -3,7 +3,7 @@
 #ifndef STARFOCUS_LIB_API_VALIDATE_IMAGE_H_
 #define STARFOCUS_LIB_API_VALIDATE_IMAGE_H_
 
-#include "lib/base/geometry.h"
+#include "lib/source/extents.h"
 #include "starfocus/image.h"
 
 namespace starfocus {
@@ -17,15 +17,13 @@ sf_status CheckImageField(const sf_config& config, const sf_image_field& field);
 // An output as an image that is read.
 sf_image AsImage(const sf_image_out& out);
 
-// Whether a plane of the image has bytes within `extent`.
-bool OverlapsImage(const Extent& extent, const sf_image& image, int32_t width, int32_t height);
+// Adds the planes of an image, and the images and the depth map of a field.
+void AddImage(const sf_image& image, int32_t width, int32_t height, Extents* extents);
+void AddImageField(const sf_config& config, const sf_image_field& field, Extents* extents);
 
-// Whether an image or the depth map of the field has bytes within `extent`.
-bool OverlapsField(const Extent& extent, const sf_config& config, const sf_image_field& field);
-
-// Whether a plane of the output has bytes within an image or the depth map of the field.
-bool OverlapsField(const sf_image& out, int32_t width, int32_t height, const sf_config& config,
-                   const sf_image_field& field);
+// Checks an output of that size that must not overlap what is read.
+sf_status CheckImageOutput(const sf_image& image, int32_t width, int32_t height,
+                           const Extents& read);
 
 }  // namespace starfocus
 

@@ -24,6 +24,7 @@ void Add(const Counts& counts, sf_report* report) {
   report->skipped.copied_pixels += counts.skipped.copied_pixels;
   report->centre_bytes += counts.centre_bytes;
   report->side_bytes += counts.side_bytes;
+  report->disparity_bytes += counts.disparity_bytes;
   report->gathered_pixels += counts.gathered_pixels;
   report->unknown_pixels += counts.unknown_pixels;
 }
@@ -43,12 +44,6 @@ sf_status SetLens(const sf_params& params, EngineState* engine) {
   ForgetStripe(&engine->stripe);
   ForgetLayers(engine->config, &engine->pictures);
   return SF_OK;
-}
-
-sf_status ReadDisparity(const float* row, int32_t y, EngineState* engine, int32_t* unknown) {
-  engine->report.disparity_bytes += sizeof(float) * static_cast<uint64_t>(engine->config.width);
-  return ConvertDisparity(engine->config, *engine->kernels, row, engine->pictures.disparity.Row(y),
-                          unknown);
 }
 
 void TakeCounts(EngineState* engine) {

@@ -59,10 +59,6 @@ struct EngineState {
 // must have been checked.
 sf_status SetLens(const sf_params& params, EngineState* engine);
 
-// Converts row y of the disparity map into the ring and counts what was read. Returns the status of
-// ConvertDisparity, and its *unknown, which the caller counts once a row.
-sf_status ReadDisparity(const float* row, int32_t y, EngineState* engine, int32_t* unknown);
-
 // Adds to the report what the workers counted since the last time; or forgets it.
 void TakeCounts(EngineState* engine);
 void DropCounts(EngineState* engine);

@@ -6,32 +6,9 @@
 #include "lib/base/fixed.h"
 #include "lib/base/gaps.h"
 #include "lib/engine/reach.h"
+#include "simd/depth_values.h"
 
 namespace starfocus {
-namespace {
-
-int32_t CountUnknown(const float* row, int32_t width) {
-  int32_t count = 0;
-  for (int32_t x = 0; x < width; ++x) count += IsFinite(row[x]) ? 0 : 1;
-  return count;
-}
-
-// Converts the finite values of a row; the others become kNoSurface. Returns whether all of them
-// lie in the configured range.
-bool ConvertKnown(const sf_config& config, const simd::Kernels& kernels, const float* row,
-                  int16_t* out) {
-  for (int32_t x = 0, end = 0; x < config.width; x = end) {
-    for (; x < config.width && !IsFinite(row[x]); ++x) out[x] = simd::kNoSurface;
-    for (end = x; end < config.width && IsFinite(row[end]);) ++end;
-    if (end > x && !kernels.ConvertDisparity(row + x, static_cast<size_t>(end - x),
-                                             config.disparity_min, config.disparity_max, out + x)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-}  // namespace
 
 void SetViews(const sf_config& config, const ViewReader& reader, const Plane<const uint8_t>& centre,
               Pictures* pictures) {
@@ -77,19 +54,23 @@ int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16
   return unknown;
 }
 
-sf_status ConvertDisparity(const sf_config& config, const simd::Kernels& kernels, const float* row,
-                           int16_t* out, int32_t* unknown) {
-  const auto width = static_cast<size_t>(config.width);
-  *unknown = 0;
-  if (!kernels.ConvertDisparity(row, width, config.disparity_min, config.disparity_max, out)) {
-    *unknown = CountUnknown(row, config.width);
-    if (*unknown == 0) return SF_ERROR_DISPARITY;
-    if (config.fill_unknown == 0) return SF_ERROR_NOT_FINITE;
-    if (!ConvertKnown(config, kernels, row, out)) return SF_ERROR_DISPARITY;
-    FillUnknown(config, kernels, out);
+uint32_t ConvertDisparities(const sf_config& config, const simd::Kernels& kernels, const float* row,
+                            int16_t* out) {
+  const auto convert = [&](int32_t x, int32_t end) {
+    return kernels.ConvertDisparity(row + x, static_cast<size_t>(end - x), config.disparity_min,
+                                    config.disparity_max, out + x);
+  };
+  if (convert(0, config.width)) return 0;
+  uint32_t flags = 0;
+  for (int32_t x = 0, end = 0; x < config.width; x = end) {
+    for (; x < config.width && !IsFinite(row[x]); ++x) {
+      out[x] = simd::kNoSurface;
+      flags |= simd::kUnknownDepth;
+    }
+    for (end = x; end < config.width && IsFinite(row[end]);) ++end;
+    if (end > x && !convert(x, end)) flags |= simd::kDepthOutside;
   }
-  CheckAll(ranges::kDisparity, out, width);
-  return SF_OK;
+  return flags;
 }
 
 void ForgetLayers(const sf_config& config, Pictures* pictures) {

@@ -22,7 +22,6 @@ struct Pictures {
   LayerPlane layers[SF_LAYERS];  // layers 1 and 2, around a stripe
   uint8_t* needed[SF_LAYERS];    // per column of largest blocks: ColumnNeed of its layer 1, 2
   Plane<int16_t> disparity;      // ring of converted rows
-  int32_t disparity_rows;        // of a whole picture, converted so far
   bool prepared;                 // disparities and layers of the windows are a prepared field's
 };
 
@@ -34,13 +33,13 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
 void SetPlanes(const sf_config& config, const simd::Kernels& kernels,
                const Plane<const uint8_t>* views, Pictures* pictures);
 
-// Converts a disparity row to `out`, checking that it lies in the configured range, and fills what
-// is unknown if sf_config.fill_unknown says so: of how many pixels goes into *unknown.
-sf_status ConvertDisparity(const sf_config& config, const simd::Kernels& kernels, const float* row,
-                           int16_t* out, int32_t* unknown);
+// Converts a disparity row to `out`, kDisparityBits, and kNoSurface where it is not finite. Returns
+// simd::DepthFlags; values outside of the configured range become anything.
+uint32_t ConvertDisparities(const sf_config& config, const simd::Kernels& kernels, const float* row,
+                            int16_t* out);
 
-// Fills what is unknown (kNoSurface) in a converted row, as sf_config.fill_unknown says. Returns
-// how many pixels that is.
+// Fills the unknown pixels (kNoSurface) of a converted row, as sf_config.fill_unknown says. Returns
+// their number.
 int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row);
 
 // Forgets the layers' rows, which are of another picture, or of which not all were made.

@@ -127,40 +127,34 @@ int32_t FinishedRows(const sf_config& config, int32_t y) {
   return end >= config.height ? config.height : end - kDeblockRows;
 }
 
-sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& out,
-                        const Runner& runner) {
-  const RedZones zones(engine);
-  const sf_config& config = engine->config;
-  const Stripe stripe = {y, Min(config.largest_block, config.height - y)};
-  const sf_report report = engine->report;
-  if (!ChooseColumns(stripe, engine)) {
-    ForgetStripe(&engine->stripe);  // nothing for the next stripe to join
-    return SF_OK;
-  }
-  const sf_status status = RefocusPhases(stripe, out, runner, engine);
-  if (status == SF_OK) {
-    KeepStripe(engine);
-  } else {
-    WithdrawStripe(report, engine);
-  }
-  return status;
-}
-
 Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
   return {engine.stripe.out, 3 * static_cast<size_t>(engine.config.width), 0, y - kDeblockRows};
 }
 
-sf_status RefocusIntoBuffer(EngineState* engine, int32_t y, const Runner& runner) {
+sf_status RefocusStripe(EngineState* engine, int32_t y, const Runner& runner) {
+  const RedZones zones(engine);
+  const sf_config& config = engine->config;
+  const Stripe stripe = {y, Min(config.largest_block, config.height - y)};
   const Plane<uint8_t> rows = BufferRows(*engine, y);
-  uint8_t* const ends = rows.Row(y + engine->config.largest_block - kDeblockRows);
+  uint8_t* const ends = rows.Row(y + config.largest_block - kDeblockRows);
   uint8_t* const last_rows = engine->stripe.last_rows;
   const size_t bytes = kDeblockRows * rows.stride;
   // The last rows of the stripe before may still change, and anew when a stripe that failed is
   // refocused again.
   std::memcpy(rows.Row(y - kDeblockRows), last_rows != nullptr ? last_rows : ends, bytes);
-  const sf_status status = RefocusStripe(engine, y, rows, runner);
-  if (status == SF_OK && last_rows != nullptr) std::memcpy(last_rows, ends, bytes);
-  return status;
+  const sf_report report = engine->report;
+  if (!ChooseColumns(stripe, engine)) {
+    ForgetStripe(&engine->stripe);  // nothing for the next stripe to join
+    return SF_OK;
+  }
+  const sf_status status = RefocusPhases(stripe, rows, runner, engine);
+  if (status != SF_OK) {
+    WithdrawStripe(report, engine);
+    return status;
+  }
+  KeepStripe(engine);
+  if (last_rows != nullptr) std::memcpy(last_rows, ends, bytes);
+  return SF_OK;
 }
 
 }  // namespace starfocus

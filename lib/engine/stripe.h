@@ -18,20 +18,15 @@ BlockInputs InputsOf(const EngineState& engine);
 // Output rows that are final once the stripe that starts at row y is done.
 int32_t FinishedRows(const sf_config& config, int32_t y);
 
-// Refocuses what the lens's region needs of the stripe that starts at row y, a multiple of the
-// largest block; stripes come one after the other. All rows within reach are in the windows; `out`
-// holds the stripe's rows and the kDeblockRows before it. SF_OK, SF_ERROR_RUNNER or
-// SF_ERROR_CANCELLED: `out` is then half made, and the engine as it was, so that the stripe can be
-// refocused again.
-sf_status RefocusStripe(EngineState* engine, int32_t y, const Plane<uint8_t>& out,
-                        const Runner& runner);
-
 // The engine's own rows for the stripe that starts at row y, and those before it that it may still
 // change.
 Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y);
 
-// RefocusStripe into BufferRows, which may be called again after it failed.
-sf_status RefocusIntoBuffer(EngineState* engine, int32_t y, const Runner& runner);
+// Refocuses what the lens's region needs of the stripe that starts at row y, a multiple of the
+// largest block, into BufferRows; stripes come one after the other. All rows within reach are in
+// the windows. After SF_ERROR_RUNNER and SF_ERROR_CANCELLED the rows are half made and the engine
+// is as it was, so that a stripe of a stream can be refocused again.
+sf_status RefocusStripe(EngineState* engine, int32_t y, const Runner& runner);
 
 }  // namespace starfocus
 

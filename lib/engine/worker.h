@@ -22,8 +22,10 @@ struct Counts {
   sf_skipped skipped;
   uint64_t centre_bytes;
   uint64_t side_bytes;
+  uint64_t disparity_bytes;
   uint64_t gathered_pixels;
-  uint64_t unknown_pixels;  // of images' depth maps
+  uint64_t unknown_pixels;
+  uint32_t depth_flags;  // simd::DepthFlags of rows that were read
 };
 
 // The extended rectangle of a block in the centre view. E: largest side of one.

@@ -82,8 +82,8 @@ void ReadExcess(const void* self, int view, int32_t x, int32_t y, int32_t count,
   }
 }
 
-const uint8_t* ReadCodes(const void* self, int view, int32_t x, int32_t y, int32_t count,
-                         uint8_t* room) {
+const uint8_t* CapturedCodes(const void* self, int view, int32_t x, int32_t y, int32_t count,
+                             uint8_t* room) {
   return static_cast<const ExcessViews*>(self)->views.Codes(view, x, y, count, room);
 }
 
@@ -95,6 +95,6 @@ bool IsHighlight(const uint8_t* codes) {
   return bright >= 2;
 }
 
-ViewReader ReaderOf(const ExcessViews& views) { return {ReadExcess, ReadCodes, &views}; }
+ViewReader ReaderOf(const ExcessViews& views) { return {ReadExcess, CapturedCodes, &views}; }
 
 }  // namespace starfocus

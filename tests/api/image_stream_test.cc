@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "lib/api/prepared.h"
+#include "lib/source/prepared.h"
 #include "tests/support/image_field.h"
 #include "tests/support/inside.h"
 #include "tests/support/watch.h"

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "lib/api/reduced.h"
+#include "lib/source/reduced.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/inside.h"
 #include "tests/support/memory_parts.h"

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 // so that it may include all of lib.
 const std::vector<std::string> kRooms = {"simd",       "lib/base",   "lib/convert", "lib/input",
                                          "lib/plan",   "lib/filter", "lib/slices",  "lib/line_scan",
-                                         "lib/engine", "lib/depth",  "lib/api",     "lib/analysis"};
+                                         "lib/engine", "lib/source", "lib/depth",   "lib/api",
+                                         "lib/analysis"};
 
 // What else there is, and the rooms it may include. The programs of platform/ and examples/ see the
 // engine from outside; `calibrate` and `analyze` measure its parts.

@@ -54,8 +54,9 @@ void BlockBench::HoldDisparity() {
   engine_->pictures.disparity = {disparity_.data(), size_t(map.width), 0, 0};
   for (int y = 0; y < map.height; ++y) {
     // The range is the map's own, so that no value can be outside.
-    int32_t unknown = 0;  // there are none
-    ReadDisparity(map.values.data() + size_t(y) * size_t(map.width), y, engine_, &unknown);
+    ConvertDisparities(engine_->config, *engine_->kernels,
+                       map.values.data() + size_t(y) * size_t(map.width),
+                       engine_->pictures.disparity.Row(y));
   }
   Plane<const uint8_t> views[kMaxViews];
   for (size_t i = 0; i < light_field_->views.size(); ++i) {

@@ -356,9 +356,9 @@ typedef struct sf_report {
   sf_skipped skipped;
   uint64_t centre_bytes; /**< read of the centre view, counted every time: by blocks with what lies
                               around them, and for layers 1 and 2; not what skips look at */
-  uint64_t disparity_bytes; /**< read of the disparity map: nothing of a prepared light field. Of a
-                                 whole picture rows are read once to be checked, and once more
-                                 unless they were among the first ones */
+  uint64_t disparity_bytes; /**< read of the disparity map: nothing of a prepared light field. Rows
+                                 of whole pictures and regions are read twice, first to be
+                                 checked */
   uint64_t side_bytes;      /**< read of the views beside the centre, counted every time: in holes,
                                  beside depth edges and beyond the edges of the picture only */
   uint64_t

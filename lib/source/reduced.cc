@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/api/reduced.h"
+#include "lib/source/reduced.h"
 
 #include "lib/base/fixed.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A prepared light field's own light fields of 1/2, 1/4 and 1/8 of the size, for previews.
-#ifndef STARFOCUS_LIB_API_REDUCED_H_
-#define STARFOCUS_LIB_API_REDUCED_H_
+#ifndef STARFOCUS_LIB_SOURCE_REDUCED_H_
+#define STARFOCUS_LIB_SOURCE_REDUCED_H_
 
 #include "lib/base/carver.h"
 #include "lib/base/geometry.h"
@@ -30,4 +30,4 @@ sf_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int3
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_API_REDUCED_H_
+#endif  // STARFOCUS_LIB_SOURCE_REDUCED_H_

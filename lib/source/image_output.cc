@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/api/image_output.h"
+#include "lib/source/image_output.h"
 
 #include <cstring>
 
-#include "lib/api/stripe_rows.h"
 #include "lib/base/fixed.h"
 
 namespace starfocus {
@@ -46,11 +45,9 @@ void WritePairs(const PairsJob& job, int32_t index, Worker* worker) {
   }
 }
 
-}  // namespace
-
-sf_status WriteImageRows(const ImageOutput& out, const Plane<uint8_t>& from, const RowRange& rows,
-                         const Runner& runner, EngineState* engine) {
-  if (rows.first >= rows.last) return SF_OK;
+sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
+                const Runner& runner, EngineState* engine) {
+  const auto& out = *static_cast<const ImageOutput*>(self);
   const RowRange inside = {rows.first - out.rect.y, rows.last - out.rect.y};
   const int32_t pairs = (inside.last + 1) / 2 - inside.first / 2;
   const int32_t jobs = Min(MaxJobs(engine->config), pairs);
@@ -62,5 +59,9 @@ sf_status WriteImageRows(const ImageOutput& out, const Plane<uint8_t>& from, con
   }
   return status;
 }
+
+}  // namespace
+
+RowSink SinkOf(const ImageOutput& out) { return {Store, &out}; }
 
 }  // namespace starfocus

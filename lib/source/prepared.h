@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What of a light field depends on no lens, in memory of its own: checked and converted disparities
 // and the layers of the centre view.
-#ifndef STARFOCUS_LIB_API_PREPARED_H_
-#define STARFOCUS_LIB_API_PREPARED_H_
+#ifndef STARFOCUS_LIB_SOURCE_PREPARED_H_
+#define STARFOCUS_LIB_SOURCE_PREPARED_H_
 
 #include <cstddef>
 
-#include "lib/api/reduced.h"
-#include "lib/api/validate.h"
+#include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
+#include "lib/source/extents.h"
+#include "lib/source/reduced.h"
 #include "starfocus/image.h"
 
 namespace starfocus {
@@ -22,25 +23,25 @@ struct Prepared {
   ReducedField reduced[SF_MAX_PREVIEW + 1];  // by shift, from 1 to config.previews
 };
 
-// Tells the engine's rings the rows that are read next; without a function the views are pictures.
-struct RowSource {
-  sf_status (*read)(const void* field, const RowRange& rows, const Plane<int16_t>& disparity,
-                    const Runner& runner, EngineState* engine);
-  const void* field;
-};
-
 // Lays out a prepared light field for a valid configuration at `base`, or counts when base is null.
 // Returns the bytes used, or kTooLarge; *prepared is null when counting.
 size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared);
 
-// Checks the memory that a prepared light field is to be made in; *extent is what it takes.
-sf_status CheckPreparedMemory(const EngineState& engine, const void* memory, size_t bytes,
-                              Extent* extent);
+// A call that prepares a light field, whatever its format.
+struct PrepareCall {
+  void* memory;
+  size_t bytes;
+  sf_progress progress;
+  void* progress_data;
+  Runner runner;
+};
 
-// Makes the layers stripe by stripe, in the engine's own planes but for the pixels, and the reduced
-// light fields. The engine's views must be set.
-sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Runner& runner,
-                     EngineState* engine);
+// Prepares the light field that the engine's views show and `source` gives: checks and converts the
+// map, and makes the layers and the reduced light fields stripe by stripe, in the engine's own
+// planes but for the pixels. *prepared is null on error; the memory stays as it is when a row of
+// the map is bad.
+sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
+                  Prepared** prepared);
 
 // Whether an engine of `config` may refocus it.
 bool Fits(const Prepared& prepared, const sf_config& config);
@@ -53,4 +54,4 @@ void UsePrepared(const Prepared& prepared, EngineState* engine);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_API_PREPARED_H_
+#endif  // STARFOCUS_LIB_SOURCE_PREPARED_H_

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/api/call.h"
+
+#include "lib/api/validate.h"
+#include "lib/engine/layout.h"
+
+namespace starfocus {
+namespace {
+
+// Sets up the comparison with the light field before.
+void CompareWith(const Call& call, EngineState* engine) {
+  const sf_config& config = engine->config;
+  Changes& changes = engine->stripe.changes;
+  changes.active = true;
+  changes.before = call.before;
+  changes.now = call.now;
+  // Depth-dependent blur is that of the centre view.
+  changes.views = call.params.mode == SF_MODE_BLUR ? 1 : config.views;
+  changes.fills = config.fill_unknown != 0;
+  changes.width = config.width;
+  changes.height = config.height;
+  changes.side = config.largest_block;
+  changes.side_reach = SideReach(config, engine->report.r_max);
+  changes.centre_reach = HighlightReach(config) > 0 ? changes.side_reach : engine->lens.reach.rows;
+  StartChanges(StripeRows(*engine).first, &changes);
+}
+
+}  // namespace
+
+sf_status CheckCall(const sf_config& config, const sf_params& params, const Prepared* prepared) {
+  sf_status status = CheckParams(config, params);
+  if (status == SF_OK) status = CheckRegion(config, params.region);
+  if (status != SF_OK) return status;
+  return prepared != nullptr && !Fits(*prepared, config) ? SF_ERROR_PREPARED : SF_OK;
+}
+
+Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {
+  Extents memory;
+  memory.Add(Workspace(engine));
+  if (prepared != nullptr) memory.Add(PreparedMemory(*prepared));
+  return memory;
+}
+
+sf_status RunCall(const Call& call, EngineState* engine, sf_report* report) {
+  const sf_params& params = call.params;
+  engine->stream.active = false;
+  engine->crew.jobs.watch.Begin(params.progress, params.progress_data, 0,
+                                RegionOf(engine->config, params).height);
+  sf_status status = SetLens(params, engine);
+  if (status != SF_OK) return status;
+  if (call.prepared != nullptr) UsePrepared(*call.prepared, engine);
+  if (call.before != nullptr) CompareWith(call, engine);
+  status = RefocusRows(call.source, call.sink, call.runner, engine);
+  if (status == SF_OK && report != nullptr) *report = engine->report;
+  return status;
+}
+
+}  // namespace starfocus

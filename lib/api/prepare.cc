@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C ABI for light fields that are prepared once.
+#include "lib/api/prepare.h"
+
+#include "lib/api/validate.h"
+#include "lib/engine/layout.h"
+#include "lib/source/light_field.h"
+#include "lib/source/prepared.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+sf_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call, Extents* read) {
+  const sf_status status = CheckMemory(call.memory);
+  if (status != SF_OK) return status;
+  Prepared* counted = nullptr;
+  const size_t needed = LayOutPrepared(engine.config, nullptr, &counted);
+  if (needed == kTooLarge) return SF_ERROR_TOO_LARGE;
+  if (call.bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
+  Extents written;
+  written.AddRows(call.memory, 0, 1, needed);
+  read->Add(Workspace(engine));
+  return Overlaps(written, *read) ? SF_ERROR_OVERLAP : SF_OK;
+}
+
+}  // namespace starfocus
+
+using starfocus::EngineState;
+using starfocus::Prepared;
+
+sf_status sf_prepared_size(const sf_config* config, size_t* bytes) {
+  if (config == nullptr || bytes == nullptr) return SF_ERROR_NULL;
+  const sf_status status = starfocus::CheckConfig(*config);
+  if (status != SF_OK) return status;
+  Prepared* counted = nullptr;
+  const size_t needed = starfocus::LayOutPrepared(*config, nullptr, &counted);
+  if (needed == starfocus::kTooLarge) return SF_ERROR_TOO_LARGE;
+  *bytes = needed;
+  return SF_OK;
+}
+
+sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
+                     size_t bytes, sf_progress progress, void* progress_data, sf_runner runner,
+                     void* runner_data, sf_prepared** prepared) {
+  if (prepared == nullptr) return SF_ERROR_NULL;
+  *prepared = nullptr;
+  if (engine == nullptr || light_field == nullptr) return SF_ERROR_NULL;
+  EngineState& e = *reinterpret_cast<EngineState*>(engine);
+  const starfocus::PrepareCall call = {
+      memory, bytes, progress, progress_data, {runner, runner_data}};
+  sf_status status = starfocus::CheckLightField(e.config, *light_field);
+  if (status != SF_OK) return status;
+  starfocus::Extents read;
+  read.AddLightField(e.config, *light_field);
+  status = starfocus::CheckPreparedMemory(e, call, &read);
+  if (status != SF_OK) return status;
+  starfocus::SetPictures(*light_field, &e);
+  const starfocus::LightFieldRows rows(*light_field, 0, e);
+  Prepared* made = nullptr;
+  status = starfocus::Prepare(call, rows.Source(), &e, &made);
+  if (status != SF_OK) return status;
+  made->images = nullptr;
+  made->light_field = *light_field;
+  *prepared = reinterpret_cast<sf_prepared*>(made);
+  return SF_OK;
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/engine/driver.h"
+
+#include <cstring>
+
+#include "lib/base/fixed.h"
+#include "lib/engine/stripe.h"
+#include "simd/depth_values.h"
+
+namespace starfocus {
+namespace {
+
+// Reads rows of the map and the centre view: job `index` of `jobs` has as many as the others, but
+// for one.
+struct RowsJob {
+  const RowSource* source;
+  const EngineState* engine;
+  RowRange rows;
+  int32_t jobs;
+  Plane<int16_t> disparity;  // output
+};
+
+void ReadMap(const RowsJob& job, int32_t y, int16_t* row, Counts* counts) {
+  counts->depth_flags |= job.source->map(job.source->self, y, row, &counts->disparity_bytes);
+}
+
+// Job `index` overwrites one row of the ring, of which it has the only one.
+void CheckPart(const RowsJob& job, int32_t index, Worker* worker) {
+  const RowRange rows = PartOf(job.rows, index, job.jobs);
+  for (int32_t y = rows.first; y < rows.last; ++y) {
+    if (!worker->patience.Spend(job.engine->config.width)) return;
+    ReadMap(job, y, job.disparity.Row(index), &worker->counts);
+  }
+}
+
+// Copies the codes of a row of a view to `to`.
+void CopyCodes(const RowSource& source, int view, int32_t y, int32_t width, uint8_t* to) {
+  const uint8_t* const codes = source.views.Codes(view, 0, y, width, to);
+  if (codes != to) std::memcpy(to, codes, 3 * static_cast<size_t>(width));
+}
+
+// Fills a row's unknown disparities, if the configuration says so.
+void FinishMapRow(const EngineState& engine, int16_t* row, Counts* counts) {
+  if (engine.config.fill_unknown != 0) {
+    counts->unknown_pixels +=
+        static_cast<uint64_t>(FillUnknown(engine.config, *engine.kernels, row));
+  }
+  CheckAll(ranges::kDisparity, row, static_cast<size_t>(engine.config.width));
+}
+
+void LoadPart(const RowsJob& job, int32_t index, Worker* worker) {
+  const EngineState& engine = *job.engine;
+  const int32_t width = engine.config.width;
+  const RowRange rows = PartOf(job.rows, index, job.jobs);
+  for (int32_t y = rows.first; y < rows.last; ++y) {
+    if (!worker->patience.Spend(4 * int64_t{width})) return;
+    if (job.source->converts_centre) CopyCodes(*job.source, 0, y, width, engine.rings[0].Row(y));
+    if (job.source->map == nullptr) continue;
+    ReadMap(job, y, job.disparity.Row(y), &worker->counts);
+    FinishMapRow(engine, job.disparity.Row(y), &worker->counts);
+  }
+}
+
+sf_status StatusOf(uint32_t flags, const sf_config& config) {
+  if ((flags & simd::kUnknownDepth) != 0 && config.fill_unknown == 0) return SF_ERROR_NOT_FINITE;
+  return (flags & simd::kDepthOutside) != 0 ? SF_ERROR_DISPARITY : SF_OK;
+}
+
+template <void (*kJob)(const RowsJob&, int32_t, Worker*)>
+sf_status RunRows(const RowsJob& job, const Runner& runner, EngineState* engine) {
+  const sf_status status = RunJobs<RowsJob, kJob>(job, job.jobs, runner, &engine->crew);
+  uint32_t flags = 0;
+  for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
+    flags |= engine->crew.workers[worker].counts.depth_flags;
+  }
+  TakeCounts(engine);
+  return status != SF_OK ? status : StatusOf(flags, engine->config);
+}
+
+}  // namespace
+
+RowRange StripeRows(const EngineState& engine) {
+  const Rect& region = engine.lens.region;
+  const int32_t reach = JoinReach(engine.config, engine.lens);
+  const int32_t side = engine.config.largest_block;
+  return {Max(0, region.y - reach) / side * side,
+          Min(engine.config.height, region.y + region.height + reach)};
+}
+
+RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts) {
+  const int64_t count = rows.last - rows.first;
+  return {rows.first + static_cast<int32_t>(count * index / parts),
+          rows.first + static_cast<int32_t>(count * (index + 1) / parts)};
+}
+
+sf_status CheckRows(const RowSource& source, const RowRange& rows, const Runner& runner,
+                    EngineState* engine) {
+  if (source.map == nullptr) return SF_OK;
+  const Plane<int16_t>& ring = engine->pictures.disparity;
+  const int32_t jobs = Min(Min(MaxJobs(engine->config), ring.rows), rows.last - rows.first);
+  return RunRows<CheckPart>({&source, engine, rows, jobs, ring}, runner, engine);
+}
+
+sf_status LoadRows(const RowSource& source, const RowRange& rows, const Plane<int16_t>& disparity,
+                   const Runner& runner, EngineState* engine) {
+  if (rows.first >= rows.last || (source.map == nullptr && !source.converts_centre)) return SF_OK;
+  const int32_t jobs = Min(MaxJobs(engine->config), rows.last - rows.first);
+  return RunRows<LoadPart>({&source, engine, rows, jobs, disparity}, runner, engine);
+}
+
+sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
+  const sf_config& config = engine->config;
+  int16_t* const row = engine->pictures.disparity.Row(y);
+  Counts& counts = engine->crew.workers[0].counts;
+  counts.depth_flags = source.map(source.self, y, row, &counts.disparity_bytes);
+  const sf_status status = StatusOf(counts.depth_flags, config);
+  if (status == SF_OK) FinishMapRow(*engine, row, &counts);
+  TakeCounts(engine);
+  if (status != SF_OK) return status;
+  for (int view = 0; view < config.views; ++view) {
+    CopyCodes(source, view, y, config.width, engine->rings[view].Row(y));
+  }
+  const Plane<uint8_t>& alpha = engine->images.alpha;
+  if (alpha.data == nullptr) return SF_OK;
+  std::memset(alpha.Row(y), 255, alpha.stride);
+  if (source.alpha != nullptr) source.alpha(source.self, y, alpha.Row(y));
+  return SF_OK;
+}
+
+sf_status RefocusRows(const RowSource& source, const RowSink& sink, const Runner& runner,
+                      EngineState* engine) {
+  const sf_config& config = engine->config;
+  const Lens& lens = engine->lens;
+  const int32_t side = config.largest_block, reach = lens.reach.rows, top = lens.region.y;
+  const int32_t bottom = top + lens.region.height;
+  const RowRange stripes = StripeRows(*engine);
+  RowRange rows = {Max(0, stripes.first - reach), 0};
+  const int32_t last = (stripes.last - 1) / side * side;  // stripe
+  rows.last = Min(config.height, last + side + reach);
+  sf_status status = CheckRows(source, rows, runner, engine);
+  for (int32_t y = stripes.first; y <= last && status == SF_OK; y += side) {
+    rows.last = Min(config.height, y + side + reach);
+    status = LoadRows(source, rows, engine->pictures.disparity, runner, engine);
+    rows.first = rows.last;
+    if (status == SF_OK && engine->stripe.changes.active) {
+      status = CompareRows(y, &engine->crew.workers[0].patience, &engine->stripe.changes);
+    }
+    if (status == SF_OK) status = RefocusStripe(engine, y, runner);
+    if (status != SF_OK) break;
+    // The stripe after the last one changes nothing of the region.
+    const int32_t end = y == last ? bottom : Min(FinishedRows(config, y), bottom);
+    const RowRange finished = {Max(y - kDeblockRows, top), end};
+    if (finished.first < end) {
+      status = sink.store(sink.self, finished, BufferRows(*engine, y), runner, engine);
+    }
+    if (status == SF_OK) engine->crew.jobs.watch.SetRows(Max(0, end - top));
+  }
+  if (status != SF_OK) return status;
+  return engine->crew.jobs.watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop over the stripes of a picture. Every way into the engine is a source of rows, a sink of
+// rows, or a stream, which refocuses one stripe at a time.
+#ifndef STARFOCUS_LIB_ENGINE_DRIVER_H_
+#define STARFOCUS_LIB_ENGINE_DRIVER_H_
+
+#include <cstdint>
+
+#include "lib/base/geometry.h"
+#include "lib/base/jobs.h"
+#include "lib/engine/engine.h"
+#include "lib/input/view_reader.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// A light field of the caller's in any format. Its rows are loaded in order, each once. A source
+// around another one may change the map.
+struct RowSource {
+  ViewReader views;              // null functions: the views are in memory
+  bool converts_centre = false;  // rows of the centre view go into the engine's ring
+  // Writes row y of the disparity map to `out`, kDisparityBits, kNoSurface where it is unknown, and
+  // adds to *bytes what it read. Returns simd::DepthFlags. Null: the map is in memory.
+  uint32_t (*map)(const void* self, int32_t y, int16_t* out, uint64_t* bytes) = nullptr;
+  // Writes row y of the centre view's alpha. Null: it is 255.
+  void (*alpha)(const void* self, int32_t y, uint8_t* out) = nullptr;
+  const void* self = nullptr;
+};
+
+// Takes finished rows of a picture or region, in order. `from` has all columns of the picture.
+struct RowSink {
+  sf_status (*store)(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
+                     const Runner& runner, EngineState* engine);
+  const void* self;
+};
+
+// Checks that all values of rows [rows.first, rows.last) of the map are allowed.
+// SF_ERROR_NOT_FINITE comes before SF_ERROR_DISPARITY.
+sf_status CheckRows(const RowSource& source, const RowRange& rows, const Runner& runner,
+                    EngineState* engine);
+
+// Loads rows of the map into `disparity`, and of the centre view into its ring if the source
+// converts it. The rows have been checked.
+sf_status LoadRows(const RowSource& source, const RowRange& rows, const Plane<int16_t>& disparity,
+                   const Runner& runner, EngineState* engine);
+
+// Copies row y of the source into the rings of a streaming engine. Returns the status of its map,
+// with which nothing is copied.
+sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine);
+
+// Returns the rows of the stripes that the lens's region needs; a stripe's first row is a multiple
+// of the largest block.
+RowRange StripeRows(const EngineState& engine);
+
+// Returns part `index` of `parts` of the rows, of which none has more than one more than another.
+RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts);
+
+// Refocuses what the lens's region needs, stripe by stripe, and stores the region's rows. All rows
+// are checked before the first one is stored. Returns SF_OK, SF_ERROR_CANCELLED, SF_ERROR_RUNNER or
+// an error of the map.
+sf_status RefocusRows(const RowSource& source, const RowSink& sink, const Runner& runner,
+                      EngineState* engine);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_ENGINE_DRIVER_H_

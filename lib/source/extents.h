@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The memory that a call reads or writes, to find overlaps.
+#ifndef STARFOCUS_LIB_SOURCE_EXTENTS_H_
+#define STARFOCUS_LIB_SOURCE_EXTENTS_H_
+
+#include "lib/base/geometry.h"
+#include "lib/base/view_set.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// All planes of a light field in any format, and two pieces of memory.
+struct Extents {
+  Extent of[3 * kMaxViews + 3];
+  int count = 0;
+
+  void Add(const Extent& extent) { of[count++] = extent; }
+  void AddRows(const void* data, size_t stride, int32_t rows, size_t row_bytes) {
+    Add(ExtentOf(data, stride, rows, row_bytes));
+  }
+  void AddLightField(const sf_config& config, const sf_light_field& light_field) {
+    const auto width = static_cast<size_t>(config.width);
+    for (int view = 0; view < config.views; ++view) {
+      const sf_plane& plane = light_field.views[view];
+      AddRows(plane.data, plane.stride, config.height, 3 * width);
+    }
+    AddRows(light_field.disparity, light_field.disparity_stride, config.height,
+            sizeof(float) * width);
+  }
+};
+
+inline bool Overlaps(const Extents& a, const Extents& b) {
+  for (int k = 0; k < a.count; ++k) {
+    for (int n = 0; n < b.count; ++n) {
+      if (Overlaps(a.of[k], b.of[n])) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_SOURCE_EXTENTS_H_

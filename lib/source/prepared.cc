@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/source/prepared.h"
+
+#include <new>
+
+#include "lib/base/view_set.h"
+#include "lib/engine/layout.h"
+#include "lib/engine/stripe_layers.h"
+#include "lib/source/light_field.h"
+
+namespace starfocus {
+namespace {
+
+// Makes the layers and reduced light fields in the planes of `prepared`, and converts the map.
+sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Runner& runner,
+                     EngineState* engine) {
+  LayerPlane own[SF_LAYERS];
+  for (int layer = 0; layer < SF_LAYERS; ++layer) own[layer] = engine->pictures.layers[layer];
+  const int32_t height = engine->config.height, side = engine->config.largest_block;
+  // Layers end beyond the picture (LayerSize), by fewer than so many of its pixels; PlaceLayers
+  // leaves out what lies beyond them.
+  constexpr int32_t kBeyond = 16;
+  RowRange read = {0, 0};
+  sf_status status = SF_OK;
+  for (int32_t y = 0; y < height && status == SF_OK; y += side) {
+    ForgetLayers(engine->config, &engine->pictures);
+    MarkLayerColumns(engine->config, &engine->pictures);
+    PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, Reach(), &engine->pictures);
+    for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
+      engine->pictures.layers[layer].samples.rows = 0;
+      engine->pictures.layers[layer].samples.data =
+          prepared.layers[layer].Row(engine->pictures.layers[layer].rows.first);
+    }
+    engine->crew.jobs.watch.SetRows(y);
+    // The filters' taps reach as far below the stripe.
+    read = {read.last, Min(height, y + side + kBeyond)};
+    status = LoadRows(source, read, prepared.disparity, runner, engine);
+    if (status != SF_OK) break;
+    status = FillLayers(engine->config, *engine->kernels, runner, &engine->crew, &engine->pictures);
+    if (status != SF_OK) break;
+    status = ReduceRows(prepared.disparity, {y, Min(y + side, height)}, prepared.config.previews,
+                        prepared.reduced, runner, engine);
+  }
+  for (int layer = 0; layer < SF_LAYERS; ++layer) engine->pictures.layers[layer] = own[layer];
+  ForgetLayers(engine->config, &engine->pictures);
+  return status;
+}
+
+}  // namespace
+
+size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) {
+  Carver carver(base);
+  *prepared = carver.Take<Prepared>(1);
+  Prepared counted;  // stands in for **prepared while counting
+  Prepared& p = *prepared == nullptr ? counted : **prepared;
+  const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
+  if (config.images != 0) p.images = carver.Take<sf_image_field>(1);
+  p.disparity.stride = width;
+  p.disparity.data = carver.Take<int16_t>(width, height);
+  for (int layer = 1; layer <= config.max_layer; ++layer) {
+    Plane<int16_t>& plane = p.layers[layer];
+    plane.stride = 3 * static_cast<size_t>(LayerSize(config.width, layer));
+    plane.data =
+        carver.Take<int16_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
+  }
+  for (int shift = 1; shift <= config.previews; ++shift) {
+    TakeReduced(config, shift, &carver, &p.reduced[shift]);
+  }
+  return carver.Bytes();
+}
+
+sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
+                  Prepared** prepared) {
+  const int32_t height = engine->config.height;
+  Watch& watch = engine->crew.jobs.watch;
+  engine->stream.active = false;
+  watch.Begin(call.progress, call.progress_data, 0, height);
+  sf_status status = CheckRows(source, {0, height}, call.runner, engine);
+  if (status != SF_OK) return status;
+  new (call.memory) Prepared();
+  Prepared* made = nullptr;
+  LayOutPrepared(engine->config, call.memory, &made);
+  made->config = engine->config;
+  status = MakeLayers(*made, source, call.runner, engine);
+  if (status != SF_OK) return status;
+  watch.SetRows(height);
+  if (!watch.Ask()) return SF_ERROR_CANCELLED;
+  *prepared = made;
+  return SF_OK;
+}
+
+bool Fits(const Prepared& prepared, const sf_config& config) {
+  const sf_config& made = prepared.config;
+  return made.width == config.width && made.height == config.height && SameViews(made, config) &&
+         made.disparity_min == config.disparity_min && made.disparity_max == config.disparity_max &&
+         made.max_layer == config.max_layer && made.transfer == config.transfer;
+}
+
+Extent PreparedMemory(const Prepared& prepared) {
+  Prepared* counted = nullptr;
+  return ExtentOf(&prepared, 0, 1, LayOutPrepared(prepared.config, nullptr, &counted));
+}
+
+void UsePrepared(const Prepared& prepared, EngineState* engine) {
+  const Plane<int16_t>& disparity = prepared.disparity;
+  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    engine->pictures.windows[layer].disparity = {disparity.data, disparity.stride, 0, 0};
+    const Plane<int16_t>& plane = prepared.layers[layer];
+    if (layer > 0) engine->pictures.windows[layer].samples = {plane.data, plane.stride, 0, 0};
+  }
+  engine->pictures.prepared = true;
+}
+
+}  // namespace starfocus
