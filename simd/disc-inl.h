@@ -12,7 +12,6 @@
 #include "simd/compat-inl.h"
 #include "simd/disc.h"
 #include "simd/light-inl.h"
-#include "simd/prefilter.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -50,7 +49,7 @@ struct DiscMeans {
             size_t count) {
     const size_t margin = Margin(disc), all = count + 2 * margin;
     for (int32_t y = 0; y < row_count; ++y) {
-      const ptrdiff_t offset = y * disc.dilation * static_cast<ptrdiff_t>(in_stride);
+      const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
       uint16_t* row = rows + static_cast<size_t>(y) * kStride;
       std::memset(row, 0, kTap * sizeof(*row));
       AverageRows(middle - offset - margin, middle + offset - margin, all, row + kTap);
@@ -61,9 +60,7 @@ struct DiscMeans {
   // The first of those samples in row 0.
   const uint16_t* First(const Disc& disc) const { return rows + kTap + Margin(disc); }
 
-  static size_t Margin(const Disc& disc) {
-    return kPixel * static_cast<size_t>(disc.size * disc.dilation);
-  }
+  static size_t Margin(const Disc& disc) { return kPixel * static_cast<size_t>(disc.size); }
 };
 
 // DiscTaps holds a quarter of one or two discs in pairs of columns that are multiplied together. A
@@ -78,21 +75,21 @@ struct DiscTaps {
   };
   Tap taps[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
   size_t count = 0;
-  int32_t step;      // samples from the first column to the second
   int32_t rows = 0;  // of the quarter, up to the last one with taps
 
   // Holds taps where either disc has weights.
-  DiscTaps(const Disc& disc, const Disc& second) : step(3 * disc.dilation) {
+  DiscTaps(const Disc& disc, const Disc& second) {
     const auto pair_of = [](const Disc& of, int32_t x, int32_t y) {
       return Pair{Weight(of, x, y), Weight(of, x + 1, y)};
     };
     constexpr auto kRow = static_cast<int32_t>(DiscMeans::kStride);
+    constexpr auto kPixel = static_cast<int32_t>(DiscMeans::kPixel);
     for (int32_t y = 0; y <= disc.size || y <= second.size; ++y) {
       const int32_t last = LastOf(disc, y), second_last = LastOf(second, y);
       if (last >= 0 || second_last >= 0) rows = y + 1;
       for (int32_t x = 0; x <= last || x <= second_last; x += 2) {
-        taps[count++] = {pair_of(disc, x, y), pair_of(second, x, y), y * kRow + step * x,
-                         y * kRow - step * x};
+        taps[count++] = {pair_of(disc, x, y), pair_of(second, x, y), y * kRow + kPixel * x,
+                         y * kRow - kPixel * x};
       }
     }
   }
@@ -122,19 +119,9 @@ struct DiscTaps {
   }
 };
 
-// What a disc's sums become: they are divided by 2^bits, of which `offset` is taken away, limited
-// to [0, white] and times 2^whole.
+// What a disc's sums become: they are divided by 2^bits and multiplied by 2^whole.
 struct DiscScale {
   int bits, whole;
-  int32_t offset, white;
-
-  // Of light without its last `dropped` bits.
-  DiscScale(const Disc& disc, int dropped, int to_whole)
-      : bits(disc.bits + dropped), whole(to_whole), offset(0), white(kLightWhite >> dropped) {
-    if (disc.dilation == 1) return;
-    bits -= kPrefilterBits;
-    offset = kPrefilterOffset << kPrefilterBits >> dropped;
-  }
 };
 
 // FilterMeans makes light of `count` samples of the means: those weighed by the disc and, with
@@ -145,11 +132,10 @@ template <bool kTwo>
 inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
                         const DiscScale& scale, int16_t* HWY_RESTRICT light,
                         const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
+  constexpr ptrdiff_t kPixel = DiscMeans::kPixel;
   const auto finish = [](uint32_t sum, const DiscScale& by) {
     const uint32_t half = uint32_t{1} << (by.bits - 1);
-    const auto value = static_cast<int32_t>((sum + half) >> by.bits) - by.offset;
-    const int32_t limited = value < 0 ? 0 : value > by.white ? by.white : value;
-    return static_cast<int16_t>(limited << by.whole);
+    return static_cast<int16_t>((sum + half) >> by.bits << by.whole);
   };
   for (size_t n = 0; n < count; ++n) {
     const uint16_t* at = means + n;
@@ -158,7 +144,7 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
       const DiscTaps::Tap& tap = disc.taps[k];
       const uint16_t *right = at + tap.right, *left = at + tap.left;
       const uint32_t first = (right[0] + left[0] + uint32_t{1}) >> 1;
-      const uint32_t next = (right[disc.step] + left[-disc.step] + uint32_t{1}) >> 1;
+      const uint32_t next = (right[kPixel] + left[-kPixel] + uint32_t{1}) >> 1;
       sum += first * tap.weights.first + next * tap.weights.second;
       if (kTwo) second_sum += first * tap.second_weights.first + next * tap.second_weights.second;
     }
@@ -192,14 +178,12 @@ struct DiscSums {
 
   static HWY_INLINE void Store(V32 low, V32 high, const DiscScale& scale, int16_t* light) {
     const auto half = hn::Set(d32, uint32_t{1} << (scale.bits - 1));
-    const auto offset = hn::Set(di32, scale.offset);
     const auto value = [&](V32 sums) HWY_ATTR {
       const auto sum = hn::Add(hn::BitCast(d32, sums), half);
-      return hn::Sub(hn::BitCast(di32, hn::ShiftRightSame(sum, scale.bits)), offset);
+      return hn::BitCast(di32, hn::ShiftRightSame(sum, scale.bits));
     };
-    const auto both = hn::Max(DemoteSums(di16, value(low), value(high)), hn::Zero(di16));
-    const auto limited = hn::Min(both, hn::Set(di16, static_cast<int16_t>(scale.white)));
-    hn::StoreU(hn::ShiftLeftSame(limited, scale.whole), di16, light);
+    const auto both = DemoteSums(di16, value(low), value(high));
+    hn::StoreU(hn::ShiftLeftSame(both, scale.whole), di16, light);
   }
 };
 
@@ -213,18 +197,18 @@ HWY_NOINLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_RE
                                     const DiscScale& other_scale,
                                     int16_t* HWY_RESTRICT other_light) {
   const size_t lanes = hn::Lanes(DiscSums::d16);
-  const ptrdiff_t step = disc.step;
+  constexpr ptrdiff_t kPixel = DiscMeans::kPixel;
   auto low = hn::Zero(DiscSums::di32), high = low, other_low = low, other_high = low;
   for (size_t k = 0; k < disc.count; ++k) {
     const DiscTaps::Tap& tap = disc.taps[k];
     const uint16_t *right = means + tap.right, *left = means + tap.left;
     const auto first = DiscSums::Mean(right, left);
-    const auto next = DiscSums::Mean(right + step, left - step);
+    const auto next = DiscSums::Mean(right + kPixel, left - kPixel);
     DiscSums::Add(first, next, tap.weights, low, high);
     if (kBeside == Beside::kNextVector) {
       right += lanes;
       left += lanes;
-      DiscSums::Add(DiscSums::Mean(right, left), DiscSums::Mean(right + step, left - step),
+      DiscSums::Add(DiscSums::Mean(right, left), DiscSums::Mean(right + kPixel, left - kPixel),
                     tap.weights, other_low, other_high);
     } else if (kBeside == Beside::kSecondDisc) {
       DiscSums::Add(first, next, tap.second_weights, other_low, other_high);
@@ -278,7 +262,7 @@ struct DiscOutput {
 };
 
 inline DiscOutput SamplesOf(const Disc& disc, int16_t* samples, size_t stride) {
-  return {nullptr, samples, stride, {nullptr, nullptr}, {disc, kLightBits - kLayerBits, 0}};
+  return {nullptr, samples, stride, {nullptr, nullptr}, {disc.bits + kLightBits - kLayerBits, 0}};
 }
 
 // Filters rows of samples by chunks, with kTwo by a second, smaller disc as well.
@@ -286,7 +270,7 @@ template <bool kTwo>
 inline void FilterRows(const int16_t* in, size_t in_stride, const Disc& disc, const Disc& smaller,
                        size_t rows, size_t count, const DiscOutput& out,
                        const DiscOutput& second_out) {
-  const Disc none = {-1, 0, nullptr, disc.dilation};
+  const Disc none = {-1, 0, nullptr};
   const DiscTaps taps(disc, kTwo ? smaller : none);
   DiscMeans means;
   constexpr size_t kLight = kDiscChunk + HWY_MAX_BYTES;
@@ -307,7 +291,7 @@ inline void FilterDisc(const int16_t* HWY_RESTRICT in, size_t in_stride, const D
                        const Encoding& encoding, size_t rows, size_t count,
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
   const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
-  const DiscOutput codes = {out, nullptr, out_stride, encoding, {disc, whole, whole}};
+  const DiscOutput codes = {out, nullptr, out_stride, encoding, {disc.bits + whole, whole}};
   FilterRows<false>(in, in_stride, disc, disc, rows, count, codes, codes);
 }
 

@@ -15,14 +15,10 @@ namespace starfocus::simd {
 // tells all of it: the weight of the pixel m columns and n rows away, 0 <= m <= n <= size, is
 // weights[n (n + 1) / 2 + m]. All weights of the disc together sum to 2^bits at most; those of four
 // pixels that mirror each other on both axes, or of two on an axis, sum to 32767 at most.
-//
-// With a dilation of 2 the weights are those of every second pixel, which are read from what
-// Prefilter made of the light: it brings in the pixels between. `size`, m and n count taps then.
 struct Disc {
-  int32_t size;  // taps from the middle to the last column, size * dilation in [0, kMaxDisc]
-  int bits;      // [dilation, 17]
+  int32_t size;  // [0, kMaxDisc]
+  int bits;      // [1, 17]
   const uint16_t* weights;
-  int32_t dilation = 1;  // 1 or 2: pixels from tap to tap
 };
 inline constexpr int32_t kMaxDisc = 12;
 
@@ -33,9 +29,8 @@ namespace reference {
 // itself, for y < rows and n < count. Light of
 // pixels that mirror each other is weighed together: the mean of the two above each other, and that
 // of two such means, each rounded halves up. in_stride is in samples, out_stride in bytes. `in` is
-// read as far around as the disc reaches: disc.size * disc.dilation rows, and three times as many
-// samples, on each side. `in` and `out` don't overlap, and nothing between the rows of `out` is
-// written. What a dilated disc sums up may lie beyond black and white, and is limited to them.
+// read as far around as the disc reaches: disc.size rows, and three times as many samples, on each
+// side. `in` and `out` don't overlap, and nothing between the rows of `out` is written.
 void FilterDisc(const int16_t* in, size_t in_stride, const Disc& disc, const Encoding& encoding,
                 size_t rows, size_t count, uint8_t* out, size_t out_stride);
 
@@ -46,7 +41,7 @@ void FilterDiscLayer(const int16_t* in, size_t in_stride, const Disc& disc, size
                      size_t count, int16_t* out, size_t out_stride);
 
 // Filters rows by two discs at once, each of which gives what FilterDiscLayer gives; `less` is no
-// larger than `more`, and dilated as it is.
+// larger than `more`.
 void FilterTwoDiscs(const int16_t* in, size_t in_stride, const Disc& less, const Disc& more,
                     size_t rows, size_t count, int16_t* out_less, int16_t* out_more,
                     size_t out_stride);

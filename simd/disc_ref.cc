@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simd/arithmetic_ref.h"
 #include "simd/disc.h"
-#include "simd/prefilter.h"
 
 namespace starfocus::simd::reference {
 namespace {
@@ -13,8 +12,8 @@ uint32_t DiscSum(const int16_t* at, ptrdiff_t stride, const Disc& disc) {
     for (int32_t x = 0; x <= disc.size; ++x) {
       const int32_t high = x > y ? x : y, low = x > y ? y : x;
       const auto column = [&](int32_t pixel) {
-        const int16_t* sample = at + 3 * ptrdiff_t{pixel} * disc.dilation;
-        const ptrdiff_t down = y * stride * disc.dilation;
+        const int16_t* sample = at + 3 * ptrdiff_t{pixel};
+        const ptrdiff_t down = y * stride;
         return Mean(sample[-down], sample[down]);
       };
       const int32_t pixels = (x > 0 ? 2 : 1) * (y > 0 ? 2 : 1);
@@ -27,13 +26,8 @@ uint32_t DiscSum(const int16_t* at, ptrdiff_t stride, const Disc& disc) {
 
 // Returns the light of a disc's sum without its last `dropped` bits.
 int32_t LightOf(uint32_t sum, const Disc& disc, int dropped) {
-  const bool dilated = disc.dilation == 2;
-  const int bits = disc.bits - (dilated ? kPrefilterBits : 0) + dropped;
-  const auto rounded = static_cast<int32_t>((sum + (uint32_t{1} << bits >> 1)) >> bits);
-  if (!dilated) return rounded;
-  const int32_t light = rounded - (kPrefilterOffset << kPrefilterBits >> dropped);
-  const int32_t white = kLightWhite >> dropped;
-  return light < 0 ? 0 : light > white ? white : light;
+  const int bits = disc.bits + dropped;
+  return static_cast<int32_t>((sum + (uint32_t{1} << bits >> 1)) >> bits);
 }
 
 }  // namespace

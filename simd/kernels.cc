@@ -25,7 +25,6 @@
 #include "simd/layered_depth-inl.h"
 #include "simd/light-inl.h"
 #include "simd/neighbourhood-inl.h"
-#include "simd/prefilter-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"

@@ -17,7 +17,6 @@
 #include "simd/light.h"
 #include "simd/neighbourhood.h"
 #include "simd/padding.h"
-#include "simd/prefilter.h"
 #include "simd/resample.h"
 #include "simd/runs.h"
 #include "simd/slices.h"
@@ -36,7 +35,6 @@
   KERNEL(FilterDisc)              \
   KERNEL(FilterDiscLayer)         \
   KERNEL(FilterTwoDiscs)          \
-  KERNEL(Prefilter)               \
   KERNEL(MixSamples)              \
   KERNEL(MoveSamples)             \
   KERNEL(ConvertDisparity)        \

@@ -23,7 +23,6 @@
 // | weight of a view     | int16  | varies  | [0, 14500]                | 13 % below 2^14           |
 // | sums of a column     | uint16 | 2^8     | weights: 58000; 1/9 more  | 1 % below 2^16            |
 // | sums of slices       | uint32 | 2^8     | 58000 a column, N <= 41   | 800 x                     |
-// | prefiltered sample   | int16  | 2^6     | [-72, 328] and 72         | 22 % below 511.98         |
 // | mean of disc pixels  | uint16 | 2^7     | [0, 255], of two or four  | signed 16-bit multiplies  |
 // | their weight         | uint16 | 2^k     | [0, 32767], k <= 17       | signed 16-bit multiplies  |
 // | radius on a slope    | int32  | 2^10    | +-60 px, +-130 px beside  | 2^13 x                    |

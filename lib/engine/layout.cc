@@ -200,11 +200,6 @@ void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->tables.blur_kernels =
       carver->Take<BlurKernel>(static_cast<size_t>(BlurStepCount(config.max_blur)));
   engine->tables.blur_weights = carver->Take<uint16_t>(BlurWeightCount(opening, config.max_blur));
-  const int32_t first = FirstDilatedStep(opening);
-  const double gathered = opening.IsSymmetric() ? LargestGather(config.max_blur) : 0;
-  engine->tables.first_dilated = first;
-  engine->tables.dilated_kernels = carver->Take<BlurKernel>(DilatedKernelCount(first, gathered));
-  engine->tables.dilated_weights = carver->Take<uint16_t>(DilatedWeightCount(first, gathered));
 }
 
 // Takes the planes of layers 1 and 2 around a stripe.

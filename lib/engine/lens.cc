@@ -54,7 +54,7 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   lens->aperture = FrameAperture(config, *tables, *lens);
   const ViewGrid grid = MakeViewGrid(lens->aperture, params.focus, params.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
-  if (Gathers(config, *lens)) return MakeGatherKernels(LastGatherStep(*lens) + 1, watch, tables);
+  if (Gathers(config, *lens)) return MakeBlurKernels(LastGatherStep(*lens) + 1, watch, tables);
   if (params.mode == SF_MODE_BLUR) return MakeBlurKernels(BlurStepCount(r_max), watch, tables);
   return SF_OK;
 }

@@ -3,7 +3,6 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/rules.h"
-#include "lib/filter/dilated_kernels.h"
 #include "lib/input/excess.h"
 #include "lib/input/picture_edge.h"
 #include "lib/plan/block_stats.h"
@@ -44,8 +43,6 @@ Reach GetReach(double max_blur) {
     // Borders of blocks are whole cells (ReachBlock). Their last one begins within the splat.
     const int32_t border = (blur + kLayerMargin[layer]) / kCellSize * kCellSize + kCellSize;
     int32_t rows = (border >> layer) + 1;  // with the neighbour of a subaperture
-    const int32_t gathered = Min((blur + (1 << layer) - 1) >> layer, kMaxGather);
-    if (gathered >= kDilatedFrom) rows = Max(rows, LayerMargin(layer) + DilatedReach(gathered));
     reach.layer_rows[layer] = rows;
     // The taps of each downsampling filter read 3 rows beyond.
     for (int above = layer; above > 0; --above) rows = 2 * rows + 3;

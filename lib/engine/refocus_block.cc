@@ -192,8 +192,7 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   const Counting counting(in.windows[block.layer], worker);
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
-  const GatherKernels blur = {tables.blur_kernels, tables.dilated_kernels, tables.first_dilated,
-                              LastGatherStep(*in.lens), tables.mean_square};
+  const GatherKernels blur = {tables.blur_kernels, LastGatherStep(*in.lens), tables.mean_square};
   const GatherJob job = {&counting.window(), in.cells,         cells, in.lens->scale, blur,
                          in.kernels,         &worker->patience};
   const Rect frame = LayerFrame(block.rect, block.layer);

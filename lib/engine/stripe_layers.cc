@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/stripe_layers.h"
 
+#include "lib/base/rules.h"
 #include "lib/engine/reach.h"
-#include "lib/filter/dilated_kernels.h"
 
 namespace starfocus {
 namespace {
@@ -71,9 +71,8 @@ void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pic
   int32_t right = block.rendered.x + block.rendered.width + block.border.right;
   if (block.gathers) {
     const Rect frame = LayerFrame(block.rect, block.layer);
-    const int32_t reach = DilatedReach(kMaxGather);
-    left = block.rendered.width > 0 ? Min(left, frame.x - reach) : frame.x - reach;
-    right = Max(right, frame.x + frame.width + reach);
+    left = block.rendered.width > 0 ? Min(left, frame.x - kMaxGather) : frame.x - kMaxGather;
+    right = Max(right, frame.x + frame.width + kMaxGather);
   }
   const int32_t first = Max(0, left * scale / side);
   const int32_t last = Min(Columns(config) - 1, right * scale / side);

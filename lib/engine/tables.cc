@@ -17,7 +17,6 @@ void MakeTables(const sf_config& config, Tables* tables) {
     weights += ApertureSize(tables->opening, n);
   }
   tables->blur_steps = 0;
-  tables->dilated_steps = tables->first_dilated;
   tables->mean_square = MeanSquare(tables->opening);
 }
 
@@ -27,16 +26,6 @@ sf_status MakeBlurKernels(int32_t steps, Watch* watch, Tables* tables) {
   tables->blur_steps = MakeBlurKernels(tables->blur_steps, steps, tables->opening, &patience,
                                        tables->blur_weights, tables->blur_kernels);
   return tables->blur_steps == steps ? SF_OK : SF_ERROR_CANCELLED;
-}
-
-sf_status MakeGatherKernels(int32_t steps, Watch* watch, Tables* tables) {
-  const sf_status status = MakeBlurKernels(steps, watch, tables);
-  if (status != SF_OK || steps <= tables->dilated_steps) return status;
-  Patience patience(watch);
-  tables->dilated_steps = MakeDilatedKernels(tables->first_dilated, tables->dilated_steps, steps,
-                                             tables->opening, tables->mean_square, &patience,
-                                             tables->dilated_weights, tables->dilated_kernels);
-  return tables->dilated_steps == steps ? SF_OK : SF_ERROR_CANCELLED;
 }
 
 }  // namespace starfocus

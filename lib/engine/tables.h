@@ -8,7 +8,6 @@
 #include "lib/base/aperture.h"
 #include "lib/base/watch.h"
 #include "lib/filter/blur.h"
-#include "lib/filter/dilated_kernels.h"
 #include "lib/plan/timing.h"
 #include "starfocus/starfocus.h"
 
@@ -25,11 +24,8 @@ struct Tables {
   uint16_t* benchmark_weights;  // of the one aperture of the benchmark mode
   BlurKernel* blur_kernels;
   uint16_t* blur_weights;
-  int32_t blur_steps;           // kernels made so far
-  BlurKernel* dilated_kernels;  // of steps from first_dilated on
-  uint16_t* dilated_weights;
-  int32_t first_dilated, dilated_steps;  // the step up to which they are made
-  int32_t mean_square;                   // MeanSquare of the opening
+  int32_t blur_steps;   // kernels made so far
+  int32_t mean_square;  // MeanSquare of the opening
 };
 
 // Makes all but the blur kernels; the arrays must be set.
@@ -38,9 +34,6 @@ void MakeTables(const sf_config& config, Tables* tables);
 // Makes the blur kernels of steps up to `steps` that are not there yet. Returns SF_OK or
 // SF_ERROR_CANCELLED; those that were made stay.
 sf_status MakeBlurKernels(int32_t steps, Watch* watch, Tables* tables);
-
-// Makes the dilated kernels of those steps as well.
-sf_status MakeGatherKernels(int32_t steps, Watch* watch, Tables* tables);
 
 }  // namespace starfocus
 

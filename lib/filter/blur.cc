@@ -174,6 +174,47 @@ void AddKernel(const BlurKernel& kernel, int32_t side, const int16_t* at, size_t
   }
 }
 
+// Makes the kernel of a radius (kDisparityBits). Returns false if patience ended first. Every orbit
+// takes up the rounding of those before it and the last one the rest, as in MakeAperture.
+bool MakeBlurKernel(int32_t radius, const Opening& opening, Patience* patience, uint16_t* weights,
+                    BlurKernel* kernel) {
+  kernel->size = SizeOf(radius);
+  kernel->weights = weights;
+  kernel->sum_bits = 14;
+  kernel->full = !opening.IsSymmetric();
+  if (radius == 0) {
+    weights[0] = 1 << 14;
+    return true;
+  }
+  double total = 0, largest = 0;  // of pixels that simd::Disc weighs together
+  const auto add = [&](int32_t n, int32_t m, int32_t points, double integral) {
+    total += points * integral;
+    const int32_t together = kernel->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
+    largest = Larger(largest, together * integral);
+  };
+  if (!ForEachWeight(radius, opening, patience, add)) return false;
+  while (kernel->sum_bits < kMaxLightBits &&
+         largest / total * (2 << kernel->sum_bits) < kMaxWeight - 8) {
+    ++kernel->sum_bits;
+  }
+  const int32_t one = 1 << kernel->sum_bits, size = kernel->size;
+  double wanted = 0;
+  int32_t given = 0;
+  const auto give = [&](int32_t n, int32_t m, int32_t points, double integral) {
+    wanted += points * integral;
+    // What is wanted of all comes from the same sum as the total.
+    const auto target = wanted == total ? one : static_cast<int32_t>(wanted / total * one + 0.5);
+    const auto weight =
+        static_cast<int32_t>(ShareOfPoints(target - given, points, opening.IsRing()));
+    weights[kernel->full ? (m + size) * (2 * size + 1) + n + size : n * (n + 1) / 2 + m] =
+        static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
+    given += weight * points;
+  };
+  if (!ForEachWeight(radius, opening, patience, give)) return false;
+  Checked(ranges::kRemainder, given - one);
+  return true;
+}
+
 }  // namespace
 
 int32_t BlurStep(int32_t radius) {
@@ -212,49 +253,6 @@ size_t BlurWeightCount(const Opening& opening, double max_blur) {
     count += WeightsOf(!opening.IsSymmetric(), SizeOf(RadiusOfStep(step)));
   }
   return count;
-}
-
-size_t BlurWeightsOf(int32_t radius) { return WeightsOf(false, SizeOf(radius)); }
-
-// Every orbit takes up the rounding of those before it and the last one the rest, as in
-// MakeAperture.
-bool MakeBlurKernel(int32_t radius, const Opening& opening, Patience* patience, uint16_t* weights,
-                    BlurKernel* kernel) {
-  kernel->size = SizeOf(radius);
-  kernel->weights = weights;
-  kernel->sum_bits = 14;
-  kernel->full = !opening.IsSymmetric();
-  if (radius == 0) {
-    weights[0] = 1 << 14;
-    return true;
-  }
-  double total = 0, largest = 0;  // of pixels that simd::Disc weighs together
-  const auto add = [&](int32_t n, int32_t m, int32_t points, double integral) {
-    total += points * integral;
-    const int32_t together = kernel->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
-    largest = Larger(largest, together * integral);
-  };
-  if (!ForEachWeight(radius, opening, patience, add)) return false;
-  while (kernel->sum_bits < kMaxLightBits &&
-         largest / total * (2 << kernel->sum_bits) < kMaxWeight - 8) {
-    ++kernel->sum_bits;
-  }
-  const int32_t one = 1 << kernel->sum_bits, size = kernel->size;
-  double wanted = 0;
-  int32_t given = 0;
-  const auto give = [&](int32_t n, int32_t m, int32_t points, double integral) {
-    wanted += points * integral;
-    // What is wanted of all comes from the same sum as the total.
-    const auto target = wanted == total ? one : static_cast<int32_t>(wanted / total * one + 0.5);
-    const auto weight =
-        static_cast<int32_t>(ShareOfPoints(target - given, points, opening.IsRing()));
-    weights[kernel->full ? (m + size) * (2 * size + 1) + n + size : n * (n + 1) / 2 + m] =
-        static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
-    given += weight * points;
-  };
-  if (!ForEachWeight(radius, opening, patience, give)) return false;
-  Checked(ranges::kRemainder, given - one);
-  return true;
 }
 
 int32_t MakeBlurKernels(int32_t first, int32_t last, const Opening& opening, Patience* patience,

@@ -46,13 +46,6 @@ struct BlurKernel {
 // Weights that all kernels up to max_blur store together.
 size_t BlurWeightCount(const Opening& opening, double max_blur);
 
-// Weights that the kernel of a radius (kDisparityBits) stores, of an opening that an octant tells.
-size_t BlurWeightsOf(int32_t radius);
-
-// Makes the kernel of a radius (kDisparityBits). Returns whether patience (null: it lasts) lasted.
-bool MakeBlurKernel(int32_t radius, const Opening& opening, Patience* patience, uint16_t* weights,
-                    BlurKernel* kernel);
-
 // Makes the kernels of steps [first, last), first <= last, behind those before, which must have
 // been made; kernels[BlurStepCount], weights[BlurWeightCount]. Cat's eyes are left out. Returns
 // `last`, or the step that patience (null: it lasts) ended at.

@@ -45,8 +45,7 @@ class Gather {
         Steps& steps = At(x, y) = kNone;
         if (!job_.cells.IsGathered(x, y)) continue;
         steps = StepsOf(x, y);
-        border_ = Max(border_, ReachOf(steps));
-        some_dilated_ = some_dilated_ || IsDilated(steps);
+        border_ = Max(border_, KernelOf(steps.more).size);
         const Rect pixels = job_.cells.PixelsOf(x, y);
         left = Min(left, pixels.x);
         top = Min(top, pixels.y);
@@ -58,17 +57,8 @@ class Gather {
     LoadField(*job_.window, loaded_, {border_, border_, border_, border_}, field_);
   }
 
-  // Filters the cells whose kernels are dilated or not, those first: they need the light as it is.
   void Filter() {
-    FilterRows();
-    const int64_t pixels = int64_t{field_->width} * field_->height;
-    if (!some_dilated_ || !GoesOn(job_.patience, 2 * 3 * pixels)) return;
-    dilation_ = kDilation;
-    job_.kernels->Prefilter(field_->rgb, RgbStride(field_->width),
-                            static_cast<size_t>(field_->height),
-                            3 * static_cast<size_t>(field_->width));
-    border_ -= simd::kPrefilterReach;
-    FilterRows();
+    for (int32_t y = block_.y; y < Bottom(); y += kCellSize) FilterRow(y);
   }
 
   int32_t Right() const { return block_.x + block_.width; }
@@ -84,17 +74,12 @@ class Gather {
   static_assert(kMaxGather <= 31, "step 127 is that of 31.5 pixels");
   static constexpr Steps kNone = {-1, -1};  // of cells that are not gathered
 
-  void FilterRows() {
-    for (int32_t y = block_.y; y < Bottom(); y += kCellSize) FilterRow(y);
-  }
-
   // Filters the row of cells at y; those side by side that have the same kernels go together.
   void FilterRow(int32_t y) {
     for (int32_t x = block_.x; x < Right();) {
       const int32_t first = x;
       x += kCellSize;
-      const Steps& steps = At(first, y);
-      if (steps.less < 0 || IsDilated(steps) != (dilation_ > 1)) continue;
+      if (At(first, y).less < 0) continue;
       x = job_.cells.IsFlat(first, y) ? FilterFlat(first, y) : FilterSlopes(first, y);
       if (x == first) return;
       pixels_ += static_cast<uint64_t>(Min(x, Right()) - first) *
@@ -259,23 +244,10 @@ class Gather {
     return here.less == steps.less && here.more == steps.more && job_.cells.IsFlat(x, y) == flat;
   }
 
-  bool IsDilated(const Steps& steps) const { return steps.less >= job_.blur.first_dilated; }
+  const BlurKernel& KernelOf(int32_t step) const { return job_.blur.of_step[step]; }
 
-  // How far around a cell of these kernels pixels are read.
-  int32_t ReachOf(const Steps& steps) const {
-    if (!IsDilated(steps)) return job_.blur.of_step[steps.more].size;
-    const BlurKernel& kernel = job_.blur.dilated[steps.more - job_.blur.first_dilated];
-    return kDilation * kernel.size + simd::kPrefilterReach;
-  }
-
-  // The kernel of a step among those that are filtered now.
-  const BlurKernel& KernelOf(int32_t step) const {
-    return dilation_ > 1 ? job_.blur.dilated[step - job_.blur.first_dilated]
-                         : job_.blur.of_step[step];
-  }
-
-  simd::Disc DiscOf(const BlurKernel& kernel) const {
-    return {kernel.size, kernel.sum_bits, kernel.weights, dilation_};
+  static simd::Disc DiscOf(const BlurKernel& kernel) {
+    return {kernel.size, kernel.sum_bits, kernel.weights};
   }
 
   const GatherJob& job_;
@@ -285,8 +257,6 @@ class Gather {
   Field* field_;
   const Gathered& out_;
   int32_t border_ = 0;  // of the field around it: as far as any kernel reaches
-  bool some_dilated_ = false;
-  int32_t dilation_ = 1;  // of the kernels that are filtered now
   uint64_t pixels_ = 0;
   Steps steps_[kMaxRowCells * kMaxRowCells];  // of the block's cells
   SlopeRows rows_;

@@ -11,7 +11,6 @@
 #include "lib/base/rules.h"
 #include "lib/base/watch.h"
 #include "lib/filter/blur.h"
-#include "lib/filter/dilated_kernels.h"
 #include "lib/input/field.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/gathered_cells.h"
@@ -24,8 +23,7 @@ static_assert(kMaxGather <= simd::kMaxDisc, "");
 // The kernels of a lens.
 struct GatherKernels {
   const BlurKernel* of_step;
-  const BlurKernel* dilated;  // of steps from first_dilated on
-  int32_t first_dilated, last_step;
+  int32_t last_step;
   int32_t mean_square;  // of the opening
 };
 
@@ -48,7 +46,7 @@ struct Gathered {
 };
 
 // Gathers the cells of a block that are to be; `field` has room for its LayerFrame and a border of
-// DilatedReach(kMaxGather) pixels. Returns their pixels in the picture.
+// kMaxGather pixels. Returns their pixels in the picture.
 uint64_t GatherCells(const GatherJob& job, Field* field, const Gathered& out);
 
 }  // namespace starfocus

@@ -118,78 +118,28 @@ class Gather {
     return {nearest, std::max(std::fabs(low), std::fabs(high))};
   }
 
-  // A kernel of pixels, or of every second one.
-  struct Disc {
-    BlurKernel kernel;
-    int dilation;
-  };
-
-  // The smallest radius of the layer that has taps at every second pixel.
-  double DilatedFrom() const {
-    const Opening& opening = lens_.opening;
-    if (opening.shape != SF_SHAPE_FALL_OFF) return 10 / (1 - opening.inner);
-    return 7 * std::sqrt(std::max(1.0, 0.88 / opening.cot2));
-  }
-
-  Disc DiscOf(double radius, bool dilated) const {
-    if (!dilated) return {BlurKernelOf(radius, lens_.opening), 1};
-    const double square = radius * radius - 0.25 / MeanSquare(lens_.opening);
-    const double in_taps = std::floor(std::sqrt(square) / 2 * kOne + 0.5) / kOne;
-    return {BlurKernelOf(in_taps, lens_.opening), 2};
-  }
-
-  // What lies around a part of the layer for discs up to a size. Between the taps of dilated ones
-  // lies what this filters first, with its rim left as it is.
-  static int BorderOf(const Disc& disc) {
-    return disc.dilation * disc.kernel.size + (disc.dilation > 1 ? 2 : 0);
-  }
-  static Picture Prefiltered(const Picture& from) {
-    const auto filtered = [](const Picture& in, int dx, int dy) {
-      Picture to = in;
-      for (int y = 2 * dy; y < in.height - 2 * dy; ++y) {
-        for (int x = 2 * dx; x < in.width - 2 * dx; ++x) {
-          const auto at = [&](int k) { return in.colours[in.At(x + k * dx, y + k * dy)]; };
-          for (size_t c = 0; c < 3; ++c) {
-            to.colours[to.At(x, y)][c] =
-                (10 * at(0)[c] + 4 * (at(-1)[c] + at(1)[c]) - at(-2)[c] - at(2)[c]) / 16;
-          }
-        }
-      }
-      return to;
-    };
-    return filtered(filtered(from, 0, 1), 1, 0);
-  }
-
-  // A part of the layer, filtered by a disc from what lies `border` around it.
+  // A part of the layer, filtered by a kernel from what lies `border` around it.
   Picture Filtered(const Picture& extended, int border, int width, int height,
-                   const Disc& disc) const {
-    const BlurKernel& kernel = disc.kernel;
+                   const BlurKernel& kernel) const {
     Picture to(width, height);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         Colour& sum = to.colours[to.At(x, y)];
         for (int m = -kernel.size; m <= kernel.size; ++m) {
           for (int n = -kernel.size; n <= kernel.size; ++n) {
-            const size_t at =
-                extended.At(x + disc.dilation * n + border, y + disc.dilation * m + border);
+            const size_t at = extended.At(x + n + border, y + m + border);
             for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * extended.colours[at][c];
           }
         }
-        for (double& value : sum) value = std::clamp(value, 0.0, 255.0);
       }
     }
     return to;
   }
 
-  // What lies around a cell, as such discs are applied to it.
-  Picture Around(const GatheredCell& cell, const Disc& disc) const {
-    const Picture extended =
-        Extended(cell.at_x, cell.at_y, cell.at_width, cell.at_height, BorderOf(disc));
-    return disc.dilation > 1 ? Prefiltered(extended) : extended;
-  }
-
-  Picture Extended(int x, int y, int width, int height, int border) const {
-    const Rectangle rectangle = {x, y, width, height, border, border, border, border};
+  // A cell with `border` pixels of the layer around it.
+  Picture Around(const GatheredCell& cell, int border) const {
+    const Rectangle rectangle = {cell.at_x, cell.at_y, cell.at_width, cell.at_height,
+                                 border,    border,    border,        border};
     Picture extended = ExtendedRectangle(of_layer_, rectangle);
     LookBeyond(field_, picture_, block_.layer, rectangle, &extended);
     return extended;
@@ -203,9 +153,9 @@ class Gather {
     const int distance = std::abs((low + high) / 2 - lens_.focus);
     const int radius = int(std::floor(lens_.radius * distance)) >> block_.layer;
     const double nearest = NearestRadius(radius);
-    const Disc disc = DiscOf(nearest, nearest >= DilatedFrom());
+    const BlurKernel kernel = BlurKernelOf(nearest, lens_.opening);
     const Picture filtered =
-        Filtered(Around(cell, disc), BorderOf(disc), cell.at_width, cell.at_height, disc);
+        Filtered(Around(cell, kernel.size), kernel.size, cell.at_width, cell.at_height, kernel);
     for (int y = 0; y < cell.at_height; ++y) {
       for (int x = 0; x < cell.at_width; ++x) {
         Out(cell.at_x + x, cell.at_y + y) = filtered.colours[filtered.At(x, y)];
@@ -226,10 +176,10 @@ class Gather {
     const Range range = RangeOf(cell);
     const Range between = {std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
                            std::min(LadderAbove(int(std::ceil(range.high * kOne))), largest_)};
-    const bool dilated = between.low >= DilatedFrom();
-    const Disc less = DiscOf(between.low, dilated), more = DiscOf(between.high, dilated);
-    const Picture extended = Around(cell, more);
-    const int border = BorderOf(more);
+    const BlurKernel less = BlurKernelOf(between.low, lens_.opening);
+    const BlurKernel more = BlurKernelOf(between.high, lens_.opening);
+    const int border = more.size;
+    const Picture extended = Around(cell, border);
     Picture mixed = Filtered(extended, border, cell.at_width, cell.at_height, less);
     const Picture wider = Filtered(extended, border, cell.at_width, cell.at_height, more);
     const Corners corners = CornersOf(cell);

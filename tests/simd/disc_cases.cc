@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of the kernels of simd/disc.h and simd/prefilter.h.
+// Cases of the kernels of simd/disc.h.
 #include <algorithm>
 #include <cstdlib>
 
@@ -12,7 +12,6 @@ using starfocus::simd::Disc;
 using starfocus::simd::Kernels;
 using starfocus::simd::kMaxDisc;
 using starfocus::simd::kPadding;
-using starfocus::simd::kPrefilterReach;
 
 size_t OctantIndex(int x, int y) {
   const int high = std::max(std::abs(x), std::abs(y)), low = std::min(std::abs(x), std::abs(y));
@@ -33,8 +32,7 @@ int BitsOf(int size, const std::vector<uint16_t>& weights) {
 // Any filter: weights of all sizes, rings of zeros outside, and as large a sum as may be. Four
 // pixels that are weighed together sum to 15 bits at most.
 Disc MakeDisc(Draw* draw, KernelCall* call) {
-  const int dilation = !draw->timed() && draw->Rarely(2) ? 2 : 1;
-  const int size = int(draw->Size(0, kMaxDisc / dilation, 4));
+  const int size = int(draw->Size(0, kMaxDisc, 4));
   const int pixels = (2 * size + 1) * (2 * size + 1);
   const int used = draw->Rarely(2) ? draw->Int(0, size) : size;
   const int largest = std::min(32767 / 4, (1 << 17) / pixels);
@@ -46,17 +44,7 @@ Disc MakeDisc(Draw* draw, KernelCall* call) {
       weights[OctantIndex(x, y)] = uint16_t(zero ? 0 : draw->Int(0, most));
     }
   }
-  return {size, std::max(BitsOf(size, weights), dilation), call->Input("weights", weights),
-          dilation};
-}
-
-// Light as it is, or what Prefilter makes of it.
-std::vector<int16_t> Filterable(const Disc& disc, size_t count, Draw* draw) {
-  std::vector<int16_t> samples = Light(count, draw);
-  if (disc.dilation == 1) return samples;
-  constexpr int kMost = 25599;
-  for (int16_t& sample : samples) sample = int16_t(std::min(int(sample), kMost));
-  return samples;
+  return {size, BitsOf(size, weights), call->Input("weights", weights)};
 }
 
 // Rows of a picture that a disc is applied to, with what lies around them.
@@ -68,11 +56,11 @@ struct Filtered {
   Filtered(Draw* draw, KernelCall* call) : disc(MakeDisc(draw, call)) {
     count = draw->Size(1, draw->Rarely(4) ? 400 : 60, 96);
     rows = draw->Size(1, 4, kTimedSamples / 96);
-    const size_t around = size_t(disc.size * disc.dilation), width = count + 6 * around;
+    const size_t around = size_t(disc.size), width = count + 6 * around;
     stride = width + size_t(draw->Int(0, 4));
     out_stride = count + size_t(draw->Int(0, 7));
-    const int16_t* in = call->Input(
-        "in", Filterable(disc, (rows + 2 * around - 1) * stride + width, draw), kPadding);
+    const int16_t* in =
+        call->Input("in", Light((rows + 2 * around - 1) * stride + width, draw), kPadding);
     for (size_t y = 0; y + 1 < rows + 2 * around; ++y) {
       call->Ignore(in + y * stride + width, stride - width);
     }
@@ -120,29 +108,12 @@ void FilterTwoDiscs(Draw* draw, KernelCall* call) {
     weights[k] = draw->Rarely(6) ? uint16_t(0) : more.weights[k];
     if (weights[k] == 0 && draw->Rarely(3)) weights[k] = 1;
   }
-  less.bits = std::max(BitsOf(less.size, weights), less.dilation);
+  less.bits = BitsOf(less.size, weights);
   less.weights = call->Input("weights of less", weights);
   auto *out_less = in.Output<int16_t>(call), *out_more = in.Output<int16_t>(call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
     kernels.FilterTwoDiscs(in.first, in.stride, less, more, in.rows, in.count, out_less, out_more,
                            in.out_stride);
-    return 0;
-  };
-}
-
-void Prefilter(Draw* draw, KernelCall* call) {
-  constexpr size_t kAround = 2 * kPrefilterReach;
-  const size_t count = 3 * draw->Size(kAround, draw->Rarely(4) ? 200 : 40, 90);
-  const size_t rows = draw->Size(kAround, 12, kTimedSamples / 270);
-  const size_t stride = count + size_t(draw->Int(0, 4));
-  const std::vector<int16_t> light = Light(rows * stride, draw);
-  auto* samples = call->Output<int16_t>("samples", rows * stride);
-  std::copy(light.begin(), light.end(), samples);
-  for (size_t y = 0; y + kAround < rows; ++y) {
-    call->Result(samples + y * stride, count - 3 * kAround);
-  }
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.Prefilter(samples, stride, rows, count);
     return 0;
   };
 }

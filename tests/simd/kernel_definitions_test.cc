@@ -67,14 +67,6 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
   ReferenceKernels().FilterDiscLayer(&rows[1][3], 9, {1, 4, ring}, 1, 1, sample, 9);
   CHECK(sample[0] == (64 * (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9) + 8) / 16);
   CHECK(sample[1] == 77);
-  // Every second sample of a row of pixels, of which only red counts: light is half of what is
-  // prefiltered, without the offset.
-  const int16_t dilated[13] = {4608 + 100, 0, 0, 77, 0, 0, 4608 + 20, 0, 0, 77, 0, 0, 4608 + 60};
-  const uint16_t cross[3] = {8, 2, 0};
-  std::vector<int16_t> grid;
-  for (int y = 0; y < 5; ++y) grid.insert(grid.end(), dilated, dilated + 13);
-  ReferenceKernels().FilterDiscLayer(&grid[2 * 13 + 6], 13, {1, 4, cross, 2}, 1, 1, sample, 13);
-  CHECK(sample[0] == (8 * 20 + 2 * (100 + 60 + 20 + 20) + 8) / 16);
   const float disparity[4] = {0.0078125f, -0.0078125f, -500, 500};
   int16_t converted[4];
   CHECK(ReferenceKernels().ConvertDisparity(disparity, 4, -500, 500, converted));
@@ -82,31 +74,6 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
   CHECK(converted[1] == 0);
   CHECK(converted[2] == -32000);
   CHECK(converted[3] == 32000);
-}
-
-TEST_CASE("kernel definitions: what a picture is prefiltered by, by hand") {
-  // One white pixel of nine by nine. Its row has what -1, 4, 10, 4, -1 sixteenths of the middle
-  // column's 10 sixteenths are.
-  constexpr int kWhite = 16 * 16 * 64, kSide = 9, kMiddle = kSide / 2;
-  int16_t rows[kSide][3 * kSide] = {};
-  rows[kMiddle][3 * kMiddle] = kWhite;
-  ReferenceKernels().Prefilter(rows[0], 3 * kSide, kSide, 3 * kSide);
-  const int taps[5] = {-1, 4, 10, 4, -1};
-  for (int y = 0; y < 5; ++y) {
-    for (int x = 0; x < 5; ++x) {
-      const int half = 32 * taps[y] * taps[x];
-      CHECK(std::abs(rows[y][3 * x] - (4608 + half)) <= 1);
-      CHECK(rows[y][3 * x + 1] == 4608);
-    }
-  }
-  CHECK(rows[0][3 * 5] == 0);  // beyond what is written
-  // What is the same everywhere stays so, but for the bit that is lost.
-  for (const int16_t light : {int16_t{0}, int16_t{9}, int16_t{32640}}) {
-    int16_t flat[5][15];
-    for (auto& row : flat) std::fill(row, row + 15, light);
-    ReferenceKernels().Prefilter(flat[0], 15, 5, 15);
-    CHECK(flat[0][0] == 4608 + (light + 1) / 2);
-  }
 }
 
 TEST_CASE("kernel definitions: light and codes, by hand") {
