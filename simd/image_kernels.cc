@@ -3,13 +3,7 @@
 // the machine.
 #include "simd/image_kernels.h"
 
-// As for kernels.cc, which says why.
-#ifndef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS HWY_AVX3_DL
-#endif
-#ifndef HWY_BROKEN_EMU128
-#define HWY_BROKEN_EMU128 1
-#endif
+#include "simd/targets.h"  // before those of Highway
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/image_kernels.cc"
@@ -19,39 +13,19 @@
 #include "simd/pixels-inl.h"
 #include "simd/yuv-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace starfocus::simd {
-namespace HWY_NAMESPACE {
-
-// HWY_NAMESPACE is N_ and the target's name.
-#undef STARFOCUS_TEXT
-#undef STARFOCUS_TEXT_OF
-#define STARFOCUS_TEXT(name) #name
-#define STARFOCUS_TEXT_OF(name) STARFOCUS_TEXT(name)
-#undef STARFOCUS_IMAGE_ENTRY
-#define STARFOCUS_IMAGE_ENTRY(Kernel) Kernel,
-
-const ImageKernels* ImageTable() {
-  static constexpr ImageKernels kernels = {&STARFOCUS_TEXT_OF(HWY_NAMESPACE)[2],
-                                           STARFOCUS_IMAGE_KERNELS(STARFOCUS_IMAGE_ENTRY)};
-  return &kernels;
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace starfocus::simd
-HWY_AFTER_NAMESPACE();
+#ifndef STARFOCUS_TABLE
+#define STARFOCUS_TABLE ImageKernels
+#define STARFOCUS_LIST STARFOCUS_IMAGE_KERNELS
+#define STARFOCUS_BEST BestImageKernels
+#endif
+#include "simd/table-inl.h"
 
 #if HWY_ONCE
 namespace starfocus::simd {
 
-HWY_EXPORT(ImageTable);
-
-const ImageKernels& BestImageKernels() { return *HWY_DYNAMIC_DISPATCH(ImageTable)(); }
-
 const ImageKernels& ReferenceImageKernels() {
   using namespace reference;
-  static constexpr ImageKernels kernels = {"reference",
-                                           STARFOCUS_IMAGE_KERNELS(STARFOCUS_IMAGE_ENTRY)};
+  static constexpr ImageKernels kernels = {"reference", STARFOCUS_IMAGE_KERNELS(STARFOCUS_ENTRY)};
   return kernels;
 }
 

@@ -75,9 +75,6 @@ struct Kernels {
 #undef STARFOCUS_MEMBER
 };
 
-// The kernels of that name that are declared where this stands, in the order of Kernels.
-#define STARFOCUS_ENTRY(Kernel) Kernel,
-
 // The best target of this machine, chosen once by Highway.
 const Kernels& BestKernels();
 // The references.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simd/kernels.h"
+#include "simd/targets.h"
 
 namespace starfocus::simd {
 
