@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/stripe.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "lib/engine/layout.h"
@@ -22,21 +23,6 @@ void RefocusOneBlock(const RefocusJob& job, int32_t index, Worker* worker) {
   // What is read and filtered whatever becomes of the block; renderers count what they do.
   if (!worker->patience.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
   RefocusBlock(job.in, block, job.out, worker);
-}
-
-// Puts blocks of the most predicted time first, so that no worker is left with a long one when the
-// others have none any more. (With std::sort the package of the web gets larger than it may be.)
-void PutLongestFirst(int32_t count, Block* blocks) {
-  for (int32_t gap = count / 2; gap > 0; gap /= 2) {
-    for (int32_t k = gap; k < count; ++k) {
-      const Block block = blocks[k];
-      int32_t to = k;
-      for (; to >= gap && blocks[to - gap].cost < block.cost; to -= gap) {
-        blocks[to] = blocks[to - gap];
-      }
-      blocks[to] = block;
-    }
-  }
 }
 
 // Joins blocks of different layers. Between rows, job `index` joins the boundaries of a column of
@@ -84,8 +70,10 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, const R
   }
   if (status != SF_OK) return status;
   const StripePlan& plan = engine->stripe.plan;
-  // A thread alone goes on with what lies beside the last block, as caches like it.
-  if (runner.run != nullptr) PutLongestFirst(plan.used, plan.blocks);
+  // Blocks of the most predicted time come first, so that no worker is left with a long one when the
+  // others have none any more.
+  std::sort(plan.blocks, plan.blocks + plan.used,
+            [](const Block& a, const Block& b) { return a.cost > b.cost; });
   const RefocusJob job = {InputsOf(*engine), plan.blocks, out};
   if (plan.used > 0) {
     status = RunJobs<RefocusJob, RefocusOneBlock>(job, plan.used, runner, &engine->crew);
