@@ -54,8 +54,8 @@ sf_status Refocus(const Request& request, const Runner& runner, EngineState* eng
   }
   if (status == SF_OK) status = CheckOverlap(request, rect, *engine);
   if (status != SF_OK) return status;
-  SetPictures(request.light_field, engine);
   const LightFieldRows rows(request.light_field, 0, *engine);
+  rows.Use(engine);
   const Picture picture = {request.out, request.out_stride, rect, request.previous};
   Call call = {request.params, {}, SinkOf(picture), runner, request.prepared};
   if (request.prepared == nullptr) call.source = rows.Source();

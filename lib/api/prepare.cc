@@ -54,8 +54,8 @@ sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void*
   read.AddLightField(e.config, *light_field);
   status = starfocus::CheckPreparedMemory(e, call, &read);
   if (status != SF_OK) return status;
-  starfocus::SetPictures(*light_field, &e);
   const starfocus::LightFieldRows rows(*light_field, 0, e);
+  rows.Use(&e);
   Prepared* made = nullptr;
   status = starfocus::Prepare(call, rows.Source(), &e, &made);
   if (status != SF_OK) return status;

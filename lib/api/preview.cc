@@ -32,11 +32,7 @@ sf_params ReducedParams(const PreviewRequest& request, const Rect& rect) {
 }
 
 void UseReduced(const ReducedField& field, EngineState* engine) {
-  Plane<const uint8_t> views[kMaxViews];
-  for (int view = 0; view < engine->config.views; ++view) {
-    views[view] = {field.views[view].data, field.views[view].stride, 0, 0};
-  }
-  SetPlanes(engine->config, *engine->kernels, views, &engine->pictures);
+  SetPlanes(engine->config, *engine->kernels, field.views, &engine->pictures);
   for (Window& window : engine->pictures.windows) {
     window.disparity = {field.disparity.data, field.disparity.stride, 0, 0};
   }

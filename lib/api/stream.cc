@@ -88,11 +88,7 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
   e.crew.jobs.watch.Begin(params->progress, params->progress_data, 0, e.config.height);
   status = starfocus::SetLens(*params, &e);
   if (status != SF_OK) return status;
-  starfocus::Plane<const uint8_t> views[starfocus::kMaxViews];
-  for (int view = 0; view < e.config.views; ++view) {
-    views[view] = {e.rings[view].data, e.rings[view].stride, e.rings[view].rows, 0};
-  }
-  starfocus::SetPlanes(e.config, *e.kernels, views, &e.pictures);
+  starfocus::SetPlanes(e.config, *e.kernels, e.rings, &e.pictures);
   e.stream.active = true;
   return SF_OK;
 }

@@ -35,12 +35,14 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
 }
 
 void SetPlanes(const sf_config& config, const simd::Kernels& kernels,
-               const Plane<const uint8_t>* views, Pictures* pictures) {
+               const Plane<uint8_t>* views, Pictures* pictures) {
   PlaneViews& planes = pictures->planes;
   planes.kernels = &kernels;
   planes.transfer = &TransferOf(config.transfer);
-  for (int view = 0; view < config.views; ++view) planes.view[view] = views[view];
-  SetViews(config, ReaderOf(planes), views[0], pictures);
+  for (int view = 0; view < config.views; ++view) {
+    planes.view[view] = {views[view].data, views[view].stride, views[view].rows, 0};
+  }
+  SetViews(config, ReaderOf(planes), planes.view[0], pictures);
 }
 
 int32_t FillUnknown(const sf_config& config, const simd::Kernels& kernels, int16_t* row) {

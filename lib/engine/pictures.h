@@ -17,7 +17,7 @@ namespace starfocus {
 enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
 
 struct Pictures {
-  PlaneViews planes;  // read by the windows if the views lie in memory as rows of codes
+  PlaneViews planes;  // of SetPlanes
   Window windows[SF_LAYERS];
   LayerPlane layers[SF_LAYERS];  // layers 1 and 2, around a stripe
   uint8_t* needed[SF_LAYERS];    // per column of largest blocks: ColumnNeed of its layer 1, 2
@@ -29,9 +29,9 @@ struct Pictures {
 void SetViews(const sf_config& config, const ViewReader& reader, const Plane<const uint8_t>& centre,
               Pictures* pictures);
 
-// Points the windows at views that lie in memory as rows of codes: pictures or rings of rows.
+// Points the windows at views in memory of the library: reduced pictures or rings of rows.
 void SetPlanes(const sf_config& config, const simd::Kernels& kernels,
-               const Plane<const uint8_t>* views, Pictures* pictures);
+               const Plane<uint8_t>* views, Pictures* pictures);
 
 // Converts a disparity row to `out`, kDisparityBits, and kNoSurface where it is not finite. Returns
 // simd::DepthFlags; values outside of the configured range become anything.

@@ -78,12 +78,8 @@ RowSource LightFieldRows::Source() const {
   return source;
 }
 
-void SetPictures(const sf_light_field& light_field, EngineState* engine) {
-  Plane<const uint8_t> views[kMaxViews];
-  for (int view = 0; view < engine->config.views; ++view) {
-    views[view] = {light_field.views[view].data, light_field.views[view].stride, 0, 0};
-  }
-  SetPlanes(engine->config, *engine->kernels, views, &engine->pictures);
+void LightFieldRows::Use(EngineState* engine) const {
+  SetViews(engine->config, ReaderOf(planes_), planes_.view[0], &engine->pictures);
 }
 
 RowSink SinkOf(const Picture& picture) { return {Store, &picture}; }

@@ -17,6 +17,9 @@ class LightFieldRows {
   // Returns a source of the rows; this object must outlive it.
   RowSource Source() const;
 
+  // Points the engine's windows at the rows, which are those of a whole light field and must stay.
+  void Use(EngineState* engine) const;
+
  private:
   static uint32_t ReadMap(const void* self, int32_t y, int16_t* out, uint64_t* bytes);
 
@@ -24,9 +27,6 @@ class LightFieldRows {
   Plane<const float> disparity_;
   PlaneViews planes_;
 };
-
-// Points the engine's windows at a whole light field.
-void SetPictures(const sf_light_field& light_field, EngineState* engine);
 
 // An RGB picture of the caller's for `rect` of the picture. What has not changed since `previous`
 // (null: none) comes from there.

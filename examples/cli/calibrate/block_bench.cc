@@ -58,12 +58,13 @@ void BlockBench::HoldDisparity() {
                        map.values.data() + size_t(y) * size_t(map.width),
                        engine_->pictures.disparity.Row(y));
   }
-  Plane<const uint8_t> views[kMaxViews];
+  views_.kernels = engine_->kernels;
+  views_.transfer = &TransferOf(engine_->config.transfer);
   for (size_t i = 0; i < light_field_->views.size(); ++i) {
     const Image& view = light_field_->views[i];
-    views[i] = {view.pixels.data(), view.stride(), 0, 0};
+    views_.view[i] = {view.pixels.data(), view.stride(), 0, 0};
   }
-  SetPlanes(engine_->config, *engine_->kernels, views, &engine_->pictures);
+  SetViews(engine_->config, ReaderOf(views_), views_.view[0], &engine_->pictures);
 }
 
 void BlockBench::HoldLayer(int layer) {

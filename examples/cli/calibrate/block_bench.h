@@ -41,6 +41,7 @@ class BlockBench {
   const LightField* light_field_ = nullptr;
   Workspace workspace_;
   EngineState* engine_ = nullptr;
+  PlaneViews views_;
   std::vector<int16_t> disparity_;
   std::vector<int16_t> layer_samples_[SF_LAYERS];
   Image picture_;
