@@ -64,7 +64,7 @@ void ProductRange(double a, double b, double c, double d, double* low, double* h
 
 }  // namespace
 
-struct Renderer::Lens {
+struct RayTracer::Lens {
   double u = 0, v = 0;               // centre of the lens
   double aperture = 0;               // its radius; 0: a pinhole
   double focus = 0;                  // canvas units
@@ -72,8 +72,8 @@ struct Renderer::Lens {
   const SceneOpening* opening = nullptr;
 };
 
-Renderer::Renderer(const Scene& scene, int width, int height, sf_transfer transfer,
-                   ThreadRunner* runner)
+RayTracer::RayTracer(const Scene& scene, int width, int height, sf_transfer transfer,
+                     ThreadRunner* runner)
     : scene_(scene),
       width_(width),
       height_(height),
@@ -84,13 +84,13 @@ Renderer::Renderer(const Scene& scene, int width, int height, sf_transfer transf
   for (const Surface& surface : scene.surfaces) bounds_.push_back(SurfaceBounds(surface, reach));
 }
 
-void Renderer::ToPixel(double x, double y, int* pixel_x, int* pixel_y) const {
+void RayTracer::ToPixel(double x, double y, int* pixel_x, int* pixel_y) const {
   const double px = x * scale_ + 0.5 * (width_ - 1), py = y * scale_ + 0.5 * (height_ - 1);
   *pixel_x = std::clamp(static_cast<int>(std::floor(px + 0.5)), 0, width_ - 1);
   *pixel_y = std::clamp(static_cast<int>(std::floor(py + 0.5)), 0, height_ - 1);
 }
 
-std::vector<size_t> Renderer::Candidates(const Lens& lens, int x0, int y0) const {
+std::vector<size_t> RayTracer::Candidates(const Lens& lens, int x0, int y0) const {
   const double left = (x0 - 0.5 * width_) / scale_, top = (y0 - 0.5 * height_) / scale_;
   const double side = kTile / scale_;
   std::vector<size_t> found;
@@ -110,8 +110,8 @@ std::vector<size_t> Renderer::Candidates(const Lens& lens, int x0, int y0) const
   return found;
 }
 
-const Surface* Renderer::Trace(const std::vector<size_t>& candidates, const Ray& ray,
-                               Hit* hit) const {
+const Surface* RayTracer::Trace(const std::vector<size_t>& candidates, const Ray& ray,
+                                Hit* hit) const {
   const Surface* found = nullptr;
   hit->d = -std::numeric_limits<double>::infinity();
   for (size_t i : candidates) {
@@ -125,8 +125,8 @@ const Surface* Renderer::Trace(const std::vector<size_t>& candidates, const Ray&
   return found;
 }
 
-Color Renderer::RayColor(const Lens& lens, const std::vector<size_t>& candidates, double x,
-                         double y, double u, double v) const {
+Color RayTracer::RayColor(const Lens& lens, const std::vector<size_t>& candidates, double x,
+                          double y, double u, double v) const {
   const double canvas_x = (x - 0.5 * (width_ - 1)) / scale_;
   const double canvas_y = (y - 0.5 * (height_ - 1)) / scale_;
   const Ray ray = {canvas_x - u * lens.focus, canvas_y - v * lens.focus, u, v};
@@ -135,8 +135,8 @@ Color Renderer::RayColor(const Lens& lens, const std::vector<size_t>& candidates
   return surface == nullptr ? Color() : curve_.Decode(surface->paint(*surface, hit));
 }
 
-Color Renderer::ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x,
-                          int y) const {
+Color RayTracer::ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x,
+                           int y) const {
   Color sum;
   for (int k = 0; k < kViewGrid * kViewGrid; ++k) {
     // A sheared grid: 16 different positions along either axis.
@@ -147,8 +147,8 @@ Color Renderer::ViewPixel(const Lens& lens, const std::vector<size_t>& candidate
   return sum * (1.0 / (kViewGrid * kViewGrid));
 }
 
-Color Renderer::LensPixel(const Lens& lens, const std::vector<size_t>& candidates, int x,
-                          int y) const {
+Color RayTracer::LensPixel(const Lens& lens, const std::vector<size_t>& candidates, int x,
+                           int y) const {
   const Point turn = lens.turns[Hash(x, y, 1) % lens.turns.size()];
   double dx = HashUnit(x, y, 2), dy = HashUnit(x, y, 3);
   const double half = 0.5 * std::sqrt(double(width_) * width_ + double(height_) * height_);
@@ -169,7 +169,7 @@ Color Renderer::LensPixel(const Lens& lens, const std::vector<size_t>& candidate
   return sum * (1.0 / count);
 }
 
-void Renderer::RenderTile(const Lens& lens, int x0, int y0, Image* image) const {
+void RayTracer::RenderTile(const Lens& lens, int x0, int y0, Image* image) const {
   const std::vector<size_t> candidates = Candidates(lens, x0, y0);
   for (int y = y0; y < std::min(y0 + kTile, height_); ++y) {
     for (int x = x0; x < std::min(x0 + kTile, width_); ++x) {
@@ -184,7 +184,7 @@ void Renderer::RenderTile(const Lens& lens, int x0, int y0, Image* image) const 
 }
 
 template <class Body>
-void Renderer::ForBands(Progress* progress, int steps, const Body& body) const {
+void RayTracer::ForBands(Progress* progress, int steps, const Body& body) const {
   struct Band {
     const Body* body;
     Progress* progress;
@@ -200,7 +200,7 @@ void Renderer::ForBands(Progress* progress, int steps, const Body& body) const {
   ThreadRunner::Run(runner_, job, &band, (height_ + kTile - 1) / kTile);
 }
 
-Image Renderer::Render(const Lens& lens, Progress* progress) const {
+Image RayTracer::Render(const Lens& lens, Progress* progress) const {
   Image image(width_, height_);
   ForBands(progress, lens.aperture > 0 ? kTruthCost : 1, [&](int y) {
     for (int x = 0; x < width_; x += kTile) RenderTile(lens, x, y, &image);
@@ -208,15 +208,15 @@ Image Renderer::Render(const Lens& lens, Progress* progress) const {
   return image;
 }
 
-Image Renderer::View(double u, double v, Progress* progress) const {
+Image RayTracer::View(double u, double v, Progress* progress) const {
   Lens lens;
   lens.u = u;
   lens.v = v;
   return Render(lens, progress);
 }
 
-Image Renderer::Truth(double focus, double aperture, const SceneOpening& opening,
-                      Progress* progress) const {
+Image RayTracer::Truth(double focus, double aperture, const SceneOpening& opening,
+                       Progress* progress) const {
   Lens lens;
   lens.focus = focus / scale_;
   lens.aperture = aperture;
@@ -226,7 +226,7 @@ Image Renderer::Truth(double focus, double aperture, const SceneOpening& opening
   return Render(lens, progress);
 }
 
-FloatMap Renderer::Disparity() const {
+FloatMap RayTracer::Disparity() const {
   FloatMap map;
   map.width = width_;
   map.height = height_;

@@ -14,10 +14,10 @@
 
 namespace starfocus {
 
-class Renderer {
+class RayTracer {
  public:
   // Pictures are means of light, as `transfer` has it.
-  Renderer(const Scene& scene, int width, int height, sf_transfer transfer, ThreadRunner* runner);
+  RayTracer(const Scene& scene, int width, int height, sf_transfer transfer, ThreadRunner* runner);
 
   // Progress counts rows, and rows of ground truth kTruthCost times; null for none.
   static constexpr int kTruthCost = 16;

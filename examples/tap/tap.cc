@@ -64,7 +64,7 @@ Error Open(const Options& options, const Plan& plan, ThreadRunner* runner, Light
     return error;
   }
   const Scene scene = MakePortrait();
-  const Renderer renderer(scene, plan.width, plan.height, SF_TRANSFER_SRGB, runner);
+  const RayTracer renderer(scene, plan.width, plan.height, SF_TRANSFER_SRGB, runner);
   Progress progress("tracing", int64_t{5} * plan.height);
   for (int view = 0; view < 5; ++view) {
     double u = 0, v = 0;

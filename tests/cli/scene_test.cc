@@ -74,7 +74,7 @@ TEST_CASE("scene: views warped by the exact disparity give the centre view back"
   for (const char* name : kNames) {
     Scene scene;
     REQUIRE(MakeScene(name, &scene));
-    const Renderer renderer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+    const RayTracer renderer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
     const Image centre = renderer.View(0, 0, nullptr);
     const FloatMap map = renderer.Disparity();
     for (int index : {1, 4, 6, 16}) {
@@ -93,7 +93,7 @@ TEST_CASE("scene: a lens stopped down to a pinhole takes the centre view") {
   ThreadRunner runner(2);
   Scene scene;
   REQUIRE(MakeScene("portrait", &scene));
-  const Renderer renderer(scene, kWidth / 2, kHeight / 2, SF_TRANSFER_NONE, &runner);
+  const RayTracer renderer(scene, kWidth / 2, kHeight / 2, SF_TRANSFER_NONE, &runner);
   const Image centre = renderer.View(0, 0, nullptr);
   CHECK(Psnr(centre, renderer.Truth(0.5, 1e-6, DefaultOpening(), nullptr)) > 38);
   CHECK(Psnr(centre, renderer.Truth(0.5, 1, DefaultOpening(), nullptr)) < 32);
@@ -103,7 +103,7 @@ TEST_CASE("scene: what the lens focuses on is sharp, the rest is not") {
   ThreadRunner runner(2);
   Scene scene;
   REQUIRE(MakeScene("ramp", &scene));
-  const Renderer renderer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+  const RayTracer renderer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
   const FloatMap map = renderer.Disparity();
   const Image centre = renderer.View(0, 0, nullptr);
   const Image truth = renderer.Truth(map.at(kWidth / 2, kHeight / 2), 1, DefaultOpening(), nullptr);
@@ -122,7 +122,7 @@ TEST_CASE("scene: the same pictures for any number of threads") {
   for (const char* name : kNames) {
     Scene scene;
     REQUIRE(MakeScene(name, &scene));
-    const Renderer a(scene, kOdd, 47, SF_TRANSFER_NONE, &one),
+    const RayTracer a(scene, kOdd, 47, SF_TRANSFER_NONE, &one),
         b(scene, kOdd, 47, SF_TRANSFER_NONE, &three);
     CHECK(a.View(-0.5, 1, nullptr).pixels == b.View(-0.5, 1, nullptr).pixels);
     CHECK(a.Truth(1, 0.8, DefaultOpening(), nullptr).pixels ==
@@ -139,7 +139,7 @@ TEST_CASE("scene: near, middle and far points lie in that order, at any size") {
     REQUIRE(scene.points.size() == 3);
     for (const int width : {1024, 96, 40}) {
       const int height = width == 40 ? 90 : width * 3 / 4;
-      const Renderer renderer(scene, width, height, SF_TRANSFER_NONE, &runner);
+      const RayTracer renderer(scene, width, height, SF_TRANSFER_NONE, &runner);
       const FloatMap map = renderer.Disparity();
       std::vector<float> disparity;
       for (const NamedPoint& point : scene.points) {
@@ -163,7 +163,7 @@ TEST_CASE("scene: tiny pictures and every pixel finite") {
     Scene scene;
     REQUIRE(MakeScene(name, &scene));
     for (const int width : {1, 2, 300}) {
-      const Renderer renderer(scene, width, 3, SF_TRANSFER_NONE, &runner);
+      const RayTracer renderer(scene, width, 3, SF_TRANSFER_NONE, &runner);
       CHECK(renderer.View(1, -1, nullptr).pixels.size() == size_t(9 * width));
       for (float d : renderer.Disparity().values) CHECK(std::isfinite(d));
     }

@@ -248,7 +248,7 @@ TEST_CASE("block conformance: parts of the demo's scenes") {
   for (const char* name : {"portrait", "wires", "ramp"}) {
     starfocus::Scene drawn;
     REQUIRE(starfocus::MakeScene(name, &drawn));
-    const starfocus::Renderer renderer(drawn, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
+    const starfocus::RayTracer renderer(drawn, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
     starfocus::LightField field;
     for (int i = 0; i < 5; ++i) {
       double u = 0, v = 0;

@@ -28,7 +28,7 @@ std::string Trace(const std::string& name, SceneTimes* times) {
   ThreadRunner runner(sf_pool_cores());
   Scene scene;
   MakeScene(name, &scene);
-  const Renderer renderer(scene, kWidth, kHeight, SF_TRANSFER_SRGB, &runner);
+  const RayTracer renderer(scene, kWidth, kHeight, SF_TRANSFER_SRGB, &runner);
   LightField light_field;
   {
     Progress progress("rendering " + name, int64_t{kHeight} * kViews);

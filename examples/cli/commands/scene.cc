@@ -99,7 +99,7 @@ Error CheckFolder(const std::string& folder, const Positions& views) {
   return "";
 }
 
-std::string MetaText(const Options& options, const Plan& plan, const Renderer& renderer,
+std::string MetaText(const Options& options, const Plan& plan, const RayTracer& renderer,
                      const FloatMap& disparity) {
   std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
   text += "size: " + std::to_string(plan.width) + "x" + std::to_string(plan.height) + "\n";
@@ -129,13 +129,13 @@ Error Run(const Options& options) {
   if (error.empty()) error = CheckFolder(options.folder, plan.views);
   if (!error.empty()) return error;
   ThreadRunner runner(plan.threads);
-  const Renderer renderer(plan.scene, plan.width, plan.height, plan.transfer, &runner);
+  const RayTracer renderer(plan.scene, plan.width, plan.height, plan.transfer, &runner);
   const SceneOpening opening(plan.shape);
   LightField light_field;
   std::vector<Image> truths;
   {
     const int64_t pictures =
-        int64_t(plan.views.size()) + Renderer::kTruthCost * int64_t(plan.truths.size());
+        int64_t(plan.views.size()) + RayTracer::kTruthCost * int64_t(plan.truths.size());
     Progress progress("rendering", plan.height * pictures);
     light_field.positions = plan.views;
     for (const sf_position& view : plan.views) {
