@@ -94,19 +94,15 @@ class Engine {
   sf_status status_ = SF_OK;
 };
 
-// Returns the fractional bits of the sums of a block at layer 0.
-int FractionOf(const EngineState& engine, const Aperture& aperture) {
-  return UsesSubapertures(engine.lens) ? kCompositeBits : aperture.sum_bits + kLightBits;
-}
-
 // Gray levels of the picture refocused last, before they are rounded to bytes.
 std::vector<double> ReadLevels(const Engine& measured) {
   const EngineState& engine = measured.state();
   const Block& block = engine.stripe.plan.blocks[0];
   const Worker& worker = engine.crew.workers[0];
-  const Aperture& aperture = ApertureOf(engine.tables, engine.lens, block.n);
-  const double one =
-      std::ldexp(1.0, block.layer == 0 ? FractionOf(engine, aperture) : simd::kLayerBits);
+  const Aperture& aperture = ApertureOf(engine.lens, block.n);
+  const int bits =
+      block.layer == 0 ? engine.lens.renderer->sum_bits(aperture) : int{simd::kLayerBits};
+  const double one = std::ldexp(1.0, bits);
   std::vector<double> levels(measured.out().size() / 3);
   for (size_t k = 0; k < levels.size(); ++k) {
     const double sample = block.layer == 0 ? worker.sums[3 * k] : worker.picture_samples[3 * k];

@@ -123,7 +123,7 @@ sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_eng
   starfocus::LayOut(chosen, workspace, &made);
   made->config = chosen;
   made->kernels = &starfocus::simd::BestKernels();
-  starfocus::MakeTables(made->config, &made->tables);
+  starfocus::BeginTables(made->config, &made->tables);
   *engine = reinterpret_cast<sf_engine*>(made);
   return SF_OK;
 }

@@ -2,124 +2,10 @@
 #include "lib/engine/layout.h"
 
 #include "lib/base/rules.h"
+#include "lib/input/field.h"
 
 namespace starfocus {
 namespace {
-
-SpanMemory TakeSpans(size_t side, Carver* carver) {
-  SpanMemory memory;
-  memory.span_capacity = 512;
-  memory.spans = carver->Take<simd::Span>(memory.span_capacity);
-  memory.pixel_capacity = 3 * 2 * side;
-  memory.pixels = carver->Take<int16_t>(memory.pixel_capacity);
-  return memory;
-}
-
-// Returns the largest N of the block and frame modes.
-int32_t LargestN(const sf_config& config) {
-  // It is one more than (9) gives, since radii are rounded up before it.
-  return ScaleViews(ViewsByPaper(config.max_blur) + 1, config.n_scale);
-}
-int32_t LargestSubapertureN(const sf_config& config) {
-  return ScaleViews(ViewsBySubaperture(config.max_blur + 1, DemandOf(OpeningOf(config))),
-                    config.n_scale);
-}
-
-// Returns the largest N of slices.
-int32_t LargestSliceN(const sf_config& config) {
-  return Max(LargestSubapertureN(config), ViewsOfBenchmark(config.max_blur));
-}
-
-// Takes the memory of line scans: E and R of LineScanScratch, and the largest N.
-void TakeStar(size_t extended, size_t rectangle, size_t max_n, Carver* carver,
-              LineScanScratch* star) {
-  LineScanScratch& scratch = *star;
-  const size_t area = extended * extended;
-  const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
-  for (int k = 0; k < 2; ++k) {
-    scratch.field_rgb[k] = carver->Take<int16_t>(extended * rgb_stride);
-    scratch.field_disparity[k] = carver->Take<int16_t>(area);
-  }
-  scratch.column_sums = carver->Take<uint32_t>(3 * rectangle * rectangle);
-  scratch.diagonal_rgb = carver->Take<int16_t>(3 * area);
-  scratch.diagonal_disparity = carver->Take<int16_t>(area);
-  scratch.diagonal_offsets = carver->Take<uint32_t>(2 * extended);
-  scratch.moves = carver->Take<int64_t>(max_n + 1);
-  scratch.marks.starts = carver->Take<uint16_t>(RunMarkWords(extended, extended));
-  scratch.marks.edges = carver->Take<uint16_t>(RunMarkWords(extended, extended));
-  scratch.marks.middles = carver->Take<int16_t>(RunMiddles(extended, extended));
-  scratch.runs = carver->Take<Run>(area);
-  scratch.run_counts = carver->Take<int32_t>(extended);
-  scratch.line_runs = carver->Take<Run>(extended);
-  scratch.strip_rgb = carver->Take<int16_t>(3 * rectangle * kStripRows);
-  scratch.view_disparity = carver->Take<int16_t>(rectangle * extended);
-  scratch.columns_rgb = carver->Take<int16_t>(rectangle * rgb_stride);
-  scratch.line_accumulators = carver->Take<uint32_t>(3 * extended);
-  scratch.spans = TakeSpans(extended, carver);
-}
-
-// Takes the memory of FillHidden.
-FillScratch TakeFill(size_t extended, Carver* carver) {
-  const size_t stride = FillStride(extended), behind = kFillStep;
-  FillScratch fill;
-  fill.disparity = carver->Take<int16_t>(extended * stride + behind);
-  fill.rgb = carver->Take<int16_t>(3 * extended * stride + behind);
-  fill.saved = carver->Take<int16_t>(3 * size_t{kFillStep + 1} * stride + behind);
-  fill.source = carver->Take<uint16_t>(extended * stride);
-  fill.farthest = carver->Take<uint8_t>(extended);
-  return fill;
-}
-
-// Takes the memory of what is found of a field before slices of a cut are made. Its surfaces are
-// filled when the field is no longer needed.
-void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
-  CompositorScratch& scratch = *stack;
-  LayeredDepth& surfaces = scratch.surfaces;
-  const size_t row = simd::SliceSamples(extended);
-  for (uint16_t*& sources : surfaces.sources) sources = carver->Take<uint16_t>(extended * row);
-  const size_t field = carver->Mark();
-  scratch.field_rgb = carver->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
-  scratch.field_disparity = carver->Take<int16_t>(extended * extended);
-  for (uint8_t*& edges : surfaces.edges) {
-    edges = carver->Take<uint8_t>(extended * row + simd::kSliceLanes);
-  }
-  surfaces.moved = carver->Take<int16_t>(row);
-  surfaces.behind = carver->Take<int16_t>(row);
-  surfaces.steps = carver->Take<simd::StepBits>(row / simd::kSliceLanes);
-  scratch.bins = carver->Take<uint8_t>(kSliceBins);
-  scratch.least_blur = carver->Take<int32_t>(extended);
-  carver->Reuse(field);
-  scratch.fill = TakeFill(extended, carver);
-}
-
-// Takes the memory of slices: E of CompositorScratch, and the largest N.
-CompositorScratch TakeCompositor(const sf_config& config, size_t extended, size_t max_n,
-                                 Carver* carver) {
-  CompositorScratch scratch;
-  LayeredDepth& surfaces = scratch.surfaces;
-  const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
-  for (int k = 0; k < simd::kSurfaces; ++k) {
-    // Looking behind a row's first pixels reads lanes before them, of which nothing is used.
-    int16_t* before = carver->Take<int16_t>(simd::kSliceLanes + area);
-    surfaces.disparity[k] = before == nullptr ? nullptr : before + simd::kSliceLanes;
-    surfaces.rgb[k] = carver->Take<int16_t>(3 * area);
-  }
-  surfaces.share = carver->Take<uint8_t>(area);
-  surfaces.hiding = carver->Take<uint64_t>(extended);
-  scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
-  scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
-  scratch.parts = carver->Take<SectionPart>(SectionParts(config.largest_block));
-  const auto rows = static_cast<size_t>(LargestCut(config.largest_block));
-  scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rows);
-  const size_t field = carver->Mark();
-  TakeField(extended, carver, &scratch);
-  carver->Reuse(field);
-  const size_t least =
-      LeastPool(LimitsOfSlices(config.largest_block, config.max_blur).bytes, config.max_blur);
-  scratch.pool_bytes = least > carver->Shared() ? least : carver->Shared();
-  scratch.pool = carver->Take<uint8_t>(scratch.pool_bytes);
-  return scratch;
-}
 
 // Takes the memory that a column of largest blocks is subsampled in.
 void TakeResample(const sf_config& config, Carver* carver, ResampleScratch* resample) {
@@ -141,19 +27,24 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   const Reach reach = GetReach(config.max_blur);
   Worker worker = {};
   const size_t extended = side + 2 * static_cast<size_t>(reach.border);
-  const int32_t max_n = Max(LargestN(config), ViewsOfBenchmark(config.max_blur));
-  worker.sums = carver->Take<uint32_t>(3 * side * side);
-  if (config.cats_eye > 0) {
-    worker.aperture_weights =
-        carver->Take<uint16_t>(FullApertureSize(Max(max_n, LargestSubapertureN(config))));
+  const int32_t renderers = RendererCount(config);
+  int32_t max_n[kMaxRenderers] = {}, most = 0;
+  for (int32_t k = 0; k < renderers; ++k) {
+    max_n[k] =
+        Max(LargestN(config, *kRenderers[k], config.max_blur), ViewsOfBenchmark(config.max_blur));
+    most = Max(most, max_n[k]);
+    worker.scratch[k] = carver->Take<uint8_t>(kRenderers[k]->scratch_bytes);
   }
+  worker.sums = carver->Take<uint32_t>(3 * side * side);
+  if (config.cats_eye > 0) worker.aperture_weights = carver->Take<uint16_t>(FullApertureSize(most));
   if (config.highlights > 1) worker.lamp_runs = carver->Take<LampRuns>(1);
   const size_t shared = carver->Mark();
-  TakeStar(extended, side, static_cast<size_t>(max_n), carver, &worker.line_scan);
-  carver->Reuse(shared);
-  worker.compositor =
-      TakeCompositor(config, extended, static_cast<size_t>(LargestSliceN(config)), carver);
-  carver->Reuse(shared);
+  // The pool of slices, which comes last, takes all that others need.
+  for (int32_t k = renderers - 1; k >= 0; --k) {
+    kRenderers[k]->take_scratch(config, extended, static_cast<size_t>(max_n[k]), carver,
+                                worker.scratch[k]);
+    carver->Reuse(shared);
+  }
   // A rendered rectangle is at most half a block and 4 pixels wide. What is gathered comes to it
   // from the field.
   const size_t half = side / 2 + 8;
@@ -180,21 +71,14 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
 }
 
 void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
-  engine->tables.max_n = LargestN(config);
-  engine->tables.max_subaperture_n = LargestSubapertureN(config);
-  const auto count = static_cast<size_t>(engine->tables.max_n) + 1;
-  const auto subaperture_count = static_cast<size_t>(engine->tables.max_subaperture_n) + 1;
   const Opening opening = OpeningOf(config);
-  size_t weights = 0;
-  for (int32_t n = 0; n <= engine->tables.max_n; ++n) weights += ApertureSize(opening, n);
-  for (int32_t n = 0; n <= engine->tables.max_subaperture_n; ++n) {
-    weights += ApertureSize(opening, n);
+  for (int32_t k = 0; k < RendererCount(config); ++k) {
+    const int32_t last = LargestN(config, *kRenderers[k], config.max_blur);
+    size_t weights = 0;
+    for (int32_t n = 0; n <= last; ++n) weights += ApertureSize(opening, n);
+    engine->tables.apertures[k].apertures = carver->Take<Aperture>(static_cast<size_t>(last) + 1);
+    engine->tables.apertures[k].weights = carver->Take<uint16_t>(weights);
   }
-  engine->tables.apertures = carver->Take<Aperture>(count);
-  engine->tables.subapertures = carver->Take<Aperture>(subaperture_count);
-  engine->tables.aperture_weights = carver->Take<uint16_t>(weights);
-  engine->tables.view_counts = carver->Take<ViewCounts>(count);
-  engine->tables.subaperture_view_counts = carver->Take<ViewCounts>(subaperture_count);
   engine->tables.benchmark_weights =
       carver->Take<uint16_t>(ApertureSize(opening, ViewsOfBenchmark(config.max_blur)));
   engine->tables.blur_kernels =

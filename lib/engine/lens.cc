@@ -9,17 +9,22 @@
 namespace starfocus {
 namespace {
 
-// The one aperture of the frame modes. The benchmark's is made in memory of its own.
+// The line scan shows a halo, as wide as the blur, where no view sees what is behind edges.
+const Renderer& RendererOf(const sf_config& config, const sf_params& params) {
+  const bool by_default = params.rule == SF_RULE_DEFAULT && params.mode == SF_MODE_FRAME &&
+                          config.views > 1 && HasStar(config);
+  return params.rule == SF_RULE_PAPER || by_default ? kLineScanRenderer : kSliceRenderer;
+}
+
+// Returns the one aperture of the frame modes. That of the benchmark is made in memory of its own.
 Aperture FrameAperture(const sf_config& config, const Tables& tables, const Lens& lens) {
-  const bool subapertures = UsesSubapertures(lens);
+  const Renderer& renderer = *lens.renderer;
   if (IsBenchmark(lens)) {
-    const int32_t n = ViewsOfBenchmark(lens.r_max);
-    return subapertures ? MakeSubapertures(n, tables.opening, tables.benchmark_weights)
-                        : MakeAperture(n, tables.opening, tables.benchmark_weights);
+    return renderer.make_aperture(ViewsOfBenchmark(lens.r_max), tables.opening,
+                                  tables.benchmark_weights);
   }
-  const int32_t n = subapertures ? ViewsBySubaperture(lens.r_max, DemandOf(tables.opening))
-                                 : ViewsByPaper(lens.r_max);
-  return (subapertures ? tables.subapertures : tables.apertures)[ScaleViews(n, config.n_scale)];
+  const int32_t n = renderer.view_count(lens.r_max, DemandOf(tables.opening));
+  return lens.apertures[ScaleViews(n, config.n_scale)];
 }
 
 }  // namespace
@@ -43,15 +48,19 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   const double r_max = LargestBlur(config, params);
   if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
   lens->params = params;
-  // One view shows nothing behind edges: line scans would put a halo there, as wide as the blur.
-  if (params.rule == SF_RULE_DEFAULT && (config.views == 1 || !HasStar(config))) {
-    lens->params.rule = SF_RULE_SUBAPERTURE;
-  }
   lens->region = RegionOf(config, params);
+  lens->renderer = &RendererOf(config, params);
   lens->r_max = r_max;
   lens->reach = GetReach(r_max);
-  lens->slice_limits = LimitsOfSlices(config.largest_block, r_max);
-  lens->aperture = FrameAperture(config, *tables, *lens);
+  // The benchmark has an aperture of its own, but for blocks without blur.
+  const bool renders = IsBlockMode(*lens) || params.mode == SF_MODE_FRAME;
+  lens->largest_n = LargestN(config, *lens->renderer, renders ? r_max : 0);
+  sf_status status = MakeApertures(*lens->renderer, lens->largest_n, watch, tables);
+  if (status != SF_OK) return status;
+  lens->apertures = tables->apertures[lens->renderer->index].apertures;
+  // SF_MODE_BLUR shows the centre view alone.
+  lens->aperture =
+      params.mode == SF_MODE_BLUR ? lens->apertures[0] : FrameAperture(config, *tables, *lens);
   const ViewGrid grid = MakeViewGrid(lens->aperture, params.focus, params.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
   if (Gathers(config, *lens)) return MakeBlurKernels(LastGatherStep(*lens) + 1, watch, tables);

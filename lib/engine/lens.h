@@ -12,19 +12,20 @@
 #include "lib/engine/tables.h"
 #include "lib/filter/deblock.h"
 #include "lib/plan/block_stats.h"
-#include "lib/slices/depth_slices.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
 struct Lens {
   sf_params params;
-  Rect region;        // of params, the whole picture when they have none
-  double r_max;       // largest blur radius of the configured range of disparities, pixels
-  Aperture aperture;  // frame modes: of the one N
+  Rect region;  // of params, the whole picture when they have none
+  const Renderer* renderer;
+  double r_max;               // largest blur radius of the configured range of disparities, pixels
+  const Aperture* apertures;  // the renderer's, by N
+  int32_t largest_n;          // of these
+  Aperture aperture;          // frame modes: of the one N
   BlurScale scale;
   Reach reach;
-  SliceLimits slice_limits;
 };
 
 // Whether no region is asked for, which means the whole picture.
@@ -42,28 +43,19 @@ inline bool IsBlockMode(const Lens& lens) { return lens.params.mode == SF_MODE_B
 
 inline bool IsBenchmark(const Lens& lens) { return lens.params.mode == SF_MODE_BENCHMARK; }
 
-// Whether views stand for subapertures, and show slices. MakeLens resolves SF_RULE_DEFAULT where
-// the views decide.
-inline bool UsesSubapertures(const Lens& lens) {
-  const int32_t rule = lens.params.rule;
-  if (lens.params.mode == SF_MODE_FRAME) return rule == SF_RULE_SUBAPERTURE;
-  return (IsBlockMode(lens) || IsBenchmark(lens)) && rule != SF_RULE_PAPER;
-}
-
 // Whether smooth cells are gathered: the kernel for that knows no lens but those that an octant
 // tells.
 inline bool Gathers(const sf_config& config, const Lens& lens) {
   const bool octant = config.aperture_shape != SF_SHAPE_POLYGON && config.cats_eye == 0;
-  return IsBlockMode(lens) && UsesSubapertures(lens) && config.gather != 0 && octant;
+  return IsBlockMode(lens) && lens.renderer->gathers && config.gather != 0 && octant;
 }
 
 // The last step of the kernels that are made for gathering.
 int32_t LastGatherStep(const Lens& lens);
 
 // The aperture of a block with the rule's N.
-inline const Aperture& ApertureOf(const Tables& tables, const Lens& lens, int32_t n) {
-  if (!IsBlockMode(lens)) return lens.aperture;
-  return UsesSubapertures(lens) ? tables.subapertures[n] : tables.apertures[n];
+inline const Aperture& ApertureOf(const Lens& lens, int32_t n) {
+  return IsBlockMode(lens) ? lens.apertures[n] : lens.aperture;
 }
 
 // Whether blocks of different layers are joined.

@@ -6,7 +6,6 @@
 #include "lib/filter/add_excess.h"
 #include "lib/filter/gather.h"
 #include "lib/input/excess.h"
-#include "lib/line_scan/nothing_moves.h"
 
 namespace starfocus {
 namespace {
@@ -106,24 +105,17 @@ struct Rendered {
   uint64_t views, samples;
 };
 
-// Renders the views of a job into the worker's sums. By the rule of subapertures they show a stack
-// of slices, whose samples all count. Returns the samples of a view.
-uint64_t RenderSums(const BlockInputs& in, const Block& block, RenderJob job, Worker* worker) {
+// Renders the views of a job into the worker's sums. Returns the samples of a view.
+uint64_t RenderSums(const BlockInputs& in, RenderJob job, Worker* worker) {
   const Counting counting(*job.window, worker);
   job.window = &counting.window();
-  if (!UsesSubapertures(*in.lens)) {
-    RefocusRectangle(job, &worker->line_scan, worker->sums);
-    return Samples(job.rect);
-  }
-  const BlockCells cells = {in.gathered, block.rect, block.layer};
-  const SliceRule& rule = IsBenchmark(*in.lens) ? kFineSlices : kSlices;
-  return 3 * CompositeRectangle(job, rule, in.lens->slice_limits, block.gathers ? &cells : nullptr,
-                                &worker->compositor, worker->sums);
+  const Renderer& renderer = *in.lens->renderer;
+  return renderer.render(job, worker->scratch[renderer.index], worker->sums);
 }
 
 // The fractional bits of the sums that RenderSums leaves.
 int SumBits(const BlockInputs& in, const RenderJob& job) {
-  return UsesSubapertures(*in.lens) ? kCompositeBits : job.grid->aperture.sum_bits + kLightBits;
+  return in.lens->renderer->sum_bits(job.grid->aperture);
 }
 
 ExcessSum ExcessOf(const BlockInputs& in) {
@@ -154,11 +146,11 @@ class ExcessWindow {
 
 // Renders what highlights are beyond white, too, and adds it to the block. Returns the samples of a
 // view.
-uint64_t RenderExcess(const BlockInputs& in, const Block& block, RenderJob job,
-                      const Plane<uint8_t>& out, Worker* worker) {
+uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>& out,
+                      Worker* worker) {
   const ExcessWindow excess(in, worker);
   job.window = &excess.window();
-  const uint64_t samples = RenderSums(in, block, job, worker);
+  const uint64_t samples = RenderSums(in, job, worker);
   if (!worker->patience.Spend(0)) return 0;
   const size_t row_samples = 3 * static_cast<size_t>(job.rect.width);
   for (int32_t row = 0; row < job.rect.height; ++row) {
@@ -170,7 +162,7 @@ uint64_t RenderExcess(const BlockInputs& in, const Block& block, RenderJob job,
 
 Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
                 const Plane<uint8_t>& out, Worker* worker) {
-  uint64_t samples = RenderSums(in, block, job, worker);
+  uint64_t samples = RenderSums(in, job, worker);
   if (!worker->patience.Spend(0)) return {0, 0};  // of sums that nobody has finished
   if (block.layer == 0) {
     FinishPicture(in, job.rect, SumBits(in, job), out, *worker);
@@ -178,8 +170,8 @@ Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
     KeepLayer(in, block, SumBits(in, job), *worker);
     if (!block.gathers) FinishLayer(in, block, out, *worker);
   }
-  if (block.has_highlights) samples += RenderExcess(in, block, job, out, worker);
-  const auto views = static_cast<uint64_t>(ApertureOf(*in.tables, *in.lens, block.n).views);
+  if (block.has_highlights) samples += RenderExcess(in, job, out, worker);
+  const auto views = static_cast<uint64_t>(ApertureOf(*in.lens, block.n).views);
   return {views, views * samples};
 }
 
@@ -221,10 +213,11 @@ Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>
 
 Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                       Worker* worker) {
-  const Aperture& aperture = ApertureOf(*in.tables, *in.lens, block.n);
+  const Lens& lens = *in.lens;
+  const Aperture& aperture = ApertureOf(lens, block.n);
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
   const bool pinhole = aperture.n == 0;
-  const Aperture& whole = pinhole ? in.tables->apertures[1] : aperture;
+  const Aperture& whole = pinhole ? lens.apertures[1] : aperture;
   const Opening& opening = in.tables->opening;
   const bool cats_eye = opening.cats_eye > 0;
   const Aperture rendered =
@@ -232,19 +225,26 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
                              ShiftOfRim(opening, block.rect, in.config->width, in.config->height),
                              worker->aperture_weights)
                : whole;
-  const double extent = UsesSubapertures(*in.lens) ? rendered.extent : 1;
-  ViewGrid grid = MakeViewGrid(rendered, in.lens->params.focus, in.lens->params.aperture * extent,
+  ViewGrid grid = MakeViewGrid(rendered, lens.params.focus, lens.params.aperture * rendered.extent,
                                block.layer, in.config->views == 17);
   if (pinhole) grid.step = 0;
-  const RenderJob job = {&in.windows[block.layer], &grid,        in.kernels,
-                         block.rendered,           block.border, &worker->patience};
+  const BlockCells cells = {in.gathered, block.rect, block.layer};
+  const RenderJob job = {&in.windows[block.layer],
+                         &grid,
+                         in.kernels,
+                         block.rendered,
+                         block.border,
+                         &worker->patience,
+                         block.gathers ? &cells : nullptr,
+                         lens.r_max,
+                         in.config->largest_block,
+                         IsBenchmark(lens)};
   // The views' part of a layer is brought to the picture together with what is gathered.
   const bool in_part = block.layer > 0 && block.gathers;
   if (in.config->skips == 0 || block.has_highlights || in_part) {
     return Render(in, block, job, out, worker);
   }
-  // Slices have ends, which move a little even then.
-  if (pinhole || (!UsesSubapertures(*in.lens) && NothingMoves(job))) {
+  if (pinhole || lens.renderer->nothing_moves(job)) {
     return CopyBlock(in, ViewsRect(block), out, worker);
   }
   return Render(in, block, job, out, worker);

@@ -25,7 +25,7 @@ struct MeasureJob {
 struct PlanJob {
   const sf_config* config;
   const simd::Kernels* kernels;
-  const Tables* tables;
+  const Opening* opening;
   const Lens* lens;
   const CellGrid* cells;
   const Window* window;  // at layer 0
@@ -36,11 +36,13 @@ struct PlanJob {
 // Whether the picture decides how largest blocks are split.
 bool IsPartitioned(const Lens& lens) { return IsBlockMode(lens) && !IsPinhole(lens); }
 
-// The benchmark's fine slices of small blocks are fewer, and fit the memory that coarser ones have.
-// Cat's eyes are those of a block's middle, and change towards its corners.
-constexpr int32_t kFineSide = 32;
-
-bool HasCatsEyes(const PlanJob& job) { return job.tables->opening.cats_eye > 0; }
+// Returns the side of the largest blocks. Cat's eyes are those of a block's middle, and change
+// towards its corners.
+int32_t LargestSide(const PlanJob& job) {
+  constexpr int32_t kCatsEyeSide = 32;
+  const int32_t largest = job.opening->cats_eye > 0 ? kCatsEyeSide : job.plan.side;
+  return IsBenchmark(*job.lens) ? Min(largest, job.lens->renderer->benchmark_side) : largest;
+}
 
 // Whether blocks in `rect` may show what highlights are beyond white: some view has any as far away
 // as blur and disparity bring them. Where all of it is a highlight larger than a lamp, none is.
@@ -56,7 +58,6 @@ bool HasHighlights(const PlanJob& job, const Rect& rect) {
 
 Block WholeBlock(const PlanJob& job, const Rect& rect) {
   const Lens& lens = *job.lens;
-  const bool subapertures = UsesSubapertures(lens);
   const int32_t border = lens.reach.border - kCellSize;
   Block block;
   block.rect = block.rendered = rect;
@@ -64,10 +65,9 @@ Block WholeBlock(const PlanJob& job, const Rect& rect) {
   block.layer = 0;
   block.n = lens.aperture.n;
   block.gathers = block.has_highlights = false;
-  const ViewCounts views =
-      subapertures ? CountSubapertures(lens.aperture) : CountViews(lens.aperture.n);
-  block.cost = PredictTime(
-      job.config->timing, MeasureWork(block.rendered, block.border, views, subapertures, 0, {}, 0));
+  block.cost =
+      PredictTime(job.config->timing,
+                  lens.renderer->measure_work(block.rendered, block.border, lens.aperture, {}, 0));
   return block;
 }
 
@@ -75,8 +75,7 @@ Block WholeBlock(const PlanJob& job, const Rect& rect) {
 void PlanWhole(const PlanJob& job, int32_t column) {
   const Lens& lens = *job.lens;
   const int32_t largest = job.plan.side;
-  const bool fine = (IsBenchmark(lens) && UsesSubapertures(lens)) || HasCatsEyes(job);
-  const int32_t side = fine ? kFineSide : largest;
+  const int32_t side = LargestSide(job);
   const int32_t left = column * largest, right = Min(left + largest, job.config->width);
   const int32_t bottom = job.rows.y + job.rows.height;
   const bool has_highlights =
@@ -101,7 +100,6 @@ void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
     PlanWhole(job, column);
     return;
   }
-  const bool subapertures = UsesSubapertures(lens);
   const int32_t left = column * plan.side;
   const bool has_highlights = HasHighlights(
       job, {left, job.rows.y, Min(plan.side, job.config->width - left), job.rows.height});
@@ -112,15 +110,15 @@ void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
   // What highlights are beyond white is in no layer, and is not gathered.
   rules.max_layer = has_highlights ? 0 : job.config->max_layer;
   rules.has_highlights = has_highlights;
-  rules.max_n = subapertures ? job.tables->max_subaperture_n : job.tables->max_n;
-  rules.subapertures = subapertures;
+  rules.renderer = lens.renderer;
+  rules.apertures = lens.apertures;
+  rules.max_n = lens.largest_n;
   rules.n_scale = job.config->n_scale;
-  rules.demand = DemandOf(job.tables->opening);
-  rules.largest_node = HasCatsEyes(job) ? kFineSide : plan.side;
+  rules.demand = DemandOf(*job.opening);
+  rules.largest_node = LargestSide(job);
   rules.gathers = !has_highlights && Gathers(*job.config, lens);
   rules.scale = lens.scale;
   rules.timing = job.config->timing;
-  rules.views = subapertures ? job.tables->subaperture_view_counts : job.tables->view_counts;
   plan.counts[column] =
       PartitionBlock(*job.kernels, rules, *job.cells, left, job.rows.y, lens.reach.cells,
                      worker->partition, plan.BlocksOf(column), plan.gathered);
@@ -195,7 +193,7 @@ void Announce(const Block& block, EngineState* engine) {
   sf_report& report = engine->report;
   if (block.n > report.n || report.rendered_views == 0) {
     report.n = block.n;
-    report.rendered_views = ApertureOf(engine->tables, engine->lens, block.n).views;
+    report.rendered_views = ApertureOf(engine->lens, block.n).views;
   }
   const sf_params& params = engine->lens.params;
   if (params.on_block == nullptr) return;
@@ -274,7 +272,7 @@ sf_status PlanStripe(const Stripe& rows, const Runner& runner, EngineState* engi
   }
   const PlanJob job = {&engine->config,
                        engine->kernels,
-                       &engine->tables,
+                       &engine->tables.opening,
                        &lens,
                        &state.cells,
                        &engine->pictures.windows[0],

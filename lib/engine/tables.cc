@@ -2,22 +2,36 @@
 #include "lib/engine/tables.h"
 
 namespace starfocus {
+namespace {
 
-void MakeTables(const sf_config& config, Tables* tables) {
+// Points of the opening that a weight of an aperture is summed over, at most.
+constexpr int64_t kAperturePoints = 256;
+
+}  // namespace
+
+int32_t LargestN(const sf_config& config, const Renderer& renderer, double r_max) {
+  const Demand demand = DemandOf(OpeningOf(config));
+  return ScaleViews(renderer.view_count(r_max + 1, demand), config.n_scale);
+}
+
+void BeginTables(const sf_config& config, Tables* tables) {
   tables->opening = OpeningOf(config);
-  uint16_t* weights = tables->aperture_weights;
-  for (int32_t n = 0; n <= tables->max_n; ++n) {
-    tables->apertures[n] = MakeAperture(n, tables->opening, weights);
-    tables->view_counts[n] = CountViews(n);
-    weights += ApertureSize(tables->opening, n);
-  }
-  for (int32_t n = 0; n <= tables->max_subaperture_n; ++n) {
-    tables->subapertures[n] = MakeSubapertures(n, tables->opening, weights);
-    tables->subaperture_view_counts[n] = CountSubapertures(tables->subapertures[n]);
-    weights += ApertureSize(tables->opening, n);
-  }
+  for (ApertureTable& table : tables->apertures) table.count = 0, table.used = 0;
   tables->blur_steps = 0;
   tables->mean_square = MeanSquare(tables->opening);
+}
+
+sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Tables* tables) {
+  ApertureTable& table = tables->apertures[renderer.index];
+  Patience patience(watch);
+  for (; table.count <= last; ++table.count) {
+    const size_t size = ApertureSize(tables->opening, table.count);
+    if (!patience.Spend(static_cast<int64_t>(size) * kAperturePoints)) return SF_ERROR_CANCELLED;
+    table.apertures[table.count] =
+        renderer.make_aperture(table.count, tables->opening, table.weights + table.used);
+    table.used += size;
+  }
+  return SF_OK;
 }
 
 sf_status MakeBlurKernels(int32_t steps, Watch* watch, Tables* tables) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables that an engine makes once, by N.
+// The renderers of an engine, and tables that it makes when a lens first needs them.
 #ifndef STARFOCUS_LIB_ENGINE_TABLES_H_
 #define STARFOCUS_LIB_ENGINE_TABLES_H_
 
@@ -8,19 +8,33 @@
 #include "lib/base/aperture.h"
 #include "lib/base/watch.h"
 #include "lib/filter/blur.h"
-#include "lib/plan/timing.h"
+#include "lib/line_scan/line_scan_renderer.h"
+#include "lib/plan/renderer.h"
+#include "lib/slices/slice_renderer.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
+// All renderers, by Renderer::index. An engine has the first RendererCount.
+inline constexpr int32_t kMaxRenderers = 2;
+inline constexpr const Renderer* kRenderers[kMaxRenderers] = {&kSliceRenderer, &kLineScanRenderer};
+inline int32_t RendererCount(const sf_config&) { return kMaxRenderers; }
+
+// Returns the largest N that the block and frame modes may need for blur radii up to r_max pixels,
+// which are rounded up before N is chosen.
+int32_t LargestN(const sf_config& config, const Renderer& renderer, double r_max);
+
+// Apertures of one renderer, by N.
+struct ApertureTable {
+  Aperture* apertures;  // of N up to LargestN for max_blur
+  uint16_t* weights;
+  int32_t count;  // apertures made so far
+  size_t used;    // weights of these
+};
+
 struct Tables {
   Opening opening;
-  // There are apertures of every N up to max_n by the paper's rule, and up to max_subaperture_n by
-  // the rule of subapertures.
-  int32_t max_n, max_subaperture_n;
-  Aperture *apertures, *subapertures;
-  uint16_t* aperture_weights;  // of both
-  ViewCounts *view_counts, *subaperture_view_counts;
+  ApertureTable apertures[kMaxRenderers];
   uint16_t* benchmark_weights;  // of the one aperture of the benchmark mode
   BlurKernel* blur_kernels;
   uint16_t* blur_weights;
@@ -28,8 +42,12 @@ struct Tables {
   int32_t mean_square;  // MeanSquare of the opening
 };
 
-// Makes all but the blur kernels; the arrays must be set.
-void MakeTables(const sf_config& config, Tables* tables);
+// Begins tables of an engine in which none is made. The arrays must be set.
+void BeginTables(const sf_config& config, Tables* tables);
+
+// Makes the renderer's apertures up to N = `last` that are not there yet. Returns SF_OK or
+// SF_ERROR_CANCELLED; those that were made stay.
+sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Tables* tables);
 
 // Makes the blur kernels of steps up to `steps` that are not there yet. Returns SF_OK or
 // SF_ERROR_CANCELLED; those that were made stay.

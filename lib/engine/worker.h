@@ -6,12 +6,11 @@
 #include <cstdint>
 
 #include "lib/base/watch.h"
+#include "lib/engine/tables.h"
 #include "lib/filter/blur.h"
 #include "lib/filter/layers.h"
 #include "lib/input/excess.h"
-#include "lib/line_scan/triangles.h"
 #include "lib/plan/partition.h"
-#include "lib/slices/compositor.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -38,13 +37,12 @@ struct FieldMemory {
 // memory of a worker is shared, since a worker does one thing at a time (layout.cc). R: largest
 // side of a rectangle.
 struct Worker {
-  uint32_t* sums;              // 3 R^2
-  uint16_t* aperture_weights;  // with cat's eyes: of a block, of the largest N
-  LampRuns* lamp_runs;         // with highlights
-  FieldMemory field;           // of blocks that are gathered, or blurred by depth
-  SpanMemory spans;            // of blocks blurred by depth
-  LineScanScratch line_scan;
-  CompositorScratch compositor;
+  void* scratch[kMaxRenderers];  // of each renderer
+  uint32_t* sums;                // 3 R^2
+  uint16_t* aperture_weights;    // with cat's eyes: of a block, of the largest N
+  LampRuns* lamp_runs;           // with highlights
+  FieldMemory field;             // of blocks that are gathered, or blurred by depth
+  SpanMemory spans;              // of blocks blurred by depth
   ResampleScratch resample;
   UpsampleScratch upsample;
   int16_t* layer_samples;    // a rendered rectangle

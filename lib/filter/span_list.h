@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/carver.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -17,6 +18,16 @@ struct SpanMemory {
   int16_t* pixels;
   size_t pixel_capacity;  // samples; at least one line
 };
+
+// Takes the memory for lines of up to `side` pixels.
+inline SpanMemory TakeSpans(size_t side, Carver* carver) {
+  SpanMemory memory;
+  memory.span_capacity = 512;
+  memory.spans = carver->Take<simd::Span>(memory.span_capacity);
+  memory.pixel_capacity = 3 * 2 * side;
+  memory.pixels = carver->Take<int16_t>(memory.pixel_capacity);
+  return memory;
+}
 
 class SpanList {
  public:

@@ -3,7 +3,7 @@
 #ifndef STARFOCUS_LIB_LINE_SCAN_NOTHING_MOVES_H_
 #define STARFOCUS_LIB_LINE_SCAN_NOTHING_MOVES_H_
 
-#include "lib/input/render_job.h"
+#include "lib/plan/renderer.h"
 
 namespace starfocus {
 

@@ -258,8 +258,7 @@ class Star {
 
   // Adds the type B views on one diagonal of the aperture, inside the disc.
   void TypeB(const Field& field, bool anti) {
-    int32_t last = 0;
-    while (2 * (last + 1) * (last + 1) <= grid_.n() * grid_.n()) ++last;
+    const int32_t last = LastOnDiagonal(grid_.n());
     if (last == 0) return;
     const Diagonals diagonals = GetDiagonals(field, anti);
     const Rect& inner = field.inner;
@@ -326,8 +325,9 @@ class Star {
 
 }  // namespace
 
-void RefocusRectangle(const RenderJob& job, LineScanScratch* scratch, uint32_t* sums) {
-  Star(job, scratch, sums).Refocus();
+uint64_t RefocusRectangle(const RenderJob& job, void* scratch, uint32_t* sums) {
+  Star(job, static_cast<LineScanScratch*>(scratch), sums).Refocus();
+  return 3 * static_cast<uint64_t>(job.rect.width) * static_cast<uint64_t>(job.rect.height);
 }
 
 }  // namespace starfocus

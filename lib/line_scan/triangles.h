@@ -6,11 +6,10 @@
 
 #include <cstdint>
 
-#include "lib/base/view_grid.h"
 #include "lib/filter/span_list.h"
 #include "lib/input/field.h"
-#include "lib/input/render_job.h"
 #include "lib/line_scan/runs.h"
+#include "lib/plan/renderer.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -39,9 +38,15 @@ struct LineScanScratch {
   SpanMemory spans;
 };
 
-// Sums the weighted views over job.rect into `sums`: rows of 3 * width values with
-// grid.aperture.sum_bits + kLightBits fractional bits. N > 0.
-void RefocusRectangle(const RenderJob& job, LineScanScratch* scratch, uint32_t* sums);
+// Returns the largest i of the type B views (i, i) of N views along the radius.
+constexpr int32_t LastOnDiagonal(int32_t n) {
+  int32_t last = 0;
+  while (2 * (last + 1) * (last + 1) <= n * n) ++last;
+  return last;
+}
+
+// Renderer::render of line scans. `scratch`: a LineScanScratch. N > 0.
+uint64_t RefocusRectangle(const RenderJob& job, void* scratch, uint32_t* sums);
 
 }  // namespace starfocus
 

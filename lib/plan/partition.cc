@@ -195,23 +195,12 @@ class Partition {
 
   int32_t Views(int32_t r_max, int32_t layer) const {
     const double radius = static_cast<double>(r_max) / (kRadiusOne * (1 << layer));
-    const int32_t n =
-        rules_.subapertures ? ViewsBySubaperture(radius, rules_.demand) : ViewsByPaper(radius);
-    return ScaleViews(n, rules_.n_scale);
-  }
-
-  int32_t Layer(const BlockStats& stats) const {
-    const int32_t r_min = rules_.subapertures ? stats.r_shown : stats.r_min;
-    const double radius = static_cast<double>(r_min) / kRadiusOne;
-    const int32_t layer = rules_.subapertures
-                              ? LayerBySubaperture(radius, stats.has_edge, rules_.demand)
-                              : LayerByPaper(radius, rules_.demand);
-    return Min(layer, rules_.max_layer);
+    return ScaleViews(rules_.renderer->view_count(radius, rules_.demand), rules_.n_scale);
   }
 
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
     const Rect& rect = block->rect;
-    const int32_t layer = Layer(stats);
+    const int32_t layer = Min(rules_.renderer->level(stats, rules_.demand), rules_.max_layer);
     block->gathers = false;
     block->has_highlights = rules_.has_highlights;
     block->layer = layer;
@@ -221,10 +210,10 @@ class Partition {
     block->border = {
         LayerBorder(border.left, 0, layer), LayerBorder(border.right, side - rect.width, layer),
         LayerBorder(border.top, 0, layer), LayerBorder(border.bottom, side - rect.height, layer)};
-    block->cost =
-        PredictTime(rules_.timing, MeasureWork(block->rendered, block->border,
-                                               rules_.views[block->n], rules_.subapertures,
-                                               UpsampledPixels(*block), stats.content, layer));
+    BlockWork work = rules_.renderer->measure_work(
+        block->rendered, block->border, rules_.apertures[block->n], stats.content, layer);
+    work.upsample = UpsampledPixels(*block);
+    block->cost = PredictTime(rules_.timing, work);
   }
 
   // Leaves to views the least rectangle around the cells that are not gathered.

@@ -5,11 +5,10 @@
 
 #include <cstdint>
 
-#include "lib/base/rules.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/gathered_cells.h"
 #include "lib/plan/neighbourhood.h"
-#include "lib/plan/timing.h"
+#include "lib/plan/renderer.h"
 
 namespace starfocus {
 
@@ -33,16 +32,16 @@ struct PartitionRules {
   int32_t width, height;  // of the picture
   int32_t largest_block;
   int32_t max_layer;
+  const Renderer* renderer;
+  const Aperture* apertures;  // by N, up to max_n
   int32_t max_n;
-  bool subapertures;            // ViewsBySubaperture instead of (9)
-  double n_scale;               // of their N
+  double n_scale;               // of the renderer's N
   Demand demand;                // of the opening
   int32_t largest_node;         // side of the largest block that is made
   bool gathers;                 // smooth cells, with cells
   bool has_highlights = false;  // of the blocks
   BlurScale scale;
   sf_timing timing;
-  const ViewCounts* views;  // by N, up to max_n
 };
 
 // A node of the quadtree: what it is as one block, and the least time of it or its children.

@@ -5,8 +5,6 @@
 
 #include <cstdint>
 
-#include "lib/base/aperture.h"
-#include "lib/base/geometry.h"
 #include "lib/plan/block_stats.h"
 #include "starfocus/starfocus.h"
 
@@ -21,20 +19,10 @@ struct BlockWork {
   uint64_t hole;      // pixels that they leave uncovered, as if each view were an outermost one
 };
 
-// Views of each type inside the disc of N.
-struct ViewCounts {
-  uint32_t a, b, c;
-};
-ViewCounts CountViews(int32_t n);
-// Counts the views of subapertures: those on the axes as type A, all others as type C.
-ViewCounts CountSubapertures(const Aperture& aperture);
-
-// The work of `rect` with `border`, both in pixels of the layer, and N views along the radius.
-// `subapertures`: by the rule of subapertures. `content`: what the block holds at layer 0 along
-// rows and along columns.
-BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewCounts& views,
-                      bool subapertures, uint64_t upsampled_pixels, const Content (&content)[2],
-                      int32_t layer);
+// Adds the spans and holes of `views` views of a block with `content` at layer 0 that are scanned
+// along `lines` lines of the layer, all in one direction.
+void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t layer,
+              BlockWork* work);
 
 // Picoseconds; exact in integers, so that a partition is the same on every machine.
 uint64_t PredictTime(const sf_timing& timing, const BlockWork& work);

@@ -14,7 +14,6 @@ constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);  // columns 
 // A rectangle, the slices of its cut under way, and where its picture goes: what sections share.
 struct Rectangle {
   const RenderJob* job;
-  const BlockCells* gathered;  // null: nothing is
   const SliceStack* stack;
   CompositorScratch* scratch;
   uint32_t* accumulators;
@@ -75,8 +74,8 @@ class Section {
   }
 
   bool IsGathered(const SectionPart& part) const {
-    if (all_.gathered == nullptr) return false;
-    return all_.gathered->AreGathered({job_.rect.x + rect_.x + part.x,
+    if (job_.gathered == nullptr) return false;
+    return job_.gathered->AreGathered({job_.rect.x + rect_.x + part.x,
                                        job_.rect.y + rect_.y + part.y,
                                        Min(kChunk, rect_.width - part.x), part.rows});
   }
@@ -183,8 +182,10 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
 }
 
 // Finds the slices of a cut, in pixels of the rectangle.
-void FindStack(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
-               const Rect& cut, CompositorScratch* scratch, SliceStack* stack) {
+void FindStack(const RenderJob& job, const Rect& cut, CompositorScratch* scratch,
+               SliceStack* stack) {
+  const SliceRule& rule = job.is_benchmark ? kFineSlices : kSlices;
+  const SliceLimits limits = LimitsOfSlices(job.largest_block, job.r_max);
   const Rect in_surfaces = {stack->inner.x + cut.x, stack->inner.y + cut.y, cut.width, cut.height};
   const SliceJob slice_job = {job.kernels,   &scratch->surfaces,  job.grid, rule, in_surfaces,
                               scratch->bins, scratch->least_blur, limits};
@@ -242,26 +243,25 @@ uint64_t CompositeCut(const Rectangle& all, const Rect& cut) {
 
 }  // namespace
 
-uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
-                            const BlockCells* gathered, CompositorScratch* scratch,
-                            uint32_t* accumulators) {
+uint64_t CompositeRectangle(const RenderJob& job, void* scratch, uint32_t* accumulators) {
+  auto* const memory = static_cast<CompositorScratch*>(scratch);
   SliceStack stack;
   stack.grid = job.grid;
   stack.weights = ScaleWeights(job.grid->aperture);
-  stack.inner = LoadSurfaces(job, scratch, accumulators);
-  const Rectangle all = {&job, gathered, &stack, scratch, accumulators};
+  stack.inner = LoadSurfaces(job, memory, accumulators);
+  const Rectangle all = {&job, &stack, memory, accumulators};
   uint64_t pixels = 0;
   Rect cut = {0, 0, 0, 0};
   for (; cut.y < job.rect.height; cut.y += cut.height) {
     cut.height = SideOfCut(job.rect.height - cut.y);
     for (cut.x = 0; cut.x < job.rect.width; cut.x += cut.width) {
       cut.width = SideOfCut(job.rect.width - cut.x);
-      if (!GoesOn(job.patience, 0)) return pixels;
-      FindStack(job, rule, limits, cut, scratch, &stack);
+      if (!GoesOn(job.patience, 0)) return 3 * pixels;
+      FindStack(job, cut, memory, &stack);
       pixels += CompositeCut(all, cut);
     }
   }
-  return pixels;
+  return 3 * pixels;
 }
 
 }  // namespace starfocus

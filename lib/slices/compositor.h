@@ -8,8 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/input/render_job.h"
-#include "lib/plan/gathered_cells.h"
+#include "lib/plan/renderer.h"
 #include "lib/slices/depth_slices.h"
 #include "lib/slices/hidden_fill.h"
 #include "lib/slices/slice_plane.h"
@@ -56,13 +55,9 @@ constexpr size_t SectionParts(int32_t side) {
 // Fractional bits of what CompositeRectangle sums.
 inline constexpr int kCompositeBits = kMaxLightBits + kLightBits;
 
-// Sums the weighted views over job.rect into `accumulators`, rows of 3 * width values with
-// kCompositeBits fractional bits, by slices of each of its cuts, which are made as `rule` and
-// `limits` say. What is `gathered` (null: nothing) is left out. Returns the pixels rendered in each
-// view, over all slices.
-uint64_t CompositeRectangle(const RenderJob& job, const SliceRule& rule, const SliceLimits& limits,
-                            const BlockCells* gathered, CompositorScratch* scratch,
-                            uint32_t* accumulators);
+// Renderer::render of slices: each cut of the rectangle has slices of its own, and the samples of
+// all slices count. `scratch`: a CompositorScratch.
+uint64_t CompositeRectangle(const RenderJob& job, void* scratch, uint32_t* accumulators);
 
 }  // namespace starfocus
 

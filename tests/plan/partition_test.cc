@@ -202,7 +202,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
       CAPTURE(max_layer);
       for (const bool subapertures : {false, true}) {
         CAPTURE(subapertures);
-        plan.rules.subapertures = plan.rules.gathers = subapertures;
+        plan.Use(subapertures ? starfocus::kSliceRenderer : starfocus::kLineScanRenderer);
         for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
           const int layer =
               std::min(LayerOf(subapertures, exact, false, plan.rules.demand), max_layer);
@@ -246,7 +246,7 @@ TEST_CASE("partition: blocks read as many rows around a stripe as its reach says
     plan.grid = test::MeasureCells(plan.disparity, 192, 192, plan.rules.scale, &plan.cells);
     const starfocus::Reach reach = test::BordersOf(r);
     plan.around = reach.cells;
-    plan.rules.gathers = plan.rules.subapertures = false;
+    plan.Use(starfocus::kLineScanRenderer);
     int most[3] = {};
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
       plan.rules.max_layer = max_layer;

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "lib/line_scan/line_scan_renderer.h"
+#include "lib/slices/slice_renderer.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
@@ -15,28 +17,23 @@ namespace {
 using starfocus::BlockWork;
 using starfocus::Border;
 using starfocus::Content;
+using starfocus::kLineScanRenderer;
+using starfocus::kSliceRenderer;
 using starfocus::Rect;
-using starfocus::ViewCounts;
 
-// The types of Fig. 11: A on the axes, B on the diagonals, C between them; the centre is none.
-ViewCounts CountOneByOne(int n) {
-  ViewCounts views = {0, 0, 0};
+// The discs i^2 + j^2 <= N^2, whatever their weights.
+starfocus::Aperture DiscOf(int n) {
+  starfocus::Aperture aperture;
+  aperture.n = aperture.last = n;
+  aperture.views = 0;
   for (int i = -n; i <= n; ++i) {
-    for (int j = -n; j <= n; ++j) {
-      if (i * i + j * j > n * n || (i == 0 && j == 0)) continue;
-      if (i == 0 || j == 0) {
-        ++views.a;
-      } else if (std::abs(i) == std::abs(j)) {
-        ++views.b;
-      } else {
-        ++views.c;
-      }
-    }
+    for (int j = -n; j <= n; ++j) aperture.views += i * i + j * j <= n * n;
   }
-  return views;
+  return aperture;
 }
 
-// Summed view by view, as (13) has it. With subapertures the centre is of type A too, and all views
+// Summed view by view, as (13) has it: types A on the axes, B on the diagonals, C between them
+// (Fig. 11). With subapertures the centre is of type A too, and all views
 // away from the rows' axis are scanned along columns.
 BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool subapertures,
                             uint64_t upsampled, const Content (&content)[2], int layer) {
@@ -84,24 +81,14 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool 
   return work;
 }
 
-TEST_CASE("timing: views of each type, counted one by one") {
-  for (int n = 0; n <= 110; ++n) {
-    CAPTURE(n);
-    const ViewCounts expected = CountOneByOne(n), got = starfocus::CountViews(n);
-    CHECK(got.a == expected.a);
-    CHECK(got.b == expected.b);
-    CHECK(got.c == expected.c);
-  }
-}
-
 TEST_CASE("timing: the work of a block, view by view") {
   test::Random random(3);
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 411; ++round) {
     const Rect rect = {random.Int(-9, 99), random.Int(-9, 99), random.Int(1, 256),
                        random.Int(1, 256)};
     const Border border = {random.Int(0, 140), random.Int(0, 140), random.Int(0, 140),
                            random.Int(0, 140)};
-    const int n = random.Int(0, round < 250 ? 12 : 102);
+    const int n = round < 300 ? random.Int(0, 12) : round - 300;
     const uint64_t upsampled = random.Next();
     const auto amount = [&] { return uint32_t(random.Int(0, 1 << 16)); };
     const Content content[2] = {{amount(), amount(), amount()}, {amount(), amount(), amount()}};
@@ -109,8 +96,9 @@ TEST_CASE("timing: the work of a block, view by view") {
     const bool subapertures = random.Int(0, 1) == 1;
     const BlockWork expected =
         MeasureViewByView(rect, border, n, subapertures, upsampled, content, layer);
-    const BlockWork got = starfocus::MeasureWork(rect, border, starfocus::CountViews(n),
-                                                 subapertures, upsampled, content, layer);
+    const starfocus::Renderer& renderer = subapertures ? kSliceRenderer : kLineScanRenderer;
+    BlockWork got = renderer.measure_work(rect, border, DiscOf(n), content, layer);
+    got.upsample = upsampled;
     CAPTURE(n);
     CHECK(got.field == expected.field);
     CHECK(got.a == expected.a);
@@ -183,9 +171,9 @@ TEST_CASE("timing: a largest block with the largest coefficients, and all it spl
     const auto pixels = uint32_t(side * side);
     const Content along = {64 * pixels, 64 * pixels, 256 * pixels};
     const Content content[2] = {along, along};
-    const BlockWork work =
-        starfocus::MeasureWork({0, 0, side, side}, {140, 140, 140, 140}, starfocus::CountViews(102),
-                               false, pixels, content, 0);
+    BlockWork work = kLineScanRenderer.measure_work({0, 0, side, side}, {140, 140, 140, 140},
+                                                    DiscOf(102), content, 0);
+    work.upsample = pixels;
     CAPTURE(side);
     CHECK(exact(work) * (256 / side) * (256 / side) < 1.8e19L);
     CHECK(static_cast<long double>(starfocus::PredictTime(most, work)) == exact(work));

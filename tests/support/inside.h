@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only header of the tests that includes lib/engine. Tests that look inside an engine call these
-// functions, so that a change of lib/engine needs a change of one test file.
+// The only header of the tests that includes lib/engine. Tests that look inside an engine call
+// these functions, so that a change of lib/engine needs a change of one test file.
 #ifndef STARFOCUS_TESTS_SUPPORT_INSIDE_H_
 #define STARFOCUS_TESTS_SUPPORT_INSIDE_H_
 
@@ -11,6 +11,7 @@
 #include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/stripe.h"
+#include "lib/slices/compositor.h"
 #include "tests/support/test_scene.h"
 
 namespace test {
@@ -55,7 +56,8 @@ inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, sf_engine* 
 
 // Bytes of the first worker's pool of slices, which may be made less.
 inline size_t& PoolBytes(sf_engine* engine) {
-  return StateOf(engine).crew.workers[0].compositor.pool_bytes;
+  void* scratch = StateOf(engine).crew.workers[0].scratch[starfocus::kSliceRenderer.index];
+  return static_cast<starfocus::CompositorScratch*>(scratch)->pool_bytes;
 }
 
 // Bytes of a workspace, or kTooLarge.

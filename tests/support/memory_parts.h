@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "lib/line_scan/triangles.h"
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
@@ -24,14 +25,17 @@ struct MemoryPart {
 // The parts of an engine of one worker, in the order they are taken.
 inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
   const starfocus::Worker& worker = e.crew.workers[0];
-  const starfocus::CompositorScratch& slices = worker.compositor;
+  const auto& slices =
+      *static_cast<starfocus::CompositorScratch*>(worker.scratch[starfocus::kSliceRenderer.index]);
+  const auto& line_scan =
+      *static_cast<starfocus::LineScanScratch*>(worker.scratch[starfocus::kLineScanRenderer.index]);
   return {
       {"the engine itself", false, &e},
-      {"apertures of every N", false, e.tables.apertures},
+      {"apertures of every N", false, e.tables.apertures[0].apertures},
       {"kernels of radii", false, e.tables.blur_kernels},
       {"workers", false, e.crew.workers},
       {"sums of a block", false, worker.sums},
-      {"line scan", true, worker.line_scan.field_rgb[0]},
+      {"line scan", true, line_scan.field_rgb[0]},
       {"slices: surfaces", true, slices.surfaces.disparity[0] - starfocus::simd::kSliceLanes},
       {"slices: where views show them, sums of a tile", true, slices.offsets},
       {"slices: what surfaces are found by", true, slices.surfaces.sources[0]},

@@ -12,7 +12,9 @@
 #include <cstring>
 #include <vector>
 
+#include "lib/line_scan/line_scan_renderer.h"
 #include "lib/plan/partition.h"
+#include "lib/slices/slice_renderer.h"
 #include "tests/plan/measured_cells.h"
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
@@ -27,19 +29,36 @@ using starfocus::Cell;
 using starfocus::CellGrid;
 using starfocus::kCellSize;
 using starfocus::kLayerMargin;
+using starfocus::kLineScanRenderer;
+using starfocus::kSliceRenderer;
 using starfocus::kSmallestBlock;
 using starfocus::PartitionNode;
 using starfocus::PartitionRules;
 using starfocus::Rect;
-using starfocus::ViewCounts;
+using starfocus::Renderer;
 
-constexpr int kMaxN = 110;
 constexpr double kRadiusOne = 1 << starfocus::kDisparityBits;
+
+// The apertures of a renderer: of every N for blur radii up to 128 pixels, and up to twice that.
+struct Apertures {
+  explicit Apertures(const Renderer& renderer) : all(&renderer == &kSliceRenderer ? 30 : 110) {
+    for (size_t n = 0; n < all.size(); ++n) {
+      std::vector<uint16_t> weights(starfocus::ApertureSize(int(n)));
+      all[n] = renderer.make_aperture(int(n), starfocus::ApertureFallOff(0.8), weights.data());
+      all[n].weights = nullptr;  // a plan reads none
+    }
+  }
+  std::vector<starfocus::Aperture> all;
+};
+inline const std::vector<starfocus::Aperture>& AperturesOf(const Renderer& renderer) {
+  static const Apertures slices(kSliceRenderer), line_scan(kLineScanRenderer);
+  return (&renderer == &kSliceRenderer ? slices : line_scan).all;
+}
 
 // A disparity map measured, and the rules of a partition.
 struct Plan {
   Plan(int width, int height, int largest_block, double limit, Random* random)
-      : disparity(size_t(width) * size_t(height)), views(kMaxN + 1) {
+      : disparity(size_t(width) * size_t(height)) {
     const int pieces = random->Int(0, 8);
     for (int piece = 0; piece <= pieces; ++piece) {
       const int x0 = piece == 0 ? 0 : random->Int(0, width - 1);
@@ -60,21 +79,26 @@ struct Plan {
     around = BordersOf(2 * limit).cells;
     flags.assign(cells.size(), kPoison);
     gathered = {flags.data(), grid.columns, 0};
-    for (int n = 0; n <= kMaxN; ++n) views[size_t(n)] = starfocus::CountViews(n);
     rules.width = width;
     rules.height = height;
     rules.largest_block = largest_block;
     rules.max_layer = random->Int(0, 2);
-    rules.max_n = kMaxN;
-    rules.subapertures = random->Int(0, 1) == 1;
-    rules.gathers = rules.subapertures;
+    Use(random->Int(0, 1) == 1 ? kSliceRenderer : kLineScanRenderer);
     rules.demand = static_cast<starfocus::Demand>((width + rules.max_layer) % 4);
     rules.largest_node = largest_block;
-    rules.n_scale = (2 + 2 * rules.max_layer + rules.subapertures) / 4.0;
+    rules.n_scale = (2 + 2 * rules.max_layer + IsSlices()) / 4.0;
     rules.timing = starfocus::DefaultTiming();
-    rules.views = views.data();
   }
   Plan(const Plan&) = delete;
+
+  bool IsSlices() const { return rules.renderer == &kSliceRenderer; }
+
+  void Use(const Renderer& renderer) {
+    rules.renderer = &renderer;
+    rules.apertures = AperturesOf(renderer).data();
+    rules.max_n = int(AperturesOf(renderer).size()) - 1;
+    rules.gathers = renderer.gathers;
+  }
 
   std::vector<Block> Partition(int x, int y) const {
     std::vector<PartitionNode> nodes(size_t(starfocus::PartitionNodes(rules.largest_block)));
@@ -123,7 +147,6 @@ struct Plan {
   std::vector<Cell> cells;
   std::vector<uint8_t> flags;  // of gathered
   starfocus::GatherMap gathered;
-  std::vector<ViewCounts> views;
   CellGrid grid;
   int around = 0;
   PartitionRules rules;
@@ -254,7 +277,7 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   const BlockStats stats = plan.Stats(x, y, side);
   Block block = {};
   block.rect = {x, y, std::min(side, plan.rules.width - x), std::min(side, plan.rules.height - y)};
-  const bool subapertures = plan.rules.subapertures;
+  const bool subapertures = plan.IsSlices();
   block.layer =
       std::min(LayerOf(subapertures, (subapertures ? stats.r_shown : stats.r_min) / kRadiusOne,
                        stats.has_edge, plan.rules.demand),
@@ -274,10 +297,10 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
                   beyond(border.top), beyond(border.bottom + side - block.rect.height)};
   const uint64_t upsampled =
       block.layer == 0 ? 0 : uint64_t(block.rect.width) * uint64_t(block.rect.height);
-  block.cost = starfocus::PredictTime(
-      plan.rules.timing,
-      starfocus::MeasureWork(block.rendered, block.border, starfocus::CountViews(block.n),
-                             plan.rules.subapertures, upsampled, stats.content, block.layer));
+  starfocus::BlockWork work = plan.rules.renderer->measure_work(
+      block.rendered, block.border, plan.rules.apertures[block.n], stats.content, block.layer);
+  work.upsample = upsampled;
+  block.cost = starfocus::PredictTime(plan.rules.timing, work);
   if (block.n > 0) PlanGathering(plan, plan.rules.timing.upsample * upsampled, &block);
   return block;
 }

@@ -38,10 +38,15 @@ std::string BlockBench::Open(const std::string& where, const LightField& light_f
   if (status == SF_OK) {
     status = MakeEngine(MakeConfig(light_field, stats), &workspace_, &bytes, &engine);
   }
+  if (status == SF_OK) {
+    engine_ = reinterpret_cast<EngineState*>(engine);
+    // Blocks of any N are timed.
+    const int32_t last = LargestN(engine_->config, kSliceRenderer, SF_MAX_BLUR);
+    status = MakeApertures(kSliceRenderer, last, nullptr, &engine_->tables);
+  }
   if (status != SF_OK) {
     return Expected(where, "a light field to calibrate with", sf_status_string(status));
   }
-  engine_ = reinterpret_cast<EngineState*>(engine);
   picture_ = Image(map.width, map.height);
   HoldDisparity();
   for (int layer = 1; layer < SF_LAYERS; ++layer) HoldLayer(layer);
@@ -110,9 +115,10 @@ BlockWork BlockBench::Work(const BlockTask& task) {
     for (const Cell& cell : cells) AddCell(cell, &content);
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
-  return MeasureWork(block.rendered, block.border,
-                     CountSubapertures(engine_->tables.subapertures[block.n]), true, upsampled,
-                     content, block.layer);
+  BlockWork work = kSliceRenderer.measure_work(
+      block.rendered, block.border, engine_->lens.apertures[block.n], content, block.layer);
+  work.upsample = upsampled;
+  return work;
 }
 
 uint64_t BlockBench::Time(const BlockTask& task) {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/line_scan/line_scan_renderer.h"
+
+#include "lib/line_scan/nothing_moves.h"
+#include "lib/line_scan/triangles.h"
+
+namespace starfocus {
+namespace {
+
+int32_t LevelOf(const BlockStats& stats, Demand demand) {
+  return LayerByPaper(static_cast<double>(stats.r_min) / (1 << kDisparityBits), demand);
+}
+
+// Half of the type A views lie on either axis. Each is rendered over the border of the other. Half
+// of all views are scanned along rows and half along columns, those of type B along both.
+BlockWork MeasureWork(const Rect& rect, const Border& border, const Aperture& aperture,
+                      const Content (&content)[2], int32_t layer) {
+  const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
+  const uint64_t extended_width = width + static_cast<uint64_t>(border.left + border.right);
+  const uint64_t extended_height = height + static_cast<uint64_t>(border.top + border.bottom);
+  const auto all = static_cast<uint64_t>(aperture.views) - 1;
+  const uint64_t on_axis = 2 * static_cast<uint64_t>(aperture.n);
+  BlockWork work = {};
+  work.field = extended_width * extended_height;
+  work.a = on_axis * (width * extended_height + extended_width * height);
+  work.b = 4 * static_cast<uint64_t>(LastOnDiagonal(aperture.n)) * width * height;
+  work.c = (all - 2 * on_axis) * width * height - work.b;
+  AddScans(all / 2, height, content[0], layer, &work);
+  AddScans(all / 2, width, content[1], layer, &work);
+  return work;
+}
+
+// E and R of LineScanScratch are `extended` and the side of the largest blocks.
+void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Carver* carver,
+                 void* memory) {
+  LineScanScratch counted;
+  LineScanScratch& scratch = memory == nullptr ? counted : *static_cast<LineScanScratch*>(memory);
+  const auto rectangle = static_cast<size_t>(config.largest_block);
+  const size_t area = extended * extended;
+  const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
+  for (int k = 0; k < 2; ++k) {
+    scratch.field_rgb[k] = carver->Take<int16_t>(extended * rgb_stride);
+    scratch.field_disparity[k] = carver->Take<int16_t>(area);
+  }
+  scratch.column_sums = carver->Take<uint32_t>(3 * rectangle * rectangle);
+  scratch.diagonal_rgb = carver->Take<int16_t>(3 * area);
+  scratch.diagonal_disparity = carver->Take<int16_t>(area);
+  scratch.diagonal_offsets = carver->Take<uint32_t>(2 * extended);
+  scratch.moves = carver->Take<int64_t>(max_n + 1);
+  scratch.marks.starts = carver->Take<uint16_t>(RunMarkWords(extended, extended));
+  scratch.marks.edges = carver->Take<uint16_t>(RunMarkWords(extended, extended));
+  scratch.marks.middles = carver->Take<int16_t>(RunMiddles(extended, extended));
+  scratch.runs = carver->Take<Run>(area);
+  scratch.run_counts = carver->Take<int32_t>(extended);
+  scratch.line_runs = carver->Take<Run>(extended);
+  scratch.strip_rgb = carver->Take<int16_t>(3 * rectangle * kStripRows);
+  scratch.view_disparity = carver->Take<int16_t>(rectangle * extended);
+  scratch.columns_rgb = carver->Take<int16_t>(rectangle * rgb_stride);
+  scratch.line_accumulators = carver->Take<uint32_t>(3 * extended);
+  scratch.spans = TakeSpans(extended, carver);
+}
+
+}  // namespace
+
+const Renderer kLineScanRenderer = {
+    1,
+    false,
+    256,  // of any side
+    [](double r_max, Demand) { return ViewsByPaper(r_max); },
+    LevelOf,
+    MakeAperture,
+    MeasureWork,
+    sizeof(LineScanScratch),
+    TakeScratch,
+    NothingMoves,
+    RefocusRectangle,
+    [](const Aperture& aperture) { return aperture.sum_bits + kLightBits; }};
+
+}  // namespace starfocus

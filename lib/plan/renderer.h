@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The interface of the two renderers: slices, and the paper's line scan. A lens has one of them,
+// and everything that differs between both is in it.
+#ifndef STARFOCUS_LIB_PLAN_RENDERER_H_
+#define STARFOCUS_LIB_PLAN_RENDERER_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/base/aperture.h"
+#include "lib/base/carver.h"
+#include "lib/base/geometry.h"
+#include "lib/base/rules.h"
+#include "lib/base/view_grid.h"
+#include "lib/base/watch.h"
+#include "lib/input/window.h"
+#include "lib/plan/block_stats.h"
+#include "lib/plan/gathered_cells.h"
+#include "lib/plan/timing.h"
+#include "simd/kernels.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// All views of one rectangle of the window's layer. `border` is the distance from which pixels
+// splat into the rectangle.
+struct RenderJob {
+  const Window* window;
+  const ViewGrid* grid;
+  const simd::Kernels* kernels;
+  Rect rect;
+  Border border;
+  Patience* patience;          // null: the job is never cancelled
+  const BlockCells* gathered;  // null: no pixel is left out
+  double r_max;                // largest blur radius of the lens, pixels
+  int32_t largest_block;       // side of the largest blocks, pixels
+  bool is_benchmark;           // the benchmark mode asks for more detail
+};
+
+struct Renderer {
+  int32_t index;           // of its tables and scratch memory in an engine
+  bool gathers;            // block mode gathers smooth cells instead of rendering them
+  int32_t benchmark_side;  // side of the largest blocks of the benchmark mode, pixels
+
+  // Returns N for a blur radius in pixels.
+  int32_t (*view_count)(double r_max, Demand demand);
+  // Returns the subsampled layer for a block.
+  int32_t (*level)(const BlockStats& stats, Demand demand);
+  // Makes the aperture of N: fills weights[ApertureSize(opening, n)].
+  Aperture (*make_aperture)(int32_t n, const Opening& opening, uint16_t* weights);
+  // Returns the work of `rect` with `border`, both in pixels of the layer, without upsampling.
+  // `content`: what the block holds at layer 0 along rows and along columns.
+  BlockWork (*measure_work)(const Rect& rect, const Border& border, const Aperture& aperture,
+                            const Content (&content)[2], int32_t layer);
+
+  size_t scratch_bytes;
+  // Takes the memory of one worker's scratch, which lies at `scratch` (null: only counted).
+  // `extended`: largest side of a rectangle with its border; max_n: largest N.
+  void (*take_scratch)(const sf_config& config, size_t extended, size_t max_n, Carver* carver,
+                       void* scratch);
+
+  // Returns true if every view shows every pixel of the rectangle where the centre view has it, so
+  // that the centre view is the result, to the byte.
+  bool (*nothing_moves)(const RenderJob& job);
+  // Sums the weighted views over job.rect into `sums`: rows of 3 * width values with
+  // sum_bits(aperture) fractional bits. Returns the samples rendered in each view. After a
+  // cancellation `sums` is unspecified.
+  uint64_t (*render)(const RenderJob& job, void* scratch, uint32_t* sums);
+  int (*sum_bits)(const Aperture& aperture);
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_PLAN_RENDERER_H_

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/slices/slice_renderer.h"
+
+#include "lib/slices/compositor.h"
+
+namespace starfocus {
+namespace {
+
+int32_t LevelOf(const BlockStats& stats, Demand demand) {
+  const double radius = static_cast<double>(stats.r_shown) / (1 << kDisparityBits);
+  return LayerBySubaperture(radius, stats.has_edge, demand);
+}
+
+// The work of type A is to move slices along rows, once for each column of views. That of type C is
+// to composite all views. Each slice is moved as A and composited as C.
+BlockWork MeasureWork(const Rect& rect, const Border& border, const Aperture& aperture,
+                      const Content (&content)[2], int32_t layer) {
+  const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
+  const uint64_t extended_width = width + static_cast<uint64_t>(border.left + border.right);
+  const uint64_t extended_height = height + static_cast<uint64_t>(border.top + border.bottom);
+  const auto all = static_cast<uint64_t>(aperture.views) - 1;
+  const uint64_t along_axis = 2 * static_cast<uint64_t>(aperture.last);
+  const uint64_t columns = all > 0 ? along_axis + 1 : 0;
+  BlockWork work = {};
+  work.field = extended_width * extended_height;
+  work.a = columns * width * extended_height;
+  work.c = (all - along_axis) * width * height;
+  AddScans(columns, extended_height, content[0], layer, &work);
+  AddScans(all - along_axis, width, content[1], layer, &work);
+  return work;
+}
+
+// Takes the memory of FillHidden.
+FillScratch TakeFill(size_t extended, Carver* carver) {
+  const size_t stride = FillStride(extended), behind = kFillStep;
+  FillScratch fill;
+  fill.disparity = carver->Take<int16_t>(extended * stride + behind);
+  fill.rgb = carver->Take<int16_t>(3 * extended * stride + behind);
+  fill.saved = carver->Take<int16_t>(3 * size_t{kFillStep + 1} * stride + behind);
+  fill.source = carver->Take<uint16_t>(extended * stride);
+  fill.farthest = carver->Take<uint8_t>(extended);
+  return fill;
+}
+
+// Takes the memory of what is found of a field before slices of a cut are made. Its surfaces are
+// filled when the field is no longer needed.
+void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
+  CompositorScratch& scratch = *stack;
+  LayeredDepth& surfaces = scratch.surfaces;
+  const size_t row = simd::SliceSamples(extended);
+  for (uint16_t*& sources : surfaces.sources) sources = carver->Take<uint16_t>(extended * row);
+  const size_t field = carver->Mark();
+  scratch.field_rgb = carver->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+  scratch.field_disparity = carver->Take<int16_t>(extended * extended);
+  for (uint8_t*& edges : surfaces.edges) {
+    edges = carver->Take<uint8_t>(extended * row + simd::kSliceLanes);
+  }
+  surfaces.moved = carver->Take<int16_t>(row);
+  surfaces.behind = carver->Take<int16_t>(row);
+  surfaces.steps = carver->Take<simd::StepBits>(row / simd::kSliceLanes);
+  scratch.bins = carver->Take<uint8_t>(kSliceBins);
+  scratch.least_blur = carver->Take<int32_t>(extended);
+  carver->Reuse(field);
+  scratch.fill = TakeFill(extended, carver);
+}
+
+// E of CompositorScratch is `extended`.
+void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Carver* carver,
+                 void* memory) {
+  CompositorScratch counted;
+  CompositorScratch& scratch =
+      memory == nullptr ? counted : *static_cast<CompositorScratch*>(memory);
+  LayeredDepth& surfaces = scratch.surfaces;
+  const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
+  for (int k = 0; k < simd::kSurfaces; ++k) {
+    // Looking behind a row's first pixels reads lanes before them, of which nothing is used.
+    int16_t* before = carver->Take<int16_t>(simd::kSliceLanes + area);
+    surfaces.disparity[k] = before == nullptr ? nullptr : before + simd::kSliceLanes;
+    surfaces.rgb[k] = carver->Take<int16_t>(3 * area);
+  }
+  surfaces.share = carver->Take<uint8_t>(area);
+  surfaces.hiding = carver->Take<uint64_t>(extended);
+  scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
+  scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
+  scratch.parts = carver->Take<SectionPart>(SectionParts(config.largest_block));
+  const auto rows = static_cast<size_t>(LargestCut(config.largest_block));
+  scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rows);
+  const size_t field = carver->Mark();
+  TakeField(extended, carver, &scratch);
+  carver->Reuse(field);
+  const size_t least =
+      LeastPool(LimitsOfSlices(config.largest_block, config.max_blur).bytes, config.max_blur);
+  scratch.pool_bytes = least > carver->Shared() ? least : carver->Shared();
+  scratch.pool = carver->Take<uint8_t>(scratch.pool_bytes);
+}
+
+}  // namespace
+
+const Renderer kSliceRenderer = {
+    0,
+    true,
+    32,  // fine slices of small blocks are fewer, and fit the memory that coarser ones have
+    ViewsBySubaperture,
+    LevelOf,
+    MakeSubapertures,
+    MeasureWork,
+    sizeof(CompositorScratch),
+    TakeScratch,
+    [](const RenderJob&) { return false; },  // slices have ends, which always move a little
+    CompositeRectangle,
+    [](const Aperture&) { return kCompositeBits; }};
+
+}  // namespace starfocus
