@@ -34,7 +34,7 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_VERSION:
       return "structure version differs from SF_ABI_VERSION; call its init function first";
     case SF_ERROR_RESERVED:
-      return "a reserved field is not zero";
+      return "a reserved field, or an unknown bit of features, is not zero";
     case SF_ERROR_SIZE:
       return "width or height is outside 1 to 65535";
     case SF_ERROR_VIEWS:
@@ -84,7 +84,7 @@ const char* sf_status_string(sf_status status) {
     case SF_ERROR_TIMING:
       return "a timing coefficient exceeds SF_MAX_TIMING";
     case SF_ERROR_RULE:
-      return "unknown rule";
+      return "unknown rule, or SF_RULE_PAPER without SF_FEATURE_LINE_SCAN";
     case SF_ERROR_N_SCALE:
       return "n_scale is outside 0.5 to 2";
     case SF_ERROR_SKIPS:

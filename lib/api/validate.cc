@@ -39,7 +39,9 @@ bool ValidSize(int32_t size) { return size >= 1 && size <= SF_MAX_SIZE; }
 
 sf_status CheckConfig(const sf_config& config) {
   if (config.version != SF_ABI_VERSION) return SF_ERROR_VERSION;
-  if (!AllZero(config.reserved)) return SF_ERROR_RESERVED;
+  if (!AllZero(config.reserved) || (config.features & ~SF_FEATURE_LINE_SCAN) != 0) {
+    return SF_ERROR_RESERVED;
+  }
   if (!ValidSize(config.width) || !ValidSize(config.height)) return SF_ERROR_SIZE;
   ViewSet views;
   const sf_status status = FindViews(config, &views);
@@ -89,6 +91,7 @@ sf_status CheckParams(const sf_config& config, const sf_params& params) {
   if (!(params.focus >= -SF_MAX_FOCUS && params.focus <= SF_MAX_FOCUS)) return SF_ERROR_FOCUS;
   if (!(params.aperture >= 0.0 && params.aperture <= 1.0)) return SF_ERROR_APERTURE;
   const bool paper = params.rule == SF_RULE_PAPER && params.mode != SF_MODE_BLUR;
+  if (paper && !HasLineScan(config)) return SF_ERROR_RULE;
   return paper && !HasStar(config) ? SF_ERROR_STAR : SF_OK;
 }
 

@@ -13,7 +13,8 @@ namespace {
 const Renderer& RendererOf(const sf_config& config, const sf_params& params) {
   const bool by_default = params.rule == SF_RULE_DEFAULT && params.mode == SF_MODE_FRAME &&
                           config.views > 1 && HasStar(config);
-  return params.rule == SF_RULE_PAPER || by_default ? kLineScanRenderer : kSliceRenderer;
+  const bool is_paper = params.rule == SF_RULE_PAPER || by_default;
+  return is_paper && HasLineScan(config) ? kLineScanRenderer : kSliceRenderer;
 }
 
 // Returns the one aperture of the frame modes. That of the benchmark is made in memory of its own.

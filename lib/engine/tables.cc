@@ -16,7 +16,10 @@ int32_t LargestN(const sf_config& config, const Renderer& renderer, double r_max
 
 void BeginTables(const sf_config& config, Tables* tables) {
   tables->opening = OpeningOf(config);
-  for (ApertureTable& table : tables->apertures) table.count = 0, table.used = 0;
+  for (ApertureTable& table : tables->apertures) {
+    table.count = 0;
+    table.used = 0;
+  }
   tables->blur_steps = 0;
   tables->mean_square = MeanSquare(tables->opening);
 }

@@ -15,10 +15,13 @@
 
 namespace starfocus {
 
-// All renderers, by Renderer::index. An engine has the first RendererCount.
+// All renderers, by Renderer::index. An engine has the first RendererCount of them.
 inline constexpr int32_t kMaxRenderers = 2;
 inline constexpr const Renderer* kRenderers[kMaxRenderers] = {&kSliceRenderer, &kLineScanRenderer};
-inline int32_t RendererCount(const sf_config&) { return kMaxRenderers; }
+inline bool HasLineScan(const sf_config& config) {
+  return (config.features & SF_FEATURE_LINE_SCAN) != 0;
+}
+inline int32_t RendererCount(const sf_config& config) { return HasLineScan(config) ? 2 : 1; }
 
 // Returns the largest N that the block and frame modes may need for blur radii up to r_max pixels,
 // which are rounded up before N is chosen.

@@ -118,26 +118,26 @@ void PrintStack() {
   std::printf("%zu\n", most);
 }
 
-size_t WorkspaceKilobytes(int width, int height, int views, int block, double blur, int streaming) {
-  const sf_config config = test::BoardConfig(width, height, views, block, blur, streaming);
+size_t WorkspaceKilobytes(const sf_config& config) {
   size_t bytes = 0;
   Check(sf_workspace_size(&config, &bytes) == SF_OK, "sf_workspace_size");
   return (bytes + 1023) / 1024;
 }
 
-// A row for each picture and star set, a column for each block and blur radius.
+// A row for each picture, star set and feature, a column for each block and blur radius.
 void PrintWorkspace() {
   constexpr struct {
     const char* name;
     int width, height;
   } kSizes[] = {{"VGA", 640, 480}, {"HD", 1280, 720}, {"Full HD", 1920, 1080}};
   constexpr int kBlocks[] = {32, 64, 128, 256}, kBlurs[] = {8, 32, 128};
-  const auto row = [&](const char* name, const char* input, int width, int height, int views,
-                       int streaming) {
+  const auto row = [&](const char* name, const char* input, sf_config config) {
     std::printf("| %s | %s |", name, input);
     for (const int block : kBlocks) {
       for (const int blur : kBlurs) {
-        std::printf(" %zu |", WorkspaceKilobytes(width, height, views, block, blur, streaming));
+        config.largest_block = block;
+        config.max_blur = blur;
+        std::printf(" %zu |", WorkspaceKilobytes(config));
       }
     }
     std::printf("\n");
@@ -150,11 +150,14 @@ void PrintWorkspace() {
   for (size_t i = 0; i < sizeof(kBlocks) / sizeof(int) * 3; ++i) std::printf("--:|");
   std::printf("\n");
   for (const auto& size : kSizes) {
-    row(size.name, "whole pictures", size.width, size.height, 17, 0);
+    sf_config config = test::BoardConfig(size.width, size.height, 17, 32, 8, 0);
+    row(size.name, "whole pictures", config);
+    config.features = 0;
+    row(size.name, "the same, no line scan", config);
     for (const int views : {1, 5, 9, 17}) {
       char input[40];
       std::snprintf(input, sizeof(input), "%d streamed view%s", views, views == 1 ? "" : "s");
-      row(size.name, input, size.width, size.height, views, 1);
+      row(size.name, input, test::BoardConfig(size.width, size.height, views, 32, 8, 1));
     }
   }
 }
@@ -170,7 +173,12 @@ class PartsTable {
         {"VGA, 1 streamed view, 32, 8", test::BoardConfig(640, 480, 1, 32, 8, 1)},
         {"VGA, 5 streamed views, 64, 32", test::BoardConfig(640, 480, 5, 64, 32, 1)},
         {"Full HD, whole pictures, 64, 32", test::BoardConfig(1920, 1080, 17, 64, 32, 0)},
-        {"the same, 128, 128", test::BoardConfig(1920, 1080, 17, 128, 128, 0)}};
+        {"the same, 128, 128", test::BoardConfig(1920, 1080, 17, 128, 128, 0)},
+        {"the same, no line scan", [] {
+           sf_config config = test::BoardConfig(1920, 1080, 17, 128, 128, 0);
+           config.features = 0;
+           return config;
+         }()}};
     std::printf("| |");
     for (const auto& column : kColumns) {
       std::printf(" %s |", column.name);

@@ -27,15 +27,17 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
   const starfocus::Worker& worker = e.crew.workers[0];
   const auto& slices =
       *static_cast<starfocus::CompositorScratch*>(worker.scratch[starfocus::kSliceRenderer.index]);
-  const auto& line_scan =
-      *static_cast<starfocus::LineScanScratch*>(worker.scratch[starfocus::kLineScanRenderer.index]);
+  const auto* const line_scan =
+      static_cast<starfocus::LineScanScratch*>(worker.scratch[starfocus::kLineScanRenderer.index]);
   return {
       {"the engine itself", false, &e},
-      {"apertures of every N", false, e.tables.apertures[0].apertures},
+      {"slices: apertures of every N", false, e.tables.apertures[0].apertures},
+      {"line scan: apertures of every N", false, e.tables.apertures[1].apertures},
+      {"the benchmark's aperture", false, e.tables.benchmark_weights},
       {"kernels of radii", false, e.tables.blur_kernels},
       {"workers", false, e.crew.workers},
       {"sums of a block", false, worker.sums},
-      {"line scan", true, line_scan.field_rgb[0]},
+      {"line scan", true, line_scan == nullptr ? nullptr : line_scan->field_rgb[0]},
       {"slices: surfaces", true, slices.surfaces.disparity[0] - starfocus::simd::kSliceLanes},
       {"slices: where views show them, sums of a tile", true, slices.offsets},
       {"slices: what surfaces are found by", true, slices.surfaces.sources[0]},

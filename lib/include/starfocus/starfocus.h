@@ -57,8 +57,7 @@ SF_API uint32_t sf_abi_version(void);
 SF_API const char* sf_version(void);
 
 /** Size in bytes of a structure of starfocus.h or depth.h in the library, by its name, such as
- *  "sf_config"; 0 when it has no structure of that name. A binding to another language declares
- *  structures itself, and checks with this that it has each of them right. */
+ *  "sf_config"; 0 for unknown names. Bindings compare it with the structures they declare. */
 SF_API size_t sf_struct_size(const char* name);
 
 #define SF_MIN_THETA 0.15707963267948966 /**< 0.05 pi */
@@ -72,6 +71,7 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_MIN_BLADES 3
 #define SF_MAX_BLADES 12
 #define SF_MAX_RING_INNER 0.9
+#define SF_FEATURE_LINE_SCAN 1u /**< the paper's renderer, SF_RULE_PAPER */
 
 /** What the opening of the lens looks like, in the disc of radius u_t. */
 typedef enum sf_shape {
@@ -170,16 +170,19 @@ typedef struct sf_config {
                        areas wider and higher than a 32nd of the picture's width (16 to 128 pixels)
                        count less, from twice as much on not at all: walls do not glow */
   int32_t
-      fill_unknown; /**< 1: NaN and infinite values of disparity maps are unknown, and along their
-                       row the known value next to them goes on, of one on either side that of
-                       the farther surface; a row without any is at disparity_min. 0, the
-                       default: they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds
-                       what the views show there, and sf_fill_disparity fills whole maps */
-  int32_t images;   /**< 1 reserves rows for the calls of starfocus/image.h; default 0 */
-  int32_t previews; /**< largest shift of sf_refocus_preview, [0, SF_MAX_PREVIEW]: sf_prepare then
-                       keeps the light field at 1/2, 1/4 and 1/8 of its size, up to that; default
-                       0: none. The workspace does not grow by it */
-  uint32_t reserved[3]; /**< zero */
+      fill_unknown;  /**< 1: NaN and infinite values of disparity maps are unknown, and along their
+                        row the known value next to them goes on, of one on either side that of
+                        the farther surface; a row without any is at disparity_min. 0, the
+                        default: they are refused, SF_ERROR_NOT_FINITE. sf_repair_disparity finds
+                        what the views show there, and sf_fill_disparity fills whole maps */
+  int32_t images;    /**< 1 reserves rows for the calls of starfocus/image.h; default 0 */
+  int32_t previews;  /**< largest shift of sf_refocus_preview, [0, SF_MAX_PREVIEW]: sf_prepare then
+                        keeps the light field at 1/2, 1/4 and 1/8 of its size, up to that; default
+                        0: none. The workspace does not grow by it */
+  uint32_t features; /**< bits: SF_FEATURE_LINE_SCAN, the default. Without it the workspace has
+                          no room for line scans, SF_RULE_DEFAULT is SUBAPERTURE in all modes,
+                          and SF_RULE_PAPER is refused, SF_ERROR_RULE */
+  uint32_t reserved[2]; /**< zero */
   /** Where the `views` captured views lie: each coordinate in [-1, 1], rounded to 1/16384, no two
    *  alike, the first one (0, 0). All 0, the default: where sf_view_position tells. What lies
    *  behind an edge is read from the best view that sees it, and filled where none does.
@@ -233,9 +236,8 @@ typedef enum sf_mode {
                             Half-band filters of layers 1 and 2 overshoot: a picture may leave the
                             range of its views' light by 4 % of that range by the rule of
                             subapertures and 13 % by the paper's, 4 and 40 % through other openings
-                            than the default. In codes of SF_TRANSFER_SRGB that is more where it is
-                            dark: 4 % of white are the codes up to 56. No picture leaves [0, 255].
-                            The other modes stay within the range */
+                            than the default. With SF_TRANSFER_SRGB dark codes differ by more: 4 %
+                            of white are the codes up to 56. The other modes stay in the range */
   SF_MODE_BLUR = 3 /**< the centre view alone, blurred by (4): up to ten times the time of blocks */
 } sf_mode;
 
@@ -263,15 +265,13 @@ typedef void (*sf_block_visitor)(void* data, const sf_block* block);
 /** A clock in nanoseconds, from any start; called from the runner's threads. */
 typedef uint64_t (*sf_clock)(void);
 
-/** Is told that `rows_done` of `rows` rows are made, and says whether to go on: 0 to go on,
- * anything else to cancel. The call then ends with SF_ERROR_CANCELLED as soon as all of its threads
- * have noticed, and nobody is asked again. What it was to write is unspecified then; the engine is
- * as if it had not been called (of streams see sf_stream_pull). Within a call rows_done never
- * becomes less; the last time it is `rows`. The function is called after every half a million
- * samples or so, a fraction of a millisecond on a desktop, and at every job, so that it should look
- * at a flag and return: without a runner by the thread of the call, with a runner by whichever of
- * its threads runs a job, but never by two at a time. It must not call anything with the same
- * engine or memory. */
+/** Receives the number of finished rows, of `rows`. Returns 0 to continue, anything else to cancel:
+ * the call then returns SF_ERROR_CANCELLED as soon as all of its threads have stopped, and the
+ * function is not called again. The output is unspecified then; the engine is as before the call
+ * (of streams see sf_stream_pull). Within a call rows_done never decreases and ends at `rows`. The
+ * function is called at every job and after approximately every 500,000 samples, a fraction of a
+ * millisecond on a desktop: by the thread of the call or, with a runner, by any thread that runs a
+ * job, but never by two at a time. It must not call anything with the same engine or memory. */
 typedef int (*sf_progress)(void* data, int32_t rows_done, int32_t rows);
 
 /** A rectangle of the picture, in pixels. */

@@ -17,7 +17,7 @@ typedef enum sf_status {
   SF_OK = 0,
   SF_ERROR_NULL = 1,     /**< a pointer that must be given is null */
   SF_ERROR_VERSION = 2,  /**< structure not initialised by its init function */
-  SF_ERROR_RESERVED = 3, /**< a reserved field is not zero */
+  SF_ERROR_RESERVED = 3, /**< a reserved field, or an unknown bit of features, is not zero */
   SF_ERROR_SIZE = 4,     /**< width or height outside [1, SF_MAX_SIZE] */
   SF_ERROR_VIEWS = 5,    /**< number of views is not 1, 5, 9 or 17, or with positions not 1 to 17 */
   SF_ERROR_DISPARITY_RANGE = 6, /**< configured disparity range not finite, reversed or too large */
@@ -43,7 +43,7 @@ typedef enum sf_status {
   SF_ERROR_LAYER = 25,       /**< max_layer is not 0, 1 or 2 */
   SF_ERROR_DEBLOCKING = 26,  /**< deblocking outside [0, 255] */
   SF_ERROR_TIMING = 27,      /**< a timing coefficient beyond SF_MAX_TIMING */
-  SF_ERROR_RULE = 28,        /**< unknown rule */
+  SF_ERROR_RULE = 28,        /**< unknown rule, or SF_RULE_PAPER without SF_FEATURE_LINE_SCAN */
   SF_ERROR_N_SCALE = 29,     /**< n_scale outside [SF_MIN_N_SCALE, SF_MAX_N_SCALE] */
   SF_ERROR_SKIPS = 30,       /**< skips is not 0 or 1 */
   SF_ERROR_REGION = 31,      /**< region outside the picture, or a streaming call with a region */

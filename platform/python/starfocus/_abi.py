@@ -42,7 +42,7 @@ class Config(Structure):
         ("skips", c_int32), ("gather", c_int32), ("aperture_shape", c_int16), ("blades", c_int16),
         ("rotation", c_float), ("curvature", c_float), ("ring_inner", c_float), ("cats_eye", c_float),
         ("transfer", c_int32), ("highlights", c_float), ("fill_unknown", c_int32), ("images", c_int32),
-        ("previews", c_int32), ("reserved", c_uint32 * 3),
+        ("previews", c_int32), ("features", c_uint32), ("reserved", c_uint32 * 2),
         ("positions", Position * MAX_VIEWS),
     ]
 
