@@ -2,7 +2,6 @@
 // board_refocus: a refocusing camera on a board. A rotary encoder moves the focus plane, one button
 // changes the aperture, another takes the picture; an output line is high exactly while the engine
 // runs, for a scope or a power meter.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -11,6 +10,7 @@
 #include "examples/board/camera.h"
 #include "examples/board/panel.h"
 #include "examples/command_line/options.h"
+#include "examples/command_line/parse.h"
 #include "examples/command_line/program.h"
 #include "platform/clock.h"
 #include "platform/file.h"
@@ -234,52 +234,50 @@ Error List() {
   return error;
 }
 
-void AddOptions(CLI::App* app, Options* options) {
-  app->add_option("DIR", options->folder, "Light-field folder");
-  app->add_flag("--list", options->list, "List the GPIO chips and end");
-  app->add_option("--chip", options->chip, "GPIO chip: gpiochip0, 0 or a path")
-      ->capture_default_str();
-  app->add_option("--encoder", options->encoder, "Lines A,B of the rotary encoder for the focus");
-  app->add_option("--aperture-button", options->aperture, "Line of the button for the aperture");
-  app->add_option("--shutter", options->shutter, "Line of the button that takes a picture");
-  app->add_option("--busy", options->busy, "Output line, high exactly while the engine runs");
-  app->add_option("--debounce", options->debounce, "Milliseconds a button may bounce")
-      ->capture_default_str();
-  app->add_option("--active", options->active, "Level of a pressed button: low or high")
-      ->capture_default_str();
-  app->add_option("--bias", options->bias, "Of the inputs: pull-up, pull-down or none")
-      ->capture_default_str();
-  app->add_option("--focus", options->focus, "Disparity to begin with; default: the middle");
-  app->add_option("--step", options->step, "Disparity of an encoder step; default: 1/40 of all");
-  app->add_option("--mode", options->mode, "block or frame")->capture_default_str();
-  app->add_option("--threads", options->threads, "1 to 64")->capture_default_str();
-  app->add_option("--pictures", options->pictures, "End after so many; 0: never")
-      ->capture_default_str();
-  app->add_option("--out", options->out, "Picture file (.png, .ppm, .jpg); a number is added");
-  app->add_option("--framebuffer", options->framebuffer, "Linux framebuffer, such as /dev/fb0");
+Error Run(const Options& options) {
+  if (options.list) return List();
+  if (options.folder.empty()) return Error::Usage("DIR", "a light-field folder", "nothing");
+  Plan plan;
+  Error error = MakePlan(options, &plan);
+  Board board(options, plan);
+  if (error.empty()) error = board.Open();
+  if (error.empty()) error = board.Run();
+  return error;
 }
 
 Error Main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  CLI::App app("Refocuses a light field by knob and buttons on GPIO lines.", "board_refocus");
   Options options;
-  AddOptions(&app, &options);
-  app.set_version_flag("--version", VersionText("board_refocus"));
-  app.footer(kExitCodes);
+  const Program program = {
+      {"board_refocus",
+       "Refocuses a light field by knob and buttons on GPIO lines.",
+       {
+           {"DIR", "TEXT", "Light-field folder", &options.folder},
+           {"--list", nullptr, "List the GPIO chips and end", &options.list},
+           {"--chip", "TEXT", "GPIO chip: gpiochip0, 0 or a path", &options.chip, Use::kDefault},
+           {"--encoder", "TEXT", "Lines A,B of the rotary encoder for the focus", &options.encoder},
+           {"--aperture-button", "TEXT", "Line of the button for the aperture", &options.aperture},
+           {"--shutter", "TEXT", "Line of the button that takes a picture", &options.shutter},
+           {"--busy", "TEXT", "Output line, high exactly while the engine runs", &options.busy},
+           {"--debounce", "TEXT", "Milliseconds a button may bounce", &options.debounce,
+            Use::kDefault},
+           {"--active", "TEXT", "Level of a pressed button: low or high", &options.active,
+            Use::kDefault},
+           {"--bias", "TEXT", "Of the inputs: pull-up, pull-down or none", &options.bias,
+            Use::kDefault},
+           {"--focus", "TEXT", "Disparity to begin with; default: the middle", &options.focus},
+           {"--step", "TEXT", "Disparity of an encoder step; default: 1/40 of all", &options.step},
+           {"--mode", "TEXT", "block or frame", &options.mode, Use::kDefault},
+           {"--threads", "TEXT", "1 to 64", &options.threads, Use::kDefault},
+           {"--pictures", "TEXT", "End after so many; 0: never", &options.pictures, Use::kDefault},
+           {"--out", "TEXT", "Picture file (.png, .ppm, .jpg); a number is added", &options.out},
+           {"--framebuffer", "TEXT", "Linux framebuffer, such as /dev/fb0", &options.framebuffer},
+       },
+       [&options] { return Run(options); }},
+      {}};
   Error error;
-  if (!ParseCommandLine(&app, argc, argv, &error)) return error;
-  Plan plan;
-  if (options.list) {
-    error = List();
-  } else if (options.folder.empty()) {
-    error = Error::Usage("DIR", "a light-field folder", "nothing");
-  } else {
-    error = MakePlan(options, &plan);
-    Board board(options, plan);
-    if (error.empty()) error = board.Open();
-    if (error.empty()) error = board.Run();
-  }
-  return error;
+  const Command* command = ParseCommandLine(program, argc, argv, &error);
+  return command == nullptr ? error : command->run();
 }
 
 }  // namespace

@@ -121,13 +121,14 @@ std::string NearestName(const std::string& typed, const std::vector<std::string>
 }
 
 Error CheckSeparators(const std::vector<std::string>& arguments,
-                      const std::vector<ValueOption>& options) {
+                      const std::vector<Option>& options) {
   for (size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
     const size_t equals = arguments[i].find('=');
     const std::string name = arguments[i].substr(0, equals);
-    for (const ValueOption& option : options) {
+    for (const Option& option : options) {
+      if (option.type == nullptr) continue;
       const Parts parts = PartsOf(option.type);
-      const auto& names = option.names;
+      const std::vector<std::string> names = NamesOf(option);
       if (parts.separator == 0 || std::find(names.begin(), names.end(), name) == names.end()) {
         continue;
       }

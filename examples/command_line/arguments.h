@@ -7,15 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "examples/command_line/command.h"
 #include "examples/command_line/error.h"
 
 namespace starfocus {
-
-// An option that takes a value.
-struct ValueOption {
-  std::vector<std::string> names;  // "-o", "--output"
-  std::string type;                // as the help shows it: "X,Y"
-};
 
 // The name that is nearest to what was typed; empty where none is near.
 std::string NearestName(const std::string& typed, const std::vector<std::string>& names);
@@ -23,7 +18,7 @@ std::string NearestName(const std::string& typed, const std::vector<std::string>
 // Refuses "--focus-at 160 120" where the option's type is X,Y: the values of an option whose parts
 // have the separators ',', ':' or 'x' between them are one argument.
 Error CheckSeparators(const std::vector<std::string>& arguments,
-                      const std::vector<ValueOption>& options);
+                      const std::vector<Option>& options);
 
 }  // namespace starfocus
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/command_line/options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -148,8 +147,12 @@ Error ParseTransfer(const std::string& option, const std::string& text, sf_trans
   return "";
 }
 
-void AddTransferOption(CLI::App* command, const std::string& help, std::string* text) {
-  command->add_option("--transfer", *text, help)->type_name("srgb|none")->capture_default_str();
+void AddTransferOption(Command* command, const char* help, std::string* text) {
+  AddOptions(
+      {
+          {"--transfer", "srgb|none", help, text, Use::kDefault},
+      },
+      command);
 }
 
 std::string Short(double value) {

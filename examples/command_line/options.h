@@ -5,13 +5,10 @@
 
 #include <string>
 
+#include "examples/command_line/command.h"
 #include "examples/command_line/error.h"
 #include "platform/view_files.h"
 #include "starfocus/starfocus.h"
-
-namespace CLI {
-class App;
-}
 
 namespace starfocus {
 
@@ -46,7 +43,7 @@ Error ParseHighlights(const std::string& option, const std::string& text, double
 
 // srgb or none.
 Error ParseTransfer(const std::string& option, const std::string& text, sf_transfer* value);
-void AddTransferOption(CLI::App* command, const std::string& help, std::string* text);
+void AddTransferOption(Command* command, const char* help, std::string* text);
 
 // `value` with %g.
 std::string Short(double value);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/command_line/shape.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <vector>
 
@@ -66,26 +65,23 @@ bool SetShape(const std::string& text, sf_config* config) {
 
 }  // namespace
 
-void AddShapeOptions(CLI::App* command, ShapeOptions* options) {
-  command
-      ->add_option("--shape", options->shape,
-                   "The opening of the lens: darker towards its rim by --theta, a disc as bright "
-                   "everywhere, blades with a corner on top that ROTATION degrees turn clockwise "
-                   "and of edges that CURVATURE bends, 0 to 1, or a disc with a hole of INNER, 0 "
-                   "to 0.9 of its radius")
-      ->type_name("fall-off|disc|polygon:N[,ROTATION[,CURVATURE]]|ring:INNER")
-      ->capture_default_str();
-  command
-      ->add_option("--theta", options->theta,
-                   "0.05 to 0.45: the angle of the fall-off, as a part of pi")
-      ->type_name("T")
-      ->capture_default_str();
-  command
-      ->add_option("--cats-eye", options->cats_eye,
-                   "0 to 1: how far a second rim moves into the opening towards the corners, in "
-                   "radii")
-      ->type_name("X")
-      ->capture_default_str();
+void AddShapeOptions(Command* command, ShapeOptions* options) {
+  AddOptions(
+      {
+          {"--shape", "fall-off|disc|polygon:N[,ROTATION[,CURVATURE]]|ring:INNER",
+           "The opening of the lens: darker towards its rim by --theta, a disc as bright "
+           "everywhere, blades with a corner on top that ROTATION degrees turn clockwise "
+           "and of edges that CURVATURE bends, 0 to 1, or a disc with a hole of INNER, 0 "
+           "to 0.9 of its radius",
+           &options->shape, Use::kDefault},
+          {"--theta", "T", "0.05 to 0.45: the angle of the fall-off, as a part of pi",
+           &options->theta, Use::kDefault},
+          {"--cats-eye", "X",
+           "0 to 1: how far a second rim moves into the opening towards the corners, in "
+           "radii",
+           &options->cats_eye, Use::kDefault},
+      },
+      command);
 }
 
 Error ParseShape(const ShapeOptions& options, sf_config* config) {

@@ -5,12 +5,9 @@
 
 #include <string>
 
+#include "examples/command_line/command.h"
 #include "examples/command_line/error.h"
 #include "starfocus/starfocus.h"
-
-namespace CLI {
-class App;
-}
 
 namespace starfocus {
 
@@ -19,7 +16,7 @@ struct ShapeOptions {
   std::string shape = "fall-off", theta = "0.26", cats_eye = "0";
 };
 
-void AddShapeOptions(CLI::App* command, ShapeOptions* options);
+void AddShapeOptions(Command* command, ShapeOptions* options);
 
 // Sets what the options ask for in an initialised configuration.
 Error ParseShape(const ShapeOptions& options, sf_config* config);

@@ -3,7 +3,6 @@
 // once and the full picture after it; another tap pulls the focus there by previews, and ends with
 // the full picture. Prints the time of every step, and how near a preview comes to the full
 // picture.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "examples/command_line/options.h"
+#include "examples/command_line/parse.h"
 #include "examples/command_line/program.h"
 #include "examples/scene/render.h"
 #include "examples/tap/nearness.h"
@@ -245,30 +245,26 @@ Error Tap(const Options& options) {
 }
 
 Error Main(int argc, char** argv) {
-  CLI::App app("Tap to focus: previews, a focus pull and full pictures, with their times.", "tap");
   Options options;
-  app.add_option("DIR", options.folder, "Light-field folder; default: a traced portrait")
-      ->type_name("DIR");
-  app.add_option("--size", options.size, "Of the portrait, WxH")
-      ->type_name("WxH")
-      ->capture_default_str();
-  app.add_option("--first", options.first, "Pixel X,Y that is tapped first")->type_name("X,Y");
-  app.add_option("--second", options.second, "Pixel X,Y that the focus is then pulled to")
-      ->type_name("X,Y");
-  app.add_option("--preview", options.shift, "1, 2 or 3: previews are 1/2, 1/4 or 1/8 of the size")
-      ->type_name("1|2|3")
-      ->capture_default_str();
-  app.add_option("--frames", options.frames, "Previews of the focus pull")
-      ->type_name("N")
-      ->capture_default_str();
-  app.add_option("--threads", options.threads, "1 to 64; default: all of the machine")
-      ->type_name("N");
-  app.add_option("--out", options.out, "Folder for all pictures, as frame_0000.png and so on")
-      ->type_name("DIR");
-  app.set_version_flag("--version", VersionText("tap"));
-  app.footer(kExitCodes);
+  const Program program = {
+      {"tap",
+       "Tap to focus: previews, a focus pull and full pictures, with their times.",
+       {
+           {"DIR", "DIR", "Light-field folder; default: a traced portrait", &options.folder},
+           {"--size", "WxH", "Of the portrait, WxH", &options.size, Use::kDefault},
+           {"--first", "X,Y", "Pixel X,Y that is tapped first", &options.first},
+           {"--second", "X,Y", "Pixel X,Y that the focus is then pulled to", &options.second},
+           {"--preview", "1|2|3", "1, 2 or 3: previews are 1/2, 1/4 or 1/8 of the size",
+            &options.shift, Use::kDefault},
+           {"--frames", "N", "Previews of the focus pull", &options.frames, Use::kDefault},
+           {"--threads", "N", "1 to 64; default: all of the machine", &options.threads},
+           {"--out", "DIR", "Folder for all pictures, as frame_0000.png and so on", &options.out},
+       },
+       [&options] { return Tap(options); }},
+      {}};
   Error error;
-  return ParseCommandLine(&app, argc, argv, &error) ? Tap(options) : error;
+  const Command* command = ParseCommandLine(program, argc, argv, &error);
+  return command == nullptr ? error : command->run();
 }
 
 }  // namespace

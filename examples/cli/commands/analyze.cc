@@ -67,23 +67,22 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddAnalyzeCommand(CLI::App* app, Action* action) {
+Command AnalyzeCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
+  return {
       "analyze",
       "The paper's filter analysis (section III) from its definitions: Table I, Fig. 6, the rules "
-      "(9) and (12), the rule for subapertures, and the kernels of the running engine");
-  command
-      ->add_option("-o,--output", options->folder,
-                   "Folder for CSV files and, with gnuplot, SVG drawings of Figs. 4, 5, 6, 8")
-      ->type_name("DIR");
-  command
-      ->add_option(
-          "--max-blur", options->max_blur,
-          "Largest blur radius of the rule for subapertures, 1 to 128 (default 40; 128 takes "
-          "minutes), and of the engine's kernels, which end at 40")
-      ->type_name("N");
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+      "(9) and (12), the rule for subapertures, and the kernels of the running engine",
+      {
+          {"-o,--output", "DIR",
+           "Folder for CSV files and, with gnuplot, SVG drawings of Figs. 4, 5, 6, 8",
+           &options->folder},
+          {"--max-blur", "N",
+           "Largest blur radius of the rule for subapertures, 1 to 128 (default 40; 128 takes "
+           "minutes), and of the engine's kernels, which end at 40",
+           &options->max_blur},
+      },
+      [options] { return Run(*options); }};
 }
 
 }  // namespace starfocus

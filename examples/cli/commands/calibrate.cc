@@ -137,24 +137,21 @@ Error Calibrate(const Options& options) {
 
 }  // namespace
 
-void AddCalibrateCommand(CLI::App* app, Action* action) {
+Command CalibrateCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
+  return {
       "calibrate",
       "Measure this machine, while it has nothing else to do, for the timing model behind block "
       "mode's partition. Pictures made with its coefficients differ from those of machines with "
-      "others");
-  command->add_option("-o,--output", options->out, "JSON file to write, for refocus --timing")
-      ->type_name("FILE");
-  command
-      ->add_option("--light-field", options->folder,
-                   "Folder to fit the model to; default: the scene portrait")
-      ->type_name("DIR");
-  command
-      ->add_option("--check", options->check,
-                   "Folder to check the model on; default: the scenes wires and ramp")
-      ->type_name("DIR");
-  command->callback([options, action] { *action = [options] { return Calibrate(*options); }; });
+      "others",
+      {
+          {"-o,--output", "FILE", "JSON file to write, for refocus --timing", &options->out},
+          {"--light-field", "DIR", "Folder to fit the model to; default: the scene portrait",
+           &options->folder},
+          {"--check", "DIR", "Folder to check the model on; default: the scenes wires and ramp",
+           &options->check},
+      },
+      [options] { return Calibrate(*options); }};
 }
 
 }  // namespace starfocus

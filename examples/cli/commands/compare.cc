@@ -64,21 +64,20 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddCompareCommand(CLI::App* app, Action* action) {
+Command CompareCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
-      "compare", "PSNR over all RGB samples and largest difference of two pictures");
-  command->add_option("A", options->first, "Picture")->type_name("FILE")->required();
-  command->add_option("B", options->second, "Picture of the same size")
-      ->type_name("FILE")
-      ->required();
-  command
-      ->add_option("--map", options->map,
-                   "Picture to write of where they differ: black where they agree, over red to "
-                   "white at the largest difference")
-      ->type_name("FILE");
-  command->add_flag("--json", options->json, "Print JSON; an infinite PSNR is null");
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+  return {"compare",
+          "PSNR over all RGB samples and largest difference of two pictures",
+          {
+              {"A", "FILE", "Picture", &options->first, Use::kRequired},
+              {"B", "FILE", "Picture of the same size", &options->second, Use::kRequired},
+              {"--map", "FILE",
+               "Picture to write of where they differ: black where they agree, over red to "
+               "white at the largest difference",
+               &options->map},
+              {"--json", nullptr, "Print JSON; an infinite PSNR is null", &options->json},
+          },
+          [options] { return Run(*options); }};
 }
 
 }  // namespace starfocus

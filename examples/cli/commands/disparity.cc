@@ -143,36 +143,32 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddDisparityCommand(CLI::App* app, Action* action) {
+Command DisparityCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
-      "disparity", "Estimate the disparity map of a light field from its views, or repair its map");
-  command->add_option("DIR", options->folder, "Light-field folder")->type_name("DIR")->required();
-  command
-      ->add_option("-o,--output", options->out,
-                   "Map to write, .pfm, and beside it a picture of it, .png, in which near is "
-                   "bright; default: disparity.pfm in DIR, if there is none")
-      ->type_name("FILE");
-  command
-      ->add_option("--confidence", options->confidence,
-                   "Picture to write: how sure each pixel is, black where not at all")
-      ->type_name("FILE");
-  command->add_flag("--repair", options->repair,
-                    "Repair the folder's map by the views instead: edges that lie beside those of "
-                    "the picture or are blurred, noise; needs --output");
-  command
-      ->add_option("--range", options->range,
-                   "MIN:MAX, the disparities to look for; default: those found in small "
-                   "pictures, up to an eighth of the width")
-      ->type_name("MIN:MAX");
-  command
-      ->add_option("--views", options->views,
-                   "17, 9 or 5, 1 as well of a repair; default: all of the folder")
-      ->type_name("17|9|5|1|U,V:U,V");
-  command->add_option("--threads", options->threads, "1 to 64")
-      ->type_name("N")
-      ->capture_default_str();
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+  return {"disparity",
+          "Estimate the disparity map of a light field from its views, or repair its map",
+          {
+              {"DIR", "DIR", "Light-field folder", &options->folder, Use::kRequired},
+              {"-o,--output", "FILE",
+               "Map to write, .pfm, and beside it a picture of it, .png, in which near is "
+               "bright; default: disparity.pfm in DIR, if there is none",
+               &options->out},
+              {"--confidence", "FILE",
+               "Picture to write: how sure each pixel is, black where not at all",
+               &options->confidence},
+              {"--repair", nullptr,
+               "Repair the folder's map by the views instead: edges that lie beside those of "
+               "the picture or are blurred, noise; needs --output",
+               &options->repair},
+              {"--range", "MIN:MAX",
+               "MIN:MAX, the disparities to look for; default: those found in small "
+               "pictures, up to an eighth of the width",
+               &options->range},
+              {"--views", "17|9|5|1|U,V:U,V",
+               "17, 9 or 5, 1 as well of a repair; default: all of the folder", &options->views},
+              {"--threads", "N", "1 to 64", &options->threads, Use::kDefault},
+          },
+          [options] { return Run(*options); }};
 }
 
 }  // namespace starfocus

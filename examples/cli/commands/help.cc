@@ -8,6 +8,7 @@
 #include "examples/cli/commands.h"
 #include "examples/cli/documentation/documentation.h"
 #include "examples/command_line/arguments.h"
+#include "examples/command_line/parse.h"
 
 namespace starfocus {
 namespace {
@@ -17,24 +18,20 @@ struct Options {
   bool manual = false, completion = false;
 };
 
-Error Run(CLI::App* app, const Options& options) {
+Error Run(const Program& program, const Options& options) {
   if (options.manual || options.completion) {
-    const std::string text = options.manual ? ManualText(app) : CompletionText(app);
+    const std::string text = options.manual ? ManualText(program) : CompletionText(program);
     std::printf("%s", text.c_str());
     return "";
   }
-  // Asked itself, the program would tell of the subcommand that runs.
-  if (options.command.empty()) {
-    std::printf(
-        "%s",
-        app->get_formatter()->make_help(app, app->get_name(), CLI::AppFormatMode::Normal).c_str());
-    return "";
-  }
+  const Command* command = options.command.empty() ? &program.main : nullptr;
   std::vector<std::string> names;
-  for (const CLI::App* command : app->get_subcommands({})) {
-    names.push_back(command->get_name());
-    if (command->get_name() != options.command) continue;
-    std::printf("%s", command->help(app->get_name()).c_str());
+  for (const Command& one : program.commands) {
+    names.push_back(one.name);
+    if (one.name == options.command) command = &one;
+  }
+  if (command != nullptr) {
+    std::printf("%s", HelpText(program, *command).c_str());
     return "";
   }
   const std::string nearest = NearestName(options.command, names);
@@ -46,16 +43,17 @@ Error Run(CLI::App* app, const Options& options) {
 
 }  // namespace
 
-void AddHelpCommand(CLI::App* app, Action* action) {
+Command HelpCommand(const Program* program) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("help", "What the program or a subcommand takes");
-  command->add_option("COMMAND", options->command, "Subcommand to tell of")->type_name("NAME");
-  CLI::Option* manual =
-      command->add_flag("--man", options->manual, "Print the manual page instead, for man");
-  command->add_flag("--bash", options->completion, "Print the completion script for bash instead")
-      ->excludes(manual);
-  command->callback(
-      [app, options, action] { *action = [app, options] { return Run(app, *options); }; });
+  return {"help",
+          "What the program or a subcommand takes",
+          {
+              {"COMMAND", "NAME", "Subcommand to tell of", &options->command},
+              {"--man", nullptr, "Print the manual page instead, for man", &options->manual},
+              {"--bash", nullptr, "Print the completion script for bash instead",
+               &options->completion, Use::kOptional, "--man"},
+          },
+          [program, options] { return Run(*program, *options); }};
 }
 
 }  // namespace starfocus

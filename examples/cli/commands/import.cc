@@ -66,21 +66,27 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddImportCommand(CLI::App* app, Action* action) {
+Command ImportCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
-      "import", "Write a light-field folder from a depth photo or a folder as others have it");
-  AddInputOptions(command, &options->input);
-  command->add_option("DIR", options->folder, "Folder to write")->type_name("DIR")->required();
-  AddMapOptions(command, &options->map);
-  command
-      ->add_option("--views", options->views,
-                   "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all")
-      ->type_name("17|9|5|1|U,V:U,V");
-  command->add_option("--threads", options->threads, "1 to 64")
-      ->type_name("N")
-      ->capture_default_str();
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+  Command command = {"import",
+                     "Write a light-field folder from a depth photo or a folder as others have it",
+                     {},
+                     [options] { return Run(*options); }};
+  AddInputOptions(&command, &options->input);
+  AddOptions(
+      {
+          {"DIR", "DIR", "Folder to write", &options->folder, Use::kRequired},
+      },
+      &command);
+  AddMapOptions(&command, &options->map);
+  AddOptions(
+      {
+          {"--views", "17|9|5|1|U,V:U,V",
+           "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all", &options->views},
+          {"--threads", "N", "1 to 64", &options->threads, Use::kDefault},
+      },
+      &command);
+  return command;
 }
 
 }  // namespace starfocus

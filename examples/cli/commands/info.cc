@@ -121,13 +121,19 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddInfoCommand(CLI::App* app, Action* action) {
+Command InfoCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
-      "info", "What a light field or depth photo is: format, size, views, disparity range");
-  AddInputOptions(command, &options->input);
-  command->add_flag("--json", options->json, "Print JSON; histogram bins go from min to max");
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+  Command command = {"info",
+                     "What a light field or depth photo is: format, size, views, disparity range",
+                     {},
+                     [options] { return Run(*options); }};
+  AddInputOptions(&command, &options->input);
+  AddOptions(
+      {
+          {"--json", nullptr, "Print JSON; histogram bins go from min to max", &options->json},
+      },
+      &command);
+  return command;
 }
 
 }  // namespace starfocus

@@ -250,36 +250,41 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddRefocusCommand(CLI::App* app, Action* action) {
+Command RefocusCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app->add_subcommand("refocus", "The picture a lens focused at a disparity would have taken");
-  AddInputOptions(command, &options->input, &options->inputs);
-  AddOutputOptions(command, &options->output);
-  command
-      ->add_option("--jobs", options->jobs,
-                   "1 to 64: how many of several inputs at a time, each on --threads")
-      ->type_name("N")
-      ->capture_default_str();
-  AddLensOptions(command, &options->lens);
-  command
-      ->add_option("--sweep", options->sweep,
-                   "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
-                   "out_001.png, ..., or of -o out.webp one animation")
-      ->type_name("D0:D1:N");
-  command
-      ->add_option("--region", options->region,
-                   "X,Y,W,H: only that part of the picture, at its share of the time")
-      ->type_name("X,Y,W,H");
-  command->add_flag("--stream", options->stream, "Row by row instead of whole pictures");
-  AddMapOptions(command, &options->disparities);
-  command
-      ->add_option("--map", options->map,
-                   "Picture to write: the blocks, red for L = 0, green for 1, blue for 2")
-      ->type_name("FILE");
-  command->add_option("--report", options->report, "JSON file for figures of the run")
-      ->type_name("FILE");
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+  Command command = {
+      "refocus", "The picture a lens focused at a disparity would have taken", {}, [options] {
+        return Run(*options);
+      }};
+  AddInputOptions(&command, &options->input, &options->inputs);
+  AddOutputOptions(&command, &options->output);
+  AddOptions(
+      {
+          {"--jobs", "N", "1 to 64: how many of several inputs at a time, each on --threads",
+           &options->jobs, Use::kDefault},
+      },
+      &command);
+  AddLensOptions(&command, &options->lens);
+  AddOptions(
+      {
+          {"--sweep", "D0:D1:N",
+           "D0:D1:N: N pictures focused from D0 to D1, of -o out.png out_000.png, "
+           "out_001.png, ..., or of -o out.webp one animation",
+           &options->sweep},
+          {"--region", "X,Y,W,H",
+           "X,Y,W,H: only that part of the picture, at its share of the time", &options->region},
+          {"--stream", nullptr, "Row by row instead of whole pictures", &options->stream},
+      },
+      &command);
+  AddMapOptions(&command, &options->disparities);
+  AddOptions(
+      {
+          {"--map", "FILE", "Picture to write: the blocks, red for L = 0, green for 1, blue for 2",
+           &options->map},
+          {"--report", "FILE", "JSON file for figures of the run", &options->report},
+      },
+      &command);
+  return command;
 }
 
 }  // namespace starfocus

@@ -160,33 +160,35 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddSceneCommand(CLI::App* app, Action* action) {
+Command SceneCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app->add_subcommand("scene", "Ray-trace a light field with exact disparity into a folder");
-  command->add_option("DIR", options->folder, "Folder to write")->type_name("DIR")->required();
-  command->add_option("--name", options->name, "portrait, wires, ramp or lamps")
-      ->type_name("portrait|wires|ramp|lamps")
-      ->capture_default_str();
-  command->add_option("--size", options->size, "Width and height, WxH")
-      ->type_name("WxH")
-      ->capture_default_str();
-  command
-      ->add_option("--views", options->views,
-                   "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0")
-      ->type_name("17|9|5|1|U,V:U,V")
-      ->capture_default_str();
-  command
-      ->add_option("--truth", options->truths,
-                   "D,U: also the picture of a lens of aperture U focused at disparity D; "
-                   "may be repeated")
-      ->type_name("D,U ...");
-  AddTransferOption(command, "Pictures average light, coded as sRGB, or values as they are",
+  Command command = {
+      "scene", "Ray-trace a light field with exact disparity into a folder", {}, [options] {
+        return Run(*options);
+      }};
+  AddOptions(
+      {
+          {"DIR", "DIR", "Folder to write", &options->folder, Use::kRequired},
+          {"--name", "portrait|wires|ramp|lamps", "portrait, wires, ramp or lamps", &options->name,
+           Use::kDefault},
+          {"--size", "WxH", "Width and height, WxH", &options->size, Use::kDefault},
+          {"--views", "17|9|5|1|U,V:U,V", "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0",
+           &options->views, Use::kDefault},
+          {"--truth", "D,U ...",
+           "D,U: also the picture of a lens of aperture U focused at disparity D; "
+           "may be repeated",
+           &options->truths},
+      },
+      &command);
+  AddTransferOption(&command, "Pictures average light, coded as sRGB, or values as they are",
                     &options->transfer);
-  AddShapeOptions(command, &options->shape);
-  command->add_option("--threads", options->threads, "1 to 64; default: all of the machine")
-      ->type_name("N");
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+  AddShapeOptions(&command, &options->shape);
+  AddOptions(
+      {
+          {"--threads", "N", "1 to 64; default: all of the machine", &options->threads},
+      },
+      &command);
+  return command;
 }
 
 }  // namespace starfocus

@@ -70,23 +70,19 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddSheetCommand(CLI::App* app, Action* action) {
+Command SheetCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("sheet", "A contact sheet of pictures side by side");
-  command->add_option("-o,--output", options->out, "Picture to write: .png, .ppm, .jpg or .webp")
-      ->type_name("FILE")
-      ->required();
-  command->add_option("IMG", options->pictures, "Pictures, from left to right")
-      ->type_name("FILE")
-      ->required();
-  command->add_option("--labels", options->labels, "A,B,...: text below each picture")
-      ->type_name("A,B,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_option("--width", options->width, "Largest width of the sheet")
-      ->type_name("N")
-      ->capture_default_str();
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+  return {"sheet",
+          "A contact sheet of pictures side by side",
+          {
+              {"-o,--output", "FILE", "Picture to write: .png, .ppm, .jpg or .webp", &options->out,
+               Use::kRequired},
+              {"IMG", "FILE", "Pictures, from left to right", &options->pictures, Use::kRequired},
+              {"--labels", "A,B,...", "A,B,...: text below each picture", &options->labels,
+               Use::kCommaSeparated},
+              {"--width", "N", "Largest width of the sheet", &options->width, Use::kDefault},
+          },
+          [options] { return Run(*options); }};
 }
 
 }  // namespace starfocus

@@ -104,20 +104,19 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddStressCommand(CLI::App* app, Action* action) {
+Command StressCommand() {
+  static const std::string family_help = "Only this family: " + Names();
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
-      "stress", "Try to break the engine with random refocusings whose result is known or bounded");
-  command->add_option("--seconds", options->seconds, "How long to try")
-      ->type_name("S")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Which cases to try: others with every seed")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--family", options->family, "Only this family: " + Names())
-      ->type_name("FAMILY");
-  command->add_option("--case", options->number, "Repeat one case of --family")->type_name("N");
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+  return {"stress",
+          "Try to break the engine with random refocusings whose result is known or bounded",
+          {
+              {"--seconds", "S", "How long to try", &options->seconds, Use::kDefault},
+              {"--seed", "N", "Which cases to try: others with every seed", &options->seed,
+               Use::kDefault},
+              {"--family", "FAMILY", family_help.c_str(), &options->family},
+              {"--case", "N", "Repeat one case of --family", &options->number},
+          },
+          [options] { return Run(*options); }};
 }
 
 }  // namespace starfocus

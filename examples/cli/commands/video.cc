@@ -201,30 +201,34 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddVideoCommand(CLI::App* app, Action* action) {
+Command VideoCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
+  Command command = {
       "video",
-      "Refocuses frame after frame; blocks that depend on nothing that changed are copied");
-  command
-      ->add_option("DIR", options->folders,
-                   "Light-field folders of one size, or the folder of such folders by name")
-      ->type_name("DIR")
-      ->required();
-  command->add_option("-o,--output", options->out, "Folder for frame_0000.png, frame_0001.png, ...")
-      ->type_name("DIR")
-      ->required();
-  AddLensOptions(command, &options->lens);
-  command->add_flag("--fill-invalid", options->fill_invalid,
-                    "Replace non-finite disparities by their nearest valid neighbour");
-  command
-      ->add_option("--report", options->report,
-                   "JSON file for figures of every frame, reused blocks among them")
-      ->type_name("FILE");
-  command->footer(
+      "Refocuses frame after frame; blocks that depend on nothing that changed are copied",
+      {},
+      [options] { return Run(*options); },
       "The first frame decides what --focus-at means, and the focus where no option sets it. The "
-      "frame modes choose N for the disparities of all frames.");
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+      "frame modes choose N for the disparities of all frames."};
+  AddOptions(
+      {
+          {"DIR", "DIR", "Light-field folders of one size, or the folder of such folders by name",
+           &options->folders, Use::kRequired},
+          {"-o,--output", "DIR", "Folder for frame_0000.png, frame_0001.png, ...", &options->out,
+           Use::kRequired},
+      },
+      &command);
+  AddLensOptions(&command, &options->lens);
+  AddOptions(
+      {
+          {"--fill-invalid", nullptr,
+           "Replace non-finite disparities by their nearest valid neighbour",
+           &options->fill_invalid},
+          {"--report", "FILE", "JSON file for figures of every frame, reused blocks among them",
+           &options->report},
+      },
+      &command);
+  return command;
 }
 
 }  // namespace starfocus

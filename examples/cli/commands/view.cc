@@ -195,19 +195,27 @@ Error Run(const Options& options) {
 
 }  // namespace
 
-void AddViewCommand(CLI::App* app, Action* action) {
+Command ViewCommand() {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("view",
-                                          "A web page of a light field or depth photo: photo, map, "
-                                          "foci, blocks, errors where truth is there");
-  AddInputOptions(command, &options->input);
-  command->add_option("-o,--output", options->out, "HTML file to write; -: standard output")
-      ->type_name("FILE")
-      ->required();
-  AddApertureOptions(command, &options->aperture);
-  command->add_option("--threads", options->threads, "1 to 64; default: all of the machine")
-      ->type_name("N");
-  command->callback([options, action] { *action = [options] { return Run(*options); }; });
+  Command command = {"view",
+                     "A web page of a light field or depth photo: photo, map, "
+                     "foci, blocks, errors where truth is there",
+                     {},
+                     [options] { return Run(*options); }};
+  AddInputOptions(&command, &options->input);
+  AddOptions(
+      {
+          {"-o,--output", "FILE", "HTML file to write; -: standard output", &options->out,
+           Use::kRequired},
+      },
+      &command);
+  AddApertureOptions(&command, &options->aperture);
+  AddOptions(
+      {
+          {"--threads", "N", "1 to 64; default: all of the machine", &options->threads},
+      },
+      &command);
+  return command;
 }
 
 }  // namespace starfocus

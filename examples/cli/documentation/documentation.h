@@ -3,18 +3,18 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_DOCUMENTATION_DOCUMENTATION_H_
 #define STARFOCUS_EXAMPLES_CLI_DOCUMENTATION_DOCUMENTATION_H_
 
-#include <CLI/CLI.hpp>
 #include <string>
-#include <vector>
+
+#include "examples/command_line/command.h"
 
 namespace starfocus {
 
 // The manual page in roff.
-std::string ManualText(CLI::App* app);
+std::string ManualText(const Program& program);
 
 // The completion script for bash. An option whose type name lists words, "near|far", is completed
 // by those without capitals, one of DIR or FILE by names of files.
-std::string CompletionText(CLI::App* app);
+std::string CompletionText(const Program& program);
 
 }  // namespace starfocus
 

@@ -21,47 +21,48 @@ std::string Bold(const std::string& text) { return "\\fB" + Roff(text) + "\\fR";
 std::string Italic(const std::string& text) { return "\\fI" + Roff(text) + "\\fR"; }
 
 // "-o, --output FILE"
-std::string Head(const CLI::Option& option) {
-  if (option.get_positional()) return Italic(option.get_name(true));
+std::string Head(const Option& option) {
+  if (IsPositional(option)) return Italic(option.names);
   std::string head;
-  for (const std::string& name : option.get_snames()) head += Bold("-" + name) + ", ";
-  for (const std::string& name : option.get_lnames()) head += Bold("--" + name) + ", ";
-  head.resize(head.size() - 2);
-  const bool flag = option.get_expected_max() == 0;
-  return flag ? head : head + " " + Italic(option.get_type_name());
+  for (const std::string& name : NamesOf(option)) head += (head.empty() ? "" : ", ") + Bold(name);
+  return option.type == nullptr ? head : head + " " + Italic(option.type);
 }
 
-std::string Entry(const CLI::Option& option) {
-  std::string text = ".TP\n" + Head(option) + "\n" + Roff(option.get_description());
-  if (!option.get_default_str().empty())
-    text += " (default: " + Roff(option.get_default_str()) + ")";
-  if (option.get_required()) text += " (required)";
+std::string Entry(const Option& option) {
+  std::string text = ".TP\n" + Head(option) + "\n" + Roff(option.help);
+  if (!DefaultOf(option).empty()) text += " (default: " + Roff(DefaultOf(option)) + ")";
+  if (option.use == Use::kRequired) text += " (required)";
   return text + "\n";
 }
 
-std::string Command(const CLI::App& command) {
-  std::string text = ".SS " + Roff(command.get_name());
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_positional()) text += " " + Roff(option->get_name(true));
-  }
-  text += "\n" + Roff(command.get_description()) + "\n";
-  if (!command.get_footer().empty()) text += ".PP\n" + Roff(command.get_footer()) + "\n";
-  for (const CLI::Option* option : command.get_options()) text += Entry(*option);
+std::string Entries(const Program& program, const Command& command) {
+  std::string text;
+  for (const Option& option : AllOptions(program, command)) text += Entry(option);
   return text;
+}
+
+std::string Section(const Program& program, const Command& command) {
+  std::string text = ".SS " + Roff(command.name);
+  for (const Option& option : command.options) {
+    if (IsPositional(option)) text += " " + Roff(option.names);
+  }
+  text += "\n" + Roff(command.help) + "\n";
+  const std::string footer = command.footer;
+  if (!footer.empty()) text += ".PP\n" + Roff(footer) + "\n";
+  return text + Entries(program, command);
 }
 
 }  // namespace
 
-std::string ManualText(CLI::App* app) {
-  const std::string& name = app->get_name();
+std::string ManualText(const Program& program) {
+  const std::string name = program.main.name;
   std::string text = ".TH STARFOCUS 1 \"\" \"starfocus " SF_VERSION_STRING "\"\n.SH NAME\n" + name +
                      " \\- refocus photographs after they were taken\n.SH SYNOPSIS\n" + Bold(name) +
                      " " + Italic("COMMAND") + " [" + Italic("OPTION") + "...]\n.SH DESCRIPTION\n" +
-                     Roff(app->get_description()) + "\n.SH OPTIONS\n";
-  for (const CLI::Option* option : app->get_options()) text += Entry(*option);
-  text += ".SH COMMANDS\n";
-  for (const CLI::App* command : app->get_subcommands({})) text += Command(*command);
-  return text + ".SH EXIT STATUS\n" + Roff(app->get_footer());
+                     Roff(program.main.help) + "\n.SH OPTIONS\n" + Entries(program, program.main) +
+                     ".SH COMMANDS\n";
+  for (const Command& command : program.commands) text += Section(program, command);
+  return text + ".SH EXIT STATUS\n" + Roff(kExitCodes);
 }
 
 }  // namespace starfocus

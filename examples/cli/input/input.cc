@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -110,51 +109,57 @@ Error Estimate(int threads, Capture* capture) {
 
 }  // namespace
 
-void AddInputOptions(CLI::App* command, InputOptions* options, std::vector<std::string>* several) {
-  const std::string what =
-      "Light-field folder, folder of views as others have it, or depth photo; -: a photo on "
-      "standard input";
-  CLI::Option* source = several == nullptr
-                            ? command->add_option("SRC", options->path, what)
-                            : command->add_option("SRC", *several, what + "; or several");
-  source->type_name("DIR|PHOTO")->required();
-  command
-      ->add_option("--depth", options->depth,
-                   "Depth picture of a photo: .png, .pgm, .jpg or .pfm; default: the map in the "
-                   "photo, or NAME-depth.png, _depth or .depth beside it")
-      ->type_name("FILE");
-  command
-      ->add_option("--near", options->near,
-                   "What is near in a depth picture; default: guessed from what is low in it, "
-                   "white in a .pfm file")
-      ->type_name("white|black");
-  command
-      ->add_option("--depth-unit", options->depth_unit,
-                   "What the values of a depth picture are: distances, or disparities in pixels of "
-                   "the photo; default: an order without a unit")
-      ->type_name("m|mm|disparity");
-  command
-      ->add_option("--depth-orientation", options->depth_orientation,
-                   "Whether a depth picture is turned by the photo's EXIF or stands upright "
-                   "already; default: by proportions and edges")
-      ->type_name("photo|upright");
-  command
-      ->add_option("--unknown", options->unknown,
-                   "Values of a depth picture that stand for an unknown depth; none: transparent "
-                   "pixels are known, too; default: 0 and 65535 of 16 bits, unless other values "
-                   "show that they are depths")
-      ->type_name("none|V,V,...");
+void AddInputOptions(Command* command, InputOptions* options, std::vector<std::string>* several) {
+  AddOptions(
+      {
+          several == nullptr
+              ? Option{"SRC", "DIR|PHOTO",
+                       "Light-field folder, folder of views as others have it, or depth photo; "
+                       "-: a photo on standard input",
+                       &options->path, Use::kRequired}
+              : Option{"SRC", "DIR|PHOTO",
+                       "Light-field folder, folder of views as others have it, or depth photo; "
+                       "-: a photo on standard input; or several",
+                       several, Use::kRequired},
+          {"--depth", "FILE",
+           "Depth picture of a photo: .png, .pgm, .jpg or .pfm; default: the map in the "
+           "photo, or NAME-depth.png, _depth or .depth beside it",
+           &options->depth},
+          {"--near", "white|black",
+           "What is near in a depth picture; default: guessed from what is low in it, "
+           "white in a .pfm file",
+           &options->near},
+          {"--depth-unit", "m|mm|disparity",
+           "What the values of a depth picture are: distances, or disparities in pixels of "
+           "the photo; default: an order without a unit",
+           &options->depth_unit},
+          {"--depth-orientation", "photo|upright",
+           "Whether a depth picture is turned by the photo's EXIF or stands upright "
+           "already; default: by proportions and edges",
+           &options->depth_orientation},
+          {"--unknown", "none|V,V,...",
+           "Values of a depth picture that stand for an unknown depth; none: transparent "
+           "pixels are known, too; default: 0 and 65535 of 16 bits, unless other values "
+           "show that they are depths",
+           &options->unknown},
+      },
+      command);
 }
 
-void AddMapOptions(CLI::App* command, MapOptions* options) {
-  command->add_flag("--fill-invalid", options->fill,
-                    "Replace non-finite disparities by their nearest valid neighbour");
-  CLI::Option* repair = command->add_flag(
-      "--repair", options->repair,
-      "Repair the disparity map first, by the side views or, of one view, its colours: wrong or "
-      "blurred edges, noise, unknown values; depth photos have it done");
-  command->add_flag("--no-repair", options->no_repair, "Leave the map of a depth photo as it is")
-      ->excludes(repair);
+void AddMapOptions(Command* command, MapOptions* options) {
+  AddOptions(
+      {
+          {"--fill-invalid", nullptr,
+           "Replace non-finite disparities by their nearest valid neighbour", &options->fill},
+          {"--repair", nullptr,
+           "Repair the disparity map first, by the side views or, of one view, its colours: wrong "
+           "or "
+           "blurred edges, noise, unknown values; depth photos have it done",
+           &options->repair},
+          {"--no-repair", nullptr, "Leave the map of a depth photo as it is", &options->no_repair,
+           Use::kOptional, "--repair"},
+      },
+      command);
 }
 
 Error OpenInput(const InputOptions& options, Capture* capture) {

@@ -7,12 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "examples/command_line/command.h"
 #include "examples/command_line/error.h"
 #include "platform/readers/capture.h"
-
-namespace CLI {
-class App;
-}
 
 namespace starfocus {
 
@@ -27,9 +24,9 @@ struct MapOptions {
 };
 
 // `several`: paths of which each is an input, in place of the one of `options`; or null.
-void AddInputOptions(CLI::App* command, InputOptions* options,
+void AddInputOptions(Command* command, InputOptions* options,
                      std::vector<std::string>* several = nullptr);
-void AddMapOptions(CLI::App* command, MapOptions* options);
+void AddMapOptions(Command* command, MapOptions* options);
 
 // Finds out what it is (OpenCapture); what was guessed goes to stderr. The map of a photo keeps its
 // own size until LoadInput.

@@ -45,30 +45,29 @@ uint16_t Nearest(const std::vector<double>& foci, float disparity) {
 
 }  // namespace
 
-void AddOutputOptions(CLI::App* command, OutputOptions* options) {
-  command
-      ->add_option("-o,--output", options->out,
-                   "Picture to write: .png, .ppm, .jpg or .webp; - or jpg:-, ...: standard output; "
-                   "a folder for the pictures of several inputs")
-      ->type_name("FILE")
-      ->required();
-  command->add_option("--quality", options->quality, "1 to 100, of JPEG and WebP")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_flag("--small-png", options->small_png,
-                    "PNG files about 7 % smaller, which take about 17 times as long to compress");
-  command->add_flag("--depth-photo", options->depth_photo,
-                    "Put the sharp picture and the disparity map into the JPEG file, as GDepth, so "
-                    "that others can refocus it again");
-  command
-      ->add_option("--all-in-focus", options->all_in_focus,
-                   "Picture to write beside a sweep: sharp everywhere")
-      ->type_name("FILE");
-  command
-      ->add_option("--focus-index", options->focus_index,
-                   "PNG file to write beside a sweep: the number of the picture, from 0 on, in "
-                   "which a pixel is in focus")
-      ->type_name("FILE");
+void AddOutputOptions(Command* command, OutputOptions* options) {
+  AddOptions(
+      {
+          {"-o,--output", "FILE",
+           "Picture to write: .png, .ppm, .jpg or .webp; - or jpg:-, ...: standard output; "
+           "a folder for the pictures of several inputs",
+           &options->out, Use::kRequired},
+          {"--quality", "N", "1 to 100, of JPEG and WebP", &options->quality, Use::kDefault},
+          {"--small-png", nullptr,
+           "PNG files about 7 % smaller, which take about 17 times as long to compress",
+           &options->small_png},
+          {"--depth-photo", nullptr,
+           "Put the sharp picture and the disparity map into the JPEG file, as GDepth, so "
+           "that others can refocus it again",
+           &options->depth_photo},
+          {"--all-in-focus", "FILE", "Picture to write beside a sweep: sharp everywhere",
+           &options->all_in_focus},
+          {"--focus-index", "FILE",
+           "PNG file to write beside a sweep: the number of the picture, from 0 on, in "
+           "which a pixel is in focus",
+           &options->focus_index},
+      },
+      command);
 }
 
 std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures) {

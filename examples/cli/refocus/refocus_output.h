@@ -3,12 +3,12 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "examples/cli/engine/engine_run.h"
+#include "examples/command_line/command.h"
 #include "examples/command_line/error.h"
 #include "examples/command_line/outputs.h"
 #include "platform/runner.h"
@@ -23,7 +23,7 @@ struct OutputOptions {
   bool depth_photo = false, small_png = false;
 };
 
-void AddOutputOptions(CLI::App* command, OutputOptions* options);
+void AddOutputOptions(Command* command, OutputOptions* options);
 
 // The picture files of a refocusing, or of a sweep of `pictures` ones (0: no sweep).
 std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/refocus/refocus_plan.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -67,18 +66,19 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
 }
 
 // The lens: where it is focused, and its opening.
-void AddOpticsOptions(CLI::App* command, LensOptions* options) {
-  command
-      ->add_option(
-          "--focus", options->focus,
-          "Disparity in focus; default: the subject in EXIF, the focus in the file, or the "
-          "nearest large surface near the centre")
-      ->type_name("D");
-  command
-      ->add_option("--focus-at", options->focus_at,
-                   "X,Y: the disparity of what is at that pixel, the median of its surface "
-                   "there")
-      ->type_name("X,Y");
+void AddOpticsOptions(Command* command, LensOptions* options) {
+  AddOptions(
+      {
+          {"--focus", "D",
+           "Disparity in focus; default: the subject in EXIF, the focus in the file, or the "
+           "nearest large surface near the centre",
+           &options->focus},
+          {"--focus-at", "X,Y",
+           "X,Y: the disparity of what is at that pixel, the median of its surface "
+           "there",
+           &options->focus_at},
+      },
+      command);
   AddApertureOptions(command, &options->aperture);
   AddShapeOptions(command, &options->shape);
 }
@@ -112,86 +112,72 @@ Error CheckPixel(int width, int height, const LensPlan& plan) {
 
 }  // namespace
 
-void AddApertureOptions(CLI::App* command, ApertureOptions* options) {
-  command
-      ->add_option(
-          "--aperture", options->aperture,
-          "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8, and less where that "
-          "blurs by more than 128 pixels")
-      ->type_name("U");
-  command
-      ->add_option("--f-stop", options->f_stop,
-                   "The same as an f-stop, from the widest on: radius --widest / N")
-      ->type_name("N");
-  command
-      ->add_option("--widest", options->widest,
-                   "F-stop of radius 1: focal length over twice the distance of view (1, 0) from "
-                   "the centre; default: what the input knows of itself, else 1, for f-stops "
-                   "relative to that "
-                   "radius")
-      ->type_name("W");
-  command
-      ->add_option("--strength", options->strength,
-                   "0 to 100 percent of that radius; 0: the centre view to the byte")
-      ->type_name("S")
-      ->default_str("100");
+void AddApertureOptions(Command* command, ApertureOptions* options) {
+  AddOptions(
+      {
+          {"--aperture", "U",
+           "Radius, above 0 up to 1; default: 1, of a photo that of f/1.8, and less where that "
+           "blurs by more than 128 pixels",
+           &options->aperture},
+          {"--f-stop", "N", "The same as an f-stop, from the widest on: radius --widest / N",
+           &options->f_stop},
+          {"--widest", "W",
+           "F-stop of radius 1: focal length over twice the distance of view (1, 0) from "
+           "the centre; default: what the input knows of itself, else 1, for f-stops "
+           "relative to that "
+           "radius",
+           &options->widest},
+          {"--strength", "S", "0 to 100 percent of that radius; 0: the centre view to the byte",
+           &options->strength, Use::kOptional, nullptr, "100"},
+      },
+      command);
 }
 
-void AddLensOptions(CLI::App* command, LensOptions* options) {
+void AddLensOptions(Command* command, LensOptions* options) {
   AddOpticsOptions(command, options);
-  command
-      ->add_option("--mode", options->mode,
-                   "In blocks of their own number of views, with one number for the whole frame, "
-                   "as a benchmark of twice the views that blur can show, or by blurring the "
-                   "centre view alone: this looks like a quick preview of the others but takes "
-                   "about ten times as long as block")
-      ->type_name("block|frame|benchmark|blur")
-      ->capture_default_str();
+  AddOptions(
+      {
+          {"--mode", "block|frame|benchmark|blur",
+           "In blocks of their own number of views, with one number for the whole frame, "
+           "as a benchmark of twice the views that blur can show, or by blurring the "
+           "centre view alone: this looks like a quick preview of the others but takes "
+           "about ten times as long as block",
+           &options->mode, Use::kDefault},
+      },
+      command);
   AddTransferOption(command,
                     "What codes of the pictures stand for: light coded as sRGB, which a lens adds, "
                     "or values to be averaged as they are",
                     &options->transfer);
-  command
-      ->add_option("--highlights", options->highlights,
-                   "1 to 64: how many times white the lamps are that the pictures clip")
-      ->type_name("X")
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--views", options->views,
-          "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder")
-      ->type_name("17|9|5|1|U,V:U,V");
-  command->add_option("--threads", options->threads, "1 to 64")
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      ->add_option("--largest-block", options->largest_block,
-                   "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128")
-      ->type_name("32|64|128|256");
-  command
-      ->add_option(
-          "--rule", options->rule,
-          "How many views a blur needs, and whether they are rendered line by line (paper) "
-          "or show slices; default: paper in frame mode of 5 or more views, else subaperture")
-      ->type_name("paper|subaperture");
-  command
-      ->add_option("--n-scale", options->n_scale,
-                   "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "
-                   "closer to the benchmark")
-      ->type_name("X")
-      ->capture_default_str();
-  command->add_option("--max-layer", options->max_layer, "0, 1 or 2: may subsample by 2^L")
-      ->type_name("0|1|2")
-      ->capture_default_str();
-  command
-      ->add_option("--deblocking", options->deblocking,
-                   "0 to 255 grey levels: the largest step smoothed between layers; 0: off")
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      ->add_option("--timing", options->timing,
-                   "JSON file that starfocus calibrate wrote; default: built in")
-      ->type_name("FILE");
+  AddOptions(
+      {
+          {"--highlights", "X",
+           "1 to 64: how many times white the lamps are that the pictures clip",
+           &options->highlights, Use::kDefault},
+          {"--views", "17|9|5|1|U,V:U,V",
+           "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0; default: all of the folder",
+           &options->views},
+          {"--threads", "N", "1 to 64", &options->threads, Use::kDefault},
+          {"--largest-block", "32|64|128|256",
+           "32, 64, 128 or 256; default: 64, for pictures from 1536 pixels wide on 128",
+           &options->largest_block},
+          {"--rule", "paper|subaperture",
+           "How many views a blur needs, and whether they are rendered line by line (paper) "
+           "or show slices; default: paper in frame mode of 5 or more views, else subaperture",
+           &options->rule},
+          {"--n-scale", "X",
+           "0.5 to 2: multiplies the rule's views along the radius; fewer are faster, more "
+           "closer to the benchmark",
+           &options->n_scale, Use::kDefault},
+          {"--max-layer", "0|1|2", "0, 1 or 2: may subsample by 2^L", &options->max_layer,
+           Use::kDefault},
+          {"--deblocking", "N",
+           "0 to 255 grey levels: the largest step smoothed between layers; 0: off",
+           &options->deblocking, Use::kDefault},
+          {"--timing", "FILE", "JSON file that starfocus calibrate wrote; default: built in",
+           &options->timing},
+      },
+      command);
 }
 
 Error PlanLens(const LensOptions& options, LensPlan* plan) {

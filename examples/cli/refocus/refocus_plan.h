@@ -10,13 +10,10 @@
 #include "examples/cli/engine/engine_run.h"
 #include "examples/cli/refocus/aperture.h"
 #include "examples/cli/refocus/default_focus.h"
+#include "examples/command_line/command.h"
 #include "examples/command_line/shape.h"
 #include "platform/readers/capture.h"
 #include "starfocus/starfocus.h"
-
-namespace CLI {
-class App;
-}
 
 namespace starfocus {
 
@@ -30,9 +27,9 @@ struct LensOptions {
   ShapeOptions shape;
 };
 
-void AddLensOptions(CLI::App* command, LensOptions* options);
+void AddLensOptions(Command* command, LensOptions* options);
 // The part of them that sets the aperture.
-void AddApertureOptions(CLI::App* command, ApertureOptions* options);
+void AddApertureOptions(Command* command, ApertureOptions* options);
 
 struct LensPlan {
   std::string focus_option;  // that the foci come from; empty: none is set yet

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/command_line/parse.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "examples/command_line/arguments.h"
+#include "examples/command_line/program.h"
+
+namespace starfocus {
+namespace {
+
+void AddOption(const Option& option, CLI::App* app) {
+  const Target& target = option.target;
+  CLI::Option* added = target.flag != nullptr    ? app->add_flag(option.names, *target.flag)
+                       : target.value != nullptr ? app->add_option(option.names, *target.value)
+                                                 : app->add_option(option.names, *target.values);
+  added->description(option.help);
+  if (option.type != nullptr) added->type_name(option.type);
+  added->required(option.use == Use::kRequired);
+  if (option.use == Use::kCommaSeparated) added->delimiter(',')->allow_extra_args(false);
+  added->default_str(DefaultOf(option));
+  if (option.excludes != nullptr) added->excludes(app->get_option(option.excludes));
+}
+
+void AddCommandOptions(const Command& command, CLI::App* app) {
+  app->set_help_flag(kHelpOption.names, kHelpOption.help);
+  for (const Option& option : command.options) AddOption(option, app);
+}
+
+// CLI11's form of a program.
+void Translate(const Program& program, CLI::App* app) {
+  app->name(program.main.name);
+  app->description(program.main.help);
+  AddCommandOptions(program.main, app);
+  app->set_version_flag(kVersionOption.names, VersionText(program.main.name), kVersionOption.help);
+  // With at least one, CLI11 would report a missing subcommand in place of a wrong argument.
+  if (!program.commands.empty()) app->require_subcommand(0, 1);
+  for (const Command& command : program.commands) {
+    CLI::App* added = app->add_subcommand(command.name, command.help);
+    AddCommandOptions(command, added);
+    added->footer(command.footer);
+  }
+  app->footer(kExitCodes);
+}
+
+// CLI11 takes an empty value for none at all where the default is empty too.
+Error CheckValues(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (value.empty()) return Error::Usage(option->get_name(), "a value", "''");
+    }
+  }
+  for (const CLI::App* command : app.get_subcommands()) {
+    Error error = CheckValues(*command);
+    if (!error.empty()) return error;
+  }
+  return {};
+}
+
+std::string ValueType(const CLI::Option& option) {
+  return option.get_expected_max() == 0 ? "" : option.get_type_name();
+}
+
+// The subcommand that the command line names, else the program itself.
+CLI::App* Chosen(CLI::App* app) {
+  const std::vector<CLI::App*> chosen = app->get_subcommands();
+  return chosen.empty() ? app : chosen[0];
+}
+
+std::vector<std::string> OptionNames(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+// "an option of refocus (the nearest is --focus)"
+std::string WithNearest(const std::string& kind, const std::string& typed,
+                        const std::vector<std::string>& names, const std::string& list) {
+  const std::string nearest = NearestName(typed, names);
+  return kind +
+         (nearest.empty() ? " (`" + list + "` lists them)" : " (the nearest is " + nearest + ")");
+}
+
+// An argument that neither an option nor a positional one takes.
+Error Unexpected(CLI::App* app, const std::string& argument) {
+  CLI::App* command = Chosen(app);
+  const bool all = command == app;
+  const std::string& name = command->get_name();
+  if (argument.size() > 1 && argument[0] == '-') {
+    const std::string option = argument.substr(0, argument.find('='));
+    const std::string list = app->get_name() + (all ? "" : " " + name) + " --help";
+    return Error::Usage(option,
+                        WithNearest("an option of " + name, option, OptionNames(*command), list),
+                        "an unknown one");
+  }
+  std::vector<std::string> commands;
+  for (const CLI::App* one : app->get_subcommands({})) commands.push_back(one->get_name());
+  if (all && !commands.empty()) {
+    return Error::Usage("command line",
+                        WithNearest("a subcommand", argument, commands, app->get_name() + " help"),
+                        "'" + argument + "'");
+  }
+  return Error::Usage("command line", "no other argument of " + name, "'" + argument + "'");
+}
+
+// Names the argument that is unknown, missing or in excess.
+Error WrongLine(CLI::App* app, const CLI::ParseError& wrong) {
+  const std::vector<std::string> others = app->remaining(true);
+  const auto is_option = [](const std::string& text) { return text.size() > 1 && text[0] == '-'; };
+  const bool no_command = Chosen(app) == app && !app->get_subcommands({}).empty();
+  if (no_command && !others.empty()) return Unexpected(app, others[0]);
+  const auto option = std::find_if(others.begin(), others.end(), is_option);
+  if (option != others.end()) return Unexpected(app, *option);
+  if (!others.empty()) return Unexpected(app, others[0]);
+  const std::string text = wrong.what();
+  for (const CLI::Option* its : Chosen(app)->get_options()) {
+    const std::string name = its->get_name();
+    const bool lacks_value = text.rfind(name + ": ", 0) == 0 && !ValueType(*its).empty();
+    if (lacks_value) return Error::Usage(name, "a value " + ValueType(*its), "none");
+    if (!its->get_required() || its->count() > 0) continue;
+    if (text.rfind(name + " is required", 0) != 0) continue;
+    return Error::Usage(
+        name, its->get_positional() ? ValueType(*its) : name + " " + ValueType(*its), "none");
+  }
+  const size_t excludes = text.find(" excludes ");
+  if (excludes != std::string::npos) {
+    return Error::Usage(text.substr(0, excludes), "no " + text.substr(excludes + 10) + " beside it",
+                        "both");
+  }
+  return Error::Usage("command line", "what `" + app->get_name() + " --help` lists", text);
+}
+
+// The subcommand of that name, else the program's own.
+const Command& CommandOf(const Program& program, const std::string& name) {
+  for (const Command& command : program.commands) {
+    if (command.name == name) return command;
+  }
+  return program.main;
+}
+
+}  // namespace
+
+const Command* ParseCommandLine(const Program& program, int argc, char** argv, Error* error) {
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  const std::string first = arguments.empty() ? "" : arguments[0];
+  *error = CheckSeparators(arguments, CommandOf(program, first).options);
+  if (!error->empty()) return nullptr;
+  CLI::App app;
+  Translate(program, &app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::printf("%s", app.help().c_str());
+    return nullptr;
+  } catch (const CLI::CallForVersion& version) {
+    std::printf("%s\n", version.what());
+    return nullptr;
+  } catch (const CLI::ParseError& wrong) {
+    *error = WrongLine(&app, wrong);
+    return nullptr;
+  }
+  const Command& chosen = CommandOf(program, Chosen(&app)->get_name());
+  *error = CheckValues(app);
+  if (error->empty() && !program.commands.empty() && &chosen == &program.main) {
+    *error = Error::Usage("command line",
+                          "a subcommand, of those `" + app.get_name() + " help` lists", "none");
+  }
+  return error->empty() ? &chosen : nullptr;
+}
+
+std::string HelpText(const Program& program, const Command& command) {
+  CLI::App app;
+  Translate(program, &app);
+  const std::string name = app.get_name();
+  return &command == &program.main ? app.help() : app.get_subcommand(command.name)->help(name);
+}
+
+}  // namespace starfocus
