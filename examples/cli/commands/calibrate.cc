@@ -2,13 +2,14 @@
 // starfocus calibrate: the timing model's coefficients on this machine.
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "examples/cli/calibrate/scene_times.h"
 #include "examples/cli/commands.h"
 #include "examples/cli/engine/timing_file.h"
 #include "examples/cli/input/input.h"
+#include "examples/cli/json/json.h"
 #include "examples/command_line/outputs.h"
 #include "examples/scene/render.h"
 #include "platform/file.h"
@@ -87,18 +88,18 @@ void PrintCoefficients(const sf_timing& timing) {
 
 // Prints how well the model predicts the scene, and returns the same as JSON. No limit is drawn:
 // what the model leaves out lowers the agreement of a good machine, too.
-nlohmann::ordered_json Judge(const char* role, const SceneTimes& scene, const sf_timing& timing) {
+Json Judge(const char* role, const SceneTimes& scene, const sf_timing& timing) {
   const Agreement configurations = Compare(timing, scene.Configurations());
   const Agreement blocks = Compare(timing, scene.Blocks());
   std::printf("R2 %.4f (weighted %.4f; single blocks %.4f), %s: %s, %lld blocks\n",
               configurations.plain, configurations.weighted, blocks.plain, role,
               scene.name().c_str(), static_cast<long long>(scene.blocks()));
-  nlohmann::ordered_json json;
-  json["scene"] = scene.name();
-  json["blocks"] = scene.blocks();
-  json["r2"] = configurations.plain;
-  json["r2_weighted"] = configurations.weighted;
-  json["r2_single_blocks"] = blocks.plain;
+  Json json;
+  json.Set("scene", scene.name());
+  json.Set("blocks", scene.blocks());
+  json.Set("r2", configurations.plain);
+  json.Set("r2_weighted", configurations.weighted);
+  json.Set("r2_single_blocks", blocks.plain);
   return json;
 }
 
@@ -121,17 +122,17 @@ Error Calibrate(const Options& options) {
   Measure(scenes);
   const sf_timing timing = FitTiming(scenes[0]->Configurations());
   PrintCoefficients(timing);
-  nlohmann::ordered_json json;
-  json["simd_target"] = sf_simd_target();
-  json["timing"] = TimingJson(timing);
-  json["fit"] = Judge("fit", *scenes[0], timing);
-  json["checks"] = nlohmann::ordered_json::array();
+  Json json;
+  json.Set("simd_target", sf_simd_target());
+  json.Set("timing", TimingJson(timing));
+  json.Set("fit", Judge("fit", *scenes[0], timing));
+  Json checks = Json::Array();
   for (size_t i = 1; i < scenes.size(); ++i) {
-    json["checks"].push_back(Judge("check", *scenes[i], timing));
+    checks.Add(Judge("check", *scenes[i], timing));
   }
+  json.Set("checks", std::move(checks));
   if (options.out.empty()) return "";
-  const std::string text =
-      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const std::string text = json.Text(2) + "\n";
   return WriteFile(options.out, Bytes(text.begin(), text.end()));
 }
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "examples/cli/commands.h"
 #include "examples/cli/compare/difference.h"
+#include "examples/cli/json/json.h"
 #include "examples/command_line/outputs.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
@@ -49,11 +49,10 @@ Error Run(const Options& options) {
   }
   const bool equal = difference.largest == 0;
   if (options.json) {
-    nlohmann::ordered_json json;
-    json["psnr"] =
-        equal ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(difference.psnr);
-    json["largest_difference"] = difference.largest;
-    std::printf("%s\n", json.dump().c_str());
+    Json json;
+    json.Set("psnr", equal ? Json() : Json(difference.psnr));
+    json.Set("largest_difference", difference.largest);
+    std::printf("%s\n", json.Text().c_str());
   } else if (equal) {
     std::printf("PSNR inf, largest difference 0\n");
   } else {

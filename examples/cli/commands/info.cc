@@ -2,13 +2,14 @@
 // starfocus info: what a light field or depth photo holds, and what was understood of it.
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "examples/cli/commands.h"
 #include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/disparity/map_figures.h"
 #include "examples/cli/input/input.h"
+#include "examples/cli/json/json.h"
 #include "examples/command_line/options.h"
 #include "platform/light_field.h"
 #include "starfocus/starfocus.h"
@@ -66,21 +67,27 @@ void PrintText(const Capture& capture, const sf_disparity_stats& stats,
 void PrintJson(const Capture& capture, const sf_disparity_stats& stats,
                const std::vector<int64_t>& counts) {
   const LightField& light_field = capture.light_field;
-  nlohmann::ordered_json json;
-  json["format"] = capture.format;
-  for (const auto& fact : capture.facts) json["facts"][fact.first] = fact.second;
-  if (capture.widest > 0) json["widest_f_stop"] = capture.widest;
-  json["width"] = light_field.views[0].width;
-  json["height"] = light_field.views[0].height;
-  json["views"] = light_field.views.size();
-  for (const sf_position& at : light_field.positions) json["positions"].push_back({at.u, at.v});
+  Json json;
+  json.Set("format", capture.format);
+  Json facts;
+  for (const auto& fact : capture.facts) facts.Set(fact.first, fact.second);
+  if (!capture.facts.empty()) json.Set("facts", std::move(facts));
+  if (capture.widest > 0) json.Set("widest_f_stop", capture.widest);
+  json.Set("width", light_field.views[0].width);
+  json.Set("height", light_field.views[0].height);
+  json.Set("views", light_field.views.size());
+  Json positions;
+  for (const sf_position& at : light_field.positions) positions.Add(Json::Array({at.u, at.v}));
+  if (!light_field.positions.empty()) json.Set("positions", std::move(positions));
   if (!light_field.disparity.values.empty()) {
-    json["disparity_min"] = stats.min;
-    json["disparity_max"] = stats.max;
-    json["invalid"] = stats.invalid;
-    json["histogram"] = counts;
+    json.Set("disparity_min", stats.min);
+    json.Set("disparity_max", stats.max);
+    json.Set("invalid", stats.invalid);
+    Json histogram;
+    for (const int64_t count : counts) histogram.Add(count);
+    json.Set("histogram", std::move(histogram));
   }
-  std::printf("%s\n", json.dump().c_str());
+  std::printf("%s\n", json.Text().c_str());
 }
 
 // Whether there is a map, or enough views to estimate one: not of a stereo pair or a row.

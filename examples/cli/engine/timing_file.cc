@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/engine/timing_file.h"
 
+#include <nlohmann/json.hpp>
+
 #include "examples/cli/engine/timing_terms.h"
 #include "platform/file.h"
 
@@ -27,9 +29,9 @@ std::string ReadCoefficient(const std::string& path, const nlohmann::json& objec
 
 }  // namespace
 
-nlohmann::ordered_json TimingJson(const sf_timing& timing) {
-  nlohmann::ordered_json json;
-  for (const TimingTerm& term : kTimingTerms) json[term.name] = timing.*term.coefficient;
+Json TimingJson(const sf_timing& timing) {
+  Json json;
+  for (const TimingTerm& term : kTimingTerms) json.Set(term.name, timing.*term.coefficient);
   return json;
 }
 

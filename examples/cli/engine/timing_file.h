@@ -4,15 +4,15 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_FILE_H_
 #define STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_FILE_H_
 
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "examples/cli/json/json.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
 // The member "timing" of such a file.
-nlohmann::ordered_json TimingJson(const sf_timing& timing);
+Json TimingJson(const sf_timing& timing);
 
 // Reads the member "timing"; it must hold every coefficient and nothing else. Other members of the
 // file are remarks. Returns an error line, empty for success.

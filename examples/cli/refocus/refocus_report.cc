@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/refocus/refocus_report.h"
 
+#include <utility>
+
 namespace starfocus {
 namespace {
 
@@ -10,64 +12,64 @@ double Share(uint64_t part, uint64_t whole) {
 
 // Shares are of all layers together; seconds are those of the processor, summed over the threads.
 // The timing model is one of blocks that are refocused by views after an analysis of their content.
-nlohmann::ordered_json LayersJson(const sf_report& report, bool predicted) {
+Json LayersJson(const sf_report& report, bool predicted) {
   uint64_t pixels = 0, time = 0;
   for (const sf_layer_report& layer : report.layers) {
     pixels += layer.pixels;
     time += layer.measured_ns;
   }
-  nlohmann::ordered_json layers = nlohmann::ordered_json::array();
+  Json layers = Json::Array();
   for (int l = 0; l < SF_LAYERS; ++l) {
     const sf_layer_report& layer = report.layers[l];
-    nlohmann::ordered_json json;
-    json["layer"] = l;
-    json["blocks"] = layer.blocks;
-    json["area_share"] = Share(layer.pixels, pixels);
-    json["time_share"] = Share(layer.measured_ns, time);
-    json["views"] = layer.views;
-    json["rendered_samples"] = layer.rendered_samples;
-    json["seconds"] = 1e-9 * static_cast<double>(layer.measured_ns);
-    json["seconds_predicted"] = nullptr;
-    if (predicted) json["seconds_predicted"] = 1e-12 * static_cast<double>(layer.predicted_ps);
-    layers.push_back(json);
+    Json json;
+    json.Set("layer", l);
+    json.Set("blocks", layer.blocks);
+    json.Set("area_share", Share(layer.pixels, pixels));
+    json.Set("time_share", Share(layer.measured_ns, time));
+    json.Set("views", layer.views);
+    json.Set("rendered_samples", layer.rendered_samples);
+    json.Set("seconds", 1e-9 * static_cast<double>(layer.measured_ns));
+    json.Set("seconds_predicted", nullptr);
+    if (predicted) json.Set("seconds_predicted", 1e-12 * static_cast<double>(layer.predicted_ps));
+    layers.Add(std::move(json));
   }
   return layers;
 }
 
 // Side views are read where holes open; beside it what they have in all.
-nlohmann::ordered_json SkippedJson(const EngineTask& task, const sf_report& report) {
+Json SkippedJson(const EngineTask& task, const sf_report& report) {
   const sf_skipped& skipped = report.skipped;
-  nlohmann::ordered_json json;
-  json["copied_blocks"] = skipped.copied_blocks;
-  json["copied_pixels"] = skipped.copied_pixels;
-  json["filled_blocks"] = skipped.filled_blocks;
-  json["filled_pixels"] = skipped.filled_pixels;
-  json["layer_columns"] = skipped.layer_columns;
-  json["boundaries"] = skipped.boundaries;
-  json["gathered_pixels"] = report.gathered_pixels;
-  json["side_bytes_read"] = report.side_bytes;
-  json["side_bytes"] = uint64_t{3} * uint64_t(task.config.views - 1) * uint64_t(task.config.width) *
-                       uint64_t(task.config.height);
+  Json json;
+  json.Set("copied_blocks", skipped.copied_blocks);
+  json.Set("copied_pixels", skipped.copied_pixels);
+  json.Set("filled_blocks", skipped.filled_blocks);
+  json.Set("filled_pixels", skipped.filled_pixels);
+  json.Set("layer_columns", skipped.layer_columns);
+  json.Set("boundaries", skipped.boundaries);
+  json.Set("gathered_pixels", report.gathered_pixels);
+  json.Set("side_bytes_read", report.side_bytes);
+  json.Set("side_bytes", uint64_t{3} * uint64_t(task.config.views - 1) *
+                             uint64_t(task.config.width) * uint64_t(task.config.height));
   return json;
 }
 
 // Bytes of the pictures read and written, against each read once: a pixel of the centre view, its
 // disparity if that was not prepared, and a pixel written. Side views need none where no hole
 // opens.
-nlohmann::ordered_json TrafficJson(const EngineTask& task, const sf_report& report) {
+Json TrafficJson(const EngineTask& task, const sf_report& report) {
   const sf_region& region = task.params.region;
   const uint64_t pixels = region.width > 0
                               ? uint64_t(region.width) * uint64_t(region.height)
                               : uint64_t(task.config.width) * uint64_t(task.config.height);
   const uint64_t output = 3 * pixels;
   const uint64_t all = report.centre_bytes + report.disparity_bytes + report.side_bytes + output;
-  nlohmann::ordered_json json;
-  json["centre_bytes_read"] = report.centre_bytes;
-  json["disparity_bytes_read"] = report.disparity_bytes;
-  json["side_bytes_read"] = report.side_bytes;
-  json["bytes_written"] = output;
-  json["bytes_per_pixel"] = double(all) / double(pixels);
-  json["least_bytes_per_pixel"] = report.disparity_bytes > 0 ? 3 + 4 + 3 : 3 + 3;
+  Json json;
+  json.Set("centre_bytes_read", report.centre_bytes);
+  json.Set("disparity_bytes_read", report.disparity_bytes);
+  json.Set("side_bytes_read", report.side_bytes);
+  json.Set("bytes_written", output);
+  json.Set("bytes_per_pixel", double(all) / double(pixels));
+  json.Set("least_bytes_per_pixel", report.disparity_bytes > 0 ? 3 + 4 + 3 : 3 + 3);
   return json;
 }
 
@@ -82,81 +84,82 @@ uint64_t LargestBlocks(const EngineTask& task, int side) {
   return count(region.x, region.width) * count(region.y, region.height);
 }
 
-nlohmann::ordered_json ShapeJson(const sf_config& config) {
+Json ShapeJson(const sf_config& config) {
   constexpr const char* kNames[] = {"fall-off", "disc", "polygon", "ring"};
-  nlohmann::ordered_json json;
-  json["name"] = kNames[config.aperture_shape];
-  if (config.aperture_shape == SF_SHAPE_FALL_OFF) json["theta"] = config.theta;
+  Json json;
+  json.Set("name", kNames[config.aperture_shape]);
+  if (config.aperture_shape == SF_SHAPE_FALL_OFF) json.Set("theta", config.theta);
   if (config.aperture_shape == SF_SHAPE_POLYGON) {
-    json["blades"] = config.blades;
-    json["rotation"] = config.rotation;
-    json["curvature"] = config.curvature;
+    json.Set("blades", config.blades);
+    json.Set("rotation", config.rotation);
+    json.Set("curvature", config.curvature);
   }
-  if (config.aperture_shape == SF_SHAPE_RING) json["inner"] = config.ring_inner;
-  json["cats_eye"] = config.cats_eye;
+  if (config.aperture_shape == SF_SHAPE_RING) json.Set("inner", config.ring_inner);
+  json.Set("cats_eye", config.cats_eye);
   return json;
 }
 
-nlohmann::ordered_json ReportJson(const EngineTask& task, const EngineResult& result) {
-  nlohmann::ordered_json json;
-  json["mode"] = kModeNames[task.params.mode];
-  json["width"] = task.config.width;
-  json["height"] = task.config.height;
+void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) {
+  json->Set("mode", kModeNames[task.params.mode]);
+  json->Set("width", task.config.width);
+  json->Set("height", task.config.height);
   const sf_region& region = task.params.region;
-  if (region.width > 0) json["region"] = {region.x, region.y, region.width, region.height};
-  json["views"] = task.config.views;
-  json["focus"] = task.params.focus;
-  json["aperture"] = task.params.aperture;
-  json["highlights"] = task.config.highlights;
-  json["transfer"] = task.config.transfer == SF_TRANSFER_NONE ? "none" : "srgb";
-  json["shape"] = ShapeJson(task.config);
-  json["n_scale"] = task.config.n_scale;
-  json["r_max"] = result.report.r_max;
-  json["N"] = result.report.n;
-  json["rendered_views"] = result.report.rendered_views;
-  json["rendered_samples"] = result.report.rendered_samples;
-  json["largest_block"] = result.report.largest_block;
-  json["max_layer"] = task.config.max_layer;
-  json["deblocking"] = task.config.deblocking;
-  json["layers"] = LayersJson(result.report, task.params.mode == SF_MODE_BLOCK);
-  json["skipped"] = SkippedJson(task, result.report);
-  json["traffic"] = TrafficJson(task, result.report);
-  json["seconds_refocus"] = result.seconds;
-  json["workspace_bytes"] = result.workspace_bytes;
-  json["simd_target"] = sf_simd_target();
-  json["threads"] = task.threads;
-  return json;
+  if (region.width > 0) {
+    json->Set("region", Json::Array({region.x, region.y, region.width, region.height}));
+  }
+  json->Set("views", task.config.views);
+  json->Set("focus", task.params.focus);
+  json->Set("aperture", task.params.aperture);
+  json->Set("highlights", task.config.highlights);
+  json->Set("transfer", task.config.transfer == SF_TRANSFER_NONE ? "none" : "srgb");
+  json->Set("shape", ShapeJson(task.config));
+  json->Set("n_scale", task.config.n_scale);
+  json->Set("r_max", result.report.r_max);
+  json->Set("N", result.report.n);
+  json->Set("rendered_views", result.report.rendered_views);
+  json->Set("rendered_samples", result.report.rendered_samples);
+  json->Set("largest_block", result.report.largest_block);
+  json->Set("max_layer", task.config.max_layer);
+  json->Set("deblocking", task.config.deblocking);
+  json->Set("layers", LayersJson(result.report, task.params.mode == SF_MODE_BLOCK));
+  json->Set("skipped", SkippedJson(task, result.report));
+  json->Set("traffic", TrafficJson(task, result.report));
+  json->Set("seconds_refocus", result.seconds);
+  json->Set("workspace_bytes", result.workspace_bytes);
+  json->Set("simd_target", sf_simd_target());
+  json->Set("threads", task.threads);
 }
 
 }  // namespace
 
 std::string ReportText(const EngineTask& task, const EngineResult& result, double seconds_total) {
-  nlohmann::ordered_json json = ReportJson(task, result);
-  json["seconds_total"] = seconds_total;
-  return json.dump(2) + "\n";
+  Json json;
+  AddFigures(task, result, &json);
+  json.Set("seconds_total", seconds_total);
+  return json.Text(2) + "\n";
 }
 
 void SeriesReport::Add(const std::string& output, const EngineTask& task,
                        const EngineResult& result) {
-  nlohmann::ordered_json json;
-  json["output"] = output;
-  json.update(ReportJson(task, result));
-  json["prepared_bytes"] = result.prepared_bytes;
+  Json json;
+  json.Set("output", output);
+  AddFigures(task, result, &json);
+  json.Set("prepared_bytes", result.prepared_bytes);
   const uint64_t blocks = LargestBlocks(task, result.report.largest_block);
-  json["largest_blocks"] = blocks;
-  json["reused_blocks"] = result.report.reused_blocks;
+  json.Set("largest_blocks", blocks);
+  json.Set("reused_blocks", result.report.reused_blocks);
   largest_blocks_ += blocks;
   reused_blocks_ += result.report.reused_blocks;
-  pictures_.push_back(json);
+  pictures_.Add(std::move(json));
 }
 
 std::string SeriesReport::Text(double seconds_total) const {
-  nlohmann::ordered_json json;
-  json["pictures"] = pictures_;
-  json["largest_blocks"] = largest_blocks_;
-  json["reused_blocks"] = reused_blocks_;
-  json["seconds_total"] = seconds_total;
-  return json.dump(2) + "\n";
+  Json json;
+  json.Set("pictures", pictures_);
+  json.Set("largest_blocks", largest_blocks_);
+  json.Set("reused_blocks", reused_blocks_);
+  json.Set("seconds_total", seconds_total);
+  return json.Text(2) + "\n";
 }
 
 }  // namespace starfocus

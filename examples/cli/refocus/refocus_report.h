@@ -4,10 +4,10 @@
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_REPORT_H_
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "examples/cli/engine/engine_run.h"
+#include "examples/cli/json/json.h"
 
 namespace starfocus {
 
@@ -24,7 +24,7 @@ class SeriesReport {
   std::string Text(double seconds_total) const;
 
  private:
-  nlohmann::ordered_json pictures_ = nlohmann::ordered_json::array();
+  Json pictures_ = Json::Array();
   uint64_t reused_blocks_ = 0, largest_blocks_ = 0;
 };
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A JSON value to write. Only the source file includes nlohmann-json, which takes seconds to
+// compile.
+#ifndef STARFOCUS_EXAMPLES_CLI_JSON_JSON_H_
+#define STARFOCUS_EXAMPLES_CLI_JSON_JSON_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <string>
+
+namespace starfocus {
+
+class Json {
+ public:
+  Json();  // null; Set makes an object of it, and Add an array
+  // NOLINTBEGIN: members and elements are written as plain values
+  Json(std::nullptr_t);
+  Json(double value);
+  Json(int value);
+  Json(int64_t value);
+  Json(uint32_t value);
+  Json(uint64_t value);
+  Json(const char* value);
+  Json(const std::string& value);
+  // NOLINTEND
+  Json(const Json& other);
+  Json(Json&& other) noexcept;
+  Json& operator=(const Json& other) = delete;
+  Json& operator=(Json&& other) noexcept;
+  ~Json();
+
+  static Json Array(std::initializer_list<Json> elements = {});
+
+  // Adds a member to an object, behind those that are there.
+  void Set(const std::string& name, Json value);
+  // Adds an element to an array.
+  void Add(Json value);
+
+  // In one line, or indented by `indent` spaces. Bytes that are not UTF-8 are replaced.
+  std::string Text(int indent = -1) const;
+
+ private:
+  struct Value;
+  std::unique_ptr<Value> value_;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_JSON_JSON_H_
