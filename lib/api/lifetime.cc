@@ -124,7 +124,8 @@ sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_eng
   starfocus::LayOut(chosen, workspace, &made);
   made->config = chosen;
   made->kernels = &starfocus::simd::BestKernels();
-  starfocus::BeginTables(made->config, &made->tables);
+  made->tables.opening = starfocus::OpeningOf(chosen);
+  made->tables.mean_square = starfocus::MeanSquare(made->tables.opening);
   *engine = reinterpret_cast<sf_engine*>(made);
   return SF_OK;
 }

@@ -18,8 +18,10 @@ const Renderer& RendererOf(const sf_config& config, const sf_params& params) {
 }
 
 // Returns the one aperture of the frame modes. That of the benchmark is made in memory of its own.
+// SF_MODE_BLUR shows the centre view alone.
 Aperture FrameAperture(const sf_config& config, const Tables& tables, const Lens& lens) {
   const Renderer& renderer = *lens.renderer;
+  if (lens.params.mode == SF_MODE_BLUR) return lens.apertures[0];
   if (IsBenchmark(lens)) {
     return renderer.make_aperture(ViewsOfBenchmark(lens.r_max), tables.opening,
                                   tables.benchmark_weights);
@@ -56,12 +58,10 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   // The benchmark has an aperture of its own, but for blocks without blur.
   const bool renders = IsBlockMode(*lens) || params.mode == SF_MODE_FRAME;
   lens->largest_n = LargestN(config, *lens->renderer, renders ? r_max : 0);
-  sf_status status = MakeApertures(*lens->renderer, lens->largest_n, watch, tables);
+  const sf_status status = MakeApertures(*lens->renderer, lens->largest_n, watch, tables);
   if (status != SF_OK) return status;
   lens->apertures = tables->apertures[lens->renderer->index].apertures;
-  // SF_MODE_BLUR shows the centre view alone.
-  lens->aperture =
-      params.mode == SF_MODE_BLUR ? lens->apertures[0] : FrameAperture(config, *tables, *lens);
+  lens->aperture = FrameAperture(config, *tables, *lens);
   const ViewGrid grid = MakeViewGrid(lens->aperture, params.focus, params.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
   if (Gathers(config, *lens)) return MakeBlurKernels(LastGatherStep(*lens) + 1, watch, tables);

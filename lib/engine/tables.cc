@@ -14,16 +14,6 @@ int32_t LargestN(const sf_config& config, const Renderer& renderer, double r_max
   return ScaleViews(renderer.view_count(r_max + 1, demand), config.n_scale);
 }
 
-void BeginTables(const sf_config& config, Tables* tables) {
-  tables->opening = OpeningOf(config);
-  for (ApertureTable& table : tables->apertures) {
-    table.count = 0;
-    table.used = 0;
-  }
-  tables->blur_steps = 0;
-  tables->mean_square = MeanSquare(tables->opening);
-}
-
 sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Tables* tables) {
   ApertureTable& table = tables->apertures[renderer.index];
   Patience patience(watch);

@@ -8,9 +8,7 @@
 #include "lib/base/aperture.h"
 #include "lib/base/watch.h"
 #include "lib/filter/blur.h"
-#include "lib/line_scan/line_scan_renderer.h"
 #include "lib/plan/renderer.h"
-#include "lib/slices/slice_renderer.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -31,8 +29,8 @@ int32_t LargestN(const sf_config& config, const Renderer& renderer, double r_max
 struct ApertureTable {
   Aperture* apertures;  // of N up to LargestN for max_blur
   uint16_t* weights;
-  int32_t count;  // apertures made so far
-  size_t used;    // weights of these
+  int32_t count = 0;  // apertures made so far
+  size_t used = 0;    // weights of these
 };
 
 struct Tables {
@@ -41,12 +39,9 @@ struct Tables {
   uint16_t* benchmark_weights;  // of the one aperture of the benchmark mode
   BlurKernel* blur_kernels;
   uint16_t* blur_weights;
-  int32_t blur_steps;   // kernels made so far
-  int32_t mean_square;  // MeanSquare of the opening
+  int32_t blur_steps = 0;  // kernels made so far
+  int32_t mean_square;     // MeanSquare of the opening
 };
-
-// Begins tables of an engine in which none is made. The arrays must be set.
-void BeginTables(const sf_config& config, Tables* tables);
 
 // Makes the renderer's apertures up to N = `last` that are not there yet. Returns SF_OK or
 // SF_ERROR_CANCELLED; those that were made stay.

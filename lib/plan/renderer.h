@@ -69,6 +69,11 @@ struct Renderer {
   int (*sum_bits)(const Aperture& aperture);
 };
 
+// Slices: each view stands for its subaperture of the lens (lib/slices).
+extern const Renderer kSliceRenderer;
+// The paper's line scan: views at most about a pixel apart (lib/line_scan).
+extern const Renderer kLineScanRenderer;
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_PLAN_RENDERER_H_

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/slices/slice_renderer.h"
-
+#include "lib/plan/renderer.h"
 #include "lib/slices/compositor.h"
 
 namespace starfocus {

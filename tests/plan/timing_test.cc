@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "lib/line_scan/line_scan_renderer.h"
-#include "lib/slices/slice_renderer.h"
+#include "lib/plan/renderer.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 

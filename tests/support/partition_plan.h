@@ -12,9 +12,7 @@
 #include <cstring>
 #include <vector>
 
-#include "lib/line_scan/line_scan_renderer.h"
 #include "lib/plan/partition.h"
-#include "lib/slices/slice_renderer.h"
 #include "tests/plan/measured_cells.h"
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
