@@ -64,26 +64,26 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   carver->Reuse(shared);
   worker.partition.nodes =
       carver->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
-  worker.partition.cells = carver->Take<int16_t>(
-      SurroundingSamples(config.largest_block / kCellSize, GetReach(config.max_blur).cells));
+  worker.partition.cells =
+      carver->Take<int16_t>(SurroundingSamples(config.largest_block / kCellSize, reach.cells));
   carver->GoOn();
   return worker;
 }
 
-void TakeTables(const sf_config& config, Carver* carver, EngineState* engine) {
+void TakeTables(const sf_config& config, Carver* carver, Tables* tables) {
   const Opening opening = OpeningOf(config);
   for (int32_t k = 0; k < RendererCount(config); ++k) {
     const int32_t last = LargestN(config, *kRenderers[k], config.max_blur);
     size_t weights = 0;
     for (int32_t n = 0; n <= last; ++n) weights += ApertureSize(opening, n);
-    engine->tables.apertures[k].apertures = carver->Take<Aperture>(static_cast<size_t>(last) + 1);
-    engine->tables.apertures[k].weights = carver->Take<uint16_t>(weights);
+    tables->apertures[k].apertures = carver->Take<Aperture>(static_cast<size_t>(last) + 1);
+    tables->apertures[k].weights = carver->Take<uint16_t>(weights);
   }
-  engine->tables.benchmark_weights =
-      carver->Take<uint16_t>(ApertureSize(opening, ViewsOfBenchmark(config.max_blur)));
-  engine->tables.blur_kernels =
-      carver->Take<BlurKernel>(static_cast<size_t>(BlurStepCount(config.max_blur)));
-  engine->tables.blur_weights = carver->Take<uint16_t>(BlurWeightCount(opening, config.max_blur));
+  const int32_t benchmark_n = ViewsOfBenchmark(config.max_blur);
+  const auto steps = static_cast<size_t>(BlurStepCount(config.max_blur));
+  tables->benchmark_weights = carver->Take<uint16_t>(ApertureSize(opening, benchmark_n));
+  tables->blur_kernels = carver->Take<BlurKernel>(steps);
+  tables->blur_weights = carver->Take<uint16_t>(BlurWeightCount(opening, config.max_blur));
 }
 
 // Takes the planes of layers 1 and 2 around a stripe.
@@ -164,7 +164,7 @@ size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
   *engine = carver.Take<EngineState>(1);
   EngineState counted;  // stands in for *engine while counting
   EngineState& e = *engine == nullptr ? counted : **engine;
-  TakeTables(config, &carver, &e);
+  TakeTables(config, &carver, &e.tables);
   e.crew.jobs.max_workers = config.max_workers;
   e.crew.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {

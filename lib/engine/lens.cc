@@ -55,9 +55,9 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   lens->renderer = &RendererOf(config, params);
   lens->r_max = r_max;
   lens->reach = GetReach(r_max);
-  // The benchmark has an aperture of its own, but for blocks without blur.
-  const bool renders = IsBlockMode(*lens) || params.mode == SF_MODE_FRAME;
-  lens->largest_n = LargestN(config, *lens->renderer, renders ? r_max : 0);
+  // The benchmark has an aperture of its own, and SF_MODE_BLUR needs only that of N = 0.
+  const bool has_own = IsBenchmark(*lens) || params.mode == SF_MODE_BLUR;
+  lens->largest_n = LargestN(config, *lens->renderer, has_own ? 0 : r_max);
   const sf_status status = MakeApertures(*lens->renderer, lens->largest_n, watch, tables);
   if (status != SF_OK) return status;
   lens->apertures = tables->apertures[lens->renderer->index].apertures;

@@ -29,23 +29,12 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const Aperture& ap
   return work;
 }
 
-// Takes the memory of FillHidden.
-FillScratch TakeFill(size_t extended, Carver* carver) {
-  const size_t stride = FillStride(extended), behind = kFillStep;
-  FillScratch fill;
-  fill.disparity = carver->Take<int16_t>(extended * stride + behind);
-  fill.rgb = carver->Take<int16_t>(3 * extended * stride + behind);
-  fill.saved = carver->Take<int16_t>(3 * size_t{kFillStep + 1} * stride + behind);
-  fill.source = carver->Take<uint16_t>(extended * stride);
-  fill.farthest = carver->Take<uint8_t>(extended);
-  return fill;
-}
-
 // Takes the memory of what is found of a field before slices of a cut are made. Its surfaces are
 // filled when the field is no longer needed.
 void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   CompositorScratch& scratch = *stack;
   LayeredDepth& surfaces = scratch.surfaces;
+  FillScratch& fill = scratch.fill;
   const size_t row = simd::SliceSamples(extended);
   for (uint16_t*& sources : surfaces.sources) sources = carver->Take<uint16_t>(extended * row);
   const size_t field = carver->Mark();
@@ -60,7 +49,12 @@ void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
   scratch.bins = carver->Take<uint8_t>(kSliceBins);
   scratch.least_blur = carver->Take<int32_t>(extended);
   carver->Reuse(field);
-  scratch.fill = TakeFill(extended, carver);
+  const size_t stride = FillStride(extended), behind = kFillStep;
+  fill.disparity = carver->Take<int16_t>(extended * stride + behind);
+  fill.rgb = carver->Take<int16_t>(3 * extended * stride + behind);
+  fill.saved = carver->Take<int16_t>(3 * size_t{kFillStep + 1} * stride + behind);
+  fill.source = carver->Take<uint16_t>(extended * stride);
+  fill.farthest = carver->Take<uint8_t>(extended);
 }
 
 // E of CompositorScratch is `extended`.
