@@ -42,7 +42,8 @@ sve_test() {
   local bytes=${1%:*} name=${1#*:}
   qemu-aarch64 -cpu max,sve-default-vector-length=$bytes -L /usr/aarch64-linux-gnu \
     -E LD_LIBRARY_PATH=build/sysroot/arm64/usr/lib/aarch64-linux-gnu \
-    build/aarch64-max/tests/${name}_test --no-intro=true >"$LOGS/$name-$bytes.log" 2>&1 && return
+    build/aarch64-max/tests/simd_byte_tests --no-intro=true "--source-file=*/${name}_test.cc" \
+    >"$LOGS/$name-$bytes.log" 2>&1 && return
   echo "${name}_test failed with SVE registers of $bytes bytes: see $LOGS/$name-$bytes.log" >&2
   return 1
 }
@@ -51,8 +52,7 @@ sve_test() {
 # are as their kernels.
 by_sve_length() {
   local bytes tests=
-  cross_build aarch64-max starfocus_kernels_test starfocus_depth_kernels_test \
-    starfocus_image_kernels_test
+  cross_build aarch64-max starfocus_simd_byte_tests
   for bytes in 16 32 64; do
     tests="$tests $bytes:kernels $bytes:depth_kernels $bytes:image_kernels"
   done
@@ -154,14 +154,10 @@ prepare_board() {
     toolchains/sysroot.sh $board_sysroot build/sysroot/$board_sysroot
 }
 
-# Tests that compare all bytes, on whatever board.
-BYTE_TESTS="abi depth_kernels estimate fill_unknown golden image_kernels image_stream images kernels layout
-  repair room stream"
-
 # cross ARCHITECTURE [build|bytes]: builds everything for a board and runs every test on an emulated one,
-# or BYTE_TESTS alone.
+# or those alone that compare all bytes (the label bytes).
 cross() {
-  local PACKAGES="g++ cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot targets= name
+  local PACKAGES="g++ cmake ninja-build pkg-config" preset=${1:-} board_compiler board_sysroot
   case "${2:-}" in '' | build | bytes) ;; *) fail "usage: ./do cross ARCH [build|bytes]" ;; esac
   board "$preset"
   PACKAGES="$PACKAGES $board_compiler"
@@ -170,9 +166,8 @@ cross() {
   step "sysroot-$preset" "fetching headers and libraries for $preset" \
     toolchains/sysroot.sh $board_sysroot build/sysroot/$board_sysroot
   if [ "${2:-}" = bytes ]; then
-    for name in $BYTE_TESTS; do targets="$targets starfocus_${name}_test"; done
-    cross_build "$preset" $targets
-    ctest --preset "$preset" --parallel "$(nproc)" -R "^($(echo $BYTE_TESTS | tr ' ' '|'))_test$" || exit 1
+    cross_build "$preset" starfocus_byte_tests
+    ctest --preset "$preset" --parallel "$(nproc)" -L '^bytes$' || exit 1
   else
     cross_build "$preset"
     [ "${2:-}" = build ] && return
@@ -188,8 +183,8 @@ cross() {
 # Records the checksums of tests/engine/golden.txt anew, after an intended change of the engine's output.
 golden() {
   install_missing
-  build starfocus_golden_test
-  STARFOCUS_RECORD_GOLDEN=1 $BUILD/tests/golden_test --no-intro=true
+  build starfocus_engine_byte_tests
+  STARFOCUS_RECORD_GOLDEN=1 $BUILD/tests/engine_byte_tests --no-intro=true '--source-file=*/golden_test.cc'
 }
 
 # code_bytes TRIPLE LIBRARY: bytes of code and of read-only data that a program which calls

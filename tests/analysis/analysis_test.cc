@@ -18,7 +18,7 @@
 #include "lib/base/aperture.h"
 #include "lib/base/rules.h"
 
-namespace starfocus::analysis {
+namespace starfocus::analysis::analysis_test {
 namespace {
 
 constexpr double kTheta = kDefaultTheta;
@@ -179,4 +179,4 @@ TEST_CASE("analysis: the rule for subapertures holds for every smaller radius") 
 }
 
 }  // namespace
-}  // namespace starfocus::analysis
+}  // namespace starfocus::analysis::analysis_test

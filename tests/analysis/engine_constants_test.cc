@@ -29,7 +29,7 @@
 #include "lib/plan/timing.h"
 #include "starfocus/starfocus.h"
 
-namespace starfocus {
+namespace starfocus::engine_constants_test {
 namespace {
 
 using namespace analysis;
@@ -342,4 +342,4 @@ TEST_CASE("constants: one N for a picture has the kernel it is described by") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::engine_constants_test

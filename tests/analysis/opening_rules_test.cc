@@ -10,7 +10,7 @@
 #include "lib/analysis/subsampled.h"
 #include "lib/base/rules.h"
 
-namespace starfocus {
+namespace starfocus::opening_rules_test {
 namespace {
 
 using namespace analysis;
@@ -80,4 +80,4 @@ TEST_CASE("openings: a disc without blades, a ring without a hole and many blade
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::opening_rules_test

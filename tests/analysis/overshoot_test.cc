@@ -13,6 +13,7 @@
 #include "tests/support/test_scene.h"
 #include "tests/support/transfer_curve.h"
 
+namespace overshoot_test {
 namespace {
 
 using starfocus::analysis::EngineKernel;
@@ -97,3 +98,5 @@ TEST_CASE("overshoot: no picture leaves the range of its views by more than the 
   // Without layers no tap is negative but by rounding.
   CHECK(NegativeSum(Measure(7.5, SF_RULE_SUBAPERTURE, 0).kernel) < 1e-3);
 }
+
+}  // namespace overshoot_test

@@ -8,6 +8,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace abi_stream_test {
 namespace {
 
 constexpr int kWidth = 20, kHeight = 90;
@@ -204,3 +205,4 @@ TEST_CASE("stream: begin restarts, and whole pictures interrupt nothing but the 
 }
 
 }  // namespace
+}  // namespace abi_stream_test

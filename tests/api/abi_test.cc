@@ -11,6 +11,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace abi_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -474,3 +475,4 @@ TEST_CASE("refocus: the report holds what was rendered") {
 }
 
 }  // namespace
+}  // namespace abi_test

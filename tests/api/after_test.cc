@@ -13,6 +13,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
+namespace after_test {
 namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
@@ -272,3 +273,4 @@ TEST_CASE("after: bad input") {
 }
 
 }  // namespace
+}  // namespace after_test

@@ -8,6 +8,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace create_test {
 namespace {
 
 // Counts, gives memory that holds anything, and checks what it gets back.
@@ -136,3 +137,4 @@ TEST_CASE("destroy: null and the caller's own memory are left alone") {
 }
 
 }  // namespace
+}  // namespace create_test

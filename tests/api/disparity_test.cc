@@ -11,6 +11,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace disparity_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -148,3 +149,4 @@ TEST_CASE("disparity: random maps, padding untouched") {
 }
 
 }  // namespace
+}  // namespace disparity_test

@@ -14,6 +14,8 @@
 #include "starfocus/version.h"
 #include "tests/support/test_scene.h"
 
+namespace facts_test {
+
 TEST_CASE("the version is that of the headers") {
   CHECK(sf_version() == std::string(SF_VERSION_STRING));
 }
@@ -117,3 +119,5 @@ TEST_CASE("the SIMD target has a name") {
   REQUIRE(sf_simd_target() != nullptr);
   CHECK(*sf_simd_target() != '\0');
 }
+
+}  // namespace facts_test

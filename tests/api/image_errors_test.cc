@@ -7,6 +7,7 @@
 
 #include "tests/support/image_field.h"
 
+namespace image_errors_test {
 namespace {
 
 using test::ImageField;
@@ -164,3 +165,4 @@ TEST_CASE("images: engines without them, no pointers, the workspace, bad paramet
 }
 
 }  // namespace
+}  // namespace image_errors_test

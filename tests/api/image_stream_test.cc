@@ -10,6 +10,7 @@
 #include "tests/support/inside.h"
 #include "tests/support/watch.h"
 
+namespace image_stream_test {
 namespace {
 
 using test::ImageField;
@@ -341,3 +342,4 @@ TEST_CASE("images: calls are watched, and cancelled wherever they ask") {
 }
 
 }  // namespace
+}  // namespace image_stream_test

@@ -7,6 +7,7 @@
 
 #include "tests/support/image_field.h"
 
+namespace images_test {
 namespace {
 
 using test::ImageField;
@@ -205,3 +206,4 @@ TEST_CASE("images: a depth outside the configured range is refused before anythi
 }
 
 }  // namespace
+}  // namespace images_test

@@ -12,6 +12,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace photographer_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -207,3 +208,4 @@ TEST_CASE("f-stops: wider than the widest, or no f-stop at all") {
 }
 
 }  // namespace
+}  // namespace photographer_test

@@ -9,6 +9,7 @@
 #include "tests/support/layered_scene.h"
 #include "tests/support/test_scene.h"
 
+namespace pinhole_test {
 namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
@@ -141,3 +142,4 @@ TEST_CASE("pinhole: the report tells of one copied view, and maps are checked al
 }
 
 }  // namespace
+}  // namespace pinhole_test

@@ -11,6 +11,7 @@
 #include "tests/support/layered_scene.h"
 #include "tests/support/test_scene.h"
 
+namespace prepared_test {
 namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
@@ -240,3 +241,4 @@ TEST_CASE("prepared: a bad map is refused before anything is written") {
 }
 
 }  // namespace
+}  // namespace prepared_test

@@ -13,6 +13,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/watch.h"
 
+namespace preview_test {
 namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
@@ -486,3 +487,4 @@ TEST_CASE("preview: making one is told of and called off as preparing is, and a 
 }
 
 }  // namespace
+}  // namespace preview_test

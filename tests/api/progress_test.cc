@@ -13,6 +13,7 @@
 #include "tests/support/test_scene.h"
 #include "tests/support/watch.h"
 
+namespace progress_test {
 namespace {
 
 using test::Watch;
@@ -327,3 +328,4 @@ TEST_CASE("progress: whatever a block takes, a million samples are too many to w
 }
 
 }  // namespace
+}  // namespace progress_test

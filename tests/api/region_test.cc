@@ -13,6 +13,7 @@
 #include "tests/support/layered_scene.h"
 #include "tests/support/test_scene.h"
 
+namespace region_test {
 namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
@@ -265,3 +266,4 @@ TEST_CASE("region: streaming has none") {
 }
 
 }  // namespace
+}  // namespace region_test

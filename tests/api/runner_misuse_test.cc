@@ -10,6 +10,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace runner_misuse_test {
 namespace {
 
 constexpr int kWidth = 130, kHeight = 70, kWorkers = 2;
@@ -226,3 +227,4 @@ TEST_CASE("runner: jobs that still run when their runner returns are waited for"
 }
 
 }  // namespace
+}  // namespace runner_misuse_test

@@ -9,6 +9,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace shape_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -86,3 +87,4 @@ TEST_CASE("shape: what needs more memory, and that the others need none") {
 }
 
 }  // namespace
+}  // namespace shape_test

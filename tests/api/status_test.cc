@@ -10,6 +10,7 @@
 // A status that is forgotten below does not compile.
 #pragma GCC diagnostic error "-Wswitch"
 
+namespace status_test {
 namespace {
 
 // What only the sentence of this status says; null when there is no such status.
@@ -160,3 +161,4 @@ TEST_CASE("statuses: every one has a sentence of its own, and no other number ha
 }
 
 }  // namespace
+}  // namespace status_test

@@ -9,6 +9,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace stream_retry_test {
 namespace {
 
 constexpr int kWidth = 150, kHeight = 170;
@@ -132,3 +133,4 @@ TEST_CASE("stream: a pull after one whose runner failed repeats its rows, with t
 }
 
 }  // namespace
+}  // namespace stream_retry_test

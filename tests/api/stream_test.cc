@@ -9,6 +9,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace stream_test {
 namespace {
 
 constexpr int kAll = 1 << 20;  // more rows than any picture here
@@ -158,3 +159,4 @@ TEST_CASE("stream: rings hold all that layers are made of, up to the largest blu
 }
 
 }  // namespace
+}  // namespace stream_test

@@ -12,6 +12,7 @@
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
+namespace views_test {
 namespace {
 
 constexpr double kFocus = 2;
@@ -139,3 +140,4 @@ TEST_CASE("views: bad positions are refused before anything is made") {
 }
 
 }  // namespace
+}  // namespace views_test

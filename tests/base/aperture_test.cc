@@ -12,6 +12,7 @@
 #include "lib/base/fixed.h"
 #include "starfocus/starfocus.h"
 
+namespace aperture_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -201,3 +202,4 @@ TEST_CASE("aperture: no views but the centre's") {
 }
 
 }  // namespace
+}  // namespace aperture_test

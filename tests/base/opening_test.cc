@@ -15,6 +15,7 @@
 #include "tests/conformance/reference_opening.h"
 #include "tests/support/shapes.h"
 
+namespace opening_test {
 namespace {
 
 using starfocus::Aperture;
@@ -151,3 +152,4 @@ TEST_CASE("opening: kernels that blur sum to exactly one through any shape") {
 }
 
 }  // namespace
+}  // namespace opening_test

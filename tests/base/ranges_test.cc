@@ -4,6 +4,7 @@
 
 #include "lib/base/fixed.h"
 
+namespace ranges_test {
 namespace {
 
 constexpr starfocus::FixedRange kRange = {"test", -2, 3};
@@ -37,3 +38,4 @@ TEST_CASE("ranges: nothing is checked in an ordinary build") {
 #endif
 
 }  // namespace
+}  // namespace ranges_test

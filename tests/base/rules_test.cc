@@ -11,6 +11,7 @@
 
 #include "starfocus/starfocus.h"
 
+namespace rules_test {
 namespace {
 
 using starfocus::LayerByPaper;
@@ -182,3 +183,4 @@ TEST_CASE("rules: what openings demand, and that layers and more views follow") 
 }
 
 }  // namespace
+}  // namespace rules_test

@@ -11,6 +11,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace view_grid_test {
 namespace {
 
 using starfocus::ViewGrid;
@@ -122,3 +123,4 @@ TEST_CASE("view grid: the spread of a run displaces by at most an eighth of a pi
 }
 
 }  // namespace
+}  // namespace view_grid_test

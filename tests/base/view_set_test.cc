@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+namespace view_set_test {
 namespace {
 
 using starfocus::kLooks;
@@ -145,3 +146,4 @@ TEST_CASE("views: a disparity moves by its product with the position, alike on b
 }
 
 }  // namespace
+}  // namespace view_set_test

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace starfocus {
+namespace starfocus::watch_test {
 namespace {
 
 // What is asked, and the answer.
@@ -114,4 +114,4 @@ TEST_CASE("watch: rows of parts are made as the jobs of their set are") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::watch_test

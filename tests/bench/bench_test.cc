@@ -6,6 +6,7 @@
 
 #include "tests/bench/metrics.h"
 
+namespace bench_test {
 namespace {
 
 using namespace starfocus::bench;  // every name below is of the bench
@@ -95,3 +96,4 @@ TEST_CASE("Slope and Pareto front") {
 }
 
 }  // namespace
+}  // namespace bench_test

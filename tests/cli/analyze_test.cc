@@ -9,7 +9,7 @@
 #include "tests/cli/call_program.h"
 #include "tests/support/temp_folder.h"
 
-namespace starfocus {
+namespace starfocus::analyze_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -48,4 +48,4 @@ TEST_CASE("cli: analyze agrees with the paper and writes its tables") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::analyze_test

@@ -15,7 +15,7 @@
 #include "tests/cli/refusals.h"
 #include "tests/support/temp_folder.h"
 
-namespace starfocus {
+namespace starfocus::cli_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -416,4 +416,4 @@ TEST_CASE("cli: a sweep is its pictures one by one") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::cli_test

@@ -13,13 +13,13 @@
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_scene.h"
 
-namespace starfocus {
+namespace starfocus::estimate_program_test {
 namespace {
 
 namespace fs = std::filesystem;
 
 // A light field `lf` with its map, and `bare` without.
-void Prepare(const TempFolder& folder, const std::string& name = "wires --size 160x120") {
+void PrepareScene(const TempFolder& folder, const std::string& name = "wires --size 160x120") {
   REQUIRE(Call(folder, "scene lf --views 5 --name " + name).code == 0);
   fs::copy(folder.file("lf"), folder.file("bare"));
   fs::remove(folder.file("bare/disparity.pfm"));
@@ -27,7 +27,7 @@ void Prepare(const TempFolder& folder, const std::string& name = "wires --size 1
 
 TEST_CASE("disparity: finds the range and most of the map of a traced scene") {
   TempFolder folder;
-  Prepare(folder);
+  PrepareScene(folder);
   const Outcome made = Call(folder, "disparity bare --confidence sure.png");
   CAPTURE(made.err);
   REQUIRE(made.code == 0);
@@ -51,7 +51,7 @@ TEST_CASE("disparity: finds the range and most of the map of a traced scene") {
 
 TEST_CASE("disparity: what is written there already stays") {
   TempFolder folder;
-  Prepare(folder);
+  PrepareScene(folder);
   const std::string before = Text(folder.file("lf/disparity.pfm"));
   const Outcome refused = Call(folder, "disparity lf");
   CHECK(refused.code == 1);
@@ -86,7 +86,7 @@ double Psnr(const TempFolder& folder, const std::string& names) {
 
 TEST_CASE("disparity --repair, refocus --repair: nearer to the exact map's picture") {
   TempFolder folder;
-  Prepare(folder, "portrait --size 256x192");
+  PrepareScene(folder, "portrait --size 256x192");
   MakeWorse(folder);
   REQUIRE(Call(folder, "refocus lf -o exact.png --focus 0").code == 0);
   REQUIRE(Call(folder, "refocus worse -o worse.png --focus 0 --fill-invalid").code == 0);
@@ -107,7 +107,7 @@ TEST_CASE("disparity --repair, refocus --repair: nearer to the exact map's pictu
 
 TEST_CASE("disparity --repair, refocus --repair: one view is repaired by its colours") {
   TempFolder folder;
-  Prepare(folder, "portrait --size 256x192");
+  PrepareScene(folder, "portrait --size 256x192");
   fs::copy(folder.file("lf"), folder.file("noisy"));
   FloatMap map;
   REQUIRE(ReadPfm(folder.file("lf/disparity.pfm"), &map) == "");
@@ -125,7 +125,7 @@ TEST_CASE("disparity --repair, refocus --repair: one view is repaired by its col
 
 TEST_CASE("disparity: bad input is refused") {
   TempFolder folder;
-  Prepare(folder);
+  PrepareScene(folder);
   REQUIRE(Call(folder, "scene single --size 40x30 --views 1").code == 0);
   const struct {
     const char *arguments, *mention;
@@ -163,7 +163,7 @@ TEST_CASE("disparity: bad input is refused") {
 
 TEST_CASE("refocus, info: a map that is missing is estimated, and they say so") {
   TempFolder folder;
-  Prepare(folder);
+  PrepareScene(folder);
   const Outcome direct = Call(folder, "refocus bare -o direct.png --focus 3");
   CAPTURE(direct.err);
   REQUIRE(direct.code == 0);
@@ -185,4 +185,4 @@ TEST_CASE("refocus, info: a map that is missing is estimated, and they say so") 
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::estimate_program_test

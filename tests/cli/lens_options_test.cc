@@ -12,7 +12,7 @@
 #include "tests/cli/call_program.h"
 #include "tests/support/temp_folder.h"
 
-namespace starfocus {
+namespace starfocus::lens_options_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -284,4 +284,4 @@ TEST_CASE("cli: without a hint the nearest large surface near the centre is in f
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::lens_options_test

@@ -9,7 +9,7 @@
 #include "platform/image_io.h"
 #include "tests/cli/call_program.h"
 
-namespace starfocus {
+namespace starfocus::memory_limit_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,4 +98,4 @@ TEST_CASE("memory limits: one clear error each, or the right result" * doctest::
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::memory_limit_test

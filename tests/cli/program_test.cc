@@ -17,7 +17,7 @@
 #include "tests/cli/call_program.h"
 #include "tests/cli/refusals.h"
 
-namespace starfocus {
+namespace starfocus::program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -222,4 +222,4 @@ TEST_CASE("program: no output goes into a light field that is read") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::program_test

@@ -10,7 +10,7 @@
 #include "examples/scene/render.h"
 #include "starfocus/starfocus.h"
 
-namespace starfocus {
+namespace starfocus::scene_test {
 namespace {
 
 // An emulator needs twenty times as long.
@@ -235,4 +235,4 @@ TEST_CASE("noise: in range, continuous and not constant") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::scene_test

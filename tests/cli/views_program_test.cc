@@ -11,7 +11,7 @@
 #include "platform/light_field.h"
 #include "tests/cli/call_program.h"
 
-namespace starfocus {
+namespace starfocus::views_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST_CASE("views: a stereo pair as Middlebury's is opened, unknown disparities f
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::views_program_test

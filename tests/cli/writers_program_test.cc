@@ -12,7 +12,7 @@
 #include "platform/writers/webp.h"
 #include "tests/cli/call_program.h"
 
-namespace starfocus {
+namespace starfocus::writers_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -182,4 +182,4 @@ TEST_CASE("progress: tells the share and, after a second, the time that is left"
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::writers_program_test

@@ -20,6 +20,7 @@
 #include "examples/scene/render.h"
 #endif
 
+namespace block_conformance_test {
 namespace {
 
 using namespace conformance;
@@ -290,3 +291,4 @@ TEST_CASE("block conformance: parts of the data sets") {
 #endif
 
 }  // namespace
+}  // namespace block_conformance_test

@@ -17,6 +17,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
+namespace conformance_test {
 namespace {
 
 using namespace conformance;
@@ -162,3 +163,4 @@ TEST_CASE("conformance: parts of the data sets: wires") {
 #endif
 
 }  // namespace
+}  // namespace conformance_test

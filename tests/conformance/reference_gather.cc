@@ -12,7 +12,7 @@ namespace {
 constexpr int kCell = 8;
 constexpr double kLargestKernel = 12;  // pixels of the layer
 
-struct Range {
+struct Interval {
   double low, high;
 };
 
@@ -104,7 +104,7 @@ class Gather {
   }
 
   // The radii of the cell's pixels of the layer: unsigned, on the engine's grid.
-  Range RangeOf(const GatheredCell& cell) const {
+  Interval IntervalOf(const GatheredCell& cell) const {
     const Corners corners = CornersOf(cell);
     double low = 1e9, high = -1e9;
     for (int k = 0; k < 4; ++k) {
@@ -164,7 +164,7 @@ class Gather {
   }
 
   // What a pixel lies between two kernels by, the square of its radius between theirs.
-  static double ShareOf(double radius, const Range& between) {
+  static double ShareOf(double radius, const Interval& between) {
     const double range = between.high * between.high - between.low * between.low;
     if (range == 0) return 0;
     return std::clamp((radius * radius - between.low * between.low) / range, 0.0, 1.0);
@@ -173,8 +173,8 @@ class Gather {
   // Mixed of two kernels by the radius of each pixel, and moved along the gradient of what that
   // gives.
   void OnSlope(const GatheredCell& cell) {
-    const Range range = RangeOf(cell);
-    const Range between = {std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
+    const Interval range = IntervalOf(cell);
+    const Interval between = {std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
                            std::min(LadderAbove(int(std::ceil(range.high * kOne))), largest_)};
     const BlurKernel less = BlurKernelOf(between.low, lens_.opening);
     const BlurKernel more = BlurKernelOf(between.high, lens_.opening);

@@ -8,6 +8,7 @@
 
 #include "tests/support/rounds.h"
 
+namespace trial_test {
 namespace {
 
 using namespace conformance;
@@ -61,3 +62,4 @@ TEST_CASE("trials: random light fields and lenses") {
 }
 
 }  // namespace
+}  // namespace trial_test

@@ -16,6 +16,7 @@
 #include "lib/base/fixed.h"
 #include "lib/depth/colour_map.h"
 
+namespace colour_repair_test {
 namespace {
 
 using starfocus::kDisparityBits;
@@ -285,3 +286,4 @@ TEST_CASE("colour repair: pictures of few pixels") {
 }
 
 }  // namespace
+}  // namespace colour_repair_test

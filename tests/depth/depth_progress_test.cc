@@ -9,6 +9,7 @@
 #include "tests/depth/depth_scene.h"
 #include "tests/support/watch.h"
 
+namespace depth_progress_test {
 namespace {
 
 using test::Watch;
@@ -91,3 +92,4 @@ TEST_CASE("maps: progress is told tile by tile, and cancels at any of them") {
 }
 
 }  // namespace
+}  // namespace depth_progress_test

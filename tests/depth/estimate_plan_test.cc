@@ -8,6 +8,7 @@
 
 #include "starfocus/depth.h"
 
+namespace estimate_plan_test {
 namespace {
 
 using starfocus::EstimatePlan;
@@ -98,3 +99,4 @@ TEST_CASE("estimate plan: every other label lies within the reach of all of them
 }
 
 }  // namespace
+}  // namespace estimate_plan_test

@@ -13,6 +13,7 @@
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
+namespace estimate_test {
 namespace {
 
 using test::ConfigOf;
@@ -239,3 +240,4 @@ TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
 }
 
 }  // namespace
+}  // namespace estimate_test

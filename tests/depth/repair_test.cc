@@ -12,6 +12,7 @@
 #include "tests/depth/depth_scene.h"
 #include "tests/support/simd_targets.h"
 
+namespace repair_test {
 namespace {
 
 using test::ConfigOf;
@@ -275,3 +276,4 @@ TEST_CASE("repair: bad maps have their errors, and nothing is written") {
 }
 
 }  // namespace
+}  // namespace repair_test

@@ -10,6 +10,7 @@
 #include "lib/depth/repair_map.h"
 #include "tests/depth/depth_scene.h"
 
+namespace swept_test {
 namespace {
 
 using starfocus::EstimateMemory;
@@ -99,3 +100,4 @@ TEST_CASE("swept: runs are those of the mask, as far as the row is looked at") {
 }
 
 }  // namespace
+}  // namespace swept_test

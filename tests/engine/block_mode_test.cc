@@ -25,6 +25,7 @@
 #include "tests/support/symmetry.h"
 #include "tests/support/test_scene.h"
 
+namespace block_mode_test {
 namespace {
 
 constexpr int kViews[] = {1, 5, 9, 17};
@@ -464,3 +465,4 @@ TEST_CASE("block: mirrored light fields of whole blocks give mirrored pictures a
 }
 
 }  // namespace
+}  // namespace block_mode_test

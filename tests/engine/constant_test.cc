@@ -10,6 +10,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 
+namespace constant_test {
 namespace {
 
 struct Trial {
@@ -245,3 +246,4 @@ TEST_CASE("constant: random sizes, ranges, focuses, apertures and blocks") {
 }
 
 }  // namespace
+}  // namespace constant_test

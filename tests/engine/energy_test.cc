@@ -8,6 +8,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace energy_test {
 namespace {
 
 constexpr int kPeriod = 16, kMargin = 24, kSide = kPeriod + 2 * kMargin;
@@ -57,3 +58,4 @@ TEST_CASE("energy: blending halves does not brighten") {
 }
 
 }  // namespace
+}  // namespace energy_test

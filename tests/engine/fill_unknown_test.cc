@@ -10,6 +10,7 @@
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
+namespace fill_unknown_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -122,3 +123,4 @@ TEST_CASE("fill unknown: unless told to, the engine refuses them") {
 }
 
 }  // namespace
+}  // namespace fill_unknown_test

@@ -18,6 +18,7 @@
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
+namespace golden_test {
 namespace {
 
 // FNV-1a.
@@ -197,3 +198,4 @@ TEST_CASE("golden: the same pictures on every machine and SIMD target") {
 }
 
 }  // namespace
+}  // namespace golden_test

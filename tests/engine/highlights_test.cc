@@ -11,6 +11,7 @@
 #include "tests/support/refocused.h"
 #include "tests/support/transfer_curve.h"
 
+namespace highlights_test {
 namespace {
 
 constexpr int kSide = 120;
@@ -178,3 +179,4 @@ TEST_CASE("highlights: rows that come one by one give the same bytes") {
 }
 
 }  // namespace
+}  // namespace highlights_test

@@ -12,6 +12,7 @@
 #include "tests/support/test_scene.h"
 #include "tests/support/transfer_curve.h"
 
+namespace input_range_test {
 namespace {
 
 // A picture of two levels, in squares or stripes of a few pixels or at random.
@@ -130,3 +131,5 @@ TEST_CASE("input range: subsampled blocks overshoot by no more than the header s
   CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kAnyTheta).contrast <= 0.4);
   CHECK(WorstOf(SF_MODE_BLOCK, SF_RULE_PAPER, Openings::kAnyShape).contrast <= 0.4);
 }
+
+}  // namespace input_range_test

@@ -11,6 +11,7 @@
 #include "tests/support/memory_parts.h"
 #include "tests/support/test_scene.h"
 
+namespace layout_test {
 namespace {
 
 using starfocus::Carver;
@@ -215,3 +216,4 @@ TEST_CASE("layout: sizes never wrap, and too large ones are an error of every ca
 }
 
 }  // namespace
+}  // namespace layout_test

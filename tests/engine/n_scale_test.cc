@@ -14,6 +14,7 @@
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
+namespace n_scale_test {
 namespace {
 
 using test::Refocused;
@@ -121,3 +122,4 @@ TEST_CASE("n_scale: more views, and nearer to the benchmark") {
 }
 
 }  // namespace
+}  // namespace n_scale_test

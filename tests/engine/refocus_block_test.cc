@@ -16,6 +16,7 @@
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
+namespace refocus_block_test {
 namespace {
 
 using starfocus::Block;
@@ -168,3 +169,4 @@ TEST_CASE("refocus_block: what holes beyond the border change stays small") {
 }
 
 }  // namespace
+}  // namespace refocus_block_test

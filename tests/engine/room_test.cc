@@ -10,6 +10,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
+namespace room_test {
 namespace {
 
 // Surfaces of a few disparities, pixel by pixel at random: more slices than there is memory for.
@@ -66,3 +67,4 @@ TEST_CASE("room: larger blurs, rows and workers that are reserved change no pict
 }
 
 }  // namespace
+}  // namespace room_test

@@ -13,6 +13,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace shapes_test {
 namespace {
 
 constexpr int kSide = 96;
@@ -186,3 +187,4 @@ TEST_CASE("shapes: cat's eyes are cut on the side away from the picture's middle
 }
 
 }  // namespace
+}  // namespace shapes_test

@@ -11,6 +11,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace symmetry_test {
 namespace {
 
 using test::Distance;
@@ -154,3 +155,4 @@ TEST_CASE("symmetry: turns with wide subapertures, up to the order of rows and c
 }
 
 }  // namespace
+}  // namespace symmetry_test

@@ -8,6 +8,7 @@
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
+namespace traffic_test {
 namespace {
 
 constexpr int kWidth = 96, kHeight = 64;
@@ -96,3 +97,4 @@ TEST_CASE("traffic: layers read the centre view once more") {
 }
 
 }  // namespace
+}  // namespace traffic_test

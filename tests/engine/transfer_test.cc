@@ -13,6 +13,7 @@
 #include "tests/support/refocused.h"
 #include "tests/support/transfer_curve.h"
 
+namespace transfer_test {
 namespace {
 
 constexpr sf_transfer kTransfers[] = {SF_TRANSFER_SRGB, SF_TRANSFER_NONE};
@@ -119,3 +120,4 @@ TEST_CASE("transfer: half of the light of white is code 188, half of the code 12
 }
 
 }  // namespace
+}  // namespace transfer_test

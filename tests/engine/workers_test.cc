@@ -13,6 +13,7 @@
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
+namespace workers_test {
 namespace {
 
 // A fresh thread per worker; the jobs are drawn in a shuffled order.
@@ -162,3 +163,4 @@ TEST_CASE("workers: engines in several threads are independent") {
 }
 
 }  // namespace
+}  // namespace workers_test

@@ -18,6 +18,7 @@
 #include "tests/support/test_scene.h"
 #include "tests/support/transfer_curve.h"
 
+namespace blur_test {
 namespace {
 
 using reference::kOne;
@@ -231,3 +232,4 @@ TEST_CASE("blur: the ladder of radii") {
 }
 
 }  // namespace
+}  // namespace blur_test

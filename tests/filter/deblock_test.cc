@@ -14,6 +14,7 @@
 #include "tests/filter/deblock_reference.h"
 #include "tests/support/test_scene.h"
 
+namespace deblock_test {
 namespace {
 
 using starfocus::kDeblockRows;
@@ -231,3 +232,4 @@ TEST_CASE("deblock: constant pictures and pictures of one unit stay") {
 }
 
 }  // namespace
+}  // namespace deblock_test

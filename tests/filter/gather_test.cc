@@ -18,6 +18,7 @@
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
+namespace gather_test {
 namespace {
 
 using starfocus::Cell;
@@ -218,3 +219,4 @@ TEST_CASE("gather: beside depth edges views go on, and nothing gets worse agains
 }
 
 }  // namespace
+}  // namespace gather_test

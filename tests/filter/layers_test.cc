@@ -14,6 +14,7 @@
 #include "simd/kernels.h"
 #include "tests/support/test_scene.h"
 
+namespace layers_test {
 namespace {
 
 using starfocus::LayerPlane;
@@ -390,3 +391,4 @@ TEST_CASE("layers: sizes") {
 }
 
 }  // namespace
+}  // namespace layers_test

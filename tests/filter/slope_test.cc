@@ -10,6 +10,7 @@
 #include "lib/base/opening.h"
 #include "tests/plan/measured_cells.h"
 
+namespace slope_test {
 namespace {
 
 using starfocus::kCellSize;
@@ -136,3 +137,4 @@ TEST_CASE("slope: the mean square of openings") {
 }
 
 }  // namespace
+}  // namespace slope_test

@@ -16,6 +16,7 @@
 #include "tests/support/star_views.h"
 #include "tests/support/test_scene.h"
 
+namespace picture_edge_test {
 namespace {
 
 constexpr int kSide = 96;
@@ -241,3 +242,4 @@ TEST_CASE("beyond: near surfaces look out on the side that others leave free") {
 }
 
 }  // namespace
+}  // namespace picture_edge_test

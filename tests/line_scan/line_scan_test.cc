@@ -14,6 +14,7 @@
 #include "tests/line_scan/line_scan_recorder.h"
 #include "tests/support/test_scene.h"
 
+namespace line_scan_test {
 namespace {
 
 using starfocus::Direction;
@@ -290,3 +291,4 @@ TEST_CASE("line scan: every pixel as the reference has it") {
 }
 
 }  // namespace
+}  // namespace line_scan_test

@@ -13,6 +13,7 @@
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
+namespace runs_test {
 namespace {
 
 using starfocus::Direction;
@@ -159,3 +160,4 @@ TEST_CASE("runs: random lines side by side, each covered by the longest runs the
 }
 
 }  // namespace
+}  // namespace runs_test

@@ -12,6 +12,7 @@
 #include "simd/kernels.h"
 #include "tests/support/test_scene.h"
 
+namespace span_sink_test {
 namespace {
 
 using starfocus::Rim;
@@ -151,3 +152,4 @@ TEST_CASE("span sink: a hole without a rim, and a surface with its neighbours") 
 }
 
 }  // namespace
+}  // namespace span_sink_test

@@ -9,6 +9,7 @@
 #include "lib/input/load_field.h"
 #include "tests/support/star_views.h"
 
+namespace unmix_test {
 namespace {
 
 using starfocus::Field;
@@ -133,3 +134,4 @@ TEST_CASE("unmix: what is sharp in the nearer surface, blurred, or no mixture st
 }
 
 }  // namespace
+}  // namespace unmix_test

@@ -17,6 +17,7 @@
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
+namespace block_stats_test {
 namespace {
 
 using starfocus::BlockStats;
@@ -489,3 +490,4 @@ TEST_CASE("cells: how much larger than needed borders are") {
 }
 
 }  // namespace
+}  // namespace block_stats_test

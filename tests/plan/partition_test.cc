@@ -15,6 +15,7 @@
 #include "tests/support/partition_plan.h"
 #include "tests/support/test_scene.h"
 
+namespace partition_test {
 namespace {
 
 using starfocus::Block;
@@ -310,3 +311,4 @@ TEST_CASE("partition: N never exceeds its table") {
 }
 
 }  // namespace
+}  // namespace partition_test

@@ -11,6 +11,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace timing_test {
 namespace {
 
 using starfocus::BlockWork;
@@ -189,3 +190,4 @@ TEST_CASE("timing: the default coefficients are these on every machine") {
 }
 
 }  // namespace
+}  // namespace timing_test

@@ -11,6 +11,7 @@
 
 #include "tests/support/temp_folder.h"
 
+namespace big_cores_test {
 namespace {
 
 using starfocus::CoreSet;
@@ -86,3 +87,4 @@ TEST_CASE("big cores: those of this machine are some, and a thread may run on th
 #endif
 
 }  // namespace
+}  // namespace big_cores_test

@@ -11,7 +11,7 @@
 #include "platform/framebuffer.h"
 #include "tests/support/test_scene.h"
 
-namespace starfocus {
+namespace starfocus::controls_test {
 namespace {
 
 struct EncoderEdge {
@@ -262,4 +262,4 @@ TEST_CASE("framebuffer: what is none is refused") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::controls_test

@@ -17,7 +17,7 @@
 #include "platform/temporary_file.h"
 #include "tests/support/temp_folder.h"
 
-namespace starfocus {
+namespace starfocus::file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -264,4 +264,4 @@ TEST_CASE("file: an ignored signal stays ignored") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::file_test

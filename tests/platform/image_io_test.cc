@@ -13,7 +13,7 @@
 #include "platform/writers/webp.h"
 #include "tests/support/temp_folder.h"
 
-namespace starfocus {
+namespace starfocus::image_io_test {
 namespace {
 
 Image Pattern(int width, int height) {
@@ -436,4 +436,4 @@ TEST_CASE("image_io: an animation is no picture, and the error says so") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::image_io_test

@@ -10,7 +10,7 @@
 #include "platform/image_io.h"
 #include "tests/support/temp_folder.h"
 
-namespace starfocus {
+namespace starfocus::light_field_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -232,4 +232,4 @@ TEST_CASE("light_field: no folder, a file, an empty folder") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::light_field_test

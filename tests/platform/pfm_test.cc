@@ -9,7 +9,7 @@
 
 #include "tests/support/temp_folder.h"
 
-namespace starfocus {
+namespace starfocus::pfm_test {
 namespace {
 
 std::string ReadText(const std::string& text, FloatMap* map) {
@@ -91,4 +91,4 @@ TEST_CASE("pfm: malformed files are one-line errors and leave the map alone") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::pfm_test

@@ -11,6 +11,7 @@
 #include "tests/support/test_scene.h"
 #include "tests/support/watch.h"
 
+namespace pool_test {
 namespace {
 
 struct Record {
@@ -128,3 +129,4 @@ TEST_CASE("pool: an engine's runner, whose progress is told by one thread at a t
 }
 
 }  // namespace
+}  // namespace pool_test

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace starfocus {
+namespace starfocus::runner_test {
 namespace {
 
 struct Record {
@@ -172,4 +172,4 @@ TEST_CASE("runner: nonsense is refused or clamped") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::runner_test

@@ -21,7 +21,7 @@
 #include "tests/support/photo_files.h"
 #include "tests/support/temp_folder.h"
 
-namespace starfocus {
+namespace starfocus::writers_test {
 namespace {
 
 Bytes FromText(const std::string& text) { return Bytes(text.begin(), text.end()); }
@@ -415,4 +415,4 @@ TEST_CASE("writers: a depth photo holds the map and the picture before, for exif
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::writers_test

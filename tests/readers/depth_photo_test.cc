@@ -17,7 +17,7 @@
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
 
-namespace starfocus {
+namespace starfocus::depth_photo_test {
 namespace {
 
 using namespace photos;
@@ -453,4 +453,4 @@ TEST_CASE("HEIF: a picture made of itself, or declared larger than it is, is ref
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::depth_photo_test

@@ -14,7 +14,7 @@
 #include "platform/readers/unknown_depth.h"
 #include "tests/support/photo_files.h"
 
-namespace starfocus {
+namespace starfocus::depth_picture_test {
 namespace {
 
 using namespace photos;
@@ -432,4 +432,4 @@ TEST_CASE("depth pictures: names beside the photo") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::depth_picture_test

@@ -20,7 +20,7 @@
 #include "tests/cli/call_program.h"
 #include "tests/support/photo_files.h"
 
-namespace starfocus {
+namespace starfocus::import_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -497,4 +497,4 @@ TEST_CASE("parts of the data sets: photographs of phones are refocused near and 
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::import_program_test

@@ -15,7 +15,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/photo_files.h"
 
-namespace starfocus {
+namespace starfocus::layouts_test {
 namespace {
 
 using namespace photos;
@@ -318,4 +318,4 @@ TEST_CASE("disparities of a photo stay within the limit, also between the values
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::layouts_test

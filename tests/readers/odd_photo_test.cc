@@ -13,7 +13,7 @@
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
 
-namespace starfocus {
+namespace starfocus::odd_photo_test {
 namespace {
 
 using namespace photos;
@@ -298,4 +298,4 @@ TEST_CASE("photos: an error names what the file is") {
 }
 
 }  // namespace
-}  // namespace starfocus
+}  // namespace starfocus::odd_photo_test

@@ -13,6 +13,7 @@
 
 #include "starfocus/version.h"
 
+namespace documents_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -182,3 +183,4 @@ TEST_CASE("documents: commands and options of the program are its own") {
 }
 
 }  // namespace
+}  // namespace documents_test

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+namespace includes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -174,3 +175,5 @@ TEST_CASE("includes: backward ones and circles are seen") {
                                        {"lib/input/field.h", "lib/input/window.h"}};
   CHECK(FindCircles(circle) == std::set<std::string>{"lib/input/field", "lib/input/picture_edge"});
 }
+
+}  // namespace includes_test

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+namespace lengths_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,3 +90,5 @@ TEST_CASE("lengths: long functions are seen, and lists of cases are none") {
   CHECK(FindLong(body("const char* Name(int a) {", "    case SF_OK:", "}"), 21).empty());
   CHECK(FindLong(body("struct Sum {", "  int a;", "}"), 21).empty());
 }
+
+}  // namespace lengths_test

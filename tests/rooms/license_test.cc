@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+namespace license_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,3 +46,4 @@ TEST_CASE("licence: every source file names it") {
 }
 
 }  // namespace
+}  // namespace license_test

@@ -12,7 +12,7 @@ using starfocus::simd::CellLimits;
 using starfocus::simd::CellMeasure;
 using starfocus::simd::Kernels;
 
-CellLimits Limits(Draw* draw) {
+CellLimits DrawCellLimits(Draw* draw) {
   CellLimits limits;
   limits.focus = int16_t(draw->Rarely(3) ? draw->Int(-32768, 32767) : draw->Int(-200, 200));
   limits.edge = int16_t(draw->Rarely(4) ? draw->Int(0, 4369) : draw->Int(0, 96));
@@ -111,7 +111,7 @@ void MeasureCell(Draw* draw, KernelCall* call) {
     all_rows.push_back(in + 1 + n % 10 * stride + 8 * (n / 10));
   }
   const Rows rows = call->Input("rows", all_rows);
-  const CellLimits limits = Limits(draw);
+  const CellLimits limits = DrawCellLimits(draw);
   auto* measures = call->Output<CellMeasure>("measure", cells);
   for (size_t cell = 0; cell < cells; ++cell) {
     call->Free(&measures[cell], 1);

@@ -13,6 +13,7 @@
 #include "tests/simd/depth_cases.h"
 #include "tests/support/simd_targets.h"
 
+namespace depth_kernels_test {
 namespace {
 
 using starfocus::simd::BestDepthKernels;
@@ -167,3 +168,4 @@ TEST_CASE("depth kernels: the label of the least sum, by hand") {
 }
 
 }  // namespace
+}  // namespace depth_kernels_test

@@ -17,7 +17,7 @@ using starfocus::simd::kDepthOutside;
 using starfocus::simd::kNoSurface;
 using starfocus::simd::kUnknownDepth;
 
-constexpr int kLongest = 2 * 32 + 35;
+constexpr int kLongestDepths = 2 * 32 + 35;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -81,20 +81,20 @@ void WidenCase(const std::vector<T>& all, void (*ImageKernels::*kernel)(const T*
 }  // namespace
 
 void BytesToDepth(Draw* draw, ImageCall* call) {
-  WidenCase(RandomBytes(draw->Length(1, kLongest, 1024), draw), &ImageKernels::BytesToDepth, call);
+  WidenCase(RandomBytes(draw->Length(1, kLongestDepths, 1024), draw), &ImageKernels::BytesToDepth, call);
 }
 
 void WordsToDepth(Draw* draw, ImageCall* call) {
-  WidenCase(Words(draw->Length(1, kLongest, 1024), draw), &ImageKernels::WordsToDepth, call);
+  WidenCase(Words(draw->Length(1, kLongestDepths, 1024), draw), &ImageKernels::WordsToDepth, call);
 }
 
 void HalvesToDepth(Draw* draw, ImageCall* call) {
-  WidenCase(Words(draw->Length(1, kLongest, 1024), draw), &ImageKernels::HalvesToDepth, call);
+  WidenCase(Words(draw->Length(1, kLongestDepths, 1024), draw), &ImageKernels::HalvesToDepth, call);
 }
 
 void DepthToDisparity(Draw* draw, ImageCall* call) {
   const DepthRule rule = AnyRule(draw);
-  const std::vector<float> all = Values(draw->Length(1, kLongest, 1024), rule, draw);
+  const std::vector<float> all = Values(draw->Length(1, kLongestDepths, 1024), rule, draw);
   const size_t count = all.size();
   const float* z = call->Input("z", all);
   int16_t* out = call->Output<int16_t>("out", count);
@@ -120,7 +120,7 @@ void DepthToDisparity(Draw* draw, ImageCall* call) {
 }
 
 void BlendRows(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongest, 1024);
+  const size_t count = draw->Length(1, kLongestDepths, 1024);
   const auto share = uint32_t(draw->Int(0, kColumnOne - 1));
   const std::vector<int16_t> first = Row(count, draw);
   std::vector<int16_t> second = first;
@@ -152,7 +152,7 @@ void BlendRows(Draw* draw, ImageCall* call) {
 }
 
 void SpreadRow(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongest, 1024), small = draw->Size(1, int(count), 256);
+  const size_t count = draw->Length(1, kLongestDepths, 1024), small = draw->Size(1, int(count), 256);
   const auto first = uint32_t(draw->Int(0, 5000));
   const std::vector<int16_t> row = Row(small + 1, draw);
   std::vector<int32_t> both(small);

@@ -14,6 +14,7 @@
 #include "tests/simd/image_cases.h"
 #include "tests/support/simd_targets.h"
 
+namespace image_kernels_test {
 namespace {
 
 using starfocus::simd::BestImageKernels;
@@ -91,3 +92,4 @@ TEST_CASE("image kernels: between rows and columns of a map, by hand") {
 }
 
 }  // namespace
+}  // namespace image_kernels_test

@@ -12,6 +12,7 @@
 #include "simd/kernels.h"
 #include "tests/support/test_scene.h"
 
+namespace kernel_definitions_test {
 namespace {
 
 using starfocus::simd::CellMeasure;
@@ -197,3 +198,4 @@ TEST_CASE("kernel definitions: layers, by hand") {
 }
 
 }  // namespace
+}  // namespace kernel_definitions_test

@@ -17,6 +17,7 @@
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
+namespace kernels_test {
 namespace {
 
 using starfocus::simd::Encoding;
@@ -192,3 +193,4 @@ TEST_CASE("kernels: the engine gives the same bytes on every target") {
 }
 
 }  // namespace
+}  // namespace kernels_test

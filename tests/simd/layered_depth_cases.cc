@@ -21,7 +21,7 @@ using starfocus::simd::StepBits;
 using starfocus::simd::ViewLook;
 
 constexpr int16_t kStep = 48;
-constexpr int kTimedWidth = 192;
+constexpr int kTimedFieldWidth = 192;
 
 // Rows of disparities, each one the row before with some pixels moved: anyhow, or by steps of just
 // `step`.
@@ -56,8 +56,8 @@ void Split(Draw* draw, KernelCall* call) {
 
 // Row by row, the second one from the first, and so on.
 void FindEdges(Draw* draw, KernelCall* call) {
-  const size_t count = draw->Length(1, 50, kTimedWidth), whole = SliceSamples(count);
-  const size_t rows = draw->Size(2, 20, kTimedSamples / kTimedWidth + 1);
+  const size_t count = draw->Length(1, 50, kTimedFieldWidth), whole = SliceSamples(count);
+  const size_t rows = draw->Size(2, 20, kTimedSamples / kTimedFieldWidth + 1);
   const starfocus::simd::EdgeLimits limits = {draw->Rarely(2) ? int16_t(draw->Int(1, 300)) : kStep,
                                               draw->Int(6, 8)};
   const int16_t* disparity = call->Input("disparity", MovedRows(rows, whole, limits.step, draw));
@@ -216,8 +216,8 @@ void SetLooks(Draw* draw, DepthRow* row) {
 
 DepthField MakeField(Draw* draw, KernelCall* call) {
   DepthField field = {};
-  field.width = int(draw->Length(1, 70, kTimedWidth));
-  field.height = int(draw->Size(1, 20, kTimedSamples / kTimedWidth));
+  field.width = int(draw->Length(1, 70, kTimedFieldWidth));
+  field.height = int(draw->Size(1, 20, kTimedSamples / kTimedFieldWidth));
   field.stride = SliceSamples(size_t(field.width));
   field.row.stride = ptrdiff_t(field.stride);
   field.row.width = field.width;

@@ -14,7 +14,7 @@ using starfocus::simd::kSlopeCost;
 using starfocus::simd::PathLabels;
 using starfocus::simd::PathRow;
 
-constexpr int kMostLabels = 70, kTimedLabels = 55, kMostCost = 240, kMostJump = 1000;
+constexpr int kMostPathLabels = 70, kTimedPathLabels = 55, kMostCost = 240, kMostJump = 1000;
 
 // A path as the kernel writes it, with its least.
 int16_t FillPath(size_t labels, Draw* draw, int16_t* path) {
@@ -43,7 +43,7 @@ enum class From { kRowBefore, kPixelBefore };
 
 void AddPaths(Draw* draw, DepthCall* call) {
   Line line = {};
-  line.labels = draw->Length(1, kMostLabels, kTimedLabels);
+  line.labels = draw->Length(1, kMostPathLabels, kTimedPathLabels);
   line.count = draw->Size(1, 9, 64);
   line.step = draw->Int(0, 1) == 0 ? 1 : -1;
   const size_t labels = line.labels, count = line.count, places = line.places();
@@ -116,7 +116,7 @@ void FindJumps(Draw* draw, DepthCall* call) {
 }
 
 void ChooseLabels(Draw* draw, DepthCall* call) {
-  const size_t labels = draw->Length(1, kMostLabels, kTimedLabels);
+  const size_t labels = draw->Length(1, kMostPathLabels, kTimedPathLabels);
   const size_t count = draw->Size(1, 5, 64), places = PathLabels(labels);
   const int most = draw->Int(0, 2) == 0 ? 3 : draw->Int(0, 1) == 0 ? 300 : 12000;
   std::vector<int16_t> sums(count * places);

@@ -9,14 +9,14 @@ namespace {
 using starfocus::simd::ImageKernels;
 using starfocus::simd::PixelOrder;
 
-constexpr int kLongest = 2 * 64 + 67;
+constexpr int kLongestPixels = 2 * 64 + 67;
 
 PixelOrder AnyOrder(Draw* draw) { return {size_t(draw->Int(3, 4)), draw->Int(0, 1) != 0}; }
 
 }  // namespace
 
 void PixelsToRgb(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongest, 1024);
+  const size_t count = draw->Length(1, kLongestPixels, 1024);
   const PixelOrder order = AnyOrder(draw);
   // Memory ends with the colours of the last pixel.
   const uint8_t* pixels = call->Input("pixels", RandomBytes(order.step * (count - 1) + 3, draw));
@@ -29,7 +29,7 @@ void PixelsToRgb(Draw* draw, ImageCall* call) {
 }
 
 void RgbToPixels(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongest, 1024);
+  const size_t count = draw->Length(1, kLongestPixels, 1024);
   const PixelOrder order = AnyOrder(draw);
   const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
   uint8_t* pixels = call->Output<uint8_t>("pixels", order.step * count);

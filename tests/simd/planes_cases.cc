@@ -11,7 +11,7 @@ using starfocus::simd::DepthKernels;
 using starfocus::simd::kPadding;
 using starfocus::simd::SliceSamples;
 
-constexpr int kTimed = 512, kLongest = 2 * 64 + 3;
+constexpr int kTimedPlane = 512, kLongestPlane = 2 * 64 + 3;
 
 std::vector<uint8_t> Samples(size_t count, Draw* draw) {
   std::vector<uint8_t> samples(count);
@@ -22,7 +22,7 @@ std::vector<uint8_t> Samples(size_t count, Draw* draw) {
 }  // namespace
 
 void SplitRow(Draw* draw, DepthCall* call) {
-  const size_t count = draw->Length(0, kLongest, kTimed), stride = count + draw->Size(0, 9, 0);
+  const size_t count = draw->Length(0, kLongestPlane, kTimedPlane), stride = count + draw->Size(0, 9, 0);
   const uint8_t* rgb = call->Input("rgb", Samples(3 * count, draw));
   uint8_t* plane = call->Output<uint8_t>("planes", 3 * stride);
   for (size_t c = 0; c < 3; ++c) call->Result(plane + c * stride, count);
@@ -33,7 +33,7 @@ void SplitRow(Draw* draw, DepthCall* call) {
 }
 
 void InterpolateRow(Draw* draw, DepthCall* call) {
-  const size_t count = draw->Length(1, kLongest, kTimed);
+  const size_t count = draw->Length(1, kLongestPlane, kTimedPlane);
   const int32_t across = draw->Int(0, 2) == 0 ? 0 : draw->Int(0, 127);
   const int32_t down = draw->Int(0, 2) == 0 ? 0 : draw->Int(0, 127);
   const uint8_t* row = call->Input("row", Samples(count + 1, draw), kPadding);

@@ -23,7 +23,7 @@ struct Lines {
   int At(int q, int k) const { return first[q * step + k]; }
 };
 
-RunLimits Limits(Draw* draw) {
+RunLimits DrawRunLimits(Draw* draw) {
   const int kind = draw->Int(0, 3);
   const int edge = kind == 0 ? 32766 : kind == 1 ? draw->Int(0, 32766) : draw->Int(0, 96);
   return {int16_t(draw->Int(0, 2) == 0 ? edge : draw->Int(0, edge)), int16_t(edge)};
@@ -83,7 +83,7 @@ void FindRuns(Draw* draw, KernelCall* call) {
   }
   lines.first = disparity + (backwards ? (length - 1) * stride : 0);
   lines.step = backwards ? -ptrdiff_t(stride) : ptrdiff_t(stride);
-  const RunLimits limits = Limits(draw);
+  const RunLimits limits = DrawRunLimits(draw);
 
   const size_t whole = (count + kRunLanes - 1) / kRunLanes * kRunLanes, rows = (length + 15) / 16;
   RunMarks marks;

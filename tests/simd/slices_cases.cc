@@ -20,7 +20,7 @@ using starfocus::simd::SliceSamples;
 using starfocus::simd::SliceTaps;
 using starfocus::simd::SurfaceRow;
 
-std::vector<uint8_t> Shares(size_t count, Draw* draw) {
+std::vector<uint8_t> MostlyWholeShares(size_t count, Draw* draw) {
   std::vector<uint8_t> shares(count);
   for (uint8_t& share : shares) {
     const int kind = draw->Int(0, 3);
@@ -38,7 +38,7 @@ SurfaceRow MakeSurfaces(size_t count, Draw* draw, KernelCall* call) {
   for (size_t group = 0; group < 64; ++group) {
     row.hiding |= uint64_t{draw->Int(0, 2) > 0} << group;
   }
-  const uint8_t* share = call->Input("share", Shares(whole, draw));
+  const uint8_t* share = call->Input("share", MostlyWholeShares(whole, draw));
   row.share = share;
   for (int k = 0; k < kSurfaces; ++k) {
     std::vector<int16_t> disparities = Disparities(whole, draw);

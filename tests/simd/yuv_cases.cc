@@ -9,7 +9,7 @@ namespace {
 using starfocus::simd::ImageKernels;
 using starfocus::simd::YuvMatrix;
 
-constexpr int kLongest = 2 * 64 + 67;  // pixels: two of the widest vectors, with all tails
+constexpr int kLongestRow = 2 * 64 + 67;  // pixels: two of the widest vectors, with all tails
 
 // Coefficients as large as any that are used, and larger.
 YuvMatrix AnyMatrix(Draw* draw) {
@@ -38,7 +38,7 @@ std::vector<uint8_t> Codes(size_t count, Draw* draw) { return RandomBytes(count,
 }  // namespace
 
 void YuvToRgb(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongest, 1024), half = (count + 1) / 2;
+  const size_t count = draw->Length(1, kLongestRow, 1024), half = (count + 1) / 2;
   const YuvMatrix m = AnyMatrix(draw);
   const uint8_t* y = call->Input("y", Codes(count, draw));
   const uint8_t* u = call->Input("u", Codes(half, draw));
@@ -52,7 +52,7 @@ void YuvToRgb(Draw* draw, ImageCall* call) {
 }
 
 void RgbToLuma(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongest, 1024);
+  const size_t count = draw->Length(1, kLongestRow, 1024);
   const YuvMatrix m = AnyMatrix(draw);
   const uint8_t* rgb = call->Input("rgb", Codes(3 * count, draw));
   uint8_t* y = call->Output<uint8_t>("y", count);
@@ -64,7 +64,7 @@ void RgbToLuma(Draw* draw, ImageCall* call) {
 }
 
 void RgbToChroma(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongest, 1024), half = (count + 1) / 2;
+  const size_t count = draw->Length(1, kLongestRow, 1024), half = (count + 1) / 2;
   const YuvMatrix m = AnyMatrix(draw);
   const uint8_t* upper = call->Input("upper", Codes(3 * count, draw));
   const uint8_t* lower = call->Input("lower", Codes(3 * count, draw));
@@ -79,7 +79,7 @@ void RgbToChroma(Draw* draw, ImageCall* call) {
 }
 
 void SplitPairs(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongest, 1024);
+  const size_t count = draw->Length(1, kLongestRow, 1024);
   const uint8_t* pairs = call->Input("pairs", Codes(2 * count, draw));
   uint8_t* first = call->Output<uint8_t>("first", count);
   uint8_t* second = call->Output<uint8_t>("second", count);
@@ -92,7 +92,7 @@ void SplitPairs(Draw* draw, ImageCall* call) {
 }
 
 void JoinPairs(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongest, 1024);
+  const size_t count = draw->Length(1, kLongestRow, 1024);
   const uint8_t* first = call->Input("first", Codes(count, draw));
   const uint8_t* second = call->Input("second", Codes(count, draw));
   uint8_t* pairs = call->Output<uint8_t>("pairs", 2 * count);

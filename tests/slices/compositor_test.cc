@@ -11,6 +11,7 @@
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
+namespace compositor_test {
 namespace {
 
 constexpr int kWidth = 96, kHeight = 64, kEdge = 48;
@@ -203,3 +204,4 @@ TEST_CASE("stack: a worker takes 1.15 mebibytes at blocks of 64 and blurs of 32"
 }
 
 }  // namespace
+}  // namespace compositor_test

@@ -10,6 +10,7 @@
 
 #include "tests/support/test_scene.h"
 
+namespace depth_slices_test {
 namespace {
 
 using starfocus::kMaxSlices;
@@ -185,3 +186,4 @@ TEST_CASE("slices: coarser where there are too many, or too large ones") {
 }
 
 }  // namespace
+}  // namespace depth_slices_test

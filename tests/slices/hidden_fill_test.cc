@@ -10,6 +10,7 @@
 
 #include "tests/slices/layered_scene.h"
 
+namespace hidden_fill_test {
 namespace {
 
 using test::kSize;
@@ -151,3 +152,4 @@ TEST_CASE("hidden fill: a mirrored scene is filled alike") {
 }
 
 }  // namespace
+}  // namespace hidden_fill_test

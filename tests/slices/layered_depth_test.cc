@@ -11,6 +11,7 @@
 
 #include "tests/slices/layered_scene.h"
 
+namespace layered_depth_test {
 namespace {
 
 using Scene = test::LayeredScene;
@@ -230,3 +231,4 @@ TEST_CASE("surfaces: the edges of random maps, by looking for each") {
 }
 
 }  // namespace
+}  // namespace layered_depth_test

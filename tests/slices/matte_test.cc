@@ -13,6 +13,7 @@
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
+namespace matte_test {
 namespace {
 
 constexpr int kWidth = 64, kHeight = 48, kEdge = 32;
@@ -206,3 +207,4 @@ TEST_CASE("matte: no light leaves a subject for the wall behind, at any level an
 }
 
 }  // namespace
+}  // namespace matte_test

@@ -12,6 +12,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace slice_plane_test {
 namespace {
 
 struct Views {
@@ -106,3 +107,4 @@ TEST_CASE("slice planes: a pixel behind another is shown wherever groups of pixe
 }
 
 }  // namespace
+}  // namespace slice_plane_test

@@ -4,6 +4,7 @@
 
 #include "tests/line_scan/line_scan_recorder.h"
 
+namespace soft_edges_test {
 namespace {
 
 using starfocus::Direction;
@@ -173,3 +174,4 @@ TEST_CASE("soft edges: an end on the border of the line") {
 }
 
 }  // namespace
+}  // namespace soft_edges_test
