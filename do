@@ -205,7 +205,7 @@ demo() {
   install_missing
   build starfocus
   mkdir -p demo
-  program "made the light field demo/portrait" scene demo/portrait --name portrait
+  program "made the light field demo/portrait" scene demo/portrait --name portrait --size 640x480
   refocus near
   refocus middle
   refocus far

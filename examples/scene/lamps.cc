@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-constexpr double kWall = -8;
+constexpr double kDarkWall = -8;
 // Codes of lamps: as bright as white, and four times as bright.
 constexpr Color kWarm = {255, 214, 150}, kCold = {190, 220, 255}, kRed = {255, 60, 40};
 constexpr double kGlare = 1.825;
@@ -18,16 +18,16 @@ void AddLamp(double x, double y, double d, double radius, const Color& color,
 }
 
 void AddHouse(std::vector<Surface>* out) {
-  out->push_back(
-      Piece(Outline::kNone, 0, 0, kWall, 0, 0, {PaintBark, {16, 18, 30}, {46, 48, 66}, 1, 402}));
+  out->push_back(Piece(Outline::kNone, 0, 0, kDarkWall, 0, 0,
+                       {PaintBark, {16, 18, 30}, {46, 48, 66}, 1, 402}));
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 7; ++column) {
       const double x = -420 + 140 * column, y = -260 + 170 * row;
       if ((row * 5 + column * 3) % 7 < 3) continue;
       const Color glass = (row + column) % 3 == 0 ? kCold * 0.5 : kWarm * 0.8;
-      out->push_back(
-          Piece(Outline::kBox, x, y, kWall + 0.1, 26, 38, {PaintLamp, glass, glass * 0.5, 1, 403}));
-      out->push_back(Piece(Outline::kBox, x, y, kWall + 0.2, 26, 2,
+      out->push_back(Piece(Outline::kBox, x, y, kDarkWall + 0.1, 26, 38,
+                           {PaintLamp, glass, glass * 0.5, 1, 403}));
+      out->push_back(Piece(Outline::kBox, x, y, kDarkWall + 0.2, 26, 2,
                            {PaintMatter, {24, 20, 18}, {24, 20, 18}, 1, 404}));
     }
   }
@@ -44,7 +44,8 @@ Scene MakeLamps() {
   for (int k = 0; k < 18; ++k) {
     const double x = -490 + 57 * k, y = 120 + 60 * ((k * 5) % 7) / 7.0;
     const Color color = k % 5 == 0 ? kRed : k % 3 == 0 ? kCold : kWarm;
-    AddLamp(x, y, kWall + 1 + 0.2 * (k % 4), 3 + k % 4, color * (k % 2 == 0 ? kGlare : 1.0), out);
+    AddLamp(x, y, kDarkWall + 1 + 0.2 * (k % 4), 3 + k % 4, color * (k % 2 == 0 ? kGlare : 1.0),
+            out);
   }
   for (int k = 0; k < 3; ++k) {  // lamp posts
     const double x = -330 + 320 * k, d = -3 + 2.5 * k;

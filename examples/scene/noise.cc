@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/scene/noise.h"
 
-#include <cmath>
-
 namespace starfocus {
+namespace {
+
+// std::floor of numbers below 2^63, as instructions of every x86-64 instead of a call.
+double Floor(double x) {
+  const double whole = static_cast<double>(static_cast<int64_t>(x));
+  return whole - (whole > x ? 1 : 0);
+}
+
+}  // namespace
 
 uint32_t Hash(int32_t x, int32_t y, uint32_t seed) {
   uint32_t h = static_cast<uint32_t>(x) * 0x8da6b343u ^ static_cast<uint32_t>(y) * 0xd8163841u ^
@@ -19,7 +26,7 @@ uint32_t Hash(int32_t x, int32_t y, uint32_t seed) {
 double HashUnit(int32_t x, int32_t y, uint32_t seed) { return Hash(x, y, seed) * 0x1p-32; }
 
 double Noise(double x, double y, uint32_t seed) {
-  const double floor_x = std::floor(x), floor_y = std::floor(y);
+  const double floor_x = Floor(x), floor_y = Floor(y);
   const double fx = x - floor_x, fy = y - floor_y;
   const int32_t ix = static_cast<int32_t>(floor_x), iy = static_cast<int32_t>(floor_y);
   const double sx = fx * fx * (3 - 2 * fx), sy = fy * fy * (3 - 2 * fy);
@@ -43,7 +50,7 @@ double Fractal(double x, double y, int octaves, uint32_t seed) {
   return sum / total;
 }
 
-double Wrap(double x, double period) { return x - period * std::floor(x / period); }
+double Wrap(double x, double period) { return x - period * Floor(x / period); }
 
 double Triangle(double x, double period) {
   const double phase = Wrap(x, period) / period;

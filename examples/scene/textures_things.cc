@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-double Grain(const Hit& hit, double size, uint32_t seed) {
+double Weave(const Hit& hit, double size, uint32_t seed) {
   return Fractal(hit.lx / size, hit.ly / size, 4, seed);
 }
 
@@ -70,7 +70,7 @@ Color PaintGlaze(const Surface& s, const Hit& hit) {
     color = s.second;
   }
   if (std::fabs(std::fabs(y) - 23) < 2.5) color = {226, 190, 110};
-  const double crackle = Grain(hit, 9, s.seed);
+  const double crackle = Weave(hit, 9, s.seed);
   Color lit = Lit(color * (0.72 + 0.55 * crackle), hit);
   const double shine = Smooth(0.93, 1, -0.36 * hit.nx - 0.4 * hit.ny + 0.84 * hit.nz);
   return Mix(lit, {255, 250, 240}, 0.55 * shine);
@@ -79,7 +79,7 @@ Color PaintGlaze(const Surface& s, const Hit& hit) {
 Color PaintLeaf(const Surface& s, const Hit& hit) {
   const double rib = std::fabs(hit.ly);
   const double vein = Triangle(hit.lx - 1.1 * rib, 15 * s.scale);
-  const double grain = Grain(hit, 5, s.seed);
+  const double grain = Weave(hit, 5, s.seed);
   Color color = Mix(s.color, s.second, Smooth(0.72, 1, vein)) * (0.62 + 0.75 * grain);
   if (rib < 1.6) color = s.second;
   const double fold = hit.ly > 0 ? 0.82 : 1.08;  // the halves face different ways
@@ -88,7 +88,7 @@ Color PaintLeaf(const Surface& s, const Hit& hit) {
 
 Color PaintBook(const Surface& s, const Hit& hit) {
   const double edge = std::fabs(hit.lx);
-  Color color = s.color * (0.7 + 0.55 * Grain(hit, 6, s.seed));
+  Color color = s.color * (0.7 + 0.55 * Weave(hit, 6, s.seed));
   const double round = 1 - 0.45 * (hit.ly / s.ry) * (hit.ly / s.ry);
   const bool line = std::fabs(hit.ly) < 0.42 * s.ry;
   if (edge > 0.8 * s.rx && edge < 0.86 * s.rx) return s.second * round;
@@ -113,7 +113,7 @@ Color PaintLandscape(const Surface& s, const Hit& hit) {
     const double carving = Triangle(frame_x < frame_y ? y : x, 9) * Smooth(0, 6, border);
     return Mix(s.color, s.second, 0.5 * carving + 0.5 * Noise(x / 3, y / 3, s.seed));
   }
-  if (border < 24) return Color{228, 220, 202} * (0.82 + 0.25 * Grain(hit, 4, s.seed + 1));
+  if (border < 24) return Color{228, 220, 202} * (0.82 + 0.25 * Weave(hit, 4, s.seed + 1));
   const double brush = Fractal(x / 14, y / 5, 4, s.seed + 2);
   const double sx = x + 30, sy = y + 22;
   if (sx * sx + sy * sy < 220) return Color{250, 226, 150} * (0.75 + 0.4 * brush);
@@ -132,7 +132,7 @@ Color PaintBulb(const Surface& s, const Hit& hit) {
 }
 
 Color PaintMatter(const Surface& s, const Hit& hit) {
-  const Color color = Mix(s.color, s.second, Smooth(0.35, 0.65, Grain(hit, 5 * s.scale, s.seed)));
+  const Color color = Mix(s.color, s.second, Smooth(0.35, 0.65, Weave(hit, 5 * s.scale, s.seed)));
   return s.shape == Shape::kEllipsoid ? Lit(color, hit) : color;
 }
 

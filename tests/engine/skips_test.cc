@@ -15,7 +15,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
-namespace trivial_block_test {
+namespace skips_test {
 namespace {
 
 using test::Refocused;
@@ -200,4 +200,4 @@ TEST_CASE("skips: no view of an aperture has weight zero, so that there is none 
 }
 
 }  // namespace
-}  // namespace trivial_block_test
+}  // namespace skips_test

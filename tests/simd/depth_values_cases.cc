@@ -81,7 +81,8 @@ void WidenCase(const std::vector<T>& all, void (*ImageKernels::*kernel)(const T*
 }  // namespace
 
 void BytesToDepth(Draw* draw, ImageCall* call) {
-  WidenCase(RandomBytes(draw->Length(1, kLongestDepths, 1024), draw), &ImageKernels::BytesToDepth, call);
+  WidenCase(RandomBytes(draw->Length(1, kLongestDepths, 1024), draw), &ImageKernels::BytesToDepth,
+            call);
 }
 
 void WordsToDepth(Draw* draw, ImageCall* call) {
@@ -152,7 +153,8 @@ void BlendRows(Draw* draw, ImageCall* call) {
 }
 
 void SpreadRow(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongestDepths, 1024), small = draw->Size(1, int(count), 256);
+  const size_t count = draw->Length(1, kLongestDepths, 1024),
+               small = draw->Size(1, int(count), 256);
   const auto first = uint32_t(draw->Int(0, 5000));
   const std::vector<int16_t> row = Row(small + 1, draw);
   std::vector<int32_t> both(small);

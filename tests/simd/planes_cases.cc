@@ -22,7 +22,8 @@ std::vector<uint8_t> Samples(size_t count, Draw* draw) {
 }  // namespace
 
 void SplitRow(Draw* draw, DepthCall* call) {
-  const size_t count = draw->Length(0, kLongestPlane, kTimedPlane), stride = count + draw->Size(0, 9, 0);
+  const size_t count = draw->Length(0, kLongestPlane, kTimedPlane),
+               stride = count + draw->Size(0, 9, 0);
   const uint8_t* rgb = call->Input("rgb", Samples(3 * count, draw));
   uint8_t* plane = call->Output<uint8_t>("planes", 3 * stride);
   for (size_t c = 0; c < 3; ++c) call->Result(plane + c * stride, count);

@@ -29,7 +29,7 @@ double MostOvershoot(const Setup& setup, double radius) {
   return steep ? 0.144 : 0.03;
 }
 
-Outcome Fail(const Setup& setup, const std::string& what) {
+Outcome Contradiction(const Setup& setup, const std::string& what) {
   return {0, what + ": " + setup.Text()};
 }
 
@@ -64,12 +64,13 @@ Levels LevelsOf(const Setup& setup) {
 Outcome CheckInversion(Setup setup, test::Random* random) {
   std::string failure;
   const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random), &failure);
-  if (!failure.empty()) return Fail(setup, failure);
+  if (!failure.empty()) return Contradiction(setup, failure);
   if (!MayResample(setup)) {
     const Levels levels = LevelsOf(setup);
     for (const uint8_t sample : plain) {
       if (sample < levels.low || sample > levels.high) {
-        return Fail(setup, "level " + std::to_string(sample) + " outside those of the views");
+        return Contradiction(setup,
+                             "level " + std::to_string(sample) + " outside those of the views");
       }
     }
   }
@@ -78,7 +79,7 @@ Outcome CheckInversion(Setup setup, test::Random* random) {
   Setup inverted = setup;
   Invert(&inverted);
   const std::vector<uint8_t> other = Refocused(inverted, RandomVariant(random), &failure);
-  if (!failure.empty()) return Fail(setup, failure);
+  if (!failure.empty()) return Contradiction(setup, failure);
   Outcome outcome;
   for (size_t i = 0; i < plain.size(); ++i) {
     outcome.error = std::max<double>(outcome.error, std::abs(plain[i] + other[i] - 255));
@@ -87,7 +88,8 @@ Outcome CheckInversion(Setup setup, test::Random* random) {
   const bool deblocked = MayResample(setup) && setup.config.deblocking > 0;
   const double most = deblocked ? setup.config.deblocking + kMostInversion : kMostInversion;
   if (outcome.error > most)
-    return Fail(setup, "inverted picture differs by " + std::to_string(int(outcome.error)));
+    return Contradiction(setup,
+                         "inverted picture differs by " + std::to_string(int(outcome.error)));
   return outcome;
 }
 
@@ -107,12 +109,12 @@ Outcome CheckConstant(Setup setup, test::Random* random) {
   Fill(&setup.scene, colour[0], colour[1], colour[2]);
   std::string failure;
   const std::vector<uint8_t> out = Refocused(setup, RandomVariant(random), &failure);
-  if (!failure.empty()) return Fail(setup, failure);
+  if (!failure.empty()) return Contradiction(setup, failure);
   Outcome outcome;
   for (size_t i = 0; i < out.size(); ++i) {
     outcome.error = std::max<double>(outcome.error, std::abs(out[i] - colour[i % 3]));
   }
-  if (outcome.error != 0) return Fail(setup, "constant picture changed");
+  if (outcome.error != 0) return Contradiction(setup, "constant picture changed");
   return outcome;
 }
 
@@ -236,14 +238,15 @@ Outcome Energy(test::Random* random) {
   }
   std::string failure;
   const std::vector<uint8_t> out = Refocused(setup, RandomVariant(random), &failure);
-  if (!failure.empty()) return Fail(setup, failure);
+  if (!failure.empty()) return Contradiction(setup, failure);
   int64_t sum = 0;
   for (int y = margin; y < margin + kPeriod; ++y) {
     for (int x = margin; x < margin + kPeriod; ++x) sum += out[3 * size_t(y * side + x)];
   }
   const double got = static_cast<double>(sum) / (kPeriod * kPeriod);
   if (std::fabs(got - mean) > kMostEnergy) {
-    return Fail(setup, "mean " + std::to_string(got) + " instead of " + std::to_string(mean));
+    return Contradiction(setup,
+                         "mean " + std::to_string(got) + " instead of " + std::to_string(mean));
   }
   return {std::fabs(got - mean), ""};
 }
@@ -264,7 +267,7 @@ Outcome Steps(test::Random* random) {
   }
   std::string failure;
   const std::vector<uint8_t> out = Refocused(setup, RandomVariant(random), &failure);
-  if (!failure.empty()) return Fail(setup, failure);
+  if (!failure.empty()) return Contradiction(setup, failure);
   const bool positive = !MayResample(setup);
   const auto light = [&](int code) { return test::LightOf(code, setup.config.transfer); };
   double over = 0;  // of light, but for what one code may be by rounding
@@ -272,16 +275,16 @@ Outcome Steps(test::Random* random) {
     const auto at = [&](int along) {
       return int{out[3 * size_t(upright ? along * across : along)]};
     };
-    if (positive && (at(k) < low || at(k) > high)) return Fail(setup, "a step overshoots");
+    if (positive && (at(k) < low || at(k) > high)) return Contradiction(setup, "a step overshoots");
     over = std::max({over, light(low) - light(at(k) + 1), light(at(k) - 1) - light(high)});
-    if (positive && k > 0 && at(k) < at(k - 1)) return Fail(setup, "a step falls");
+    if (positive && k > 0 && at(k) < at(k - 1)) return Contradiction(setup, "a step falls");
   }
   const double radius =
       setup.params.aperture * std::fabs(scene.Disparity(0, 0) - setup.params.focus);
   const double step = light(high) - light(low);
   if (over > MostOvershoot(setup, radius) * step)
-    return Fail(setup,
-                "overshoot of " + std::to_string(over) + " in a step of " + std::to_string(step));
+    return Contradiction(
+        setup, "overshoot of " + std::to_string(over) + " in a step of " + std::to_string(step));
   return {over / step, ""};
 }
 

@@ -13,7 +13,7 @@
 namespace starfocus::stress {
 namespace {
 
-constexpr int kViews[] = {1, 5, 9, 17};
+constexpr int kViewCounts[] = {1, 5, 9, 17};
 constexpr float kMost = 6;     // disparities lie within it
 constexpr int kPlaneMost = 4;  // and of planes within this
 
@@ -170,7 +170,7 @@ Outcome CheckAgreement(Question* question, test::Random* random) {
 
 Outcome Maps(test::Random* random) {
   Question question;
-  const int views = kViews[random->Int(0, 3)];
+  const int views = kViewCounts[random->Int(0, 3)];
   question.repairs = views == 1 || random->Int(0, 2) > 0;
   const bool plane = question.repairs && random->Int(0, 2) == 0;
   // Of a picture that is no larger than its disparity, views above and below show nothing.
