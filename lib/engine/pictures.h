@@ -17,7 +17,7 @@ namespace starfocus {
 enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
 
 struct Pictures {
-  PlaneViews planes;  // of SetPlanes
+  PlaneViews planes;  // what the windows read, if all views are rows of codes in memory
   Window windows[SF_LAYERS];
   LayerPlane layers[SF_LAYERS];  // layers 1 and 2, around a stripe
   uint8_t* needed[SF_LAYERS];    // per column of largest blocks: ColumnNeed of its layer 1, 2

@@ -79,7 +79,9 @@ RowSource LightFieldRows::Source() const {
 }
 
 void LightFieldRows::Use(EngineState* engine) const {
-  SetViews(engine->config, ReaderOf(planes_), planes_.view[0], &engine->pictures);
+  PlaneViews& planes = engine->pictures.planes;
+  planes = planes_;
+  SetViews(engine->config, ReaderOf(planes), planes.view[0], &engine->pictures);
 }
 
 RowSink SinkOf(const Picture& picture) { return {Store, &picture}; }

@@ -17,7 +17,7 @@ class LightFieldRows {
   // Returns a source of the rows; this object must outlive it.
   RowSource Source() const;
 
-  // Points the engine's windows at the rows, which are those of a whole light field and must stay.
+  // Points the engine's windows at the rows, which are those of a whole light field.
   void Use(EngineState* engine) const;
 
  private:
