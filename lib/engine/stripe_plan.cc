@@ -103,22 +103,17 @@ void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
   const int32_t left = column * plan.side;
   const bool has_highlights = HasHighlights(
       job, {left, job.rows.y, Min(plan.side, job.config->width - left), job.rows.height});
-  PartitionRules rules;
-  rules.width = job.config->width;
-  rules.height = job.config->height;
-  rules.largest_block = plan.side;
   // What highlights are beyond white is in no layer, and is not gathered.
-  rules.max_layer = has_highlights ? 0 : job.config->max_layer;
-  rules.has_highlights = has_highlights;
-  rules.renderer = lens.renderer;
-  rules.apertures = lens.apertures;
-  rules.max_n = lens.largest_n;
-  rules.n_scale = job.config->n_scale;
-  rules.demand = DemandOf(*job.opening);
-  rules.largest_node = LargestSide(job);
-  rules.gathers = !has_highlights && Gathers(*job.config, lens);
-  rules.scale = lens.scale;
-  rules.timing = job.config->timing;
+  const PartitionRules rules = {job.config,
+                                lens.renderer,
+                                lens.apertures,
+                                lens.largest_n,
+                                DemandOf(*job.opening),
+                                lens.scale,
+                                LargestSide(job),
+                                has_highlights ? 0 : job.config->max_layer,
+                                !has_highlights && Gathers(*job.config, lens),
+                                has_highlights};
   plan.counts[column] =
       PartitionBlock(*job.kernels, rules, *job.cells, left, job.rows.y, lens.reach.cells,
                      worker->partition, plan.BlocksOf(column), plan.gathered);

@@ -25,7 +25,8 @@ class Partition {
         rules_(rules),
         scratch_(scratch),
         gathered_(gathered),
-        side_(rules.largest_block / kSmallestBlock) {
+        config_(*rules.config),
+        side_(rules.config->largest_block / kSmallestBlock) {
     while ((1 << levels_) < side_) ++levels_;
   }
 
@@ -33,8 +34,8 @@ class Partition {
     x_ = x;
     y_ = y;
     // The cells are those of whole smallest blocks, which may hang over the picture's edges.
-    const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(rules_.width - x),
-                         CellsWithin(rules_.height - y)};
+    const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(config_.width - x),
+                         CellsWithin(config_.height - y)};
     const Surroundings surroundings =
         LoadSurroundings(cells, rules_.scale, inside, around, scratch_.cells);
     FindGathered(cells, surroundings);
@@ -64,8 +65,8 @@ class Partition {
     return scratch_.nodes[index];
   }
   bool Inside(int level, int32_t column, int32_t row) const {
-    return x_ + column * NodeSide(level) < rules_.width &&
-           y_ + row * NodeSide(level) < rules_.height;
+    return x_ + column * NodeSide(level) < config_.width &&
+           y_ + row * NodeSide(level) < config_.height;
   }
 
   void MeasureNode(int level, int32_t column, int32_t row, const CellGrid& cells,
@@ -132,7 +133,7 @@ class Partition {
         for (int32_t layer = first; layer < SF_LAYERS; ++layer) {
           ++node->gathered[layer];
           node->gather[layer] += PredictGather(
-              rules_.timing, static_cast<uint64_t>(kCellSize * kCellSize) >> 2 * layer,
+              config_.timing, static_cast<uint64_t>(kCellSize * kCellSize) >> 2 * layer,
               cells.At(x, y)->r_max >> layer);
         }
       }
@@ -142,7 +143,7 @@ class Partition {
   Rect RectOf(int level, int32_t column, int32_t row) const {
     const int32_t side = NodeSide(level);
     const int32_t x = x_ + column * side, y = y_ + row * side;
-    return {x, y, Min(side, rules_.width - x), Min(side, rules_.height - y)};
+    return {x, y, Min(side, config_.width - x), Min(side, config_.height - y)};
   }
 
   // Plans the node as one block, and keeps the lesser of its time and that of its children.
@@ -165,7 +166,7 @@ class Partition {
     const auto cells = static_cast<uint64_t>(node.cells);
     const auto gathered = static_cast<uint64_t>(node.gathered[block->layer]);
     if (gathered > 0) {
-      const uint64_t upsample = rules_.timing.upsample * UpsampledPixels(*block);
+      const uint64_t upsample = config_.timing.upsample * UpsampledPixels(*block);
       const uint64_t views = block->cost - upsample;
       block->cost = node.gather[block->layer] + upsample + views * (cells - gathered) / cells;
       block->gathers = true;
@@ -195,7 +196,7 @@ class Partition {
 
   int32_t Views(int32_t r_max, int32_t layer) const {
     const double radius = static_cast<double>(r_max) / (kRadiusOne * (1 << layer));
-    return ScaleViews(rules_.renderer->view_count(radius, rules_.demand), rules_.n_scale);
+    return ScaleViews(rules_.renderer->view_count(radius, rules_.demand), config_.n_scale);
   }
 
   void ChooseParameters(const BlockStats& stats, int32_t side, Block* block) const {
@@ -213,7 +214,7 @@ class Partition {
     BlockWork work = rules_.renderer->measure_work(
         block->rendered, block->border, rules_.apertures[block->n], stats.content, layer);
     work.upsample = UpsampledPixels(*block);
-    block->cost = PredictTime(rules_.timing, work);
+    block->cost = PredictTime(config_.timing, work);
   }
 
   // Leaves to views the least rectangle around the cells that are not gathered.
@@ -284,6 +285,7 @@ class Partition {
   const PartitionRules& rules_;
   const PartitionScratch& scratch_;
   const GatherMap& gathered_;
+  const sf_config& config_;
   int32_t side_;  // in smallest blocks
   int levels_ = 0;
   int32_t x_ = 0, y_ = 0;

@@ -29,19 +29,16 @@ struct Block {
 };
 
 struct PartitionRules {
-  int32_t width, height;  // of the picture
-  int32_t largest_block;
-  int32_t max_layer;
+  const sf_config* config;
   const Renderer* renderer;
-  const Aperture* apertures;  // by N, up to max_n
+  const Aperture* apertures;  // of the renderer by N, up to max_n
   int32_t max_n;
-  double n_scale;               // of the renderer's N
-  Demand demand;                // of the opening
-  int32_t largest_node;         // side of the largest block that is made
-  bool gathers;                 // smooth cells, with cells
-  bool has_highlights = false;  // of the blocks
+  Demand demand;  // of the opening
   BlurScale scale;
-  sf_timing timing;
+  int32_t largest_node;  // side of the largest block that is made
+  int32_t max_layer;
+  bool gathers;         // smooth cells, with cells
+  bool has_highlights;  // of the blocks
 };
 
 // A node of the quadtree: what it is as one block, and the least time of it or its children.

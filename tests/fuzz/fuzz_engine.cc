@@ -68,6 +68,7 @@ sf_config MakeConfig(Input* input) {
   config.transfer = config.deblocking % 5 == 0 ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
   if (config.deblocking % 2 == 0) SetShape(config.deblocking * 2 / 3, &config);
   if (config.deblocking % 6 == 1) SetPositions(config.deblocking, &config);
+  if (config.deblocking % 8 == 3) config.features = 0;
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);

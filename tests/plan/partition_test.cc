@@ -43,7 +43,7 @@ int SideOf(const Plan& plan, const Block& block, int x, int y) {
   int side = kSmallestBlock;
   while (side < block.rect.width || side < block.rect.height) side *= 2;
   // At the picture's edge a clipped block may be that of a larger node.
-  for (; side <= plan.rules.largest_block; side *= 2) {
+  for (; side <= plan.config.largest_block; side *= 2) {
     if ((block.rect.x - x) % side == 0 && (block.rect.y - y) % side == 0 &&
         Planned(plan, block.rect.x, block.rect.y, side).cost == block.cost) {
       return side;
@@ -53,14 +53,14 @@ int SideOf(const Plan& plan, const Block& block, int x, int y) {
 }
 
 void CheckBlocks(const Plan& plan, int x, int y, const std::vector<Block>& blocks) {
-  const int side = plan.rules.largest_block;
+  const int side = plan.config.largest_block;
   std::vector<int> covered(size_t(side) * size_t(side));
   for (const Block& block : blocks) {
     const Rect& rect = block.rect;
     REQUIRE(rect.width > 0);
     REQUIRE(rect.height > 0);
-    REQUIRE(rect.x + rect.width <= std::min(x + side, plan.rules.width));
-    REQUIRE(rect.y + rect.height <= std::min(y + side, plan.rules.height));
+    REQUIRE(rect.x + rect.width <= std::min(x + side, plan.config.width));
+    REQUIRE(rect.y + rect.height <= std::min(y + side, plan.config.height));
     for (int row = rect.y; row < rect.y + rect.height; ++row) {
       for (int column = rect.x; column < rect.x + rect.width; ++column) {
         covered[size_t(row - y) * size_t(side) + size_t(column - x)] += 1;
@@ -105,11 +105,11 @@ uint64_t Sum(const std::vector<Block>& blocks) {
 // Checks every largest block of a picture; the number of blocks.
 size_t CheckPicture(const Plan& plan) {
   size_t count = 0;
-  const int side = plan.rules.largest_block;
-  for (int y = 0; y < plan.rules.height; y += side) {
-    for (int x = 0; x < plan.rules.width; x += side) {
-      CAPTURE(plan.rules.width);
-      CAPTURE(plan.rules.height);
+  const int side = plan.config.largest_block;
+  for (int y = 0; y < plan.config.height; y += side) {
+    for (int x = 0; x < plan.config.width; x += side) {
+      CAPTURE(plan.config.width);
+      CAPTURE(plan.config.height);
       CAPTURE(side);
       CAPTURE(x);
       CAPTURE(y);
@@ -132,7 +132,7 @@ TEST_CASE("partition: the least of all partitions, tiled once, by the rules") {
     const int side = 32 << random.Int(0, 3);
     const int width = random.Int(1, side + 40), height = random.Int(1, side + 40);
     Plan plan(width, height, side, random.Real(0.5, 14), &random);
-    if (round % 2 == 1) plan.rules.timing.block = 0;  // whatever a block costs here, splits more
+    if (round % 2 == 1) plan.config.timing.block = 0;  // whatever a block costs here, splits more
     blocks += CheckPicture(plan);
     largest_blocks += size_t(((width - 1) / side + 1) * ((height - 1) / side + 1));
   }
@@ -154,7 +154,7 @@ TEST_CASE("partition: random and degenerate coefficients") {
   for (int round = 0; round < 60; ++round) {
     const int side = 32 << random.Int(0, 1);
     Plan plan(random.Int(1, side), random.Int(1, side), side, 9, &random);
-    sf_timing& timing = plan.rules.timing;
+    sf_timing& timing = plan.config.timing;
     for (uint32_t* value : {&timing.block, &timing.field, &timing.a, &timing.b, &timing.c,
                             &timing.upsample, &timing.span, &timing.hole}) {
       const int kind = random.Int(0, 3);
@@ -169,9 +169,9 @@ TEST_CASE("partition: where nothing or only blocks cost, nothing is split") {
   for (const uint32_t block : {0u, 1u, SF_MAX_TIMING}) {
     for (const int side : {32, 64, 128, 256}) {
       Plan plan(side - 5, side, side, 10, &random);
-      plan.rules.timing = {};
+      plan.config.timing = {};
       plan.rules.gathers = false;  // what is gathered is not the block's
-      plan.rules.timing.block = block;
+      plan.config.timing.block = block;
       const std::vector<Block> blocks = plan.Partition(0, 0);
       REQUIRE(blocks.size() == 1);
       CHECK(blocks[0].rect.width == side - 5);
@@ -196,7 +196,7 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
       plan.grid = test::MeasureCells(plan.disparity, 3 * kMiddle, 3 * kMiddle, scale, &plan.cells);
       plan.around = test::BordersOf(r).cells;
       plan.rules.max_layer = max_layer;
-      plan.rules.n_scale = 1;
+      plan.config.n_scale = 1;
       plan.rules.demand = static_cast<starfocus::Demand>(random.Int(0, 3));
       const double exact = std::floor(r * 64) / 64;
       CAPTURE(exact);
@@ -228,12 +228,12 @@ TEST_CASE("partition: the rules on flat pictures, at and beside their thresholds
 void AddRowsBeyond(const Plan& plan, int y, const std::vector<Block>& blocks, int (*most)[3]) {
   for (const Block& block : blocks) {
     if (block.rendered.width == 0) continue;
-    const int end = std::min(plan.rules.height, y + plan.rules.largest_block);
+    const int end = std::min(plan.config.height, y + plan.config.largest_block);
     const int above = (y >> block.layer) - (block.rendered.y - block.border.top);
     const int below = block.rendered.y + block.rendered.height + block.border.bottom -
                       ((end + (1 << block.layer) - 1) >> block.layer);
     if (y > 0) (*most)[block.layer] = std::max((*most)[block.layer], above);
-    if (end < plan.rules.height) (*most)[block.layer] = std::max((*most)[block.layer], below);
+    if (end < plan.config.height) (*most)[block.layer] = std::max((*most)[block.layer], below);
   }
 }
 

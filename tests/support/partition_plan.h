@@ -77,15 +77,16 @@ struct Plan {
     around = BordersOf(2 * limit).cells;
     flags.assign(cells.size(), kPoison);
     gathered = {flags.data(), grid.columns, 0};
-    rules.width = width;
-    rules.height = height;
-    rules.largest_block = largest_block;
+    sf_config_init(&config);
+    rules.config = &config;
+    config.width = width;
+    config.height = height;
+    config.largest_block = largest_block;
     rules.max_layer = random->Int(0, 2);
     Use(random->Int(0, 1) == 1 ? kSliceRenderer : kLineScanRenderer);
     rules.demand = static_cast<starfocus::Demand>((width + rules.max_layer) % 4);
     rules.largest_node = largest_block;
-    rules.n_scale = (2 + 2 * rules.max_layer + IsSlices()) / 4.0;
-    rules.timing = starfocus::DefaultTiming();
+    config.n_scale = (2 + 2 * rules.max_layer + IsSlices()) / 4.0;
   }
   Plan(const Plan&) = delete;
 
@@ -99,11 +100,11 @@ struct Plan {
   }
 
   std::vector<Block> Partition(int x, int y) const {
-    std::vector<PartitionNode> nodes(size_t(starfocus::PartitionNodes(rules.largest_block)));
+    std::vector<PartitionNode> nodes(size_t(starfocus::PartitionNodes(config.largest_block)));
     std::memset(static_cast<void*>(nodes.data()), kPoison, nodes.size() * sizeof(PartitionNode));
-    std::vector<Block> blocks(size_t(starfocus::MaxBlocks(rules.largest_block)));
+    std::vector<Block> blocks(size_t(starfocus::MaxBlocks(config.largest_block)));
     std::vector<int16_t> samples(
-        starfocus::SurroundingSamples(rules.largest_block / kCellSize, around), kPoison);
+        starfocus::SurroundingSamples(config.largest_block / kCellSize, around), kPoison);
     const int count =
         starfocus::PartitionBlock(starfocus::simd::BestKernels(), rules, grid, x, y, around,
                                   {nodes.data(), samples.data()}, blocks.data(), gathered);
@@ -122,7 +123,7 @@ struct Plan {
            grid.At(column, row)->r_max <= (12 << layer) * int(kRadiusOne);
   }
 
-  bool Inside(int x, int y) const { return x < rules.width && y < rules.height; }
+  bool Inside(int x, int y) const { return x < config.width && y < config.height; }
 
   // The statistics of any block, from its blocks of 16.
   BlockStats Stats(int x, int y, int side) const {
@@ -147,7 +148,8 @@ struct Plan {
   starfocus::GatherMap gathered;
   CellGrid grid;
   int around = 0;
-  PartitionRules rules;
+  sf_config config;
+  PartitionRules rules = {};
 };
 
 // Layers from `radius` and twice that on.
@@ -229,7 +231,7 @@ inline void PlanRest(const Plan& plan, Block* block) {
     border.bottom = std::max(border.bottom, unit_y + kSmallestBlock + part.bottom - bottom);
   });
   const int views = ViewsOf(true, r_max / (kRadiusOne * scale), plan.rules.demand);
-  block->n = std::min(int(std::ceil(views * plan.rules.n_scale)), plan.rules.max_n);
+  block->n = std::min(int(std::ceil(views * plan.config.n_scale)), plan.rules.max_n);
   const auto beyond = [&](int pixels) { return CeilQuotient(pixels, scale) + 1; };
   block->border = {beyond(border.left), beyond(border.right), beyond(border.top),
                    beyond(border.bottom)};
@@ -247,7 +249,7 @@ struct GatherPlan {
         if (!plan.MayGather(x, y, layer)) continue;
         ++gathered;
         const int r_max = plan.grid.At(x / kCellSize, y / kCellSize)->r_max;
-        cost += starfocus::PredictGather(plan.rules.timing, uint64_t(side * side), r_max >> layer);
+        cost += starfocus::PredictGather(plan.config.timing, uint64_t(side * side), r_max >> layer);
       }
     }
   }
@@ -274,7 +276,8 @@ inline void PlanGathering(const Plan& plan, uint64_t upsampling, Block* block) {
 inline Block Planned(const Plan& plan, int x, int y, int side) {
   const BlockStats stats = plan.Stats(x, y, side);
   Block block = {};
-  block.rect = {x, y, std::min(side, plan.rules.width - x), std::min(side, plan.rules.height - y)};
+  block.rect = {x, y, std::min(side, plan.config.width - x),
+                std::min(side, plan.config.height - y)};
   const bool subapertures = plan.IsSlices();
   block.layer =
       std::min(LayerOf(subapertures, (subapertures ? stats.r_shown : stats.r_min) / kRadiusOne,
@@ -282,7 +285,7 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
                plan.rules.max_layer);
   const int scale = 1 << block.layer;
   const int views = ViewsOf(subapertures, stats.r_max / (kRadiusOne * scale), plan.rules.demand);
-  block.n = std::min(int(std::ceil(views * plan.rules.n_scale)), plan.rules.max_n);
+  block.n = std::min(int(std::ceil(views * plan.config.n_scale)), plan.rules.max_n);
   const int margin = kLayerMargin[block.layer] / scale;
   block.rendered = {x / scale - margin, y / scale - margin,
                     CeilQuotient(block.rect.width, scale) + 2 * margin,
@@ -298,8 +301,8 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   starfocus::BlockWork work = plan.rules.renderer->measure_work(
       block.rendered, block.border, plan.rules.apertures[block.n], stats.content, block.layer);
   work.upsample = upsampled;
-  block.cost = starfocus::PredictTime(plan.rules.timing, work);
-  if (block.n > 0) PlanGathering(plan, plan.rules.timing.upsample * upsampled, &block);
+  block.cost = starfocus::PredictTime(plan.config.timing, work);
+  if (block.n > 0) PlanGathering(plan, plan.config.timing.upsample * upsampled, &block);
   return block;
 }
 
