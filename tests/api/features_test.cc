@@ -8,6 +8,7 @@
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 
+namespace features_test {
 namespace {
 
 sf_config WithoutLineScan(sf_config config) {
@@ -85,3 +86,4 @@ TEST_CASE("features: a workspace without the line scan is smaller") {
 }
 
 }  // namespace
+}  // namespace features_test
