@@ -26,7 +26,7 @@ struct GreyMapPair {
   Size sizes[4];
 };
 
-constexpr const char* kExtensions[] = {".png", ".ppm", ".pgm"};
+constexpr const char* kViewExtensions[] = {".png", ".ppm", ".pgm"};
 // Pictures of 2003 are 375, 750 or 1500 high, those of 2005 and 2006 370, 555 or 1110. Levels of
 // 2001, which has the names of 2003, are 8 times the disparity.
 constexpr GreyMapPair kPairs[] = {{"Middlebury stereo pair of 2003",
@@ -42,7 +42,7 @@ constexpr GreyMapPair kPairs[] = {{"Middlebury stereo pair of 2003",
 
 // The file of that name with one of the extensions; empty if there is none.
 std::string Find(const std::vector<std::string>& names, const std::string& name) {
-  for (const char* extension : kExtensions) {
+  for (const char* extension : kViewExtensions) {
     if (std::binary_search(names.begin(), names.end(), name + extension)) return name + extension;
   }
   return "";

@@ -15,7 +15,6 @@ namespace {
 
 using namespace analysis;
 
-constexpr double kTheta = kDefaultTheta;
 constexpr double kRadius = 4;  // r of Figs. 4 and 5
 
 // b_vi,c(x) of (6).
@@ -44,19 +43,19 @@ Figure DrawViewKernels() {
   constexpr int kViews[] = {3, 4, 6, 16};
   Table taps("fig4", {"n", "ideal", "N3", "N4", "N6", "N16"});
   Table curves("fig4_curves", {"x", "N3", "N4", "N6", "N16"});
-  const Kernel1 ideal = IdealKernel1(kRadius, kTheta);
+  const Kernel1 ideal = IdealKernel1(kRadius, kDefaultTheta);
   for (int n = -6; n <= 6; ++n) {
     taps.Row().Add(n).Add(ideal(n) / Peak(ideal));
     for (const int views : kViews) {
-      const Kernel1 kernel = PaperKernel1(kRadius, views, kTheta);
+      const Kernel1 kernel = PaperKernel1(kRadius, views, kDefaultTheta);
       taps.Add(kernel(n) / Peak(kernel));
     }
   }
   for (int k = -240; k <= 240; ++k) {
     curves.Row().Add(k / 40.0);
     for (const int views : kViews) {
-      const double peak = Peak(PaperKernel1(kRadius, views, kTheta));
-      curves.Add(Continuous(SampledAperture1(views, kTheta), k / 40.0) / peak);
+      const double peak = Peak(PaperKernel1(kRadius, views, kDefaultTheta));
+      curves.Add(Continuous(SampledAperture1(views, kDefaultTheta), k / 40.0) / peak);
     }
   }
   Figure figure = {"fig4", 900, 620, {taps, curves}, ""};
@@ -75,14 +74,16 @@ Figure DrawViewKernels() {
 Figure DrawViewResponses() {
   Table continuous("fig5a", {"f", "H", "A_N3", "B_N3", "A_N6", "B_N6"});
   Table discrete("fig5b", {"omega_pi", "ideal", "N3", "N6"});
-  const Kernel1 three = SampledAperture1(3, kTheta), six = SampledAperture1(6, kTheta);
+  const Kernel1 three = SampledAperture1(3, kDefaultTheta),
+                six = SampledAperture1(6, kDefaultTheta);
   for (int k = 0; k <= 500; ++k) {
     const double f = k / 200.0, h = TriangleResponse(f);
     const double a3 = std::fabs(ViewResponse(three, f)), a6 = std::fabs(ViewResponse(six, f));
     continuous.Row().Add(f).Add(h).Add(a3).Add(h * a3).Add(a6).Add(h * a6);
   }
-  const Kernel1 ideal = IdealKernel1(kRadius, kTheta);
-  const Kernel1 b3 = PaperKernel1(kRadius, 3, kTheta), b6 = PaperKernel1(kRadius, 6, kTheta);
+  const Kernel1 ideal = IdealKernel1(kRadius, kDefaultTheta);
+  const Kernel1 b3 = PaperKernel1(kRadius, 3, kDefaultTheta),
+                b6 = PaperKernel1(kRadius, 6, kDefaultTheta);
   for (int k = 0; k <= 400; ++k) {
     const double omega = k * kPi / 400;
     discrete.Row().Add(k / 400.0).Add(std::fabs(Response(ideal, omega)));
@@ -106,7 +107,7 @@ Figure DrawViewResponses() {
 
 Figure DrawSubsampledBlurs() {
   constexpr double kRadii[] = {2, 3, 4};
-  constexpr Filters kFilters = {kBetaDown, kTheta};
+  constexpr Filters kFilters = {kBetaDown, kDefaultTheta};
   std::vector<std::string> columns = {"omega_pi"};
   for (const char* r : {"r2", "r3", "r4"}) {
     for (const char* part : {"_ideal", "_half", "_down2", "_alias"}) {
@@ -118,8 +119,8 @@ Figure DrawSubsampledBlurs() {
     const double omega = k * kPi / 400;
     table.Row().Add(k / 400.0);
     for (const double r : kRadii) {
-      table.Add(std::fabs(Response(IdealKernel1(r, kTheta), omega)));
-      table.Add(std::fabs(Response(IdealKernel1(r / 2, kTheta), 2 * omega)));
+      table.Add(std::fabs(Response(IdealKernel1(r, kDefaultTheta), omega)));
+      table.Add(std::fabs(Response(IdealKernel1(r / 2, kDefaultTheta), 2 * omega)));
       for (const bool alias : {false, true}) {
         table.Add(std::fabs(Response(SubsampledKernel1(r, kFilters, alias), omega)));
       }

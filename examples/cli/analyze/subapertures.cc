@@ -16,7 +16,6 @@ namespace {
 
 using namespace analysis;
 
-constexpr double kTheta = kDefaultTheta;
 constexpr double kStep = 1.0 / 8;
 
 Table SameRadius() {
@@ -27,9 +26,9 @@ Table SameRadius() {
       "subapertures: least N whose error is no larger than the paper's at the same r\n"
       "     r  N by (9)       SSE  N of ours       SSE\n");
   for (const int r : kRadii) {
-    const int paper = ViewsByPaper(r), fewest = FewestSubapertures(r, kTheta);
-    const double paper_error = PaperError(r, paper, kTheta),
-                 error = SubapertureError(r, fewest, kTheta);
+    const int paper = ViewsByPaper(r), fewest = FewestSubapertures(r, kDefaultTheta);
+    const double paper_error = PaperError(r, paper, kDefaultTheta),
+                 error = SubapertureError(r, fewest, kDefaultTheta);
     std::printf("  %4d  %8d  %8.2e  %9d  %8.2e\n", r, paper, paper_error, fewest, error);
     table.Row().Add(r).Add(paper).Add(paper_error).Add(fewest).Add(error);
   }
@@ -58,7 +57,7 @@ void PrintRule(const std::vector<int>& fewest, double limit) {
 Figure AnalyseSubapertures(double max_blur) {
   Figure figure = {"subapertures", 860, 480, {SameRadius()}, ""};
   Table table("subapertures", {"r_max", "N_paper", "N_fewest", "N_rule", "margin", "worst_r"});
-  SubapertureStudy study(max_blur, kStep, kTheta);
+  SubapertureStudy study(max_blur, kStep, kDefaultTheta);
   Progress progress("subapertures", study.count());
   std::vector<int> fewest;
   double largest = 0, largest_at = 0;

@@ -12,7 +12,6 @@ namespace {
 using namespace analysis;
 
 constexpr int kLeast = 2, kMost = 16;
-constexpr double kTheta = kDefaultTheta;
 
 Table Curves() {
   std::vector<std::string> columns = {"ratio"};
@@ -21,7 +20,7 @@ Table Curves() {
   for (int k = 120; k <= 500; ++k) {  // 0.6 to 2.5
     const double ratio = k / 200.0;
     table.Row().Add(ratio);
-    for (int n = kLeast; n <= kMost; ++n) table.Add(PaperError(n / ratio, n, kTheta));
+    for (int n = kLeast; n <= kMost; ++n) table.Add(PaperError(n / ratio, n, kDefaultTheta));
   }
   return table;
 }
@@ -32,8 +31,8 @@ Table Points() {
       "Fig. 6: worst over-sampling error of N views, and under-sampling of the same error\n"
       "   N   N/r       SSE   N/r\n");
   for (int n = kLeast; n <= kMost; ++n) {
-    const RatioPoint over = WorstOverSampling(n, kTheta);
-    const double under = UnderSamplingRatio(n, kTheta, over.error);
+    const RatioPoint over = WorstOverSampling(n, kDefaultTheta);
+    const double under = UnderSamplingRatio(n, kDefaultTheta, over.error);
     std::printf("  %2d  %.3f  %8.2e  %.3f\n", n, over.ratio, over.error, under);
     table.Row().Add(n).Add(over.ratio).Add(over.error).Add(under);
   }
@@ -42,13 +41,13 @@ Table Points() {
 
 // The paper's 0.787 against the exact point.
 void PrintThreshold() {
-  constexpr double kPaper = 0.787, kBeside = 1.51;
-  const RatioPoint over = WorstOverSampling(4, kTheta);
-  const double at = PaperError(4 / kPaper, 4, kTheta);
+  constexpr double kPaperRatio = 0.787, kBeside = 1.51;
+  const RatioPoint over = WorstOverSampling(4, kDefaultTheta);
+  const double at = PaperError(4 / kPaperRatio, 4, kDefaultTheta);
   std::printf("  (9): at N = 4 and N/r = 0.787 the SSE is %.2e, %s %.2e of over-sampling\n", at,
               at <= over.error ? "within the" : "MORE than the", over.error);
-  const RatioPoint no_rim = WorstOverSampling(4, kTheta, Rim::kExcluded);
-  const double beside = PaperError(4 / kBeside, 4, kTheta, Rim::kExcluded);
+  const RatioPoint no_rim = WorstOverSampling(4, kDefaultTheta, Rim::kExcluded);
+  const double beside = PaperError(4 / kBeside, 4, kDefaultTheta, Rim::kExcluded);
   std::printf(
       "  By (3)-(8) as written, 0.787 is not the point of equal SSE: that is %.3f, the curve "
       "having\n"
@@ -57,9 +56,9 @@ void PrintThreshold() {
       "  gives 0.787: without views on the rim of the aperture the point is %.3f, and %.3f with\n"
       "  the curve read beside the cusp at 1.51 (SSE %.1e). 0.787 is on the safe side either "
       "way.\n\n",
-      UnderSamplingRatio(4, kTheta, over.error),
-      UnderSamplingRatio(4, kTheta, no_rim.error, Rim::kExcluded),
-      UnderSamplingRatio(4, kTheta, beside, Rim::kExcluded), beside);
+      UnderSamplingRatio(4, kDefaultTheta, over.error),
+      UnderSamplingRatio(4, kDefaultTheta, no_rim.error, Rim::kExcluded),
+      UnderSamplingRatio(4, kDefaultTheta, beside, Rim::kExcluded), beside);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct AnalyzeOptions {
   std::string folder;
   std::string max_blur = "40";
 };
@@ -37,7 +37,7 @@ std::string Write(const fs::path& folder, const Figure& figure, bool draw) {
   return WriteFile((folder / (figure.name + ".svg")).string(), picture);
 }
 
-Error Run(const Options& options) {
+Error Run(const AnalyzeOptions& options) {
   int max_blur = 0;
   Error error = ParseWhole("--max-blur", options.max_blur, 1, 128, &max_blur);
   if (!error.empty()) return error;
@@ -68,7 +68,7 @@ Error Run(const Options& options) {
 }  // namespace
 
 Command AnalyzeCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<AnalyzeOptions>();
   return {
       "analyze",
       "The paper's filter analysis (section III) from its definitions: Table I, Fig. 6, the rules "

@@ -21,7 +21,7 @@ namespace {
 constexpr int kWidth = 1024, kHeight = 768, kViews = 9;  // of the scenes made here
 constexpr int kRepetitions = 5;
 
-struct Options {
+struct CalibrateOptions {
   std::string out, folder, check;
 };
 
@@ -55,7 +55,7 @@ Error Load(const std::string& folder, SceneTimes* times) {
 using Scenes = std::vector<std::unique_ptr<SceneTimes>>;
 
 // The scene to fit first, then those to check.
-Error OpenScenes(const Options& options, Scenes* scenes) {
+Error OpenScenes(const CalibrateOptions& options, Scenes* scenes) {
   const auto add = [&](const std::string& folder, const std::string& name) {
     scenes->push_back(std::make_unique<SceneTimes>());
     return folder.empty() ? Trace(name, scenes->back().get()) : Load(folder, scenes->back().get());
@@ -103,7 +103,7 @@ Json Judge(const char* role, const SceneTimes& scene, const sf_timing& timing) {
   return json;
 }
 
-Error CheckOutput(const Options& options) {
+Error CheckOutput(const CalibrateOptions& options) {
   if (options.out.empty()) return "";
   const Error error = CheckOutputPath(options.out);
   if (!error.empty()) return error;
@@ -114,7 +114,7 @@ Error CheckOutput(const Options& options) {
   return CheckApart({{"--output", options.out}}, {folders, {}});
 }
 
-Error Calibrate(const Options& options) {
+Error Calibrate(const CalibrateOptions& options) {
   Scenes scenes;
   Error error = CheckOutput(options);
   if (error.empty()) error = OpenScenes(options, &scenes);
@@ -139,7 +139,7 @@ Error Calibrate(const Options& options) {
 }  // namespace
 
 Command CalibrateCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   return {
       "calibrate",
       "Measure this machine, while it has nothing else to do, for the timing model behind block "

@@ -14,7 +14,7 @@
 namespace starfocus {
 namespace {
 
-struct Options {
+struct CompareOptions {
   std::string first, second, map;
   bool json = false;
 };
@@ -23,7 +23,7 @@ std::string SizeText(const Image& image) {
   return std::to_string(image.width) + "x" + std::to_string(image.height);
 }
 
-Error CheckMap(const Options& options) {
+Error CheckMap(const CompareOptions& options) {
   if (options.map.empty()) return "";
   const Error error = CheckImageOutput(options.map);
   if (!error.empty()) return error;
@@ -33,7 +33,7 @@ Error CheckMap(const Options& options) {
   return CheckApart({{"--map", options.map}}, {{}, {options.first, options.second}});
 }
 
-Error Run(const Options& options) {
+Error Run(const CompareOptions& options) {
   Image a, b;
   Error error = CheckMap(options);
   if (error.empty()) error = ReadImage(options.first, &a);
@@ -64,7 +64,7 @@ Error Run(const Options& options) {
 }  // namespace
 
 Command CompareCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompareOptions>();
   return {"compare",
           "PSNR over all RGB samples and largest difference of two pictures",
           {

@@ -18,7 +18,7 @@
 namespace starfocus {
 namespace {
 
-struct Options {
+struct DisparityOptions {
   std::string folder, out, confidence, range, views, threads = "1";
   bool repair = false;
 };
@@ -46,7 +46,7 @@ Error ParseRange(const std::string& text, DisparityRange* range) {
   return "";
 }
 
-Error PlanOutputs(const Options& options, Plan* plan) {
+Error PlanOutputs(const DisparityOptions& options, Plan* plan) {
   plan->map = options.out.empty() ? DisparityPath(options.folder) : options.out;
   if (std::filesystem::path(plan->map).extension() != ".pfm") {
     return Error::Usage("--output", "a name that ends in .pfm", plan->map);
@@ -70,7 +70,7 @@ Error PlanOutputs(const Options& options, Plan* plan) {
   return error.empty() ? CheckApart(outputs, {{options.folder}, {}}) : error;
 }
 
-Error MakePlan(const Options& options, Plan* plan) {
+Error MakePlan(const DisparityOptions& options, Plan* plan) {
   Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
   if (error.empty() && !options.views.empty()) {
     error = ParseViews("--views", options.views, &plan->views);
@@ -85,7 +85,7 @@ Error MakePlan(const Options& options, Plan* plan) {
 }
 
 // Estimates the map of a folder; says what was looked for.
-Error EstimateFolder(const Options& options, Plan* plan, const LightField& light_field,
+Error EstimateFolder(const DisparityOptions& options, Plan* plan, const LightField& light_field,
                      DisparityEstimate* estimate) {
   Error error = CheckStar(options.folder, light_field);
   if (error.empty() && !plan->has_range) {
@@ -96,7 +96,7 @@ Error EstimateFolder(const Options& options, Plan* plan, const LightField& light
 }
 
 // Repairs the map of a folder.
-Error RepairFolder(const Options& options, Plan* plan, LightField* light_field,
+Error RepairFolder(const DisparityOptions& options, Plan* plan, LightField* light_field,
                    DisparityEstimate* estimate) {
   Image* confidence = options.confidence.empty() ? nullptr : &estimate->confidence;
   const Error error =
@@ -108,7 +108,8 @@ Error RepairFolder(const Options& options, Plan* plan, LightField* light_field,
   return "";
 }
 
-Error WriteMap(const Options& options, const Plan& plan, const DisparityEstimate& estimate) {
+Error WriteMap(const DisparityOptions& options, const Plan& plan,
+               const DisparityEstimate& estimate) {
   Error error = WriteImage(plan.picture, DrawDisparity(estimate.map));
   if (error.empty() && !options.confidence.empty()) {
     error = WriteImage(options.confidence, estimate.confidence);
@@ -116,7 +117,7 @@ Error WriteMap(const Options& options, const Plan& plan, const DisparityEstimate
   return error.empty() ? WritePfm(plan.map, estimate.map) : error;
 }
 
-Error Run(const Options& options) {
+Error Run(const DisparityOptions& options) {
   Plan plan;
   LightField light_field;
   Error error = MakePlan(options, &plan);
@@ -144,7 +145,7 @@ Error Run(const Options& options) {
 }  // namespace
 
 Command DisparityCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DisparityOptions>();
   return {"disparity",
           "Estimate the disparity map of a light field from its views, or repair its map",
           {

@@ -13,12 +13,12 @@
 namespace starfocus {
 namespace {
 
-struct Options {
+struct HelpOptions {
   std::string command;
   bool manual = false, completion = false;
 };
 
-Error Run(const Program& program, const Options& options) {
+Error Run(const Program& program, const HelpOptions& options) {
   if (options.manual || options.completion) {
     const std::string text = options.manual ? ManualText(program) : CompletionText(program);
     std::printf("%s", text.c_str());
@@ -44,7 +44,7 @@ Error Run(const Program& program, const Options& options) {
 }  // namespace
 
 Command HelpCommand(const Program* program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<HelpOptions>();
   return {"help",
           "What the program or a subcommand takes",
           {

@@ -14,7 +14,7 @@
 namespace starfocus {
 namespace {
 
-struct Options {
+struct ImportOptions {
   InputOptions input;
   MapOptions map;
   std::string folder, views, threads = "1";
@@ -26,7 +26,7 @@ Error CheckFolder(const std::string& folder) {
   return files.empty() ? "" : Expected(folder, "a folder without a light field", files[0]);
 }
 
-void Tell(const Options& options, const Capture& capture) {
+void Tell(const ImportOptions& options, const Capture& capture) {
   const LightField& light_field = capture.light_field;
   std::printf("%s: %s\n", capture.path.c_str(), capture.format.c_str());
   for (const auto& fact : capture.facts) {
@@ -42,7 +42,7 @@ void Tell(const Options& options, const Capture& capture) {
   }
 }
 
-Error Run(const Options& options) {
+Error Run(const ImportOptions& options) {
   int threads = 1;
   Positions views;
   Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &threads);
@@ -67,7 +67,7 @@ Error Run(const Options& options) {
 }  // namespace
 
 Command ImportCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ImportOptions>();
   Command command = {"import",
                      "Write a light-field folder from a depth photo or a folder as others have it",
                      {},

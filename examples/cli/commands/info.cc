@@ -20,7 +20,7 @@ namespace {
 constexpr int kBins = 16;
 constexpr int kBarLength = 50;
 
-struct Options {
+struct InfoOptions {
   InputOptions input;
   bool json = false;
 };
@@ -109,7 +109,7 @@ Error Measure(const Capture& capture, sf_disparity_stats* stats, std::vector<int
   return "";
 }
 
-Error Run(const Options& options) {
+Error Run(const InfoOptions& options) {
   Capture capture;
   sf_disparity_stats stats = {};
   std::vector<int64_t> counts;
@@ -129,7 +129,7 @@ Error Run(const Options& options) {
 }  // namespace
 
 Command InfoCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   Command command = {"info",
                      "What a light field or depth photo is: format, size, views, disparity range",
                      {},

@@ -25,7 +25,7 @@ namespace {
 
 constexpr int kMostPictures = 1000;  // of a sweep: three digits
 
-struct Options {
+struct RefocusOptions {
   std::vector<std::string> inputs;
   InputOptions input;  // the one of them that is refocused
   std::string report, map, region, sweep, jobs = "1";
@@ -41,7 +41,7 @@ struct Loaded {
   double max_blur = 0;
 };
 
-std::vector<Output> ListOutputs(const Options& options, const LensPlan& plan) {
+std::vector<Output> ListOutputs(const RefocusOptions& options, const LensPlan& plan) {
   std::vector<Output> outputs =
       ListPictures(options.output, options.sweep.empty() ? 0 : plan.foci.size());
   if (!options.map.empty()) outputs.push_back({"--map", options.map});
@@ -49,7 +49,7 @@ std::vector<Output> ListOutputs(const Options& options, const LensPlan& plan) {
   return outputs;
 }
 
-Error CheckOutputs(const Options& options, const LensPlan& plan) {
+Error CheckOutputs(const RefocusOptions& options, const LensPlan& plan) {
   const std::vector<Output> outputs = ListOutputs(options, plan);
   Error error = CheckImageOutput(options.output.out);
   for (size_t i = 0; i < outputs.size() && error.empty(); ++i) {
@@ -79,7 +79,7 @@ Error ParseSweep(const std::string& text, std::vector<double>* foci) {
   return "";
 }
 
-Error PlanFoci(const Options& options, LensPlan* plan) {
+Error PlanFoci(const RefocusOptions& options, LensPlan* plan) {
   const bool focus = !options.lens.focus.empty(), pixel = !options.lens.focus_at.empty();
   if (options.sweep.empty()) return PlanFocus(options.lens, plan);
   if (focus || pixel || options.stream || !options.map.empty()) {
@@ -93,14 +93,14 @@ Error PlanFoci(const Options& options, LensPlan* plan) {
   return ParseSweep(options.sweep, &plan->foci);
 }
 
-Error PlanRegion(const Options& options, LensPlan* plan) {
+Error PlanRegion(const RefocusOptions& options, LensPlan* plan) {
   if (options.region.empty()) return "";
   if (options.stream) return Error::Usage("--region", "whole pictures in memory", "--stream");
   return ParseRegion("--region", options.region, &plan->region);
 }
 
 // Everything that can be refused before a file is read.
-Error MakePlan(const Options& options, LensPlan* plan, PictureOptions* how) {
+Error MakePlan(const RefocusOptions& options, LensPlan* plan, PictureOptions* how) {
   Error error = PlanFoci(options, plan);
   if (error.empty()) {
     error =
@@ -112,7 +112,7 @@ Error MakePlan(const Options& options, LensPlan* plan, PictureOptions* how) {
   return error.empty() ? PlanLens(options.lens, plan) : error;
 }
 
-Error CheckRegion(const Image& picture, const Options& options, const sf_region& region) {
+Error CheckRegion(const Image& picture, const RefocusOptions& options, const sf_region& region) {
   if (region.x + region.width <= picture.width && region.y + region.height <= picture.height)
     return "";
   return Error::Usage("--region",
@@ -121,7 +121,7 @@ Error CheckRegion(const Image& picture, const Options& options, const sf_region&
                       options.region);
 }
 
-Error Open(const Options& options, LensPlan* plan, Capture* capture) {
+Error Open(const RefocusOptions& options, LensPlan* plan, Capture* capture) {
   Error error = OpenInput(options.input, capture);
   if (error.empty()) {
     error = CheckApart(ListOutputs(options, *plan),
@@ -131,7 +131,7 @@ Error Open(const Options& options, LensPlan* plan, Capture* capture) {
 }
 
 // Checks everything that does not need the map in the picture's size or repaired, which takes long.
-Error Foresee(const Options& options, const Capture& capture, LensPlan* plan) {
+Error Foresee(const RefocusOptions& options, const Capture& capture, LensPlan* plan) {
   const LightField& light_field = capture.light_field;
   Error error = CheckRule(capture.path, *plan, light_field.positions);
   if (error.empty()) error = CheckRegion(light_field.views[0], options, plan->region);
@@ -144,7 +144,7 @@ Error Foresee(const Options& options, const Capture& capture, LensPlan* plan) {
   return ForeseeBlur(light_field, WillRepair(options.disparities, capture), plan);
 }
 
-Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
+Error Load(const RefocusOptions& options, LensPlan* plan, Loaded* loaded) {
   Capture* capture = &loaded->capture;
   const FloatMap& map = capture->light_field.disparity;
   Error error = Open(options, plan, capture);
@@ -159,11 +159,11 @@ Error Load(const Options& options, LensPlan* plan, Loaded* loaded) {
   return error;
 }
 
-std::string WriteReport(const Options& options, const std::string& text) {
+std::string WriteReport(const RefocusOptions& options, const std::string& text) {
   return WriteFile(options.report, Bytes(text.begin(), text.end()));
 }
 
-Error RunOne(const Options& options, const PictureOptions& how, double widest,
+Error RunOne(const RefocusOptions& options, const PictureOptions& how, double widest,
              const EngineTask& one, double start) {
   EngineTask task = one;
   std::vector<sf_block> blocks;
@@ -185,8 +185,8 @@ Error RunOne(const Options& options, const PictureOptions& how, double widest,
   return WriteReport(options, ReportText(task, result, Seconds() - start));
 }
 
-Error RunSweep(const Options& options, const PictureOptions& how, const std::vector<double>& foci,
-               EngineTask task, double start) {
+Error RunSweep(const RefocusOptions& options, const PictureOptions& how,
+               const std::vector<double>& foci, EngineTask task, double start) {
   EngineRun run(task.threads, static_cast<int>(foci.size()));
   SeriesReport report;
   StackWriter stack(options.output, how, run.runner());
@@ -206,7 +206,7 @@ Error RunSweep(const Options& options, const PictureOptions& how, const std::vec
   return WriteReport(options, report.Text(Seconds() - start));
 }
 
-Error RunInput(const Options& options) {
+Error RunInput(const RefocusOptions& options) {
   const double start = Seconds();
   LensPlan plan;
   PictureOptions how;
@@ -221,7 +221,7 @@ Error RunInput(const Options& options) {
                                : RunSweep(options, how, plan.foci, task, start);
 }
 
-Error RunInputs(const Options& options) {
+Error RunInputs(const RefocusOptions& options) {
   for (const auto& [name, value] :
        {std::pair<const char*, const std::string&>{"--map", options.map},
         {"--report", options.report},
@@ -234,16 +234,16 @@ Error RunInputs(const Options& options) {
   if (error.empty()) error = PlanBatch(options.inputs, options.output.out, &items);
   if (!error.empty()) return error;
   return RunBatch(items, jobs, [&options](const BatchItem& item) {
-    Options one = options;
+    RefocusOptions one = options;
     one.input.path = item.input;
     one.output.out = item.output;
     return RunInput(one);
   });
 }
 
-Error Run(const Options& options) {
+Error Run(const RefocusOptions& options) {
   if (IsBatch(options.inputs, options.output.out)) return RunInputs(options);
-  Options one = options;
+  RefocusOptions one = options;
   one.input.path = options.inputs[0];
   return RunInput(one);
 }
@@ -251,7 +251,7 @@ Error Run(const Options& options) {
 }  // namespace
 
 Command RefocusCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RefocusOptions>();
   Command command = {
       "refocus", "The picture a lens focused at a disparity would have taken", {}, [options] {
         return Run(*options);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr int64_t kMostPixels = int64_t{1} << 25;  // all views are held in memory
 
-struct Options {
+struct SceneOptions {
   std::string folder, name = "portrait", size = "1024x768", views = "17", transfer = "srgb",
                       threads;
   std::vector<std::string> truths;
@@ -55,7 +55,7 @@ Error ParseTruth(const std::string& text, Truth* truth) {
   return ParseAperture("--truth", text.substr(comma + 1), &truth->aperture);
 }
 
-Error MakePlan(const Options& options, Plan* plan) {
+Error MakePlan(const SceneOptions& options, Plan* plan) {
   if (!MakeScene(options.name, &plan->scene)) {
     return Error::Usage("--name", "portrait, wires, ramp or lamps", "'" + options.name + "'");
   }
@@ -99,7 +99,7 @@ Error CheckFolder(const std::string& folder, const Positions& views) {
   return "";
 }
 
-std::string MetaText(const Options& options, const Plan& plan, const RayTracer& renderer,
+std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTracer& renderer,
                      const FloatMap& disparity) {
   std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
   text += "size: " + std::to_string(plan.width) + "x" + std::to_string(plan.height) + "\n";
@@ -123,7 +123,7 @@ std::string MetaText(const Options& options, const Plan& plan, const RayTracer& 
   return text;
 }
 
-Error Run(const Options& options) {
+Error Run(const SceneOptions& options) {
   Plan plan;
   Error error = MakePlan(options, &plan);
   if (error.empty()) error = CheckFolder(options.folder, plan.views);
@@ -161,7 +161,7 @@ Error Run(const Options& options) {
 }  // namespace
 
 Command SceneCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SceneOptions>();
   Command command = {
       "scene", "Ray-trace a light field with exact disparity into a folder", {}, [options] {
         return Run(*options);

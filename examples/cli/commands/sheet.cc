@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kGap = 8;
 
-struct Options {
+struct SheetOptions {
   std::string out, width = "1600";
   std::vector<std::string> pictures, labels;
 };
@@ -41,7 +41,7 @@ Image Arrange(const std::vector<Image>& cells, const std::vector<std::string>& l
   return sheet;
 }
 
-Error Run(const Options& options) {
+Error Run(const SheetOptions& options) {
   Error error = CheckImageOutput(options.out);
   if (error.empty()) error = CheckApart({{"--output", options.out}}, {{}, options.pictures});
   if (!error.empty()) return error;
@@ -71,7 +71,7 @@ Error Run(const Options& options) {
 }  // namespace
 
 Command SheetCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SheetOptions>();
   return {"sheet",
           "A contact sheet of pictures side by side",
           {

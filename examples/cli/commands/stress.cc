@@ -16,7 +16,7 @@
 namespace starfocus {
 namespace {
 
-struct Options {
+struct StressOptions {
   std::string seconds = "10", seed = "1", family, number;
 };
 
@@ -82,7 +82,7 @@ stress::Report Try(stress::Options* wanted) {
   });
 }
 
-Error Run(const Options& options) {
+Error Run(const StressOptions& options) {
   stress::Options wanted;
   const stress::Family* family = Find(options.family);
   if (family == nullptr && !(options.family.empty() && options.number.empty())) {
@@ -106,7 +106,7 @@ Error Run(const Options& options) {
 
 Command StressCommand() {
   static const std::string family_help = "Only this family: " + Names();
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StressOptions>();
   return {"stress",
           "Try to break the engine with random refocusings whose result is known or bounded",
           {

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr size_t kMostFrames = 10000;  // four digits
 
-struct Options {
+struct VideoOptions {
   std::vector<std::string> folders;
   std::string out, report;
   LensOptions lens;
@@ -48,7 +48,7 @@ std::string FramePath(const std::string& folder, size_t index) {
 
 // The folders given, or those in the only one when it is no light field itself, but for hidden ones
 // and that of the output.
-Error FindFrames(const Options& options, Video* video) {
+Error FindFrames(const VideoOptions& options, Video* video) {
   std::vector<std::string>& folders = video->folders;
   folders = options.folders;
   std::error_code error;
@@ -69,7 +69,7 @@ Error FindFrames(const Options& options, Video* video) {
                       std::to_string(folders.size()));
 }
 
-Error CheckOutputs(const Options& options, const Video& video) {
+Error CheckOutputs(const VideoOptions& options, const Video& video) {
   std::error_code failure;
   Error error;
   if (options.out.empty()) return Error::Usage("--output", "a folder", "an empty name");
@@ -103,7 +103,7 @@ Error CheckSize(const std::string& folder, const FloatMap& map, const Video& vid
 }
 
 // Measures the map of a folder, its holes filled if asked to.
-Error Prepare(const Options& options, const std::string& folder, FloatMap* map,
+Error Prepare(const VideoOptions& options, const std::string& folder, FloatMap* map,
               sf_disparity_stats* stats) {
   const std::string path = DisparityPath(folder);
   const Error error = options.fill_invalid ? FillHoles(path, map) : "";
@@ -121,7 +121,7 @@ Error FocusFirst(const std::string& folder, const FloatMap& map, LensPlan* plan)
 }
 
 // Looks at all frames: their views and disparities.
-Error Scan(const Options& options, LensPlan* plan, Video* video) {
+Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   std::vector<ViewFile> files;
   Error error = ChooseViewFiles(video->folders[0], plan->views, &files);
   for (const ViewFile& file : files) video->views.push_back(file.position);
@@ -145,7 +145,8 @@ Error Scan(const Options& options, LensPlan* plan, Video* video) {
   return error;
 }
 
-Error LoadFrame(const Options& options, const Video& video, size_t index, LightField* light_field) {
+Error LoadFrame(const VideoOptions& options, const Video& video, size_t index,
+                LightField* light_field) {
   const std::string& folder = video.folders[index];
   sf_disparity_stats stats;
   Error error = LoadLightField(folder, video.views, light_field);
@@ -154,7 +155,7 @@ Error LoadFrame(const Options& options, const Video& video, size_t index, LightF
   return Prepare(options, folder, &light_field->disparity, &stats);
 }
 
-Error RefocusFrames(const Options& options, const LensPlan& plan, const Video& video,
+Error RefocusFrames(const VideoOptions& options, const LensPlan& plan, const Video& video,
                     SeriesReport* report) {
   EngineRun run(plan.threads, static_cast<int>(video.folders.size()));
   LightField now, before;
@@ -179,7 +180,7 @@ Error RefocusFrames(const Options& options, const LensPlan& plan, const Video& v
   return "";
 }
 
-Error Run(const Options& options) {
+Error Run(const VideoOptions& options) {
   const double start = Seconds();
   LensPlan plan;
   Video video;
@@ -202,7 +203,7 @@ Error Run(const Options& options) {
 }  // namespace
 
 Command VideoCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<VideoOptions>();
   Command command = {
       "video",
       "Refocuses frame after frame; blocks that depend on nothing that changed are copied",

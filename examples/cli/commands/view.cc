@@ -27,7 +27,7 @@ constexpr int kFoci = 6, kBins = 32;
 constexpr int kLarge = 1200, kSmall = 380;  // widths of pictures
 constexpr int kWhite = 32;                  // difference that is white in an error map
 
-struct Options {
+struct ViewOptions {
   InputOptions input;
   ApertureOptions aperture;
   std::string out, threads;
@@ -83,7 +83,7 @@ Error ShowPicture(size_t index, const Image& picture, const std::vector<sf_block
   return "";
 }
 
-Error WritePage(const Options& options, const Capture& capture, const sf_disparity_stats& stats,
+Error WritePage(const ViewOptions& options, const Capture& capture, const sf_disparity_stats& stats,
                 const Contents& contents) {
   const LightField& light_field = capture.light_field;
   const std::string size =
@@ -146,7 +146,7 @@ Error ForeseeAperture(const Capture& capture, Aperture* aperture) {
   return error;
 }
 
-Error Open(const Options& options, int* threads, Aperture* aperture, Capture* capture) {
+Error Open(const ViewOptions& options, int* threads, Aperture* aperture, Capture* capture) {
   *threads = sf_pool_cores();
   Error error;
   if (!options.threads.empty()) {
@@ -166,7 +166,7 @@ Error Open(const Options& options, int* threads, Aperture* aperture, Capture* ca
   return error.empty() && !capture->photo ? ForeseeAperture(*capture, aperture) : error;
 }
 
-Error Run(const Options& options) {
+Error Run(const ViewOptions& options) {
   int threads = 1;
   Capture capture;
   Aperture aperture;
@@ -196,7 +196,7 @@ Error Run(const Options& options) {
 }  // namespace
 
 Command ViewCommand() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ViewOptions>();
   Command command = {"view",
                      "A web page of a light field or depth photo: photo, map, "
                      "foci, blocks, errors where truth is there",
