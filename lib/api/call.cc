@@ -20,8 +20,9 @@ void CompareWith(const Call& call, EngineState* engine) {
   changes.width = config.width;
   changes.height = config.height;
   changes.side = config.largest_block;
-  changes.side_reach = SideReach(config, engine->report.r_max);
-  changes.centre_reach = HighlightReach(config) > 0 ? changes.side_reach : engine->lens.reach.rows;
+  const Borders& borders = engine->lens.borders;
+  changes.side_reach = borders.views;
+  changes.centre_reach = borders.highlights > 0 ? borders.views : borders.centre;
   StartChanges(StripeRows(*engine).first, &changes);
 }
 

@@ -14,8 +14,8 @@ namespace {
 
 // Input rows that the next stripe reads.
 int32_t NeededRows(const EngineState& engine) {
-  return Min(engine.config.height,
-             engine.stream.next + engine.config.largest_block + StreamReach(engine.config));
+  return Min(engine.config.height, engine.stream.next + engine.config.largest_block +
+                                       LargestBorders(engine.config).streamed);
 }
 
 // Refocuses the next stripe, whose rows must have been pushed.

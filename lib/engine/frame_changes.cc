@@ -96,26 +96,16 @@ void CompareViews(const Changes& changes, int32_t y) {
   }
 }
 
-int32_t LargestReach(const Changes& changes) {
-  return changes.views == 1 ? changes.centre_reach : changes.side_reach;
-}
-
 }  // namespace
 
-int32_t ChangeStripes(int32_t side, int32_t reach) {
-  // Rows up to `reach` beyond the stripe after the current one are compared, which flag stripes up
-  // to as much again beyond; the one before the current is still asked for.
-  return 2 * reach / side + 5;
-}
-
 void StartChanges(int32_t y, Changes* changes) {
-  const int32_t reach = LargestReach(*changes);
+  const int32_t reach = changes->side_reach;
   changes->rows = Max(0, y - changes->side - reach);
   changes->known = Max(0, changes->rows - reach) / changes->side;
 }
 
 sf_status CompareRows(int32_t y, Patience* patience, Changes* changes) {
-  const int32_t reach = LargestReach(*changes);
+  const int32_t reach = changes->side_reach;
   const int32_t end = Min(changes->height, y + 2 * changes->side + reach);
   for (; changes->rows < end; ++changes->rows) {
     const int32_t last = Min(changes->height - 1, changes->rows + reach) / changes->side;

@@ -32,10 +32,6 @@ struct Changes {
   }
 };
 
-// Returns how many stripes the ring must hold when blocks of `side` depend on pixels up to `reach`
-// away.
-int32_t ChangeStripes(int32_t side, int32_t reach);
-
 // Starts anew, for stripes from row y on.
 void StartChanges(int32_t y, Changes* changes);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/jobs.h"
 
-#include "lib/engine/reach.h"
+#include "lib/engine/borders.h"
 #include "lib/plan/partition.h"
 
 namespace starfocus {

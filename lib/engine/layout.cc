@@ -24,9 +24,9 @@ void TakeResample(const sf_config& config, Carver* carver, ResampleScratch* resa
 // a worker's memory is shared.
 Worker TakeWorker(const sf_config& config, Carver* carver) {
   const auto side = static_cast<size_t>(config.largest_block);
-  const Reach reach = GetReach(config.max_blur);
+  const Borders borders = LargestBorders(config);
   Worker worker = {};
-  const size_t extended = side + 2 * static_cast<size_t>(reach.border);
+  const size_t extended = side + 2 * static_cast<size_t>(borders.level[0]);
   const int32_t renderers = RendererCount(config);
   int32_t max_n[kMaxRenderers] = {}, most = 0;
   for (int32_t k = 0; k < renderers; ++k) {
@@ -45,9 +45,8 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
                                 worker.scratch[k]);
     carver->Reuse(shared);
   }
-  // A rendered rectangle is at most half a block and 4 pixels wide. What is gathered comes to it
-  // from the field.
-  const size_t half = side / 2 + 8;
+  // What is gathered comes to a rendered rectangle from the field.
+  const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
   worker.layer_samples = carver->Take<int16_t>(3 * half * half);
   const size_t behind = carver->Mark();
   worker.field.rgb = carver->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
@@ -65,7 +64,7 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
   worker.partition.nodes =
       carver->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
   worker.partition.cells =
-      carver->Take<int16_t>(SurroundingSamples(config.largest_block / kCellSize, reach.cells));
+      carver->Take<int16_t>(SurroundingSamples(config.largest_block / kCellSize, borders.cells));
   carver->GoOn();
   return worker;
 }
@@ -98,14 +97,14 @@ void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
 }
 
 void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
-  const Reach reach = GetReach(config.max_blur);
+  const Borders borders = LargestBorders(config);
   const int32_t side = config.largest_block;
   const auto blocks = static_cast<size_t>((config.width + side - 1) / side);
   engine->stripe.cells.columns = (config.width + kCellSize - 1) / kCellSize;
   engine->stripe.cells.rows = (config.height + kCellSize - 1) / kCellSize;
   engine->stripe.cells.cells =
       carver->Take<Cell>(static_cast<size_t>(engine->stripe.cells.columns) *
-                         static_cast<size_t>(side / kCellSize + 2 * reach.cells + 1));
+                         static_cast<size_t>(side / kCellSize + 2 * borders.cells + 1));
   engine->stripe.plan.side = side;
   engine->stripe.plan.columns = static_cast<int32_t>(blocks);
   engine->stripe.plan.wanted = carver->Take<uint8_t>(blocks);
@@ -120,7 +119,9 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
   }
   Changes& changes = engine->stripe.changes;
   changes.columns = static_cast<int32_t>(blocks);
-  changes.stripes = ChangeStripes(side, SideReach(config, config.max_blur));
+  // Rows up to a border beyond the stripe after the current one are compared, which flag stripes up
+  // to as much again beyond; the one before the current is still asked for.
+  changes.stripes = 2 * borders.views / side + 5;
   changes.flags = carver->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
   engine->stripe.map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
   engine->stripe.map.units = carver->Take<uint8_t>(static_cast<size_t>(engine->stripe.map.columns) *
@@ -142,8 +143,8 @@ void TakeImages(const sf_config& config, int32_t rows, Carver* carver, ImageMemo
 void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = config.streaming != 0;
-  const int32_t beyond = streaming ? StreamReach(config) : GetReach(config.max_blur).rows;
-  const int32_t rows = config.largest_block + 2 * beyond;
+  const Borders borders = LargestBorders(config);
+  const int32_t rows = config.largest_block + 2 * (streaming ? borders.streamed : borders.centre);
   engine->pictures.disparity.rows = rows;
   engine->pictures.disparity.stride = width;
   engine->pictures.disparity.data = carver->Take<int16_t>(width, static_cast<size_t>(rows));

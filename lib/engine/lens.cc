@@ -54,7 +54,7 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   lens->region = RegionOf(config, params);
   lens->renderer = &RendererOf(config, params);
   lens->r_max = r_max;
-  lens->reach = GetReach(r_max);
+  lens->borders = AddBorders(config, r_max, IsDeblocking(config, *lens));
   // The benchmark has an aperture of its own, and SF_MODE_BLUR needs only that of N = 0.
   const bool has_own = IsBenchmark(*lens) || params.mode == SF_MODE_BLUR;
   lens->largest_n = LargestN(config, *lens->renderer, has_own ? 0 : r_max);

@@ -8,7 +8,7 @@
 #include "lib/base/aperture.h"
 #include "lib/base/geometry.h"
 #include "lib/base/watch.h"
-#include "lib/engine/reach.h"
+#include "lib/engine/borders.h"
 #include "lib/engine/tables.h"
 #include "lib/filter/deblock.h"
 #include "lib/plan/block_stats.h"
@@ -25,7 +25,7 @@ struct Lens {
   int32_t largest_n;          // of these
   Aperture aperture;          // frame modes: of the one N
   BlurScale scale;
-  Reach reach;
+  Borders borders;
 };
 
 // Whether no region is asked for, which means the whole picture.
@@ -61,13 +61,6 @@ inline const Aperture& ApertureOf(const Lens& lens, int32_t n) {
 // Whether blocks of different layers are joined.
 inline bool IsDeblocking(const sf_config& config, const Lens& lens) {
   return IsBlockMode(lens) && config.max_layer > 0 && config.deblocking > 0;
-}
-
-// Pixels around a block that joining it to others may change, and the rows above a stripe that are
-// finished with it.
-inline int32_t JoinReach(const sf_config& config, const Lens& lens) {
-  static_assert(kDeblockRows >= kDeblockReach, "rows wait for every join that changes them");
-  return IsDeblocking(config, lens) ? kDeblockRows : 0;
 }
 
 // Blur radius of the configured range's farther end.

@@ -5,7 +5,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/gaps.h"
-#include "lib/engine/reach.h"
+#include "lib/engine/borders.h"
 #include "simd/depth_values.h"
 
 namespace starfocus {

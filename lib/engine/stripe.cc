@@ -65,7 +65,7 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, const R
   const Lens& lens = engine->lens;
   sf_status status = PlanStripe(stripe, runner, engine);
   if (status == SF_OK && IsBlockMode(lens) && !engine->pictures.prepared) {
-    PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.reach, &engine->pictures);
+    PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, &engine->pictures);
     status = FillLayers(config, *engine->kernels, runner, &engine->crew, &engine->pictures);
   }
   if (status != SF_OK) return status;

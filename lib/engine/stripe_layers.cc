@@ -2,7 +2,6 @@
 #include "lib/engine/stripe_layers.h"
 
 #include "lib/base/rules.h"
-#include "lib/engine/reach.h"
 
 namespace starfocus {
 namespace {
@@ -81,10 +80,10 @@ void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pic
   }
 }
 
-void PlaceLayers(const RowRange& of_picture, const Reach& reach, Pictures* pictures) {
+void PlaceLayers(const RowRange& of_picture, const Borders& borders, Pictures* pictures) {
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
     LayerPlane& plane = pictures->layers[layer];
-    const int32_t beyond = reach.layer_rows[layer];
+    const int32_t beyond = borders.level[layer];
     const int32_t last = (of_picture.last + (1 << layer) - 1) >> layer;
     const RowRange inside = {Max(0, (of_picture.first >> layer) - beyond),
                              Min(plane.height, last + beyond)};

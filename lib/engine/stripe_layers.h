@@ -3,9 +3,9 @@
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_LAYERS_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_LAYERS_H_
 
+#include "lib/engine/borders.h"
 #include "lib/engine/jobs.h"
 #include "lib/engine/pictures.h"
-#include "lib/engine/reach.h"
 #include "lib/plan/partition.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
@@ -23,8 +23,8 @@ void MarkLayerColumns(const sf_config& config, Pictures* pictures);
 void MarkLayerColumns(const sf_config& config, const Block& block, Pictures* pictures);
 
 // Makes room in the layers and their windows for the rows that rows `of_picture` subsample to and
-// `reach` has beyond them, and keeps those that are there.
-void PlaceLayers(const RowRange& of_picture, const Reach& reach, Pictures* pictures);
+// `borders` has beyond them, and keeps those that are there.
+void PlaceLayers(const RowRange& of_picture, const Borders& borders, Pictures* pictures);
 
 // Subsamples into the marked columns of placed layers. Returns SF_OK, SF_ERROR_RUNNER or
 // SF_ERROR_CANCELLED.

@@ -3,7 +3,6 @@
 
 #include <cstring>
 
-#include "lib/engine/reach.h"
 #include "lib/engine/stripe_layers.h"
 #include "lib/input/excess.h"
 
@@ -49,7 +48,7 @@ int32_t LargestSide(const PlanJob& job) {
 bool HasHighlights(const PlanJob& job, const Rect& rect) {
   const sf_config& config = *job.config;
   if (!(config.highlights > 1)) return false;
-  const int32_t around = HighlightsAround(config, job.lens->r_max);
+  const int32_t around = job.lens->borders.highlights;
   const Rect near = Extended(rect, {around, around, around, around});
   if (!MayHaveHighlights(*job.window, near)) return false;
   const int32_t lamp = LampReach(LargestLamp(config.width));
@@ -58,7 +57,7 @@ bool HasHighlights(const PlanJob& job, const Rect& rect) {
 
 Block WholeBlock(const PlanJob& job, const Rect& rect) {
   const Lens& lens = *job.lens;
-  const int32_t border = lens.reach.border - kCellSize;
+  const int32_t border = lens.borders.whole_block;
   Block block;
   block.rect = block.rendered = rect;
   block.border = {border, border, border, border};
@@ -115,7 +114,7 @@ void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
                                 !has_highlights && Gathers(*job.config, lens),
                                 has_highlights};
   plan.counts[column] =
-      PartitionBlock(*job.kernels, rules, *job.cells, left, job.rows.y, lens.reach.cells,
+      PartitionBlock(*job.kernels, rules, *job.cells, left, job.rows.y, lens.borders.cells,
                      worker->partition, plan.BlocksOf(column), plan.gathered);
 }
 
@@ -131,7 +130,7 @@ void MeasureColumn(const MeasureJob& job, int32_t index, Worker*) {
 // Whether the region depends on pixels of `rect`.
 bool IsInRegion(const EngineState& engine, const Rect& rect) {
   const Rect& region = engine.lens.region;
-  const int32_t reach = JoinReach(engine.config, engine.lens);
+  const int32_t reach = engine.lens.borders.joined;
   return rect.x - reach < region.x + region.width && region.x < rect.x + rect.width + reach &&
          rect.y - reach < region.y + region.height && region.y < rect.y + rect.height + reach;
 }
@@ -139,7 +138,7 @@ bool IsInRegion(const EngineState& engine, const Rect& rect) {
 // Whether pixels that are not copied from the picture before depend on pixels of `rect`. Those are
 // what has changed and as far around it as joins reach, and joins reach there from as far again.
 bool IsNew(const EngineState& engine, const Rect& rect) {
-  const int32_t reach = 2 * JoinReach(engine.config, engine.lens);
+  const int32_t reach = 2 * engine.lens.borders.joined;
   const Changes& changes = engine.stripe.changes;
   return !changes.active || HasChanged(changes, {rect.x - reach, rect.y - reach,
                                                  rect.width + 2 * reach, rect.height + 2 * reach});
@@ -150,7 +149,7 @@ bool IsNew(const EngineState& engine, const Rect& rect) {
 int32_t PlaceCells(const Stripe& stripe, const Lens& lens, StripeState* state) {
   CellGrid& cells = state->cells;
   StripePlan& plan = state->plan;
-  const int32_t first = Max(0, stripe.y / kCellSize - lens.reach.cells);
+  const int32_t first = Max(0, stripe.y / kCellSize - lens.borders.cells);
   const int32_t last = (stripe.y + stripe.height - 1) / kCellSize;
   const bool all = std::memchr(plan.measured, 0, static_cast<size_t>(plan.columns)) == nullptr;
   int32_t known = first;
@@ -162,7 +161,7 @@ int32_t PlaceCells(const Stripe& stripe, const Lens& lens, StripeState* state) {
   }
   plan.all_measured = all;
   cells.first_row = first;
-  cells.last_row = Min(cells.rows, last + lens.reach.cells + 1);
+  cells.last_row = Min(cells.rows, last + lens.borders.cells + 1);
   return known;
 }
 
@@ -243,7 +242,7 @@ bool ChooseColumns(const Stripe& rows, EngineState* engine) {
     if (inside && !wanted) ++engine->report.reused_blocks;
     if (!wanted) continue;
     any = true;
-    const int32_t around = engine->lens.reach.cells * kCellSize;
+    const int32_t around = engine->lens.borders.cells * kCellSize;
     const int32_t first = Max(0, column * side - around) / side;
     const int32_t last = Min(plan.columns, ((column + 1) * side + around - 1) / side + 1);
     std::memset(plan.measured + first, 1, static_cast<size_t>(last - first));

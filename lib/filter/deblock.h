@@ -12,12 +12,9 @@
 
 namespace starfocus {
 
-// Pixels on either side of a boundary that filtering changes; what it changes depends on pixels no
-// farther away than that.
-inline constexpr int32_t kDeblockReach = 3;
-
-// Rows at the end of a stripe that wait for the next one: what a boundary below them reads.
-inline constexpr int32_t kDeblockRows = kDeblockReach + 1;
+// Rows at the end of a stripe that wait for the next one: what a boundary below them reads. Of
+// these it changes all but the first.
+inline constexpr int32_t kDeblockRows = 4;
 
 // The layer of units that are not refocused; nothing is joined to them.
 inline constexpr uint8_t kNoLayer = 0xFF;

@@ -33,8 +33,11 @@ struct LayerPlane {
   Plane<int16_t> samples;         // simd::kLayerBits, in range
 };
 
-// Pixels along an axis of what `pixels` of a layer are made of, by the 7 taps of a filter.
-constexpr int32_t TapsOfLayer(int32_t pixels) { return 2 * pixels + 5; }
+// Pixels beyond what two by two become one that the 7 taps of a filter read: one less after them.
+inline constexpr int32_t kDownBorder = 3;
+
+// Pixels along an axis of what `pixels` of a layer are made of.
+constexpr int32_t TapsOfLayer(int32_t pixels) { return 2 * pixels + 2 * kDownBorder - 1; }
 
 // Memory of a worker for subsampling at most C columns and R rows of layer 1 at once.
 struct ResampleScratch {
@@ -62,8 +65,8 @@ struct UpsampleScratch {
 };
 
 // Doubles `in` into `out`, whose pixel (0, 0) is in's pixel (first, first), clamped to the range
-// of samples. in reaches at least one pixel before and two after what out covers; a sample past the
-// end of out may be written.
+// of samples. in reaches at least one pixel before and two after what out covers (kUpBorder); a
+// sample past the end of out may be written.
 void UpsampleByTwo(const simd::Kernels& kernels, const LayerRect& in, int32_t first,
                    const UpsampleScratch& scratch, const LayerRect& out);
 

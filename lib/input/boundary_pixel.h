@@ -12,6 +12,9 @@
 
 namespace starfocus {
 
+// Pixels beyond a field that tell what the boundary pixels in it are made of.
+inline constexpr int32_t kMixedPixelBorder = 1;
+
 // Light of R, G and B.
 struct Colour {
   int16_t rgb[3];

@@ -54,6 +54,9 @@ struct CapturedLine {
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
                   int16_t* rgb);
 
+// Pixels of the picture around such a place that it is made of.
+constexpr int32_t CapturedBorder(int layer) { return layer == 0 ? 1 : (1 << layer) - 1; }
+
 // One such colour at L = 0 before it is rounded, with 2 * kShiftBits more.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
 

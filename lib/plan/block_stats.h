@@ -64,6 +64,10 @@ constexpr int32_t ReachOf(int32_t r) {
   return (r + (3 << kDisparityBits) / 2 - 1) >> kDisparityBits;
 }
 
+// Pixels of the level around what blur reaches that are rendered, too, for the neighbour of a
+// subaperture.
+inline constexpr int32_t kRenderBorder = 1;
+
 // A grid of cells over rows of the picture, all columns. Positions outside the picture, and only
 // those, take the nearest cell, whose edge the picture repeats.
 struct CellGrid {
@@ -81,16 +85,24 @@ struct CellGrid {
 // Adds what line scans meet in a cell.
 void AddCell(const Cell& cell, Content (*sum)[2]);
 
+// Pixels around a cell that it is measured with.
+inline constexpr int32_t kCellBorder = 1;
+
 // Measures the cells at columns [first, last) of a row of the grid; the window is at layer 0.
 void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
                   int32_t row, int32_t first, int32_t last, Cell* cells);
 
-// Pixels that a block refocused at layer L renders beyond its sides, because upsampling reads
-// them, in pixels of the picture.
-inline constexpr int16_t kLayerMargin[3] = {0, 4, 12};
+// Pixels of a layer around what twice as many become that upsampling reads.
+inline constexpr int32_t kUpBorder = 2;
 
-// The same in pixels of the layer.
-constexpr int32_t LayerMargin(int32_t layer) { return kLayerMargin[layer] >> layer; }
+// Pixels that a block refocused at layer L renders beyond its sides, because upsampling reads them
+// from layer to layer.
+constexpr int32_t LayerMargin(int32_t layer) {
+  return layer == 0 ? 0 : (LayerMargin(layer - 1) + 1) / 2 + kUpBorder;
+}
+
+// The same in pixels of the picture.
+inline constexpr int16_t kLayerMargin[3] = {0, LayerMargin(1) << 1, LayerMargin(2) << 2};
 
 // What a block knows: radii of the pixels inside and (but for r_min and r_shown) of those that
 // splat into it, and for each layer the border beyond which no pixel splats into the block and its

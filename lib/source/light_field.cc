@@ -23,7 +23,7 @@ void CopyColumns(const Picture& picture, const Plane<uint8_t>& from, int32_t y, 
 void CopyChanges(const Picture& picture, const Plane<uint8_t>& from, int32_t y,
                  const EngineState& engine) {
   const Rect& rect = picture.rect;
-  const int32_t side = engine.config.largest_block, reach = JoinReach(engine.config, engine.lens);
+  const int32_t side = engine.config.largest_block, reach = engine.lens.borders.joined;
   for (int32_t column = 0; column < Columns(engine.config); ++column) {
     const int32_t x = column * side;
     if (!HasChanged(engine.stripe.changes, {x, y - reach, side, 1 + 2 * reach})) continue;

@@ -25,7 +25,7 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Ru
   for (int32_t y = 0; y < height && status == SF_OK; y += side) {
     ForgetLayers(engine->config, &engine->pictures);
     MarkLayerColumns(engine->config, &engine->pictures);
-    PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, Reach(), &engine->pictures);
+    PlaceLayers({y, y + side < height ? y + side : height + kBeyond}, Borders(), &engine->pictures);
     for (int layer = 1; layer <= engine->config.max_layer; ++layer) {
       engine->pictures.layers[layer].samples.rows = 0;
       engine->pictures.layers[layer].samples.data =

@@ -151,9 +151,9 @@ TEST_CASE("image streams: rings hold pairs of rows, however far away is read") {
   sf_config config = test::ImageConfig(field, 2);
   for (float most = 3; most < 12; most += 0.5f) {
     config.disparity_max = most;
-    const int reach = test::StreamedRows(config);
-    CHECK(reach % 2 == 0);
-    CHECK(reach >= test::SideRows(config));
+    const starfocus::Borders borders = test::BordersOf(config);
+    CHECK(borders.streamed % 2 == 0);
+    CHECK(borders.streamed >= borders.views);
   }
 }
 

@@ -184,11 +184,11 @@ TEST_CASE("gather: the rows that kernels read of a layer are kept") {
   for (int blur = 1; blur <= SF_MAX_BLUR * 4; ++blur) {
     const double max_blur = blur / 4.0;
     CAPTURE(max_blur);
-    const starfocus::Reach reach = test::BordersOf(max_blur);
+    const starfocus::Borders borders = test::BordersOf(max_blur);
     for (int layer = 1; layer < SF_LAYERS; ++layer) {
       const double gathered = starfocus::LargestGather(max_blur / (1 << layer));
       const int32_t read = kernels[size_t(starfocus::BlurStepCount(gathered) - 1)].size;
-      CHECK(starfocus::LayerMargin(layer) + read <= reach.layer_rows[layer]);
+      CHECK(starfocus::LayerMargin(layer) + read <= borders.level[layer]);
     }
   }
 }

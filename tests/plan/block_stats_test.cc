@@ -440,15 +440,15 @@ TEST_CASE("cells: a silhouette counts for the cell behind it too") {
 TEST_CASE("cells: the engine's largest border and sight cover what the analysis asks for") {
   test::Random random(12);
   for (const double r : {0.1, 1.0, 4.9, 13.3, 32.0, 60.0}) {
-    const starfocus::Reach reach = test::BordersOf(r);
+    const starfocus::Borders borders = test::BordersOf(r);
     Map map = EmptyMap(280, 280, 0, 1);
     for (int16_t& d : map.disparity) d = Fixed(random.Real(-r, r));
-    const Cells cells(map, 0, 280, reach.cells);
-    const Cells wide(map, 0, 280, reach.cells + 3);
+    const Cells cells(map, 0, 280, borders.cells);
+    const Cells wide(map, 0, 280, borders.cells + 3);
     for (int column = 14; column < 20; ++column) {
-      const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, column, 16, reach.cells);
+      const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, column, 16, borders.cells);
       const BlockStats wider =
-          test::MeasureBlock(wide.grid, map.scale, column, 16, reach.cells + 3);
+          test::MeasureBlock(wide.grid, map.scale, column, 16, borders.cells + 3);
       CAPTURE(r);
       CHECK(stats.r_max == wider.r_max);
       for (int layer = 0; layer < 3; ++layer) {
@@ -462,7 +462,7 @@ TEST_CASE("cells: the engine's largest border and sight cover what the analysis 
       const Border& border = stats.border[0];
       // One pixel more is rendered for the neighbour of a subaperture.
       for (const int side : {border.left, border.right, border.top, border.bottom}) {
-        CHECK(side + 1 <= reach.border);
+        CHECK(side + 1 <= borders.level[0]);
       }
     }
   }

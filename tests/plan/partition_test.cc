@@ -245,24 +245,23 @@ TEST_CASE("partition: blocks read as many rows around a stripe as its reach says
     plan.rules.scale = {0, int64_t{1} << starfocus::kStepBits};
     std::fill(plan.disparity.begin(), plan.disparity.end(), int16_t(64 * r));
     plan.grid = test::MeasureCells(plan.disparity, 192, 192, plan.rules.scale, &plan.cells);
-    const starfocus::Reach reach = test::BordersOf(r);
-    plan.around = reach.cells;
+    const starfocus::Borders borders = test::BordersOf(r);
+    plan.around = borders.cells;
     plan.Use(starfocus::kLineScanRenderer);
     int most[3] = {};
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
       plan.rules.max_layer = max_layer;
       AddRowsBeyond(plan, 64, plan.Partition(64, 64), &most);
     }
-    const int rows[3] = {reach.border, reach.layer_rows[1], reach.layer_rows[2]};
     for (int layer = 0; layer < 3; ++layer) {
+      const int rows = borders.level[layer];
       CAPTURE(r);
       CAPTURE(layer);
-      CHECK(most[layer] <= rows[layer]);
-      slack[layer] = std::min(slack[layer], rows[layer] - most[layer]);
+      CHECK(most[layer] <= rows);
+      slack[layer] = std::min(slack[layer], rows - most[layer]);
     }
   }
-  CHECK(slack[1] == 0);
-  CHECK(slack[2] == 0);
+  for (const int rows : slack) CHECK(rows == 0);
 }
 
 TEST_CASE("partition: nor do blocks of any map") {
@@ -270,14 +269,12 @@ TEST_CASE("partition: nor do blocks of any map") {
   for (int round = 0; round < 60; ++round) {
     const double limit = random.Real(0.5, 30);
     Plan plan(150, 200, 64, limit, &random);
-    const starfocus::Reach reach = test::BordersOf(2 * limit);
+    const starfocus::Borders borders = test::BordersOf(2 * limit);
     for (const int y : {0, 64, 128, 192}) {
       int most[3] = {};
       AddRowsBeyond(plan, y, plan.Partition(64, y), &most);
       CAPTURE(round);
-      CHECK(most[0] <= reach.border);
-      CHECK(most[1] <= reach.layer_rows[1]);
-      CHECK(most[2] <= reach.layer_rows[2]);
+      for (int layer = 0; layer < 3; ++layer) CHECK(most[layer] <= borders.level[layer]);
     }
   }
 }

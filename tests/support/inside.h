@@ -25,13 +25,17 @@ inline void UseKernels(const starfocus::simd::Kernels* kernels, sf_engine* engin
   StateOf(engine).kernels = kernels;
 }
 
-// The borders of a stripe whose blur radii are at most `max_blur` pixels.
-inline starfocus::Reach BordersOf(double max_blur) { return starfocus::GetReach(max_blur); }
-
-// Rows that a stream keeps on either side of a stripe, and those that any view is read in.
-inline int32_t StreamedRows(const sf_config& config) { return starfocus::StreamReach(config); }
-inline int32_t SideRows(const sf_config& config) {
-  return starfocus::SideReach(config, config.max_blur);
+// The borders of a configuration for blur radii up to `max_blur` pixels, or the configuration's.
+inline starfocus::Borders BordersOf(const sf_config& config, double max_blur) {
+  return starfocus::AddBorders(config, max_blur, true);
+}
+inline starfocus::Borders BordersOf(const sf_config& config) {
+  return starfocus::LargestBorders(config);
+}
+inline starfocus::Borders BordersOf(double max_blur) {
+  sf_config config;
+  sf_config_init(&config);
+  return BordersOf(config, max_blur);
 }
 
 // The plan of the stripe that was refocused last.

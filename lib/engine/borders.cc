@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/engine/borders.h"
+
+#include "lib/base/fixed.h"
+#include "lib/base/rules.h"
+#include "lib/filter/deblock.h"
+#include "lib/filter/layers.h"
+#include "lib/input/boundary_pixel.h"
+#include "lib/input/excess.h"
+#include "lib/input/picture_edge.h"
+#include "lib/plan/block_stats.h"
+
+namespace starfocus {
+namespace {
+
+int32_t CeilPixels(double value) {
+  const auto whole = static_cast<int32_t>(value);
+  return value > whole ? whole + 1 : whole;
+}
+
+int32_t ToWholeCells(int32_t pixels) { return (pixels + kCellSize - 1) / kCellSize * kCellSize; }
+
+// The largest disparity, rounded up: how far side views show a point from its place.
+int32_t LargestMove(const sf_config& config) {
+  const double nearer = config.disparity_max, farther = -config.disparity_min;
+  return CeilPixels(nearer > farther ? nearer : farther);
+}
+
+// Blocks are rendered from whole cells of which some pixel reaches them, and upsampling's border;
+// or gathered.
+int32_t BorderOfLevel(int32_t blur, int layer) {
+  const int32_t reach = ReachOf(blur << kDisparityBits);
+  const int32_t rendered = (ToWholeCells(reach + kLayerMargin[layer]) >> layer) + kRenderBorder;
+  const int32_t gathered = Min((blur + (1 << layer) - 1) >> layer, kMaxGather);
+  return Max(rendered, LayerMargin(layer) + gathered);
+}
+
+int32_t DownToPicture(int32_t border, int layer) {
+  for (; layer > 0; --layer) border = 2 * border + kDownBorder;
+  return border;
+}
+
+}  // namespace
+
+Borders AddBorders(const sf_config& config, double max_blur, bool joins) {
+  const int32_t blur = CeilPixels(max_blur), reach = ReachOf(blur << kDisparityBits);
+  const bool one_view = config.views == 1;
+  Borders borders;
+  borders.joined = joins ? kDeblockRows : 0;
+  borders.whole_block = reach + kRenderBorder;
+  borders.cells = ToWholeCells(reach + kLayerMargin[2]) / kCellSize;
+  borders.centre = borders.cells * kCellSize + kCellBorder;
+  if (!one_view) borders.centre = Max(borders.centre, kLookBack - 1);
+  for (int layer = 0; layer <= config.max_layer; ++layer) {
+    int32_t& level = borders.level[layer] = BorderOfLevel(blur, layer);
+    borders.centre = Max(borders.centre, DownToPicture(level, layer));
+    const int32_t moved = (level << layer) + LargestMove(config) + CapturedBorder(layer);
+    if (!one_view) borders.views = Max(borders.views, moved);
+  }
+  borders.centre = Max(borders.centre, borders.level[0] + kMixedPixelBorder);
+  borders.views = Max(borders.views, borders.centre);
+  if (config.highlights > 1) {
+    // It decides how blocks are split, and so the bytes of pictures: as far as blur and disparity
+    // bring highlights, and somewhat farther.
+    borders.highlights = (borders.cells + 5) * kCellSize + blur + LargestMove(config);
+    borders.views = Max(borders.views, borders.highlights + LampReach(LargestLamp(config.width)));
+  }
+  borders.streamed = borders.views + (config.images != 0 ? borders.views % 2 : 0);
+  return borders;
+}
+
+}  // namespace starfocus
