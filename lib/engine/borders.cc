@@ -48,8 +48,9 @@ Borders AddBorders(const sf_config& config, double max_blur, bool joins) {
   Borders borders;
   borders.joined = joins ? kDeblockRows : 0;
   borders.whole_block = reach + kRenderBorder;
-  borders.cells = ToWholeCells(reach + kLayerMargin[2]) / kCellSize;
-  borders.centre = borders.cells * kCellSize + kCellBorder;
+  borders.cells = ToWholeCells(reach + kLayerMargin[config.max_layer]) / kCellSize;
+  // Depth edges of a cell count as far as blur reaches, the rest of it also for upsampling.
+  borders.centre = Max(borders.cells * kCellSize, ToWholeCells(reach) + kCellBorder);
   if (!one_view) borders.centre = Max(borders.centre, kLookBack - 1);
   for (int layer = 0; layer <= config.max_layer; ++layer) {
     int32_t& level = borders.level[layer] = BorderOfLevel(blur, layer);
@@ -62,7 +63,8 @@ Borders AddBorders(const sf_config& config, double max_blur, bool joins) {
   if (config.highlights > 1) {
     // It decides how blocks are split, and so the bytes of pictures: as far as blur and disparity
     // bring highlights, and somewhat farther.
-    borders.highlights = (borders.cells + 5) * kCellSize + blur + LargestMove(config);
+    borders.highlights =
+        ToWholeCells(reach + kLayerMargin[2]) + 5 * kCellSize + blur + LargestMove(config);
     borders.views = Max(borders.views, borders.highlights + LampReach(LargestLamp(config.width)));
   }
   borders.streamed = borders.views + (config.images != 0 ? borders.views % 2 : 0);
