@@ -437,8 +437,9 @@ TEST_CASE("cells: a silhouette counts for the cell behind it too") {
   }
 }
 
-TEST_CASE("cells: the engine's largest border and sight cover what the analysis asks for") {
+TEST_CASE("cells: the engine's borders cover what the analysis asks for, and no cell more") {
   test::Random random(12);
+  int short_sighted = 0;  // blocks that a cell less is not enough for
   for (const double r : {0.1, 1.0, 4.9, 13.3, 32.0, 60.0}) {
     const starfocus::Borders borders = test::BordersOf(r);
     Map map = EmptyMap(280, 280, 0, 1);
@@ -459,6 +460,9 @@ TEST_CASE("cells: the engine's largest border and sight cover what the analysis 
         CHECK(border.top == same.top);
         CHECK(border.bottom == same.bottom);
       }
+      const BlockStats shorter =
+          test::MeasureBlock(cells.grid, map.scale, column, 16, borders.cells - 1);
+      short_sighted += shorter.border[2].left != stats.border[2].left;
       const Border& border = stats.border[0];
       // One pixel more is rendered for the neighbour of a subaperture.
       for (const int side : {border.left, border.right, border.top, border.bottom}) {
@@ -466,6 +470,7 @@ TEST_CASE("cells: the engine's largest border and sight cover what the analysis 
       }
     }
   }
+  CHECK(short_sighted > 0);
 }
 
 // Last: tells what the first cases measured.

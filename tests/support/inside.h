@@ -25,6 +25,8 @@ inline void UseKernels(const starfocus::simd::Kernels* kernels, sf_engine* engin
   StateOf(engine).kernels = kernels;
 }
 
+using starfocus::Borders;
+
 // The borders of a configuration for blur radii up to `max_blur` pixels, or the configuration's.
 inline starfocus::Borders BordersOf(const sf_config& config, double max_blur) {
   return starfocus::AddBorders(config, max_blur, true);

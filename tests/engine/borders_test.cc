@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+// Declared borders: what lies beyond them is not read, and what lies within them is. Whatever may
+// not count is poisoned, and the bytes of a block must stay; with a border of one pixel less some
+// block must change.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lib/filter/layers.h"
+#include "lib/input/window.h"
+#include "starfocus/starfocus.h"
+#include "tests/support/inside.h"
+#include "tests/support/layered_scene.h"
+#include "tests/support/rounds.h"
+#include "tests/support/test_scene.h"
+
+namespace {
+
+using starfocus::Rect;
+using test::Borders;
+
+constexpr int kAll = 10000;  // a border that leaves everything as it is
+
+// How far around a rectangle a light field stays as it is.
+struct Kept {
+  int centre = kAll, map = kAll, sides = kAll;
+};
+
+bool Beyond(const Rect& rect, int border, int x, int y) {
+  return x < rect.x - border || y < rect.y - border || x >= rect.x + rect.width + border ||
+         y >= rect.y + rect.height + border;
+}
+
+// Disparities as far apart as may be, or any.
+float AnyDisparity(const test::Scene& scene, test::Random* random) {
+  const int kind = random->Int(0, 2);
+  if (kind == 0) return float(random->Real(scene.disparity_min, scene.disparity_max));
+  return kind == 1 ? scene.disparity_min : scene.disparity_max;
+}
+
+test::Scene Poisoned(const test::Scene& scene, const Rect& rect, const Kept& kept,
+                     test::Random* random) {
+  test::Scene poisoned = scene;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      if (Beyond(rect, kept.map, x, y)) poisoned.Disparity(x, y) = AnyDisparity(scene, random);
+      for (int view = 0; view < scene.views(); ++view) {
+        if (!Beyond(rect, view == 0 ? kept.centre : kept.sides, x, y)) continue;
+        for (int c = 0; c < 3; ++c) poisoned.Pixel(view, x, y)[c] = random->Byte();
+      }
+    }
+  }
+  return poisoned;
+}
+
+// Noise, on rectangles of few disparities or on the areas of LayeredScene. Where `bright`, all of
+// it is clipped.
+test::Scene AnyScene(int side, int views, float limit, bool bright, test::Random* random) {
+  test::Scene scene = test::LayeredScene(side, side, views, limit, random->Next());
+  if (random->Int(0, 3) == 0 && !bright) return scene;
+  for (auto& picture : scene.pictures) {
+    for (size_t n = 0; n < picture.size(); ++n) {
+      picture[n] = bright && n % 3 != 0 ? uint8_t(random->Int(251, 255)) : random->Byte();
+    }
+  }
+  const int pieces = random->Int(0, 30);
+  for (int piece = 0; piece < pieces; ++piece) {
+    const float d = AnyDisparity(scene, random);
+    const int x0 = random->Int(0, side - 1), x1 = std::min(side, x0 + random->Int(1, 60));
+    const int y0 = random->Int(0, side - 1), y1 = std::min(side, y0 + random->Int(1, 60));
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) scene.Disparity(x, y) = d;
+    }
+  }
+  return scene;
+}
+
+// A way to refocus a superblock.
+struct Way {
+  int views = 5, mode = SF_MODE_BLOCK, rule = SF_RULE_SUBAPERTURE, max_layer = 2, gather = 1;
+  float highlights = 1, limit = 4;
+  double focus = 0, n_scale = 1, aperture = 1;
+  bool bright = false;
+
+  int side = 160;
+
+  int Side() const { return highlights > 1 ? 288 : side; }
+  sf_config Config(const test::Scene& scene) const {
+    sf_config config = test::ConfigFor(scene, aperture * (limit + std::abs(focus)));
+    config.largest_block = kSuperblock;
+    config.max_layer = int16_t(max_layer);
+    config.gather = int16_t(gather);
+    config.highlights = highlights;
+    config.n_scale = n_scale;
+    config.deblocking = 0;  // joins no other superblock to it
+    return config;
+  }
+  static constexpr int kSuperblock = 32;
+};
+
+// One superblock of a light field, in the middle or at edges of the picture, refocused alone.
+class Superblock {
+ public:
+  Superblock(const Way& way, test::Random* random)
+      : way_(way),
+        scene_(AnyScene(way.Side(), way.views, way.limit, way.bright, random)),
+        engine_(way.Config(scene_)) {
+    REQUIRE(engine_.status() == SF_OK);
+    const int middle = way.Side() / 2 / Way::kSuperblock * Way::kSuperblock;
+    const int last = (way.Side() - 1) / Way::kSuperblock * Way::kSuperblock;
+    const int places[] = {0, middle, last};
+    const int x = places[random->Int(0, 2)], y = places[random->Int(0, 2)];
+    rect_ = {x, y, std::min(Way::kSuperblock, way.Side() - x),
+             std::min(Way::kSuperblock, way.Side() - y)};
+    bytes_ = Refocus(scene_, &report_);
+  }
+
+  Borders Limits() const { return test::BordersOf(way_.Config(scene_)); }
+  const sf_report& report() const { return report_; }
+
+  bool Changes(const Kept& kept, test::Random* random) {
+    return Refocus(Poisoned(scene_, rect_, kept, random), nullptr) != bytes_;
+  }
+
+ private:
+  std::vector<uint8_t> Refocus(const test::Scene& scene, sf_report* report) {
+    sf_params params = test::Params(way_.focus, way_.aperture, sf_mode(way_.mode));
+    params.rule = way_.rule;
+    params.region = {rect_.x, rect_.y, rect_.width, rect_.height};
+    test::Output out(rect_.width, rect_.height);
+    REQUIRE(test::Refocus(&engine_, params, scene, &out, nullptr, nullptr, report) == SF_OK);
+    return out.bytes;
+  }
+
+  const Way way_;
+  const test::Scene scene_;
+  test::Engine engine_;
+  Rect rect_ = {};
+  sf_report report_ = {};
+  std::vector<uint8_t> bytes_;
+};
+
+Way AnyWay(test::Random* random) {
+  constexpr int kViews[] = {1, 5, 17};
+  constexpr int kModes[] = {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLUR, SF_MODE_BLOCK};
+  Way way;
+  way.views = kViews[random->Int(0, 2)];
+  way.mode = kModes[std::min(3, random->Int(0, 8))];
+  way.rule = random->Int(0, 1) == 0 ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
+  way.max_layer = random->Int(0, 2);
+  way.gather = random->Int(0, 1);
+  way.highlights = random->Int(0, 5) == 0 ? 8.0F : 1.0F;
+  way.bright = way.highlights > 1 && random->Int(0, 1) == 0;
+  way.limit = float(random->Int(1, way.highlights > 1 ? 5 : 9));
+  way.focus = random->Int(-3, 3);
+  way.n_scale = random->Int(0, 1) == 0 ? 0.5 : 1;
+  return way;
+}
+
+TEST_CASE("borders: nothing beyond those of a superblock is read") {
+  test::Random random(1);
+  uint64_t pixels[SF_LAYERS] = {}, gathered = 0;
+  for (int round = 0; round < test::Rounds(400); ++round) {
+    const Way way = AnyWay(&random);
+    Superblock superblock(way, &random);
+    const Borders borders = superblock.Limits();
+    for (int level = 0; level < SF_LAYERS; ++level) {
+      pixels[level] += superblock.report().layers[level].pixels;
+    }
+    gathered += superblock.report().gathered_pixels;
+    CAPTURE(round);
+    CAPTURE(way.mode);
+    CAPTURE(way.rule);
+    CAPTURE(way.views);
+    CAPTURE(way.max_layer);
+    CAPTURE(way.limit);
+    const int centre = way.highlights > 1 ? borders.views : borders.centre;
+    const bool changes = superblock.Changes({centre, borders.centre, borders.views}, &random);
+    CHECK(!changes);
+  }
+  for (const uint64_t of_level : pixels) CHECK(of_level > 0);
+  CHECK(gathered > 0);
+}
+
+// A way by which a sum of borders is what it is.
+struct Sum {
+  const char* name;
+  int views, rule, max_layer;
+  double blur, aperture, part;  // part: of the range of disparities that blur comes from
+  int Borders::*border;
+  int Kept::*kept;
+  int unused;  // pixels more than any picture was seen to depend on
+  float highlights = 1;
+  int side = 160;
+
+  Way Made() const {
+    Way way;
+    way.views = views;
+    way.rule = rule;
+    way.max_layer = max_layer;
+    way.gather = highlights > 1 ? 1 : 0;
+    way.highlights = highlights;
+    way.bright = highlights > 1;
+    way.aperture = aperture;
+    way.limit = float(blur / aperture * part);
+    way.focus = blur / aperture - double(way.limit);
+    way.side = side;
+    return way;
+  }
+};
+
+// Why pixels are unused. Of levels: blocks begin and end with whole cells, which decides their
+// bytes, and what the outermost taps of two filters, one behind the other, leave of a pixel is
+// rounded away. Of side views: hidden pixels at the rim of a block's border hardly show, those of
+// levels less, and disparities there are seldom the largest that the configuration has room for.
+const Sum kSums[] = {
+    {"boundary pixels", 1, SF_RULE_SUBAPERTURE, 0, 7, 1, 1, &Borders::centre, &Kept::map, 0},
+    {"edges", 5, SF_RULE_SUBAPERTURE, 0, 1, 1.0 / 24, 1, &Borders::centre, &Kept::map, 0, 1, 161},
+    {"level 1", 1, SF_RULE_SUBAPERTURE, 1, 11, 1, 1, &Borders::centre, &Kept::centre, 0},
+    {"level 2", 1, SF_RULE_PAPER, 2, 11, 1, 0.25, &Borders::centre, &Kept::centre, 10},
+    {"views", 5, SF_RULE_SUBAPERTURE, 0, 7, 7.0 / 24, 1, &Borders::views, &Kept::sides, 4},
+    {"views, level 1", 5, SF_RULE_SUBAPERTURE, 1, 11, 0.5, 0.75, &Borders::views, &Kept::sides, 8},
+    {"views, level 2", 5, SF_RULE_SUBAPERTURE, 2, 11, 0.25, 0.5, &Borders::views, &Kept::sides, 20},
+    {"highlights", 1, SF_RULE_SUBAPERTURE, 2, 4, 1, 1, &Borders::views, &Kept::centre, 0, 8},
+    {"highlights of views", 5, SF_RULE_PAPER, 2, 4, 1, 1, &Borders::views, &Kept::sides, 0, 8},
+};
+
+TEST_CASE("borders: with one pixel less than they add up to pictures change") {
+  for (const Sum& sum : kSums) {
+    test::Random random(5);
+    bool beyond = false, within = false;
+    for (int round = 0; round < 300 && !within; ++round) {
+      Superblock superblock(sum.Made(), &random);
+      const int border = superblock.Limits().*sum.border;
+      Kept kept;
+      kept.*sum.kept = border;
+      beyond = beyond || superblock.Changes(kept, &random);
+      kept.*sum.kept = border - sum.unused - 1;
+      within = superblock.Changes(kept, &random);
+    }
+    const std::string name = sum.name;
+    CAPTURE(name);
+    CHECK(!beyond);
+    CHECK(within);
+  }
+}
+
+// Whether a step's output at a place depends on samples of its input, but not on those `less` than
+// its border away.
+struct Dependence {
+  bool beyond = false, within = false;
+
+  // run(border) makes the step's output with all poisoned that lies farther away than the border.
+  template <class Run>
+  void Add(int border, const Run& run) {
+    const auto all = run(kAll);
+    beyond = beyond || run(border) != all;
+    within = within || run(border - 1) != all;
+  }
+  void Check() const {
+    CHECK(!beyond);
+    CHECK(within);
+  }
+};
+
+// A picture of noise around (x, y), and other noise farther away than the border.
+std::vector<uint8_t> NoiseAround(int side, const Rect& rect, int border, uint64_t seed) {
+  test::Random inside(seed), outside(border == kAll ? seed : seed + 1);
+  std::vector<uint8_t> picture(3 * size_t(side) * size_t(side));
+  size_t n = 0;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const uint8_t kept = inside.Byte(), poison = outside.Byte();
+        picture[n++] = Beyond(rect, border, x, y) ? poison : kept;
+      }
+    }
+  }
+  return picture;
+}
+
+TEST_CASE("borders: the filter of levels reads what it declares, and no less") {
+  constexpr int kSide = 40, kRows = 22, kAt = 9;
+  Dependence dependence;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    dependence.Add(starfocus::kDownBorder, [&](int border) {
+      const Rect pair = {2 * kAt, 2 * kAt, 2, 2};
+      const std::vector<uint8_t> picture = NoiseAround(kSide, pair, border, seed);
+      starfocus::Window window;
+      window.width = window.height = window.picture_width = window.picture_height = kSide;
+      window.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
+      window.centre = {picture.data(), 3 * size_t(kSide), 0, 0};
+      std::vector<int16_t> samples(3 * kRows * kRows + 64), even(3 * kSide), odd(even),
+          half(3 * kSide * size_t(starfocus::TapsOfLayer(kRows)) + 64);
+      starfocus::LayerPlane plane;
+      plane.width = plane.height = kRows - 1;
+      plane.rows = {kAt, kAt + 1};
+      plane.samples = {samples.data(), 3 * kRows, 0, 0};
+      DownsamplePicture(starfocus::simd::BestKernels(), window, 1, 0, plane.width,
+                        {even.data(), odd.data(), half.data(), nullptr}, &plane);
+      const int16_t* const sample = plane.samples.Row(kAt) + 3 * kAt;
+      return std::vector<int16_t>(sample, sample + 3);
+    });
+  }
+  dependence.Check();
+}
+
+TEST_CASE("borders: captured views are read as far around a place as declared, and no less") {
+  constexpr int kSide = 40;
+  for (int layer = 0; layer < SF_LAYERS; ++layer) {
+    CAPTURE(layer);
+    Dependence dependence;
+    for (uint64_t seed = 1; seed <= 20; ++seed) {
+      dependence.Add(starfocus::CapturedBorder(layer), [&](int border) {
+        const Rect place = {16, 16, 1, 1};
+        const std::vector<uint8_t> picture = NoiseAround(kSide, place, border, seed);
+        starfocus::PlaneViews planes;
+        planes.kernels = &starfocus::simd::BestKernels();
+        planes.transfer = &starfocus::TransferOf(SF_TRANSFER_NONE);
+        planes.view[1] = {picture.data(), 3 * size_t(kSide), 0, 0};
+        starfocus::Window window;
+        window.layer = layer;
+        window.views = 2;
+        window.picture_width = window.picture_height = kSide;
+        window.transfer = planes.transfer;
+        window.reader = starfocus::ReaderOf(planes);
+        const int at = (16 << starfocus::kShiftBits >> layer) + (layer == 0 ? 77 : 0);
+        std::vector<int16_t> rgb(3);
+        ReadCaptured(window, 1, {at, at, 1, 0}, 1, rgb.data());
+        return rgb;
+      });
+    }
+    dependence.Check();
+  }
+}
+
+}  // namespace
