@@ -25,16 +25,11 @@ constexpr int32_t SpreadReach(int32_t subaperture) {
   return subaperture <= kBoxSubaperture ? 0 : subaperture <= 5 * kShiftOne ? 2 : simd::kMaxSpread;
 }
 
-// Pixels beyond its blur radius (rounded up) that a slice is made of: filters, boxes,
-// interpolation.
-constexpr int32_t SliceMargin(int32_t subaperture) {
-  return subaperture > kShiftOne && subaperture <= kBoxSubaperture ? 2
-                                                                   : SpreadReach(subaperture) + 1;
-}
-
-// Pixels beyond the rectangle that a slice blurred by `rim` (both kShiftBits) is made of.
+// Pixels beyond the rectangle that a slice blurred by `rim` (both kShiftBits) is made of: beyond
+// the rim, rounded up, those of filters, boxes and interpolation.
 constexpr int32_t SliceReach(int32_t rim, int32_t subaperture) {
-  return ((rim + kShiftOne - 1) >> kShiftBits) + SliceMargin(subaperture);
+  const bool is_box = subaperture > kShiftOne && subaperture <= kBoxSubaperture;
+  return ((rim + kShiftOne - 1) >> kShiftBits) + (is_box ? 2 : SpreadReach(subaperture) + 1);
 }
 
 // Slices of the widest subapertures reach no farther than those of this one.
