@@ -231,8 +231,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const BlockCells* const gathered = block.gathers ? &cells : nullptr;
   const RenderJob job = {
-      &in.windows[block.layer], &grid,    in.kernels, block.rendered,           block.border,
-      &worker->patience,        gathered, lens.r_max, in.config->largest_block, IsBenchmark(lens)};
+      &in.windows[block.layer], &grid,    in.kernels, block.rendered,   block.border,
+      &worker->patience,        gathered, lens.r_max, IsBenchmark(lens)};
   // The views' part of a layer is brought to the picture together with what is gathered.
   const bool in_part = block.layer > 0 && block.gathers;
   if (in.config->skips == 0 || block.has_highlights || in_part) {

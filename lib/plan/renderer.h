@@ -33,7 +33,6 @@ struct RenderJob {
   Patience* patience;          // null: the job is never cancelled
   const BlockCells* gathered;  // null: no pixel is left out
   double r_max;                // largest blur radius of the lens, pixels
-  int32_t largest_block;       // side of the largest blocks, pixels
   bool is_benchmark;           // the benchmark mode asks for more detail
 };
 

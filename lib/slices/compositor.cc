@@ -184,11 +184,11 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
 // Finds the slices of a cut, in pixels of the rectangle.
 void FindStack(const RenderJob& job, const Rect& cut, CompositorScratch* scratch,
                SliceStack* stack) {
-  const SliceRule& rule = job.is_benchmark ? kFineSlices : kSlices;
-  const SliceLimits limits = LimitsOfSlices(job.largest_block, job.r_max);
+  SliceRule rule = job.is_benchmark ? kFineSlices : kSlices;
+  rule.area = MostSliceArea(job.r_max);
   const Rect in_surfaces = {stack->inner.x + cut.x, stack->inner.y + cut.y, cut.width, cut.height};
-  const SliceJob slice_job = {job.kernels,   &scratch->surfaces,  job.grid, rule, in_surfaces,
-                              scratch->bins, scratch->least_blur, limits};
+  const SliceJob slice_job = {job.kernels, &scratch->surfaces, job.grid,           rule,
+                              in_surfaces, scratch->bins,      scratch->least_blur};
   stack->count = FindSlices(slice_job, stack->slices, &stack->bands);
   for (int32_t k = 0; k < stack->count; ++k) {
     FindOffsets(*job.grid, stack->slices[k].disparity, static_cast<size_t>(stack->count),

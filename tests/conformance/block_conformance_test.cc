@@ -12,7 +12,6 @@
 #include "tests/conformance/conformance.h"
 #include "tests/conformance/engine_blocks.h"
 #include "tests/conformance/reference.h"
-#include "tests/conformance/reference_stack.h"
 #include "tests/support/rounds.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
@@ -56,13 +55,8 @@ Distance Check(const test::Scene& scene, const sf_params& params, const sf_confi
       RunEngine(scene, params, starfocus::simd::ReferenceKernels(), &engine);
   REQUIRE(result.status == SF_OK);
   Count(result.blocks, covered);
-  const bool subapertures = params.rule == SF_RULE_SUBAPERTURE;
-  const double blur = params.aperture * std::max(config.disparity_max - params.focus,
-                                                 params.focus - config.disparity_min);
-  const starfocus::SliceLimits limits = reference::LimitsOf(config.largest_block, blur);
-  const Distance distance = Compare(
-      result.bytes, reference::RefocusBlocks(scene, params, config,
-                                             subapertures ? &limits : nullptr, result.blocks));
+  const Distance distance =
+      Compare(result.bytes, reference::RefocusBlocks(scene, params, config, result.blocks));
   for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
     const bool same = RunEngine(scene, params, *kernels, &engine).bytes == result.bytes;
     CHECK_MESSAGE(same, kernels->name);

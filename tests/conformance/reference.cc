@@ -312,17 +312,18 @@ void Paste(const Picture& from, int x0, int y0, Picture* to) {
 // Views, and cells that are gathered, of the blocks; with `excess` of those alone that may show
 // highlights, which are at layer 0 and gather nothing.
 void RefocusAll(const LightField& field, const sf_params& params, const sf_config& config,
-                const starfocus::SliceLimits* limits, const std::vector<Block>& blocks, bool excess,
-                Result* result) {
+                const std::vector<Block>& blocks, bool excess, Result* result) {
   const Picture& centre = field.at({0, 0});
   const std::vector<Picture> layers = MakeLayers(centre);
   const bool benchmark = params.mode == SF_MODE_BENCHMARK;
   const double r_max = params.aperture * std::max(config.disparity_max - params.focus,
                                                   params.focus - config.disparity_min);
-  const Slicing slicing = {limits, size_t(benchmark ? 32 : 16), benchmark ? 0.125 : 0.375};
+  const int widest = std::max(int(r_max), 32) + 3;  // reach of the most blurred slice
+  const Slicing slicing = {size_t(benchmark ? 32 : 16), 5 * (widest + 16) * (widest + 16),
+                           benchmark ? 0.125 : 0.375};
   for (const Block& block : blocks) {
     if (excess && (block.layer > 0 || !block.gathered.empty())) continue;
-    const bool by_subaperture = limits != nullptr && block.n > 0;
+    const bool by_subaperture = params.rule == SF_RULE_SUBAPERTURE && block.n > 0;
     const Opening here = Opening(config).At(block.x, block.y, block.width, block.height,
                                             centre.width, centre.height);
     const Lens lens = MakeLens(params, here, block.n, block.layer, by_subaperture);
@@ -351,14 +352,13 @@ void RefocusAll(const LightField& field, const sf_params& params, const sf_confi
 }  // namespace
 
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
-                                  const sf_config& config, const starfocus::SliceLimits* limits,
-                                  const std::vector<Block>& blocks) {
+                                  const sf_config& config, const std::vector<Block>& blocks) {
   Result result;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   Result excess = result;
-  RefocusAll(Load(scene, config.transfer), params, config, limits, blocks, false, &result);
+  RefocusAll(Load(scene, config.transfer), params, config, blocks, false, &result);
   if (config.highlights > 1 && HasHighlights(scene)) {
-    RefocusAll(LoadExcess(scene, config.transfer), params, config, limits, blocks, true, &excess);
+    RefocusAll(LoadExcess(scene, config.transfer), params, config, blocks, true, &excess);
   }
   Encode(config, excess.rgb, &result);
   return result.rgb;

@@ -46,12 +46,9 @@ struct Block {
 };
 
 // Block mode, or the benchmark's blocks, with a given partition of the picture and without
-// deblocking; unrounded,
-// 3 * width * height. `limits`: of slices, by the rule of subapertures; null: by the
-// paper's rule.
+// deblocking; unrounded, 3 * width * height.
 std::vector<double> RefocusBlocks(const test::Scene& scene, const sf_params& params,
-                                  const sf_config& config, const starfocus::SliceLimits* limits,
-                                  const std::vector<Block>& blocks);
+                                  const sf_config& config, const std::vector<Block>& blocks);
 
 }  // namespace reference
 

@@ -10,26 +10,6 @@
 namespace reference {
 namespace {
 
-// --- What slices take in the engine's memory. ---
-
-size_t RoundedUp(size_t value, size_t unit) { return (value + unit - 1) / unit * unit; }
-
-// Rows of four planes of samples, 16 bits each, with 16 samples before and behind all.
-size_t SamplesOf(size_t width, size_t height, size_t reach) {
-  const size_t plane = RoundedUp(RoundedUp(width, 16) + 2 * reach, 16) + 16;
-  return 4 * (height + 2 * reach) * plane + 32;
-}
-
-// In a tile six rows more are read.
-size_t TileRowsOf(size_t height, size_t reach) { return height + 2 * reach + 6; }
-
-// Of 16 by 8 pixels: samples, 16 bytes a row that tell what is covered, the rows a multiple of four
-// of them; and in a tile four planes of 16 columns and a mark.
-size_t LeastBytesOf(size_t reach) {
-  return 2 * SamplesOf(16, 8, reach) + 16 * RoundedUp(8 + 2 * reach, 4) +
-         TileRowsOf(8, reach) * (4 * 16 * 2 + 1);
-}
-
 // --- Slices: ranges of disparity. ---
 
 struct Range {
@@ -108,18 +88,14 @@ class RangeFinder {
   }
 
   bool Fit(const std::vector<Range>& ranges) const {
-    starfocus::SliceLimits all = {};
+    int area = 0;
     for (const Range& range : ranges) {
       const int rim = std::abs(lens_.Shift(lens_.n, range.Disparity()));
       const int subaperture = std::abs(lens_.Shift(1, range.Disparity()));
-      const auto reach = size_t(starfocus::SliceReach(rim, subaperture)),
-                 height = size_t(rect_.height);
-      all.samples += SamplesOf(size_t(rect_.width), height, reach);
-      all.rows += TileRowsOf(height, reach);
-      all.bytes += LeastBytesOf(reach);
+      const int reach = starfocus::SliceReach(rim, subaperture);
+      area += (reach + 16) * (reach + 16);
     }
-    const starfocus::SliceLimits& limits = *slicing_.limits;
-    return all.samples <= limits.samples && all.rows <= limits.rows && all.bytes <= limits.bytes;
+    return area <= slicing_.area;
   }
 
   const Lens& lens_;
@@ -355,13 +331,6 @@ void CompositeCut(const SurfaceMap& map, const Picture& extended, const Lens& le
 }
 
 }  // namespace
-
-starfocus::SliceLimits LimitsOf(int side, double blur) {
-  const auto square = size_t(std::min(side, 64)),
-             reach = size_t(std::ceil(std::max(blur, 32.0))) + 4;
-  return {6 * SamplesOf(square, square, reach), 12 * TileRowsOf(square, reach),
-          std::max({size_t{442368}, 119 * square * square, 5 * LeastBytesOf(reach)})};
-}
 
 Picture CompositeRectangle(const LightField& field, const Picture& centre, const Lens& lens,
                            const Rectangle& rectangle, const Slicing& slicing) {

@@ -6,22 +6,17 @@
 
 #include <cstddef>
 
-#include "lib/slices/depth_slices.h"
 #include "tests/conformance/reference_field.h"
 
 namespace reference {
 
-// What slices are cut by: what all together may take and their number, beyond which they get
-// coarser, and the pixels that they may lie apart at the rim where they are sharp.
+// What slices are cut by: their number and area, beyond which they get coarser, and the pixels that
+// they may lie apart at the rim where they are sharp.
 struct Slicing {
-  const starfocus::SliceLimits* limits;
   size_t most;
+  int area;
   double range;
 };
-
-// What the slices of a cut may take of a lens that blurs up to `blur` pixels, with blocks up
-// to `side`: the formula of lib/slices/depth_slices.h.
-starfocus::SliceLimits LimitsOf(int side, double blur);
 
 // As RefocusRectangle.
 Picture CompositeRectangle(const LightField& field, const Picture& centre, const Lens& lens,

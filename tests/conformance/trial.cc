@@ -7,7 +7,6 @@
 #include "simd/kernels.h"
 #include "tests/conformance/engine_blocks.h"
 #include "tests/conformance/reference.h"
-#include "tests/conformance/reference_stack.h"
 #include "tests/support/shapes.h"
 
 namespace conformance {
@@ -172,12 +171,8 @@ Distance Measure(const Trial& trial) {
   const EngineResult result =
       RunEngine(trial.scene, trial.params, starfocus::simd::ReferenceKernels(), &engine);
   REQUIRE(result.status == SF_OK);
-  const starfocus::SliceLimits limits =
-      reference::LimitsOf(trial.config.largest_block, RadiusOf(trial));
-  const bool subapertures = trial.params.rule == SF_RULE_SUBAPERTURE;
   return Compare(result.bytes,
-                 reference::RefocusBlocks(trial.scene, trial.params, trial.config,
-                                          subapertures ? &limits : nullptr, result.blocks));
+                 reference::RefocusBlocks(trial.scene, trial.params, trial.config, result.blocks));
 }
 
 }  // namespace conformance

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "lib/slices/compositor.h"
 #include "tests/support/test_scene.h"
 
 namespace depth_slices_test {
@@ -18,7 +19,12 @@ using starfocus::Slice;
 using starfocus::SliceRule;
 
 constexpr int kSize = 64;
-constexpr starfocus::SliceLimits kAmple = {size_t{1} << 24, 1 << 12, size_t{1} << 24};
+
+// A rule with as much area as all slices need.
+SliceRule Ample(SliceRule rule) {
+  rule.area = INT32_MAX;
+  return rule;
+}
 
 // Maps of one surface, or of one behind another, as FindLayeredDepth leaves them.
 struct Scene {
@@ -46,8 +52,7 @@ struct Scene {
 
   // Of the middle 16 x 16 pixels.
   std::vector<Slice> Cut(double focus, double aperture = 1,
-                         const SliceRule& rule = starfocus::kSlices,
-                         const starfocus::SliceLimits& limits = kAmple) {
+                         const SliceRule& rule = Ample(starfocus::kSlices)) {
     starfocus::Aperture views;
     views.n = views.last = 4;
     const auto grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
@@ -61,8 +66,7 @@ struct Scene {
                                              rule,
                                              {24, 24, 16, 16},
                                              bins.data(),
-                                             least.data(),
-                                             limits},
+                                             least.data()},
                                             slices.data(), &bands);
     REQUIRE(count > 0);
     REQUIRE(count <= rule.most);
@@ -145,29 +149,27 @@ TEST_CASE("slices: three eighths of a pixel at the rim, more of a wide blur, and
   const std::vector<Slice> blurred = scene.Cut(-40);
   for (const Slice& slice : blurred) CHECK(slice.high - slice.low <= 24 * (42 - 4) / 4);
   CHECK(blurred.size() < scene.Cut(0).size());
-  for (const Slice& slice : scene.Cut(0, 1, starfocus::kFineSlices)) {
+  for (const Slice& slice : scene.Cut(0, 1, Ample(starfocus::kFineSlices))) {
     CHECK(slice.high - slice.low < 8);
   }
 }
 
-// The limits decide bytes: they are the same whatever the compiler and the width of pointers are.
-TEST_CASE("slices: what they may take follows from the block and the blur alone") {
-  const struct {
-    int side;
-    double blur;
-    starfocus::SliceLimits limits;
-  } expected[] = {{32, 0.5, {319680, 1320, 442368}},   {32, 32, {319680, 1320, 442368}},
-                  {64, 1, {522432, 1704, 487424}},     {64, 32, {522432, 1704, 487424}},
-                  {64, 32.25, {530112, 1728, 487424}}, {64, 48, {774336, 2088, 730510}},
-                  {64, 128, {2771136, 4008, 3508910}}, {128, 32, {522432, 1704, 487424}},
-                  {256, 128, {2771136, 4008, 3508910}}};
-  for (const auto& one : expected) {
-    const starfocus::SliceLimits limits = starfocus::LimitsOfSlices(one.side, one.blur);
-    CAPTURE(one.side);
-    CAPTURE(one.blur);
-    CHECK(limits.samples == one.limits.samples);
-    CHECK(limits.rows == one.limits.rows);
-    CHECK(limits.bytes == one.limits.bytes);
+TEST_CASE("slices: their area follows from the blur of the lens alone") {
+  CHECK(starfocus::SliceArea(4) == 400);
+  for (const double blur : {0.5, 8.0, 32.9}) {
+    CAPTURE(blur);
+    CHECK(starfocus::MostSliceArea(blur) == 5 * 51 * 51);
+  }
+  CHECK(starfocus::MostSliceArea(33) == 5 * 52 * 52);
+  CHECK(starfocus::MostSliceArea(SF_MAX_BLUR) == 5 * 147 * 147);
+}
+
+TEST_CASE("slices: a slice takes no more memory than its area says") {
+  for (int reach = 0; reach <= starfocus::LargestSliceReach(SF_MAX_BLUR); ++reach) {
+    CAPTURE(reach);
+    CHECK(starfocus::SliceBytes(starfocus::kLeastColumns, starfocus::kLeastRows, size_t(reach)) +
+              starfocus::TileBytes(starfocus::kLeastRows, size_t(reach)) <=
+          starfocus::kAreaBytes * size_t(starfocus::SliceArea(reach)));
   }
 }
 
@@ -177,11 +179,9 @@ TEST_CASE("slices: coarser where there are too many, or too large ones") {
   for (int16_t& disparity : scene.planes[0]) disparity = int16_t(random.Int(-2000, 2000));
   const size_t all = scene.Cut(0).size();
   CHECK(all > 4);
-  const starfocus::SliceLimits tight[] = {{1 << 16, kAmple.rows, kAmple.bytes},
-                                          {kAmple.samples, 1 << 8, kAmple.bytes},
-                                          {kAmple.samples, kAmple.rows, 1 << 17}};
-  for (const starfocus::SliceLimits& limits : tight) {
-    CHECK(scene.Cut(0, 1, starfocus::kSlices, limits).size() < all);
+  for (const SliceRule& tight : {SliceRule{int(all) - 1, starfocus::kSlices.range, INT32_MAX},
+                                 SliceRule{16, starfocus::kSlices.range, 8 * 30 * 30}}) {
+    CHECK(scene.Cut(0, 1, tight).size() < all);
   }
 }
 
