@@ -86,19 +86,26 @@ instructions() {
   done | awk 'NR == 1 { first = $1 } NR == 2 { print $1 - first }'
 }
 
+# count_case NAME:PIXELS:KERNELS: a line "NAME KERNELS PIXELS INSTRUCTIONS" in a file of its own.
+count_case() {
+  local name=${1%%:*} pixels=${1#*:} kernels=${1##*:}
+  pixels=${pixels%:*}
+  printf '%s %s %s %s\n' "$name" "$kernels" "$pixels" "$(instructions aarch64 "$name" "$kernels")" \
+    >"$LOGS/count-$name-$kernels"
+}
+
 # Instructions per pixel with NEON and with the plain reference kernels. Fails when any is more than
 # 3 % above tests/board/instruction_counts.txt, if that is of the same compiler; `record` writes that file
 # and docs/boards.md.
 count() {
-  local baseline=tests/board/instruction_counts.txt now=$LOGS/instruction_counts.txt name pixels kernels
+  local baseline=tests/board/instruction_counts.txt now=$LOGS/instruction_counts.txt cases item
   local compiler recorded
   build_counter
   compiler=$(aarch64-linux-gnu-g++ --version | head -n 1)
-  qemu-aarch64 build/aarch64/tests/instruction_bench list | while read -r name pixels; do
-    for kernels in simd reference; do
-      printf '%s %s %s %s\n' "$name" $kernels "$pixels" "$(instructions aarch64 "$name" $kernels)"
-    done
-  done >"$now"
+  cases=$(qemu-aarch64 build/aarch64/tests/instruction_bench list | sed 's/\(.*\) \(.*\)/\1:\2:simd \1:\2:reference/')
+  rm -f "$LOGS"/count-*
+  side_by_side count_case $cases || fail "counting instructions failed"
+  for item in $cases; do cat "$LOGS/count-${item%%:*}-${item##*:}"; done >"$now"
   if [ "${1:-}" = record ]; then
     { printf 'compiler %s\n' "$compiler" && cat "$now"; } >$baseline
     awk '

@@ -40,19 +40,31 @@ count_case() {
   awk -v n="$1 $3" -v i="$instructions" -v p="$2" 'BEGIN { printf "%s %.1f\n", n, i / p }'
 }
 
-counts=
-for mode in block frame; do
-  line=$(count $mode)
-  [ "${line%% *}" != target ] || skip "kernels run on ${line#* }, the baseline is of $target"
-  counts=$counts$line$'\n'
-done
+# begin COMMAND...: adds a line to the counts, in the background, as many at a time as there are cores.
+lines=$(mktemp -d)
+trap 'rm -rf "$lines"' EXIT
+begun=0 running=0
+begin() {
+  if [ $running -ge "$(nproc)" ]; then
+    wait -n
+    running=$((running - 1))
+  fi
+  begun=$((begun + 1)) running=$((running + 1))
+  "$@" >"$lines/$(printf %03d $begun)" &
+}
 
+for mode in block frame; do begin count $mode; done
+cases=$("$build/tests/instruction_bench" list)
 while read -r name pixels; do
-  for kernels in simd reference; do
-    line=$(count_case "$name" "$pixels" $kernels)
-    counts=$counts$line$'\n'
-  done
-done < <("$build/tests/instruction_bench" list)
+  for kernels in simd reference; do begin count_case "$name" "$pixels" $kernels; done
+done <<<"$cases"
+while [ $running -gt 0 ]; do
+  wait -n
+  running=$((running - 1))
+done
+other=$(sed -n 's/^target //p' "$lines"/* | head -n 1)
+[ -z "$other" ] || skip "kernels run on $other, the baseline is of $target"
+counts=$(cat "$lines"/*)$'\n'
 
 if [ "$2" = record ]; then
   {
