@@ -63,6 +63,8 @@ Rows Filter(const Rows& rows, const Keep& keep) {
   return kept;
 }
 
+double Ms(const Row& row) { return row.ms; }
+
 double Mean(const Rows& rows, const Value& value) {
   double sum = 0;
   int count = 0;

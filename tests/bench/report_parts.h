@@ -28,6 +28,7 @@ std::string GrowthPlots(const Rows& rows);
 std::string LayerPlot(const Rows& rows);
 
 // What they share.
+double Ms(const Row& row);
 std::string Escape(const std::string& text);
 std::string Fixed(double value, int digits);            // a dash for what was not measured
 std::vector<std::string> FieldNames(const Rows& rows);  // in their first order

@@ -86,7 +86,6 @@ Curve MakeCurve(const Rows& rows, const std::string& name, const Value& x, const
 }
 
 double Focus(const Row& row) { return row.focus; }
-double Ms(const Row& row) { return row.ms; }
 
 // The mean of each method over the pictures that have the quality.
 std::string Plane(const Rows& rows, const std::string& field, const char* against,

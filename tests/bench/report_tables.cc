@@ -22,8 +22,7 @@ std::string Table(const Cells& head, const std::string& body) {
   return "<table>" + Line(head, "th") + body + "</table>\n";
 }
 
-double Ms(const Row& row) { return row.ms; }
-double Psnr(const Row& row) { return row.benchmark.psnr; }
+double RowPsnr(const Row& row) { return row.benchmark.psnr; }
 double Seconds(const Rows& rows) { return Mean(rows, Ms) / 1e3; }
 
 std::string Signed(double value) { return (value > 0 ? "+" : "") + Fixed(value, 1); }
@@ -48,10 +47,10 @@ Cells FieldCells(const Rows& rows, const std::string& field, double aperture) {
     return AtQuantiles(rows, field, mode, aperture, views);
   };
   const Rows frame = of("frame", 0), blur = of("blur", 0), block = of("block", 0);
-  const double psnr = Mean(block, Psnr), seconds = Seconds(block);
+  const double psnr = Mean(block, RowPsnr), seconds = Seconds(block);
   Cells cells = {Escape(field) + ", u<sub>t</sub> " + Fixed(aperture, 2),
-                 Fixed(Mean(frame, Psnr), 1), Fixed(Mean(blur, Psnr), 1), Fixed(psnr, 1)};
-  for (const int views : {9, 5}) cells.push_back(Signed(Mean(of("block", views), Psnr) - psnr));
+                 Fixed(Mean(frame, RowPsnr), 1), Fixed(Mean(blur, RowPsnr), 1), Fixed(psnr, 1)};
+  for (const int views : {9, 5}) cells.push_back(Signed(Mean(of("block", views), RowPsnr) - psnr));
   for (const Rows* some : {&frame, &blur, &block}) cells.push_back(Fixed(Seconds(*some), 3));
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
     cells.push_back(Fixed(LayerTime(block, layer), 0) + " %");
@@ -127,7 +126,7 @@ std::string ScaleTable(const Rows& rows) {
         const auto views = [](const Row& row) { return row.rendered_samples / (3 * row.pixels()); };
         body += Line({Escape(field) + ", " + mode, Fixed(scale, 2), Fixed(Mean(some, views), 1),
                       Fixed(Mean(some, Ms), 1), Fixed(whole / Mean(some, Ms), 2),
-                      Fixed(Mean(some, Psnr), 2),
+                      Fixed(Mean(some, RowPsnr), 2),
                       Fixed(Mean(some, [](const Row& row) { return row.benchmark.band; }), 2)});
       }
     }
