@@ -41,4 +41,20 @@ std::string Json::Text(int indent) const {
   return value_->json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+JsonObject ReadJsonObject(const std::vector<uint8_t>& text, const std::string& name) {
+  using nlohmann::ordered_json;
+  JsonObject object;
+  const ordered_json json = ordered_json::parse(text.begin(), text.end(), nullptr, false);
+  object.is_json = !json.is_discarded();
+  const auto found = json.is_object() ? json.find(name) : json.end();
+  object.is_there = found != json.end() && found->is_object();
+  if (!object.is_there) return object;
+  for (const auto& [key, value] : found->items()) {
+    JsonMember member = {key, value.dump(-1, ' ', true), value.is_number_unsigned()};
+    if (member.is_whole) member.whole = value.get<uint64_t>();
+    object.members.push_back(member);
+  }
+  return object;
+}
+
 }  // namespace starfocus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A JSON value to write. Only the source file includes nlohmann-json, which takes seconds to
-// compile.
+// JSON values to write, and objects of numbers to read. Only the source file includes
+// nlohmann-json, which takes seconds to compile.
 #ifndef STARFOCUS_EXAMPLES_CLI_JSON_JSON_H_
 #define STARFOCUS_EXAMPLES_CLI_JSON_JSON_H_
 
@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace starfocus {
 
@@ -45,6 +46,23 @@ class Json {
   struct Value;
   std::unique_ptr<Value> value_;
 };
+
+// A member of an object that was read.
+struct JsonMember {
+  std::string name;
+  std::string text;       // the value in JSON, of ASCII characters
+  bool is_whole = false;  // the value is a whole number, not negative
+  uint64_t whole = 0;
+};
+
+struct JsonObject {
+  bool is_json = false;   // the text is
+  bool is_there = false;  // the object is in it
+  std::vector<JsonMember> members;
+};
+
+// Reads the object that is the member `name` of the object in a JSON text.
+JsonObject ReadJsonObject(const std::vector<uint8_t>& text, const std::string& name);
 
 }  // namespace starfocus
 
