@@ -26,7 +26,7 @@ struct Files {
   std::string centre, map, out;
 };
 
-std::string Run(const Words& words) {
+std::string Execute(const Words& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -152,7 +152,7 @@ struct Job {
     const Words words = known->words(used, largest, pictures, &changed, scale);
     std::string error = WriteImage(files.map, changed);
     const double start = ChildSeconds();
-    if (error.empty()) error = Run(words);
+    if (error.empty()) error = Execute(words);
     *seconds = ChildSeconds() - start;
     return error;
   }

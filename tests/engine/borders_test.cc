@@ -18,6 +18,7 @@
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
+namespace borders_test {
 namespace {
 
 using starfocus::Rect;
@@ -339,3 +340,5 @@ TEST_CASE("borders: captured views are read as far around a place as declared, a
 }
 
 }  // namespace
+
+}  // namespace borders_test
