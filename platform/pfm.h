@@ -4,10 +4,9 @@
 #ifndef STARFOCUS_PLATFORM_PFM_H_
 #define STARFOCUS_PLATFORM_PFM_H_
 
+#include <cstddef>
 #include <string>
 #include <vector>
-
-#include "platform/file.h"
 
 namespace starfocus {
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "platform/file.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::pfm_test {

@@ -5,6 +5,7 @@
 
 #include "lib/engine/stripe.h"
 #include "platform/clock.h"
+#include "platform/file.h"
 
 namespace starfocus {
 namespace {
