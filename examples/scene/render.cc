@@ -8,6 +8,11 @@
 #include "examples/scene/noise.h"
 
 namespace starfocus {
+// A point of the lens, and a turn by the angle of one.
+struct LensPoint {
+  double x, y;
+};
+
 namespace {
 
 constexpr int kTile = 16;
@@ -20,18 +25,16 @@ constexpr double kStepCos = 0.9996988186962042, kStepSin = 0.024541228522912288;
 // Steps of the R2 low-discrepancy sequence.
 constexpr double kR2X = 0.7548776662466927, kR2Y = 0.5698402909980532;
 
-struct Point {
-  double x, y;
-};
-
-Point Turn(Point p, Point by) { return {p.x * by.x - p.y * by.y, p.x * by.y + p.y * by.x}; }
+LensPoint Turn(LensPoint p, LensPoint by) {
+  return {p.x * by.x - p.y * by.y, p.x * by.y + p.y * by.x};
+}
 
 // Points on the unit disc: sunflower directions, radii by the inverse of the distribution of the
 // squared radius, whose density is proportional to 1 / (s + cot^2)^2 with a fall-off (3). As many
 // more as are needed for kLensSamples of them to pass.
-std::vector<Point> LensPoints(const SceneOpening& opening) {
-  std::vector<Point> points;
-  Point direction = {1, 0};
+std::vector<LensPoint> LensPoints(const SceneOpening& opening) {
+  std::vector<LensPoint> points;
+  LensPoint direction = {1, 0};
   const double fall_off = opening.fall_off();
   const int count = static_cast<int>(kLensSamples / opening.LeastShare());
   for (int k = 0; k < count; ++k) {
@@ -48,8 +51,8 @@ std::vector<Point> LensPoints(const SceneOpening& opening) {
   return points;
 }
 
-std::vector<Point> Turns() {
-  std::vector<Point> turns = {{1, 0}};
+std::vector<LensPoint> Turns() {
+  std::vector<LensPoint> turns = {{1, 0}};
   while (turns.size() < 256) turns.push_back(Turn(turns.back(), {kStepCos, kStepSin}));
   return turns;
 }
@@ -65,10 +68,10 @@ void ProductRange(double a, double b, double c, double d, double* low, double* h
 }  // namespace
 
 struct RayTracer::Lens {
-  double u = 0, v = 0;               // centre of the lens
-  double aperture = 0;               // its radius; 0: a pinhole
-  double focus = 0;                  // canvas units
-  std::vector<Point> points, turns;  // of a lens that is no pinhole
+  double u = 0, v = 0;                   // centre of the lens
+  double aperture = 0;                   // its radius; 0: a pinhole
+  double focus = 0;                      // canvas units
+  std::vector<LensPoint> points, turns;  // of a lens that is no pinhole
   const SceneOpening* opening = nullptr;
 };
 
@@ -149,14 +152,14 @@ Color RayTracer::ViewPixel(const Lens& lens, const std::vector<size_t>& candidat
 
 Color RayTracer::LensPixel(const Lens& lens, const std::vector<size_t>& candidates, int x,
                            int y) const {
-  const Point turn = lens.turns[Hash(x, y, 1) % lens.turns.size()];
+  const LensPoint turn = lens.turns[Hash(x, y, 1) % lens.turns.size()];
   double dx = HashUnit(x, y, 2), dy = HashUnit(x, y, 3);
   const double half = 0.5 * std::sqrt(double(width_) * width_ + double(height_) * height_);
   const double from_x = (x - 0.5 * (width_ - 1)) / half, from_y = (y - 0.5 * (height_ - 1)) / half;
   int count = 0;
   Color sum;
-  for (const Point& point : lens.points) {
-    const Point q = Turn(point, turn);
+  for (const LensPoint& point : lens.points) {
+    const LensPoint q = Turn(point, turn);
     if (!lens.opening->Passes(q.x, q.y, from_x, from_y)) continue;
     ++count;
     sum = sum + RayColor(lens, candidates, x + dx - 0.5, y + dy - 0.5, q.x * lens.aperture,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "platform/file.h"
 #include "simd/kernels.h"
 #include "tests/support/inside.h"
 
