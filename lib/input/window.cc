@@ -10,7 +10,7 @@ namespace starfocus {
 namespace {
 
 // Pixels read at once, on the stack.
-constexpr int32_t kMost = 128;
+constexpr int32_t kMost = 72;
 
 // Reads up to kMost pixels of a view's row, which may lie outside the picture.
 void ReadRow(const Window& window, int index, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
