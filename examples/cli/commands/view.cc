@@ -115,8 +115,8 @@ Error WritePage(const ViewOptions& options, const Capture& capture, const sf_dis
 }
 
 // The lenses of the strip, and of the truths that are within the limit of blur.
-Error ChooseLenses(const Capture& capture, const sf_disparity_stats& stats, Aperture* aperture,
-                   Contents* contents) {
+Error ChooseLenses(const Capture& capture, const sf_disparity_stats& stats,
+                   ApertureChoice* aperture, Contents* contents) {
   const std::vector<double> foci = StripFoci(capture.light_field.disparity, kFoci);
   const Error error = FitAperture(FarthestFromFocus(stats, foci), aperture);
   if (!error.empty()) return error;
@@ -137,7 +137,7 @@ Error ChooseLenses(const Capture& capture, const sf_disparity_stats& stats, Aper
 
 // Refuses an aperture that is too wide before the map is brought to the picture's size and cared
 // for, which takes long.
-Error ForeseeAperture(const Capture& capture, Aperture* aperture) {
+Error ForeseeAperture(const Capture& capture, ApertureChoice* aperture) {
   LensPlan plan;
   plan.foci = StripFoci(capture.light_field.disparity, kFoci);
   plan.aperture = *aperture;
@@ -146,7 +146,7 @@ Error ForeseeAperture(const Capture& capture, Aperture* aperture) {
   return error;
 }
 
-Error Open(const ViewOptions& options, int* threads, Aperture* aperture, Capture* capture) {
+Error Open(const ViewOptions& options, int* threads, ApertureChoice* aperture, Capture* capture) {
   *threads = sf_pool_cores();
   Error error;
   if (!options.threads.empty()) {
@@ -169,7 +169,7 @@ Error Open(const ViewOptions& options, int* threads, Aperture* aperture, Capture
 Error Run(const ViewOptions& options) {
   int threads = 1;
   Capture capture;
-  Aperture aperture;
+  ApertureChoice aperture;
   Error error = Open(options, &threads, &aperture, &capture);
   if (!error.empty()) return error;
   sf_disparity_stats stats = {}, known = {};

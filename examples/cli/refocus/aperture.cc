@@ -13,7 +13,7 @@ namespace starfocus {
 namespace {
 
 // --f-stop and --widest.
-Error ParseFStop(const ApertureOptions& options, Aperture* aperture) {
+Error ParseFStop(const ApertureOptions& options, ApertureChoice* aperture) {
   double f_stop = 0;
   Error error;
   if (!options.widest.empty()) error = ParseNumber("--widest", options.widest, &aperture->widest);
@@ -30,7 +30,7 @@ Error ParseFStop(const ApertureOptions& options, Aperture* aperture) {
 }
 
 // Names the option that the user chose the radius by. A strength alone chooses it, too.
-void NameOption(const ApertureOptions& options, Aperture* aperture) {
+void NameOption(const ApertureOptions& options, ApertureChoice* aperture) {
   for (const auto& [name, value] :
        {std::pair<const char*, const std::string&>{"--f-stop", options.f_stop},
         {"--aperture", options.aperture},
@@ -61,20 +61,20 @@ double FirstThatFits(double value, int direction, const Fits& fits) {
 
 // The widest f-stop, of three digits, within the limit of blur; below the same for --aperture and
 // --strength.
-double WidestFStop(double range, const Aperture& aperture) {
+double WidestFStop(double range, const ApertureChoice& aperture) {
   const double factor = aperture.widest * aperture.strength;
   return FirstThatFits(factor * range / SF_MAX_BLUR, 1, [&](double f_stop) {
     return aperture.widest / f_stop * aperture.strength * range <= SF_MAX_BLUR;
   });
 }
 
-double LargestRadius(double range, const Aperture& aperture) {
+double LargestRadius(double range, const ApertureChoice& aperture) {
   return FirstThatFits(SF_MAX_BLUR / range / aperture.strength, -1, [&](double radius) {
     return radius * aperture.strength * range <= SF_MAX_BLUR;
   });
 }
 
-double LargestPercentage(double range, const Aperture& aperture) {
+double LargestPercentage(double range, const ApertureChoice& aperture) {
   const double base = aperture.radius / aperture.strength;
   return FirstThatFits(100 * SF_MAX_BLUR / range / base, -1, [&](double percentage) {
     return base * (percentage / 100) * range <= SF_MAX_BLUR;
@@ -82,7 +82,7 @@ double LargestPercentage(double range, const Aperture& aperture) {
 }
 
 // Returns the largest value that a user may type in place of the one that is too wide.
-std::string WhatFits(double range, const Aperture& aperture) {
+std::string WhatFits(double range, const ApertureChoice& aperture) {
   if (aperture.option == "--f-stop") {
     return "f/" + ThreeDigits(WidestFStop(range, aperture)) + " or narrower";
   }
@@ -93,7 +93,8 @@ std::string WhatFits(double range, const Aperture& aperture) {
 
 }  // namespace
 
-Error PlanAperture(const ApertureOptions& options, const Capture& capture, Aperture* aperture) {
+Error PlanAperture(const ApertureOptions& options, const Capture& capture,
+                   ApertureChoice* aperture) {
   if (!options.aperture.empty() && !options.f_stop.empty()) {
     return Error::Usage("--f-stop", "either --aperture U or --f-stop N", "both");
   }
@@ -126,7 +127,7 @@ double FarthestFromFocus(const sf_disparity_stats& stats, const std::vector<doub
   return range;
 }
 
-Error FitAperture(double range, Aperture* aperture) {
+Error FitAperture(double range, ApertureChoice* aperture) {
   const double blur = aperture->radius * range;
   if (blur <= SF_MAX_BLUR) return "";
   if (aperture->option.empty()) {
@@ -140,7 +141,7 @@ Error FitAperture(double range, Aperture* aperture) {
       aperture->value + ", which blurs by " + Short(std::ceil(10 * blur) / 10) + " pixels");
 }
 
-void TellAperture(const std::string& path, const Aperture& aperture) {
+void TellAperture(const std::string& path, const ApertureChoice& aperture) {
   if (!aperture.narrowed) return;
   std::fprintf(stderr,
                "%s: aperture f/%s (--f-stop): the widest whose blur is at most %s pixels here\n",

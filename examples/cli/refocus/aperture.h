@@ -18,7 +18,7 @@ struct ApertureOptions {
   std::string aperture, f_stop, widest, strength;
 };
 
-struct Aperture {
+struct ApertureChoice {
   double radius = 1;      // at the strength asked for
   double widest = 1;      // f-stop of radius 1
   double strength = 1;    // 0 to 1, a part of `radius` already
@@ -28,17 +28,18 @@ struct Aperture {
 };
 
 // Reads the options, whose default is the f-stop of the input, if it has one, else radius 1.
-Error PlanAperture(const ApertureOptions& options, const Capture& capture, Aperture* aperture);
+Error PlanAperture(const ApertureOptions& options, const Capture& capture,
+                   ApertureChoice* aperture);
 
 // Largest difference between a disparity of the map and one of the foci.
 double FarthestFromFocus(const sf_disparity_stats& stats, const std::vector<double>& foci);
 
 // Fits the aperture to the limit of blur where disparities are up to `range` pixels out of focus:
 // narrows the default, and refuses an aperture that the user chose.
-Error FitAperture(double range, Aperture* aperture);
+Error FitAperture(double range, ApertureChoice* aperture);
 
 // Prints to stderr which f-stop replaces the default, if one does.
-void TellAperture(const std::string& path, const Aperture& aperture);
+void TellAperture(const std::string& path, const ApertureChoice& aperture);
 
 }  // namespace starfocus
 

@@ -35,7 +35,7 @@ struct LensPlan {
   std::string focus_option;  // that the foci come from; empty: none is set yet
   std::vector<double> foci;  // one, or those of a sweep; none while they depend on a pixel
   int x = 0, y = 0;          // that pixel
-  Aperture aperture;
+  ApertureChoice aperture;
   sf_region region = {};  // all 0: the whole picture
   sf_mode mode = SF_MODE_BLOCK;
   sf_rule rule = SF_RULE_DEFAULT;
