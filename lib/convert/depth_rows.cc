@@ -93,15 +93,6 @@ uint32_t PlaceOfRow(const DepthSource& depth, int32_t y) {
   return PlaceOf(y, depth.height, depth.map.height);
 }
 
-uint32_t CheckDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t map_y) {
-  uint32_t flags = 0;
-  for (int32_t x = 0; x < depth.map.width; x += kPiece) {
-    int16_t unused[kPiece];
-    flags |= ConvertValues(kernels, depth, x, map_y, Min(kPiece, depth.map.width - x), unused);
-  }
-  return flags;
-}
-
 uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,
                       int16_t* out) {
   const uint32_t place = PlaceOfRow(depth, y);

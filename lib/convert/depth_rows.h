@@ -33,9 +33,6 @@ size_t DepthBytes(int32_t type);
 // of the lower one.
 uint32_t PlaceOfRow(const DepthSource& depth, int32_t y);
 
-// Looks at a row of the map. Returns simd::DepthFlags.
-uint32_t CheckDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t map_y);
-
 // Writes the disparities of row y of the picture, kDisparityBits; unknown ones are kNoSurface.
 // Returns simd::DepthFlags of the values they were made of.
 uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,

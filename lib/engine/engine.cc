@@ -22,8 +22,8 @@ void Add(const Counts& counts, sf_report* report) {
   }
   report->skipped.copied_blocks += counts.skipped.copied_blocks;
   report->skipped.copied_pixels += counts.skipped.copied_pixels;
-  report->centre_bytes += counts.centre_bytes;
-  report->side_bytes += counts.side_bytes;
+  report->centre_bytes += counts.reads.centre_bytes;
+  report->side_bytes += counts.reads.side_bytes;
   report->disparity_bytes += counts.disparity_bytes;
   report->gathered_pixels += counts.gathered_pixels;
   report->unknown_pixels += counts.unknown_pixels;

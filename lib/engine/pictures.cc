@@ -34,8 +34,8 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
   pictures->windows[0].centre = centre;
 }
 
-void SetPlanes(const sf_config& config, const simd::Kernels& kernels,
-               const Plane<uint8_t>* views, Pictures* pictures) {
+void SetPlanes(const sf_config& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
+               Pictures* pictures) {
   PlaneViews& planes = pictures->planes;
   planes.kernels = &kernels;
   planes.transfer = &TransferOf(config.transfer);

@@ -79,26 +79,12 @@ void CopyCentre(const Window& window, const Rect& rect, const Plane<uint8_t>& ou
   }
 }
 
-// A window that counts for a worker what is read of its views.
-class Counting {
- public:
-  Counting(const Window& window, Worker* worker) : window_(window), counts_(worker->counts) {
-    window_.reads = &reads_;
-  }
-  ~Counting() {
-    counts_.centre_bytes += 3 * reads_.centre_pixels;
-    counts_.side_bytes += reads_.side_colours * static_cast<uint64_t>(CapturedBytes(window_));
-  }
-  Counting(const Counting&) = delete;
-  Counting& operator=(const Counting&) = delete;
-
-  const Window& window() const { return window_; }
-
- private:
-  Window window_;
-  Counts& counts_;
-  Reads reads_;
-};
+// The window, which counts for a worker what is read of its views.
+Window Counting(const Window& window, Worker* worker) {
+  Window counting = window;
+  counting.reads = &worker->counts.reads;
+  return counting;
+}
 
 // How much of a block is rendered.
 struct Rendered {
@@ -107,8 +93,8 @@ struct Rendered {
 
 // Renders the views of a job into the worker's sums. Returns the samples of a view.
 uint64_t RenderSums(const BlockInputs& in, RenderJob job, Worker* worker) {
-  const Counting counting(*job.window, worker);
-  job.window = &counting.window();
+  const Window counting = Counting(*job.window, worker);
+  job.window = &counting;
   const Renderer& renderer = *in.lens->renderer;
   return renderer.render(job, worker->scratch[renderer.index], worker->sums);
 }
@@ -181,12 +167,12 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   Field field;
   field.rgb = worker->field.rgb;
   field.disparity = worker->field.disparity;
-  const Counting counting(in.windows[block.layer], worker);
+  const Window counting = Counting(in.windows[block.layer], worker);
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
   const GatherKernels blur = {tables.blur_kernels, LastGatherStep(*in.lens), tables.mean_square};
-  const GatherJob job = {&counting.window(), in.cells,         cells, in.lens->scale, blur,
-                         in.kernels,         &worker->patience};
+  const GatherJob job = {&counting,  in.cells,         cells, in.lens->scale, blur,
+                         in.kernels, &worker->patience};
   const Rect frame = LayerFrame(block.rect, block.layer);
   const Gathered gathered = block.layer == 0 ? Gathered{At(out, block.rect, 0), nullptr, out.stride}
                                              : Gathered{nullptr, worker->layer_samples,
@@ -203,7 +189,7 @@ Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>
                    Worker* worker) {
   const uint64_t samples = Samples(rect);
   CopyCentre(in.windows[0], rect, out);
-  worker->counts.centre_bytes += samples;
+  worker->counts.reads.centre_bytes += samples;
   if (in.config->skips != 0) {
     worker->counts.skipped.copied_blocks += 1;
     worker->counts.skipped.copied_pixels += samples / 3;
@@ -248,10 +234,10 @@ void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& 
                Worker* worker) {
   const BlurScratch scratch = {worker->field.rgb, worker->sums, worker->spans};
   const auto blur = [&](const Window& window, const ExcessSum& excess) {
-    const Counting counting(window, worker);
-    const BlurJob job = {
-        &counting.window(), in.lens->scale, in.tables->blur_kernels, in.kernels, block.rect,
-        block.border.left,  excess,         &worker->patience};
+    const Window counting = Counting(window, worker);
+    const BlurJob job = {&counting,  in.lens->scale,   in.tables->blur_kernels,
+                         in.kernels, block.rect,       block.border.left,
+                         excess,     &worker->patience};
     BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
   };
   blur(in.windows[0], {in.kernels, in.windows[0].transfer, 0});

@@ -70,8 +70,8 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, const R
   }
   if (status != SF_OK) return status;
   const StripePlan& plan = engine->stripe.plan;
-  // Blocks of the most predicted time come first, so that no worker is left with a long one when the
-  // others have none any more.
+  // Blocks of the most predicted time come first, so that no worker is left with a long one when
+  // the others have none any more.
   std::sort(plan.blocks, plan.blocks + plan.used,
             [](const Block& a, const Block& b) { return a.cost > b.cost; });
   const RefocusJob job = {InputsOf(*engine), plan.blocks, out};

@@ -29,7 +29,8 @@ void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Worker* w
     columns = TapsOfLayer(columns);
     rows = TapsOfLayer(rows);
   }
-  worker->counts.centre_bytes += 3 * static_cast<uint64_t>(columns) * static_cast<uint64_t>(rows);
+  worker->counts.reads.centre_bytes +=
+      3 * static_cast<uint64_t>(columns) * static_cast<uint64_t>(rows);
   DownsamplePicture(*job.kernels, *job.picture, layer, begin, end, worker->resample, &missing);
 }
 

@@ -19,8 +19,7 @@ namespace starfocus {
 struct Counts {
   sf_layer_report layers[SF_LAYERS];
   sf_skipped skipped;
-  uint64_t centre_bytes;
-  uint64_t side_bytes;
+  Reads reads;
   uint64_t disparity_bytes;
   uint64_t gathered_pixels;
   uint64_t unknown_pixels;

@@ -129,8 +129,8 @@ void LoadPixels(const BlurJob& job, int16_t* rgb) {
   const int32_t width = job.rect.width + 2 * job.border;
   const Window& window = *job.window;
   if (window.reads != nullptr) {
-    window.reads->centre_pixels +=
-        static_cast<uint64_t>(width) * static_cast<uint64_t>(job.rect.height + 2 * job.border);
+    window.reads->centre_bytes +=
+        3 * static_cast<uint64_t>(width) * static_cast<uint64_t>(job.rect.height + 2 * job.border);
   }
   for (int32_t row = 0; row < job.rect.height + 2 * job.border; ++row) {
     const int32_t y = Clamp(job.rect.y - job.border + row, 0, window.height - 1);

@@ -80,8 +80,8 @@ void LoadField(const Window& window, const Rect& rect, const Border& border, Fie
     RepeatEdges(first, last, field->width, rgb, disparity);
   }
   if (window.reads != nullptr && window.layer == 0) {
-    window.reads->centre_pixels +=
-        static_cast<uint64_t>(last - first) * static_cast<uint64_t>(field->height);
+    window.reads->centre_bytes +=
+        3 * static_cast<uint64_t>(last - first) * static_cast<uint64_t>(field->height);
   }
   LookBeyond(window, field);
 }

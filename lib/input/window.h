@@ -15,10 +15,10 @@
 
 namespace starfocus {
 
-// Counts of what was read of the caller's pictures; pixels read twice count twice.
+// Bytes that were read of the caller's pictures; those read twice count twice.
 struct Reads {
-  uint64_t centre_pixels = 0;  // of the centre view itself, not of its layers
-  uint64_t side_colours = 0;   // of side views; CapturedBytes each
+  uint64_t centre_bytes = 0;  // of the centre view itself, not of its layers
+  uint64_t side_bytes = 0;    // of side views
 };
 
 // A light field at one layer: pixel (x, y) of the layer stands at (x << L, y << L) in the pictures.
@@ -65,9 +65,6 @@ bool MayHaveHighlights(const Window& window, const Rect& rect);
 
 // Whether all pixels of all views in the columns and rows of `rect` are highlights.
 bool AreAllHighlights(const Window& window, const Rect& rect);
-
-// Bytes that one such colour is made of.
-int32_t CapturedBytes(const Window& window);
 
 }  // namespace starfocus
 
