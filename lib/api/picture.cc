@@ -27,17 +27,14 @@ sf_status CheckPrevious(const sf_config& config, const sf_previous& previous, co
 // Checks what `out` may not overlap: all that is read, and the engine.
 sf_status CheckOverlap(const Request& request, const Rect& rect, const EngineState& engine) {
   const size_t row_bytes = 3 * static_cast<size_t>(rect.width);
-  Extents out, read;
-  out.AddRows(request.out, request.out_stride, rect.height, row_bytes);
+  Extents read = MemoryOf(engine, request.prepared);
   read.AddLightField(engine.config, request.light_field);
-  if (Overlaps(out, MemoryOf(engine, request.prepared)) || Overlaps(out, read)) {
-    return SF_ERROR_OVERLAP;
+  if (const sf_previous* const previous = request.previous) {
+    read.AddLightField(engine.config, previous->light_field);
+    read.AddRows(previous->out, previous->out_stride, rect.height, row_bytes);
   }
-  if (request.previous == nullptr) return SF_OK;
-  Extents before;
-  before.AddLightField(engine.config, request.previous->light_field);
-  before.AddRows(request.previous->out, request.previous->out_stride, rect.height, row_bytes);
-  return Overlaps(out, before) ? SF_ERROR_OVERLAP : SF_OK;
+  const Extent out = ExtentOf(request.out, request.out_stride, rect.height, row_bytes);
+  return Overlaps(out, read) ? SF_ERROR_OVERLAP : SF_OK;
 }
 
 sf_status Refocus(const Request& request, const Runner& runner, EngineState* engine,

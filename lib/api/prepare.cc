@@ -17,10 +17,8 @@ sf_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call
   const size_t needed = LayOutPrepared(engine.config, nullptr, &counted);
   if (needed == kTooLarge) return SF_ERROR_TOO_LARGE;
   if (call.bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
-  Extents written;
-  written.AddRows(call.memory, 0, 1, needed);
   read->Add(Workspace(engine));
-  return Overlaps(written, *read) ? SF_ERROR_OVERLAP : SF_OK;
+  return Overlaps(ExtentOf(call.memory, 0, 1, needed), *read) ? SF_ERROR_OVERLAP : SF_OK;
 }
 
 }  // namespace starfocus

@@ -43,8 +43,8 @@ sf_status CheckPicture(const Picture& picture, const PreviewRequest& request,
   const Rect& rect = picture.rect;
   const sf_status status = CheckOutput(rect.width, rect.height, picture.data, picture.stride);
   if (status != SF_OK) return status;
-  Extents out;
-  out.AddRows(picture.data, picture.stride, rect.height, 3 * static_cast<size_t>(rect.width));
+  const Extent out =
+      ExtentOf(picture.data, picture.stride, rect.height, 3 * static_cast<size_t>(rect.width));
   return Overlaps(out, MemoryOf(engine, &request.prepared)) ? SF_ERROR_OVERLAP : SF_OK;
 }
 

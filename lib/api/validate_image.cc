@@ -26,6 +26,11 @@ PlaneSize SizeOfPlane(const sf_image& image, int plane, int32_t width, int32_t h
   return {(height + 1) / 2, IsPaired(format) ? 2 * samples : (samples - 1) * step + 1};
 }
 
+Extent ExtentOfPlane(const sf_image& image, int plane, int32_t width, int32_t height) {
+  const PlaneSize size = SizeOfPlane(image, plane, width, height);
+  return ExtentOf(image.planes[plane], image.strides[plane], size.rows, size.row_bytes);
+}
+
 bool ValidPixelStride(int32_t format, int32_t stride) {
   if (stride == 0 || stride == LeastStep(format)) return true;
   if (IsYuv(format)) return format == SF_FORMAT_YUV_420_888 && stride == 2;
@@ -85,19 +90,15 @@ sf_image AsImage(const sf_image_out& out) {
           {out.strides[0], out.strides[1], out.strides[2]}};
 }
 
-void AddImage(const sf_image& image, int32_t width, int32_t height, Extents* extents) {
-  for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {
-    const PlaneSize size = SizeOfPlane(image, plane, width, height);
-    extents->AddRows(image.planes[plane], image.strides[plane], size.rows, size.row_bytes);
-  }
-}
-
 void AddImageField(const sf_config& config, const sf_image_field& field, Extents* extents) {
   const sf_depth_map& map = field.depth;
   extents->AddRows(map.data, map.stride, map.height,
                    DepthBytes(map.type) * static_cast<size_t>(map.width));
   for (int view = 0; view < config.views; ++view) {
-    AddImage(field.views[view], config.width, config.height, extents);
+    const sf_image& image = field.views[view];
+    for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {
+      extents->Add(ExtentOfPlane(image, plane, config.width, config.height));
+    }
   }
 }
 
@@ -105,9 +106,10 @@ sf_status CheckImageOutput(const sf_image& image, int32_t width, int32_t height,
                            const Extents& read) {
   const sf_status status = CheckImage(image, width, height);
   if (status != SF_OK) return status;
-  Extents written;
-  AddImage(image, width, height, &written);
-  return Overlaps(written, read) ? SF_ERROR_OVERLAP : SF_OK;
+  for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {
+    if (Overlaps(ExtentOfPlane(image, plane, width, height), read)) return SF_ERROR_OVERLAP;
+  }
+  return SF_OK;
 }
 
 }  // namespace starfocus

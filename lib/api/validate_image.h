@@ -17,8 +17,7 @@ sf_status CheckImageField(const sf_config& config, const sf_image_field& field);
 // An output as an image that is read.
 sf_image AsImage(const sf_image_out& out);
 
-// Adds the planes of an image, and the images and the depth map of a field.
-void AddImage(const sf_image& image, int32_t width, int32_t height, Extents* extents);
+// Adds the images and the depth map of a field.
 void AddImageField(const sf_config& config, const sf_image_field& field, Extents* extents);
 
 // Checks an output of that size that must not overlap what is read.

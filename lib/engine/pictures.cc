@@ -18,6 +18,8 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
     Window& window = pictures->windows[layer];
     window.layer = layer;
+    const int32_t taps = layer == 0 ? 2 : 2 * (1 << layer) - 1;
+    window.colour_bytes = 3 * taps * taps;
     window.width = LayerSize(config.width, layer);
     window.height = LayerSize(config.height, layer);
     window.picture_width = config.width;

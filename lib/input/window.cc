@@ -96,14 +96,6 @@ void ReadPlaces(const Window& window, int index, int32_t x, int32_t y, int32_t c
   }
 }
 
-// Counts the bytes that `count` colours of a side view are made of.
-void CountSide(const Window& window, int32_t count) {
-  const int32_t taps = window.layer == 0 ? 2 : 2 * (1 << window.layer) - 1;
-  if (window.reads != nullptr) {
-    window.reads->side_bytes += 3 * static_cast<uint64_t>(count * taps * taps);
-  }
-}
-
 bool IsBright(const uint8_t* codes, int32_t pixels) {
   uint8_t brightest = 0;
   for (int32_t k = 0; k < 3 * pixels; ++k) brightest = codes[k] > brightest ? codes[k] : brightest;
@@ -149,7 +141,9 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
     Checked(ranges::kHolePosition, line.x + line.dx * last * kShiftOne);
     Checked(ranges::kHolePosition, line.y + line.dy * last * kShiftOne);
   }
-  CountSide(window, count);
+  if (window.reads != nullptr) {
+    window.reads->side_bytes += static_cast<uint64_t>(count * window.colour_bytes);
+  }
   constexpr int32_t kPlaces = 16;
   const bool is_row = line.dx == 1 && line.dy == 0;
   for (int32_t p = 0, some = 0; p < count; p += some) {
@@ -160,7 +154,9 @@ void ReadCaptured(const Window& window, int index, const CapturedLine& line, int
 }
 
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb) {
-  CountSide(window, 1);
+  if (window.reads != nullptr) {
+    window.reads->side_bytes += static_cast<uint64_t>(window.colour_bytes);
+  }
   InterpolateRow(window, index, Checked(ranges::kHolePosition, x),
                  Checked(ranges::kHolePosition, y), 1,
                  [&](int32_t n, int32_t sum) { rgb[n] = sum; });

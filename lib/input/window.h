@@ -38,6 +38,7 @@ struct Window {
   bool is_excess = false;          // which of both; layer 0
   ViewReader light;                // with is_excess: of light
   Plane<const int16_t> disparity;  // of the pictures, kDisparityBits
+  int32_t colour_bytes = 12;       // bytes that a colour of a captured view is made of
   Reads* reads = nullptr;          // null: nobody counts
 };
 

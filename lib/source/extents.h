@@ -9,7 +9,7 @@
 
 namespace starfocus {
 
-// All planes of a light field in any format, and two pieces of memory.
+// All planes of a light field in any format, or of two of RGB, and three pieces of memory.
 struct Extents {
   Extent of[3 * kMaxViews + 3];
   int count = 0;
@@ -29,11 +29,9 @@ struct Extents {
   }
 };
 
-inline bool Overlaps(const Extents& a, const Extents& b) {
-  for (int k = 0; k < a.count; ++k) {
-    for (int n = 0; n < b.count; ++n) {
-      if (Overlaps(a.of[k], b.of[n])) return true;
-    }
+inline bool Overlaps(const Extent& a, const Extents& b) {
+  for (int n = 0; n < b.count; ++n) {
+    if (Overlaps(a, b.of[n])) return true;
   }
   return false;
 }
