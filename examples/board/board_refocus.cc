@@ -263,7 +263,7 @@ Error Main(int argc, char** argv) {
             Use::kDefault},
            {"--active", "TEXT", "Level of a pressed button: low or high", &options.active,
             Use::kDefault},
-           {"--bias", "TEXT", "Of the inputs: pull-up, pull-down or none", &options.bias,
+           {"--bias", "TEXT", "Bias of the inputs: pull-up, pull-down or none", &options.bias,
             Use::kDefault},
            {"--focus", "TEXT", "Disparity to begin with; default: the middle", &options.focus},
            {"--step", "TEXT", "Disparity of an encoder step; default: 1/40 of all", &options.step},

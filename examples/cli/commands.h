@@ -19,7 +19,7 @@ Command InfoCommand();
 Command SheetCommand();
 Command StressCommand();
 Command AnalyzeCommand();
-// Prints what is in `program`.
+// Prints the help, the manual page or the completions of `program`.
 Command HelpCommand(const Program* program);
 
 }  // namespace starfocus

@@ -30,8 +30,8 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
               Pictures* pictures);
 
 // Points the windows at views in memory of the library: reduced pictures or rings of rows.
-void SetPlanes(const sf_config& config, const simd::Kernels& kernels,
-               const Plane<uint8_t>* views, Pictures* pictures);
+void SetPlanes(const sf_config& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
+               Pictures* pictures);
 
 // Converts a disparity row to `out`, kDisparityBits, and kNoSurface where it is not finite. Returns
 // simd::DepthFlags; values outside of the configured range become anything.

@@ -42,8 +42,8 @@ struct BlockCells {
 
   // Whether the cell that holds pixel (x, y) of the picture is gathered.
   bool IsGathered(int32_t x, int32_t y) const { return map->FirstLayer(x, y) <= layer; }
-  // Whether it is gathered with one kernel and not with the radius of each pixel: kSlopeMark is beyond
-  // all layers.
+  // Whether it is gathered with one kernel and not with the radius of each pixel: kSlopeMark is
+  // beyond all layers.
   bool IsFlat(int32_t x, int32_t y) const { return map->At(x, y) <= layer; }
 
   // The pixels of the layer that belong to the cell of the block at (x, y) in the picture.

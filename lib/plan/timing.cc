@@ -6,8 +6,8 @@
 namespace starfocus {
 namespace {
 
-// Taps of the gathering kernel for blur radius r (kDisparityBits) in a quarter plane. The disc covers
-// pi / 4 = 0.785 of its square, and a rim of pixels in part; 51/64 is 0.797.
+// Taps of the gathering kernel for blur radius r (kDisparityBits) in a quarter plane. The disc
+// covers pi / 4 = 0.785 of its square, and a rim of pixels in part; 51/64 is 0.797.
 uint64_t GatherTaps(int32_t radius) {
   const int32_t size = (radius + (3 << kDisparityBits) / 2) >> kDisparityBits;
   return static_cast<uint64_t>((size + 1) * (size + 1) * 51 / 64);

@@ -175,7 +175,7 @@ class Gather {
   void OnSlope(const GatheredCell& cell) {
     const Interval range = IntervalOf(cell);
     const Interval between = {std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
-                           std::min(LadderAbove(int(std::ceil(range.high * kOne))), largest_)};
+                              std::min(LadderAbove(int(std::ceil(range.high * kOne))), largest_)};
     const BlurKernel less = BlurKernelOf(between.low, lens_.opening);
     const BlurKernel more = BlurKernelOf(between.high, lens_.opening);
     const int border = more.size;

@@ -151,15 +151,15 @@ Command DisparityCommand() {
           {
               {"DIR", "DIR", "Light-field folder", &options->folder, Use::kRequired},
               {"-o,--output", "FILE",
-               "Map to write, .pfm, and beside it a picture of it, .png, in which near is "
-               "bright; default: disparity.pfm in DIR, if there is none",
+               "Map to write (.pfm). A picture of the map (.png, near is bright) is written beside "
+               "it; default: disparity.pfm in DIR, if there is none",
                &options->out},
               {"--confidence", "FILE",
                "Picture to write: how sure each pixel is, black where not at all",
                &options->confidence},
               {"--repair", nullptr,
-               "Repair the folder's map by the views instead: edges that lie beside those of "
-               "the picture or are blurred, noise; needs --output",
+               "Repair the folder's map by the views instead: displaced and blurred edges, and "
+               "noise; needs --output",
                &options->repair},
               {"--range", "MIN:MAX",
                "MIN:MAX, the disparities to look for; default: those found in small "

@@ -46,7 +46,7 @@ Error Run(const Program& program, const HelpOptions& options) {
 Command HelpCommand(const Program* program) {
   const auto options = std::make_shared<HelpOptions>();
   return {"help",
-          "What the program or a subcommand takes",
+          "Print the options of the program or of a subcommand",
           {
               {"COMMAND", "NAME", "Subcommand to tell of", &options->command},
               {"--man", nullptr, "Print the manual page instead, for man", &options->manual},

@@ -131,7 +131,7 @@ Error Run(const InfoOptions& options) {
 Command InfoCommand() {
   const auto options = std::make_shared<InfoOptions>();
   Command command = {"info",
-                     "What a light field or depth photo is: format, size, views, disparity range",
+                     "Describe a light field or depth photo: format, size, views, disparity range",
                      {},
                      [options] { return Run(*options); }};
   AddInputOptions(&command, &options->input);

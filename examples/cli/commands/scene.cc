@@ -180,7 +180,7 @@ Command SceneCommand() {
            &options->truths},
       },
       &command);
-  AddTransferOption(&command, "Pictures average light, coded as sRGB, or values as they are",
+  AddTransferOption(&command, "Average light, coded as sRGB, or the values as they are",
                     &options->transfer);
   AddShapeOptions(&command, &options->shape);
   AddOptions(
