@@ -9,6 +9,7 @@
 #include "hwy/foreach_target.h"  // must precede highway.h
 #include "hwy/highway.h"
 #include "simd/cells-inl.h"
+#include "simd/coverage-inl.h"
 #include "simd/disc-inl.h"
 #include "simd/disparities-inl.h"
 #include "simd/finish_composite-inl.h"

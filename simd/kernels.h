@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "simd/cells.h"
+#include "simd/coverage.h"
 #include "simd/disc.h"
 #include "simd/disparities.h"
 #include "simd/finish_composite.h"
@@ -45,6 +46,8 @@
   KERNEL(FindSteps)               \
   KERNEL(BesideSteps)             \
   KERNEL(LookBehind)              \
+  KERNEL(CoverPlaces)             \
+  KERNEL(SumNear)                 \
   KERNEL(TakeFarthest)            \
   KERNEL(SmoothFar)               \
   KERNEL(PutFarthest)             \

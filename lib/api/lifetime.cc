@@ -79,7 +79,7 @@ void sf_config_init(sf_config* config) {
   config->highlights = 1;
   config->blades = 5;
   config->ring_inner = 0.5F;
-  config->features = SF_FEATURE_LINE_SCAN;
+  config->features = SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE;
 }
 
 void sf_params_init(sf_params* params) {

@@ -3,6 +3,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/rules.h"
+#include "lib/coverage/passes.h"
 #include "lib/filter/deblock.h"
 #include "lib/filter/layers.h"
 #include "lib/input/boundary_pixel.h"
@@ -59,7 +60,10 @@ Borders AddBorders(const sf_config& config, double max_blur, bool joins) {
     if (!one_view) borders.views = Max(borders.views, moved);
   }
   borders.centre = Max(borders.centre, borders.level[0] + kMixedPixelBorder);
-  borders.views = Max(borders.views, borders.centre);
+  borders.parted = borders.centre;
+  borders.centre = borders.parted + CoverageBorder(config);
+  const int32_t read = one_view || !HasCoverage(config) ? 0 : LargestMove(config) + CapturedBorder(0);
+  borders.views = Max(borders.views, borders.centre + read);
   if (config.highlights > 1) {
     // It decides how blocks are split, and so the bytes of pictures: as far as blur and disparity
     // bring highlights, and somewhat farther.

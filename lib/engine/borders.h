@@ -18,6 +18,7 @@ struct Borders {
   int32_t whole_block = 0;        // of a block at level 0 that is planned without cells
   int32_t level[SF_LAYERS] = {};  // of pixels of the level, by blocks of any plan
   int32_t cells = 0;              // of cells
+  int32_t parted = 0;             // of the coverage map
   int32_t centre = 0;             // of the centre view and the disparity map
   int32_t highlights = 0;         // where highlights count as the superblock's own; 0: nowhere
   int32_t views = 0;              // of any view

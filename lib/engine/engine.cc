@@ -62,6 +62,7 @@ void DropCounts(EngineState* engine) {
 void ForgetStripe(StripeState* stripe) {
   std::memset(stripe->map.units, kNoLayer, static_cast<size_t>(stripe->map.columns));
   stripe->plan.all_measured = false;
+  for (int32_t& done : stripe->coverage.done) done = -1;
 }
 
 }  // namespace starfocus

@@ -2,6 +2,7 @@
 #include "lib/engine/layout.h"
 
 #include "lib/base/rules.h"
+#include "lib/engine/stripe_coverage.h"
 #include "lib/input/field.h"
 
 namespace starfocus {
@@ -105,6 +106,7 @@ void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
   engine->stripe.cells.cells =
       carver->Take<Cell>(static_cast<size_t>(engine->stripe.cells.columns) *
                          static_cast<size_t>(side / kCellSize + 2 * borders.cells + 1));
+  TakeCoverage(config, borders.parted, carver, &engine->stripe.coverage);
   engine->stripe.plan.side = side;
   engine->stripe.plan.columns = static_cast<int32_t>(blocks);
   engine->stripe.plan.wanted = carver->Take<uint8_t>(blocks);

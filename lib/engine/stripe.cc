@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "lib/engine/layout.h"
+#include "lib/engine/stripe_coverage.h"
 #include "lib/engine/stripe_layers.h"
 #include "lib/engine/stripe_plan.h"
 
@@ -63,7 +64,8 @@ sf_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out, const R
                         EngineState* engine) {
   const sf_config& config = engine->config;
   const Lens& lens = engine->lens;
-  sf_status status = PlanStripe(stripe, runner, engine);
+  sf_status status = FindCoverage(stripe, runner, engine);
+  if (status == SF_OK) status = PlanStripe(stripe, runner, engine);
   if (status == SF_OK && IsBlockMode(lens) && !engine->pictures.prepared) {
     PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, &engine->pictures);
     status = FillLayers(config, *engine->kernels, runner, &engine->crew, &engine->pictures);

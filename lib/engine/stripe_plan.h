@@ -12,11 +12,6 @@
 
 namespace starfocus {
 
-// A stripe of largest blocks: rows [y, y + height) of the picture.
-struct Stripe {
-  int32_t y, height;
-};
-
 // Marks in the stripe's plan the columns that are refocused and those whose cells they need.
 // Returns whether there are any.
 bool ChooseColumns(const Stripe& rows, EngineState* engine);

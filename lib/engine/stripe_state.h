@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "lib/coverage/passes.h"
 #include "lib/engine/frame_changes.h"
 #include "lib/filter/deblock.h"
 #include "lib/plan/block_stats.h"
@@ -12,6 +13,11 @@
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
+
+// A stripe of largest blocks: rows [y, y + height) of the picture.
+struct Stripe {
+  int32_t y, height;
+};
 
 // The blocks of a stripe. Each largest block is planned into memory of its own; those that are to
 // be refocused then lie one behind the other at the beginning.
@@ -31,8 +37,16 @@ struct StripePlan {
   }
 };
 
+// The coverage map, and the first row of tiles that each pass has not done yet; below 0: it has
+// done none.
+struct CoverageState {
+  CoverageMap map;
+  int32_t done[kCoveragePasses];
+};
+
 struct StripeState {
-  CellGrid cells;  // of the stripe, and as far around it as pixels splat
+  CellGrid cells;          // of the stripe, and as far around it as pixels splat
+  CoverageState coverage;  // of the stripe, and of the rows around it
   StripePlan plan;
   LayerMap map;     // which layer each unit has, for deblocking
   Changes changes;  // which blocks differ from the light field before

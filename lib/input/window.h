@@ -21,6 +21,8 @@ struct Reads {
   uint64_t side_bytes = 0;    // of side views
 };
 
+struct CoverageMap;
+
 // A light field at one layer: pixel (x, y) of the layer stands at (x << L, y << L) in the pictures.
 // Only the centre view is subsampled as a whole; of the others a few pixels are read, in holes.
 struct Window {
@@ -38,6 +40,7 @@ struct Window {
   bool is_excess = false;          // which of both; layer 0
   ViewReader light;                // with is_excess: of light
   Plane<const int16_t> disparity;  // of the pictures, kDisparityBits
+  const CoverageMap* coverage = nullptr;  // of thin structures; null: there is none
   int32_t colour_bytes = 12;       // bytes that a colour of a captured view is made of
   Reads* reads = nullptr;          // null: nobody counts
 };

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/plan/block_stats.h"
 
+#include <initializer_list>
+
+#include "lib/coverage/coverage_map.h"
+
 namespace starfocus {
 namespace {
 
@@ -72,6 +76,7 @@ class CellRow {
       : kernels_(kernels),
         window_(window),
         scale_(scale),
+        y_(row * kCellSize),
         near_focus_(Clamp(scale.focus, INT16_MIN, INT16_MAX)),
         limits_{static_cast<int16_t>(near_focus_), kSurfaceStep,
                 static_cast<int16_t>(DisparityOf(kRunDrift, scale.step)),
@@ -82,7 +87,8 @@ class CellRow {
   }
 
   Cell Measure(int32_t column) const {
-    const simd::CellMeasure found = Find(column * kCellSize);
+    simd::CellMeasure found = Find(column * kCellSize);
+    if (window_.coverage != nullptr) AddThin(column * kCellSize, &found);
     Cell cell = {};
     cell.low = found.column_low[0];
     cell.high = found.column_high[0];
@@ -136,9 +142,31 @@ class CellRow {
     return measure;
   }
 
+  // In thin structures a cell has both surfaces, and so an edge.
+  void AddThin(int32_t x, simd::CellMeasure* found) const {
+    const CoverageMap& map = *window_.coverage;
+    const int32_t column = x / kTileSide, row = y_ / kTileSide;
+    const CoverageTile& tile = map.Tile(column, row);
+    if (tile.thin == 0 || tile.low > tile.high) return;
+    const auto widen = [&](int16_t* low, int16_t* high) {
+      *low = tile.low < *low ? tile.low : *low;
+      *high = tile.high > *high ? tile.high : *high;
+    };
+    for (int32_t k = 0; k < kCellSize; ++k) {
+      widen(&found->column_low[k], &found->column_high[k]);
+      widen(&found->row_low[k], &found->row_high[k]);
+    }
+    widen(&found->edge_low, &found->edge_high);
+    for (const int32_t disparity : {tile.low, tile.high}) {
+      found->nearest =
+          static_cast<uint16_t>(Min(found->nearest, Min(Abs(disparity - near_focus_), UINT16_MAX)));
+    }
+  }
+
   const simd::Kernels& kernels_;
   const Window& window_;
   const BlurScale& scale_;
+  const int32_t y_;  // of the cells
   const int32_t near_focus_;
   const simd::CellLimits limits_;
   const int16_t* rows_[kRows];  // with those above and below the cells

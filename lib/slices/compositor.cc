@@ -5,6 +5,7 @@
 
 #include "lib/input/load_field.h"
 #include "lib/slices/matte.h"
+#include "lib/slices/thin.h"
 
 namespace starfocus {
 namespace {
@@ -177,6 +178,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
     std::memcpy(CentreRow(accumulators + static_cast<size_t>(y) * row, inner.width),
                 field.Rgb(inner.x, inner.y + y), row * sizeof(*field.rgb));
   }
+  PartThin(*job.window, field, &scratch->surfaces);
   FillHidden(*job.kernels, job.window->layer, scratch->fill, &scratch->surfaces);
   return inner;
 }

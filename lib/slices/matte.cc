@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/slices/matte.h"
 
+#include "lib/coverage/coverage_map.h"
 #include "lib/input/boundary_pixel.h"
 
 namespace starfocus {
@@ -24,6 +25,7 @@ class MatteFinder {
   int16_t step() const { return step_; }
 
   void FindPixel(int32_t column, int32_t row) {
+    if (IsThin(field_.x + column, field_.y + row)) return;
     const int32_t disparity = *field_.Disparity(column, row);
     Parts parts;
     for (int side = 0; side < kSideCount; ++side) {
@@ -36,6 +38,13 @@ class MatteFinder {
   }
 
  private:
+  // Whether the coverage map parts the pixel.
+  bool IsThin(int32_t x, int32_t y) const {
+    const CoverageMap* const map = centre_.window.coverage;
+    return map != nullptr && centre_.window.layer == 0 &&
+           map->Tile(x / kTileSide, y / kTileSide).thin != 0;
+  }
+
   // The mixtures with the surfaces on all sides, each by its share.
   struct Parts {
     int32_t shares = 0, most = 0, nearest = INT16_MIN;

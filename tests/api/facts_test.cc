@@ -76,7 +76,7 @@ TEST_CASE("defaults are those that the header tells") {
   CHECK(config.cats_eye == 0);
   CHECK(config.transfer == SF_TRANSFER_SRGB);
   CHECK(config.highlights == 1);
-  CHECK(config.features == SF_FEATURE_LINE_SCAN);
+  CHECK(config.features == (SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE));
   for (uint32_t reserved : config.reserved) CHECK(reserved == 0);
   sf_params params;
   std::memset(&params, test::kPoison, sizeof params);

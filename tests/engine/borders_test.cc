@@ -85,13 +85,14 @@ struct Way {
   int views = 5, mode = SF_MODE_BLOCK, rule = SF_RULE_SUBAPERTURE, max_layer = 2, gather = 1;
   float highlights = 1, limit = 4;
   double focus = 0, n_scale = 1, aperture = 1;
-  bool bright = false;
+  bool bright = false, coverage = false;
 
   int side = 160;
 
   int Side() const { return highlights > 1 ? 288 : side; }
   sf_config Config(const test::Scene& scene) const {
     sf_config config = test::ConfigFor(scene, aperture * (limit + std::abs(focus)));
+    if (!coverage) config.features &= ~SF_FEATURE_COVERAGE;
     config.largest_block = kSuperblock;
     config.max_layer = int16_t(max_layer);
     config.gather = int16_t(gather);
@@ -159,6 +160,8 @@ Way AnyWay(test::Random* random) {
   way.limit = float(random->Int(1, way.highlights > 1 ? 5 : 9));
   way.focus = random->Int(-3, 3);
   way.n_scale = random->Int(0, 1) == 0 ? 0.5 : 1;
+  way.coverage = random->Int(0, 3) == 0;
+  if (way.coverage) way.side = 400;
   return way;
 }
 

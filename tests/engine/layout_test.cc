@@ -80,10 +80,18 @@ TEST_CASE("layout: what memory cannot hold is too large, not small") {
 // What a stripe keeps on a board, in KiB of a workspace (docs/boards.md): with all modes and rules.
 TEST_CASE("layout: workspaces of boards are no larger than they were" *
           doctest::skip(starfocus::kRedZone > 0)) {
+  const auto with_coverage = [](sf_config config) {
+    config.features |= SF_FEATURE_COVERAGE;
+    return config;
+  };
   const struct {
     sf_config config;
     size_t most;
   } kBoards[] = {
+      // With memory for thin structures.
+      {with_coverage(test::BoardConfig(640, 480, 1, 32, 8, 1)), 3988},
+      {with_coverage(test::BoardConfig(1920, 1080, 17, 64, 32, 0)), 14443},
+      {with_coverage(test::BoardConfig(1920, 1080, 1, 64, 32, 0)), 13148},
       // VGA, one streamed view, blocks of 32, blurs of 8.
       {test::BoardConfig(640, 480, 1, 32, 8, 1), 1141},
       // Full HD, whole pictures, blocks of 64, blurs of 32.

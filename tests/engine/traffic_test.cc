@@ -61,14 +61,14 @@ TEST_CASE("traffic: of a map in focus at disparity 4 side views are read beyond 
 }
 
 TEST_CASE("traffic: the map is read twice, first to be checked, and that of a stream once") {
-  constexpr int kTall = 300;
+  constexpr int kTall = 700;
   const test::Scene scene = test::RandomScene(kWidth, kTall, 5, -4, 4, 6);
   sf_config config = Config(scene);
   sf_params params = test::Params(0, 0.75, SF_MODE_BLOCK);
   const sf_report whole = test::RefocusScene(scene, config, params).report;
   CHECK(whole.disparity_bytes == 2 * 4 * kWidth * kTall);
   // Of a region, rows that its blocks may read.
-  params.region = {0, 130, kWidth, 40};
+  params.region = {0, 330, kWidth, 40};
   const sf_report part = test::RefocusScene(scene, config, params).report;
   CHECK(part.disparity_bytes > 0);
   CHECK(part.disparity_bytes < whole.disparity_bytes);

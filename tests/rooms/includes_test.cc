@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 // A folder may include itself and those before it in this list. lib/analysis measures the engine,
 // so that it may include all of lib.
 const std::vector<std::string> kRooms = {
-    "simd",       "lib/base",   "lib/convert",   "lib/input",  "lib/plan",
-    "lib/filter", "lib/slices", "lib/line_scan", "lib/engine", "lib/source",
-    "lib/depth",  "lib/api",    "lib/analysis"};
+    "simd",       "lib/base",   "lib/convert", "lib/input",     "lib/coverage",
+    "lib/plan",   "lib/filter", "lib/slices",  "lib/line_scan", "lib/engine",
+    "lib/source", "lib/depth",  "lib/api",     "lib/analysis"};
 
 // What else there is, and the rooms it may include. The programs of platform/ and examples/ see the
 // engine from outside; `calibrate` and `analyze` measure its parts.

@@ -106,7 +106,7 @@ inline MemorySum SumOf(const std::vector<MemoryPart>& parts) {
   return sum;
 }
 
-// A configuration of docs/boards.md.
+// A configuration of docs/boards.md, without memory for thin structures.
 inline sf_config BoardConfig(int width, int height, int views, int block, double blur,
                              int streaming) {
   sf_config config;
@@ -119,6 +119,7 @@ inline sf_config BoardConfig(int width, int height, int views, int block, double
   config.max_blur = blur;
   config.largest_block = block;
   config.streaming = streaming;
+  config.features &= ~SF_FEATURE_COVERAGE;
   return config;
 }
 

@@ -72,6 +72,7 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_MAX_BLADES 12
 #define SF_MAX_RING_INNER 0.9
 #define SF_FEATURE_LINE_SCAN 1u /**< the paper's renderer, SF_RULE_PAPER */
+#define SF_FEATURE_COVERAGE 2u  /**< thin structures (hair, twigs) are parted from what is behind */
 
 /** What the opening of the lens looks like, in the disc of radius u_t. */
 typedef enum sf_shape {
@@ -165,10 +166,9 @@ typedef struct sf_config {
                        SF_TRANSFER_SRGB */
   float highlights; /**< how many times white the lamps are that pictures clip,
                        [1, SF_MAX_HIGHLIGHTS]; default 1: as white as they look. Pixels two of whose
-                       codes are 251 or more count, the brighter the more, up to clipped ones; a
-                       blurred lamp becomes a bright disc of the lens with all of its light. White
-                       areas wider and higher than a 32nd of the picture's width (16 to 128 pixels)
-                       count less, from twice as much on not at all: walls do not glow */
+                       codes are 251 or more count, the brighter the more, up to clipped ones.
+                       White areas wider and higher than a 32nd of the picture's width (16 to 128
+                       pixels) count less, from twice as much on not at all: walls do not glow */
   int32_t
       fill_unknown;  /**< 1: NaN and infinite values of disparity maps are unknown, and along their
                         row the known value next to them goes on, of one on either side that of
@@ -179,9 +179,9 @@ typedef struct sf_config {
   int32_t previews;  /**< largest shift of sf_refocus_preview, [0, SF_MAX_PREVIEW]: sf_prepare then
                         keeps the light field at 1/2, 1/4 and 1/8 of its size, up to that; default
                         0: none. The workspace does not grow by it */
-  uint32_t features; /**< bits: SF_FEATURE_LINE_SCAN, the default. Without it the workspace has
-                          no room for line scans, SF_RULE_DEFAULT is SUBAPERTURE in all modes,
-                          and SF_RULE_PAPER is refused, SF_ERROR_RULE */
+  uint32_t features; /**< bits of SF_FEATURE_, default all: what the workspace has memory for.
+                          Without LINE_SCAN, SF_RULE_DEFAULT is SUBAPERTURE in all modes, and
+                          SF_RULE_PAPER is refused, SF_ERROR_RULE */
   uint32_t reserved[2]; /**< zero */
   /** Where the `views` captured views lie: each coordinate in [-1, 1], rounded to 1/16384, no two
    *  alike, the first one (0, 0). All 0, the default: where sf_view_position tells. What lies

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/coverage/band.h"
+
+#include <cstring>
+
+#include "lib/coverage/far_light.h"
+
+namespace starfocus {
+namespace {
+
+// Pixels around a tile that its band and its near disparities are found with.
+constexpr int32_t kAround = kBandReach + 2;
+constexpr int32_t kPatch = kTileSide + 2 * kAround;
+
+// Pixels beside nearer ones in a tile of thin structure: of hair it has 38 and more, a straight
+// edge has 16 to 23, and a wire of two pixels up to 40.
+constexpr int32_t kLeastRagged = 36;
+
+// The offsets of pixels within kBandReach, nearest first.
+struct Offset {
+  int8_t x, y;
+  int16_t at;
+};
+constexpr int32_t kOffsets = (2 * kBandReach + 1) * (2 * kBandReach + 1) - 1;
+struct Offsets {
+  Offset by_distance[kOffsets] = {};
+  constexpr Offsets() {
+    int32_t count = 0;
+    for (int32_t square = 1; square <= 2 * kBandReach * kBandReach; ++square) {
+      for (int32_t y = -kBandReach; y <= kBandReach; ++y) {
+        for (int32_t x = -kBandReach; x <= kBandReach; ++x) {
+          if (x * x + y * y != square) continue;
+          by_distance[count++] = {static_cast<int8_t>(x), static_cast<int8_t>(y),
+                                  static_cast<int16_t>(y * kPatch + x)};
+        }
+      }
+    }
+  }
+};
+constexpr Offsets kNearestFirst;
+
+// The disparities around a tile; the picture's outermost pixels go on beyond it.
+struct Patch {
+  int16_t disparity[kPatch * kPatch];
+
+  Patch(const Window& window, int32_t column, int32_t row) {
+    const int32_t left = column * kTileSide - kAround, top = row * kTileSide - kAround;
+    for (int32_t y = 0; y < kPatch; ++y) {
+      const int16_t* from = window.disparity.Row(Clamp(top + y, 0, window.picture_height - 1));
+      int16_t* to = disparity + y * kPatch;
+      if (left >= 0 && left + kPatch <= window.picture_width) {
+        std::memcpy(to, from + left, kPatch * sizeof(*to));
+        continue;
+      }
+      for (int32_t x = 0; x < kPatch; ++x)
+        to[x] = from[Clamp(left + x, 0, window.picture_width - 1)];
+    }
+  }
+  static int32_t At(int32_t x, int32_t y) { return (y + kAround) * kPatch + x + kAround; }
+};
+
+// Which side of an edge a pixel is on.
+struct BandPixel {
+  int32_t side;      // 1: the near one, -1: the far one, 0: no edge is near
+  int32_t other;     // disparity of the nearest pixel beyond the edge
+  int32_t distance;  // to it, squared
+};
+
+BandPixel FindBandPixel(const Patch& patch, int32_t at) {
+  const int32_t here = patch.disparity[at];
+  for (const Offset& offset : kNearestFirst.by_distance) {
+    const int32_t other = patch.disparity[at + offset.at];
+    if (Abs(other - here) <= kThinStep) continue;
+    return {other < here ? 1 : -1, other, offset.x * offset.x + offset.y * offset.y};
+  }
+  return {0, here, 0};
+}
+
+// The mean of disparities around within 2 pixels of the near one.
+int16_t SmoothNear(const Patch& patch, int32_t at, int32_t near) {
+  constexpr int32_t kWithin = 2 << kDisparityBits;
+  constexpr int32_t kWeights[3] = {6, 4, 1};
+  int32_t sum = 0, weights = 0;
+  for (int32_t y = -2; y <= 2; ++y) {
+    for (int32_t x = -2; x <= 2; ++x) {
+      const int32_t disparity = patch.disparity[at + y * kPatch + x];
+      if (Abs(disparity - near) > kWithin) continue;
+      const int32_t weight = kWeights[Abs(x)] * kWeights[Abs(y)];
+      sum += weight * (disparity - near);
+      weights += weight;
+    }
+  }
+  if (weights == 0) return static_cast<int16_t>(near);
+  const int32_t half = sum < 0 ? -(weights / 2) : weights / 2;
+  return static_cast<int16_t>(near + (sum + half) / weights);
+}
+
+// How much of the far surface's light a far pixel shows, by its squared distance to the edge:
+// beside a strand of the map there may be one that it lacks.
+int16_t WeightByDistance(int32_t square) {
+  return static_cast<int16_t>(square <= 2 ? kKnown / 16 : square <= 5 ? kKnown / 4 : kKnown);
+}
+
+uint64_t BinsOf(const CoverageMap& map, int32_t low, int32_t high) {
+  return (map.BinOf(high) << 1) - map.BinOf(low);
+}
+
+// Makes all of the tile one surface, at the map's disparities.
+void ClearTile(const Window& window, int32_t column, int32_t row, const CoverageMap& map) {
+  const int32_t left = column * kTileSide, count = Min(kTileSide, map.width - left);
+  for (int32_t y = row * kTileSide; y < Min((row + 1) * kTileSide, map.height); ++y) {
+    const size_t to = map.At(left, y);
+    for (int32_t x = count; x < kTileSide; ++x) map.near[to + static_cast<size_t>(x)] = kNowhere;
+    std::memcpy(map.near + to, window.disparity.Row(y) + left,
+                static_cast<size_t>(count) * sizeof(*map.near));
+    std::memset(map.first + to, kWhole, kTileSide);
+  }
+}
+
+// The disparities of tiles side by side and one pixel around them; the picture's outermost pixels
+// go on beyond it.
+class TileRow {
+ public:
+  TileRow(const Window& window, int32_t left, int32_t top, int32_t columns) {
+    const int32_t right = window.picture_width - 1;
+    const int32_t first = Max(left - 1, 0), end = Min(left + columns, right) + 1;
+    for (int32_t y = 0; y < kTileSide + 2; ++y) {
+      const int16_t* from = window.disparity.Row(Clamp(top + y - 1, 0, window.picture_height - 1));
+      int16_t* to = At(-1, y - 1);
+      std::memcpy(to + first - left + 1, from + first,
+                  static_cast<size_t>(end - first) * sizeof(*to));
+      if (first == left) to[0] = from[0];
+      for (int32_t x = end - left + 1; x < columns + 2; ++x) to[x] = from[right];
+    }
+  }
+
+  int16_t* At(int32_t x, int32_t y) { return samples_ + (y + 1) * kStride + x + kTileSide; }
+
+  // Finds the range of a tile and of the pixels around it.
+  void FindRange(int32_t x, int32_t* low, int32_t* high) {
+    int16_t lows[kTileSide + 2], highs[kTileSide + 2];
+    std::memcpy(lows, At(x - 1, -1), sizeof(lows));
+    std::memcpy(highs, lows, sizeof(highs));
+    for (int32_t y = 0; y <= kTileSide; ++y) {
+      const int16_t* row = At(x - 1, y);
+      for (int32_t k = 0; k < kTileSide + 2; ++k) {
+        lows[k] = row[k] < lows[k] ? row[k] : lows[k];
+        highs[k] = row[k] > highs[k] ? row[k] : highs[k];
+      }
+    }
+    *low = INT16_MAX;
+    *high = INT16_MIN;
+    for (int32_t k = 0; k < kTileSide + 2; ++k) {
+      *low = Min(*low, lows[k]);
+      *high = Max(*high, highs[k]);
+    }
+  }
+
+  // Returns how many pixels of a tile lie beside nearer ones.
+  int32_t CountRagged(const simd::Kernels& kernels, int32_t x) {
+    int32_t count = 0;
+    for (int32_t y = 0; y < kTileSide; ++y) {
+      uint16_t bits;
+      kernels.BesideSteps(At(x, y), kStride, kTileSide, static_cast<int16_t>(kThinStep), &bits);
+      ForEachBit(bits, [&](int32_t) { ++count; });
+    }
+    return count;
+  }
+
+  static constexpr int32_t kMostTiles = 16;
+
+ private:
+  static constexpr int32_t kStride = (kMostTiles + 2) * kTileSide;
+  int16_t samples_[(kTileSide + 3) * kStride];
+};
+
+}  // namespace
+
+void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t row) {
+  const CoverageMap& map = *in.map;
+  for (int32_t from = first; from < last; from += TileRow::kMostTiles) {
+    const int32_t count = Min(TileRow::kMostTiles, last - from);
+    TileRow tiles(*in.window, from * kTileSide, row * kTileSide, count * kTileSide);
+    for (int32_t k = 0; k < count; ++k) {
+      CoverageTile& tile = map.Tile(from + k, row);
+      int32_t low, high;
+      tiles.FindRange(k * kTileSide, &low, &high);
+      const bool ragged =
+          high - low > kThinStep && tiles.CountRagged(*in.kernels, k * kTileSide) >= kLeastRagged;
+      tile = {BinsOf(map, low, high), INT16_MAX, INT16_MIN, ragged ? uint8_t{1} : uint8_t{0}, 0, 0};
+    }
+  }
+}
+
+void StartTile(const CoverageInput& in, int32_t column, int32_t row) {
+  const Window& window = *in.window;
+  const CoverageMap& map = *in.map;
+  if (!map.IsStarted(column, row)) {
+    ClearTile(window, column, row, map);
+    return;
+  }
+  const Patch patch(window, column, row);
+  CoverageTile& tile = map.Tile(column, row);
+  tile.near_bins = 0;
+  const int32_t left = column * kTileSide, top = row * kTileSide;
+  const int32_t columns = Min(kTileSide, window.picture_width - left);
+  const int32_t rows = Min(kTileSide, window.picture_height - top);
+  for (int32_t y = 0; y < kTileSide; ++y) {
+    int16_t light[3 * kTileSide];
+    if (y < rows) window.reader.Light(0, left, top + y, columns, light);
+    for (int32_t x = 0; x < kTileSide; ++x) {
+      const size_t to = map.At(left + x, top + y);
+      const int32_t at = Patch::At(x, y);
+      const int16_t here = patch.disparity[at];
+      const BandPixel pixel = FindBandPixel(patch, at);
+      map.near[to] = pixel.side == 0 ? here : SmoothNear(patch, at, Max(here, pixel.other));
+      FarCell& far = map.FarAt(left + x, top + y);
+      far.disparity = static_cast<int16_t>(Min(here, pixel.other));
+      map.alpha[to] = pixel.side == 0 ? kUnparted : pixel.side > 0 ? kWhole : 0;
+      map.first[to] = pixel.side < 0 ? 0 : kWhole;
+      tile.near_bins |= map.BinOf(map.near[to]);
+      if (y >= rows || x >= columns) {
+        far.weight = 0;
+        map.near[to] = kNowhere;
+        continue;
+      }
+      far.weight = pixel.side == 0 ? kKnown : pixel.side > 0 ? 0 : WeightByDistance(pixel.distance);
+      std::memcpy(far.rgb, light + 3 * x, sizeof(far.rgb));
+      if (pixel.side == 0) continue;
+      tile.low = static_cast<int16_t>(Min(tile.low, far.disparity));
+      tile.high = static_cast<int16_t>(Max(tile.high, map.near[to]));
+    }
+  }
+  PullTile(column, row, map);
+}
+
+}  // namespace starfocus

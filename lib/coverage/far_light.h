@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The far surface's light where few pixels show it: means over growing cells, each of what is known
+// of it, continued smoothly to where nothing is.
+#ifndef STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_
+#define STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_
+
+#include "lib/coverage/coverage_map.h"
+
+namespace starfocus {
+
+// Makes the cells of levels 1 to 4 of a tile from those of level 0. A cell has the light of the
+// farthest surface in it.
+void PullTile(int32_t column, int32_t row, const CoverageMap& map);
+
+// The far light of a tile's pixels; weight 0 where none is known around.
+struct FarTile {
+  FarCell cells[kTileSide * kTileSide];
+};
+
+// Fills what is not known at level 0 from the levels above, of this tile and those around it.
+void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_

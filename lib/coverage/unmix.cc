@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/coverage/unmix.h"
+
+#include <cstring>
+
+#include "lib/coverage/far_light.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kAround = simd::kNearReach;
+constexpr int32_t kPatch = kTileSide + 2 * kAround;
+
+// A tile is mixed if its mean of 4 alpha (1 - alpha) is above 3/16.
+constexpr int32_t kMixedShare = kTileSide * kTileSide * kWhole * kWhole / 64 * 3;
+
+// Colours are compared in 255ths of white with 3 fractional bits.
+constexpr int kColourBits = 3;
+constexpr int32_t kSquareOne = 1 << (2 * kColourBits);
+// Colours whose squared distance is less tell no mixture apart.
+constexpr int32_t kLeastContrast = 300 * kSquareOne;
+// A colour off the line between near and far is a mixture up to s / 2, and none from 3 s / 2 on;
+// s^2 is this and a sixteenth of the squared contrast.
+constexpr int32_t kNoise = 81 * kSquareOne;
+// Of the near light around a pixel, at least; of 2^15.
+constexpr int32_t kLeastNear = 32;
+
+// The pixels around a tile: light, near disparities, and how much each shows the near surface.
+struct NearPatch {
+  static constexpr size_t kPlane = kPatch * kPatch;
+  int16_t light[3 * kPlane];
+  int16_t near[kPlane];
+  int16_t weight[kPlane];
+
+  // Sums the near light of a row of the tile's pixels.
+  void SumRow(const simd::Kernels& kernels, int32_t y, simd::NearSums* sums) const {
+    const size_t at = static_cast<size_t>((y + kAround) * kPatch + kAround);
+    const simd::NearRows rows = {{light + at, light + kPlane + at, light + 2 * kPlane + at},
+                                 near + at,
+                                 weight + at,
+                                 kPatch,
+                                 static_cast<int16_t>(kThinStep)};
+    kernels.SumNear(rows, sums);
+  }
+};
+
+// Loads the patch; weight_of(x, y) tells how much of the near light a pixel of the picture shows.
+template <class Weight>
+void LoadPatch(const CoverageInput& in, int32_t column, int32_t row, const Weight& weight_of,
+               NearPatch* patch) {
+  const CoverageMap& map = *in.map;
+  const int32_t left = column * kTileSide - kAround, top = row * kTileSide - kAround;
+  const int32_t first = Max(0, -left), last = Min(kPatch, map.width - left);
+  std::memset(patch->weight, 0, sizeof(patch->weight));
+  std::memset(patch->light, 0, sizeof(patch->light));
+  std::memset(patch->near, 0, sizeof(patch->near));
+  for (int32_t y = Max(0, -top); y < Min(kPatch, map.height - top); ++y) {
+    int16_t light[3 * kPatch + simd::kPadding / sizeof(int16_t)];
+    const auto at = static_cast<size_t>(y * kPatch + first);
+    in.window->reader.Light(0, left + first, top + y, last - first, light);
+    in.kernels->Split(light, static_cast<size_t>(last - first), NearPatch::kPlane,
+                      patch->light + at);
+    std::memcpy(patch->near + at, map.near + map.At(left + first, top + y),
+                static_cast<size_t>(last - first) * sizeof(*patch->near));
+    for (int32_t x = first; x < last; ++x) {
+      patch->weight[y * kPatch + x] = static_cast<int16_t>(weight_of(left + x, top + y));
+    }
+  }
+}
+
+using Rgb = int32_t[3];
+
+constexpr int32_t Compared(int32_t light) { return light >> (kLightBits - kColourBits); }
+
+// Coverage of a mixture of near and far; where it is none, or cannot be told, `guess`.
+int32_t AlphaOf(const Rgb& near, const Rgb& far, const Rgb& mixed, int32_t guess) {
+  int32_t contrast = 0, along = 0, distance = 0;
+  for (int c = 0; c < 3; ++c) {
+    const int32_t whole = near[c] - far[c], part = mixed[c] - far[c];
+    contrast += whole * whole;
+    along += whole * part;
+    distance += part * part;
+  }
+  if (contrast < kLeastContrast) return guess;
+  const int64_t beside = distance - int64_t{along} * along / contrast;
+  const int64_t square = kNoise + contrast / 16;
+  // Full trust up to a quarter of the square, none from 9/4 on.
+  const int64_t doubt = (4 * beside - square) * kWhole / (8 * square);
+  const int32_t trust = kWhole - Clamp(static_cast<int32_t>(doubt), 0, kWhole);
+  const int32_t part = Clamp(along, 0, contrast);
+  const auto alpha = static_cast<int32_t>((int64_t{part} * kWhole + contrast / 2) / contrast);
+  return guess + static_cast<int32_t>(RoundShift((alpha - guess) * trust, kAlphaBits));
+}
+
+// Calls visit(x, y, alpha, far light) for the tile's pixels near edges of which the far light is
+// known; x and y are of the picture.
+template <class Visit>
+void ForEachParted(const CoverageInput& in, const NearPatch& patch, int32_t column, int32_t row,
+                   const Visit& visit) {
+  const CoverageMap& map = *in.map;
+  const int32_t left = column * kTileSide, top = row * kTileSide;
+  FarTile far;
+  PushTile(column, row, map, &far);
+  for (int32_t y = 0; y < Min(kTileSide, map.height - top); ++y) {
+    simd::NearSums sums;
+    patch.SumRow(*in.kernels, y, &sums);
+    for (int32_t x = 0; x < Min(kTileSide, map.width - left); ++x) {
+      const size_t to = map.At(left + x, top + y);
+      const FarCell& cell = far.cells[y * kTileSide + x];
+      if (map.alpha[to] == kUnparted || cell.weight == 0) continue;
+      int32_t alpha = map.first[to];
+      const int32_t weight = sums.weight[x];
+      if (weight >= kLeastNear) {
+        Rgb near, beyond, mixed;
+        for (int c = 0; c < 3; ++c) {
+          const size_t at = static_cast<size_t>(c) * NearPatch::kPlane;
+          near[c] = Compared((sums.light[c][x] << 15) / weight);
+          beyond[c] = Compared(cell.rgb[c]);
+          mixed[c] =
+              Compared(patch.light[at + static_cast<size_t>((y + kAround) * kPatch + x + kAround)]);
+        }
+        alpha = AlphaOf(near, beyond, mixed, alpha);
+      }
+      visit(left + x, top + y, alpha, cell);
+    }
+  }
+}
+
+// a to the power of 8; kAlphaBits to kKnownBits.
+constexpr int32_t EighthPower(int32_t a) {
+  const int32_t square = a * a >> kAlphaBits, fourth = square * square >> kAlphaBits;
+  return fourth * fourth >> (2 * kAlphaBits - kKnownBits);
+}
+
+}  // namespace
+
+int32_t FarWeight(int32_t alpha) { return EighthPower(kWhole - alpha); }
+
+void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row) {
+  const CoverageMap& map = *in.map;
+  // The near side of an edge, by how many of the pixels around are of it.
+  const auto weight_of = [&](int32_t x, int32_t y) {
+    if (map.alpha[map.At(x, y)] == 0) return 0;
+    int32_t count = 0;
+    for (int32_t dy = -1; dy <= 1; ++dy) {
+      const int32_t there = Clamp(y + dy, 0, map.height - 1);
+      for (int32_t dx = -1; dx <= 1; ++dx) {
+        count += map.alpha[map.At(Clamp(x + dx, 0, map.width - 1), there)] != 0 ? 1 : 0;
+      }
+    }
+    return 3 * count * count;
+  };
+  NearPatch patch;
+  LoadPatch(in, column, row, weight_of, &patch);
+  int32_t mixture = 0;
+  ForEachParted(in, patch, column, row, [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
+    map.first[map.At(x, y)] = static_cast<uint8_t>(alpha);
+    mixture += alpha * (kWhole - alpha);
+  });
+  map.Tile(column, row).mixed = mixture > kMixedShare ? 1 : 0;
+}
+
+void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row) {
+  const CoverageMap& map = *in.map;
+  NearPatch patch;
+  LoadPatch(
+      in, column, row, [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); },
+      &patch);
+  ForEachParted(in, patch, column, row,
+                [&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
+                  map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
+                  std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
+                });
+}
+
+}  // namespace starfocus

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much of each pixel near an edge the nearer surface covers.
+#ifndef STARFOCUS_LIB_COVERAGE_UNMIX_H_
+#define STARFOCUS_LIB_COVERAGE_UNMIX_H_
+
+#include "lib/coverage/coverage_input.h"
+
+namespace starfocus {
+
+// 1 - alpha to the power of 8, kKnownBits: how much of the far surface's light a pixel shows that a
+// nearer one covers by alpha (kAlphaBits).
+int32_t FarWeight(int32_t alpha);
+
+// Writes the tile's coverage of the first pass from its first guess, and marks it `mixed` if its
+// pixels are on the average such mixtures as there are in thin structure.
+void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row);
+
+// Writes the tile's coverage of the second pass and its far light, from the first pass and the far
+// light of all views (look.h).
+void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_COVERAGE_UNMIX_H_

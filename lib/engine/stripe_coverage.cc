@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/engine/stripe_coverage.h"
+
+#include <initializer_list>
+
+namespace starfocus {
+namespace {
+
+// A pass over rows of tiles: job `index` has the tiles of that column of superblocks.
+struct PassJob {
+  CoverageInput in;
+  int pass;
+  RowRange rows;  // of tiles
+  int32_t tiles;  // of a superblock
+};
+
+void RunPassJob(const PassJob& job, int32_t index, Worker* worker) {
+  Window window = *job.in.window;
+  window.reads = &worker->counts.reads;
+  const int32_t first = index * job.tiles, last = Min(first + job.tiles, job.in.map->columns);
+  for (int32_t row = job.rows.first; row < job.rows.last; ++row) {
+    if (!worker->patience.Spend(int64_t{last - first} * kTileSide * kTileSide)) return;
+    RunPass({job.in.kernels, &window, job.in.map}, job.pass, first, last, row);
+  }
+}
+
+int32_t TilesOfSuperblock(const sf_config& config) { return config.largest_block / kTileSide; }
+
+// Rows of tiles of which some pass may need what another has left there.
+int32_t MostTileRows(const sf_config& config, int32_t border) {
+  const int32_t read = (config.largest_block + 2 * border) / kTileSide + 2;
+  const int32_t looked_at = TilesOfSuperblock(config) + kMostMove / kTileSide + 1;
+  return Max(read, looked_at) + TilesAhead(config, kFindRagged) + 1;
+}
+
+// Writes that nothing lies beyond the picture's left and right edge.
+void ClearAside(const CoverageMap& map) {
+  for (int32_t y = 0; y < map.tile_rows * kTileSide; ++y) {
+    for (const int32_t x : {-kAside, map.columns * kTileSide}) {
+      int16_t* const near = map.near + map.At(x, y);
+      for (int32_t k = 0; k < kAside; ++k) near[k] = kNowhere;
+    }
+  }
+}
+
+// Whether coverage is found for the lens: slices show it.
+bool FindsCoverage(const EngineState& engine) {
+  const Lens& lens = engine.lens;
+  return HasCoverage(engine.config) && lens.renderer->gathers &&
+         lens.params.mode != SF_MODE_BLUR && !IsPinhole(lens);
+}
+
+// Does all passes up to the one before last in row `end` of tiles.
+sf_status RunPasses(int32_t top, int32_t end, const Runner& runner, EngineState* engine) {
+  CoverageState& state = engine->stripe.coverage;
+  for (int pass = 0; pass < kCoveragePasses; ++pass) {
+    const int32_t ahead = TilesAhead(engine->config, pass);
+    int32_t& done = state.done[pass];
+    // The first stripe needs as many rows above it.
+    const RowRange rows = {done >= 0 ? done : Max(0, top - ahead),
+                           Min(state.map.Rows(), end + ahead)};
+    if (rows.first < rows.last) {
+      const PassJob job = {{engine->kernels, &engine->pictures.windows[0], &state.map},
+                           pass,
+                           rows,
+                           TilesOfSuperblock(engine->config)};
+      const sf_status status =
+          RunJobs<PassJob, RunPassJob>(job, Columns(engine->config), runner, &engine->crew);
+      if (status != SF_OK) return status;
+    }
+    done = Max(rows.first, rows.last);
+  }
+  return SF_OK;
+}
+
+}  // namespace
+
+void TakeCoverage(const sf_config& config, int32_t border, Carver* carver, CoverageState* state) {
+  if (!HasCoverage(config)) return;
+  CoverageMap& map = state->map;
+  map.width = config.width;
+  map.height = config.height;
+  map.columns = (config.width + kTileSide - 1) / kTileSide;
+  map.tile_rows = MostTileRows(config, border);
+  map.disparity_min = static_cast<int16_t>(config.disparity_min * (1 << kDisparityBits));
+  const auto range =
+      static_cast<int32_t>((config.disparity_max - config.disparity_min) * (1 << kDisparityBits));
+  map.bin_bits = 0;
+  while (range >> map.bin_bits >= 64) ++map.bin_bits;
+  const auto tiles = static_cast<size_t>(map.columns) * static_cast<size_t>(map.tile_rows);
+  const size_t pixels = map.Stride() * static_cast<size_t>(map.tile_rows) * kTileSide;
+  map.tiles = carver->Take<CoverageTile>(tiles);
+  map.first = carver->Take<uint8_t>(pixels);
+  map.alpha = carver->Take<uint8_t>(pixels);
+  map.near = carver->Take<int16_t>(pixels);
+  for (int level = 0; level < kFarLevels; ++level) {
+    map.far[level] = carver->Take<FarCell>((tiles * kTileSide * kTileSide) >> (2 * level));
+  }
+}
+
+sf_status FindCoverage(const Stripe& stripe, const Runner& runner, EngineState* engine) {
+  CoverageState& state = engine->stripe.coverage;
+  const bool finds = FindsCoverage(*engine);
+  for (Window& window : engine->pictures.windows) window.coverage = finds ? &state.map : nullptr;
+  if (!finds) return SF_OK;
+  const int32_t border = engine->lens.borders.parted;
+  const int32_t top = Max(0, stripe.y - border) / kTileSide;
+  const int32_t end =
+      Min(state.map.Rows(), (stripe.y + stripe.height + border) / kTileSide + 1);
+  if (state.done[kFindRagged] < 0) ClearAside(state.map);
+  // A superblock's rows at a time, so that few rows are in memory.
+  sf_status status = SF_OK;
+  while (status == SF_OK && state.done[kUnmixAgain] < end) {
+    const int32_t from = Max(top, state.done[kUnmixAgain]);
+    status = RunPasses(top, Min(from + TilesOfSuperblock(engine->config), end), runner, engine);
+  }
+  return status;
+}
+
+}  // namespace starfocus

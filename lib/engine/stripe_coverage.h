@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the coverage map (lib/coverage) of the rows that a stripe needs, pass by pass.
+#ifndef STARFOCUS_LIB_ENGINE_STRIPE_COVERAGE_H_
+#define STARFOCUS_LIB_ENGINE_STRIPE_COVERAGE_H_
+
+#include <cstdint>
+
+#include "lib/base/carver.h"
+#include "lib/engine/engine.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// Takes the memory of a coverage map for stripes that need `border` rows around them.
+void TakeCoverage(const sf_config& config, int32_t border, Carver* carver, CoverageState* state);
+
+// Finds the coverage of the rows that the stripe's blocks read.
+sf_status FindCoverage(const Stripe& stripe, const Runner& runner, EngineState* engine);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_ENGINE_STRIPE_COVERAGE_H_

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/slices/thin.h"
+
+#include "lib/base/fixed.h"
+#include "lib/coverage/coverage_map.h"
+
+namespace starfocus {
+namespace {
+
+// From this coverage on a pixel is the near surface, and up to that the far one.
+constexpr int32_t kMostPart = 115, kLeastPart = 2;
+// Hidden surfaces this close behind the near one are other strands, which are not opaque.
+constexpr int32_t kSameStructure = 4 << kDisparityBits;
+
+class ThinParter {
+ public:
+  ThinParter(const Window& window, const Field& field, LayeredDepth* surfaces)
+      : map_(*window.coverage), field_(field), surfaces_(*surfaces) {}
+
+  void PartTile(int32_t column, int32_t row) {
+    const Rect& picture = {0, 0, map_.width, map_.height};
+    const int32_t left = Max(Max(column * kTileSide, field_.x), picture.x);
+    const int32_t top = Max(Max(row * kTileSide, field_.y), picture.y);
+    const int32_t right = Min(Min((column + 1) * kTileSide, field_.x + field_.width), map_.width);
+    const int32_t bottom = Min(Min((row + 1) * kTileSide, field_.y + field_.height), map_.height);
+    for (int32_t y = top; y < bottom; ++y) {
+      for (int32_t x = left; x < right; ++x) PartPixel(x, y);
+    }
+  }
+
+ private:
+  void PartPixel(int32_t x, int32_t y) {
+    const size_t from = map_.At(x, y), at = surfaces_.At(x - field_.x, y - field_.y);
+    const int32_t alpha = map_.alpha[from];
+    if (alpha == kUnparted) {
+      DropCopies(at);
+      return;
+    }
+    const FarCell& far = map_.FarAt(x, y);
+    const int32_t row = y - field_.y;
+    surfaces_.hiding[row] |= uint64_t{1}
+                             << ((x - field_.x) / static_cast<int32_t>(simd::kSliceLanes));
+    surfaces_.sources[0][at] = surfaces_.sources[1][at] = 0;
+    surfaces_.disparity[2][at] = kNoSurface;
+    const int16_t* const mixed = field_.Rgb(x - field_.x, row);
+    const bool whole = alpha <= kLeastPart || alpha > kMostPart;
+    SetDisparity(0, at, alpha <= kLeastPart ? far.disparity : map_.near[from]);
+    if (alpha <= kLeastPart) {
+      surfaces_.disparity[1][at] = kNoSurface;
+    } else {
+      SetDisparity(1, at, far.disparity);
+    }
+    surfaces_.share[at] = whole ? simd::kSliceEnd : static_cast<uint8_t>(alpha);
+    for (size_t c = 0; c < 3; ++c) {
+      const size_t sample = c * surfaces_.plane + at;
+      surfaces_.rgb[0][sample] = whole ? mixed[c] : NearLight(mixed[c], far.rgb[c], alpha);
+      surfaces_.rgb[1][sample] = far.rgb[c];
+    }
+  }
+
+  // What is left of a mixture without the far surface's part.
+  static int16_t NearLight(int32_t mixed, int32_t far, int32_t alpha) {
+    const int32_t near = (mixed * kWhole - (kWhole - alpha) * far + alpha / 2) / alpha;
+    return static_cast<int16_t>(Clamp(near, ranges::kUnmixed.low, ranges::kUnmixed.high));
+  }
+
+  void SetDisparity(int surface, size_t at, int16_t disparity) {
+    surfaces_.disparity[surface][at] = disparity;
+    surfaces_.low = disparity < surfaces_.low ? disparity : surfaces_.low;
+    surfaces_.high = disparity > surfaces_.high ? disparity : surfaces_.high;
+  }
+
+  void DropCopies(size_t at) {
+    const int32_t near = surfaces_.disparity[0][at];
+    for (int behind = simd::kSurfaces - 1; behind > 0; --behind) {
+      int16_t& disparity = surfaces_.disparity[behind][at];
+      if (disparity != kNoSurface && near - disparity < kSameStructure) disparity = kNoSurface;
+    }
+  }
+
+  const CoverageMap& map_;
+  const Field& field_;
+  LayeredDepth& surfaces_;
+};
+
+}  // namespace
+
+void PartThin(const Window& window, const Field& field, LayeredDepth* surfaces) {
+  if (window.coverage == nullptr || window.layer > 0) return;
+  const CoverageMap& map = *window.coverage;
+  ThinParter parter(window, field, surfaces);
+  const int32_t last_row = Min(field.y + field.height - 1, map.height - 1) / kTileSide;
+  const int32_t last_column = Min(field.x + field.width - 1, map.width - 1) / kTileSide;
+  for (int32_t row = Max(0, field.y) / kTileSide; row <= last_row; ++row) {
+    for (int32_t column = Max(0, field.x) / kTileSide; column <= last_column; ++column) {
+      if (map.Tile(column, row).thin != 0) parter.PartTile(column, row);
+    }
+  }
+}
+
+}  // namespace starfocus

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cases of the kernels of simd/coverage.h.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/simd/kernel_cases.h"
+
+namespace test::kernel_cases {
+namespace {
+
+using starfocus::simd::CoverView;
+using starfocus::simd::Kernels;
+using starfocus::simd::kNearReach;
+using starfocus::simd::kNearTaps;
+using starfocus::simd::kPadding;
+using starfocus::simd::kSliceLanes;
+using starfocus::simd::NearRows;
+using starfocus::simd::NearSums;
+
+int Saturated(int value) { return std::clamp(value, -32768, 32767); }
+
+// a * b of 15 fractional bits, rounded halves up, by real numbers.
+int Product(int a, int b) { return int(std::floor(double(a) * b / 32768 + 0.5)); }
+
+CoverView DrawView(Draw* draw) {
+  const int move = draw->Int(-64, 64);
+  return {int16_t(draw->Int(-16384, 16384)), int16_t(move * 32), int16_t(draw->Int(0, 64)),
+          int16_t(draw->Int(0, 200))};
+}
+
+std::vector<int16_t> Weights(size_t count, Draw* draw) {
+  std::vector<int16_t> weights(count);
+  for (int16_t& weight : weights) {
+    const int kind = draw->Int(0, 3);
+    weight = int16_t(kind == 0 ? 0 : kind == 1 ? 256 : draw->Int(0, 256));
+  }
+  return weights;
+}
+
+// Disparities of two surfaces, seldom any.
+std::vector<int16_t> TwoSurfaces(size_t count, Draw* draw) {
+  std::vector<int16_t> disparities(count);
+  for (int16_t& d : disparities) {
+    d = int16_t(draw->Rarely(20) ? draw->Int(-32768, 32767)
+                                 : (draw->Int(0, 1) == 1 ? 640 : -700) + draw->Int(-40, 40));
+  }
+  return disparities;
+}
+
+}  // namespace
+
+void CoverPlaces(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Size(1, 4, 64);
+  const int16_t* near = call->Input("near", TwoSurfaces(rows * kSliceLanes, draw));
+  const uint8_t* coverage = call->Input("coverage", Bytes(rows * kSliceLanes, draw));
+  const int16_t* far = call->Input("far", TwoSurfaces(rows * kSliceLanes, draw));
+  const CoverView view = DrawView(draw);
+  auto* covered = call->Output<int16_t>("covered", rows * kSliceLanes);
+  call->Result(covered, rows * kSliceLanes);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    std::fill(covered, covered + rows * kSliceLanes, int16_t{100});
+    for (size_t y = 0; y < rows; ++y) {
+      const size_t at = y * kSliceLanes;
+      kernels.CoverPlaces(near + at, coverage + at, far + at, view, covered + at);
+    }
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    bool right = true;
+    for (size_t n = 0; n < rows * kSliceLanes; ++n) {
+      const int nearer = Saturated(near[n] - far[n]);
+      const int beside = std::abs(Saturated(Product(nearer, view.along) - view.place));
+      const bool covers = nearer > view.least && beside <= view.within;
+      right = right && covered[n] == (covers ? std::max<int>(100, coverage[n]) : 100);
+      (*met)["covered"] += covers;
+    }
+    return right;
+  };
+}
+
+void SumNear(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Size(1, 3, 16), height = rows + 2 * kNearReach;
+  const size_t width = kSliceLanes + 2 * kNearReach, stride = width + draw->Size(0, 5, 0);
+  NearRows first = {};
+  const size_t at = kNearReach * stride + kNearReach;
+  for (const int16_t*& light : first.light) {
+    light = call->Input("light", Light(height * stride, draw)) + at;
+  }
+  first.disparity = call->Input("disparity", TwoSurfaces(height * stride, draw)) + at;
+  first.weight = call->Input("weight", Weights(height * stride, draw)) + at;
+  first.stride = ptrdiff_t(stride);
+  first.step = int16_t(draw->Int(0, 400));
+  for (size_t y = 0; y < height; ++y) {
+    for (const int16_t* plane :
+         {first.light[0], first.light[1], first.light[2], first.disparity, first.weight}) {
+      call->Ignore(plane - at + y * stride + width, stride - width);
+    }
+  }
+  auto* sums = call->Output<NearSums>("sums", rows);
+  call->Result(sums, rows);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    NearRows row = first;
+    for (size_t y = 0; y < rows; ++y) {
+      kernels.SumNear(row, sums + y);
+      for (const int16_t*& light : row.light) light += stride;
+      row.disparity += stride;
+      row.weight += stride;
+    }
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    bool right = true;
+    for (size_t i = 0; i < rows * kSliceLanes; ++i) {
+      const size_t y = i / kSliceLanes, n = i % kSliceLanes, here = y * stride + n;
+      int expected[4] = {0, 0, 0, 0};
+      for (int dy = -kNearReach; dy <= kNearReach; ++dy) {
+        for (int dx = -kNearReach; dx <= kNearReach; ++dx) {
+          const ptrdiff_t there = ptrdiff_t(here) + dy * ptrdiff_t(stride) + dx;
+          const int step = Saturated(first.disparity[there] - first.disparity[here]);
+          if (std::abs(step) > first.step) continue;
+          const int weight = first.weight[there] * kNearTaps[std::abs(dy)][std::abs(dx)];
+          expected[3] += weight;
+          for (int c = 0; c < 3; ++c) expected[c] += Product(first.light[c][there], weight);
+          (*met)["same surface"] += dx != 0;
+        }
+      }
+      for (int c = 0; c < 3; ++c) right = right && sums[y].light[c][n] == expected[c];
+      right = right && sums[y].weight[n] == expected[3];
+    }
+    return right;
+  };
+}
+
+}  // namespace test::kernel_cases
