@@ -2,6 +2,7 @@
 #include "examples/scene/builders.h"
 
 #include <cmath>
+#include <utility>
 
 namespace starfocus {
 namespace {
@@ -61,6 +62,14 @@ Surface Leaf(double cx, double cy, double cd, double dx, double dy, double lengt
   leaf.slope_x = rise / length * leaf.ax;
   leaf.slope_y = rise / length * leaf.ay;
   return leaf;
+}
+
+Surface Tuft(std::vector<Strand> strands, const Material& material) {
+  Surface tuft;
+  tuft.shape = Shape::kStrands;
+  tuft.strands = std::make_shared<const Strands>(std::move(strands));
+  Dress(material, &tuft);
+  return tuft;
 }
 
 }  // namespace starfocus

@@ -32,6 +32,9 @@ Surface Wire(double x0, double y0, double d0, double x1, double y1, double d1, d
 Surface Leaf(double cx, double cy, double cd, double dx, double dy, double length, double width,
              double rise, const Material& material);
 
+// Strands as one surface.
+Surface Tuft(std::vector<Strand> strands, const Material& material);
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_EXAMPLES_SCENE_BUILDERS_H_

@@ -17,6 +17,8 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr int kViewGrid = 4;       // samples of a pixel of a view, squared
+constexpr int kFineGrid = 8;       // the same where strands may be
+constexpr int kCoverageGrid = 16;  // the same of coverage
 constexpr int kLensSamples = 256;  // of a pixel of the ground truth, about
 // cos and sin of the golden angle, and of 1/256 of a turn: sequences of directions come from
 // multiplying by them, which needs no library function.
@@ -58,6 +60,13 @@ std::vector<LensPoint> Turns() {
 }
 
 uint8_t ToByte(double value) { return static_cast<uint8_t>(Clamp01(value / 255) * 255 + 0.5); }
+
+// Sample k of a sheared grid over a pixel: n * n different positions along either axis, each within
+// half a pixel of 0.
+Point BoxSample(int k, int grid) {
+  const double i = k % grid, j = k / grid, n = grid;
+  return {(i + (j + 0.5) / n) / n - 0.5, (j + (n - i - 0.5) / n) / n - 0.5};
+}
 
 // Smallest and largest product of a value of [a, b] and one of [c, d].
 void ProductRange(double a, double b, double c, double d, double* low, double* high) {
@@ -128,6 +137,16 @@ const Surface* RayTracer::Trace(const std::vector<size_t>& candidates, const Ray
   return found;
 }
 
+template <class Kind>
+bool RayTracer::Any(const std::vector<size_t>& candidates, const Kind& kind) const {
+  return std::any_of(candidates.begin(), candidates.end(),
+                     [&](size_t i) { return kind(scene_.surfaces[i]); });
+}
+
+Ray RayTracer::CentreRay(double x, double y) const {
+  return {(x - 0.5 * (width_ - 1)) / scale_, (y - 0.5 * (height_ - 1)) / scale_, 0, 0};
+}
+
 Color RayTracer::RayColor(const Lens& lens, const std::vector<size_t>& candidates, double x,
                           double y, double u, double v) const {
   const double canvas_x = (x - 0.5 * (width_ - 1)) / scale_;
@@ -138,16 +157,14 @@ Color RayTracer::RayColor(const Lens& lens, const std::vector<size_t>& candidate
   return surface == nullptr ? Color() : curve_.Decode(surface->paint(*surface, hit));
 }
 
-Color RayTracer::ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x,
-                           int y) const {
+Color RayTracer::ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y,
+                           int grid) const {
   Color sum;
-  for (int k = 0; k < kViewGrid * kViewGrid; ++k) {
-    // A sheared grid: 16 different positions along either axis.
-    const double i = k % kViewGrid, j = k / kViewGrid, n = kViewGrid;
-    const double dx = (i + (j + 0.5) / n) / n - 0.5, dy = (j + (n - i - 0.5) / n) / n - 0.5;
-    sum = sum + RayColor(lens, candidates, x + dx, y + dy, lens.u, lens.v);
+  for (int k = 0; k < grid * grid; ++k) {
+    const Point offset = BoxSample(k, grid);
+    sum = sum + RayColor(lens, candidates, x + offset.x, y + offset.y, lens.u, lens.v);
   }
-  return sum * (1.0 / (kViewGrid * kViewGrid));
+  return sum * (1.0 / (grid * grid));
 }
 
 Color RayTracer::LensPixel(const Lens& lens, const std::vector<size_t>& candidates, int x,
@@ -174,10 +191,13 @@ Color RayTracer::LensPixel(const Lens& lens, const std::vector<size_t>& candidat
 
 void RayTracer::RenderTile(const Lens& lens, int x0, int y0, Image* image) const {
   const std::vector<size_t> candidates = Candidates(lens, x0, y0);
+  const auto is_fine = [](const Surface& surface) { return surface.strands != nullptr; };
+  const int grid = Any(candidates, is_fine) ? kFineGrid : kViewGrid;
   for (int y = y0; y < std::min(y0 + kTile, height_); ++y) {
     for (int x = x0; x < std::min(x0 + kTile, width_); ++x) {
-      const Color color = curve_.Encode(lens.aperture > 0 ? LensPixel(lens, candidates, x, y)
-                                                          : ViewPixel(lens, candidates, x, y));
+      const Color color =
+          curve_.Encode(lens.aperture > 0 ? LensPixel(lens, candidates, x, y)
+                                          : ViewPixel(lens, candidates, x, y, grid));
       uint8_t* pixel = image->row(y) + 3 * x;
       pixel[0] = ToByte(color.r);
       pixel[1] = ToByte(color.g);
@@ -201,6 +221,18 @@ void RayTracer::ForBands(Progress* progress, int steps, const Body& body) const 
     }
   };
   ThreadRunner::Run(runner_, job, &band, (height_ + kTile - 1) / kTile);
+}
+
+template <class Body>
+void RayTracer::ForCentrePixels(Progress* progress, int steps, const Body& body) const {
+  ForBands(progress, steps, [&](int y0) {
+    for (int x0 = 0; x0 < width_; x0 += kTile) {
+      const std::vector<size_t> candidates = Candidates(Lens(), x0, y0);
+      for (int y = y0; y < std::min(y0 + kTile, height_); ++y) {
+        for (int x = x0; x < std::min(x0 + kTile, width_); ++x) body(candidates, x, y);
+      }
+    }
+  });
 }
 
 Image RayTracer::Render(const Lens& lens, Progress* progress) const {
@@ -234,21 +266,38 @@ FloatMap RayTracer::Disparity() const {
   map.width = width_;
   map.height = height_;
   map.values.resize(size_t(width_) * size_t(height_));
-  ForBands(nullptr, 0, [&](int y0) {
-    for (int x0 = 0; x0 < width_; x0 += kTile) {
-      const std::vector<size_t> candidates = Candidates(Lens(), x0, y0);
-      for (int y = y0; y < std::min(y0 + kTile, height_); ++y) {
-        for (int x = x0; x < std::min(x0 + kTile, width_); ++x) {
-          const double canvas_x = (x - 0.5 * (width_ - 1)) / scale_;
-          const double canvas_y = (y - 0.5 * (height_ - 1)) / scale_;
-          Hit hit;
-          Trace(candidates, {canvas_x, canvas_y, 0, 0}, &hit);
-          map.values[size_t(y) * size_t(width_) + size_t(x)] = static_cast<float>(hit.d * scale_);
-        }
-      }
-    }
+  ForCentrePixels(nullptr, 0, [&](const std::vector<size_t>& candidates, int x, int y) {
+    Hit hit;
+    Trace(candidates, CentreRay(x, y), &hit);
+    map.values[size_t(y) * size_t(width_) + size_t(x)] = static_cast<float>(hit.d * scale_);
   });
   return map;
+}
+
+uint16_t RayTracer::CoverageOf(const std::vector<size_t>& candidates, int x, int y) const {
+  constexpr int kSamples = kCoverageGrid * kCoverageGrid;
+  int covered = 0;
+  for (int k = 0; k < kSamples; ++k) {
+    const Point offset = BoxSample(k, kCoverageGrid);
+    Hit hit;
+    const Surface* surface = Trace(candidates, CentreRay(x + offset.x, y + offset.y), &hit);
+    if (surface != nullptr && surface->foreground) ++covered;
+  }
+  return static_cast<uint16_t>((255 * covered + kSamples / 2) / kSamples);
+}
+
+GreyImage RayTracer::Coverage(Progress* progress) const {
+  GreyImage coverage;
+  coverage.width = width_;
+  coverage.height = height_;
+  coverage.levels.resize(size_t(width_) * size_t(height_));
+  const auto is_near = [](const Surface& surface) { return surface.foreground; };
+  ForCentrePixels(
+      progress, kCoverageCost, [&](const std::vector<size_t>& candidates, int x, int y) {
+        if (!Any(candidates, is_near)) return;
+        coverage.levels[size_t(y) * size_t(width_) + size_t(x)] = CoverageOf(candidates, x, y);
+      });
+  return coverage;
 }
 
 }  // namespace starfocus

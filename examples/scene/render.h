@@ -11,6 +11,7 @@
 #include "platform/pfm.h"
 #include "platform/progress.h"
 #include "platform/runner.h"
+#include "platform/writers/png.h"
 
 namespace starfocus {
 
@@ -19,14 +20,19 @@ class RayTracer {
   // Pictures are means of light, as `transfer` has it.
   RayTracer(const Scene& scene, int width, int height, sf_transfer transfer, ThreadRunner* runner);
 
-  // Progress counts rows, and rows of ground truth kTruthCost times; null for none.
-  static constexpr int kTruthCost = 16;
+  // Progress counts rows, rows of ground truth kTruthCost times, and rows of coverage kCoverageCost
+  // times; null for none.
+  static constexpr int kTruthCost = 16, kCoverageCost = 2;
 
   // What a pinhole at (u, v) sees, every pixel the mean over its box.
   Image View(double u, double v, Progress* progress) const;
 
   // Disparity of the centre view at pixel centres, in pixels per unit u.
   FloatMap Disparity() const;
+
+  // Share of every pixel of the centre view that the foreground covers: 255 for all of it. It is
+  // the mean of 256 rays, each in another 256th of the pixel's columns and of its rows.
+  GreyImage Coverage(Progress* progress) const;
 
   // What a lens of radius `aperture` with this opening, focused at `focus`, sees.
   Image Truth(double focus, double aperture, const SceneOpening& opening, Progress* progress) const;
@@ -43,13 +49,25 @@ class RayTracer {
   // Light seen from pixel position (x, y) through lens position (u, v).
   Color RayColor(const Lens& lens, const std::vector<size_t>& candidates, double x, double y,
                  double u, double v) const;
-  Color ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y) const;
+  // `grid`: samples of the pixel, squared.
+  Color ViewPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y,
+                  int grid) const;
   Color LensPixel(const Lens& lens, const std::vector<size_t>& candidates, int x, int y) const;
+  // Returns 0 to 255.
+  uint16_t CoverageOf(const std::vector<size_t>& candidates, int x, int y) const;
+  // Returns true if one of the candidates is of a kind.
+  template <class Kind>
+  bool Any(const std::vector<size_t>& candidates, const Kind& kind) const;
+  // Ray of the centre view through pixel position (x, y).
+  Ray CentreRay(double x, double y) const;
   void RenderTile(const Lens& lens, int x0, int y0, Image* image) const;
   Image Render(const Lens& lens, Progress* progress) const;
   // Calls body(y) for the first row y of every band of tiles; a row makes `steps` of progress.
   template <class Body>
   void ForBands(Progress* progress, int steps, const Body& body) const;
+  // Calls body(candidates, x, y) for all pixels of the centre view.
+  template <class Body>
+  void ForCentrePixels(Progress* progress, int steps, const Body& body) const;
 
   const Scene& scene_;
   const int width_, height_;

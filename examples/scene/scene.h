@@ -10,8 +10,11 @@
 #define STARFOCUS_EXAMPLES_SCENE_SCENE_H_
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "examples/scene/strands.h"
 
 namespace starfocus {
 
@@ -32,14 +35,15 @@ struct Ray {
 // Where a ray meets a surface.
 struct Hit {
   double x, y, d;     // in the scene
-  double lx, ly;      // from the surface's centre, along its axes
+  double lx, ly;      // from the surface's centre, along its axes; strands: along and across
   double nx, ny, nz;  // normal: right, down, towards the camera
+  size_t strand = 0;  // index in the surface's strands
 };
 
 struct Surface;
 using Paint = Color (*)(const Surface&, const Hit&);
 
-enum class Shape { kPlane, kEllipsoid };
+enum class Shape { kPlane, kEllipsoid, kStrands };
 // What part of a plane there is: all, |lx| <= rx and |ly| <= ry, the ellipse of these radii, its
 // outer ring of width `thickness`, or a leaf between two arcs.
 enum class Outline { kNone, kBox, kEllipse, kRing, kLeaf };
@@ -52,6 +56,8 @@ struct Surface {
   double rx = 0, ry = 0, rd = 0;    // radii along the local axes (rd: ellipsoids)
   double slope_x = 0, slope_y = 0;  // planes: d grows by so much per unit of scene x, y
   double thickness = 0;             // rings
+  std::shared_ptr<const Strands> strands;
+  bool foreground = false;  // counts as covered in the coverage of the centre view
   Paint paint = nullptr;
   Color color, second;
   double scale = 1;  // of the texture
@@ -61,10 +67,6 @@ struct Surface {
 // Whether the ray meets the surface; fills in *hit if so.
 bool Intersect(const Surface& surface, const Ray& ray, Hit* hit);
 
-// A box that holds the whole surface.
-struct Bounds {
-  double x0, x1, y0, y1, d0, d1;
-};
 // `reach` bounds |x| and |y| of what is ever seen of an endless plane.
 Bounds SurfaceBounds(const Surface& surface, double reach);
 
@@ -79,15 +81,24 @@ struct Scene {
   std::string description;
   std::vector<Surface> surfaces;
   std::vector<NamedPoint> points;  // near, middle, far
+  bool seeded = false;             // another seed gives another scene
+
+  // True if the scene has a foreground, and so a coverage map.
+  bool HasForeground() const;
 };
 
-// "portrait", "wires", "ramp" or "lamps"; false for any other name.
-bool MakeScene(const std::string& name, Scene* scene);
+inline constexpr uint32_t kSceneSeed = 1;  // the default
+
+// "portrait", "wires", "ramp", "lamps", "hair" or "grass"; false for any other name. The seed
+// places the strands of hair and grass.
+bool MakeScene(const std::string& name, Scene* scene, uint32_t seed = kSceneSeed);
 
 Scene MakePortrait();
 Scene MakeWires();
 Scene MakeRamp();
 Scene MakeLamps();
+Scene MakeHair(uint32_t seed);
+Scene MakeGrass(uint32_t seed);
 
 }  // namespace starfocus
 

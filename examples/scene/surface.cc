@@ -40,7 +40,7 @@ bool IntersectPlane(const Surface& s, const Ray& ray, Hit* hit) {
   double lx, ly;
   ToLocal(s, x - s.cx, y - s.cy, &lx, &ly);
   if (!Inside(s, lx, ly)) return false;
-  *hit = {x, y, d, lx, ly, 0, 0, 1};
+  *hit = {x, y, d, lx, ly, 0, 0, 1, 0};
   return true;
 }
 
@@ -60,19 +60,28 @@ bool IntersectEllipsoid(const Surface& s, const Ray& ray, Hit* hit) {
   const double t = (std::sqrt(discriminant) - b) / a;
   const double nx = px + qx * t, ny = py + qy * t;
   const double d = s.cd + t;
-  *hit = {ray.ox + ray.u * d,    ray.oy + ray.v * d,    d,       nx * s.rx, ny * s.ry,
-          nx * s.ax - ny * s.ay, nx * s.ay + ny * s.ax, t / s.rd};
+  *hit = {ray.ox + ray.u * d,    ray.oy + ray.v * d,    d,        nx * s.rx, ny * s.ry,
+          nx * s.ax - ny * s.ay, nx * s.ay + ny * s.ax, t / s.rd, 0};
+  return true;
+}
+
+bool IntersectStrands(const Surface& s, const Ray& ray, Hit* hit) {
+  StrandHit found;
+  if (!s.strands->Find({ray.ox, ray.oy}, ray.u, ray.v, &found)) return false;
+  *hit = {found.x, found.y, found.d, found.along, found.across, 0, 0, 1, found.strand};
   return true;
 }
 
 }  // namespace
 
 bool Intersect(const Surface& surface, const Ray& ray, Hit* hit) {
+  if (surface.shape == Shape::kStrands) return IntersectStrands(surface, ray, hit);
   return surface.shape == Shape::kPlane ? IntersectPlane(surface, ray, hit)
                                         : IntersectEllipsoid(surface, ray, hit);
 }
 
 Bounds SurfaceBounds(const Surface& s, double reach) {
+  if (s.shape == Shape::kStrands) return s.strands->bounds();
   const bool endless = s.shape == Shape::kPlane && s.outline == Outline::kNone;
   // A leaf bulges up to 1.14 of its radius.
   const double ry = s.outline == Outline::kLeaf ? 1.2 * s.ry : s.ry;
@@ -90,7 +99,12 @@ Bounds SurfaceBounds(const Surface& s, double reach) {
   return box;
 }
 
-bool MakeScene(const std::string& name, Scene* scene) {
+bool Scene::HasForeground() const {
+  return std::any_of(surfaces.begin(), surfaces.end(),
+                     [](const Surface& surface) { return surface.foreground; });
+}
+
+bool MakeScene(const std::string& name, Scene* scene, uint32_t seed) {
   if (name == "portrait") {
     *scene = MakePortrait();
   } else if (name == "wires") {
@@ -99,6 +113,10 @@ bool MakeScene(const std::string& name, Scene* scene) {
     *scene = MakeRamp();
   } else if (name == "lamps") {
     *scene = MakeLamps();
+  } else if (name == "hair") {
+    *scene = MakeHair(seed);
+  } else if (name == "grass") {
+    *scene = MakeGrass(seed);
   } else {
     return false;
   }

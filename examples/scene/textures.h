@@ -29,9 +29,11 @@ Color PaintLamp(const Surface& s, const Hit& hit);    // `color`, unlit, `second
 
 // Test patterns.
 Color PaintChecker(const Surface& s, const Hit& hit);
-Color PaintTwist(const Surface& s, const Hit& hit);  // a two-coloured wire
-Color PaintBark(const Surface& s, const Hit& hit);   // vertical cracks over cloudy ground
-Color PaintFloor(const Surface& s, const Hit& hit);  // tiles
+Color PaintClouds(const Surface& s, const Hit& hit);  // a checker with smooth clouds
+Color PaintTwist(const Surface& s, const Hit& hit);   // a two-coloured wire
+Color PaintBark(const Surface& s, const Hit& hit);    // vertical cracks over cloudy ground
+Color PaintFloor(const Surface& s, const Hit& hit);   // tiles
+Color PaintStrand(const Surface& s, const Hit& hit);  // each strand a mixture of both colours
 
 // Lambert's law with light from the upper left and front.
 Color Lit(Color color, const Hit& hit);

@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test patterns of the scenes `wires` and `ramp`.
+// Test patterns of the scenes `wires`, `ramp`, `hair` and `grass`.
 #include <cmath>
 
 #include "examples/scene/noise.h"
 #include "examples/scene/textures.h"
 
 namespace starfocus {
+namespace {
 
-Color PaintChecker(const Surface& s, const Hit& hit) {
+Color Checks(const Surface& s, const Hit& hit, double grain) {
   const double cell = 26 * s.scale;
   const double parity = std::floor(hit.lx / cell) + std::floor(hit.ly / cell);
   const Color color = Wrap(parity, 2) >= 1 ? s.color : s.second;
-  return Lit(color * (0.6 + 0.8 * Fractal(hit.lx / 9, hit.ly / 9, 4, s.seed)), hit);
+  return Lit(color * (0.6 + 0.8 * Fractal(hit.lx / grain, hit.ly / grain, 4, s.seed)), hit);
 }
+
+}  // namespace
+
+Color PaintChecker(const Surface& s, const Hit& hit) { return Checks(s, hit, 9); }
+
+Color PaintClouds(const Surface& s, const Hit& hit) { return Checks(s, hit, 45); }
 
 Color PaintTwist(const Surface& s, const Hit& hit) {
   const double turn = Triangle(hit.lx + 0.8 * hit.ly, 18 * s.scale);
@@ -41,6 +48,13 @@ Color PaintFloor(const Surface& s, const Hit& hit) {
   Color color = Wrap(cx + cy, 2) >= 1 ? s.color : s.second;
   color = color * (0.75 + 0.35 * tint) * (0.65 + 0.7 * veins);
   return Mix(color, {242, 236, 224}, 0.6 * vein);
+}
+
+Color PaintStrand(const Surface& s, const Hit& hit) {
+  const int32_t strand = static_cast<int32_t>(hit.strand);
+  const double round = 1 - 0.4 * hit.ly * hit.ly;
+  const double grain = 0.7 + 0.6 * Noise(hit.lx / 7, 3.7 * strand, s.seed);
+  return Mix(s.color, s.second, HashUnit(strand, 0, s.seed + 1)) * (round * grain);
 }
 
 }  // namespace starfocus

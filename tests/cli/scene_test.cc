@@ -15,7 +15,7 @@ namespace {
 
 // An emulator needs twenty times as long.
 constexpr int kWidth = STARFOCUS_EMULATED ? 128 : 256, kHeight = kWidth * 3 / 4;
-const char* const kNames[] = {"portrait", "wires", "ramp"};
+const char* const kNames[] = {"portrait", "wires", "ramp", "hair", "grass"};
 
 SceneOpening DefaultOpening() {
   sf_config config;
@@ -77,13 +77,15 @@ TEST_CASE("scene: views warped by the exact disparity give the centre view back"
     const RayTracer renderer(scene, kWidth, kHeight, SF_TRANSFER_NONE, &runner);
     const Image centre = renderer.View(0, 0, nullptr);
     const FloatMap map = renderer.Disparity();
+    // A third of the grass are pixels that show two surfaces.
+    const double least = std::string(name) == "grass" ? 0.75 : 0.88;
     for (int index : {1, 4, 6, 16}) {
       double u = 0, v = 0;
       REQUIRE(sf_view_position(index, &u, &v));
       const Image view = renderer.View(u, v, nullptr);
       CAPTURE(name);
       CAPTURE(index);
-      CHECK(WarpAgreement(centre, view, map, u, v, 1) > 0.88);
+      CHECK(WarpAgreement(centre, view, map, u, v, 1) > least);
       CHECK(WarpAgreement(centre, view, map, u, v, -1) < 0.80);
     }
   }

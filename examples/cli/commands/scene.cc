@@ -13,6 +13,7 @@
 #include "examples/scene/render.h"
 #include "platform/image_io.h"
 #include "platform/light_field.h"
+#include "platform/writers/png.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -21,10 +22,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int64_t kMostPixels = int64_t{1} << 25;  // all views are held in memory
+constexpr int kMostSeed = 1000000;
+constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair or grass";
+constexpr char kCoverageFile[] = "coverage.png";
 
 struct SceneOptions {
   std::string folder, name = "portrait", size = "1024x768", views = "17", transfer = "srgb",
-                      threads;
+                      threads, seed;
   std::vector<std::string> truths;
   ShapeOptions shape;
 };
@@ -55,11 +59,25 @@ Error ParseTruth(const std::string& text, Truth* truth) {
   return ParseAperture("--truth", text.substr(comma + 1), &truth->aperture);
 }
 
-Error MakePlan(const SceneOptions& options, Plan* plan) {
-  if (!MakeScene(options.name, &plan->scene)) {
-    return Error::Usage("--name", "portrait, wires, ramp or lamps", "'" + options.name + "'");
+Error ChooseScene(const SceneOptions& options, Scene* scene) {
+  int seed = kSceneSeed;
+  if (!options.seed.empty()) {
+    const Error error = ParseWhole("--seed", options.seed, 0, kMostSeed, &seed);
+    if (!error.empty()) return error;
   }
-  Error error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
+  if (!MakeScene(options.name, scene, uint32_t(seed))) {
+    return Error::Usage("--name", kSceneNames, "'" + options.name + "'");
+  }
+  if (!options.seed.empty() && !scene->seeded) {
+    return Error::Usage("--seed", "the scene hair or grass", "'" + options.name + "'");
+  }
+  return "";
+}
+
+Error MakePlan(const SceneOptions& options, Plan* plan) {
+  Error error = ChooseScene(options, &plan->scene);
+  if (!error.empty()) return error;
+  error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
   if (!error.empty()) return error;
   if (plan->width < 1 || plan->height < 1 || int64_t(plan->width) * plan->height > kMostPixels) {
     return Error::Usage("--size", "WxH from 1x1 to " + std::to_string(kMostPixels) + " pixels",
@@ -82,8 +100,10 @@ Error MakePlan(const SceneOptions& options, Plan* plan) {
   return ParseShape(options.shape, &plan->shape);
 }
 
-// Views of an earlier, larger set or in another format would mix with the new ones.
-Error CheckFolder(const std::string& folder, const Positions& views) {
+// Views of an earlier, larger set or in another format would mix with the new ones, and so would
+// the coverage of another scene.
+Error CheckFolder(const std::string& folder, const Plan& plan) {
+  const Positions& views = plan.views;
   std::error_code failure;
   const std::string error = CheckFolderOutput(folder);
   if (!error.empty()) return error;
@@ -94,6 +114,9 @@ Error CheckFolder(const std::string& folder, const Positions& views) {
     });
     if (IsViewFile(name) && !replaced) {
       return Expected(entry.path().string(), "no view left from another light field", "one");
+    }
+    if (name == kCoverageFile && !plan.scene.HasForeground()) {
+      return Expected(entry.path().string(), "no coverage left from another scene", "one");
     }
   }
   return "";
@@ -111,6 +134,15 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
     text += std::string(point.name) + ": " + std::to_string(x) + "," + std::to_string(y) +
             " disparity " + Short(disparity.at(x, y)) + "\n";
   }
+  if (plan.scene.seeded) {
+    text += "seed: " + (options.seed.empty() ? std::to_string(kSceneSeed) : options.seed) + "\n";
+  }
+  if (plan.scene.HasForeground()) {
+    text +=
+        std::string(kCoverageFile) +
+        ": share of each pixel of the centre view that the foreground covers, of 256 rays; 255 is "
+        "all of it\n";
+  }
   text +=
       "made by: starfocus scene; disparity.pfm is exact at pixel centres, in pixels per unit u\n"
       "convention: centre pixel (x, y) appears in view (u, v) at (x - u*d, y - v*d)\n"
@@ -123,37 +155,57 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
   return text;
 }
 
+struct Pictures {
+  LightField light_field;
+  GreyImage coverage;  // if the scene has a foreground
+  std::vector<Image> truths;
+};
+
+Pictures Render(const Plan& plan, const RayTracer& renderer) {
+  const SceneOpening opening(plan.shape);
+  const bool covers = plan.scene.HasForeground();
+  const int64_t costs = int64_t(plan.views.size()) + (covers ? RayTracer::kCoverageCost : 0) +
+                        RayTracer::kTruthCost * int64_t(plan.truths.size());
+  Progress progress("rendering", plan.height * costs);
+  Pictures pictures;
+  pictures.light_field.positions = plan.views;
+  for (const sf_position& view : plan.views) {
+    pictures.light_field.views.push_back(renderer.View(view.u, view.v, &progress));
+  }
+  pictures.light_field.disparity = renderer.Disparity();
+  if (covers) pictures.coverage = renderer.Coverage(&progress);
+  for (const Truth& truth : plan.truths) {
+    pictures.truths.push_back(renderer.Truth(truth.focus, truth.aperture, opening, &progress));
+  }
+  return pictures;
+}
+
+Error SaveCoverage(const std::string& folder, const GreyImage& coverage) {
+  const std::string path = (fs::path(folder) / kCoverageFile).string();
+  Bytes png;
+  const std::string error = EncodeGreyPng(path, coverage, &png);
+  return error.empty() ? WriteFile(path, png) : error;
+}
+
 Error Run(const SceneOptions& options) {
   Plan plan;
   Error error = MakePlan(options, &plan);
-  if (error.empty()) error = CheckFolder(options.folder, plan.views);
+  if (error.empty()) error = CheckFolder(options.folder, plan);
   if (!error.empty()) return error;
   ThreadRunner runner(plan.threads);
   const RayTracer renderer(plan.scene, plan.width, plan.height, plan.transfer, &runner);
-  const SceneOpening opening(plan.shape);
-  LightField light_field;
-  std::vector<Image> truths;
-  {
-    const int64_t pictures =
-        int64_t(plan.views.size()) + RayTracer::kTruthCost * int64_t(plan.truths.size());
-    Progress progress("rendering", plan.height * pictures);
-    light_field.positions = plan.views;
-    for (const sf_position& view : plan.views) {
-      light_field.views.push_back(renderer.View(view.u, view.v, &progress));
-    }
-    light_field.disparity = renderer.Disparity();
-    for (const Truth& truth : plan.truths) {
-      truths.push_back(renderer.Truth(truth.focus, truth.aperture, opening, &progress));
-    }
+  const Pictures pictures = Render(plan, renderer);
+  error = SaveLightField(options.folder, pictures.light_field, &runner);
+  if (error.empty() && plan.scene.HasForeground()) {
+    error = SaveCoverage(options.folder, pictures.coverage);
   }
-  error = SaveLightField(options.folder, light_field, &runner);
-  for (size_t i = 0; i < truths.size() && error.empty(); ++i) {
+  for (size_t i = 0; i < pictures.truths.size() && error.empty(); ++i) {
     const std::string name = "truth_dt" + Short(plan.truths[i].focus) + "_ut" +
                              Short(plan.truths[i].aperture) + ShapeSuffix(options.shape) + ".png";
-    error = WriteImage((fs::path(options.folder) / name).string(), truths[i]);
+    error = WriteImage((fs::path(options.folder) / name).string(), pictures.truths[i]);
   }
   if (!error.empty()) return error;
-  const std::string meta = MetaText(options, plan, renderer, light_field.disparity);
+  const std::string meta = MetaText(options, plan, renderer, pictures.light_field.disparity);
   return WriteFile((fs::path(options.folder) / "meta.txt").string(),
                    Bytes(meta.begin(), meta.end()));
 }
@@ -169,8 +221,10 @@ Command SceneCommand() {
   AddOptions(
       {
           {"DIR", "DIR", "Folder to write", &options->folder, Use::kRequired},
-          {"--name", "portrait|wires|ramp|lamps", "portrait, wires, ramp or lamps", &options->name,
+          {"--name", "portrait|wires|ramp|lamps|hair|grass", kSceneNames, &options->name,
            Use::kDefault},
+          {"--seed", "N", "Where the strands of hair and grass lie, 0 to 1000000; default: 1",
+           &options->seed},
           {"--size", "WxH", "Width and height, WxH", &options->size, Use::kDefault},
           {"--views", "17|9|5|1|U,V:U,V", "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0",
            &options->views, Use::kDefault},

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hair, needles and blades: curves with a thickness, each at a disparity of its own. A grid of
+// cells over the canvas lets a ray test only the few strands near it.
+#ifndef STARFOCUS_EXAMPLES_SCENE_STRANDS_H_
+#define STARFOCUS_EXAMPLES_SCENE_STRANDS_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace starfocus {
+
+struct Point {
+  double x, y;
+};
+
+// A quadratic Bezier curve, in canvas units. Its half width changes evenly from root to tip.
+struct Strand {
+  Point root, middle, tip;
+  double root_radius, tip_radius;
+  double d;  // disparity
+};
+
+// Where a ray meets a strand.
+struct StrandHit {
+  double x, y, d;
+  double along, across;  // canvas units from the root; -1 to 1 from one rim to the other
+  size_t strand;         // index, counted from the nearest strand
+};
+
+// A box that holds a whole surface.
+struct Bounds {
+  double x0, x1, y0, y1, d0, d1;
+};
+
+class Strands {
+ public:
+  // At least one strand, each longer than 0.
+  explicit Strands(std::vector<Strand> strands);
+
+  const Bounds& bounds() const { return bounds_; }
+
+  // Returns true if the points (x, y) + (u, v) * d meet a strand, and fills in *hit with the
+  // nearest one. u and v are within +-1.
+  bool Find(Point at, double u, double v, StrandHit* hit) const;
+
+ private:
+  // A straight part of a strand, with round ends.
+  struct Segment {
+    Point start, direction;  // direction: a unit vector
+    double length, along;    // along: distance of the start from the root
+    double radius, growth;   // half width at the start, and its change per canvas unit
+    double d;
+    size_t strand;
+
+    // Point of the segment nearest to p: distance from the start.
+    double Nearest(Point p) const;
+    // Vector from the point at distance t from the start to p.
+    Point From(double t, Point p) const;
+    double LargestRadius() const;
+  };
+
+  void AddSegments(const Strand& strand, size_t index);
+  void FitBounds();
+  void AddToCells(uint32_t index, std::vector<std::vector<uint32_t>>* cells) const;
+  void FillGrid();
+  // Column or row of a place that lies `from` the grid's left or upper side.
+  static int CellAt(double from, int count);
+
+  std::vector<Segment> segments_;  // from the nearest strand to the farthest
+  Bounds bounds_ = {};
+  // The grid lies in the plane of disparity d_. A ray meets the strands at most reach_ beside the
+  // point where it meets the plane.
+  double d_ = 0, reach_ = 0;
+  Point origin_ = {0, 0};
+  int columns_ = 0, rows_ = 0;
+  // Segments of cell i: indices_[first_[i]] to indices_[first_[i + 1] - 1], nearest first.
+  std::vector<uint32_t> first_, indices_;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_SCENE_STRANDS_H_
