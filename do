@@ -347,7 +347,7 @@ bench_scene() {
 
 check_counts() {
   require valgrind
-  build starfocus_valgrind starfocus-bench-count starfocus_instruction_bench
+  build starfocus starfocus_valgrind starfocus-bench-count starfocus_instruction_bench
   tests/bench/count.sh $BUILD "$1"
 }
 
@@ -367,7 +367,7 @@ bench() {
       options="--quantiles 0.1,0.5,0.9 --repetitions 3 --patience 0.5 --views 5,9 --max-layers 0,1 --rules
         --n-scales 0.5,0.7,1,1.4,2 --targets all --workers 2 --largest-radius 16 --largest-size 1" ;;
     '')
-      fields="build/bench/portrait build/bench/ramp"
+      fields="build/bench/portrait build/bench/ramp build/bench/hair-scene"
       options="--quantiles 0.1,0.3,0.5,0.7,0.9 --apertures 1,0.5,0.25 --views 5,9 --max-layers 0,1 --rules
         --n-scales 0.5,0.7,1,1.4,2 --largest-blocks 32,128,256 --targets all --workers 2 --largest-radius 64 --largest-size 16" ;;
     *) help >&2; exit 1 ;;
@@ -380,6 +380,7 @@ bench() {
   if [ -z "${1:-}" ]; then
     bench_scene portrait --name portrait --truth=7.84,1 --truth=-8.6,1
     bench_scene ramp --name ramp --size 512x384
+    bench_scene hair-scene --name hair --truth=10,1 --truth=-11.4,1
     for folder in ../shared/data/*/; do
       [ -f "$folder/disparity.pfm" ] && fields="$fields $folder"
     done

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-bench-count MODE: refocuses one small light field made in memory, once, so that
-// callgrind can count the instructions of sf_refocus. Prints the pixels and the SIMD target.
+// starfocus-bench-count MODE [FOLDER VIEWS]: refocuses one light field, once, so that callgrind can
+// count the instructions of sf_refocus. The light field is a small one made in memory, or the first
+// views of a folder's, focused at its farthest disparity. Prints the pixels and the SIMD target.
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <string>
 #include <vector>
 
+#include "platform/file.h"
 #include "starfocus/starfocus.h"
 #include "tests/bench/timed_engine.h"
 
@@ -59,27 +63,44 @@ Field MakeField() {
   return field;
 }
 
+std::string Load(const std::string& folder, int views, Field* field) {
+  const std::string error = starfocus::bench::LoadField(folder, field);
+  if (!error.empty() || (views >= 1 && views <= field->views())) return error;
+  return starfocus::Expected(folder, std::to_string(views) + " views",
+                             std::to_string(field->views()));
+}
+
+std::string RefocusOnce(const Field& field, const starfocus::bench::Task& task, double focus) {
+  starfocus::bench::TimedEngine timed;
+  const std::string error = Prepare(field, task, focus, 1, &timed);
+  timed.params.clock = nullptr;  // asking the time costs instructions
+  starfocus::bench::Elapsed ignored;
+  return error.empty() ? RunOnce(field, task, &timed, &ignored) : error;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace starfocus::bench;
-  Task task;
-  task.views = kViews;
-  if (argc == 2) task.mode = argv[1];
-  if (argc != 2 || ModeOf(task.mode) < 0) {
-    std::fprintf(stderr, "usage: starfocus-bench-count block|frame|benchmark|blur\n");
+  starfocus::bench::Task task;
+  task.views = argc == 4 ? std::atoi(argv[3]) : kViews;
+  if (argc > 1) task.mode = argv[1];
+  if ((argc != 2 && argc != 4) || starfocus::bench::ModeOf(task.mode) < 0) {
+    std::fprintf(stderr,
+                 "usage: starfocus-bench-count block|frame|benchmark|blur [FOLDER VIEWS]\n");
     return 1;
   }
-  const Field field = MakeField();
-  TimedEngine timed;
-  std::string error = Prepare(field, task, 0, 1, &timed);
-  timed.params.clock = nullptr;  // asking the time costs instructions
-  Elapsed ignored;
-  if (error.empty()) error = RunOnce(field, task, &timed, &ignored);
+  Field field;
+  std::string error;
+  if (argc == 4) {
+    error = Load(argv[2], task.views, &field);
+  } else {
+    field = MakeField();
+  }
+  if (error.empty()) error = RefocusOnce(field, task, argc == 4 ? field.low : 0);
   if (!error.empty()) {
     std::fprintf(stderr, "%s\n", error.c_str());
     return 1;
   }
-  std::printf("%d %s\n", kWidth * kHeight, sf_simd_target());
+  std::printf("%.0f %s\n", field.pixels(), sf_simd_target());
   return 0;
 }

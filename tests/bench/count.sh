@@ -19,15 +19,16 @@ command -v valgrind >/dev/null || { echo "install the package valgrind first" >&
 compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 compiler=$("$compiler" --version | sed -n '1s/^[^ ]* //p') # without the program's own name
 
-# count MODE: "MODE instructions-per-pixel"
+# count NAME ARGUMENT...: "NAME instructions-per-pixel" of starfocus-bench-count with these arguments
 count() {
-  local out=$build/callgrind.$1 log=$build/callgrind.$1.log pixels instructions found
+  local name=$1 out=$build/callgrind.$1 log=$build/callgrind.$1.log pixels instructions found
+  shift
   "$here/../support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=sf_refocus \
-    "$program" "$1" >"$log" 2>"$log.err" || { cat "$log" "$log.err" >&2; exit 1; }
+    "$program" "$@" >"$log" 2>"$log.err" || { cat "$log" "$log.err" >&2; exit 1; }
   read -r pixels found <"$log"
   [ "$found" = $target ] || { echo "target $found"; return; }
   instructions=$(awk '/^(summary|totals):/ { print $2; exit }' "$out")
-  awk -v m="$1" -v i="$instructions" -v p="$pixels" 'BEGIN { printf "%s %.1f\n", m, i / p }'
+  awk -v m="$name" -v i="$instructions" -v p="$pixels" 'BEGIN { printf "%s %.1f\n", m, i / p }'
 }
 
 # count_case NAME PIXELS KERNELS: "NAME KERNELS instructions-per-pixel" of a case of
@@ -53,7 +54,11 @@ begin() {
   "$@" >"$lines/$(printf %03d $begun)" &
 }
 
-for mode in block frame; do begin count $mode; done
+for mode in block frame; do begin count $mode $mode; done
+# Hair, with 5 views and with 1: fine structure before a far wall.
+hair=$build/count-hair
+"$build/starfocus" scene "$hair" --name hair --size 512x384 --views 5 >/dev/null
+for views in 5 1; do begin count hair-$views block "$hair" $views; done
 cases=$("$build/tests/instruction_bench" list)
 while read -r name pixels; do
   for kernels in simd reference; do begin count_case "$name" "$pixels" $kernels; done
