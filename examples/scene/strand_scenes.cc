@@ -44,13 +44,15 @@ Strand Hair(Dice dice) {
   const double radius = dice.Between(0.25, 0.75), start = 0.96 * kHeadRadius;
   const Point root = {kHead.x + start * out.x, kHead.y + start * out.y};
   const double half = 0.5 * length;
+  // Most strands lie near the middle of 8 to 12.
+  const double d = 8 + 4.0 / 3 * (dice.Between(0, 1) + dice.Between(0, 1) + dice.Between(0, 1));
   return {
       root,
       {root.x + half * (out.x - lean * out.y), root.y + half * (out.y + lean * out.x)},
       {root.x + length * (out.x - bend * out.y), root.y + length * (out.y + bend * out.x + droop)},
       radius,
       radius,
-      dice.Between(8, 12)};
+      d};
 }
 
 constexpr double kGround = 384;
