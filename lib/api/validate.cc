@@ -39,7 +39,8 @@ bool ValidSize(int32_t size) { return size >= 1 && size <= SF_MAX_SIZE; }
 
 sf_status CheckConfig(const sf_config& config) {
   if (config.version != SF_ABI_VERSION) return SF_ERROR_VERSION;
-  if (!AllZero(config.reserved) || (config.features & ~(SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE)) != 0) {
+  if (!AllZero(config.reserved) ||
+      (config.features & ~(SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE)) != 0) {
     return SF_ERROR_RESERVED;
   }
   if (!ValidSize(config.width) || !ValidSize(config.height)) return SF_ERROR_SIZE;

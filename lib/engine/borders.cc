@@ -62,7 +62,8 @@ Borders AddBorders(const sf_config& config, double max_blur, bool joins) {
   borders.centre = Max(borders.centre, borders.level[0] + kMixedPixelBorder);
   borders.parted = borders.centre;
   borders.centre = borders.parted + CoverageBorder(config);
-  const int32_t read = one_view || !HasCoverage(config) ? 0 : LargestMove(config) + CapturedBorder(0);
+  const int32_t read =
+      one_view || !HasCoverage(config) ? 0 : LargestMove(config) + CapturedBorder(0);
   borders.views = Max(borders.views, borders.centre + read);
   if (config.highlights > 1) {
     // It decides how blocks are split, and so the bytes of pictures: as far as blur and disparity

@@ -46,8 +46,8 @@ void ClearAside(const CoverageMap& map) {
 // Whether coverage is found for the lens: slices show it.
 bool FindsCoverage(const EngineState& engine) {
   const Lens& lens = engine.lens;
-  return HasCoverage(engine.config) && lens.renderer->gathers &&
-         lens.params.mode != SF_MODE_BLUR && !IsPinhole(lens);
+  return HasCoverage(engine.config) && lens.renderer->gathers && lens.params.mode != SF_MODE_BLUR &&
+         !IsPinhole(lens);
 }
 
 // Does all passes up to the one before last in row `end` of tiles.
@@ -105,8 +105,7 @@ sf_status FindCoverage(const Stripe& stripe, const Runner& runner, EngineState* 
   if (!finds) return SF_OK;
   const int32_t border = engine->lens.borders.parted;
   const int32_t top = Max(0, stripe.y - border) / kTileSide;
-  const int32_t end =
-      Min(state.map.Rows(), (stripe.y + stripe.height + border) / kTileSide + 1);
+  const int32_t end = Min(state.map.Rows(), (stripe.y + stripe.height + border) / kTileSide + 1);
   if (state.done[kFindRagged] < 0) ClearAside(state.map);
   // A superblock's rows at a time, so that few rows are in memory.
   sf_status status = SF_OK;

@@ -36,13 +36,13 @@ struct Window {
   Plane<const int16_t> samples;        // of the centre view, simd::kLayerBits; layers 1 and 2
   int32_t picture_width = 0;
   int32_t picture_height = 0;
-  ViewReader reader;               // of the views' light, or of their excess (excess.h)
-  bool is_excess = false;          // which of both; layer 0
-  ViewReader light;                // with is_excess: of light
-  Plane<const int16_t> disparity;  // of the pictures, kDisparityBits
+  ViewReader reader;                      // of the views' light, or of their excess (excess.h)
+  bool is_excess = false;                 // which of both; layer 0
+  ViewReader light;                       // with is_excess: of light
+  Plane<const int16_t> disparity;         // of the pictures, kDisparityBits
   const CoverageMap* coverage = nullptr;  // of thin structures; null: there is none
-  int32_t colour_bytes = 12;       // bytes that a colour of a captured view is made of
-  Reads* reads = nullptr;          // null: nobody counts
+  int32_t colour_bytes = 12;              // bytes that a colour of a captured view is made of
+  Reads* reads = nullptr;                 // null: nobody counts
 };
 
 // Places one after the other in a captured view: the first at (x, y) of the layer, kShiftBits, each

@@ -58,8 +58,8 @@ SF_API sf_status sf_estimate_disparity(const sf_depth_config* config,
                                        void* workspace, size_t bytes, sf_runner runner,
                                        void* runner_data);
 
-/** Bytes of workspace of sf_repair_disparity into *bytes: up to 28 for each pixel of the picture, and
- *  for each worker about 20 MB and as much as sf_estimate_size has. */
+/** Bytes of workspace of sf_repair_disparity into *bytes: up to 28 for each pixel of the picture,
+ * and for each worker about 20 MB and as much as sf_estimate_size has. */
 SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
 
 /** Repairs light_field's disparity map, whose edges lie beside those of the picture, are blurred or
@@ -80,8 +80,8 @@ SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
 SF_API sf_status sf_repair_disparity(const sf_depth_config* config,
                                      const sf_light_field* light_field, float* disparity,
                                      size_t stride, uint8_t* confidence, size_t confidence_stride,
-                                     uint8_t* coverage, size_t coverage_stride, void* workspace, size_t bytes, sf_runner runner,
-                                     void* runner_data);
+                                     uint8_t* coverage, size_t coverage_stride, void* workspace,
+                                     size_t bytes, sf_runner runner, void* runner_data);
 
 #ifdef __cplusplus
 }

@@ -72,7 +72,8 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_MAX_BLADES 12
 #define SF_MAX_RING_INNER 0.9
 #define SF_FEATURE_LINE_SCAN 1u /**< the paper's renderer, SF_RULE_PAPER */
-#define SF_FEATURE_COVERAGE 2u  /**< thin structures (hair, twigs) are parted from what is behind */
+#define SF_FEATURE_COVERAGE 2u  /**< thin structures (hair, twigs) are parted from what is behind \
+                                 */
 
 /** What the opening of the lens looks like, in the disc of radius u_t. */
 typedef enum sf_shape {
