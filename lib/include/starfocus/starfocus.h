@@ -72,15 +72,14 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_MAX_BLADES 12
 #define SF_MAX_RING_INNER 0.9
 #define SF_FEATURE_LINE_SCAN 1u /**< the paper's renderer, SF_RULE_PAPER */
-#define SF_FEATURE_COVERAGE 2u  /**< thin structures (hair, twigs) are parted from what is behind \
-                                 */
+#define SF_FEATURE_COVERAGE 2u  /**< hair and other thin structures are parted */
 
 /** What the opening of the lens looks like, in the disc of radius u_t. */
 typedef enum sf_shape {
   SF_SHAPE_FALL_OFF = 0, /**< the paper's (3): the disc, darker towards its rim by theta */
   SF_SHAPE_DISC = 1,     /**< the disc, as bright everywhere */
-  SF_SHAPE_POLYGON = 2,  /**< of `blades` blades, `rotation` and `curvature`; its corners lie on the
-                            disc's rim */
+  SF_SHAPE_POLYGON = 2,  /**< of `blades` blades, `rotation` and `curvature`; its corners lie on
+                            the  disc's rim */
   SF_SHAPE_RING = 3      /**< the disc less one of radius `ring_inner`: a mirror lens */
 } sf_shape;
 
