@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// Thin structures: strands thinner than a pixel before a wall, of which the map has what covers a
+// pixel's centre.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/inside.h"
+#include "tests/support/test_scene.h"
+
+namespace thin_test {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 144;
+constexpr double kNear = 6, kFar = -6;
+constexpr double kThick = 0.9;  // of a strand, pixels
+
+// How much of the pixel at (x, y), as the centre view has it, strands cover: they lean either way
+// in the middle of the picture.
+double CoverageAt(double x, double y) {
+  double left = 1;
+  for (int k = 0; k < 24; ++k) {
+    const double lean = k % 2 == 0 ? 0.23 : -0.31, at = 44 + 3 * k + lean * (y - kHeight / 2.0);
+    if (std::abs(y - kHeight / 2.0) > 44) continue;
+    const double beside = std::abs(x - at) / std::sqrt(1 + lean * lean);
+    left *= 1 - std::clamp((1 + kThick) / 2 - beside, 0.0, std::min(1.0, kThick));
+  }
+  return 1 - left;
+}
+
+// A bright wall of large soft waves, and dark strands.
+double WallAt(double x, double y, int c) {
+  return 170 + 12 * c + 25 * std::sin(x / 19 + c) + 20 * std::cos(y / 23);
+}
+double StrandAt(int c) { return 60 - 12 * c; }
+
+// The light from position (u, v) of the lens, focused at a disparity.
+double LightAt(int x, int y, int c, double u, double v, double focus) {
+  const double near_x = x + u * (kNear - focus), near_y = y + v * (kNear - focus);
+  const double far_x = x + u * (kFar - focus), far_y = y + v * (kFar - focus);
+  const double coverage = CoverageAt(near_x, near_y);
+  return coverage * StrandAt(c) + (1 - coverage) * WallAt(far_x, far_y, c);
+}
+
+test::Scene Strands(int views) {
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, views, float(kFar), float(kNear));
+  for (int view = 0; view < views; ++view) {
+    const sf_position at = scene.PositionOf(view);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          scene.Pixel(view, x, y)[c] = uint8_t(std::lround(LightAt(x, y, c, at.u, at.v, 0)));
+        }
+        if (view == 0) scene.Disparity(x, y) = float(CoverageAt(x, y) > 0.5 ? kNear : kFar);
+      }
+    }
+  }
+  return scene;
+}
+
+sf_config ConfigFor(const test::Scene& scene, bool coverage) {
+  sf_config config = test::ConfigFor(scene, kNear - kFar);
+  config.aperture_shape = SF_SHAPE_DISC;
+  config.transfer = SF_TRANSFER_NONE;
+  config.largest_block = 64;
+  if (!coverage) config.features &= ~SF_FEATURE_COVERAGE;
+  return config;
+}
+
+// The mean of a disc of lens positions.
+std::vector<double> TruthOf(double focus) {
+  std::vector<double> truth(3 * kWidth * kHeight, 0.0);
+  constexpr int kSteps = 7;
+  double count = 0;
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    for (int j = -kSteps; j <= kSteps; ++j) {
+      if (i * i + j * j > kSteps * kSteps) continue;
+      ++count;
+      for (size_t n = 0; n < truth.size(); ++n) {
+        const int x = int(n / 3 % kWidth), y = int(n / 3 / kWidth);
+        truth[n] += LightAt(x, y, int(n % 3), i / double(kSteps), j / double(kSteps), focus);
+      }
+    }
+  }
+  for (double& value : truth) value /= count;
+  return truth;
+}
+
+// PSNR in dB, but for the picture's rim, which views do not see.
+double PsnrOf(const test::Output& out, const std::vector<double>& truth) {
+  double sum = 0, count = 0;
+  for (int y = 16; y < kHeight - 16; ++y) {
+    for (int x = 16; x < kWidth - 16; ++x) {
+      for (int c = 0; c < 3; ++c, ++count) {
+        const double error = out.Pixel(x, y)[c] - truth[size_t(3 * (y * kWidth + x) + c)];
+        sum += error * error;
+      }
+    }
+  }
+  return 10 * std::log10(255 * 255 * count / sum);
+}
+
+test::Output Refocused(const test::Scene& scene, const sf_config& config, const sf_params& params) {
+  test::Engine engine(config);
+  test::Output out(kWidth, kHeight);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("thin: strands are parted from a wall that is in focus, and from one that is not") {
+  for (const double focus : {kFar, kNear}) {
+    const std::vector<double> truth = TruthOf(focus);
+    for (const int views : {1, 5}) {
+      const test::Scene scene = Strands(views);
+      const sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+      const double with = PsnrOf(Refocused(scene, ConfigFor(scene, true), params), truth);
+      const double without = PsnrOf(Refocused(scene, ConfigFor(scene, false), params), truth);
+      MESSAGE("views ", views, ", focus ", focus, ": ", without, " -> ", with, " dB");
+      CHECK(with > without + 2);
+    }
+  }
+}
+
+TEST_CASE("thin: every way in gives the same bytes") {
+  const test::Scene scene = Strands(5);
+  sf_config config = ConfigFor(scene, true);
+  for (const double focus : {kFar, 0.0, kNear}) {
+    CAPTURE(focus);
+    sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+    const test::Output whole = Refocused(scene, config, params);
+    test::Engine engine(config);
+    for (const sf_region region : {sf_region{40, 90, 70, 30}, sf_region{0, 143, 160, 1},
+                                   sf_region{80, 0, 1, 144}, sf_region{3, 63, 90, 3}}) {
+      params.region = region;
+      test::Output part(region.width, region.height);
+      REQUIRE(test::Refocus(&engine, params, scene, &part) == SF_OK);
+      bool same = true;
+      for (int y = 0; y < region.height; ++y) {
+        same = same && std::equal(part.Pixel(0, y), part.Pixel(0, y) + 3 * region.width,
+                                  whole.Pixel(region.x, region.y + y));
+      }
+      CHECK(same);
+    }
+    params.region = {};
+    sf_config streaming = config;
+    streaming.streaming = 1;
+    test::Engine stream(streaming);
+    test::Output streamed(kWidth, kHeight);
+    REQUIRE(test::Stream(&stream, params, scene, &streamed, 7, 11) == SF_OK);
+    CHECK((streamed.bytes == whole.bytes));
+    config.features ^= SF_FEATURE_LINE_SCAN;
+    CHECK((Refocused(scene, config, params).bytes == whole.bytes));
+  }
+}
+
+}  // namespace thin_test
