@@ -45,6 +45,7 @@
   KERNEL(FindEdges)               \
   KERNEL(FindSteps)               \
   KERNEL(BesideSteps)             \
+  KERNEL(FindCopies)              \
   KERNEL(LookBehind)              \
   KERNEL(CoverPlaces)             \
   KERNEL(SumNear)                 \

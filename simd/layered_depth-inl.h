@@ -7,6 +7,8 @@
 #define STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
 #endif
 
+#include <initializer_list>
+
 #include "simd/chunk-inl.h"
 #include "simd/layered_depth.h"
 
@@ -400,6 +402,28 @@ inline void BesideSteps(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_
     }
     *beside = static_cast<uint16_t>(bits);
   }
+}
+
+inline uint64_t FindCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_t count,
+                           const CopyLimits& limits, int16_t* HWY_RESTRICT copies) {
+  const ChunkTag d16;
+  const auto most = hn::Set(d16, limits.most), none = hn::Set(d16, kNoSurface);
+  const auto below_least = hn::Set(d16, static_cast<int16_t>(limits.least - 1));
+  uint64_t chunks = 0;
+  for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
+    const auto here = hn::LoadU(d16, row + n);
+    auto farthest = hn::Zero(d16);
+    for (const ptrdiff_t next : {ptrdiff_t{1}, ptrdiff_t{-1}, stride, -stride}) {
+      const auto step =
+          hn::SaturatedSub(here, hn::LoadU(d16, row + static_cast<ptrdiff_t>(n) + next));
+      farthest = hn::Max(farthest, hn::IfThenZeroElse(hn::Gt(step, most), step));
+    }
+    const auto inside = hn::FirstN(d16, n < count ? count - n : 0);
+    const auto copied = hn::And(hn::Gt(farthest, below_least), inside);
+    hn::StoreU(hn::IfThenElse(copied, hn::Sub(here, farthest), none), d16, copies + n);
+    if (!hn::AllFalse(d16, copied)) chunks |= uint64_t{1} << (n / kSliceLanes);
+  }
+  return chunks;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -37,6 +37,11 @@ constexpr int16_t FarthestEdge(int unit_bits) {
   return static_cast<int16_t>(units < INT16_MAX ? units : INT16_MAX - 1);
 }
 
+// Steps of disparity within a surface that may part it: slices of both sides move apart.
+struct CopyLimits {
+  int16_t least, most;  // > 0
+};
+
 // The steps of kSliceLanes pixels of a row. Bit k of `falls` tells whether pixel k is nearer than
 // the next one by more than a step; bit k of `rises`, whether the next one is nearer.
 struct StepBits {
@@ -120,6 +125,13 @@ void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps);
 // is nearer by more than `step`; bits of pixels beyond are 0. Rows lie `stride` samples apart.
 void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t step,
                  uint16_t* beside);
+
+// Finds what of each pixel's surface goes on behind it: copies[n] becomes the lowest disparity of
+// the four pixels next to pixel n < count that lies from `least` to `most` below its own, or
+// kNoSurface where there is none. Rows lie `stride` samples apart. Whole groups of kSliceLanes are
+// written. Returns which groups have any, the first in bit 0; 64 groups at most.
+uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const CopyLimits& limits,
+                    int16_t* copies);
 
 // Finds up to two surfaces behind each pixel of a row, of those beyond the edges of all sides. What
 // the far side of an edge hides in turn, beyond the edge that is its own, lies behind the pixel

@@ -125,6 +125,24 @@ void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t ste
   }
 }
 
+uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const CopyLimits& limits,
+                    int16_t* copies) {
+  uint64_t chunks = 0;
+  for (size_t n = 0; n < SliceSamples(count); ++n) {
+    copies[n] = kNoSurface;
+    if (n >= count) continue;
+    int16_t farthest = 0;
+    for (const ptrdiff_t next : {ptrdiff_t{1}, ptrdiff_t{-1}, stride, -stride}) {
+      const int16_t step = Saturated(row[n] - row[static_cast<ptrdiff_t>(n) + next]);
+      if (step >= limits.least && step <= limits.most && step > farthest) farthest = step;
+    }
+    if (farthest == 0) continue;
+    copies[n] = static_cast<int16_t>(row[n] - farthest);
+    chunks |= uint64_t{1} << (n / kSliceLanes);
+  }
+  return chunks;
+}
+
 uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   uint64_t chunks = 0;
   for (int32_t x = 0; x < static_cast<int32_t>(SliceSamples(static_cast<size_t>(row.width))); ++x) {

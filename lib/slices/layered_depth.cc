@@ -250,6 +250,58 @@ class SurfaceFinder {
         if (pixels != 0) SetColours(chunk * kChunk, y, behind, pixels);
       }
     }
+    if (y > 0 && y < surfaces_.height - 1) CloseRow(y);
+  }
+
+  // Where slices may part a surface, hides the near side's pixels once more behind themselves, at
+  // the far side's disparity: so the surface stays closed, whatever its slices move by.
+  void CloseRow(int32_t y) {
+    const simd::CopyLimits limits = {static_cast<int16_t>(kLeastCopy << window_.layer),
+                                     static_cast<int16_t>(kMostCopy << window_.layer)};
+    const size_t at = surfaces_.At(0, y);
+    int16_t* const copies = surfaces_.moved;  // which is not used any more
+    uint64_t chunks = kernels_.FindCopies(Row(y), surfaces_.stride,
+                                          static_cast<size_t>(surfaces_.width), limits, copies);
+    copies[0] = copies[surfaces_.width - 1] = kNoSurface;
+    for (int32_t x = 0; chunks != 0; chunks >>= 1, x += kChunk) {
+      if ((chunks & 1) == 0) continue;
+      const uint64_t bit = uint64_t{1} << (x / kChunk);
+      if ((surfaces_.hiding[y] & bit) == 0) {
+        surfaces_.hiding[y] |= bit;
+        CopyChunk(at + static_cast<size_t>(x), copies + x);
+      } else {
+        for (int32_t k = x; k < x + kChunk; ++k) CopyPixel(at + static_cast<size_t>(k), copies[k]);
+      }
+    }
+  }
+
+  // Of pixels that hide nothing else.
+  void CopyChunk(size_t at, const int16_t* copies) {
+    for (uint16_t* sources : surfaces_.sources) {
+      std::memset(sources + at, 0, kChunk * sizeof(*sources));
+    }
+    std::memcpy(surfaces_.disparity[1] + at, copies, kChunk * sizeof(*copies));
+    ClearChunk(surfaces_.disparity[2] + at);
+    for (size_t c = 0; c < 3; ++c) {
+      const size_t sample = c * surfaces_.plane + at;
+      std::memcpy(surfaces_.rgb[1] + sample, surfaces_.rgb[0] + sample,
+                  kChunk * sizeof(*surfaces_.rgb[0]));
+    }
+  }
+
+  // The copy lies before what else is hidden, unless that is nearer. Where a surface ends, its
+  // pixels are in one slice only.
+  void CopyPixel(size_t at, int16_t copy) {
+    if (copy <= surfaces_.disparity[1][at] || surfaces_.share[at] != simd::kSliceWhole) return;
+    surfaces_.disparity[2][at] = surfaces_.disparity[1][at];
+    surfaces_.disparity[1][at] = copy;
+    surfaces_.sources[1][at] = surfaces_.sources[0][at];
+    surfaces_.sources[0][at] = 0;
+    for (size_t c = 0; c < 3; ++c) {
+      const size_t sample = c * surfaces_.plane + at;
+      surfaces_.rgb[2][sample] = surfaces_.rgb[1][sample];
+      surfaces_.rgb[1][sample] = surfaces_.rgb[0][sample];
+    }
   }
 
   // Sets the colours of those pixels of a chunk that are `found`.

@@ -18,6 +18,11 @@ using simd::kNoSurface;
 // A larger step of disparity from pixel to pixel, at layer 0, may hide something: kDisparityBits.
 inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
 
+// Steps of disparity from pixel to pixel within a surface, at layer 0, behind which the surface
+// goes on: its slices move apart, and what lies behind must not show between them
+// (docs/constants.md).
+inline constexpr int16_t kLeastCopy = 2, kMostCopy = 1 << (kDisparityBits - 1);
+
 // The widest surfaces, by kSliceLanes columns.
 inline constexpr int32_t kMaxChunks = 64;
 
@@ -63,7 +68,8 @@ struct SurfaceBands {
 // it, as far as a view at distance 1 can look there: at most two surfaces, the nearest edge's
 // first. Their colours are read from a captured view that looks round that edge (Looks) and in
 // which nothing covers them; without one the background goes on. Sides with the same distance and
-// disparity give their mean. The memory of `surfaces` must be set.
+// disparity give their mean. Pixels within a surface hide copies of themselves (kLeastCopy). The
+// memory of `surfaces` must be set.
 void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const Field& field,
                       LayeredDepth* surfaces);
 

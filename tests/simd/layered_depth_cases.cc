@@ -7,6 +7,7 @@
 namespace test::kernel_cases {
 namespace {
 
+using starfocus::simd::CopyLimits;
 using starfocus::simd::DepthRow;
 using starfocus::simd::HiddenRow;
 using starfocus::simd::Kernels;
@@ -102,6 +103,45 @@ void FindSteps(Draw* draw, KernelCall* call) {
       right = right && (bits.falls >> n % kSliceLanes & 1) == int(fall) &&
               (bits.rises >> n % kSliceLanes & 1) == int(rise);
       (*met)["steps"] += fall || rise;
+    }
+    return right;
+  };
+}
+
+void FindCopies(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 70, 96), samples = SliceSamples(count);
+  const size_t rows = draw->Size(1, 3, kTimedSamples / 96);
+  const size_t stride = count + 2 + draw->Size(0, 7, 0);
+  std::vector<int16_t> disparities = Disparities((rows + 2) * stride, draw);
+  for (int16_t& d : disparities) d = int16_t(std::clamp(d + draw->Int(-9, 9), -32000, 32000));
+  const int16_t* field = call->Input("field", disparities, kPadding);
+  const CopyLimits limits = {int16_t(draw->Int(1, 20)), int16_t(draw->Int(20, 100))};
+  auto* copies = call->Output<int16_t>("copies", rows * samples);
+  auto* chunks = call->Output<uint64_t>("chunks", rows);
+  call->Result(copies, rows * samples);
+  call->Result(chunks, rows);
+  const int16_t* first = field + stride + 1;
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    for (size_t y = 0; y < rows; ++y) {
+      chunks[y] = kernels.FindCopies(first + y * stride, ptrdiff_t(stride), count, limits,
+                                     copies + y * samples);
+    }
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    bool right = true;
+    for (size_t i = 0; i < rows * samples; ++i) {
+      const size_t n = i % samples, y = i / samples;
+      const int16_t* at = first + y * stride + n;
+      int expected = kNoSurface;
+      for (const int16_t next : {at[-1], at[1], *(at - stride), at[stride]}) {
+        const int step = *at - next;
+        if (n >= count || step < limits.least || step > limits.most) continue;
+        expected = expected == kNoSurface ? next : std::min<int>(expected, next);
+      }
+      right = right && copies[i] == expected;
+      right = right && (expected == kNoSurface || (chunks[y] >> (n / kSliceLanes) & 1) != 0);
+      (*met)["copies"] += expected != kNoSurface;
     }
     return right;
   };

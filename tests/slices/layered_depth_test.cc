@@ -172,8 +172,21 @@ TEST_CASE("surfaces: an edge behind an edge is followed") {
   }
 }
 
-TEST_CASE("surfaces: slopes of up to three quarters of a pixel hide nothing") {
-  for (const double slope : {0.0, 0.25, 0.75, -0.75}) {
+TEST_CASE("surfaces: steps from 2/64 to half a pixel hide the near pixel at the far disparity") {
+  Scene scene(5);
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) scene.Set(x, y, 0.25 * (x % 8), x);
+  }
+  scene.Find();
+  for (const int x : {9, 12, 14}) {
+    CAPTURE(x);
+    CHECK(scene.Behind(x, 20) == doctest::Approx(0.25 * (x % 8) - 0.25));
+    CHECK(scene.Colour(x, 20, 2) == scene.Colour(x, 20, 2, 0));
+  }
+}
+
+TEST_CASE("surfaces: smaller and larger steps of up to three quarters of a pixel hide nothing") {
+  for (const double slope : {0.0, 0.016, 0.6, 0.75, -0.75}) {
     Scene scene(5);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) scene.Set(x, y, slope * x, x);

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// An opaque surface lets no light through, whatever its disparities jitter by: its slices move
+// apart, but no crack shows what lies behind.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "starfocus/starfocus.h"
+#include "tests/support/test_scene.h"
+
+namespace closed_test {
+namespace {
+
+constexpr int kSide = 160, kFirst = 40, kLast = 120;  // of the surface: columns and rows
+
+// A dark square of one colour before a bright wall.
+test::Scene Square(int views, double jitter, double slope, uint64_t seed) {
+  test::Scene scene = test::EmptyScene(kSide, kSide, views, -6, 8);
+  test::Random random(seed);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const bool near = x >= kFirst && x < kLast && y >= kFirst && y < kLast;
+      const double disparity = 2 + slope * (x - kFirst) + random.Real(-jitter, jitter);
+      scene.Disparity(x, y) = float(near ? disparity : -6);
+      for (int view = 0; view < views; ++view) {
+        std::fill_n(scene.Pixel(view, x, y), 3, near ? uint8_t{40} : uint8_t{250});
+      }
+    }
+  }
+  return scene;
+}
+
+// The largest difference from the surface's colour where blur brings nothing else.
+int MostLeaked(const test::Output& out, int blur) {
+  int most = 0;
+  for (int y = kFirst + blur; y < kLast - blur; ++y) {
+    for (int x = kFirst + blur; x < kLast - blur; ++x) {
+      most = std::max(most, std::abs(out.Pixel(x, y)[1] - 40));
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("closed: a surface whose disparities jitter or slope lets no light through") {
+  for (const double jitter : {0.05, 0.12, 0.24}) {
+    for (const double slope : {0.0, 0.02}) {
+      for (const int views : {1, 5}) {
+        const test::Scene scene = Square(views, jitter, slope, 3);
+        const sf_config config = test::ConfigFor(scene, 16);
+        test::Engine engine(config);
+        for (const double focus : {-6.0, -2.0, 5.0, 9.0}) {
+          for (const sf_mode mode : {SF_MODE_BLOCK, SF_MODE_FRAME}) {
+            CAPTURE(jitter);
+            CAPTURE(slope);
+            CAPTURE(views);
+            CAPTURE(focus);
+            CAPTURE(mode);
+            sf_params params = test::Params(focus, 1, mode);
+            params.rule = SF_RULE_SUBAPERTURE;
+            test::Output out(kSide, kSide);
+            REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+            CHECK(MostLeaked(out, 16) <= 1);
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace closed_test
