@@ -94,12 +94,14 @@ std::string CheckHeif(const std::string& where, Span file) {
   if (!ReadHeifItems(file, &items)) {
     return Expected(where, "a HEIF file of at most 4096 items in whole boxes", "another");
   }
+  for (const auto& [id, item] : items) {  // before CheckInputs multiplies any
+    if (item.width == 0 || item.height == 0) continue;
+    std::string error = CheckHeifSize(where, item.width, item.height, file.size);
+    if (!error.empty()) return error;
+  }
   for (const auto& [id, item] : items) {
-    std::string error;
-    if (AreaOf(item) != 0) error = CheckHeifSize(where, item.width, item.height, file.size);
-    if (error.empty()) {
-      error = IsMadeOfOthers(item) ? CheckInputs(where, items, item) : CheckCoded(where, item);
-    }
+    std::string error =
+        IsMadeOfOthers(item) ? CheckInputs(where, items, item) : CheckCoded(where, item);
     if (!error.empty()) return error;
   }
   return "";

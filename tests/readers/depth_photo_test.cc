@@ -446,6 +446,9 @@ TEST_CASE("HEIF: a picture made of itself, or declared larger than it is, is ref
             .find("32768 pixels for each byte") != std::string::npos);
   CHECK(error(Changed(depth, "ispe", 4, std::string("\0\0\x10\0\0\0\x10\0", 8)))
             .find("not much larger") != std::string::npos);
+  // A product beyond 64 bits, which sanitizers would see.
+  CHECK(error(Changed(depth, "ispe", 4, std::string("\xff\xff\xff\xff\xff\0\0\0", 8)))
+            .find("16384 pixels each way") != std::string::npos);
   CHECK(error(Changed(depth, "dimg", 4, std::string("\0\x09", 2))).find("not there") !=
         std::string::npos);
   const std::string whole = Seed(depth);
