@@ -46,33 +46,17 @@ sf_status CheckApart(const sf_depth_config& config, const sf_light_field& light_
   return SF_OK;
 }
 
-// Returns the extents of the outputs, empty ones of null pointers.
-struct OutputExtents {
-  Extent maps[3];
-};
-
-OutputExtents ExtentsOf(const sf_depth_config& config, const MapOutput& output) {
-  const auto width = static_cast<size_t>(config.width);
-  const auto bytes = [&](const uint8_t* data, size_t stride) {
-    return data == nullptr ? Extent{0, 0} : ExtentOf(data, stride, config.height, width);
-  };
-  return {{ExtentOf(output.disparity, output.stride * sizeof(float), config.height,
-                    width * sizeof(float)),
-           bytes(output.confidence, output.confidence_stride),
-           bytes(output.coverage, output.coverage_stride)}};
-}
-
 sf_status CheckOutputs(const sf_depth_config& config, const sf_light_field& light_field,
                        const Extent& workspace, const MapOutput& output) {
-  const OutputExtents extents = ExtentsOf(config, output);
-  for (int k = 0; k < 3; ++k) {
-    const sf_status status = CheckApart(config, light_field, workspace, extents.maps[k]);
-    if (status != SF_OK) return status;
-    for (int other = 0; other < k; ++other) {
-      if (Overlaps(extents.maps[k], extents.maps[other])) return SF_ERROR_OVERLAP;
-    }
-  }
-  return SF_OK;
+  const auto width = static_cast<size_t>(config.width);
+  const Extent map = ExtentOf(output.disparity, output.stride * sizeof(float), config.height,
+                              width * sizeof(float));
+  sf_status status = CheckApart(config, light_field, workspace, map);
+  if (status != SF_OK || output.confidence == nullptr) return status;
+  const Extent confidence =
+      ExtentOf(output.confidence, output.confidence_stride, config.height, width);
+  status = CheckApart(config, light_field, workspace, confidence);
+  return status == SF_OK && Overlaps(map, confidence) ? SF_ERROR_OVERLAP : status;
 }
 
 // Checks the map that is to be repaired: its finite values lie in the configured range, and there
@@ -99,9 +83,13 @@ sf_status CheckGivenApart(const sf_depth_config& config, const sf_light_field& l
   const auto width = static_cast<size_t>(config.width);
   const Extent given = ExtentOf(light_field.disparity, light_field.disparity_stride, config.height,
                                 width * sizeof(float));
-  if (Overlaps(given, workspace)) return SF_ERROR_OVERLAP;
-  for (const Extent& map : ExtentsOf(config, output).maps) {
-    if (Overlaps(given, map)) return SF_ERROR_OVERLAP;
+  const Extent map = ExtentOf(output.disparity, output.stride * sizeof(float), config.height,
+                              width * sizeof(float));
+  if (Overlaps(given, workspace) || Overlaps(given, map)) return SF_ERROR_OVERLAP;
+  if (output.confidence != nullptr &&
+      Overlaps(given,
+               ExtentOf(output.confidence, output.confidence_stride, config.height, width))) {
+    return SF_ERROR_OVERLAP;
   }
   return CheckGiven(config, light_field);
 }
@@ -151,11 +139,8 @@ sf_status CheckCall(const DepthCall& call, bool repairs, const MapOutput& output
     status = CheckMap(light_field.disparity, light_field.disparity_stride, width, height);
   }
   if (status != SF_OK) return status;
-  const auto fits = [&](const uint8_t* plane, size_t plane_stride) {
-    return plane == nullptr || ValidStride(plane_stride, static_cast<size_t>(width), height);
-  };
-  if (!fits(output.confidence, output.confidence_stride) ||
-      !fits(output.coverage, output.coverage_stride)) {
+  if (output.confidence != nullptr &&
+      !ValidStride(output.confidence_stride, static_cast<size_t>(width), height)) {
     return SF_ERROR_STRIDE;
   }
   const auto begin = reinterpret_cast<uintptr_t>(call.workspace);
@@ -239,10 +224,9 @@ sf_status sf_estimate_disparity(const sf_depth_config* config, const sf_light_fi
 
 sf_status sf_repair_disparity(const sf_depth_config* config, const sf_light_field* light_field,
                               float* disparity, size_t stride, uint8_t* confidence,
-                              size_t confidence_stride, uint8_t* coverage, size_t coverage_stride,
-                              void* workspace, size_t bytes, sf_runner runner, void* runner_data) {
-  return starfocus::RunCall(
-      {config, light_field, workspace, bytes}, true,
-      {disparity, stride, 0, 0, confidence, confidence_stride, coverage, coverage_stride},
-      {runner, runner_data});
+                              size_t confidence_stride, void* workspace, size_t bytes,
+                              sf_runner runner, void* runner_data) {
+  return starfocus::RunCall({config, light_field, workspace, bytes}, true,
+                            {disparity, stride, 0, 0, confidence, confidence_stride},
+                            {runner, runner_data});
 }

@@ -9,6 +9,11 @@ namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
 constexpr int16_t kUnknown = INT16_MIN;
+// What differs by up to this is as flat as surfaces are; blurred edges are steeper.
+constexpr int32_t kFlat = kPixel / 2;
+// Of 25 pixels this many are as flat at a corner, and no more than 5 on a ramp.
+constexpr int32_t kLeastFlat = 8;
+constexpr int32_t kFlatRadius = 2;
 // Noise that no one sees in a refocused picture.
 constexpr int32_t kLeastNoise = 6;
 // Neighbours of one colour count this much when noise is averaged.
@@ -53,6 +58,59 @@ void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map
     }
     for (size_t x = 0; x < width; ++x) row[x] = above[x] < below[x] ? above[x] : below[x];
   }
+}
+
+// What a pixel alone says: 0 on a ramp or unknown, 1 at a step, otherwise more than is asked for.
+uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
+  if (!std::isfinite(GivenAt(map.light_field, y)[x])) return 0;
+  const int32_t own = map.disparity[map.At(x, y)];
+  const Rect around = Widened(map.plan, {x, y, 1, 1}, kFlatRadius);
+  int32_t flat = 0;
+  bool step = false;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const int32_t difference = Abs(map.disparity[map.At(column, row)] - own);
+      flat += difference <= kFlat ? 1 : 0;
+      step |= difference > kSurfaceStep && Abs(row - y) + Abs(column - x) == 1;
+    }
+  }
+  if (25 * flat < kLeastFlat * around.width * around.height) return 0;
+  return step ? 1 : kDoubtReach + 1;
+}
+
+// Carries doubts on to the pixels that come later in a scan of the region, or earlier.
+void CarryOn(const Rect& region, int32_t direction, uint8_t* doubt) {
+  const int32_t width = region.width, height = region.height, area = width * height;
+  for (int32_t k = 0; k < area; ++k) {
+    const int32_t at = direction > 0 ? k : area - 1 - k;
+    const int32_t x = at % width, y = at / width;
+    int32_t least = doubt[at];
+    const auto look = [&](int32_t dx, int32_t dy) {
+      const int32_t column = x - direction * dx, row = y - direction * dy;
+      if (column < 0 || column >= width || row < 0 || row >= height) return;
+      least = Min(least, doubt[row * width + column] + 1);
+    };
+    look(1, 0);
+    look(1, 1);
+    look(0, 1);
+    look(-1, 1);
+    doubt[at] = static_cast<uint8_t>(least);
+  }
+}
+
+// Whether a pixel beside a step is of a surface that has no core here. One that has grown on all
+// sides has one within that distance of each of its pixels, so this one has not grown.
+bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int32_t x, int32_t y) {
+  const int32_t own = map.disparity[map.At(x, y)];
+  const Rect around = Widened(map.plan, {x, y, 1, 1}, kDisplacement);
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    const uint8_t* doubts = doubt + (row - region.y) * region.width;
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const int32_t difference = Abs(map.disparity[map.At(column, row)] - own);
+      if (doubts[column - region.x] > kDisplacement && difference <= kPixel) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -119,6 +177,24 @@ void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& ti
       }
       smooth[own] =
           static_cast<int16_t>((2 * sum + (sum < 0 ? -weights : weights)) / (2 * weights));
+    }
+  }
+}
+
+void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt) {
+  const Rect region = Widened(map.plan, tile, kDoubtMargin);
+  uint8_t* at = scratch;
+  for (int32_t y = region.y; y < region.y + region.height; ++y) {
+    for (int32_t x = region.x; x < region.x + region.width; ++x) *at++ = DoubtAt(map, x, y);
+  }
+  CarryOn(region, 1, scratch);
+  CarryOn(region, -1, scratch);
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const uint8_t found = scratch[(y - region.y) * region.width + x - region.x];
+      const bool beside = found >= 1 && found <= kDisplacement;
+      const bool thin = beside && IsThin(map, region, scratch, x, y);
+      doubt[map.At(x, y)] = thin ? uint8_t{kThinDoubt} : found;
     }
   }
 }

@@ -13,6 +13,13 @@
 
 namespace starfocus {
 
+// Beyond this many pixels from a step or a ramp the map is taken for right.
+inline constexpr int32_t kDoubtReach = 5;
+// Steps are displaced by this many pixels at most.
+inline constexpr int32_t kDisplacement = 3;
+inline constexpr int32_t kThinDoubt = kDisplacement + 1;
+inline constexpr int32_t kDoubtMargin = kDoubtReach + 1 + kDisplacement;
+
 // Returns the difference of two pixels' colours: hue and saturation count four times as much as
 // brightness does, which shading changes as well.
 inline int32_t ColourDifference(const uint8_t* a, const uint8_t* b) {
@@ -52,6 +59,11 @@ struct Smoothing {
 };
 void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
                 int16_t* smooth);
+
+// Fills `tile` of `doubt`: 0 on ramps and where nothing was given, 1 at steps, and so on up to
+// kDoubtReach + 1; kThinDoubt where a surface is too thin to have grown by as much as steps are
+// displaced. `scratch` has room for the tile and kDoubtMargin pixels around.
+void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt);
 
 }  // namespace starfocus
 

@@ -11,15 +11,23 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// Changed pixels get the mean of the surface around them.
-constexpr int32_t kMeanRadius = 5;
+// A choice within this of the map's disparity is the map's.
+constexpr int32_t kSameSurface = kPixel;
+// What must be gained together by the changed pixels within the radius: a change of one or two
+// pixels is rather a speckle of the surface than the edge of another.
+constexpr int32_t kGainRadius = 3, kLeastGain = 60;
+// Paths that the sums of choices are of.
+constexpr int32_t kPaths = 4;
+// Changed pixels get the mean of the surface around them; those beside steps count little.
+constexpr int32_t kMeanRadius = 5, kSureWeight = 4;
 
 struct ColourJob {
   const ColourMap& map;
   const MapOutput& output;
   const Smoothing& smoothing;
   int16_t* smooth;
-  const ColourMemory& memory;
+  int16_t* chosen;
+  ColourMemory* memory;
 };
 
 const ColourJob& JobOf(const void* data) { return *static_cast<const ColourJob*>(data); }
@@ -29,77 +37,92 @@ void SmoothMap(const void* data, int32_t index, int32_t) {
   SmoothTile(job.map, job.smoothing, TileOf(job.map.plan, index), job.smooth);
 }
 
-// Returns the mean of the map's pixels around (x, y) that are within a pixel of disparity `own`.
-float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y, int32_t own) {
+void DoubtTile(const void* data, int32_t index, int32_t worker) {
+  const ColourJob& job = JobOf(data);
+  MeasureDoubt(job.map, TileOf(job.map.plan, index), job.memory->workers[worker].doubt,
+               job.memory->doubt);
+}
+
+// Chooses among a pixel's disparities, which cost least in sum.
+void Choose(const ColourJob& job, size_t at, const Choices& choices) {
+  const int32_t given = job.map.disparity[at];
+  int32_t best = 0, own = 0;
+  for (int32_t k = 1; k < choices.count; ++k) {
+    if (choices.sum[k] < choices.sum[best]) best = k;
+    if (Abs(choices.disparity[k] - given) < Abs(choices.disparity[own] - given)) own = k;
+  }
+  int32_t margin = kPaths * UINT8_MAX;
+  for (int32_t k = 0; k < choices.count; ++k) {
+    if (Abs(choices.disparity[k] - choices.disparity[best]) <= kSurfaceStep) continue;
+    margin = Min(margin, choices.sum[k] - choices.sum[best]);
+  }
+  const bool same = Abs(choices.disparity[best] - given) <= kSameSurface;
+  job.chosen[at] = same ? static_cast<int16_t>(given) : choices.disparity[best];
+  job.memory->gain[at] =
+      same ? int16_t{0} : static_cast<int16_t>(choices.cost[own] - choices.cost[best]);
+  job.memory->certainty[at] = static_cast<uint8_t>(margin / kPaths);
+}
+
+void ChooseTile(const void* data, int32_t index, int32_t worker) {
+  const ColourJob& job = JobOf(data);
+  const ColourTileMemory& memory = job.memory->workers[worker];
+  const Rect tile = TileOf(job.map.plan, index);
+  if (tile.width == 0 || tile.height == 0) return;
+  const Rect region = Widened(job.map.plan, tile, kTileMargin);
+  WeighChoices(job.map, job.memory->doubt, region, memory.paths, memory.choices);
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const Choices* row = memory.choices + (y - region.y) * region.width;
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      Choose(job, job.map.At(x, y), row[x - region.x]);
+    }
+  }
+}
+
+bool Differs(const ColourJob& job, size_t at) { return job.chosen[at] != job.map.disparity[at]; }
+
+// Whether enough is gained around a pixel of which something else than the map says was chosen.
+bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
+  const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kGainRadius);
+  int32_t gain = 0;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      gain += job.memory->gain[job.map.At(column, row)];
+    }
+  }
+  return gain >= kLeastGain;
+}
+
+// The mean of the map's pixels around (x, y) that are of the surface chosen there.
+float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
+  const int32_t own = job.chosen[job.map.At(x, y)];
   const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kMeanRadius);
-  int32_t sum = 0, count = 0;
+  int32_t sum = 0, weights = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
       const size_t at = job.map.At(column, row);
-      if ((job.memory.coverage.levels.place[at] & kOnRamp) != 0) continue;
-      if (Abs(job.map.disparity[at] - own) > kPixel) continue;
-      sum += job.map.disparity[at];
-      ++count;
+      const int32_t doubt = job.memory->doubt[at];
+      if (doubt == 0 || Abs(job.map.disparity[at] - own) > kPixel) continue;
+      const int32_t weight = doubt > kDisplacement ? kSureWeight : 1;
+      sum += weight * job.map.disparity[at];
+      weights += weight;
     }
   }
-  if (count == 0) return static_cast<float>(own) / kPixel;
-  return static_cast<float>(sum) / static_cast<float>(count * kPixel);
-}
-
-// Returns the disparity of the surface that covers most of a pixel.
-int32_t ChosenLevel(const CoverageMemory& memory, size_t at, const PixelCoverage& pixel) {
-  const bool is_near = pixel.coverage > kCovered / 2;
-  if (!pixel.is_thin) return memory.alike[is_near ? 1 : 0][at];
-  return is_near ? memory.levels.near_level[at] : memory.levels.far_level[at];
-}
-
-// Returns whether the map's disparity gives way to that of the surface that covers most of the
-// pixel.
-bool IsChanged(const ColourJob& job, size_t at, const PixelCoverage& pixel) {
-  const CoverageMemory& memory = job.memory.coverage;
-  if (memory.exact || !pixel.is_mixed) return false;
-  // Without coverage the map shows thin structure best: as a whole.
-  if (pixel.is_thin) return job.output.coverage != nullptr;
-  const bool on_ramp = (memory.levels.place[at] & kOnRamp) != 0;
-  return on_ramp || Abs(ChosenLevel(memory, at, pixel) - job.map.disparity[at]) > kPixel;
-}
-
-// Writes coverage, which agrees with a disparity that was kept.
-void WriteCoverage(const ColourJob& job, int32_t x, int32_t y, const PixelCoverage& pixel,
-                   bool kept) {
-  if (job.output.coverage == nullptr) return;
-  const uint8_t place = job.memory.coverage.levels.place[job.map.At(x, y)];
-  int32_t coverage = pixel.coverage;
-  if (kept && pixel.is_mixed) {
-    const bool near_side = (place & kNearSide) != 0;
-    coverage = near_side ? Max(coverage, kCovered / 2 + 1) : Min(coverage, kCovered / 2);
-  }
-  job.output
-      .coverage[static_cast<size_t>(y) * job.output.coverage_stride + static_cast<size_t>(x)] =
-      static_cast<uint8_t>(coverage);
+  if (weights == 0) return static_cast<float>(own) / kPixel;
+  return static_cast<float>(sum) / static_cast<float>(weights * kPixel);
 }
 
 void WritePixel(const ColourJob& job, int32_t x, int32_t y) {
   const size_t at = job.map.At(x, y), row = static_cast<size_t>(y), column = static_cast<size_t>(x);
-  const CoverageMemory& memory = job.memory.coverage;
   const float given = GivenAt(job.map.light_field, y)[x];
-  const bool known = std::isfinite(given);
-  const PixelCoverage pixel = CoverageAt(job.map.plan, memory, x, y);
-  const bool changes = !known || IsChanged(job, at, pixel);
-  const bool noisy = job.map.disparity != job.memory.maps[0];
-  float value = noisy ? static_cast<float>(job.map.disparity[at]) / kPixel : given;
-  if (changes) {
-    int32_t own = job.map.disparity[at];
-    if (pixel.is_mixed) own = ChosenLevel(memory, at, pixel);
-    value = job.output.Clamped(MeanOfSurface(job, x, y, own));
-  }
-  job.output.disparity[row * job.output.stride + column] = value;
-  WriteCoverage(job, x, y, pixel, !changes);
+  const bool known = std::isfinite(given), differs = Differs(job, at);
+  const bool changes = !known || (differs && IsGainsaid(job, x, y));
+  const bool noisy = job.map.disparity != job.memory->maps[0];
+  const float kept = noisy ? static_cast<float>(job.map.disparity[at]) / kPixel : given;
+  job.output.disparity[row * job.output.stride + column] =
+      changes ? job.output.Clamped(MeanOfSurface(job, x, y)) : kept;
   if (job.output.confidence == nullptr) return;
-  const int32_t certainty =
-      pixel.is_mixed ? Abs(2 * pixel.coverage - kCovered) * pixel.trust / 255 : 255;
   job.output.confidence[row * job.output.confidence_stride + column] =
-      static_cast<uint8_t>(certainty);
+      differs && !changes ? uint8_t{0} : job.memory->certainty[at];
 }
 
 void WriteTile(const void* data, int32_t index, int32_t) {
@@ -108,6 +131,22 @@ void WriteTile(const void* data, int32_t index, int32_t) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) WritePixel(job, x, y);
   }
+}
+
+ColourTileMemory TakeTile(const EstimatePlan& plan, Carver* carver) {
+  size_t width = 0, area = 0;
+  for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {
+    const Rect region = Widened(plan, TileOf(plan, tile), kTileMargin);
+    const auto columns = static_cast<size_t>(region.width);
+    width = columns > width ? columns : width;
+    const size_t pixels = columns * static_cast<size_t>(region.height);
+    area = pixels > area ? pixels : area;
+  }
+  ColourTileMemory memory;
+  memory.choices = carver->Take<Choices>(area);
+  memory.paths = carver->Take<ChoicePath>(width);
+  memory.doubt = carver->Take<uint8_t>(area);
+  return memory;
 }
 
 }  // namespace
@@ -121,13 +160,23 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
   auto* progress = carver.Take<std::atomic<uint32_t>>(ProgressWords(tiles));
   int16_t* maps[3];
   for (int16_t*& map : maps) map = carver.Take<int16_t>(width, height);
-  const CoverageMemory coverage = TakeCoverage(plan, max_workers, &carver);
+  auto* gain = carver.Take<int16_t>(width, height);
+  auto* doubt = carver.Take<uint8_t>(width, height);
+  auto* certainty = carver.Take<uint8_t>(width, height);
+  auto* workers = carver.Take<ColourTileMemory>(static_cast<size_t>(max_workers));
   if (base != nullptr) {
     ColourMemory& made = *new (*memory) ColourMemory();
     made.jobs.max_workers = max_workers;
     made.jobs.progress = progress;
     for (int k = 0; k < 3; ++k) made.maps[k] = maps[k];
-    made.coverage = coverage;
+    made.gain = gain;
+    made.doubt = doubt;
+    made.certainty = certainty;
+    made.workers = workers;
+  }
+  for (int32_t worker = 0; worker < max_workers; ++worker) {
+    const ColourTileMemory tile = TakeTile(plan, &carver);
+    if (base != nullptr) workers[worker] = tile;
   }
   return carver.Bytes();
 }
@@ -141,27 +190,25 @@ sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_f
   const ColourMap map = {plan, light_field, maps[noise > 0 ? 2 : 0]};
   // Within three standard deviations first; what that leaves is a third as noisy.
   const Smoothing first = {3, 1, 3 * noise}, second = {4, 2, 3 * noise / 2};
-  constexpr int32_t kParts = kCoverageParts + 3;
   const struct {
-    const ColourMap& from;
-    const Smoothing& smoothing;
-    int16_t* to;
-  } steps[] = {{given, first, maps[1]}, {half, second, maps[2]}};
-  const int32_t tiles = plan.columns * plan.rows;
+    JobFunction function;
+    ColourJob job;
+  } phases[] = {
+      {SmoothMap, {given, output, first, maps[1], nullptr, memory}},
+      {SmoothMap, {half, output, second, maps[2], nullptr, memory}},
+      {DoubtTile, {map, output, second, nullptr, nullptr, memory}},
+      {ChooseTile, {map, output, second, nullptr, maps[1], memory}},
+      {WriteTile, {map, output, second, nullptr, maps[1], memory}},
+  };
   int32_t done = 0;
-  for (const auto& step : steps) {
-    memory->jobs.watch.SetPart(done++, kParts);
-    if (noise == 0) continue;
-    const ColourJob job = {step.from, output, step.smoothing, step.to, *memory};
-    const sf_status status = RunJobSet(SmoothMap, &job, tiles, runner, &memory->jobs);
+  for (const auto& phase : phases) {
+    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof phases / sizeof *phases));
+    if (phase.function == SmoothMap && noise == 0) continue;
+    const sf_status status =
+        RunJobSet(phase.function, &phase.job, plan.columns * plan.rows, runner, &memory->jobs);
     if (status != SF_OK) return status;
   }
-  const sf_status status =
-      FindAllCoverage(map, runner, done, kParts, &memory->jobs, &memory->coverage);
-  if (status != SF_OK) return status;
-  memory->jobs.watch.SetPart(kParts - 1, kParts);
-  const ColourJob job = {map, output, second, nullptr, *memory};
-  return RunJobSet(WriteTile, &job, tiles, runner, &memory->jobs);
+  return SF_OK;
 }
 
 }  // namespace starfocus

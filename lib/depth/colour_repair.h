@@ -9,16 +9,26 @@
 #include <cstdint>
 
 #include "lib/base/jobs.h"
-#include "lib/depth/coverage_pass.h"
+#include "lib/depth/colour_choices.h"
 #include "lib/depth/estimate.h"
 
 namespace starfocus {
 
+// What a worker needs for a tile.
+struct ColourTileMemory {
+  Choices* choices;
+  ChoicePath* paths;  // a row
+  uint8_t* doubt;
+};
+
 // Maps have the picture's size, disparities kDisparityBits.
 struct ColourMemory {
   JobSet jobs;
-  int16_t* maps[3];  // the given one, of noise half smoothed, smoothed
-  CoverageMemory coverage;
+  int16_t* maps[3];  // the given one, of noise half smoothed, smoothed; later what is chosen
+  int16_t* gain;     // how much less a pixel's choice costs than the map's, 0 where it is the same
+  uint8_t* doubt;    // of MeasureDoubt
+  uint8_t* certainty;  // how much more another surface costs than the chosen one, on each path
+  ColourTileMemory* workers;
 };
 
 // Lays out the memory at `base` (aligned to SF_ALIGNMENT), or counts when base is null. Returns the

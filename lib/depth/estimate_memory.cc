@@ -60,12 +60,10 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
   auto* first = carver.Take<int16_t>(width, height);
   auto* second = carver.Take<int16_t>(width, height);
   auto* certainty = carver.Take<uint8_t>(width, height);
-  int16_t* of_given[4] = {};
+  int16_t* of_given[3] = {};
   for (int16_t*& map : of_given) map = plan.repairs ? carver.Take<int16_t>(width, height) : nullptr;
   uint8_t* swept = plan.repairs ? carver.Take<uint8_t>(width, height) : nullptr;
   TileCount* counts = plan.repairs ? carver.Take<TileCount>(tiles) : nullptr;
-  const CoverageMemory coverage =
-      plan.repairs ? TakeCoverage(plan, max_workers, &carver) : CoverageMemory{};
   auto* workers = carver.Take<TileMemory>(static_cast<size_t>(max_workers));
   if (base != nullptr) {
     EstimateMemory& made = *new (*memory) EstimateMemory();
@@ -77,8 +75,6 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
     made.given = of_given[0];
     made.trusted = of_given[1];
     made.evidence = of_given[2];
-    made.filled = of_given[3];
-    made.coverage = coverage;
     made.doubt = certainty;
     made.swept = swept;
     made.counts = counts;

@@ -9,7 +9,6 @@
 
 #include "lib/base/carver.h"
 #include "lib/base/jobs.h"
-#include "lib/depth/coverage_pass.h"
 #include "lib/depth/estimate_plan.h"
 #include "simd/label_costs.h"
 
@@ -69,8 +68,6 @@ struct EstimateMemory {
   uint8_t* swept;     // 1 where the sweeps look, 0 elsewhere; null: everywhere
   TileCount* counts;  // of each tile
   int32_t least_evidence;
-  int16_t* filled;  // its disparities, of unknown pixels those of the nearest one
-  CoverageMemory coverage;
   int16_t* evidence;  // how much better the views fit the second map than the given one
   TileMemory* workers;
 };

@@ -2,10 +2,8 @@
 #include "lib/depth/repair.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "lib/base/fixed.h"
-#include "lib/depth/coverage_pass.h"
 #include "lib/depth/repair_map.h"
 #include "lib/depth/sweep.h"
 #include "lib/depth/swept.h"
@@ -56,60 +54,6 @@ void ValueTile(const void* data, int32_t index, int32_t) {
   sweep.memory->counts[index] = CountTile(sweep.plan, tile, *sweep.memory);
 }
 
-// Returns whether the map stays as it is: its steps are those of the picture.
-bool IsRight(const CoverageMemory& memory) { return memory.exact && memory.sure; }
-
-// Writes the disparity and coverage of a pixel near an edge whose disparity is known.
-void WriteCovered(const RepairJob& job, int32_t x, int32_t y, const PixelCoverage& pixel) {
-  const MapOutput& output = job.output;
-  const CoverageMemory& memory = job.sweep.memory->coverage;
-  const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
-  float* disparity = output.disparity + row * output.stride + column;
-  const size_t at = row * static_cast<size_t>(job.sweep.plan.width) + column;
-  constexpr float kPixel = 1.0F / (1 << kDisparityBits);
-  if (pixel.is_thin || IsRight(memory)) *disparity = GivenAt(job.sweep.light_field, y)[x];
-  if (output.coverage == nullptr) return;
-  const int32_t front = memory.levels.near_level[at], back = memory.levels.far_level[at];
-  int32_t coverage = pixel.coverage;
-  if (pixel.is_thin && !memory.exact) {
-    const int32_t level = coverage > kCovered / 2 ? front : back;
-    *disparity = output.Clamped(static_cast<float>(level) * kPixel);
-  } else {
-    const bool is_near = 2 * *disparity > static_cast<float>(front + back) * kPixel;
-    coverage = is_near ? Max(coverage, kCovered / 2 + 1) : Min(coverage, kCovered / 2);
-  }
-  output.coverage[row * output.coverage_stride + column] = static_cast<uint8_t>(coverage);
-}
-
-// Writes coverage over the result of the sweeps, which erase thin structure.
-void CoverTile(const void* data, int32_t index, int32_t) {
-  const RepairJob& job = JobOf(data);
-  const Sweep& sweep = job.sweep;
-  const MapOutput& output = job.output;
-  const Rect tile = TileOf(sweep.plan, index);
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const auto row = static_cast<size_t>(y);
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const PixelCoverage pixel = CoverageAt(sweep.plan, sweep.memory->coverage, x, y);
-      if (output.coverage != nullptr) {
-        output.coverage[row * output.coverage_stride + static_cast<size_t>(x)] = pixel.coverage;
-      }
-      const float given = GivenAt(sweep.light_field, y)[x];
-      if (!std::isfinite(given)) continue;
-      float* disparity = output.disparity + row * output.stride + static_cast<size_t>(x);
-      // Sweeps find the wall between strands and take the strands for noise.
-      if (*disparity < given && IsNearThin(sweep.plan, sweep.memory->coverage, x, y)) {
-        *disparity = given;
-      }
-      if (pixel.is_mixed) {
-        WriteCovered(job, x, y, pixel);
-      } else if (IsRight(sweep.memory->coverage)) {
-        *disparity = given;
-      }
-    }
-  }
-}
-
 void WriteTile(const void* data, int32_t index, int32_t) {
   const RepairJob& job = JobOf(data);
   const Sweep& sweep = job.sweep;
@@ -144,17 +88,11 @@ sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
                  EstimateMemory* memory) {
   const RepairJob job = {{plan, light_field, kernels, memory, output.confidence != nullptr},
                          output};
-  constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, MarkTile,  SweepFirst,
-                                     SweepSecond, ValueTile, WriteTile, CoverTile};
-  constexpr int32_t kParts =
-      kCoverageParts + static_cast<int32_t>(sizeof kPhases / sizeof *kPhases);
-  ReadMap(plan, light_field, memory->filled);
-  const sf_status found = FindAllCoverage({plan, light_field, memory->filled}, runner, 0, kParts,
-                                          &memory->jobs, &memory->coverage);
-  if (found != SF_OK) return found;
-  int32_t done = kCoverageParts;
+  constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, MarkTile, SweepFirst,
+                                     SweepSecond, ValueTile, WriteTile};
+  int32_t done = 0;
   for (const JobFunction phase : kPhases) {
-    memory->jobs.watch.SetPart(done++, kParts);
+    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof kPhases / sizeof *kPhases));
     if (phase == WriteTile) memory->least_evidence = LeastEvidence(plan, *memory);
     const sf_status status =
         RunJobSet(phase, &job, plan.columns * plan.rows, runner, &memory->jobs);

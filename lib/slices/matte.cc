@@ -129,12 +129,18 @@ class MatteFinder {
     const size_t at = surfaces_.At(column, row);
     surfaces_.hiding[row] |= uint64_t{1} << (column / static_cast<int32_t>(simd::kSliceLanes));
     surfaces_.share[at] = static_cast<uint8_t>(share);
-    surfaces_.disparity[2][at] = surfaces_.disparity[1][at];
+    // A copy of the pixel (kLeastCopy) has the colour of the mixture, and gives way.
+    const bool has_copy = disparity - surfaces_.disparity[1][at] <= step_;
+    if (has_copy) {
+      surfaces_.sources[0][at] = surfaces_.sources[1][at];  // of the surface behind the far one
+    } else {
+      surfaces_.disparity[2][at] = surfaces_.disparity[1][at];
+    }
     surfaces_.disparity[1][at] = static_cast<int16_t>(disparity);
     surfaces_.disparity[0][at] = static_cast<int16_t>(parts.nearest);
     for (size_t c = 0; c < 3; ++c) {
       const size_t sample = c * surfaces_.plane + at;
-      surfaces_.rgb[2][sample] = surfaces_.rgb[1][sample];
+      if (!has_copy) surfaces_.rgb[2][sample] = surfaces_.rgb[1][sample];
       surfaces_.rgb[1][sample] = parts.Mean(parts.far[c]);
       surfaces_.rgb[0][sample] = parts.Mean(parts.near[c]);
     }

@@ -97,6 +97,10 @@ class SurfaceFinder {
       near.colour[c] /= shares;
       far.colour[c] /= shares;
     }
+    // A copy of the pixel has the colour of the mixture, and gives way.
+    if (surfaces->size() > 1 && !IsEdge(far.disparity, (*surfaces)[1].disparity)) {
+      surfaces->erase(surfaces->begin() + 1);
+    }
     surfaces->front() = far;
     surfaces->insert(surfaces->begin(), near);
     if (surfaces->size() > starfocus::simd::kSurfaces) surfaces->pop_back();

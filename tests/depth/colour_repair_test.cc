@@ -42,7 +42,7 @@ struct Photo {
 
 struct Repaired {
   std::vector<float> map;
-  std::vector<uint8_t> confidence, coverage;
+  std::vector<uint8_t> confidence;
 };
 
 // Runs jobs backwards, each on another of three workers than the one before.
@@ -51,7 +51,7 @@ int RunBackwards(void*, sf_job job, void* data, int32_t count) {
   return 0;
 }
 
-Repaired Repair(const Photo& photo, int workers = 1, bool covers = false) {
+Repaired Repair(const Photo& photo, int workers = 1) {
   sf_depth_config config;
   sf_depth_config_init(&config);
   config.width = photo.width;
@@ -67,17 +67,10 @@ Repaired Repair(const Photo& photo, int workers = 1, bool covers = false) {
   field.views[0] = {photo.rgb.data(), 3 * width};
   field.disparity = photo.map.data();
   field.disparity_stride = width * sizeof(float);
-  Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size()),
-                     std::vector<uint8_t>(photo.map.size())};
+  Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
   const starfocus::Runner runner = {workers > 1 ? RunBackwards : nullptr, nullptr};
-  const starfocus::MapOutput output = {result.map.data(),
-                                       width,
-                                       -500,
-                                       500,
-                                       result.confidence.data(),
-                                       width,
-                                       covers ? result.coverage.data() : nullptr,
-                                       width};
+  const starfocus::MapOutput output = {result.map.data(),        width, -500, 500,
+                                       result.confidence.data(), width};
   CHECK(RepairByColour(plan, field, runner, output, memory) == SF_OK);
   ::operator delete(base, std::align_val_t(SF_ALIGNMENT));
   return result;
@@ -133,31 +126,6 @@ TEST_CASE("colour repair: a ramp between two surfaces becomes a step") {
   }
   CHECK(CountWrong(photo.map, truth) > 1800);
   CHECK(CountWrong(Repair(photo).map, truth) < 20);
-}
-
-TEST_CASE(
-    "colour repair: coverage is the share of the near colour, and agrees with the disparity") {
-  Photo photo = MakeDisc(3);
-  for (int y = 0; y < photo.height; ++y) {
-    for (int x = 0; x < photo.width; ++x) {
-      const double inside = std::clamp(40.5 - std::hypot(x - 151.3, y - 66.2), 0.0, 1.0);
-      photo.Paint(x, y, int(60 + 130 * inside), int(100 - 20 * inside), int(150 - 110 * inside));
-    }
-  }
-  const Repaired repaired = Repair(photo, 1, true);
-  double error = 0;
-  int count = 0;
-  for (int y = 20; y < 112; ++y) {
-    for (int x = 105; x < 198; ++x) {
-      const double inside = 40.5 - std::hypot(x - 151.3, y - 66.2);
-      if (std::abs(inside) > 4) continue;
-      const size_t at = photo.At(x, y);
-      error += std::pow(repaired.coverage[at] / 255.0 - std::clamp(inside, 0.0, 1.0), 2);
-      ++count;
-      CHECK((repaired.map[at] > 1) == (repaired.coverage[at] >= 128));
-    }
-  }
-  CHECK(std::sqrt(error / count) < 0.1);
 }
 
 TEST_CASE("colour repair: a right map stays to the bit, with steps, planes and fractions") {
@@ -279,43 +247,29 @@ TEST_CASE("colour repair: the same bytes in any order and for any number of work
   CHECK(one.confidence == three.confidence);
 }
 
-TEST_CASE("colour repair: pixels near a step or a ramp have the levels of both of its ends") {
-  Photo photo(120, 40);
+TEST_CASE("colour repair: pixels beside steps are doubted, but not those of thin surfaces") {
+  Photo photo(60, 40);
   for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 120; ++x) photo.Map(x, y) = x < 40 ? 0.0F : x < 50 ? float(x - 39) : 11.0F;
+    for (int x = 0; x < 60; ++x) photo.Map(x, y) = (x >= 15 && x < 20) || x >= 40 ? 9.0F : 0.0F;
   }
-  const auto width = size_t(photo.width);
-  std::vector<int16_t> fixed(photo.map.size()), front(fixed.size()), back(fixed.size());
+  std::vector<int16_t> fixed(photo.map.size());
   for (size_t k = 0; k < fixed.size(); ++k) fixed[k] = int16_t(64 * photo.map[k]);
-  std::vector<uint8_t> place(fixed.size());
   sf_depth_config config;
   sf_depth_config_init(&config);
-  config.width = photo.width, config.height = photo.height;
+  config.width = 60, config.height = 40;
   const starfocus::EstimatePlan plan = starfocus::MakePlan(config);
   sf_light_field field = {};
   field.disparity = photo.map.data();
-  field.disparity_stride = width * sizeof(float);
-  starfocus::Carver counter(nullptr);
-  starfocus::TakeLevelsScratch(width, 40, &counter);
-  void* base = ::operator new(counter.Bytes(), std::align_val_t(SF_ALIGNMENT));
-  starfocus::Carver carver(base);
-  starfocus::FindLevels({plan, field, fixed.data()}, {0, 0, 120, 40},
-                        starfocus::TakeLevelsScratch(width, 40, &carver),
-                        {front.data(), back.data(), place.data()});
-  ::operator delete(base, std::align_val_t(SF_ALIGNMENT));
-  for (int x = 0; x < 120; ++x) {
-    CAPTURE(x);
-    const size_t at = photo.At(x, 20);
-    const int distance = x < 39 ? 39 - x : x > 50 ? x - 50 : 0;
-    if (distance > starfocus::kMostDistance) {
-      CHECK(place[at] == starfocus::kNoEdge);
-      continue;
-    }
-    CHECK((place[at] & starfocus::kDistanceMask) == distance);
-    CHECK((place[at] >= starfocus::kNearSide) == (x >= 45));
-    CHECK(front[at] == 11 * 64);
-    CHECK(back[at] == 0);
+  field.disparity_stride = 60 * sizeof(float);
+  std::vector<uint8_t> scratch(fixed.size()), doubt(fixed.size());
+  starfocus::MeasureDoubt({plan, field, fixed.data()}, {0, 0, 60, 40}, scratch.data(),
+                          doubt.data());
+  const int expected[] = {1, 2, 3, 4, 5, 6, 6};
+  for (int k = 0; k < 7; ++k) {
+    CHECK(doubt[photo.At(40 + k, 20)] == expected[k]);
+    CHECK(doubt[photo.At(39 - k, 20)] == expected[k]);
   }
+  for (int x = 15; x < 20; ++x) CHECK(doubt[photo.At(x, 20)] == starfocus::kThinDoubt);
 }
 
 TEST_CASE("colour repair: pictures of few pixels") {

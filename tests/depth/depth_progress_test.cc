@@ -48,12 +48,9 @@ struct Maps {
       field.disparity_stride = stride;
     }
     map->assign(given.size(), -1);
-    if (repairs) {
-      return sf_repair_disparity(&config, &field, map->data(), stride, nullptr, 0, nullptr, 0,
-                                 memory->data, memory->bytes, runner, nullptr);
-    }
-    return sf_estimate_disparity(&config, &field, map->data(), stride, nullptr, 0, memory->data,
-                                 memory->bytes, runner, nullptr);
+    return (repairs ? sf_repair_disparity : sf_estimate_disparity)(&config, &field, map->data(),
+                                                                   stride, nullptr, 0, memory->data,
+                                                                   memory->bytes, runner, nullptr);
   }
 };
 

@@ -42,8 +42,8 @@ Repaired RepairField(const PlaneField& field, const std::vector<float>& given,
   light_field.disparity = given.data();
   light_field.disparity_stride = sizeof(float) * width;
   REQUIRE(sf_repair_disparity(&config, &light_field, result.disparity.data(), sizeof(float) * width,
-                              result.confidence.data(), width, nullptr, 0, memory.data,
-                              memory.bytes, runner, nullptr) == SF_OK);
+                              result.confidence.data(), width, memory.data, memory.bytes, runner,
+                              nullptr) == SF_OK);
   return result;
 }
 
@@ -260,8 +260,8 @@ TEST_CASE("repair: bad maps have their errors, and nothing is written") {
   const auto status = [&](const float* from, size_t stride, size_t size) {
     light_field.disparity = from;
     light_field.disparity_stride = stride;
-    return sf_repair_disparity(&config, &light_field, map.data(), row, nullptr, 0, nullptr, 0,
-                               memory.data, size, nullptr, nullptr);
+    return sf_repair_disparity(&config, &light_field, map.data(), row, nullptr, 0, memory.data,
+                               size, nullptr, nullptr);
   };
   CHECK(status(nullptr, row, bytes) == SF_ERROR_NULL);
   CHECK(status(given.data(), row - 4, bytes) == SF_ERROR_STRIDE);

@@ -113,18 +113,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     field.views[view] = {pictures.back().values.get(), pictures.back().stride};
   }
   Rows<float> given(width, config.height, &input), map(width, config.height, &input);
-  Rows<uint8_t> sure(width, config.height, &input), covered(width, config.height, &input);
+  Rows<uint8_t> sure(width, config.height, &input);
   FillMap(config, &input, &given);
   field.disparity = given.values.get();
   field.disparity_stride = given.stride * sizeof(float);
-  uint8_t* confidence = input.Rarely() ? nullptr : sure.values.get();
-  uint8_t* coverage = input.Rarely() ? nullptr : covered.values.get();
-  const size_t row = map.stride * sizeof(float);
-  const sf_status status =
-      repairs ? sf_repair_disparity(&config, &field, map.values.get(), row, confidence, sure.stride,
-                                    coverage, covered.stride, workspace, bytes, nullptr, nullptr)
-              : sf_estimate_disparity(&config, &field, map.values.get(), row, confidence,
-                                      sure.stride, workspace, bytes, nullptr, nullptr);
+  const auto make = repairs ? sf_repair_disparity : sf_estimate_disparity;
+  const sf_status status = make(&config, &field, map.values.get(), map.stride * sizeof(float),
+                                input.Rarely() ? nullptr : sure.values.get(), sure.stride,
+                                workspace, bytes, nullptr, nullptr);
   if (status == SF_OK) CheckMap(config, map);
   // Only a map may still be wrong.
   const bool cancelled = config.progress != nullptr && status == SF_ERROR_CANCELLED;

@@ -20,11 +20,11 @@ constexpr int kPlaneMost = 4;  // and of planes within this
 struct Map {
   sf_status status = SF_OK;
   std::vector<float> disparity;
-  std::vector<uint8_t> confidence, coverage;
+  std::vector<uint8_t> confidence;
 
   bool operator==(const Map& other) const {
     const size_t bytes = sizeof(float) * disparity.size();
-    return status == other.status && confidence == other.confidence && coverage == other.coverage &&
+    return status == other.status && confidence == other.confidence &&
            std::memcmp(disparity.data(), other.disparity.data(), bytes) == 0;
   }
 };
@@ -66,17 +66,9 @@ Map Make(const Question& question, sf_runner runner, test::Random* random) {
   map.disparity.assign(width * static_cast<size_t>(scene.height), 0);
   map.confidence.assign(map.disparity.size(), 0);
   const sf_light_field field = scene.Field();
-  float* disparity = map.disparity.data();
-  uint8_t* confidence = map.confidence.data();
-  if (question.repairs) {
-    map.coverage.assign(map.disparity.size(), 0);
-    map.status =
-        sf_repair_disparity(&config, &field, disparity, sizeof(float) * width, confidence, width,
-                            map.coverage.data(), width, memory.get(), bytes, runner, nullptr);
-  } else {
-    map.status = sf_estimate_disparity(&config, &field, disparity, sizeof(float) * width,
-                                       confidence, width, memory.get(), bytes, runner, nullptr);
-  }
+  const auto make = question.repairs ? sf_repair_disparity : sf_estimate_disparity;
+  map.status = make(&config, &field, map.disparity.data(), sizeof(float) * width,
+                    map.confidence.data(), width, memory.get(), bytes, runner, nullptr);
   return map;
 }
 

@@ -68,14 +68,10 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
       light_field.disparity = given->values.data();
       light_field.disparity_stride = sizeof(float) * width;
     }
-    uint8_t* sure = confidence == nullptr ? nullptr : confidence->data();
-    float* disparity = map->values.data();
-    const size_t row = sizeof(float) * width;
-    status = given == nullptr
-                 ? sf_estimate_disparity(&config, &light_field, disparity, row, sure, width,
-                                         workspace.get(), bytes, ThreadRunner::Run, &maker->pool)
-                 : sf_repair_disparity(&config, &light_field, disparity, row, sure, width, nullptr,
-                                       0, workspace.get(), bytes, ThreadRunner::Run, &maker->pool);
+    const auto make = given == nullptr ? sf_estimate_disparity : sf_repair_disparity;
+    status = make(&config, &light_field, map->values.data(), sizeof(float) * width,
+                  confidence == nullptr ? nullptr : confidence->data(), width, workspace.get(),
+                  bytes, ThreadRunner::Run, &maker->pool);
   }
   if (status == SF_OK) return "";
   return Error::Internal(where, "views whose disparities it can make", sf_status_string(status));

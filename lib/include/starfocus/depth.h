@@ -58,8 +58,8 @@ SF_API sf_status sf_estimate_disparity(const sf_depth_config* config,
                                        void* workspace, size_t bytes, sf_runner runner,
                                        void* runner_data);
 
-/** Bytes of workspace of sf_repair_disparity into *bytes: up to 28 for each pixel of the picture,
- * and for each worker about 20 MB and as much as sf_estimate_size has. */
+/** Bytes of workspace of sf_repair_disparity into *bytes: 12 for each pixel of the picture, and for
+ *  each worker about as much as sf_estimate_size has. */
 SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
 
 /** Repairs light_field's disparity map, whose edges lie beside those of the picture, are blurred or
@@ -71,17 +71,12 @@ SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
  * wider; SF_ERROR_ALL_INVALID when none is finite. `confidence` is 0 also where the views
  * contradict the value that was kept, but too weakly; where nothing contradicts it, and no step of
  * the map is near, it tells how much the centre view differs a pixel away, in the same unit.
- * Outputs must not overlap the given map, either.
- * `coverage` (null, or rows of bytes coverage_stride apart, >= width) gets how much of each pixel
- * the nearer of two surfaces covers that meet near it: 255 all of it, 0 nothing. With coverage the
- * disparity of a pixel near an edge is that of the near surface from coverage 128 on and that of
- * the far one below; without coverage, thin structure such as hair keeps the given disparity. Far
- * from the edges of the map coverage has no meaning. */
+ * Outputs must not overlap the given map, either. */
 SF_API sf_status sf_repair_disparity(const sf_depth_config* config,
                                      const sf_light_field* light_field, float* disparity,
                                      size_t stride, uint8_t* confidence, size_t confidence_stride,
-                                     uint8_t* coverage, size_t coverage_stride, void* workspace,
-                                     size_t bytes, sf_runner runner, void* runner_data);
+                                     void* workspace, size_t bytes, sf_runner runner,
+                                     void* runner_data);
 
 #ifdef __cplusplus
 }

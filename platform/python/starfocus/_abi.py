@@ -173,7 +173,7 @@ _MAP_CALLS = {
     "sf_estimate_disparity": (POINTER(DepthConfig), POINTER(LightField), c_void_p, c_size_t, c_void_p,
                               c_size_t, c_void_p, c_size_t, *_RUN),
     "sf_repair_disparity": (POINTER(DepthConfig), POINTER(LightField), c_void_p, c_size_t, c_void_p,
-                            c_size_t, c_void_p, c_size_t, c_void_p, c_size_t, *_RUN),
+                            c_size_t, c_void_p, c_size_t, *_RUN),
     "sf_view_position": (c_int32, POINTER(c_double), POINTER(c_double)),
 }
 _OTHERS = {

@@ -24,12 +24,10 @@ class DisparityStats(NamedTuple):
 
 
 class DisparityMap(NamedTuple):
-    """A map (float32) and how sure each of its pixels is (uint8): 0 means that another disparity is as good.
-    A repair also returns coverage (uint8): how much of each pixel near a depth edge the nearer surface covers."""
+    """A map (float32) and how sure each of its pixels is (uint8): 0 means that another disparity is as good."""
 
     disparity: np.ndarray
     confidence: np.ndarray
-    coverage: Optional[np.ndarray] = None
 
 
 def view_positions(count: int = 17) -> List[Tuple[float, float]]:
@@ -108,11 +106,10 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
     check(size_of(byref(config), byref(size)))
     field, kept = light_field(views, given, len(views), height, width)
     memory = aligned(size.value)
-    coverage = None if given is None else np.empty((height, width), np.uint8)
-    made = DisparityMap(np.empty((height, width), np.float32), np.empty((height, width), np.uint8), coverage)
-    planes = [plane for plane in made if plane is not None]
-    outputs = [value for plane in planes for value in (pointer(plane), stride_of(plane))]
-    status = make(byref(config), byref(field), *outputs, pointer(memory), size.value, pool.runner, pool.handle)
+    made = DisparityMap(np.empty((height, width), np.float32), np.empty((height, width), np.uint8))
+    status = make(byref(config), byref(field), pointer(made.disparity), stride_of(made.disparity),
+                  pointer(made.confidence), stride_of(made.confidence), pointer(memory), size.value,
+                  pool.runner, pool.handle)
     del kept
     watch.check(status)
     return made
