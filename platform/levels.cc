@@ -20,16 +20,26 @@ namespace {
 constexpr int kColourPart = 10;
 constexpr size_t kColouredPart = 100;
 
+// What becomes of an alpha channel.
+enum class Alpha {
+  kIgnored,
+  kTransparent,  // pixels less than half opaque are NaN
+  kTaken         // instead of the levels
+};
+
 // Grey levels of interleaved samples of 1 (grey) to 4 (RGB and alpha) channels.
 template <class Sample>
-std::string TakeGrey(const std::string& where, const Sample* pixel, int channels, bool use_alpha,
+std::string TakeGrey(const std::string& where, const Sample* pixel, int channels, Alpha alpha,
                      Samples* result) {
   const bool has_alpha = channels % 2 == 0, is_grey = channels < 3;
   const size_t count = size_t(result->map.width) * size_t(result->map.height);
   size_t coloured = 0;
   result->map.values.reserve(count);
   for (size_t k = 0; k < count; ++k, pixel += channels) {
-    if (has_alpha && use_alpha && 2 * pixel[channels - 1] < result->largest) {
+    if (has_alpha && alpha == Alpha::kTaken) {
+      result->map.values.push_back(static_cast<float>(pixel[channels - 1]));
+    } else if (has_alpha && alpha == Alpha::kTransparent &&
+               2 * pixel[channels - 1] < result->largest) {
       result->map.values.push_back(std::numeric_limits<float>::quiet_NaN());
     } else if (is_grey) {
       result->map.values.push_back(static_cast<float>(pixel[0]));
@@ -45,10 +55,12 @@ std::string TakeGrey(const std::string& where, const Sample* pixel, int channels
 }
 
 // Decodes a PNG file that DecodeImage has read without an error.
-std::string DecodePngSamples(const std::string& where, const Bytes& bytes, bool use_alpha,
+std::string DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha,
                              Samples* result) {
   PngHeader header = {};
   ReadPngHeader(bytes, &header);
+  constexpr int kHasAlpha = 4;  // this bit of the colour type
+  if (alpha == Alpha::kTaken && (header.colour & kHasAlpha) == 0) alpha = Alpha::kIgnored;
   constexpr int kColour = 2;  // this bit of the colour type: RGB or a palette of RGB
   const int channels = (header.colour & kColour) != 0 ? 4 : 2;
   const auto size = static_cast<int>(bytes.size());
@@ -58,21 +70,18 @@ std::string DecodePngSamples(const std::string& where, const Bytes& bytes, bool 
     result->largest = 65535;
     const stbi_us* pixels =
         stbi_load_16_from_memory(bytes.data(), size, width, height, &own, channels);
-    if (pixels != nullptr) return TakeGrey(where, pixels, channels, use_alpha, result);
+    if (pixels != nullptr) return TakeGrey(where, pixels, channels, alpha, result);
   } else {
     result->largest = 255;
     const stbi_uc* pixels =
         stbi_load_from_memory(bytes.data(), size, width, height, &own, channels);
-    if (pixels != nullptr) return TakeGrey(where, pixels, channels, use_alpha, result);
+    if (pixels != nullptr) return TakeGrey(where, pixels, channels, alpha, result);
   }
   return Expected(where, "an undamaged picture",
                   "a broken one (" + std::string(stbi_failure_reason()) + ")");
 }
 
-}  // namespace
-
-std::string DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes,
-                          Samples* samples) {
+std::string Decode(const std::string& where, Alpha alpha, Bytes* bytes, Samples* samples) {
   Samples result;
   std::string error;
   if (!bytes->empty() && bytes->front() == 'P') {
@@ -82,7 +91,7 @@ std::string DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes
     result.map.width = pnm.width;
     result.map.height = pnm.height;
     result.largest = pnm.largest;
-    error = TakeGrey(where, pnm.samples.data(), pnm.channels, use_alpha, &result);
+    error = TakeGrey(where, pnm.samples.data(), pnm.channels, alpha, &result);
   } else {
     const Bytes file = IsPng(*bytes) ? *bytes : Bytes();  // DecodeImage changes palettes
     Image image;
@@ -92,14 +101,25 @@ std::string DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes
     result.map.height = image.height;
     result.largest = 255;
     if (file.empty()) {
-      error = TakeGrey(where, image.pixels.data(), 3, use_alpha, &result);
+      error = TakeGrey(where, image.pixels.data(), 3, alpha, &result);
     } else {
       image = {};  // makes room
-      error = DecodePngSamples(where, file, use_alpha, &result);
+      error = DecodePngSamples(where, file, alpha, &result);
     }
   }
   if (error.empty()) *samples = std::move(result);
   return error;
+}
+
+}  // namespace
+
+std::string DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes,
+                          Samples* samples) {
+  return Decode(where, use_alpha ? Alpha::kTransparent : Alpha::kIgnored, bytes, samples);
+}
+
+std::string DecodeCoverage(const std::string& where, Bytes* bytes, Samples* samples) {
+  return Decode(where, Alpha::kTaken, bytes, samples);
 }
 
 std::string DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels) {

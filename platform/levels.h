@@ -20,6 +20,9 @@ struct Samples {
 // `use_alpha`, pixels less than half opaque (alpha channel or tRNS) are NaN.
 std::string DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes, Samples* samples);
 
+// Decodes coverage as samples of a PNG file's alpha channel, or of another picture's grey levels.
+std::string DecodeCoverage(const std::string& where, Bytes* bytes, Samples* samples);
+
 // Decodes the levels, 0 to 1; NaN where the picture is transparent.
 std::string DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels);
 

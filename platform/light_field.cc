@@ -8,6 +8,7 @@
 
 #include "platform/folder.h"
 #include "platform/image_io.h"
+#include "platform/levels.h"
 #include "platform/progress.h"
 #include "starfocus/starfocus.h"
 
@@ -25,6 +26,7 @@ std::string SizeText(int width, int height) {
 }
 
 constexpr char kDisparityName[] = "disparity.pfm";
+constexpr char kCoverageName[] = "coverage.png";
 // Maps of stereo pairs: Middlebury's and ETH3D's.
 constexpr const char* kPairDisparityNames[] = {"disp0.pfm", "disp0GT.pfm"};
 
@@ -77,7 +79,7 @@ std::string DisparityPath(const std::string& folder) {
 }
 
 bool IsLightFieldFile(const std::string& name) {
-  return IsViewFile(name) || name == kDisparityName ||
+  return IsViewFile(name) || name == kDisparityName || name == kCoverageName ||
          std::find(std::begin(kPairDisparityNames), std::end(kPairDisparityNames), name) !=
              std::end(kPairDisparityNames);
 }
@@ -152,11 +154,39 @@ std::string TakeMap(const std::string& path, FloatMap map, LightField* light_fie
   return "";
 }
 
+std::string CoveragePath(const std::string& folder) {
+  std::error_code error;
+  std::string path = Join(folder, kCoverageName);
+  return fs::exists(path, error) ? path : "";
+}
+
+std::string LoadCoverage(const std::string& path, LightField* light_field) {
+  Bytes bytes;
+  Samples samples;
+  std::string error = CheckPlainFile(path);
+  if (error.empty()) error = ReadFile(path, &bytes);
+  if (error.empty()) error = DecodeCoverage(path, &bytes, &samples);
+  if (!error.empty()) return error;
+  const Image& centre = light_field->views[0];
+  if (samples.map.width != centre.width || samples.map.height != centre.height) {
+    return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
+                    SizeText(samples.map.width, samples.map.height));
+  }
+  const float scale = 255 / static_cast<float>(samples.largest);
+  light_field->coverage.clear();
+  for (const float value : samples.map.values) {
+    light_field->coverage.push_back(static_cast<uint8_t>(value * scale + 0.5F));
+  }
+  return "";
+}
+
 std::string LoadLightField(const std::string& folder, const Positions& wanted,
                            LightField* light_field, ThreadRunner* runner) {
   LightField result;
   std::string error = LoadCaptured(folder, wanted, &result, runner);
   if (error.empty()) error = LoadMap(DisparityPath(folder), &result);
+  const std::string coverage = CoveragePath(folder);
+  if (error.empty() && !coverage.empty()) error = LoadCoverage(coverage, &result);
   if (error.empty()) *light_field = std::move(result);
   return error;
 }

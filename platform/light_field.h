@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light-field folder: captured views (view_files.h), and disparity.pfm, or disp0.pfm or
-// disp0GT.pfm of a stereo pair, with the disparity of the centre view.
+// A light-field folder: captured views (view_files.h), disparity.pfm, or disp0.pfm or disp0GT.pfm
+// of a stereo pair, with the disparity of the centre view, and perhaps its coverage, coverage.png.
 #ifndef STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 #define STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 
@@ -18,6 +18,7 @@ struct LightField {
   std::vector<Image> views;
   Positions positions;  // of the views; empty: those of sf_view_position
   FloatMap disparity;
+  std::vector<uint8_t> coverage;  // as sf_light_field.coverage, packed rows; empty: none
 
   int width() const { return disparity.width; }
   int height() const { return disparity.height; }
@@ -56,7 +57,14 @@ std::string LoadMap(const std::string& path, LightField* light_field);
 // Takes a map that was read from `path` for views that are there, of the same size.
 std::string TakeMap(const std::string& path, FloatMap map, LightField* light_field);
 
-// Loads these views and the disparity map, of the same size.
+// The file of its coverage; empty if there is none.
+std::string CoveragePath(const std::string& folder);
+
+// Loads the coverage of views that are there, of the same size: the alpha channel of a picture, or
+// the grey levels of one without.
+std::string LoadCoverage(const std::string& path, LightField* light_field);
+
+// Loads these views, the disparity map and the coverage, if there is some, of the same size.
 std::string LoadLightField(const std::string& folder, const Positions& wanted,
                            LightField* light_field, ThreadRunner* runner = nullptr);
 

@@ -37,6 +37,14 @@ sf_status CheckOverlap(const Request& request, const Rect& rect, const EngineSta
   return Overlaps(out, read) ? SF_ERROR_OVERLAP : SF_OK;
 }
 
+// What the picture before can be compared with: both light fields have coverage, or none has.
+const sf_previous* ComparableOf(const Request& request) {
+  if (request.previous == nullptr) return nullptr;
+  const sf_light_field& before = request.previous->light_field;
+  const bool same = (before.coverage == nullptr) == (request.light_field.coverage == nullptr);
+  return same ? request.previous : nullptr;
+}
+
 sf_status Refocus(const Request& request, const Runner& runner, EngineState* engine,
                   sf_report* report) {
   const sf_config& config = engine->config;
@@ -53,11 +61,12 @@ sf_status Refocus(const Request& request, const Runner& runner, EngineState* eng
   if (status != SF_OK) return status;
   const LightFieldRows rows(request.light_field, 0, *engine);
   rows.Use(engine);
-  const Picture picture = {request.out, request.out_stride, rect, request.previous};
+  const sf_previous* const previous = ComparableOf(request);
+  const Picture picture = {request.out, request.out_stride, rect, previous};
   Call call = {request.params, {}, SinkOf(picture), runner, request.prepared};
   if (request.prepared == nullptr) call.source = rows.Source();
-  if (request.previous != nullptr) {
-    call.before = &request.previous->light_field;
+  if (previous != nullptr) {
+    call.before = &previous->light_field;
     call.now = &request.light_field;
   }
   return RunCall(call, engine, report);

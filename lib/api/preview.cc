@@ -31,11 +31,14 @@ sf_params ReducedParams(const PreviewRequest& request, const Rect& rect) {
   return params;
 }
 
-void UseReduced(const ReducedField& field, EngineState* engine) {
+void UseReduced(const Prepared& prepared, int32_t shift, EngineState* engine) {
+  const ReducedField& field = prepared.reduced[shift];
   SetPlanes(engine->config, *engine->kernels, field.views, &engine->pictures);
   for (Window& window : engine->pictures.windows) {
     window.disparity = {field.disparity.data, field.disparity.stride, 0, 0};
   }
+  if (!prepared.covers) return;
+  engine->pictures.windows[0].given_coverage = {field.coverage.data, field.coverage.stride, 0, 0};
 }
 
 sf_status CheckPicture(const Picture& picture, const PreviewRequest& request,
@@ -68,7 +71,7 @@ sf_status RefocusPreview(const PreviewRequest& request, const RowSink& sink, con
                          EngineState* engine, sf_report* report) {
   const sf_params params = ReducedParams(request, PreviewRect(request, *engine));
   const Reduction reduction(request.shift, engine);
-  UseReduced(request.prepared.reduced[request.shift], engine);
+  UseReduced(request.prepared, request.shift, engine);
   return RunCall({params, {}, sink, runner}, engine, report);
 }
 

@@ -37,6 +37,15 @@ sf_status RefocusNext(EngineState* engine, const Runner& runner) {
 sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
                    int32_t* consumed) {
   Stream& stream = engine->stream;
+  const bool covers = source.coverage != nullptr;
+  if (stream.pushed == 0) {
+    stream.covers = covers;
+    const Plane<uint8_t>& ring = engine->stripe.coverage.given;
+    if (covers) {
+      engine->pictures.windows[0].given_coverage = {ring.data, ring.stride, ring.rows, 0};
+    }
+  }
+  if (covers != stream.covers) return SF_ERROR_STATE;
   while (*consumed < rows && stream.pushed < NeededRows(*engine)) {
     const int32_t some = Min(unit, rows - *consumed);
     const sf_report report = engine->report;

@@ -117,6 +117,11 @@ bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
          (rows <= 1 || stride <= (PTRDIFF_MAX - row_bytes) / static_cast<size_t>(rows - 1));
 }
 
+bool ValidCoverage(const sf_config& config, const uint8_t* coverage, size_t stride) {
+  return coverage == nullptr ||
+         ValidStride(stride, static_cast<size_t>(config.width), config.height);
+}
+
 sf_status CheckViews(int32_t views, int32_t width, int32_t height,
                      const sf_light_field& light_field) {
   for (int view = 0; view < views; ++view) {
@@ -131,6 +136,9 @@ sf_status CheckViews(int32_t views, int32_t width, int32_t height,
 sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field) {
   const sf_status status = CheckViews(config.views, config.width, config.height, light_field);
   if (status != SF_OK) return status;
+  if (!ValidCoverage(config, light_field.coverage, light_field.coverage_stride)) {
+    return SF_ERROR_STRIDE;
+  }
   return CheckMap(light_field.disparity, light_field.disparity_stride, config.width, config.height);
 }
 

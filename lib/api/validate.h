@@ -22,6 +22,9 @@ sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t
 // Tells whether rows are as wide as `row_bytes`, and all of them addressable.
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
 
+// Whether a light field may have that coverage, or none: null.
+bool ValidCoverage(const sf_config& config, const uint8_t* coverage, size_t stride);
+
 // Checks pointers and strides of the views of a light field.
 sf_status CheckViews(int32_t views, int32_t width, int32_t height,
                      const sf_light_field& light_field);

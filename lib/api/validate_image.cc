@@ -78,6 +78,7 @@ sf_status CheckImageField(const sf_config& config, const sf_image_field& field) 
     const sf_status status = CheckImage(field.views[view], config.width, config.height);
     if (status != SF_OK) return status;
   }
+  if (!ValidCoverage(config, field.coverage, field.coverage_stride)) return SF_ERROR_STRIDE;
   return CheckDepthMap(config, field.depth);
 }
 
@@ -94,6 +95,7 @@ void AddImageField(const sf_config& config, const sf_image_field& field, Extents
   const sf_depth_map& map = field.depth;
   extents->AddRows(map.data, map.stride, map.height,
                    DepthBytes(map.type) * static_cast<size_t>(map.width));
+  extents->AddCoverage(config, field.coverage, field.coverage_stride);
   for (int view = 0; view < config.views; ++view) {
     const sf_image& image = field.views[view];
     for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {

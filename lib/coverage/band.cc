@@ -4,13 +4,13 @@
 #include <cstring>
 
 #include "lib/coverage/far_light.h"
+#include "lib/coverage/patch.h"
 
 namespace starfocus {
 namespace {
 
-// Pixels around a tile that its band and its near disparities are found with.
-constexpr int32_t kAround = kBandReach + 2;
-constexpr int32_t kPatch = kTileSide + 2 * kAround;
+// The disparities that a tile's band and its near disparities are found with.
+using BandPatch = Patch<kBandReach + 2>;
 
 // Pixels beside nearer ones in a tile of thin structure: of hair it has 38 and more, a straight
 // edge has 16 to 23, and a wire of two pixels up to 40.
@@ -31,33 +31,13 @@ struct Offsets {
         for (int32_t x = -kBandReach; x <= kBandReach; ++x) {
           if (x * x + y * y != square) continue;
           by_distance[count++] = {static_cast<int8_t>(x), static_cast<int8_t>(y),
-                                  static_cast<int16_t>(y * kPatch + x)};
+                                  static_cast<int16_t>(BandPatch::At(x, y) - BandPatch::At(0, 0))};
         }
       }
     }
   }
 };
 constexpr Offsets kNearestFirst;
-
-// The disparities around a tile; the picture's outermost pixels go on beyond it.
-struct Patch {
-  int16_t disparity[kPatch * kPatch];
-
-  Patch(const Window& window, int32_t column, int32_t row) {
-    const int32_t left = column * kTileSide - kAround, top = row * kTileSide - kAround;
-    for (int32_t y = 0; y < kPatch; ++y) {
-      const int16_t* from = window.disparity.Row(Clamp(top + y, 0, window.picture_height - 1));
-      int16_t* to = disparity + y * kPatch;
-      if (left >= 0 && left + kPatch <= window.picture_width) {
-        std::memcpy(to, from + left, kPatch * sizeof(*to));
-        continue;
-      }
-      for (int32_t x = 0; x < kPatch; ++x)
-        to[x] = from[Clamp(left + x, 0, window.picture_width - 1)];
-    }
-  }
-  static int32_t At(int32_t x, int32_t y) { return (y + kAround) * kPatch + x + kAround; }
-};
 
 // Which side of an edge a pixel is on.
 struct BandPixel {
@@ -66,7 +46,7 @@ struct BandPixel {
   int32_t distance;  // to it, squared
 };
 
-BandPixel FindBandPixel(const Patch& patch, int32_t at) {
+BandPixel FindBandPixel(const BandPatch& patch, int32_t at) {
   const int32_t here = patch.disparity[at];
   for (const Offset& offset : kNearestFirst.by_distance) {
     const int32_t other = patch.disparity[at + offset.at];
@@ -74,25 +54,6 @@ BandPixel FindBandPixel(const Patch& patch, int32_t at) {
     return {other < here ? 1 : -1, other, offset.x * offset.x + offset.y * offset.y};
   }
   return {0, here, 0};
-}
-
-// The mean of disparities around within 2 pixels of the near one.
-int16_t SmoothNear(const Patch& patch, int32_t at, int32_t near) {
-  constexpr int32_t kWithin = 2 << kDisparityBits;
-  constexpr int32_t kWeights[3] = {6, 4, 1};
-  int32_t sum = 0, weights = 0;
-  for (int32_t y = -2; y <= 2; ++y) {
-    for (int32_t x = -2; x <= 2; ++x) {
-      const int32_t disparity = patch.disparity[at + y * kPatch + x];
-      if (Abs(disparity - near) > kWithin) continue;
-      const int32_t weight = kWeights[Abs(x)] * kWeights[Abs(y)];
-      sum += weight * (disparity - near);
-      weights += weight;
-    }
-  }
-  if (weights == 0) return static_cast<int16_t>(near);
-  const int32_t half = sum < 0 ? -(weights / 2) : weights / 2;
-  return static_cast<int16_t>(near + (sum + half) / weights);
 }
 
 // How much of the far surface's light a far pixel shows, by its squared distance to the edge:
@@ -103,18 +64,6 @@ int16_t WeightByDistance(int32_t square) {
 
 uint64_t BinsOf(const CoverageMap& map, int32_t low, int32_t high) {
   return (map.BinOf(high) << 1) - map.BinOf(low);
-}
-
-// Makes all of the tile one surface, at the map's disparities.
-void ClearTile(const Window& window, int32_t column, int32_t row, const CoverageMap& map) {
-  const int32_t left = column * kTileSide, count = Min(kTileSide, map.width - left);
-  for (int32_t y = row * kTileSide; y < Min((row + 1) * kTileSide, map.height); ++y) {
-    const size_t to = map.At(left, y);
-    for (int32_t x = count; x < kTileSide; ++x) map.near[to + static_cast<size_t>(x)] = kNowhere;
-    std::memcpy(map.near + to, window.disparity.Row(y) + left,
-                static_cast<size_t>(count) * sizeof(*map.near));
-    std::memset(map.first + to, kWhole, kTileSide);
-  }
 }
 
 // The disparities of tiles side by side and one pixel around them; the picture's outermost pixels
@@ -186,20 +135,30 @@ void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t ro
       int32_t low, high;
       tiles.FindRange(k * kTileSide, &low, &high);
       const bool ragged =
-          high - low > kThinStep && tiles.CountRagged(*in.kernels, k * kTileSide) >= kLeastRagged;
+          high - low > kThinStep &&
+          (HasGiven(in) || tiles.CountRagged(*in.kernels, k * kTileSide) >= kLeastRagged);
       tile = {BinsOf(map, low, high), INT16_MAX, INT16_MIN, ragged ? uint8_t{1} : uint8_t{0}, 0, 0};
     }
+  }
+}
+
+void ClearTile(const CoverageInput& in, int32_t column, int32_t row) {
+  const Window& window = *in.window;
+  const CoverageMap& map = *in.map;
+  const int32_t left = column * kTileSide, count = Min(kTileSide, map.width - left);
+  for (int32_t y = row * kTileSide; y < Min((row + 1) * kTileSide, map.height); ++y) {
+    const size_t to = map.At(left, y);
+    for (int32_t x = count; x < kTileSide; ++x) map.near[to + static_cast<size_t>(x)] = kNowhere;
+    std::memcpy(map.near + to, window.disparity.Row(y) + left,
+                static_cast<size_t>(count) * sizeof(*map.near));
+    std::memset(map.first + to, kWhole, kTileSide);
   }
 }
 
 void StartTile(const CoverageInput& in, int32_t column, int32_t row) {
   const Window& window = *in.window;
   const CoverageMap& map = *in.map;
-  if (!map.IsStarted(column, row)) {
-    ClearTile(window, column, row, map);
-    return;
-  }
-  const Patch patch(window, column, row);
+  const BandPatch patch(window, column, row);
   CoverageTile& tile = map.Tile(column, row);
   tile.near_bins = 0;
   const int32_t left = column * kTileSide, top = row * kTileSide;
@@ -210,7 +169,7 @@ void StartTile(const CoverageInput& in, int32_t column, int32_t row) {
     if (y < rows) window.reader.Light(0, left, top + y, columns, light);
     for (int32_t x = 0; x < kTileSide; ++x) {
       const size_t to = map.At(left + x, top + y);
-      const int32_t at = Patch::At(x, y);
+      const int32_t at = BandPatch::At(x, y);
       const int16_t here = patch.disparity[at];
       const BandPixel pixel = FindBandPixel(patch, at);
       map.near[to] = pixel.side == 0 ? here : SmoothNear(patch, at, Max(here, pixel.other));

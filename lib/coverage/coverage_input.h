@@ -16,6 +16,9 @@ struct CoverageInput {
   const CoverageMap* map;
 };
 
+// Whether the light field has coverage; else it is found.
+inline bool HasGiven(const CoverageInput& in) { return in.window->given_coverage.data != nullptr; }
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_COVERAGE_COVERAGE_INPUT_H_

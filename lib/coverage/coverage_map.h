@@ -51,10 +51,10 @@ inline constexpr int16_t kNowhere = INT16_MIN;
 inline constexpr int kFarLevels = 5;
 
 struct CoverageTile {
-  uint64_t near_bins;  // which disparities nearer surfaces of the tile have, by DisparityBin
+  uint64_t near_bins;  // which disparities nearer surfaces of the tile have, by BinOf
   int16_t low, high;   // disparities of both surfaces of its parted pixels
-  uint8_t ragged;      // many of its pixels lie beside edges
-  uint8_t mixed;       // and much of it is a mixture
+  uint8_t ragged;      // many of its pixels lie beside edges; where coverage is given, any
+  uint8_t mixed;       // and much of it is a mixture; where coverage is given, any pixel
   uint8_t thin;        // its pixels are parted: it or a tile beside it is mixed
 };
 
@@ -64,6 +64,7 @@ struct CoverageMap {
   int32_t columns = 0, tile_rows = 0;  // of tiles; tile_rows: in memory
   int16_t disparity_min = 0;           // of the configuration
   int bin_bits = 0;                    // of disparities in a bin of near_bins
+  int32_t around = 1;                  // tiles around a ragged one that the passes look at
   CoverageTile* tiles = nullptr;
   // Planes of pixels, with kAside unused ones before and behind each row.
   uint8_t* first = nullptr;  // coverage after the first pass
@@ -95,10 +96,10 @@ struct CoverageMap {
   bool HasTile(int32_t column, int32_t row) const {
     return column >= 0 && column < columns && row >= 0 && row < Rows();
   }
-  // Whether a tile within `around` of this one has the mark.
-  bool AnyAround(int32_t column, int32_t row, int32_t around, uint8_t CoverageTile::*mark) const {
-    for (int32_t y = row - around; y <= row + around; ++y) {
-      for (int32_t x = column - around; x <= column + around; ++x) {
+  // Whether a tile within `reach` of this one has the mark.
+  bool AnyAround(int32_t column, int32_t row, int32_t reach, uint8_t CoverageTile::*mark) const {
+    for (int32_t y = row - reach; y <= row + reach; ++y) {
+      for (int32_t x = column - reach; x <= column + reach; ++x) {
         if (HasTile(x, y) && Tile(x, y).*mark != 0) return true;
       }
     }
@@ -106,7 +107,7 @@ struct CoverageMap {
   }
   // Whether the passes look at the tile.
   bool IsStarted(int32_t column, int32_t row) const {
-    return AnyAround(column, row, 1, &CoverageTile::ragged);
+    return AnyAround(column, row, around, &CoverageTile::ragged);
   }
   // The far light of pixel (x, y).
   FarCell& FarAt(int32_t x, int32_t y) const { return far[0][CellAt(x, y, 0)]; }

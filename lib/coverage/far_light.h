@@ -20,6 +20,15 @@ struct FarTile {
 // Fills what is not known at level 0 from the levels above, of this tile and those around it.
 void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far);
 
+// a to the power of 8; kAlphaBits to kKnownBits.
+constexpr int32_t EighthPower(int32_t a) {
+  const int32_t square = a * a >> kAlphaBits, fourth = square * square >> kAlphaBits;
+  return fourth * fourth >> (2 * kAlphaBits - kKnownBits);
+}
+
+// How much of the far surface's light a pixel shows that a nearer one covers by alpha.
+constexpr int32_t FarWeight(int32_t alpha) { return EighthPower(kWhole - alpha); }
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_

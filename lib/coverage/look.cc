@@ -2,7 +2,6 @@
 #include "lib/coverage/look.h"
 
 #include "lib/coverage/far_light.h"
-#include "lib/coverage/unmix.h"
 
 namespace starfocus {
 namespace {

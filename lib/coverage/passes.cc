@@ -2,10 +2,31 @@
 #include "lib/coverage/passes.h"
 
 #include "lib/coverage/band.h"
+#include "lib/coverage/given.h"
 #include "lib/coverage/look.h"
 #include "lib/coverage/unmix.h"
 
 namespace starfocus {
+namespace {
+
+void Start(const CoverageInput& in, int32_t column, int32_t row) {
+  if (!in.map->IsStarted(column, row)) {
+    ClearTile(in, column, row);
+  } else if (HasGiven(in)) {
+    StartGiven(in, column, row);
+  } else {
+    StartTile(in, column, row);
+  }
+}
+
+void Look(const CoverageInput& in, int32_t column, int32_t row) {
+  CoverageTile& tile = in.map->Tile(column, row);
+  const bool thin = in.map->AnyAround(column, row, 1, &CoverageTile::mixed);
+  tile.thin = thin && in.map->IsStarted(column, row) ? 1 : 0;
+  if (tile.thin != 0) LookBehindTile(in, column, row);
+}
+
+}  // namespace
 
 void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int32_t row) {
   const CoverageMap& map = *in.map;
@@ -13,15 +34,20 @@ void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int
     FindRagged(in, first, last, row);
     return;
   }
+  // Given coverage needs no first pass; so tiles can wait for those whose edges are farther away.
+  const bool given = HasGiven(in);
+  const int start = given ? kUnmixFirst : kStart;
   for (int32_t column = first; column < last; ++column) {
-    CoverageTile& tile = map.Tile(column, row);
-    if (pass == kStart) StartTile(in, column, row);
-    if (pass == kUnmixFirst && tile.ragged != 0) UnmixFirst(in, column, row);
-    if (pass == kLook) {
-      tile.thin = map.AnyAround(column, row, 1, &CoverageTile::mixed) ? 1 : 0;
-      if (tile.thin != 0) LookBehindTile(in, column, row);
+    const CoverageTile& tile = map.Tile(column, row);
+    if (pass == start) Start(in, column, row);
+    if (pass == kUnmixFirst && !given && tile.ragged != 0) UnmixFirst(in, column, row);
+    if (pass == kLook) Look(in, column, row);
+    if (pass != kUnmixAgain || tile.thin == 0) continue;
+    if (given) {
+      TakeGiven(in, column, row);
+    } else {
+      UnmixAgain(in, column, row);
     }
-    if (pass == kUnmixAgain && tile.thin != 0) UnmixAgain(in, column, row);
   }
 }
 

@@ -20,6 +20,9 @@ inline bool HasCoverage(const sf_config& config) {
   return (config.features & SF_FEATURE_COVERAGE) != 0;
 }
 
+// CoverageMap::around where coverage is given: pixels look two tiles far for edges.
+inline constexpr int32_t kAroundGiven = 2;
+
 // The farthest that a nearer surface moves before a farther one in any view that is looked into.
 inline int32_t LargestMoveBefore(const sf_config& config) {
   if (config.views == 1) return 0;

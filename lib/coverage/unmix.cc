@@ -126,15 +126,7 @@ void ForEachParted(const CoverageInput& in, const NearPatch& patch, int32_t colu
   }
 }
 
-// a to the power of 8; kAlphaBits to kKnownBits.
-constexpr int32_t EighthPower(int32_t a) {
-  const int32_t square = a * a >> kAlphaBits, fourth = square * square >> kAlphaBits;
-  return fourth * fourth >> (2 * kAlphaBits - kKnownBits);
-}
-
 }  // namespace
-
-int32_t FarWeight(int32_t alpha) { return EighthPower(kWhole - alpha); }
 
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row) {
   const CoverageMap& map = *in.map;

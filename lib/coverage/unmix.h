@@ -7,10 +7,6 @@
 
 namespace starfocus {
 
-// 1 - alpha to the power of 8, kKnownBits: how much of the far surface's light a pixel shows that a
-// nearer one covers by alpha (kAlphaBits).
-int32_t FarWeight(int32_t alpha);
-
 // Writes the tile's coverage of the first pass from its first guess, and marks it `mixed` if its
 // pixels are on the average such mixtures as there are in thin structure.
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row);

@@ -120,6 +120,10 @@ sf_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
   for (int view = 0; view < config.views; ++view) {
     CopyCodes(source, view, y, config.width, engine->rings[view].Row(y));
   }
+  const Plane<uint8_t>& coverage = engine->stripe.coverage.given;
+  if (source.coverage != nullptr && coverage.data != nullptr) {
+    source.coverage(source.self, y, coverage.Row(y));
+  }
   const Plane<uint8_t>& alpha = engine->images.alpha;
   if (alpha.data == nullptr) return SF_OK;
   std::memset(alpha.Row(y), 255, alpha.stride);

@@ -19,6 +19,7 @@ namespace starfocus {
 // Progress of a streamed refocusing, in rows.
 struct Stream {
   bool active = false;
+  bool covers = false;   // whether the rows pushed have coverage
   int32_t pushed = 0;    // input rows taken
   int32_t next = 0;      // first row of the next stripe
   int32_t finished = 0;  // output rows that no later stripe changes

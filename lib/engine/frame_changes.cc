@@ -84,10 +84,21 @@ void CompareMaps(const Changes& changes, int32_t y) {
              });
 }
 
+// Compares row y of coverage, of which there is as much in both.
+void CompareCoverage(const Changes& changes, int32_t y) {
+  const auto row = static_cast<size_t>(y);
+  const sf_light_field &a = *changes.before, &b = *changes.now;
+  if (a.coverage == nullptr || b.coverage == nullptr) return;
+  CompareRow(changes,
+             {a.coverage + row * a.coverage_stride, b.coverage + row * b.coverage_stride, 1}, y,
+             changes.centre_reach, [](int32_t*, int32_t*) {});
+}
+
 void CompareViews(const Changes& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
   const sf_light_field &a = *changes.before, &b = *changes.now;
   CompareMaps(changes, y);
+  CompareCoverage(changes, y);
   for (int32_t view = 0; view < changes.views; ++view) {
     CompareRow(changes,
                {a.views[view].data + row * a.views[view].stride,

@@ -155,6 +155,11 @@ void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
   // Null without streaming also where LayOutAnew made it of an engine that streams.
   engine->stripe.last_rows = streaming ? carver->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
   const int rings = streaming ? config.views : config.images;
+  if (streaming && HasCoverage(config)) {
+    engine->stripe.coverage.given.rows = rows;
+    engine->stripe.coverage.given.stride = width;
+    engine->stripe.coverage.given.data = carver->Take<uint8_t>(width, static_cast<size_t>(rows));
+  }
   for (int view = 0; view < rings; ++view) {
     engine->rings[view].rows = rows;
     engine->rings[view].stride = 3 * width;

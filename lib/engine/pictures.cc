@@ -30,6 +30,7 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
     window.reader = reader;
     window.disparity = {pictures->disparity.data, pictures->disparity.stride,
                         pictures->disparity.rows, 0};
+    window.given_coverage = {};
     pictures->layers[layer].width = window.width;
     pictures->layers[layer].height = window.height;
   }

@@ -103,6 +103,8 @@ sf_status FindCoverage(const Stripe& stripe, const Runner& runner, EngineState* 
   const bool finds = FindsCoverage(*engine);
   for (Window& window : engine->pictures.windows) window.coverage = finds ? &state.map : nullptr;
   if (!finds) return SF_OK;
+  const bool given = engine->pictures.windows[0].given_coverage.data != nullptr;
+  state.map.around = given ? kAroundGiven : 1;
   const int32_t border = engine->lens.borders.parted;
   const int32_t top = Max(0, stripe.y - border) / kTileSide;
   const int32_t end = Min(state.map.Rows(), (stripe.y + stripe.height + border) / kTileSide + 1);

@@ -40,6 +40,7 @@ struct StripePlan {
 // The coverage map, and the first row of tiles that each pass has not done yet; below 0: it has
 // done none.
 struct CoverageState {
+  Plane<uint8_t> given;  // with streaming: ring of the light field's coverage
   CoverageMap map;
   int32_t done[kCoveragePasses];
 };

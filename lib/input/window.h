@@ -40,7 +40,8 @@ struct Window {
   bool is_excess = false;                 // which of both; layer 0
   ViewReader light;                       // with is_excess: of light
   Plane<const int16_t> disparity;         // of the pictures, kDisparityBits
-  const CoverageMap* coverage = nullptr;  // of thin structures; null: there is none
+  Plane<const uint8_t> given_coverage;    // of the light field, 255: whole; null: there is none
+  const CoverageMap* coverage = nullptr;  // found of that, or of thin structures; null: none
   int32_t colour_bytes = 12;              // bytes that a colour of a captured view is made of
   Reads* reads = nullptr;                 // null: nobody counts
 };

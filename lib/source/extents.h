@@ -9,9 +9,9 @@
 
 namespace starfocus {
 
-// All planes of a light field in any format, or of two of RGB, and three pieces of memory.
+// All planes of a light field in any format, or of two of RGB, and four pieces of memory.
 struct Extents {
-  Extent of[3 * kMaxViews + 3];
+  Extent of[3 * kMaxViews + 4];
   int count = 0;
 
   void Add(const Extent& extent) { of[count++] = extent; }
@@ -26,6 +26,11 @@ struct Extents {
     }
     AddRows(light_field.disparity, light_field.disparity_stride, config.height,
             sizeof(float) * width);
+    AddCoverage(config, light_field.coverage, light_field.coverage_stride);
+  }
+  void AddCoverage(const sf_config& config, const uint8_t* coverage, size_t stride) {
+    if (coverage == nullptr) return;
+    AddRows(coverage, stride, config.height, static_cast<size_t>(config.width));
   }
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/source/image_field.h"
 
+#include <cstring>
+
 namespace starfocus {
 namespace {
 
@@ -39,6 +41,11 @@ uint32_t ReadMap(const void* self, int32_t y, int16_t* out, uint64_t* bytes) {
   return ReadDepthRow(*field.kernels, field.depth, y, out);
 }
 
+void ReadCoverage(const void* self, int32_t y, uint8_t* out) {
+  const ImageField& field = FieldOf(self);
+  std::memcpy(out, field.coverage.Row(y), static_cast<size_t>(field.depth.width));
+}
+
 void ReadAlpha(const void* self, int32_t y, uint8_t* out) {
   const ImageField& field = FieldOf(self);
   const AlphaSource alpha = AlphaOf(field.views[0]);
@@ -62,6 +69,7 @@ void MakeImageField(const sf_image_field& images, int32_t first, EngineState* en
     FillColumns(engine->config.width, memory.map_width, memory.columns);
   }
   field->depth = MakeDepthSource(engine->config, images.depth, memory.columns);
+  field->coverage = {images.coverage, images.coverage_stride, 0, first};
   const Plane<uint8_t>& ring = engine->rings[0];
   field->centre.kernels = engine->kernels;
   field->centre.transfer = &TransferOf(engine->config.transfer);
@@ -73,6 +81,7 @@ RowSource SourceOf(const ImageField& field) {
   source.views = {nullptr, ReadView, &field};
   source.converts_centre = true;
   source.map = ReadMap;
+  if (field.coverage.data != nullptr) source.coverage = ReadCoverage;
   source.alpha = ReadAlpha;
   source.self = &field;
   return source;
@@ -81,6 +90,7 @@ RowSource SourceOf(const ImageField& field) {
 void UseImageField(const ImageField& field, EngineState* engine) {
   SetViews(engine->config, {WindowLight, WindowCodes, &field}, field.centre.view[0],
            &engine->pictures);
+  engine->pictures.windows[0].given_coverage = field.coverage;
 }
 
 }  // namespace starfocus

@@ -17,7 +17,8 @@ struct ImageField {
   ImageSource views[kMaxViews];
   int32_t first;  // row of the picture that the views begin with
   DepthSource depth;
-  PlaneViews centre;  // view 0 alone: the engine's ring of its rows
+  Plane<const uint8_t> coverage;  // null: there is none
+  PlaneViews centre;              // view 0 alone: the engine's ring of its rows
 };
 
 // Makes *field of a field that has been checked, whose views begin with row `first` of the picture.

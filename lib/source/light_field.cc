@@ -55,7 +55,8 @@ sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& fr
 LightFieldRows::LightFieldRows(const sf_light_field& light_field, int32_t first,
                                const EngineState& engine)
     : engine_(engine),
-      disparity_{light_field.disparity, light_field.disparity_stride / sizeof(float), 0, first} {
+      disparity_{light_field.disparity, light_field.disparity_stride / sizeof(float), 0, first},
+      coverage_{light_field.coverage, light_field.coverage_stride, 0, first} {
   planes_.kernels = engine.kernels;
   planes_.transfer = &TransferOf(engine.config.transfer);
   for (int view = 0; view < engine.config.views; ++view) {
@@ -70,10 +71,16 @@ uint32_t LightFieldRows::ReadMap(const void* self, int32_t y, int16_t* out, uint
   return ConvertDisparities(config, *rows.engine_.kernels, rows.disparity_.Row(y), out);
 }
 
+void LightFieldRows::ReadCoverage(const void* self, int32_t y, uint8_t* out) {
+  const auto& rows = *static_cast<const LightFieldRows*>(self);
+  std::memcpy(out, rows.coverage_.Row(y), static_cast<size_t>(rows.engine_.config.width));
+}
+
 RowSource LightFieldRows::Source() const {
   RowSource source;
   source.views = ReaderOf(planes_);
   source.map = ReadMap;
+  if (coverage_.data != nullptr) source.coverage = ReadCoverage;
   source.self = this;
   return source;
 }
@@ -82,6 +89,7 @@ void LightFieldRows::Use(EngineState* engine) const {
   PlaneViews& planes = engine->pictures.planes;
   planes = planes_;
   SetViews(engine->config, ReaderOf(planes), planes.view[0], &engine->pictures);
+  engine->pictures.windows[0].given_coverage = coverage_;
 }
 
 RowSink SinkOf(const Picture& picture) { return {Store, &picture}; }

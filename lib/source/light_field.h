@@ -22,9 +22,11 @@ class LightFieldRows {
 
  private:
   static uint32_t ReadMap(const void* self, int32_t y, int16_t* out, uint64_t* bytes);
+  static void ReadCoverage(const void* self, int32_t y, uint8_t* out);
 
   const EngineState& engine_;
   Plane<const float> disparity_;
+  Plane<const uint8_t> coverage_;  // null: there is none
   PlaneViews planes_;
 };
 

@@ -81,6 +81,7 @@ sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState*
   Prepared* made = nullptr;
   LayOutPrepared(engine->config, call.memory, &made);
   made->config = engine->config;
+  made->covers = engine->pictures.windows[0].given_coverage.data != nullptr;
   status = MakeLayers(*made, source, call.runner, engine);
   if (status != SF_OK) return status;
   watch.SetRows(height);

@@ -2,6 +2,7 @@
 #include "lib/source/reduced.h"
 
 #include "lib/base/fixed.h"
+#include "lib/coverage/passes.h"
 
 namespace starfocus {
 namespace {
@@ -84,6 +85,27 @@ bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Worker* worker
   return true;
 }
 
+// Returns false when the caller cancels.
+bool ReduceCoverage(const ReduceJob& job, int shift, const Part& part, Worker* worker) {
+  const Plane<const uint8_t>& given = job.engine->pictures.windows[0].given_coverage;
+  const Plane<uint8_t>& coverage = job.fields[shift].coverage;
+  if (given.data == nullptr || coverage.data == nullptr) return true;
+  const int32_t side = 1 << shift;
+  for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
+    if (!worker->patience.Spend(int64_t{side} * part.width)) return false;
+    for (int32_t x = part.x; x < part.x + part.width; x += side) {
+      int32_t sum = 0, count = 0;
+      for (int32_t row = y; row < Min(y + side, job.rows.last); ++row) {
+        for (int32_t k = x; k < Min(x + side, part.x + part.width); ++k, ++count) {
+          sum += given.Row(row)[k];
+        }
+      }
+      coverage.Row(y >> shift)[x >> shift] = static_cast<uint8_t>((sum + count / 2) / count);
+    }
+  }
+  return true;
+}
+
 void ReduceColumn(const ReduceJob& job, int32_t index, Worker* worker) {
   const sf_config& config = job.engine->config;
   const int32_t x = index * config.largest_block;
@@ -93,6 +115,7 @@ void ReduceColumn(const ReduceJob& job, int32_t index, Worker* worker) {
   }
   for (int shift = 1; shift <= job.previews; ++shift) {
     if (!ReduceMap(job, shift, part, worker)) return;
+    if (!ReduceCoverage(job, shift, part, worker)) return;
   }
 }
 
@@ -119,6 +142,9 @@ void TakeReduced(const sf_config& config, int shift, Carver* carver, ReducedFiel
   }
   field->disparity.stride = width;
   field->disparity.data = carver->Take<int16_t>(width, height);
+  if (!HasCoverage(config)) return;
+  field->coverage.stride = width;
+  field->coverage.data = carver->Take<uint8_t>(width, height);
 }
 
 sf_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,

@@ -15,6 +15,7 @@ static_assert(SF_MAX_PREVIEW == kMaxReduction, "every preview is a reduction");
 struct ReducedField {
   Plane<uint8_t> views[kMaxViews];  // codes of all rows
   Plane<int16_t> disparity;         // kDisparityBits, in pixels of the reduced picture
+  Plane<uint8_t> coverage;          // null: the configuration finds none
 };
 
 // The configuration of an engine for the light field of `config`, an engine's own, reduced.

@@ -44,6 +44,7 @@ std::string OpenOwn(const std::string& folder, const Names& names, Capture* capt
   capture->format = "light-field folder";
   std::string error = FindViewFiles(folder, &capture->files);
   if (error.empty() && HasDisparity(folder)) capture->map_path = DisparityPath(folder);
+  capture->coverage_path = CoveragePath(folder);
   // Unknown disparities of a pair are infinite.
   if (Has(names, "im0.png")) capture->care = MapCare::kFill;
   const bool pair = Has(names, "im0.png") && Has(names, "calib.txt");
@@ -141,6 +142,33 @@ void SelectViews(const std::vector<ViewFile>& chosen, LightField* light_field) {
   *light_field = std::move(result);
 }
 
+// Loads the map of views that are there.
+std::string LoadMapOf(Capture* capture) {
+  if (LowerExtension(capture->map_path) != ".pfm") return LoadGreyMap(capture);
+  std::string error = LoadMap(capture->map_path, &capture->light_field);
+  if (capture->map_scale == 1) return error;
+  for (float& value : capture->light_field.disparity.values) {
+    value *= static_cast<float>(capture->map_scale);
+  }
+  return error;
+}
+
+std::string LoadViews(const Positions& wanted, Capture* capture, ThreadRunner* runner) {
+  std::vector<ViewFile> chosen;
+  std::string error = SelectViewFiles(capture->path, capture->files, wanted, &chosen);
+  if (!error.empty()) return error;
+  if (capture->photo) {
+    FitMap(&capture->light_field);
+    return "";
+  }
+  if (!capture->light_field.views.empty()) {
+    SelectViews(chosen, &capture->light_field);
+    return "";
+  }
+  error = LoadViewFiles(chosen, &capture->light_field, runner);
+  return error.empty() && !capture->map_path.empty() ? LoadMapOf(capture) : error;
+}
+
 }  // namespace
 
 std::string OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture) {
@@ -167,24 +195,9 @@ std::string OpenCapture(const std::string& path, const CaptureOptions& options, 
 }
 
 std::string LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner) {
-  std::vector<ViewFile> chosen;
-  std::string error = SelectViewFiles(capture->path, capture->files, wanted, &chosen);
-  if (!error.empty()) return error;
-  if (capture->photo) {
-    FitMap(&capture->light_field);
-    return "";
-  }
-  if (!capture->light_field.views.empty()) {
-    SelectViews(chosen, &capture->light_field);
-    return "";
-  }
-  error = LoadViewFiles(chosen, &capture->light_field, runner);
-  if (!error.empty() || capture->map_path.empty()) return error;
-  if (LowerExtension(capture->map_path) != ".pfm") return LoadGreyMap(capture);
-  error = LoadMap(capture->map_path, &capture->light_field);
-  if (capture->map_scale == 1) return error;
-  for (float& value : capture->light_field.disparity.values) {
-    value *= static_cast<float>(capture->map_scale);
+  std::string error = LoadViews(wanted, capture, runner);
+  if (error.empty() && !capture->coverage_path.empty()) {
+    error = LoadCoverage(capture->coverage_path, &capture->light_field);
   }
   return error;
 }
@@ -192,7 +205,9 @@ std::string LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner*
 std::vector<std::string> CaptureFiles(const Capture& capture) {
   std::vector<std::string> files;
   for (const ViewFile& file : capture.files) files.push_back(file.path);
-  if (!capture.map_path.empty()) files.push_back(capture.map_path);
+  for (const std::string& path : {capture.map_path, capture.coverage_path}) {
+    if (!path.empty()) files.push_back(path);
+  }
   return files;
 }
 

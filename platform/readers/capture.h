@@ -26,6 +26,7 @@ struct Capture {
   bool photo = false;           // one file and one view
   std::vector<ViewFile> files;  // of the views, the centre first
   std::string map_path;         // where the map is, for errors too; empty: there is none
+  std::string coverage_path;    // where the coverage is; empty: there is none
   double map_scale = 1;         // what the numbers of the map's file are multiplied by
   MapCare care = MapCare::kNone;
   double widest = 0;  // f-stop of an aperture of radius 1; 0: nobody knows
@@ -46,8 +47,8 @@ struct Capture {
 // found and what is missing.
 std::string OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture);
 
-// Reads the views at the positions wanted, or all if none are, and the map if there is one. Views
-// are decoded several at a time on `runner`; null: one after the other.
+// Reads the views at the positions wanted, or all if none are, and the map and the coverage if
+// there are any. Views are decoded several at a time on `runner`; null: one after the other.
 std::string LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner = nullptr);
 
 // Every file that is read for it, as far as it is open.

@@ -22,7 +22,7 @@ static uint8_t TextureAt(int x, int y, int channel) {
 }
 
 static sf_light_field MakeScene(Scene* scene) {
-  sf_light_field field = {{{0, 0}}, 0, 0};
+  sf_light_field field = {{{0, 0}}, 0, 0, 0, 0};
   int i, x, y, channel;
   for (i = 0; i < kViews; ++i) {
     double u = 0, v = 0;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "platform/image_io.h"
+#include "platform/writers/png.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::light_field_test {
@@ -112,6 +113,30 @@ TEST_CASE("light_field: views at any positions come back, the centre first") {
   CHECK(back.views.size() == 2);
   CHECK(back.views[1].pixels[0] == 13);
   CHECK(Contains(LoadLightField(folder.path(), {{0, 0}, {0.7, 0.25}}, &back), "+0.7_+0.25"));
+}
+
+TEST_CASE("light_field: coverage is grey levels or alpha, of the size of the centre view") {
+  LightField light_field = Make(1, 3, 2), back;
+  TempFolder folder;
+  REQUIRE(Save(folder, light_field) == "");
+  REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
+  CHECK(back.coverage.empty());
+  GreyImage grey;
+  grey.width = 3;
+  grey.height = 2;
+  grey.levels = {0, 1, 127, 128, 254, 255};
+  Bytes png;
+  REQUIRE(EncodeGreyPng("coverage.png", grey, &png) == "");
+  const std::string path = folder.file("coverage.png");
+  REQUIRE(WriteFile(path, png) == "");
+  REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
+  CHECK((back.coverage == std::vector<uint8_t>{0, 1, 127, 128, 254, 255}));
+  CHECK(IsLightFieldFile("coverage.png"));
+  grey.width = 2;
+  grey.height = 3;
+  REQUIRE(EncodeGreyPng("coverage.png", grey, &png) == "");
+  REQUIRE(WriteFile(path, png) == "");
+  CHECK(Contains(LoadLightField(folder.path(), {}, &back), "expected 3x2 as the centre view"));
 }
 
 TEST_CASE("light_field: what is left of a star is a set of views, but not without its centre") {

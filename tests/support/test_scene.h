@@ -76,6 +76,7 @@ struct Scene {
   size_t disparity_width = 0;  // floats
   std::vector<std::vector<uint8_t>> pictures;
   std::vector<float> disparity;
+  std::vector<uint8_t> coverage;       // packed rows; empty: there is none
   std::vector<sf_position> positions;  // of the views; empty: those of sf_view_position
 
   sf_position PositionOf(int view) const {
@@ -107,6 +108,9 @@ struct Scene {
     }
     field.disparity = disparity.data() + static_cast<size_t>(row) * disparity_width;
     field.disparity_stride = disparity_width * sizeof(float);
+    if (coverage.empty()) return field;
+    field.coverage = coverage.data() + static_cast<size_t>(row) * static_cast<size_t>(width);
+    field.coverage_stride = static_cast<size_t>(width);
     return field;
   }
 };

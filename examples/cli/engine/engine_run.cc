@@ -22,6 +22,10 @@ sf_light_field Rows(const LightField& light_field, int first) {
   const FloatMap& map = light_field.disparity;
   rows.disparity = map.values.data() + size_t(first) * size_t(map.width);
   rows.disparity_stride = sizeof(float) * size_t(map.width);
+  if (!light_field.coverage.empty()) {
+    rows.coverage = light_field.coverage.data() + size_t(first) * size_t(map.width);
+    rows.coverage_stride = size_t(map.width);
+  }
   return rows;
 }
 

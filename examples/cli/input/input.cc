@@ -125,6 +125,11 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
            "Depth picture of a photo: .png, .pgm, .jpg or .pfm; default: the map in the "
            "photo, or NAME-depth.png, _depth or .depth beside it",
            &options->depth},
+          {"--coverage", "FILE",
+           "How much of each pixel the nearer surface covers, as a matting network finds it: a "
+           "picture's alpha channel, or grey levels with white for all; default: coverage.png of "
+           "a light-field folder, else none",
+           &options->coverage},
           {"--near", "white|black",
            "What is near in a depth picture; default: guessed from what is low in it, "
            "white in a .pfm file",
@@ -183,6 +188,7 @@ Error OpenInput(const InputOptions& options, Capture* capture) {
   }
   if (error.empty()) error = OpenCapture(options.path, wanted, capture);
   if (!error.empty()) return error;
+  if (!options.coverage.empty()) capture->coverage_path = options.coverage;
   for (const std::string& note : capture->notes) {
     std::fprintf(stderr, "%s: %s\n", capture->path.c_str(), note.c_str());
   }

@@ -139,6 +139,8 @@ typedef struct sf_depth_map {
 typedef struct sf_image_field {
   sf_image views[SF_MAX_VIEWS]; /**< the configured number, in the order of sf_view_position */
   sf_depth_map depth;           /**< of the centre view */
+  const uint8_t* coverage;      /**< as in sf_light_field, as large as the picture; may be null */
+  size_t coverage_stride;       /**< bytes from row to row, >= width */
 } sf_image_field;
 
 /** As sf_refocus. The alpha of `out` is that of the centre view, 255 if that has none. An output of
@@ -169,9 +171,10 @@ SF_API sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* p
                                            void* runner_data, sf_report* report);
 
 /** As sf_stream_push, of images: planes point to the next rows. The depth map is the whole one,
- *  the same in all calls. Rows that share chroma come together: where a view has some, `rows` is
- *  even but at the picture's end (else SF_ERROR_COUNT), and so is *consumed. All rows of all views
- *  are converted. The engine is configured with streaming = 1, too. */
+ *  the same in all calls; coverage is rows like the views. Rows that share chroma come together:
+ * where a view has some, `rows` is even but at the picture's end (else SF_ERROR_COUNT), and so is
+ * *consumed. All rows of all views are converted. The engine is configured with streaming = 1, too.
+ */
 SF_API sf_status sf_stream_push_images(sf_engine* engine, const sf_image_field* field, int32_t rows,
                                        int32_t* consumed);
 

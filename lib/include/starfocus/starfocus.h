@@ -274,10 +274,9 @@ typedef uint64_t (*sf_clock)(void);
  * job, but never by two at a time. It must not call anything with the same engine or memory. */
 typedef int (*sf_progress)(void* data, int32_t rows_done, int32_t rows);
 
-/** A rectangle of the picture, in pixels. */
+/** A rectangle inside the picture, in pixels; all 0: the whole picture. */
 typedef struct sf_region {
-  int32_t x, y;          /**< its left and top pixel, >= 0 */
-  int32_t width, height; /**< >= 1, ending inside the picture; all four 0: the whole picture */
+  int32_t x, y, width, height; /**< its left and top pixel, >= 0, and its size, >= 1 */
 } sf_region;
 
 /** What to render. Call sf_params_init first. */
@@ -310,6 +309,11 @@ typedef struct sf_light_field {
                                      sf_config.positions */
   const float* disparity;       /**< disparity of the centre view, aligned for float */
   size_t disparity_stride;      /**< bytes from row to row, >= 4 * width, multiple of 4 */
+  /** How much of each pixel of the centre view the nearer of two surfaces covers that meet there,
+   *  255: all; as a matting network finds it. Within 32 pixels of depth edges of over 5 pixels it
+   *  decides over the map. Null: there is none. Not looked at without SF_FEATURE_COVERAGE. */
+  const uint8_t* coverage;
+  size_t coverage_stride; /**< bytes from row to row, >= width */
 } sf_light_field;
 
 /** A job of the engine: call it with every index in [0, count) exactly once. `worker` is in
@@ -328,8 +332,7 @@ typedef struct sf_layer_report {
   uint64_t pixels; /**< picture pixels they cover */
   uint64_t views;  /**< rendered views, summed over the blocks: 1 of a block copied or gathered
                         whole */
-  uint64_t rendered_samples; /**< R, G, B samples of those views inside their blocks; of
-                                  SF_RULE_SUBAPERTURE in every slice that part of a block sees */
+  uint64_t rendered_samples; /**< R, G, B samples of those views, by slices in each of them */
   uint64_t predicted_ps;     /**< by the timing model, picoseconds */
   uint64_t measured_ns;      /**< by sf_params.clock, summed over workers; 0 without one */
 } sf_layer_report;
@@ -338,8 +341,7 @@ typedef struct sf_layer_report {
 typedef struct sf_skipped {
   uint64_t copied_blocks; /**< no rendered view moves a pixel: copied from the centre view */
   uint64_t copied_pixels; /**< picture pixels they cover */
-  uint64_t filled_blocks; /**< always 0: blocks of one colour are rendered like others */
-  uint64_t filled_pixels; /**< always 0 */
+  uint64_t filled_blocks, filled_pixels; /**< always 0: blocks of one colour are rendered */
   uint64_t layer_columns; /**< layers, columns of largest blocks and stripes that no block reads */
   uint64_t boundaries;    /**< always 0: stripes of one layer are deblocked like others */
 } sf_skipped;
@@ -361,12 +363,10 @@ typedef struct sf_report {
                                  checked */
   uint64_t side_bytes;      /**< read of the views beside the centre, counted every time: in holes,
                                  beside depth edges and beyond the edges of the picture only */
-  uint64_t
-      gathered_pixels; /**< SF_MODE_BLOCK by the rule of subapertures: blurred as a whole, since one
-                            surface is all that lies within reach; no view is rendered there */
-  uint64_t reused_blocks;  /**< sf_refocus_after: largest blocks of which nothing was refocused */
-  uint64_t unknown_pixels; /**< values that sf_config.fill_unknown filled, in the rows of the map
-                                that were read; none of a prepared light field */
+  uint64_t gathered_pixels; /**< by sf_config.gather: blurred as a whole, no view is rendered */
+  uint64_t reused_blocks;   /**< sf_refocus_after: largest blocks of which nothing was refocused */
+  uint64_t unknown_pixels;  /**< values that sf_config.fill_unknown filled, in the rows of the map
+                                 that were read; none of a prepared light field */
 } sf_report;
 
 /** Refocuses whole pictures, or the params' region of them: `out` points to its first pixel, and
@@ -384,7 +384,7 @@ typedef struct sf_prepared sf_prepared;
 
 /** Bytes that a prepared light field of `config` takes, into *bytes: 2 per pixel of the picture for
  *  disparities and about 1.9 for layers 1 and 2, as far as max_layer allows them; and for each
- *  preview up to sf_config.previews 3 per view and 2 per pixel of its own. */
+ *  preview up to sf_config.previews 3 per view and 3 per pixel of its own. */
 SF_API sf_status sf_prepared_size(const sf_config* config, size_t* bytes);
 
 /** Checks and converts the disparities and subsamples the centre view, once for many refocusings,
@@ -444,7 +444,8 @@ SF_API sf_status sf_stream_begin(sf_engine* engine, const sf_params* params);
 
 /** Copies up to `rows` next rows of every view and of the disparity map; light_field points at the
  *  first of them. *consumed <= rows tells how many fitted: pull finished rows and push the rest.
- *  A row with a bad disparity value is refused: the rows before it are consumed. */
+ *  A row with a bad disparity value is refused: the rows before it are consumed. Either all rows
+ *  have coverage or none (else SF_ERROR_STATE). */
 SF_API sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, int32_t rows,
                                 int32_t* consumed);
 
@@ -460,11 +461,10 @@ SF_API sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stri
                                 sf_runner runner, void* runner_data, int32_t* written,
                                 sf_report* report);
 
-/** Smallest and largest finite value of a disparity map and the number of non-finite ones. */
+/** What sf_measure_disparity finds in a disparity map. */
 typedef struct sf_disparity_stats {
-  float min;       /**< smallest finite value; 0 when there is none */
-  float max;       /**< largest finite value; 0 when there is none */
-  int64_t invalid; /**< NaN and infinite values */
+  float min, max;  /**< smallest and largest finite value; 0 when there is none */
+  int64_t invalid; /**< number of NaN and infinite values */
 } sf_disparity_stats;
 
 SF_API sf_status sf_measure_disparity(const float* disparity, size_t stride, int32_t width,

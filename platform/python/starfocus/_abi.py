@@ -73,7 +73,8 @@ class Plane(Structure):
 class LightField(Structure):
     """sf_light_field"""
 
-    _fields_ = [("views", Plane * MAX_VIEWS), ("disparity", c_void_p), ("disparity_stride", c_size_t)]
+    _fields_ = [("views", Plane * MAX_VIEWS), ("disparity", c_void_p), ("disparity_stride", c_size_t),
+                ("coverage", c_void_p), ("coverage_stride", c_size_t)]
 
 
 class LayerReport(Structure):
@@ -139,7 +140,8 @@ class DepthMap(Structure):
 class ImageField(Structure):
     """sf_image_field"""
 
-    _fields_ = [("views", Image * MAX_VIEWS), ("depth", DepthMap)]
+    _fields_ = [("views", Image * MAX_VIEWS), ("depth", DepthMap), ("coverage", c_void_p),
+                ("coverage_stride", c_size_t)]
 
 
 STRUCTURES = {

@@ -113,6 +113,15 @@ def as_map(disparity: Any) -> np.ndarray:
     return rows_of(disparity, np.float32, disparity.shape, "disparity")
 
 
+def set_coverage(field: Any, coverage: Any, height: int, width: int) -> List[np.ndarray]:
+    """Points sf_light_field or sf_image_field to coverage, unless that is None; returns what must be kept."""
+    if coverage is None:
+        return []
+    coverage = rows_of(coverage, np.uint8, (height, width), "coverage")
+    field.coverage, field.coverage_stride = coverage.ctypes.data, stride_of(coverage)
+    return [coverage]
+
+
 def light_field(views: Views, disparity: Any, count: int, height: int,
                 width: int) -> Tuple[_abi.LightField, List[np.ndarray]]:
     """sf_light_field of the arrays, and what must be kept as long as the library may read it. Without a

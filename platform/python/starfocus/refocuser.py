@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _abi
 from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_list, light_field,
-                     output, part_of, pointer, positions_of, set_field, stride_of, whole)
+                     output, part_of, pointer, positions_of, set_coverage, set_field, stride_of, whole)
 from ._abi import library
 from .constants import Mode, Rule, Status
 from .errors import ArgumentError, check
@@ -90,7 +90,7 @@ class Refocuser:
         return self._pool.workers
 
     def refocus(self, views: Views, disparity: np.ndarray, *, focus: float, aperture: float = 1.0,
-                mode: Mode = Mode.BLOCK, rule: Rule = Rule.DEFAULT,
+                coverage: Optional[np.ndarray] = None, mode: Mode = Mode.BLOCK, rule: Rule = Rule.DEFAULT,
                 region: Optional[RegionOfPicture] = None, out: Optional[np.ndarray] = None,
                 progress: Optional[ProgressFunction] = None) -> np.ndarray:
         """The picture that a lens of the radius `aperture`, from 0 to 1, focused at the disparity `focus`
@@ -99,6 +99,8 @@ class Refocuser:
         Args:
             views: uint8 of (height, width, 3) each. Where rows are contiguous they are read where they are.
             disparity: (height, width), of the centre view; float32, other floating-point types are converted.
+            coverage: (height, width) uint8: how much of each pixel the nearer of two surfaces covers, 255: all,
+                as a matting network finds it; it decides over the map near depth edges. None: there is none.
             region: only this part of the picture, with the same bytes. Four zeros, as None: the whole picture.
             out: written and returned in place of a new array.
             progress: is told of the rows done and of all; what counts as true calls it off (Cancelled).
@@ -106,18 +108,19 @@ class Refocuser:
         Raises StarfocusError, of which there are kinds, and TypeError or ValueError for arrays.
         """
         field, kept = light_field(views, disparity, self._config.views, self.height, self.width)
+        kept += set_coverage(field, coverage, self.height, self.width)
         *_, width, height = part_of(region, self.width, self.height)
         return self._picture(focus, aperture, mode, rule, region, output(out, (height, width, 3), "out"),
                              progress, library.sf_refocus, byref(field), keep=kept)
 
-    def prepare(self, views: Views, disparity: np.ndarray, *,
+    def prepare(self, views: Views, disparity: np.ndarray, *, coverage: Optional[np.ndarray] = None,
                 progress: Optional[ProgressFunction] = None) -> "Prepared":
         """What is the same for every lens, made once for many pictures of one light field."""
-        return Prepared(self, views, disparity, progress)
+        return Prepared(self, views, disparity, progress, coverage)
 
     def refocus_images(self, views: Sequence[Image], depth: DepthMap, *, focus: float,
-                       out: Image, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
-                       rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
+                       out: Image, aperture: float = 1.0, coverage: Optional[np.ndarray] = None,
+                       mode: Mode = Mode.BLOCK, rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
                        progress: Optional[ProgressFunction] = None) -> Image:
         """As `refocus`, of pictures and depths as cameras have them, into the image `out`, which is returned;
         the configuration has `images=1`."""
@@ -125,6 +128,7 @@ class Refocuser:
             raise ValueError(f"views: expected {self._config.views}, found {len(views)}")
         structure, kept = depth.as_structure()
         field = _abi.ImageField(depth=structure)
+        kept = [kept, set_coverage(field, coverage, self.height, self.width)]
         for i, view in enumerate(views):
             field.views[i] = view.as_structure(self.width, self.height, f"view {i}")
         *_, width, height = part_of(region, self.width, self.height)
@@ -167,14 +171,15 @@ class Refocuser:
 
 class Prepared:
     """A light field of which all that is the same for every lens has been made: 3.89 bytes per pixel, and
-    for previews of 5 views up to 5.6 more. It keeps the arrays; they must stay as they are."""
+    for previews of 5 views up to 5.9 more. It keeps the arrays; they must stay as they are."""
 
     def __init__(self, refocuser: Refocuser, views: Views, disparity: np.ndarray,
-                 progress: Optional[ProgressFunction]):
+                 progress: Optional[ProgressFunction], coverage: Optional[np.ndarray] = None):
         # pylint: disable=protected-access
         config, pool = refocuser._config, refocuser._pool
         self._refocuser = refocuser
         field, self._kept = light_field(views, disparity, config.views, config.height, config.width)
+        self._kept += set_coverage(field, coverage, config.height, config.width)
         size = ctypes.c_size_t()
         check(library.sf_prepared_size(byref(config), byref(size)))
         self._memory = aligned(size.value)

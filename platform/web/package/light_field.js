@@ -34,6 +34,15 @@ export function checkViews(views, config) {
   return {pixels, pixelBytes};
 }
 
+/** Checks coverage, of which there may be none: a byte a pixel. */
+export function checkCoverage(coverage, config) {
+  if (coverage === undefined) return;
+  expect(coverage instanceof Uint8Array || coverage instanceof Uint8ClampedArray, 'coverage',
+         'a Uint8Array or a Uint8ClampedArray', typeof coverage);
+  expect(coverage.length === config.width * config.height, 'coverage',
+         `${config.width * config.height} bytes`, coverage.length);
+}
+
 /** Returns the disparity map {data: Float32Array, width, height} of a depth map: a Float32Array as large
  *  as the picture, or an object as starfocus.d.ts has it. Unknown values become NaN. */
 export function readDepth(depth, config) {

@@ -132,9 +132,12 @@ export interface Refocuser {
   readonly threads: number;
 
   /** Takes a light field: the views in the order of sf_view_position (the centre, then right, left, below,
-   *  above), and its depth, disparities if it is a Float32Array. They are copied; with `transfer` their
-   *  buffers are handed over instead, and are empty afterwards. */
-  prepare(views: View[], depth: Float32Array | DepthMap, options?: Call & {transfer?: boolean}): Promise<{milliseconds: number}>;
+   *  above), and its depth, disparities if it is a Float32Array. `coverage` has a byte for each pixel: how
+   *  much of it the nearer of two surfaces covers, 255: all, as a matting network finds it; near depth edges
+   *  it decides over the depth. All are copied; with `transfer` their buffers are handed over instead, and
+   *  are empty afterwards. */
+  prepare(views: View[], depth: Float32Array | DepthMap,
+          options?: Call & {coverage?: Uint8Array | Uint8ClampedArray, transfer?: boolean}): Promise<{milliseconds: number}>;
 
   /** Changes the lens; the light field stays. */
   configure(lens: Lens): Promise<void>;

@@ -3,7 +3,7 @@
 // what it is given, sends it one call after the other and hands back what it answers.
 
 import {canShare, countCores, listen, startWorker} from './host.js';
-import {checkViews, readDepth} from './light_field.js';
+import {checkCoverage, checkViews, readDepth} from './light_field.js';
 
 export const Mode = {FRAME: 0, BENCHMARK: 1, BLOCK: 2, BLUR: 3};
 export const Rule = {DEFAULT: 0, PAPER: 1, SUBAPERTURE: 2};
@@ -49,12 +49,14 @@ class Refocuser {
     return this;
   }
 
-  async prepare(views, depth, {signal, transfer = false} = {}) {
+  async prepare(views, depth, {signal, coverage, transfer = false} = {}) {
     const {pixels, pixelBytes} = checkViews(views, this.#config);
     const map = readDepth(depth, this.#config);
-    const given = [...pixels, ...(map.data === (depth?.data ?? depth) ? [map.data] : [])];
+    checkCoverage(coverage, this.#config);
+    const given = [...pixels, ...(map.data === (depth?.data ?? depth) ? [map.data] : []),
+                   ...(coverage ? [coverage] : [])];
     const buffers = transfer ? [...new Set(given.map(array => array.buffer))] : [];
-    return this.#call('prepare', {views: pixels, pixelBytes, depth: map}, {signal}, buffers);
+    return this.#call('prepare', {views: pixels, pixelBytes, depth: map, coverage}, {signal}, buffers);
   }
 
   async configure(values) {

@@ -86,13 +86,14 @@ const calls = {
     };
   },
 
-  prepare({views, pixelBytes, depth}) {
+  prepare({views, pixelBytes, depth, coverage}) {
     const start = performance.now();
     prepared = false;
     engine.aim(current);
-    check(engine.room(pixelBytes, depth.width, depth.height));
+    check(engine.room(pixelBytes, depth.width, depth.height, coverage ? 1 : 0));
     views.forEach((view, index) => bytesAt(engine.place(index), view.length).set(view));
     new Float32Array(memory.buffer, engine.place(-1), depth.data.length).set(depth.data);
+    if (coverage) bytesAt(engine.place(-2), coverage.length).set(coverage);
     check(engine.make_engine());
     check(engine.prepare());
     prepared = true;

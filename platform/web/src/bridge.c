@@ -123,9 +123,16 @@ static int MakeRoomForDepth(int32_t depth_width, int32_t depth_height) {
   return depth->data != NULL;
 }
 
-/* Makes room for a light field of pictures with 3 or 4 bytes a pixel and a depth map of that size.
- * What was there before is no more, the engine neither. */
-EXPORT(room) sf_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height) {
+static int MakeRoomForCoverage(void) {
+  field.coverage_stride = (size_t)config.width;
+  field.coverage = (uint8_t*)Allocate(field.coverage_stride * (size_t)config.height);
+  return field.coverage != NULL;
+}
+
+/* Makes room for a light field of pictures with 3 or 4 bytes a pixel, a depth map of that size and,
+ * if `covers` is 1, coverage. What was there before is no more, the engine neither. */
+EXPORT(room)
+sf_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height, int32_t covers) {
   if (stacks_end == 0) stacks_end = top;
   top = stacks_end;
   engine = NULL;
@@ -133,7 +140,8 @@ EXPORT(room) sf_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t de
   memset(&field, 0, sizeof(field));
   const sf_status status = sf_prepared_size(&config, &prepared_bytes);
   if (status != SF_OK) return status;
-  if (!MakeRoomForViews(pixel_bytes) || !MakeRoomForDepth(depth_width, depth_height)) {
+  if (!MakeRoomForViews(pixel_bytes) || !MakeRoomForDepth(depth_width, depth_height) ||
+      (covers && !MakeRoomForCoverage())) {
     return SF_ERROR_MEMORY;
   }
   picture = (uint8_t*)Allocate(4 * (size_t)config.width * (size_t)config.height);
@@ -143,8 +151,9 @@ EXPORT(room) sf_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t de
   return picture != NULL && blocks != NULL && prepared_memory != NULL ? SF_OK : SF_ERROR_MEMORY;
 }
 
-/* Where the pixels of a view of the room go; the depth map, of view -1. */
+/* Where the pixels of a view of the room go; the depth map's, of view -1; coverage, of view -2. */
 EXPORT(place) const void* Place(int32_t view) {
+  if (view == -2) return field.coverage;
   return view < 0 ? field.depth.data : field.views[view].planes[0];
 }
 

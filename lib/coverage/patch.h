@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The disparities around a tile.
+#ifndef STARFOCUS_LIB_COVERAGE_PATCH_H_
+#define STARFOCUS_LIB_COVERAGE_PATCH_H_
+
+#include <cstring>
+
+#include "lib/coverage/coverage_input.h"
+
+namespace starfocus {
+
+// The disparities of a tile and of kAround pixels around it; the picture's outermost pixels go on
+// beyond it.
+template <int32_t kAround>
+struct Patch {
+  static constexpr int32_t kSide = kTileSide + 2 * kAround;
+  int16_t disparity[kSide * kSide];
+
+  Patch(const Window& window, int32_t column, int32_t row) {
+    const int32_t left = column * kTileSide - kAround, top = row * kTileSide - kAround;
+    for (int32_t y = 0; y < kSide; ++y) {
+      const int16_t* from = window.disparity.Row(Clamp(top + y, 0, window.picture_height - 1));
+      int16_t* to = disparity + y * kSide;
+      if (left >= 0 && left + kSide <= window.picture_width) {
+        std::memcpy(to, from + left, kSide * sizeof(*to));
+        continue;
+      }
+      for (int32_t x = 0; x < kSide; ++x)
+        to[x] = from[Clamp(left + x, 0, window.picture_width - 1)];
+    }
+  }
+  static constexpr int32_t At(int32_t x, int32_t y) { return (y + kAround) * kSide + x + kAround; }
+};
+
+// The mean of disparities around within 2 pixels of the near one.
+template <class Disparities>
+int16_t SmoothNear(const Disparities& patch, int32_t at, int32_t near) {
+  constexpr int32_t kWithin = 2 << kDisparityBits;
+  constexpr int32_t kWeights[3] = {6, 4, 1};
+  int32_t sum = 0, weights = 0;
+  for (int32_t y = -2; y <= 2; ++y) {
+    for (int32_t x = -2; x <= 2; ++x) {
+      const int32_t disparity = patch.disparity[at + y * Disparities::kSide + x];
+      if (Abs(disparity - near) > kWithin) continue;
+      const int32_t weight = kWeights[Abs(x)] * kWeights[Abs(y)];
+      sum += weight * (disparity - near);
+      weights += weight;
+    }
+  }
+  if (weights == 0) return static_cast<int16_t>(near);
+  const int32_t half = sum < 0 ? -(weights / 2) : weights / 2;
+  return static_cast<int16_t>(near + (sum + half) / weights);
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_COVERAGE_PATCH_H_

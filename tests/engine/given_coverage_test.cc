@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coverage that the caller gives decides over a map that is wrong by pixels, on every way in.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "starfocus/image.h"
+#include "tests/support/image_field.h"
+#include "tests/support/test_scene.h"
+
+namespace given_coverage_test {
+namespace {
+
+constexpr int kWidth = 192, kHeight = 160, kTop = 40, kBottom = 120, kLeft = 50, kRight = 140;
+constexpr double kNear = 6, kFar = -6;
+
+// A comb of bars before a wall; of each bar the last column is covered by half.
+double CoverageAt(int x, int y) {
+  if (x < kLeft || x >= kRight || y < kTop || y >= kBottom) return 0;
+  const int k = (x - kLeft) % 9;
+  return k < 4 ? 1 : k == 4 ? 0.5 : 0;
+}
+
+double WallAt(int x, int y, int c) {
+  return 160 + 15 * c + 20 * std::sin(x / 17.0 + c) + 20 * std::cos(y / 21.0);
+}
+double BarAt(int c) { return 70 - 15 * c; }
+
+// One view, and a map in which the comb is a block without gaps, too small by 3 pixels.
+test::Scene Comb() {
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, float(kFar), float(kNear));
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double coverage = CoverageAt(x, y);
+      scene.coverage.push_back(uint8_t(std::lround(255 * coverage)));
+      for (int c = 0; c < 3; ++c) {
+        const double light = coverage * BarAt(c) + (1 - coverage) * WallAt(x, y, c);
+        scene.Pixel(0, x, y)[c] = uint8_t(std::lround(light));
+      }
+      const bool near = x >= kLeft + 3 && x < kRight - 3 && y >= kTop + 3 && y < kBottom - 3;
+      scene.Disparity(x, y) = float(near ? kNear : kFar);
+    }
+  }
+  return scene;
+}
+
+sf_config CombConfig(const test::Scene& scene) {
+  sf_config config = test::ConfigFor(scene, kNear - kFar);
+  config.aperture_shape = SF_SHAPE_DISC;
+  config.transfer = SF_TRANSFER_NONE;
+  config.largest_block = 64;
+  return config;
+}
+
+test::Output Refocused(const test::Scene& scene, const sf_config& config, const sf_params& params) {
+  test::Engine engine(config);
+  test::Output out(kWidth, kHeight);
+  REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
+  return out;
+}
+
+// PSNR in dB of a picture that is focused on the wall: the comb is blurred before it.
+double PsnrOf(const test::Output& out) {
+  constexpr int kBlur = int(kNear - kFar);
+  double sum = 0, count = 0;
+  for (int y = 16; y < kHeight - 16; ++y) {
+    for (int x = 16; x < kWidth - 16; ++x) {
+      double coverage = 0, points = 0;
+      for (int dy = -kBlur; dy <= kBlur; ++dy) {
+        for (int dx = -kBlur; dx <= kBlur; ++dx) {
+          if (dx * dx + dy * dy > kBlur * kBlur) continue;
+          coverage += CoverageAt(x + dx, y + dy);
+          ++points;
+        }
+      }
+      coverage /= points;
+      for (int c = 0; c < 3; ++c, ++count) {
+        const double truth = coverage * BarAt(c) + (1 - coverage) * WallAt(x, y, c);
+        sum += (out.Pixel(x, y)[c] - truth) * (out.Pixel(x, y)[c] - truth);
+      }
+    }
+  }
+  return 10 * std::log10(255 * 255 * count / sum);
+}
+
+test::Scene Without(test::Scene scene) {
+  scene.coverage.clear();
+  return scene;
+}
+
+TEST_CASE("given coverage: it decides over a map without gaps") {
+  const test::Scene scene = Comb();
+  const sf_params params = test::Params(kFar, 1, SF_MODE_BLOCK);
+  const double with = PsnrOf(Refocused(scene, CombConfig(scene), params));
+  const double without = PsnrOf(Refocused(Without(scene), CombConfig(scene), params));
+  MESSAGE(without, " -> ", with, " dB");
+  CHECK(with > without + 6);
+}
+
+TEST_CASE("given coverage: regions, streams, images and prepared fields give the same bytes") {
+  const test::Scene scene = Comb();
+  sf_config config = CombConfig(scene);
+  config.streaming = config.images = 1;
+  for (const double focus : {kFar, 1.0, kNear}) {
+    CAPTURE(focus);
+    sf_params params = test::Params(focus, 1, SF_MODE_BLOCK);
+    const test::Output whole = Refocused(scene, config, params);
+    CHECK((Refocused(Without(scene), config, params).bytes != whole.bytes));
+    test::Engine engine(config);
+    test::Output out(kWidth, kHeight);
+    REQUIRE(test::Stream(&engine, params, scene, &out, 7, 11) == SF_OK);
+    CHECK((out.bytes == whole.bytes));
+
+    const sf_light_field rows = scene.Field();
+    sf_image_field field = {};
+    field.views[0].planes[0] = rows.views[0].data;
+    field.views[0].strides[0] = rows.views[0].stride;
+    field.depth.data = rows.disparity;
+    field.depth.stride = rows.disparity_stride;
+    field.depth.width = kWidth;
+    field.depth.height = kHeight;
+    field.depth.scale = 1;
+    field.coverage = rows.coverage;
+    field.coverage_stride = rows.coverage_stride;
+    sf_image_out image = {};
+    image.planes[0] = out.bytes.data();
+    image.strides[0] = out.stride;
+    REQUIRE(sf_refocus_images(engine.get(), &params, &field, &image, nullptr, nullptr, nullptr) ==
+            SF_OK);
+    CHECK((out.bytes == whole.bytes));
+
+    const sf_region region = {33, 100, 90, 41};
+    params.region = region;
+    test::Output part(region.width, region.height);
+    REQUIRE(test::Refocus(&engine, params, scene, &part) == SF_OK);
+    bool same = true;
+    for (int y = 0; y < region.height; ++y) {
+      same = same && std::equal(part.Pixel(0, y), part.Pixel(0, y) + 3 * region.width,
+                                whole.Pixel(region.x, region.y + y));
+    }
+    CHECK(same);
+  }
+}
+
+// Twice as large, with disparities to match. Coverage differs within what a pixel has become.
+test::Scene Doubled(const test::Scene& scene) {
+  test::Scene doubled = test::EmptyScene(2 * kWidth, 2 * kHeight, 1, 2 * scene.disparity_min,
+                                         2 * scene.disparity_max);
+  for (int y = 0; y < doubled.height; ++y) {
+    for (int x = 0; x < doubled.width; ++x) {
+      std::copy_n(scene.Pixel(0, x / 2, y / 2), 3, doubled.Pixel(0, x, y));
+      doubled.Disparity(x, y) = 2 * scene.Disparity(x / 2, y / 2);
+      const int mean = scene.coverage[size_t(y / 2 * kWidth + x / 2)];
+      const int more = mean < 5 || mean > 250 ? 0 : 5 * (x % 2 == y % 2 ? 1 : -1);
+      doubled.coverage.push_back(uint8_t(mean + more));
+    }
+  }
+  return doubled;
+}
+
+TEST_CASE("given coverage: previews have its means") {
+  const test::Scene scene = Comb(), doubled = Doubled(scene);
+  sf_config config = CombConfig(doubled);
+  config.max_blur = 4 * kNear;
+  config.previews = 1;
+  test::Engine engine(config);
+  REQUIRE(engine.status() == SF_OK);
+  size_t bytes = 0;
+  REQUIRE(sf_prepared_size(&config, &bytes) == SF_OK);
+  std::vector<uint8_t> memory(bytes + SF_ALIGNMENT);
+  const uintptr_t address = reinterpret_cast<uintptr_t>(memory.data());
+  const sf_light_field field = doubled.Field();
+  sf_prepared* prepared = nullptr;
+  REQUIRE(sf_prepare(engine.get(), &field, memory.data() + SF_ALIGNMENT - address % SF_ALIGNMENT,
+                     bytes, nullptr, nullptr, nullptr, nullptr, &prepared) == SF_OK);
+  sf_params params = test::Params(2 * kFar, 1, SF_MODE_BLOCK);
+  test::Output preview(kWidth, kHeight);
+  REQUIRE(sf_refocus_preview(engine.get(), &params, prepared, 1, preview.bytes.data(),
+                             preview.stride, nullptr, nullptr, nullptr) == SF_OK);
+  params.focus = kFar;
+  CHECK((preview.bytes == Refocused(scene, CombConfig(scene), params).bytes));
+  CHECK((preview.bytes != Refocused(Without(scene), CombConfig(scene), params).bytes));
+}
+
+TEST_CASE("given coverage: a frame after another one sees what changed of it") {
+  const test::Scene before = Comb();
+  const sf_config config = CombConfig(before);
+  const sf_params params = test::Params(kFar, 1, SF_MODE_BLOCK);
+  const test::Output first = Refocused(before, config, params);
+  test::Scene changed = before;
+  changed.coverage[size_t(90 * kWidth + 100)] ^= 255;
+  for (const test::Scene& now : {changed, Without(before), before}) {
+    test::Engine engine(config);
+    test::Output out(kWidth, kHeight);
+    const sf_light_field field = now.Field();
+    const sf_previous previous = {before.Field(), first.bytes.data(), first.stride};
+    REQUIRE(sf_refocus_after(engine.get(), &params, &field, &previous, out.bytes.data(), out.stride,
+                             nullptr, nullptr, nullptr) == SF_OK);
+    CHECK((out.bytes == Refocused(now, config, params).bytes));
+  }
+}
+
+TEST_CASE("given coverage: without the feature it is not looked at, and bad input is refused") {
+  const test::Scene scene = Comb();
+  sf_config config = CombConfig(scene);
+  config.streaming = 1;
+  const sf_params params = test::Params(kFar, 1, SF_MODE_BLOCK);
+  test::Engine engine(config);
+  sf_light_field field = scene.Field();
+  int32_t consumed = 0;
+  REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
+  REQUIRE(sf_stream_push(engine.get(), &field, 4, &consumed) == SF_OK);
+  field = scene.Field(4);
+  field.coverage = nullptr;
+  CHECK(sf_stream_push(engine.get(), &field, 4, &consumed) == SF_ERROR_STATE);
+  CHECK(consumed == 0);
+  field = scene.Field();
+  test::Output out(kWidth, kHeight);
+  field.coverage_stride = kWidth - 1;
+  CHECK(sf_refocus(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr, nullptr,
+                   nullptr) == SF_ERROR_STRIDE);
+  field.coverage = out.bytes.data();
+  field.coverage_stride = kWidth;
+  CHECK(sf_refocus(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr, nullptr,
+                   nullptr) == SF_ERROR_OVERLAP);
+  config.features &= ~SF_FEATURE_COVERAGE;
+  CHECK(
+      (Refocused(scene, config, params).bytes == Refocused(Without(scene), config, params).bytes));
+}
+
+}  // namespace
+}  // namespace given_coverage_test
