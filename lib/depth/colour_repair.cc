@@ -14,8 +14,10 @@ constexpr int32_t kPixel = 1 << kDisparityBits;
 // A choice within this of the map's disparity is the map's.
 constexpr int32_t kSameSurface = kPixel;
 // What must be gained together by the changed pixels within the radius: a change of one or two
-// pixels is rather a speckle of the surface than the edge of another.
-constexpr int32_t kGainRadius = 3, kLeastGain = 60;
+// pixels is rather a speckle of the surface than the edge of another. Much more where a map is
+// right but for objects of the colour of what lies behind them.
+constexpr int32_t kGainRadius = 3;
+constexpr EvidenceScale kGains = {18, 22, 1000, 60};
 // Paths that the sums of choices are of.
 constexpr int32_t kPaths = 4;
 // Changed pixels get the mean of the surface around them; those beside steps count little.
@@ -63,6 +65,32 @@ void Choose(const ColourJob& job, size_t at, const Choices& choices) {
   job.memory->certainty[at] = static_cast<uint8_t>(margin / kPaths);
 }
 
+bool Differs(const ColourJob& job, size_t at) { return job.chosen[at] != job.map.disparity[at]; }
+
+// Whether a neighbour of a pixel within the tile is of another surface.
+bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y) {
+  const int32_t own = map.disparity[map.At(x, y)];
+  const auto differs = [&](int32_t column, int32_t row) {
+    return Abs(map.disparity[map.At(column, row)] - own) > kSurfaceStep;
+  };
+  return (x > tile.x && differs(x - 1, y)) || (x + 1 < tile.x + tile.width && differs(x + 1, y)) ||
+         (y > tile.y && differs(x, y - 1)) || (y + 1 < tile.y + tile.height && differs(x, y + 1));
+}
+
+TileCount CountTile(const ColourJob& job, const Rect& tile) {
+  TileCount count = {};
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const size_t at = job.map.At(x, y);
+      // Ramps are edges, too.
+      if (job.memory->doubt[at] != 0 && !IsBesideStep(job.map, tile, x, y)) continue;
+      ++count.rough;
+      count.differs += Differs(job, at) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
 void ChooseTile(const void* data, int32_t index, int32_t worker) {
   const ColourJob& job = JobOf(data);
   const ColourTileMemory& memory = job.memory->workers[worker];
@@ -76,9 +104,16 @@ void ChooseTile(const void* data, int32_t index, int32_t worker) {
       Choose(job, job.map.At(x, y), row[x - region.x]);
     }
   }
+  job.memory->counts[index] = CountTile(job, tile);
+  const ThinGrid grid = GridOf(job.map.plan);
+  CountBeside(grid, job.map.disparity, tile, index, job.memory->thin);
 }
 
-bool Differs(const ColourJob& job, size_t at) { return job.chosen[at] != job.map.disparity[at]; }
+// What the choices of all tiles say together.
+void JudgeMap(const EstimatePlan& plan, ColourMemory* memory) {
+  memory->least_gain = LeastEvidence(kGains, memory->counts, plan.columns * plan.rows);
+  FindThin(GridOf(plan), kThinGiven, memory->thin);
+}
 
 // Whether enough is gained around a pixel of which something else than the map says was chosen.
 bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
@@ -89,7 +124,7 @@ bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
       gain += job.memory->gain[job.map.At(column, row)];
     }
   }
-  return gain >= kLeastGain;
+  return gain >= job.memory->least_gain;
 }
 
 // The mean of the map's pixels around (x, y) that are of the surface chosen there.
@@ -111,11 +146,12 @@ float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
   return static_cast<float>(sum) / static_cast<float>(weights * kPixel);
 }
 
-void WritePixel(const ColourJob& job, int32_t x, int32_t y) {
+// `keeps`: whether all that is known stays.
+void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
   const size_t at = job.map.At(x, y), row = static_cast<size_t>(y), column = static_cast<size_t>(x);
   const float given = GivenAt(job.map.light_field, y)[x];
   const bool known = std::isfinite(given), differs = Differs(job, at);
-  const bool changes = !known || (differs && IsGainsaid(job, x, y));
+  const bool changes = !known || (differs && !keeps && IsGainsaid(job, x, y));
   const bool noisy = job.map.disparity != job.memory->maps[0];
   const float kept = noisy ? static_cast<float>(job.map.disparity[at]) / kPixel : given;
   job.output.disparity[row * job.output.stride + column] =
@@ -127,10 +163,13 @@ void WritePixel(const ColourJob& job, int32_t x, int32_t y) {
 
 void WriteTile(const void* data, int32_t index, int32_t) {
   const ColourJob& job = JobOf(data);
-  const Rect tile = TileOf(job.map.plan, index);
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) WritePixel(job, x, y);
-  }
+  const ColourMemory& memory = *job.memory;
+  ForCells(GridOf(job.map.plan), index, [&](const Rect& cell, int32_t number) {
+    const bool keeps = memory.thin.thin[number] != 0;
+    for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+      for (int32_t x = cell.x; x < cell.x + cell.width; ++x) WritePixel(job, keeps, x, y);
+    }
+  });
 }
 
 ColourTileMemory TakeTile(const EstimatePlan& plan, Carver* carver) {
@@ -163,6 +202,8 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
   auto* gain = carver.Take<int16_t>(width, height);
   auto* doubt = carver.Take<uint8_t>(width, height);
   auto* certainty = carver.Take<uint8_t>(width, height);
+  auto* counts = carver.Take<TileCount>(tiles);
+  const ThinCells thin = TakeThinCells(GridOf(plan), &carver);
   auto* workers = carver.Take<ColourTileMemory>(static_cast<size_t>(max_workers));
   if (base != nullptr) {
     ColourMemory& made = *new (*memory) ColourMemory();
@@ -172,6 +213,8 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
     made.gain = gain;
     made.doubt = doubt;
     made.certainty = certainty;
+    made.counts = counts;
+    made.thin = thin;
     made.workers = workers;
   }
   for (int32_t worker = 0; worker < max_workers; ++worker) {
@@ -204,6 +247,7 @@ sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_f
   for (const auto& phase : phases) {
     memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof phases / sizeof *phases));
     if (phase.function == SmoothMap && noise == 0) continue;
+    if (phase.function == WriteTile) JudgeMap(plan, memory);
     const sf_status status =
         RunJobSet(phase.function, &phase.job, plan.columns * plan.rows, runner, &memory->jobs);
     if (status != SF_OK) return status;

@@ -11,6 +11,8 @@
 #include "lib/base/jobs.h"
 #include "lib/depth/colour_choices.h"
 #include "lib/depth/estimate.h"
+#include "lib/depth/evidence.h"
+#include "lib/depth/thin_cells.h"
 
 namespace starfocus {
 
@@ -28,6 +30,9 @@ struct ColourMemory {
   int16_t* gain;     // how much less a pixel's choice costs than the map's, 0 where it is the same
   uint8_t* doubt;    // of MeasureDoubt
   uint8_t* certainty;  // how much more another surface costs than the chosen one, on each path
+  TileCount* counts;   // of each tile
+  int32_t least_gain;  // that changes need
+  ThinCells thin;      // of the map
   ColourTileMemory* workers;
 };
 

@@ -60,9 +60,15 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
   auto* first = carver.Take<int16_t>(width, height);
   auto* second = carver.Take<int16_t>(width, height);
   auto* certainty = carver.Take<uint8_t>(width, height);
-  int16_t* of_given[3] = {};
+  int16_t* of_given[2] = {};
   for (int16_t*& map : of_given) map = plan.repairs ? carver.Take<int16_t>(width, height) : nullptr;
-  uint8_t* swept = plan.repairs ? carver.Take<uint8_t>(width, height) : nullptr;
+  uint8_t* of_pixels[3] = {};
+  for (uint8_t*& map : of_pixels)
+    map = plan.repairs ? carver.Take<uint8_t>(width, height) : nullptr;
+  ThinCells cells[2] = {};
+  if (plan.repairs) {
+    for (ThinCells& map : cells) map = TakeThinCells(GridOf(plan), &carver);
+  }
   TileCount* counts = plan.repairs ? carver.Take<TileCount>(tiles) : nullptr;
   auto* workers = carver.Take<TileMemory>(static_cast<size_t>(max_workers));
   if (base != nullptr) {
@@ -74,9 +80,12 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
     made.certainty = certainty;
     made.given = of_given[0];
     made.trusted = of_given[1];
-    made.evidence = of_given[2];
+    made.given_cost = of_pixels[0];
+    made.found_cost = of_pixels[1];
     made.doubt = certainty;
-    made.swept = swept;
+    made.swept = of_pixels[2];
+    made.given_cells = cells[0];
+    made.found_cells = cells[1];
     made.counts = counts;
     made.workers = workers;
   }
@@ -85,7 +94,7 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
     const TileMemory tile = TakeTile(plan, region, &carver);
     if (base == nullptr) continue;
     workers[worker] = tile;
-    workers[worker].swept = swept;
+    workers[worker].swept = of_pixels[2];
   }
   return carver.Bytes();
 }

@@ -10,6 +10,8 @@
 #include "lib/base/carver.h"
 #include "lib/base/jobs.h"
 #include "lib/depth/estimate_plan.h"
+#include "lib/depth/evidence.h"
+#include "lib/depth/thin_cells.h"
 #include "simd/label_costs.h"
 
 namespace starfocus {
@@ -50,12 +52,6 @@ struct TileMemory {
   const uint8_t* swept;   // EstimateMemory::swept
 };
 
-// Pixels of a tile of a given map.
-struct TileCount {
-  int32_t rough;    // that aren't trusted
-  int32_t differs;  // that the sweeps gainsay
-};
-
 struct EstimateMemory {
   JobSet jobs;
   int16_t* first;      // disparities of the whole picture, kDisparityBits: with all views trusted
@@ -68,7 +64,10 @@ struct EstimateMemory {
   uint8_t* swept;     // 1 where the sweeps look, 0 elsewhere; null: everywhere
   TileCount* counts;  // of each tile
   int32_t least_evidence;
-  int16_t* evidence;  // how much better the views fit the second map than the given one
+  // How badly the views fit the given map and the second one; alike where nothing is given.
+  uint8_t* given_cost;
+  uint8_t* found_cost;
+  ThinCells given_cells, found_cells;  // of the given map, and of what the sweeps found
   TileMemory* workers;
 };
 

@@ -26,17 +26,18 @@ void OrderViews(int32_t views, EstimatePlan* plan) {
   }
 }
 
-int32_t TilesAlong(int32_t length) { return (length + kTileSide / 2) / (2 * kTileSide) * 2 + 1; }
+}  // namespace
 
-// Where tile k of `count`, which is odd, begins.
+int32_t TilesAlong(int32_t length, int32_t side) {
+  return (length + side / 2) / (2 * side) * 2 + 1;
+}
+
 int32_t TileBegin(int32_t length, int32_t count, int32_t k) {
   const auto at = [&](int32_t tile) {
     return static_cast<int32_t>(int64_t{length} * tile / count);
   };
   return k <= count / 2 ? at(k) : length - at(count - k);
 }
-
-}  // namespace
 
 int32_t EstimatePlan::Phases(const SideView& view) const {
   const int32_t move = step * Max(std::abs(view.u2), std::abs(view.v2));
@@ -67,8 +68,8 @@ EstimatePlan MakePlan(const sf_depth_config& config) {
   plan.reach = (farthest >> kDisparityBits) + 2;
   plan.directions = 8;
   OrderViews(config.views, &plan);
-  plan.columns = TilesAlong(config.width);
-  plan.rows = TilesAlong(config.height);
+  plan.columns = TilesAlong(config.width, kTileSide);
+  plan.rows = TilesAlong(config.height, kTileSide);
   return plan;
 }
 

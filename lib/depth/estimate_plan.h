@@ -56,6 +56,12 @@ EstimatePlan MakePlan(const sf_depth_config& config);
 // first sweep of a repair only finds who hides what.
 EstimatePlan CoarsePlan(const EstimatePlan& plan);
 
+// How many tiles, an odd number, `length` pixels are divided into: tiles are half to one and a half
+// times `side` long.
+int32_t TilesAlong(int32_t length, int32_t side);
+// Where tile k of `count` begins; count is odd.
+int32_t TileBegin(int32_t length, int32_t count, int32_t k);
+
 // The part of the picture that tile `index` of columns * rows is.
 Rect TileOf(const EstimatePlan& plan, int32_t index);
 // What is swept for it: the tile and what lies around.

@@ -90,14 +90,14 @@ void WeighEvidence(const EstimatePlan& plan, const Rect& region, const Rect& til
     const size_t at =
         static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
     const int32_t given = memory->given[at];
-    memory->evidence[at] = 0;
-    if (given == simd::kNoSurface) return;
     const size_t pixel = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width) +
                          static_cast<size_t>(x - region.x);
     const uint8_t* cost = tile.cost + pixel * places;
     const uint8_t* prior = tile.prior + pixel * places;
-    const int32_t was = LabelOf(plan, given), is = LabelOf(plan, memory->second[at]);
-    memory->evidence[at] = static_cast<int16_t>((cost[was] - prior[was]) - (cost[is] - prior[is]));
+    const int32_t is = LabelOf(plan, memory->second[at]);
+    const int32_t was = given == simd::kNoSurface ? is : LabelOf(plan, given);
+    memory->given_cost[at] = static_cast<uint8_t>(cost[was] - prior[was]);
+    memory->found_cost[at] = static_cast<uint8_t>(cost[is] - prior[is]);
   };
   for (int32_t y = tile_rect.y; y < tile_rect.y + tile_rect.height; ++y) {
     ForRuns(plan, tile.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,

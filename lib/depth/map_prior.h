@@ -16,8 +16,8 @@ namespace starfocus {
 void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* trusted,
                  const simd::DepthKernels& kernels, TileMemory* tile);
 
-// Fills memory->evidence of the pixels of `tile_rect`: the cost of the given disparity less that of
-// memory->second, without the prior; 0 where nothing is given.
+// Fills memory->given_cost and found_cost of the pixels of `tile_rect`: the costs of the given
+// disparity and of memory->second, without the prior.
 void WeighEvidence(const EstimatePlan& plan, const Rect& region, const Rect& tile_rect,
                    const TileMemory& tile, EstimateMemory* memory);
 

@@ -7,6 +7,8 @@
 #include "lib/depth/repair_map.h"
 #include "lib/depth/sweep.h"
 #include "lib/depth/swept.h"
+#include "lib/depth/thin_cells.h"
+#include "simd/disparities.h"
 
 namespace starfocus {
 namespace {
@@ -52,6 +54,61 @@ void ValueTile(const void* data, int32_t index, int32_t) {
   EvenOut(sweep.plan, sweep.light_field.views[0], tile, *sweep.memory, sweep.memory->first);
   if (sweep.rates) RateUnswept(sweep.plan, sweep.light_field.views[0], tile, sweep.memory);
   sweep.memory->counts[index] = CountTile(sweep.plan, tile, *sweep.memory);
+  const ThinGrid grid = GridOf(sweep.plan);
+  CountBeside(grid, sweep.memory->given, tile, index, sweep.memory->given_cells);
+  CountBeside(grid, sweep.memory->first, tile, index, sweep.memory->found_cells);
+}
+
+// What the maps of all tiles say together.
+void JudgeMaps(const Sweep& sweep) {
+  EstimateMemory& memory = *sweep.memory;
+  const EstimatePlan& plan = sweep.plan;
+  memory.least_evidence = LeastEvidence(kSweepEvidence, memory.counts, plan.columns * plan.rows);
+  FindThin(GridOf(plan), kThinGiven, memory.given_cells);
+  FindThin(GridOf(plan), kThinFound, memory.found_cells);
+}
+
+void WritePixel(const RepairJob& job, int32_t x, int32_t y, int16_t disparity) {
+  const EstimateMemory& memory = *job.sweep.memory;
+  const MapOutput& output = job.output;
+  const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
+  const size_t at = row * static_cast<size_t>(job.sweep.plan.width) + column;
+  if (disparity != memory.given[at]) {
+    constexpr float kPixel = 1.0F / (1 << kDisparityBits);
+    output.disparity[row * output.stride + column] =
+        output.Clamped(static_cast<float>(disparity) * kPixel);
+  }
+  if (output.confidence != nullptr && disparity != memory.first[at] && Differs(memory, at)) {
+    // What was gainsaid and yet is not what the sweeps found nobody is sure of.
+    output.confidence[row * output.confidence_stride + column] = 0;
+  }
+}
+
+// Writes a cell of thin structure that the given map does not have.
+void WriteParted(const RepairJob& job, const Rect& cell) {
+  const Sweep& sweep = job.sweep;
+  for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+    int16_t nearest[kMostCellSide];
+    FindNearest(sweep.plan, sweep.memory->trusted, cell, y, nearest);
+    ForSwept(sweep.plan, sweep.memory->swept, {cell.x, y, cell.width, 1}, [&](int32_t x, int32_t) {
+      const size_t at =
+          static_cast<size_t>(y) * static_cast<size_t>(sweep.plan.width) + static_cast<size_t>(x);
+      WritePixel(job, x, y, PartedAt(*sweep.memory, at, nearest[x - cell.x]));
+    });
+  }
+}
+
+void WriteCell(const RepairJob& job, const Rect& cell, int32_t number) {
+  const EstimateMemory& memory = *job.sweep.memory;
+  const bool keeps = memory.given_cells.thin[number] != 0;
+  if (!keeps && memory.found_cells.thin[number] != 0) return WriteParted(job, cell);
+  ForSwept(job.sweep.plan, memory.swept, cell, [&](int32_t x, int32_t y) {
+    const size_t at =
+        static_cast<size_t>(y) * static_cast<size_t>(job.sweep.plan.width) + static_cast<size_t>(x);
+    const int16_t given = memory.given[at];
+    const bool kept = keeps && given != simd::kNoSurface;
+    WritePixel(job, x, y, kept ? given : RepairedAt(job.sweep.plan, memory, x, y));
+  });
 }
 
 void WriteTile(const void* data, int32_t index, int32_t) {
@@ -67,18 +124,8 @@ void WriteTile(const void* data, int32_t index, int32_t) {
     std::copy_n(sweep.memory->certainty + row * static_cast<size_t>(sweep.plan.width) + tile.x,
                 tile.width, output.confidence + row * output.confidence_stride + tile.x);
   }
-  ForSwept(sweep.plan, sweep.memory->swept, tile, [&](int32_t x, int32_t y) {
-    const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
-    const size_t at = row * static_cast<size_t>(sweep.plan.width) + column;
-    if (IsChanged(sweep.plan, *sweep.memory, x, y)) {
-      constexpr float kPixel = 1.0F / (1 << kDisparityBits);
-      output.disparity[row * output.stride + column] =
-          output.Clamped(static_cast<float>(sweep.memory->first[at]) * kPixel);
-    } else if (output.confidence != nullptr && Differs(*sweep.memory, at)) {
-      // What was gainsaid too weakly to be changed nobody is sure of.
-      output.confidence[row * output.confidence_stride + column] = 0;
-    }
-  });
+  ForCells(GridOf(sweep.plan), index,
+           [&](const Rect& cell, int32_t number) { WriteCell(job, cell, number); });
 }
 
 }  // namespace
@@ -93,7 +140,7 @@ sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
   int32_t done = 0;
   for (const JobFunction phase : kPhases) {
     memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof kPhases / sizeof *kPhases));
-    if (phase == WriteTile) memory->least_evidence = LeastEvidence(plan, *memory);
+    if (phase == WriteTile) JudgeMaps(job.sweep);
     const sf_status status =
         RunJobSet(phase, &job, plan.columns * plan.rows, runner, &memory->jobs);
     if (status != SF_OK) return status;

@@ -21,12 +21,12 @@ constexpr int32_t kSameSurface = 38;
 // What differs by less is the given disparity.
 constexpr int32_t kSame = kPixel / 4;
 constexpr int32_t kMeanRadius = 3, kEvidenceRadius = 2;
-// Costs (simd::kCostScale times gray levels) that the pixels around a change must have together: as
-// much as eight pixels that fit 7.5 gray levels worse. Much more, and nothing for less than another
-// surface, where a map is right but for what is hard to see: where fewer pixels than kRightPercent
-// of those at edges differ.
-constexpr int32_t kLeastEvidence = 240, kRightEvidence = 1600;
-constexpr int32_t kRightPercent = 18, kWrongPercent = 22;
+// Trusted disparities this near to a mixture may be of its nearer surface: a ramp of 12 pixels and
+// the untrusted ones at its ends.
+constexpr int32_t kNearReach = 16;
+// Views show clearly what costs no more than this, 11 gray levels: where hair is, half of
+// the wall and a twentieth of the mixtures do.
+constexpr int32_t kClearCost = 44;
 
 size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
   return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
@@ -105,7 +105,7 @@ void ReadGiven(const EstimatePlan& plan, const sf_light_field& light_field, cons
       memory->given[at] = std::isfinite(row[x]) ? static_cast<int16_t>(std::lrint(row[x] * kPixel))
                                                 : simd::kNoSurface;
       memory->first[at] = memory->second[at] = memory->given[at];
-      memory->evidence[at] = 0;
+      memory->given_cost[at] = memory->found_cost[at] = 0;
     }
   }
 }
@@ -162,36 +162,50 @@ TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMe
   return count;
 }
 
-int32_t LeastEvidence(const EstimatePlan& plan, const EstimateMemory& memory) {
-  int64_t rough = 1, differs = 0;
-  for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {
-    rough += memory.counts[tile].rough;
-    differs += memory.counts[tile].differs;
-  }
-  const int64_t percent = 100 * differs / rough;
-  if (percent <= kRightPercent) return kRightEvidence;
-  if (percent >= kWrongPercent) return kLeastEvidence;
-  const auto beyond = static_cast<int32_t>(kWrongPercent - percent);
-  return kLeastEvidence +
-         (kRightEvidence - kLeastEvidence) * beyond / (kWrongPercent - kRightPercent);
-}
-
-bool IsChanged(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
+int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
   const size_t own = IndexOf(plan, x, y);
-  if (memory.given[own] == simd::kNoSurface) return true;
+  const int16_t given = memory.given[own], found = memory.first[own];
+  if (given == simd::kNoSurface) return found;
   if (!Differs(memory, own)) {
-    return memory.least_evidence < kRightEvidence && memory.first[own] != memory.given[own];
+    return memory.least_evidence < kSweepEvidence.right ? found : given;
   }
-  if (IsRough(plan, memory, x, y)) return true;
+  if (IsRough(plan, memory, x, y)) return found;
   const Rect around = Widened(plan, {x, y, 1, 1}, kEvidenceRadius);
   int32_t evidence = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
       const size_t at = IndexOf(plan, column, row);
-      if (Differs(memory, at)) evidence += memory.evidence[at];
+      if (Differs(memory, at)) evidence += memory.given_cost[at] - memory.found_cost[at];
     }
   }
-  return evidence >= memory.least_evidence;
+  return evidence >= memory.least_evidence ? found : given;
+}
+
+void FindNearest(const EstimatePlan& plan, const int16_t* trusted, const Rect& cell, int32_t y,
+                 int16_t* nearest) {
+  const Rect around = Widened(plan, {cell.x, y, cell.width, 1}, kNearReach);
+  // From kNearReach before the cell on.
+  int16_t columns[kMostCellSide + 2 * kNearReach];
+  std::fill_n(columns, cell.width + 2 * kNearReach, simd::kNoSurface);
+  int16_t* to = columns + kNearReach - (cell.x - around.x);
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    const int16_t* from = trusted + IndexOf(plan, around.x, row);
+    for (int32_t x = 0; x < around.width; ++x) to[x] = std::max(to[x], from[x]);
+  }
+  std::fill_n(nearest, cell.width, simd::kNoSurface);
+  for (int32_t k = 0; k <= 2 * kNearReach; ++k) {
+    for (int32_t x = 0; x < cell.width; ++x) nearest[x] = std::max(nearest[x], columns[x + k]);
+  }
+}
+
+int16_t PartedAt(const EstimateMemory& memory, size_t at, int16_t nearest) {
+  const int16_t given = memory.given[at], found = memory.first[at];
+  const bool sloping = memory.trusted[at] == simd::kNoSurface && nearest != simd::kNoSurface;
+  const int16_t near = sloping ? nearest : given;
+  if (near == simd::kNoSurface) return found;
+  const bool clear = memory.found_cost[at] <= kClearCost &&
+                     std::abs(found - memory.second[at]) < kPixel && found < near - kPixel;
+  return clear ? found : near;
 }
 
 }  // namespace starfocus

@@ -31,14 +31,25 @@ bool Differs(const EstimateMemory& memory, size_t at);
 // Counts the pixels of a tile whose evened map is finished.
 TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory);
 
-// The evidence that changes need: the less of the edges of the map the sweeps gainsay, the more it
-// is trusted.
-int32_t LeastEvidence(const EstimatePlan& plan, const EstimateMemory& memory);
+// Costs (simd::kCostScale times gray levels) that the pixels around a change must have together: as
+// much as eight pixels that fit 7.5 gray levels worse. Much more, and nothing for less than another
+// surface, where a map is right but for what is hard to see.
+inline constexpr EvidenceScale kSweepEvidence = {18, 22, 1600, 240};
 
-// Whether pixel (x, y) gets the disparity of memory.first: where it differs little, and where the
-// evidence of all pixels around that differ is strong enough. Single pixels that differ are
-// more often mistaken than right.
-bool IsChanged(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y);
+// Returns the disparity of pixel (x, y): that of memory.first where it differs little, and where
+// the evidence of all pixels around that differ is strong enough; otherwise the given one. Single
+// pixels that differ are more often mistaken than right.
+int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y);
+
+// Fills `nearest` with the largest trusted disparity near each pixel of row y of a cell, which
+// hair stands out from; kNoSurface where there is none.
+void FindNearest(const EstimatePlan& plan, const int16_t* trusted, const Rect& cell, int32_t y,
+                 int16_t* nearest);
+
+// Returns the disparity of pixel `at` of thin structure that the given map does not have: that of
+// the nearer surface, but for a farther one that the views show clearly. What they do not is
+// a mixture more often than not, which colours part better than any search does.
+int16_t PartedAt(const EstimateMemory& memory, size_t at, int16_t nearest);
 
 }  // namespace starfocus
 

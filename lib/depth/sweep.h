@@ -19,7 +19,7 @@ struct Sweep {
 // Fills memory->first of tile `index`, by the views on one side of each pixel. A JobFunction, whose
 // data are a Sweep.
 void SweepOneSide(const void* data, int32_t index, int32_t worker);
-// Fills memory->second, certainty and, of a map that is repaired, evidence: by the views that see
+// Fills memory->second, certainty and, of a map that is repaired, costs: by the views that see
 // each pixel when the first map is right. A JobFunction, too.
 void SweepAllViews(const void* data, int32_t index, int32_t worker);
 

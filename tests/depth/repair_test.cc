@@ -121,6 +121,84 @@ TEST_CASE("repair: a map that is right stays as it is to the bit") {
   CHECK(RepairField(RenderPlanes(scene), plane, ConfigOf(field, kLow, kHigh)).disparity == plane);
 }
 
+// Strands of a pixel and a quarter, three pixels apart and crossing, before a wall.
+struct StrandScene {
+  static constexpr int kWidth = 96, kHeight = 80;
+  static constexpr double kNear = 7, kFar = -5;
+
+  static bool IsStrand(double x, double y) {
+    const auto within = [](double at, double period) {
+      return std::abs(at - period * std::round(at / period)) < 0.62;
+    };
+    return x > 16 && x < 80 && (within(x + 0.4 * y, 4.3) || within(x - 0.3 * y, 7.1));
+  }
+  // 16 samples a pixel.
+  static uint8_t Pixel(double u, double v, int x, int y, int c) {
+    double sum = 0;
+    for (int k = 0; k < 16; ++k) {
+      const double across = x + (k % 4 - 1.5) / 4, down = y + (k / 4 - 1.5) / 4;
+      const bool strand = IsStrand(across + u * kNear, down + v * kNear);
+      sum += strand ? 40 + 20 * c : PlaneScene::Texture(across + u * kFar, down + v * kFar, 2, c);
+    }
+    return uint8_t(sum / 16 + 0.5);
+  }
+  static PlaneField Render(int views) {
+    PlaneField field = {kWidth, kHeight, {}};
+    for (int k = 0; k < views; ++k) {
+      double u = 0, v = 0;
+      sf_view_position(k, &u, &v);
+      std::vector<uint8_t> view;
+      for (int at = 0; at < 3 * kWidth * kHeight; ++at) {
+        view.push_back(Pixel(u, v, at / 3 % kWidth, at / 3 / kWidth, at % 3));
+      }
+      field.views.push_back(view);
+    }
+    return field;
+  }
+  static std::vector<float> Map() {
+    std::vector<float> map;
+    for (int at = 0; at < kWidth * kHeight; ++at) {
+      map.push_back(float(IsStrand(at % kWidth, at / kWidth) ? kNear : kFar));
+    }
+    return map;
+  }
+};
+
+TEST_CASE("repair: strands of an exact map stay") {
+  const std::vector<float> given = StrandScene::Map();
+  for (const int views : {1, 5, 17}) {
+    CAPTURE(views);
+    const PlaneField field = StrandScene::Render(views);
+    const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+    int lost = 0, strands = 0;
+    for (size_t i = 0; i < given.size(); ++i) {
+      strands += given[i] > 0;
+      lost += given[i] > 0 && repaired.disparity[i] < 0;
+    }
+    CHECK(strands > 1000);
+    CHECK(lost < strands / 50);
+  }
+}
+
+TEST_CASE("repair: strands stay whose map is one closed outline, and gaps open") {
+  const std::vector<float> exact = StrandScene::Map();
+  std::vector<float> given = exact;
+  for (size_t i = 0; i < given.size(); ++i) {
+    const size_t x = i % StrandScene::kWidth;
+    if (x > 16 && x < 80) given[i] = StrandScene::kNear;
+  }
+  const PlaneField field = StrandScene::Render(5);
+  const Repaired repaired = RepairField(field, given, ConfigOf(field, kLow, kHigh));
+  int lost = 0, strands = 0, opened = 0;
+  for (size_t i = 0; i < given.size(); ++i) {
+    strands += exact[i] > 0;
+    lost += exact[i] > 0 && repaired.disparity[i] < 0;
+    opened += exact[i] < 0 && given[i] > 0 && repaired.disparity[i] < 0;
+  }
+  CHECK(lost < strands / 20);
+  CHECK(opened > 100);
+}
+
 TEST_CASE("repair: pictures of one colour gainsay nothing") {
   const PlaneScene scene;
   PlaneField field = RenderPlanes(scene);
