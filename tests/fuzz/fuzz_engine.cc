@@ -109,6 +109,7 @@ sf_params MakeParams(const sf_config& config, Input* input) {
 struct Pictures {
   std::vector<std::unique_ptr<uint8_t[]>> bytes;
   std::unique_ptr<float[]> disparity;
+  std::unique_ptr<uint8_t[]> coverage;  // or null
   sf_light_field field = {};
 };
 
@@ -138,6 +139,20 @@ void MakeDisparity(const sf_config& config, Input* input, Pictures* pictures) {
   pictures->field.disparity_stride = stride * sizeof(float);
 }
 
+void MakeCoverage(const sf_config& config, Input* input, Pictures* pictures) {
+  if (input->Int(0, 2) != 0) return;
+  const auto width = static_cast<size_t>(config.width);
+  const size_t stride = width + static_cast<size_t>(input->Int(0, 3));
+  const size_t count = Needed(stride, config.height, width);
+  pictures->coverage.reset(new uint8_t[count]);
+  uint8_t levels[32];
+  input->Bytes(levels, sizeof(levels));
+  const auto length = static_cast<size_t>(input->Int(1, 40));
+  for (size_t i = 0; i < count; ++i) pictures->coverage[i] = levels[i / length % 32];
+  pictures->field.coverage = pictures->coverage.get();
+  pictures->field.coverage_stride = stride;
+}
+
 Pictures MakePictures(const sf_config& config, Input* input) {
   Pictures pictures;
   const size_t row = 3 * static_cast<size_t>(config.width);
@@ -154,6 +169,7 @@ Pictures MakePictures(const sf_config& config, Input* input) {
     pictures.field.views[view] = {picture, stride};
   }
   MakeDisparity(config, input, &pictures);
+  MakeCoverage(config, input, &pictures);
   return pictures;
 }
 
@@ -163,6 +179,7 @@ sf_light_field Rows(const sf_light_field& field, int views, int row) {
     from.views[view].data += static_cast<size_t>(row) * from.views[view].stride;
   }
   from.disparity += static_cast<size_t>(row) * (from.disparity_stride / sizeof(float));
+  if (from.coverage != nullptr) from.coverage += static_cast<size_t>(row) * from.coverage_stride;
   return from;
 }
 

@@ -55,5 +55,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       if (level < 0 || level > 1) std::abort();
     }
   }
+  copy.assign(data, data + size);
+  starfocus::Samples samples;
+  if (starfocus::DecodeCoverage("coverage", &copy, &samples).empty()) {
+    for (const float sample : samples.map.values) {
+      if (!(sample >= 0 && sample <= static_cast<float>(samples.largest))) std::abort();
+    }
+  }
   return 0;
 }

@@ -51,6 +51,21 @@ class Bytes(unittest.TestCase):
                          transfer=starfocus.Transfer.NONE)
         np.testing.assert_array_equal(five.refocus(VIEWS, DISPARITY, focus=1), expected)
 
+    def test_coverage_gives_the_program_s_bytes(self):
+        coverage = np.tile(np.arange(WIDTH, dtype=np.uint8), (HEIGHT, 1))
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "coverage.pgm"
+            path.write_bytes(b"P5 %d %d 255\n" % (WIDTH, HEIGHT) + coverage.tobytes())
+            expected = by_program("--focus", "1", "--coverage", str(path))
+        engine = refocuser()
+        made = engine.refocus(VIEWS, DISPARITY, focus=1, coverage=coverage)
+        np.testing.assert_array_equal(made, expected)
+        made = engine.prepare(VIEWS, DISPARITY, coverage=coverage).refocus(focus=1)
+        np.testing.assert_array_equal(made, expected)
+        self.assertTrue((made != engine.refocus(VIEWS, DISPARITY, focus=1)).any())
+        with self.assertRaises(ValueError):
+            engine.refocus(VIEWS, DISPARITY, focus=1, coverage=coverage[1:])
+
     def test_a_pair_and_an_l_give_the_program_s_bytes(self):
         for positions in ([(0, 0), (1, 0)], [(0, 0), (0, -1), (-1, 0)]):
             views, disparity = starfocus.read_light_field(FOLDER, positions)

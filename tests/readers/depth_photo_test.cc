@@ -388,6 +388,21 @@ TEST_CASE("photos: profiles of grey, or with parts missing, are left out with a 
   CHECK(photo.notes[0].find("profile") != std::string::npos);
 }
 
+TEST_CASE("coverage: the alpha channel of a picture of 16 bits, or the levels of one without") {
+  const std::string file = Seed("files/rgba16.png"), grey = Seed("files/gray.png");
+  Bytes bytes(file.begin(), file.end());
+  Samples samples, levels;
+  REQUIRE(DecodeCoverage("rgba16.png", &bytes, &samples) == "");
+  CHECK(samples.largest == 65535);
+  CHECK(samples.map.values[0] == 0x0607);
+  CHECK(samples.map.values[1] == 0x0e0f);
+  bytes.assign(grey.begin(), grey.end());
+  REQUIRE(DecodeCoverage("gray.png", &bytes, &samples) == "");
+  bytes.assign(grey.begin(), grey.end());
+  REQUIRE(DecodeSamples("gray.png", false, &bytes, &levels) == "");
+  CHECK(samples.map.values == levels.map.values);
+}
+
 TEST_CASE("HEIF: the brands of still pictures and of sequences, anywhere in their list") {
   std::string file = Seed("heif/plain.avif");
   for (const std::string brand : {"avif", "avis", "miaf", "mif1"}) {

@@ -4,7 +4,7 @@
 
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {readFileSync} from 'node:fs';
+import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test, {after, before} from 'node:test';
 import {createRefocuser, Mode, Shape, StarfocusError} from 'starfocus';
@@ -64,6 +64,18 @@ test('regions, blocks and previews', async () => {
   }
   const preview = await refocuser.preview({focus: 2, shift: 2});
   assert.deepEqual([preview.width, preview.height], [Math.ceil(width / 4), Math.ceil(height / 4)]);
+});
+
+test('coverage gives the bytes of the program', async () => {
+  const coverage = Uint8Array.from({length: width * height}, (_, i) => i % 251);
+  const path = join(folder, 'coverage.pgm');
+  writeFileSync(path, Buffer.concat([Buffer.from(`P5 ${width} ${height} 255\n`), coverage]));
+  await refocuser.prepare(views, field.disparity.data, {coverage});
+  const picture = await refocuser.refocus({focus: 1});
+  assertSameBytes(dropAlpha(picture.data), refocusByProgram('--focus', '1', '--coverage', path));
+  await assert.rejects(refocuser.prepare(views, field.disparity.data, {coverage: coverage.subarray(1)}),
+                       /coverage: expected/);
+  await refocuser.prepare(views, field.disparity.data);
 });
 
 test('views of R, G, B, A and maps of bytes give the same', async () => {
