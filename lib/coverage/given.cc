@@ -12,40 +12,65 @@ namespace {
 // Pixels of the far and the near surface are looked for within so many pixels of a pixel: the
 // outlines of maps of networks are off by as many.
 constexpr int32_t kGivenReach = 32;
-using GivenPatch = Patch<kGivenReach>;
 
-// The ends of the range of disparities around a tile, an eighth of it each, are the surfaces;
-// between them are ramps of the map.
-constexpr int32_t kEnds = 8;
+// A pixel is on a ramp of the map if of the pixels within kRampReach of it some are nearer, and
+// others farther, by so much.
+constexpr int32_t kRampReach = 2;
+constexpr int32_t kLeastRamp = 1 << kDisparityBits, kMostRamp = 8 << kDisparityBits;
+using GivenPatch = Patch<kGivenReach + kRampReach>;
 
 // A pixel is a mixture if its coverage differs by more from what the map says; kAlphaBits.
 constexpr int32_t kLeastMixed = kWhole / 16;
 
-// Disparities from low to high.
-struct Range {
-  int32_t low, high;
+// Which pixels of a patch are on ramps; of those within kRampReach of its rim nobody knows.
+struct Ramps {
+  static constexpr int32_t kSide = GivenPatch::kSide;
+  bool at[kSide * kSide] = {};
 
-  bool Has(int32_t disparity) const { return disparity >= low && disparity <= high; }
-};
-
-// Finds the disparity of the nearest pixel, of those equally near the first by rows, in a range.
-// Returns false if there is none within kGivenReach.
-bool FindNearest(const GivenPatch& patch, int32_t at, const Range& range, int32_t* disparity) {
-  *disparity = patch.disparity[at];
-  if (range.Has(*disparity)) return true;
-  int32_t nearest = INT32_MAX;
-  for (int32_t r = 1; r <= kGivenReach && r * r < nearest; ++r) {
-    for (int32_t y = -r; y <= r; ++y) {
-      const int32_t step = Abs(y) == r ? 1 : 2 * r;
-      for (int32_t x = -r; x <= r; x += step) {
-        const int32_t there = patch.disparity[at + y * GivenPatch::kSide + x];
-        if (!range.Has(there) || x * x + y * y >= nearest) continue;
-        nearest = x * x + y * y;
-        *disparity = there;
+  explicit Ramps(const GivenPatch& patch) {
+    for (int32_t y = kRampReach; y < kSide - kRampReach; ++y) {
+      for (int32_t x = kRampReach; x < kSide - kRampReach; ++x) {
+        at[y * kSide + x] = IsRamp(patch, y * kSide + x);
       }
     }
   }
-  return nearest != INT32_MAX;
+
+ private:
+  static bool IsRamp(const GivenPatch& patch, int32_t at) {
+    const int32_t here = patch.disparity[at];
+    bool up = false, down = false;
+    for (int32_t y = -kRampReach; y <= kRampReach; ++y) {
+      for (int32_t x = -kRampReach; x <= kRampReach; ++x) {
+        const int32_t step = patch.disparity[at + y * kSide + x] - here;
+        up = up || (step > kLeastRamp && step <= kMostRamp);
+        down = down || (step < -kLeastRamp && step >= -kMostRamp);
+      }
+    }
+    return up && down;
+  }
+};
+
+// The nearest pixel of a surface, of those equally near the first by rows.
+struct Found {
+  int32_t disparity, distance;  // squared; INT32_MAX: there is none
+};
+
+// Finds it within kGivenReach, with a disparity from low to high.
+Found FindNearest(const GivenPatch& patch, const Ramps& ramps, int32_t at, int32_t low,
+                  int32_t high) {
+  Found found = {0, INT32_MAX};
+  for (int32_t r = 1; r <= kGivenReach && r * r < found.distance; ++r) {
+    for (int32_t y = -r; y <= r; ++y) {
+      const int32_t step = Abs(y) == r ? 1 : 2 * r;
+      for (int32_t x = -r; x <= r; x += step) {
+        const int32_t there = at + y * GivenPatch::kSide + x, disparity = patch.disparity[there];
+        if (ramps.at[there] || disparity < low || disparity > high) continue;
+        if (x * x + y * y >= found.distance) continue;
+        found = {disparity, x * x + y * y};
+      }
+    }
+  }
+  return found;
 }
 
 class GivenStarter {
@@ -56,15 +81,8 @@ class GivenStarter {
         left_(column * kTileSide),
         top_(row * kTileSide),
         patch_(window_, column, row),
-        tile_(map_.Tile(column, row)) {
-    Range all = {INT16_MAX, INT16_MIN};
-    for (const int16_t disparity : patch_.disparity) {
-      all = {Min(all.low, disparity), Max(all.high, disparity)};
-    }
-    const int32_t end = (all.high - all.low) / kEnds;
-    far_ = {all.low, all.low + end};
-    near_ = {all.high - end, all.high};
-  }
+        ramps_(patch_),
+        tile_(map_.Tile(column, row)) {}
 
   void Start() {
     tile_.near_bins = 0;
@@ -85,24 +103,39 @@ class GivenStarter {
   }
 
  private:
+  // Finds the two surfaces of a pixel: its own one and the nearest other, or those at both ends of
+  // a ramp. Returns false if there is one only.
+  bool FindSurfaces(int32_t at, int32_t* low, int32_t* high) const {
+    const int32_t here = patch_.disparity[at];
+    const bool ramp = ramps_.at[at];
+    const int32_t least = ramp ? 1 : kThinStep + 1;
+    const Found nearer = FindNearest(patch_, ramps_, at, here + least, INT16_MAX);
+    const Found farther = FindNearest(patch_, ramps_, at, INT16_MIN, here - least);
+    const bool is_near = !ramp && farther.distance <= nearer.distance;
+    if (farther.distance == INT32_MAX && (ramp || is_near)) return false;
+    if (nearer.distance == INT32_MAX && (ramp || !is_near)) return false;
+    *high = is_near ? here : nearer.disparity;
+    *low = !ramp && !is_near ? here : farther.disparity;
+    return *high - *low > kThinStep;
+  }
+
   void StartPixel(int32_t x, int32_t y) {
     const size_t to = map_.At(x, y);
     const int32_t at = GivenPatch::At(x - left_, y - top_);
     const int16_t here = patch_.disparity[at];
     FarCell& far = map_.FarAt(x, y);
     int32_t low, high;
-    if (near_.high - far_.low <= kThinStep || !FindNearest(patch_, at, far_, &low) ||
-        !FindNearest(patch_, at, near_, &high)) {
+    if (FindSurfaces(at, &low, &high)) {
+      map_.near[to] = SmoothNear(patch_, at, high);
+      far.disparity = static_cast<int16_t>(low);
+      map_.alpha[to] = 2 * here >= low + high ? uint8_t{kWhole} : uint8_t{0};
+      TakePixel(x, y);
+    } else {
       map_.near[to] = here;
       far.disparity = here;
       map_.alpha[to] = kUnparted;
       map_.first[to] = kWhole;
       far.weight = kKnown;
-    } else {
-      map_.near[to] = SmoothNear(patch_, at, high);
-      far.disparity = static_cast<int16_t>(low);
-      map_.alpha[to] = 2 * here >= low + high ? uint8_t{kWhole} : uint8_t{0};
-      TakePixel(x, y);
     }
     tile_.near_bins |= map_.BinOf(map_.near[to]);
   }
@@ -124,8 +157,8 @@ class GivenStarter {
   const CoverageMap& map_;
   const int32_t left_, top_;
   const GivenPatch patch_;
+  const Ramps ramps_;
   CoverageTile& tile_;
-  Range far_, near_;
 };
 
 }  // namespace
