@@ -50,7 +50,7 @@ std::string TakeGrey(const std::string& where, const Sample* pixel, int channels
     }
   }
   if (coloured * kColouredPart < count) return "";
-  return Expected(where, "a depth picture in grey levels",
+  return Expected(where, "a picture in grey levels",
                   "one in colours: false colours do not say what is nearer");
 }
 

@@ -10,6 +10,7 @@
 #include "platform/image_io.h"
 #include "platform/levels.h"
 #include "platform/progress.h"
+#include "platform/writers/png.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -60,6 +61,17 @@ struct LoadJob {
     self->progress.Step();
   }
 };
+
+std::string SaveCoverage(const std::string& folder, const LightField& light_field) {
+  GreyImage image;
+  image.width = light_field.views[0].width;
+  image.height = light_field.views[0].height;
+  image.levels.assign(light_field.coverage.begin(), light_field.coverage.end());
+  const std::string path = Join(folder, kCoverageName);
+  Bytes png;
+  const std::string error = EncodeGreyPng(path, image, &png);
+  return error.empty() ? WriteFile(path, png) : error;
+}
 
 }  // namespace
 
@@ -205,6 +217,10 @@ std::string SaveLightField(const std::string& folder, const LightField& light_fi
   const int status = ThreadRunner::Run(runner, SaveJob::Run, &save, views);
   if (status != 0) return Expected(folder, "a thread runner", "none");
   for (const std::string& error : save.errors) {
+    if (!error.empty()) return error;
+  }
+  if (!light_field.coverage.empty()) {
+    const std::string error = SaveCoverage(folder, light_field);
     if (!error.empty()) return error;
   }
   if (light_field.disparity.values.empty()) return "";

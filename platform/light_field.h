@@ -68,8 +68,8 @@ std::string LoadCoverage(const std::string& path, LightField* light_field);
 std::string LoadLightField(const std::string& folder, const Positions& wanted,
                            LightField* light_field, ThreadRunner* runner = nullptr);
 
-// Makes the folder if needed and writes PNG views, several at a time on `runner`, and the disparity
-// map if there is one.
+// Makes the folder if needed and writes PNG views, several at a time on `runner`, and the coverage
+// and the disparity map if there are any.
 std::string SaveLightField(const std::string& folder, const LightField& light_field,
                            ThreadRunner* runner);
 

@@ -132,6 +132,12 @@ TEST_CASE("light_field: coverage is grey levels or alpha, of the size of the cen
   REQUIRE(LoadLightField(folder.path(), {}, &back) == "");
   CHECK((back.coverage == std::vector<uint8_t>{0, 1, 127, 128, 254, 255}));
   CHECK(IsLightFieldFile("coverage.png"));
+  TempFolder other;
+  REQUIRE(Save(other, back) == "");
+  CHECK(LightFieldFiles(other.path()).size() == 3);
+  back.coverage.clear();
+  REQUIRE(LoadLightField(other.path(), {}, &back) == "");
+  CHECK((back.coverage == std::vector<uint8_t>{0, 1, 127, 128, 254, 255}));
   grey.width = 2;
   grey.height = 3;
   REQUIRE(EncodeGreyPng("coverage.png", grey, &png) == "");

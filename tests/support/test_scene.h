@@ -296,6 +296,17 @@ struct Output {
   std::vector<uint8_t> bytes;
 };
 
+// Whether `part` has the bytes of the picture `whole` in that region.
+inline bool IsPartOf(const Output& part, const Output& whole, const sf_region& region) {
+  for (int y = 0; y < region.height; ++y) {
+    if (!std::equal(part.Pixel(0, y), part.Pixel(0, y) + 3 * region.width,
+                    whole.Pixel(region.x, region.y + y))) {
+      return false;
+    }
+  }
+  return true;
+}
+
 // AnyEngine has get(), as Engine.
 template <class AnyEngine>
 sf_status Refocus(AnyEngine* engine, const sf_params& params, const Scene& scene, Output* out,

@@ -58,7 +58,8 @@ Error CheckOutputs(const RefocusOptions& options, const LensPlan& plan) {
   }
   if (!error.empty()) return error;
   return CheckApart(outputs, {{options.input.path},
-                              {options.input.path, options.input.depth, options.lens.timing}});
+                              {options.input.path, options.input.depth, options.input.coverage,
+                               options.lens.timing}});
 }
 
 // D0:D1:N.
@@ -225,6 +226,7 @@ Error RunInputs(const RefocusOptions& options) {
   for (const auto& [name, value] :
        {std::pair<const char*, const std::string&>{"--map", options.map},
         {"--report", options.report},
+        {"--coverage", options.input.coverage},
         {"--sweep", options.sweep}}) {
     if (!value.empty()) return Error::Usage(name, "one input and a file for --output", "several");
   }
