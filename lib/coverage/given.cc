@@ -13,10 +13,11 @@ namespace {
 // outlines of maps of networks are off by as many.
 constexpr int32_t kGivenReach = 32;
 
-// A pixel is on a ramp of the map if of the pixels within kRampReach of it some are nearer, and
-// others farther, by so much.
-constexpr int32_t kRampReach = 2;
-constexpr int32_t kLeastRamp = 1 << kDisparityBits, kMostRamp = 8 << kDisparityBits;
+// A pixel is on a ramp of the map if its disparity lies between those of two opposite neighbours,
+// and neither step is small, or more than kRampRatio times the other.
+constexpr int32_t kRampReach = 1;
+constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
+constexpr int32_t kRampRatio = 4;
 using GivenPatch = Patch<kGivenReach + kRampReach>;
 
 // A pixel is a mixture if its coverage differs by more from what the map says; kAlphaBits.
@@ -37,28 +38,29 @@ struct Ramps {
 
  private:
   static bool IsRamp(const GivenPatch& patch, int32_t at) {
-    const int32_t here = patch.disparity[at];
-    bool up = false, down = false;
-    for (int32_t y = -kRampReach; y <= kRampReach; ++y) {
-      for (int32_t x = -kRampReach; x <= kRampReach; ++x) {
-        const int32_t step = patch.disparity[at + y * kSide + x] - here;
-        up = up || (step > kLeastRamp && step <= kMostRamp);
-        down = down || (step < -kLeastRamp && step >= -kMostRamp);
-      }
+    constexpr int32_t kOpposite[] = {1, kSide - 1, kSide, kSide + 1};
+    for (const int32_t step : kOpposite) {
+      const int32_t here = patch.disparity[at];
+      int32_t before = here - patch.disparity[at - step];
+      int32_t after = patch.disparity[at + step] - here;
+      if (before < 0) before = -before, after = -after;
+      if (Min(before, after) >= kLeastRamp && Max(before, after) <= kRampRatio * Min(before, after))
+        return true;
     }
-    return up && down;
+    return false;
   }
 };
 
 // The nearest pixel of a surface, of those equally near the first by rows.
 struct Found {
-  int32_t disparity, distance;  // squared; INT32_MAX: there is none
+  int32_t disparity;  // that of the pixel itself if there is none
+  int32_t distance;   // squared; INT32_MAX: there is none
 };
 
 // Finds it within kGivenReach, with a disparity from low to high.
 Found FindNearest(const GivenPatch& patch, const Ramps& ramps, int32_t at, int32_t low,
                   int32_t high) {
-  Found found = {0, INT32_MAX};
+  Found found = {patch.disparity[at], INT32_MAX};
   for (int32_t r = 1; r <= kGivenReach && r * r < found.distance; ++r) {
     for (int32_t y = -r; y <= r; ++y) {
       const int32_t step = Abs(y) == r ? 1 : 2 * r;
@@ -103,20 +105,21 @@ class GivenStarter {
   }
 
  private:
-  // Finds the two surfaces of a pixel: its own one and the nearest other, or those at both ends of
-  // a ramp. Returns false if there is one only.
+  // Finds the two surfaces of a pixel, those at both ends of a ramp or its own one and the nearest
+  // other. Returns false if there is one only.
   bool FindSurfaces(int32_t at, int32_t* low, int32_t* high) const {
     const int32_t here = patch_.disparity[at];
-    const bool ramp = ramps_.at[at];
-    const int32_t least = ramp ? 1 : kThinStep + 1;
-    const Found nearer = FindNearest(patch_, ramps_, at, here + least, INT16_MAX);
-    const Found farther = FindNearest(patch_, ramps_, at, INT16_MIN, here - least);
-    const bool is_near = !ramp && farther.distance <= nearer.distance;
-    if (farther.distance == INT32_MAX && (ramp || is_near)) return false;
-    if (nearer.distance == INT32_MAX && (ramp || !is_near)) return false;
+    if (ramps_.at[at]) {
+      *high = FindNearest(patch_, ramps_, at, here + 1, INT16_MAX).disparity;
+      *low = FindNearest(patch_, ramps_, at, INT16_MIN, here - 1).disparity;
+      if (*high - *low > kThinStep) return true;
+    }
+    const Found nearer = FindNearest(patch_, ramps_, at, here + kThinStep + 1, INT16_MAX);
+    const Found farther = FindNearest(patch_, ramps_, at, INT16_MIN, here - kThinStep - 1);
+    const bool is_near = farther.distance <= nearer.distance;
     *high = is_near ? here : nearer.disparity;
-    *low = !ramp && !is_near ? here : farther.disparity;
-    return *high - *low > kThinStep;
+    *low = is_near ? farther.disparity : here;
+    return Min(nearer.distance, farther.distance) != INT32_MAX;
   }
 
   void StartPixel(int32_t x, int32_t y) {
@@ -177,8 +180,9 @@ void TakeGiven(const CoverageInput& in, int32_t column, int32_t row) {
       const int32_t x = column * kTileSide + k;
       const size_t to = map.At(x, row * kTileSide + y);
       const FarCell& cell = far.cells[y * kTileSide + k];
-      if (map.alpha[to] == kUnparted || cell.weight == 0) continue;
-      map.alpha[to] = map.first[to];
+      if (map.alpha[to] == kUnparted) continue;
+      // Where no far light is near, there is none to part a pixel with.
+      map.alpha[to] = cell.weight == 0 ? kUnparted : map.first[to];
       std::memcpy(map.FarAt(x, row * kTileSide + y).rgb, cell.rgb, sizeof(cell.rgb));
     }
   }

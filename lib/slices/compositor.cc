@@ -170,6 +170,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   field.rgb = scratch->field_rgb;
   field.disparity = scratch->field_disparity;
   LoadField(*job.window, job.rect, job.border, &field);
+  TakeThinDisparities(*job.window, &field);
   FindLayeredDepth(*job.kernels, *job.window, field, &scratch->surfaces);
   FindMatte(*job.kernels, *job.window, *job.grid, field, &scratch->surfaces);
   const Rect& inner = field.inner;

@@ -17,18 +17,6 @@ class ThinParter {
   ThinParter(const Window& window, const Field& field, LayeredDepth* surfaces)
       : map_(*window.coverage), field_(field), surfaces_(*surfaces) {}
 
-  void PartTile(int32_t column, int32_t row) {
-    const Rect& picture = {0, 0, map_.width, map_.height};
-    const int32_t left = Max(Max(column * kTileSide, field_.x), picture.x);
-    const int32_t top = Max(Max(row * kTileSide, field_.y), picture.y);
-    const int32_t right = Min(Min((column + 1) * kTileSide, field_.x + field_.width), map_.width);
-    const int32_t bottom = Min(Min((row + 1) * kTileSide, field_.y + field_.height), map_.height);
-    for (int32_t y = top; y < bottom; ++y) {
-      for (int32_t x = left; x < right; ++x) PartPixel(x, y);
-    }
-  }
-
- private:
   void PartPixel(int32_t x, int32_t y) {
     const size_t from = map_.At(x, y), at = surfaces_.At(x - field_.x, y - field_.y);
     const int32_t alpha = map_.alpha[from];
@@ -58,6 +46,7 @@ class ThinParter {
     }
   }
 
+ private:
   // What is left of a mixture without the far surface's part.
   static int16_t NearLight(int32_t mixed, int32_t far, int32_t alpha) {
     const int32_t near = (mixed * kWhole - (kWhole - alpha) * far + alpha / 2) / alpha;
@@ -83,19 +72,39 @@ class ThinParter {
   LayeredDepth& surfaces_;
 };
 
+// Calls act(x, y) for each pixel of the picture in thin tiles of the field.
+template <class Act>
+void ForThin(const CoverageMap& map, const Field& field, const Act& act) {
+  const int32_t left = Max(0, field.x), right = Min(field.x + field.width, map.width);
+  const int32_t top = Max(0, field.y), bottom = Min(field.y + field.height, map.height);
+  for (int32_t y = top; y < bottom; ++y) {
+    for (int32_t x = left, end; x < right; x = end) {
+      end = Min(right, (x / kTileSide + 1) * kTileSide);
+      if (map.Tile(x / kTileSide, y / kTileSide).thin == 0) continue;
+      for (int32_t k = x; k < end; ++k) act(k, y);
+    }
+  }
+}
+
 }  // namespace
+
+void TakeThinDisparities(const Window& window, Field* field) {
+  if (window.coverage == nullptr || window.layer > 0) return;
+  const CoverageMap& map = *window.coverage;
+  ForThin(map, *field, [&](int32_t x, int32_t y) {
+    const size_t from = map.At(x, y);
+    const int32_t alpha = map.alpha[from];
+    if (alpha == kUnparted) return;
+    const bool is_near = 2 * alpha >= kWhole;
+    *field->Disparity(x - field->x, y - field->y) =
+        is_near ? map.near[from] : map.FarAt(x, y).disparity;
+  });
+}
 
 void PartThin(const Window& window, const Field& field, LayeredDepth* surfaces) {
   if (window.coverage == nullptr || window.layer > 0) return;
-  const CoverageMap& map = *window.coverage;
   ThinParter parter(window, field, surfaces);
-  const int32_t last_row = Min(field.y + field.height - 1, map.height - 1) / kTileSide;
-  const int32_t last_column = Min(field.x + field.width - 1, map.width - 1) / kTileSide;
-  for (int32_t row = Max(0, field.y) / kTileSide; row <= last_row; ++row) {
-    for (int32_t column = Max(0, field.x) / kTileSide; column <= last_column; ++column) {
-      if (map.Tile(column, row).thin != 0) parter.PartTile(column, row);
-    }
-  }
+  ForThin(*window.coverage, field, [&](int32_t x, int32_t y) { parter.PartPixel(x, y); });
 }
 
 }  // namespace starfocus

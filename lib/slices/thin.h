@@ -9,6 +9,10 @@
 
 namespace starfocus {
 
+// Gives pixels of thin tiles the disparity of the surface that covers most of them, so that hidden
+// surfaces end there. Call it before FindLayeredDepth.
+void TakeThinDisparities(const Window& window, Field* field);
+
 // Gives pixels of thin tiles the two surfaces that the coverage map has found there, in place of
 // those that FindLayeredDepth and FindMatte left. Call it before FillHidden.
 void PartThin(const Window& window, const Field& field, LayeredDepth* surfaces);
