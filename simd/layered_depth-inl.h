@@ -43,10 +43,14 @@ inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTR
   const auto one = hn::Set(d16, int16_t{1});
   for (size_t n = 0; n < SliceSamples(count); n += lanes) {
     const auto here = hn::LoadU(d16, near + n), next = hn::LoadU(d16, far + n);
-    const auto edge = hn::Gt(hn::SaturatedSub(here, next), step);
     const auto far_away = hn::SaturatedAdd(hn::LoadU(d16, moved + n), unit);
+    const auto before = hn::LoadU(d16, behind + n);
+    const auto change = hn::SaturatedSub(here, next), so_far = hn::SaturatedSub(here, before);
+    const auto ends = hn::Or(hn::Gt(far_away, hn::Min(so_far, farthest)),
+                             hn::Gt(change, hn::ShiftRight<kSmallStepBits>(so_far)));
+    const auto edge = hn::And(hn::Gt(change, step), ends);
     const auto moves = hn::IfThenZeroElse(edge, far_away);
-    const auto surface = hn::IfThenElse(edge, next, hn::LoadU(d16, behind + n));
+    const auto surface = hn::IfThenElse(edge, next, before);
     hn::StoreU(moves, d16, moved + n);
     hn::StoreU(surface, d16, behind + n);
     const auto depth = hn::SaturatedSub(here, surface);

@@ -37,6 +37,10 @@ constexpr int16_t FarthestEdge(int unit_bits) {
   return static_cast<int16_t>(units < INT16_MAX ? units : INT16_MAX - 1);
 }
 
+// A step of up to 2^-kSmallStepBits of the depth of an edge that a pixel hides is none: maps of
+// networks are uneven, and behind all of a surface lies what its outline hides.
+inline constexpr int kSmallStepBits = 3;
+
 // Steps of disparity within a surface that may part it: slices of both sides move apart.
 struct CopyLimits {
   int16_t least, most;  // > 0

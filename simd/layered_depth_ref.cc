@@ -89,12 +89,13 @@ void Split(const int16_t* rgb, size_t count, size_t plane, int16_t* out) {
 void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits, size_t count,
                int16_t* moved, int16_t* behind, uint8_t* distance) {
   for (size_t n = 0; n < SliceSamples(count); ++n) {
-    if (Saturated(near[n] - far[n]) > limits.step) {
-      moved[n] = 0;
-      behind[n] = far[n];
-    } else {
-      moved[n] = Saturated(moved[n] + (1 << limits.unit_bits));
-    }
+    const int16_t farther = Saturated(moved[n] + (1 << limits.unit_bits));
+    const int16_t change = Saturated(near[n] - far[n]), so_far = Saturated(near[n] - behind[n]);
+    const bool goes_on = farther <= so_far && farther <= FarthestEdge(limits.unit_bits) &&
+                         change <= so_far >> kSmallStepBits;
+    const bool edge = change > limits.step && !goes_on;
+    moved[n] = edge ? int16_t{0} : farther;
+    if (edge) behind[n] = far[n];
     const int16_t depth = Saturated(near[n] - behind[n]);
     const bool hides =
         depth > limits.step && moved[n] <= depth && moved[n] <= FarthestEdge(limits.unit_bits);

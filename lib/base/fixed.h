@@ -151,6 +151,17 @@ inline int32_t LowestBit(uint32_t bits) {
 #endif
 }
 
+// The same of the highest bit.
+inline int32_t HighestBit(uint32_t bits) {
+#if defined(__GNUC__)
+  return 31 - __builtin_clz(bits);
+#else
+  int32_t index = 31;
+  while ((bits >> index & 1) == 0) --index;
+  return index;
+#endif
+}
+
 // Calls visit(index) for every bit set, from the lowest on.
 template <class Visit>
 void ForEachBit(uint32_t bits, const Visit& visit) {

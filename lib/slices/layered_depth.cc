@@ -182,13 +182,16 @@ class SurfaceFinder {
     const int32_t steps = surfaces_.width - 1;
     kernels_.FindSteps(row, static_cast<size_t>(steps), static_cast<int16_t>(step_),
                        surfaces_.steps);
-    for (int32_t from = 0; from < steps; from += kChunk) {
-      const simd::StepBits& bits = surfaces_.steps[from / kChunk];
-      ForEachBit(bits.falls, [&](int32_t k) {
-        const int32_t x = from + k;
+    const int32_t chunks = (steps + kChunk - 1) / kChunk;
+    for (int32_t from = (chunks - 1) * kChunk; from >= 0; from -= kChunk) {
+      uint32_t falls = surfaces_.steps[from / kChunk].falls;
+      for (; falls != 0; falls &= ~(uint32_t{1} << HighestBit(falls))) {
+        const int32_t x = from + HighestBit(falls);
         FollowEdge(row + x, -1, x + 1, Edges(0, y) + x);
-      });
-      ForEachBit(bits.rises, [&](int32_t k) {
+      }
+    }
+    for (int32_t from = 0; from < steps; from += kChunk) {
+      ForEachBit(surfaces_.steps[from / kChunk].rises, [&](int32_t k) {
         const int32_t x = from + k + 1;
         FollowEdge(row + x, 1, steps + 1 - x, Edges(1, y) + x);
       });
@@ -196,15 +199,22 @@ class SurfaceFinder {
   }
 
   // Writes the distances of the edge's near pixel, at `near`, and of up to `count` in all that
-  // follow, away from the edge, as far as the next one.
+  // follow, away from the edge, as far as the next one. An edge that another one goes on behind
+  // is none (kSmallStepBits); the others come first.
   void FollowEdge(const int16_t* near, int direction, int32_t count, uint8_t* distance) const {
+    if (*distance != 0) return;
     const int32_t far = near[-direction];
     const int32_t farthest =
         Min(simd::FarthestEdge(kDisparityBits + window_.layer), surfaces_.high - far);
     for (int32_t k = 1, moved = 0; k <= count && moved <= farthest; ++k, moved += unit_) {
       const int32_t depth = *near - far;
       if (depth > step_ && moved <= depth) *distance = static_cast<uint8_t>(k);
-      if (k < count && near[direction] - *near > step_) return;
+      if (k == count) return;
+      const int32_t change = near[direction] - *near,
+                    so_far = Min(near[direction] - far, INT16_MAX);
+      const bool goes_on =
+          moved + unit_ <= Min(so_far, farthest) && change <= so_far >> simd::kSmallStepBits;
+      if (change > step_ && !goes_on) return;
       near += direction;
       distance += direction;
     }

@@ -58,7 +58,7 @@ class SurfaceFinder {
     std::vector<Surface> surfaces = {{Disparity(x, y), extended_.colours[extended_.At(x, y)]}};
     for (const Direction& side : kDirections) {
       if (!extended_.Inside(x + side.x, y + side.y)) continue;
-      surfaces[0].ends |= IsEdge(surfaces[0].disparity, Disparity(x + side.x, y + side.y));
+      surfaces[0].ends |= NextEdge(x, y, side) == 1;
     }
     AddHidden(x, y, &surfaces);
     AddCopy(x, y, &surfaces);
@@ -194,15 +194,23 @@ class SurfaceFinder {
   }
 
   // The distance of the far side of the nearest depth edge in that direction, if the pixel hides
-  // it; else 0.
+  // it; else 0. Seen from that edge on, a step of up to an eighth of how far the pixel beyond it
+  // lies before the far side is none, as long as that pixel hides the far side.
   int NextEdge(int x, int y, const Direction& towards) const {
-    for (int k = 1;; ++k) {
-      const int far_x = x + k * towards.x, far_y = y + k * towards.y;
-      if (!extended_.Inside(far_x, far_y)) return 0;
-      const int far = Disparity(far_x, far_y);
-      if (!IsEdge(Disparity(far_x - towards.x, far_y - towards.y), far)) continue;
-      return Hides(Disparity(x, y), far, k) ? k : 0;
+    int k = 0;
+    while (extended_.Inside(x + (k + 1) * towards.x, y + (k + 1) * towards.y)) ++k;
+    int far = 0, distance = 0;  // of the last edge on the way to the pixel; 0: there is none yet
+    for (; k > 0; --k) {
+      const int beyond = Disparity(x + k * towards.x, y + k * towards.y);
+      const int here = Disparity(x + (k - 1) * towards.x, y + (k - 1) * towards.y);
+      if (distance > 0) ++distance;
+      const bool goes_on = distance > 0 && Hides(here, far, distance) &&
+                           8 * (here - beyond) <= std::min(here - far, INT16_MAX);
+      if (!IsEdge(here, beyond) || goes_on) continue;
+      far = beyond;
+      distance = 1;
     }
+    return distance > 0 && Hides(Disparity(x, y), far, distance) ? distance : 0;
   }
 
   // Behind a pixel lies what its edge in that direction hides, and what the far side of that edge

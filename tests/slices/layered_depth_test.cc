@@ -202,17 +202,27 @@ TEST_CASE("surfaces: smaller and larger steps of up to three quarters of a pixel
   CHECK(steep.hiding[20] != 0);
 }
 
-// Pixels from (x, y) to the far side of the next edge, 0 where that is not behind it.
+// Pixels from (x, y) to the far side of the next edge, 0 where that is not behind it. Steps of up
+// to an eighth of what is hidden by then are no edges.
 int Distance(const Scene& scene, int x, int y, int dx, int dy) {
   const auto at = [&](int t) {
     return int(scene.disparity[size_t((y + dy * t) * kSize + x + dx * t)]);
   };
-  for (int t = 1; x + dx * t >= 0 && x + dx * t < kSize && y + dy * t >= 0 && y + dy * t < kSize;
-       ++t) {
-    if (at(t - 1) - at(t) <= 48) continue;
-    return at(0) - at(t) > 48 && (t - 1) * 64 <= at(0) - at(t) ? t : 0;
+  const auto hides = [&](int t, int edge) {
+    return at(t) - at(edge) > 48 && (edge - t - 1) * 64 <= at(t) - at(edge);
+  };
+  int last = 0;
+  while (x + dx * (last + 1) >= 0 && x + dx * (last + 1) < kSize && y + dy * (last + 1) >= 0 &&
+         y + dy * (last + 1) < kSize) {
+    ++last;
   }
-  return 0;
+  int edge = 0;
+  for (int t = last - 1; t >= 0; --t) {
+    const int step = at(t) - at(t + 1);
+    const bool goes_on = edge != 0 && hides(t, edge) && 8 * step <= at(t) - at(edge);
+    if (step > 48 && !goes_on) edge = t + 1;
+  }
+  return edge != 0 && hides(0, edge) ? edge : 0;
 }
 
 TEST_CASE("surfaces: the edges of random maps, by looking for each") {
