@@ -19,12 +19,6 @@ constexpr int32_t kLeastNoise = 6;
 // Neighbours of one colour count this much when noise is averaged.
 constexpr int32_t kMostWeight = 64;
 
-// Rounds halves away from zero.
-int16_t ToFixed(float disparity) {
-  const float scaled = disparity * kPixel;
-  return static_cast<int16_t>(scaled < 0 ? scaled - 0.5F : scaled + 0.5F);
-}
-
 // Fills unknown pixels of a row. Returns whether it has any known one.
 bool FillRow(int32_t width, int16_t* row) {
   int32_t last = -1;

@@ -27,6 +27,12 @@ inline int32_t ColourDifference(const uint8_t* a, const uint8_t* b) {
   return Abs(red + green + blue) / 4 + Abs(red - green) + Abs(green - blue) + Abs(blue - red);
 }
 
+// Rounds halves away from zero.
+inline int16_t ToFixed(float disparity) {
+  const float scaled = disparity * (1 << kDisparityBits);
+  return static_cast<int16_t>(scaled < 0 ? scaled - 0.5F : scaled + 0.5F);
+}
+
 // A map that jobs read: the picture, what was given, and rows of `width` 16-bit disparities.
 struct ColourMap {
   const EstimatePlan& plan;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/depth/colour_repair.h"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 
 #include "lib/base/carver.h"
 #include "lib/base/fixed.h"
+#include "lib/depth/majority.h"
+#include "lib/depth/soft_edges.h"
 
 namespace starfocus {
 namespace {
@@ -27,7 +30,7 @@ struct ColourJob {
   const ColourMap& map;
   const MapOutput& output;
   const Smoothing& smoothing;
-  int16_t* smooth;
+  int16_t* to;  // what the phase writes
   int16_t* chosen;
   ColourMemory* memory;
 };
@@ -36,7 +39,7 @@ const ColourJob& JobOf(const void* data) { return *static_cast<const ColourJob*>
 
 void SmoothMap(const void* data, int32_t index, int32_t) {
   const ColourJob& job = JobOf(data);
-  SmoothTile(job.map, job.smoothing, TileOf(job.map.plan, index), job.smooth);
+  SmoothTile(job.map, job.smoothing, TileOf(job.map.plan, index), job.to);
 }
 
 void DoubtTile(const void* data, int32_t index, int32_t worker) {
@@ -154,11 +157,20 @@ void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
   const bool changes = !known || (differs && !keeps && IsGainsaid(job, x, y));
   const bool noisy = job.map.disparity != job.memory->maps[0];
   const float kept = noisy ? static_cast<float>(job.map.disparity[at]) / kPixel : given;
-  job.output.disparity[row * job.output.stride + column] =
-      changes ? job.output.Clamped(MeanOfSurface(job, x, y)) : kept;
+  const float written = changes ? job.output.Clamped(MeanOfSurface(job, x, y)) : kept;
+  job.output.disparity[row * job.output.stride + column] = written;
+  job.to[at] = ToFixed(written);
   if (job.output.confidence == nullptr) return;
   job.output.confidence[row * job.output.confidence_stride + column] =
       differs && !changes ? uint8_t{0} : job.memory->certainty[at];
+}
+
+// Writes the disparity of a pixel if it is another one than in the job's map.
+void Change(const ColourJob& job, int32_t x, int32_t y, int16_t disparity) {
+  if (disparity == job.map.disparity[job.map.At(x, y)]) return;
+  const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
+  job.output.disparity[row * job.output.stride + column] =
+      job.output.Clamped(static_cast<float>(disparity) / kPixel);
 }
 
 void WriteTile(const void* data, int32_t index, int32_t) {
@@ -168,6 +180,52 @@ void WriteTile(const void* data, int32_t index, int32_t) {
     const bool keeps = memory.thin.thin[number] != 0;
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
       for (int32_t x = cell.x; x < cell.x + cell.width; ++x) WritePixel(job, keeps, x, y);
+    }
+  });
+}
+
+// Calls act(row) for each row of each cell of a tile, but not in thin structure.
+template <class Act>
+void ForSolidRows(const ColourJob& job, int32_t index, const Act& act) {
+  ForCells(GridOf(job.map.plan), index, [&](const Rect& cell, int32_t number) {
+    if (job.memory->thin.thin[number] != 0) return;
+    for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+      act(Rect{cell.x, y, cell.width, 1});
+    }
+  });
+}
+
+void CountSoftEdges(const void* data, int32_t index, int32_t) {
+  const ColourJob& job = JobOf(data);
+  job.memory->soft[index] = CountSoft(job.map, TileOf(job.map.plan, index));
+}
+
+// Widens nearer surfaces by what the edges of the picture are soft.
+void WidenTile(const void* data, int32_t index, int32_t) {
+  const ColourJob& job = JobOf(data);
+  const EstimatePlan& plan = job.map.plan;
+  const Rect tile = TileOf(plan, index);
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const size_t at = job.map.At(tile.x, y);
+    std::copy_n(job.map.disparity + at, tile.width, job.to + at);
+  }
+  const int32_t softness = SoftnessOf(job.memory->soft, plan.columns * plan.rows);
+  if (softness == 0) return;
+  ForSolidRows(job, index, [&](const Rect& row) {
+    for (int32_t x = row.x; x < row.x + row.width; ++x) {
+      const int16_t widened = WidenedAt(job.map, softness, x, row.y);
+      Change(job, x, row.y, widened);
+      job.to[job.map.At(x, row.y)] = widened;
+    }
+  });
+}
+
+void EvenTile(const void* data, int32_t index, int32_t) {
+  const ColourJob& job = JobOf(data);
+  ForSolidRows(job, index, [&](const Rect& row) {
+    if (IsOneSurface(job.map, row)) return;
+    for (int32_t x = row.x; x < row.x + row.width; ++x) {
+      Change(job, x, row.y, MajorityAt(job.map, x, row.y));
     }
   });
 }
@@ -203,6 +261,7 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
   auto* doubt = carver.Take<uint8_t>(width, height);
   auto* certainty = carver.Take<uint8_t>(width, height);
   auto* counts = carver.Take<TileCount>(tiles);
+  auto* soft = carver.Take<SoftCount>(tiles);
   const ThinCells thin = TakeThinCells(GridOf(plan), &carver);
   auto* workers = carver.Take<ColourTileMemory>(static_cast<size_t>(max_workers));
   if (base != nullptr) {
@@ -214,6 +273,7 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
     made.doubt = doubt;
     made.certainty = certainty;
     made.counts = counts;
+    made.soft = soft;
     made.thin = thin;
     made.workers = workers;
   }
@@ -231,6 +291,8 @@ sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_f
   const int32_t noise = MeasureNoise(plan, maps[0]);
   const ColourMap given = {plan, light_field, maps[0]}, half = {plan, light_field, maps[1]};
   const ColourMap map = {plan, light_field, maps[noise > 0 ? 2 : 0]};
+  int16_t* const written = maps[noise > 0 ? 0 : 2];
+  const ColourMap repaired = {plan, light_field, written}, wide = {plan, light_field, maps[1]};
   // Within three standard deviations first; what that leaves is a third as noisy.
   const Smoothing first = {3, 1, 3 * noise}, second = {4, 2, 3 * noise / 2};
   const struct {
@@ -241,7 +303,10 @@ sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_f
       {SmoothMap, {half, output, second, maps[2], nullptr, memory}},
       {DoubtTile, {map, output, second, nullptr, nullptr, memory}},
       {ChooseTile, {map, output, second, nullptr, maps[1], memory}},
-      {WriteTile, {map, output, second, nullptr, maps[1], memory}},
+      {WriteTile, {map, output, second, written, maps[1], memory}},
+      {CountSoftEdges, {repaired, output, second, nullptr, nullptr, memory}},
+      {WidenTile, {repaired, output, second, maps[1], nullptr, memory}},
+      {EvenTile, {wide, output, second, nullptr, nullptr, memory}},
   };
   int32_t done = 0;
   for (const auto& phase : phases) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Repairs the disparity map of a single view by its colours: what the paper's section VII-A asks a
 // bilateral weighted median for. Near steps and on ramps of the map the surfaces around compete for
-// each pixel, by hue, saturation and brightness; noise is averaged within surfaces.
+// each pixel, by hue, saturation and brightness; noise is averaged within surfaces. Then nearer
+// surfaces are widened where edges of the picture are soft, and outlines are evened.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 
@@ -12,6 +13,7 @@
 #include "lib/depth/colour_choices.h"
 #include "lib/depth/estimate.h"
 #include "lib/depth/evidence.h"
+#include "lib/depth/soft_edges.h"
 #include "lib/depth/thin_cells.h"
 
 namespace starfocus {
@@ -31,6 +33,7 @@ struct ColourMemory {
   uint8_t* doubt;    // of MeasureDoubt
   uint8_t* certainty;  // how much more another surface costs than the chosen one, on each path
   TileCount* counts;   // of each tile
+  SoftCount* soft;     // of each tile of the repaired map
   int32_t least_gain;  // that changes need
   ThinCells thin;      // of the map
   ColourTileMemory* workers;
@@ -43,7 +46,7 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 
 // Repairs light_field.disparity, of which one pixel at least is finite, into `output`, by the
 // centre view alone. Pixels that no colour gainsays keep their disparity to the bit unless the map
-// is noisy; unknown ones (NaN, infinite) get one. Confidence is 255 where nothing is in doubt, and
+// is noisy, or most pixels of its colour around are of another surface; unknown ones (NaN, infinite) get one. Confidence is 255 where nothing is in doubt, and
 // 0 where colours gainsay the map too weakly. SF_OK, or SF_ERROR_RUNNER.
 sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
                          const Runner& runner, const MapOutput& output, ColourMemory* memory);

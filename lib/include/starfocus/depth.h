@@ -66,7 +66,8 @@ SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
  *  of a smaller map, or which is noisy, into `disparity`: as sf_estimate_disparity, but a disparity
  *  is the less likely, the further away the given map has it. Pixels that the views do not gainsay
  *  keep their value to the bit (with one view, that colours do not gainsay, unless the map is
- *  noisy); NaN and infinite values are unknown, and get one. Every finite
+ *  noisy; there outlines become as smooth as those of the picture, and wider where these are soft);
+ *  NaN and infinite values are unknown, and get one. Every finite
  * value of the given map lies in the configured range (else SF_ERROR_DISPARITY), which may be
  * wider; SF_ERROR_ALL_INVALID when none is finite. `confidence` is 0 also where the views
  * contradict the value that was kept, but too weakly; where nothing contradicts it, and no step of

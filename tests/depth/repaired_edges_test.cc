@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Outlines of repaired maps: as wide as those of the picture are soft, and no more ragged.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <vector>
+
+#include "lib/depth/majority.h"
+#include "lib/depth/soft_edges.h"
+
+namespace repaired_edges_test {
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64;
+constexpr int16_t kNear = 12 << starfocus::kDisparityBits, kFar = 0;
+
+// A dark near half before a bright far one, by an edge at column `edge` of each row.
+struct Scene {
+  std::vector<uint8_t> rgb = std::vector<uint8_t>(3 * kWidth * kHeight);
+  std::vector<int16_t> map = std::vector<int16_t>(kWidth * kHeight);
+  starfocus::EstimatePlan plan = {};
+  sf_light_field field = {};
+
+  Scene() {
+    plan.width = kWidth;
+    plan.height = kHeight;
+    field.views[0] = {rgb.data(), 3 * kWidth};
+  }
+  starfocus::ColourMap Map() const { return {plan, field, map.data()}; }
+  // Fills both; the picture's edge is a ramp of so many pixels that begins at its column.
+  template <class Column>
+  void Fill(double ramp, const Column& edge_of_map, int edge_of_picture) {
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const double far = std::clamp((x + 0.5 - edge_of_picture) / ramp, 0.0, 1.0);
+        const size_t at = size_t(y) * kWidth + size_t(x);
+        for (size_t c = 0; c < 3; ++c) rgb[3 * at + c] = uint8_t(std::lround(40 + 160 * far));
+        map[at] = x < edge_of_map(y) ? kNear : kFar;
+      }
+    }
+  }
+};
+
+int Softness(const Scene& scene) {
+  const starfocus::SoftCount counts[] = {
+      starfocus::CountSoft(scene.Map(), {0, 0, kWidth / 2, kHeight}),
+      starfocus::CountSoft(scene.Map(), {kWidth / 2, 0, kWidth / 2, kHeight})};
+  CHECK(counts[0].edges + counts[1].edges > kHeight / 2);
+  return starfocus::SoftnessOf(counts, 2);
+}
+
+TEST_CASE("repaired edges: a picture is soft by the pixels that its edges take") {
+  Scene scene;
+  const auto straight = [](int) { return 48; };
+  scene.Fill(1, straight, 48);
+  CHECK(Softness(scene) == 0);
+  scene.Fill(2, straight, 48);
+  CHECK(Softness(scene) == 2);
+  scene.Fill(4, straight, 48);
+  CHECK(Softness(scene) == starfocus::kMostSoft);
+  // Nothing can be said of a map without edges, or of a picture without contrast.
+  const starfocus::SoftCount none = {};
+  CHECK(starfocus::SoftnessOf(&none, 1) == 0);
+  std::fill(scene.rgb.begin(), scene.rgb.end(), uint8_t{90});
+  CHECK(starfocus::CountSoft(scene.Map(), {0, 0, kWidth, kHeight}).edges == 0);
+}
+
+TEST_CASE("repaired edges: what shows some of the nearer surface becomes near") {
+  Scene scene;
+  scene.Fill(
+      3, [](int) { return 48; }, 48);
+  const auto widened = [&](int x, int y) {
+    return starfocus::WidenedAt(scene.Map(), starfocus::kMostSoft, x, y);
+  };
+  for (const int y : {8, 31, 50}) {
+    CHECK(widened(47, y) == kNear);
+    CHECK(widened(48, y) == kNear);  // 5/6 of it
+    CHECK(widened(49, y) == kNear);  // half of it
+    CHECK(widened(50, y) == kNear);  // 1/6 of it
+    CHECK(widened(51, y) == kFar);
+  }
+  CHECK(starfocus::WidenedAt(scene.Map(), 1, 49, 31) == kFar);
+  scene.Fill(
+      1, [](int) { return 48; }, 48);
+  CHECK(widened(49, 31) == kFar);
+}
+
+TEST_CASE("repaired edges: rows that are moved go back to the picture's edge") {
+  Scene scene;
+  scene.Fill(
+      1, [](int y) { return 48 + (y * 7 + y / 3) % 5 - 2; }, 48);
+  int moved = 0, left = 0;
+  for (int y = 5; y < kHeight - 5; ++y) {
+    for (int x = 8; x < kWidth - 8; ++x) {
+      const int16_t right = x < 48 ? kNear : kFar;
+      moved += scene.map[size_t(y) * kWidth + size_t(x)] != right;
+      left += starfocus::MajorityAt(scene.Map(), x, y) != right;
+    }
+  }
+  CHECK(moved > 50);
+  CHECK(left == 0);
+  CHECK(starfocus::IsOneSurface(scene.Map(), {8, 8, 16, 16}));
+  CHECK_FALSE(starfocus::IsOneSurface(scene.Map(), {44, 8, 1, 1}));
+}
+
+}  // namespace
+}  // namespace repaired_edges_test
