@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "simd/depth_kernels.cc"
 #include "hwy/foreach_target.h"  // must precede highway.h
 #include "hwy/highway.h"
+#include "simd/colours-inl.h"
 #include "simd/label_costs-inl.h"
 #include "simd/paths-inl.h"
 #include "simd/planes-inl.h"

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 
+#include "simd/colours.h"
 #include "simd/label_costs.h"
 #include "simd/paths.h"
 #include "simd/planes.h"
@@ -20,7 +21,8 @@
   KERNEL(FindJumps)                     \
   KERNEL(ChooseLabels)                  \
   KERNEL(SpreadPrior)                   \
-  KERNEL(AddPrior)
+  KERNEL(AddPrior)                      \
+  KERNEL(CompareColours)
 
 namespace starfocus::simd {
 

@@ -163,16 +163,17 @@ sf_status Watched(const sf_depth_config& config, Watch* watch, const Make& make)
 sf_status MakeMap(const DepthCall& call, bool repairs, const MapOutput& output,
                   const Runner& runner) {
   const EstimatePlan plan = PlanOf(*call.config, repairs);
+  const simd::DepthKernels& kernels = simd::BestDepthKernels();
   if (call.config->views == 1) {
     ColourMemory* memory = nullptr;
     LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
-    return Watched(*call.config, &memory->jobs.watch,
-                   [&] { return RepairByColour(plan, *call.light_field, runner, output, memory); });
+    return Watched(*call.config, &memory->jobs.watch, [&] {
+      return RepairByColour(plan, *call.light_field, kernels, runner, output, memory);
+    });
   }
   EstimateMemory* memory = nullptr;
   LayOutEstimate(plan, call.config->max_workers, call.workspace, &memory);
   const EstimateZones zones(plan, call.config->max_workers, call.workspace);
-  const simd::DepthKernels& kernels = simd::BestDepthKernels();
   return Watched(*call.config, &memory->jobs.watch, [&] {
     return repairs ? Repair(plan, *call.light_field, kernels, runner, output, memory)
                    : Estimate(plan, *call.light_field, kernels, runner, output, memory);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/depth/colour_choices.h"
 
+#include <cstring>
 #include <initializer_list>
 
 #include "lib/base/fixed.h"
@@ -9,34 +10,17 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// Pixels around a doubtful one that are compared with it: up to this far, every second one.
-constexpr int32_t kReach = 16, kStride = 2;
-constexpr int32_t kMostDifference = 100;
-// Disparities that are compared, one group a pixel wide.
-constexpr int32_t kGroups = 1024, kGroupOfZero = kGroups / 2;
-// What a pixel's disparity costs, by its doubt: 0 is a ramp, and tells others nothing; 1 to 3 lie
-// as near to a step as steps are displaced.
-constexpr int16_t kNoDisparity = INT16_MAX;
-constexpr int16_t kDoubtCosts[kDoubtReach + 2] = {80, 45, 45, 45, 22, 11, 0};
 // A step to another surface costs this between pixels of one colour, half of it where colours
 // differ by the second number.
 constexpr int32_t kJump = 120, kColourEdge = 12;
 
-// Of each group that occurs what costs least, and its disparity.
-struct Groups {
-  int32_t first, last;
-  int16_t cost[kGroups], disparity[kGroups];
-
-  static int32_t Of(int32_t disparity) { return (disparity >> kDisparityBits) + kGroupOfZero; }
-  void Offer(int32_t d, int32_t price) {
-    const int32_t group = Of(d);
-    if (price > cost[group] || (price == cost[group] && d <= disparity[group])) return;
-    cost[group] = static_cast<int16_t>(price);
-    disparity[group] = static_cast<int16_t>(d);
-  }
-  int32_t CostAt(int32_t group) const {
-    return group < first || group > last ? kNoDisparity : cost[group];
-  }
+// What choices are made of.
+struct ChoiceJob {
+  const ColourMap& map;
+  const uint8_t* doubt;
+  const Rect& region;
+  const simd::DepthKernels& kernels;
+  const ChoiceMemory& memory;
 };
 
 // Puts a choice where it belongs by cost; of those that cost as much the nearest comes first.
@@ -53,13 +37,23 @@ void Insert(int32_t disparity, int32_t cost, Choices* choices) {
   choices->count += full ? 0 : 1;
 }
 
-// Takes the groups that cost less than their neighbours do, from the nearest to the farthest.
-void TakeBest(const Groups& groups, Choices* choices) {
+// Takes the groups that cost less than their neighbours do, from the nearest to the farthest, for
+// pixel `lane` of the block.
+void TakeBest(const ColourCell& cell, size_t lane, Choices* choices) {
   choices->count = 0;
-  for (int32_t group = groups.last; group >= groups.first; --group) {
-    const int32_t cost = groups.cost[group];
-    if (cost == kNoDisparity || cost > groups.CostAt(group + 1)) continue;
-    if (cost < groups.CostAt(group - 1)) Insert(groups.disparity[group], cost, choices);
+  const uint16_t* keys = cell.least + lane;
+  const auto cost_at = [keys](int32_t place) {
+    return keys[static_cast<size_t>(place) * simd::kSliceLanes] >> simd::kColourKeyBits;
+  };
+  int32_t nearer = cost_at(0), cost = cost_at(1);
+  for (int32_t place = 1; place + 1 < cell.places; ++place) {
+    const int32_t farther = cost_at(place + 1);
+    if (cost <= nearer && cost < farther) {
+      const int32_t key = keys[static_cast<size_t>(place) * simd::kSliceLanes];
+      Insert(cell.highest[place] - (key & (kPixel - 1)), cost, choices);
+    }
+    nearer = cost;
+    cost = farther;
   }
 }
 
@@ -73,31 +67,60 @@ void KeepOwn(int32_t own, int32_t cost, Choices* choices) {
   choices->cost[at] = static_cast<int16_t>(cost);
 }
 
-void CollectChoices(const ColourMap& map, const uint8_t* doubt, int32_t x, int32_t y,
-                    Groups* groups, Choices* choices) {
-  for (int32_t k = groups->first; k <= groups->last; ++k) {
-    groups->cost[k] = kNoDisparity;
-    groups->disparity[k] = INT16_MIN;
+// Fills the choices of doubtful pixels of a block: every second one, from (x, y) in the cell on.
+void ChooseInBlock(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y) {
+  size_t lanes[simd::kSliceLanes], count = 0;
+  const auto column = [&](size_t n) {
+    return x + 2 * static_cast<int32_t>(n % simd::kColourBlock);
+  };
+  const auto row = [&](size_t n) { return y + 2 * static_cast<int32_t>(n / simd::kColourBlock); };
+  const auto at = [&](size_t n) { return job.map.At(area.x + column(n), area.y + row(n)); };
+  for (size_t n = 0; n < simd::kSliceLanes; ++n) {
+    if (column(n) >= area.width || row(n) >= area.height) continue;
+    if (job.doubt[at(n)] <= kDoubtReach) lanes[count++] = n;
   }
-  const uint8_t* colour = map.Pixel(x, y);
-  const int32_t left = x - Min(x, kReach) / kStride * kStride;
-  const int32_t top = y - Min(y, kReach) / kStride * kStride;
-  const int32_t right = Min(map.plan.width - 1, x + kReach);
-  const int32_t bottom = Min(map.plan.height - 1, y + kReach);
-  for (int32_t row = top; row <= bottom; row += kStride) {
-    const uint8_t* colours = map.Pixel(0, row);
-    const uint8_t* doubts = doubt + map.At(0, row);
-    const int16_t* disparities = map.disparity + map.At(0, row);
-    for (int32_t column = left; column <= right; column += kStride) {
-      if (doubts[column] == 0) continue;
-      const int32_t difference =
-          Min(kMostDifference, ColourDifference(colour, colours + 3 * column));
-      groups->Offer(disparities[column], difference + kDoubtCosts[doubts[column]]);
+  if (count == 0) return;
+  ColourCell* cell = job.memory.cell;
+  std::memset(cell->least, 0xFF,
+              static_cast<size_t>(cell->places) * simd::kSliceLanes * sizeof *cell->least);
+  job.kernels.CompareColours(cell->Window(x, y), ColourCell::kHalf, cell->least);
+  for (size_t k = 0; k < count; ++k) {
+    const size_t n = lanes[k], own = at(n);
+    Choices* choices = job.memory.choices + (area.y + row(n) - job.region.y) * job.region.width +
+                       area.x + column(n) - job.region.x;
+    TakeBest(*cell, n, choices);
+    KeepOwn(job.map.disparity[own], kDoubtCosts[job.doubt[own]], choices);
+    for (int32_t choice = 0; choice < choices->count; ++choice) choices->sum[choice] = 0;
+  }
+}
+
+// Gives pixels that aren't in doubt their own disparity. Returns whether any is.
+bool ChooseOwn(const ChoiceJob& job, const Rect& area) {
+  bool doubtful = false;
+  for (int32_t y = area.y; y < area.y + area.height; ++y) {
+    Choices* row = job.memory.choices + (y - job.region.y) * job.region.width - job.region.x;
+    for (int32_t x = area.x; x < area.x + area.width; ++x) {
+      const size_t at = job.map.At(x, y);
+      if (job.doubt[at] <= kDoubtReach) {
+        doubtful = true;
+        continue;
+      }
+      row[x].count = 1;
+      row[x].disparity[0] = job.map.disparity[at];
+      row[x].cost[0] = row[x].sum[0] = 0;
     }
   }
-  TakeBest(*groups, choices);
-  const size_t own = map.At(x, y);
-  KeepOwn(map.disparity[own], kDoubtCosts[doubt[own]], choices);
+  return doubtful;
+}
+
+void ChooseInCell(const ChoiceJob& job, const Rect& area) {
+  if (!ChooseOwn(job, area)) return;
+  FillCell(job.map, job.doubt, area, job.memory.cell);
+  for (int32_t y = 0; y < area.height; y += kCellBlock) {
+    for (int32_t x = 0; x < area.width; x += kCellBlock) {
+      for (int32_t odd = 0; odd < 4; ++odd) ChooseInBlock(job, area, x + odd % 2, y + odd / 2);
+    }
+  }
 }
 
 // Goes on along a path: from a pixel's choices, with the costs up to it, to those of the next one.
@@ -165,44 +188,27 @@ void AddPathsDown(const ColourMap& map, const Rect& region, int32_t direction, C
   }
 }
 
-// Finds which groups occur within reach of the region.
-void FindGroups(const ColourMap& map, const Rect& region, Groups* groups) {
-  const Rect around = Widened(map.plan, region, kReach);
-  int32_t low = INT16_MAX, high = INT16_MIN;
-  for (int32_t y = around.y; y < around.y + around.height; ++y) {
-    const int16_t* row = map.disparity + map.At(around.x, y);
-    for (int32_t x = 0; x < around.width; ++x) {
-      low = Min(low, row[x]);
-      high = Max(high, row[x]);
-    }
-  }
-  groups->first = Groups::Of(low);
-  groups->last = Groups::Of(high);
+// The side of as large cells as fill so many pixels: whole blocks.
+int32_t CellSide(int32_t length) {
+  const int32_t cells = (length + kColourCell - 1) / kColourCell;
+  return WholeBlocks((length + cells - 1) / cells);
 }
 
 }  // namespace
 
-void WeighChoices(const ColourMap& map, const uint8_t* doubt, const Rect& region, ChoicePath* paths,
-                  Choices* choices) {
-  Groups groups;
-  FindGroups(map, region, &groups);
-  Choices* next = choices;
-  for (int32_t y = region.y; y < region.y + region.height; ++y) {
-    for (int32_t x = region.x; x < region.x + region.width; ++x, ++next) {
-      const size_t at = map.At(x, y);
-      if (doubt[at] <= kDoubtReach) {
-        CollectChoices(map, doubt, x, y, &groups, next);
-      } else {
-        next->count = 1;
-        next->disparity[0] = map.disparity[at];
-        next->cost[0] = 0;
-      }
-      for (int32_t k = 0; k < next->count; ++k) next->sum[k] = 0;
+void WeighChoices(const ColourMap& map, const uint8_t* doubt, const Rect& region,
+                  const simd::DepthKernels& kernels, const ChoiceMemory& memory) {
+  const ChoiceJob job = {map, doubt, region, kernels, memory};
+  const int32_t across = CellSide(region.width), down = CellSide(region.height);
+  for (int32_t y = 0; y < region.height; y += down) {
+    for (int32_t x = 0; x < region.width; x += across) {
+      ChooseInCell(job, {region.x + x, region.y + y, Min(across, region.width - x),
+                         Min(down, region.height - y)});
     }
   }
   for (const int32_t direction : {1, -1}) {
-    AddPathsAcross(map, region, direction, choices);
-    AddPathsDown(map, region, direction, paths, choices);
+    AddPathsAcross(map, region, direction, memory.choices);
+    AddPathsDown(map, region, direction, memory.paths, memory.choices);
   }
 }
 

@@ -6,7 +6,9 @@
 
 #include <cstdint>
 
+#include "lib/depth/colour_cell.h"
 #include "lib/depth/colour_map.h"
+#include "simd/depth_kernels.h"
 
 namespace starfocus {
 
@@ -24,9 +26,16 @@ struct ChoicePath {
   int16_t cost[kMostChoices];
 };
 
-// Fills the choices of `region`, row after row, and their sums. `paths` has room for a row.
-void WeighChoices(const ColourMap& map, const uint8_t* doubt, const Rect& region, ChoicePath* paths,
-                  Choices* choices);
+// What a worker needs for a region.
+struct ChoiceMemory {
+  Choices* choices;
+  ChoicePath* paths;  // a row
+  ColourCell* cell;
+};
+
+// Fills the choices of `region`, row after row, and their sums.
+void WeighChoices(const ColourMap& map, const uint8_t* doubt, const Rect& region,
+                  const simd::DepthKernels& kernels, const ChoiceMemory& memory);
 
 }  // namespace starfocus
 

@@ -10,6 +10,7 @@
 #include "lib/base/fixed.h"
 #include "lib/depth/estimate_plan.h"
 #include "lib/depth/map_rows.h"
+#include "simd/colours.h"
 
 namespace starfocus {
 
@@ -20,11 +21,10 @@ inline constexpr int32_t kDisplacement = 3;
 inline constexpr int32_t kThinDoubt = kDisplacement + 1;
 inline constexpr int32_t kDoubtMargin = kDoubtReach + 1 + kDisplacement;
 
-// Returns the difference of two pixels' colours: hue and saturation count four times as much as
-// brightness does, which shading changes as well.
+// Returns the difference of two pixels' colours.
 inline int32_t ColourDifference(const uint8_t* a, const uint8_t* b) {
   const int32_t red = a[0] - b[0], green = a[1] - b[1], blue = a[2] - b[2];
-  return Abs(red + green + blue) / 4 + Abs(red - green) + Abs(green - blue) + Abs(blue - red);
+  return simd::ColourDifference(red + green + blue, red - green, green - blue);
 }
 
 // Rounds halves away from zero.

@@ -33,6 +33,7 @@ struct ColourJob {
   int16_t* to;  // what the phase writes
   int16_t* chosen;
   ColourMemory* memory;
+  const simd::DepthKernels& kernels;
 };
 
 const ColourJob& JobOf(const void* data) { return *static_cast<const ColourJob*>(data); }
@@ -100,9 +101,9 @@ void ChooseTile(const void* data, int32_t index, int32_t worker) {
   const Rect tile = TileOf(job.map.plan, index);
   if (tile.width == 0 || tile.height == 0) return;
   const Rect region = Widened(job.map.plan, tile, kTileMargin);
-  WeighChoices(job.map, job.memory->doubt, region, memory.paths, memory.choices);
+  WeighChoices(job.map, job.memory->doubt, region, job.kernels, memory.choices);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const Choices* row = memory.choices + (y - region.y) * region.width;
+    const Choices* row = memory.choices.choices + (y - region.y) * region.width;
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
       Choose(job, job.map.At(x, y), row[x - region.x]);
     }
@@ -240,8 +241,9 @@ ColourTileMemory TakeTile(const EstimatePlan& plan, Carver* carver) {
     area = pixels > area ? pixels : area;
   }
   ColourTileMemory memory;
-  memory.choices = carver->Take<Choices>(area);
-  memory.paths = carver->Take<ChoicePath>(width);
+  memory.choices.choices = carver->Take<Choices>(area);
+  memory.choices.paths = carver->Take<ChoicePath>(width);
+  memory.choices.cell = carver->Take<ColourCell>(1);
   memory.doubt = carver->Take<uint8_t>(area);
   return memory;
 }
@@ -285,7 +287,8 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 }
 
 sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
-                         const Runner& runner, const MapOutput& output, ColourMemory* memory) {
+                         const simd::DepthKernels& kernels, const Runner& runner,
+                         const MapOutput& output, ColourMemory* memory) {
   int16_t* const* maps = memory->maps;
   ReadMap(plan, light_field, maps[0]);
   const int32_t noise = MeasureNoise(plan, maps[0]);
@@ -299,14 +302,14 @@ sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_f
     JobFunction function;
     ColourJob job;
   } phases[] = {
-      {SmoothMap, {given, output, first, maps[1], nullptr, memory}},
-      {SmoothMap, {half, output, second, maps[2], nullptr, memory}},
-      {DoubtTile, {map, output, second, nullptr, nullptr, memory}},
-      {ChooseTile, {map, output, second, nullptr, maps[1], memory}},
-      {WriteTile, {map, output, second, written, maps[1], memory}},
-      {CountSoftEdges, {repaired, output, second, nullptr, nullptr, memory}},
-      {WidenTile, {repaired, output, second, maps[1], nullptr, memory}},
-      {EvenTile, {wide, output, second, nullptr, nullptr, memory}},
+      {SmoothMap, {given, output, first, maps[1], nullptr, memory, kernels}},
+      {SmoothMap, {half, output, second, maps[2], nullptr, memory, kernels}},
+      {DoubtTile, {map, output, second, nullptr, nullptr, memory, kernels}},
+      {ChooseTile, {map, output, second, nullptr, maps[1], memory, kernels}},
+      {WriteTile, {map, output, second, written, maps[1], memory, kernels}},
+      {CountSoftEdges, {repaired, output, second, nullptr, nullptr, memory, kernels}},
+      {WidenTile, {repaired, output, second, maps[1], nullptr, memory, kernels}},
+      {EvenTile, {wide, output, second, nullptr, nullptr, memory, kernels}},
   };
   int32_t done = 0;
   for (const auto& phase : phases) {

@@ -20,8 +20,7 @@ namespace starfocus {
 
 // What a worker needs for a tile.
 struct ColourTileMemory {
-  Choices* choices;
-  ChoicePath* paths;  // a row
+  ChoiceMemory choices;
   uint8_t* doubt;
 };
 
@@ -49,7 +48,8 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 // is noisy, or most pixels of its colour around are of another surface; unknown ones (NaN, infinite) get one. Confidence is 255 where nothing is in doubt, and
 // 0 where colours gainsay the map too weakly. SF_OK, or SF_ERROR_RUNNER.
 sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
-                         const Runner& runner, const MapOutput& output, ColourMemory* memory);
+                         const simd::DepthKernels& kernels, const Runner& runner,
+                         const MapOutput& output, ColourMemory* memory);
 
 }  // namespace starfocus
 

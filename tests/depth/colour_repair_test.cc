@@ -71,7 +71,8 @@ Repaired Repair(const Photo& photo, int workers = 1) {
   const starfocus::Runner runner = {workers > 1 ? RunBackwards : nullptr, nullptr};
   const starfocus::MapOutput output = {result.map.data(),        width, -500, 500,
                                        result.confidence.data(), width};
-  CHECK(RepairByColour(plan, field, runner, output, memory) == SF_OK);
+  CHECK(RepairByColour(plan, field, starfocus::simd::BestDepthKernels(), runner, output, memory) ==
+        SF_OK);
   ::operator delete(base, std::align_val_t(SF_ALIGNMENT));
   return result;
 }

@@ -131,6 +131,31 @@ TEST_CASE("depth kernels: costs of views on one side, and of all, by hand") {
   CHECK(int(cost[0]) == 72);
 }
 
+TEST_CASE("depth kernels: the best of each group around a pixel, by hand") {
+  using starfocus::simd::ColourSample;
+  using starfocus::simd::kColourWindow;
+  using starfocus::simd::kNoColourKey;
+  using starfocus::simd::kSliceLanes;
+  std::vector<ColourSample> samples(kColourWindow * kColourWindow, {90, 0, 0, kNoColourKey, 0});
+  const auto set = [&](int row, int column, const ColourSample& sample) {
+    samples[size_t(row * kColourWindow + column)] = sample;
+  };
+  // Of the first group within reach of the first pixel: one of a grey brighter by 31, and one that
+  // differs by more than counts. Beyond its reach: one of the same colour.
+  set(0, 16, {121, 0, 0, 5 * 64 + 3, 0});
+  set(16, 0, {90, 60, -30, 1 * 64, 0});
+  set(8, 17, {90, 0, 0, 2, 0});
+  // Of the second group, within reach of the last pixel alone: 3 + 10 + 4 + 14 away.
+  set(19, 19, {105, 10, 4, 63, kSliceLanes});
+  std::vector<uint16_t> least(2 * kSliceLanes, kNoColourKey);
+  ReferenceDepthKernels().CompareColours(samples.data(), kColourWindow, least.data());
+  CHECK(least[0] == (7 + 5) * 64 + 3);
+  CHECK(least[1] == 2);
+  CHECK(least[4] == (100 + 1) * 64);
+  CHECK(least[kSliceLanes] == kNoColourKey);
+  CHECK(least[2 * kSliceLanes - 1] == 31 * 64 + 63);
+}
+
 TEST_CASE("depth kernels: a path goes on from the one before, by hand") {
   constexpr size_t kLabels = 4, kPlaces = PathLabels(kLabels);
   uint8_t cost[kPlaces] = {1, 2, 3, 4};

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/depth/colour_cell.h"
+
+#include <cstring>
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kReach = 2 * simd::kColourReach;
+constexpr int32_t kLow = (1 << kDisparityBits) - 1;  // bits within a group
+static_assert(simd::kColourKeyBits == kDisparityBits, "keys hold a disparity within a group");
+constexpr simd::ColourSample kOutside = {0, 0, 0, simd::kNoColourKey, 0};
+
+int32_t GroupOf(int32_t disparity) { return (disparity >> kDisparityBits) + kGroups / 2; }
+
+// Gives places to the groups that occur.
+void PlaceGroups(const ColourMap& map, const uint8_t* doubt, const Rect& around, ColourCell* cell) {
+  std::memset(cell->place, 0, sizeof cell->place);
+  int32_t first = kGroups, last = 0;
+  for (int32_t y = around.y; y < around.y + around.height; ++y) {
+    const size_t row = map.At(around.x, y);
+    for (int32_t x = 0; x < around.width; ++x) {
+      if (doubt[row + static_cast<size_t>(x)] == 0) continue;
+      const int32_t group = GroupOf(map.disparity[row + static_cast<size_t>(x)]);
+      cell->place[group] = 1;
+      first = Min(first, group);
+      last = Max(last, group);
+    }
+  }
+  int32_t places = 1;
+  for (int32_t group = last; group >= first; --group) {
+    if (cell->place[group] == 0) {
+      places += group < last && cell->place[group + 1] != 0 ? 1 : 0;
+      continue;
+    }
+    cell->highest[places] = static_cast<int16_t>(((group - kGroups / 2) << kDisparityBits) + kLow);
+    cell->place[group] = static_cast<uint16_t>(places++ * static_cast<int32_t>(simd::kSliceLanes));
+  }
+  cell->places = places + 1;
+}
+
+simd::ColourSample SampleAt(const ColourMap& map, const uint8_t* doubt, int32_t x, int32_t y,
+                            const ColourCell& cell) {
+  simd::ColourSample sample = kOutside;
+  const uint8_t* colour = map.Pixel(x, y);
+  sample.sum = static_cast<int16_t>(colour[0] + colour[1] + colour[2]);
+  sample.red_green = static_cast<int16_t>(colour[0] - colour[1]);
+  sample.green_blue = static_cast<int16_t>(colour[1] - colour[2]);
+  const size_t at = map.At(x, y);
+  if (doubt[at] == 0) return sample;
+  const int32_t disparity = map.disparity[at];
+  sample.key =
+      static_cast<uint16_t>((kDoubtCosts[doubt[at]] << kDisparityBits) + kLow - (disparity & kLow));
+  sample.place = cell.place[GroupOf(disparity)];
+  return sample;
+}
+
+}  // namespace
+
+void FillCell(const ColourMap& map, const uint8_t* doubt, const Rect& area, ColourCell* cell) {
+  PlaceGroups(map, doubt, Widened(map.plan, area, kReach), cell);
+  const int32_t width = WholeBlocks(area.width) + 2 * kReach;
+  const int32_t height = WholeBlocks(area.height) + 2 * kReach;
+  for (int32_t k = 0; k < height; ++k) {
+    const int32_t row = area.y - kReach + k;
+    const size_t half_row = static_cast<size_t>(k / 2 * ColourCell::kHalf);
+    simd::ColourSample* const of_row[] = {cell->samples[k & 1][0] + half_row,
+                                          cell->samples[k & 1][1] + half_row};
+    for (int32_t n = 0; n < width; ++n) {
+      const int32_t column = area.x - kReach + n;
+      const bool inside =
+          row >= 0 && row < map.plan.height && column >= 0 && column < map.plan.width;
+      of_row[n & 1][n / 2] = inside ? SampleAt(map, doubt, column, row, *cell) : kOutside;
+    }
+  }
+}
+
+}  // namespace starfocus

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simd/colours.h"
+#include "tests/simd/depth_cases.h"
+
+namespace test::depth_cases {
+namespace {
+
+using starfocus::simd::ColourSample;
+using starfocus::simd::DepthKernels;
+using starfocus::simd::kColourKeyBits;
+using starfocus::simd::kColourWindow;
+using starfocus::simd::kNoColourKey;
+using starfocus::simd::kSliceLanes;
+
+constexpr int kMostCost = 80;  // of a pixel without its colour
+
+// Few colours are alike otherwise.
+int Primary(int range, Draw* draw) { return draw->Int(0, range) * 255 / range; }
+
+// One of `rarity` samples is compared.
+ColourSample AnySample(int groups, int colours, int rarity, Draw* draw) {
+  const int red = Primary(colours, draw), green = Primary(colours, draw);
+  const int blue = Primary(colours, draw);
+  ColourSample sample = {};
+  sample.sum = int16_t(red + green + blue);
+  sample.red_green = int16_t(red - green);
+  sample.green_blue = int16_t(green - blue);
+  const bool none = draw->Int(1, rarity) > 1;
+  sample.key = none ? kNoColourKey : uint16_t(draw->Int(0, (kMostCost << kColourKeyBits) + 63));
+  sample.place = uint16_t(kSliceLanes * size_t(draw->Int(0, groups - 1)));
+  return sample;
+}
+
+}  // namespace
+
+void CompareColours(Draw* draw, DepthCall* call) {
+  const size_t groups = draw->Size(1, 9, 6), stride = kColourWindow + draw->Size(0, 9, 28);
+  const int colours = draw->Int(1, 255), rarity = draw->timed() ? 1 : draw->Int(0, 1) * 99 + 1;
+  std::vector<ColourSample> samples(kColourWindow * stride);
+  for (ColourSample& sample : samples) sample = AnySample(int(groups), colours, rarity, draw);
+  const ColourSample* window = call->Input("window", samples);
+  uint16_t* least = call->Output<uint16_t>("least", groups * kSliceLanes);
+  call->Result(least, groups * kSliceLanes);
+  std::fill_n(least, groups * kSliceLanes, kNoColourKey);
+  call->run = [=](const DepthKernels& kernels) -> uint64_t {
+    kernels.CompareColours(window, stride, least);
+    return 0;
+  };
+  // No key is less than that of a pixel of the group, which has the pixel's colour.
+  call->is_right = [=](uint64_t, Met* met) {
+    std::vector<uint16_t> lowest(groups, kNoColourKey);
+    for (const ColourSample& sample : samples) {
+      uint16_t& of_group = lowest[sample.place / kSliceLanes];
+      of_group = std::min(of_group, sample.key);
+    }
+    for (size_t k = 0; k < groups * kSliceLanes; ++k) {
+      if (least[k] < lowest[k / kSliceLanes]) return false;
+      ++(*met)[least[k] == kNoColourKey ? "none" : "found"];
+    }
+    return true;
+  };
+}
+
+}  // namespace test::depth_cases
