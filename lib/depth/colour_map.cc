@@ -14,6 +14,8 @@ constexpr int32_t kFlat = kPixel / 2;
 // Of 25 pixels this many are as flat at a corner, and no more than 5 on a ramp.
 constexpr int32_t kLeastFlat = 8;
 constexpr int32_t kFlatRadius = 2;
+// Pixels of a cell, each way, that are as flat together as most are.
+constexpr int32_t kFlatCell = 4;
 // Noise that no one sees in a refocused picture.
 constexpr int32_t kLeastNoise = 6;
 // Neighbours of one colour count this much when noise is averaged.
@@ -70,6 +72,44 @@ uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   }
   if (25 * flat < kLeastFlat * around.width * around.height) return 0;
   return step ? 1 : kDoubtReach + 1;
+}
+
+// Whether all of a cell is given and as flat as what lies around it: no pixel of it is in doubt.
+bool IsFlat(const ColourMap& map, const Rect& cell) {
+  const Rect around = Widened(map.plan, cell, kFlatRadius);
+  int32_t low = INT16_MAX, high = INT16_MIN;
+  for (int32_t y = around.y; y < around.y + around.height; ++y) {
+    const int16_t* row = map.disparity + map.At(around.x, y);
+    for (int32_t x = 0; x < around.width; ++x) {
+      low = Min(low, row[x]);
+      high = Max(high, row[x]);
+    }
+    if (high - low > kFlat) return false;
+  }
+  for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+    const float* row = GivenAt(map.light_field, y) + cell.x;
+    for (int32_t x = 0; x < cell.width; ++x) {
+      if (!std::isfinite(row[x])) return false;
+    }
+  }
+  return true;
+}
+
+// Fills the doubt of a region's pixels by what each says alone.
+void FillAlone(const ColourMap& map, const Rect& region, uint8_t* doubt) {
+  for (int32_t top = 0; top < region.height; top += kFlatCell) {
+    for (int32_t left = 0; left < region.width; left += kFlatCell) {
+      const Rect cell = {region.x + left, region.y + top, Min(kFlatCell, region.width - left),
+                         Min(kFlatCell, region.height - top)};
+      const bool flat = IsFlat(map, cell);
+      for (int32_t y = 0; y < cell.height; ++y) {
+        uint8_t* row = doubt + (top + y) * region.width + left;
+        for (int32_t x = 0; x < cell.width; ++x) {
+          row[x] = flat ? uint8_t{kDoubtReach + 1} : DoubtAt(map, cell.x + x, cell.y + y);
+        }
+      }
+    }
+  }
 }
 
 // Carries doubts on to the pixels that come later in a scan of the region, or earlier.
@@ -177,10 +217,7 @@ void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& ti
 
 void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt) {
   const Rect region = Widened(map.plan, tile, kDoubtMargin);
-  uint8_t* at = scratch;
-  for (int32_t y = region.y; y < region.y + region.height; ++y) {
-    for (int32_t x = region.x; x < region.x + region.width; ++x) *at++ = DoubtAt(map, x, y);
-  }
+  FillAlone(map, region, scratch);
   CarryOn(region, 1, scratch);
   CarryOn(region, -1, scratch);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
