@@ -123,19 +123,22 @@ void ChooseInCell(const ChoiceJob& job, const Rect& area) {
   }
 }
 
+int32_t JumpBetween(const uint8_t* a, const uint8_t* b) {
+  return kJump * kColourEdge / (kColourEdge + ColourDifference(a, b));
+}
+
 // Goes on along a path: from a pixel's choices, with the costs up to it, to those of the next one.
 // `jump` is what another surface costs. Adds the costs to the sums.
-void Continue(const Choices& from, const ChoicePath& before, int32_t jump, Choices* to,
-              ChoicePath* path) {
-  int32_t least = before.cost[0];
-  for (int32_t k = 1; k < from.count; ++k) least = Min(least, before.cost[k]);
+void ContinueAmong(const Choices& from, int32_t jump, Choices* to, ChoicePath* path) {
+  int32_t least = path->cost[0];
+  for (int32_t k = 1; k < from.count; ++k) least = Min(least, path->cost[k]);
   ChoicePath next;
   for (int32_t k = 0; k < to->count; ++k) {
     int32_t cost = least + jump;
     for (int32_t other = 0; other < from.count; ++other) {
       const int32_t difference = Abs(to->disparity[k] - from.disparity[other]);
       if (difference > 3 * kPixel) continue;
-      cost = Min(cost, before.cost[other] + (difference > kPixel ? jump / 2 : 0));
+      cost = Min(cost, path->cost[other] + (difference > kPixel ? jump / 2 : 0));
     }
     next.cost[k] = static_cast<int16_t>(to->cost[k] + cost - least);
     to->sum[k] = static_cast<int16_t>(to->sum[k] + next.cost[k]);
@@ -143,15 +146,22 @@ void Continue(const Choices& from, const ChoicePath& before, int32_t jump, Choic
   *path = next;
 }
 
+// Goes on from a pixel of the first colour to one of the second. Most have no choice and are of one
+// surface, whatever their colours.
+inline void Continue(const Choices& from, const uint8_t* colour, const uint8_t* next, Choices* to,
+                     ChoicePath* path) {
+  if (from.count > 1 || to->count > 1 || Abs(to->disparity[0] - from.disparity[0]) > kPixel) {
+    return ContinueAmong(from, JumpBetween(colour, next), to, path);
+  }
+  path->cost[0] = to->cost[0];
+  to->sum[0] = static_cast<int16_t>(to->sum[0] + to->cost[0]);
+}
+
 void Begin(Choices* choices, ChoicePath* path) {
   for (int32_t k = 0; k < choices->count; ++k) {
     path->cost[k] = choices->cost[k];
     choices->sum[k] = static_cast<int16_t>(choices->sum[k] + choices->cost[k]);
   }
-}
-
-int32_t JumpBetween(const uint8_t* a, const uint8_t* b) {
-  return kJump * kColourEdge / (kColourEdge + ColourDifference(a, b));
 }
 
 // Adds the paths along rows, to the right (direction 1) or to the left (-1).
@@ -163,8 +173,7 @@ void AddPathsAcross(const ColourMap& map, const Rect& region, int32_t direction,
     Begin(row + x, &path);
     for (int32_t k = 1; k < region.width; ++k, x += direction) {
       const uint8_t* colour = map.Pixel(region.x + x, region.y + y);
-      Continue(row[x], path, JumpBetween(colour, colour + 3 * direction), row + x + direction,
-               &path);
+      Continue(row[x], colour, colour + 3 * direction, row + x + direction, &path);
     }
   }
 }
@@ -183,7 +192,7 @@ void AddPathsDown(const ColourMap& map, const Rect& region, int32_t direction, C
     const uint8_t* colour = map.Pixel(region.x, region.y + y);
     const uint8_t* next = map.Pixel(region.x, region.y + y + direction);
     for (size_t x = 0; x < width; ++x) {
-      Continue(from[x], paths[x], JumpBetween(colour + 3 * x, next + 3 * x), to + x, paths + x);
+      Continue(from[x], colour + 3 * x, next + 3 * x, to + x, paths + x);
     }
   }
 }

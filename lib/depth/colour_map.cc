@@ -114,21 +114,20 @@ void FillAlone(const ColourMap& map, const Rect& region, uint8_t* doubt) {
 
 // Carries doubts on to the pixels that come later in a scan of the region, or earlier.
 void CarryOn(const Rect& region, int32_t direction, uint8_t* doubt) {
-  const int32_t width = region.width, height = region.height, area = width * height;
-  for (int32_t k = 0; k < area; ++k) {
-    const int32_t at = direction > 0 ? k : area - 1 - k;
-    const int32_t x = at % width, y = at / width;
-    int32_t least = doubt[at];
-    const auto look = [&](int32_t dx, int32_t dy) {
-      const int32_t column = x - direction * dx, row = y - direction * dy;
-      if (column < 0 || column >= width || row < 0 || row >= height) return;
-      least = Min(least, doubt[row * width + column] + 1);
-    };
-    look(1, 0);
-    look(1, 1);
-    look(0, 1);
-    look(-1, 1);
-    doubt[at] = static_cast<uint8_t>(least);
+  const int32_t width = region.width, height = region.height;
+  for (int32_t k = 0; k < height; ++k) {
+    uint8_t* row = doubt + (direction > 0 ? k : height - 1 - k) * width;
+    const uint8_t* before = k > 0 ? row - direction * width : row;
+    for (int32_t x = 0; x < width && k > 0; ++x) {
+      const int32_t beside = Min(before[Max(x - 1, 0)], before[Min(x + 1, width - 1)]);
+      row[x] = static_cast<uint8_t>(Min(row[x], Min(before[x], beside) + 1));
+    }
+    int32_t last = UINT8_MAX;
+    for (int32_t n = 0; n < width; ++n) {
+      uint8_t* at = row + (direction > 0 ? n : width - 1 - n);
+      last = Min(*at, last + 1);
+      *at = static_cast<uint8_t>(last);
+    }
   }
 }
 

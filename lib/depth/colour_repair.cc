@@ -86,8 +86,9 @@ TileCount CountTile(const ColourJob& job, const Rect& tile) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
       const size_t at = job.map.At(x, y);
+      const int32_t doubt = job.memory->doubt[at];
       // Ramps are edges, too.
-      if (job.memory->doubt[at] != 0 && !IsBesideStep(job.map, tile, x, y)) continue;
+      if (doubt > kThinDoubt || (doubt != 0 && !IsBesideStep(job.map, tile, x, y))) continue;
       ++count.rough;
       count.differs += Differs(job, at) ? 1 : 0;
     }
