@@ -13,6 +13,7 @@
 #include "simd/paths-inl.h"
 #include "simd/planes-inl.h"
 #include "simd/prior-inl.h"
+#include "simd/smooth-inl.h"
 
 #ifndef STARFOCUS_TABLE
 #define STARFOCUS_TABLE DepthKernels

@@ -11,6 +11,7 @@
 #include "simd/paths.h"
 #include "simd/planes.h"
 #include "simd/prior.h"
+#include "simd/smooth.h"
 
 // All of them, as STARFOCUS_KERNELS (simd/kernels.h).
 #define STARFOCUS_DEPTH_KERNELS(KERNEL) \
@@ -22,7 +23,8 @@
   KERNEL(ChooseLabels)                  \
   KERNEL(SpreadPrior)                   \
   KERNEL(AddPrior)                      \
-  KERNEL(CompareColours)
+  KERNEL(CompareColours)                \
+  KERNEL(SmoothDisparity)
 
 namespace starfocus::simd {
 

@@ -18,8 +18,6 @@ constexpr int32_t kFlatRadius = 2;
 constexpr int32_t kFlatCell = 4;
 // Noise that no one sees in a refocused picture.
 constexpr int32_t kLeastNoise = 6;
-// Neighbours of one colour count this much when noise is averaged.
-constexpr int32_t kMostWeight = 64;
 
 // Fills unknown pixels of a row. Returns whether it has any known one.
 bool FillRow(int32_t width, int16_t* row) {
@@ -185,33 +183,6 @@ int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity) {
   // Of normal noise the median is 0.6745 times sqrt(20) times its standard deviation.
   const int32_t noise = median / 3;
   return noise > kLeastNoise ? noise : 0;
-}
-
-void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
-                int16_t* smooth) {
-  const int32_t radius = smoothing.radius, step = smoothing.step;
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t own = map.At(x, y);
-      const uint8_t* colour = map.Pixel(x, y);
-      int32_t sum = 0, weights = 0;  // 49 weights of 64 times 2^15 are below 2^27
-      for (int32_t row = y - radius; row <= y + radius; row += step) {
-        if (row < 0 || row >= map.plan.height) continue;
-        const int16_t* disparities = map.disparity + map.At(0, row);
-        const uint8_t* colours = map.Pixel(0, row);
-        for (int32_t column = x - radius; column <= x + radius; column += step) {
-          if (column < 0 || column >= map.plan.width) continue;
-          if (Abs(disparities[column] - map.disparity[own]) > smoothing.tolerance) continue;
-          const int32_t difference = ColourDifference(colour, colours + 3 * column);
-          const int32_t weight = Max(1, kMostWeight - difference);
-          sum += weight * disparities[column];
-          weights += weight;
-        }
-      }
-      smooth[own] =
-          static_cast<int16_t>((2 * sum + (sum < 0 ? -weights : weights)) / (2 * weights));
-    }
-  }
 }
 
 void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A given disparity map as it is before colours are asked: in fixed point, unknown pixels filled
-// for a start, noise measured and smoothed, and how far each pixel is from where the map may be
+// for a start, noise measured, and how far each pixel is from where the map may be
 // wrong.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
@@ -57,14 +57,6 @@ void ReadMap(const EstimatePlan& plan, const sf_light_field& light_field, int16_
 // pixel differs from the mean of its neighbours, so that edges don't count. 0 if there is hardly
 // any.
 int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity);
-
-// Averages the map over neighbours within `radius`, every `step`th pixel, whose disparities are
-// within `tolerance`; those of one colour count most. Fills `tile` of `smooth`.
-struct Smoothing {
-  int32_t radius, step, tolerance;
-};
-void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
-                int16_t* smooth);
 
 // Fills `tile` of `doubt`: 0 on ramps and where nothing was given, 1 at steps, and so on up to
 // kDoubtReach + 1; kThinDoubt where a surface is too thin to have grown by as much as steps are

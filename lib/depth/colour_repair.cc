@@ -38,9 +38,10 @@ struct ColourJob {
 
 const ColourJob& JobOf(const void* data) { return *static_cast<const ColourJob*>(data); }
 
-void SmoothMap(const void* data, int32_t index, int32_t) {
+void SmoothMap(const void* data, int32_t index, int32_t worker) {
   const ColourJob& job = JobOf(data);
-  SmoothTile(job.map, job.smoothing, TileOf(job.map.plan, index), job.to);
+  SmoothTile(job.map, job.smoothing, TileOf(job.map.plan, index), job.kernels,
+             job.memory->workers[worker].smooth, job.to);
 }
 
 void DoubtTile(const void* data, int32_t index, int32_t worker) {
@@ -246,6 +247,7 @@ ColourTileMemory TakeTile(const EstimatePlan& plan, Carver* carver) {
   memory.choices.paths = carver->Take<ChoicePath>(width);
   memory.choices.cell = carver->Take<ColourCell>(1);
   memory.doubt = carver->Take<uint8_t>(area);
+  memory.smooth = carver->Take<SmoothMemory>(1);
   return memory;
 }
 

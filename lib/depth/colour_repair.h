@@ -11,6 +11,7 @@
 
 #include "lib/base/jobs.h"
 #include "lib/depth/colour_choices.h"
+#include "lib/depth/colour_smooth.h"
 #include "lib/depth/estimate.h"
 #include "lib/depth/evidence.h"
 #include "lib/depth/soft_edges.h"
@@ -22,6 +23,7 @@ namespace starfocus {
 struct ColourTileMemory {
   ChoiceMemory choices;
   uint8_t* doubt;
+  SmoothMemory* smooth;
 };
 
 // Maps have the picture's size, disparities kDisparityBits.

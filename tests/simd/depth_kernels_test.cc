@@ -156,6 +156,37 @@ TEST_CASE("depth kernels: the best of each group around a pixel, by hand") {
   CHECK(least[2 * kSliceLanes - 1] == 31 * 64 + 63);
 }
 
+TEST_CASE("depth kernels: noise is averaged within a surface, by hand") {
+  // Two rows of four pixels; the second one is averaged over itself and the first one.
+  constexpr size_t kPlane = 4;
+  const int32_t first[4 * kPlane] = {-104, -100, 900, -90, 90, 90, 90, 690};
+  const int32_t second[4 * kPlane] = {-100, -101, -100, -100, 90, 90, 130, 90};
+  starfocus::simd::SmoothRows rows = {};
+  rows.own = second + 1;
+  rows.rows[0] = first + 1;
+  rows.rows[1] = second + 1;
+  rows.count = 2;
+  rows.plane = kPlane;
+  rows.radius = rows.step = 1;
+  rows.tolerance = 10;
+  int16_t smooth[2];
+  ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
+  // 64 times -104, -100, -100 and -101, and 54 times -100.
+  CHECK(smooth[0] == -101);
+  // One beyond the tolerance does not count. 54 times -100 and -101, 64 times -100, 54 times -100.
+  rows.tolerance = 9;
+  ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
+  CHECK(smooth[1] == -100);
+  // Of another colour: it counts 1.
+  const int32_t bright[4 * kPlane] = {-96, -96, -96, -96, 690, 690, 690, 690};
+  rows.rows[0] = bright + 1;
+  rows.rows[1] = second + 2;
+  rows.own = second + 2;
+  rows.radius = 0;
+  ReferenceDepthKernels().SmoothDisparity(rows, 1, smooth);
+  CHECK(smooth[0] == -100);
+}
+
 TEST_CASE("depth kernels: a path goes on from the one before, by hand") {
   constexpr size_t kLabels = 4, kPlaces = PathLabels(kLabels);
   uint8_t cost[kPlaces] = {1, 2, 3, 4};

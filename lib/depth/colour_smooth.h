@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smooths the noise of a disparity map within surfaces.
+#ifndef STARFOCUS_LIB_DEPTH_COLOUR_SMOOTH_H_
+#define STARFOCUS_LIB_DEPTH_COLOUR_SMOOTH_H_
+
+#include <cstdint>
+
+#include "lib/depth/colour_map.h"
+#include "simd/depth_kernels.h"
+
+namespace starfocus {
+
+inline constexpr int32_t kMostSmoothRadius = 4;
+
+// Averages over neighbours within `radius`, every `step`th pixel, whose disparities are within
+// `tolerance`; those of one colour count most.
+struct Smoothing {
+  int32_t radius, step, tolerance;
+};
+
+// Rows around the one that is smoothed, in planes.
+struct SmoothMemory {
+  static constexpr int32_t kRows = 2 * kMostSmoothRadius + 1;
+  static constexpr int32_t kPlane = kMostTileSide + 2 * kMostSmoothRadius;
+
+  int32_t rows[kRows][4 * kPlane];
+};
+
+// Fills `tile` of `smooth`.
+void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
+                const simd::DepthKernels& kernels, SmoothMemory* memory, int16_t* smooth);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_DEPTH_COLOUR_SMOOTH_H_

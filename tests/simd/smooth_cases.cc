@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "simd/smooth.h"
+#include "tests/simd/depth_cases.h"
+
+namespace test::depth_cases {
+namespace {
+
+using starfocus::simd::DepthKernels;
+using starfocus::simd::kMostSmoothRows;
+using starfocus::simd::kPadding;
+using starfocus::simd::SmoothRows;
+
+constexpr int kTimedRow = 512, kLongestRow = 2 * 16 + 3;
+constexpr int kFarthest = 500 * 64;  // disparity
+
+// The four planes of a row, whose disparities lie around `disparity` or anywhere.
+std::vector<int32_t> AnyRow(size_t plane, int disparity, int colours, Draw* draw) {
+  std::vector<int32_t> row(4 * plane);
+  for (size_t n = 0; n < plane; ++n) {
+    const int nearby = disparity + draw->Int(-200, 200);
+    row[n] = draw->Int(0, 3) == 0 ? draw->Int(-kFarthest, kFarthest)
+                                  : std::min(kFarthest, std::max(-kFarthest, nearby));
+    const int red = draw->Int(0, colours), green = draw->Int(0, colours);
+    const int blue = draw->Int(0, colours);
+    row[plane + n] = red + green + blue;
+    row[2 * plane + n] = red - green;
+    row[3 * plane + n] = green - blue;
+  }
+  return row;
+}
+
+}  // namespace
+
+void SmoothDisparity(Draw* draw, DepthCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, kTimedRow);
+  SmoothRows rows = {};
+  rows.radius = draw->timed() ? 3 : draw->Int(0, 4);
+  rows.step = draw->timed() ? 1 : draw->Int(1, 2);
+  if (rows.radius % rows.step != 0) rows.step = 1;
+  rows.tolerance = draw->Int(0, 1023);
+  rows.count = draw->Size(1, int(kMostSmoothRows), int(kMostSmoothRows));
+  const size_t first = size_t(rows.radius);
+  rows.plane = count + 2 * first + draw->Size(0, 9, 0);
+  const int disparity = draw->Int(-kFarthest, kFarthest), colours = draw->Int(0, 255);
+  for (size_t k = 0; k < rows.count; ++k) {
+    rows.rows[k] =
+        call->Input("row", AnyRow(rows.plane, disparity, colours, draw), kPadding) + first;
+  }
+  rows.own = rows.rows[rows.count / 2];
+  int16_t* smooth = call->Output<int16_t>("smooth", count);
+  call->Result(smooth, count);
+  call->run = [=](const DepthKernels& kernels) -> uint64_t {
+    kernels.SmoothDisparity(rows, count, smooth);
+    return 0;
+  };
+  call->is_right = [=](uint64_t, Met* met) {
+    for (size_t n = 0; n < count; ++n) {
+      if (std::abs(smooth[n] - rows.own[n]) > rows.tolerance) return false;
+      ++(*met)[smooth[n] != rows.own[n] ? "smoothed" : "as it was"];
+    }
+    return true;
+  };
+}
+
+}  // namespace test::depth_cases
