@@ -60,16 +60,13 @@ uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   const int32_t own = map.disparity[map.At(x, y)];
   const Rect around = Widened(map.plan, {x, y, 1, 1}, kFlatRadius);
   int32_t flat = 0;
-  bool step = false;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const int32_t difference = Abs(map.disparity[map.At(column, row)] - own);
-      flat += difference <= kFlat ? 1 : 0;
-      step |= difference > kSurfaceStep && Abs(row - y) + Abs(column - x) == 1;
-    }
+    const int16_t* disparities = map.disparity + map.At(around.x, row);
+    for (int32_t k = 0; k < around.width; ++k) flat += Abs(disparities[k] - own) <= kFlat ? 1 : 0;
+    if (25 * flat < kLeastFlat * around.width * around.height) continue;
+    return IsBesideStep(map, {0, 0, map.plan.width, map.plan.height}, x, y) ? 1 : kDoubtReach + 1;
   }
-  if (25 * flat < kLeastFlat * around.width * around.height) return 0;
-  return step ? 1 : kDoubtReach + 1;
+  return 0;
 }
 
 // Whether all of a cell is given and as flat as what lies around it: no pixel of it is in doubt.
@@ -183,6 +180,15 @@ int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity) {
   // Of normal noise the median is 0.6745 times sqrt(20) times its standard deviation.
   const int32_t noise = median / 3;
   return noise > kLeastNoise ? noise : 0;
+}
+
+bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y) {
+  const int32_t own = map.disparity[map.At(x, y)];
+  const auto differs = [&](int32_t column, int32_t row) {
+    return Abs(map.disparity[map.At(column, row)] - own) > kSurfaceStep;
+  };
+  return (x > tile.x && differs(x - 1, y)) || (x + 1 < tile.x + tile.width && differs(x + 1, y)) ||
+         (y > tile.y && differs(x, y - 1)) || (y + 1 < tile.y + tile.height && differs(x, y + 1));
 }
 
 void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt) {

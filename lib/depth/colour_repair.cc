@@ -72,16 +72,6 @@ void Choose(const ColourJob& job, size_t at, const Choices& choices) {
 
 bool Differs(const ColourJob& job, size_t at) { return job.chosen[at] != job.map.disparity[at]; }
 
-// Whether a neighbour of a pixel within the tile is of another surface.
-bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y) {
-  const int32_t own = map.disparity[map.At(x, y)];
-  const auto differs = [&](int32_t column, int32_t row) {
-    return Abs(map.disparity[map.At(column, row)] - own) > kSurfaceStep;
-  };
-  return (x > tile.x && differs(x - 1, y)) || (x + 1 < tile.x + tile.width && differs(x + 1, y)) ||
-         (y > tile.y && differs(x, y - 1)) || (y + 1 < tile.y + tile.height && differs(x, y + 1));
-}
-
 TileCount CountTile(const ColourJob& job, const Rect& tile) {
   TileCount count = {};
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
