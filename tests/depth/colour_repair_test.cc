@@ -15,11 +15,13 @@
 
 #include "lib/base/fixed.h"
 #include "lib/depth/colour_map.h"
+#include "tests/support/simd_targets.h"
 
 namespace colour_repair_test {
 namespace {
 
 using starfocus::kDisparityBits;
+using starfocus::simd::DepthKernels;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -51,7 +53,8 @@ int RunBackwards(void*, sf_job job, void* data, int32_t count) {
   return 0;
 }
 
-Repaired Repair(const Photo& photo, int workers = 1) {
+Repaired Repair(const Photo& photo, int workers = 1,
+                const DepthKernels& kernels = starfocus::simd::BestDepthKernels()) {
   sf_depth_config config;
   sf_depth_config_init(&config);
   config.width = photo.width;
@@ -71,8 +74,7 @@ Repaired Repair(const Photo& photo, int workers = 1) {
   const starfocus::Runner runner = {workers > 1 ? RunBackwards : nullptr, nullptr};
   const starfocus::MapOutput output = {result.map.data(),        width, -500, 500,
                                        result.confidence.data(), width};
-  CHECK(RepairByColour(plan, field, starfocus::simd::BestDepthKernels(), runner, output, memory) ==
-        SF_OK);
+  CHECK(RepairByColour(plan, field, kernels, runner, output, memory) == SF_OK);
   ::operator delete(base, std::align_val_t(SF_ALIGNMENT));
   return result;
 }
@@ -97,6 +99,19 @@ Photo MakeDisc(int grown, float near = 6, float far = -4) {
     }
   }
   return photo;
+}
+
+// Adds normal noise of a pixel to the map.
+void AddNoise(Photo* photo) {
+  uint32_t state = 7;
+  for (float& d : photo->map) {
+    float sum = -6;  // twelve uniform numbers make a normal one
+    for (int k = 0; k < 12; ++k) {
+      state = state * 1664525 + 1013904223;
+      sum += float(state >> 8) / float(1 << 24);
+    }
+    d += sum;
+  }
 }
 
 // Counts what is of another surface: up to a pixel is the same one.
@@ -152,15 +167,7 @@ TEST_CASE(
 TEST_CASE("colour repair: noise is averaged within surfaces") {
   const Photo truth = MakeDisc(0);
   Photo photo = truth;
-  uint32_t state = 7;
-  for (float& d : photo.map) {
-    float sum = -6;  // twelve uniform numbers make a normal one
-    for (int k = 0; k < 12; ++k) {
-      state = state * 1664525 + 1013904223;
-      sum += float(state >> 8) / float(1 << 24);
-    }
-    d += sum;
-  }
+  AddNoise(&photo);
   const Repaired repaired = Repair(photo);
   double before = 0, after = 0;
   for (size_t k = 0; k < truth.map.size(); ++k) {
@@ -246,6 +253,22 @@ TEST_CASE("colour repair: the same bytes in any order and for any number of work
   const Repaired one = Repair(photo), three = Repair(photo, 3);
   CHECK(SameBits(one.map, three.map));
   CHECK(one.confidence == three.confidence);
+}
+
+TEST_CASE("colour repair: the same bytes on every SIMD target") {
+  std::vector<const DepthKernels*> tables = test::DepthTargets();
+  tables.push_back(&starfocus::simd::ReferenceDepthKernels());
+  for (const bool noisy : {false, true}) {
+    Photo photo = MakeDisc(3);
+    if (noisy) AddNoise(&photo);
+    const Repaired best = Repair(photo);
+    for (const DepthKernels* kernels : tables) {
+      CAPTURE(kernels->name);
+      const Repaired repaired = Repair(photo, 1, *kernels);
+      CHECK(SameBits(repaired.map, best.map));
+      CHECK(repaired.confidence == best.confidence);
+    }
+  }
 }
 
 TEST_CASE("colour repair: pixels beside steps are doubted, but not those of thin surfaces") {
