@@ -214,12 +214,12 @@ void WidenTile(const void* data, int32_t index, int32_t) {
 }
 
 void EvenTile(const void* data, int32_t index, int32_t) {
+  static_assert(kMostCellSide <= kMostMajority, "rows of cells");
   const ColourJob& job = JobOf(data);
   ForSolidRows(job, index, [&](const Rect& row) {
-    if (IsOneSurface(job.map, row)) return;
-    for (int32_t x = row.x; x < row.x + row.width; ++x) {
-      Change(job, x, row.y, MajorityAt(job.map, x, row.y));
-    }
+    int16_t even[kMostMajority];
+    TakeMajority(job.map, row, even);
+    for (int32_t k = 0; k < row.width; ++k) Change(job, row.x + k, row.y, even[k]);
   });
 }
 

@@ -1,54 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/depth/majority.h"
 
+#include <algorithm>
+
 namespace starfocus {
 namespace {
 
-constexpr int32_t kRadius = 5;
+// Pixels within kRadius vote about those within kReach of another surface.
+constexpr int32_t kRadius = 5, kReach = 2;
 // A pixel counts less with its squared distance, and with how its colour differs.
 constexpr int32_t kNearWeight = 36, kColourWeight = 64;
 
-// The disparities around a pixel.
+// The disparities around a pixel, or of a column.
 struct Range {
-  int32_t low, high;
+  int32_t low = INT16_MAX, high = INT16_MIN;
+
+  void Add(const Range& range) {
+    low = Min(low, range.low);
+    high = Max(high, range.high);
+  }
+  bool IsOneSurface() const { return high - low <= 2 * kSurfaceStep; }
 };
 
-Range RangeAround(const ColourMap& map, const Rect& rect) {
-  const Rect around = Widened(map.plan, rect, kRadius);
-  Range range = {INT16_MAX, INT16_MIN};
-  for (int32_t y = around.y; y < around.y + around.height; ++y) {
-    const int16_t* row = map.disparity + map.At(around.x, y);
-    for (int32_t x = 0; x < around.width; ++x) {
-      range.low = Min(range.low, row[x]);
-      range.high = Max(range.high, row[x]);
+// The ranges of the columns around a row of pixels, kReach rows up and down.
+struct Columns {
+  Rect around;
+  Range ranges[kMostMajority + 2 * kReach], all;
+
+  Columns(const ColourMap& map, const Rect& row) : around(Widened(map.plan, row, kReach)) {
+    for (int32_t y = around.y; y < around.y + around.height; ++y) {
+      const int16_t* disparities = map.disparity + map.At(around.x, y);
+      for (int32_t k = 0; k < around.width; ++k) ranges[k].Add({disparities[k], disparities[k]});
     }
+    for (int32_t k = 0; k < around.width; ++k) all.Add(ranges[k]);
   }
-  return range;
-}
+  Range Around(int32_t x) const {
+    const int32_t first = Max(x - kReach - around.x, 0);
+    const int32_t last = Min(x + kReach - around.x, around.width - 1);
+    Range range;
+    for (int32_t k = first; k <= last; ++k) range.Add(ranges[k]);
+    return range;
+  }
+};
 
-bool IsOneSurface(const Range& range) { return range.high - range.low <= 2 * kSurfaceStep; }
-
-}  // namespace
-
-bool IsOneSurface(const ColourMap& map, const Rect& rect) {
-  return IsOneSurface(RangeAround(map, rect));
-}
-
-int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y) {
-  const int32_t own = map.disparity[map.At(x, y)];
-  const Rect around = Widened(map.plan, {x, y, 1, 1}, kRadius);
-  const Range range = RangeAround(map, {x, y, 1, 1});
-  if (IsOneSurface(range)) return static_cast<int16_t>(own);
-  const int32_t middle = (range.low + range.high) / 2;
+int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, const Range& range) {
+  const int32_t own = map.disparity[map.At(x, y)], middle = (range.low + range.high) / 2;
   const uint8_t* colour = map.Pixel(x, y);
+  const Rect around = Widened(map.plan, {x, y, 1, 1}, kRadius);
   int64_t sums[2] = {};
   int32_t votes[2] = {};
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    const int32_t dy = row - y;
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const int32_t dx = column - x, dy = row - y;
-      if (dx * dx + dy * dy > kRadius * kRadius) continue;
+      const int32_t dx = column - x, distance = dx * dx + dy * dy;
+      if (distance > kRadius * kRadius) continue;
       const int32_t difference = ColourDifference(colour, map.Pixel(column, row));
-      const int32_t weight = (kNearWeight - dx * dx - dy * dy) * Max(1, kColourWeight - difference);
+      const int32_t weight = (kNearWeight - distance) * Max(1, kColourWeight - difference);
       const int32_t disparity = map.disparity[map.At(column, row)];
       const int side = disparity > middle ? 1 : 0;
       votes[side] += weight;
@@ -58,6 +65,18 @@ int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y) {
   const int own_side = own > middle ? 1 : 0, other = 1 - own_side;
   if (votes[other] <= votes[own_side]) return static_cast<int16_t>(own);
   return static_cast<int16_t>(sums[other] / votes[other]);
+}
+
+}  // namespace
+
+void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity) {
+  std::copy_n(map.disparity + map.At(row.x, row.y), row.width, disparity);
+  const Columns columns(map, row);
+  if (columns.all.IsOneSurface()) return;
+  for (int32_t k = 0; k < row.width; ++k) {
+    const Range range = columns.Around(row.x + k);
+    if (!range.IsOneSurface()) disparity[k] = MajorityAt(map, row.x + k, row.y, range);
+  }
 }
 
 }  // namespace starfocus

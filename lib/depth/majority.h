@@ -10,12 +10,12 @@
 
 namespace starfocus {
 
-// Whether all pixels that decide about those of a rectangle are of one surface.
-bool IsOneSurface(const ColourMap& map, const Rect& rect);
+// Rows of pixels are at most this long.
+inline constexpr int32_t kMostMajority = 32;
 
-// Returns the pixel's disparity, or the mean of the other surface's around it if more pixels of its
-// colour are of that one.
-int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y);
+// Writes the disparities of a row of pixels: each its own one, or the mean of the other surface's
+// around it if more pixels of its colour are of that one.
+void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity);
 
 }  // namespace starfocus
 

@@ -68,10 +68,10 @@ bool ShowsNear(const Place& place) {
   return place.contrast >= kLeastPixelContrast && kLeastPixelShare * place.share >= place.contrast;
 }
 
-// Whether all pixels of a profile lie in the picture.
-bool IsInside(const ColourMap& map, const Edge& edge) {
-  return edge.x >= kOutside && edge.x < map.plan.width - kOutside && edge.y >= kOutside &&
-         edge.y < map.plan.height - kOutside;
+// Whether the profiles at a pixel lie in the picture.
+bool IsInside(const ColourMap& map, int32_t x, int32_t y) {
+  return x >= kOutside && x < map.plan.width - kOutside && y >= kOutside &&
+         y < map.plan.height - kOutside;
 }
 
 }  // namespace
@@ -80,9 +80,10 @@ SoftCount CountSoft(const ColourMap& map, const Rect& tile) {
   SoftCount count = {};
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      if (!IsInside(map, x, y)) continue;
       for (const auto& side : kSides) {
         const Edge edge = {x, y, side[0], side[1]};
-        if (IsInside(map, edge) && IsProfile(map, edge)) CountProfile(map, edge, &count);
+        if (IsProfile(map, edge)) CountProfile(map, edge, &count);
       }
     }
   }
@@ -106,7 +107,7 @@ int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) 
   for (const auto& side : kSides) {
     for (int32_t k = 0; k < softness; ++k) {
       const Edge edge = {x - k * side[0], y - k * side[1], side[0], side[1]};
-      if (!IsInside(map, edge)) break;
+      if (!IsInside(map, edge.x, edge.y)) break;
       const int16_t near = map.disparity[map.At(edge.x - side[0], edge.y - side[1])];
       if (near - own <= kStep) continue;
       if (near > nearest && ShowsNear(PlaceAt(map, edge, k))) nearest = near;
