@@ -67,30 +67,44 @@ void KeepOwn(int32_t own, int32_t cost, Choices* choices) {
   choices->cost[at] = static_cast<int16_t>(cost);
 }
 
-// Fills the choices of doubtful pixels of a block: every second one, from (x, y) in the cell on.
+bool IsDoubtful(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y) {
+  return x < area.width && y < area.height &&
+         job.doubt[job.map.At(area.x + x, area.y + y)] <= kDoubtReach;
+}
+
+// Fills the choices of the doubtful pixels of a block. The block has every second pixel from (x, y)
+// in the cell on.
 void ChooseInBlock(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y) {
-  size_t lanes[simd::kSliceLanes], count = 0;
-  const auto column = [&](size_t n) {
-    return x + 2 * static_cast<int32_t>(n % simd::kColourBlock);
-  };
-  const auto row = [&](size_t n) { return y + 2 * static_cast<int32_t>(n / simd::kColourBlock); };
-  const auto at = [&](size_t n) { return job.map.At(area.x + column(n), area.y + row(n)); };
-  for (size_t n = 0; n < simd::kSliceLanes; ++n) {
-    if (column(n) >= area.width || row(n) >= area.height) continue;
-    if (job.doubt[at(n)] <= kDoubtReach) lanes[count++] = n;
-  }
-  if (count == 0) return;
   ColourCell* cell = job.memory.cell;
   std::memset(cell->least, 0xFF,
               static_cast<size_t>(cell->places) * simd::kSliceLanes * sizeof *cell->least);
   job.kernels.CompareColours(cell->Window(x, y), ColourCell::kHalf, cell->least);
-  for (size_t k = 0; k < count; ++k) {
-    const size_t n = lanes[k], own = at(n);
-    Choices* choices = job.memory.choices + (area.y + row(n) - job.region.y) * job.region.width +
-                       area.x + column(n) - job.region.x;
+  for (size_t n = 0; n < simd::kSliceLanes; ++n) {
+    const int32_t column = x + 2 * static_cast<int32_t>(n % simd::kColourBlock);
+    const int32_t row = y + 2 * static_cast<int32_t>(n / simd::kColourBlock);
+    if (!IsDoubtful(job, area, column, row)) continue;
+    Choices* choices = job.memory.choices + (area.y + row - job.region.y) * job.region.width +
+                       area.x + column - job.region.x;
     TakeBest(*cell, n, choices);
+    const size_t own = job.map.At(area.x + column, area.y + row);
     KeepOwn(job.map.disparity[own], kDoubtCosts[job.doubt[own]], choices);
-    for (int32_t choice = 0; choice < choices->count; ++choice) choices->sum[choice] = 0;
+    for (int32_t k = 0; k < choices->count; ++k) choices->sum[k] = 0;
+  }
+}
+
+// Covers the doubtful pixels of a row of blocks with blocks. Each block begins at a doubtful pixel,
+// unless it would end beyond the cell.
+void ChooseInRow(const ChoiceJob& job, const Rect& area, int32_t first, int32_t y) {
+  const int32_t last = first + WholeBlocks(area.width) - kCellBlock;
+  for (int32_t x = first; x < area.width;) {
+    bool doubtful = false;
+    for (int32_t row = y; row < y + kCellBlock; row += 2) doubtful |= IsDoubtful(job, area, x, row);
+    if (doubtful) {
+      ChooseInBlock(job, area, Min(x, last), y);
+      x += kCellBlock;
+    } else {
+      x += 2;
+    }
   }
 }
 
@@ -117,9 +131,7 @@ void ChooseInCell(const ChoiceJob& job, const Rect& area) {
   if (!ChooseOwn(job, area)) return;
   FillCell(job.map, job.doubt, area, job.memory.cell);
   for (int32_t y = 0; y < area.height; y += kCellBlock) {
-    for (int32_t x = 0; x < area.width; x += kCellBlock) {
-      for (int32_t odd = 0; odd < 4; ++odd) ChooseInBlock(job, area, x + odd % 2, y + odd / 2);
-    }
+    for (int32_t odd = 0; odd < 4; ++odd) ChooseInRow(job, area, odd % 2, y + odd / 2);
   }
 }
 
