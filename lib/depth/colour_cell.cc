@@ -39,20 +39,25 @@ void PlaceGroups(const ColourMap& map, const uint8_t* doubt, const Rect& around,
   cell->places = places + 1;
 }
 
-simd::ColourSample SampleAt(const ColourMap& map, const uint8_t* doubt, int32_t x, int32_t y,
-                            const ColourCell& cell) {
-  simd::ColourSample sample = kOutside;
-  const uint8_t* colour = map.Pixel(x, y);
-  sample.sum = static_cast<int16_t>(colour[0] + colour[1] + colour[2]);
-  sample.red_green = static_cast<int16_t>(colour[0] - colour[1]);
-  sample.green_blue = static_cast<int16_t>(colour[1] - colour[2]);
-  const size_t at = map.At(x, y);
-  if (doubt[at] == 0) return sample;
-  const int32_t disparity = map.disparity[at];
-  sample.key =
-      static_cast<uint16_t>((kDoubtCosts[doubt[at]] << kDisparityBits) + kLow - (disparity & kLow));
-  sample.place = cell.place[GroupOf(disparity)];
-  return sample;
+// Fills every second sample of a row from column x on.
+void FillEverySecond(const ColourMap& map, const uint8_t* doubt, const Rect& row,
+                     const ColourCell& cell, simd::ColourSample* sample) {
+  const uint8_t* colours = map.Pixel(0, row.y);
+  const uint8_t* doubts = doubt + map.At(0, row.y);
+  const int16_t* disparities = map.disparity + map.At(0, row.y);
+  for (int32_t x = row.x; x < row.x + row.width; x += 2, ++sample) {
+    *sample = kOutside;
+    if (x < 0 || x >= map.plan.width) continue;
+    const uint8_t* colour = colours + 3 * x;
+    sample->sum = static_cast<int16_t>(colour[0] + colour[1] + colour[2]);
+    sample->red_green = static_cast<int16_t>(colour[0] - colour[1]);
+    sample->green_blue = static_cast<int16_t>(colour[1] - colour[2]);
+    if (doubts[x] == 0) continue;
+    const int32_t disparity = disparities[x];
+    sample->key = static_cast<uint16_t>((kDoubtCosts[doubts[x]] << kDisparityBits) + kLow -
+                                        (disparity & kLow));
+    sample->place = cell.place[GroupOf(disparity)];
+  }
 }
 
 }  // namespace
@@ -62,15 +67,14 @@ void FillCell(const ColourMap& map, const uint8_t* doubt, const Rect& area, Colo
   const int32_t width = WholeBlocks(area.width) + 2 * kReach;
   const int32_t height = WholeBlocks(area.height) + 2 * kReach;
   for (int32_t k = 0; k < height; ++k) {
-    const int32_t row = area.y - kReach + k;
-    const size_t half_row = static_cast<size_t>(k / 2 * ColourCell::kHalf);
-    simd::ColourSample* const of_row[] = {cell->samples[k & 1][0] + half_row,
-                                          cell->samples[k & 1][1] + half_row};
-    for (int32_t n = 0; n < width; ++n) {
-      const int32_t column = area.x - kReach + n;
-      const bool inside =
-          row >= 0 && row < map.plan.height && column >= 0 && column < map.plan.width;
-      of_row[n & 1][n / 2] = inside ? SampleAt(map, doubt, column, row, *cell) : kOutside;
+    const int32_t y = area.y - kReach + k;
+    for (int32_t odd = 0; odd < 2; ++odd) {
+      simd::ColourSample* row = cell->samples[k & 1][odd] + k / 2 * ColourCell::kHalf;
+      if (y < 0 || y >= map.plan.height) {
+        for (int32_t n = 0; n < width / 2; ++n) row[n] = kOutside;
+      } else {
+        FillEverySecond(map, doubt, {area.x - kReach + odd, y, width - odd, 1}, *cell, row);
+      }
     }
   }
 }
