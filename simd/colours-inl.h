@@ -14,7 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// For each column and each row of a window all ones where a pixel of the block doesn't reach it.
+// All ones where a column or row of the window is out of reach of a pixel of the block, otherwise
+// 0.
 struct OutOfReach {
   uint16_t column[kColourWindow][kSliceLanes], row[kColourWindow][kSliceLanes];
 
@@ -29,7 +30,7 @@ struct OutOfReach {
   }
 };
 
-// The colours of a block.
+// Colours of the pixels of a block.
 struct BlockColours {
   int16_t sum[kSliceLanes], red_green[kSliceLanes], green_blue[kSliceLanes];
 };

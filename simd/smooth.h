@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel that averages a noisy disparity map over neighbours of the same surface.
+// SIMD kernel that averages a noisy disparity map over neighbours of the same surface.
 #ifndef STARFOCUS_SIMD_SMOOTH_H_
 #define STARFOCUS_SIMD_SMOOTH_H_
 
@@ -10,27 +10,29 @@
 
 namespace starfocus::simd {
 
-// Neighbours of a pixel: up to so many rows, and columns as far away.
+// Largest number of rows that a pixel is averaged over.
 inline constexpr size_t kMostSmoothRows = 7;
-// Neighbours of one colour count this much, others less by as much as their colours differ.
+// Weight of a neighbour of the same colour. It falls by the difference of the colours, to 1 at
+// least.
 inline constexpr int32_t kMostSmoothWeight = 64;
 
-// A row of pixels and the rows whose pixels it is averaged over, of each those from `radius` before
-// the first one to `radius` behind the last one. Disparities come first, then, `plane` numbers
-// apart, what ColourSample has of a colour, in its order.
+// A row of pixels and the rows that it is averaged over. All pointers are to the row's first pixel,
+// and `radius` more pixels lie on both sides. A row has four planes, `plane` numbers apart:
+// disparity, and the members sum, red_green and green_blue of ColourSample.
 struct SmoothRows {
   const int32_t* own;
   const int32_t* rows[kMostSmoothRows];
-  size_t count;  // of rows
+  size_t count;  // number of rows
   size_t plane;
-  int32_t radius, step;  // columns
-  int32_t tolerance;     // by which disparities differ at most
+  int32_t radius, step;  // neighbours are every `step`th column within `radius`
+  int32_t tolerance;     // largest difference of disparities within a surface
 };
 
+// Sums over the neighbours of a pixel.
 struct SmoothSums {
-  int32_t disparity, weights;  // below 2^27 and 2^13
+  int32_t disparity, weights;  // weighted disparities, below 2^27, and weights, below 2^13
 
-  // Halves are rounded away from zero.
+  // Returns the mean, with halves rounded away from zero.
   int16_t Mean() const {
     const int32_t half = disparity < 0 ? -weights : weights;
     return static_cast<int16_t>((2 * disparity + half) / (2 * weights));

@@ -14,7 +14,7 @@ constexpr int32_t kPixel = 1 << kDisparityBits;
 // differ by the second number.
 constexpr int32_t kJump = 120, kColourEdge = 12;
 
-// What choices are made of.
+// Arguments of WeighChoices.
 struct ChoiceJob {
   const ColourMap& map;
   const uint8_t* doubt;
@@ -108,7 +108,7 @@ void ChooseInRow(const ChoiceJob& job, const Rect& area, int32_t first, int32_t 
   }
 }
 
-// Gives pixels that aren't in doubt their own disparity. Returns whether any is.
+// Gives each pixel that is not in doubt its own disparity. Returns whether any pixel is in doubt.
 bool ChooseOwn(const ChoiceJob& job, const Rect& area) {
   bool doubtful = false;
   for (int32_t y = area.y; y < area.y + area.height; ++y) {
@@ -158,8 +158,8 @@ void ContinueAmong(const Choices& from, int32_t jump, Choices* to, ChoicePath* p
   *path = next;
 }
 
-// Goes on from a pixel of the first colour to one of the second. Most have no choice and are of one
-// surface, whatever their colours.
+// Continues from a pixel of the first colour to one of the second. Most pixels have one choice, of
+// the same surface: then a path costs nothing, whatever the colours.
 inline void Continue(const Choices& from, const uint8_t* colour, const uint8_t* next, Choices* to,
                      ChoicePath* path) {
   if (from.count > 1 || to->count > 1 || Abs(to->disparity[0] - from.disparity[0]) > kPixel) {
@@ -209,7 +209,7 @@ void AddPathsDown(const ColourMap& map, const Rect& region, int32_t direction, C
   }
 }
 
-// The side of as large cells as fill so many pixels: whole blocks.
+// Returns the side of equal cells that cover `length` pixels, in whole blocks.
 int32_t CellSide(int32_t length) {
   const int32_t cells = (length + kColourCell - 1) / kColourCell;
   return WholeBlocks((length + cells - 1) / cells);

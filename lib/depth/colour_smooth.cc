@@ -4,11 +4,11 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kOutside = INT32_MIN / 2;  // within the tolerance of no disparity
+constexpr int32_t kOutside = INT32_MIN / 2;  // not within the tolerance of any disparity
 constexpr uint8_t kBlack[3] = {};
 constexpr int32_t kPlane = SmoothMemory::kPlane;
 
-// Fills the columns of a row from `first` on.
+// Fills the planes of `count` columns from `first` on; columns may lie outside the picture.
 void FillPlanes(const ColourMap& map, int32_t first, int32_t count, int32_t y, int32_t* row) {
   for (int32_t k = 0; k < count; ++k) {
     const int32_t x = first + k;

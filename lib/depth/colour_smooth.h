@@ -12,13 +12,13 @@ namespace starfocus {
 
 inline constexpr int32_t kMostSmoothRadius = 4;
 
-// Averages over neighbours within `radius`, every `step`th pixel, whose disparities are within
-// `tolerance`; those of one colour count most.
+// A pixel is averaged over every `step`th neighbour within `radius` whose disparity is within
+// `tolerance` of its own. Neighbours of similar colour have the largest weights.
 struct Smoothing {
   int32_t radius, step, tolerance;
 };
 
-// Rows around the one that is smoothed, in planes.
+// A ring buffer of the rows around the one that is smoothed, in the planes of simd::SmoothRows.
 struct SmoothMemory {
   static constexpr int32_t kRows = 2 * kMostSmoothRadius + 1;
   static constexpr int32_t kPlane = kMostTileSide + 2 * kMostSmoothRadius;
@@ -26,7 +26,7 @@ struct SmoothMemory {
   int32_t rows[kRows][4 * kPlane];
 };
 
-// Fills `tile` of `smooth`.
+// Fills `tile` of the map `smooth`.
 void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
                 const simd::DepthKernels& kernels, SmoothMemory* memory, int16_t* smooth);
 
