@@ -33,7 +33,7 @@ void PlaceGroups(const ColourMap& map, const uint8_t* doubt, const Rect& around,
       places += group < last && cell->place[group + 1] != 0 ? 1 : 0;
       continue;
     }
-    cell->highest[places] = static_cast<int16_t>(((group - kGroups / 2) << kDisparityBits) + kLow);
+    cell->highest[places] = static_cast<int16_t>((group - kGroups / 2) * (kLow + 1) + kLow);
     cell->place[group] = static_cast<uint16_t>(places++ * static_cast<int32_t>(simd::kSliceLanes));
   }
   cell->places = places + 1;
