@@ -41,16 +41,21 @@ class ThinParter {
     surfaces_.share[at] = whole ? simd::kSliceEnd : static_cast<uint8_t>(alpha);
     for (size_t c = 0; c < 3; ++c) {
       const size_t sample = c * surfaces_.plane + at;
-      surfaces_.rgb[0][sample] = whole ? mixed[c] : NearLight(mixed[c], far.rgb[c], alpha);
-      surfaces_.rgb[1][sample] = far.rgb[c];
+      int16_t& near = surfaces_.rgb[0][sample] = mixed[c];
+      int16_t& beyond = surfaces_.rgb[1][sample] = far.rgb[c];
+      if (whole) continue;
+      near = RestOf(mixed[c], beyond, kWhole - alpha);
+      // What the near surface can't have is the far one's: where nothing moves, the mixture stays.
+      beyond = RestOf(mixed[c], near, alpha);
     }
   }
 
  private:
-  // What is left of a mixture without the far surface's part.
-  static int16_t NearLight(int32_t mixed, int32_t far, int32_t alpha) {
-    const int32_t near = (mixed * kWhole - (kWhole - alpha) * far + alpha / 2) / alpha;
-    return static_cast<int16_t>(Clamp(near, ranges::kUnmixed.low, ranges::kUnmixed.high));
+  // What is left of a mixture without a surface that covers `part` of it.
+  static int16_t RestOf(int32_t mixed, int32_t surface, int32_t part) {
+    const int32_t rest = kWhole - part;
+    const int32_t light = (mixed * kWhole - part * surface + rest / 2) / rest;
+    return static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
   }
 
   void SetDisparity(int surface, size_t at, int16_t disparity) {

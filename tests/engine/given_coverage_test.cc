@@ -197,6 +197,16 @@ TEST_CASE("given coverage: a frame after another one sees what changed of it") {
   }
 }
 
+TEST_CASE("given coverage: where nothing moves, colours that contradict it stay") {
+  test::Scene scene = Comb();
+  test::Random random(3);
+  for (uint8_t& coverage : scene.coverage) coverage = random.Byte();
+  sf_config config = CombConfig(scene);
+  config.skips = 0;
+  const test::Output out = Refocused(scene, config, test::Params(0, 0.001, SF_MODE_BLOCK));
+  CHECK((out.bytes == scene.pictures[0]));
+}
+
 TEST_CASE("given coverage: without the feature it is not looked at, and bad input is refused") {
   const test::Scene scene = Comb();
   sf_config config = CombConfig(scene);
