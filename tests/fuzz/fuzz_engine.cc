@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "starfocus/starfocus.h"
 #include "tests/fuzz/input.h"
+#include "tests/support/strands.h"
 
 namespace {
 
 using starfocus::fuzz::Input;
+using test::Strands;
 
 constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
@@ -37,18 +40,25 @@ void SetPositions(int drawn, sf_config* config) {
   }
 }
 
-// Mostly valid; now and then any bytes at all in one field.
-sf_config MakeConfig(Input* input) {
+// Disparities of strands and of what is behind them.
+void SetDepths(Input* input, sf_config* config) {
+  config->disparity_min = static_cast<float>(input->Real(-12, 3));
+  config->disparity_max = config->disparity_min + static_cast<float>(input->Real(5, 12));
+}
+
+// Mostly valid; now and then any bytes at all in one field. With room for strands, or any size.
+sf_config MakeConfig(bool strands, Input* input) {
   sf_config config;
   sf_config_init(&config);
   const int side = input->Rarely() ? 100 : 24;
-  config.width = input->Int(1, side);
-  config.height = input->Int(1, side);
+  config.width = input->Int(strands ? 16 : 1, side);
+  config.height = input->Int(strands ? 16 : 1, side);
   config.views = kViews[input->Int(0, 3)];
   const double most = input->Rarely() ? SF_MAX_DISPARITY : 12;
   const double a = input->Real(-most, most), b = input->Real(-most, most);
   config.disparity_min = static_cast<float>(std::min(a, b));
   config.disparity_max = static_cast<float>(std::max(a, b));
+  if (strands) SetDepths(input, &config);
   config.max_blur = input->Rarely() ? input->Real(1, SF_MAX_BLUR) : input->Real(0.01, 14);
   config.largest_block = kBlocks[input->Int(0, 3)];
   config.max_workers = input->Rarely() ? SF_MAX_WORKERS : 1;
@@ -118,42 +128,70 @@ size_t Needed(size_t stride, int rows, size_t row) {
   return stride * static_cast<size_t>(rows - 1) + row;
 }
 
-void MakeDisparity(const sf_config& config, Input* input, Pictures* pictures) {
+// Samples of a plane, from 0 to 255.
+struct Levels {
+  size_t stride, count;
+  std::unique_ptr<uint8_t[]> samples;
+};
+
+// Runs of any levels, or those that the strands have.
+Levels MakeLevels(const sf_config& config, const Strands& strands,
+                  int (Strands::*level_at)(int x, int y) const, Input* input) {
   const auto width = static_cast<size_t>(config.width);
-  const size_t stride = width + static_cast<size_t>(input->Int(0, 3));
-  const size_t count = Needed(stride, config.height, width);
-  pictures->disparity.reset(new float[count]);
-  uint8_t levels[32];
-  input->Bytes(levels, sizeof(levels));
+  Levels levels;
+  levels.stride = width + static_cast<size_t>(input->Int(0, 3));
+  levels.count = Needed(levels.stride, config.height, width);
+  levels.samples.reset(new uint8_t[levels.count]);
+  uint8_t runs[32];
+  input->Bytes(runs, sizeof(runs));
   const auto length = static_cast<size_t>(input->Int(1, 40));
+  for (size_t i = 0; i < levels.count; ++i) {
+    const auto x = static_cast<int>(i % levels.stride), y = static_cast<int>(i / levels.stride);
+    const int level = strands.any() ? (strands.*level_at)(x, y) : runs[i / length % 32];
+    levels.samples[i] = static_cast<uint8_t>(level);
+  }
+  return levels;
+}
+
+void MakeDisparity(const sf_config& config, const Strands& strands, Input* input,
+                   Pictures* pictures) {
+  const Levels levels = MakeLevels(config, strands, &Strands::DepthAt, input);
+  pictures->disparity.reset(new float[levels.count]);
   const float range = config.disparity_max - config.disparity_min;
-  for (size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < levels.count; ++i) {
     const float value =
-        config.disparity_min + range * static_cast<float>(levels[i / length % 32]) / 255.0f;
+        config.disparity_min + range * static_cast<float>(levels.samples[i]) / 255.0f;
     pictures->disparity[i] = std::clamp(value, config.disparity_min, config.disparity_max);
   }
   if (input->Rarely()) {
-    pictures->disparity[input->Value<uint32_t>() % count] = input->Value<float>();
+    pictures->disparity[input->Value<uint32_t>() % levels.count] = input->Value<float>();
   }
   pictures->field.disparity = pictures->disparity.get();
-  pictures->field.disparity_stride = stride * sizeof(float);
+  pictures->field.disparity_stride = levels.stride * sizeof(float);
 }
 
-void MakeCoverage(const sf_config& config, Input* input, Pictures* pictures) {
+void MakeCoverage(const sf_config& config, const Strands& strands, Input* input,
+                  Pictures* pictures) {
   if (input->Int(0, 2) != 0) return;
-  const auto width = static_cast<size_t>(config.width);
-  const size_t stride = width + static_cast<size_t>(input->Int(0, 3));
-  const size_t count = Needed(stride, config.height, width);
-  pictures->coverage.reset(new uint8_t[count]);
-  uint8_t levels[32];
-  input->Bytes(levels, sizeof(levels));
-  const auto length = static_cast<size_t>(input->Int(1, 40));
-  for (size_t i = 0; i < count; ++i) pictures->coverage[i] = levels[i / length % 32];
+  Levels levels = MakeLevels(config, strands, &Strands::CoverageAt, input);
+  pictures->coverage = std::move(levels.samples);
   pictures->field.coverage = pictures->coverage.get();
-  pictures->field.coverage_stride = stride;
+  pictures->field.coverage_stride = levels.stride;
 }
 
-Pictures MakePictures(const sf_config& config, Input* input) {
+// Bytes of any kind, or strands of one colour before another one.
+void MakeView(const Strands& strands, size_t stride, size_t bytes, Input* input, uint8_t* picture) {
+  uint8_t step[16];
+  input->Bytes(step, sizeof(step));
+  for (size_t i = 0; i < bytes; ++i) {
+    const auto x = static_cast<int>(i % stride / 3), y = static_cast<int>(i / stride);
+    const size_t c = i % stride % 3;
+    picture[i] = strands.any() ? test::Mixture(strands.CoverageAt(x, y), step[c], step[3 + c])
+                               : static_cast<uint8_t>(step[i % 16] + (i >> 4) * step[0]);
+  }
+}
+
+Pictures MakePictures(const sf_config& config, const Strands& strands, Input* input) {
   Pictures pictures;
   const size_t row = 3 * static_cast<size_t>(config.width);
   for (int view = 0; view < config.views; ++view) {
@@ -161,15 +199,11 @@ Pictures MakePictures(const sf_config& config, Input* input) {
     const size_t bytes = Needed(stride, config.height, row);
     pictures.bytes.emplace_back(new uint8_t[bytes]);
     uint8_t* picture = pictures.bytes.back().get();
-    uint8_t step[16];
-    input->Bytes(step, sizeof(step));
-    for (size_t i = 0; i < bytes; ++i) {
-      picture[i] = static_cast<uint8_t>(step[i % 16] + (i >> 4) * step[0]);
-    }
+    MakeView(strands, stride, bytes, input, picture);
     pictures.field.views[view] = {picture, stride};
   }
-  MakeDisparity(config, input, &pictures);
-  MakeCoverage(config, input, &pictures);
+  MakeDisparity(config, strands, input, &pictures);
+  MakeCoverage(config, strands, input, &pictures);
   return pictures;
 }
 
@@ -221,7 +255,7 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
     return;
   }
   if (input->Int(0, 1) == 0) {
-    const Pictures before = MakePictures(config, input);
+    const Pictures before = MakePictures(config, Strands(), input);
     const size_t bytes = Needed(stride, config.height, 3 * static_cast<size_t>(config.width));
     const std::unique_ptr<uint8_t[]> picture(new uint8_t[bytes]());
     const sf_previous previous = {input->Int(0, 1) == 0 ? before.field : pictures.field,
@@ -249,7 +283,8 @@ void Refocus(sf_engine* engine, const sf_config& config, const sf_params& params
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Input input(data, size);
-  const sf_config config = MakeConfig(&input);
+  const Strands strands = input.Int(0, 1) == 0 ? Strands() : test::DrawStrands(&input);
+  const sf_config config = MakeConfig(strands.any(), &input);
   size_t bytes = 0;
   if (sf_workspace_size(&config, &bytes) != SF_OK || bytes > (size_t{200} << 20)) return 0;
   if (int64_t{config.width} * config.height > 20000) return 0;
@@ -258,7 +293,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
   sf_engine* engine = nullptr;
   if (sf_init(&config, workspace, bytes, &engine) != SF_OK) std::abort();
-  const Pictures pictures = MakePictures(config, &input);
+  const Pictures pictures = MakePictures(config, strands, &input);
   const size_t row = 3 * static_cast<size_t>(config.width);
   const size_t stride = row + static_cast<size_t>(input.Int(0, 5));
   const std::unique_ptr<uint8_t[]> out(new uint8_t[Needed(stride, config.height, row)]);

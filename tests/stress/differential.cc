@@ -251,6 +251,7 @@ Outcome Differential(test::Random* random) {
     if (!failure.empty()) failure = std::string(way.name) + ": " + failure;
   }
   if (failure.empty() && (before.pictures != asked.setup.scene.pictures ||
+                          before.coverage != asked.setup.scene.coverage ||
                           before.disparity != asked.setup.scene.disparity)) {
     failure = "the light field was written to";
   }

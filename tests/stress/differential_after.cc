@@ -8,7 +8,7 @@ namespace starfocus::stress {
 namespace {
 
 // What changes from a frame to the next.
-enum class Change { kDepths, kCentre, kSides, kRectangle, kEdges, kNothing };
+enum class Change { kDepths, kCentre, kSides, kRectangle, kEdges, kCoverage, kNothing };
 
 struct Changer {
   test::Scene* scene;
@@ -34,7 +34,12 @@ struct Changer {
       if (change == Change::kCentre) Sample(0, X(), Y());
       if (change == Change::kSides) Sample(random->Int(0, scene->views() - 1), X(), Y());
       if (change == Change::kEdges) Edge();
+      if (change == Change::kCoverage) Coverage();
     }
+  }
+  void Coverage() {
+    if (scene->coverage.empty()) return;
+    scene->coverage[size_t(Y()) * size_t(scene->width) + size_t(X())] = random->Byte();
   }
   // Of the map or of a view.
   void Rectangle() {
@@ -79,7 +84,7 @@ std::string After(const Asked& asked, test::Random* random) {
   Rig rig(asked.setup.config, RandomVariant(random));
   for (int frame = random->Int(1, 3); frame > 0; --frame) {
     Changer changer = {&now.setup.scene, random};
-    changer.Apply(static_cast<Change>(random->Int(0, 5)));
+    changer.Apply(static_cast<Change>(random->Int(0, 6)));
     std::string failure;
     now.picture = Refocused(now.setup, Variant(), &failure);
     if (!failure.empty()) return failure;

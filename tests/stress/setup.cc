@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/support/shapes.h"
+#include "tests/support/strands.h"
 
 namespace starfocus::stress {
 namespace {
@@ -43,7 +44,8 @@ std::string Setup::Text() const {
          ", deblocking " + std::to_string(config.deblocking) + ", transfer " +
          std::to_string(config.transfer) + ", highlights " + Number(double{config.highlights}) +
          ", theta " + Number(config.theta) + ", n_scale " + Number(config.n_scale) +
-         (config.gather != 0 ? "" : ", nothing gathered") + ", " + test::ShapeText(config);
+         (config.gather != 0 ? "" : ", nothing gathered") +
+         (scene.coverage.empty() ? "" : ", coverage") + ", " + test::ShapeText(config);
 }
 
 double RandomRadius(double largest, test::Random* random) {
@@ -76,6 +78,30 @@ void SetDepth(Depth depth, test::Scene* scene, test::Random* random) {
       if (depth == Depth::kSparse && random->Int(0, 40) == 0) value = far;
       scene->Disparity(x, y) =
           std::clamp(static_cast<float>(value), scene->disparity_min, scene->disparity_max);
+    }
+  }
+}
+
+void SetStrands(test::Scene* scene, test::Random* random) {
+  const test::Strands strands = test::DrawStrands(random);
+  const int near[3] = {random->Byte(), random->Byte(), random->Byte()};
+  const int far[3] = {random->Byte(), random->Byte(), random->Byte()};
+  const float range = scene->disparity_max - scene->disparity_min;
+  const bool given = random->Int(0, 1) == 0;
+  for (int y = 0; y < scene->height; ++y) {
+    for (int x = 0; x < scene->width; ++x) {
+      const float depth = static_cast<float>(strands.DepthAt(x, y)) / 255.0f;
+      scene->Disparity(x, y) = std::min(scene->disparity_min + depth * range, scene->disparity_max);
+      if (given) scene->coverage.push_back(static_cast<uint8_t>(strands.CoverageAt(x, y)));
+      for (int view = 0; view < scene->views(); ++view) {
+        const sf_position at = scene->PositionOf(view);
+        const auto right = static_cast<int>(std::lround(at.u * scene->disparity_max));
+        const auto down = static_cast<int>(std::lround(at.v * scene->disparity_max));
+        const int coverage = strands.CoverageAt(x + right, y + down);
+        for (int c = 0; c < 3; ++c) {
+          scene->Pixel(view, x, y)[c] = test::Mixture(coverage, near[c], far[c]);
+        }
+      }
     }
   }
 }
@@ -148,20 +174,29 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   const int low = std::min(bounds.size, random->Int(0, 3) == 0 ? bounds.size : 20);
   Setup setup;
   const double a = random->Real(-bounds.disparity, bounds.disparity);
-  const double b = random->Int(0, 2) == 0 ? random->Real(-bounds.disparity, bounds.disparity)
-                                          : std::clamp<double>(a + random->Real(-3, 3),
-                                                               -bounds.disparity, bounds.disparity);
-  setup.scene = test::EmptyScene(random->Int(1, low), random->Int(1, low),
-                                 kViews[random->Int(0, 3)], static_cast<float>(std::min(a, b)),
-                                 static_cast<float>(std::max(a, b)), random->Int(0, 3));
+  // Surfaces far apart, strands, or surfaces close together.
+  const int kind = random->Int(0, 3);
+  const bool strands = kind == 1;
+  const double b = kind == 0 ? random->Real(-bounds.disparity, bounds.disparity)
+                   : strands ? a + (a < 0 ? 1 : -1) * random->Real(5, 12)
+                             : a + random->Real(-3, 3);
+  const int least = strands ? std::min(16, low) : 1;
+  setup.scene = test::EmptyScene(
+      random->Int(least, low), random->Int(least, low), kViews[random->Int(0, 3)],
+      static_cast<float>(std::max<double>(-bounds.disparity, std::min(a, b))),
+      static_cast<float>(std::min<double>(bounds.disparity, std::max(a, b))), random->Int(0, 3));
   RandomLens(RandomRadius(bounds.radius, random), bounds.modes, &setup, random);
   if (random->Int(0, 3) == 0) setup.config.gather = 0;
   if (random->Int(0, 3) == 0)
     setup.config.n_scale = OftenAnEnd(SF_MIN_N_SCALE, SF_MAX_N_SCALE, random);
   // Pictures draw numbers of their own: a fuzzer's bytes would not last for them.
   test::Random fill(random->Next());
-  SetDepth(static_cast<Depth>(random->Int(0, 6)), &setup.scene, &fill);
-  SetColours(static_cast<Colours>(random->Int(0, 3)), &setup.scene, &fill);
+  if (strands) {
+    SetStrands(&setup.scene, &fill);
+  } else {
+    SetDepth(static_cast<Depth>(random->Int(0, 6)), &setup.scene, &fill);
+    SetColours(static_cast<Colours>(random->Int(0, 3)), &setup.scene, &fill);
+  }
   if (fill.Int(0, 3) == 0) test::RandomShape(&setup.config, &fill);
   return setup;
 }

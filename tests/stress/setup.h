@@ -36,6 +36,8 @@ struct Bounds {
 double RandomRadius(double largest, test::Random* random);
 
 void SetDepth(Depth depth, test::Scene* scene, test::Random* random);
+// Strands before a farther surface, as each view sees them, with coverage now and then.
+void SetStrands(test::Scene* scene, test::Random* random);
 void SetColours(Colours colours, test::Scene* scene, test::Random* random);
 
 // A scene of flat disparity 0 seen with blur radius `radius` exactly, in any mode; colours are left

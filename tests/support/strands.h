@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Strands of one to a few pixels before a farther surface, for scenes of thin structure.
+#ifndef STARFOCUS_TESTS_SUPPORT_STRANDS_H_
+#define STARFOCUS_TESTS_SUPPORT_STRANDS_H_
+
+#include <cstdint>
+
+namespace test {
+
+// A profile across strands that repeats. Coverage and depth go from 0, the far surface, to 255.
+struct Strands {
+  static constexpr int kMostPeriod = 12;
+
+  uint8_t profile[kMostPeriod] = {};  // coverage
+  int period = 0;                     // samples of the profile; 0: there are no strands
+  int right = 1, down = 0;            // samples from a pixel to the next one
+  bool ramps = false;                 // the map's outlines are ramps, as those of networks
+
+  bool any() const { return period > 0; }
+  int CoverageAt(int x, int y) const {
+    const int at = (right * x + down * y) % period;
+    return profile[at < 0 ? at + period : at];
+  }
+  int DepthAt(int x, int y) const {
+    if (!ramps) return NearAt(x, y);
+    return (NearAt(x - 1, y) + 2 * NearAt(x, y) + NearAt(x + 1, y)) / 4;
+  }
+
+ private:
+  int NearAt(int x, int y) const { return CoverageAt(x, y) > 127 ? 255 : 0; }
+};
+
+template <class Random>
+Strands DrawStrands(Random* random) {
+  Strands strands;
+  for (uint8_t& coverage : strands.profile) coverage = static_cast<uint8_t>(random->Int(0, 255));
+  strands.period = random->Int(3, Strands::kMostPeriod);
+  strands.down = random->Int(0, 3);
+  strands.right = random->Int(strands.down == 0 ? 1 : 0, 3);
+  strands.ramps = random->Int(0, 2) == 0;
+  return strands;
+}
+
+// The light of a pixel of which a nearer surface covers so much.
+inline uint8_t Mixture(int coverage, int near, int far) {
+  return static_cast<uint8_t>((coverage * near + (255 - coverage) * far) / 255);
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_STRANDS_H_
