@@ -51,7 +51,8 @@ struct Ramps {
   }
 };
 
-// The nearest pixel of a surface, of those equally near the first by rows.
+// The nearest pixel of a surface; of those equally near it is the one in the smallest square around
+// the pixel, and then the first by rows.
 struct Found {
   int32_t disparity;  // that of the pixel itself if there is none
   int32_t distance;   // squared; INT32_MAX: there is none

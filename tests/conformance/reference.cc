@@ -15,23 +15,6 @@ std::pair<int, int> PositionOf(const test::Scene& scene, int view) {
   return {int(std::lround(kViewUnit * at.u)), int(std::lround(kViewUnit * at.v))};
 }
 
-LightField Load(const test::Scene& scene, int transfer) {
-  LightField field;
-  for (int view = 0; view < scene.views(); ++view) {
-    Picture picture(scene.width, scene.height);
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x < scene.width; ++x) {
-        const uint8_t* rgb = scene.Pixel(view, x, y);
-        Colour& colour = picture.colours[picture.At(x, y)];
-        for (size_t c = 0; c < 3; ++c) colour[c] = test::LightOf(rgb[c], transfer);
-        picture.disparities[picture.At(x, y)] = RoundedTo64(scene.Disparity(x, y));
-      }
-    }
-    field.emplace(PositionOf(scene, view), std::move(picture));
-  }
-  return field;
-}
-
 bool IsHighlight(const uint8_t* codes) {
   return std::count_if(codes, codes + 3, [](uint8_t code) { return code >= 251; }) >= 2;
 }
@@ -247,6 +230,23 @@ void Encode(const sf_config& config, const std::vector<double>& excess, Result* 
 }
 
 }  // namespace
+
+LightField Load(const test::Scene& scene, int transfer) {
+  LightField field;
+  for (int view = 0; view < scene.views(); ++view) {
+    Picture picture(scene.width, scene.height);
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) {
+        const uint8_t* rgb = scene.Pixel(view, x, y);
+        Colour& colour = picture.colours[picture.At(x, y)];
+        for (size_t c = 0; c < 3; ++c) colour[c] = test::LightOf(rgb[c], transfer);
+        picture.disparities[picture.At(x, y)] = RoundedTo64(scene.Disparity(x, y));
+      }
+    }
+    field.emplace(PositionOf(scene, view), std::move(picture));
+  }
+  return field;
+}
 
 int ViewsAlongRadius(double r_max, int mode) {
   if (mode == SF_MODE_BENCHMARK) return 2 * int(std::ceil(r_max));

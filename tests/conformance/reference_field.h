@@ -7,6 +7,9 @@
 
 namespace reference {
 
+// The light of a scene's views, and its disparities.
+LightField Load(const test::Scene& scene, int transfer);
+
 // A rectangle of a layer and the border it is rendered from, in the layer's pixels.
 struct Rectangle {
   int x, y, width, height;

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/conformance/reference_coverage.h"
+
+#include <functional>
+#include <set>
+
+#include "tests/conformance/reference_edges.h"
+#include "tests/conformance/reference_far.h"
+#include "tests/conformance/reference_field.h"
+
+namespace reference {
+namespace {
+
+// Pixels beside nearer ones in a tile of thin structure.
+constexpr int kLeastRagged = 36;
+
+// As the engine keeps them between passes: coverage, and what is known of light.
+double RoundedCoverage(double alpha) { return std::floor(alpha * 128 + 0.5) / 128; }
+double Kept(double known) { return std::floor(known * 256) / 256; }
+double EighthPower(double value) { return Kept(std::pow(value, 8)); }
+
+double Dot(const Colour& a, const Colour& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Colour Less(const Colour& a, const Colour& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+// What is found of a pixel, pass by pass.
+struct Pixel {
+  bool two = false;             // near an edge: it has two surfaces
+  double near = 0, far = 0;     // disparities
+  double guess = 1, first = 1;  // coverage by the map, and after the first pass
+};
+
+class Parter {
+ public:
+  Parter(const LightField& field, const std::vector<uint8_t>& given)
+      : field_(field),
+        centre_(field.at({0, 0})),
+        map_(centre_),
+        given_(given),
+        columns_((centre_.width + kTile - 1) / kTile),
+        rows_((centre_.height + kTile - 1) / kTile),
+        pixels_(size_t(centre_.width) * size_t(centre_.height)),
+        far_(columns_, rows_) {}
+
+  std::vector<PartedPixel> Part() {
+    MarkRagged();
+    ForEach([&](int x, int y) { StartPixel(x, y); });
+    far_.Fill();
+    if (given_.empty()) FirstPass();
+    MarkMixed();
+    ForEach([&](int x, int y) {
+      if (At(x, y).two && IsThin(x, y)) LookBehind(x, y);
+    });
+    far_.Fill();
+    std::vector<PartedPixel> parted(pixels_.size());
+    ForEach([&](int x, int y) {
+      if (At(x, y).two && IsThin(x, y)) parted[Index(x, y)] = Parted(x, y);
+    });
+    return parted;
+  }
+
+ private:
+  using Act = std::function<void(int x, int y)>;
+  void ForEach(const Act& act) const {
+    for (int y = 0; y < centre_.height; ++y) {
+      for (int x = 0; x < centre_.width; ++x) act(x, y);
+    }
+  }
+  size_t Index(int x, int y) const { return centre_.At(x, y); }
+  Pixel& At(int x, int y) { return pixels_[Index(x, y)]; }
+  const Pixel& At(int x, int y) const { return pixels_[Index(x, y)]; }
+  const Colour& Light(int x, int y) const { return centre_.colours[Index(x, y)]; }
+
+  // --- Tiles ---
+
+  using Tiles = std::set<std::pair<int, int>>;
+  static bool Any(const Tiles& tiles, int x, int y, int reach) {
+    for (int row = y / kTile - reach; row <= y / kTile + reach; ++row) {
+      for (int column = x / kTile - reach; column <= x / kTile + reach; ++column) {
+        if (tiles.count({column, row}) > 0) return true;
+      }
+    }
+    return false;
+  }
+  bool IsStarted(int x, int y) const { return Any(ragged_, x, y, given_.empty() ? 1 : 2); }
+  bool IsThin(int x, int y) const { return IsStarted(x, y) && Any(mixed_, x, y, 1); }
+
+  void MarkRagged() {
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        int low = map_.Disparity(column * kTile, row * kTile), high = low, beside = 0;
+        for (int y = -1; y <= kTile; ++y) {
+          for (int x = -1; x <= kTile; ++x) {
+            const bool inside = x >= 0 && x < kTile && y >= 0 && y < kTile;
+            const int left = column * kTile + x, top = row * kTile + y;
+            low = std::min(low, map_.Disparity(left, top));
+            high = std::max(high, map_.Disparity(left, top));
+            beside += inside && map_.IsBesideNearer(left, top) ? 1 : 0;
+          }
+        }
+        const bool ragged = high - low > kThinEdge && (!given_.empty() || beside >= kLeastRagged);
+        if (ragged) ragged_.insert({column, row});
+      }
+    }
+  }
+
+  // Given coverage says something else than the map of some pixel; found one is a mixture.
+  void MarkMixed() {
+    std::map<std::pair<int, int>, double> mixture;
+    ForEach([&](int x, int y) {
+      const Pixel& pixel = At(x, y);
+      const std::pair<int, int> tile = {x / kTile, y / kTile};
+      if (given_.empty()) {
+        mixture[tile] += 4 * pixel.first * (1 - pixel.first) / (kTile * kTile);
+      } else if (pixel.two && std::fabs(pixel.first - pixel.guess) > 1 / 16.0) {
+        mixture[tile] = 1;
+      }
+    });
+    for (const auto& [tile, mean] : mixture) {
+      if (mean > 3 / 16.0) mixed_.insert(tile);
+    }
+  }
+
+  void StartPixel(int x, int y) {
+    Pixel& pixel = At(x, y);
+    const int here = map_.Disparity(x, y);
+    pixel.near = pixel.far = here;
+    if (!IsStarted(x, y)) return;
+    int low = here, high = here, square = 0;
+    const bool given = !given_.empty();
+    pixel.two =
+        given ? map_.FindGiven(x, y, &low, &high) : map_.FindEdge(x, y, &low, &high, &square);
+    double known = 1;
+    if (pixel.two) {
+      pixel.near = map_.SmoothNear(x, y, high);
+      pixel.far = low;
+      pixel.guess = pixel.first = 2 * here >= low + high ? 1 : 0;
+      if (given) {
+        pixel.first = RoundedCoverage(given_[Index(x, y)] / 255.0);
+        known = EighthPower(1 - pixel.first);
+      } else {
+        // Beside a strand of the map there may be one that it lacks.
+        known = here == high ? 0 : square <= 2 ? 1 / 16.0 : square <= 5 ? 1 / 4.0 : 1;
+      }
+    }
+    far_.Pixel(x, y) = {Light(x, y), known, pixel.far};
+  }
+
+  // --- Coverage by colours ---
+
+  // The near light around a pixel by the part of it that each pixel shows; false: too little shows.
+  bool NearLight(int x, int y, const std::function<double(int x, int y)>& shown,
+                 Colour* light) const {
+    constexpr double kTaps[3][3] = {{10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
+    double weights = 0;
+    *light = {0, 0, 0};
+    for (int dy = -2; dy <= 2; ++dy) {
+      for (int dx = -2; dx <= 2; ++dx) {
+        if (!centre_.Inside(x + dx, y + dy)) continue;
+        if (std::fabs(At(x + dx, y + dy).near - At(x, y).near) > kThinEdge) continue;
+        const double weight = kTaps[std::abs(dy)][std::abs(dx)] * shown(x + dx, y + dy);
+        weights += weight;
+        for (size_t c = 0; c < 3; ++c) (*light)[c] += weight * Light(x + dx, y + dy)[c];
+      }
+    }
+    for (double& value : *light) value /= weights;
+    return weights >= 1 / 8.0;
+  }
+
+  // Coverage of a mixture; where it is none, or cannot be told, `guess`.
+  static double AlphaOf(const Colour& near, const Colour& far, const Colour& mixed, double guess) {
+    const Colour whole = Less(near, far), part = Less(mixed, far);
+    const double contrast = Dot(whole, whole), along = Dot(whole, part);
+    if (contrast < 300) return guess;
+    const double beside = Dot(part, part) - along * along / contrast;
+    const double square = 81 + contrast / 16;
+    const double trust = 1 - std::clamp((4 * beside - square) / (8 * square), 0.0, 1.0);
+    return guess + (std::clamp(along / contrast, 0.0, 1.0) - guess) * trust;
+  }
+
+  void FirstPass() {
+    // The near side of an edge, by how many of the pixels around are of it.
+    const auto shown = [&](int x, int y) {
+      double count = 0;
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          count += At(std::clamp(x + dx, 0, centre_.width - 1),
+                      std::clamp(y + dy, 0, centre_.height - 1))
+                       .guess;
+        }
+      }
+      return 3 * count * count * At(x, y).guess / 256;
+    };
+    ForEach([&](int x, int y) {
+      Pixel& pixel = At(x, y);
+      const FarLight far = far_.Filled(x, y);
+      Colour near;
+      if (!pixel.two || !Any(ragged_, x, y, 0) || far.known == 0) return;
+      if (!NearLight(x, y, shown, &near)) return;
+      pixel.first = RoundedCoverage(AlphaOf(near, far.light, Light(x, y), pixel.guess));
+    });
+  }
+
+  // --- The far light as all views show it ---
+
+  // How much of the place of a pixel's far surface nearer surfaces cover at most in a view: those
+  // that move to within a pixel and a half of it.
+  double CoveredIn(const Position& view, int x, int y) const {
+    const bool down = std::abs(view.second) > std::abs(view.first);
+    const int along = down ? view.second : view.first, across = down ? view.first : view.second;
+    const int sign = along < 0 ? -1 : 1;
+    double covered = 0;
+    for (int m = 0; m <= 32; ++m) {
+      const int beside = int(Rounded(int64_t{sign} * m * (across * kViewUnit / along), 14));
+      for (int k = beside - 1; k <= beside + 1; ++k) {
+        const int column = x + (down ? k : sign * m), row = y + (down ? sign * m : k);
+        if (!centre_.Inside(column, row)) continue;
+        const Pixel& pixel = At(column, row);
+        const double nearer = pixel.near - At(x, y).far;
+        // On the engine's grid of 1/32.
+        const double moved = 2 * std::floor(nearer * along / kViewUnit / 2 + 0.5);
+        if (nearer <= 64 || std::fabs(moved - sign * 64 * m) > 96) continue;
+        covered = std::max(covered, pixel.first);
+      }
+    }
+    return covered;
+  }
+
+  void LookBehind(int x, int y) {
+    std::set<Position> views;
+    for (const Direction& side : kDirections) {
+      for (const Position& view : LooksOn(field_, side)) views.insert(view);
+    }
+    const Pixel& pixel = At(x, y);
+    // The centre view counts less: it is there that all is mixed.
+    double known = Kept(EighthPower(1 - pixel.first) / 8);
+    Colour sum = Light(x, y);
+    for (double& light : sum) light *= known;
+    for (const Position& view : views) {
+      const double weight = EighthPower(1 - CoveredIn(view, x, y));
+      const int far = int(pixel.far);
+      const Colour light =
+          Read(field_, 0, view, x - Moved(view.first, far, 0), y - Moved(view.second, far, 0));
+      for (size_t c = 0; c < 3; ++c) sum[c] += weight * light[c];
+      known += weight;
+    }
+    FarLight& far = far_.Pixel(x, y);
+    far.known = Kept(std::min(known / 2, 1.0));
+    for (size_t c = 0; c < 3 && known > 0; ++c) far.light[c] = sum[c] / known;
+  }
+
+  PartedPixel Parted(int x, int y) const {
+    const Pixel& pixel = At(x, y);
+    const FarLight far = far_.Filled(x, y);
+    const bool known = far.known > 0;
+    PartedPixel parted = {true, pixel.first, pixel.near, pixel.far, far.light};
+    if (!given_.empty()) {
+      parted.parted = known;
+      return parted;
+    }
+    if (!known) {
+      parted.alpha = pixel.guess;
+      return parted;
+    }
+    const auto shown = [&](int column, int row) { return EighthPower(At(column, row).first); };
+    Colour near;
+    if (NearLight(x, y, shown, &near)) {
+      parted.alpha = AlphaOf(near, far.light, Light(x, y), pixel.first);
+    }
+    return parted;
+  }
+
+  const LightField& field_;
+  const Picture& centre_;
+  const ThinMap map_;
+  const std::vector<uint8_t>& given_;
+  const int columns_, rows_;
+  std::vector<Pixel> pixels_;
+  FarPyramid far_;
+  Tiles ragged_, mixed_;
+};
+
+}  // namespace
+
+std::vector<PartedPixel> PartPixels(const test::Scene& scene, int transfer) {
+  const LightField field = Load(scene, transfer);
+  return Parter(field, scene.coverage).Part();
+}
+
+}  // namespace reference

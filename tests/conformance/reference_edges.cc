@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/conformance/reference_edges.h"
+
+#include "tests/conformance/reference_field.h"
+
+namespace reference {
+
+int ThinMap::Disparity(int x, int y) const {
+  return picture_.disparities[picture_.At(std::clamp(x, 0, picture_.width - 1),
+                                          std::clamp(y, 0, picture_.height - 1))];
+}
+
+bool ThinMap::IsBesideNearer(int x, int y) const {
+  for (const Direction& side : kDirections) {
+    if (Disparity(x + side.x, y + side.y) - Disparity(x, y) > kThinEdge) return true;
+  }
+  return false;
+}
+
+// The nearest of the pixels within `reach` for which `is` holds; none: (0, 0). Of those equally
+// near it is the one in the smallest square around the pixel, and then the first by rows.
+std::pair<int, int> ThinMap::Nearest(int x, int y, int reach, const Is& is) const {
+  std::pair<int, int> nearest = {0, 0};
+  std::pair<int, int> least = {INT32_MAX, 0};
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const std::pair<int, int> rank = {dx * dx + dy * dy, std::max(std::abs(dx), std::abs(dy))};
+      if (rank.first == 0 || !(rank < least) || !is(x + dx, y + dy)) continue;
+      least = rank;
+      nearest = {dx, dy};
+    }
+  }
+  return nearest;
+}
+
+// Between two opposite neighbours, with steps of half a pixel and more, at most 4 times the
+// other.
+bool ThinMap::IsRamp(int x, int y) const {
+  constexpr Direction kOpposite[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
+  for (const Direction& to : kOpposite) {
+    const int here = Disparity(x, y);
+    const int before = here - Disparity(x - to.x, y - to.y);
+    const int after = Disparity(x + to.x, y + to.y) - here;
+    const int least = std::min(std::abs(before), std::abs(after));
+    const int most = std::max(std::abs(before), std::abs(after));
+    if ((before > 0) == (after > 0) && least >= 32 && most <= 4 * least) return true;
+  }
+  return false;
+}
+
+bool ThinMap::FindGiven(int x, int y, int* low, int* high) const {
+  const int here = Disparity(x, y);
+  const auto find = [&](int from, int to) {
+    return Nearest(x, y, 32, [&](int column, int row) {
+      const int there = Disparity(column, row);
+      return there >= from && there <= to && !IsRamp(column, row);
+    });
+  };
+  const auto disparity = [&](const std::pair<int, int>& at) {
+    return Disparity(x + at.first, y + at.second);
+  };
+  if (IsRamp(x, y)) {
+    *high = disparity(find(here + 1, INT16_MAX));
+    *low = disparity(find(INT16_MIN, here - 1));
+    if (*high - *low > kThinEdge) return true;
+  }
+  const auto nearer = find(here + kThinEdge + 1, INT16_MAX);
+  const auto farther = find(INT16_MIN, here - kThinEdge - 1);
+  const auto square = [](const std::pair<int, int>& at) {
+    const int sum = at.first * at.first + at.second * at.second;
+    return sum == 0 ? INT32_MAX : sum;
+  };
+  const bool is_near = square(farther) <= square(nearer);
+  *high = is_near ? here : disparity(nearer);
+  *low = is_near ? disparity(farther) : here;
+  return std::min(square(nearer), square(farther)) != INT32_MAX;
+}
+
+bool ThinMap::FindEdge(int x, int y, int* low, int* high, int* square) const {
+  const int here = Disparity(x, y);
+  const auto [dx, dy] = Nearest(x, y, 3, [&](int column, int row) {
+    return std::abs(Disparity(column, row) - here) > kThinEdge;
+  });
+  const int other = Disparity(x + dx, y + dy);
+  *low = std::min(here, other);
+  *high = std::max(here, other);
+  *square = dx * dx + dy * dy;
+  return *square != 0;
+}
+
+double ThinMap::SmoothNear(int x, int y, int near) const {
+  constexpr int kWeights[] = {6, 4, 1};
+  double sum = 0, weights = 0;
+  for (int dy = -2; dy <= 2; ++dy) {
+    for (int dx = -2; dx <= 2; ++dx) {
+      if (std::abs(Disparity(x + dx, y + dy) - near) > 2 * 64) continue;
+      const double weight = kWeights[std::abs(dx)] * kWeights[std::abs(dy)];
+      sum += weight * (Disparity(x + dx, y + dy) - near);
+      weights += weight;
+    }
+  }
+  return weights == 0 ? near : near + std::round(sum / weights);
+}
+
+}  // namespace reference
