@@ -8,6 +8,8 @@ namespace {
 
 // Pixels within kRadius vote about those within kReach of another surface.
 constexpr int32_t kRadius = 5, kReach = 2;
+// Half the width of each row of the disc of that radius, from the middle row on.
+constexpr int32_t kWidths[kRadius + 1] = {5, 4, 4, 4, 3, 0};
 // A pixel counts less with its squared distance, and with how its colour differs.
 constexpr int32_t kNearWeight = 36, kColourWeight = 64;
 
@@ -46,20 +48,18 @@ struct Columns {
 int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, const Range& range) {
   const int32_t own = map.disparity[map.At(x, y)], middle = (range.low + range.high) / 2;
   const uint8_t* colour = map.Pixel(x, y);
-  const Rect around = Widened(map.plan, {x, y, 1, 1}, kRadius);
   int64_t sums[2] = {};
   int32_t votes[2] = {};
-  for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const int32_t dy = row - y;
-    for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const int32_t dx = column - x, distance = dx * dx + dy * dy;
-      if (distance > kRadius * kRadius) continue;
-      const int32_t difference = ColourDifference(colour, map.Pixel(column, row));
-      const int32_t weight = (kNearWeight - distance) * Max(1, kColourWeight - difference);
-      const int32_t disparity = map.disparity[map.At(column, row)];
-      const int side = disparity > middle ? 1 : 0;
+  for (int32_t dy = -Min(y, kRadius); dy <= Min(map.plan.height - 1 - y, kRadius); ++dy) {
+    const int32_t width = kWidths[Abs(dy)], last = Min(map.plan.width - 1 - x, width);
+    const uint8_t* colours = map.Pixel(x, y + dy);
+    const int16_t* disparities = map.disparity + map.At(x, y + dy);
+    for (int32_t dx = -Min(x, width); dx <= last; ++dx) {
+      const int32_t difference = ColourDifference(colour, colours + 3 * dx);
+      const int32_t weight = (kNearWeight - dx * dx - dy * dy) * Max(1, kColourWeight - difference);
+      const int side = disparities[dx] > middle ? 1 : 0;
       votes[side] += weight;
-      sums[side] += int64_t{weight} * disparity;
+      sums[side] += int64_t{weight} * disparities[dx];
     }
   }
   const int own_side = own > middle ? 1 : 0, other = 1 - own_side;
