@@ -205,6 +205,7 @@ void WidenTile(const void* data, int32_t index, int32_t) {
   const int32_t softness = SoftnessOf(job.memory->soft, plan.columns * plan.rows);
   if (softness == 0) return;
   ForSolidRows(job, index, [&](const Rect& row) {
+    if (!HasStep(job.map, softness, row)) return;
     for (int32_t x = row.x; x < row.x + row.width; ++x) {
       const int16_t widened = WidenedAt(job.map, softness, x, row.y);
       Change(job, x, row.y, widened);

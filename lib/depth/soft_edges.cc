@@ -101,6 +101,19 @@ int32_t SoftnessOf(const SoftCount* counts, int32_t tiles) {
   return soft == 0 ? 0 : Min(soft + 1, kMostSoft);
 }
 
+bool HasStep(const ColourMap& map, int32_t softness, const Rect& rect) {
+  const Rect around = Widened(map.plan, rect, softness);
+  int32_t low = INT16_MAX, high = INT16_MIN;
+  for (int32_t y = around.y; y < around.y + around.height; ++y) {
+    const int16_t* row = map.disparity + map.At(around.x, y);
+    for (int32_t k = 0; k < around.width; ++k) {
+      low = Min(low, row[k]);
+      high = Max(high, row[k]);
+    }
+  }
+  return high - low > kStep;
+}
+
 int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) {
   const int16_t own = map.disparity[map.At(x, y)];
   int16_t nearest = own;

@@ -27,6 +27,9 @@ SoftCount CountSoft(const ColourMap& map, const Rect& tile);
 // of the nearer surface at half of the edges or more, or 0.
 int32_t SoftnessOf(const SoftCount* counts, int32_t tiles);
 
+// Returns false if WidenedAt changes no pixel of the rectangle, as there is no step near it.
+bool HasStep(const ColourMap& map, int32_t softness, const Rect& rect);
+
 // Returns the disparity of the nearest surface within `softness` pixels of (x, y), along its row or
 // column, that is much nearer than the pixel and some of which the pixel shows; else its own.
 int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y);
