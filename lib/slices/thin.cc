@@ -15,7 +15,7 @@ constexpr int32_t kSameStructure = 4 << kDisparityBits;
 class ThinParter {
  public:
   ThinParter(const Window& window, const Field& field, LayeredDepth* surfaces)
-      : map_(*window.coverage), field_(field), surfaces_(*surfaces) {}
+      : map_(*window.coverage), is_excess_(window.is_excess), field_(field), surfaces_(*surfaces) {}
 
   void PartPixel(int32_t x, int32_t y) {
     const size_t from = map_.At(x, y), at = surfaces_.At(x - field_.x, y - field_.y);
@@ -42,8 +42,9 @@ class ThinParter {
     for (size_t c = 0; c < 3; ++c) {
       const size_t sample = c * surfaces_.plane + at;
       int16_t& near = surfaces_.rgb[0][sample] = mixed[c];
-      int16_t& beyond = surfaces_.rgb[1][sample] = far.rgb[c];
-      if (whole) continue;
+      int16_t& beyond = surfaces_.rgb[1][sample] =
+          is_excess_ ? ExcessBehind(near, whole) : far.rgb[c];
+      if (whole || is_excess_) continue;
       near = RestOf(mixed[c], beyond, kWhole - alpha);
       // What the near surface can't have is the far one's: where nothing moves, the mixture stays.
       beyond = RestOf(mixed[c], near, alpha);
@@ -51,6 +52,9 @@ class ThinParter {
   }
 
  private:
+  // Nobody knows which surface of a mixture has its excess, or any behind a whole pixel.
+  static int16_t ExcessBehind(int16_t excess, bool whole) { return whole ? int16_t{0} : excess; }
+
   // What is left of a mixture without a surface that covers `part` of it.
   static int16_t RestOf(int32_t mixed, int32_t surface, int32_t part) {
     const int32_t rest = kWhole - part;
@@ -73,6 +77,7 @@ class ThinParter {
   }
 
   const CoverageMap& map_;
+  const bool is_excess_;  // light is that of highlights beyond white
   const Field& field_;
   LayeredDepth& surfaces_;
 };
