@@ -151,7 +151,7 @@ inline int32_t LowestBit(uint32_t bits) {
 #endif
 }
 
-// The same of the highest bit.
+// Index of the highest bit set; bits != 0.
 inline int32_t HighestBit(uint32_t bits) {
 #if defined(__GNUC__)
   return 31 - __builtin_clz(bits);

@@ -23,7 +23,7 @@ using GivenPatch = Patch<kGivenReach + kRampReach>;
 // A pixel is a mixture if its coverage differs by more from what the map says; kAlphaBits.
 constexpr int32_t kLeastMixed = kWhole / 16;
 
-// Which pixels of a patch are on ramps; of those within kRampReach of its rim nobody knows.
+// Which pixels of a patch are on ramps. Those within kRampReach of its rim count as not on one.
 struct Ramps {
   static constexpr int32_t kSide = GivenPatch::kSide;
   bool at[kSide * kSide] = {};
@@ -54,8 +54,8 @@ struct Ramps {
 // The nearest pixel of a surface; of those equally near it is the one in the smallest square around
 // the pixel, and then the first by rows.
 struct Found {
-  int32_t disparity;  // that of the pixel itself if there is none
-  int32_t distance;   // squared; INT32_MAX: there is none
+  int32_t disparity;  // the pixel's own if none is found
+  int32_t distance;   // squared; INT32_MAX if none is found
 };
 
 // Finds it within kGivenReach, with a disparity from low to high.
@@ -182,7 +182,7 @@ void TakeGiven(const CoverageInput& in, int32_t column, int32_t row) {
       const size_t to = map.At(x, row * kTileSide + y);
       const FarCell& cell = far.cells[y * kTileSide + k];
       if (map.alpha[to] == kUnparted) continue;
-      // Where no far light is near, there is none to part a pixel with.
+      // A pixel without known far light nearby cannot be split.
       map.alpha[to] = cell.weight == 0 ? kUnparted : map.first[to];
       std::memcpy(map.FarAt(x, row * kTileSide + y).rgb, cell.rgb, sizeof(cell.rgb));
     }

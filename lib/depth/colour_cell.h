@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the doubtful pixels of a cell of the picture with the pixels around them, by colour.
-// Each pixel is compared with every second row and column. So pixels of even and odd rows and
-// columns are four pictures of half the size, and each is compared apart.
+// Each pixel is compared with pixels in every second row and column. The cell is therefore stored
+// as four pictures of half the size, one for each parity of row and column.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_CELL_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_CELL_H_
 
@@ -13,8 +13,8 @@
 
 namespace starfocus {
 
-// What a pixel's disparity costs, by its doubt: 0 is a ramp, and tells others nothing; 1 to 3 lie
-// as near to a step as steps are displaced.
+// The cost of a pixel's disparity by its doubt. Pixels of doubt 0 lie on a ramp and are not
+// compared with others; steps may be displaced by as much as doubts 1 to 3 say.
 inline constexpr int16_t kDoubtCosts[kDoubtReach + 2] = {80, 45, 45, 45, 22, 11, 0};
 
 // Width and height in pixels of the largest cell, and of a block: every second pixel of a block is

@@ -26,7 +26,7 @@ struct ChoicePath {
   int16_t cost[kMostChoices];
 };
 
-// What a worker needs for a region.
+// Scratch memory of a worker for one region.
 struct ChoiceMemory {
   Choices* choices;
   ChoicePath* paths;  // a row

@@ -158,12 +158,15 @@ void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
       differs && !changes ? uint8_t{0} : job.memory->certainty[at];
 }
 
-// Writes the disparity of a pixel if it is another one than in the job's map.
+// Writes the disparity of a pixel if it is another one than in the job's map. Its colour alone does
+// not say so, and confidence is 0.
 void Change(const ColourJob& job, int32_t x, int32_t y, int16_t disparity) {
   if (disparity == job.map.disparity[job.map.At(x, y)]) return;
   const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
   job.output.disparity[row * job.output.stride + column] =
       job.output.Clamped(static_cast<float>(disparity) / kPixel);
+  if (job.output.confidence == nullptr) return;
+  job.output.confidence[row * job.output.confidence_stride + column] = 0;
 }
 
 void WriteTile(const void* data, int32_t index, int32_t) {

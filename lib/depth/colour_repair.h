@@ -49,7 +49,7 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 // centre view alone. Pixels that no colour gainsays keep their disparity to the bit unless the map
 // is noisy, or most pixels of its colour around are of another surface; unknown ones (NaN,
 // infinite) get one. Confidence is 255 where nothing is in doubt, and 0 where colours gainsay the
-// map too weakly. SF_OK, or SF_ERROR_RUNNER.
+// map too weakly or an outline was moved afterwards. SF_OK, or SF_ERROR_RUNNER.
 sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
                          const simd::DepthKernels& kernels, const Runner& runner,
                          const MapOutput& output, ColourMemory* memory);

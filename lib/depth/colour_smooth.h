@@ -12,8 +12,8 @@ namespace starfocus {
 
 inline constexpr int32_t kMostSmoothRadius = 4;
 
-// A pixel is averaged over every `step`th neighbour within `radius` whose disparity is within
-// `tolerance` of its own. Neighbours of similar colour have the largest weights.
+// The neighbours that a pixel is averaged with: every `step`th one within `radius` pixels whose
+// disparity differs by at most `tolerance`. Neighbours of similar colour have the largest weights.
 struct Smoothing {
   int32_t radius, step, tolerance;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of two surfaces most pixels of a pixel's colour are of around it: so the outlines of a
-// repaired map are no more ragged than those of the picture.
+// Smooths the outlines of a repaired map: each pixel near an outline joins the surface that most
+// pixels of similar colour around it belong to.
 #ifndef STARFOCUS_LIB_DEPTH_MAJORITY_H_
 #define STARFOCUS_LIB_DEPTH_MAJORITY_H_
 

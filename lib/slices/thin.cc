@@ -52,7 +52,8 @@ class ThinParter {
   }
 
  private:
-  // Nobody knows which surface of a mixture has its excess, or any behind a whole pixel.
+  // It is unknown which surface of a mixture the excess belongs to, so both get it; behind a whole
+  // pixel there is none.
   static int16_t ExcessBehind(int16_t excess, bool whole) { return whole ? int16_t{0} : excess; }
 
   // What is left of a mixture without a surface that covers `part` of it.

@@ -16,6 +16,7 @@
 #include "lib/base/fixed.h"
 #include "lib/depth/colour_map.h"
 #include "tests/support/simd_targets.h"
+#include "tests/support/test_scene.h"
 
 namespace colour_repair_test {
 namespace {
@@ -142,6 +143,54 @@ TEST_CASE("colour repair: a ramp between two surfaces becomes a step") {
   }
   CHECK(CountWrong(photo.map, truth) > 1800);
   CHECK(CountWrong(Repair(photo).map, truth) < 20);
+}
+
+TEST_CASE("colour repair: a near surface takes in the pixels that a soft edge mixes") {
+  Photo photo = MakeDisc(-3);
+  const Photo wall = MakeDisc(-50), sharp = MakeDisc(0);
+  const auto distance = [](int x, int y) { return std::hypot(x - 151.3, y - 66.2); };
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      const double far = std::clamp((distance(x, y) - 38) / 6, 0.0, 1.0);
+      if (far == 0 || far == 1) continue;
+      const uint8_t* behind = wall.rgb.data() + 3 * wall.At(x, y);
+      const double near[] = {198, 88, 40};
+      int mixed[3];
+      for (int c = 0; c < 3; ++c)
+        mixed[c] = int(std::lround(near[c] * (1 - far) + behind[c] * far));
+      photo.Paint(x, y, mixed[0], mixed[1], mixed[2]);
+    }
+  }
+  const Repaired repaired = Repair(photo);
+  int mixed = 0, taken = 0, sure = 0;
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      if (distance(x, y) < 41.5 || distance(x, y) > 42.5) continue;  // 5/12 to 1/4 of it
+      ++mixed;
+      taken += repaired.map[photo.At(x, y)] > 0;
+      sure += repaired.confidence[photo.At(x, y)] > 0;
+    }
+  }
+  CHECK(taken > mixed * 9 / 10);
+  CHECK(sure <= mixed - taken);
+}
+
+TEST_CASE("colour repair: outlines are even where colours are noisy") {
+  const Photo truth = MakeDisc(0);
+  Photo photo = truth;
+  test::Random random(9);
+  for (int y = 0; y < photo.height; ++y) {
+    const int by = random.Int(-2, 2);
+    for (int x = 0; x < photo.width; ++x) {
+      photo.Map(x, y) = truth.map[truth.At(std::clamp(x + by, 0, photo.width - 1), y)];
+      const bool near = truth.map[truth.At(x, y)] > 0;
+      const int noise = random.Int(-45, 45);
+      photo.Paint(x, y, (near ? 150 : 100) + noise, 100 + random.Int(-25, 25), near ? 90 : 130);
+    }
+  }
+  // Pixel by pixel, colours would make it worse than it was.
+  CHECK(CountWrong(photo.map, truth) > 150);
+  CHECK(CountWrong(Repair(photo).map, truth) < CountWrong(photo.map, truth));
 }
 
 TEST_CASE("colour repair: a right map stays to the bit, with steps, planes and fractions") {

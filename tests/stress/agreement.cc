@@ -82,8 +82,9 @@ Outcome Mirrors(test::Random* random) {
   setup.config.height = setup.scene.height;
   setup.config.largest_block = 32;
   setup.config.max_layer = 0;  // layers keep every second pixel, from the left and the top
-  // Coverage takes the first by rows of equally near pixels.
-  setup.config.features &= ~SF_FEATURE_COVERAGE;
+  // Coverage takes the first by rows of equally near pixels, of which a range as wide as that of
+  // strands makes many.
+  if (setup.strands) setup.config.features &= ~SF_FEATURE_COVERAGE;
   // Polygons, and what cat's eyes leave, are not their own mirror images.
   if (setup.config.aperture_shape == SF_SHAPE_POLYGON) setup.config.aperture_shape = SF_SHAPE_DISC;
   setup.config.cats_eye = 0;

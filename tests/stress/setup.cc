@@ -192,6 +192,7 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
     setup.config.n_scale = OftenAnEnd(SF_MIN_N_SCALE, SF_MAX_N_SCALE, random);
   // Pictures draw numbers of their own: a fuzzer's bytes would not last for them.
   test::Random fill(random->Next());
+  setup.strands = strands;
   if (strands) {
     SetStrands(&setup.scene, &fill);
   } else {

@@ -19,6 +19,7 @@ struct Setup {
   test::Scene scene;
   sf_config config;
   sf_params params;
+  bool strands = false;  // SetStrands made it
 
   double Radius() const;     // largest blur radius of the configured disparities
   std::string Text() const;  // one line for a person
