@@ -100,6 +100,33 @@ TEST_CASE("given coverage: it decides over a map without gaps") {
   CHECK(with > without + 6);
 }
 
+TEST_CASE("given coverage: deep inside a silhouette, too, the wall ends where coverage does") {
+  constexpr int kEdge = 88, kOff = 3, kRadius = 40, kDark = 30, kBright = 200;
+  test::Scene scene = test::EmptyScene(192, 96, 1, 0, kRadius);
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      scene.coverage.push_back(x < kEdge ? 255 : 0);
+      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(x < kEdge ? kDark : kBright));
+      // A ramp as those of networks' maps, which ends in the near surface.
+      const double near = std::clamp((kEdge - kOff - x) / 8.0, 0.0, 1.0);
+      scene.Disparity(x, y) = float(near * kRadius);
+    }
+  }
+  sf_config config = CombConfig(scene);
+  config.max_blur = kRadius;
+  test::Engine engine(config);
+  test::Output out(scene.width, scene.height);
+  REQUIRE(test::Refocus(&engine, test::Params(0, 1, SF_MODE_BLOCK), scene, &out) == SF_OK);
+  double most = 0;
+  for (int x = kEdge - kRadius; x < kEdge; ++x) {
+    const double to_edge = kEdge - 0.5 - x, angle = std::acos(to_edge / kRadius);
+    const double wall = (angle - std::sin(angle) * std::cos(angle)) / std::acos(-1.0);
+    const double truth = kDark + wall * (kBright - kDark);
+    most = std::max(most, std::fabs(out.Pixel(x, scene.height / 2)[1] - truth));
+  }
+  CHECK(most < 2);
+}
+
 TEST_CASE("given coverage: regions, streams, images and prepared fields give the same bytes") {
   const test::Scene scene = Comb();
   sf_config config = CombConfig(scene);
