@@ -23,7 +23,7 @@ using GivenPatch = Patch<kGivenReach + kRampReach>;
 // A pixel is a mixture if its coverage differs by more from what the map says; kAlphaBits.
 constexpr int32_t kLeastMixed = kWhole / 16;
 
-// Which pixels of a patch are on ramps. Those within kRampReach of its rim count as not on one.
+// Marks the pixels of a patch that are on ramps, except within kRampReach of its rim.
 struct Ramps {
   static constexpr int32_t kSide = GivenPatch::kSide;
   bool at[kSide * kSide] = {};

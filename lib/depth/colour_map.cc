@@ -69,8 +69,7 @@ uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   return 0;
 }
 
-// Whether all pixels of a cell are given, and their surroundings are flat, so that none is in
-// doubt.
+// Returns true if every pixel of a cell is given and the cell and its surroundings are flat.
 bool IsFlat(const ColourMap& map, const Rect& cell) {
   const Rect around = Widened(map.plan, cell, kFlatRadius);
   int32_t low = INT16_MAX, high = INT16_MIN;

@@ -58,7 +58,7 @@ void ReadMap(const EstimatePlan& plan, const sf_light_field& light_field, int16_
 // any.
 int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity);
 
-// Whether one of the pixel's neighbours in the tile belongs to another surface.
+// Returns true if one of the pixel's neighbours in the tile belongs to another surface.
 bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y);
 
 // Fills `tile` of `doubt`: 0 on ramps and where nothing was given, 1 at steps, and so on up to

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How soft edges of the picture are beside those of its repaired map. A lens and a sharpening
-// filter mix several pixels beside an outline; all of them belong to the nearer surface, else they
-// stay sharp inside its blur.
+// Measures how soft the edges of a picture are, and widens the nearer surfaces of its repaired map.
+// A lens and a sharpening filter mix several pixels beside an outline. These pixels belong to the
+// nearer surface: left to the farther one, they would stay sharp inside its blur.
 #ifndef STARFOCUS_LIB_DEPTH_SOFT_EDGES_H_
 #define STARFOCUS_LIB_DEPTH_SOFT_EDGES_H_
 

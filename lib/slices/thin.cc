@@ -46,17 +46,17 @@ class ThinParter {
           is_excess_ ? ExcessBehind(near, whole) : far.rgb[c];
       if (whole || is_excess_) continue;
       near = RestOf(mixed[c], beyond, kWhole - alpha);
-      // What the near surface can't have is the far one's: where nothing moves, the mixture stays.
+      // The near light may have been clipped. The far light makes up for it, so that both
+      // surfaces still add up to the pixel.
       beyond = RestOf(mixed[c], near, alpha);
     }
   }
 
  private:
-  // It is unknown which surface of a mixture the excess belongs to, so both get it; behind a whole
-  // pixel there is none.
+  // Returns the excess of the far surface: that of the mixture, or none behind a whole pixel.
   static int16_t ExcessBehind(int16_t excess, bool whole) { return whole ? int16_t{0} : excess; }
 
-  // What is left of a mixture without a surface that covers `part` of it.
+  // Returns the light of the other surface, given that `surface` covers `part` of the mixture.
   static int16_t RestOf(int32_t mixed, int32_t surface, int32_t part) {
     const int32_t rest = kWhole - part;
     const int32_t light = (mixed * kWhole - part * surface + rest / 2) / rest;
