@@ -32,31 +32,52 @@ sf_status CheckDepthConfig(const sf_depth_config& config, bool repairs) {
   return workers ? SF_OK : SF_ERROR_WORKERS;
 }
 
-// Checks that an output overlaps neither views nor workspace.
-sf_status CheckApart(const sf_depth_config& config, const sf_light_field& light_field,
-                     const Extent& workspace, const Extent& output) {
-  if (Overlaps(output, workspace)) return SF_ERROR_OVERLAP;
-  const auto width = static_cast<size_t>(config.width);
+// The planes of a call: what is written, then what is read.
+struct DepthPlanes {
+  Extent written[3], read[SF_MAX_VIEWS + 2];
+  int writes = 0, reads = 0;
+};
+
+// Those of all that a call writes and reads, but its workspace.
+DepthPlanes PlanesOf(const sf_depth_config& config, const sf_light_field& light_field, bool repairs,
+                     const sf_map& map) {
+  const auto width = static_cast<size_t>(config.width), floats = width * sizeof(float);
+  const int32_t height = config.height;
+  DepthPlanes planes;
+  planes.written[planes.writes++] = ExtentOf(map.disparity, map.disparity_stride, height, floats);
+  if (map.confidence != nullptr) {
+    planes.written[planes.writes++] =
+        ExtentOf(map.confidence, map.confidence_stride, height, width);
+  }
+  if (map.coverage != nullptr) {
+    planes.written[planes.writes++] = ExtentOf(map.coverage, map.coverage_stride, height, width);
+  }
   for (int view = 0; view < config.views; ++view) {
     const sf_plane& plane = light_field.views[view];
-    if (Overlaps(output, ExtentOf(plane.data, plane.stride, config.height, 3 * width))) {
-      return SF_ERROR_OVERLAP;
-    }
+    planes.read[planes.reads++] = ExtentOf(plane.data, plane.stride, height, 3 * width);
   }
-  return SF_OK;
+  if (repairs) {
+    planes.read[planes.reads++] =
+        ExtentOf(light_field.disparity, light_field.disparity_stride, height, floats);
+  }
+  return planes;
 }
 
-sf_status CheckOutputs(const sf_depth_config& config, const sf_light_field& light_field,
-                       const Extent& workspace, const MapOutput& output) {
-  const auto width = static_cast<size_t>(config.width);
-  const Extent map = ExtentOf(output.disparity, output.stride * sizeof(float), config.height,
-                              width * sizeof(float));
-  sf_status status = CheckApart(config, light_field, workspace, map);
-  if (status != SF_OK || output.confidence == nullptr) return status;
-  const Extent confidence =
-      ExtentOf(output.confidence, output.confidence_stride, config.height, width);
-  status = CheckApart(config, light_field, workspace, confidence);
-  return status == SF_OK && Overlaps(map, confidence) ? SF_ERROR_OVERLAP : status;
+// Checks that what is written overlaps nothing else, and the given map not the workspace.
+sf_status CheckApart(const DepthPlanes& planes, const Extent& workspace) {
+  for (int k = 0; k < planes.writes; ++k) {
+    if (Overlaps(planes.written[k], workspace)) return SF_ERROR_OVERLAP;
+    for (int other = 0; other < k; ++other) {
+      if (Overlaps(planes.written[k], planes.written[other])) return SF_ERROR_OVERLAP;
+    }
+    for (int read = 0; read < planes.reads; ++read) {
+      if (Overlaps(planes.written[k], planes.read[read])) return SF_ERROR_OVERLAP;
+    }
+  }
+  for (int read = 0; read < planes.reads; ++read) {
+    if (Overlaps(planes.read[read], workspace)) return SF_ERROR_OVERLAP;
+  }
+  return SF_OK;
 }
 
 // Checks the map that is to be repaired: its finite values lie in the configured range, and there
@@ -75,23 +96,6 @@ sf_status CheckGiven(const sf_depth_config& config, const sf_light_field& light_
     }
   }
   return any ? SF_OK : SF_ERROR_ALL_INVALID;
-}
-
-// Checks that the outputs and the workspace leave the map that is repaired alone.
-sf_status CheckGivenApart(const sf_depth_config& config, const sf_light_field& light_field,
-                          const Extent& workspace, const MapOutput& output) {
-  const auto width = static_cast<size_t>(config.width);
-  const Extent given = ExtentOf(light_field.disparity, light_field.disparity_stride, config.height,
-                                width * sizeof(float));
-  const Extent map = ExtentOf(output.disparity, output.stride * sizeof(float), config.height,
-                              width * sizeof(float));
-  if (Overlaps(given, workspace) || Overlaps(given, map)) return SF_ERROR_OVERLAP;
-  if (output.confidence != nullptr &&
-      Overlaps(given,
-               ExtentOf(output.confidence, output.confidence_stride, config.height, width))) {
-    return SF_ERROR_OVERLAP;
-  }
-  return CheckGiven(config, light_field);
 }
 
 EstimatePlan PlanOf(const sf_depth_config& config, bool repairs) {
@@ -123,8 +127,16 @@ struct DepthCall {
   size_t bytes;
 };
 
+sf_status CheckStrides(const sf_depth_config& config, const sf_map& map) {
+  const auto width = static_cast<size_t>(config.width);
+  const bool valid =
+      (map.confidence == nullptr || ValidStride(map.confidence_stride, width, config.height)) &&
+      (map.coverage == nullptr || ValidStride(map.coverage_stride, width, config.height));
+  return valid ? SF_OK : SF_ERROR_STRIDE;
+}
+
 // Checks all arguments of a call.
-sf_status CheckCall(const DepthCall& call, bool repairs, const MapOutput& output, size_t stride) {
+sf_status CheckCall(const DepthCall& call, bool repairs, const sf_map& map) {
   size_t needed = 0;
   sf_status status = SizeOf(call.config, repairs, &needed);
   if (status == SF_OK) status = CheckMemory(call.workspace);
@@ -134,19 +146,15 @@ sf_status CheckCall(const DepthCall& call, bool repairs, const MapOutput& output
   const sf_light_field& light_field = *call.light_field;
   const int32_t width = config.width, height = config.height;
   status = CheckViews(config.views, width, height, light_field);
-  if (status == SF_OK) status = CheckMap(output.disparity, stride, width, height);
+  if (status == SF_OK) status = CheckMap(map.disparity, map.disparity_stride, width, height);
   if (status == SF_OK && repairs) {
     status = CheckMap(light_field.disparity, light_field.disparity_stride, width, height);
   }
+  if (status == SF_OK) status = CheckStrides(config, map);
   if (status != SF_OK) return status;
-  if (output.confidence != nullptr &&
-      !ValidStride(output.confidence_stride, static_cast<size_t>(width), height)) {
-    return SF_ERROR_STRIDE;
-  }
   const auto begin = reinterpret_cast<uintptr_t>(call.workspace);
-  status = CheckOutputs(config, light_field, {begin, begin + needed}, output);
-  if (status != SF_OK || !repairs) return status;
-  return CheckGivenApart(config, light_field, {begin, begin + needed}, output);
+  status = CheckApart(PlanesOf(config, light_field, repairs, map), {begin, begin + needed});
+  return status == SF_OK && repairs ? CheckGiven(config, light_field) : status;
 }
 
 // Makes a map under the watch of the caller's progress function.
@@ -159,18 +167,25 @@ sf_status Watched(const sf_depth_config& config, Watch* watch, const Make& make)
   return watch->Ask() ? SF_OK : SF_ERROR_CANCELLED;
 }
 
-// Estimates, or repairs.
-sf_status MakeMap(const DepthCall& call, bool repairs, const MapOutput& output,
-                  const Runner& runner) {
+// Repairs by colour. Says whether there is coverage.
+sf_status RepairOneView(const DepthCall& call, const MapOutput& output, const Runner& runner,
+                        int32_t* has_coverage) {
+  const EstimatePlan plan = PlanOf(*call.config, true);
+  ColourMemory* memory = nullptr;
+  LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
+  const sf_status status = Watched(*call.config, &memory->jobs.watch, [&] {
+    return RepairByColour(plan, *call.light_field, simd::BestDepthKernels(), runner, output,
+                          memory);
+  });
+  *has_coverage = status == SF_OK && memory->has_coverage ? 1 : 0;
+  return status;
+}
+
+// Estimates, or repairs by all views.
+sf_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& output,
+                     const Runner& runner) {
   const EstimatePlan plan = PlanOf(*call.config, repairs);
   const simd::DepthKernels& kernels = simd::BestDepthKernels();
-  if (call.config->views == 1) {
-    ColourMemory* memory = nullptr;
-    LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
-    return Watched(*call.config, &memory->jobs.watch, [&] {
-      return RepairByColour(plan, *call.light_field, kernels, runner, output, memory);
-    });
-  }
   EstimateMemory* memory = nullptr;
   LayOutEstimate(plan, call.config->max_workers, call.workspace, &memory);
   const EstimateZones zones(plan, call.config->max_workers, call.workspace);
@@ -180,19 +195,25 @@ sf_status MakeMap(const DepthCall& call, bool repairs, const MapOutput& output,
   });
 }
 
-// Checks a call and does it. The output is as the caller says: its stride in bytes, without a
-// range.
-sf_status RunCall(const DepthCall& call, bool repairs, const MapOutput& asked,
-                  const Runner& runner) {
-  if (call.config == nullptr || call.light_field == nullptr || call.workspace == nullptr) {
+// Checks a call and does it.
+sf_status RunCall(const DepthCall& call, bool repairs, const Runner& runner, sf_map* map) {
+  if (call.config == nullptr || call.light_field == nullptr || call.workspace == nullptr ||
+      map == nullptr) {
     return SF_ERROR_NULL;
   }
-  MapOutput output = asked;
-  output.stride = asked.stride / sizeof(float);
-  output.lowest = call.config->disparity_min;
-  output.highest = call.config->disparity_max;
-  const sf_status status = CheckCall(call, repairs, output, asked.stride);
-  return status == SF_OK ? MakeMap(call, repairs, output, runner) : status;
+  const sf_status status = CheckCall(call, repairs, *map);
+  if (status != SF_OK) return status;
+  map->has_coverage = 0;
+  const MapOutput output = {map->disparity,
+                            map->disparity_stride / sizeof(float),
+                            call.config->disparity_min,
+                            call.config->disparity_max,
+                            map->confidence,
+                            map->confidence_stride,
+                            map->coverage,
+                            map->coverage_stride};
+  return call.config->views == 1 ? RepairOneView(call, output, runner, &map->has_coverage)
+                                 : SweepViews(call, repairs, output, runner);
 }
 
 }  // namespace
@@ -215,19 +236,15 @@ sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes) {
 }
 
 sf_status sf_estimate_disparity(const sf_depth_config* config, const sf_light_field* light_field,
-                                float* disparity, size_t stride, uint8_t* confidence,
-                                size_t confidence_stride, void* workspace, size_t bytes,
-                                sf_runner runner, void* runner_data) {
-  return starfocus::RunCall({config, light_field, workspace, bytes}, false,
-                            {disparity, stride, 0, 0, confidence, confidence_stride},
-                            {runner, runner_data});
+                                sf_map* map, void* workspace, size_t bytes, sf_runner runner,
+                                void* runner_data) {
+  return starfocus::RunCall({config, light_field, workspace, bytes}, false, {runner, runner_data},
+                            map);
 }
 
 sf_status sf_repair_disparity(const sf_depth_config* config, const sf_light_field* light_field,
-                              float* disparity, size_t stride, uint8_t* confidence,
-                              size_t confidence_stride, void* workspace, size_t bytes,
-                              sf_runner runner, void* runner_data) {
-  return starfocus::RunCall({config, light_field, workspace, bytes}, true,
-                            {disparity, stride, 0, 0, confidence, confidence_stride},
-                            {runner, runner_data});
+                              sf_map* map, void* workspace, size_t bytes, sf_runner runner,
+                              void* runner_data) {
+  return starfocus::RunCall({config, light_field, workspace, bytes}, true, {runner, runner_data},
+                            map);
 }

@@ -53,7 +53,7 @@ size_t sf_struct_size(const char* name) {
       SIZE_OF(sf_position),        SIZE_OF(sf_previous),     SIZE_OF(sf_region),
       SIZE_OF(sf_report),          SIZE_OF(sf_skipped),      SIZE_OF(sf_timing),
       SIZE_OF(sf_image),           SIZE_OF(sf_image_out),    SIZE_OF(sf_image_field),
-      SIZE_OF(sf_depth_map)};
+      SIZE_OF(sf_depth_map),       SIZE_OF(sf_map)};
 #undef SIZE_OF
   if (name == nullptr) return 0;
   for (const Entry& entry : kSizes) {

@@ -43,6 +43,8 @@
 // | hole, layer L        | int32  | 2^(7+4L)| [0, 255], L <= 2          | 2^8 x                     |
 // | share of a mixture   | int32  | 2^14    | [0, 4/5], four of a pixel | 1.6 x in its dividend      |
 // | share * light        | int32  | 2^21    | [0, 204], four of a pixel | 1.2 x in the sum of four  |
+// | mean colour of a cell | uint16 | 2^6    | [0, 255]                  | 4 x                       |
+// | squared differences  | int32  | 2^12    | [0, 195075], of three     | 2.6 x                     |
 // clang-format on
 //
 // Rounding: Round* rounds half up; a plain shift truncates towards minus infinity.

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "lib/base/ramp.h"
 #include "lib/coverage/far_light.h"
 #include "lib/coverage/patch.h"
 
@@ -13,11 +14,8 @@ namespace {
 // outlines of maps of networks are off by as many.
 constexpr int32_t kGivenReach = 32;
 
-// A pixel is on a ramp of the map if its disparity lies between those of two opposite neighbours,
-// and neither step is small, or more than kRampRatio times the other.
+// Ramps are told by the pixels beside.
 constexpr int32_t kRampReach = 1;
-constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
-constexpr int32_t kRampRatio = 4;
 using GivenPatch = Patch<kGivenReach + kRampReach>;
 
 // A pixel is a mixture if its coverage differs by more from what the map says; kAlphaBits.
@@ -31,21 +29,17 @@ struct Ramps {
   explicit Ramps(const GivenPatch& patch) {
     for (int32_t y = kRampReach; y < kSide - kRampReach; ++y) {
       for (int32_t x = kRampReach; x < kSide - kRampReach; ++x) {
-        at[y * kSide + x] = IsRamp(patch, y * kSide + x);
+        at[y * kSide + x] = IsOnRamp(patch, y * kSide + x);
       }
     }
   }
 
  private:
-  static bool IsRamp(const GivenPatch& patch, int32_t at) {
+  static bool IsOnRamp(const GivenPatch& patch, int32_t at) {
     constexpr int32_t kOpposite[] = {1, kSide - 1, kSide, kSide + 1};
     for (const int32_t step : kOpposite) {
-      const int32_t here = patch.disparity[at];
-      int32_t before = here - patch.disparity[at - step];
-      int32_t after = patch.disparity[at + step] - here;
-      if (before < 0) before = -before, after = -after;
-      if (Min(before, after) >= kLeastRamp && Max(before, after) <= kRampRatio * Min(before, after))
-        return true;
+      const int16_t* here = patch.disparity + at;
+      if (IsRamp(here[-step], here[0], here[step])) return true;
     }
     return false;
   }

@@ -71,16 +71,7 @@ uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
 
 // Returns true if every pixel of a cell is given and the cell and its surroundings are flat.
 bool IsFlat(const ColourMap& map, const Rect& cell) {
-  const Rect around = Widened(map.plan, cell, kFlatRadius);
-  int32_t low = INT16_MAX, high = INT16_MIN;
-  for (int32_t y = around.y; y < around.y + around.height; ++y) {
-    const int16_t* row = map.disparity + map.At(around.x, y);
-    for (int32_t x = 0; x < around.width; ++x) {
-      low = Min(low, row[x]);
-      high = Max(high, row[x]);
-    }
-    if (high - low > kFlat) return false;
-  }
+  if (HasStep(map, cell, kFlatRadius, kFlat)) return false;
   for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
     const float* row = GivenAt(map.light_field, y) + cell.x;
     for (int32_t x = 0; x < cell.width; ++x) {
@@ -180,6 +171,20 @@ int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity) {
   // Of normal noise the median is 0.6745 times sqrt(20) times its standard deviation.
   const int32_t noise = median / 3;
   return noise > kLeastNoise ? noise : 0;
+}
+
+bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t step) {
+  const Rect around = Widened(map.plan, rect, margin);
+  int16_t low = INT16_MAX, high = INT16_MIN;
+  for (int32_t y = around.y; y < around.y + around.height; ++y) {
+    const int16_t* row = map.disparity + map.At(around.x, y);
+    for (int32_t x = 0; x < around.width; ++x) {
+      low = std::min(low, row[x]);
+      high = std::max(high, row[x]);
+    }
+    if (high - low > step) return true;
+  }
+  return false;
 }
 
 bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y) {

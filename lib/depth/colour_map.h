@@ -58,6 +58,10 @@ void ReadMap(const EstimatePlan& plan, const sf_light_field& light_field, int16_
 // any.
 int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity);
 
+// Returns true if disparities of the rectangle and of pixels within `margin` of it differ by more
+// than `step`.
+bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t step);
+
 // Returns true if one of the pixel's neighbours in the tile belongs to another surface.
 bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y);
 

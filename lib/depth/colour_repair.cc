@@ -23,6 +23,7 @@ constexpr int32_t kGainRadius = 3;
 constexpr EvidenceScale kGains = {18, 22, 1000, 60};
 // Paths that the sums of choices are of.
 constexpr int32_t kPaths = 4;
+constexpr int32_t kColourPhases = 9;
 // Changed pixels get the mean of the surface around them; those beside steps count little.
 constexpr int32_t kMeanRadius = 5, kSureWeight = 4;
 
@@ -105,10 +106,16 @@ void ChooseTile(const void* data, int32_t index, int32_t worker) {
   CountBeside(grid, job.map.disparity, tile, index, job.memory->thin);
 }
 
-// What the choices of all tiles say together.
+// What the choices of all tiles say together. Hair is left as it is, too.
 void JudgeMap(const EstimatePlan& plan, ColourMemory* memory) {
   memory->least_gain = LeastEvidence(kGains, memory->counts, plan.columns * plan.rows);
-  FindThin(GridOf(plan), kThinGiven, memory->thin);
+  const ThinGrid grid = GridOf(plan);
+  FindThin(grid, kThinGiven, memory->thin);
+  if (!memory->has_coverage) return;
+  for (int32_t number = 0; number < grid.Cells(); ++number) {
+    const Rect cell = grid.CellAt(number % grid.columns, number / grid.columns);
+    if (HasHair(memory->hair_cells, cell)) memory->thin.thin[number] = 1;
+  }
 }
 
 // Whether enough is gained around a pixel of which something else than the map says was chosen.
@@ -180,20 +187,23 @@ void WriteTile(const void* data, int32_t index, int32_t) {
   });
 }
 
-// Calls act(row) for each row of each cell of a tile, but not in thin structure.
+// Calls act(cell) for each cell of a tile that has a larger step than `step`, or within `margin`,
+// but not in thin structure.
 template <class Act>
-void ForSolidRows(const ColourJob& job, int32_t index, const Act& act) {
+void ForSteps(const ColourJob& job, int32_t index, int32_t margin, int32_t step, const Act& act) {
   ForCells(GridOf(job.map.plan), index, [&](const Rect& cell, int32_t number) {
     if (job.memory->thin.thin[number] != 0) return;
-    for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-      act(Rect{cell.x, y, cell.width, 1});
-    }
+    if (HasStep(job.map, cell, margin, step)) act(cell);
   });
 }
 
 void CountSoftEdges(const void* data, int32_t index, int32_t) {
   const ColourJob& job = JobOf(data);
-  job.memory->soft[index] = CountSoft(job.map, TileOf(job.map.plan, index));
+  SoftCount count = {};
+  ForCells(GridOf(job.map.plan), index, [&](const Rect& cell, int32_t) {
+    if (HasStep(job.map, cell, 1, kSoftStep)) CountSoft(job.map, cell, &count);
+  });
+  job.memory->soft[index] = count;
 }
 
 // Widens nearer surfaces by what the edges of the picture are soft.
@@ -207,12 +217,14 @@ void WidenTile(const void* data, int32_t index, int32_t) {
   }
   const int32_t softness = SoftnessOf(job.memory->soft, plan.columns * plan.rows);
   if (softness == 0) return;
-  ForSolidRows(job, index, [&](const Rect& row) {
-    if (!HasStep(job.map, softness, row)) return;
-    for (int32_t x = row.x; x < row.x + row.width; ++x) {
-      const int16_t widened = WidenedAt(job.map, softness, x, row.y);
-      Change(job, x, row.y, widened);
-      job.to[job.map.At(x, row.y)] = widened;
+  ForSteps(job, index, softness, kSoftStep, [&](const Rect& cell) {
+    for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+      if (!HasStep(job.map, {cell.x, y, cell.width, 1}, softness, kSoftStep)) continue;
+      for (int32_t x = cell.x; x < cell.x + cell.width; ++x) {
+        const int16_t widened = WidenedAt(job.map, softness, x, y);
+        Change(job, x, y, widened);
+        job.to[job.map.At(x, y)] = widened;
+      }
     }
   });
 }
@@ -220,11 +232,60 @@ void WidenTile(const void* data, int32_t index, int32_t) {
 void EvenTile(const void* data, int32_t index, int32_t) {
   static_assert(kMostCellSide <= kMostMajority, "rows of cells");
   const ColourJob& job = JobOf(data);
-  ForSolidRows(job, index, [&](const Rect& row) {
+  ForSteps(job, index, kMajorityReach, kMajorityStep, [&](const Rect& cell) {
     int16_t even[kMostMajority];
-    TakeMajority(job.map, row, even);
-    for (int32_t k = 0; k < row.width; ++k) Change(job, row.x + k, row.y, even[k]);
+    for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+      TakeMajority(job.map, {cell.x, y, cell.width, 1}, even);
+      for (int32_t k = 0; k < cell.width; ++k) Change(job, cell.x + k, y, even[k]);
+    }
   });
+}
+
+void CompleteTile(const void* data, int32_t index, int32_t) {
+  const ColourJob& job = JobOf(data);
+  CompleteCoverage(job.map, job.output, job.memory->hair_cells, TileOf(job.map.plan, index));
+}
+
+// Repairs the map, but not where hair was found.
+sf_status ChooseByColour(const ColourMap& given, const simd::DepthKernels& kernels,
+                         const MapOutput& output, Phases* phases, ColourMemory* memory) {
+  const EstimatePlan& plan = given.plan;
+  const sf_light_field& light_field = given.light_field;
+  int16_t* const* maps = memory->maps;
+  const int32_t noise = MeasureNoise(plan, maps[0]);
+  const ColourMap half = {plan, light_field, maps[1]};
+  const ColourMap map = {plan, light_field, maps[noise > 0 ? 2 : 0]};
+  int16_t* const written = maps[noise > 0 ? 0 : 2];
+  const ColourMap repaired = {plan, light_field, written}, wide = {plan, light_field, maps[1]};
+  // Within three standard deviations first; what that leaves is a third as noisy.
+  const Smoothing first = {3, 1, 3 * noise}, second = {4, 2, 3 * noise / 2};
+  const struct {
+    JobFunction function;
+    ColourJob job;
+  } all[kColourPhases] = {
+      {SmoothMap, {given, output, first, maps[1], nullptr, memory, kernels}},
+      {SmoothMap, {half, output, second, maps[2], nullptr, memory, kernels}},
+      {DoubtTile, {map, output, second, nullptr, nullptr, memory, kernels}},
+      {ChooseTile, {map, output, second, nullptr, maps[1], memory, kernels}},
+      {WriteTile, {map, output, second, written, maps[1], memory, kernels}},
+      {CountSoftEdges, {repaired, output, second, nullptr, nullptr, memory, kernels}},
+      {WidenTile, {repaired, output, second, maps[1], nullptr, memory, kernels}},
+      {EvenTile, {wide, output, second, nullptr, nullptr, memory, kernels}},
+      {CompleteTile, {map, output, second, nullptr, nullptr, memory, kernels}},
+  };
+  for (const auto& phase : all) {
+    const bool skips = phase.function == SmoothMap      ? noise == 0
+                       : phase.function == CompleteTile ? !memory->has_coverage
+                                                        : false;
+    if (skips) {
+      phases->Skip();
+      continue;
+    }
+    if (phase.function == WriteTile) JudgeMap(plan, memory);
+    const sf_status status = phases->Run(phase.function, &phase.job);
+    if (status != SF_OK) return status;
+  }
+  return SF_OK;
 }
 
 ColourTileMemory TakeTile(const EstimatePlan& plan, Carver* carver) {
@@ -255,13 +316,20 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
   const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
   auto* progress = carver.Take<std::atomic<uint32_t>>(ProgressWords(tiles));
   int16_t* maps[3];
-  for (int16_t*& map : maps) map = carver.Take<int16_t>(width, height);
+  maps[0] = carver.Take<int16_t>(width, height);
+  const HairCells hair_cells = TakeHairCells(plan.width, plan.height, &carver);
+  const size_t mark = carver.Mark();
+  for (int k = 1; k < 3; ++k) maps[k] = carver.Take<int16_t>(width, height);
   auto* gain = carver.Take<int16_t>(width, height);
   auto* doubt = carver.Take<uint8_t>(width, height);
   auto* certainty = carver.Take<uint8_t>(width, height);
   auto* counts = carver.Take<TileCount>(tiles);
   auto* soft = carver.Take<SoftCount>(tiles);
   const ThinCells thin = TakeThinCells(GridOf(plan), &carver);
+  // Coverage is looked for before anything else is.
+  carver.Reuse(mark);
+  const HairMemory hair = TakeHairMemory(plan, &carver);
+  carver.GoOn();
   auto* workers = carver.Take<ColourTileMemory>(static_cast<size_t>(max_workers));
   if (base != nullptr) {
     ColourMemory& made = *new (*memory) ColourMemory();
@@ -274,6 +342,8 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
     made.counts = counts;
     made.soft = soft;
     made.thin = thin;
+    made.hair_cells = hair_cells;
+    made.hair = hair;
     made.workers = workers;
   }
   for (int32_t worker = 0; worker < max_workers; ++worker) {
@@ -286,38 +356,17 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
                          const simd::DepthKernels& kernels, const Runner& runner,
                          const MapOutput& output, ColourMemory* memory) {
-  int16_t* const* maps = memory->maps;
-  ReadMap(plan, light_field, maps[0]);
-  const int32_t noise = MeasureNoise(plan, maps[0]);
-  const ColourMap given = {plan, light_field, maps[0]}, half = {plan, light_field, maps[1]};
-  const ColourMap map = {plan, light_field, maps[noise > 0 ? 2 : 0]};
-  int16_t* const written = maps[noise > 0 ? 0 : 2];
-  const ColourMap repaired = {plan, light_field, written}, wide = {plan, light_field, maps[1]};
-  // Within three standard deviations first; what that leaves is a third as noisy.
-  const Smoothing first = {3, 1, 3 * noise}, second = {4, 2, 3 * noise / 2};
-  const struct {
-    JobFunction function;
-    ColourJob job;
-  } phases[] = {
-      {SmoothMap, {given, output, first, maps[1], nullptr, memory, kernels}},
-      {SmoothMap, {half, output, second, maps[2], nullptr, memory, kernels}},
-      {DoubtTile, {map, output, second, nullptr, nullptr, memory, kernels}},
-      {ChooseTile, {map, output, second, nullptr, maps[1], memory, kernels}},
-      {WriteTile, {map, output, second, written, maps[1], memory, kernels}},
-      {CountSoftEdges, {repaired, output, second, nullptr, nullptr, memory, kernels}},
-      {WidenTile, {repaired, output, second, maps[1], nullptr, memory, kernels}},
-      {EvenTile, {wide, output, second, nullptr, nullptr, memory, kernels}},
-  };
-  int32_t done = 0;
-  for (const auto& phase : phases) {
-    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof phases / sizeof *phases));
-    if (phase.function == SmoothMap && noise == 0) continue;
-    if (phase.function == WriteTile) JudgeMap(plan, memory);
-    const sf_status status =
-        RunJobSet(phase.function, &phase.job, plan.columns * plan.rows, runner, &memory->jobs);
+  ReadMap(plan, light_field, memory->maps[0]);
+  const ColourMap given = {plan, light_field, memory->maps[0]};
+  const int32_t before = output.coverage == nullptr ? 0 : kHairPhases;
+  Phases phases(plan, runner, before + kColourPhases, &memory->jobs);
+  memory->has_coverage = false;
+  if (before != 0) {
+    const sf_status status = FindHairCoverage(given, output, memory->hair_cells, memory->hair,
+                                              &phases, &memory->has_coverage);
     if (status != SF_OK) return status;
   }
-  return SF_OK;
+  return ChooseByColour(given, kernels, output, &phases, memory);
 }
 
 }  // namespace starfocus

@@ -14,6 +14,7 @@
 #include "lib/depth/colour_smooth.h"
 #include "lib/depth/estimate.h"
 #include "lib/depth/evidence.h"
+#include "lib/depth/hair_coverage.h"
 #include "lib/depth/soft_edges.h"
 #include "lib/depth/thin_cells.h"
 
@@ -37,6 +38,9 @@ struct ColourMemory {
   SoftCount* soft;     // of each tile of the repaired map
   int32_t least_gain;  // that changes need
   ThinCells thin;      // of the map
+  HairCells hair_cells;
+  HairMemory hair;    // shares memory with all that is below maps[0]
+  bool has_coverage;  // the last map has some
   ColourTileMemory* workers;
 };
 
@@ -49,7 +53,10 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 // centre view alone. Pixels that no colour gainsays keep their disparity to the bit unless the map
 // is noisy, or most pixels of its colour around are of another surface; unknown ones (NaN,
 // infinite) get one. Confidence is 255 where nothing is in doubt, and 0 where colours gainsay the
-// map too weakly or an outline was moved afterwards. SF_OK, or SF_ERROR_RUNNER.
+// map too weakly or an outline was moved afterwards. If output.coverage is there and the map has
+// hair as closed outlines, coverage is found, memory->has_coverage says so, and disparities stay as
+// they are where there is hair (hair_coverage.h).
+// SF_OK, or SF_ERROR_RUNNER.
 sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
                          const simd::DepthKernels& kernels, const Runner& runner,
                          const MapOutput& output, ColourMemory* memory);

@@ -5,6 +5,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/depth/estimate_clean.h"
+#include "lib/depth/phases.h"
 #include "lib/depth/sweep.h"
 
 namespace starfocus {
@@ -54,12 +55,10 @@ sf_status Estimate(const EstimatePlan& plan, const sf_light_field& light_field,
                    EstimateMemory* memory) {
   const EstimateJob job = {{plan, light_field, kernels, memory, output.confidence != nullptr},
                            output};
-  const int32_t tiles = plan.columns * plan.rows;
   constexpr JobFunction kPhases[] = {SweepFirst, SweepSecond, WriteTile};
-  int32_t done = 0;
+  Phases phases(plan, runner, sizeof kPhases / sizeof *kPhases, &memory->jobs);
   for (const JobFunction phase : kPhases) {
-    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof kPhases / sizeof *kPhases));
-    const sf_status status = RunJobSet(phase, &job, tiles, runner, &memory->jobs);
+    const sf_status status = phases.Run(phase, &job);
     if (status != SF_OK) return status;
   }
   return SF_OK;

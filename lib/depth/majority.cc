@@ -6,8 +6,8 @@
 namespace starfocus {
 namespace {
 
-// Pixels within kRadius vote about those within kReach of another surface.
-constexpr int32_t kRadius = 5, kReach = 2;
+// So far away pixels vote.
+constexpr int32_t kRadius = 5;
 // Half the width of each row of the disc of that radius, from the middle row on.
 constexpr int32_t kWidths[kRadius + 1] = {5, 4, 4, 4, 3, 0};
 // A pixel counts less with its squared distance, and with how its colour differs.
@@ -21,15 +21,15 @@ struct Range {
     low = Min(low, range.low);
     high = Max(high, range.high);
   }
-  bool IsOneSurface() const { return high - low <= 2 * kSurfaceStep; }
+  bool IsOneSurface() const { return high - low <= kMajorityStep; }
 };
 
-// The ranges of the columns around a row of pixels, kReach rows up and down.
+// The ranges of the columns around a row of pixels, kMajorityReach rows up and down.
 struct Columns {
   Rect around;
-  Range ranges[kMostMajority + 2 * kReach], all;
+  Range ranges[kMostMajority + 2 * kMajorityReach], all;
 
-  Columns(const ColourMap& map, const Rect& row) : around(Widened(map.plan, row, kReach)) {
+  Columns(const ColourMap& map, const Rect& row) : around(Widened(map.plan, row, kMajorityReach)) {
     for (int32_t y = around.y; y < around.y + around.height; ++y) {
       const int16_t* disparities = map.disparity + map.At(around.x, y);
       for (int32_t k = 0; k < around.width; ++k) ranges[k].Add({disparities[k], disparities[k]});
@@ -37,8 +37,8 @@ struct Columns {
     for (int32_t k = 0; k < around.width; ++k) all.Add(ranges[k]);
   }
   Range Around(int32_t x) const {
-    const int32_t first = Max(x - kReach - around.x, 0);
-    const int32_t last = Min(x + kReach - around.x, around.width - 1);
+    const int32_t first = Max(x - kMajorityReach - around.x, 0);
+    const int32_t last = Min(x + kMajorityReach - around.x, around.width - 1);
     Range range;
     for (int32_t k = first; k <= last; ++k) range.Add(ranges[k]);
     return range;

@@ -10,6 +10,9 @@
 
 namespace starfocus {
 
+// Pixels are asked about that have another surface within so many pixels: disparities differ by
+// more than kMajorityStep.
+inline constexpr int32_t kMajorityReach = 2, kMajorityStep = 2 * kSurfaceStep;
 // Rows of pixels are at most this long.
 inline constexpr int32_t kMostMajority = 32;
 

@@ -10,13 +10,16 @@
 
 namespace starfocus {
 
-// Where a map goes. Disparities are clamped to [lowest, highest]; confidence may be null.
+// Where a map goes. Disparities are clamped to [lowest, highest]; confidence and coverage may be
+// null.
 struct MapOutput {
   float* disparity;
   size_t stride;  // floats
   float lowest, highest;
   uint8_t* confidence;
   size_t confidence_stride;
+  uint8_t* coverage;
+  size_t coverage_stride;
 
   float Clamped(float value) const {
     return value < lowest ? lowest : value > highest ? highest : value;

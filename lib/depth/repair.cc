@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lib/base/fixed.h"
+#include "lib/depth/phases.h"
 #include "lib/depth/repair_map.h"
 #include "lib/depth/sweep.h"
 #include "lib/depth/swept.h"
@@ -137,12 +138,10 @@ sf_status Repair(const EstimatePlan& plan, const sf_light_field& light_field,
                          output};
   constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, MarkTile, SweepFirst,
                                      SweepSecond, ValueTile, WriteTile};
-  int32_t done = 0;
+  Phases phases(plan, runner, sizeof kPhases / sizeof *kPhases, &memory->jobs);
   for (const JobFunction phase : kPhases) {
-    memory->jobs.watch.SetPart(done++, static_cast<int32_t>(sizeof kPhases / sizeof *kPhases));
     if (phase == WriteTile) JudgeMaps(job.sweep);
-    const sf_status status =
-        RunJobSet(phase, &job, plan.columns * plan.rows, runner, &memory->jobs);
+    const sf_status status = phases.Run(phase, &job);
     if (status != SF_OK) return status;
   }
   return SF_OK;

@@ -6,8 +6,8 @@
 namespace starfocus {
 namespace {
 
-// Edges with a larger step of disparity count; pixels closer than that are of one surface.
-constexpr int32_t kStep = 5 << kDisparityBits, kSame = 2 << kDisparityBits;
+// Pixels closer than that are of one surface.
+constexpr int32_t kSame = 2 << kDisparityBits;
 // A profile goes from the nearer surface's third pixel to the farther one's seventh.
 constexpr int32_t kInside = 3, kOutside = 6;
 // Squared distance of the two ends' colours, in gray levels, from which a profile of the picture's
@@ -28,7 +28,7 @@ bool IsProfile(const ColourMap& map, const Edge& edge) {
     return map.disparity[map.At(edge.x + k * edge.dx, edge.y + k * edge.dy)];
   };
   const int32_t near = at(-1), far = at(0);
-  if (near - far <= kStep || Abs(at(-kInside) - near) >= kSame) return false;
+  if (near - far <= kSoftStep || Abs(at(-kInside) - near) >= kSame) return false;
   for (int32_t k = 1; k <= kOutside; ++k) {
     if (Abs(at(k) - far) >= kSame) return false;
   }
@@ -76,18 +76,16 @@ bool IsInside(const ColourMap& map, int32_t x, int32_t y) {
 
 }  // namespace
 
-SoftCount CountSoft(const ColourMap& map, const Rect& tile) {
-  SoftCount count = {};
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+void CountSoft(const ColourMap& map, const Rect& rect, SoftCount* count) {
+  for (int32_t y = rect.y; y < rect.y + rect.height; ++y) {
+    for (int32_t x = rect.x; x < rect.x + rect.width; ++x) {
       if (!IsInside(map, x, y)) continue;
       for (const auto& side : kSides) {
         const Edge edge = {x, y, side[0], side[1]};
-        if (IsProfile(map, edge)) CountProfile(map, edge, &count);
+        if (IsProfile(map, edge)) CountProfile(map, edge, count);
       }
     }
   }
-  return count;
 }
 
 int32_t SoftnessOf(const SoftCount* counts, int32_t tiles) {
@@ -101,19 +99,6 @@ int32_t SoftnessOf(const SoftCount* counts, int32_t tiles) {
   return soft == 0 ? 0 : Min(soft + 1, kMostSoft);
 }
 
-bool HasStep(const ColourMap& map, int32_t softness, const Rect& rect) {
-  const Rect around = Widened(map.plan, rect, softness);
-  int32_t low = INT16_MAX, high = INT16_MIN;
-  for (int32_t y = around.y; y < around.y + around.height; ++y) {
-    const int16_t* row = map.disparity + map.At(around.x, y);
-    for (int32_t k = 0; k < around.width; ++k) {
-      low = Min(low, row[k]);
-      high = Max(high, row[k]);
-    }
-  }
-  return high - low > kStep;
-}
-
 int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) {
   const int16_t own = map.disparity[map.At(x, y)];
   int16_t nearest = own;
@@ -122,7 +107,7 @@ int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) 
       const Edge edge = {x - k * side[0], y - k * side[1], side[0], side[1]};
       if (!IsInside(map, edge.x, edge.y)) break;
       const int16_t near = map.disparity[map.At(edge.x - side[0], edge.y - side[1])];
-      if (near - own <= kStep) continue;
+      if (near - own <= kSoftStep) continue;
       if (near > nearest && ShowsNear(PlaceAt(map, edge, k))) nearest = near;
       break;
     }

@@ -14,6 +14,9 @@ namespace starfocus {
 // Pixels that the nearer surface is widened by at most.
 inline constexpr int32_t kMostSoft = 3;
 
+// Edges have a larger step of disparity.
+inline constexpr int32_t kSoftStep = 5 << kDisparityBits;
+
 // Edges of a tile at which a profile could be taken, and those at which the pixel one, two or three
 // pixels beyond the first one of the farther surface still shows some of the nearer one.
 struct SoftCount {
@@ -21,14 +24,12 @@ struct SoftCount {
   int32_t mixed[kMostSoft];
 };
 
-SoftCount CountSoft(const ColourMap& map, const Rect& tile);
+// Adds those of a rectangle.
+void CountSoft(const ColourMap& map, const Rect& rect, SoftCount* count);
 
 // Returns by how many pixels nearer surfaces are to be widened: one more than those that show some
 // of the nearer surface at half of the edges or more, or 0.
 int32_t SoftnessOf(const SoftCount* counts, int32_t tiles);
-
-// Returns false if WidenedAt changes no pixel of the rectangle, as there is no step near it.
-bool HasStep(const ColourMap& map, int32_t softness, const Rect& rect);
 
 // Returns the disparity of the nearest surface within `softness` pixels of (x, y), along its row or
 // column, that is much nearer than the pixel and some of which the pixel shows; else its own.

@@ -9,7 +9,9 @@
 
 #include "platform/image_io.h"
 #include "platform/light_field.h"
+#include "platform/runner.h"
 #include "tests/cli/call_program.h"
+#include "tests/support/closed_hair.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_scene.h"
 
@@ -123,6 +125,58 @@ TEST_CASE("disparity --repair, refocus --repair: one view is repaired by its col
   CHECK(made.out.find("repaired by 1 view,") != std::string::npos);
 }
 
+// Writes the folder `truth`, a portrait with the coverage of its hair, and `closed`, the same
+// without.
+void PrepareHair(const TempFolder& folder) {
+  const test::ClosedHair portrait = test::MakeClosedHair();
+  LightField field;
+  field.views.emplace_back(test::ClosedHair::kWidth, test::ClosedHair::kHeight);
+  field.views[0].pixels = portrait.rgb;
+  field.disparity.width = test::ClosedHair::kWidth;
+  field.disparity.height = test::ClosedHair::kHeight;
+  field.disparity.values = portrait.map;
+  ThreadRunner runner(1);
+  REQUIRE(SaveLightField(folder.file("closed"), field, &runner) == "");
+  field.coverage = portrait.coverage;
+  REQUIRE(SaveLightField(folder.file("truth"), field, &runner) == "");
+}
+
+TEST_CASE("refocus --repair, import: hair with a closed outline gets its coverage") {
+  TempFolder folder;
+  PrepareHair(folder);
+  REQUIRE(Call(folder, "refocus truth -o truth.png --focus -4").code == 0);
+  REQUIRE(Call(folder, "refocus closed -o closed.png --focus -4").code == 0);
+  REQUIRE(Call(folder, "refocus closed -o repaired.png --focus -4 --repair").code == 0);
+  CHECK(Psnr(folder, "truth.png repaired.png") > Psnr(folder, "truth.png closed.png") + 3);
+  REQUIRE(Call(folder, "import closed imported --repair").code == 0);
+  REQUIRE(fs::exists(folder.file("imported/coverage.png")));
+  REQUIRE(Call(folder, "refocus imported -o imported.png --focus -4").code == 0);
+  CHECK(Text(folder.file("imported.png")) == Text(folder.file("repaired.png")));
+  // Coverage that was given stays.
+  REQUIRE(Call(folder, "refocus truth -o given.png --focus -4 --repair").code == 0);
+  CHECK(Psnr(folder, "truth.png given.png") > Psnr(folder, "truth.png repaired.png"));
+}
+
+TEST_CASE("disparity --repair --coverage: writes what is found, and nothing if nothing is") {
+  TempFolder folder;
+  PrepareHair(folder);
+  const Outcome made =
+      Call(folder, "disparity closed --repair -o map.pfm --coverage cover.png --confidence c.png");
+  CHECK(made.err == "");
+  REQUIRE(made.code == 0);
+  REQUIRE(Call(folder, "refocus closed -o repaired.png --focus -4 --repair").code == 0);
+  fs::copy_file(folder.file("cover.png"), folder.file("closed/coverage.png"));
+  fs::copy_file(folder.file("map.pfm"), folder.file("closed/disparity.pfm"),
+                fs::copy_options::overwrite_existing);
+  REQUIRE(Call(folder, "refocus closed -o after.png --focus -4").code == 0);
+  CHECK(Text(folder.file("after.png")) == Text(folder.file("repaired.png")));
+  PrepareScene(folder);
+  const Outcome none = Call(folder, "disparity lf --repair -o wires.pfm --coverage none.png");
+  CHECK(none.code == 0);
+  CHECK(none.err.find("no coverage") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder.file("none.png")));
+}
+
 TEST_CASE("disparity: bad input is refused") {
   TempFolder folder;
   PrepareScene(folder);
@@ -141,6 +195,9 @@ TEST_CASE("disparity: bad input is refused") {
              {"disparity bare -o map.png", ".pfm"},
              {"disparity bare -o none/map.pfm", "none"},
              {"disparity bare --confidence sure.txt", "sure.txt"},
+             {"disparity bare --coverage cover.png", "--repair"},
+             {"disparity lf --repair -o map.pfm --coverage cover.txt", "cover.txt"},
+             {"disparity lf --repair -o map.pfm --coverage map.png", "--coverage"},
              {"disparity bare --confidence bare/disparity.png", "--confidence"},
              {"disparity bare --confidence bare/view_+0.0_+0.0.png", "light field"},
              {"disparity single -o map.pfm", "views"},

@@ -48,9 +48,9 @@ struct Maps {
       field.disparity_stride = stride;
     }
     map->assign(given.size(), -1);
-    return (repairs ? sf_repair_disparity : sf_estimate_disparity)(&config, &field, map->data(),
-                                                                   stride, nullptr, 0, memory->data,
-                                                                   memory->bytes, runner, nullptr);
+    sf_map out = {map->data(), stride, nullptr, 0, nullptr, 0, 0};
+    const auto make = repairs ? sf_repair_disparity : sf_estimate_disparity;
+    return make(&config, &field, &out, memory->data, memory->bytes, runner, nullptr);
   }
 };
 

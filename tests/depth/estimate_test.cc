@@ -38,9 +38,15 @@ Estimated EstimateField(const PlaneField& field, const sf_depth_config& config,
   const auto width = size_t(field.width), pixels = width * size_t(field.height);
   Estimated result = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
   const sf_light_field light_field = field.Get();
-  REQUIRE(sf_estimate_disparity(&config, &light_field, result.disparity.data(),
-                                sizeof(float) * width, result.confidence.data(), width, memory.data,
-                                memory.bytes, runner, nullptr) == SF_OK);
+  sf_map map = {result.disparity.data(),
+                sizeof(float) * width,
+                result.confidence.data(),
+                width,
+                nullptr,
+                0,
+                0};
+  REQUIRE(sf_estimate_disparity(&config, &light_field, &map, memory.data, memory.bytes, runner,
+                                nullptr) == SF_OK);
   return result;
 }
 
@@ -144,7 +150,7 @@ TEST_CASE("estimate: the same bytes on every SIMD target") {
     const Memory memory(starfocus::LayOutEstimate(plan, 1, nullptr, &laid_out));
     starfocus::LayOutEstimate(plan, 1, memory.data, &laid_out);
     std::vector<float> disparity(best.disparity.size());
-    const starfocus::MapOutput output = {disparity.data(), 70, -4, 6, nullptr, 0};
+    const starfocus::MapOutput output = {disparity.data(), 70, -4, 6, nullptr, 0, nullptr, 0};
     REQUIRE(starfocus::Estimate(plan, field.Get(), *kernels, {nullptr, nullptr}, output,
                                 laid_out) == SF_OK);
     CAPTURE(kernels->name);
@@ -207,8 +213,8 @@ TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
   sf_light_field views = whole;
   const auto status = [&](float* to, size_t stride, uint8_t* sure, size_t sure_stride, void* at,
                           size_t size) {
-    return sf_estimate_disparity(&config, &views, to, stride, sure, sure_stride, at, size, nullptr,
-                                 nullptr);
+    sf_map out = {to, stride, sure, sure_stride, nullptr, 0, 0};
+    return sf_estimate_disparity(&config, &views, &out, at, size, nullptr, nullptr);
   };
   float* const to = map.data();
   uint8_t* const sure = confidence.data();
@@ -234,9 +240,12 @@ TEST_CASE("estimate: bad memory has its errors, and nothing is written") {
   for (const float value : map) REQUIRE(value == 42);
   for (const uint8_t value : confidence) REQUIRE(value == 42);
   views = whole;
+  sf_map out = {to, row, nullptr, 0, nullptr, 0, 0};
   CHECK(sf_estimate_disparity(
-            &config, &views, to, row, nullptr, 0, at, bytes,
-            [](void*, sf_job, void*, int32_t) { return 0; }, nullptr) == SF_ERROR_RUNNER);
+            &config, &views, &out, at, bytes, [](void*, sf_job, void*, int32_t) { return 0; },
+            nullptr) == SF_ERROR_RUNNER);
+  CHECK(sf_estimate_disparity(&config, &views, nullptr, at, bytes, nullptr, nullptr) ==
+        SF_ERROR_NULL);
 }
 
 }  // namespace

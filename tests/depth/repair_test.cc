@@ -41,8 +41,14 @@ Repaired RepairField(const PlaneField& field, const std::vector<float>& given,
   sf_light_field light_field = field.Get();
   light_field.disparity = given.data();
   light_field.disparity_stride = sizeof(float) * width;
-  REQUIRE(sf_repair_disparity(&config, &light_field, result.disparity.data(), sizeof(float) * width,
-                              result.confidence.data(), width, memory.data, memory.bytes, runner,
+  sf_map map = {result.disparity.data(),
+                sizeof(float) * width,
+                result.confidence.data(),
+                width,
+                nullptr,
+                0,
+                0};
+  REQUIRE(sf_repair_disparity(&config, &light_field, &map, memory.data, memory.bytes, runner,
                               nullptr) == SF_OK);
   return result;
 }
@@ -299,7 +305,7 @@ TEST_CASE("repair: the same bytes on every SIMD target") {
     const Memory memory(starfocus::LayOutEstimate(plan, 1, nullptr, &laid_out));
     starfocus::LayOutEstimate(plan, 1, memory.data, &laid_out);
     std::vector<float> disparity(best.disparity.size());
-    const starfocus::MapOutput output = {disparity.data(), 70, kLow, kHigh, nullptr, 0};
+    const starfocus::MapOutput output = {disparity.data(), 70, kLow, kHigh, nullptr, 0, nullptr, 0};
     REQUIRE(starfocus::Repair(plan, light_field, *kernels, {nullptr, nullptr}, output, laid_out) ==
             SF_OK);
     CAPTURE(kernels->name);
@@ -338,8 +344,8 @@ TEST_CASE("repair: bad maps have their errors, and nothing is written") {
   const auto status = [&](const float* from, size_t stride, size_t size) {
     light_field.disparity = from;
     light_field.disparity_stride = stride;
-    return sf_repair_disparity(&config, &light_field, map.data(), row, nullptr, 0, memory.data,
-                               size, nullptr, nullptr);
+    sf_map to = {map.data(), row, nullptr, 0, nullptr, 0, 0};
+    return sf_repair_disparity(&config, &light_field, &to, memory.data, size, nullptr, nullptr);
   };
   CHECK(status(nullptr, row, bytes) == SF_ERROR_NULL);
   CHECK(status(given.data(), row - 4, bytes) == SF_ERROR_STRIDE);

@@ -44,9 +44,9 @@ struct Scene {
 };
 
 int Softness(const Scene& scene) {
-  const starfocus::SoftCount counts[] = {
-      starfocus::CountSoft(scene.Map(), {0, 0, kWidth / 2, kHeight}),
-      starfocus::CountSoft(scene.Map(), {kWidth / 2, 0, kWidth / 2, kHeight})};
+  starfocus::SoftCount counts[2] = {};
+  starfocus::CountSoft(scene.Map(), {0, 0, kWidth / 2, kHeight}, &counts[0]);
+  starfocus::CountSoft(scene.Map(), {kWidth / 2, 0, kWidth / 2, kHeight}, &counts[1]);
   CHECK(counts[0].edges + counts[1].edges > kHeight / 2);
   return starfocus::SoftnessOf(counts, 2);
 }
@@ -64,7 +64,9 @@ TEST_CASE("repaired edges: a picture is soft by the pixels that its edges take")
   const starfocus::SoftCount none = {};
   CHECK(starfocus::SoftnessOf(&none, 1) == 0);
   std::fill(scene.rgb.begin(), scene.rgb.end(), uint8_t{90});
-  CHECK(starfocus::CountSoft(scene.Map(), {0, 0, kWidth, kHeight}).edges == 0);
+  starfocus::SoftCount flat = {};
+  starfocus::CountSoft(scene.Map(), {0, 0, kWidth, kHeight}, &flat);
+  CHECK(flat.edges == 0);
 }
 
 TEST_CASE("repaired edges: what shows some of the nearer surface becomes near") {

@@ -15,7 +15,7 @@ namespace {
 
 using starfocus::fuzz::Input;
 
-constexpr int kViews[] = {5, 9, 17};
+constexpr int kViews[] = {1, 5, 9, 17};
 
 // Mostly valid; now and then any bytes at all in one field.
 sf_depth_config MakeConfig(Input* input) {
@@ -24,7 +24,7 @@ sf_depth_config MakeConfig(Input* input) {
   const int side = input->Rarely() ? 200 : 24;
   config.width = input->Int(1, side);
   config.height = input->Int(1, side);
-  config.views = kViews[input->Int(0, 2)];
+  config.views = kViews[input->Int(0, 3)];
   const double most = input->Rarely() ? SF_MAX_DISPARITY : 12;
   const double a = input->Real(-most, most), b = input->Real(-most, most);
   config.disparity_min = static_cast<float>(std::min(a, b));
@@ -113,15 +113,26 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     field.views[view] = {pictures.back().values.get(), pictures.back().stride};
   }
   Rows<float> given(width, config.height, &input), map(width, config.height, &input);
-  Rows<uint8_t> sure(width, config.height, &input);
+  Rows<uint8_t> sure(width, config.height, &input), coverage(width, config.height, &input);
   FillMap(config, &input, &given);
   field.disparity = given.values.get();
   field.disparity_stride = given.stride * sizeof(float);
   const auto make = repairs ? sf_repair_disparity : sf_estimate_disparity;
-  const sf_status status = make(&config, &field, map.values.get(), map.stride * sizeof(float),
-                                input.Rarely() ? nullptr : sure.values.get(), sure.stride,
-                                workspace, bytes, nullptr, nullptr);
+  sf_map out = {map.values.get(),
+                map.stride * sizeof(float),
+                sure.values.get(),
+                sure.stride,
+                coverage.values.get(),
+                coverage.stride,
+                -1};
+  if (input.Rarely()) out.confidence = nullptr;
+  if (input.Rarely()) out.coverage = nullptr;
+  const sf_status status = make(&config, &field, &out, workspace, bytes, nullptr, nullptr);
   if (status == SF_OK) CheckMap(config, map);
+  const bool may_cover = repairs && config.views == 1 && out.coverage != nullptr;
+  if (status == SF_OK && out.has_coverage != 0 && (out.has_coverage != 1 || !may_cover)) {
+    std::abort();
+  }
   // Only a map may still be wrong.
   const bool cancelled = config.progress != nullptr && status == SF_ERROR_CANCELLED;
   if (status != SF_OK && !cancelled &&

@@ -385,8 +385,23 @@ class Maps(unittest.TestCase):
         repaired = starfocus.repair_disparity(views, holes, low, high)
         self.assertTrue(np.isfinite(repaired.disparity).all())
         self.assertEqual(repaired.confidence.shape, truth.shape)
+        self.assertIsNone(repaired.coverage)
         with self.assertRaises(starfocus.Cancelled):
             starfocus.estimate_disparity(views, low, high, progress=lambda done, rows: True)
+
+    def test_hair_with_a_closed_outline_gets_its_coverage(self):
+        x, y = np.meshgrid(np.arange(240), np.arange(180))
+        covered = np.where(y >= 110, 255, np.where(y >= 60, np.array([128, 255, 128, 0, 0, 0, 0])[x % 7], 0))
+        share = covered[..., np.newaxis] / 255
+        picture = np.round(share * [95, 54, 30] + (1 - share) * [160, 178, 190]).astype(np.uint8)
+        closed = np.where(y >= 60, 9, -4).astype(np.float32)
+        made = starfocus.repair_disparity(picture, closed)
+        self.assertEqual(made.coverage.dtype, np.uint8)
+        hair = (y >= 64) & (y < 108)
+        self.assertLess(np.abs(made.coverage.astype(int) - covered)[hair].mean(), 24)
+        np.testing.assert_array_equal(made.disparity[hair], 9)
+        engine = starfocus.Refocuser.for_light_field(picture, closed)
+        engine.refocus(picture, made.disparity, focus=-4, coverage=made.coverage)
 
     def test_views_lie_where_the_program_has_them(self):
         self.assertEqual(starfocus.view_positions(5), [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])

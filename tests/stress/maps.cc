@@ -67,8 +67,9 @@ Map Make(const Question& question, sf_runner runner, test::Random* random) {
   map.confidence.assign(map.disparity.size(), 0);
   const sf_light_field field = scene.Field();
   const auto make = question.repairs ? sf_repair_disparity : sf_estimate_disparity;
-  map.status = make(&config, &field, map.disparity.data(), sizeof(float) * width,
-                    map.confidence.data(), width, memory.get(), bytes, runner, nullptr);
+  sf_map out = {
+      map.disparity.data(), sizeof(float) * width, map.confidence.data(), width, nullptr, 0, 0};
+  map.status = make(&config, &field, &out, memory.get(), bytes, runner, nullptr);
   return map;
 }
 

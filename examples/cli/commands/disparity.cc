@@ -19,7 +19,7 @@ namespace starfocus {
 namespace {
 
 struct DisparityOptions {
-  std::string folder, out, confidence, range, views, threads = "1";
+  std::string folder, out, confidence, coverage, range, views, threads = "1";
   bool repair = false;
 };
 
@@ -46,6 +46,14 @@ Error ParseRange(const std::string& text, DisparityRange* range) {
   return "";
 }
 
+// The pictures that were asked for.
+std::vector<Output> PicturesOf(const DisparityOptions& options) {
+  std::vector<Output> pictures;
+  if (!options.confidence.empty()) pictures.push_back({"--confidence", options.confidence});
+  if (!options.coverage.empty()) pictures.push_back({"--coverage", options.coverage});
+  return pictures;
+}
+
 Error PlanOutputs(const DisparityOptions& options, Plan* plan) {
   plan->map = options.out.empty() ? DisparityPath(options.folder) : options.out;
   if (std::filesystem::path(plan->map).extension() != ".pfm") {
@@ -58,15 +66,20 @@ Error PlanOutputs(const DisparityOptions& options, Plan* plan) {
   if (options.repair && !options.range.empty()) {
     return Error::Usage("--repair", "no --range: the map has one", options.range.substr(0, 60));
   }
+  if (!options.repair && !options.coverage.empty()) {
+    return Error::Usage("--coverage", "--repair with it: only a repair finds some", "none");
+  }
   if (options.out.empty() && HasDisparity(options.folder)) {
     return Expected(plan->map, "no map yet, or another name by --output", "one");
   }
   std::vector<Output> outputs = {{"--output", plan->picture}};
   if (!options.out.empty()) outputs.push_back({"--output", plan->map});
-  if (!options.confidence.empty()) outputs.push_back({"--confidence", options.confidence});
+  for (const Output& picture : PicturesOf(options)) outputs.push_back(picture);
   Error error = CheckOutputPath(plan->map);
   if (error.empty()) error = CheckImageOutput(plan->picture);
-  if (error.empty() && !options.confidence.empty()) error = CheckImageOutput(options.confidence);
+  for (const Output& picture : PicturesOf(options)) {
+    if (error.empty()) error = CheckImageOutput(picture.path);
+  }
   return error.empty() ? CheckApart(outputs, {{options.folder}, {}}) : error;
 }
 
@@ -99,9 +112,16 @@ Error EstimateFolder(const DisparityOptions& options, Plan* plan, const LightFie
 Error RepairFolder(const DisparityOptions& options, Plan* plan, LightField* light_field,
                    DisparityEstimate* estimate) {
   Image* confidence = options.confidence.empty() ? nullptr : &estimate->confidence;
-  const Error error =
-      RepairDisparity(DisparityPath(options.folder), plan->threads, light_field, confidence);
+  const Error error = RepairDisparity(DisparityPath(options.folder), plan->threads,
+                                      !options.coverage.empty(), light_field, confidence);
   if (!error.empty()) return error;
+  if (!options.coverage.empty() && light_field->coverage.empty()) {
+    std::fprintf(stderr, "%s: no coverage to write: %s\n", options.folder.c_str(),
+                 light_field->views.size() > 1 ? "one view alone, --views 1, has some"
+                                               : "no hair has a closed outline in the map");
+  } else if (!options.coverage.empty()) {
+    estimate->coverage = DrawLevels(light_field->coverage, light_field->views[0]);
+  }
   estimate->map = std::move(light_field->disparity);
   const auto ends = std::minmax_element(estimate->map.values.begin(), estimate->map.values.end());
   plan->range = {*ends.first, *ends.second};
@@ -113,6 +133,9 @@ Error WriteMap(const DisparityOptions& options, const Plan& plan,
   Error error = WriteImage(plan.picture, DrawDisparity(estimate.map));
   if (error.empty() && !options.confidence.empty()) {
     error = WriteImage(options.confidence, estimate.confidence);
+  }
+  if (error.empty() && estimate.coverage.width != 0) {
+    error = WriteImage(options.coverage, estimate.coverage);
   }
   return error.empty() ? WritePfm(plan.map, estimate.map) : error;
 }
@@ -146,30 +169,36 @@ Error Run(const DisparityOptions& options) {
 
 Command DisparityCommand() {
   const auto options = std::make_shared<DisparityOptions>();
-  return {"disparity",
-          "Estimate the disparity map of a light field from its views, or repair its map",
-          {
-              {"DIR", "DIR", "Light-field folder", &options->folder, Use::kRequired},
-              {"-o,--output", "FILE",
-               "Map to write (.pfm). A picture of the map (.png, near is bright) is written beside "
-               "it; default: disparity.pfm in DIR, if there is none",
-               &options->out},
-              {"--confidence", "FILE",
-               "Picture to write: how sure each pixel is, black where not at all",
-               &options->confidence},
-              {"--repair", nullptr,
-               "Repair the folder's map by the views instead: displaced and blurred edges, and "
-               "noise; needs --output",
-               &options->repair},
-              {"--range", "MIN:MAX",
-               "MIN:MAX, the disparities to look for; default: those found in small "
-               "pictures, up to an eighth of the width",
-               &options->range},
-              {"--views", "17|9|5|1|U,V:U,V",
-               "17, 9 or 5, 1 as well of a repair; default: all of the folder", &options->views},
-              {"--threads", "N", "1 to 64", &options->threads, Use::kDefault},
-          },
-          [options] { return Run(*options); }};
+  return {
+      "disparity",
+      "Estimate the disparity map of a light field from its views, or repair its map",
+      {
+          {"DIR", "DIR", "Light-field folder", &options->folder, Use::kRequired},
+          {"-o,--output", "FILE",
+           "Map to write (.pfm). A picture of the map (.png, near is bright) is written beside "
+           "it; default: disparity.pfm in DIR, if there is none",
+           &options->out},
+          {"--confidence", "FILE",
+           "Picture to write: how sure each pixel is, black where not at all",
+           &options->confidence},
+          {"--coverage", "FILE",
+           "Picture to write with --repair --views 1, where the map has hair as a closed outline: "
+           "how much of each pixel it covers. The map is as it was then; both go together, as "
+           "coverage.png in a folder",
+           &options->coverage},
+          {"--repair", nullptr,
+           "Repair the folder's map by the views instead: displaced and blurred edges, and "
+           "noise; needs --output",
+           &options->repair},
+          {"--range", "MIN:MAX",
+           "MIN:MAX, the disparities to look for; default: those found in small "
+           "pictures, up to an eighth of the width",
+           &options->range},
+          {"--views", "17|9|5|1|U,V:U,V",
+           "17, 9 or 5, 1 as well of a repair; default: all of the folder", &options->views},
+          {"--threads", "N", "1 to 64", &options->threads, Use::kDefault},
+      },
+      [options] { return Run(*options); }};
 }
 
 }  // namespace starfocus

@@ -33,10 +33,13 @@ struct Maker {
   PictureProgress progress;
 };
 
-// Estimates the map, or repairs the given one unless that is null. `confidence` may be null.
+using Bytes = std::vector<uint8_t>;
+
+// Estimates the map, or repairs the given one unless that is null. `confidence` and `coverage` may
+// be null; there may be no coverage.
 Error MakeMap(const std::string& where, const Images& views, const FloatMap* given,
-              const DisparityRange& range, Maker* maker, FloatMap* map,
-              std::vector<uint8_t>* confidence) {
+              const DisparityRange& range, Maker* maker, FloatMap* map, Bytes* confidence,
+              Bytes* coverage = nullptr) {
   const Image& centre = views[0];
   const char* task = given == nullptr ? "estimate its disparities" : "repair its disparities";
   sf_depth_config config;
@@ -63,15 +66,23 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
     map->width = centre.width;
     map->height = centre.height;
     map->values.resize(pixels);
-    if (confidence != nullptr) confidence->resize(pixels);
+    sf_map out = {map->values.data(), sizeof(float) * width, nullptr, width, nullptr, width, 0};
+    if (confidence != nullptr) {
+      confidence->resize(pixels);
+      out.confidence = confidence->data();
+    }
+    if (coverage != nullptr) {
+      coverage->resize(pixels);
+      out.coverage = coverage->data();
+    }
     if (given != nullptr) {
       light_field.disparity = given->values.data();
       light_field.disparity_stride = sizeof(float) * width;
     }
     const auto make = given == nullptr ? sf_estimate_disparity : sf_repair_disparity;
-    status = make(&config, &light_field, map->values.data(), sizeof(float) * width,
-                  confidence == nullptr ? nullptr : confidence->data(), width, workspace.get(),
-                  bytes, ThreadRunner::Run, &maker->pool);
+    status =
+        make(&config, &light_field, &out, workspace.get(), bytes, ThreadRunner::Run, &maker->pool);
+    if (coverage != nullptr && out.has_coverage == 0) coverage->clear();
   }
   if (status == SF_OK) return "";
   return Error::Internal(where, "views whose disparities it can make", sf_status_string(status));
@@ -96,15 +107,15 @@ Image Shrink(const Image& picture, int factor) {
   return small;
 }
 
-// A confidence as a gray picture of the size of `centre`.
-void Show(const std::vector<uint8_t>& confidence, const Image& centre, Image* picture) {
-  *picture = Image(centre.width, centre.height);
-  for (size_t i = 0; i < confidence.size(); ++i) {
-    std::fill_n(picture->pixels.begin() + static_cast<ptrdiff_t>(3 * i), 3, confidence[i]);
-  }
-}
-
 }  // namespace
+
+Image DrawLevels(const Bytes& levels, const Image& centre) {
+  Image picture(centre.width, centre.height);
+  for (size_t i = 0; i < levels.size(); ++i) {
+    std::fill_n(picture.pixels.begin() + static_cast<ptrdiff_t>(3 * i), 3, levels[i]);
+  }
+  return picture;
+}
 
 int StarWithin(const Positions& positions) {
   for (int views : {17, 9, 5}) {
@@ -131,7 +142,7 @@ Error FindRange(const std::string& where, const LightField& light_field, int thr
                               static_cast<float>(SF_MAX_DISPARITY) / static_cast<float>(factor));
   Maker maker(threads, "looking for the disparities");
   FloatMap map;
-  std::vector<uint8_t> confidence;
+  Bytes confidence;
   const Error error = MakeMap(where, small, nullptr, {-most, most}, &maker, &map, &confidence);
   if (!error.empty()) return error;
   std::vector<float> sure;
@@ -152,13 +163,13 @@ Error EstimateDisparity(const std::string& where, const LightField& light_field,
                         const DisparityRange& range, int threads, DisparityEstimate* estimate) {
   const Images views = StarOf(light_field);
   Maker maker(threads, "estimating disparities");
-  std::vector<uint8_t> confidence;
+  Bytes confidence;
   const Error error = MakeMap(where, views, nullptr, range, &maker, &estimate->map, &confidence);
-  if (error.empty()) Show(confidence, views[0], &estimate->confidence);
+  if (error.empty()) estimate->confidence = DrawLevels(confidence, views[0]);
   return error;
 }
 
-Error RepairDisparity(const std::string& where, int threads, LightField* light_field,
+Error RepairDisparity(const std::string& where, int threads, bool covers, LightField* light_field,
                       Image* confidence) {
   const FloatMap& given = light_field->disparity;
   sf_disparity_stats stats = {};
@@ -176,11 +187,12 @@ Error RepairDisparity(const std::string& where, int threads, LightField* light_f
                                 std::min(stats.max + kRepairReach, most)};
   Maker maker(threads, "repairing disparities");
   FloatMap map;
-  std::vector<uint8_t> sure;
-  const Error error = MakeMap(where, StarOf(*light_field), &given, range, &maker, &map,
-                              confidence == nullptr ? nullptr : &sure);
+  Bytes sure;
+  const Error error =
+      MakeMap(where, StarOf(*light_field), &given, range, &maker, &map,
+              confidence == nullptr ? nullptr : &sure, covers ? &light_field->coverage : nullptr);
   if (!error.empty()) return error;
-  if (confidence != nullptr) Show(sure, light_field->views[0], confidence);
+  if (confidence != nullptr) *confidence = DrawLevels(sure, light_field->views[0]);
   light_field->disparity = std::move(map);
   return "";
 }

@@ -24,7 +24,11 @@ struct DisparityRange {
 struct DisparityEstimate {
   FloatMap map;
   Image confidence;  // gray: 0 unknown, 255 sure (sf_estimate_disparity)
+  Image coverage;    // of a repair, gray; empty: none was asked for, or found
 };
+
+// A gray picture of the size of `centre`, of a level for each pixel: confidence or coverage.
+Image DrawLevels(const std::vector<uint8_t>& levels, const Image& centre);
 
 // The number of views of the largest star that the first ones are: maps are made of these alone.
 int StarWithin(const Positions& positions);
@@ -41,9 +45,10 @@ Error FindRange(const std::string& where, const LightField& light_field, int thr
 Error EstimateDisparity(const std::string& where, const LightField& light_field,
                         const DisparityRange& range, int threads, DisparityEstimate* estimate);
 
-// Repairs the map of a light field by the star among its views, which may be the centre alone.
-// `confidence` may be null. Errors are about `where`.
-Error RepairDisparity(const std::string& where, int threads, LightField* light_field,
+// Repairs the map of a light field by the star among its views, which may be the centre alone. If
+// `covers`, its coverage becomes what the repair finds, which may be none. `confidence` may be
+// null. Errors are about `where`.
+Error RepairDisparity(const std::string& where, int threads, bool covers, LightField* light_field,
                       Image* confidence);
 
 }  // namespace starfocus

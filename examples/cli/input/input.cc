@@ -217,7 +217,9 @@ bool WillRepair(const MapOptions& options, const Capture& capture) {
 Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
   if (capture->map_path.empty()) return "";
   if (WillRepair(options, *capture)) {
-    return RepairDisparity(MapName(*capture), threads, &capture->light_field, nullptr);
+    // Coverage that was given stays.
+    const bool covers = capture->light_field.coverage.empty();
+    return RepairDisparity(MapName(*capture), threads, covers, &capture->light_field, nullptr);
   }
   if (!options.fill && capture->care == MapCare::kNone) return "";
   return FillHoles(MapName(*capture), &capture->light_field.disparity);

@@ -35,6 +35,20 @@ typedef struct sf_depth_config {
   uint32_t reserved[8]; /**< zero */
 } sf_depth_config;
 
+/** Where a map goes. Nothing may overlap the views, the given map, the workspace or each other;
+ *  nothing is written before the arguments have been checked. */
+typedef struct sf_map {
+  float* disparity;         /**< aligned for float */
+  size_t disparity_stride;  /**< bytes from row to row, >= 4 * width, multiple of 4 */
+  uint8_t* confidence;      /**< how sure each pixel is, 0: not at all; null: nobody asks */
+  size_t confidence_stride; /**< bytes from row to row, >= width */
+  uint8_t* coverage;        /**< of a repair of one view, as sf_light_field.coverage; null: nobody
+                                 asks */
+  size_t coverage_stride;   /**< bytes from row to row, >= width */
+  int32_t has_coverage;     /**< written: 1 if coverage was found and goes with the map, else 0, and
+                                 what `coverage` points to is unspecified */
+} sf_map;
+
 SF_API void sf_depth_config_init(sf_depth_config* config);
 
 /** Bytes of workspace of sf_estimate_disparity into *bytes: 5 for each pixel of the picture, and
@@ -44,17 +58,13 @@ SF_API sf_status sf_estimate_size(const sf_depth_config* config, size_t* bytes);
 
 /** Estimates the disparity of each pixel of the centre view from all views: what makes them agree,
  *  occlusions left out of account, and neighbours go on smoothly. Every value lies in the
- * configured range. light_field's disparity is not read; the views and the workspace must stay as
- * they are during the call. `confidence` (null, or rows of bytes confidence_stride apart, >= width)
- * tells how sure each pixel is: how much worse than the disparity chosen any other one is that
- * differs by a step or more, in quarters of a gray level of all three colours together; 0 means
- * that another one is as good (a wall of one colour, or what hardly any view sees), 255 that there
- * is none. `disparity`, aligned for float, has rows `stride` bytes apart, >= 4 * width, multiple
- * of 4. Outputs must overlap neither the views, the workspace nor each other; nothing is written to
- * them before the arguments have been checked. runner as in sf_refocus. */
+ *  configured range. light_field's disparity is not read; the views and the workspace must stay as
+ *  they are during the call. map->confidence tells how much worse than the disparity chosen any
+ *  other one is that differs by a step or more, in quarters of a gray level of all three colours
+ *  together; 0 means that another one is as good (a wall of one colour, or what hardly any view
+ *  sees), 255 that there is none. runner as in sf_refocus. */
 SF_API sf_status sf_estimate_disparity(const sf_depth_config* config,
-                                       const sf_light_field* light_field, float* disparity,
-                                       size_t stride, uint8_t* confidence, size_t confidence_stride,
+                                       const sf_light_field* light_field, sf_map* map,
                                        void* workspace, size_t bytes, sf_runner runner,
                                        void* runner_data);
 
@@ -63,19 +73,21 @@ SF_API sf_status sf_estimate_disparity(const sf_depth_config* config,
 SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
 
 /** Repairs light_field's disparity map, whose edges lie beside those of the picture, are blurred or
- *  of a smaller map, or which is noisy, into `disparity`: as sf_estimate_disparity, but a disparity
- *  is the less likely, the further away the given map has it. Pixels that the views do not gainsay
- *  keep their value to the bit (with one view, that colours do not gainsay, unless the map is
- *  noisy; there outlines become as smooth as those of the picture, and wider where these are soft);
- *  NaN and infinite values are unknown, and get one. Every finite
- * value of the given map lies in the configured range (else SF_ERROR_DISPARITY), which may be
- * wider; SF_ERROR_ALL_INVALID when none is finite. `confidence` is 0 also where the views
- * contradict the value that was kept, but too weakly; where nothing contradicts it, and no step of
- * the map is near, it tells how much the centre view differs a pixel away, in the same unit.
- * Outputs must not overlap the given map, either. */
+ *  of a smaller map, or which is noisy: as sf_estimate_disparity, but a disparity is the less
+ *  likely, the further away the given map has it. Pixels that the views do not gainsay keep their
+ *  value to the bit (with one view, that colours do not gainsay, unless the map is noisy; there
+ *  outlines become as smooth as those of the picture, and wider where these are soft); NaN and
+ *  infinite values are unknown, and get one. Every finite value of the given map lies in the
+ *  configured range (else SF_ERROR_DISPARITY), which may be wider; SF_ERROR_ALL_INVALID when none
+ *  is finite. Confidence is 0 also where the views contradict the value that was kept, but too
+ *  weakly; where nothing contradicts it, and no step of the map is near, it tells how much the
+ *  centre view differs a pixel away, in the same unit.
+ *
+ *  A map of one view may have hair as a closed outline. No disparities repair that: if
+ * map->coverage is asked for, its coverage is found by colour (map->has_coverage), every known
+ * disparity stays, and confidence tells how well map and coverage agree. */
 SF_API sf_status sf_repair_disparity(const sf_depth_config* config,
-                                     const sf_light_field* light_field, float* disparity,
-                                     size_t stride, uint8_t* confidence, size_t confidence_stride,
+                                     const sf_light_field* light_field, sf_map* map,
                                      void* workspace, size_t bytes, sf_runner runner,
                                      void* runner_data);
 

@@ -144,12 +144,22 @@ class ImageField(Structure):
                 ("coverage_stride", c_size_t)]
 
 
+class Map(Structure):
+    """sf_map"""
+
+    _fields_ = [
+        ("disparity", c_void_p), ("disparity_stride", c_size_t), ("confidence", c_void_p),
+        ("confidence_stride", c_size_t), ("coverage", c_void_p), ("coverage_stride", c_size_t),
+        ("has_coverage", c_int32),
+    ]
+
+
 STRUCTURES = {
     "sf_timing": Timing, "sf_position": Position, "sf_config": Config, "sf_region": Region, "sf_params": Params,
     "sf_plane": Plane, "sf_light_field": LightField, "sf_layer_report": LayerReport,
     "sf_skipped": Skipped, "sf_report": Report, "sf_disparity_stats": DisparityStats,
     "sf_depth_config": DepthConfig, "sf_image": Image, "sf_image_out": Image,
-    "sf_depth_map": DepthMap, "sf_image_field": ImageField,
+    "sf_depth_map": DepthMap, "sf_image_field": ImageField, "sf_map": Map,
 }
 
 _RUN = (c_void_p, c_void_p)  # a runner and its data
@@ -172,10 +182,9 @@ _MAP_CALLS = {
     "sf_aperture_of_f_stop": (c_double, c_double, POINTER(c_double)),
     "sf_estimate_size": (POINTER(DepthConfig), POINTER(c_size_t)),
     "sf_repair_size": (POINTER(DepthConfig), POINTER(c_size_t)),
-    "sf_estimate_disparity": (POINTER(DepthConfig), POINTER(LightField), c_void_p, c_size_t, c_void_p,
-                              c_size_t, c_void_p, c_size_t, *_RUN),
-    "sf_repair_disparity": (POINTER(DepthConfig), POINTER(LightField), c_void_p, c_size_t, c_void_p,
-                            c_size_t, c_void_p, c_size_t, *_RUN),
+    "sf_estimate_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t,
+                              *_RUN),
+    "sf_repair_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t, *_RUN),
     "sf_view_position": (c_int32, POINTER(c_double), POINTER(c_double)),
 }
 _OTHERS = {

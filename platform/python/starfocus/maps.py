@@ -24,10 +24,14 @@ class DisparityStats(NamedTuple):
 
 
 class DisparityMap(NamedTuple):
-    """A map (float32) and how sure each of its pixels is (uint8): 0 means that another disparity is as good."""
+    """A map (float32) and how sure each of its pixels is (uint8): 0 means that another disparity is as good.
+
+    coverage (uint8; None: there is none) goes with a map that was repaired by one view and has hair as a closed
+    outline: how much of each pixel the nearer surface covers. Pass it to refocus, or prepare."""
 
     disparity: np.ndarray
     confidence: np.ndarray
+    coverage: Optional[np.ndarray] = None
 
 
 def view_positions(count: int = 17) -> List[Tuple[float, float]]:
@@ -81,7 +85,8 @@ def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optiona
                      disparity_max: Optional[float] = None, *, workers: int = 0,
                      progress: Optional[ProgressFunction] = None) -> DisparityMap:
     """A map whose edges are wrong or blurred, which is noisy or has unknown (not finite) values, repaired by
-    1, 5, 9 or 17 views; all within this range, which is the map's own unless it is given."""
+    1, 5, 9 or 17 views; all within this range, which is the map's own unless it is given. With one view it may have
+    coverage, without which it is no better where there is hair."""
     stats = measure_disparity(disparity)
     span = (stats.min if disparity_min is None else disparity_min,
             stats.max if disparity_max is None else disparity_max)
@@ -106,13 +111,15 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
     check(size_of(byref(config), byref(size)))
     field, kept = light_field(views, given, len(views), height, width)
     memory = aligned(size.value)
-    made = DisparityMap(np.empty((height, width), np.float32), np.empty((height, width), np.uint8))
-    status = make(byref(config), byref(field), pointer(made.disparity), stride_of(made.disparity),
-                  pointer(made.confidence), stride_of(made.confidence), pointer(memory), size.value,
-                  pool.runner, pool.handle)
+    disparity, confidence, coverage = (np.empty((height, width), kind) for kind in (np.float32, np.uint8, np.uint8))
+    made = _abi.Map()
+    for name, plane in (("disparity", disparity), ("confidence", confidence), ("coverage", coverage)):
+        setattr(made, name, plane.ctypes.data)
+        setattr(made, name + "_stride", stride_of(plane))
+    status = make(byref(config), byref(field), byref(made), pointer(memory), size.value, pool.runner, pool.handle)
     del kept
     watch.check(status)
-    return made
+    return DisparityMap(disparity, confidence, coverage if made.has_coverage else None)
 
 
 def _rows(disparity: np.ndarray) -> Tuple[Any, int, int, int]:

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/depth/hair_cells.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "lib/base/fixed.h"
+#include "lib/base/ramp.h"
+
+namespace starfocus {
+namespace {
+
+// A larger step between two surfaces is an edge.
+constexpr int32_t kEdgeStep = 5 << kDisparityBits;
+// Cells without near pixels within this many are far; those with far ones within kMostInside, but
+// not within this many, are inside.
+constexpr int32_t kBeside = 1, kMostInside = 4;
+// Hair is where more than a fifth of the near pixels within so many cells looks far.
+constexpr int32_t kHairReach = 12, kHairShare = 5;
+
+// A cell's disparities and those beside them; the picture's outermost ones go on beyond it.
+struct CellPatch {
+  static constexpr int32_t kSide = kHairCell + 2;
+  int16_t disparity[kSide][kSide];
+  int16_t low = INT16_MAX, high = INT16_MIN;
+
+  CellPatch(const ColourMap& map, const Rect& cell) {
+    for (int32_t y = 0; y < kSide; ++y) {
+      const int32_t row = Clamp(cell.y + y - 1, 0, map.plan.height - 1);
+      const int16_t* from = map.disparity + map.At(0, row);
+      for (int32_t x = 0; x < kSide; ++x) {
+        const int16_t here = from[Clamp(cell.x + x - 1, 0, map.plan.width - 1)];
+        disparity[y][x] = here;
+        low = std::min(low, here);
+        high = std::max(high, here);
+      }
+    }
+  }
+
+  bool MayHaveRamp() const { return high - low >= 2 * kLeastRamp; }
+  // Of pixel (x, y) of the cell.
+  bool IsOnRamp(int32_t x, int32_t y) const {
+    const int16_t* const here = &disparity[y + 1][x + 1];
+    for (const ptrdiff_t step :
+         {ptrdiff_t{1}, ptrdiff_t{kSide - 1}, ptrdiff_t{kSide}, ptrdiff_t{kSide + 1}}) {
+      if (IsRamp(here[-step], *here, here[step])) return true;
+    }
+    return false;
+  }
+};
+
+// Replaces each of `count` values, `stride` apart, by all of those within `reach` joined.
+template <class T, class Join>
+void JoinLine(int32_t count, ptrdiff_t stride, int32_t reach, const Join& join, T* values,
+              int32_t* line) {
+  for (int32_t k = 0; k < count; ++k) line[k] = values[k * stride];
+  for (int32_t k = 0; k < count; ++k) {
+    const int32_t last = Min(k + reach, count - 1);
+    int32_t joined = line[Max(k - reach, 0)];
+    for (int32_t from = Max(k - reach, 0) + 1; from <= last; ++from) {
+      joined = join(joined, line[from]);
+    }
+    values[k * stride] = static_cast<T>(joined);
+  }
+}
+
+// The same of all cells, within a square.
+template <class T, class Join>
+void JoinAround(const HairCells& cells, int32_t reach, const Join& join, T* values) {
+  for (int32_t y = 0; y < cells.rows; ++y) {
+    JoinLine(cells.columns, 1, reach, join, values + cells.At(0, y), cells.line);
+  }
+  for (int32_t x = 0; x < cells.columns; ++x) {
+    JoinLine(cells.rows, cells.columns, reach, join, values + x, cells.line);
+  }
+}
+
+bool HasNear(const HairCells& cells, size_t at) { return cells.IsNear(at, cells.nearest[at]); }
+bool HasFar(const HairCells& cells, size_t at) {
+  return (cells.marks[at] & HairCells::kHasEdge) != 0 && !cells.IsNear(at, cells.farthest[at]);
+}
+
+// Whether a cell within `reach` is so.
+template <class Is>
+bool AnyWithin(const HairCells& cells, int32_t column, int32_t row, int32_t reach, const Is& is) {
+  const int32_t right = Min(column + reach, cells.columns - 1);
+  const int32_t bottom = Min(row + reach, cells.rows - 1);
+  for (int32_t y = Max(row - reach, 0); y <= bottom; ++y) {
+    for (int32_t x = Max(column - reach, 0); x <= right; ++x) {
+      if (is(cells, cells.At(x, y))) return true;
+    }
+  }
+  return false;
+}
+
+uint8_t MarkOf(const HairCells& cells, int32_t x, int32_t y) {
+  if (!AnyWithin(cells, x, y, kBeside, HasNear)) return HairCells::kIsFar;
+  if (!HasNear(cells, cells.At(x, y)) || AnyWithin(cells, x, y, kBeside, HasFar)) return 0;
+  return AnyWithin(cells, x, y, kMostInside, HasFar) ? HairCells::kIsInside : uint8_t{0};
+}
+
+}  // namespace
+
+HairCells TakeHairCells(int32_t width, int32_t height, Carver* carver) {
+  HairCells cells = {};
+  cells.columns = (width + kHairCell - 1) / kHairCell;
+  cells.rows = (height + kHairCell - 1) / kHairCell;
+  const auto columns = static_cast<size_t>(cells.columns), rows = static_cast<size_t>(cells.rows);
+  for (int16_t** plane : {&cells.low, &cells.high, &cells.farthest, &cells.nearest}) {
+    *plane = carver->Take<int16_t>(columns, rows);
+  }
+  cells.marks = carver->Take<uint8_t>(columns, rows);
+  cells.line = carver->Take<int32_t>(columns > rows ? columns : rows);
+  return cells;
+}
+
+void MeasureHairCell(const ColourMap& map, int32_t column, int32_t row, const HairCells& cells) {
+  const Rect cell = HairCellAt(map.plan, column, row);
+  const CellPatch patch(map, cell);
+  const bool has_ramp = patch.MayHaveRamp();
+  int16_t low = INT16_MAX, high = INT16_MIN, farthest = INT16_MAX, nearest = INT16_MIN;
+  for (int32_t y = 0; y < cell.height; ++y) {
+    for (int32_t x = 0; x < cell.width; ++x) {
+      const int16_t disparity = patch.disparity[y + 1][x + 1];
+      farthest = std::min(farthest, disparity);
+      nearest = std::max(nearest, disparity);
+      if (has_ramp && patch.IsOnRamp(x, y)) continue;
+      low = std::min(low, disparity);
+      high = std::max(high, disparity);
+    }
+  }
+  const size_t at = cells.At(column, row);
+  cells.low[at] = low;
+  cells.high[at] = high;
+  cells.farthest[at] = farthest;
+  cells.nearest[at] = nearest;
+}
+
+bool MarkEdges(const HairCells& cells) {
+  JoinAround(cells, kSurfaceReach, Min, cells.low);
+  JoinAround(cells, kSurfaceReach, Max, cells.high);
+  const size_t count = static_cast<size_t>(cells.columns) * static_cast<size_t>(cells.rows);
+  bool any = false;
+  for (size_t at = 0; at < count; ++at) {
+    const bool edge = cells.high[at] - cells.low[at] > kEdgeStep;
+    cells.marks[at] = edge ? HairCells::kHasEdge : uint8_t{0};
+    any = any || edge;
+  }
+  if (!any) return false;
+  for (int32_t y = 0; y < cells.rows; ++y) {
+    for (int32_t x = 0; x < cells.columns; ++x) {
+      uint8_t& mark = cells.marks[cells.At(x, y)];
+      if (mark != 0) mark = static_cast<uint8_t>(mark | MarkOf(cells, x, y));
+    }
+  }
+  return true;
+}
+
+bool MarkHair(const HairCells& cells, int32_t* near, int32_t* far) {
+  const auto add = [](int32_t a, int32_t b) { return a + b; };
+  JoinAround(cells, kHairReach, add, near);
+  JoinAround(cells, kHairReach, add, far);
+  const size_t count = static_cast<size_t>(cells.columns) * static_cast<size_t>(cells.rows);
+  bool any = false;
+  for (size_t at = 0; at < count; ++at) {
+    uint8_t& marks = cells.marks[at];
+    if (marks == 0 || kHairShare * far[at] <= 256 * near[at]) continue;
+    marks = static_cast<uint8_t>(marks | HairCells::kHasHair);
+    any = true;
+  }
+  return any;
+}
+
+bool HasHair(const HairCells& cells, const Rect& rect) {
+  const int32_t right = (rect.x + rect.width - 1) / kHairCell;
+  const int32_t bottom = (rect.y + rect.height - 1) / kHairCell;
+  for (int32_t y = rect.y / kHairCell; y <= bottom; ++y) {
+    for (int32_t x = rect.x / kHairCell; x <= right; ++x) {
+      if ((cells.marks[cells.At(x, y)] & HairCells::kHasHair) != 0) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+// The coverage that a repair of one view finds where its map has hair as a closed outline.
+#include "lib/depth/hair_coverage.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "lib/depth/colour_pyramid.h"
+#include "starfocus/depth.h"
+#include "tests/depth/depth_scene.h"
+#include "tests/support/closed_hair.h"
+
+namespace hair_coverage_test {
+namespace {
+
+using test::Area;
+using test::MakeClosedHair;
+using Portrait = test::ClosedHair;
+
+constexpr float kNear = Portrait::kNear, kFar = Portrait::kFar;
+
+struct Found {
+  sf_status status;
+  int32_t has_coverage;
+  std::vector<float> map;
+  std::vector<uint8_t> confidence, coverage;
+};
+
+struct Call {
+  bool covers = true;  // coverage is asked for
+  sf_runner runner = nullptr;
+  int* calls = nullptr;  // of the progress function that may still come
+};
+
+Found Repair(const Portrait& portrait, const Call& call = {}) {
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  config.width = Portrait::kWidth;
+  config.height = Portrait::kHeight;
+  config.views = 1;
+  config.disparity_min = -12;
+  config.disparity_max = 12;
+  config.max_workers = call.runner != nullptr ? 2 : 1;
+  config.progress_data = call.calls;
+  if (call.calls != nullptr) {
+    config.progress = [](void* data, int32_t, int32_t) -> int {
+      return --*static_cast<int*>(data) < 0 ? 1 : 0;
+    };
+  }
+  size_t bytes = 0;
+  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
+  const test::Memory memory(bytes);
+  const size_t width = Portrait::kWidth, pixels = portrait.map.size();
+  sf_light_field field = {};
+  field.views[0] = {portrait.rgb.data(), 3 * width};
+  field.disparity = portrait.map.data();
+  field.disparity_stride = sizeof(float) * width;
+  Found found = {SF_OK, 0, std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77),
+                 std::vector<uint8_t>(pixels, 77)};
+  sf_map map = {found.map.data(),
+                sizeof(float) * width,
+                found.confidence.data(),
+                width,
+                call.covers ? found.coverage.data() : nullptr,
+                width,
+                -1};
+  found.status =
+      sf_repair_disparity(&config, &field, &map, memory.data, bytes, call.runner, nullptr);
+  found.has_coverage = map.has_coverage;
+  return found;
+}
+
+// The mean difference of two planes in an area.
+double Difference(const Area& area, const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+  int64_t sum = 0, count = 0;
+  for (int y = area.top; y < area.bottom; ++y) {
+    for (int x = area.left; x < area.right; ++x, ++count) {
+      const size_t at = size_t(y) * Portrait::kWidth + size_t(x);
+      sum += std::abs(a[at] - b[at]);
+    }
+  }
+  return double(sum) / double(count);
+}
+
+TEST_CASE("hair coverage: hair that a map has as a closed outline gets its coverage") {
+  const Portrait portrait = MakeClosedHair();
+  const Found found = Repair(portrait);
+  REQUIRE(found.status == SF_OK);
+  REQUIRE(found.has_coverage == 1);
+  // The map says 255 everywhere in the hair, which is off by 182 in the mean.
+  CHECK(Difference({44, 64, 176, 108}, found.coverage, portrait.coverage) < 24);
+  CHECK(Difference({60, 124, 232, 178}, found.coverage, portrait.coverage) < 0.5);
+  CHECK(Difference({60, 30, 160, 56}, found.coverage, portrait.coverage) < 4);
+  // Its disparities stay to the bit.
+  for (int y = 64; y < 106; ++y) {
+    for (int x = 44; x < 176; ++x) REQUIRE(found.map[portrait.At(x, y)] == kNear);
+  }
+}
+
+TEST_CASE("hair coverage: confidence tells where map and coverage agree") {
+  const Portrait portrait = MakeClosedHair();
+  const Found found = Repair(portrait);
+  REQUIRE(found.has_coverage == 1);
+  for (int y = 70; y < 100; ++y) {
+    for (int x = 60; x < 160; ++x) {
+      const size_t at = portrait.At(x, y);
+      REQUIRE(found.confidence[at] == found.coverage[at]);  // all of it is near in the map
+    }
+  }
+}
+
+TEST_CASE("hair coverage: bare outlines beside hair are repaired, and their surfaces stay opaque") {
+  Portrait portrait = MakeClosedHair();
+  // The body's bare top, right of the hair, is 2 pixels too low in the map.
+  for (int y = 110; y < 112; ++y) {
+    for (int x = 182; x < 240; ++x) portrait.map[portrait.At(x, y)] = kFar;
+  }
+  const Found found = Repair(portrait);
+  REQUIRE(found.has_coverage == 1);
+  for (int y = 110; y < 112; ++y) {
+    for (int x = 232; x < 238; ++x) {
+      CHECK(found.map[portrait.At(x, y)] == kNear);
+      CHECK(found.coverage[portrait.At(x, y)] == 255);
+    }
+  }
+  CHECK(found.coverage[portrait.At(234, 108)] == 0);
+}
+
+TEST_CASE(
+    "hair coverage: an opaque surface has no coverage, and its map is as if nobody had asked") {
+  Portrait portrait;
+  portrait.Draw();
+  for (size_t k = 0; k < portrait.map.size(); k += 7) portrait.map[k] += 0.01F;
+  const Found asked = Repair(portrait), unasked = Repair(portrait, {false});
+  CHECK(asked.has_coverage == 0);
+  CHECK(unasked.has_coverage == 0);
+  CHECK(asked.map == unasked.map);
+  CHECK(asked.confidence == unasked.confidence);
+  for (const uint8_t value : unasked.coverage) REQUIRE(value == 77);
+}
+
+TEST_CASE("hair coverage: a map without steps has no coverage") {
+  Portrait portrait = MakeClosedHair();
+  portrait.map.assign(portrait.map.size(), kNear);
+  CHECK(Repair(portrait).has_coverage == 0);
+}
+
+TEST_CASE("hair coverage: the same bytes backwards by two workers") {
+  Portrait portrait = MakeClosedHair();
+  portrait.map[portrait.At(100, 80)] = NAN;
+  const Found one = Repair(portrait), two = Repair(portrait, {true, test::RunBackwards});
+  REQUIRE(one.has_coverage == 1);
+  CHECK(two.has_coverage == 1);
+  CHECK(one.map == two.map);
+  CHECK(one.confidence == two.confidence);
+  CHECK(one.coverage == two.coverage);
+  CHECK(one.map[portrait.At(100, 80)] == kNear);
+}
+
+TEST_CASE("hair coverage: a call may be cancelled at any of its phases") {
+  const Portrait portrait = MakeClosedHair();
+  int count = 1000;
+  REQUIRE(Repair(portrait, {true, nullptr, &count}).has_coverage == 1);
+  count = 1000 - count;
+  CHECK(count > starfocus::kHairPhases);
+  for (int stop = 0; stop < count; ++stop) {
+    CAPTURE(stop);
+    int left = stop;
+    const Found found = Repair(portrait, {true, nullptr, &left});
+    CHECK(found.status == SF_ERROR_CANCELLED);
+    CHECK(found.has_coverage == 0);
+  }
+}
+
+TEST_CASE("hair coverage: hair across the whole picture, and no edge 40 pixels below it") {
+  Portrait portrait = MakeClosedHair();
+  portrait.hair = {0, 60, 240, 110};
+  portrait.body = {0, 110, 240, 181};
+  portrait.Draw();
+  const Found found = Repair(portrait);
+  REQUIRE(found.has_coverage == 1);
+  CHECK(Difference({0, 64, 240, 108}, found.coverage, portrait.coverage) < 60);
+  for (int x = 0; x < Portrait::kWidth; ++x) {
+    REQUIRE(found.coverage[portrait.At(x, 112)] == 255);
+    REQUIRE(found.coverage[portrait.At(x, 5)] == 255);
+  }
+}
+
+TEST_CASE("hair coverage: bad planes have their errors, and nothing is written") {
+  const Portrait portrait = MakeClosedHair();
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  config.width = Portrait::kWidth, config.height = Portrait::kHeight, config.views = 1;
+  config.disparity_min = -12, config.disparity_max = 12;
+  size_t bytes = 0;
+  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
+  const test::Memory memory(bytes);
+  const size_t width = Portrait::kWidth;
+  sf_light_field field = {};
+  field.views[0] = {portrait.rgb.data(), 3 * width};
+  field.disparity = portrait.map.data();
+  field.disparity_stride = sizeof(float) * width;
+  std::vector<float> to(portrait.map.size(), 42);
+  std::vector<uint8_t> sure(to.size(), 42), coverage(to.size(), 42);
+  const auto status = [&](uint8_t* covers, size_t stride) {
+    sf_map map = {to.data(), sizeof(float) * width, sure.data(), width, covers, stride, -1};
+    const sf_status got =
+        sf_repair_disparity(&config, &field, &map, memory.data, bytes, nullptr, nullptr);
+    CHECK(map.has_coverage == -1);
+    return got;
+  };
+  CHECK(status(coverage.data(), width - 1) == SF_ERROR_STRIDE);
+  CHECK(status(sure.data(), width) == SF_ERROR_OVERLAP);
+  CHECK(status(reinterpret_cast<uint8_t*>(to.data()), width) == SF_ERROR_OVERLAP);
+  CHECK(status(const_cast<uint8_t*>(portrait.rgb.data()), width) == SF_ERROR_OVERLAP);
+  CHECK(status(static_cast<uint8_t*>(memory.data), width) == SF_ERROR_OVERLAP);
+  CHECK(sf_repair_disparity(&config, &field, nullptr, memory.data, bytes, nullptr, nullptr) ==
+        SF_ERROR_NULL);
+  for (const float value : to) REQUIRE(value == 42);
+  for (const uint8_t value : sure) REQUIRE(value == 42);
+}
+
+// A pyramid over a picture of nothing known.
+struct PyramidOf {
+  PyramidOf(int width, int height) : memory(SizeOf(width, height)) {
+    starfocus::Carver carver(memory.data);
+    pyramid = starfocus::TakeColourPyramid(width, height, &carver);
+    for (int y = 0; y < pyramid.levels[0].rows; ++y) {
+      for (int x = 0; x < pyramid.levels[0].columns; ++x) pyramid.levels[0].At(x, y) = {};
+    }
+  }
+  static size_t SizeOf(int width, int height) {
+    starfocus::Carver carver(nullptr);
+    starfocus::TakeColourPyramid(width, height, &carver);
+    return carver.Bytes();
+  }
+
+  test::Memory memory;
+  starfocus::ColourPyramid pyramid;
+};
+
+TEST_CASE("colour pyramid: what is known stays, the rest lies between") {
+  PyramidOf made(101, 37);
+  const starfocus::ColourPyramid& pyramid = made.pyramid;
+  CHECK_FALSE(starfocus::CarryOnColours(pyramid));
+  const starfocus::ColourMean left = {{64, 640, 6400}, 256}, right = {{6400, 640, 64}, 256};
+  for (int y = 0; y < pyramid.levels[0].rows; ++y) {
+    pyramid.levels[0].At(0, y) = left;
+    pyramid.levels[0].At(25, y) = right;
+  }
+  REQUIRE(starfocus::CarryOnColours(pyramid));
+  for (int y = 0; y < pyramid.levels[0].rows; ++y) {
+    for (int x = 0; x <= 25; ++x) {
+      const starfocus::ColourMean& mean = pyramid.levels[0].At(x, y);
+      if (x == 0) CHECK(mean.rgb[0] == 64);
+      if (x == 25) CHECK(mean.rgb[0] == 6400);
+      CHECK(std::abs(mean.rgb[1] - 640) <= 2);
+      CHECK(std::abs(mean.rgb[0] + mean.rgb[2] - 6464) <= 4);
+      if (x > 0) CHECK(mean.rgb[0] >= pyramid.levels[0].At(x - 1, y).rgb[0]);
+    }
+  }
+}
+
+TEST_CASE("colour pyramid: a slope of cells is a slope of pixels") {
+  PyramidOf made(40, 40);
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 10; ++x) {
+      made.pyramid.levels[0].At(x, y) = {{uint16_t(800 * x), uint16_t(800 * y), 16320},
+                                         starfocus::kFullyKnown};
+    }
+  }
+  starfocus::CellColours colours;
+  starfocus::InterpolateCell(made.pyramid, 4, 7, &colours);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      CHECK(colours.rgb[y][x][0] == 800 * 4 + 200 * x - 300);
+      CHECK(colours.rgb[y][x][1] == 800 * 7 + 200 * y - 300);
+      CHECK(colours.rgb[y][x][2] == 16320);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hair_coverage_test

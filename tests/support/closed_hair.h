@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A portrait whose map has its hair as a closed outline, as maps of networks do.
+#ifndef STARFOCUS_TESTS_SUPPORT_CLOSED_HAIR_H_
+#define STARFOCUS_TESTS_SUPPORT_CLOSED_HAIR_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tests/support/strands.h"
+
+namespace test {
+
+struct Area {
+  int left, top, right, bottom;
+
+  bool Has(int x, int y) const { return x >= left && x < right && y >= top && y < bottom; }
+};
+
+// A body with hair on its top and a bare right side, before a wall.
+struct ClosedHair {
+  static constexpr float kNear = 9, kFar = -4;
+  static constexpr int kWidth = 240, kHeight = 181;
+  Area body = {40, 110, 240, 181}, hair = {40, 60, 180, 110};
+  Strands strands;  // of the hair; none: it is opaque
+  std::vector<uint8_t> rgb, coverage;
+  std::vector<float> map;
+
+  void Draw() {
+    rgb.clear(), coverage.clear(), map.clear();
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) DrawPixel(x, y);
+    }
+  }
+  size_t At(int x, int y) const { return size_t(y) * kWidth + size_t(x); }
+
+ private:
+  void DrawPixel(int x, int y) {
+    const int speckle = (x * 7 + y * 13 + x * y % 11) % 17;
+    const int near[3] = {90 + speckle, 50 + speckle / 2, 30};
+    const int far[3] = {150 + y / 4, 170 + speckle, 200 - x / 8};
+    const bool in_hair = hair.Has(x, y);
+    int covers = in_hair || body.Has(x, y) ? 255 : 0;
+    if (in_hair && strands.any()) covers = strands.CoverageAt(x, y);
+    for (int c = 0; c < 3; ++c) rgb.push_back(Mixture(covers, near[c], far[c]));
+    coverage.push_back(uint8_t(covers));
+    map.push_back(in_hair || body.Has(x, y) ? kNear : kFar);
+  }
+};
+
+inline ClosedHair MakeClosedHair() {
+  ClosedHair portrait;
+  const int profile[] = {128, 255, 128, 0, 0, 0, 0};
+  for (int k = 0; k < 7; ++k) portrait.strands.profile[k] = uint8_t(profile[k]);
+  portrait.strands.period = 7;
+  portrait.Draw();
+  return portrait;
+}
+
+}  // namespace test
+
+#endif  // STARFOCUS_TESTS_SUPPORT_CLOSED_HAIR_H_
