@@ -6,7 +6,7 @@
 namespace starfocus {
 namespace {
 
-// Cells beyond a level are its outermost ones.
+// Cells outside a level repeat its edge.
 const ColourMean& Inside(const ColourLevel& level, int32_t x, int32_t y) {
   return level.At(Clamp(x, 0, level.columns - 1), Clamp(y, 0, level.rows - 1));
 }
@@ -26,7 +26,7 @@ void PullLevel(const ColourLevel& from, const ColourLevel& to) {
   }
 }
 
-// Mixes a cell with what the four nearest cells of the level above say.
+// Fills the unknown part of a cell with the bilinear interpolation of the level above.
 void PushCell(const ColourLevel& above, int32_t x, int32_t y, ColourMean* cell) {
   const int32_t column = x >> 1, row = y >> 1;
   const int32_t beside = column + ((x & 1) != 0 ? 1 : -1), next = row + ((y & 1) != 0 ? 1 : -1);
@@ -40,8 +40,7 @@ void PushCell(const ColourLevel& above, int32_t x, int32_t y, ColourMean* cell) 
   }
 }
 
-// What a pixel's place in its cell takes from the cell before it, from its own and from the one
-// behind it, in eighths.
+// Bilinear weights of the previous, the own and the next cell for each pixel position, in eighths.
 constexpr int32_t kEighths[kHairCell][3] = {{3, 5, 0}, {1, 7, 0}, {0, 7, 1}, {0, 5, 3}};
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours of a surface where a picture shows it, carried on to where it does not: a pyramid of
-// weighted means over cells of 4 x 4 pixels (pull-push).
+// Pull-push pyramid over cells of 4 x 4 pixels. It extends the colours of a surface from pixels
+// that show it to pixels that do not.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_PYRAMID_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_PYRAMID_H_
 
@@ -11,11 +11,11 @@
 
 namespace starfocus {
 
-// Side of a cell of the lowest level in pixels.
+// Side of a cell of the lowest level, in pixels.
 inline constexpr int32_t kHairCell = 4;
-// Colours have this many bits behind the point: their squared distances fit 32 bits.
+// Fraction bits of mean colours. Sums of three squared differences fit 31 bits.
 inline constexpr int kMeanBits = 6;
-// The weight of a pixel that is all of the surface, and of a cell whose colour is all known.
+// Largest weight: a pixel that shows the surface only, a cell whose colour is known.
 inline constexpr int kKnownBits = 8;
 inline constexpr int32_t kFullyKnown = 1 << kKnownBits;
 
@@ -24,10 +24,10 @@ struct ColourMean {
   uint16_t weight;  // [0, kFullyKnown]
 };
 
-// Adds pixels up.
+// Weighted sum of pixels or cells.
 class ColourSum {
  public:
-  // `weight` is in [0, kFullyKnown]; at most 16 pixels, codes << kMeanBits: 27 bits.
+  // `weight` is in [0, kFullyKnown]. Sums of 16 pixels have 27 bits.
   template <class T>
   void Add(const T* rgb, uint32_t weight) {
     for (int c = 0; c < 3; ++c) sums_[c] += weight * rgb[c];
@@ -48,7 +48,7 @@ struct ColourLevel {
   }
 };
 
-// From the cells of the picture up to a single one.
+// levels[0] has the cells of the picture, levels[count - 1] a single cell.
 struct ColourPyramid {
   static constexpr int kMostLevels = 16;
   int32_t count;
@@ -56,15 +56,15 @@ struct ColourPyramid {
 };
 ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Carver* carver);
 
-// Completes the colours of the lowest level, whose weights say how much is known of each: the rest
-// is what the cells above say. Returns false if nothing is known.
+// Pulls the means of the lowest level up and pushes them down again, which fills cells of low
+// weight. Returns false if all weights are 0.
 bool CarryOnColours(const ColourPyramid& pyramid);
 
-// The colours of a cell's pixels, kMeanBits.
+// Colours of the pixels of a cell, kMeanBits.
 struct CellColours {
   int32_t rgb[kHairCell][kHairCell][3];
 };
-// Interpolates them from the cells of the lowest level, bilinearly.
+// Interpolates the colours of a cell's pixels bilinearly from the lowest level.
 void InterpolateCell(const ColourPyramid& pyramid, int32_t column, int32_t row,
                      CellColours* colours);
 

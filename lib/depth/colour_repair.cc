@@ -156,7 +156,8 @@ void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
   const bool known = std::isfinite(given), differs = Differs(job, at);
   const bool changes = !known || (differs && !keeps && IsGainsaid(job, x, y));
   const bool noisy = job.map.disparity != job.memory->maps[0];
-  const float kept = noisy ? static_cast<float>(job.map.disparity[at]) / kPixel : given;
+  const float smoothed = static_cast<float>(job.map.disparity[at]) / kPixel;
+  const float kept = noisy ? job.output.Clamped(smoothed) : given;
   const float written = changes ? job.output.Clamped(MeanOfSurface(job, x, y)) : kept;
   job.output.disparity[row * job.output.stride + column] = written;
   job.to[at] = ToFixed(written);

@@ -39,8 +39,8 @@ struct ColourMemory {
   int32_t least_gain;  // that changes need
   ThinCells thin;      // of the map
   HairCells hair_cells;
-  HairMemory hair;    // shares memory with all that is below maps[0]
-  bool has_coverage;  // the last map has some
+  HairMemory hair;    // overlaps maps[1], maps[2] and the planes below
+  bool has_coverage;  // output: the last call found coverage
   ColourTileMemory* workers;
 };
 
@@ -53,10 +53,9 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 // centre view alone. Pixels that no colour gainsays keep their disparity to the bit unless the map
 // is noisy, or most pixels of its colour around are of another surface; unknown ones (NaN,
 // infinite) get one. Confidence is 255 where nothing is in doubt, and 0 where colours gainsay the
-// map too weakly or an outline was moved afterwards. If output.coverage is there and the map has
-// hair as closed outlines, coverage is found, memory->has_coverage says so, and disparities stay as
-// they are where there is hair (hair_coverage.h).
-// SF_OK, or SF_ERROR_RUNNER.
+// map too weakly or an outline was moved afterwards. If output.coverage is not null and the map
+// has closed the outline of hair, the coverage of hair is written, memory->has_coverage is set, and
+// disparities of hair stay (hair_coverage.h). Returns SF_OK, SF_ERROR_CANCELLED or SF_ERROR_RUNNER.
 sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,
                          const simd::DepthKernels& kernels, const Runner& runner,
                          const MapOutput& output, ColourMemory* memory);

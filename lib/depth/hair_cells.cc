@@ -10,15 +10,15 @@
 namespace starfocus {
 namespace {
 
-// A larger step between two surfaces is an edge.
+// Smallest difference of disparity between two surfaces at an edge.
 constexpr int32_t kEdgeStep = 5 << kDisparityBits;
-// Cells without near pixels within this many are far; those with far ones within kMostInside, but
-// not within this many, are inside.
+// Radii in cells: kIsFar has no near pixels within kBeside; kIsInside has far pixels within
+// kMostInside but not within kBeside.
 constexpr int32_t kBeside = 1, kMostInside = 4;
-// Hair is where more than a fifth of the near pixels within so many cells looks far.
+// A cell has hair if more than a fifth of the near pixels within 12 cells look like background.
 constexpr int32_t kHairReach = 12, kHairShare = 5;
 
-// A cell's disparities and those beside them; the picture's outermost ones go on beyond it.
+// Disparities of a cell with a border of one pixel; pixels outside the picture repeat its edge.
 struct CellPatch {
   static constexpr int32_t kSide = kHairCell + 2;
   int16_t disparity[kSide][kSide];
@@ -38,7 +38,7 @@ struct CellPatch {
   }
 
   bool MayHaveRamp() const { return high - low >= 2 * kLeastRamp; }
-  // Of pixel (x, y) of the cell.
+  // Returns true if pixel (x, y) of the cell is on a ramp.
   bool IsOnRamp(int32_t x, int32_t y) const {
     const int16_t* const here = &disparity[y + 1][x + 1];
     for (const ptrdiff_t step :
@@ -49,7 +49,7 @@ struct CellPatch {
   }
 };
 
-// Replaces each of `count` values, `stride` apart, by all of those within `reach` joined.
+// Replaces each of `count` values, `stride` apart, by the reduction of all values within `reach`.
 template <class T, class Join>
 void JoinLine(int32_t count, ptrdiff_t stride, int32_t reach, const Join& join, T* values,
               int32_t* line) {
@@ -64,7 +64,7 @@ void JoinLine(int32_t count, ptrdiff_t stride, int32_t reach, const Join& join, 
   }
 }
 
-// The same of all cells, within a square.
+// Reduces each cell of a plane over the square around it.
 template <class T, class Join>
 void JoinAround(const HairCells& cells, int32_t reach, const Join& join, T* values) {
   for (int32_t y = 0; y < cells.rows; ++y) {
@@ -80,7 +80,7 @@ bool HasFar(const HairCells& cells, size_t at) {
   return (cells.marks[at] & HairCells::kHasEdge) != 0 && !cells.IsNear(at, cells.farthest[at]);
 }
 
-// Whether a cell within `reach` is so.
+// Returns true if `is` holds for a cell within `reach`.
 template <class Is>
 bool AnyWithin(const HairCells& cells, int32_t column, int32_t row, int32_t reach, const Is& is) {
   const int32_t right = Min(column + reach, cells.columns - 1);

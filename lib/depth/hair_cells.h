@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a map has large depth edges, and the two surfaces that meet there, by cells of 4 x 4
-// pixels.
+// Cells of 4 x 4 pixels with the two surfaces that meet at large depth edges: foreground (near) and
+// background (far). The search for hair coverage classifies pixels by them.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_CELLS_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_CELLS_H_
 
@@ -13,25 +13,25 @@
 
 namespace starfocus {
 
-// Surfaces are looked for within this many cells.
+// Radius of the square, in cells, in which the two surfaces of a cell are searched.
 inline constexpr int32_t kSurfaceReach = 10;
 
 struct HairCells {
   int32_t columns, rows;
-  // Farthest and nearest disparity off ramps: first of the cell, then within kSurfaceReach.
+  // Lowest and highest disparity outside ramps: of the cell, after MarkEdges within kSurfaceReach.
   int16_t *low, *high;
-  // Of all of its pixels.
+  // Lowest and highest disparity of all pixels of the cell.
   int16_t *farthest, *nearest;
   uint8_t* marks;
-  int32_t* line;  // scratch
+  int32_t* line;  // scratch of a row or a column
 
-  // There are two surfaces within kSurfaceReach.
+  // Two surfaces lie within kSurfaceReach.
   static constexpr uint8_t kHasEdge = 1;
-  // There are, and no near pixel within a cell: only far ones.
+  // kHasEdge, and neither the cell nor its eight neighbours have near pixels.
   static constexpr uint8_t kIsFar = 2;
-  // There are near pixels, and far ones 2 to 4 cells away: it lies a little inside an outline.
+  // The cell has near pixels, and the closest far pixels are 2 to 4 cells away.
   static constexpr uint8_t kIsInside = 4;
-  // There is hair that the map has as a closed outline.
+  // The cell shows hair whose outline the map has closed.
   static constexpr uint8_t kHasHair = 8;
 
   size_t At(int32_t x, int32_t y) const {
@@ -43,21 +43,21 @@ struct HairCells {
 };
 HairCells TakeHairCells(int32_t width, int32_t height, Carver* carver);
 
-// Whether a cell with these marks may have near pixels.
+// Returns true if a cell with these marks may have near pixels.
 inline bool MayHaveNear(uint8_t marks) { return marks != 0 && (marks & HairCells::kIsFar) == 0; }
 
-// Writes the disparities of a cell.
+// Writes the four disparities of a cell.
 void MeasureHairCell(const ColourMap& map, int32_t column, int32_t row, const HairCells& cells);
 
-// Marks all cells when they are measured. Returns false if there are no edges.
+// Marks all cells after all are measured. Returns false if no cell has an edge.
 bool MarkEdges(const HairCells& cells);
 
-// Marks the cells around which so much looks far of what the map says is near: `near` has the
-// number of near pixels of each cell, `far` how many of them look far, times 256. Both are
-// overwritten. Returns false if there are none.
+// Sets kHasHair where many near pixels look like background. `near` is the number of near pixels of
+// each cell, `far` the number of those that look like background, times 256; both are overwritten.
+// Returns false if no cell has hair.
 bool MarkHair(const HairCells& cells, int32_t* near, int32_t* far);
 
-// Returns true if one of the cells that touch the rectangle has hair.
+// Returns true if a cell that overlaps the rectangle has hair.
 bool HasHair(const HairCells& cells, const Rect& rect);
 
 // Calls act(column, row) for the cells whose first pixel lies in the tile.
@@ -71,7 +71,7 @@ void ForHairCells(const Rect& tile, const Act& act) {
   }
 }
 
-// The pixels of a cell.
+// Returns the pixels of a cell.
 inline Rect HairCellAt(const EstimatePlan& plan, int32_t column, int32_t row) {
   const int32_t x = column * kHairCell, y = row * kHairCell;
   return {x, y, Min(kHairCell, plan.width - x), Min(kHairCell, plan.height - y)};

@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-// Writes a cell's mean; a pixel's weight is weight(pixel).
+// Writes the mean colour of a cell, in which a pixel has the weight weight(pixel).
 template <class Weight>
 void Pull(const HairJob& job, int32_t column, int32_t row, const Weight& weight,
           const ColourPyramid& pyramid) {
@@ -16,7 +16,7 @@ void Pull(const HairJob& job, int32_t column, int32_t row, const Weight& weight,
   pyramid.levels[0].At(column, row) = sum.Mean();
 }
 
-// The squared difference of a near pixel and the far colour, 0 of a far one.
+// Returns the squared contrast of a near pixel to the background, or 0 for a far pixel.
 int32_t ContrastOf(const CellPixel& pixel, const CellColours& far) {
   if (!pixel.is_near) return 0;
   int32_t sum = 0;
@@ -27,7 +27,7 @@ int32_t ContrastOf(const CellPixel& pixel, const CellColours& far) {
   return sum;
 }
 
-// The largest contrast of a cell and those around it.
+// Returns the largest contrast of a cell and its eight neighbours.
 int32_t ContrastAround(const HairJob& job, int32_t column, int32_t row) {
   const HairCells& cells = job.cells;
   int32_t most = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours of the near and of the far surface at hair, from where they are pure: jobs for the
-// tiles of a HairJob, which write the lowest levels of its two pyramids.
+// Jobs that estimate the foreground and the background colour of each cell from pixels that show
+// one surface only. Each job writes the cells of one tile, in the lowest level of a pyramid of its
+// HairJob.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_COLOURS_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_COLOURS_H_
 
@@ -8,12 +9,12 @@
 
 namespace starfocus {
 
-// At first only cells without near pixels around are known to be far.
+// First pass, background: cells without near pixels around them.
 void PullFar(const void* data, int32_t index, int32_t worker);
-// Then the near pixels count that differ most from the far colour.
+// First pass, foreground: near pixels, weighted by their contrast to the background.
 void MeasureContrast(const void* data, int32_t index, int32_t worker);
 void PullNear(const void* data, int32_t index, int32_t worker);
-// Then pixels count by the coverage that was found.
+// Second pass: all pixels, weighted by the coverage that the first pass found.
 void PullBoth(const void* data, int32_t index, int32_t worker);
 
 }  // namespace starfocus

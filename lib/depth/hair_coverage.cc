@@ -10,8 +10,9 @@
 namespace starfocus {
 namespace {
 
-// A map has hair as closed outlines if so many 256ths of what lies a little inside of them look
-// far: 80 for maps of networks, at most 28 for other maps that are right or wrong by 3 pixels.
+// Least share, in 256ths, of pixels a little inside outlines that look like background. Network
+// maps of the hair scene have 80; exact maps, maps wrong by 3 pixels and photographs at most 28
+// (docs/depth.md).
 constexpr int64_t kLeastFar = 48;
 
 void MeasureTile(const void* data, int32_t index, int32_t) {
@@ -21,7 +22,7 @@ void MeasureTile(const void* data, int32_t index, int32_t) {
   });
 }
 
-// Whether the map has hair as closed outlines.
+// Returns true if the map has hair with closed outlines.
 bool HasClosedHair(const HairJob& job) {
   int64_t inside = 0, far = 0;
   for (int32_t k = 0; k < job.map.plan.columns * job.map.plan.rows; ++k) {
@@ -58,7 +59,8 @@ HairMemory TakeHairMemory(const EstimatePlan& plan, Carver* carver) {
 sf_status FindHairCoverage(const ColourMap& map, const MapOutput& output, const HairCells& cells,
                            const HairMemory& memory, Phases* phases, bool* found) {
   const HairJob job = {map, output, cells, memory};
-  // Each phase, and what follows it for the whole picture: whether there is anything to go on with.
+  // Each phase, and the step that follows it for the whole picture. A step that returns false ends
+  // the search.
   const struct {
     JobFunction function;
     bool (*conclude)(const HairJob& job);

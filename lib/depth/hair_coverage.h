@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coverage of the hair that a map of one view has as a closed outline. Colours of the near and of
-// the far surface are carried on from where they are pure, and each pixel near the outline is
-// parted by them.
+// Finds the coverage of hair whose outline a map has closed, as maps of monocular networks have.
+// Pyramids extend the pure colours of foreground and background to each pixel near an outline; the
+// coverage is the position of the pixel's colour between the two. Called by RepairByColour.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_COVERAGE_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_COVERAGE_H_
 
@@ -14,16 +14,17 @@ namespace starfocus {
 
 HairMemory TakeHairMemory(const EstimatePlan& plan, Carver* carver);
 
-// The phases that FindHairCoverage takes at most.
+// Number of phases that FindHairCoverage runs or skips.
 inline constexpr int32_t kHairPhases = 9;
 
-// Marks the cells that have hair as a closed outline, and writes their coverage. Says whether there
-// are any. SF_OK, or what Phases::Run returns.
+// Marks the cells with hair and writes their coverage. *found is true if there are any. Returns the
+// status of Phases::Run.
 sf_status FindHairCoverage(const ColourMap& map, const MapOutput& output, const HairCells& cells,
                            const HairMemory& memory, Phases* phases, bool* found);
 
-// Completes a tile when its map is written: the coverage of cells without hair, which is what the
-// map says, and the confidence of those with hair: how well their map and coverage agree.
+// Completes a tile after its map is written. In cells without hair the coverage is 0 or 255,
+// according to the map. In cells with hair the confidence is 255 minus the difference of the
+// coverage from the map's 0 or 255.
 void CompleteCoverage(const ColourMap& map, const MapOutput& output, const HairCells& cells,
                       const Rect& tile);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the phases of hair coverage work with: cells and their pixels.
+// Input, output and memory of the phases of FindHairCoverage, and loops over cells and their
+// pixels.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_JOB_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_JOB_H_
 
@@ -9,17 +10,18 @@
 
 namespace starfocus {
 
-// How many pixels of a tile lie a little inside outlines, and how many of them look far, times 256.
+// Number of pixels of a tile a little inside outlines, and number of those that look like
+// background, times 256.
 struct InsideCount {
   int32_t inside, far;
 };
 
 struct HairMemory {
   ColourPyramid far, near;
-  // Of each cell: the largest contrast of its near pixels to the far colour, later how many of them
-  // look far; how many there are.
+  // Of each cell: the largest squared contrast of its near pixels to the background, later the
+  // number of them that look like background; the number of near pixels.
   int32_t *contrast, *near_pixels;
-  InsideCount* counts;  // of each tile
+  InsideCount* counts;  // one for each tile
 };
 
 struct HairJob {
@@ -37,14 +39,14 @@ struct HairJob {
 
 inline const HairJob& HairJobOf(const void* data) { return *static_cast<const HairJob*>(data); }
 
-// Shares and weights are of kFullyKnown.
+// Fractions with the scale kFullyKnown.
 inline uint32_t ShareOf(uint8_t coverage) { return coverage + coverage / 128U; }
 inline uint32_t FourthPower(uint32_t share) {
   const uint32_t square = share * share / kFullyKnown;
   return square * square / kFullyKnown;
 }
 
-// A pixel of a cell.
+// One pixel of a cell.
 struct CellPixel {
   int32_t x, y;         // in the picture
   int32_t column, row;  // in the cell

@@ -8,17 +8,18 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kWhole = kFullyKnown;
-// Squared differences of colours are in the unit of kMeanBits, squared.
+// One code squared, in the unit of squared differences.
 constexpr int64_t kSquareCode = int64_t{1} << (2 * kMeanBits);
-// Two surfaces whose colours differ by less cannot be told apart.
+// Least squared contrast at which coverage can be measured.
 constexpr int64_t kLeastContrast = 300 * kSquareCode;
-// Noise of a picture, squared; and so much of the contrast, as surfaces are not of one colour.
-constexpr int64_t kNoise = 81 * kSquareCode, kVariety = 16;
-// The texture of the far surface looks like so little near light.
+// Variance of the distance from the line between the two colours: 9 codes squared of noise, and a
+// sixteenth of the squared contrast for variation within surfaces.
+constexpr int64_t kNoise = 81 * kSquareCode, kVariation = 16;
+// Coverage that texture of the background may seem to have.
 constexpr int32_t kTexture = kWhole / 8;
 
-// A pixel's share of near light by its place along the line from far to near colour, and how far
-// that is to be trusted by how near it is to the line; of kWhole.
+// Coverage of a pixel by its position along the line from background to foreground colour, and
+// trust in it by its distance from that line. Both have the scale kWhole.
 struct Unmixed {
   int32_t share, trust;
 };
@@ -34,8 +35,8 @@ Unmixed Unmix(const int32_t* far, const int32_t* near, const uint16_t* mixed) {
   if (contrast < kLeastContrast) return {0, 0};
   const int64_t on = along < 0 ? 0 : along > contrast ? contrast : along;
   const int64_t beside = distance - (2 * along - on) * on / contrast;
-  const int64_t scale = kNoise + contrast / kVariety;
-  // All within half of it, nothing beyond one and a half.
+  const int64_t scale = kNoise + contrast / kVariation;
+  // (2.25 - distance^2 / variance) / 2, clamped.
   const int64_t trust = (9 * scale - 4 * beside) * kWhole / (8 * scale);
   return {static_cast<int32_t>(kWhole * on / contrast),
           static_cast<int32_t>(trust < 0        ? 0
@@ -43,7 +44,7 @@ Unmixed Unmix(const int32_t* far, const int32_t* near, const uint16_t* mixed) {
                                                 : trust)};
 }
 
-// What a cell's pixels are mixed of.
+// Foreground and background colours of the pixels of a cell.
 struct CellMixer {
   CellColours far, near;
 
@@ -51,7 +52,7 @@ struct CellMixer {
     InterpolateCell(memory.far, column, row, &far);
     InterpolateCell(memory.near, column, row, &near);
   }
-  // `own` is how much of the far colour is the pixel's own one, of kWhole.
+  // `own` is the share of the pixel's own colour in its background colour, with the scale kWhole.
   Unmixed Part(const CellPixel& pixel, int32_t own) const {
     int32_t behind[3];
     for (int c = 0; c < 3; ++c) {
@@ -62,13 +63,13 @@ struct CellMixer {
   }
 };
 
-// How much a near pixel looks far, of kWhole.
+// Returns by how much a near pixel looks like background, with the scale kWhole.
 int32_t LooksFar(const CellMixer& mixer, const CellPixel& pixel) {
   const Unmixed unmixed = mixer.Part(pixel, 0);
   return unmixed.share < kWhole / 4 ? unmixed.trust : 0;
 }
 
-// A mixture is told from the texture of the far surface only if it has some near light.
+// Removes coverage that may be texture of the background.
 int32_t WithoutTexture(int32_t share) {
   return Max(0, (share - kTexture) * kWhole / (kWhole - kTexture));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much near light the pixels of hair show, by the near and the far colour around: jobs for
-// the tiles of a HairJob.
+// Jobs that compare pixels with the foreground and background colours around them. Each job is for
+// one tile of a HairJob.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_UNMIX_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_UNMIX_H_
 
@@ -8,12 +8,13 @@
 
 namespace starfocus {
 
-// Count the near pixels that look far: of a tile's cells inside outlines, and of each cell.
+// Count near pixels that look like background: CountInside in cells inside outlines, CountCells in
+// all cells.
 void CountInside(const void* data, int32_t index, int32_t worker);
 void CountCells(const void* data, int32_t index, int32_t worker);
 
-// Write the coverage of cells that have hair. The second time the far colour of a pixel is the more
-// its own, the more it was found to be far.
+// Write the coverage of cells with hair. In the second pass, the background colour of a pixel is
+// mixed with its own colour: the lower its coverage, the more.
 void UnmixFirst(const void* data, int32_t index, int32_t worker);
 void UnmixAgain(const void* data, int32_t index, int32_t worker);
 

@@ -10,7 +10,7 @@
 
 namespace starfocus {
 
-// Pixels are asked about that have another surface within so many pixels: disparities differ by
+// TakeMajority changes pixels within kMajorityReach of another surface, whose disparity differs by
 // more than kMajorityStep.
 inline constexpr int32_t kMajorityReach = 2, kMajorityStep = 2 * kSurfaceStep;
 // Rows of pixels are at most this long.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs one set of jobs after the other, a job for each tile of a picture.
+// Runs job sets one after the other, each with one job per tile of the picture, and reports
+// progress.
 #ifndef STARFOCUS_LIB_DEPTH_PHASES_H_
 #define STARFOCUS_LIB_DEPTH_PHASES_H_
 
@@ -10,14 +11,14 @@ namespace starfocus {
 
 class Phases {
  public:
-  // `count` phases are all that a call takes: the caller's progress function is told which is run.
+  // `count` is the number of phases of the whole call, for its progress function.
   Phases(const EstimatePlan& plan, const Runner& runner, int32_t count, JobSet* jobs)
       : tiles_(plan.columns * plan.rows), count_(count), runner_(runner), jobs_(jobs) {}
 
-  // Counts the next one as done.
+  // Counts the next phase as done without running it.
   void Skip() { ++done_; }
 
-  // SF_OK, SF_ERROR_CANCELLED or SF_ERROR_RUNNER, as RunJobSet.
+  // Returns SF_OK, SF_ERROR_CANCELLED or SF_ERROR_RUNNER (RunJobSet).
   sf_status Run(JobFunction function, const void* data) {
     jobs_->watch.SetPart(done_++, count_);
     return RunJobSet(function, data, tiles_, runner_, jobs_);

@@ -14,7 +14,7 @@ namespace starfocus {
 // Pixels that the nearer surface is widened by at most.
 inline constexpr int32_t kMostSoft = 3;
 
-// Edges have a larger step of disparity.
+// Smallest step of disparity of an edge.
 inline constexpr int32_t kSoftStep = 5 << kDisparityBits;
 
 // Edges of a tile at which a profile could be taken, and those at which the pixel one, two or three
@@ -24,7 +24,7 @@ struct SoftCount {
   int32_t mixed[kMostSoft];
 };
 
-// Adds those of a rectangle.
+// Adds the edges of a rectangle to *count.
 void CountSoft(const ColourMap& map, const Rect& rect, SoftCount* count);
 
 // Returns by how many pixels nearer surfaces are to be widened: one more than those that show some

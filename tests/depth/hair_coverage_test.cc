@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coverage that a repair of one view finds where its map has hair as a closed outline.
+// Coverage that a repair of one view finds where the map has closed the outline of hair.
 #include "lib/depth/hair_coverage.h"
 
 #include <doctest/doctest.h>
@@ -31,9 +31,9 @@ struct Found {
 };
 
 struct Call {
-  bool covers = true;  // coverage is asked for
+  bool covers = true;  // requests coverage
   sf_runner runner = nullptr;
-  int* calls = nullptr;  // of the progress function that may still come
+  int* calls = nullptr;  // calls of the progress function before it cancels; null: none
 };
 
 Found Repair(const Portrait& portrait, const Call& call = {}) {
@@ -74,7 +74,7 @@ Found Repair(const Portrait& portrait, const Call& call = {}) {
   return found;
 }
 
-// The mean difference of two planes in an area.
+// Returns the mean absolute difference of two planes in an area.
 double Difference(const Area& area, const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
   int64_t sum = 0, count = 0;
   for (int y = area.top; y < area.bottom; ++y) {
@@ -86,36 +86,36 @@ double Difference(const Area& area, const std::vector<uint8_t>& a, const std::ve
   return double(sum) / double(count);
 }
 
-TEST_CASE("hair coverage: hair that a map has as a closed outline gets its coverage") {
+TEST_CASE("hair coverage: found where the map has closed the outline of hair") {
   const Portrait portrait = MakeClosedHair();
   const Found found = Repair(portrait);
   REQUIRE(found.status == SF_OK);
   REQUIRE(found.has_coverage == 1);
-  // The map says 255 everywhere in the hair, which is off by 182 in the mean.
+  // The map alone, 255 everywhere in the hair, has a mean error of 182.
   CHECK(Difference({44, 64, 176, 108}, found.coverage, portrait.coverage) < 24);
   CHECK(Difference({60, 124, 232, 178}, found.coverage, portrait.coverage) < 0.5);
   CHECK(Difference({60, 30, 160, 56}, found.coverage, portrait.coverage) < 4);
-  // Its disparities stay to the bit.
+  // Disparities of hair keep their bits.
   for (int y = 64; y < 106; ++y) {
     for (int x = 44; x < 176; ++x) REQUIRE(found.map[portrait.At(x, y)] == kNear);
   }
 }
 
-TEST_CASE("hair coverage: confidence tells where map and coverage agree") {
+TEST_CASE("hair coverage: confidence is high where map and coverage agree") {
   const Portrait portrait = MakeClosedHair();
   const Found found = Repair(portrait);
   REQUIRE(found.has_coverage == 1);
   for (int y = 70; y < 100; ++y) {
     for (int x = 60; x < 160; ++x) {
       const size_t at = portrait.At(x, y);
-      REQUIRE(found.confidence[at] == found.coverage[at]);  // all of it is near in the map
+      REQUIRE(found.confidence[at] == found.coverage[at]);  // the map has only near pixels here
     }
   }
 }
 
 TEST_CASE("hair coverage: bare outlines beside hair are repaired, and their surfaces stay opaque") {
   Portrait portrait = MakeClosedHair();
-  // The body's bare top, right of the hair, is 2 pixels too low in the map.
+  // In the map the body's top edge right of the hair is 2 pixels too low.
   for (int y = 110; y < 112; ++y) {
     for (int x = 182; x < 240; ++x) portrait.map[portrait.At(x, y)] = kFar;
   }
@@ -131,7 +131,7 @@ TEST_CASE("hair coverage: bare outlines beside hair are repaired, and their surf
 }
 
 TEST_CASE(
-    "hair coverage: an opaque surface has no coverage, and its map is as if nobody had asked") {
+    "hair coverage: an opaque surface has none, and its map is the same without the request") {
   Portrait portrait;
   portrait.Draw();
   for (size_t k = 0; k < portrait.map.size(); k += 7) portrait.map[k] += 0.01F;
@@ -143,7 +143,7 @@ TEST_CASE(
   for (const uint8_t value : unasked.coverage) REQUIRE(value == 77);
 }
 
-TEST_CASE("hair coverage: a map without steps has no coverage") {
+TEST_CASE("hair coverage: a map without edges has none") {
   Portrait portrait = MakeClosedHair();
   portrait.map.assign(portrait.map.size(), kNear);
   CHECK(Repair(portrait).has_coverage == 0);
@@ -161,7 +161,7 @@ TEST_CASE("hair coverage: the same bytes backwards by two workers") {
   CHECK(one.map[portrait.At(100, 80)] == kNear);
 }
 
-TEST_CASE("hair coverage: a call may be cancelled at any of its phases") {
+TEST_CASE("hair coverage: a call can be cancelled in each phase") {
   const Portrait portrait = MakeClosedHair();
   int count = 1000;
   REQUIRE(Repair(portrait, {true, nullptr, &count}).has_coverage == 1);
@@ -224,7 +224,7 @@ TEST_CASE("hair coverage: bad planes have their errors, and nothing is written")
   for (const uint8_t value : sure) REQUIRE(value == 42);
 }
 
-// A pyramid over a picture of nothing known.
+// A pyramid in which no colour is known.
 struct PyramidOf {
   PyramidOf(int width, int height) : memory(SizeOf(width, height)) {
     starfocus::Carver carver(memory.data);
@@ -243,7 +243,7 @@ struct PyramidOf {
   starfocus::ColourPyramid pyramid;
 };
 
-TEST_CASE("colour pyramid: what is known stays, the rest lies between") {
+TEST_CASE("colour pyramid: known colours stay, unknown ones are interpolated") {
   PyramidOf made(101, 37);
   const starfocus::ColourPyramid& pyramid = made.pyramid;
   CHECK_FALSE(starfocus::CarryOnColours(pyramid));
@@ -265,7 +265,7 @@ TEST_CASE("colour pyramid: what is known stays, the rest lies between") {
   }
 }
 
-TEST_CASE("colour pyramid: a slope of cells is a slope of pixels") {
+TEST_CASE("colour pyramid: interpolation of a linear gradient is exact") {
   PyramidOf made(40, 40);
   for (int y = 0; y < 10; ++y) {
     for (int x = 0; x < 10; ++x) {

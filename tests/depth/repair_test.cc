@@ -329,6 +329,34 @@ TEST_CASE("repair: pictures of any size, within the range") {
   }
 }
 
+TEST_CASE("repair: a noisy map of one view stays in its range") {
+  constexpr int kSide = 64;
+  const std::vector<uint8_t> picture(3 * kSide * kSide, 90);
+  std::vector<float> given, found(kSide * kSide, NAN);
+  test::Random random(11);
+  const float low = 1.003F, high = 7;  // 1.003 is not a multiple of 1/64
+  for (int at = 0; at < kSide * kSide; ++at) {
+    given.push_back(at % kSide < 16 ? low : float(random.Real(4, high)));
+  }
+  sf_depth_config config;
+  sf_depth_config_init(&config);
+  config.width = config.height = kSide;
+  config.views = 1;
+  config.disparity_min = low, config.disparity_max = high;
+  size_t bytes = 0;
+  REQUIRE(sf_repair_size(&config, &bytes) == SF_OK);
+  const Memory memory(bytes);
+  sf_light_field field = {};
+  field.views[0] = {picture.data(), 3 * kSide};
+  field.disparity = given.data();
+  field.disparity_stride = sizeof(float) * kSide;
+  sf_map map = {found.data(), sizeof(float) * kSide, nullptr, 0, nullptr, 0, 0};
+  REQUIRE(sf_repair_disparity(&config, &field, &map, memory.data, bytes, nullptr, nullptr) ==
+          SF_OK);
+  CHECK(found != given);
+  for (const float value : found) REQUIRE((value >= low && value <= high));
+}
+
 TEST_CASE("repair: bad maps have their errors, and nothing is written") {
   const PlaneScene scene;
   const PlaneField field = RenderPlanes(scene);

@@ -10,6 +10,7 @@
 
 #include "starfocus/depth.h"
 #include "tests/fuzz/input.h"
+#include "tests/support/strands.h"
 
 namespace {
 
@@ -21,7 +22,7 @@ constexpr int kViews[] = {1, 5, 9, 17};
 sf_depth_config MakeConfig(Input* input) {
   sf_depth_config config;
   sf_depth_config_init(&config);
-  const int side = input->Rarely() ? 200 : 24;
+  const int side = input->Rarely() ? 200 : input->Rarely() ? 80 : 24;
   config.width = input->Int(1, side);
   config.height = input->Int(1, side);
   config.views = kViews[input->Int(0, 3)];
@@ -81,6 +82,27 @@ void FillMap(const sf_depth_config& config, Input* input, Rows<float>* map) {
   }
 }
 
+// A picture of strands above a body, and a map that has closed their outline.
+void FillHair(const sf_depth_config& config, Input* input, Rows<uint8_t>* picture,
+              Rows<float>* map) {
+  const test::Strands strands = test::DrawStrands(input);
+  uint8_t colours[6];
+  input->Bytes(colours, sizeof(colours));
+  for (int32_t y = 0; y < config.height; ++y) {
+    for (int32_t x = 0; x < config.width; ++x) {
+      const bool is_far = 3 * y<config.height, is_body = 3 * y> 2 * config.height;
+      const int covers = is_far ? 0 : is_body ? 255 : strands.CoverageAt(x, y);
+      const size_t row = static_cast<size_t>(y), column = static_cast<size_t>(x);
+      for (size_t c = 0; c < 3; ++c) {
+        picture->values[row * picture->stride + 3 * column + c] =
+            test::Mixture(covers, colours[c], colours[3 + c]);
+      }
+      map->values[row * map->stride + column] =
+          is_far ? config.disparity_min : config.disparity_max;
+    }
+  }
+}
+
 // Every value that is written lies in the range, but for what a repair keeps.
 void CheckMap(const sf_depth_config& config, const Rows<float>& map) {
   for (int32_t y = 0; y < config.height; ++y) {
@@ -115,6 +137,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Rows<float> given(width, config.height, &input), map(width, config.height, &input);
   Rows<uint8_t> sure(width, config.height, &input), coverage(width, config.height, &input);
   FillMap(config, &input, &given);
+  if (config.views == 1 && input.Int(0, 1) == 1) {
+    FillHair(config, &input, &pictures[0], &given);
+  }
   field.disparity = given.values.get();
   field.disparity_stride = given.stride * sizeof(float);
   const auto make = repairs ? sf_repair_disparity : sf_estimate_disparity;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A portrait whose map has its hair as a closed outline, as maps of networks do.
+// A portrait with hair whose outline the map has closed, as in maps of monocular networks.
 #ifndef STARFOCUS_TESTS_SUPPORT_CLOSED_HAIR_H_
 #define STARFOCUS_TESTS_SUPPORT_CLOSED_HAIR_H_
 
@@ -17,12 +17,12 @@ struct Area {
   bool Has(int x, int y) const { return x >= left && x < right && y >= top && y < bottom; }
 };
 
-// A body with hair on its top and a bare right side, before a wall.
+// A body before a wall, with hair on the left part of its top edge.
 struct ClosedHair {
   static constexpr float kNear = 9, kFar = -4;
   static constexpr int kWidth = 240, kHeight = 181;
   Area body = {40, 110, 240, 181}, hair = {40, 60, 180, 110};
-  Strands strands;  // of the hair; none: it is opaque
+  Strands strands;  // of the hair; without strands the hair is opaque
   std::vector<uint8_t> rgb, coverage;
   std::vector<float> map;
 

@@ -67,7 +67,7 @@ Error PlanOutputs(const DisparityOptions& options, Plan* plan) {
     return Error::Usage("--repair", "no --range: the map has one", options.range.substr(0, 60));
   }
   if (!options.repair && !options.coverage.empty()) {
-    return Error::Usage("--coverage", "--repair with it: only a repair finds some", "none");
+    return Error::Usage("--coverage", "--repair, which finds coverage", "none");
   }
   if (options.out.empty() && HasDisparity(options.folder)) {
     return Expected(plan->map, "no map yet, or another name by --output", "one");
@@ -117,8 +117,8 @@ Error RepairFolder(const DisparityOptions& options, Plan* plan, LightField* ligh
   if (!error.empty()) return error;
   if (!options.coverage.empty() && light_field->coverage.empty()) {
     std::fprintf(stderr, "%s: no coverage to write: %s\n", options.folder.c_str(),
-                 light_field->views.size() > 1 ? "one view alone, --views 1, has some"
-                                               : "no hair has a closed outline in the map");
+                 light_field->views.size() > 1 ? "only a repair with one view (--views 1) finds it"
+                                               : "found no hair with a closed outline");
   } else if (!options.coverage.empty()) {
     estimate->coverage = DrawLevels(light_field->coverage, light_field->views[0]);
   }
@@ -182,9 +182,8 @@ Command DisparityCommand() {
            "Picture to write: how sure each pixel is, black where not at all",
            &options->confidence},
           {"--coverage", "FILE",
-           "Picture to write with --repair --views 1, where the map has hair as a closed outline: "
-           "how much of each pixel it covers. The map is as it was then; both go together, as "
-           "coverage.png in a folder",
+           "With --repair and one view: picture to write of the coverage of hair whose outline the "
+           "map has closed. Put it beside the written map as coverage.png",
            &options->coverage},
           {"--repair", nullptr,
            "Repair the folder's map by the views instead: displaced and blurred edges, and "

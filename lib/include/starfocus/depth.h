@@ -35,18 +35,18 @@ typedef struct sf_depth_config {
   uint32_t reserved[8]; /**< zero */
 } sf_depth_config;
 
-/** Where a map goes. Nothing may overlap the views, the given map, the workspace or each other;
- *  nothing is written before the arguments have been checked. */
+/** Output planes of a map. They must not overlap the views, the given map, the workspace or each
+ *  other. A call writes nothing until it has checked its arguments. */
 typedef struct sf_map {
   float* disparity;         /**< aligned for float */
   size_t disparity_stride;  /**< bytes from row to row, >= 4 * width, multiple of 4 */
-  uint8_t* confidence;      /**< how sure each pixel is, 0: not at all; null: nobody asks */
+  uint8_t* confidence;      /**< confidence of each disparity, 0: none; null: not wanted */
   size_t confidence_stride; /**< bytes from row to row, >= width */
-  uint8_t* coverage;        /**< of a repair of one view, as sf_light_field.coverage; null: nobody
-                                 asks */
+  uint8_t* coverage;        /**< sf_repair_disparity of one view: coverage of hair, as
+                                 sf_light_field.coverage; null: not wanted */
   size_t coverage_stride;   /**< bytes from row to row, >= width */
-  int32_t has_coverage;     /**< written: 1 if coverage was found and goes with the map, else 0, and
-                                 what `coverage` points to is unspecified */
+  int32_t has_coverage;     /**< output: 1 if coverage was found and belongs to the map; 0: the bytes
+                                 of `coverage` are unspecified */
 } sf_map;
 
 SF_API void sf_depth_config_init(sf_depth_config* config);
@@ -56,13 +56,13 @@ SF_API void sf_depth_config_init(sf_depth_config* config);
  * 17 views. */
 SF_API sf_status sf_estimate_size(const sf_depth_config* config, size_t* bytes);
 
-/** Estimates the disparity of each pixel of the centre view from all views: what makes them agree,
- *  occlusions left out of account, and neighbours go on smoothly. Every value lies in the
- *  configured range. light_field's disparity is not read; the views and the workspace must stay as
- *  they are during the call. map->confidence tells how much worse than the disparity chosen any
- *  other one is that differs by a step or more, in quarters of a gray level of all three colours
- *  together; 0 means that another one is as good (a wall of one colour, or what hardly any view
- *  sees), 255 that there is none. runner as in sf_refocus. */
+/** Estimates the disparity of each pixel of the centre view: the one at which all views that see
+ *  the pixel agree best, smooth between neighbours. Every value lies in the configured range.
+ *  light_field->disparity is not read. The views and the workspace must not change during the call.
+ *  Confidence is the cost of the best disparity that differs by a step or more, minus the cost of
+ *  the result, in quarters of a gray level, summed over the three colours: 0 if another disparity
+ *  is as good (a wall of one colour, pixels that hardly any view sees), 255 if none is. runner as
+ *  in sf_refocus. */
 SF_API sf_status sf_estimate_disparity(const sf_depth_config* config,
                                        const sf_light_field* light_field, sf_map* map,
                                        void* workspace, size_t bytes, sf_runner runner,
@@ -72,20 +72,23 @@ SF_API sf_status sf_estimate_disparity(const sf_depth_config* config,
  *  each worker about as much as sf_estimate_size has. */
 SF_API sf_status sf_repair_size(const sf_depth_config* config, size_t* bytes);
 
-/** Repairs light_field's disparity map, whose edges lie beside those of the picture, are blurred or
- *  of a smaller map, or which is noisy: as sf_estimate_disparity, but a disparity is the less
- *  likely, the further away the given map has it. Pixels that the views do not gainsay keep their
- *  value to the bit (with one view, that colours do not gainsay, unless the map is noisy; there
- *  outlines become as smooth as those of the picture, and wider where these are soft); NaN and
- *  infinite values are unknown, and get one. Every finite value of the given map lies in the
- *  configured range (else SF_ERROR_DISPARITY), which may be wider; SF_ERROR_ALL_INVALID when none
- *  is finite. Confidence is 0 also where the views contradict the value that was kept, but too
- *  weakly; where nothing contradicts it, and no step of the map is near, it tells how much the
- *  centre view differs a pixel away, in the same unit.
+/** Repairs light_field->disparity: edges that differ from those of the picture, are blurred or come
+ *  from a smaller map, noise, and unknown values (NaN, infinite). With side views it works like
+ *  sf_estimate_disparity, with a cost that grows with the distance from the given disparity; with
+ *  one view it compares colours. Values that the pictures do not contradict keep their bits, unless
+ *  one view has a noisy map. With one view, outlines become as smooth as those of the picture, and
+ *  foreground surfaces grow where the picture's edges are soft.
  *
- *  A map of one view may have hair as a closed outline. No disparities repair that: if
- * map->coverage is asked for, its coverage is found by colour (map->has_coverage), every known
- * disparity stays, and confidence tells how well map and coverage agree. */
+ *  Finite values of the given map must lie in the configured range, which may be wider (else
+ *  SF_ERROR_DISPARITY); SF_ERROR_ALL_INVALID if no value is finite. Confidence is 0 also where the
+ *  pictures contradict a kept value, but too weakly to change it. Where nothing contradicts a value
+ *  and no edge is near, it is the difference of the centre view from itself one pixel away, in the
+ *  same unit.
+ *
+ *  Maps of monocular networks have hair as one closed outline, which no disparities can repair. If
+ *  map->coverage is not null and the only view shows such hair, its coverage is found by colour.
+ *  There, known disparities keep their bits, and confidence is 255 minus the difference between the
+ *  coverage and the 0 or 255 that the map alone would mean. Elsewhere, coverage is that 0 or 255. */
 SF_API sf_status sf_repair_disparity(const sf_depth_config* config,
                                      const sf_light_field* light_field, sf_map* map,
                                      void* workspace, size_t bytes, sf_runner runner,
