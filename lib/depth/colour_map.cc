@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/depth/colour_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
