@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # starfocus_highway: Highway with the definitions every unit that names its targets must agree on.
+# The oldest supported version is that of Debian 12; simd/targets.h checks the headers.
 add_library(starfocus_highway INTERFACE)
+set(STARFOCUS_HIGHWAY_OLDEST 1.0.3)
 
 if(NOT STARFOCUS_STATIC_DISPATCH)
-  find_package(hwy CONFIG QUIET)
+  find_package(hwy ${STARFOCUS_HIGHWAY_OLDEST} CONFIG QUIET)
   starfocus_require(hwy_FOUND libhwy-dev
-    "Highway's library for this machine (its headers suffice with STARFOCUS_STATIC_DISPATCH=ON)")
+    "the library of Highway ${STARFOCUS_HIGHWAY_OLDEST} or newer for this machine (its headers suffice with STARFOCUS_STATIC_DISPATCH=ON)")
   target_link_libraries(starfocus_highway INTERFACE hwy::hwy)
   target_compile_definitions(starfocus_highway INTERFACE HWY_COMPILE_ALL_ATTAINABLE)
   return()

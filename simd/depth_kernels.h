@@ -4,9 +4,8 @@
 #ifndef STARFOCUS_SIMD_DEPTH_KERNELS_H_
 #define STARFOCUS_SIMD_DEPTH_KERNELS_H_
 
-#include <cstddef>
-
 #include "simd/colours.h"
+#include "simd/kernel_table.h"
 #include "simd/label_costs.h"
 #include "simd/paths.h"
 #include "simd/planes.h"
@@ -28,20 +27,7 @@
 
 namespace starfocus::simd {
 
-// Pointers to the kernels of one SIMD target, by their names.
-struct DepthKernels {
-  const char* name;  // of the target
-#define STARFOCUS_MEMBER(Kernel) decltype(&reference::Kernel) Kernel;
-  STARFOCUS_DEPTH_KERNELS(STARFOCUS_MEMBER)
-#undef STARFOCUS_MEMBER
-};
-
-// The best target of this machine, chosen once by Highway.
-const DepthKernels& BestDepthKernels();
-// The references.
-const DepthKernels& ReferenceDepthKernels();
-// As KernelsOfTarget, for tests and the bench.
-const DepthKernels* DepthKernelsOfTarget(size_t index);
+STARFOCUS_DECLARE_TABLE(DepthKernels, STARFOCUS_DEPTH_KERNELS)
 
 }  // namespace starfocus::simd
 

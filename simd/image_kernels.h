@@ -4,9 +4,8 @@
 #ifndef STARFOCUS_SIMD_IMAGE_KERNELS_H_
 #define STARFOCUS_SIMD_IMAGE_KERNELS_H_
 
-#include <cstddef>
-
 #include "simd/depth_values.h"
+#include "simd/kernel_table.h"
 #include "simd/pixels.h"
 #include "simd/yuv.h"
 
@@ -28,20 +27,7 @@
 
 namespace starfocus::simd {
 
-// Pointers to the kernels of one SIMD target, by their names.
-struct ImageKernels {
-  const char* name;  // of the target
-#define STARFOCUS_MEMBER(Kernel) decltype(&reference::Kernel) Kernel;
-  STARFOCUS_IMAGE_KERNELS(STARFOCUS_MEMBER)
-#undef STARFOCUS_MEMBER
-};
-
-// The best target of this machine, chosen once by Highway.
-const ImageKernels& BestImageKernels();
-// The references.
-const ImageKernels& ReferenceImageKernels();
-// As KernelsOfTarget, for tests and the bench.
-const ImageKernels* ImageKernelsOfTarget(size_t index);
+STARFOCUS_DECLARE_TABLE(ImageKernels, STARFOCUS_IMAGE_KERNELS)
 
 }  // namespace starfocus::simd
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// One table of kernels per SIMD target; Highway picks the best one of the machine.
+// Compiles the table of the engine's kernels for every SIMD target.
 #include "simd/kernels.h"
-
-#include "simd/targets.h"  // before those of Highway
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/kernels.cc"
-#include "hwy/foreach_target.h"  // must precede highway.h
-#include "hwy/highway.h"
+#include "simd/targets.h"  // compiles this file again for each other target
+
+#define STARFOCUS_TABLE Kernels
 #include "simd/cells-inl.h"
 #include "simd/coverage-inl.h"
 #include "simd/disc-inl.h"
@@ -24,9 +23,5 @@
 #include "simd/spans-inl.h"
 #include "simd/tiles-inl.h"
 
-#ifndef STARFOCUS_TABLE
-#define STARFOCUS_TABLE Kernels
 #define STARFOCUS_LIST STARFOCUS_KERNELS
-#define STARFOCUS_BEST BestKernels
-#endif
 #include "simd/table-inl.h"

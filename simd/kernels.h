@@ -6,14 +6,13 @@
 #ifndef STARFOCUS_SIMD_KERNELS_H_
 #define STARFOCUS_SIMD_KERNELS_H_
 
-#include <cstddef>
-
 #include "simd/cells.h"
 #include "simd/coverage.h"
 #include "simd/disc.h"
 #include "simd/disparities.h"
 #include "simd/finish_composite.h"
 #include "simd/hidden_fill.h"
+#include "simd/kernel_table.h"
 #include "simd/layered_depth.h"
 #include "simd/light.h"
 #include "simd/neighbourhood.h"
@@ -71,24 +70,9 @@
 
 namespace starfocus::simd {
 
-// Pointers to the kernels of one SIMD target, by their names.
-struct Kernels {
-  const char* name;  // of the target
-#define STARFOCUS_MEMBER(Kernel) decltype(&reference::Kernel) Kernel;
-  STARFOCUS_KERNELS(STARFOCUS_MEMBER)
-#undef STARFOCUS_MEMBER
-};
+STARFOCUS_DECLARE_TABLE(Kernels, STARFOCUS_KERNELS)
 
-// The best target of this machine, chosen once by Highway.
-const Kernels& BestKernels();
-// The references.
-const Kernels& ReferenceKernels();
-
-// For tests and the bench, not for a run-time choice (it is slow and changes Highway's choice for
-// other threads while it runs): target `index` of those compiled in and supported here, the best
-// first; null past the last.
-const Kernels* KernelsOfTarget(size_t index);
-// The one of that name; null when there is none.
+// Returns the table of the target of that name as KernelsOfTarget does; null if there is none.
 const Kernels* FindKernels(const char* name);
 
 }  // namespace starfocus::simd

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+// The tables of the references, for tests and for machines without SIMD.
+#include "simd/depth_kernels.h"
+#include "simd/image_kernels.h"
 #include "simd/kernels.h"
-#include "simd/targets.h"
 
 namespace starfocus::simd {
 
-const Kernels& ReferenceKernels() {
-  using namespace reference;
-  static constexpr Kernels kernels = {"reference", STARFOCUS_KERNELS(STARFOCUS_ENTRY)};
-  return kernels;
-}
+#define STARFOCUS_DEFINE_REFERENCES(Table, LIST)                           \
+  const Table& Reference##Table() {                                        \
+    using namespace reference;                                             \
+    static constexpr Table kernels = {"reference", LIST(STARFOCUS_ENTRY)}; \
+    return kernels;                                                        \
+  }
+
+STARFOCUS_DEFINE_REFERENCES(Kernels, STARFOCUS_KERNELS)
+STARFOCUS_DEFINE_REFERENCES(DepthKernels, STARFOCUS_DEPTH_KERNELS)
+STARFOCUS_DEFINE_REFERENCES(ImageKernels, STARFOCUS_IMAGE_KERNELS)
 
 }  // namespace starfocus::simd

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of kernels of one SIMD target, for the unit that includes this once for each target. It
-// defines STARFOCUS_TABLE (the type of the table), STARFOCUS_LIST (the list of its kernels) and
-// STARFOCUS_BEST (the function that returns the table of the best target, chosen once by Highway).
+// Defines a table of kernels for the current SIMD target, and for the last one Best##Table, which
+// returns the table of the best target of the machine. The unit that includes this once per target
+// defines STARFOCUS_TABLE (the type of the table) and STARFOCUS_LIST (the list of its kernels).
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
@@ -27,7 +27,10 @@ namespace starfocus::simd {
 
 HWY_EXPORT(Table);
 
-const STARFOCUS_TABLE& STARFOCUS_BEST() { return *HWY_DYNAMIC_DISPATCH(Table)(); }
+#define STARFOCUS_JOIN(a, b) a##b
+#define STARFOCUS_BEST(Table) STARFOCUS_JOIN(Best, Table)
+
+const STARFOCUS_TABLE& STARFOCUS_BEST(STARFOCUS_TABLE)() { return *HWY_DYNAMIC_DISPATCH(Table)(); }
 
 }  // namespace starfocus::simd
 #endif

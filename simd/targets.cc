@@ -35,15 +35,12 @@ const Table* TableOfTarget(const Table& (*best)(), size_t index) {
 
 }  // namespace
 
-const Kernels* KernelsOfTarget(size_t index) { return TableOfTarget(BestKernels, index); }
+#define STARFOCUS_DEFINE_OF_TARGET(Table) \
+  const Table* Table##OfTarget(size_t index) { return TableOfTarget(Best##Table, index); }
 
-const DepthKernels* DepthKernelsOfTarget(size_t index) {
-  return TableOfTarget(BestDepthKernels, index);
-}
-
-const ImageKernels* ImageKernelsOfTarget(size_t index) {
-  return TableOfTarget(BestImageKernels, index);
-}
+STARFOCUS_DEFINE_OF_TARGET(Kernels)
+STARFOCUS_DEFINE_OF_TARGET(DepthKernels)
+STARFOCUS_DEFINE_OF_TARGET(ImageKernels)
 
 const Kernels* FindKernels(const char* name) {
   const Kernels* kernels = nullptr;

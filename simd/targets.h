@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which SIMD targets Highway compiles for; comes before hwy/foreach_target.h.
+// The SIMD targets that Highway compiles a table of kernels for. A unit defines HWY_TARGET_INCLUDE
+// as its own file name and then includes this header, before any other header of Highway.
 #ifndef STARFOCUS_SIMD_TARGETS_H_
 #define STARFOCUS_SIMD_TARGETS_H_
 
@@ -14,7 +15,12 @@
 #define HWY_BROKEN_EMU128 1
 #endif
 
-// An entry of a table: the kernel of that name that is declared where this stands.
-#define STARFOCUS_ENTRY(Kernel) Kernel,
+#include "hwy/foreach_target.h"  // must precede highway.h
+#include "hwy/highway.h"
+
+// The oldest supported version, as cmake/highway.cmake and docs/third-party.md state it.
+#if HWY_MAJOR * 1000000 + HWY_MINOR * 1000 + HWY_PATCH < 1000003
+#error "Highway: unsupported version (expected 1.0.3 or newer)"
+#endif
 
 #endif  // STARFOCUS_SIMD_TARGETS_H_
