@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functions have at most six parameters: more of them are a structure that has no name yet.
+#include <doctest/doctest.h>
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace parameters_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMostParameters = 6;
+
+struct Token {
+  std::string text;
+  bool after_space;
+};
+
+bool IsIdentifier(const Token& token) {
+  static const std::set<std::string> kOperators = {"new", "delete", "sizeof", "return", "operator"};
+  const auto first = static_cast<unsigned char>(token.text[0]);
+  return (std::isalpha(first) != 0 || first == '_') && kOperators.count(token.text) == 0;
+}
+
+// Returns the tokens of C, C++ or Java: words and single characters, without comments, text and
+// lines of the preprocessor.
+std::vector<Token> Tokens(std::string code) {
+  static const std::regex kComment("//[^\n]*|/\\*[^*]*\\*+([^/*][^*]*\\*+)*/");
+  static const std::regex kMacro("(^|\n)[ \t]*#([^\n]*\\\\\n)*[^\n]*");
+  static const std::regex kText("\"(\\\\.|[^\"\\\\\n])*\"|'(\\\\.|[^'\\\\\n])*'");
+  for (const std::regex* dropped : {&kComment, &kMacro, &kText}) {
+    code = std::regex_replace(code, *dropped, " 0 ");
+  }
+  std::vector<Token> tokens;
+  bool space = false, word = false;
+  for (const char letter : code) {
+    const auto c = static_cast<unsigned char>(letter);
+    if (std::isspace(c) != 0) {
+      space = true;
+      continue;
+    }
+    const bool in_word = std::isalnum(c) != 0 || c == '_';
+    if (in_word && word && !space) {
+      tokens.back().text += letter;
+    } else {
+      tokens.push_back({std::string(1, letter), space});
+    }
+    word = in_word;
+    space = false;
+  }
+  return tokens;
+}
+
+// True if the tokens declare a parameter: a type, and most often a name. As clang-format lays them
+// out, `*` and `&` of a type follow it without a space, and operators do not.
+bool IsDeclaration(const std::vector<Token>& tokens) {
+  static const std::regex kPlain("int|float|double|bool|char|.*_t");
+  if (tokens.size() == 1) return std::regex_match(tokens[0].text, kPlain);
+  for (size_t k = 1; k < tokens.size(); ++k) {
+    const Token &before = tokens[k - 1], &here = tokens[k];
+    const bool member = k > 1 && before.text == ">" && tokens[k - 2].text == "-";
+    const bool ends_type = IsIdentifier(before) || (before.text == ">" && !member);
+    if (ends_type && IsIdentifier(here)) return true;
+    const bool refers = here.text == "*" || here.text == "&";
+    if ((ends_type || before.text == "*") && refers && !here.after_space) return true;
+  }
+  return false;
+}
+
+// Parameters or arguments of the list that opens at token `open`, without what is inside brackets.
+std::vector<std::vector<Token>> ListAt(const std::vector<Token>& tokens, size_t open) {
+  std::vector<std::vector<Token>> list(1);
+  int brackets = 0, angles = 0;
+  for (size_t k = open + 1; k < tokens.size(); ++k) {
+    const std::string& text = tokens[k].text;
+    if (brackets == 0 && text == ")") break;
+    if (text == "(" || text == "[" || text == "{") ++brackets;
+    if (text == ")" || text == "]" || text == "}") --brackets;
+    if (brackets != 0) continue;
+    if (text == "<" && !tokens[k].after_space && IsIdentifier(tokens[k - 1])) ++angles;
+    if (text == "," && angles == 0) {
+      list.emplace_back();
+    } else if (angles == 0 || (text == ">" && --angles == 0)) {
+      list.back().push_back(tokens[k]);
+    }
+  }
+  return list;
+}
+
+// Names of functions with more than `limit` parameters, where they are declared or defined.
+std::vector<std::string> FindWide(const std::string& code, size_t limit) {
+  const std::vector<Token> tokens = Tokens(code);
+  std::vector<std::string> found;
+  for (size_t k = 1; k < tokens.size(); ++k) {
+    if (tokens[k].text != "(") continue;
+    const std::vector<std::vector<Token>> list = ListAt(tokens, k);
+    if (list.size() > limit && IsDeclaration(list[0])) {
+      found.push_back(tokens[k - 1].text);
+    }
+  }
+  return found;
+}
+
+// Functions that still have more parameters: those of the public API, and the rest.
+const std::set<std::string> kWide = {"Refocus",
+                                     "RefocusAfter",
+                                     "RefocusPreview",
+                                     "StreamPull",
+                                     "sf_estimate_disparity",
+                                     "sf_focus_at",
+                                     "sf_prepare",
+                                     "sf_prepare_images",
+                                     "sf_refocus",
+                                     "sf_refocus_after",
+                                     "sf_refocus_images",
+                                     "sf_refocus_prepared",
+                                     "sf_refocus_prepared_images",
+                                     "sf_refocus_preview",
+                                     "sf_refocus_preview_images",
+                                     "sf_repair_disparity",
+                                     "sf_stream_pull",
+                                     "sf_stream_pull_images",
+                                     ")",
+                                     "AddColumn",
+                                     "AddDiagonal",
+                                     "AddRow",
+                                     "AddWeighed",
+                                     "BeginBeside",
+                                     "Between",
+                                     "ChooseDisparities",
+                                     "ChooseSurface",
+                                     "DivideEven",
+                                     "DownsamplePicture",
+                                     "Ellipsoid",
+                                     "FillHole",
+                                     "FillSlice",
+                                     "FilterBoundary",
+                                     "FilterDisc",
+                                     "FilterDiscLayer",
+                                     "FilterHalfBand",
+                                     "FilterMeans",
+                                     "FilterRows",
+                                     "FilterTwoDiscs",
+                                     "FindCovered",
+                                     "FindCoveredAslant",
+                                     "FindEdges",
+                                     "FindRunsOfVector",
+                                     "HideBehindRow",
+                                     "Java_dev_starfocus_android_LockedHardwareBuffer_lock",
+                                     "Leaf",
+                                     "MakeMap",
+                                     "MeasureCells",
+                                     "MoveSamples",
+                                     "PartitionBlock",
+                                     "Piece",
+                                     "ReadImageField",
+                                     "ReadPlane",
+                                     "ReadTask",
+                                     "RefocusEach",
+                                     "ScanLine",
+                                     "SelectAny",
+                                     "SelectFirst",
+                                     "SelectRow",
+                                     "TakeLight",
+                                     "TakeRows",
+                                     "Wire"};
+
+}  // namespace
+
+TEST_CASE("parameters: no function has more than six") {
+  for (const char* folder : {"lib", "simd", "platform", "examples"}) {
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(fs::path(STARFOCUS_SOURCE_DIR) / folder)) {
+      static const std::set<std::string> kSources = {".h", ".hpp", ".c", ".cc", ".java"};
+      if (kSources.count(entry.path().extension().string()) == 0) continue;
+      std::ifstream file(entry.path());
+      const std::string code((std::istreambuf_iterator<char>(file)), {});
+      for (const std::string& name : FindWide(code, kMostParameters)) {
+        CHECK_MESSAGE(kWide.count(name) == 1, entry.path().string(), ": ", name);
+      }
+    }
+  }
+}
+
+TEST_CASE("parameters: declarations are counted, and calls are none") {
+  const auto count = [](const std::string& code) { return FindWide(code, 2).size(); };
+  CHECK(count("int Sum(int a, int b, int c);") == 1);
+  CHECK(count("int Sum(int a, int b);") == 0);
+  CHECK(count("int Sum(int, int, int);") == 1);
+  CHECK(count("Sum::Sum(const T* a, T& b, std::array<int, 3> c) : a_(a) {}") == 1);
+  CHECK(count("void Sum(T* a, std::map<int, std::set<int>> b);") == 0);
+  CHECK(count("template <class T> void Sum(const Map<T, 3>& a, T* b, T c) {") == 1);
+  CHECK(count("void (*sum)(void* self, int (*of)(int, int), int c);") == 1);
+  CHECK(count("const auto sum = [&](int a, int b, int c) { return a; };") == 1);
+  CHECK(count("return Sum(a * b, c & d, e);") == 0);
+  CHECK(count("return Sum(a->b, c.d, -e);") == 0);
+  CHECK(count("Sum(new T(a), b, c); Sum(sizeof(a), b, c); Sum({1, 2}, b, c);") == 0);
+  CHECK(count("Sum([&](int a, int b) { return a; }, b, c);") == 0);
+  CHECK(count("// int Sum(int a, int b, int c);\n#define SUM(int a, int b, int c)\n") == 0);
+}
+
+}  // namespace parameters_test
