@@ -7,6 +7,7 @@ cd "$(dirname "$0")" || exit 1
 BUILD=build/release
 LOGS=build/log
 PROGRAM=$BUILD/starfocus
+LAB=$BUILD/starfocus-lab
 PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev
   libjpeg62-turbo-dev libpng-dev libdeflate-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev"
 # Programs by which tests judge what starfocus reads and writes.
@@ -30,7 +31,8 @@ usage: ./do COMMAND
           m32, wasm, python, java, swift (all of them), the preset of a board that was built, or
           java-aarch64, emulated
   build   install what is missing, build Release into build/release (the program:
-          build/release/starfocus; cmake --install build/release puts it where it is found)
+          build/release/starfocus; cmake --install build/release puts it where it is found; beside
+          it starfocus-lab for developers)
   bench   time and error of every mode, with a report: build/bench/report.html
           --quick   small pictures, few of them: a minute or two
           --check   only compares instruction counts with tests/bench/baseline.txt
@@ -183,11 +185,11 @@ build() {
     cmake --build $BUILD --parallel "$(nproc)" --target "${@:-all}"
 }
 
-# program LABEL ARGUMENT...: runs starfocus, which shows its progress on a terminal by itself.
-program() {
+# lab LABEL ARGUMENT...: runs starfocus-lab, which shows its progress on a terminal by itself.
+lab() {
   local label=$1 start=$SECONDS
   shift
-  $PROGRAM "$@" >/dev/null || fail "$label: failed"
+  $LAB "$@" >/dev/null || fail "$label: failed"
   printf '%s (%d s)\n' "$label" $((SECONDS - start))
 }
 
@@ -203,13 +205,13 @@ refocus() {
 
 demo() {
   install_missing
-  build starfocus
+  build starfocus starfocus_lab
   mkdir -p demo
-  program "made the light field demo/portrait" scene demo/portrait --name portrait --size 640x480
+  lab "made the light field demo/portrait" scene demo/portrait --name portrait --size 640x480
   refocus near
   refocus middle
   refocus far
-  program "put the three side by side: demo/sheet.png" \
+  lab "put the three side by side: demo/sheet.png" \
     sheet demo/near.png demo/middle.png demo/far.png --labels near,middle,far -o demo/sheet.png
 }
 
@@ -242,7 +244,7 @@ check() {
   # Addresses and undefined values: the family compares all output bytes, and leaves the workspace
   # of some cases as the heap gives it.
   step valgrind "refocusing under valgrind" tests/support/valgrind.sh $BUILD --quiet \
-    --error-exitcode=1 $PROGRAM stress --seconds 30 --family differential
+    --error-exitcode=1 $LAB stress --seconds 30 --family differential
 }
 
 # What the Java test on an emulated board needs: the library, and a Java for it.
@@ -255,7 +257,7 @@ java_aarch64() {
 
 # consumers [KIND...]: projects outside the tree that use starfocus as others do.
 consumers() {
-  local kind target targets='starfocus starfocus_shared' python=python3
+  local kind target targets='starfocus starfocus_lab starfocus_shared' python=python3
   if [ $# = 0 ]; then
     set -- package source wasm python java swift
     [ "$(uname -m)" != x86_64 ] || set -- "$@" m32
@@ -342,12 +344,12 @@ require() {
 bench_scene() {
   local folder=build/bench/$1
   shift
-  [ -f "$folder/meta.txt" ] || program "made the light field $folder" scene "$folder" "$@"
+  [ -f "$folder/meta.txt" ] || lab "made the light field $folder" scene "$folder" "$@"
 }
 
 check_counts() {
   require valgrind
-  build starfocus starfocus_valgrind starfocus-bench-count starfocus_instruction_bench
+  build starfocus_lab starfocus_valgrind starfocus-bench-count starfocus_instruction_bench
   tests/bench/count.sh $BUILD "$1"
 }
 
@@ -373,8 +375,7 @@ bench() {
     *) help >&2; exit 1 ;;
   esac
   require gnuplot-nox
-  build starfocus
-  build starfocus-bench
+  build starfocus_lab starfocus-bench
   mkdir -p build/bench
   bench_scene portrait-small --name portrait --size 512x384 --truth=3.5,1
   if [ -z "${1:-}" ]; then

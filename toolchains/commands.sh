@@ -277,6 +277,6 @@ boot() {
   step sysroot-aarch64 "fetching headers and libraries for aarch64" \
     toolchains/sysroot.sh arm64 build/sysroot/arm64
   cross_build aarch64 starfocus_board_refocus
-  build starfocus
+  build starfocus starfocus_lab
   tests/board/boot.sh $PROGRAM build/aarch64/board_refocus build/boot || exit 1
 }

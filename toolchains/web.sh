@@ -10,8 +10,8 @@ build_web() {
     cmake --build --preset web --parallel "$(nproc)"
   mkdir -p $site/demo
   [ -f $site/demo/meta.txt ] || {
-    build starfocus
-    program "made the light field $site/demo" scene $site/demo --name portrait --views 5
+    build starfocus_lab
+    lab "made the light field $site/demo" scene $site/demo --name portrait --views 5
   }
   rm -rf $site/starfocus
   cp -r build/web/npm $site/starfocus || exit 1
@@ -33,7 +33,7 @@ web() {
   case "${1:-}" in
     build) echo "the page: build/web/site; the package: build/web/npm" ;;
     test)
-      build starfocus
+      build starfocus starfocus_lab
       tests/web/run.sh $BUILD build/web || exit 1
       ;;
     *) node examples/web/serve.mjs build/web/site $port ;;

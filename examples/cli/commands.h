@@ -7,18 +7,12 @@
 
 namespace starfocus {
 
-Command SceneCommand();
 Command RefocusCommand();
 Command DisparityCommand();
 Command VideoCommand();
 Command ViewCommand();
-Command CalibrateCommand();
-Command CompareCommand();
 Command ImportCommand();
 Command InfoCommand();
-Command SheetCommand();
-Command StressCommand();
-Command AnalyzeCommand();
 // Prints the help, the manual page or the completions of `program`.
 Command HelpCommand(const Program* program);
 

@@ -4,11 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <new>
 #include <string>
 #include <vector>
 
 #include "examples/command_line/arguments.h"
 #include "examples/command_line/program.h"
+#include "platform/file.h"
 
 namespace starfocus {
 namespace {
@@ -147,32 +149,36 @@ const Command& CommandOf(const Program& program, const std::string& name) {
 
 }  // namespace
 
-const Command* ParseCommandLine(const Program& program, int argc, char** argv, Error* error) {
+Error RunCommandLine(const Program& program, int argc, char** argv) {
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   const std::string first = arguments.empty() ? "" : arguments[0];
-  *error = CheckSeparators(arguments, CommandOf(program, first).options);
-  if (!error->empty()) return nullptr;
+  Error error = CheckSeparators(arguments, CommandOf(program, first).options);
+  if (!error.empty()) return error;
   CLI::App app;
   Translate(program, &app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     std::printf("%s", app.help().c_str());
-    return nullptr;
+    return {};
   } catch (const CLI::CallForVersion& version) {
     std::printf("%s\n", version.what());
-    return nullptr;
+    return {};
   } catch (const CLI::ParseError& wrong) {
-    *error = WrongLine(&app, wrong);
-    return nullptr;
+    return WrongLine(&app, wrong);
   }
   const Command& chosen = CommandOf(program, Chosen(&app)->get_name());
-  *error = CheckValues(app);
-  if (error->empty() && !program.commands.empty() && &chosen == &program.main) {
-    *error = Error::Usage("command line",
-                          "a subcommand, of those `" + app.get_name() + " help` lists", "none");
+  error = CheckValues(app);
+  if (!error.empty()) return error;
+  if (!program.commands.empty() && &chosen == &program.main) {
+    return Error::Usage("command line",
+                        "a subcommand, of those `" + app.get_name() + " help` lists", "none");
   }
-  return error->empty() ? &chosen : nullptr;
+  try {
+    return chosen.run();
+  } catch (const std::bad_alloc&) {
+    return OutOfMemory(chosen.name, "finish");
+  }
 }
 
 std::string HelpText(const Program& program, const Command& command) {

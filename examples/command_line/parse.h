@@ -10,10 +10,9 @@
 
 namespace starfocus {
 
-// Sets the variables of the options that the command line has.
-// @return the command to run: the subcommand that is named, or the program's own. Null after an
-//   error, and after help or the version, which are printed.
-const Command* ParseCommandLine(const Program& program, int argc, char** argv, Error* error);
+// Sets the variables of the options that the command line has and runs the command that it names:
+// a subcommand, or the program's own. Prints help or the version where it asks for them.
+Error RunCommandLine(const Program& program, int argc, char** argv);
 
 // The help of a program, or of one of its subcommands.
 std::string HelpText(const Program& program, const Command& command);

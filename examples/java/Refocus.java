@@ -17,7 +17,7 @@ import java.util.Locale;
 import javax.imageio.ImageIO;
 
 /**
- * Refocus FOLDER FOCUS OUT.ppm: refocuses a light field of five views, such as `starfocus scene
+ * Refocus FOLDER FOCUS OUT.ppm: refocuses a light field of five views, such as `starfocus-lab scene
  * --views 5` makes.
  */
 public final class Refocus {

@@ -262,9 +262,7 @@ Error Main(int argc, char** argv) {
        },
        [&options] { return Tap(options); }},
       {}};
-  Error error;
-  const Command* command = ParseCommandLine(program, argc, argv, &error);
-  return command == nullptr ? error : command->run();
+  return RunCommandLine(program, argc, argv);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ uint64_t PredictGather(const sf_timing& timing, uint64_t pixels, int32_t radius)
   return timing.upsample * pixels * (GatherTaps(radius) + 16) / 64;
 }
 
-// block, field, a, b, c, upsample, span, hole: measured by `starfocus calibrate` on an x86-64
+// block, field, a, b, c, upsample, span, hole: measured by `starfocus-lab calibrate` on an x86-64
 // processor with AVX-512. With those of boards, which were fitted to instruction counts, block mode
 // took between 1.7 % more and 0.4 % fewer instructions on AArch64 and ARMv6.
 sf_timing DefaultTiming() { return {5659266, 0, 2354, 0, 106, 3266, 720, 507}; }

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DNM=… -DPROGRAM=… -DWITH=… -DIMAGES=… -P engine_alone_test.cmake
+# cmake -DNM=… -DPROGRAM=… -DWITH=… -DIMAGES=… -DLAB=… -P engine_alone_test.cmake
 # A static program that only refocuses R, G, B, in memory of its own, holds nothing of lib/depth,
 # nothing of what converts images and nothing of sf_create's; one that makes maps has the first,
-# one that refocuses images the second.
+# one that refocuses images the second. The program WITH, for users, holds nothing of lib/analysis, of the
+# ray tracer and of tests, as the program LAB does.
 cmake_minimum_required(VERSION 3.20)
 
 function(has_depth program found)
@@ -25,6 +26,17 @@ foreach(name "sf_refocus_images" "ImageKernels" "ReadCodes" "YuvToRgb" "ReadDept
   execute_process(COMMAND "${NM}" -C "${IMAGES}" OUTPUT_VARIABLE listing)
   if(NOT listing MATCHES "${name}")
     message(SEND_ERROR "${IMAGES} refocuses images, but has no ${name}: wrong names here")
+  endif()
+endforeach()
+
+foreach(name "analysis::" "RayTracer" "stress::")
+  execute_process(COMMAND "${NM}" -C "${WITH}" OUTPUT_VARIABLE listing)
+  if(listing MATCHES "${name}")
+    message(SEND_ERROR "${WITH} is for users, but holds ${name}")
+  endif()
+  execute_process(COMMAND "${NM}" -C "${LAB}" OUTPUT_VARIABLE listing)
+  if(NOT listing MATCHES "${name}")
+    message(SEND_ERROR "${LAB} is for developers, but has no ${name}: wrong names here")
   endif()
 endforeach()
 

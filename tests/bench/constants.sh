@@ -4,6 +4,7 @@
 # leaves) and to the benchmark mode (stilllife), in dB, and millions of samples rendered at the last
 # focus of each scene. Change a constant, build, and compare with the row of the program before, whose
 # benchmark mode is the yardstick of both.
+# Beside PROGRAM is starfocus-lab.
 # usage: constants.sh PROGRAM PROGRAM-BEFORE [REFOCUS-OPTION...]
 set -eu
 program=$1 before=$2
@@ -19,7 +20,7 @@ refocus() { # PROGRAM SCENE FOCUS OUT [OPTION...]
   "$program" refocus "$data/$scene" -o "$out" --focus="$focus" --transfer none \
     --report "$work/report.json" "$@"
 }
-psnr() { "$program" compare "$1" "$2" | sed 's/PSNR \([0-9.inf]*\).*/\1/'; }
+psnr() { "$program-lab" compare "$1" "$2" | sed 's/PSNR \([0-9.inf]*\).*/\1/'; }
 samples() {
   sed -n 's/^  "rendered_samples": \([0-9]*\).*/\1/p' "$work/report.json" |
     awk '{ printf "(%.1f)", $1 / 1e6 }'

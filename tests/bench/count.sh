@@ -57,7 +57,7 @@ begin() {
 for mode in block frame; do begin count $mode $mode; done
 # Hair, with 5 views and with 1: fine structure before a far wall.
 hair=$build/count-hair
-"$build/starfocus" scene "$hair" --name hair --size 512x384 --views 5 >/dev/null
+"$build/starfocus-lab" scene "$hair" --name hair --size 512x384 --views 5 >/dev/null
 for views in 5 1; do begin count hair-$views block "$hair" $views; done
 cases=$("$build/tests/instruction_bench" list)
 while read -r name pixels; do

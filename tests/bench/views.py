@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What other sets of views are worth against five of the star, as rows of docs/constants.md: PSNR in dB.
 
-views.py PROGRAM FOLDER...: folders of 17 views with truths, as `starfocus scene DIR --truth=D,1 --transfer none`
+views.py PROGRAM FOLDER...: folders of 17 views with truths, as `starfocus-lab scene DIR --truth=D,1 --transfer none`
 makes them. For each truth a row of whole pictures, and for either pair a row of the pixels that change when the
 star loses the pair's view, which are those where that view looks behind something.
 """
@@ -37,20 +37,20 @@ class Scene:
         self.program, self.folder, self.out = program, truth.parent, work / "out.ppm"
         self.focus = re.fullmatch(r"truth_dt(.*)_ut1", truth.stem).group(1)
         self.width, _ = read(self.refocused("1"))
-        self.call("sheet", truth, "-o", self.out)
+        self.call("-lab", "sheet", truth, "-o", self.out)
         wide, samples = read(self.out)
         margin = (wide - self.width) // 2  # of the sheet of one picture, on all sides
         rows = len(samples) // (3 * wide)
         self.truth = b"".join(samples[3 * (wide * y + margin):3 * (wide * y + margin + self.width)]
                               for y in range(margin, rows - margin))
 
-    def call(self, *arguments):
-        """Runs the program."""
-        subprocess.run([self.program, *arguments], check=True, stdout=subprocess.DEVNULL)
+    def call(self, suffix, *arguments):
+        """Runs the program, or with the suffix -lab the one beside it."""
+        subprocess.run([self.program + suffix, *arguments], check=True, stdout=subprocess.DEVNULL)
 
     def refocused(self, views):
         """The file of the picture that these views give."""
-        self.call("refocus", self.folder, "-o", self.out, f"--focus={self.focus}", "--transfer", "none",
+        self.call("", "refocus", self.folder, "-o", self.out, f"--focus={self.focus}", "--transfer", "none",
                   "--views", views)
         return self.out
 

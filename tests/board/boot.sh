@@ -85,7 +85,7 @@ expect() {
   tr -d '\r' <"$run/serial.log" | grep -Eq "^board: $2\$" || fail "expected $1: 'board: $2'"
 }
 
-"$starfocus" scene "$run/field" --name portrait --size ${width}x$height --views 5 >/dev/null ||
+"$starfocus-lab" scene "$run/field" --name portrait --size ${width}x$height --views 5 >/dev/null ||
   fail "no light field"
 focus=$(sed -n 's/^near: .*disparity //p' "$run/field/meta.txt")
 "$starfocus" refocus "$run/field" -o "$run/expected.ppm" --focus "$focus" --mode frame >/dev/null ||

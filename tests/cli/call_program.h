@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program STARFOCUS_PROGRAM (a definition of the build, or the environment variable).
+// Runs the program STARFOCUS_PROGRAM (a definition of the build, or the environment variable), or
+// starfocus-lab beside it.
 #ifndef STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
 #define STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -14,12 +16,17 @@
 
 namespace starfocus {
 
-inline std::string Program() {
+// The program that has the subcommand at the beginning of `arguments`.
+inline std::string ProgramFor(const std::string& arguments) {
   const char* program = std::getenv("STARFOCUS_PROGRAM");
 #ifdef STARFOCUS_PROGRAM
   if (program == nullptr) program = STARFOCUS_PROGRAM;
 #endif
   REQUIRE_MESSAGE(program != nullptr, "set STARFOCUS_PROGRAM to the program to test");
+  const std::string command = arguments.substr(0, arguments.find(' '));
+  for (const char* one : {"analyze", "calibrate", "compare", "scene", "sheet", "stress"}) {
+    if (command == one) return program + std::string("-lab");
+  }
   return program;
 }
 
@@ -34,12 +41,12 @@ inline std::string Text(const std::string& path) {
   return std::string(bytes.begin(), bytes.end());
 }
 
-// Runs the program in `folder` with shell-quoted arguments, after the shell's `before`.
+// Runs a program in `folder` with shell-quoted arguments, after the shell's `before`.
 inline Outcome Call(const TempFolder& folder, const std::string& arguments,
                     const std::string& before = "") {
   TempFolder logs;
-  const std::string command =
-      "cd '" + folder.path() + "' && " + before + " exec '" + Program() + "' " + arguments;
+  const std::string command = "cd '" + folder.path() + "' && " + before + " exec '" +
+                              ProgramFor(arguments) + "' " + arguments;
   const int status = std::system(
       ("exec >'" + logs.file("out") + "' 2>'" + logs.file("err") + "'; " + command).c_str());
   Outcome outcome;
@@ -49,12 +56,18 @@ inline Outcome Call(const TempFolder& folder, const std::string& arguments,
   return outcome;
 }
 
+// What stands in an error line behind the name of the program.
+inline std::string ErrorOf(const std::string& err) {
+  const size_t begin = err.rfind("starfocus-lab: ", 0) == 0 ? 15 : 11;
+  CHECK((begin == 15 || err.rfind("starfocus: ", 0) == 0));
+  return err.substr(std::min(begin, err.size()));
+}
+
 // One line on stderr that begins with the program and says what was expected and found, or what the
 // program cannot do to which file, and why.
 inline void CheckErrorLine(const std::string& err) {
-  CHECK(err.rfind("starfocus: ", 0) == 0);
   CHECK(err.find('\n') == err.size() - 1);
-  const bool cannot = err.rfind("starfocus: cannot ", 0) == 0;
+  const bool cannot = ErrorOf(err).rfind("cannot ", 0) == 0;
   CHECK((cannot || err.find("expected ") != std::string::npos));
   CHECK((cannot || err.find(", found ") != std::string::npos));
 }

@@ -64,8 +64,8 @@ TEST_CASE("program: every way to ask for help tells the same") {
   CHECK(all.err == "");
   CHECK(all.out.find("Exit codes: 0 ") != std::string::npos);
   for (const char* way : {"--help", "-h"}) CHECK(Call(folder, way).out == all.out);
-  for (const std::string command : {"scene", "refocus", "video", "calibrate", "compare", "info",
-                                    "view", "sheet", "analyze", "stress", "help"}) {
+  for (const std::string command :
+       {"refocus", "disparity", "video", "view", "info", "import", "help"}) {
     CAPTURE(command);
     CHECK(all.out.find("\n  " + command + " ") != std::string::npos);
     const Outcome one = Call(folder, "help " + command);
@@ -73,6 +73,15 @@ TEST_CASE("program: every way to ask for help tells the same") {
     CHECK(one.out.find("starfocus " + command + " [OPTIONS]") != std::string::npos);
     for (const char* way : {" --help", " -h"}) CHECK(Call(folder, command + way).out == one.out);
     // Each option says what it takes.
+    CHECK(one.out.find(" TEXT") == std::string::npos);
+  }
+  for (const std::string command :
+       {"scene", "compare", "sheet", "analyze", "calibrate", "stress"}) {
+    CAPTURE(command);
+    CHECK(all.out.find("\n  " + command + " ") == std::string::npos);
+    const Outcome one = Call(folder, command + " --help");
+    CHECK(one.code == 0);
+    CHECK(one.out.find("starfocus-lab " + command + " [OPTIONS]") != std::string::npos);
     CHECK(one.out.find(" TEXT") == std::string::npos);
   }
 }
@@ -90,7 +99,7 @@ TEST_CASE("program: the manual and the completion have every option") {
   const Outcome manual = Call(folder, "help --man"), script = Call(folder, "help --bash > script");
   CHECK(manual.code == 0);
   CHECK(script.code == 0);
-  for (const char* part : {".TH STARFOCUS 1", ".SS refocus SRC\n", ".SS help COMMAND\n",
+  for (const char* part : {".TH starfocus 1", ".SS refocus SRC\n", ".SS help COMMAND\n",
                            "\\-\\-focus\\-at\\fR \\fIX,Y", ".SH EXIT STATUS"}) {
     CHECK(manual.out.find(part) != std::string::npos);
   }

@@ -28,7 +28,7 @@ inline void CheckRefused(const TempFolder& folder, const std::string& arguments,
   bool usage = false;
   for (const char* what :
        {"-", "command line: ", "DIR: ", "SRC: ", "COMMAND: ", "A: ", "B: ", "IMG: "}) {
-    usage = usage || outcome.err.rfind("starfocus: " + std::string(what), 0) == 0;
+    usage = usage || ErrorOf(outcome.err).rfind(what, 0) == 0;
   }
   CHECK(outcome.code == (usage ? 2 : 1));
   CHECK(outcome.out == "");

@@ -108,7 +108,7 @@ mkdir "$work/classes"
 compile "$java_sources"/main/java/dev/starfocus/*.java
 compile "$sources/examples/java/Refocus.java" "$sources/tests/java/RefocuserTest.java"
 run dev.starfocus.RefocuserTest
-quietly "$build/starfocus" scene "$work/scene" --name portrait --size 320x240 --views 5
+quietly "$build/starfocus-lab" scene "$work/scene" --name portrait --size 320x240 --views 5
 for focus in -2.5 1.5; do
   quietly "$build/starfocus" refocus "$work/scene" --focus $focus -o "$work/expected.ppm"
   run Refocus "$work/scene" $focus "$work/found.ppm"

@@ -32,7 +32,7 @@ install() {
   printf '%-40s %s\n' "$2" "$(grep '^Ran' "$work/log")"
 }
 
-quietly "$build/starfocus" scene "$work/scene" --name portrait --size 320x240 --views 5
+quietly "$build/starfocus-lab" scene "$work/scene" --name portrait --size 320x240 --views 5
 quietly /usr/bin/python3 -m pip wheel --no-index --no-deps --no-build-isolation -w "$work/wheels" \
   "$sources/platform/python"
 install "$work"/wheels/starfocus-*-py3-none-*.whl 'Python, wheel'

@@ -55,7 +55,7 @@ Report RunStress(const Options& options, const std::function<void(const std::str
         ++part.cases;
         if (!outcome.failure.empty()) {
           ++part.failures;
-          failed("starfocus stress --family " + std::string(part.family->name) + " --case " +
+          failed("starfocus-lab stress --family " + std::string(part.family->name) + " --case " +
                  std::to_string(number) + "  # " + outcome.failure);
         } else if (outcome.error > part.largest) {
           part.largest = outcome.error;

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # run.sh BUILD WEB: packs the npm package of the build WEB, installs it into an empty project, and tries it
-# in node; then the page of WEB in Debian's Chromium, driven by playwright-core from npm. The program of BUILD
-# makes what they are compared with.
+# in node; then the page of WEB in Debian's Chromium, driven by playwright-core from npm. The programs of BUILD
+# make what they are compared with.
 set -eu
 [ $# = 2 ] || { echo "usage: $0 BUILD WEB" >&2; exit 2; }
 sources=$(cd "$(dirname "$0")/../.." && pwd)
@@ -31,7 +31,7 @@ run() {
   printf '%-40s %s tests passed (%d s)\n' "$1" "$(sed -n 's/^# pass //p' "$work/log")" $(($(date +%s) - start))
 }
 
-quietly "$STARFOCUS_PROGRAM" scene "$work/field" --name portrait --size 320x240 --views 5
+quietly "$STARFOCUS_PROGRAM-lab" scene "$work/field" --name portrait --size 320x240 --views 5
 (cd "$web/npm" && quietly npm pack --pack-destination "$work")
 size=$(stat -c %s "$work"/starfocus-*.tgz)
 printf '%-40s %d bytes\n' 'the npm package' "$size"

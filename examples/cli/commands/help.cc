@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus help: what the command line takes, for people, the manual and the shell.
+// help: what the command line takes, for people, the manual and the shell.
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -35,10 +35,11 @@ Error Run(const Program& program, const HelpOptions& options) {
     return "";
   }
   const std::string nearest = NearestName(options.command, names);
-  return Error::Usage("COMMAND",
-                      nearest.empty() ? "a subcommand, of those `starfocus help` lists"
-                                      : "a subcommand (the nearest is " + nearest + ")",
-                      options.command);
+  return Error::Usage(
+      "COMMAND",
+      nearest.empty() ? "a subcommand, of those `" + std::string(program.main.name) + " help` lists"
+                      : "a subcommand (the nearest is " + nearest + ")",
+      options.command);
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/compare/difference.h"
 #include "examples/cli/disparity/map_figures.h"
 #include "examples/cli/input/input.h"
+#include "examples/cli/pictures/difference.h"
+#include "examples/cli/pictures/shrink.h"
 #include "examples/cli/refocus/partition_map.h"
 #include "examples/cli/refocus/refocus_plan.h"
-#include "examples/cli/sheet/shrink.h"
 #include "examples/cli/view/page.h"
 #include "examples/cli/view/strip.h"
 #include "examples/command_line/options.h"

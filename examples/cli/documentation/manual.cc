@@ -55,12 +55,11 @@ std::string Section(const Program& program, const Command& command) {
 }  // namespace
 
 std::string ManualText(const Program& program) {
-  const std::string name = program.main.name;
-  std::string text = ".TH STARFOCUS 1 \"\" \"starfocus " SF_VERSION_STRING "\"\n.SH NAME\n" + name +
-                     " \\- refocus photographs after they were taken\n.SH SYNOPSIS\n" + Bold(name) +
-                     " " + Italic("COMMAND") + " [" + Italic("OPTION") + "...]\n.SH DESCRIPTION\n" +
-                     Roff(program.main.help) + "\n.SH OPTIONS\n" + Entries(program, program.main) +
-                     ".SH COMMANDS\n";
+  const std::string name = Roff(program.main.name);
+  std::string text = ".TH " + name + " 1 \"\" \"starfocus " SF_VERSION_STRING "\"\n.SH NAME\n" +
+                     name + " \\- " + Roff(program.main.help) + "\n.SH SYNOPSIS\n" +
+                     Bold(program.main.name) + " " + Italic("COMMAND") + " [" + Italic("OPTION") +
+                     "...]\n.SH OPTIONS\n" + Entries(program, program.main) + ".SH COMMANDS\n";
   for (const Command& command : program.commands) text += Section(program, command);
   return text + ".SH EXIT STATUS\n" + Roff(kExitCodes);
 }

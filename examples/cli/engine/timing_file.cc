@@ -41,7 +41,7 @@ std::string ReadTiming(const std::string& path, sf_timing* timing) {
   const JsonObject object = ReadJsonObject(bytes, "timing");
   if (!object.is_json) return Expected(path, "a JSON file", "other text");
   if (!object.is_there) {
-    return Expected(path, "an object \"timing\", as starfocus calibrate writes it", "none");
+    return Expected(path, "an object \"timing\", as starfocus-lab calibrate writes it", "none");
   }
   for (const TimingTerm& term : kTimingTerms) {
     error = ReadCoefficient(path, object, term.name, &(timing->*term.coefficient));

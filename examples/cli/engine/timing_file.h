@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timing coefficients in JSON files: what `starfocus calibrate` writes and `refocus --timing`
+// Timing coefficients in JSON files: what `starfocus-lab calibrate` writes and `refocus --timing`
 // reads.
 #ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_FILE_H_
 #define STARFOCUS_EXAMPLES_CLI_ENGINE_TIMING_FILE_H_

@@ -174,7 +174,7 @@ void AddLensOptions(Command* command, LensOptions* options) {
           {"--deblocking", "N",
            "0 to 255 grey levels: the largest step smoothed between layers; 0: off",
            &options->deblocking, Use::kDefault},
-          {"--timing", "FILE", "JSON file that starfocus calibrate wrote; default: built in",
+          {"--timing", "FILE", "JSON file that starfocus-lab calibrate wrote; default: built in",
            &options->timing},
       },
       command);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "examples/cli/sheet/shrink.h"
+#include "examples/cli/pictures/shrink.h"
 #include "examples/command_line/options.h"
 #include "platform/writers/base64.h"
 #include "platform/writers/jpeg.h"

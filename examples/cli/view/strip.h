@@ -26,7 +26,7 @@ double BlurOf(const LensAt& lens, const sf_disparity_stats& stats);
 std::vector<double> StripFoci(const FloatMap& map, int count);
 
 // A picture that a real lens took of what a folder holds: truth_dt<D>_ut<U>.png, as
-// `starfocus scene` writes it.
+// `starfocus-lab scene` writes it.
 struct TruthFile {
   std::string path;
   LensAt lens;

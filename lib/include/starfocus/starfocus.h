@@ -86,7 +86,7 @@ typedef enum sf_shape {
 /** Run-time model of a block, the paper's (14) with terms for what surrounds the line scan, in
  *  picoseconds; only ratios matter. It decides the partition of SF_MODE_BLOCK, and so its bytes:
  *  sf_config_init sets the same coefficients on every machine, so that all of them give the same
- *  picture. Those that `starfocus calibrate` measures on a machine save it little (0.4 % of the
+ *  picture. Those that `starfocus-lab calibrate` measures on a machine save it little (0.4 % of the
  *  work where it was counted), and its pictures then differ from those of other machines. */
 typedef struct sf_timing {
   uint32_t block;    /**< per block */

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/cli/pictures/shrink.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace starfocus {
+namespace {
+
+// How much of source sample `source` lies in target sample `target`, in units of 1/targets.
+int64_t Overlap(int64_t source, int64_t target, int64_t sources, int64_t targets) {
+  const int64_t low = std::max(source * targets, target * sources);
+  const int64_t high = std::min((source + 1) * targets, (target + 1) * sources);
+  return std::max<int64_t>(0, high - low);
+}
+
+// Averages the box of the source that (x, y) of the target covers.
+void BoxPixel(const Image& source, int x, int y, Image* target) {
+  const int64_t sw = source.width, sh = source.height, tw = target->width, th = target->height;
+  int64_t sum[3] = {0, 0, 0};
+  for (int64_t j = y * sh / th; j < sh && j * th < (y + 1) * sh; ++j) {
+    for (int64_t i = x * sw / tw; i < sw && i * tw < (x + 1) * sw; ++i) {
+      const int64_t weight = Overlap(i, x, sw, tw) * Overlap(j, y, sh, th);
+      const uint8_t* pixel = source.row(static_cast<int>(j)) + 3 * i;
+      for (int c = 0; c < 3; ++c) sum[c] += weight * pixel[c];
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    target->row(y)[3 * x + c] = static_cast<uint8_t>((sum[c] + sw * sh / 2) / (sw * sh));
+  }
+}
+
+}  // namespace
+
+Image Shrink(const Image& source, int width) {
+  if (source.width <= width) return source;
+  const int64_t height = int64_t(source.height) * width / source.width;
+  Image target(width, static_cast<int>(std::max<int64_t>(1, height)));
+  for (int y = 0; y < target.height; ++y) {
+    for (int x = 0; x < target.width; ++x) BoxPixel(source, x, y, &target);
+  }
+  return target;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// The running engine's kernels beside the theory.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "examples/lab/analyze/figures.h"
+#include "lib/analysis/engine_steps.h"
+#include "lib/analysis/selection.h"
+#include "lib/base/rules.h"
+#include "platform/file.h"
+#include "platform/progress.h"
+
+namespace starfocus {
+namespace {
+
+using namespace analysis;
+
+// What one series of steps measures.
+struct Series {
+  sf_mode mode;
+  sf_rule rule;
+  int layer;
+  double r_max;      // 0: r itself
+  double increment;  // of r
+  int largest;       // r
+};
+
+const char* NameOf(sf_rule rule) { return rule == SF_RULE_PAPER ? "paper" : "subaperture"; }
+
+// Consecutive steps with the same reason.
+struct Stretch {
+  double first, last, worst, worst_r;
+  std::string reason;
+};
+
+void Extend(const EngineStep& step, const std::string& reason, bool joined,
+            std::vector<Stretch>* stretches) {
+  const double r = std::fabs(step.r);
+  if (joined && !stretches->empty() && stretches->back().reason == reason) {
+    Stretch& stretch = stretches->back();
+    stretch.last = r;
+    if (step.engine > stretch.worst) stretch.worst = step.engine, stretch.worst_r = r;
+  } else {
+    stretches->push_back({r, r, step.engine, r, reason});
+  }
+}
+
+// The least r, of halves, that a layer is used at: (12), or LayerBySubaperture without depth edges.
+double LeastRadius(sf_rule rule, int layer) {
+  const auto layer_at = [&](double r) {
+    return rule == SF_RULE_PAPER ? LayerByPaper(r) : LayerBySubaperture(r, false);
+  };
+  double least = 0;
+  while (layer_at(least) < layer) least += 0.5;
+  return least;
+}
+
+// Measures one series in the direction of `sign`, from the least r that its layer is used at.
+std::string Measure(const Series& series, int sign, Table* table, Table* layers) {
+  const double least = LeastRadius(series.rule, series.layer);
+  if (least > series.largest) return "";
+  const int count = static_cast<int>((series.largest - least) / series.increment);
+  std::printf("  layer %d, rule %s, r = %g to %d%s\n", series.layer, NameOf(series.rule),
+              least == 0 ? 0 : sign * least, sign * series.largest,
+              series.r_max > 0 ? " in a picture whose r_max is that" : "");
+  Progress progress("the engine's kernels", count);
+  std::vector<Stretch> stretches;
+  double apart = 0, aliasing = 0, aliasing_r = 0;
+  bool joined = false;
+  for (int k = 0; k <= count; ++k) {
+    const double r = least + k * series.increment;
+    const EngineProbe probe = {sign * r, std::max(r, series.r_max), series.mode, series.rule,
+                               series.layer};
+    EngineStep step;
+    const sf_status status = MeasureStep(probe, &step);
+    if (status != SF_OK || step.layer != series.layer) {
+      return Expected("engine", "a kernel at r = " + std::to_string(r), sf_status_string(status));
+    }
+    const std::string reason = Explain(step);
+    if (!reason.empty()) Extend(step, reason, joined, &stretches);
+    joined = !reason.empty();
+    apart = std::max(apart, step.apart);
+    if (step.aliasing > aliasing) aliasing = step.aliasing, aliasing_r = r;
+    table->Row().Add(step.r).Add(step.layer).Add(NameOf(series.rule)).Add(step.n);
+    table->Add(step.engine).Add(step.star).Add(step.subapertures).Add(step.paper).Add(step.apart);
+    table->Add(reason);
+    if (series.layer > 0) {
+      const LayerTheory theory = MakeLayerTheory(r, series.layer);
+      layers->Row().Add(step.r).Add(step.layer).Add(NameOf(series.rule)).Add(step.n);
+      layers->Add(step.engine).Add(theory.error).Add(step.aliasing).Add(theory.aliasing);
+    }
+    progress.Step();
+  }
+  for (const Stretch& stretch : stretches) {
+    std::printf("    |r| %6.3f to %6.3f  SSE up to %.2e (at %.3f)  %s\n", stretch.first,
+                stretch.last, stretch.worst, stretch.worst_r, stretch.reason.c_str());
+  }
+  std::printf("    %s above 1e-3; measured and described kernels differ by at most %.1e\n",
+              stretches.empty() ? "no step" : "no other step", apart);
+  if (series.layer > 0) {
+    std::printf("    aliasing up to %.2e (at %.3f; theory %.2e)\n", aliasing, aliasing_r,
+                MakeLayerTheory(aliasing_r, series.layer).aliasing);
+  }
+  return "";
+}
+
+// Draws one table of kernels at layer 0.
+std::string Panel(const std::string& title, const std::string& table, const std::string& range) {
+  return "set title '" + title + "'\nset xrange [" + range + "]\nplot $" + table +
+         " using 1:8 with lines lt 6 lw 1 title 'paper', "
+         "'' using 1:7 with lines lt 3 lw 1 title 'exact subapertures', "
+         "'' using 1:6 with lines lt 1 lw 3 title 'described', "
+         "'' using 1:5 with points pt 7 ps 0.2 lt 2 title 'measured'\n";
+}
+
+// The tables of one rule.
+struct RuleTables {
+  Table engine, r_max, engine_layers, layers;
+};
+
+RuleTables MakeTables(sf_rule rule) {
+  const std::string suffix = rule == SF_RULE_PAPER ? "" : "_subapertures";
+  const std::vector<std::string> columns = {
+      "r",         "L",     "rule",  "N", "sse_engine", "sse_star", "sse_subapertures",
+      "sse_paper", "apart", "reason"};
+  return {Table("engine" + suffix, columns), Table("engine_rmax" + suffix, columns),
+          Table("engine_layers" + suffix, columns),
+          Table("layers" + suffix, {"r", "L", "rule", "N", "sse_engine", "sse_theory",
+                                    "alias_engine", "alias_theory"})};
+}
+
+}  // namespace
+
+Figure AnalyseEngine(int largest, std::string* error) {
+  Figure figure = {"engine", 860, 1240, {}, ""};
+  std::printf("The running engine: SSE of its kernels against (4), and why where above 1e-3\n");
+  for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
+    RuleTables tables = MakeTables(rule);
+    for (int layer = 0; layer < SF_LAYERS; ++layer) {
+      const Series series = {SF_MODE_BLOCK, rule, layer, 0, 1.0 / 8, largest};
+      Table* table = layer == 0 ? &tables.engine : &tables.engine_layers;
+      for (const int sign : {1, -1}) {
+        if (error->empty()) *error = Measure(series, sign, table, &tables.layers);
+      }
+    }
+    const Series series = {SF_MODE_FRAME, rule, 0, double(largest), 1.0 / 2, largest};
+    if (error->empty()) *error = Measure(series, 1, &tables.r_max, &tables.layers);
+    for (const Table& table : {tables.engine, tables.r_max, tables.engine_layers, tables.layers}) {
+      figure.tables.push_back(table);
+    }
+  }
+  std::printf("\n");
+  const std::string to = std::to_string(largest), range = "-" + to + ":" + to;
+  figure.commands =
+      "set multiplot layout 4,1 title 'Kernels of the running engine'\n"
+      "set logscale y\nset format y '%.0e'\nset yrange [1e-7:0.2]\n"
+      "set ylabel 'SSE (8)'\nset xlabel 'r = d - d_t'\n"
+      "set arrow 1 from graph 0, first 1e-3 to graph 1, first 1e-3 nohead dt 2 lc rgb '#888888'\n" +
+      Panel("layer 0, N from (9) at |r|", "engine", range) +
+      Panel("layer 0, N by the rule for subapertures at |r|", "engine_subapertures", range) +
+      Panel("layer 0, N by (9) for r_max = " + to, "engine_rmax", "0:" + to) +
+      "set title 'layers, N by the rule for subapertures'\nset xrange [0:" + to +
+      "]\n"
+      "plot for [L=1:2] $layers_subapertures using (column(2) == L && $1 > 0 ? $1 : NaN):6 with "
+      "lines lt "
+      "L "
+      "title sprintf('L = %d, theory (10)', L), "
+      "for [L=1:2] $layers_subapertures using (column(2) == L ? abs($1) : NaN):5 with points pt 7 "
+      "ps 0.2 lt L title sprintf('L = %d, measured', L)\nunset multiplot\n";
+  return figure;
+}
+
+}  // namespace starfocus

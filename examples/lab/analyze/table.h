@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables of numbers as CSV files and as gnuplot drawings.
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYZE_TABLE_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYZE_TABLE_H_
+
+#include <string>
+#include <vector>
+
+namespace starfocus {
+
+// Column headings, then rows of as many cells.
+class Table {
+ public:
+  Table(std::string name, std::vector<std::string> columns)
+      : name_(std::move(name)), columns_(std::move(columns)) {}
+
+  // Cells of the next row. Text must hold neither quotes nor line breaks.
+  Table& Row() {
+    rows_.emplace_back();
+    return *this;
+  }
+  Table& Add(double value, const char* format = "%.9g");
+  Table& Add(const std::string& text);
+
+  const std::string& name() const { return name_; }
+  std::string Csv() const;
+
+  // The same as the gnuplot data block $name.
+  std::string DataBlock() const;
+
+ private:
+  std::string Text(const char* separator, const char* quote) const;
+
+  std::string name_;
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+// One figure: its tables and the gnuplot commands that draw it from their data blocks.
+struct Figure {
+  std::string name;  // of the SVG file; empty for tables alone
+  int width = 0, height = 0;
+  std::vector<Table> tables;
+  std::string commands;
+
+  std::string Script() const;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYZE_TABLE_H_

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/lab/calibrate/block_bench.h"
+
+#include <algorithm>
+
+#include "lib/engine/stripe.h"
+#include "platform/clock.h"
+#include "platform/file.h"
+
+namespace starfocus {
+namespace {
+
+sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& stats) {
+  sf_config config;
+  sf_config_init(&config);
+  config.width = light_field.width();
+  config.height = light_field.height();
+  ConfigureViews(light_field, &config);
+  config.disparity_min = stats.min;
+  config.disparity_max = stats.max;
+  config.max_blur = SF_MAX_BLUR;
+  config.largest_block = 256;       // the scratch then serves every smaller block
+  config.n_scale = SF_MAX_N_SCALE;  // and there are apertures of every N that is sampled
+  config.skips = 0;                 // the model is one of rendering
+  return config;
+}
+
+}  // namespace
+
+std::string BlockBench::Open(const std::string& where, const LightField& light_field) {
+  light_field_ = &light_field;
+  const FloatMap& map = light_field.disparity;
+  sf_disparity_stats stats = {};
+  sf_status status = sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width),
+                                          map.width, map.height, &stats);
+  if (status == SF_OK && stats.invalid != 0) status = SF_ERROR_NOT_FINITE;
+  sf_engine* engine = nullptr;
+  size_t bytes = 0;
+  if (status == SF_OK) {
+    status = MakeEngine(MakeConfig(light_field, stats), &workspace_, &bytes, &engine);
+  }
+  if (status == SF_OK) {
+    engine_ = reinterpret_cast<EngineState*>(engine);
+    // Blocks of any N are timed.
+    const int32_t last = LargestN(engine_->config, kSliceRenderer, SF_MAX_BLUR);
+    status = MakeApertures(kSliceRenderer, last, nullptr, &engine_->tables);
+  }
+  if (status != SF_OK) {
+    return Expected(where, "a light field to calibrate with", sf_status_string(status));
+  }
+  picture_ = Image(map.width, map.height);
+  HoldDisparity();
+  for (int layer = 1; layer < SF_LAYERS; ++layer) HoldLayer(layer);
+  return "";
+}
+
+void BlockBench::HoldDisparity() {
+  const FloatMap& map = light_field_->disparity;
+  disparity_.resize(map.values.size() + simd::kPadding);
+  engine_->pictures.disparity = {disparity_.data(), size_t(map.width), 0, 0};
+  for (int y = 0; y < map.height; ++y) {
+    // The range is the map's own, so that no value can be outside.
+    ConvertDisparities(engine_->config, *engine_->kernels,
+                       map.values.data() + size_t(y) * size_t(map.width),
+                       engine_->pictures.disparity.Row(y));
+  }
+  views_.kernels = engine_->kernels;
+  views_.transfer = &TransferOf(engine_->config.transfer);
+  for (size_t i = 0; i < light_field_->views.size(); ++i) {
+    const Image& view = light_field_->views[i];
+    views_.view[i] = {view.pixels.data(), view.stride(), 0, 0};
+  }
+  SetViews(engine_->config, ReaderOf(views_), views_.view[0], &engine_->pictures);
+}
+
+void BlockBench::HoldLayer(int layer) {
+  LayerPlane& plane = engine_->pictures.layers[layer];
+  const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
+  layer_samples_[layer].resize(stride * rows + simd::kPadding);
+  plane.rows = {0, plane.height};
+  plane.samples = {layer_samples_[layer].data(), stride, 0, 0};
+  // All rows at once: more than a worker has memory for.
+  const int32_t step = engine_->config.largest_block / 2;
+  const auto columns = size_t(TapsOfLayer(step));
+  const auto above = size_t(TapsOfLayer(plane.height));
+  std::vector<int16_t> even(3 * (columns + 3) + simd::kPadding), odd = even;
+  std::vector<int16_t> halved(3 * columns * (2 * above + 5) + simd::kPadding);
+  std::vector<int16_t> layer_one(3 * columns * above + simd::kPadding);
+  const ResampleScratch scratch = {even.data(), odd.data(), halved.data(), layer_one.data()};
+  for (int32_t begin = 0; begin < plane.width; begin += step) {
+    const int32_t end = std::min(begin + step, plane.width);
+    DownsamplePicture(*engine_->kernels, engine_->pictures.windows[0], layer, begin, end, scratch,
+                      &plane);
+  }
+  engine_->pictures.windows[layer].samples = {plane.samples.data, stride, 0, 0};
+}
+
+void BlockBench::Focus(const BlockTask& task) {
+  sf_params params;
+  sf_params_init(&params);
+  params.focus = task.focus;
+  params.aperture = task.aperture;
+  SetLens(params, engine_);
+}
+
+BlockWork BlockBench::Work(const BlockTask& task) {
+  Focus(task);
+  const Block& block = task.block;
+  const Rect& rect = block.rect;
+  Content content[2] = {};
+  std::vector<Cell> cells(size_t((rect.width + kCellSize - 1) / kCellSize));
+  const int first = rect.x / kCellSize;
+  for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
+    MeasureCells(*engine_->kernels, engine_->pictures.windows[0], engine_->lens.scale,
+                 y / kCellSize, first, first + int(cells.size()), cells.data());
+    for (const Cell& cell : cells) AddCell(cell, &content);
+  }
+  const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
+  BlockWork work = kSliceRenderer.measure_work(
+      block.rendered, block.border, engine_->lens.apertures[block.n], content, block.layer);
+  work.upsample = upsampled;
+  return work;
+}
+
+uint64_t BlockBench::Time(const BlockTask& task) {
+  Focus(task);
+  const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
+  const uint64_t start = ThreadNanoseconds();
+  RefocusBlock(InputsOf(*engine_), task.block, out, engine_->crew.workers);
+  return 1000 * (ThreadNanoseconds() - start);
+}
+
+}  // namespace starfocus

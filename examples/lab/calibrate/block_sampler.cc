@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/lab/calibrate/block_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/base/rules.h"
+#include "lib/plan/block_stats.h"
+
+namespace starfocus {
+namespace {
+
+// The paper's range of sizes; those from 16 on that are powers of two are also timed at layers.
+constexpr int kBlockSides[] = {8, 16, 24, 32, 48, 64, 96, 128, 160, 184};
+constexpr int kLayerSides[] = {16, 32, 64, 128, 256};
+constexpr int kViewNumbers[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16};
+constexpr int kMostViews = 16;
+
+// Draws per pass, and what each pass allows beyond the one before it.
+constexpr int kDraws = 60000;
+enum Pass { kUsualLens, kAnyAperture, kAnyLayer, kPasses };
+
+int DistanceBeyond(int position, int begin, int end) {
+  return std::max({0, begin - position, position - (end - 1)});
+}
+
+}  // namespace
+
+BlockSampler::BlockSampler(const FloatMap& disparity)
+    : map_(disparity),
+      columns_((disparity.width + kCellSize - 1) / kCellSize),
+      rows_((disparity.height + kCellSize - 1) / kCellSize),
+      cells_(size_t(columns_) * size_t(rows_), Cell{INFINITY, -INFINITY}),
+      range_{INFINITY, -INFINITY} {
+  for (int y = 0; y < map_.height; ++y) {
+    for (int x = 0; x < map_.width; ++x) {
+      Cell& cell = cells_[size_t(y / kCellSize) * size_t(columns_) + size_t(x / kCellSize)];
+      for (Cell* each : {&cell, &range_}) {
+        each->low = std::min(each->low, map_.at(x, y));
+        each->high = std::max(each->high, map_.at(x, y));
+      }
+    }
+  }
+}
+
+double BlockSampler::Radius(const Lens& lens, double disparity) const {
+  return lens.aperture * std::fabs(disparity - lens.focus);
+}
+
+double BlockSampler::LargestRadius(const Lens& lens, const Cell& cell) const {
+  return std::max(Radius(lens, cell.low), Radius(lens, cell.high));
+}
+
+double BlockSampler::SmallestRadius(const Lens& lens, const Cell& cell) const {
+  if (cell.low <= lens.focus && lens.focus <= cell.high) return 0;
+  return std::min(Radius(lens, cell.low), Radius(lens, cell.high));
+}
+
+// Beyond the picture the nearest cell goes on.
+const BlockSampler::Cell& BlockSampler::At(int column, int row) const {
+  column = std::clamp(column, 0, columns_ - 1);
+  row = std::clamp(row, 0, rows_ - 1);
+  return cells_[size_t(row) * size_t(columns_) + size_t(column)];
+}
+
+double BlockSampler::SmallestRadius(const Lens& lens, const Rect& rect) const {
+  double smallest = SF_MAX_BLUR;
+  for (int row = rect.y / kCellSize; row * kCellSize < rect.y + rect.height; ++row) {
+    for (int column = rect.x / kCellSize; column * kCellSize < rect.x + rect.width; ++column) {
+      smallest = std::min(smallest, SmallestRadius(lens, At(column, row)));
+    }
+  }
+  return smallest;
+}
+
+// The largest radius of what splats into the rectangle.
+double BlockSampler::SplattingRadius(const Lens& lens, const Rect& rect) const {
+  const int reach = static_cast<int>(LargestRadius(lens, range_)) / kCellSize + 2;
+  const int left = rect.x / kCellSize, top = rect.y / kCellSize;
+  const int right = (rect.x + rect.width - 1) / kCellSize;
+  const int bottom = (rect.y + rect.height - 1) / kCellSize;
+  double largest = 0;
+  for (int row = top - reach; row <= bottom + reach; ++row) {
+    for (int column = left - reach; column <= right + reach; ++column) {
+      const int across =
+          std::max(DistanceBeyond(column, left, right + 1), DistanceBeyond(row, top, bottom + 1));
+      const double radius = LargestRadius(lens, At(column, row));
+      if (radius >= (across - 1) * kCellSize) largest = std::max(largest, radius);
+    }
+  }
+  return largest;
+}
+
+BlockSampler::Lens BlockSampler::RandomLens(int pass) {
+  // Focus on something in the scene or a little beyond it; without regard to layers, farther off.
+  const double beyond = pass == kAnyLayer ? 24 : 8;
+  Lens lens;
+  lens.focus = range_.low - beyond + Random() * (range_.high - range_.low + 2 * beyond);
+  lens.aperture = pass == kUsualLens ? 1.0 / (1 + RandomBelow(2)) : std::pow(20.0, -Random());
+  return lens;
+}
+
+// The border of a rectangle of the picture by the pixels that splat into it.
+Border BlockSampler::FindBorder(const Lens& lens, const Rect& rect, int r_max) const {
+  Border border = {0, 0, 0, 0};
+  const int right = rect.x + rect.width, bottom = rect.y + rect.height;
+  for (int y = rect.y - r_max - 1; y <= bottom + r_max; ++y) {
+    for (int x = rect.x - r_max - 1; x <= right + r_max; ++x) {
+      const int dx = DistanceBeyond(x, rect.x, right), dy = DistanceBeyond(y, rect.y, bottom);
+      if (dx == 0 && dy == 0) continue;
+      const double disparity =
+          map_.at(std::clamp(x, 0, map_.width - 1), std::clamp(y, 0, map_.height - 1));
+      if (Radius(lens, disparity) < std::max(dx, dy) - 1) continue;
+      int32_t& side = x < rect.x ? border.left : border.right;
+      int32_t& end = y < rect.y ? border.top : border.bottom;
+      side = std::max(side, dx);
+      end = std::max(end, dy);
+    }
+  }
+  return border;
+}
+
+bool BlockSampler::Draw(int pass, const BlockKind& kind, BlockTask* task) {
+  const int side = kind.side, layer = kind.layer;
+  if (side > map_.width || side > map_.height) return false;
+  const Lens lens = RandomLens(pass);
+  if (LargestRadius(lens, range_) > SF_MAX_BLUR) return false;
+  const int grid = 1 << layer;
+  const Rect rect = {RandomBelow(map_.width - side + 1) / kCellSize * kCellSize,
+                     RandomBelow(map_.height - side + 1) / kCellSize * kCellSize, side, side};
+  const int rule = LayerByPaper(SmallestRadius(lens, rect));
+  if (rule != layer && !(pass == kAnyLayer && rule > layer)) return false;
+  const double r_max = SplattingRadius(lens, rect);
+  Block& block = task->block;
+  block.n = ViewsByPaper(r_max / grid);
+  if (block.n < 1 || block.n > kMostViews) return false;
+  if (kind.n != 0 && block.n != kind.n) return false;
+  task->focus = lens.focus;
+  task->aperture = lens.aperture;
+  const int margin = kLayerMargin[layer];
+  const Rect extended = {rect.x - margin, rect.y - margin, side + 2 * margin, side + 2 * margin};
+  Border border = FindBorder(lens, extended, static_cast<int>(std::ceil(r_max)));
+  for (int32_t* each : {&border.left, &border.right, &border.top, &border.bottom}) {
+    *each = ((*each + grid - 1) >> layer) + 1;
+  }
+  block.rect = rect;
+  block.rendered = {extended.x >> layer, extended.y >> layer, extended.width >> layer,
+                    extended.height >> layer};
+  block.border = border;
+  block.layer = layer;
+  return true;
+}
+
+std::vector<BlockGroup> BlockSampler::Sample(int count) {
+  std::vector<BlockGroup> groups;
+  for (int side : kBlockSides) {
+    for (int n : kViewNumbers) groups.push_back({{side, 0, n}, {}});
+  }
+  for (int side : kLayerSides) {
+    for (int layer = 1; layer < SF_LAYERS; ++layer) groups.push_back({{side, layer, 0}, {}});
+  }
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (int draw = 0; draw < kDraws; ++draw) {
+      BlockGroup& group = groups[size_t(RandomBelow(static_cast<int>(groups.size())))];
+      const size_t wanted = size_t(group.kind.layer == 0 ? count : 4 * count);
+      if (group.tasks.size() >= wanted) continue;
+      BlockTask task = {};
+      if (Draw(pass, group.kind, &task)) group.tasks.push_back(task);
+    }
+  }
+  groups.erase(std::remove_if(groups.begin(), groups.end(),
+                              [](const BlockGroup& group) { return group.tasks.empty(); }),
+               groups.end());
+  return groups;
+}
+
+}  // namespace starfocus

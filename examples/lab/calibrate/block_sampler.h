@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses the blocks that are timed: as they occur when a scene is refocused, over all sizes and N.
+#ifndef STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_SAMPLER_H_
+#define STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_SAMPLER_H_
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "examples/lab/calibrate/block_bench.h"
+#include "platform/pfm.h"
+
+namespace starfocus {
+
+// What the blocks of one group share.
+struct BlockKind {
+  int side;   // of the block in the picture, pixels
+  int layer;  // L
+  int n;      // N; 0 at layers 1 and 2: any
+};
+
+struct BlockGroup {
+  BlockKind kind;
+  std::vector<BlockTask> tasks;
+};
+
+class BlockSampler {
+ public:
+  explicit BlockSampler(const FloatMap& disparity);
+
+  // Groups of up to `count` blocks for each kind; kinds that the scene has none of are left out.
+  std::vector<BlockGroup> Sample(int count);
+
+ private:
+  struct Cell {
+    float low, high;
+  };
+  struct Lens {
+    double focus, aperture;
+  };
+
+  double Random() { return random_() * 0x1p-32; }
+  int RandomBelow(int count) { return static_cast<int>(Random() * count); }
+  double Radius(const Lens& lens, double disparity) const;
+  double LargestRadius(const Lens& lens, const Cell& cell) const;
+  double SmallestRadius(const Lens& lens, const Cell& cell) const;
+  const Cell& At(int column, int row) const;
+  double SmallestRadius(const Lens& lens, const Rect& rect) const;
+  double SplattingRadius(const Lens& lens, const Rect& rect) const;
+  Lens RandomLens(int pass);
+  bool Draw(int pass, const BlockKind& kind, BlockTask* task);
+  Border FindBorder(const Lens& lens, const Rect& rect, int r_max) const;
+
+  const FloatMap& map_;
+  int columns_, rows_;
+  std::vector<Cell> cells_;
+  Cell range_;
+  std::mt19937 random_;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_LAB_CALIBRATE_BLOCK_SAMPLER_H_

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The measured times of one scene's blocks.
+#ifndef STARFOCUS_EXAMPLES_LAB_CALIBRATE_SCENE_TIMES_H_
+#define STARFOCUS_EXAMPLES_LAB_CALIBRATE_SCENE_TIMES_H_
+
+#include <string>
+#include <vector>
+
+#include "examples/lab/calibrate/block_bench.h"
+#include "examples/lab/calibrate/block_sampler.h"
+#include "examples/lab/calibrate/timing_fit.h"
+#include "platform/light_field.h"
+#include "platform/progress.h"
+
+namespace starfocus {
+
+class SceneTimes {
+ public:
+  // Chooses the blocks. Returns an error line, empty for success.
+  std::string Open(const std::string& name, LightField light_field);
+
+  const std::string& name() const { return name_; }
+  int64_t blocks() const { return blocks_; }
+
+  // Times every block once more; the shortest time counts, because all that disturbs lengthens.
+  void Measure(Progress* progress);
+
+  // Every block by itself, and the mean of every configuration: blocks of one size and N.
+  std::vector<Measurement> Blocks() const;
+  std::vector<Measurement> Configurations() const;
+
+ private:
+  struct Timed {
+    BlockTask task;
+    Measurement measurement;
+  };
+
+  std::string name_;
+  LightField light_field_;
+  BlockBench bench_;
+  std::vector<std::vector<Timed>> groups_;
+  int64_t blocks_ = 0;
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_LAB_CALIBRATE_SCENE_TIMES_H_

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus-lab analyze: the paper's filter analysis, and the engine's kernels beside it.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "examples/command_line/options.h"
+#include "examples/lab/analyze/figures.h"
+#include "examples/lab/commands.h"
+#include "platform/folder.h"
+#include "platform/gnuplot.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct AnalyzeOptions {
+  std::string folder;
+  std::string max_blur = "40";
+};
+
+std::string WriteText(const fs::path& path, const std::string& text) {
+  return WriteFile(path.string(), Bytes(text.begin(), text.end()));
+}
+
+std::string Write(const fs::path& folder, const Figure& figure, bool draw) {
+  for (const Table& table : figure.tables) {
+    const std::string error = WriteText(folder / (table.name() + ".csv"), table.Csv());
+    if (!error.empty()) return error;
+  }
+  if (!draw || figure.name.empty()) return "";
+  Bytes picture;
+  const std::string error = RunGnuplot(figure.name + ".svg", figure.Script(), &picture);
+  if (!error.empty()) return error;
+  return WriteFile((folder / (figure.name + ".svg")).string(), picture);
+}
+
+Error Run(const AnalyzeOptions& options) {
+  int max_blur = 0;
+  Error error = ParseWhole("--max-blur", options.max_blur, 1, 128, &max_blur);
+  if (!error.empty()) return error;
+  if (!options.folder.empty()) {
+    error = MakeFolder(options.folder);
+    if (!error.empty()) return error;
+  }
+  constexpr int kEngineBlur = 40;  // larger radii take hours
+  std::string engine_error;
+  std::vector<Figure> figures = {AnalyseTableOne(), AnalyseViewNumber(),
+                                 AnalyseSubapertures(max_blur),
+                                 AnalyseEngine(std::min(max_blur, kEngineBlur), &engine_error)};
+  if (!engine_error.empty() || options.folder.empty()) return engine_error;
+  figures.push_back(DrawViewKernels());
+  figures.push_back(DrawViewResponses());
+  figures.push_back(DrawSubsampledBlurs());
+  const bool draw = HasGnuplot();
+  for (const Figure& figure : figures) {
+    error = Write(options.folder, figure, draw);
+    if (!error.empty()) return error;
+  }
+  std::printf("%s in %s\n", draw ? "CSV files and SVG drawings" : "CSV files",
+              options.folder.c_str());
+  if (!draw) std::printf("no drawings: gnuplot is missing (Debian: apt-get install gnuplot-nox)\n");
+  return "";
+}
+
+}  // namespace
+
+Command AnalyzeCommand() {
+  const auto options = std::make_shared<AnalyzeOptions>();
+  return {
+      "analyze",
+      "The paper's filter analysis (section III) from its definitions: Table I, Fig. 6, the rules "
+      "(9) and (12), the rule for subapertures, and the kernels of the running engine",
+      {
+          {"-o,--output", "DIR",
+           "Folder for CSV files and, with gnuplot, SVG drawings of Figs. 4, 5, 6, 8",
+           &options->folder},
+          {"--max-blur", "N",
+           "Largest blur radius of the rule for subapertures, 1 to 128 (default 40; 128 takes "
+           "minutes), and of the engine's kernels, which end at 40",
+           &options->max_blur},
+      },
+      [options] { return Run(*options); }};
+}
+
+}  // namespace starfocus

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus-lab calibrate: the timing model's coefficients on this machine.
+#include <cstdio>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "examples/cli/engine/timing_file.h"
+#include "examples/cli/input/input.h"
+#include "examples/cli/json/json.h"
+#include "examples/command_line/outputs.h"
+#include "examples/lab/calibrate/scene_times.h"
+#include "examples/lab/commands.h"
+#include "examples/scene/render.h"
+#include "platform/file.h"
+#include "platform/runner.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int kWidth = 1024, kHeight = 768, kViews = 9;  // of the scenes made here
+constexpr int kRepetitions = 5;
+
+struct CalibrateOptions {
+  std::string out, folder, check;
+};
+
+std::string Trace(const std::string& name, SceneTimes* times) {
+  ThreadRunner runner(sf_pool_cores());
+  Scene scene;
+  MakeScene(name, &scene);
+  const RayTracer renderer(scene, kWidth, kHeight, SF_TRANSFER_SRGB, &runner);
+  LightField light_field;
+  {
+    Progress progress("rendering " + name, int64_t{kHeight} * kViews);
+    for (int i = 0; i < kViews; ++i) {
+      double u = 0, v = 0;
+      sf_view_position(i, &u, &v);
+      light_field.views.push_back(renderer.View(u, v, &progress));
+    }
+  }
+  light_field.disparity = renderer.Disparity();
+  return times->Open(name, std::move(light_field));
+}
+
+Error Load(const std::string& folder, SceneTimes* times) {
+  Capture capture;
+  InputOptions input;
+  input.path = folder;
+  Error error = OpenInput(input, &capture);
+  if (error.empty()) error = LoadInput({}, 1, &capture);
+  return error.empty() ? times->Open(folder, std::move(capture.light_field)) : error;
+}
+
+using Scenes = std::vector<std::unique_ptr<SceneTimes>>;
+
+// The scene to fit first, then those to check.
+Error OpenScenes(const CalibrateOptions& options, Scenes* scenes) {
+  const auto add = [&](const std::string& folder, const std::string& name) {
+    scenes->push_back(std::make_unique<SceneTimes>());
+    return folder.empty() ? Trace(name, scenes->back().get()) : Load(folder, scenes->back().get());
+  };
+  Error error = add(options.folder, "portrait");
+  if (!error.empty()) return error;
+  if (!options.check.empty()) return add(options.check, "");
+  for (const char* name : {"wires", "ramp"}) {
+    if (error.empty()) error = add("", name);
+  }
+  return error;
+}
+
+// In turns, so that a slow spell of the machine meets all scenes and sizes alike.
+void Measure(const Scenes& scenes) {
+  int64_t blocks = 0;
+  for (const auto& scene : scenes) blocks += scene->blocks();
+  Progress progress("measuring", blocks * kRepetitions);
+  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
+    for (const auto& scene : scenes) scene->Measure(&progress);
+  }
+}
+
+void PrintCoefficients(const sf_timing& timing) {
+  std::printf("coefficients on %s, picoseconds:\n", sf_simd_target());
+  for (const TimingTerm& term : kTimingTerms) {
+    std::printf("%10s %9u per %s\n", term.name, unsigned{timing.*term.coefficient}, term.unit);
+  }
+}
+
+// Prints how well the model predicts the scene, and returns the same as JSON. No limit is drawn:
+// what the model leaves out lowers the agreement of a good machine, too.
+Json Judge(const char* role, const SceneTimes& scene, const sf_timing& timing) {
+  const Agreement configurations = Compare(timing, scene.Configurations());
+  const Agreement blocks = Compare(timing, scene.Blocks());
+  std::printf("R2 %.4f (weighted %.4f; single blocks %.4f), %s: %s, %lld blocks\n",
+              configurations.plain, configurations.weighted, blocks.plain, role,
+              scene.name().c_str(), static_cast<long long>(scene.blocks()));
+  Json json;
+  json.Set("scene", scene.name());
+  json.Set("blocks", scene.blocks());
+  json.Set("r2", configurations.plain);
+  json.Set("r2_weighted", configurations.weighted);
+  json.Set("r2_single_blocks", blocks.plain);
+  return json;
+}
+
+Error CheckOutput(const CalibrateOptions& options) {
+  if (options.out.empty()) return "";
+  const Error error = CheckOutputPath(options.out);
+  if (!error.empty()) return error;
+  std::vector<std::string> folders;
+  for (const std::string& folder : {options.folder, options.check}) {
+    if (!folder.empty()) folders.push_back(folder);
+  }
+  return CheckApart({{"--output", options.out}}, {folders, {}});
+}
+
+Error Calibrate(const CalibrateOptions& options) {
+  Scenes scenes;
+  Error error = CheckOutput(options);
+  if (error.empty()) error = OpenScenes(options, &scenes);
+  if (!error.empty()) return error;
+  Measure(scenes);
+  const sf_timing timing = FitTiming(scenes[0]->Configurations());
+  PrintCoefficients(timing);
+  Json json;
+  json.Set("simd_target", sf_simd_target());
+  json.Set("timing", TimingJson(timing));
+  json.Set("fit", Judge("fit", *scenes[0], timing));
+  Json checks = Json::Array();
+  for (size_t i = 1; i < scenes.size(); ++i) {
+    checks.Add(Judge("check", *scenes[i], timing));
+  }
+  json.Set("checks", std::move(checks));
+  if (options.out.empty()) return "";
+  const std::string text = json.Text(2) + "\n";
+  return WriteFile(options.out, Bytes(text.begin(), text.end()));
+}
+
+}  // namespace
+
+Command CalibrateCommand() {
+  const auto options = std::make_shared<CalibrateOptions>();
+  return {
+      "calibrate",
+      "Measure this machine, while it has nothing else to do, for the timing model behind block "
+      "mode's partition. Pictures made with its coefficients differ from those of machines with "
+      "others",
+      {
+          {"-o,--output", "FILE", "JSON file to write, for refocus --timing", &options->out},
+          {"--light-field", "DIR", "Folder to fit the model to; default: the scene portrait",
+           &options->folder},
+          {"--check", "DIR", "Folder to check the model on; default: the scenes wires and ramp",
+           &options->check},
+      },
+      [options] { return Calibrate(*options); }};
+}
+
+}  // namespace starfocus

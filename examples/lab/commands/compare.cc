@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus-lab compare: how much two pictures differ.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "examples/cli/json/json.h"
+#include "examples/cli/pictures/difference.h"
+#include "examples/command_line/outputs.h"
+#include "examples/lab/commands.h"
+#include "platform/image_io.h"
+#include "platform/standard_stream.h"
+
+namespace starfocus {
+namespace {
+
+struct CompareOptions {
+  std::string first, second, map;
+  bool json = false;
+};
+
+std::string SizeText(const Image& image) {
+  return std::to_string(image.width) + "x" + std::to_string(image.height);
+}
+
+Error CheckMap(const CompareOptions& options) {
+  if (options.map.empty()) return "";
+  const Error error = CheckImageOutput(options.map);
+  if (!error.empty()) return error;
+  if (IsStandardStream(options.map)) {
+    return Error::Usage("--map", "a file: standard output has the figures", options.map);
+  }
+  return CheckApart({{"--map", options.map}}, {{}, {options.first, options.second}});
+}
+
+Error Run(const CompareOptions& options) {
+  Image a, b;
+  Error error = CheckMap(options);
+  if (error.empty()) error = ReadImage(options.first, &a);
+  if (error.empty()) error = ReadImage(options.second, &b);
+  if (!error.empty()) return error;
+  if (a.width != b.width || a.height != b.height) {
+    return Expected(options.second, SizeText(a) + " as " + options.first, SizeText(b));
+  }
+  const Difference difference = MeasureDifference(a, b);
+  if (!options.map.empty()) {
+    error = WriteImage(options.map, DrawDifference(a, b, std::max(1, difference.largest)));
+    if (!error.empty()) return error;
+  }
+  const bool equal = difference.largest == 0;
+  if (options.json) {
+    Json json;
+    json.Set("psnr", equal ? Json() : Json(difference.psnr));
+    json.Set("largest_difference", difference.largest);
+    std::printf("%s\n", json.Text().c_str());
+  } else if (equal) {
+    std::printf("PSNR inf, largest difference 0\n");
+  } else {
+    std::printf("PSNR %.2f dB, largest difference %d\n", difference.psnr, difference.largest);
+  }
+  return "";
+}
+
+}  // namespace
+
+Command CompareCommand() {
+  const auto options = std::make_shared<CompareOptions>();
+  return {"compare",
+          "PSNR over all RGB samples and largest difference of two pictures",
+          {
+              {"A", "FILE", "Picture", &options->first, Use::kRequired},
+              {"B", "FILE", "Picture of the same size", &options->second, Use::kRequired},
+              {"--map", "FILE",
+               "Picture to write of where they differ: black where they agree, over red to "
+               "white at the largest difference",
+               &options->map},
+              {"--json", nullptr, "Print JSON; an infinite PSNR is null", &options->json},
+          },
+          [options] { return Run(*options); }};
+}
+
+}  // namespace starfocus

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus-lab scene: a ray-traced light field with exact disparity and ground truth.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "examples/command_line/options.h"
+#include "examples/command_line/outputs.h"
+#include "examples/command_line/shape.h"
+#include "examples/lab/commands.h"
+#include "examples/scene/render.h"
+#include "platform/image_io.h"
+#include "platform/light_field.h"
+#include "platform/writers/png.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int64_t kMostPixels = int64_t{1} << 25;  // all views are held in memory
+constexpr int kMostSeed = 1000000;
+constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair or grass";
+constexpr char kCoverageFile[] = "coverage.png";
+
+struct SceneOptions {
+  std::string folder, name = "portrait", size = "1024x768", views = "17", transfer = "srgb",
+                      threads, seed;
+  std::vector<std::string> truths;
+  ShapeOptions shape;
+};
+
+struct Truth {
+  double focus, aperture;
+};
+
+struct Plan {
+  Scene scene;
+  int width = 0, height = 0, threads = 0;
+  Positions views;
+  sf_transfer transfer = SF_TRANSFER_SRGB;
+  std::vector<Truth> truths;
+  sf_config shape;  // of the lens of the truths
+};
+
+Error ParseTruth(const std::string& text, Truth* truth) {
+  const size_t comma = text.find(',');
+  if (comma == std::string::npos) {
+    return Error::Usage("--truth", "D,U: disparity in focus and aperture", "'" + text + "'");
+  }
+  const Error error = ParseNumber("--truth", text.substr(0, comma), &truth->focus);
+  if (!error.empty()) return error;
+  if (truth->focus < -SF_MAX_DISPARITY || truth->focus > SF_MAX_DISPARITY) {
+    return Error::Usage("--truth", "a disparity within +-500", "'" + text + "'");
+  }
+  return ParseAperture("--truth", text.substr(comma + 1), &truth->aperture);
+}
+
+Error ChooseScene(const SceneOptions& options, Scene* scene) {
+  int seed = kSceneSeed;
+  if (!options.seed.empty()) {
+    const Error error = ParseWhole("--seed", options.seed, 0, kMostSeed, &seed);
+    if (!error.empty()) return error;
+  }
+  if (!MakeScene(options.name, scene, uint32_t(seed))) {
+    return Error::Usage("--name", kSceneNames, "'" + options.name + "'");
+  }
+  if (!options.seed.empty() && !scene->seeded) {
+    return Error::Usage("--seed", "the scene hair or grass", "'" + options.name + "'");
+  }
+  return "";
+}
+
+Error MakePlan(const SceneOptions& options, Plan* plan) {
+  Error error = ChooseScene(options, &plan->scene);
+  if (!error.empty()) return error;
+  error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
+  if (!error.empty()) return error;
+  if (plan->width < 1 || plan->height < 1 || int64_t(plan->width) * plan->height > kMostPixels) {
+    return Error::Usage("--size", "WxH from 1x1 to " + std::to_string(kMostPixels) + " pixels",
+                        "'" + options.size + "'");
+  }
+  error = ParseViews("--views", options.views, &plan->views);
+  if (error.empty()) error = ParseTransfer("--transfer", options.transfer, &plan->transfer);
+  if (!error.empty()) return error;
+  plan->threads = sf_pool_cores();
+  if (!options.threads.empty()) {
+    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
+    if (!error.empty()) return error;
+  }
+  for (const std::string& text : options.truths) {
+    plan->truths.emplace_back();
+    error = ParseTruth(text, &plan->truths.back());
+    if (!error.empty()) return error;
+  }
+  sf_config_init(&plan->shape);
+  return ParseShape(options.shape, &plan->shape);
+}
+
+// Views of an earlier, larger set or in another format would mix with the new ones, and so would
+// the coverage of another scene.
+Error CheckFolder(const std::string& folder, const Plan& plan) {
+  const Positions& views = plan.views;
+  std::error_code failure;
+  const std::string error = CheckFolderOutput(folder);
+  if (!error.empty()) return error;
+  for (const auto& entry : fs::directory_iterator(folder, failure)) {
+    const std::string name = entry.path().filename().string();
+    const bool replaced = std::any_of(views.begin(), views.end(), [&](const sf_position& view) {
+      return name == ViewName(view) + ".png";
+    });
+    if (IsViewFile(name) && !replaced) {
+      return Expected(entry.path().string(), "no view left from another light field", "one");
+    }
+    if (name == kCoverageFile && !plan.scene.HasForeground()) {
+      return Expected(entry.path().string(), "no coverage left from another scene", "one");
+    }
+  }
+  return "";
+}
+
+std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTracer& renderer,
+                     const FloatMap& disparity) {
+  std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
+  text += "size: " + std::to_string(plan.width) + "x" + std::to_string(plan.height) + "\n";
+  text += "views: " + std::to_string(plan.views.size()) + "\n";
+  text += std::string("transfer: ") + (plan.transfer == SF_TRANSFER_NONE ? "none" : "srgb") + "\n";
+  for (const NamedPoint& point : plan.scene.points) {
+    int x, y;
+    renderer.ToPixel(point.x, point.y, &x, &y);
+    text += std::string(point.name) + ": " + std::to_string(x) + "," + std::to_string(y) +
+            " disparity " + Short(disparity.at(x, y)) + "\n";
+  }
+  if (plan.scene.seeded) {
+    text += "seed: " + (options.seed.empty() ? std::to_string(kSceneSeed) : options.seed) + "\n";
+  }
+  if (plan.scene.HasForeground()) {
+    text +=
+        std::string(kCoverageFile) +
+        ": share of each pixel of the centre view that the foreground covers, of 256 rays; 255 is "
+        "all of it\n";
+  }
+  text +=
+      "made by: starfocus-lab scene; disparity.pfm is exact at pixel centres, in pixels per unit "
+      "u\n"
+      "convention: centre pixel (x, y) appears in view (u, v) at (x - u*d, y - v*d)\n"
+      "truth_dt<D>_ut<U>" +
+      ShapeSuffix(options.shape) + ".png: thin-lens ground truth, " +
+      (plan.shape.aperture_shape == SF_SHAPE_FALL_OFF
+           ? "aperture density (3) with theta " + options.shape.theta + " pi"
+           : "aperture " + options.shape.shape) +
+      (plan.shape.cats_eye > 0 ? ", cat's eyes " + options.shape.cats_eye : "") + "\n";
+  return text;
+}
+
+struct Pictures {
+  LightField light_field;
+  GreyImage coverage;  // if the scene has a foreground
+  std::vector<Image> truths;
+};
+
+Pictures Render(const Plan& plan, const RayTracer& renderer) {
+  const SceneOpening opening(plan.shape);
+  const bool covers = plan.scene.HasForeground();
+  const int64_t costs = int64_t(plan.views.size()) + (covers ? RayTracer::kCoverageCost : 0) +
+                        RayTracer::kTruthCost * int64_t(plan.truths.size());
+  Progress progress("rendering", plan.height * costs);
+  Pictures pictures;
+  pictures.light_field.positions = plan.views;
+  for (const sf_position& view : plan.views) {
+    pictures.light_field.views.push_back(renderer.View(view.u, view.v, &progress));
+  }
+  pictures.light_field.disparity = renderer.Disparity();
+  if (covers) pictures.coverage = renderer.Coverage(&progress);
+  for (const Truth& truth : plan.truths) {
+    pictures.truths.push_back(renderer.Truth(truth.focus, truth.aperture, opening, &progress));
+  }
+  return pictures;
+}
+
+Error SaveCoverage(const std::string& folder, const GreyImage& coverage) {
+  const std::string path = (fs::path(folder) / kCoverageFile).string();
+  Bytes png;
+  const std::string error = EncodeGreyPng(path, coverage, &png);
+  return error.empty() ? WriteFile(path, png) : error;
+}
+
+Error Run(const SceneOptions& options) {
+  Plan plan;
+  Error error = MakePlan(options, &plan);
+  if (error.empty()) error = CheckFolder(options.folder, plan);
+  if (!error.empty()) return error;
+  ThreadRunner runner(plan.threads);
+  const RayTracer renderer(plan.scene, plan.width, plan.height, plan.transfer, &runner);
+  const Pictures pictures = Render(plan, renderer);
+  error = SaveLightField(options.folder, pictures.light_field, &runner);
+  if (error.empty() && plan.scene.HasForeground()) {
+    error = SaveCoverage(options.folder, pictures.coverage);
+  }
+  for (size_t i = 0; i < pictures.truths.size() && error.empty(); ++i) {
+    const std::string name = "truth_dt" + Short(plan.truths[i].focus) + "_ut" +
+                             Short(plan.truths[i].aperture) + ShapeSuffix(options.shape) + ".png";
+    error = WriteImage((fs::path(options.folder) / name).string(), pictures.truths[i]);
+  }
+  if (!error.empty()) return error;
+  const std::string meta = MetaText(options, plan, renderer, pictures.light_field.disparity);
+  return WriteFile((fs::path(options.folder) / "meta.txt").string(),
+                   Bytes(meta.begin(), meta.end()));
+}
+
+}  // namespace
+
+Command SceneCommand() {
+  const auto options = std::make_shared<SceneOptions>();
+  Command command = {
+      "scene", "Ray-trace a light field with exact disparity into a folder", {}, [options] {
+        return Run(*options);
+      }};
+  AddOptions(
+      {
+          {"DIR", "DIR", "Folder to write", &options->folder, Use::kRequired},
+          {"--name", "portrait|wires|ramp|lamps|hair|grass", kSceneNames, &options->name,
+           Use::kDefault},
+          {"--seed", "N", "Where the strands of hair and grass lie, 0 to 1000000; default: 1",
+           &options->seed},
+          {"--size", "WxH", "Width and height, WxH", &options->size, Use::kDefault},
+          {"--views", "17|9|5|1|U,V:U,V", "17, 9, 5 or 1, or positions U,V:U,V, the first one 0,0",
+           &options->views, Use::kDefault},
+          {"--truth", "D,U ...",
+           "D,U: also the picture of a lens of aperture U focused at disparity D; "
+           "may be repeated",
+           &options->truths},
+      },
+      &command);
+  AddTransferOption(&command, "Average light, coded as sRGB, or the values as they are",
+                    &options->transfer);
+  AddShapeOptions(&command, &options->shape);
+  AddOptions(
+      {
+          {"--threads", "N", "1 to 64; default: all of the machine", &options->threads},
+      },
+      &command);
+  return command;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus-lab stress: tries to break the engine.
+#include "tests/stress/stress.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <memory>
+
+#include "examples/command_line/options.h"
+#include "examples/lab/commands.h"
+#include "platform/file.h"
+#include "platform/progress.h"
+#include "tests/stress/rig.h"
+
+namespace starfocus {
+namespace {
+
+struct StressOptions {
+  std::string seconds = "10", seed = "1", family, number;
+};
+
+std::string Names() {
+  std::string names;
+  for (const stress::Family& family : stress::Families()) {
+    names += (names.empty() ? "" : ", ") + std::string(family.name);
+  }
+  return names;
+}
+
+const stress::Family* Find(const std::string& name) {
+  for (const stress::Family& family : stress::Families()) {
+    if (family.name == name) return &family;
+  }
+  return nullptr;
+}
+
+Error ParseCount(const std::string& option, const std::string& text, uint64_t* value) {
+  *value = 0;
+  if (text.empty() || text.size() > 19 || text.find_first_not_of("0123456789") < text.size()) {
+    return Error::Usage(option, "a whole number", text);
+  }
+  for (const char digit : text) *value = *value * 10 + static_cast<uint64_t>(digit - '0');
+  return "";
+}
+
+Error RepeatCase(const stress::Family& family, const std::string& text) {
+  uint64_t number = 0;
+  const Error error = ParseCount("--case", text, &number);
+  if (!error.empty()) return error;
+  const stress::Outcome outcome = stress::RunCase(family, number);
+  if (!outcome.failure.empty()) return outcome.failure;
+  std::printf("%s %" PRIu64 ": %g %s\n", family.name, number, outcome.error, family.measures);
+  return "";
+}
+
+void Print(const stress::Report& report) {
+  std::printf("%-12s %8s  %-13s %s\n", "family", "cases", "largest error", "");
+  for (const stress::FamilyReport& part : report.families) {
+    std::printf("%-12s %8" PRIu64 "  %-13.4g %s", part.family->name, part.cases, part.largest,
+                part.family->measures);
+    if (part.largest > 0) std::printf(" (case %" PRIu64 ")", part.largest_case);
+    std::printf("\n");
+  }
+  std::printf("%" PRIu64 " cases in %.1f s (%.0f a minute) on", report.cases, report.seconds,
+              static_cast<double>(report.cases) / report.seconds * 60);
+  for (const simd::Kernels* kernels : stress::AllKernels()) std::printf(" %s", kernels->name);
+  std::printf("\n");
+}
+
+stress::Report Try(stress::Options* wanted) {
+  int64_t told = 0;  // milliseconds
+  Progress progress("trying", std::max<int64_t>(1, int64_t(1000 * wanted->seconds)));
+  wanted->done = [&](double seconds) {
+    const auto now = static_cast<int64_t>(1000 * std::min(seconds, wanted->seconds));
+    progress.Step(now - told);
+    told = now;
+  };
+  return stress::RunStress(*wanted, [](const std::string& line) {
+    std::printf("FAILED: %s\n", line.c_str());
+    std::fflush(stdout);
+  });
+}
+
+Error Run(const StressOptions& options) {
+  stress::Options wanted;
+  const stress::Family* family = Find(options.family);
+  if (family == nullptr && !(options.family.empty() && options.number.empty())) {
+    return Error::Usage("--family", "one of " + Names(),
+                        options.family.empty() ? "none" : options.family);
+  }
+  if (!options.number.empty()) return RepeatCase(*family, options.number);
+  Error error = ParseNumber("--seconds", options.seconds, &wanted.seconds);
+  uint64_t seed = 0;
+  if (error.empty()) error = ParseCount("--seed", options.seed, &seed);
+  if (!error.empty()) return error;
+  wanted.seed = seed;
+  wanted.family = options.family;
+  const stress::Report report = Try(&wanted);
+  Print(report);
+  if (report.failures == 0) return "";
+  return Expected("stress", "no failure", std::to_string(report.failures));
+}
+
+}  // namespace
+
+Command StressCommand() {
+  static const std::string family_help = "Only this family: " + Names();
+  const auto options = std::make_shared<StressOptions>();
+  return {"stress",
+          "Try to break the engine with random refocusings whose result is known or bounded",
+          {
+              {"--seconds", "S", "How long to try", &options->seconds, Use::kDefault},
+              {"--seed", "N", "Which cases to try: others with every seed", &options->seed,
+               Use::kDefault},
+              {"--family", "FAMILY", family_help.c_str(), &options->family},
+              {"--case", "N", "Repeat one case of --family", &options->number},
+          },
+          [options] { return Run(*options); }};
+}
+
+}  // namespace starfocus

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// starfocus-lab: makes scenes, compares pictures, and measures and tries the engine.
+#include "examples/cli/commands.h"
+#include "examples/command_line/parse.h"
+#include "examples/command_line/program.h"
+#include "examples/lab/commands.h"
+
+namespace {
+
+using namespace starfocus;
+
+Error Run(int argc, char** argv) {
+  Program program;
+  program.main = {
+      "starfocus-lab",
+      "Makes scenes, compares pictures, and measures and tries the engine of starfocus.",
+      {},
+      nullptr};
+  program.commands = {SceneCommand(),     CompareCommand(), SheetCommand(),       AnalyzeCommand(),
+                      CalibrateCommand(), StressCommand(),  HelpCommand(&program)};
+  return RunCommandLine(program, argc, argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return RunProgram("starfocus-lab", [&] { return Run(argc, argv); });
+}
