@@ -9,6 +9,7 @@
 
 #include "simd/compat-inl.h"
 #include "simd/depth_values.h"
+#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -19,27 +20,22 @@ using DepthBits = hn::RebindToSigned<DepthTag>;
 
 // Both are whole numbers that a float holds.
 template <class T>
-HWY_INLINE size_t WidenNumbers(const T* HWY_RESTRICT values, size_t count, float* HWY_RESTRICT z) {
+HWY_INLINE bool WidenNumbers(const T* HWY_RESTRICT values, size_t count, float* HWY_RESTRICT z) {
   const DepthTag df;
   const DepthBits d32;
   const hn::Rebind<T, DepthTag> dvalue;
-  const size_t lanes = hn::Lanes(df);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  return ForVectors(count, hn::Lanes(df), [&](size_t n) HWY_ATTR {
     const auto wide = hn::PromoteTo(d32, hn::LoadU(dvalue, values + n));
     hn::StoreU(hn::ConvertTo(df, wide), df, z + n);
-  }
-  return n;
+  });
 }
 
 inline void BytesToDepth(const uint8_t* HWY_RESTRICT values, size_t count, float* HWY_RESTRICT z) {
-  const size_t n = WidenNumbers(values, count, z);
-  reference::BytesToDepth(values + n, count - n, z + n);
+  if (!WidenNumbers(values, count, z)) reference::BytesToDepth(values, count, z);
 }
 
 inline void WordsToDepth(const uint16_t* HWY_RESTRICT values, size_t count, float* HWY_RESTRICT z) {
-  const size_t n = WidenNumbers(values, count, z);
-  reference::WordsToDepth(values + n, count - n, z + n);
+  if (!WidenNumbers(values, count, z)) reference::WordsToDepth(values, count, z);
 }
 
 inline void HalvesToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
@@ -47,10 +43,8 @@ inline void HalvesToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
   const DepthTag df;
   const DepthBits d32;
   const hn::Rebind<uint16_t, DepthTag> d16;
-  const size_t lanes = hn::Lanes(df);
   const auto nan = hn::Set(d32, 0x7FC00000);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(df), [&](size_t n) HWY_ATTR {
     const auto half = hn::PromoteTo(d32, hn::LoadU(d16, values + n));
     const auto magnitude = hn::And(half, hn::Set(d32, 0x7FFF));
     const auto sign = hn::ShiftLeft<16>(hn::Sub(half, magnitude));
@@ -62,8 +56,8 @@ inline void HalvesToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
     const auto bits = hn::IfThenElse(hn::Lt(magnitude, hn::Set(d32, 1 << 10)), small, normal);
     const auto infinite = hn::Gt(magnitude, hn::Set(d32, 0x7BFF));
     hn::StoreU(hn::BitCast(df, hn::IfThenElse(infinite, nan, hn::Or(bits, sign))), df, z + n);
-  }
-  reference::HalvesToDepth(values + n, count - n, z + n);
+  });
+  if (!done) reference::HalvesToDepth(values, count, z);
 }
 
 // One way of the two: `scaled` is scale * z or scale / z.
@@ -73,13 +67,11 @@ HWY_INLINE uint32_t ConvertDepths(const float* HWY_RESTRICT z, size_t count, con
   const DepthTag df;
   const DepthBits d32;
   const hn::Rebind<int16_t, DepthTag> d16;
-  const size_t lanes = hn::Lanes(df);
   const auto offset = hn::Set(df, rule.offset), invalid = hn::Set(df, rule.invalid);
   const auto low = hn::Set(df, rule.low), high = hn::Set(df, rule.high);
   const auto none = hn::Set(d32, int32_t{kNoSurface});
   uint32_t flags = 0;
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(df), [&](size_t n) HWY_ATTR {
     const auto value = hn::LoadU(df, z + n);
     const auto disparity = hn::Add(scaled(value), offset);
     const auto inside = hn::And(hn::Ge(disparity, low), hn::Le(disparity, high));
@@ -96,8 +88,8 @@ HWY_INLINE uint32_t ConvertDepths(const float* HWY_RESTRICT z, size_t count, con
       result = hn::IfThenElse(hn::RebindMask(d32, known), result, none);
     }
     hn::StoreU(hn::DemoteTo(d16, result), d16, out + n);
-  }
-  return flags | reference::DepthToDisparity(z + n, count - n, rule, out + n);
+  });
+  return done ? flags : reference::DepthToDisparity(z, count, rule, out);
 }
 
 inline uint32_t DepthToDisparity(const float* HWY_RESTRICT z, size_t count, const DepthRule& rule,
@@ -119,13 +111,11 @@ inline uint32_t DepthToDisparity(const float* HWY_RESTRICT z, size_t count, cons
 inline void BlendRows(const int16_t* HWY_RESTRICT a, const int16_t* HWY_RESTRICT b, size_t count,
                       uint32_t share, int16_t* HWY_RESTRICT out) {
   const hn::ScalableTag<int16_t> d16;
-  const size_t lanes = hn::Lanes(d16);
   const auto step = hn::Set(d16, kBlendStep), down = hn::Set(d16, int16_t{-kBlendStep});
   const auto weight = hn::Set(d16, static_cast<int16_t>(share));
   const auto half = hn::Set(d16, int16_t{128});
   const int16_t* nearer = share < kColumnOne / 2 ? a : b;
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const auto from = hn::LoadU(d16, a + n);
     const auto difference = hn::SaturatedSub(hn::LoadU(d16, b + n), from);
     const auto apart = hn::Or(hn::Gt(difference, step), hn::Lt(difference, down));
@@ -133,8 +123,8 @@ inline void BlendRows(const int16_t* HWY_RESTRICT a, const int16_t* HWY_RESTRICT
     const auto product = hn::Mul(difference, weight);
     const auto between = hn::Add(from, hn::ShiftRight<8>(hn::Add(product, half)));
     hn::StoreU(hn::IfThenElse(apart, hn::LoadU(d16, nearer + n), between), d16, out + n);
-  }
-  reference::BlendRows(a + n, b + n, count - n, share, out + n);
+  });
+  if (!done) reference::BlendRows(a, b, count, share, out);
 }
 
 inline void SpreadRow(const int32_t* HWY_RESTRICT pairs, const uint32_t* HWY_RESTRICT columns,
@@ -142,11 +132,9 @@ inline void SpreadRow(const int32_t* HWY_RESTRICT pairs, const uint32_t* HWY_RES
   const hn::ScalableTag<int32_t> d32;
   const hn::Rebind<int16_t, decltype(d32)> d16;
   const hn::RebindToUnsigned<decltype(d32)> du32;
-  const size_t lanes = hn::Lanes(d32);
   const auto start = hn::Set(d32, static_cast<int32_t>(first));
   const auto step = hn::Set(d32, int32_t{kBlendStep}), half = hn::Set(d32, 128);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(d32), [&](size_t n) HWY_ATTR {
     const auto column = hn::BitCast(d32, hn::LoadU(du32, columns + n));
     const auto at = hn::Sub(hn::ShiftRight<kColumnBits>(column), start);
     const auto share = hn::And(column, hn::Set(d32, int32_t{kColumnOne - 1}));
@@ -159,8 +147,8 @@ inline void SpreadRow(const int32_t* HWY_RESTRICT pairs, const uint32_t* HWY_RES
     const auto nearer = hn::IfThenElse(hn::Lt(share, half), left, right);
     const auto apart = hn::Gt(hn::Abs(difference), step);
     hn::StoreU(hn::DemoteTo(d16, hn::IfThenElse(apart, nearer, between)), d16, out + n);
-  }
-  reference::SpreadRow(pairs, columns + n, count - n, first, out + n);
+  });
+  if (!done) reference::SpreadRow(pairs, columns, count, first, out);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -9,6 +9,7 @@
 
 #include "simd/chunk-inl.h"
 #include "simd/disparities.h"
+#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -19,18 +20,18 @@ inline bool ConvertDisparity(const float* HWY_RESTRICT disparity, size_t count, 
   const hn::ScalableTag<float> df;
   const hn::RebindToSigned<decltype(df)> di32;
   const hn::Rebind<int16_t, decltype(df)> di16;
-  const size_t lanes = hn::Lanes(df);
   const auto scale = hn::Set(df, 64.0f);
   const auto half = hn::Set(df, 0.5f);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  bool all_inside = true;
+  const bool done = ForVectors(count, hn::Lanes(df), [&](size_t n) HWY_ATTR {
     const auto d = hn::LoadU(df, disparity + n);
     const auto inside = hn::And(hn::Ge(d, hn::Set(df, low)), hn::Le(d, hn::Set(df, high)));
-    if (!hn::AllTrue(df, inside)) return false;
+    all_inside = all_inside && hn::AllTrue(df, inside);
     const auto scaled = hn::Floor(hn::Add(hn::Mul(d, scale), half));
-    hn::StoreU(hn::DemoteTo(di16, hn::ConvertTo(di32, scaled)), di16, out + n);
-  }
-  return n == count || reference::ConvertDisparity(disparity + n, count - n, low, high, out + n);
+    const auto result = hn::ConvertTo(di32, hn::IfThenElseZero(inside, scaled));
+    hn::StoreU(hn::DemoteTo(di16, result), di16, out + n);
+  });
+  return done ? all_inside : reference::ConvertDisparity(disparity, count, low, high, out);
 }
 
 // Returns the range of `count` columns, which are kSliceLanes at most.

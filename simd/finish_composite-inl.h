@@ -7,10 +7,9 @@
 #define STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_
 #endif
 
-#include <cstring>
-
 #include "simd/compat-inl.h"
 #include "simd/finish_composite.h"
+#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -117,16 +116,11 @@ HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const int16_t* c
 
 inline void FinishComposite(const uint32_t* sums, size_t plane, const int16_t* centre,
                             const CompositeFinish& finish, size_t count, uint32_t* out) {
-  const size_t lanes = hn::Lanes(CompositeTag());
   Inverses inverses(finish.least);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(CompositeTag()), [&](size_t n) HWY_ATTR {
     FinishGroup(sums + n, plane, centre + 3 * n, finish, inverses, out + 3 * n);
-  }
-  if (n == count) return;
-  uint32_t rest[3 * kSliceLanes];
-  FinishGroup(sums + n, plane, centre + 3 * n, finish, inverses, rest);
-  std::memcpy(out + 3 * n, rest, 3 * (count - n) * sizeof(*out));
+  });
+  if (!done) reference::FinishComposite(sums, plane, centre, finish, count, out);
 }
 
 #endif

@@ -11,6 +11,7 @@
 
 #include "simd/chunk-inl.h"
 #include "simd/layered_depth.h"
+#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -19,16 +20,14 @@ namespace HWY_NAMESPACE {
 inline void Split(const int16_t* HWY_RESTRICT rgb, size_t count, size_t plane,
                   int16_t* HWY_RESTRICT out) {
   const ChunkTag d16;
-  const size_t lanes = hn::Lanes(d16);
-  if (count < lanes) return reference::Split(rgb, count, plane, out);
-  for (size_t at = 0; at < count; at += lanes) {
-    const size_t n = at + lanes <= count ? at : count - lanes;  // the last two vectors overlap
+  const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     ChunkVec r, g, b;
     hn::LoadInterleaved3(d16, rgb + 3 * n, r, g, b);
     hn::StoreU(r, d16, out + n);
     hn::StoreU(g, d16, out + plane + n);
     hn::StoreU(b, d16, out + 2 * plane + n);
-  }
+  });
+  if (!done) reference::Split(rgb, count, plane, out);
 }
 
 inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,

@@ -9,6 +9,7 @@
 
 #include "simd/compat-inl.h"
 #include "simd/pixels.h"
+#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -17,10 +18,10 @@ namespace HWY_NAMESPACE {
 inline void PixelsToRgb(const uint8_t* HWY_RESTRICT pixels, size_t count, const PixelOrder& order,
                         uint8_t* HWY_RESTRICT rgb) {
   const hn::ScalableTag<uint8_t> d8;
-  const size_t lanes = hn::Lanes(d8);
-  size_t n = 0;
+  if (count == 0) return;
   // The last pixel is left to the reference, which reads no fourth byte.
-  for (; n + lanes < count; n += lanes) {
+  const size_t before = count - 1;
+  const bool done = ForVectors(before, hn::Lanes(d8), [&](size_t n) HWY_ATTR {
     hn::Vec<decltype(d8)> a, b, c;
     if (order.step == 3) {
       hn::LoadInterleaved3(d8, pixels + 3 * n, a, b, c);
@@ -33,17 +34,16 @@ inline void PixelsToRgb(const uint8_t* HWY_RESTRICT pixels, size_t count, const 
     } else {
       hn::StoreInterleaved3(a, b, c, d8, rgb + 3 * n);
     }
-  }
-  reference::PixelsToRgb(pixels + order.step * n, count - n, order, rgb + 3 * n);
+  });
+  const size_t rest = done ? before : 0;
+  reference::PixelsToRgb(pixels + order.step * rest, count - rest, order, rgb + 3 * rest);
 }
 
 inline void RgbToPixels(const uint8_t* HWY_RESTRICT rgb, size_t count, const PixelOrder& order,
                         uint8_t* HWY_RESTRICT pixels) {
   const hn::ScalableTag<uint8_t> d8;
-  const size_t lanes = hn::Lanes(d8);
   const auto opaque = hn::Set(d8, uint8_t{255});
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(d8), [&](size_t n) HWY_ATTR {
     hn::Vec<decltype(d8)> r, g, b;
     hn::LoadInterleaved3(d8, rgb + 3 * n, r, g, b);
     const auto first = order.blue_first ? b : r, third = order.blue_first ? r : b;
@@ -52,8 +52,8 @@ inline void RgbToPixels(const uint8_t* HWY_RESTRICT rgb, size_t count, const Pix
     } else {
       hn::StoreInterleaved4(first, g, third, opaque, d8, pixels + 4 * n);
     }
-  }
-  reference::RgbToPixels(rgb + 3 * n, count - n, order, pixels + order.step * n);
+  });
+  if (!done) reference::RgbToPixels(rgb, count, order, pixels);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -9,6 +9,7 @@
 
 #include "simd/match-inl.h"
 #include "simd/planes.h"
+#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -17,15 +18,14 @@ namespace HWY_NAMESPACE {
 inline void SplitRow(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t stride,
                      uint8_t* HWY_RESTRICT plane) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
-  size_t n = 0;
-  for (; n + hn::Lanes(d8) <= count; n += hn::Lanes(d8)) {
+  const bool done = ForVectors(count, hn::Lanes(d8), [&](size_t n) HWY_ATTR {
     auto r = hn::Zero(d8), g = hn::Zero(d8), b = hn::Zero(d8);
     hn::LoadInterleaved3(d8, rgb + 3 * n, r, g, b);
     hn::StoreU(r, d8, plane + n);
     hn::StoreU(g, d8, plane + n + stride);
     hn::StoreU(b, d8, plane + n + 2 * stride);
-  }
-  reference::SplitRow(rgb + 3 * n, count - n, stride, plane + n);
+  });
+  if (!done) reference::SplitRow(rgb, count, stride, plane);
 }
 
 // Returns what lies `part` 128ths of the way from a to b.

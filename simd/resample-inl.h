@@ -89,18 +89,11 @@ inline void SplitPhases(const int16_t* HWY_RESTRICT in, size_t pairs, int16_t* H
 
 inline void Narrow(const int16_t* HWY_RESTRICT in, size_t count, const Encoding& encoding,
                    uint8_t* HWY_RESTRICT out) {
-  const hn::ScalableTag<int16_t> d16;
+  const hn::CappedTag<int16_t, kEncodeSpare> d16;
   if (encoding.entries != nullptr) {
-    EncodeChunks(
-        count, encoding.entries, out, [&](size_t begin, size_t chunk, int16_t* light) HWY_ATTR {
-          constexpr int kBits = kLightBits - kLayerBits;
-          const bool done = ForVectors(chunk, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
-            hn::StoreU(hn::ShiftLeft<kBits>(hn::LoadU(d16, in + begin + n)), d16, light + n);
-          });
-          for (size_t n = 0; !done && n < chunk; ++n) {
-            light[n] = static_cast<int16_t>(in[begin + n] << kBits);
-          }
-        });
+    EncodeChunks(count, hn::Lanes(d16), encoding, out, [&](size_t n, int16_t* light) HWY_ATTR {
+      hn::StoreU(hn::ShiftLeft<kLightBits - kLayerBits>(hn::LoadU(d16, in + n)), d16, light);
+    });
     return;
   }
   const hn::Rebind<uint8_t, decltype(d16)> d8;

@@ -11,6 +11,7 @@
 
 #include "simd/compat-inl.h"
 #include "simd/spans.h"
+#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -61,34 +62,19 @@ inline void Accumulate(const Span* HWY_RESTRICT spans, size_t count,
   }
 }
 
-// Stores target[n] = value(n) for n < samples, a vector of `lanes` values at a time.
-template <class D16, class Value>
-HWY_INLINE void StoreSamples(D16 d16, size_t samples, int16_t* HWY_RESTRICT target,
-                             const Value& value) {
-  const size_t lanes = hn::Lanes(d16);
-  if (samples < lanes) {
-    int16_t last[HWY_MAX_BYTES / sizeof(int16_t)];
-    hn::StoreU(value(0), d16, last);
-    std::memcpy(target, last, samples * sizeof(*target));
-    return;
-  }
-  size_t n = 0;
-  for (; n + lanes <= samples; n += lanes) hn::StoreU(value(n), d16, target + n);
-  // The last vector overlaps the one before it, and stores the same values again.
-  if (n != samples) hn::StoreU(value(samples - lanes), d16, target + samples - lanes);
-}
-
-HWY_INLINE void BlendSpan(const Span& span, int16_t* HWY_RESTRICT target) {
+HWY_INLINE void BlendSpan(const Span& span, int16_t* HWY_RESTRICT line) {
   const hn::ScalableTag<int16_t> d16;
   const auto weight =
       hn::Set(d16, static_cast<int16_t>(span.neighbour_weight << (15 - kBlendBits)));
   const int16_t* HWY_RESTRICT source = span.source;
   const int16_t* HWY_RESTRICT neighbour = source + span.neighbour_offset;
-  StoreSamples(d16, span.samples, target, [&](size_t n) HWY_ATTR {
+  int16_t* HWY_RESTRICT target = line + span.target;
+  const bool done = ForVectors(span.samples, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const auto value = hn::LoadU(d16, source + n);
     const auto more = hn::Sub(hn::LoadU(d16, neighbour + n), value);
-    return hn::Add(value, hn::MulFixedPoint15(more, weight));
+    hn::StoreU(hn::Add(value, hn::MulFixedPoint15(more, weight)), d16, target + n);
   });
+  if (!done) reference::Blend(&span, 1, line);
 }
 
 inline void Blend(const Span* HWY_RESTRICT spans, size_t count, int16_t* HWY_RESTRICT line) {
@@ -96,7 +82,7 @@ inline void Blend(const Span* HWY_RESTRICT spans, size_t count, int16_t* HWY_RES
     if (spans[i].neighbour_weight == 0) {
       std::memcpy(line + spans[i].target, spans[i].source, spans[i].samples * sizeof(*line));
     } else {
-      BlendSpan(spans[i], line + spans[i].target);
+      BlendSpan(spans[i], line);
     }
   }
 }

@@ -8,6 +8,7 @@
 #endif
 
 #include "simd/compat-inl.h"
+#include "simd/vectors-inl.h"
 #include "simd/yuv.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -45,6 +46,15 @@ HWY_INLINE V ClampCodes(V value) {
   return hn::Min(hn::Max(value, hn::Zero(d16)), hn::Set(d16, int16_t{255}));
 }
 
+// Runs step(n) for each vector of `count` pixels in whole pairs, so that n is even. Returns how
+// many pixels are done: none, or all but the last of an odd count.
+template <class Step>
+HWY_INLINE size_t ForPairs(size_t count, const Step& step) {
+  const bool done =
+      ForVectors(count / 2, hn::Lanes(YuvPairs()), [&](size_t pair) HWY_ATTR { step(2 * pair); });
+  return done ? count / 2 * 2 : 0;
+}
+
 // Sums that leave 16 bits are above white, and so is what they saturate to.
 template <class V>
 HWY_INLINE hn::Vec<YuvCodes> AddChroma(V even, V odd, V chroma) {
@@ -58,7 +68,6 @@ inline void YuvToRgb(const uint8_t* HWY_RESTRICT y, const uint8_t* HWY_RESTRICT 
   const YuvCodes d8;
   const YuvPairs d16;
   const hn::Rebind<uint8_t, YuvPairs> dhalf;
-  const size_t lanes = hn::Lanes(d8);
   const auto black = hn::Set(d16, m.black), scale = hn::Set(d16, m.y);
   const auto half = hn::Set(d16, int16_t{32}), grey = hn::Set(d16, int16_t{128});
   const auto luma = [&](hn::Vec<YuvPairs> codes) HWY_ATTR {
@@ -68,8 +77,7 @@ inline void YuvToRgb(const uint8_t* HWY_RESTRICT y, const uint8_t* HWY_RESTRICT 
   const auto chroma = [&](const uint8_t* from) HWY_ATTR {
     return hn::ShiftLeft<8>(hn::Sub(hn::PromoteTo(d16, hn::LoadU(dhalf, from)), grey));
   };
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const size_t done = ForPairs(count, [&](size_t n) HWY_ATTR {
     const auto codes = hn::LoadU(d8, y + n);
     const auto even = luma(EvenCodes(codes)), odd = luma(OddCodes(codes));
     const auto du = chroma(u + n / 2), dv = chroma(v + n / 2);
@@ -78,8 +86,8 @@ inline void YuvToRgb(const uint8_t* HWY_RESTRICT y, const uint8_t* HWY_RESTRICT 
     hn::StoreInterleaved3(
         AddChroma(even, odd, hn::MulFixedPoint15(dv, hn::Set(d16, m.rv))), AddChroma(even, odd, g),
         AddChroma(even, odd, hn::MulFixedPoint15(du, hn::Set(d16, m.bu))), d8, rgb + 3 * n);
-  }
-  reference::YuvToRgb(y + n, u + n / 2, v + n / 2, count - n, m, rgb + 3 * n);
+  });
+  reference::YuvToRgb(y + done, u + done / 2, v + done / 2, count - done, m, rgb + 3 * done);
 }
 
 // The weighted sum of three colours with 7 fractional bits, rounded to whole ones.
@@ -96,21 +104,19 @@ inline void RgbToLuma(const uint8_t* HWY_RESTRICT rgb, size_t count, const YuvMa
                       uint8_t* HWY_RESTRICT y) {
   const YuvCodes d8;
   const YuvPairs d16;
-  const size_t lanes = hn::Lanes(d8);
   const auto black = hn::Set(d16, m.black);
   const auto luma = [&](hn::Vec<YuvPairs> r, hn::Vec<YuvPairs> g, hn::Vec<YuvPairs> b) HWY_ATTR {
     return hn::Add(black, WeighColours(hn::ShiftLeft<7>(r), hn::ShiftLeft<7>(g),
                                        hn::ShiftLeft<7>(b), m.yr, m.yg, m.yb));
   };
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(d8), [&](size_t n) HWY_ATTR {
     hn::Vec<YuvCodes> r, g, b;
     hn::LoadInterleaved3(d8, rgb + 3 * n, r, g, b);
     hn::StoreU(JoinCodes(luma(EvenCodes(r), EvenCodes(g), EvenCodes(b)),
                          luma(OddCodes(r), OddCodes(g), OddCodes(b))),
                d8, y + n);
-  }
-  reference::RgbToLuma(rgb + 3 * n, count - n, m, y + n);
+  });
+  if (!done) reference::RgbToLuma(rgb, count, m, y);
 }
 
 // 32 times the sums of two pixels beside each other and the two below them.
@@ -127,10 +133,8 @@ inline void RgbToChroma(const uint8_t* HWY_RESTRICT upper, const uint8_t* HWY_RE
   const YuvCodes d8;
   const YuvPairs d16;
   const hn::Rebind<uint8_t, YuvPairs> dhalf;
-  const size_t lanes = hn::Lanes(d8);
   const auto grey = hn::Set(d16, int16_t{128});
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const size_t done = ForPairs(count, [&](size_t n) HWY_ATTR {
     hn::Vec<YuvCodes> r, g, b, below_r, below_g, below_b;
     hn::LoadInterleaved3(d8, upper + 3 * n, r, g, b);
     hn::LoadInterleaved3(d8, lower + 3 * n, below_r, below_g, below_b);
@@ -140,8 +144,9 @@ inline void RgbToChroma(const uint8_t* HWY_RESTRICT upper, const uint8_t* HWY_RE
     const auto of_v = WeighColours(sum_r, sum_g, sum_b, m.vr, m.vg, m.vb);
     hn::StoreU(hn::DemoteTo(dhalf, hn::Add(grey, of_u)), dhalf, u + n / 2);
     hn::StoreU(hn::DemoteTo(dhalf, hn::Add(grey, of_v)), dhalf, v + n / 2);
-  }
-  reference::RgbToChroma(upper + 3 * n, lower + 3 * n, count - n, m, u + n / 2, v + n / 2);
+  });
+  reference::RgbToChroma(upper + 3 * done, lower + 3 * done, count - done, m, u + done / 2,
+                         v + done / 2);
 }
 
 #endif
@@ -149,26 +154,22 @@ inline void RgbToChroma(const uint8_t* HWY_RESTRICT upper, const uint8_t* HWY_RE
 inline void SplitPairs(const uint8_t* HWY_RESTRICT pairs, size_t count, uint8_t* HWY_RESTRICT first,
                        uint8_t* HWY_RESTRICT second) {
   const hn::ScalableTag<uint8_t> d8;
-  const size_t lanes = hn::Lanes(d8);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(d8), [&](size_t n) HWY_ATTR {
     hn::Vec<decltype(d8)> a, b;
     hn::LoadInterleaved2(d8, pairs + 2 * n, a, b);
     hn::StoreU(a, d8, first + n);
     hn::StoreU(b, d8, second + n);
-  }
-  reference::SplitPairs(pairs + 2 * n, count - n, first + n, second + n);
+  });
+  if (!done) reference::SplitPairs(pairs, count, first, second);
 }
 
 inline void JoinPairs(const uint8_t* HWY_RESTRICT first, const uint8_t* HWY_RESTRICT second,
                       size_t count, uint8_t* HWY_RESTRICT pairs) {
   const hn::ScalableTag<uint8_t> d8;
-  const size_t lanes = hn::Lanes(d8);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) {
+  const bool done = ForVectors(count, hn::Lanes(d8), [&](size_t n) HWY_ATTR {
     hn::StoreInterleaved2(hn::LoadU(d8, first + n), hn::LoadU(d8, second + n), d8, pairs + 2 * n);
-  }
-  reference::JoinPairs(first + n, second + n, count - n, pairs + 2 * n);
+  });
+  if (!done) reference::JoinPairs(first, second, count, pairs);
 }
 
 }  // namespace HWY_NAMESPACE
