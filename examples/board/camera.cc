@@ -6,6 +6,7 @@
 #include <new>
 
 #include "platform/file.h"
+#include "platform/problem.h"
 
 namespace starfocus {
 
@@ -42,13 +43,16 @@ std::string Camera::Load(const std::string& folder, sf_mode mode) {
   config.disparity_max = stats_.max;
   config.max_blur = std::max(1.0, std::ceil(apertures_[0] * range));
   config.max_workers = runner_.workers();
+  sf_problem problem = {};
+  config.problem = &problem;
   status = sf_workspace_size(&config, &bytes_);
   if (status == SF_OK) {
     workspace_.reset(::operator new (bytes_, std::align_val_t{SF_ALIGNMENT}));
     status = sf_init(&config, workspace_.get(), bytes_, &engine_);
   }
   if (status != SF_OK) {
-    return Expected(folder, "a light field that the engine refocuses", sf_status_string(status));
+    return Expected(folder, "a light field that the engine refocuses",
+                    Describe(status, &problem).text);
   }
   for (size_t i = 0; i < light_field_.views.size(); ++i) {
     rows_.views[i] = {light_field_.views[i].row(0), light_field_.views[i].stride()};

@@ -84,7 +84,7 @@ class Engine {
     const sf_status status =
         sf_refocus(engine_, &params, &field, out_.data(), 3 * side, nullptr, nullptr, nullptr);
     if (status != SF_OK) return status;
-    return state().stripe.plan.used == 1 ? SF_OK : SF_ERROR_BLOCK;
+    return state().stripe.plan.used == 1 ? SF_OK : SF_ERROR_STATE;
   }
 
  private:
@@ -128,11 +128,11 @@ Kernel ReadKernel(const std::vector<double>& levels, const std::vector<double>& 
 }  // namespace
 
 sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result) {
-  if (probe.layer < 0 || probe.layer >= SF_LAYERS) return SF_ERROR_LAYER;
+  if (probe.layer < 0 || probe.layer >= SF_LAYERS) return SF_ERROR_RANGE;
   const int radius = static_cast<int>(std::ceil(std::fabs(probe.r))) + kReach[probe.layer];
   const int places = 1 << probe.layer;
   const int middle = (radius + places - 1) / places * places, side = middle + places + radius;
-  if (side > kBlock) return SF_ERROR_MAX_BLUR;
+  if (side > kBlock) return SF_ERROR_BLUR;
   const uint8_t dark = kDark[probe.layer];
   Impulse impulse(side, probe.r, dark);
   Engine engine(ConfigOf(side, probe));

@@ -26,7 +26,7 @@ struct EngineKernel {
 
 // At layer 0 reads the 32-bit accumulators that sf_refocus leaves behind, because rounding to bytes
 // hides all taps below 1/510; from a layer, samples to 1/64 gray level before they are rounded.
-// *result is valid for SF_OK only. SF_ERROR_BLOCK: the picture was split into blocks.
+// *result is valid for SF_OK only. SF_ERROR_STATE: the picture was split into blocks.
 sf_status MeasureEngineKernel(const EngineProbe& probe, EngineKernel* result);
 
 }  // namespace starfocus::analysis

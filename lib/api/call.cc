@@ -32,7 +32,10 @@ sf_status CheckCall(const sf_config& config, const sf_params& params, const Prep
   sf_status status = CheckParams(config, params);
   if (status == SF_OK) status = CheckRegion(config, params.region);
   if (status != SF_OK) return status;
-  return prepared != nullptr && !Fits(*prepared, config) ? SF_ERROR_PREPARED : SF_OK;
+  Checker check(config.problem);
+  check.Need(prepared == nullptr || Fits(*prepared, config), SF_ERROR_PREPARED, {"prepared"},
+             {"of the same size, views, disparity range, max_layer and transfer"});
+  return check.status();
 }
 
 Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {

@@ -13,23 +13,17 @@ namespace starfocus {
 namespace {
 
 sf_status CheckDepthConfig(const sf_depth_config& config, bool repairs) {
-  if (config.version != SF_ABI_VERSION) return SF_ERROR_VERSION;
+  Checker check(config.problem);
   for (const uint32_t value : config.reserved) {
-    if (value != 0) return SF_ERROR_RESERVED;
+    check.Need(value == 0, SF_ERROR_RANGE, {"reserved"}, {"0"});
   }
-  if (config.width < 1 || config.width > SF_MAX_SIZE || config.height < 1 ||
-      config.height > SF_MAX_SIZE) {
-    return SF_ERROR_SIZE;
-  }
+  CheckPictureRange(
+      {config.width, config.height, config.disparity_min, config.disparity_max, config.max_workers},
+      &check);
   const bool one = config.views == 1 && repairs;
-  if (!one && config.views != 5 && config.views != 9 && config.views != 17) return SF_ERROR_VIEWS;
-  // The comparison is written so that NaN fails.
-  if (!(config.disparity_min >= -SF_MAX_DISPARITY && config.disparity_max <= SF_MAX_DISPARITY &&
-        config.disparity_min <= config.disparity_max)) {
-    return SF_ERROR_DISPARITY_RANGE;
-  }
-  const bool workers = config.max_workers >= 1 && config.max_workers <= SF_MAX_WORKERS;
-  return workers ? SF_OK : SF_ERROR_WORKERS;
+  check.Need(one || config.views == 5 || config.views == 9 || config.views == 17, SF_ERROR_RANGE,
+             {"views", double(config.views)}, {"5, 9 or 17, or 1 of a repair"});
+  return check.status();
 }
 
 // The planes of a call: what is written, then what is read.
@@ -63,26 +57,26 @@ DepthPlanes PlanesOf(const sf_depth_config& config, const sf_light_field& light_
   return planes;
 }
 
-// Checks that what is written overlaps nothing else, and the given map not the workspace.
-sf_status CheckApart(const DepthPlanes& planes, const Extent& workspace) {
+bool AreApart(const DepthPlanes& planes, const Extent& workspace) {
   for (int k = 0; k < planes.writes; ++k) {
-    if (Overlaps(planes.written[k], workspace)) return SF_ERROR_OVERLAP;
+    if (Overlaps(planes.written[k], workspace)) return false;
     for (int other = 0; other < k; ++other) {
-      if (Overlaps(planes.written[k], planes.written[other])) return SF_ERROR_OVERLAP;
+      if (Overlaps(planes.written[k], planes.written[other])) return false;
     }
     for (int read = 0; read < planes.reads; ++read) {
-      if (Overlaps(planes.written[k], planes.read[read])) return SF_ERROR_OVERLAP;
+      if (Overlaps(planes.written[k], planes.read[read])) return false;
     }
   }
   for (int read = 0; read < planes.reads; ++read) {
-    if (Overlaps(planes.read[read], workspace)) return SF_ERROR_OVERLAP;
+    if (Overlaps(planes.read[read], workspace)) return false;
   }
-  return SF_OK;
+  return true;
 }
 
 // Checks the map that is to be repaired: its finite values lie in the configured range, and there
 // is one.
 sf_status CheckGiven(const sf_depth_config& config, const sf_light_field& light_field) {
+  Checker check(config.problem);
   bool any = false;
   for (int32_t y = 0; y < config.height; ++y) {
     const float* row = light_field.disparity +
@@ -90,12 +84,13 @@ sf_status CheckGiven(const sf_depth_config& config, const sf_light_field& light_
     for (int32_t x = 0; x < config.width; ++x) {
       if (!std::isfinite(row[x])) continue;
       any = true;
-      if (row[x] < config.disparity_min || row[x] > config.disparity_max) {
-        return SF_ERROR_DISPARITY;
-      }
+      check.Need(row[x] >= config.disparity_min && row[x] <= config.disparity_max,
+                 SF_ERROR_DISPARITY, {"disparity", row[x]},
+                 {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
     }
   }
-  return any ? SF_OK : SF_ERROR_ALL_INVALID;
+  check.Need(any, SF_ERROR_ALL_INVALID, {"disparity"}, {"a finite value"});
+  return check.status();
 }
 
 EstimatePlan PlanOf(const sf_depth_config& config, bool repairs) {
@@ -105,8 +100,8 @@ EstimatePlan PlanOf(const sf_depth_config& config, bool repairs) {
 }
 
 sf_status SizeOf(const sf_depth_config* config, bool repairs, size_t* bytes) {
-  if (config == nullptr || bytes == nullptr) return SF_ERROR_NULL;
-  const sf_status status = CheckDepthConfig(*config, repairs);
+  sf_status status = EnterConfig(config, {{"bytes", bytes}});
+  if (status == SF_OK) status = CheckDepthConfig(*config, repairs);
   if (status != SF_OK) return status;
   const EstimatePlan plan = PlanOf(*config, repairs);
   EstimateMemory* counted = nullptr;
@@ -129,31 +124,40 @@ struct DepthCall {
 
 sf_status CheckStrides(const sf_depth_config& config, const sf_map& map) {
   const auto width = static_cast<size_t>(config.width);
-  const bool valid =
-      (map.confidence == nullptr || ValidStride(map.confidence_stride, width, config.height)) &&
-      (map.coverage == nullptr || ValidStride(map.coverage_stride, width, config.height));
-  return valid ? SF_OK : SF_ERROR_STRIDE;
+  Checker check(config.problem);
+  check.Stride(
+      map.confidence == nullptr || ValidStride(map.confidence_stride, width, config.height),
+      "map.confidence_stride", map.confidence_stride);
+  check.Stride(map.coverage == nullptr || ValidStride(map.coverage_stride, width, config.height),
+               "map.coverage_stride", map.coverage_stride);
+  return check.status();
 }
 
 // Checks all arguments of a call.
 sf_status CheckCall(const DepthCall& call, bool repairs, const sf_map& map) {
   size_t needed = 0;
   sf_status status = SizeOf(call.config, repairs, &needed);
-  if (status == SF_OK) status = CheckMemory(call.workspace);
+  sf_problem* const problem = call.config->problem;
+  if (status == SF_OK) {
+    status = CheckMemory({"workspace", call.workspace, call.bytes}, needed, problem);
+  }
   if (status != SF_OK) return status;
-  if (call.bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
   const sf_depth_config& config = *call.config;
   const sf_light_field& light_field = *call.light_field;
   const int32_t width = config.width, height = config.height;
-  status = CheckViews(config.views, width, height, light_field);
-  if (status == SF_OK) status = CheckMap(map.disparity, map.disparity_stride, width, height);
+  status = CheckViews(config.views, width, height, light_field, problem);
+  if (status == SF_OK)
+    status = CheckMap({map.disparity, map.disparity_stride}, width, height, problem);
   if (status == SF_OK && repairs) {
-    status = CheckMap(light_field.disparity, light_field.disparity_stride, width, height);
+    status =
+        CheckMap({light_field.disparity, light_field.disparity_stride}, width, height, problem);
   }
   if (status == SF_OK) status = CheckStrides(config, map);
   if (status != SF_OK) return status;
   const auto begin = reinterpret_cast<uintptr_t>(call.workspace);
-  status = CheckApart(PlanesOf(config, light_field, repairs, map), {begin, begin + needed});
+  if (!AreApart(PlanesOf(config, light_field, repairs, map), {begin, begin + needed})) {
+    return Refuse(SF_ERROR_OVERLAP, {"map"}, {"apart from inputs and workspace"}, problem);
+  }
   return status == SF_OK && repairs ? CheckGiven(config, light_field) : status;
 }
 
@@ -197,11 +201,10 @@ sf_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& outpu
 
 // Checks a call and does it.
 sf_status RunCall(const DepthCall& call, bool repairs, const Runner& runner, sf_map* map) {
-  if (call.config == nullptr || call.light_field == nullptr || call.workspace == nullptr ||
-      map == nullptr) {
-    return SF_ERROR_NULL;
-  }
-  const sf_status status = CheckCall(call, repairs, *map);
+  sf_status status =
+      EnterConfig(call.config,
+                  {{"light_field", call.light_field}, {"map", map}, {"workspace", call.workspace}});
+  if (status == SF_OK) status = CheckCall(call, repairs, *map);
   if (status != SF_OK) return status;
   map->has_coverage = 0;
   const MapOutput output = {map->disparity,

@@ -24,7 +24,7 @@ void FillLine(const MapLine& line) { FillGaps(line, line.length, IsFinite); }
 sf_status sf_measure_disparity(const float* disparity, size_t stride, int32_t width, int32_t height,
                                sf_disparity_stats* stats) {
   if (stats == nullptr) return SF_ERROR_NULL;
-  const sf_status status = starfocus::CheckMap(disparity, stride, width, height);
+  const sf_status status = starfocus::CheckMap({disparity, stride}, width, height, nullptr);
   if (status != SF_OK) return status;
   sf_disparity_stats found = {0.0f, 0.0f, 0};
   bool any = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C ABI for whole images and regions of them.
 #include "lib/api/call.h"
+#include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/source/image_field.h"
 #include "lib/source/image_output.h"
@@ -20,14 +21,14 @@ struct Request {
 sf_status Refocus(const Request& request, const Runner& runner, EngineState* engine,
                   sf_report* report) {
   const sf_config& config = engine->config;
-  if (config.images == 0) return SF_ERROR_STATE;
-  sf_status status = CheckCall(config, request.params, request.prepared);
+  sf_status status = NeedImages(config);
+  if (status == SF_OK) status = CheckCall(config, request.params, request.prepared);
   if (status == SF_OK) status = CheckImageField(config, request.field);
   if (status != SF_OK) return status;
   const Rect rect = RegionOf(config, request.params);
   Extents read = MemoryOf(*engine, request.prepared);
   AddImageField(config, request.field, &read);
-  status = CheckImageOutput(AsImage(request.out), rect.width, rect.height, read);
+  status = CheckImageOutput(AsImage(request.out), rect, read, config.problem);
   if (status != SF_OK) return status;
   ImageField field;
   MakeImageField(request.field, 0, engine, &field);
@@ -46,9 +47,9 @@ using starfocus::EngineState;
 sf_status sf_refocus_images(sf_engine* engine, const sf_params* params, const sf_image_field* field,
                             const sf_image_out* out, sf_runner runner, void* runner_data,
                             sf_report* report) {
-  if (engine == nullptr || params == nullptr || field == nullptr || out == nullptr) {
-    return SF_ERROR_NULL;
-  }
+  const sf_status status =
+      starfocus::EnterEngine(engine, {{"params", params}, {"field", field}, {"out", out}});
+  if (status != SF_OK) return status;
   return starfocus::Refocus({*params, *field, nullptr, *out}, {runner, runner_data},
                             reinterpret_cast<EngineState*>(engine), report);
 }
@@ -56,11 +57,14 @@ sf_status sf_refocus_images(sf_engine* engine, const sf_params* params, const sf
 sf_status sf_refocus_prepared_images(sf_engine* engine, const sf_params* params,
                                      const sf_prepared* prepared, const sf_image_out* out,
                                      sf_runner runner, void* runner_data, sf_report* report) {
-  if (engine == nullptr || params == nullptr || prepared == nullptr || out == nullptr) {
-    return SF_ERROR_NULL;
-  }
+  const sf_status status =
+      starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}, {"out", out}});
+  if (status != SF_OK) return status;
   const auto* p = reinterpret_cast<const starfocus::Prepared*>(prepared);
-  if (p->images == nullptr) return SF_ERROR_PREPARED;
+  if (p->images == nullptr) {
+    return starfocus::Refuse(SF_ERROR_PREPARED, {"prepared"}, {"of sf_prepare_images"},
+                             &reinterpret_cast<EngineState*>(engine)->problem);
+  }
   return starfocus::Refocus({*params, *p->images, p, *out}, {runner, runner_data},
                             reinterpret_cast<EngineState*>(engine), report);
 }

@@ -50,10 +50,10 @@ size_t sf_struct_size(const char* name) {
       SIZE_OF(sf_allocator),       SIZE_OF(sf_block),        SIZE_OF(sf_config),
       SIZE_OF(sf_depth_config),    SIZE_OF(sf_layer_report), SIZE_OF(sf_light_field),
       SIZE_OF(sf_disparity_stats), SIZE_OF(sf_params),       SIZE_OF(sf_plane),
-      SIZE_OF(sf_position),        SIZE_OF(sf_previous),     SIZE_OF(sf_region),
-      SIZE_OF(sf_report),          SIZE_OF(sf_skipped),      SIZE_OF(sf_timing),
-      SIZE_OF(sf_image),           SIZE_OF(sf_image_out),    SIZE_OF(sf_image_field),
-      SIZE_OF(sf_depth_map),       SIZE_OF(sf_map)};
+      SIZE_OF(sf_problem),         SIZE_OF(sf_position),     SIZE_OF(sf_previous),
+      SIZE_OF(sf_region),          SIZE_OF(sf_report),       SIZE_OF(sf_skipped),
+      SIZE_OF(sf_timing),          SIZE_OF(sf_image),        SIZE_OF(sf_image_out),
+      SIZE_OF(sf_image_field),     SIZE_OF(sf_depth_map),    SIZE_OF(sf_map)};
 #undef SIZE_OF
   if (name == nullptr) return 0;
   for (const Entry& entry : kSizes) {
@@ -99,8 +99,8 @@ int sf_view_position(int32_t index, double* u, double* v) {
 }
 
 sf_status sf_workspace_size(const sf_config* config, size_t* bytes) {
-  if (config == nullptr || bytes == nullptr) return SF_ERROR_NULL;
-  const sf_status status = starfocus::CheckConfig(*config);
+  sf_status status = starfocus::EnterConfig(config, {{"bytes", bytes}});
+  if (status == SF_OK) status = starfocus::CheckConfig(*config);
   if (status != SF_OK) return status;
   EngineState* counted = nullptr;
   const size_t needed = starfocus::LayOut(starfocus::Choose(*config), nullptr, &counted);
@@ -112,22 +112,27 @@ sf_status sf_workspace_size(const sf_config* config, size_t* bytes) {
 sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_engine** engine) {
   if (engine == nullptr) return SF_ERROR_NULL;
   *engine = nullptr;
-  if (config == nullptr || workspace == nullptr) return SF_ERROR_NULL;
   size_t needed = 0;
   sf_status status = sf_workspace_size(config, &needed);
-  if (status == SF_OK) status = starfocus::CheckMemory(workspace);
+  if (status == SF_OK) {
+    status = starfocus::CheckMemory({"workspace", workspace, bytes}, needed, config->problem);
+  }
   if (status != SF_OK) return status;
-  if (bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
   new (workspace) EngineState();
   EngineState* made = nullptr;
   const sf_config chosen = starfocus::Choose(*config);
   starfocus::LayOut(chosen, workspace, &made);
   made->config = chosen;
+  made->config.problem = &made->problem;
   made->kernels = &starfocus::simd::BestKernels();
   made->tables.opening = starfocus::OpeningOf(chosen);
   made->tables.mean_square = starfocus::MeanSquare(made->tables.opening);
   *engine = reinterpret_cast<sf_engine*>(made);
   return SF_OK;
+}
+
+const sf_problem* sf_engine_problem(const sf_engine* engine) {
+  return engine == nullptr ? nullptr : &reinterpret_cast<const EngineState*>(engine)->problem;
 }
 
 const char* sf_simd_target(void) { return starfocus::simd::BestKernels().name; }

@@ -105,9 +105,9 @@ double MostCommon(const Sorted& sorted) {
 sf_status sf_focus_at(const float* disparity, size_t stride, int32_t width, int32_t height,
                       int32_t x, int32_t y, double* focus) {
   if (focus == nullptr) return SF_ERROR_NULL;
-  const sf_status status = starfocus::CheckMap(disparity, stride, width, height);
+  const sf_status status = starfocus::CheckMap({disparity, stride}, width, height, nullptr);
   if (status != SF_OK) return status;
-  if (x < 0 || x >= width || y < 0 || y >= height) return SF_ERROR_POSITION;
+  if (x < 0 || x >= width || y < 0 || y >= height) return SF_ERROR_RANGE;
   const starfocus::Map map = {disparity, stride / sizeof(float), width, height};
   starfocus::Sorted sorted;
   if (!starfocus::SortAround(map, x, y, &sorted)) return SF_ERROR_NOT_FINITE;
@@ -124,7 +124,7 @@ sf_status sf_focus_at(const float* disparity, size_t stride, int32_t width, int3
 sf_status sf_aperture_of_f_stop(double f_stop, double widest, double* aperture) {
   if (aperture == nullptr) return SF_ERROR_NULL;
   // The comparison is written so that NaN fails.
-  if (!(widest > 0.0 && widest <= f_stop && std::isfinite(f_stop))) return SF_ERROR_F_STOP;
+  if (!(widest > 0.0 && widest <= f_stop && std::isfinite(f_stop))) return SF_ERROR_RANGE;
   *aperture = widest / f_stop;
   return SF_OK;
 }

@@ -21,7 +21,7 @@ struct Request {
 sf_status CheckPrevious(const sf_config& config, const sf_previous& previous, const Rect& rect) {
   const sf_status status = CheckLightField(config, previous.light_field);
   if (status != SF_OK) return status;
-  return CheckOutput(rect.width, rect.height, previous.out, previous.out_stride);
+  return CheckOutput(config, rect, previous.out, previous.out_stride);
 }
 
 // Checks what `out` may not overlap: all that is read, and the engine.
@@ -34,7 +34,7 @@ sf_status CheckOverlap(const Request& request, const Rect& rect, const EngineSta
     read.AddRows(previous->out, previous->out_stride, rect.height, row_bytes);
   }
   const Extent out = ExtentOf(request.out, request.out_stride, rect.height, row_bytes);
-  return Overlaps(out, read) ? SF_ERROR_OVERLAP : SF_OK;
+  return CheckApart(out, read, "out", engine.config.problem);
 }
 
 // What the picture before can be compared with: both light fields have coverage, or none has.
@@ -51,9 +51,7 @@ sf_status Refocus(const Request& request, const Runner& runner, EngineState* eng
   sf_status status = CheckCall(config, request.params, request.prepared);
   if (status == SF_OK) status = CheckLightField(config, request.light_field);
   const Rect rect = RegionOf(config, request.params);
-  if (status == SF_OK) {
-    status = CheckOutput(rect.width, rect.height, request.out, request.out_stride);
-  }
+  if (status == SF_OK) status = CheckOutput(config, rect, request.out, request.out_stride);
   if (status == SF_OK && request.previous != nullptr) {
     status = CheckPrevious(config, *request.previous, rect);
   }
@@ -80,7 +78,9 @@ using starfocus::EngineState;
 sf_status sf_refocus(sf_engine* engine, const sf_params* params, const sf_light_field* light_field,
                      uint8_t* out, size_t out_stride, sf_runner runner, void* runner_data,
                      sf_report* report) {
-  if (engine == nullptr || params == nullptr || light_field == nullptr) return SF_ERROR_NULL;
+  const sf_status status =
+      starfocus::EnterEngine(engine, {{"params", params}, {"light_field", light_field}});
+  if (status != SF_OK) return status;
   return starfocus::Refocus({*params, *light_field, nullptr, nullptr, out, out_stride},
                             {runner, runner_data}, reinterpret_cast<EngineState*>(engine), report);
 }
@@ -89,9 +89,9 @@ sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
                            const sf_light_field* light_field, const sf_previous* previous,
                            uint8_t* out, size_t out_stride, sf_runner runner, void* runner_data,
                            sf_report* report) {
-  if (engine == nullptr || params == nullptr || light_field == nullptr || previous == nullptr) {
-    return SF_ERROR_NULL;
-  }
+  const sf_status status = starfocus::EnterEngine(
+      engine, {{"params", params}, {"light_field", light_field}, {"previous", previous}});
+  if (status != SF_OK) return status;
   return starfocus::Refocus({*params, *light_field, nullptr, previous, out, out_stride},
                             {runner, runner_data}, reinterpret_cast<EngineState*>(engine), report);
 }
@@ -99,9 +99,14 @@ sf_status sf_refocus_after(sf_engine* engine, const sf_params* params,
 sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
                               const sf_prepared* prepared, uint8_t* out, size_t out_stride,
                               sf_runner runner, void* runner_data, sf_report* report) {
-  if (engine == nullptr || params == nullptr || prepared == nullptr) return SF_ERROR_NULL;
+  const sf_status status =
+      starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}});
+  if (status != SF_OK) return status;
   const auto* p = reinterpret_cast<const starfocus::Prepared*>(prepared);
-  if (p->images != nullptr) return SF_ERROR_PREPARED;
+  if (p->images != nullptr) {
+    return starfocus::Refuse(SF_ERROR_PREPARED, {"prepared"}, {"of sf_prepare"},
+                             &reinterpret_cast<EngineState*>(engine)->problem);
+  }
   return starfocus::Refocus({*params, p->light_field, p, nullptr, out, out_stride},
                             {runner, runner_data}, reinterpret_cast<EngineState*>(engine), report);
 }

@@ -11,14 +11,14 @@
 namespace starfocus {
 
 sf_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call, Extents* read) {
-  const sf_status status = CheckMemory(call.memory);
-  if (status != SF_OK) return status;
   Prepared* counted = nullptr;
   const size_t needed = LayOutPrepared(engine.config, nullptr, &counted);
   if (needed == kTooLarge) return SF_ERROR_TOO_LARGE;
-  if (call.bytes < needed) return SF_ERROR_WORKSPACE_SMALL;
+  sf_problem* const problem = engine.config.problem;
+  const sf_status status = CheckMemory({"memory", call.memory, call.bytes}, needed, problem);
+  if (status != SF_OK) return status;
   read->Add(Workspace(engine));
-  return Overlaps(ExtentOf(call.memory, 0, 1, needed), *read) ? SF_ERROR_OVERLAP : SF_OK;
+  return CheckApart(ExtentOf(call.memory, 0, 1, needed), *read, "memory", problem);
 }
 
 }  // namespace starfocus
@@ -27,8 +27,8 @@ using starfocus::EngineState;
 using starfocus::Prepared;
 
 sf_status sf_prepared_size(const sf_config* config, size_t* bytes) {
-  if (config == nullptr || bytes == nullptr) return SF_ERROR_NULL;
-  const sf_status status = starfocus::CheckConfig(*config);
+  sf_status status = starfocus::EnterConfig(config, {{"bytes", bytes}});
+  if (status == SF_OK) status = starfocus::CheckConfig(*config);
   if (status != SF_OK) return status;
   Prepared* counted = nullptr;
   const size_t needed = starfocus::LayOutPrepared(*config, nullptr, &counted);
@@ -40,13 +40,14 @@ sf_status sf_prepared_size(const sf_config* config, size_t* bytes) {
 sf_status sf_prepare(sf_engine* engine, const sf_light_field* light_field, void* memory,
                      size_t bytes, sf_progress progress, void* progress_data, sf_runner runner,
                      void* runner_data, sf_prepared** prepared) {
-  if (prepared == nullptr) return SF_ERROR_NULL;
-  *prepared = nullptr;
-  if (engine == nullptr || light_field == nullptr) return SF_ERROR_NULL;
+  if (prepared != nullptr) *prepared = nullptr;
+  sf_status status =
+      starfocus::EnterEngine(engine, {{"light_field", light_field}, {"prepared", prepared}});
+  if (status != SF_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   const starfocus::PrepareCall call = {
       memory, bytes, progress, progress_data, {runner, runner_data}};
-  sf_status status = starfocus::CheckLightField(e.config, *light_field);
+  status = starfocus::CheckLightField(e.config, *light_field);
   if (status != SF_OK) return status;
   starfocus::Extents read;
   read.AddLightField(e.config, *light_field);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light fields of images, prepared.
 #include "lib/api/prepare.h"
+#include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/source/image_field.h"
 #include "lib/source/prepared.h"
@@ -9,14 +10,14 @@
 sf_status sf_prepare_images(sf_engine* engine, const sf_image_field* field, void* memory,
                             size_t bytes, sf_progress progress, void* progress_data,
                             sf_runner runner, void* runner_data, sf_prepared** prepared) {
-  if (prepared == nullptr) return SF_ERROR_NULL;
-  *prepared = nullptr;
-  if (engine == nullptr || field == nullptr) return SF_ERROR_NULL;
+  if (prepared != nullptr) *prepared = nullptr;
+  sf_status status = starfocus::EnterEngine(engine, {{"field", field}, {"prepared", prepared}});
+  if (status != SF_OK) return status;
   auto& e = *reinterpret_cast<starfocus::EngineState*>(engine);
-  if (e.config.images == 0) return SF_ERROR_STATE;
   const starfocus::PrepareCall call = {
       memory, bytes, progress, progress_data, {runner, runner_data}};
-  sf_status status = starfocus::CheckImageField(e.config, *field);
+  status = starfocus::NeedImages(e.config);
+  if (status == SF_OK) status = starfocus::CheckImageField(e.config, *field);
   if (status != SF_OK) return status;
   starfocus::Extents read;
   starfocus::AddImageField(e.config, *field, &read);

@@ -44,11 +44,11 @@ void UseReduced(const Prepared& prepared, int32_t shift, EngineState* engine) {
 sf_status CheckPicture(const Picture& picture, const PreviewRequest& request,
                        const EngineState& engine) {
   const Rect& rect = picture.rect;
-  const sf_status status = CheckOutput(rect.width, rect.height, picture.data, picture.stride);
+  const sf_status status = CheckOutput(engine.config, rect, picture.data, picture.stride);
   if (status != SF_OK) return status;
   const Extent out =
       ExtentOf(picture.data, picture.stride, rect.height, 3 * static_cast<size_t>(rect.width));
-  return Overlaps(out, MemoryOf(engine, &request.prepared)) ? SF_ERROR_OVERLAP : SF_OK;
+  return CheckApart(out, MemoryOf(engine, &request.prepared), "out", engine.config.problem);
 }
 
 }  // namespace
@@ -57,10 +57,12 @@ sf_status CheckPreview(const PreviewRequest& request, const EngineState& engine)
   const sf_config& config = engine.config;
   const sf_status status = CheckCall(config, request.params, &request.prepared);
   if (status != SF_OK) return status;
-  if (request.shift < 1 || request.shift > request.prepared.config.previews) {
-    return SF_ERROR_PREVIEW;
-  }
-  return LargestBlur(config, request.params) > config.max_blur ? SF_ERROR_BLUR_TOO_LARGE : SF_OK;
+  const int32_t most = request.prepared.config.previews;
+  Checker check(config.problem);
+  check.Need(request.shift >= 1 && request.shift <= most, SF_ERROR_PREPARED,
+             {"shift", double(request.shift)}, {"1 to previews", 1, double(most)});
+  if (check.status() != SF_OK) return check.status();
+  return CheckBlur(config, LargestBlur(config, request.params));
 }
 
 Rect PreviewRect(const PreviewRequest& request, const EngineState& engine) {
@@ -81,11 +83,12 @@ sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
                              const sf_prepared* prepared, int32_t shift, uint8_t* out,
                              size_t out_stride, sf_runner runner, void* runner_data,
                              sf_report* report) {
-  if (engine == nullptr || params == nullptr || prepared == nullptr) return SF_ERROR_NULL;
+  sf_status status = starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}});
+  if (status != SF_OK) return status;
   auto& e = *reinterpret_cast<starfocus::EngineState*>(engine);
   const starfocus::PreviewRequest request = {
       *params, *reinterpret_cast<const starfocus::Prepared*>(prepared), shift};
-  sf_status status = starfocus::CheckPreview(request, e);
+  status = starfocus::CheckPreview(request, e);
   if (status != SF_OK) return status;
   const starfocus::Picture picture = {out, out_stride, starfocus::PreviewRect(request, e)};
   status = starfocus::CheckPicture(picture, request, e);

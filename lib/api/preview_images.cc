@@ -2,6 +2,7 @@
 // Previews into images.
 #include "lib/api/call.h"
 #include "lib/api/preview.h"
+#include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/source/image_output.h"
 #include "starfocus/image.h"
@@ -10,18 +11,19 @@ sf_status sf_refocus_preview_images(sf_engine* engine, const sf_params* params,
                                     const sf_prepared* prepared, int32_t shift,
                                     const sf_image_out* out, sf_runner runner, void* runner_data,
                                     sf_report* report) {
-  if (engine == nullptr || params == nullptr || prepared == nullptr || out == nullptr) {
-    return SF_ERROR_NULL;
-  }
+  sf_status status =
+      starfocus::EnterEngine(engine, {{"params", params}, {"prepared", prepared}, {"out", out}});
+  if (status != SF_OK) return status;
   auto& e = *reinterpret_cast<starfocus::EngineState*>(engine);
-  if (e.config.images == 0) return SF_ERROR_STATE;
+  status = starfocus::NeedImages(e.config);
+  if (status != SF_OK) return status;
   const starfocus::PreviewRequest request = {
       *params, *reinterpret_cast<const starfocus::Prepared*>(prepared), shift};
-  sf_status status = starfocus::CheckPreview(request, e);
+  status = starfocus::CheckPreview(request, e);
   if (status != SF_OK) return status;
   const starfocus::Rect rect = starfocus::PreviewRect(request, e);
-  status = starfocus::CheckImageOutput(starfocus::AsImage(*out), rect.width, rect.height,
-                                       starfocus::MemoryOf(e, &request.prepared));
+  status = starfocus::CheckImageOutput(starfocus::AsImage(*out), rect,
+                                       starfocus::MemoryOf(e, &request.prepared), e.config.problem);
   if (status != SF_OK) return status;
   const starfocus::ImageOutput output = {
       &starfocus::simd::BestImageKernels(), starfocus::PlanesOf(*out), rect, {{}, 1}};

@@ -2,6 +2,7 @@
 // The streaming half of the C ABI: rows in, finished rows out, through the engine's line rings.
 #include "lib/api/stream.h"
 
+#include "lib/api/call.h"
 #include "lib/api/validate.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/stripe.h"
@@ -32,7 +33,22 @@ sf_status RefocusNext(EngineState* engine, const Runner& runner) {
   return watch.Ask() ? SF_OK : SF_ERROR_CANCELLED;
 }
 
+sf_status CheckCount(const EngineState& engine, int32_t rows, int32_t most) {
+  Checker check(engine.config.problem);
+  check.Need(engine.stream.active, SF_ERROR_STATE, {"stream"}, {"sf_stream_begin before"});
+  check.In({"rows", double(rows)}, {"rows that are left", 0, double(most)});
+  return check.status();
+}
+
 }  // namespace
+
+sf_status CheckPush(const EngineState& engine, int32_t rows) {
+  return CheckCount(engine, rows, engine.config.height - engine.stream.pushed);
+}
+
+sf_status CheckPull(const EngineState& engine, int32_t rows) {
+  return CheckCount(engine, rows, INT32_MAX);
+}
 
 sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
                    int32_t* consumed) {
@@ -45,7 +61,9 @@ sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineSt
       engine->pictures.windows[0].given_coverage = {ring.data, ring.stride, ring.rows, 0};
     }
   }
-  if (covers != stream.covers) return SF_ERROR_STATE;
+  Checker check(engine->config.problem);
+  check.Need(covers == stream.covers, SF_ERROR_STATE, {"coverage"}, {"in all rows or in none"});
+  if (check.status() != SF_OK) return check.status();
   while (*consumed < rows && stream.pushed < NeededRows(*engine)) {
     const int32_t some = Min(unit, rows - *consumed);
     const sf_report report = engine->report;
@@ -87,12 +105,15 @@ sf_status PullRows(const RowSink& sink, int32_t rows, const Runner& runner, Engi
 using starfocus::EngineState;
 
 sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
-  if (engine == nullptr || params == nullptr) return SF_ERROR_NULL;
-  EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  sf_status status = starfocus::CheckParams(e.config, *params);
+  sf_status status = starfocus::EnterEngine(engine, {{"params", params}});
   if (status != SF_OK) return status;
-  if (e.config.streaming == 0) return SF_ERROR_STATE;
-  if (!starfocus::IsWhole(params->region)) return SF_ERROR_REGION;
+  EngineState& e = *reinterpret_cast<EngineState*>(engine);
+  status = starfocus::CheckParams(e.config, *params);
+  if (status != SF_OK) return status;
+  starfocus::Checker check(&e.problem);
+  check.Need(e.config.streaming != 0, SF_ERROR_FEATURE, {"streaming", 0}, {"1", 1, 1});
+  check.Need(starfocus::IsWhole(params->region), SF_ERROR_RANGE, {"region"}, {"all 0"});
+  if (check.status() != SF_OK) return check.status();
   e.stream = starfocus::Stream();
   e.crew.jobs.watch.Begin(params->progress, params->progress_data, 0, e.config.height);
   status = starfocus::SetLens(*params, &e);
@@ -104,13 +125,13 @@ sf_status sf_stream_begin(sf_engine* engine, const sf_params* params) {
 
 sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, int32_t rows,
                          int32_t* consumed) {
-  if (consumed == nullptr) return SF_ERROR_NULL;
-  *consumed = 0;
-  if (engine == nullptr || light_field == nullptr) return SF_ERROR_NULL;
+  if (consumed != nullptr) *consumed = 0;
+  sf_status status =
+      starfocus::EnterEngine(engine, {{"light_field", light_field}, {"consumed", consumed}});
+  if (status != SF_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  if (!e.stream.active) return SF_ERROR_STATE;
-  if (rows < 0 || rows > e.config.height - e.stream.pushed) return SF_ERROR_COUNT;
-  const sf_status status = starfocus::CheckLightField(e.config, *light_field);
+  status = starfocus::CheckPush(e, rows);
+  if (status == SF_OK) status = starfocus::CheckLightField(e.config, *light_field);
   if (status != SF_OK) return status;
   const starfocus::LightFieldRows pushed(*light_field, e.stream.pushed, e);
   return starfocus::PushRows(pushed.Source(), rows, 1, &e, consumed);
@@ -118,21 +139,21 @@ sf_status sf_stream_push(sf_engine* engine, const sf_light_field* light_field, i
 
 sf_status sf_stream_pull(sf_engine* engine, uint8_t* out, size_t out_stride, int32_t rows,
                          sf_runner runner, void* runner_data, int32_t* written, sf_report* report) {
-  if (written == nullptr) return SF_ERROR_NULL;
-  *written = 0;
-  if (engine == nullptr) return SF_ERROR_NULL;
+  if (written != nullptr) *written = 0;
+  sf_status status = starfocus::EnterEngine(engine, {{"written", written}});
+  if (status != SF_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  if (!e.stream.active) return SF_ERROR_STATE;
-  if (rows < 0) return SF_ERROR_COUNT;
+  status = starfocus::CheckPull(e, rows);
   const int32_t width = e.config.width, left = e.config.height - e.stream.written;
-  sf_status status = starfocus::CheckOutput(width, e.config.height, out, out_stride);
+  if (status == SF_OK) {
+    status = starfocus::CheckOutput(e.config, {0, 0, width, e.config.height}, out, out_stride);
+  }
   if (status != SF_OK) return status;
   const int32_t most = starfocus::Min(rows, left);
-  if (starfocus::Overlaps(
-          starfocus::Workspace(e),
-          starfocus::ExtentOf(out, out_stride, most, 3 * static_cast<size_t>(width)))) {
-    return SF_ERROR_OVERLAP;
-  }
+  status = starfocus::CheckApart(
+      starfocus::ExtentOf(out, out_stride, most, 3 * static_cast<size_t>(width)),
+      starfocus::MemoryOf(e, nullptr), "out", &e.problem);
+  if (status != SF_OK) return status;
   const starfocus::Picture picture = {out, out_stride, {0, e.stream.written, width, left}};
   status =
       starfocus::PullRows(starfocus::SinkOf(picture), rows, {runner, runner_data}, &e, written);

@@ -8,6 +8,10 @@
 
 namespace starfocus {
 
+// Checks that a stream runs, and the number of rows of a call.
+sf_status CheckPush(const EngineState& engine, int32_t rows);
+sf_status CheckPull(const EngineState& engine, int32_t rows);
+
 // Copies up to `rows` next rows of the source, `unit` (1 or 2) at a time, as long as the next
 // stripe needs some. *consumed counts them.
 sf_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/api/validate.h"
 
-#include <initializer_list>
-
 #include "lib/base/view_set.h"
 #include "lib/engine/engine.h"
 
@@ -17,99 +15,135 @@ bool AllZero(const uint32_t (&reserved)[kCount]) {
   return true;
 }
 
-// All fields are checked, those of other shapes than the one asked for, too. The comparisons are
-// written so that NaN fails.
-sf_status CheckShape(const sf_config& config) {
-  if (config.aperture_shape < SF_SHAPE_FALL_OFF || config.aperture_shape > SF_SHAPE_RING) {
-    return SF_ERROR_SHAPE;
-  }
-  if (config.blades < SF_MIN_BLADES || config.blades > SF_MAX_BLADES) return SF_ERROR_BLADES;
-  if (!(config.rotation >= -360 && config.rotation <= 360)) return SF_ERROR_ROTATION;
-  if (!(config.curvature >= 0 && config.curvature <= 1)) return SF_ERROR_CURVATURE;
-  if (!(config.ring_inner >= 0 && config.ring_inner <= static_cast<float>(SF_MAX_RING_INNER))) {
-    return SF_ERROR_RING;
-  }
-  if (!(config.cats_eye >= 0 && config.cats_eye <= 1)) return SF_ERROR_CATS_EYE;
-  return SF_OK;
+// All fields are checked, also those that other shapes than the one asked for have.
+void CheckShape(const sf_config& config, Checker* check) {
+  check->In({"aperture_shape", double(config.aperture_shape)}, {"an sf_shape", 0, SF_SHAPE_RING});
+  check->In({"blades", double(config.blades)}, STARFOCUS_FROM_TO(SF_MIN_BLADES, SF_MAX_BLADES));
+  check->In({"rotation", config.rotation}, STARFOCUS_FROM_TO(-360, 360));
+  check->In({"curvature", config.curvature}, STARFOCUS_FROM_TO(0, 1));
+  check->Need(config.ring_inner >= 0 && config.ring_inner <= static_cast<float>(SF_MAX_RING_INNER),
+              SF_ERROR_RANGE, {"ring_inner", config.ring_inner},
+              STARFOCUS_FROM_TO(0, SF_MAX_RING_INNER));
+  check->In({"cats_eye", config.cats_eye}, STARFOCUS_FROM_TO(0, 1));
 }
 
-bool ValidSize(int32_t size) { return size >= 1 && size <= SF_MAX_SIZE; }
+void CheckTiming(const sf_timing& timing, Checker* check) {
+  const Allowed allowed = {"at most SF_MAX_TIMING", 0, SF_MAX_TIMING};
+  check->In({"timing.block", double(timing.block)}, allowed);
+  check->In({"timing.field", double(timing.field)}, allowed);
+  check->In({"timing.a", double(timing.a)}, allowed);
+  check->In({"timing.b", double(timing.b)}, allowed);
+  check->In({"timing.c", double(timing.c)}, allowed);
+  check->In({"timing.upsample", double(timing.upsample)}, allowed);
+  check->In({"timing.span", double(timing.span)}, allowed);
+  check->In({"timing.hole", double(timing.hole)}, allowed);
+}
+
+void CheckFlags(const sf_config& config, Checker* check) {
+  const Allowed flag = STARFOCUS_FROM_TO(0, 1);
+  constexpr uint32_t kKnown = SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE;
+  check->Need((config.features & ~kKnown) == 0, SF_ERROR_RANGE,
+              {"features", double(config.features)}, {"bits of SF_FEATURE_"});
+  check->In({"streaming", double(config.streaming)}, flag);
+  check->In({"skips", double(config.skips)}, flag);
+  check->In({"gather", double(config.gather)}, flag);
+  check->In({"fill_unknown", double(config.fill_unknown)}, flag);
+  check->In({"images", double(config.images)}, flag);
+}
+
+bool IsBlock(int32_t side) {
+  return side == 0 || side == 32 || side == 64 || side == 128 || side == 256;
+}
 
 }  // namespace
 
+sf_status EnterEngine(sf_engine* engine, std::initializer_list<Pointer> pointers) {
+  if (engine == nullptr) return SF_ERROR_NULL;
+  return CheckPointers(pointers, &reinterpret_cast<EngineState*>(engine)->problem);
+}
+
+void CheckPictureRange(const PictureRange& picture, Checker* check) {
+  const Allowed size = STARFOCUS_FROM_TO(1, SF_MAX_SIZE);
+  check->In({"width", double(picture.width)}, size);
+  check->In({"height", double(picture.height)}, size);
+  const Allowed disparity = STARFOCUS_FROM_TO(-SF_MAX_DISPARITY, SF_MAX_DISPARITY);
+  check->In({"disparity_min", picture.disparity_min}, disparity);
+  check->In({"disparity_max", picture.disparity_max}, disparity);
+  check->In({"disparity_max", picture.disparity_max},
+            {"disparity_min or more", picture.disparity_min, SF_MAX_DISPARITY});
+  check->In({"max_workers", double(picture.max_workers)}, STARFOCUS_FROM_TO(1, SF_MAX_WORKERS));
+}
+
 sf_status CheckConfig(const sf_config& config) {
-  if (config.version != SF_ABI_VERSION) return SF_ERROR_VERSION;
-  if (!AllZero(config.reserved) ||
-      (config.features & ~(SF_FEATURE_LINE_SCAN | SF_FEATURE_COVERAGE)) != 0) {
-    return SF_ERROR_RESERVED;
-  }
-  if (!ValidSize(config.width) || !ValidSize(config.height)) return SF_ERROR_SIZE;
+  Checker check(config.problem);
+  check.Need(AllZero(config.reserved), SF_ERROR_RANGE, {"reserved"}, {"0"});
+  CheckPictureRange(
+      {config.width, config.height, config.disparity_min, config.disparity_max, config.max_workers},
+      &check);
+  if (check.status() != SF_OK) return check.status();
   ViewSet views;
   const sf_status status = FindViews(config, &views);
   if (status != SF_OK) return status;
-  // The comparison is written so that NaN fails.
-  if (!(config.disparity_min >= -SF_MAX_DISPARITY && config.disparity_max <= SF_MAX_DISPARITY &&
-        config.disparity_min <= config.disparity_max)) {
-    return SF_ERROR_DISPARITY_RANGE;
-  }
-  if (!(config.max_blur > 0.0 && config.max_blur <= SF_MAX_BLUR)) return SF_ERROR_MAX_BLUR;
-  const int32_t block = config.largest_block;
-  if (block != 0 && block != 32 && block != 64 && block != 128 && block != 256) {
-    return SF_ERROR_BLOCK;
-  }
-  if (config.max_workers < 1 || config.max_workers > SF_MAX_WORKERS) return SF_ERROR_WORKERS;
-  if (config.streaming != 0 && config.streaming != 1) return SF_ERROR_STATE;
-  if (!(config.theta >= SF_MIN_THETA && config.theta <= SF_MAX_THETA)) return SF_ERROR_THETA;
-  if (config.max_layer < 0 || config.max_layer >= SF_LAYERS) return SF_ERROR_LAYER;
-  if (config.deblocking < 0 || config.deblocking > 255) return SF_ERROR_DEBLOCKING;
-  const sf_timing& timing = config.timing;
-  for (const uint32_t coefficient : {timing.block, timing.field, timing.a, timing.b, timing.c,
-                                     timing.upsample, timing.span, timing.hole}) {
-    if (coefficient > SF_MAX_TIMING) return SF_ERROR_TIMING;
-  }
-  if (!(config.n_scale >= SF_MIN_N_SCALE && config.n_scale <= SF_MAX_N_SCALE)) {
-    return SF_ERROR_N_SCALE;
-  }
-  if (config.skips != 0 && config.skips != 1) return SF_ERROR_SKIPS;
-  if (config.fill_unknown != 0 && config.fill_unknown != 1) return SF_ERROR_FILL;
-  if (config.images != 0 && config.images != 1) return SF_ERROR_IMAGES;
-  if (config.previews < 0 || config.previews > SF_MAX_PREVIEW) return SF_ERROR_PREVIEW;
-  if (config.gather != 0 && config.gather != 1) return SF_ERROR_GATHER;
-  if (config.transfer != SF_TRANSFER_SRGB && config.transfer != SF_TRANSFER_NONE) {
-    return SF_ERROR_TRANSFER;
-  }
-  if (!(config.highlights >= 1 && config.highlights <= SF_MAX_HIGHLIGHTS)) {
-    return SF_ERROR_HIGHLIGHTS;
-  }
-  return CheckShape(config);
+  check.Need(config.max_blur > 0.0 && config.max_blur <= SF_MAX_BLUR, SF_ERROR_RANGE,
+             {"max_blur", config.max_blur},
+             {"above 0, at most SF_MAX_BLUR", kNoNumber, SF_MAX_BLUR});
+  check.Need(IsBlock(config.largest_block), SF_ERROR_RANGE,
+             {"largest_block", double(config.largest_block)}, {"0, 32, 64, 128 or 256"});
+  check.In({"theta", config.theta}, {"0.05 pi to 0.45 pi", SF_MIN_THETA, SF_MAX_THETA});
+  check.In({"max_layer", double(config.max_layer)}, STARFOCUS_FROM_TO(0, 2));
+  check.In({"deblocking", double(config.deblocking)}, STARFOCUS_FROM_TO(0, 255));
+  CheckTiming(config.timing, &check);
+  check.In({"n_scale", config.n_scale}, STARFOCUS_FROM_TO(SF_MIN_N_SCALE, SF_MAX_N_SCALE));
+  CheckFlags(config, &check);
+  check.In({"previews", double(config.previews)}, STARFOCUS_FROM_TO(0, SF_MAX_PREVIEW));
+  check.In({"transfer", double(config.transfer)}, {"an sf_transfer", 0, SF_TRANSFER_NONE});
+  check.In({"highlights", config.highlights}, STARFOCUS_FROM_TO(1, SF_MAX_HIGHLIGHTS));
+  CheckShape(config, &check);
+  return check.status();
 }
 
 sf_status CheckParams(const sf_config& config, const sf_params& params) {
-  if (params.version != SF_ABI_VERSION) return SF_ERROR_VERSION;
-  if (!AllZero(params.reserved)) return SF_ERROR_RESERVED;
-  if (params.mode < SF_MODE_FRAME || params.mode > SF_MODE_BLUR) return SF_ERROR_MODE;
-  if (params.rule < SF_RULE_DEFAULT || params.rule > SF_RULE_SUBAPERTURE) return SF_ERROR_RULE;
-  if (!(params.focus >= -SF_MAX_FOCUS && params.focus <= SF_MAX_FOCUS)) return SF_ERROR_FOCUS;
-  if (!(params.aperture >= 0.0 && params.aperture <= 1.0)) return SF_ERROR_APERTURE;
-  const bool paper = params.rule == SF_RULE_PAPER && params.mode != SF_MODE_BLUR;
-  if (paper && !HasLineScan(config)) return SF_ERROR_RULE;
-  return paper && !HasStar(config) ? SF_ERROR_STAR : SF_OK;
-}
-
-sf_status CheckMemory(const void* memory) {
-  if (memory == nullptr) return SF_ERROR_NULL;
-  return reinterpret_cast<uintptr_t>(memory) % SF_ALIGNMENT == 0 ? SF_OK
-                                                                 : SF_ERROR_WORKSPACE_ALIGNMENT;
-}
-
-sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height) {
-  if (disparity == nullptr) return SF_ERROR_NULL;
-  if (!ValidSize(width) || !ValidSize(height)) return SF_ERROR_SIZE;
-  if (!ValidStride(stride, static_cast<size_t>(width) * sizeof(float), height) ||
-      stride % sizeof(float) != 0 || reinterpret_cast<uintptr_t>(disparity) % alignof(float) != 0) {
-    return SF_ERROR_STRIDE;
+  Checker check(config.problem);
+  check.Need(params.version == SF_ABI_VERSION, SF_ERROR_STRUCTURE,
+             {"params.version", double(params.version)}, {"what sf_params_init sets"});
+  check.Need(AllZero(params.reserved), SF_ERROR_RANGE, {"reserved"}, {"0"});
+  check.In({"mode", double(params.mode)}, {"an sf_mode", 0, SF_MODE_BLUR});
+  check.In({"rule", double(params.rule)}, {"an sf_rule", 0, SF_RULE_SUBAPERTURE});
+  check.In({"focus", params.focus}, STARFOCUS_FROM_TO(-SF_MAX_FOCUS, SF_MAX_FOCUS));
+  check.In({"aperture", params.aperture}, STARFOCUS_FROM_TO(0, 1));
+  if (params.rule == SF_RULE_PAPER && params.mode != SF_MODE_BLUR) {
+    check.Need(HasLineScan(config), SF_ERROR_FEATURE, {"rule", double(params.rule)},
+               {"not SF_RULE_PAPER without SF_FEATURE_LINE_SCAN"});
+    check.Need(HasStar(config), SF_ERROR_FEATURE, {"rule", double(params.rule)},
+               {"not SF_RULE_PAPER without the views of sf_view_position"});
   }
-  return SF_OK;
+  return check.status();
+}
+
+sf_status CheckMemory(const Memory& memory, size_t needed, sf_problem* problem) {
+  Checker check(problem);
+  const auto address = reinterpret_cast<uintptr_t>(memory.data);
+  check.NotNull(memory.data, memory.name);
+  check.Need(address % SF_ALIGNMENT == 0, SF_ERROR_WORKSPACE,
+             {memory.name, double(address % SF_ALIGNMENT)}, {"a multiple of SF_ALIGNMENT"});
+  check.Need(memory.bytes >= needed, SF_ERROR_WORKSPACE, {"bytes", double(memory.bytes)},
+             {"what the size function says, or more", double(needed)});
+  return check.status();
+}
+
+sf_status CheckMap(const MapPlane& map, int32_t width, int32_t height, sf_problem* problem) {
+  Checker check(problem);
+  check.NotNull(map.disparity, "disparity");
+  const Allowed size = STARFOCUS_FROM_TO(1, SF_MAX_SIZE);
+  check.In({"width", double(width)}, size);
+  check.In({"height", double(height)}, size);
+  if (check.status() != SF_OK) return check.status();
+  const bool aligned = map.stride % sizeof(float) == 0 &&
+                       reinterpret_cast<uintptr_t>(map.disparity) % alignof(float) == 0;
+  check.Stride(
+      aligned && ValidStride(map.stride, sizeof(float) * static_cast<size_t>(width), height),
+      "disparity_stride", map.stride);
+  return check.status();
 }
 
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
@@ -117,42 +151,53 @@ bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
          (rows <= 1 || stride <= (PTRDIFF_MAX - row_bytes) / static_cast<size_t>(rows - 1));
 }
 
-bool ValidCoverage(const sf_config& config, const uint8_t* coverage, size_t stride) {
-  return coverage == nullptr ||
-         ValidStride(stride, static_cast<size_t>(config.width), config.height);
+sf_status CheckCoverage(const sf_config& config, const uint8_t* coverage, size_t stride) {
+  Checker check(config.problem);
+  check.Stride(
+      coverage == nullptr || ValidStride(stride, static_cast<size_t>(config.width), config.height),
+      "coverage_stride", stride);
+  return check.status();
 }
 
 sf_status CheckViews(int32_t views, int32_t width, int32_t height,
-                     const sf_light_field& light_field) {
-  for (int view = 0; view < views; ++view) {
-    if (light_field.views[view].data == nullptr) return SF_ERROR_NULL;
-    if (!ValidStride(light_field.views[view].stride, 3 * static_cast<size_t>(width), height)) {
-      return SF_ERROR_STRIDE;
-    }
+                     const sf_light_field& light_field, sf_problem* problem) {
+  Checker check(problem);
+  for (int32_t view = 0; view < views; ++view) {
+    const sf_plane& plane = light_field.views[view];
+    check.NotNull(plane.data, "views[].data", view);
+    check.Stride(ValidStride(plane.stride, 3 * static_cast<size_t>(width), height),
+                 "views[].stride", plane.stride, view);
   }
-  return SF_OK;
+  return check.status();
 }
 
-sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field) {
-  const sf_status status = CheckViews(config.views, config.width, config.height, light_field);
+sf_status CheckLightField(const sf_config& config, const sf_light_field& field) {
+  sf_status status = CheckViews(config.views, config.width, config.height, field, config.problem);
+  if (status == SF_OK) status = CheckCoverage(config, field.coverage, field.coverage_stride);
   if (status != SF_OK) return status;
-  if (!ValidCoverage(config, light_field.coverage, light_field.coverage_stride)) {
-    return SF_ERROR_STRIDE;
-  }
-  return CheckMap(light_field.disparity, light_field.disparity_stride, config.width, config.height);
+  return CheckMap({field.disparity, field.disparity_stride}, config.width, config.height,
+                  config.problem);
 }
 
 sf_status CheckRegion(const sf_config& config, const sf_region& region) {
   if (IsWhole(region)) return SF_OK;
-  const bool inside = region.x >= 0 && region.y >= 0 && region.width >= 1 && region.height >= 1 &&
-                      region.width <= config.width - int64_t{region.x} &&
-                      region.height <= config.height - int64_t{region.y};
-  return inside ? SF_OK : SF_ERROR_REGION;
+  Checker check(config.problem);
+  check.In({"region.x", double(region.x)}, {"inside the picture", 0, config.width - 1.0});
+  check.In({"region.y", double(region.y)}, {"inside the picture", 0, config.height - 1.0});
+  check.In({"region.width", double(region.width)},
+           {"inside the picture", 1, config.width - double(region.x)});
+  check.In({"region.height", double(region.height)},
+           {"inside the picture", 1, config.height - double(region.y)});
+  return check.status();
 }
 
-sf_status CheckOutput(int32_t width, int32_t rows, const uint8_t* out, size_t stride) {
-  if (out == nullptr) return SF_ERROR_NULL;
-  return ValidStride(stride, 3 * static_cast<size_t>(width), rows) ? SF_OK : SF_ERROR_STRIDE;
+sf_status CheckOutput(const sf_config& config, const Rect& rect, const uint8_t* out,
+                      size_t stride) {
+  Checker check(config.problem);
+  check.NotNull(out, "out");
+  check.Stride(ValidStride(stride, 3 * static_cast<size_t>(rect.width), rect.height), "out_stride",
+               stride);
+  return check.status();
 }
 
 }  // namespace starfocus

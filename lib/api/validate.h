@@ -6,28 +6,63 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/geometry.h"
+#include "lib/base/problem.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
+// Begins a call with a configuration: forgets the problem of the call before, and checks that the
+// configuration is initialized and that no pointer is null.
+template <class Config>
+sf_status EnterConfig(const Config* config, std::initializer_list<Pointer> pointers) {
+  if (config == nullptr) return SF_ERROR_NULL;
+  if (config->version != SF_ABI_VERSION) return SF_ERROR_STRUCTURE;
+  return CheckPointers(pointers, config->problem);
+}
+
+// Begins a call with an engine.
+sf_status EnterEngine(sf_engine* engine, std::initializer_list<Pointer> pointers);
+
+// What configurations of engines and of maps have in common.
+struct PictureRange {
+  int32_t width, height;
+  double disparity_min, disparity_max;
+  int32_t max_workers;
+};
+void CheckPictureRange(const PictureRange& picture, Checker* check);
+
+// The checks below tell config.problem what they refuse, or `problem` (null: nobody).
 sf_status CheckConfig(const sf_config& config);
 sf_status CheckParams(const sf_config& config, const sf_params& params);
 
-// Checks memory to lay something out in.
-sf_status CheckMemory(const void* memory);
+// Memory of a caller's; the name is that of the argument.
+struct Memory {
+  const char* name;
+  const void* data;
+  size_t bytes;
+};
+
+// Checks memory to lay something of `needed` bytes out in.
+sf_status CheckMemory(const Memory& memory, size_t needed, sf_problem* problem);
+
+struct MapPlane {
+  const float* disparity;
+  size_t stride;
+};
 
 // Checks a disparity map by itself.
-sf_status CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height);
+sf_status CheckMap(const MapPlane& map, int32_t width, int32_t height, sf_problem* problem);
 
 // Tells whether rows are as wide as `row_bytes`, and all of them addressable.
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
 
 // Whether a light field may have that coverage, or none: null.
-bool ValidCoverage(const sf_config& config, const uint8_t* coverage, size_t stride);
+sf_status CheckCoverage(const sf_config& config, const uint8_t* coverage, size_t stride);
 
 // Checks pointers and strides of the views of a light field.
 sf_status CheckViews(int32_t views, int32_t width, int32_t height,
-                     const sf_light_field& light_field);
+                     const sf_light_field& light_field, sf_problem* problem);
 
 // Checks pointers and strides of a light field of `config`.
 sf_status CheckLightField(const sf_config& config, const sf_light_field& light_field);
@@ -35,8 +70,8 @@ sf_status CheckLightField(const sf_config& config, const sf_light_field& light_f
 // Checks that a region is all 0, or inside the picture.
 sf_status CheckRegion(const sf_config& config, const sf_region& region);
 
-// Checks an output of `rows` rows of `width` pixels.
-sf_status CheckOutput(int32_t width, int32_t rows, const uint8_t* out, size_t stride);
+// Checks an output of the size of `rect`.
+sf_status CheckOutput(const sf_config& config, const Rect& rect, const uint8_t* out, size_t stride);
 
 }  // namespace starfocus
 

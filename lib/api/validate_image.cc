@@ -38,48 +38,64 @@ bool ValidPixelStride(int32_t format, int32_t stride) {
 }
 
 sf_status CheckDepthMap(const sf_config& config, const sf_depth_map& map) {
-  if (map.data == nullptr) return SF_ERROR_NULL;
-  if (map.type < SF_DEPTH_FLOAT || map.type > SF_DEPTH_HALF || map.meaning < SF_DEPTH_LINEAR ||
-      map.meaning > SF_DEPTH_RECIPROCAL || (map.has_invalid != 0 && map.has_invalid != 1)) {
-    return SF_ERROR_DEPTH_TYPE;
-  }
-  if (!IsFinite(map.scale) || map.scale == 0 || !IsFinite(map.offset)) return SF_ERROR_DEPTH_SCALE;
-  if (map.width < 1 || map.height < 1 || map.width > config.width || map.height > config.height) {
-    return SF_ERROR_DEPTH_SIZE;
-  }
+  Checker check(config.problem);
+  check.NotNull(map.data, "depth.data");
+  check.In({"depth.type", double(map.type)}, {"an sf_depth_type", 0, SF_DEPTH_HALF});
+  check.In({"depth.meaning", double(map.meaning)}, {"an sf_depth_meaning", 0, SF_DEPTH_RECIPROCAL});
+  check.In({"depth.has_invalid", double(map.has_invalid)}, STARFOCUS_FROM_TO(0, 1));
+  check.Need(IsFinite(map.scale) && map.scale != 0, SF_ERROR_RANGE, {"depth.scale", map.scale},
+             {"finite, not 0"});
+  check.Need(IsFinite(map.offset), SF_ERROR_RANGE, {"depth.offset", map.offset}, {"finite"});
+  check.In({"depth.width", double(map.width)}, {"1 to width", 1, double(config.width)});
+  check.In({"depth.height", double(map.height)}, {"1 to height", 1, double(config.height)});
+  if (check.status() != SF_OK) return check.status();
   const size_t bytes = DepthBytes(map.type);
-  if (!ValidStride(map.stride, bytes * static_cast<size_t>(map.width), map.height) ||
-      map.stride % bytes != 0 || reinterpret_cast<uintptr_t>(map.data) % bytes != 0) {
-    return SF_ERROR_STRIDE;
-  }
-  return SF_OK;
+  check.Stride(ValidStride(map.stride, bytes * static_cast<size_t>(map.width), map.height) &&
+                   map.stride % bytes == 0 && reinterpret_cast<uintptr_t>(map.data) % bytes == 0,
+               "depth.stride", map.stride);
+  return check.status();
 }
 
 }  // namespace
 
-sf_status CheckImage(const sf_image& image, int32_t width, int32_t height) {
+sf_status NeedImages(const sf_config& config) {
+  Checker check(config.problem);
+  check.Need(config.images != 0, SF_ERROR_FEATURE, {"images", 0}, {"1", 1, 1});
+  return check.status();
+}
+
+sf_status CheckImage(const sf_image& image, const Rect& size, sf_problem* problem, int32_t index) {
+  Checker check(problem);
   const int32_t format = image.format;
-  if (format < SF_FORMAT_RGB || format > SF_FORMAT_YUV_420_888) return SF_ERROR_FORMAT;
-  if (IsYuv(format) && (image.matrix < SF_MATRIX_BT601 || image.matrix > SF_MATRIX_BT709 ||
-                        image.range < SF_RANGE_LIMITED || image.range > SF_RANGE_FULL)) {
-    return SF_ERROR_FORMAT;
+  check.In({"image.format", double(format), index}, {"an sf_format", 0, SF_FORMAT_YUV_420_888});
+  if (check.status() != SF_OK) return check.status();
+  if (IsYuv(format)) {
+    check.In({"image.matrix", double(image.matrix), index},
+             {"an sf_matrix", SF_MATRIX_BT601, SF_MATRIX_BT709});
+    check.In({"image.range", double(image.range), index},
+             {"an sf_range", SF_RANGE_LIMITED, SF_RANGE_FULL});
   }
-  if (!ValidPixelStride(format, image.pixel_stride)) return SF_ERROR_PIXEL_STRIDE;
+  check.Need(ValidPixelStride(format, image.pixel_stride), SF_ERROR_RANGE,
+             {"image.pixel_stride", double(image.pixel_stride), index},
+             {"0, or bytes that the format allows"});
+  if (check.status() != SF_OK) return check.status();
   for (int plane = 0; plane < PlanesOfFormat(format); ++plane) {
-    if (image.planes[plane] == nullptr) return SF_ERROR_NULL;
-    const PlaneSize size = SizeOfPlane(image, plane, width, height);
-    if (!ValidStride(image.strides[plane], size.row_bytes, size.rows)) return SF_ERROR_STRIDE;
+    check.NotNull(image.planes[plane], "image.planes", index);
+    const PlaneSize bytes = SizeOfPlane(image, plane, size.width, size.height);
+    check.Stride(ValidStride(image.strides[plane], bytes.row_bytes, bytes.rows), "image.strides",
+                 image.strides[plane], index);
   }
-  return SF_OK;
+  return check.status();
 }
 
 sf_status CheckImageField(const sf_config& config, const sf_image_field& field) {
-  for (int view = 0; view < config.views; ++view) {
-    const sf_status status = CheckImage(field.views[view], config.width, config.height);
+  for (int32_t view = 0; view < config.views; ++view) {
+    const sf_status status =
+        CheckImage(field.views[view], {0, 0, config.width, config.height}, config.problem, view);
     if (status != SF_OK) return status;
   }
-  if (!ValidCoverage(config, field.coverage, field.coverage_stride)) return SF_ERROR_STRIDE;
-  return CheckDepthMap(config, field.depth);
+  const sf_status status = CheckCoverage(config, field.coverage, field.coverage_stride);
+  return status == SF_OK ? CheckDepthMap(config, field.depth) : status;
 }
 
 sf_image AsImage(const sf_image_out& out) {
@@ -104,14 +120,13 @@ void AddImageField(const sf_config& config, const sf_image_field& field, Extents
   }
 }
 
-sf_status CheckImageOutput(const sf_image& image, int32_t width, int32_t height,
-                           const Extents& read) {
-  const sf_status status = CheckImage(image, width, height);
-  if (status != SF_OK) return status;
-  for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {
-    if (Overlaps(ExtentOfPlane(image, plane, width, height), read)) return SF_ERROR_OVERLAP;
+sf_status CheckImageOutput(const sf_image& image, const Rect& size, const Extents& read,
+                           sf_problem* problem) {
+  sf_status status = CheckImage(image, size, problem);
+  for (int plane = 0; status == SF_OK && plane < PlanesOfFormat(image.format); ++plane) {
+    status = CheckApart(ExtentOfPlane(image, plane, size.width, size.height), read, "out", problem);
   }
-  return SF_OK;
+  return status;
 }
 
 }  // namespace starfocus

@@ -8,8 +8,12 @@
 
 namespace starfocus {
 
-// Checks an image of that size.
-sf_status CheckImage(const sf_image& image, int32_t width, int32_t height);
+// Whether the engine is made for images.
+sf_status NeedImages(const sf_config& config);
+
+// Checks an image of that size, view `index` or the output.
+sf_status CheckImage(const sf_image& image, const Rect& size, sf_problem* problem,
+                     int32_t index = 0);
 
 // Checks the views and the depth map for pictures of `config`.
 sf_status CheckImageField(const sf_config& config, const sf_image_field& field);
@@ -21,8 +25,8 @@ sf_image AsImage(const sf_image_out& out);
 void AddImageField(const sf_config& config, const sf_image_field& field, Extents* extents);
 
 // Checks an output of that size that must not overlap what is read.
-sf_status CheckImageOutput(const sf_image& image, int32_t width, int32_t height,
-                           const Extents& read);
+sf_status CheckImageOutput(const sf_image& image, const Rect& size, const Extents& read,
+                           sf_problem* problem);
 
 }  // namespace starfocus
 

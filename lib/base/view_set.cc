@@ -3,6 +3,8 @@
 
 #include <initializer_list>
 
+#include "lib/base/problem.h"
+
 namespace starfocus {
 namespace {
 
@@ -17,13 +19,9 @@ bool SamePosition(const ViewPosition& a, const ViewPosition& b) { return a.u == 
 
 bool IsStarCount(int32_t views) { return views == 1 || views == 5 || views == 9 || views == 17; }
 
-// Converts a coordinate. Returns whether it is finite and in [-1, 1].
-bool Convert(double value, int16_t* converted) {
-  // The comparison is written so that NaN fails.
-  if (!(value >= -1 && value <= 1)) return false;
-  const double scaled = value * kViewOne;
-  *converted = static_cast<int16_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
-  return true;
+int16_t Converted(double coordinate) {
+  const double scaled = coordinate * kViewOne;
+  return static_cast<int16_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
 }
 
 // Views at least so many times as far beside the side's axis as along it are no help.
@@ -66,29 +64,35 @@ int CapturedView(int u, int v, bool half) {
 
 sf_status FindViews(const sf_config& config, ViewSet* views) {
   *views = {};
-  if (config.views < 1 || config.views > kMaxViews) return SF_ERROR_VIEWS;
+  Checker check(config.problem);
+  check.In({"views", double(config.views)}, STARFOCUS_FROM_TO(1, SF_MAX_VIEWS));
+  if (check.status() != SF_OK) return check.status();
   views->count = config.views;
   views->star = IsStarCount(config.views);
   bool given = false;
   for (int32_t k = 0; k < config.views; ++k) {
     const sf_position& position = config.positions[k];
     given = given || position.u != 0 || position.v != 0;
-    if (!Convert(position.u, &views->at[k].u) || !Convert(position.v, &views->at[k].v)) {
-      return SF_ERROR_VIEW_POSITIONS;
-    }
+    check.In({"positions[].u", position.u, k}, STARFOCUS_FROM_TO(-1, 1));
+    check.In({"positions[].v", position.v, k}, STARFOCUS_FROM_TO(-1, 1));
+    if (check.status() != SF_OK) return check.status();
+    views->at[k] = {Converted(position.u), Converted(position.v)};
   }
   if (!given) {
     for (int32_t k = 0; k < config.views; ++k) views->at[k] = kStar[k];
-    return views->star ? SF_OK : SF_ERROR_VIEWS;
+    check.Need(views->star, SF_ERROR_RANGE, {"views", double(config.views)},
+               {"1, 5, 9 or 17 without positions"});
+    return check.status();
   }
-  if (!SamePosition(views->at[0], {0, 0})) return SF_ERROR_VIEW_POSITIONS;
+  check.Need(SamePosition(views->at[0], {0, 0}), SF_ERROR_RANGE, {"positions[]"}, {"(0, 0)"});
   for (int32_t k = 0; k < config.views; ++k) {
     views->star = views->star && SamePosition(views->at[k], kStar[k]);
     for (int32_t other = 0; other < k; ++other) {
-      if (SamePosition(views->at[k], views->at[other])) return SF_ERROR_VIEW_POSITIONS;
+      check.Need(!SamePosition(views->at[k], views->at[other]), SF_ERROR_RANGE,
+                 {"positions[]", kNoNumber, k}, {"another position than those before"});
     }
   }
-  return SF_OK;
+  return check.status();
 }
 
 bool HasStar(const sf_config& config) {

@@ -54,7 +54,7 @@ ViewPosition StarPosition(int index);
 // distance.
 int CapturedView(int u, int v, bool half);
 
-// Finds the views of a configuration. Returns SF_ERROR_VIEWS, SF_ERROR_VIEW_POSITIONS or SF_OK.
+// Finds the views of a configuration. Refuses views and positions that are none, SF_ERROR_RANGE.
 sf_status FindViews(const sf_config& config, ViewSet* views);
 
 // Whether the views of a configuration, which was checked, are those of sf_view_position.

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
+#include "lib/base/problem.h"
 #include "lib/engine/stripe.h"
 #include "simd/depth_values.h"
 
@@ -62,8 +63,12 @@ void LoadPart(const RowsJob& job, int32_t index, Worker* worker) {
 }
 
 sf_status StatusOf(uint32_t flags, const sf_config& config) {
-  if ((flags & simd::kUnknownDepth) != 0 && config.fill_unknown == 0) return SF_ERROR_NOT_FINITE;
-  return (flags & simd::kDepthOutside) != 0 ? SF_ERROR_DISPARITY : SF_OK;
+  Checker check(config.problem);
+  check.Need((flags & simd::kUnknownDepth) == 0 || config.fill_unknown != 0, SF_ERROR_NOT_FINITE,
+             {"disparity"}, {"finite, or fill_unknown"});
+  check.Need((flags & simd::kDepthOutside) == 0, SF_ERROR_DISPARITY, {"disparity"},
+             {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
+  return check.status();
 }
 
 template <void (*kJob)(const RowsJob&, int32_t, Worker*)>

@@ -36,7 +36,8 @@ struct ImageMemory {
 
 struct EngineState {
   // For the engine's life:
-  sf_config config;
+  sf_config config;                 // whose problem is the engine's own
+  sf_problem problem = {};          // of the last call
   const simd::Kernels* kernels;
   Tables tables;
   sf_allocator allocator = {};      // of the memory; without functions: the caller's own
@@ -56,7 +57,7 @@ struct EngineState {
 };
 
 // Sets up the lens for params, watched by the crew's watch, and forgets all of the refocusing
-// before. Returns SF_ERROR_BLUR_TOO_LARGE, SF_ERROR_CANCELLED or SF_OK. The other fields of params
+// before. Returns SF_ERROR_BLUR, SF_ERROR_CANCELLED or SF_OK. The other fields of params
 // must have been checked.
 sf_status SetLens(const sf_params& params, EngineState* engine);
 

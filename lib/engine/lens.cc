@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/lens.h"
 
+#include "lib/base/problem.h"
 #include "lib/base/rules.h"
 #include "lib/base/view_grid.h"
 #include "lib/base/view_set.h"
@@ -46,10 +47,18 @@ double LargestBlur(const sf_config& config, const sf_params& params) {
   return params.aperture * (nearer > farther ? nearer : farther);
 }
 
+sf_status CheckBlur(const sf_config& config, double r_max) {
+  Checker check(config.problem);
+  check.Need(r_max <= config.max_blur, SF_ERROR_BLUR, {"aperture", r_max},
+             {"a blur radius of at most max_blur pixels", 0, config.max_blur});
+  return check.status();
+}
+
 sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watch, Tables* tables,
                    Lens* lens) {
   const double r_max = LargestBlur(config, params);
-  if (r_max > config.max_blur) return SF_ERROR_BLUR_TOO_LARGE;
+  const sf_status fits = CheckBlur(config, r_max);
+  if (fits != SF_OK) return fits;
   lens->params = params;
   lens->region = RegionOf(config, params);
   lens->renderer = &RendererOf(config, params);

@@ -4,6 +4,7 @@
 #define STARFOCUS_LIB_SOURCE_EXTENTS_H_
 
 #include "lib/base/geometry.h"
+#include "lib/base/problem.h"
 #include "lib/base/view_set.h"
 #include "starfocus/starfocus.h"
 
@@ -39,6 +40,13 @@ inline bool Overlaps(const Extent& a, const Extents& b) {
     if (Overlaps(a, b.of[n])) return true;
   }
   return false;
+}
+
+// Checks that an output does not overlap what is read; `name` is its argument's.
+inline sf_status CheckApart(const Extent& out, const Extents& read, const char* name,
+                            sf_problem* problem) {
+  if (!Overlaps(out, read)) return SF_OK;
+  return Refuse(SF_ERROR_OVERLAP, {name}, {"apart from inputs and workspace"}, problem);
 }
 
 }  // namespace starfocus

@@ -42,12 +42,12 @@ TEST_CASE("stream: begin refuses what refocus refuses") {
     spoil(&params);
     return sf_stream_begin(engine.get(), &params);
   };
-  CHECK(begin([](sf_params* p) { p->version = 0; }) == SF_ERROR_VERSION);
-  CHECK(begin([](sf_params* p) { p->reserved[3] = 1; }) == SF_ERROR_RESERVED);
-  CHECK(begin([](sf_params* p) { p->mode = 99; }) == SF_ERROR_MODE);
-  CHECK(begin([](sf_params* p) { p->focus = -2e6; }) == SF_ERROR_FOCUS);
-  CHECK(begin([](sf_params* p) { p->aperture = -0.1; }) == SF_ERROR_APERTURE);
-  CHECK(begin([](sf_params* p) { p->focus = 6.5; }) == SF_ERROR_BLUR_TOO_LARGE);
+  CHECK(begin([](sf_params* p) { p->version = 0; }) == SF_ERROR_STRUCTURE);
+  CHECK(begin([](sf_params* p) { p->reserved[3] = 1; }) == SF_ERROR_RANGE);
+  CHECK(begin([](sf_params* p) { p->mode = 99; }) == SF_ERROR_RANGE);
+  CHECK(begin([](sf_params* p) { p->focus = -2e6; }) == SF_ERROR_RANGE);
+  CHECK(begin([](sf_params* p) { p->aperture = -0.1; }) == SF_ERROR_RANGE);
+  CHECK(begin([](sf_params* p) { p->focus = 6.5; }) == SF_ERROR_BLUR);
 }
 
 TEST_CASE("stream: not without streaming = 1, not without begin") {
@@ -61,13 +61,13 @@ TEST_CASE("stream: not without streaming = 1, not without begin") {
     // A refused begin starts nothing.
     sf_params params = f.params;
     params.aperture = 2;
-    CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_APERTURE);
+    CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_RANGE);
     CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_STATE);
   }
   f.config.streaming = 0;
   test::Engine engine(f.config);
   REQUIRE(engine.status() == SF_OK);
-  CHECK(sf_stream_begin(engine.get(), &f.params) == SF_ERROR_STATE);
+  CHECK(sf_stream_begin(engine.get(), &f.params) == SF_ERROR_FEATURE);
   CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_STATE);
   CHECK(f.Pull(engine.get(), 1, &count) == SF_ERROR_STATE);
   CHECK(f.out.Untouched());
@@ -97,17 +97,17 @@ TEST_CASE("stream: push refuses null pointers, short strides and wrong counts") 
   field.disparity_stride = 4 * kWidth + 2;
   CHECK(f.Push(engine.get(), field, 2, &count) == SF_ERROR_STRIDE);
   field = f.scene.Field();
-  CHECK(f.Push(engine.get(), field, -1, &count) == SF_ERROR_COUNT);
-  CHECK(f.Push(engine.get(), field, INT32_MIN, &count) == SF_ERROR_COUNT);
-  CHECK(f.Push(engine.get(), field, kHeight + 1, &count) == SF_ERROR_COUNT);
-  CHECK(f.Push(engine.get(), field, INT32_MAX, &count) == SF_ERROR_COUNT);
+  CHECK(f.Push(engine.get(), field, -1, &count) == SF_ERROR_RANGE);
+  CHECK(f.Push(engine.get(), field, INT32_MIN, &count) == SF_ERROR_RANGE);
+  CHECK(f.Push(engine.get(), field, kHeight + 1, &count) == SF_ERROR_RANGE);
+  CHECK(f.Push(engine.get(), field, INT32_MAX, &count) == SF_ERROR_RANGE);
   // None of these took a row: the whole picture still fits.
   count = -1;
   CHECK(f.Push(engine.get(), field, 0, &count) == SF_OK);
   CHECK(count == 0);
   CHECK(f.Push(engine.get(), field, 1, &count) == SF_OK);
   CHECK(count == 1);
-  CHECK(f.Push(engine.get(), f.scene.Field(1), kHeight, &count) == SF_ERROR_COUNT);
+  CHECK(f.Push(engine.get(), f.scene.Field(1), kHeight, &count) == SF_ERROR_RANGE);
 }
 
 TEST_CASE("stream: pull refuses null pointers, short strides, wrong counts and overlap") {
@@ -128,8 +128,8 @@ TEST_CASE("stream: pull refuses null pointers, short strides, wrong counts and o
   CHECK(pull(engine.get(), out, 0, 2, &count) == SF_ERROR_STRIDE);
   CHECK(pull(engine.get(), out, 3 * kWidth - 1, 2, &count) == SF_ERROR_STRIDE);
   CHECK(pull(engine.get(), out, kHuge, 2, &count) == SF_ERROR_STRIDE);
-  CHECK(pull(engine.get(), out, f.out.stride, -1, &count) == SF_ERROR_COUNT);
-  CHECK(pull(engine.get(), out, f.out.stride, INT32_MIN, &count) == SF_ERROR_COUNT);
+  CHECK(pull(engine.get(), out, f.out.stride, -1, &count) == SF_ERROR_RANGE);
+  CHECK(pull(engine.get(), out, f.out.stride, INT32_MIN, &count) == SF_ERROR_RANGE);
   CHECK(pull(engine.get(), engine.workspace(), f.out.stride, 1, &count) == SF_ERROR_OVERLAP);
   CHECK(pull(engine.get(), engine.workspace() + engine.bytes() - 1, f.out.stride, 1, &count) ==
         SF_ERROR_OVERLAP);
@@ -201,7 +201,7 @@ TEST_CASE("stream: begin restarts, and whole pictures interrupt nothing but the 
   REQUIRE(test::Stream(&engine, f.params, f.scene, &streamed, 7, 9) == SF_OK);
   CHECK(streamed.bytes == whole.bytes);
   // Every row is out: another push has no place.
-  CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_COUNT);
+  CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == SF_ERROR_RANGE);
 }
 
 }  // namespace

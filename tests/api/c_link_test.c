@@ -55,7 +55,7 @@ int main(void) {
   sf_status status;
   void* memory;
   int result;
-  if (sf_abi_version() != SF_ABI_VERSION) return Fail("sf_abi_version", SF_ERROR_VERSION);
+  if (sf_abi_version() != SF_ABI_VERSION) return Fail("sf_abi_version", SF_ERROR_STRUCTURE);
   sf_config_init(&config);
   config.width = kWidth;
   config.height = kHeight;
@@ -70,7 +70,7 @@ int main(void) {
   if (result) return result;
   {
     sf_engine* engine = NULL;
-    if (sf_struct_size("sf_config") != sizeof config) return Fail("sf_struct_size", SF_ERROR_SIZE);
+    if (sf_struct_size("sf_config") != sizeof config) return Fail("sf_struct_size", SF_ERROR_RANGE);
     status = sf_create(&config, NULL, &engine);
     if (status != SF_OK) return Fail("sf_create", status);
     sf_destroy(engine);

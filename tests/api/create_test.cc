@@ -107,7 +107,7 @@ TEST_CASE("create: no memory, misaligned memory and other errors leave nothing b
   counter.empty = false;
   counter.offset = 8;
   engine = poison;
-  CHECK(sf_create(&f.config, &allocator, &engine) == SF_ERROR_WORKSPACE_ALIGNMENT);
+  CHECK(sf_create(&f.config, &allocator, &engine) == SF_ERROR_WORKSPACE);
   CHECK(engine == nullptr);
   CHECK(counter.releases == 1);
   CHECK(counter.wrong == 0);
@@ -115,7 +115,7 @@ TEST_CASE("create: no memory, misaligned memory and other errors leave nothing b
   sf_config bad = f.config;
   bad.views = 3;
   engine = poison;
-  CHECK(sf_create(&bad, &allocator, &engine) == SF_ERROR_VIEWS);
+  CHECK(sf_create(&bad, &allocator, &engine) == SF_ERROR_RANGE);
   CHECK(engine == nullptr);
   CHECK(sf_create(nullptr, &allocator, &engine) == SF_ERROR_NULL);
   CHECK(sf_create(&f.config, &allocator, nullptr) == SF_ERROR_NULL);

@@ -64,10 +64,10 @@ TEST_CASE("disparity: illegal arguments") {
   CHECK(sf_measure_disparity(map.values.data(), 20, 5, 4, nullptr) == SF_ERROR_NULL);
   CHECK(fill(nullptr, 20, 5, 4) == SF_ERROR_NULL);
   for (int size : {0, -1, SF_MAX_SIZE + 1, INT32_MAX, INT32_MIN}) {
-    CHECK(measure(map.values.data(), size_t{1} << 30, size, 4) == SF_ERROR_SIZE);
-    CHECK(measure(map.values.data(), 20, 5, size) == SF_ERROR_SIZE);
-    CHECK(fill(map.values.data(), size_t{1} << 30, size, 4) == SF_ERROR_SIZE);
-    CHECK(fill(map.values.data(), 20, 5, size) == SF_ERROR_SIZE);
+    CHECK(measure(map.values.data(), size_t{1} << 30, size, 4) == SF_ERROR_RANGE);
+    CHECK(measure(map.values.data(), 20, 5, size) == SF_ERROR_RANGE);
+    CHECK(fill(map.values.data(), size_t{1} << 30, size, 4) == SF_ERROR_RANGE);
+    CHECK(fill(map.values.data(), 20, 5, size) == SF_ERROR_RANGE);
   }
   for (size_t stride :
        {size_t{0}, size_t{16}, size_t{21}, size_t{22}, std::numeric_limits<size_t>::max() - 3}) {

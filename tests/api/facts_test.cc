@@ -38,7 +38,7 @@ TEST_CASE("sizes are those of the headers, of every structure") {
   CHECK(sf_struct_size("sf_report") == sizeof(sf_report));
   CHECK(sf_struct_size("sf_depth_config") == sizeof(sf_depth_config));
   size_t structures = 0;
-  for (const char* header : {"starfocus.h", "depth.h", "image.h"}) {
+  for (const char* header : {"starfocus.h", "status.h", "tuning.h", "depth.h", "image.h"}) {
     for (const std::string& name : StructuresOf(header)) {
       CAPTURE(name);
       CHECK(sf_struct_size(name.c_str()) > 0);

@@ -55,7 +55,7 @@ TEST_CASE("features: without the line scan the paper's rule is rejected in modes
     CAPTURE(mode);
     sf_params params = test::Params(1, 1, mode);
     params.rule = SF_RULE_PAPER;
-    const sf_status expected = mode == SF_MODE_BLUR ? SF_OK : SF_ERROR_RULE;
+    const sf_status expected = mode == SF_MODE_BLUR ? SF_OK : SF_ERROR_FEATURE;
     test::Output out(70, 50);
     CHECK(test::Refocus(&engine, params, scene, &out) == expected);
     CHECK(out.Untouched() == (mode != SF_MODE_BLUR));

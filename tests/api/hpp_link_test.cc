@@ -97,11 +97,11 @@ bool EveryCall() {
   if (!f.IsEmpty(&engine)) return false;
   starfocus::Config bad;
   bad.width = -1;
-  if (engine.Init(bad) != SF_ERROR_SIZE || !f.IsEmpty(&engine)) return false;
+  if (engine.Init(bad) != SF_ERROR_RANGE || !f.IsEmpty(&engine)) return false;
   if (engine.Init(f.config) != SF_OK || engine.workspace_bytes() == 0) return false;
   double focus = 0;
   if (engine.FocusAt(f.field, kSize - 1, kSize - 1, &focus) != SF_OK || focus != 0.5) return false;
-  if (engine.FocusAt(f.field, kSize, 0, &focus) != SF_ERROR_POSITION) return false;
+  if (engine.FocusAt(f.field, kSize, 0, &focus) != SF_ERROR_RANGE) return false;
   return f.Refocuses(&engine) && engine.Prepare(f.field) == SF_OK && f.RefocusesPrepared(&engine) &&
          f.RefocusesPreview(&engine) && f.RefocusesAfter(&engine) && f.Streams(&engine);
 }
@@ -113,7 +113,7 @@ bool SecondInit() {
   starfocus::Engine engine;
   if (engine.Init(f.config) != SF_OK || engine.Prepare(f.field) != SF_OK) return false;
   starfocus::Config bad;
-  if (engine.Init(bad) != SF_ERROR_SIZE) return false;
+  if (engine.Init(bad) != SF_ERROR_RANGE) return false;
   no_memory = true;
   const sf_status status = engine.Init(f.config);
   no_memory = false;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is refused of images and depth maps, with one status each, before anything is written.
+// What is refused of images and depth maps, with the field that is told, before anything is written.
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "tests/support/image_field.h"
@@ -25,71 +26,84 @@ struct Case {
   const char* what;
   void (*spoil)(Call* call);
   sf_status status;
+  const char* field;
 };
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 const Case kCases[] = {
-    {"as it should be", [](Call*) {}, SF_OK},
-    {"format -1", [](Call* c) { c->field.views[0].format = -1; }, SF_ERROR_FORMAT},
-    {"format 8", [](Call* c) { c->field.views[4].format = 8; }, SF_ERROR_FORMAT},
-    {"matrix 2", [](Call* c) { c->field.views[1].matrix = 2; }, SF_ERROR_FORMAT},
-    {"matrix -1", [](Call* c) { c->out.matrix = -1; }, SF_ERROR_FORMAT},
-    {"range 2", [](Call* c) { c->out.range = 2; }, SF_ERROR_FORMAT},
-    {"range -1", [](Call* c) { c->field.views[1].range = -1; }, SF_ERROR_FORMAT},
-    {"no luma", [](Call* c) { c->field.views[1].planes[0] = nullptr; }, SF_ERROR_NULL},
-    {"no chroma", [](Call* c) { c->field.views[1].planes[1] = nullptr; }, SF_ERROR_NULL},
-    {"no V", [](Call* c) { c->out.planes[2] = nullptr; }, SF_ERROR_NULL},
-    {"NV12 has no third plane", [](Call* c) { c->field.views[1].planes[2] = nullptr; }, SF_OK},
-    {"luma's stride", [](Call* c) { c->field.views[1].strides[0] = kWidth - 1; }, SF_ERROR_STRIDE},
-    {"chroma's stride", [](Call* c) { c->field.views[1].strides[1] = kWidth; }, SF_ERROR_STRIDE},
-    {"V's stride", [](Call* c) { c->out.strides[2] = kWidth / 2; }, SF_ERROR_STRIDE},
+    {"as it should be", [](Call*) {}, SF_OK, ""},
+    {"format -1", [](Call* c) { c->field.views[0].format = -1; }, SF_ERROR_RANGE, "image.format"},
+    {"format 8", [](Call* c) { c->field.views[4].format = 8; }, SF_ERROR_RANGE, "image.format"},
+    {"matrix 2", [](Call* c) { c->field.views[1].matrix = 2; }, SF_ERROR_RANGE, "image.matrix"},
+    {"matrix -1", [](Call* c) { c->out.matrix = -1; }, SF_ERROR_RANGE, "image.matrix"},
+    {"range 2", [](Call* c) { c->out.range = 2; }, SF_ERROR_RANGE, "image.range"},
+    {"range -1", [](Call* c) { c->field.views[1].range = -1; }, SF_ERROR_RANGE, "image.range"},
+    {"no luma", [](Call* c) { c->field.views[1].planes[0] = nullptr; }, SF_ERROR_NULL,
+     "image.planes"},
+    {"no chroma", [](Call* c) { c->field.views[1].planes[1] = nullptr; }, SF_ERROR_NULL,
+     "image.planes"},
+    {"no V", [](Call* c) { c->out.planes[2] = nullptr; }, SF_ERROR_NULL, "image.planes"},
+    {"NV12 has no third plane", [](Call* c) { c->field.views[1].planes[2] = nullptr; }, SF_OK, ""},
+    {"luma's stride", [](Call* c) { c->field.views[1].strides[0] = kWidth - 1; }, SF_ERROR_STRIDE,
+     "image.strides"},
+    {"chroma's stride", [](Call* c) { c->field.views[1].strides[1] = kWidth; }, SF_ERROR_STRIDE,
+     "image.strides"},
+    {"V's stride", [](Call* c) { c->out.strides[2] = kWidth / 2; }, SF_ERROR_STRIDE,
+     "image.strides"},
     {"a stride past the addresses", [](Call* c) { c->out.strides[0] = SIZE_MAX / 2; },
-     SF_ERROR_STRIDE},
-    {"NV12, 1 apart", [](Call* c) { c->field.views[1].pixel_stride = 1; }, SF_ERROR_PIXEL_STRIDE},
-    {"NV12, 2 apart", [](Call* c) { c->field.views[1].pixel_stride = 2; }, SF_OK},
-    {"I420, 2 apart", [](Call* c) { c->out.pixel_stride = 2; }, SF_ERROR_PIXEL_STRIDE},
-    {"RGB, 2 apart", [](Call* c) { c->field.views[0].pixel_stride = 2; }, SF_ERROR_PIXEL_STRIDE},
-    {"RGB, -3 apart", [](Call* c) { c->field.views[0].pixel_stride = -3; }, SF_ERROR_PIXEL_STRIDE},
-    {"RGB, 257 apart", [](Call* c) { c->field.views[0].pixel_stride = 257; },
-     SF_ERROR_PIXEL_STRIDE},
+     SF_ERROR_STRIDE, "image.strides"},
+    {"NV12, 1 apart", [](Call* c) { c->field.views[1].pixel_stride = 1; }, SF_ERROR_RANGE,
+     "image.pixel_stride"},
+    {"NV12, 2 apart", [](Call* c) { c->field.views[1].pixel_stride = 2; }, SF_OK, ""},
+    {"I420, 2 apart", [](Call* c) { c->out.pixel_stride = 2; }, SF_ERROR_RANGE,
+     "image.pixel_stride"},
+    {"RGB, 2 apart", [](Call* c) { c->field.views[0].pixel_stride = 2; }, SF_ERROR_RANGE,
+     "image.pixel_stride"},
+    {"RGB, -3 apart", [](Call* c) { c->field.views[0].pixel_stride = -3; }, SF_ERROR_RANGE,
+     "image.pixel_stride"},
+    {"RGB, 257 apart", [](Call* c) { c->field.views[0].pixel_stride = 257; }, SF_ERROR_RANGE,
+     "image.pixel_stride"},
     {"RGB, 4 apart in too short rows", [](Call* c) { c->field.views[0].pixel_stride = 4; },
-     SF_ERROR_STRIDE},
+     SF_ERROR_STRIDE, "image.strides"},
     {"RGBX, 3 apart",
      [](Call* c) {
        c->field.views[0].format = SF_FORMAT_RGBX;
        c->field.views[0].pixel_stride = 3;
      },
-     SF_ERROR_PIXEL_STRIDE},
-    {"no depth", [](Call* c) { c->field.depth.data = nullptr; }, SF_ERROR_NULL},
-    {"type 4", [](Call* c) { c->field.depth.type = 4; }, SF_ERROR_DEPTH_TYPE},
-    {"type -1", [](Call* c) { c->field.depth.type = -1; }, SF_ERROR_DEPTH_TYPE},
-    {"meaning 2", [](Call* c) { c->field.depth.meaning = 2; }, SF_ERROR_DEPTH_TYPE},
-    {"meaning -1", [](Call* c) { c->field.depth.meaning = -1; }, SF_ERROR_DEPTH_TYPE},
-    {"has_invalid 2", [](Call* c) { c->field.depth.has_invalid = 2; }, SF_ERROR_DEPTH_TYPE},
-    {"scale 0", [](Call* c) { c->field.depth.scale = 0; }, SF_ERROR_DEPTH_SCALE},
-    {"scale NaN", [](Call* c) { c->field.depth.scale = kNan; }, SF_ERROR_DEPTH_SCALE},
-    {"offset NaN", [](Call* c) { c->field.depth.offset = kNan; }, SF_ERROR_DEPTH_SCALE},
-    {"too wide", [](Call* c) { c->field.depth.width = kWidth + 1; }, SF_ERROR_DEPTH_SIZE},
-    {"too high", [](Call* c) { c->field.depth.height = kHeight + 1; }, SF_ERROR_DEPTH_SIZE},
-    {"empty", [](Call* c) { c->field.depth.width = 0; }, SF_ERROR_DEPTH_SIZE},
-    {"no rows", [](Call* c) { c->field.depth.height = -1; }, SF_ERROR_DEPTH_SIZE},
-    {"short rows", [](Call* c) { c->field.depth.stride = 2 * 18 - 2; }, SF_ERROR_STRIDE},
-    {"odd rows", [](Call* c) { c->field.depth.stride += 1; }, SF_ERROR_STRIDE},
+     SF_ERROR_RANGE, "image.pixel_stride"},
+    {"no depth", [](Call* c) { c->field.depth.data = nullptr; }, SF_ERROR_NULL, "depth.data"},
+    {"type 4", [](Call* c) { c->field.depth.type = 4; }, SF_ERROR_RANGE, "depth.type"},
+    {"type -1", [](Call* c) { c->field.depth.type = -1; }, SF_ERROR_RANGE, "depth.type"},
+    {"meaning 2", [](Call* c) { c->field.depth.meaning = 2; }, SF_ERROR_RANGE, "depth.meaning"},
+    {"meaning -1", [](Call* c) { c->field.depth.meaning = -1; }, SF_ERROR_RANGE, "depth.meaning"},
+    {"has_invalid 2", [](Call* c) { c->field.depth.has_invalid = 2; }, SF_ERROR_RANGE,
+     "depth.has_invalid"},
+    {"scale 0", [](Call* c) { c->field.depth.scale = 0; }, SF_ERROR_RANGE, "depth.scale"},
+    {"scale NaN", [](Call* c) { c->field.depth.scale = kNan; }, SF_ERROR_RANGE, "depth.scale"},
+    {"offset NaN", [](Call* c) { c->field.depth.offset = kNan; }, SF_ERROR_RANGE, "depth.offset"},
+    {"too wide", [](Call* c) { c->field.depth.width = kWidth + 1; }, SF_ERROR_RANGE, "depth.width"},
+    {"too high", [](Call* c) { c->field.depth.height = kHeight + 1; }, SF_ERROR_RANGE,
+     "depth.height"},
+    {"empty", [](Call* c) { c->field.depth.width = 0; }, SF_ERROR_RANGE, "depth.width"},
+    {"no rows", [](Call* c) { c->field.depth.height = -1; }, SF_ERROR_RANGE, "depth.height"},
+    {"short rows", [](Call* c) { c->field.depth.stride = 2 * 18 - 2; }, SF_ERROR_STRIDE,
+     "depth.stride"},
+    {"odd rows", [](Call* c) { c->field.depth.stride += 1; }, SF_ERROR_STRIDE, "depth.stride"},
     {"odd address",
      [](Call* c) { c->field.depth.data = static_cast<const char*>(c->field.depth.data) + 1; },
-     SF_ERROR_STRIDE},
+     SF_ERROR_STRIDE, "depth.stride"},
     {"luma over a view",
      [](Call* c) { c->out.planes[0] = const_cast<uint8_t*>(c->field.views[0].planes[0]); },
-     SF_ERROR_OVERLAP},
+     SF_ERROR_OVERLAP, "out"},
     {"V over a view's chroma",
      [](Call* c) { c->out.planes[2] = const_cast<uint8_t*>(c->field.views[1].planes[1]) + 30; },
-     SF_ERROR_OVERLAP},
+     SF_ERROR_OVERLAP, "out"},
     {"U over the map",
      [](Call* c) {
        c->out.planes[1] = static_cast<uint8_t*>(const_cast<void*>(c->field.depth.data)) + 40;
      },
-     SF_ERROR_OVERLAP},
+     SF_ERROR_OVERLAP, "out"},
 };
 
 TEST_CASE("images: bad ones are refused, with nothing written") {
@@ -112,6 +126,7 @@ TEST_CASE("images: bad ones are refused, with nothing written") {
     one.spoil(&call);
     CHECK(sf_refocus_images(engine.get(), &params, &call.field, &call.out, nullptr, nullptr,
                             nullptr) == one.status);
+    CHECK(std::string(sf_engine_problem(engine.get())->field) == one.field);
     const bool untouched = image == before;
     CHECK(untouched == (one.status != SF_OK));
   }
@@ -144,10 +159,10 @@ TEST_CASE("images: engines without them, no pointers, the workspace, bad paramet
         SF_ERROR_OVERLAP);
   out = image.Out();
   params.region = {0, 0, kWidth + 1, 1};
-  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr, nullptr, nullptr) == SF_ERROR_REGION);
+  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr, nullptr, nullptr) == SF_ERROR_RANGE);
   params.region = {};
   params.mode = 9;
-  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr, nullptr, nullptr) == SF_ERROR_MODE);
+  CHECK(sf_refocus_images(e, &params, &images, &out, nullptr, nullptr, nullptr) == SF_ERROR_RANGE);
   params.mode = SF_MODE_BLOCK;
   config.images = 0;
   config.streaming = 1;
@@ -155,13 +170,13 @@ TEST_CASE("images: engines without them, no pointers, the workspace, bad paramet
   sf_prepared* prepared = nullptr;
   int32_t rows = 0;
   CHECK(sf_refocus_images(without.get(), &params, &images, &out, nullptr, nullptr, nullptr) ==
-        SF_ERROR_STATE);
+        SF_ERROR_FEATURE);
   CHECK(sf_prepare_images(without.get(), &images, engine.workspace(), 1 << 20, nullptr, nullptr,
-                          nullptr, nullptr, &prepared) == SF_ERROR_STATE);
+                          nullptr, nullptr, &prepared) == SF_ERROR_FEATURE);
   REQUIRE(sf_stream_begin(without.get(), &params) == SF_OK);
-  CHECK(sf_stream_push_images(without.get(), &images, 1, &rows) == SF_ERROR_STATE);
+  CHECK(sf_stream_push_images(without.get(), &images, 1, &rows) == SF_ERROR_FEATURE);
   CHECK(sf_stream_pull_images(without.get(), &out, 1, nullptr, nullptr, &rows, nullptr) ==
-        SF_ERROR_STATE);
+        SF_ERROR_FEATURE);
 }
 
 }  // namespace

@@ -172,12 +172,12 @@ TEST_CASE("image streams: half of a pair of rows is refused, and a bad depth wit
   CHECK(sf_stream_push_images(engine.get(), &images, 2, &rows) == SF_ERROR_STATE);
   CHECK(rows == 0);
   REQUIRE(sf_stream_begin(engine.get(), &params) == SF_OK);
-  CHECK(sf_stream_push_images(engine.get(), &images, 3, &rows) == SF_ERROR_COUNT);
-  CHECK(sf_stream_push_images(engine.get(), &images, 52, &rows) == SF_ERROR_COUNT);
+  CHECK(sf_stream_push_images(engine.get(), &images, 3, &rows) == SF_ERROR_RANGE);
+  CHECK(sf_stream_push_images(engine.get(), &images, 52, &rows) == SF_ERROR_RANGE);
   CHECK(sf_stream_push_images(engine.get(), &images, 51, &rows) == SF_OK);
   CHECK(rows == 51);
   CHECK(sf_stream_pull_images(engine.get(), &out, 3, nullptr, nullptr, &rows, nullptr) ==
-        SF_ERROR_COUNT);
+        SF_ERROR_RANGE);
   CHECK(sf_stream_pull_images(engine.get(), &out, 50, nullptr, nullptr, &rows, nullptr) == SF_OK);
   CHECK(rows == 50);
   out = image.Out(50);
@@ -301,7 +301,7 @@ TEST_CASE("prepared images: neither kind is taken for the other") {
                           nullptr, &of_images) == SF_ERROR_OVERLAP);
   CHECK(of_images == nullptr);
   CHECK(sf_prepare_images(engine.get(), &images, other.get(), other.bytes - 1, nullptr, nullptr,
-                          nullptr, nullptr, &of_images) == SF_ERROR_WORKSPACE_SMALL);
+                          nullptr, nullptr, &of_images) == SF_ERROR_WORKSPACE);
 }
 
 TEST_CASE("images: calls are watched, and cancelled wherever they ask") {

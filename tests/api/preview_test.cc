@@ -362,8 +362,8 @@ TEST_CASE("preview: bad input") {
   size_t bytes = 0;
   for (const int previews : {-1, 4}) {
     config.previews = previews;
-    CHECK(sf_workspace_size(&config, &bytes) == SF_ERROR_PREVIEW);
-    CHECK(sf_prepared_size(&config, &bytes) == SF_ERROR_PREVIEW);
+    CHECK(sf_workspace_size(&config, &bytes) == SF_ERROR_RANGE);
+    CHECK(sf_prepared_size(&config, &bytes) == SF_ERROR_RANGE);
   }
   config.previews = 0;
   Prepared none(scene, config);
@@ -371,9 +371,9 @@ TEST_CASE("preview: bad input") {
   Prepared prepared(scene, config);
   const sf_params params = test::Params(1);
   test::Output out(25, 20);
-  CHECK(none.Preview(params, 1, &out) == SF_ERROR_PREVIEW);
+  CHECK(none.Preview(params, 1, &out) == SF_ERROR_PREPARED);
   for (const int shift : {-1, 0, 3, 32}) {
-    CHECK(prepared.Preview(params, shift, &out) == SF_ERROR_PREVIEW);
+    CHECK(prepared.Preview(params, shift, &out) == SF_ERROR_PREPARED);
   }
   const auto run = [&](sf_engine* e, const sf_params* p, const sf_prepared* of, uint8_t* to,
                        size_t stride) {
@@ -391,11 +391,11 @@ TEST_CASE("preview: bad input") {
   CHECK(run(e, &params, prepared.field(), static_cast<uint8_t*>(prepared.engine.workspace()),
             out.stride) == SF_ERROR_OVERLAP);
   const sf_params far = test::Params(9), wide = test::Params(1, 2);
-  CHECK(run(e, &far, prepared.field(), to, out.stride) == SF_ERROR_BLUR_TOO_LARGE);
-  CHECK(run(e, &wide, prepared.field(), to, out.stride) == SF_ERROR_APERTURE);
+  CHECK(run(e, &far, prepared.field(), to, out.stride) == SF_ERROR_BLUR);
+  CHECK(run(e, &wide, prepared.field(), to, out.stride) == SF_ERROR_RANGE);
   sf_params outside = params;
   outside.region = {49, 0, 2, 1};  // inside the preview's pixels, and not inside the picture
-  CHECK(run(e, &outside, prepared.field(), to, out.stride) == SF_ERROR_REGION);
+  CHECK(run(e, &outside, prepared.field(), to, out.stride) == SF_ERROR_RANGE);
   sf_config other = config;
   other.width = 49;
   test::Engine another(other);
@@ -421,9 +421,9 @@ TEST_CASE("preview: images refuse what pictures do") {
     return sf_refocus_preview_images(of->engine.get(), &params, of->field(), shift, to, nullptr,
                                      nullptr, nullptr);
   };
-  CHECK(run(&without, 1, &out) == SF_ERROR_STATE);
+  CHECK(run(&without, 1, &out) == SF_ERROR_FEATURE);
   CHECK(run(&prepared, 1, nullptr) == SF_ERROR_NULL);
-  CHECK(run(&prepared, 2, &out) == SF_ERROR_PREVIEW);
+  CHECK(run(&prepared, 2, &out) == SF_ERROR_PREPARED);
   CHECK(run(&prepared, 1, &out) == SF_OK);
   for (uint8_t* to : {prepared.at, static_cast<uint8_t*>(prepared.engine.workspace())}) {
     out.planes[0] = to;
@@ -431,7 +431,7 @@ TEST_CASE("preview: images refuse what pictures do") {
   }
   out.planes[0] = rgb.data();
   out.format = 99;
-  CHECK(run(&prepared, 1, &out) == SF_ERROR_FORMAT);
+  CHECK(run(&prepared, 1, &out) == SF_ERROR_RANGE);
 }
 
 TEST_CASE("preview: progress is told of the preview's rows, and calls it off") {

@@ -231,7 +231,7 @@ TEST_CASE("region: outside the picture") {
     sf_params params = test::Params(0);
     params.region = region;
     test::Output out(40, 30);
-    CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_REGION);
+    CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_RANGE);
     CHECK(out.Untouched());
   }
 }
@@ -261,7 +261,7 @@ TEST_CASE("region: streaming has none") {
   REQUIRE(engine.status() == SF_OK);
   sf_params params = test::Params(0);
   params.region = {0, 0, 40, 30};
-  CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_REGION);
+  CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_RANGE);
   params.region = {};
   CHECK(sf_stream_begin(engine.get(), &params) == SF_OK);
 }

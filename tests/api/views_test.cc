@@ -111,8 +111,8 @@ TEST_CASE("views: the paper's rule needs the star, others do without") {
   for (const sf_mode mode : {SF_MODE_FRAME, SF_MODE_BENCHMARK, SF_MODE_BLOCK}) {
     sf_params params = test::Params(kFocus, 0.5, mode);
     params.rule = SF_RULE_PAPER;
-    CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_STAR);
-    CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_STAR);
+    CHECK(test::Refocus(&engine, params, scene, &out) == SF_ERROR_FEATURE);
+    CHECK(sf_stream_begin(engine.get(), &params) == SF_ERROR_FEATURE);
     params.rule = SF_RULE_DEFAULT;
     REQUIRE(test::Refocus(&engine, params, scene, &out) == SF_OK);
     const std::vector<uint8_t> by_default = out.Tight();
@@ -134,9 +134,9 @@ TEST_CASE("views: bad positions are refused before anything is made") {
     return sf_workspace_size(&config, &bytes);
   };
   CHECK(status({{0, 0}, {-1, 1}}) == SF_OK);
-  CHECK(status({{0, 0}, {0, 0}}) == SF_ERROR_VIEWS);  // no positions: two are no star
-  CHECK(status({{0, 0}, {1.5, 0}}) == SF_ERROR_VIEW_POSITIONS);
-  CHECK(status({{0.5, 0}, {1, 0}}) == SF_ERROR_VIEW_POSITIONS);
+  CHECK(status({{0, 0}, {0, 0}}) == SF_ERROR_RANGE);  // no positions: two are no star
+  CHECK(status({{0, 0}, {1.5, 0}}) == SF_ERROR_RANGE);
+  CHECK(status({{0.5, 0}, {1, 0}}) == SF_ERROR_RANGE);
 }
 
 }  // namespace

@@ -117,16 +117,16 @@ TEST_CASE("views: the star is known by its positions, in their order") {
 }
 
 TEST_CASE("views: what is no set of views is refused") {
-  for (const int views : {-1, 0, 2, 3, 4, 16, 18}) CHECK(Check(Star(views)) == SF_ERROR_VIEWS);
+  for (const int views : {-1, 0, 2, 3, 4, 16, 18}) CHECK(Check(Star(views)) == SF_ERROR_RANGE);
   CHECK(Check(Config({{0, 0}, {1, -1}})) == SF_OK);
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = HUGE_VAL;
   for (const double bad : {nan, infinite, -infinite, 1.0001, -1.0001}) {
-    CHECK(Check(Config({{0, 0}, {bad, 0}})) == SF_ERROR_VIEW_POSITIONS);
-    CHECK(Check(Config({{0, 0}, {1, 0}, {0, bad}})) == SF_ERROR_VIEW_POSITIONS);
+    CHECK(Check(Config({{0, 0}, {bad, 0}})) == SF_ERROR_RANGE);
+    CHECK(Check(Config({{0, 0}, {1, 0}, {0, bad}})) == SF_ERROR_RANGE);
   }
-  CHECK(Check(Config({{1, 0}, {0, 0}})) == SF_ERROR_VIEW_POSITIONS);
-  CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5, 0}})) == SF_ERROR_VIEW_POSITIONS);
-  CHECK(Check(Config({{0, 0}, {1, 0}, {0, 0}})) == SF_ERROR_VIEW_POSITIONS);
+  CHECK(Check(Config({{1, 0}, {0, 0}})) == SF_ERROR_RANGE);
+  CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5, 0}})) == SF_ERROR_RANGE);
+  CHECK(Check(Config({{0, 0}, {1, 0}, {0, 0}})) == SF_ERROR_RANGE);
   CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5 + 1.0 / 16384, 0}})) == SF_OK);
   // Beyond the views anything may be left.
   sf_config config = Config({{0, 0}, {1, 0}});

@@ -104,7 +104,7 @@ sf_status StreamAll(sf_engine* engine, const sf_params& params, const sf_image_f
 // What well-formed images may still be refused for.
 bool MayBe(sf_status status) {
   return status == SF_OK || status == SF_ERROR_DISPARITY || status == SF_ERROR_NOT_FINITE ||
-         status == SF_ERROR_DEPTH_SCALE || status == SF_ERROR_BLUR_TOO_LARGE;
+         status == SF_ERROR_RANGE || status == SF_ERROR_BLUR;
 }
 
 }  // namespace

@@ -163,10 +163,10 @@ public final class RefocuserTest {
         "a pair half as far apart is another");
     checkThrows(IllegalArgumentException.class, "positions: expected 4 numbers, found 3",
         () -> refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1}));
-    checkThrows(StarfocusException.class, "positions of views",
+    checkThrows(StarfocusException.class, "positions[",
         () -> refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1.5, 0}));
     checkThrows(
-        StarfocusException.class, "number of views", () -> refocusedFrom(new int[] {0, 1}, null));
+        StarfocusException.class, "views: ", () -> refocusedFrom(new int[] {0, 1}, null));
   }
 
   /** The light field of picture() and ramp() at half its size, of codes as they are. */
@@ -215,7 +215,7 @@ public final class RefocuserTest {
       refocuser.prepare(field(picture()));
       refocuser.preview(1, parameters, out);
       check(found.equals(expected), "a preview is of the reduced light field");
-      checkThrows(StarfocusException.class, "preview", () -> refocuser.preview(3, parameters, out));
+      checkThrows(StarfocusException.class, "shift: ", () -> refocuser.preview(3, parameters, out));
       checkThrows(IllegalArgumentException.class, "expected a buffer of",
           ()
               -> refocuser.preview(

@@ -68,7 +68,8 @@ android_routes() {
   quietly "$cxx" -std=c++17 -Wall -Wextra -Werror -fPIC -shared -o "$work/libdouble.so" \
     "-I$sources" "-I$sources/lib/include" "-I$double" "-isystem$jni" "-isystem$jni/linux" \
     "-isystem$(dirname "$(dirname "$headers")")" "$java_sources"/android/cpp/*.cc \
-    "$java_sources/main/cpp/exceptions.cc" "$double/android_double.cc" "$library"
+    "$java_sources/main/cpp/exceptions.cc" "$sources/platform/problem.cc" "$double/android_double.cc" \
+    "$library"
   compile "$double"/android/*/*.java "$java_sources"/android/java/dev/starfocus/android/*.java \
     "$sources/tests/java/AndroidTest.java"
   run AndroidTest "$work/libdouble.so"

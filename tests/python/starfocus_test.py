@@ -104,7 +104,7 @@ class Bytes(unittest.TestCase):
         part = prepared.preview(1, focus=2, aperture=0.75, region=(41, 30, 50, 21))
         np.testing.assert_array_equal(part, half[15:26, 20:46])
         for shift in (-1, 0, 2, 40):
-            with self.assertRaisesRegex(starfocus.StarfocusError, "preview"):
+            with self.assertRaisesRegex(starfocus.StarfocusError, "shift: .*expected 1 to previews"):
                 prepared.preview(shift, focus=2)
 
     def test_images_give_the_same_bytes(self):
@@ -157,7 +157,10 @@ class Errors(unittest.TestCase):
     def test_configurations_and_arguments_out_of_range(self):
         with self.assertRaises(starfocus.ArgumentError) as raised:
             starfocus.Refocuser(0, 10, disparity_min=0, disparity_max=1)
-        self.assertEqual(raised.exception.status, starfocus.Status.SIZE)
+        self.assertEqual(raised.exception.status, starfocus.Status.RANGE)
+        self.assertEqual(raised.exception.field, "width")
+        self.assertEqual(str(raised.exception), "width: a field or an argument is outside its range "
+                                                "(expected 1 to 65535, found 0)")
         self.assertIsInstance(raised.exception, ValueError)
         with self.assertRaisesRegex(TypeError, "max_blurr"):
             refocuser(max_blurr=3)
@@ -214,7 +217,7 @@ class Arguments(unittest.TestCase):
             for region in ((0, 0, 0, 1), (5, 5, 0, 0), (-1, 0, 4, 4), (0, 0, WIDTH + 1, 1), (0, 0, -4, -4)):
                 with self.assertRaises(starfocus.ArgumentError) as raised:
                     call(region)
-                self.assertEqual(raised.exception.status, starfocus.Status.REGION)
+                self.assertEqual(raised.exception.status, starfocus.Status.RANGE)
             for region in ((2**32, 0, 4, 4), (0, 0, 4 - 2**32, 4)):
                 with self.assertRaisesRegex(ValueError, "region: expected a whole number of 32 bits"):
                     call(region)
@@ -413,7 +416,7 @@ class Headers(unittest.TestCase):
     """The package repeats what the C headers say."""
 
     text = "\n".join((HEADERS / name).read_text(encoding="utf-8")
-                     for name in ("status.h", "starfocus.h", "depth.h", "image.h"))
+                     for name in ("status.h", "tuning.h", "starfocus.h", "depth.h", "image.h"))
     text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
 
     def values(self, name: str) -> dict:

@@ -7,6 +7,7 @@
 #include "examples/cli/engine/engine_run.h"
 #include "examples/command_line/options.h"
 #include "platform/file.h"
+#include "platform/problem.h"
 #include "platform/progress.h"
 #include "platform/runner.h"
 #include "starfocus/depth.h"
@@ -44,6 +45,8 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
   const char* task = given == nullptr ? "estimate its disparities" : "repair its disparities";
   sf_depth_config config;
   sf_depth_config_init(&config);
+  sf_problem problem = {};
+  config.problem = &problem;
   config.width = centre.width;
   config.height = centre.height;
   config.views = static_cast<int32_t>(views.size());
@@ -85,7 +88,8 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
     if (coverage != nullptr && out.has_coverage == 0) coverage->clear();
   }
   if (status == SF_OK) return "";
-  return Error::Internal(where, "views whose disparities it can make", sf_status_string(status));
+  return Error::Internal(where, "views whose disparities it can make",
+                         Describe(status, &problem).text);
 }
 
 // The picture at 1 / factor of its size, each pixel the mean of factor * factor ones.

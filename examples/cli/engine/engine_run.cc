@@ -6,6 +6,7 @@
 
 #include "platform/clock.h"
 #include "platform/file.h"
+#include "platform/problem.h"
 
 namespace starfocus {
 namespace {
@@ -31,11 +32,11 @@ sf_light_field Rows(const LightField& light_field, int first) {
 
 // What the engine could refuse, the program has looked at before; the address space alone limits
 // sizes beyond that.
-Error Outcome(const std::string& where, sf_status status) {
+Error Outcome(const std::string& where, sf_status status, const sf_problem* problem) {
   if (status == SF_OK) return "";
   if (status == SF_ERROR_TOO_LARGE) return OutOfMemory(where, "refocus it");
   return Error::Internal(where, "a light field that the engine refocuses",
-                         sf_status_string(status));
+                         Describe(status, problem).text);
 }
 
 Error NoMemory(const std::string& where, size_t bytes) {
@@ -63,8 +64,11 @@ Error EngineRun::Start(const std::string& where, const EngineTask& task) {
   sf_config config = task.config;
   config.max_workers = task.threads;
   config.streaming = task.stream ? 1 : 0;
+  sf_problem problem = {};
+  config.problem = &problem;
   try {
-    return Outcome(where, MakeEngine(config, &workspace_, &workspace_bytes_, &engine_));
+    const sf_status status = MakeEngine(config, &workspace_, &workspace_bytes_, &engine_);
+    return Outcome(where, status, &problem);
   } catch (const std::bad_alloc&) {
     return NoMemory(where, workspace_bytes_);
   }
@@ -72,7 +76,7 @@ Error EngineRun::Start(const std::string& where, const EngineTask& task) {
 
 Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
   sf_status status = sf_prepared_size(&task.config, &prepared_bytes_);
-  if (status != SF_OK) return Outcome(where, status);
+  if (status != SF_OK) return Outcome(where, status, nullptr);
   try {
     prepared_memory_.reset(::operator new (prepared_bytes_, std::align_val_t{SF_ALIGNMENT}));
   } catch (const std::bad_alloc&) {
@@ -81,7 +85,7 @@ Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
   const sf_light_field rows = Rows(*task.light_field, 0);
   status = sf_prepare(engine_, &rows, prepared_memory_.get(), prepared_bytes_, nullptr, nullptr,
                       ThreadRunner::Run, &runner_, &prepared_);
-  return Outcome(where, status);
+  return Outcome(where, status, sf_engine_problem(engine_));
 }
 
 Error EngineRun::Refocus(const std::string& where, const EngineTask& task, EngineResult* result) {
@@ -145,7 +149,7 @@ Error EngineRun::Run(const std::string& where, const EngineTask& task, const sf_
                         &runner_, &result->report);
   }
   result->seconds = Seconds() - start;
-  return Outcome(where, status);
+  return Outcome(where, status, sf_engine_problem(engine_));
 }
 
 }  // namespace starfocus

@@ -32,6 +32,7 @@ typedef struct sf_depth_config {
                            alone, which take longer; after SF_ERROR_CANCELLED the outputs and the
                              workspace are unspecified */
   void* progress_data;  /**< passed to progress */
+  sf_problem* problem;  /**< where a call tells what it refuses; null, the default: nowhere */
   uint32_t reserved[8]; /**< zero */
 } sf_depth_config;
 

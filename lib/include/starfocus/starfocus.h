@@ -26,7 +26,11 @@
  * Output bytes depend on neither the runner, the number of workers, the SIMD target nor the way the
  * rows come in.
  *
- * Errors: every function checks all its arguments before it writes anything but its own state.
+ * Errors: every function checks all its arguments before it writes anything but its own state. It
+ * returns an sf_status, which says what kind of error it is. An sf_problem says which field or
+ * argument was refused, what its value was and what was expected: set sf_config.problem and
+ * sf_depth_config.problem for calls that take a configuration, and ask sf_engine_problem after
+ * calls with an engine.
  */
 #ifndef STARFOCUS_STARFOCUS_H_
 #define STARFOCUS_STARFOCUS_H_
@@ -35,6 +39,7 @@
 #include <stdint.h>
 
 #include "starfocus/status.h"
+#include "starfocus/tuning.h"
 #include "starfocus/version.h"
 
 #ifdef __cplusplus
@@ -63,9 +68,6 @@ SF_API size_t sf_struct_size(const char* name);
 #define SF_MIN_THETA 0.15707963267948966 /**< 0.05 pi */
 #define SF_MAX_THETA 1.413716694115407   /**< 0.45 pi */
 #define SF_MAX_FOCUS 1.0e6
-#define SF_MAX_TIMING 100000000u
-#define SF_MIN_N_SCALE 0.5
-#define SF_MAX_N_SCALE 2.0
 #define SF_MAX_HIGHLIGHTS 64.0
 #define SF_MAX_PREVIEW 3
 #define SF_MIN_BLADES 3
@@ -82,22 +84,6 @@ typedef enum sf_shape {
                             the  disc's rim */
   SF_SHAPE_RING = 3      /**< the disc less one of radius `ring_inner`: a mirror lens */
 } sf_shape;
-
-/** Run-time model of a block, the paper's (14) with terms for what surrounds the line scan, in
- *  picoseconds; only ratios matter. It decides the partition of SF_MODE_BLOCK, and so its bytes:
- *  sf_config_init sets the same coefficients on every machine, so that all of them give the same
- *  picture. Those that `starfocus-lab calibrate` measures on a machine save it little (0.4 % of the
- *  work where it was counted), and its pictures then differ from those of other machines. */
-typedef struct sf_timing {
-  uint32_t block;    /**< per block */
-  uint32_t field;    /**< per pixel of the extended block at its layer: loading, rotating */
-  uint32_t a;        /**< k_A: per rendered pixel of type A, extended along the other axis */
-  uint32_t b;        /**< k_B: per rendered pixel of type B */
-  uint32_t c;        /**< k_C: per rendered pixel of type C */
-  uint32_t upsample; /**< per picture pixel of a block at layer 1 or 2 */
-  uint32_t span;     /**< per stretch of one disparity in a rendered line, one a line at least */
-  uint32_t hole;     /**< per pixel that a depth edge uncovers in the outermost view, 8 at most */
-} sf_timing;
 
 /** Where a captured view lies, in units of u. */
 typedef struct sf_position {
@@ -181,13 +167,16 @@ typedef struct sf_config {
                         0: none. The workspace does not grow by it */
   uint32_t features; /**< bits of SF_FEATURE_, default all: what the workspace has memory for.
                           Without LINE_SCAN, SF_RULE_DEFAULT is SUBAPERTURE in all modes, and
-                          SF_RULE_PAPER is refused, SF_ERROR_RULE */
+                          SF_RULE_PAPER is refused, SF_ERROR_FEATURE */
   uint32_t reserved[2]; /**< zero */
   /** Where the `views` captured views lie: each coordinate in [-1, 1], rounded to 1/16384, no two
    *  alike, the first one (0, 0). All 0, the default: where sf_view_position tells. What lies
    *  behind an edge is read from the best view that sees it, and filled where none does.
    *  SF_RULE_PAPER and starfocus/depth.h need the star. */
   sf_position positions[SF_MAX_VIEWS];
+  /** Where a call with this configuration tells what it refuses; null, the default: nowhere. Calls
+   *  with an engine do not use it: see sf_engine_problem. */
+  sf_problem* problem;
 } sf_config;
 
 SF_API void sf_config_init(sf_config* config);
@@ -207,6 +196,10 @@ typedef struct sf_engine sf_engine;
  *  caller's and must outlive the engine's use. *engine is null on error. */
 SF_API sf_status sf_init(const sf_config* config, void* workspace, size_t bytes,
                          sf_engine** engine);
+
+/** What the engine's last call refused, in the engine's memory; null if `engine` is. The next call
+ *  with the engine overwrites it. */
+SF_API const sf_problem* sf_engine_problem(const sf_engine* engine);
 
 /** Where sf_create takes memory from. */
 typedef struct sf_allocator {
@@ -245,7 +238,7 @@ typedef enum sf_mode {
 typedef enum sf_rule {
   SF_RULE_DEFAULT = 0, /**< PAPER for SF_MODE_FRAME of a star of 5 or more, else SUBAPERTURE */
   SF_RULE_PAPER = 1, /**< (9): views at most a pixel or so apart, rendered line by line (IV); needs
-                          the star of sf_view_position, else SF_ERROR_STAR */
+                          the star of sf_view_position, else SF_ERROR_FEATURE */
   SF_RULE_SUBAPERTURE = 2 /**< each view stands for its subaperture, however wide, and shows
                          slices of the scene */
 } sf_rule;
@@ -417,7 +410,7 @@ SF_API sf_status sf_refocus_prepared(sf_engine* engine, const sf_params* params,
  * the middle, over S: a multiple of 1/64, halves rounded up, within the range.
  *
  * on_block, progress and the report count pixels of the preview. The light field's pictures are not
- * read; `prepared` may be of sf_prepare or sf_prepare_images. SF_ERROR_PREVIEW when it was not
+ * read; `prepared` may be of sf_prepare or sf_prepare_images. SF_ERROR_PREPARED when it was not
  * prepared for that shift; else errors are those of sf_refocus_prepared. */
 SF_API sf_status sf_refocus_preview(sf_engine* engine, const sf_params* params,
                                     const sf_prepared* prepared, int32_t shift, uint8_t* out,
@@ -479,7 +472,7 @@ SF_API sf_status sf_fill_disparity(float* disparity, size_t stride, int32_t widt
 /** The focus for what is at pixel (x, y) of a disparity map, into *focus: the median of the pixels
  *  up to 3 away whose disparities lie within 0.75 of that pixel's surface. Where none of its 8
  *  neighbours lies within 0.75 of it, its value is taken for wrong, and the surface that most of
- *  these pixels are of counts. SF_ERROR_POSITION when (x, y) is outside the map,
+ *  these pixels are of counts. SF_ERROR_RANGE when (x, y) is outside the map,
  *  SF_ERROR_NOT_FINITE when one of these pixels is NaN or infinite; no other pixel is read. */
 SF_API sf_status sf_focus_at(const float* disparity, size_t stride, int32_t width, int32_t height,
                              int32_t x, int32_t y, double* focus);
@@ -487,7 +480,7 @@ SF_API sf_status sf_focus_at(const float* disparity, size_t stride, int32_t widt
 /** The aperture of a lens stopped down to `f_stop`, widest / f_stop, into *aperture. `widest` is
  *  the f-stop of aperture 1: the focal length over the diameter of the lens whose rim views (1, 0)
  *  and (-1, 0) lie on. With 1, f-stops are relative to that lens.
- *  SF_ERROR_F_STOP unless 0 < widest <= f_stop < infinity. */
+ *  SF_ERROR_RANGE unless 0 < widest <= f_stop < infinity. */
 SF_API sf_status sf_aperture_of_f_stop(double f_stop, double widest, double* aperture);
 
 /** Name of the SIMD target the kernels run on here, e.g. "AVX2"; static storage. */

@@ -39,6 +39,7 @@ class Engine {
     engine_ = std::move(fresh);
     prepared_ = Owned<sf_prepared>();
     config_ = config;
+    config_.problem = nullptr;  // which the caller may not keep
     return SF_OK;
   }
 
@@ -55,6 +56,9 @@ class Engine {
     return sf_refocus_after(get(), &params, &light_field, &previous, out, out_stride, runner,
                             runner_data, report);
   }
+
+  // What the last call refused; null before Init. That of Init is where config.problem points to.
+  const sf_problem* problem() const { return sf_engine_problem(engine_.handle); }
 
   // Allocates the memory of a prepared light field and prepares it; SF_ERROR_MEMORY when memory is
   // short. One prepared before is freed first, so that there are never two: after an error there is

@@ -43,8 +43,15 @@ class Config(Structure):
         ("rotation", c_float), ("curvature", c_float), ("ring_inner", c_float), ("cats_eye", c_float),
         ("transfer", c_int32), ("highlights", c_float), ("fill_unknown", c_int32), ("images", c_int32),
         ("previews", c_int32), ("features", c_uint32), ("reserved", c_uint32 * 2),
-        ("positions", Position * MAX_VIEWS),
+        ("positions", Position * MAX_VIEWS), ("problem", c_void_p),
     ]
+
+
+class Problem(Structure):
+    """sf_problem"""
+
+    _fields_ = [("status", c_int32), ("index", c_int32), ("field", c_char_p), ("expected", c_char_p),
+                ("value", c_double), ("low", c_double), ("high", c_double)]
 
 
 class Region(Structure):
@@ -114,7 +121,7 @@ class DepthConfig(Structure):
     _fields_ = [
         ("version", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
         ("disparity_min", c_float), ("disparity_max", c_float), ("max_workers", c_int32),
-        ("progress", Progress), ("progress_data", c_void_p), ("reserved", c_uint32 * 8),
+        ("progress", Progress), ("progress_data", c_void_p), ("problem", c_void_p), ("reserved", c_uint32 * 8),
     ]
 
 
@@ -155,7 +162,7 @@ class Map(Structure):
 
 
 STRUCTURES = {
-    "sf_timing": Timing, "sf_position": Position, "sf_config": Config, "sf_region": Region, "sf_params": Params,
+    "sf_problem": Problem, "sf_timing": Timing, "sf_position": Position, "sf_config": Config, "sf_region": Region, "sf_params": Params,
     "sf_plane": Plane, "sf_light_field": LightField, "sf_layer_report": LayerReport,
     "sf_skipped": Skipped, "sf_report": Report, "sf_disparity_stats": DisparityStats,
     "sf_depth_config": DepthConfig, "sf_image": Image, "sf_image_out": Image,
@@ -192,6 +199,7 @@ _OTHERS = {
     "sf_params_init": (None, POINTER(Params)),
     "sf_depth_config_init": (None, POINTER(DepthConfig)),
     "sf_destroy": (None, c_void_p),
+    "sf_engine_problem": (POINTER(Problem), c_void_p),
     "sf_status_string": (c_char_p, c_int),
     "sf_simd_target": (c_char_p,),
     "sf_version": (c_char_p,),

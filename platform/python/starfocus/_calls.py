@@ -55,7 +55,7 @@ def part_of(region: Optional[RegionOfPicture], width: int, height: int) -> Regio
     if not (x or y or columns or rows):
         return 0, 0, width, height
     if min(x, y) < 0 or min(columns, rows) < 1 or x + columns > width or y + rows > height:
-        raise ArgumentError(Status.REGION)
+        raise ArgumentError(Status.RANGE, _abi.Problem(Status.RANGE, 0, b"region", b"inside the picture", np.nan))
     return x, y, columns, rows
 
 
@@ -187,11 +187,11 @@ class Watch:
             self._error = error
             return 1
 
-    def check(self, status: int) -> None:
+    def check(self, status: int, problem: Optional[_abi.Problem] = None) -> None:
         """Raises what the function raised, else the error of the status."""
         if self._error is not None:
             raise self._error
-        check(status)
+        check(status, problem)
 
 
 def pointer(array: Optional[np.ndarray]) -> Optional[ctypes.c_void_p]:

@@ -2,15 +2,25 @@
 """What the functions of the package raise, beside TypeError and ValueError for arrays of a wrong kind or shape."""
 from __future__ import annotations
 
-from ._abi import library
+import math
+from typing import Optional
+
+from ._abi import Problem, library
 from .constants import Status
 
 
 class StarfocusError(Exception):
-    """The library refused a call. `status` says why as a number, the text as a sentence."""
+    """The library refused a call. `status` says why as a number, the text as a sentence. `field` is what was
+    refused, a field of a structure or an argument; "" if it is no single one."""
 
-    def __init__(self, status: int):
-        super().__init__(library.sf_status_string(status).decode())
+    def __init__(self, status: int, problem: Optional[Problem] = None):
+        text = library.sf_status_string(status).decode()
+        self.field = ""
+        if problem is not None and problem.status == status and problem.field:
+            self.field = problem.field.decode().replace("[]", f"[{problem.index}]")
+            found = "" if math.isnan(problem.value) else f", found {problem.value:.9g}"
+            text = f"{self.field}: {text} (expected {problem.expected.decode()}{found})"
+        super().__init__(text)
         self.status = Status(status)
 
 
@@ -41,7 +51,7 @@ _KINDS = {
 }
 
 
-def check(status: int) -> None:
+def check(status: int, problem: Optional[Problem] = None) -> None:
     """Raises the error that a status stands for, if it is one."""
     if status != Status.OK:
-        raise _KINDS.get(Status(status), ArgumentError)(status)
+        raise _KINDS.get(Status(status), ArgumentError)(status, problem)

@@ -102,13 +102,14 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
         raise ValueError(f"views: expected arrays of the shape (height, width, 3), found {len(views)} of {shape}")
     height, width = shape[:2]
     pool, watch, size = Pool(workers), Watch(progress), ctypes.c_size_t()
-    config = _abi.DepthConfig()
+    config, problem = _abi.DepthConfig(), _abi.Problem()
     library.sf_depth_config_init(byref(config))
+    config.problem = ctypes.addressof(problem)
     for name, value in (("width", width), ("height", height), ("views", len(views))):
         set_field(config, name, value)
     config.disparity_min, config.disparity_max = span
     config.max_workers, config.progress = pool.workers, watch.function
-    check(size_of(byref(config), byref(size)))
+    check(size_of(byref(config), byref(size)), problem)
     field, kept = light_field(views, given, len(views), height, width)
     memory = aligned(size.value)
     disparity, confidence, coverage = (np.empty((height, width), kind) for kind in (np.float32, np.uint8, np.uint8))
@@ -118,7 +119,7 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
         setattr(made, name + "_stride", stride_of(plane))
     status = make(byref(config), byref(field), byref(made), pointer(memory), size.value, pool.runner, pool.handle)
     del kept
-    watch.check(status)
+    watch.check(status, problem)
     return DisparityMap(disparity, confidence, coverage if made.has_coverage else None)
 
 

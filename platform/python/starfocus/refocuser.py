@@ -43,7 +43,7 @@ class Refocuser:
                  disparity_max: float, workers: int = 0, positions: Any = None, **config: Any):
         self._config = _abi.Config()
         library.sf_config_init(byref(self._config))
-        set_below = {"version", "reserved", "max_workers", "positions"}
+        set_below = {"version", "reserved", "max_workers", "positions", "problem"}
         known = {field[0] for field in _abi.Config._fields_} - set_below
         for name, value in {**config, "width": width, "height": height, "views": views,
                             "disparity_min": disparity_min, "disparity_max": disparity_max}.items():
@@ -55,7 +55,9 @@ class Refocuser:
         self._pool = Pool(workers)
         self._config.max_workers = self._pool.workers
         engine = ctypes.c_void_p()
-        check(library.sf_create(byref(self._config), None, byref(engine)))
+        self._problem = _abi.Problem()
+        self._config.problem = ctypes.addressof(self._problem)
+        check(library.sf_create(byref(self._config), None, byref(engine)), self._problem)
         self._engine = engine.value
         weakref.finalize(self, library.sf_destroy, self._engine)
         self._lock = threading.Lock()
@@ -165,7 +167,7 @@ class Refocuser:
         report = _abi.Report()
         with self._lock:
             status = function(self._engine, *arguments, self._pool.runner, self._pool.handle, byref(report))
-        watch.check(status)
+        watch.check(status, library.sf_engine_problem(self._engine).contents)
         self.report = _as_dict(report)
 
 
@@ -188,7 +190,7 @@ class Prepared:
         with refocuser._lock:
             status = library.sf_prepare(refocuser._engine, byref(field), pointer(self._memory), size.value,
                                         watch.function, None, pool.runner, pool.handle, byref(self._handle))
-        watch.check(status)
+        watch.check(status, library.sf_engine_problem(refocuser._engine).contents)
 
     def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                 rule: Rule = Rule.DEFAULT, region: Optional[RegionOfPicture] = None,
@@ -210,7 +212,7 @@ class Prepared:
         # pylint: disable=protected-access
         x, y, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
         if not 1 <= whole(shift, "shift") <= self._refocuser._config.previews:
-            raise ArgumentError(Status.PREVIEW)
+            raise ArgumentError(Status.PREPARED, _abi.Problem(Status.PREPARED, 0, b"shift", b"1 to previews", shift))
         side = 1 << shift
         shape = (-(-(y + height) // side) - y // side, -(-(x + width) // side) - x // side, 3)
         return self._refocuser._picture(

@@ -118,9 +118,10 @@ export interface Picture {
   milliseconds: number;
 }
 
-/** What the library refuses; `status` is the sf_status. Wrong kinds of values are TypeErrors. */
+/** What the library refuses; `status` is the sf_status, `field` what is at fault ("": no single one). Wrong kinds of values are TypeErrors. */
 export declare class StarfocusError extends Error {
   readonly status: number;
+  readonly field: string;
 }
 
 /** Answers its calls in their order. */

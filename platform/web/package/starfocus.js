@@ -16,12 +16,13 @@ const PROGRESS_INTERVAL = 50;  // ms
 // What the memory of a light field is sized by, or what was made of it depends on.
 const FIXED = ['width', 'height', 'views', 'disparityMin', 'disparityMax', 'previews', 'maxLayer', 'transfer'];
 
-/** What the library refuses, with the number of its sf_status. */
+/** What the library refuses, with the number of its sf_status and the field or argument at fault. */
 export class StarfocusError extends Error {
-  constructor(message, status) {
+  constructor(message, status, field) {
     super(message);
     this.name = 'StarfocusError';
     this.status = status;
+    this.field = field;
   }
 }
 
@@ -132,7 +133,7 @@ class Refocuser {
     this.#end(call, () => {
       if (!error) return call.resolve(result);
       if (error.cancelled && call.signal?.aborted) return call.reject(call.signal.reason);
-      call.reject(error.status ? new StarfocusError(error.message, error.status)
+      call.reject(error.status ? new StarfocusError(error.message, error.status, error.field)
                                : new TypeError(error.message));
     });
   }

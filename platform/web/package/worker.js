@@ -5,7 +5,7 @@
 import {compile, hasSimd, instantiate, makeMemory, readText, writeText} from './engine.js';
 import {canShare, listen, parentOfWorker, startWorker} from './host.js';
 
-const OK = 0, CANCELLED = 47;
+const OK = 0, CANCELLED = 17;
 const BLOCK_NUMBERS = 6;  // of an sf_block
 
 // Where nothing is shared, messages are looked at after so many rows, which costs some 10 % of the time.
@@ -21,8 +21,21 @@ const bytesAt = (address, length) => new Uint8Array(memory.buffer, address, leng
 
 function check(status) {
   if (status === OK) return;
-  const message = readText(memory, engine.status_string(status));
-  throw Object.assign(new Error(message), {status, cancelled: status === CANCELLED});
+  const {message, field} = describe(status, readText(memory, engine.status_string(status)));
+  throw Object.assign(new Error(message), {status, field, cancelled: status === CANCELLED});
+}
+
+/** The message for a status, and the field or argument that its sf_problem names. */
+function describe(status, sentence) {
+  const address = engine.problem();
+  if (!address) return {message: sentence, field: ''};
+  const problem = new DataView(memory.buffer, address, 40);
+  const [found, index, name, expected] = [0, 4, 8, 12].map(offset => problem.getInt32(offset, true));
+  const field = found === status ? readText(memory, name).replace('[]', `[${index}]`) : '';
+  if (!field) return {message: sentence, field};
+  const value = problem.getFloat64(16, true);
+  const range = readText(memory, expected) + (isNaN(value) ? '' : `, found ${value}`);
+  return {message: `${field}: ${sentence} (expected ${range})`, field};
 }
 
 /** Sets fields of one of the engine's structures: {maxBlur: 8, region: {x: 0}} is max_blur and region.x. */
@@ -178,7 +191,7 @@ listen(parent, async ({id, name, values, cancel}) => {
     const result = await calls[name](values);
     parent.postMessage({id, result}, result?.data ? [result.data.buffer] : []);
   } catch (error) {
-    const {message, status, cancelled} = error;
-    parent.postMessage({id, error: {message, status, cancelled}});
+    const {message, status, field, cancelled} = error;
+    parent.postMessage({id, error: {message, status, field, cancelled}});
   }
 });

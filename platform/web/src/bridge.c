@@ -16,9 +16,11 @@
 
 extern unsigned char __heap_base; /* the linker's: where the module's own data ends */
 
-static char text[64];    /* names of fields that JavaScript writes */
-static sf_config wanted; /* what the next engine is to be */
-static sf_config config; /* what sizes the light field, and the engine if there is one */
+static char text[64];             /* names of fields that JavaScript writes */
+static sf_problem problem;        /* of the last call with a configuration */
+static const sf_problem* refused; /* of the last call */
+static sf_config wanted;          /* what the next engine is to be */
+static sf_config config;          /* what sizes the light field, and the engine if there is one */
 static sf_params params;
 static sf_engine* engine;
 static int32_t workers;
@@ -71,6 +73,7 @@ EXPORT(text) char* Text(void) { return text; }
 EXPORT(begin) void Begin(void) {
   if (workers == 0) {
     sf_config_init(&wanted);
+    wanted.problem = &problem;
   } else {
     wanted = config;
   }
@@ -85,6 +88,7 @@ EXPORT(accept) sf_status Accept(int32_t count) {
   wanted.images = 1;
   size_t bytes = 0;
   const sf_status status = sf_workspace_size(&wanted, &bytes);
+  refused = &problem;
   if (status == SF_OK) {
     config = wanted;
     workers = count;
@@ -139,6 +143,7 @@ sf_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height, i
   prepared = NULL;
   memset(&field, 0, sizeof(field));
   const sf_status status = sf_prepared_size(&config, &prepared_bytes);
+  refused = &problem;
   if (status != SF_OK) return status;
   if (!MakeRoomForViews(pixel_bytes) || !MakeRoomForDepth(depth_width, depth_height) ||
       (covers && !MakeRoomForCoverage())) {
@@ -161,6 +166,7 @@ EXPORT(place) const void* Place(int32_t view) {
 EXPORT(make_engine) sf_status MakeEngine(void) {
   size_t bytes = 0;
   const sf_status status = sf_workspace_size(&config, &bytes);
+  refused = &problem;
   if (status != SF_OK) return status;
   engine = NULL;
   top = field_end;
@@ -168,8 +174,12 @@ EXPORT(make_engine) sf_status MakeEngine(void) {
   return workspace == NULL ? SF_ERROR_MEMORY : sf_init(&config, workspace, bytes, &engine);
 }
 
+/* What the last call refused; null when it was a call without a problem. */
+EXPORT(problem) const sf_problem* Problem(void) { return refused; }
+
 /* Prepares the light field whose pixels are in their places. */
 EXPORT(prepare) sf_status Prepare(void) {
+  refused = sf_engine_problem(engine);
   return sf_prepare_images(engine, &field, prepared_memory, prepared_bytes, Progress, NULL,
                            Runner(), NULL, &prepared);
 }
@@ -199,6 +209,7 @@ static int32_t Reduced(int64_t start, int64_t size, int32_t shift) {
 EXPORT(refocus) sf_status Refocus(int32_t shift) {
   const sf_region* const region = &params.region;
   const int whole = region->width == 0 && region->height == 0;
+  refused = sf_engine_problem(engine);
   width = Reduced(whole ? 0 : region->x, whole ? config.width : region->width, shift & 31);
   height = Reduced(whole ? 0 : region->y, whole ? config.height : region->height, shift & 31);
   const sf_image_out out = {
@@ -219,6 +230,7 @@ EXPORT(shared) void* Shared(void) { return &shared; }
 /* The focus for a pixel of the depth map, into *text as a double. */
 EXPORT(focus_at) sf_status FocusAt(int32_t x, int32_t y) {
   double focus = 0;
+  refused = NULL;
   const sf_status status = sf_focus_at((const float*)field.depth.data, field.depth.stride,
                                        field.depth.width, field.depth.height, x, y, &focus);
   memcpy(text, &focus, sizeof(focus));

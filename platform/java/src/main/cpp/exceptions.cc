@@ -4,6 +4,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "platform/problem.h"
+
 namespace starfocus {
 namespace {
 
@@ -23,9 +25,10 @@ void ThrowArgument(JNIEnv* env, const char* format, ...) {
   ThrowNew(env, "java/lang/IllegalArgumentException", text);
 }
 
-void ThrowStatus(JNIEnv* env, sf_status status) {
+void ThrowStatus(JNIEnv* env, sf_status status, const sf_problem* problem) {
   if (status == SF_OK) return;
-  const char* const text = sf_status_string(status);
+  const ProblemText described = Describe(status, problem);
+  const char* const text = described.text;
   if (status == SF_ERROR_MEMORY || status == SF_ERROR_TOO_LARGE) {
     ThrowNew(env, "java/lang/OutOfMemoryError", text);
     return;

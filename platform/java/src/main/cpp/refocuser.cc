@@ -187,9 +187,12 @@ STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
   sf_config_init(&session->config);
   if (ReadFields(env, configuration, kConfigFields, std::size(kConfigFields), &session->config) &&
       ReadPositions(env, configuration, &session->config)) {
+    sf_problem problem = {};
+    session->config.problem = &problem;
     const sf_status status = Start(session);
+    session->config.problem = nullptr;
     if (status == SF_OK) return reinterpret_cast<jlong>(session);
-    ThrowStatus(env, status);
+    ThrowStatus(env, status, &problem);
   }
   End(session);
   return 0;
@@ -210,9 +213,11 @@ STARFOCUS_NATIVE(void, refocus)
     return;
   }
   Begin(session);
-  ThrowStatus(env, sf_refocus_images(session->engine, &params, &field, &image,
-                                     session->pool != nullptr ? sf_pool_run : nullptr,
-                                     session->pool, nullptr));
+  ThrowStatus(
+      env,
+      sf_refocus_images(session->engine, &params, &field, &image,
+                        session->pool != nullptr ? sf_pool_run : nullptr, session->pool, nullptr),
+      sf_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, prepare)
@@ -221,7 +226,7 @@ STARFOCUS_NATIVE(void, prepare)
   sf_image_field field;
   if (ReadImageField(env, views, depth, session->config.views, session->config.width,
                      session->config.height, &field)) {
-    ThrowStatus(env, Prepare(session, field));
+    ThrowStatus(env, Prepare(session, field), sf_engine_problem(session->engine));
   }
 }
 
@@ -232,9 +237,11 @@ STARFOCUS_NATIVE(void, refocusPrepared)
   sf_image_out image;
   if (!ReadTask(env, session, 0, parameters, out, &params, &image)) return;
   Begin(session);
-  ThrowStatus(env, sf_refocus_prepared_images(session->engine, &params, session->prepared, &image,
-                                              session->pool != nullptr ? sf_pool_run : nullptr,
-                                              session->pool, nullptr));
+  ThrowStatus(env,
+              sf_refocus_prepared_images(session->engine, &params, session->prepared, &image,
+                                         session->pool != nullptr ? sf_pool_run : nullptr,
+                                         session->pool, nullptr),
+              sf_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, preview)
@@ -244,9 +251,11 @@ STARFOCUS_NATIVE(void, preview)
   sf_image_out image;
   if (!ReadTask(env, session, shift, parameters, out, &params, &image)) return;
   Begin(session);
-  ThrowStatus(env, sf_refocus_preview_images(
-                       session->engine, &params, session->prepared, shift, &image,
-                       session->pool != nullptr ? sf_pool_run : nullptr, session->pool, nullptr));
+  ThrowStatus(env,
+              sf_refocus_preview_images(session->engine, &params, session->prepared, shift, &image,
+                                        session->pool != nullptr ? sf_pool_run : nullptr,
+                                        session->pool, nullptr),
+              sf_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, cancel)(JNIEnv*, jclass, jlong handle) {
@@ -276,7 +285,7 @@ STARFOCUS_NATIVE(jdouble, focusAt)(JNIEnv* env, jclass, jobject disparity, jint 
 STARFOCUS_NATIVE(jdoubleArray, viewPosition)(JNIEnv* env, jclass, jint index) {
   double place[2] = {};
   if (!sf_view_position(index, &place[0], &place[1])) {
-    ThrowStatus(env, SF_ERROR_VIEWS);
+    ThrowStatus(env, SF_ERROR_RANGE);
     return nullptr;
   }
   const jdoubleArray array = env->NewDoubleArray(2);

@@ -3,7 +3,7 @@ package dev.starfocus;
 
 /** The library refused a call; the message says why. */
 public class StarfocusException extends RuntimeException {
-  public static final int ERROR_CANCELLED = 47;
+  public static final int ERROR_CANCELLED = 17;
 
   private static final long serialVersionUID = 1;
 

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* starfocus: what decides between time and error. Part of starfocus.h. */
+#ifndef STARFOCUS_TUNING_H_
+#define STARFOCUS_TUNING_H_
+
+#include <stdint.h>
+
+#define SF_MAX_TIMING 100000000u
+#define SF_MIN_N_SCALE 0.5
+#define SF_MAX_N_SCALE 2.0
+
+/** Run-time model of a block, the paper's (14) with terms for what surrounds the line scan, in
+ *  picoseconds; only ratios matter. It decides the partition of SF_MODE_BLOCK, and so its bytes:
+ *  sf_config_init sets the same coefficients on every machine, so that all of them give the same
+ *  picture. Those that `starfocus-lab calibrate` measures on a machine save it little (0.4 % of the
+ *  work where it was counted), and its pictures then differ from those of other machines. */
+typedef struct sf_timing {
+  uint32_t block;    /**< per block */
+  uint32_t field;    /**< per pixel of the extended block at its layer: loading, rotating */
+  uint32_t a;        /**< k_A: per rendered pixel of type A, extended along the other axis */
+  uint32_t b;        /**< k_B: per rendered pixel of type B */
+  uint32_t c;        /**< k_C: per rendered pixel of type C */
+  uint32_t upsample; /**< per picture pixel of a block at layer 1 or 2 */
+  uint32_t span;     /**< per stretch of one disparity in a rendered line, one a line at least */
+  uint32_t hole;     /**< per pixel that a depth edge uncovers in the outermost view, 8 at most */
+} sf_timing;
+
+#endif /* STARFOCUS_TUNING_H_ */
