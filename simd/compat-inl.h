@@ -45,9 +45,10 @@ HWY_INLINE V32 WeighPair(D32 d32, V32 a, V32 b, V32 wa, V32 wb) {
 
 // AddWeighed adds a * wa + b * wb of 16-bit lanes to sums of 32 bits. Which lanes are in which of
 // the two vectors of sums depends on the target: only DemoteSums knows.
-template <class D16, class V16 = hn::Vec<D16>, class V32>
-HWY_INLINE void AddWeighed(D16 d16, V16 a, V16 b, int32_t wa, int32_t wb, V32& low, V32& high) {
-  const hn::Repartition<int32_t, D16> d32;
+template <class V16, class V32>
+HWY_INLINE void AddWeighed(V16 a, V16 b, int32_t wa, int32_t wb, V32& low, V32& high) {
+  const hn::DFromV<V16> d16;
+  const hn::Repartition<int32_t, decltype(d16)> d32;
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
   const auto pair =
       hn::Set(d32, static_cast<int32_t>((wa & 0xFFFF) | static_cast<uint32_t>(wb) << 16));

@@ -124,14 +124,20 @@ struct DiscScale {
   int bits, whole;
 };
 
+// Light that a disc's sums become, and their scale. It is written by vectors, beyond the last
+// sample.
+struct DiscTarget {
+  DiscScale scale;
+  int16_t* light;
+};
+
 // FilterMeans makes light of `count` samples of the means: those weighed by the disc and, with
-// kTwo, by a second disc as well. Light is written by vectors, beyond the last sample.
+// kTwo, by a second disc as well.
 #if HWY_TARGET == HWY_SCALAR
 
 template <bool kTwo>
 inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
-                        const DiscScale& scale, int16_t* HWY_RESTRICT light,
-                        const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
+                        const DiscTarget& target, const DiscTarget& second_target) {
   constexpr ptrdiff_t kPixel = DiscMeans::kPixel;
   const auto finish = [](uint32_t sum, const DiscScale& by) {
     const uint32_t half = uint32_t{1} << (by.bits - 1);
@@ -148,8 +154,8 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
       sum += first * tap.weights.first + next * tap.weights.second;
       if (kTwo) second_sum += first * tap.second_weights.first + next * tap.second_weights.second;
     }
-    light[n] = finish(sum, scale);
-    if (kTwo) second_light[n] = finish(second_sum, second_scale);
+    target.light[n] = finish(sum, target.scale);
+    if (kTwo) second_target.light[n] = finish(second_sum, second_target.scale);
   }
 }
 
@@ -172,8 +178,8 @@ struct DiscSums {
   // Adds two means times their weights.
   static HWY_INLINE void Add(V16 first, V16 second, const DiscTaps::Pair& pair, V32& low,
                              V32& high) {
-    AddWeighed(di16, hn::BitCast(di16, first), hn::BitCast(di16, second), pair.first, pair.second,
-               low, high);
+    AddWeighed(hn::BitCast(di16, first), hn::BitCast(di16, second), pair.first, pair.second, low,
+               high);
   }
 
   static HWY_INLINE void Store(V32 low, V32 high, const DiscScale& scale, int16_t* light) {
@@ -222,8 +228,9 @@ HWY_NOINLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_RE
 
 template <bool kTwo>
 inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
-                        const DiscScale& scale, int16_t* HWY_RESTRICT light,
-                        const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
+                        const DiscTarget& target, const DiscTarget& second_target) {
+  const DiscScale &scale = target.scale, &second_scale = second_target.scale;
+  int16_t *HWY_RESTRICT light = target.light, *HWY_RESTRICT second_light = second_target.light;
   const size_t lanes = hn::Lanes(DiscSums::d16);
   size_t n = 0;
   if (kTwo) {
@@ -267,48 +274,44 @@ inline DiscOutput SamplesOf(const Disc& disc, int16_t* samples, size_t stride) {
 
 // Filters rows of samples by chunks, with kTwo by a second, smaller disc as well.
 template <bool kTwo>
-inline void FilterRows(const int16_t* in, size_t in_stride, const Disc& disc, const Disc& smaller,
-                       size_t rows, size_t count, const DiscOutput& out,
-                       const DiscOutput& second_out) {
+inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& smaller,
+                       const DiscOutput& out, const DiscOutput& second_out) {
   const Disc none = {-1, 0, nullptr};
   const DiscTaps taps(disc, kTwo ? smaller : none);
   DiscMeans means;
   constexpr size_t kLight = kDiscChunk + HWY_MAX_BYTES;
   int16_t light[kLight], second_light[kTwo ? kLight : 1];
-  for (size_t begin = 0; begin < count; begin += kDiscChunk) {
-    const size_t chunk = count - begin < kDiscChunk ? count - begin : kDiscChunk;
-    for (size_t row = 0; row < rows; ++row) {
-      means.Fill(in + row * in_stride + begin, in_stride, disc, taps.rows, chunk);
-      FilterMeans<kTwo>(taps, means.First(disc), chunk, out.scale, light, second_out.scale,
-                        second_light);
+  for (size_t begin = 0; begin < in.count; begin += kDiscChunk) {
+    const size_t chunk = in.count - begin < kDiscChunk ? in.count - begin : kDiscChunk;
+    for (size_t row = 0; row < in.rows; ++row) {
+      means.Fill(in.samples + row * in.stride + begin, in.stride, disc, taps.rows, chunk);
+      FilterMeans<kTwo>(taps, means.First(disc), chunk, {out.scale, light},
+                        {second_out.scale, second_light});
       out.Store(light, chunk, row * out.stride + begin);
       if (kTwo) second_out.Store(second_light, chunk, row * second_out.stride + begin);
     }
   }
 }
 
-inline void FilterDisc(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
-                       const Encoding& encoding, size_t rows, size_t count,
+inline void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding,
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
   const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
   const DiscOutput codes = {out, nullptr, out_stride, encoding, {disc.bits + whole, whole}};
-  FilterRows<false>(in, in_stride, disc, disc, rows, count, codes, codes);
+  FilterRows<false>(in, disc, disc, codes, codes);
 }
 
-inline void FilterDiscLayer(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& disc,
-                            size_t rows, size_t count, int16_t* HWY_RESTRICT out,
+inline void FilterDiscLayer(const SampleRows& in, const Disc& disc, int16_t* HWY_RESTRICT out,
                             size_t out_stride) {
   const DiscOutput samples = SamplesOf(disc, out, out_stride);
-  FilterRows<false>(in, in_stride, disc, disc, rows, count, samples, samples);
+  FilterRows<false>(in, disc, disc, samples, samples);
 }
 
-inline void FilterTwoDiscs(const int16_t* HWY_RESTRICT in, size_t in_stride, const Disc& less,
-                           const Disc& more, size_t rows, size_t count,
+inline void FilterTwoDiscs(const SampleRows& in, const Disc& less, const Disc& more,
                            int16_t* HWY_RESTRICT out_less, int16_t* HWY_RESTRICT out_more,
                            size_t out_stride) {
   const DiscOutput first = SamplesOf(more, out_more, out_stride);
   const DiscOutput second = SamplesOf(less, out_less, out_stride);
-  FilterRows<true>(in, in_stride, more, less, rows, count, first, second);
+  FilterRows<true>(in, more, less, first, second);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -26,25 +26,23 @@ namespace reference {
 
 // out[y][n] is the code of the disc's weighted sum around the light in[y][n] (R, G and B each by
 // itself), divided by 2^bits and rounded halves up to light, or to the code where light is the code
-// itself, for y < rows and n < count. Light of
+// itself, for each sample of `in`. Light of
 // pixels that mirror each other is weighed together: the mean of the two above each other, and that
-// of two such means, each rounded halves up. in_stride is in samples, out_stride in bytes. `in` is
+// of two such means, each rounded halves up. out_stride is in bytes. `in` is
 // read as far around as the disc reaches: disc.size rows, and three times as many samples, on each
 // side. `in` and `out` don't overlap, and nothing between the rows of `out` is written.
-void FilterDisc(const int16_t* in, size_t in_stride, const Disc& disc, const Encoding& encoding,
-                size_t rows, size_t count, uint8_t* out, size_t out_stride);
+void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding, uint8_t* out,
+                size_t out_stride);
 
 // Filters rows of a layer as FilterDisc filters those of the picture, but for what it writes:
 // out[y][n] is the sum as a sample of kLayerBits, rounded halves up; out_stride is in samples. The
 // light is that of samples in range.
-void FilterDiscLayer(const int16_t* in, size_t in_stride, const Disc& disc, size_t rows,
-                     size_t count, int16_t* out, size_t out_stride);
+void FilterDiscLayer(const SampleRows& in, const Disc& disc, int16_t* out, size_t out_stride);
 
 // Filters rows by two discs at once, each of which gives what FilterDiscLayer gives; `less` is no
 // larger than `more`.
-void FilterTwoDiscs(const int16_t* in, size_t in_stride, const Disc& less, const Disc& more,
-                    size_t rows, size_t count, int16_t* out_less, int16_t* out_more,
-                    size_t out_stride);
+void FilterTwoDiscs(const SampleRows& in, const Disc& less, const Disc& more, int16_t* out_less,
+                    int16_t* out_more, size_t out_stride);
 
 }  // namespace reference
 }  // namespace starfocus::simd

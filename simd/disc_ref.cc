@@ -5,8 +5,10 @@
 namespace starfocus::simd::reference {
 namespace {
 
-// Returns the disc's sum around the sample at `at`.
-uint32_t DiscSum(const int16_t* at, ptrdiff_t stride, const Disc& disc) {
+// Returns the disc's sum around sample n of a row.
+uint32_t DiscSum(const SampleRows& in, size_t row, size_t n, const Disc& disc) {
+  const auto stride = static_cast<ptrdiff_t>(in.stride);
+  const int16_t* at = in.samples + row * in.stride + n;
   uint32_t sum = 0;
   for (int32_t y = 0; y <= disc.size; ++y) {
     for (int32_t x = 0; x <= disc.size; ++x) {
@@ -32,33 +34,31 @@ int32_t LightOf(uint32_t sum, const Disc& disc, int dropped) {
 
 }  // namespace
 
-void FilterDisc(const int16_t* in, size_t in_stride, const Disc& disc, const Encoding& encoding,
-                size_t rows, size_t count, uint8_t* out, size_t out_stride) {
+void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding, uint8_t* out,
+                size_t out_stride) {
   const int whole = encoding.entries == nullptr ? kLightBits : 0;  // bits of light that are none
-  for (size_t row = 0; row < rows; ++row, in += in_stride, out += out_stride) {
-    for (size_t n = 0; n < count; ++n) {
-      const uint32_t sum = DiscSum(in + n, static_cast<ptrdiff_t>(in_stride), disc);
+  for (size_t row = 0; row < in.rows; ++row, out += out_stride) {
+    for (size_t n = 0; n < in.count; ++n) {
+      const uint32_t sum = DiscSum(in, row, n, disc);
       const auto light = static_cast<int16_t>(LightOf(sum, disc, whole) << whole);
       Encode(&light, 1, encoding, out + n);
     }
   }
 }
 
-void FilterDiscLayer(const int16_t* in, size_t in_stride, const Disc& disc, size_t rows,
-                     size_t count, int16_t* out, size_t out_stride) {
-  for (size_t row = 0; row < rows; ++row, in += in_stride, out += out_stride) {
-    for (size_t n = 0; n < count; ++n) {
-      const uint32_t sum = DiscSum(in + n, static_cast<ptrdiff_t>(in_stride), disc);
+void FilterDiscLayer(const SampleRows& in, const Disc& disc, int16_t* out, size_t out_stride) {
+  for (size_t row = 0; row < in.rows; ++row, out += out_stride) {
+    for (size_t n = 0; n < in.count; ++n) {
+      const uint32_t sum = DiscSum(in, row, n, disc);
       out[n] = static_cast<int16_t>(LightOf(sum, disc, kLightBits - kLayerBits));
     }
   }
 }
 
-void FilterTwoDiscs(const int16_t* in, size_t in_stride, const Disc& less, const Disc& more,
-                    size_t rows, size_t count, int16_t* out_less, int16_t* out_more,
-                    size_t out_stride) {
-  FilterDiscLayer(in, in_stride, less, rows, count, out_less, out_stride);
-  FilterDiscLayer(in, in_stride, more, rows, count, out_more, out_stride);
+void FilterTwoDiscs(const SampleRows& in, const Disc& less, const Disc& more, int16_t* out_less,
+                    int16_t* out_more, size_t out_stride) {
+  FilterDiscLayer(in, less, out_less, out_stride);
+  FilterDiscLayer(in, more, out_more, out_stride);
 }
 
 }  // namespace starfocus::simd::reference

@@ -58,10 +58,11 @@ class Inverses {
 };
 
 // Returns min((sum * inverse + half) >> shift, white) of every other lane.
-template <class D64, class V64 = hn::Vec<D64> >
-HWY_INLINE V64 DivideEven(D64 d64, CompositeVec sum, CompositeVec low, CompositeVec high, V64 half,
-                          int shift, hn::Vec<hn::RebindToSigned<D64> > white) {
-  const hn::RebindToSigned<D64> di64;
+template <class V64, class VI64>
+HWY_INLINE V64 DivideEven(CompositeVec sum, CompositeVec low, CompositeVec high, V64 half,
+                          int shift, VI64 white) {
+  const hn::DFromV<V64> d64;
+  const hn::DFromV<VI64> di64;
   const auto product = hn::Add(hn::MulEven(sum, low), hn::ShiftLeft<32>(hn::MulEven(sum, high)));
   const auto value = hn::ShiftRightSame(hn::Add(product, half), shift);
   return hn::BitCast(d64, hn::Min(hn::BitCast(di64, value), white));
@@ -101,8 +102,8 @@ HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const int16_t* c
   const auto odd_low = odd(low), odd_high = odd(high);
   const auto divide = [&](size_t c) HWY_ATTR {
     const auto sum = hn::LoadU(d32, sums + c * plane);
-    const auto even = DivideEven(d64, sum, low, high, half, shift, white);
-    const auto next = DivideEven(d64, odd(sum), odd_low, odd_high, half, shift, white);
+    const auto even = DivideEven(sum, low, high, half, shift, white);
+    const auto next = DivideEven(odd(sum), odd_low, odd_high, half, shift, white);
     return hn::BitCast(d32, hn::Or(even, hn::ShiftLeft<32>(next)));
   };
   hn::StoreInterleaved3(divide(0), divide(1), divide(2), d32, out);

@@ -30,9 +30,10 @@ inline void Split(const int16_t* HWY_RESTRICT rgb, size_t count, size_t plane,
   if (!done) reference::Split(rgb, count, plane, out);
 }
 
-inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,
-                      const EdgeLimits& limits, size_t count, int16_t* HWY_RESTRICT moved,
-                      int16_t* HWY_RESTRICT behind, uint8_t* HWY_RESTRICT distance) {
+inline void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t count) {
+  const int16_t *HWY_RESTRICT near = rows.near, *HWY_RESTRICT far = rows.far;
+  int16_t *HWY_RESTRICT moved = rows.moved, *HWY_RESTRICT behind = rows.behind;
+  uint8_t* HWY_RESTRICT distance = rows.distance;
   const ChunkTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
@@ -67,15 +68,28 @@ inline constexpr int kEdges = 8;
 // is kept in memory, since some vectors have no size at compile time.
 struct ChunkSides {
   uint32_t some;
+  int16_t unit;  // disparity of a pixel
   int16_t rank[kEdges][kSliceLanes], disparity[kEdges][kSliceLanes], second[kEdges][kSliceLanes];
 };
 
-// Finds the lanes whose place behind the pixel is covered in the view that moves by a pixel per
-// `unit`. The pixels that may cover it follow each other towards the side, `step` apart. Of these,
-// `room` lie in the field (`sure` in each lane), and those after number `last` never come so far.
+// The pixels that may cover a place behind a pixel, in a view that moves by a pixel per `unit`.
+// They follow each other towards a side, `step` apart.
+struct OcclusionQuery {
+  const int16_t* at;
+  ptrdiff_t step;
+  int16_t unit;
+  int32_t sure;  // how many lie in the field in every lane
+  int32_t last;  // pixels after this number never come so far
+};
+
+// Finds the lanes whose place behind the pixel is covered. `room` pixels of a lane lie in the
+// field.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, V disparity, V room,
-                                   int32_t sure, int16_t unit, int32_t last) {
+HWY_INLINE hn::Mask<D> FindCovered(D d16, const OcclusionQuery& query, V disparity, V room) {
+  const int16_t* at = query.at;
+  const ptrdiff_t step = query.step;
+  const int32_t sure = query.sure, last = query.last;
+  const int16_t unit = query.unit;
   const auto reach = static_cast<int16_t>((3 * unit - 1) / 4);
   const auto nearer = hn::SaturatedAdd(disparity, hn::Set(d16, static_cast<int16_t>(unit / 2)));
   // One comparison of unsigned numbers tells whether the place is within `reach` of where the pixel
@@ -101,12 +115,12 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, V d
   return hn::MaskFromVec(covered);
 }
 
-// The same of a view whose pixels do not follow each other along a row or a column. `at` is that
-// in column `column` of the row, and those after number `last` never come so far.
+// The same of a view whose pixels do not follow each other along a row or a column. The first of
+// them is in column `column` of the row, and those after number `last` never come so far.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewLook& look,
-                                         const int16_t* at, int32_t column, V disparity,
-                                         int32_t last) {
+                                         int32_t column, V disparity, int32_t last) {
+  const int16_t* const at = row.disparity + column;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
   const auto reach = static_cast<int16_t>((3 * look.unit - 1) / 4);
   const auto nearer =
@@ -179,11 +193,10 @@ HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t chunk, uin
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& look, int32_t column,
                                  V disparity, int32_t low) {
-  const int16_t* const at = row.disparity + column;
   const int32_t side = look.side, vertical = side == 2 ? row.below : row.above;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
   const int32_t last = (row.high - low) / look.unit + 1;
-  if (look.slant != 0) return FindCoveredAslant(d16, row, look, at, column, disparity, last);
+  if (look.slant != 0) return FindCoveredAslant(d16, row, look, column, disparity, last);
   const auto columns = hn::Iota(d16, static_cast<int16_t>(column));
   const auto width = hn::Set(d16, static_cast<int16_t>(row.width - 1));
   const auto room = side == 0   ? hn::Sub(width, columns)
@@ -194,8 +207,9 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
   const int32_t most = side == 0   ? row.width - 1 - column
                        : side == 1 ? column + lanes - 1
                                    : vertical;
-  return FindCovered(d16, at, StepOf(row, side), disparity, room, sure, look.unit,
-                     last < most ? last : most);
+  const OcclusionQuery query = {row.disparity + column, StepOf(row, side), look.unit, sure,
+                                last < most ? last : most};
+  return FindCovered(d16, query, disparity, room);
 }
 
 // Looks behind an edge of each pixel of `lanes`, at these distances, which are 0 in other lanes,
@@ -259,13 +273,14 @@ HWY_INLINE V SourceOf(D d16, const ChunkSides& sides, size_t k, V best, V dispar
   return hn::IfThenElseZero(some, hn::Or(source, distance));
 }
 
-// Writes a vector of a hidden surface: that of the lowest rank, of the edges whose surface differs
-// from the one above, of which there is none in front of the first, by more than `unit`. Returns
-// it.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V ChooseSurface(D d16, const ChunkSides& sides, size_t k, int surface, V above, V unit,
-                           size_t chunk, const HiddenRow& hidden) {
-  const hn::RebindToUnsigned<D> du16;
+// Writes vector k of a hidden surface at pixel `n`: that of the lowest rank, of the edges whose
+// surface differs from the one above, of which there is none in front of the first, by more than a
+// unit. Returns it.
+HWY_INLINE ChunkVec ChooseSurface(const ChunkSides& sides, size_t k, int surface, ChunkVec above,
+                                  size_t n, const HiddenRow& hidden) {
+  const ChunkTag d16;
+  const hn::RebindToUnsigned<ChunkTag> du16;
+  const auto unit = hn::Set(d16, sides.unit);
   const auto none = hn::Set(d16, kNoRank), nothing = hn::Set(d16, kNoSurface);
   auto best = none, disparity = nothing;
   for (uint32_t rest = sides.some; rest != 0; rest &= rest - 1) {
@@ -285,22 +300,20 @@ HWY_INLINE V ChooseSurface(D d16, const ChunkSides& sides, size_t k, int surface
   const auto chosen = hn::IfThenElse(some, disparity, nothing);
   const bool any = !hn::AllFalse(d16, some);  // behind the first surface there is seldom another
   const auto source = any ? SourceOf(d16, sides, k, best, chosen) : hn::Zero(d16);
-  hn::StoreU(chosen, d16, hidden.disparity[surface] + chunk + k);
-  hn::StoreU(hn::BitCast(du16, source), du16, hidden.source[surface] + chunk + k);
+  hn::StoreU(chosen, d16, hidden.disparity[surface] + n);
+  hn::StoreU(hn::BitCast(du16, source), du16, hidden.source[surface] + n);
   return chosen;
 }
 
 // Writes the hidden surfaces of a group of pixels. Returns whether there are any.
-HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, int unit_bits, size_t chunk,
-                               const HiddenRow& hidden) {
+HWY_INLINE bool ChooseSurfaces(const ChunkSides& sides, size_t chunk, const HiddenRow& hidden) {
   const ChunkTag d16;
-  const auto unit = hn::Set(d16, static_cast<int16_t>(1 << unit_bits));
   const auto nothing = hn::Set(d16, kNoSurface);
   uint32_t found[kSurfaces - 1] = {};
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
     auto above = nothing;
     for (int surface = 0; surface < kSurfaces - 1; ++surface) {
-      above = ChooseSurface(d16, sides, k, surface, above, unit, chunk, hidden);
+      above = ChooseSurface(sides, k, surface, above, chunk + k, hidden);
       found[surface] |= BitsOf(d16, hn::Ne(above, nothing)) << k;
     }
   }
@@ -338,6 +351,7 @@ HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t chunk, uint8_t* HWY_RES
 inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
   const ChunkTag d16;
   ChunkSides sides;
+  sides.unit = static_cast<int16_t>(1 << row.unit_bits);
   uint64_t chunks = 0, bit = 1;
   const auto nothing = hn::Set(d16, kNoSurface);
   const auto width = static_cast<size_t>(row.width);
@@ -360,7 +374,7 @@ inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
       sides.some |= 16u << side;
       LookBehindSide(row, chunk, next, more, 4 + side, &sides);
     }
-    if (ChooseSurfaces(sides, row.unit_bits, chunk, hidden)) chunks |= bit;
+    if (ChooseSurfaces(sides, chunk, hidden)) chunks |= bit;
   }
   return chunks;
 }

@@ -41,6 +41,13 @@ constexpr int16_t FarthestEdge(int unit_bits) {
 // networks are uneven, and behind all of a surface lies what its outline hides.
 inline constexpr int kSmallStepBits = 3;
 
+// Rows of a step from the far row to the near one, see FindEdges.
+struct EdgeRows {
+  const int16_t *near, *far;
+  int16_t *moved, *behind;
+  uint8_t* distance;
+};
+
 // Steps of disparity within a surface that may part it: slices of both sides move apart.
 struct CopyLimits {
   int16_t least, most;  // > 0
@@ -118,8 +125,7 @@ void Split(const int16_t* rgb, size_t count, size_t plane, int16_t* out);
 // the far row to the near row, and moved[n] starts as INT16_MAX. distance[n] becomes the distance
 // to the edge's far side in pixels if the near pixel hides that side from some view, else 0. Whole
 // groups of kSliceLanes are read and written.
-void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits, size_t count,
-               int16_t* moved, int16_t* behind, uint8_t* distance);
+void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t count);
 
 // Finds the steps of more than `step` after each pixel n < count of a row, in groups of
 // kSliceLanes; bits of pixels beyond are 0. Pixel `count` is read too.

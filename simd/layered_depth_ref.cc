@@ -86,8 +86,9 @@ void Split(const int16_t* rgb, size_t count, size_t plane, int16_t* out) {
   }
 }
 
-void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits, size_t count,
-               int16_t* moved, int16_t* behind, uint8_t* distance) {
+void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t count) {
+  const int16_t *near = rows.near, *far = rows.far;
+  int16_t *moved = rows.moved, *behind = rows.behind;
   for (size_t n = 0; n < SliceSamples(count); ++n) {
     const int16_t farther = Saturated(moved[n] + (1 << limits.unit_bits));
     const int16_t change = Saturated(near[n] - far[n]), so_far = Saturated(near[n] - behind[n]);
@@ -99,7 +100,7 @@ void FindEdges(const int16_t* near, const int16_t* far, const EdgeLimits& limits
     const int16_t depth = Saturated(near[n] - behind[n]);
     const bool hides =
         depth > limits.step && moved[n] <= depth && moved[n] <= FarthestEdge(limits.unit_bits);
-    distance[n] = static_cast<uint8_t>(hides ? (moved[n] >> limits.unit_bits) + 1 : 0);
+    rows.distance[n] = static_cast<uint8_t>(hides ? (moved[n] >> limits.unit_bits) + 1 : 0);
   }
 }
 

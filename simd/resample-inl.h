@@ -135,8 +135,7 @@ using WideVec = hn::Vec<WideTag>;
 HWY_INLINE void BeginTaps(FilterVec centre, int32_t tap, WideVec& low, WideVec& high) {
 #if STARFOCUS_HAVE_PAIR_MULTIPLY
   low = high = hn::Zero(WideTag());
-  AddWeighed(FilterTag(), centre, hn::Set(FilterTag(), int16_t{1}), tap, 1 << (kTapBits - 1), low,
-             high);
+  AddWeighed(centre, hn::Set(FilterTag(), int16_t{1}), tap, 1 << (kTapBits - 1), low, high);
 #else
   low = high = hn::Set(WideTag(), 1 << (kTapBits - 1));
   const auto taps = hn::Set(FilterTag(), static_cast<int16_t>(tap));
@@ -152,8 +151,8 @@ HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, 
                                 FilterVec d, FilterVec e) {
   WideVec low, high;
   BeginTaps(c, taps.centre, low, high);
-  AddWeighed(FilterTag(), a, b, taps.near, taps.near, low, high);
-  AddWeighed(FilterTag(), d, e, taps.far, taps.far, low, high);
+  AddWeighed(a, b, taps.near, taps.near, low, high);
+  AddWeighed(d, e, taps.far, taps.far, low, high);
   return EndTaps(low, high);
 }
 
@@ -161,15 +160,15 @@ HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, 
 HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
   WideVec low, high;
   BeginTaps(c, taps.centre, low, high);
-  AddWeighed(FilterTag(), ab, de, taps.near, taps.far, low, high);
+  AddWeighed(ab, de, taps.near, taps.far, low, high);
   return EndTaps(low, high);
 }
 
 HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, FilterVec d,
                                FilterVec e) {
   WideVec low = hn::Set(WideTag(), 1 << (kTapBits - 1)), high = low;
-  AddWeighed(FilterTag(), a, b, taps.near, taps.near, low, high);
-  AddWeighed(FilterTag(), d, e, taps.far, taps.far, low, high);
+  AddWeighed(a, b, taps.near, taps.near, low, high);
+  AddWeighed(d, e, taps.far, taps.far, low, high);
   return EndTaps(low, high);
 }
 
@@ -213,18 +212,18 @@ HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, F
 #endif
 
 inline void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
-                           int16_t low, int16_t high, int16_t* out) {
+                           const SampleRange& range, int16_t* out) {
   const HalfBand taps = filter;  // stays in registers: what is written cannot alias a copy
   const FilterTag d16;
-  const auto vlow = hn::Set(d16, low), vhigh = hn::Set(d16, high);
+  const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
   const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const int16_t* at = in + n;
     const auto value = HalfBandOf(taps, load(at), load(at - step), load(at + step),
                                   load(at - 3 * step), load(at + 3 * step));
-    hn::StoreU(hn::Min(hn::Max(value, vlow), vhigh), d16, out + n);
+    hn::StoreU(hn::Min(hn::Max(value, low), high), d16, out + n);
   });
-  if (!done) reference::FilterHalfBand(in, step, filter, count, low, high, out);
+  if (!done) reference::FilterHalfBand(in, step, filter, count, range, out);
 }
 
 inline void Halve(const int16_t* HWY_RESTRICT even, const int16_t* HWY_RESTRICT odd,
@@ -242,18 +241,18 @@ inline void Halve(const int16_t* HWY_RESTRICT even, const int16_t* HWY_RESTRICT 
 }
 
 inline void Between(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
-                    int16_t low, int16_t high, int16_t* out) {
+                    const SampleRange& range, int16_t* out) {
   const HalfBand taps = filter;
   const FilterTag d16;
-  const auto vlow = hn::Set(d16, low), vhigh = hn::Set(d16, high);
+  const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
   const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const int16_t* at = in + n;
     const auto value =
         BetweenOf(taps, load(at), load(at + step), load(at - step), load(at + 2 * step));
-    hn::StoreU(hn::Min(hn::Max(value, vlow), vhigh), d16, out + n);
+    hn::StoreU(hn::Min(hn::Max(value, low), high), d16, out + n);
   });
-  if (!done) reference::Between(in, step, filter, count, low, high, out);
+  if (!done) reference::Between(in, step, filter, count, range, out);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -23,6 +23,17 @@ struct HalfBand {
   int32_t centre, near, far;
 };
 
+// Samples of a row of which values outside of [low, high] become low or high.
+struct SampleRange {
+  int16_t low, high;
+};
+
+// `rows` rows of `count` samples that lie `stride` samples apart.
+struct SampleRows {
+  const int16_t* samples;
+  size_t stride, rows, count;
+};
+
 namespace reference {
 
 // Parts a line of codes into even and odd pixels, as samples: even[3 n + c] is the light of
@@ -45,10 +56,9 @@ void FinishLayer(const uint32_t* accumulators, size_t count, int shift, int16_t*
 
 // Filters samples that lie `step` apart: out[n] is centre in[n] + near (in[n - step] + in[n +
 // step])
-// + far (in[n - 3 step] + in[n + 3 step]), rounded halves up to a sample and clamped to [low,
-// high].
+// + far (in[n - 3 step] + in[n + 3 step]), rounded halves up to a sample and clamped to `range`.
 void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
-                    int16_t low, int16_t high, int16_t* out);
+                    const SampleRange& range, int16_t* out);
 
 // Filters a line and keeps the even pixels, given both phases of the line: out[n] is centre even[n]
 // + near (odd[n - 3] + odd[n]) + far (odd[n - 6] + odd[n + 3]), rounded as above and saturated to
@@ -58,9 +68,9 @@ void Halve(const int16_t* even, const int16_t* odd, const HalfBand& taps, size_t
 
 // Interpolates the samples half way between in[n] and in[n + step]: out[n] is
 // near (in[n] + in[n + step]) + far (in[n - step] + in[n + 2 step]), rounded as above and clamped
-// to [low, high].
-void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count, int16_t low,
-             int16_t high, int16_t* out);
+// to `range`.
+void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
+             const SampleRange& range, int16_t* out);
 
 }  // namespace reference
 }  // namespace starfocus::simd

@@ -4,9 +4,11 @@
 namespace starfocus::simd::reference {
 namespace {
 
-int16_t RoundTaps(int32_t sum, int16_t low, int16_t high) {
+int16_t RoundTaps(int32_t sum, const SampleRange& range) {
   const int32_t value = (sum + (1 << (kTapBits - 1))) >> kTapBits;
-  return static_cast<int16_t>(value < low ? low : value > high ? high : value);
+  return static_cast<int16_t>(value < range.low    ? range.low
+                              : value > range.high ? range.high
+                                                   : value);
 }
 
 }  // namespace
@@ -56,12 +58,12 @@ void FinishLayer(const uint32_t* accumulators, size_t count, int shift, int16_t*
 }
 
 void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
-                    int16_t low, int16_t high, int16_t* out) {
+                    const SampleRange& range, int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
     const int16_t* at = in + n;
     out[n] = RoundTaps(taps.centre * at[0] + taps.near * (at[-step] + at[step]) +
                            taps.far * (at[-3 * step] + at[3 * step]),
-                       low, high);
+                       range);
   }
 }
 
@@ -71,16 +73,16 @@ void Halve(const int16_t* even, const int16_t* odd, const HalfBand& taps, size_t
     const int16_t* at = odd + n;
     out[n] = RoundTaps(
         taps.centre * even[n] + taps.near * (at[-3] + at[0]) + taps.far * (at[-6] + at[3]),
-        INT16_MIN, INT16_MAX);
+        {INT16_MIN, INT16_MAX});
   }
 }
 
-void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count, int16_t low,
-             int16_t high, int16_t* out) {
+void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
+             const SampleRange& range, int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
     const int16_t* at = in + n;
-    out[n] = RoundTaps(taps.near * (at[0] + at[step]) + taps.far * (at[-step] + at[2 * step]), low,
-                       high);
+    out[n] =
+        RoundTaps(taps.near * (at[0] + at[step]) + taps.far * (at[-step] + at[2 * step]), range);
   }
 }
 

@@ -17,9 +17,10 @@ namespace HWY_NAMESPACE {
 // Splits as many lines side by side as a vector has lanes.
 template <class D16>
 HWY_INLINE void FindRunsOfVector(D16 d16, const int16_t* HWY_RESTRICT disparity, ptrdiff_t step,
-                                 size_t length, const RunLimits& limits, size_t stride,
-                                 uint16_t* HWY_RESTRICT starts, uint16_t* HWY_RESTRICT edges,
-                                 int16_t* HWY_RESTRICT middles) {
+                                 size_t length, const RunLimits& limits, const RunMarks& marks) {
+  uint16_t *HWY_RESTRICT starts = marks.starts, *HWY_RESTRICT edges = marks.edges;
+  int16_t* HWY_RESTRICT middles = marks.middles;
+  const size_t stride = marks.stride;
   const hn::RebindToUnsigned<D16> du16;
   const auto spread = hn::Set(d16, limits.spread), edge = hn::Set(d16, limits.edge);
   const auto last_bit = hn::Set(du16, uint16_t{0x8000});
@@ -60,8 +61,11 @@ inline void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, si
                      const RunLimits& limits, const RunMarks& marks) {
   const hn::CappedTag<int16_t, kRunLanes> d16;
   for (size_t line = 0; line < lines; line += hn::Lanes(d16)) {
-    FindRunsOfVector(d16, disparity + line, step, length, limits, marks.stride, marks.starts + line,
-                     marks.edges + line, marks.middles + line);
+    RunMarks of_vector = marks;
+    of_vector.starts += line;
+    of_vector.edges += line;
+    of_vector.middles += line;
+    FindRunsOfVector(d16, disparity + line, step, length, limits, of_vector);
   }
 }
 

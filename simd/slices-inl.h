@@ -49,12 +49,19 @@ HWY_INLINE void StoreNothing(size_t plane, int16_t* HWY_RESTRICT out) {
   for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, out + c * plane);
 }
 
-// Selects a vector of pixels from n on, whose first surfaces cover all of them. `overlap` is the
-// end of the range.
-HWY_INLINE void SelectFirst(const SurfaceRow& row, ChunkVec low, ChunkVec overlap, size_t n,
-                            size_t count, size_t plane, int16_t* HWY_RESTRICT out,
-                            GroupCover& cover) {
+// Where a row of a slice goes: `count` pixels in planes that lie `plane` samples apart.
+struct SliceTarget {
+  int16_t* out;
+  size_t plane, count;
+};
+
+// Selects a vector of pixels from n on, whose first surfaces cover all of them.
+HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size_t n,
+                            const SliceTarget& target, GroupCover& cover) {
   const ChunkTag d16;
+  const auto low = hn::Set(d16, range.low), overlap = hn::Set(d16, range.overlap);
+  const size_t count = target.count, plane = target.plane;
+  int16_t* HWY_RESTRICT out = target.out;
   const auto found = LiesIn(row.disparity[0] + n, low, overlap);
   if (hn::AllFalse(d16, found)) {
     StoreNothing(plane, out + n);
@@ -70,15 +77,17 @@ HWY_INLINE void SelectFirst(const SurfaceRow& row, ChunkVec low, ChunkVec overla
 }
 
 // Selects a vector of pixels from n on, of whose surfaces any may be seen.
-HWY_INLINE void SelectAny(const SurfaceRow& row, ChunkVec low, ChunkVec high, ChunkVec overlap,
-                          size_t n, size_t count, size_t plane, int16_t* HWY_RESTRICT out,
-                          GroupCover& cover) {
+HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t n,
+                          const SliceTarget& target, GroupCover& cover) {
   const ChunkTag d16;
+  const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
+  const auto overlap = hn::Set(d16, range.overlap);
+  const size_t count = target.count, plane = target.plane;
   const auto pixel = hn::Set(d16, kSliceWhole);
   const auto nearest = LiesIn(row.disparity[0] + n, low, overlap);
   const auto next = LiesIn(row.disparity[1] + n, low, overlap);
   const auto last = LiesIn(row.disparity[2] + n, low, overlap);
-  int16_t* to = out + n;
+  int16_t* HWY_RESTRICT to = target.out + n;
   if (hn::AllFalse(d16, hn::Or(nearest, hn::Or(next, last)))) {  // as in most vectors
     StoreNothing(plane, to);
     cover.all = cover.all && n >= count;
@@ -115,19 +124,18 @@ inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, si
                               size_t plane, int16_t* HWY_RESTRICT out) {
   const ChunkTag d16;
   const size_t lanes = hn::Lanes(d16);
-  const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
-  const auto overlap = hn::Set(d16, range.overlap);
+  const SliceTarget target = {out, plane, count};
   SliceCover cover = {0, 0};
   uint64_t bit = 1;
   for (size_t chunk = 0; chunk < count; chunk += kSliceLanes, bit <<= 1) {
     GroupCover group;
     if ((row.hiding & bit) == 0) {  // as in most groups
       for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
-        SelectFirst(row, low, overlap, n, count, plane, out, group);
+        SelectFirst(row, range, n, target, group);
       }
     } else {
       for (size_t n = chunk; n < chunk + kSliceLanes; n += lanes) {
-        SelectAny(row, low, high, overlap, n, count, plane, out, group);
+        SelectAny(row, range, n, target, group);
       }
     }
     if (group.some) cover.some |= bit;

@@ -24,21 +24,22 @@ inline void MixSamples(const int16_t* HWY_RESTRICT less, const int16_t* HWY_REST
   }
 }
 
-inline void MoveSamples(const int16_t* HWY_RESTRICT in, size_t in_stride, const HalfMove& move,
-                        size_t rows, size_t count, int16_t* HWY_RESTRICT out, size_t out_stride) {
+inline void MoveSamples(const SampleRows& in, const HalfMove& move, int16_t* HWY_RESTRICT out,
+                        size_t out_stride) {
+  const size_t stride = in.stride, whole = SliceSamples(in.count);
   const hn::CappedTag<int16_t, kSliceLanes> d16;
   const auto across = hn::Set(d16, move.across), down = hn::Set(d16, move.down);
   const auto white = hn::Set(d16, kLayerWhite);
-  for (size_t y = 0; y < rows; ++y, in += in_stride, out += out_stride) {
+  const int16_t* HWY_RESTRICT row = in.samples;
+  for (size_t y = 0; y < in.rows; ++y, row += stride, out += out_stride) {
     const auto change = [&](const int16_t* from, const int16_t* to) HWY_ATTR {
       return hn::SaturatedSub(hn::LoadU(d16, to), hn::LoadU(d16, from));
     };
-    for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
-      const int16_t* at = in + n;
+    for (size_t n = 0; n < whole; n += hn::Lanes(d16)) {
+      const int16_t* at = row + n;
       auto value =
           hn::SaturatedAdd(hn::LoadU(d16, at), hn::MulFixedPoint15(change(at - 3, at + 3), across));
-      value = hn::SaturatedAdd(value,
-                               hn::MulFixedPoint15(change(at - in_stride, at + in_stride), down));
+      value = hn::SaturatedAdd(value, hn::MulFixedPoint15(change(at - stride, at + stride), down));
       hn::StoreU(hn::Min(hn::Max(value, hn::Zero(d16)), white), d16, out + n);
     }
   }

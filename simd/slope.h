@@ -31,9 +31,8 @@ void MixSamples(const int16_t* less, const int16_t* more, const int16_t* share, 
 // gradient: out[y][n] is in[y][n] + across (in[y][n + 3] - in[y][n - 3]) + down (in[y + 1][n] -
 // in[y - 1][n]), each product rounded halves up, each difference and sum saturated to 16 bits, and
 // the result clamped to what is in range. The rows above and below and a pixel on each side are
-// read as well. Strides are in samples; `in` and `out` don't overlap.
-void MoveSamples(const int16_t* in, size_t in_stride, const HalfMove& move, size_t rows,
-                 size_t count, int16_t* out, size_t out_stride);
+// read as well. out_stride is in samples; `in` and `out` don't overlap.
+void MoveSamples(const SampleRows& in, const HalfMove& move, int16_t* out, size_t out_stride);
 
 }  // namespace reference
 }  // namespace starfocus::simd

@@ -11,15 +11,15 @@ void MixSamples(const int16_t* less, const int16_t* more, const int16_t* share, 
   }
 }
 
-void MoveSamples(const int16_t* in, size_t in_stride, const HalfMove& move, size_t rows,
-                 size_t count, int16_t* out, size_t out_stride) {
-  for (size_t y = 0; y < rows; ++y, in += in_stride, out += out_stride) {
-    const int16_t *above = in - in_stride, *below = in + in_stride;
-    for (size_t n = 0; n < SliceSamples(count); ++n) {
-      const int16_t *left = in + n - 3, *right = in + n + 3;
+void MoveSamples(const SampleRows& in, const HalfMove& move, int16_t* out, size_t out_stride) {
+  const int16_t* row = in.samples;
+  for (size_t y = 0; y < in.rows; ++y, row += in.stride, out += out_stride) {
+    const int16_t *above = row - in.stride, *below = row + in.stride;
+    for (size_t n = 0; n < SliceSamples(in.count); ++n) {
+      const int16_t *left = row + n - 3, *right = row + n + 3;
       const int16_t across = Product15(Saturated(*right - *left), move.across);
       const int16_t down = Product15(Saturated(below[n] - above[n]), move.down);
-      const int16_t value = Saturated(Saturated(in[n] + across) + down);
+      const int16_t value = Saturated(Saturated(row[n] + across) + down);
       out[n] = value < 0 ? int16_t{0} : value > kLayerWhite ? kLayerWhite : value;
     }
   }

@@ -168,31 +168,37 @@ enum class Known {
   kNothing,
 };
 
-// Adds a slice's colours and coverage to a view, and takes the light that they cover. `excess` is
-// by how much the coverage exceeds the light that is left; the slice gives nothing for that.
+// Colours and coverage of a slice, or their sums over views. They are references, since some
+// vectors cannot be members.
+struct ViewSums {
+  SliceVec &r, &g, &b, &covered;
+};
+
+// Adds a slice's colours and coverage to the sums of a view, and takes the light that they cover.
+// `excess` is by how much the coverage exceeds the light that is left; the slice gives nothing for
+// that.
 template <Known kKnown>
-HWY_INLINE void TakeLight(SliceVec weight, SliceVec red, SliceVec green, SliceVec blue,
-                          SliceVec covered, SliceVec excess, SliceVec& light, SliceVec& r,
-                          SliceVec& g, SliceVec& b, SliceVec& a) {
+HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec excess, SliceVec& light,
+                          const ViewSums& sums) {
   const TileTag d16;
-  const auto taken = hn::Sub(covered, excess);
+  const auto taken = hn::Sub(slice.covered, excess);
   if (kKnown == Known::kNothing &&
       !(kLooksFirst && hn::AllTrue(d16, hn::Eq(excess, hn::Zero(d16))))) {
-    const auto over = hn::Gt(covered, light);
-    const auto share = ShareOfLight(covered, light, excess);
+    const auto over = hn::Gt(slice.covered, light);
+    const auto share = ShareOfLight(slice.covered, light, excess);
     const auto lit = [&](SliceVec value) HWY_ATTR {
       return hn::IfThenElse(over, hn::MulFixedPoint15(value, share), value);
     };
-    red = lit(red);
-    green = lit(green);
-    blue = lit(blue);
-    covered = lit(covered);
+    slice.r = lit(slice.r);
+    slice.g = lit(slice.g);
+    slice.b = lit(slice.b);
+    slice.covered = lit(slice.covered);
   }
   light = hn::Sub(light, taken);
-  r = hn::Add(r, hn::MulFixedPoint15(weight, red));
-  g = hn::Add(g, hn::MulFixedPoint15(weight, green));
-  b = hn::Add(b, hn::MulFixedPoint15(weight, blue));
-  a = hn::Add(a, hn::MulFixedPoint15(weight, covered));
+  sums.r = hn::Add(sums.r, hn::MulFixedPoint15(weight, slice.r));
+  sums.g = hn::Add(sums.g, hn::MulFixedPoint15(weight, slice.g));
+  sums.b = hn::Add(sums.b, hn::MulFixedPoint15(weight, slice.b));
+  sums.covered = hn::Add(sums.covered, hn::MulFixedPoint15(weight, slice.covered));
 }
 
 // Adds what a slice gives to a vector of rows of a view, where `at` is the slice's first sample.
@@ -200,7 +206,7 @@ HWY_INLINE void TakeLight(SliceVec weight, SliceVec red, SliceVec green, SliceVe
 template <int kTaps, Known kKnown>
 HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
                          const int16_t* HWY_RESTRICT at, SliceVec weight, SliceVec& light,
-                         SliceVec& r, SliceVec& g, SliceVec& b, SliceVec& a) {
+                         const ViewSums& sums) {
   const TileTag d16;
   constexpr bool kCovered = kKnown == Known::kCovered;
   const auto load = [&](const int16_t* from) HWY_ATTR { return hn::LoadU(d16, from); };
@@ -224,22 +230,21 @@ HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
     const auto last = hn::Sub(below, load(from + 3 * kSliceLanes));
     return hn::Add(value, hn::MulFixedPoint15(last, fourth));
   };
-  const auto covered = kCovered ? hn::Set(d16, kSliceOne) : between(cover);
+  auto covered = kCovered ? hn::Set(d16, kSliceOne) : between(cover);
   // Colours there are roundings at most; times a weight below a half they are nothing, too.
   if (kLooksFirst && !kCovered && hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
   const auto excess =
       kKnown == Known::kNothing ? hn::Max(hn::Sub(covered, light), hn::Zero(d16)) : hn::Zero(d16);
-  TakeLight<kKnown>(weight, between(at), between(at + plane), between(at + 2 * plane), covered,
-                    excess, light, r, g, b, a);
+  auto r = between(at), g = between(at + plane), b = between(at + 2 * plane);
+  TakeLight<kKnown>(weight, {r, g, b, covered}, excess, light, sums);
 }
 
 // Adds the light of `rows` rows of a vector to their sums.
-HWY_INLINE void AddLight(SliceVec r, SliceVec g, SliceVec b, SliceVec a, size_t rows,
-                         uint32_t* HWY_RESTRICT sums) {
-  AddSums(r, rows, sums);
-  AddSums(g, rows, sums + kSliceLanes);
-  AddSums(b, rows, sums + 2 * kSliceLanes);
-  AddSums(a, rows, sums + 3 * kSliceLanes);
+HWY_INLINE void AddLight(const ViewSums& view, size_t rows, uint32_t* HWY_RESTRICT sums) {
+  AddSums(view.r, rows, sums);
+  AddSums(view.g, rows, sums + kSliceLanes);
+  AddSums(view.b, rows, sums + 2 * kSliceLanes);
+  AddSums(view.covered, rows, sums + 3 * kSliceLanes);
 }
 
 // A slice that is seen, and where the first view shows it.
@@ -287,12 +292,12 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
           constexpr Known kKnown = decltype(known)::value;
           const int read = vector_rows + kTaps - 1;
           if (kLooksFirst || near[0] < read) {
-            TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at, weight, light0, r0, g0, b0,
-                                    a0);
+            TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at, weight, light0,
+                                    {r0, g0, b0, a0});
           }
           if (kLooksFirst || near[step] < read) {
-            TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at + second, weight, light1, r1,
-                                    g1, b1, a1);
+            TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at + second, weight, light1,
+                                    {r1, g1, b1, a1});
           }
         });
       };
@@ -314,8 +319,8 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
       *value = DividedSums(*value, views.extra_bits);
     }
   }
-  AddLight(r0, g0, b0, a0, rows, sums + n);
-  if (rows > step) AddLight(r1, g1, b1, a1, rows - step, sums + 4 * second + n);
+  AddLight({r0, g0, b0, a0}, rows, sums + n);
+  if (rows > step) AddLight({r1, g1, b1, a1}, rows - step, sums + 4 * second + n);
 }
 
 inline void Composite(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRICT sums) {

@@ -93,8 +93,10 @@ class Gather {
     return GoesOn(job_.patience, 3 * points * part.width * part.height);
   }
 
-  const int16_t* FirstPixel(const Rect& part) const {
-    return field_->Rgb(border_ + part.x - loaded_.x, border_ + part.y - loaded_.y);
+  simd::SampleRows RowsOf(const Rect& part) const {
+    return {field_->Rgb(border_ + part.x - loaded_.x, border_ + part.y - loaded_.y),
+            RgbStride(field_->width), static_cast<size_t>(part.height),
+            3 * static_cast<size_t>(part.width)};
   }
 
   // Where a part goes, from the first sample of `out_` on.
@@ -120,15 +122,13 @@ class Gather {
     const Rect part = PixelsOf(x, end, y);
     const BlurKernel& kernel = KernelOf(steps.less);
     if (!Spend(kernel, part)) return x;
-    const size_t in_stride = RgbStride(field_->width);
+    const simd::SampleRows in = RowsOf(part);
     const simd::Disc disc = DiscOf(kernel);
-    const auto rows = static_cast<size_t>(part.height), count = 3 * static_cast<size_t>(part.width);
     if (job_.cells.layer == 0) {
-      job_.kernels->FilterDisc(FirstPixel(part), in_stride, disc, job_.window->transfer->encoding,
-                               rows, count, out_.codes + FirstOut(part), out_.stride);
+      job_.kernels->FilterDisc(in, disc, job_.window->transfer->encoding,
+                               out_.codes + FirstOut(part), out_.stride);
     } else {
-      job_.kernels->FilterDiscLayer(FirstPixel(part), in_stride, disc, rows, count,
-                                    out_.samples + FirstOut(part), out_.stride);
+      job_.kernels->FilterDiscLayer(in, disc, out_.samples + FirstOut(part), out_.stride);
     }
     return end;
   }
@@ -144,9 +144,7 @@ class Gather {
     const Rect part = PixelsOf(x, end, y);
     const BlurKernel &less = KernelOf(steps.less), &more = KernelOf(steps.more);
     if (!Spend(more, part)) return x;
-    job_.kernels->FilterTwoDiscs(FirstPixel(part), RgbStride(field_->width), DiscOf(less),
-                                 DiscOf(more), static_cast<size_t>(part.height),
-                                 3 * static_cast<size_t>(part.width), rows_.less, rows_.more,
+    job_.kernels->FilterTwoDiscs(RowsOf(part), DiscOf(less), DiscOf(more), rows_.less, rows_.more,
                                  SlopeRows::kStride);
     for (; x < end; x += kCellSize) {
       const Rect pixels = job_.cells.PixelsOf(x, y);
@@ -197,8 +195,8 @@ class Gather {
   // Moves what is mixed of a cell, and stores it.
   void Move(const simd::HalfMove& move, const Rect& pixels) {
     const size_t count = 3 * static_cast<size_t>(pixels.width);
-    job_.kernels->MoveSamples(rows_.Mixed(0), SlopeRows::kCell, move,
-                              static_cast<size_t>(pixels.height), count, rows_.moved,
+    const auto rows = static_cast<size_t>(pixels.height);
+    job_.kernels->MoveSamples({rows_.Mixed(0), SlopeRows::kCell, rows, count}, move, rows_.moved,
                               SlopeRows::kCell);
     size_t at = FirstOut(pixels);
     const int16_t* moved = rows_.moved;

@@ -230,8 +230,9 @@ class SurfaceFinder {
 
   void FindEdgesOfColumns(int32_t y, int32_t beside, int side) {
     const simd::EdgeLimits limits = {static_cast<int16_t>(step_), kDisparityBits + window_.layer};
-    kernels_.FindEdges(Row(y), Row(beside), limits, static_cast<size_t>(surfaces_.width),
-                       surfaces_.moved, surfaces_.behind, Edges(side, y));
+    const simd::EdgeRows rows = {Row(y), Row(beside), surfaces_.moved, surfaces_.behind,
+                                 Edges(side, y)};
+    kernels_.FindEdges(rows, limits, static_cast<size_t>(surfaces_.width));
   }
 
   void FindRow(int32_t y) {

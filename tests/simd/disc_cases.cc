@@ -50,27 +50,27 @@ Disc MakeDisc(Draw* draw, KernelCall* call) {
 // Rows of a picture that a disc is applied to, with what lies around them.
 struct Filtered {
   Disc disc;
-  size_t count, rows, stride, out_stride;
-  const int16_t* first;
+  size_t out_stride;
+  starfocus::simd::SampleRows in;
 
   Filtered(Draw* draw, KernelCall* call) : disc(MakeDisc(draw, call)) {
-    count = draw->Size(1, draw->Rarely(4) ? 400 : 60, 96);
-    rows = draw->Size(1, 4, kTimedSamples / 96);
+    const size_t count = draw->Size(1, draw->Rarely(4) ? 400 : 60, 96);
+    const size_t rows = draw->Size(1, 4, kTimedSamples / 96);
     const size_t around = size_t(disc.size), width = count + 6 * around;
-    stride = width + size_t(draw->Int(0, 4));
+    const size_t stride = width + size_t(draw->Int(0, 4));
     out_stride = count + size_t(draw->Int(0, 7));
-    const int16_t* in =
+    const int16_t* samples =
         call->Input("in", Light((rows + 2 * around - 1) * stride + width, draw), kPadding);
     for (size_t y = 0; y + 1 < rows + 2 * around; ++y) {
-      call->Ignore(in + y * stride + width, stride - width);
+      call->Ignore(samples + y * stride + width, stride - width);
     }
-    first = in + around * stride + 3 * around;
+    in = {samples + around * stride + 3 * around, stride, rows, count};
   }
 
   template <class Sample>
   Sample* Output(KernelCall* call) const {
-    auto* out = call->Output<Sample>("out", rows * out_stride);
-    for (size_t y = 0; y < rows; ++y) call->Result(out + y * out_stride, count);
+    auto* out = call->Output<Sample>("out", in.rows * out_stride);
+    for (size_t y = 0; y < in.rows; ++y) call->Result(out + y * out_stride, in.count);
     return out;
   }
 };
@@ -78,29 +78,28 @@ struct Filtered {
 }  // namespace
 
 void FilterDisc(Draw* draw, KernelCall* call) {
-  const Filtered in(draw, call);
+  const Filtered filtered(draw, call);
   const auto encoding = AnyEncoding(draw, call);
-  auto* out = in.Output<uint8_t>(call);
+  auto* out = filtered.Output<uint8_t>(call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.FilterDisc(in.first, in.stride, in.disc, encoding, in.rows, in.count, out,
-                       in.out_stride);
+    kernels.FilterDisc(filtered.in, filtered.disc, encoding, out, filtered.out_stride);
     return 0;
   };
 }
 
 void FilterDiscLayer(Draw* draw, KernelCall* call) {
-  const Filtered in(draw, call);
-  auto* out = in.Output<int16_t>(call);
+  const Filtered filtered(draw, call);
+  auto* out = filtered.Output<int16_t>(call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.FilterDiscLayer(in.first, in.stride, in.disc, in.rows, in.count, out, in.out_stride);
+    kernels.FilterDiscLayer(filtered.in, filtered.disc, out, filtered.out_stride);
     return 0;
   };
 }
 
 // The first disc has weights of the second one, and some where that has none.
 void FilterTwoDiscs(Draw* draw, KernelCall* call) {
-  const Filtered in(draw, call);
-  const Disc& more = in.disc;
+  const Filtered filtered(draw, call);
+  const Disc& more = filtered.disc;
   Disc less = more;
   less.size = draw->Int(0, more.size);
   std::vector<uint16_t> weights(OctantIndex(less.size, less.size) + 1);
@@ -110,10 +109,9 @@ void FilterTwoDiscs(Draw* draw, KernelCall* call) {
   }
   less.bits = BitsOf(less.size, weights);
   less.weights = call->Input("weights of less", weights);
-  auto *out_less = in.Output<int16_t>(call), *out_more = in.Output<int16_t>(call);
+  auto *out_less = filtered.Output<int16_t>(call), *out_more = filtered.Output<int16_t>(call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.FilterTwoDiscs(in.first, in.stride, less, more, in.rows, in.count, out_less, out_more,
-                           in.out_stride);
+    kernels.FilterTwoDiscs(filtered.in, less, more, out_less, out_more, filtered.out_stride);
     return 0;
   };
 }

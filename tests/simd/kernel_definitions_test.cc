@@ -61,11 +61,11 @@ TEST_CASE("kernel definitions: spans, composites, discs and disparities, by hand
                               {896, 0, 0, 1024, 0, 0, 1152, 0, 0}};
   const uint16_t ring[3] = {4, 2, 1};  // the centre, beside it, at the corners: 16 in all
   uint8_t disc[2] = {0, 77};
-  ReferenceKernels().FilterDisc(&rows[1][3], 9, {1, 4, ring}, {nullptr, nullptr}, 1, 1, disc, 9);
+  ReferenceKernels().FilterDisc({&rows[1][3], 9, 1, 1}, {1, 4, ring}, {nullptr, nullptr}, disc, 9);
   CHECK(int(disc[0]) == (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9 + 8) / 16);
   CHECK(int(disc[1]) == 77);
   int16_t sample[2] = {0, 77};
-  ReferenceKernels().FilterDiscLayer(&rows[1][3], 9, {1, 4, ring}, 1, 1, sample, 9);
+  ReferenceKernels().FilterDiscLayer({&rows[1][3], 9, 1, 1}, {1, 4, ring}, sample, 9);
   CHECK(sample[0] == (64 * (4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9) + 8) / 16);
   CHECK(sample[1] == 77);
   const float disparity[4] = {0.0078125f, -0.0078125f, -500, 500};
@@ -177,8 +177,8 @@ TEST_CASE("kernel definitions: halving is the half-band filter at every even pix
   std::vector<int16_t> even(3 * kPairs), odd = even, halved(3 * kKept), whole(6 * kPairs);
   kernels.SplitPhases(line.data(), kPairs, even.data(), odd.data());
   kernels.Halve(even.data() + 6, odd.data() + 6, starfocus::kDownFilter, 3 * kKept, halved.data());
-  kernels.FilterHalfBand(line.data() + 12, 3, starfocus::kDownFilter, 6 * kKept - 3, INT16_MIN,
-                         INT16_MAX, whole.data());
+  kernels.FilterHalfBand(line.data() + 12, 3, starfocus::kDownFilter, 6 * kKept - 3,
+                         {INT16_MIN, INT16_MAX}, whole.data());
   for (size_t n = 0; n < 3 * kKept; ++n) CHECK(halved[n] == whole[n / 3 * 6 + n % 3]);
 }
 

@@ -72,8 +72,8 @@ void FindEdges(Draw* draw, KernelCall* call) {
   call->run = [=](const Kernels& kernels) -> uint64_t {
     for (size_t row = 1; row < rows; ++row) {
       const int16_t* near = disparity + row * whole;
-      kernels.FindEdges(near, near - whole, limits, count, moved, behind,
-                        distance + (row - 1) * whole);
+      uint8_t* distances = distance + (row - 1) * whole;
+      kernels.FindEdges({near, near - whole, moved, behind, distances}, limits, count);
     }
     return 0;
   };

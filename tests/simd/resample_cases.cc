@@ -10,6 +10,7 @@ using starfocus::simd::HalfBand;
 using starfocus::simd::Kernels;
 using starfocus::simd::kLayerWhite;
 using starfocus::simd::kPadding;
+using starfocus::simd::SampleRange;
 
 // Black, white and anything between, or samples as far out of range as filters leave them.
 std::vector<int16_t> Samples(size_t count, bool in_range, Draw* draw) {
@@ -49,12 +50,12 @@ void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
   const auto samples = Samples(count + 6 * step, false, draw);
   const int16_t* in = call->Input("in", samples, kPadding) + 3 * step;
   const HalfBand taps = Taps(draw);
-  const bool clamped = draw->Int(0, 1) == 0;
-  const int16_t low = clamped ? int16_t{0} : INT16_MIN, high = clamped ? kLayerWhite : INT16_MAX;
+  const SampleRange in_range = {0, kLayerWhite}, all = {INT16_MIN, INT16_MAX};
+  const SampleRange range = draw->Int(0, 1) == 0 ? in_range : all;
   auto* out = call->Output<int16_t>("out", count);
   call->Result(out, count);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    filter(kernels)(in, ptrdiff_t(step), taps, count, low, high, out);
+    filter(kernels)(in, ptrdiff_t(step), taps, count, range, out);
     return 0;
   };
 }

@@ -53,7 +53,7 @@ void MoveSamples(Draw* draw, KernelCall* call) {
   auto* out = call->Output<int16_t>("out", rows * out_stride);
   for (size_t y = 0; y < rows; ++y) call->Result(out + y * out_stride, whole);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    kernels.MoveSamples(in + stride + 3, stride, move, rows, count, out, out_stride);
+    kernels.MoveSamples({in + stride + 3, stride, rows, count}, move, out, out_stride);
     return 0;
   };
 }
