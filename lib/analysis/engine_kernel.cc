@@ -99,7 +99,7 @@ std::vector<double> ReadLevels(const Engine& measured) {
   const EngineState& engine = measured.state();
   const Block& block = engine.stripe.plan.blocks[0];
   const Worker& worker = engine.crew.workers[0];
-  const Aperture& aperture = ApertureOf(engine.lens, block.n);
+  const ViewWeights& aperture = WeightsOf(engine.lens, block.n);
   const int bits =
       block.layer == 0 ? engine.lens.renderer->sum_bits(aperture) : int{simd::kLayerBits};
   const double one = std::ldexp(1.0, bits);

@@ -8,8 +8,8 @@
 #include "lib/analysis/aperture.h"
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/view_kernel.h"
-#include "lib/base/aperture.h"
 #include "lib/base/fixed.h"
+#include "lib/base/view_weights.h"
 #include "lib/slices/slice_plane.h"
 
 namespace starfocus::analysis {

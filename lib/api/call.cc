@@ -10,7 +10,7 @@ namespace {
 // Sets up the comparison with the light field before.
 void CompareWith(const Call& call, EngineState* engine) {
   const sf_config& config = engine->config;
-  Changes& changes = engine->stripe.changes;
+  FrameDiff& changes = engine->stripe.changes;
   changes.active = true;
   changes.before = call.before;
   changes.now = call.now;
@@ -23,7 +23,7 @@ void CompareWith(const Call& call, EngineState* engine) {
   const Borders& borders = engine->lens.borders;
   changes.side_reach = borders.views;
   changes.centre_reach = borders.highlights > 0 ? borders.views : borders.centre;
-  StartChanges(StripeRows(*engine).first, &changes);
+  StartFrameDiff(StripeRows(*engine).first, &changes);
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ sf_status sf_init(const sf_config* config, void* workspace, size_t bytes, sf_eng
   made->config = chosen;
   made->config.problem = &made->problem;
   made->kernels = &starfocus::simd::BestKernels();
-  made->tables.opening = starfocus::OpeningOf(chosen);
+  made->tables.opening = starfocus::ShapeOf(chosen);
   made->tables.mean_square = starfocus::MeanSquare(made->tables.opening);
   *engine = reinterpret_cast<sf_engine*>(made);
   return SF_OK;

@@ -59,7 +59,7 @@ int32_t ViewsByPaper(double r_max) {
   return Ceil(kUnderSampling * r_max);
 }
 
-Demand DemandOf(const Opening& opening) {
+Demand DemandOf(const ApertureShape& opening) {
   if (opening.shape == SF_SHAPE_RING) return Demand::kRing;
   if (opening.shape == SF_SHAPE_POLYGON || opening.cats_eye > 0) return Demand::kPolygon;
   return opening.shape == SF_SHAPE_DISC ? Demand::kDisc : Demand::kFallOff;

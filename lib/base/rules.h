@@ -5,14 +5,14 @@
 
 #include <cstdint>
 
-#include "lib/base/opening.h"
+#include "lib/base/aperture_shape.h"
 
 namespace starfocus {
 
 // How much an opening asks of views and layers: the sharper and the narrower its bright parts, the
 // more. What cat's eyes leave has corners as a polygon has.
 enum class Demand { kFallOff, kDisc, kPolygon, kRing };
-Demand DemandOf(const Opening& opening);
+Demand DemandOf(const ApertureShape& opening);
 
 // Views along the aperture radius by (9). r_max >= 0 in pixels; 0 needs the centre view alone.
 int32_t ViewsByPaper(double r_max);

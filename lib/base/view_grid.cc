@@ -13,7 +13,7 @@ constexpr int32_t kRunSpread = kShiftOne / 4;
 
 }  // namespace
 
-ViewGrid MakeViewGrid(const Aperture& aperture, double focus, double aperture_radius, int layer,
+ViewGrid MakeViewGrid(const ViewWeights& aperture, double focus, double aperture_radius, int layer,
                       bool has_half_views) {
   ViewGrid grid;
   grid.aperture = aperture;

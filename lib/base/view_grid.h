@@ -6,13 +6,13 @@
 
 #include <cstdint>
 
-#include "lib/base/aperture.h"
 #include "lib/base/fixed.h"
+#include "lib/base/view_weights.h"
 
 namespace starfocus {
 
 struct ViewGrid {
-  Aperture aperture;       // N views along the radius
+  ViewWeights aperture;    // N views along the radius
   int32_t focus = 0;       // d_t, kDisparityBits
   int64_t step = 0;        // u_t / 2^layer, kStepBits
   int layer = 0;           // L
@@ -34,7 +34,7 @@ struct ViewGrid {
 };
 
 // The grid for aperture radius u_t in (0, 1], focus d_t with |d_t| <= 10^6.
-ViewGrid MakeViewGrid(const Aperture& aperture, double focus, double aperture_radius, int layer,
+ViewGrid MakeViewGrid(const ViewWeights& aperture, double focus, double aperture_radius, int layer,
                       bool has_half_views);
 
 }  // namespace starfocus

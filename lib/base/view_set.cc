@@ -109,19 +109,19 @@ bool SameViews(const sf_config& a, const sf_config& b) {
   return same;
 }
 
-Looks ChooseLooks(const ViewSet& views) {
-  Looks looks;
+OcclusionViews ChooseOcclusionViews(const ViewSet& views) {
+  OcclusionViews occlusion_views;
   for (int side = 0; side < kSideCount; ++side) {
-    Rating best[kLooks] = {};
-    LookView* const on = looks.on[side];
+    Rating best[kOcclusionViews] = {};
+    OcclusionView* const on = occlusion_views.on[side];
     for (int32_t k = 1; k < views.count; ++k) {
       Rating rating = Rate(views.at[k], kSides[side]);
       if (!rating.Helps()) continue;
-      LookView view = {static_cast<int8_t>(k), views.at[k]};
-      for (int place = 0; place < kLooks; ++place) {
+      OcclusionView view = {static_cast<int8_t>(k), views.at[k]};
+      for (int place = 0; place < kOcclusionViews; ++place) {
         if (on[place].view != 0 && !rating.Before(best[place])) continue;
         const Rating next = best[place];
-        const LookView moved = on[place];
+        const OcclusionView moved = on[place];
         best[place] = rating;
         on[place] = view;
         rating = next;
@@ -129,11 +129,11 @@ Looks ChooseLooks(const ViewSet& views) {
         if (view.view == 0) break;
       }
     }
-    for (int place = 1; place < kLooks; ++place) {
+    for (int place = 1; place < kOcclusionViews; ++place) {
       if (best[place].Own() != best[0].Own()) on[place] = {};
     }
   }
-  return looks;
+  return occlusion_views;
 }
 
 }  // namespace starfocus

@@ -22,21 +22,21 @@ struct ViewPosition {
 };
 
 // A captured view beside the centre one; view 0 stands for none.
-struct LookView {
+struct OcclusionView {
   int8_t view;
   ViewPosition at;
 };
 
 // How many views are looked into behind an edge, one after the other.
-inline constexpr int kLooks = 2;
+inline constexpr int kOcclusionViews = 2;
 
 // The views that look behind depth edges on each side: as of kSides, the best first.
-struct Looks {
-  LookView on[kSideCount][kLooks] = {};
+struct OcclusionViews {
+  OcclusionView on[kSideCount][kOcclusionViews] = {};
 
   // The last view of a side, which is the nearest one where they lie on its axis.
-  const LookView& Last(int side) const {
-    return on[side][on[side][kLooks - 1].view != 0 ? kLooks - 1 : 0];
+  const OcclusionView& Last(int side) const {
+    return on[side][on[side][kOcclusionViews - 1].view != 0 ? kOcclusionViews - 1 : 0];
   }
 };
 
@@ -68,7 +68,7 @@ bool SameViews(const sf_config& a, const sf_config& b);
 // they look behind more. Where there are none, others up to 83 degrees from the axis stand in:
 // they look behind what is thin or slanted, and those farther beside it behind next to nothing
 // (docs/constants.md).
-Looks ChooseLooks(const ViewSet& views);
+OcclusionViews ChooseOcclusionViews(const ViewSet& views);
 
 // A distance of the centre view's pixels, kDisparityBits or any other, as a view at `position` of
 // one axis shows it; halves away from 0.

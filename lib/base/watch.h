@@ -44,10 +44,10 @@ class Watch {
 
 // How long a thread works before it asks: by what it does, and not by a clock, which the library
 // has none of.
-class Patience {
+class CancelToken {
  public:
-  Patience() = default;
-  explicit Patience(Watch* watch) : watch_(watch) {}
+  CancelToken() = default;
+  explicit CancelToken(Watch* watch) : watch_(watch) {}
 
   // Counts about so many samples read, filtered or added up. Returns whether to go on; no once, it
   // is no until the next call.
@@ -71,8 +71,8 @@ class Patience {
 };
 
 // The same where there may be nobody to ask.
-inline bool GoesOn(Patience* patience, int64_t samples) {
-  return patience == nullptr || patience->Spend(samples);
+inline bool GoesOn(CancelToken* cancel, int64_t samples) {
+  return cancel == nullptr || cancel->Spend(samples);
 }
 
 }  // namespace starfocus

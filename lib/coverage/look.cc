@@ -19,7 +19,7 @@ constexpr int kEnoughBits = 1;
 
 // A view beside the centre.
 struct SideView {
-  LookView look;
+  OcclusionView look;
   bool down;      // whether places follow each other along columns
   int32_t along;  // the view's distance on that axis, kViewBits
   int32_t slant;  // across it for one pixel along it, kViewBits
@@ -34,7 +34,7 @@ class TileLooker {
         left_(column * kTileSide),
         columns_(Min(kTileSide, map_.width - left_)) {
     for (int side = 0; side < kSideCount; ++side) {
-      for (const LookView& look : window_.looks.on[side]) AddView(look);
+      for (const OcclusionView& look : window_.occlusion_views.on[side]) AddView(look);
     }
     if (count_ > 0) FindBins(column, row);
   }
@@ -64,7 +64,7 @@ class TileLooker {
     int32_t rgb[3], weight;
   };
 
-  void AddView(const LookView& look) {
+  void AddView(const OcclusionView& look) {
     if (look.view == 0) return;
     for (int k = 0; k < count_; ++k) {
       if (views_[k].look.view == look.view) return;
@@ -170,7 +170,7 @@ class TileLooker {
   const Window& window_;
   const CoverageMap& map_;
   const int32_t left_, columns_;
-  SideView views_[kSideCount * kLooks];
+  SideView views_[kSideCount * kOcclusionViews];
   int count_ = 0;
   uint64_t bins_ = 0;
   // Of a row of the tile:

@@ -55,12 +55,12 @@ ColourMean ColourSum::Mean() const {
   return mean;
 }
 
-ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Carver* carver) {
+ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena) {
   ColourPyramid pyramid = {};
   int32_t columns = (width + kHairCell - 1) / kHairCell;
   int32_t rows = (height + kHairCell - 1) / kHairCell;
   for (bool is_last = false; !is_last; ++pyramid.count) {
-    auto* means = carver->Take<ColourMean>(static_cast<size_t>(columns), static_cast<size_t>(rows));
+    auto* means = arena->Take<ColourMean>(static_cast<size_t>(columns), static_cast<size_t>(rows));
     pyramid.levels[pyramid.count] = {columns, rows, means};
     is_last = columns == 1 && rows == 1;
     columns = (columns + 1) / 2;

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 
 namespace starfocus {
 
@@ -54,7 +54,7 @@ struct ColourPyramid {
   int32_t count;
   ColourLevel levels[kMostLevels];
 };
-ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Carver* carver);
+ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena);
 
 // Pulls the means of the lowest level up and pushes them down again, which fills cells of low
 // weight. Returns false if all weights are 0.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <new>
 
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 #include "lib/base/fixed.h"
 #include "lib/depth/majority.h"
 #include "lib/depth/soft_edges.h"
@@ -289,7 +289,7 @@ sf_status ChooseByColour(const ColourMap& given, const simd::DepthKernels& kerne
   return SF_OK;
 }
 
-ColourTileMemory TakeTile(const EstimatePlan& plan, Carver* carver) {
+ColourTileMemory TakeTile(const EstimatePlan& plan, Arena* arena) {
   size_t width = 0, area = 0;
   for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {
     const Rect region = Widened(plan, TileOf(plan, tile), kTileMargin);
@@ -299,11 +299,11 @@ ColourTileMemory TakeTile(const EstimatePlan& plan, Carver* carver) {
     area = pixels > area ? pixels : area;
   }
   ColourTileMemory memory;
-  memory.choices.choices = carver->Take<Choices>(area);
-  memory.choices.paths = carver->Take<ChoicePath>(width);
-  memory.choices.cell = carver->Take<ColourCell>(1);
-  memory.doubt = carver->Take<uint8_t>(area);
-  memory.smooth = carver->Take<SmoothMemory>(1);
+  memory.choices.choices = arena->Take<Choices>(area);
+  memory.choices.paths = arena->Take<ChoicePath>(width);
+  memory.choices.cell = arena->Take<ColourCell>(1);
+  memory.doubt = arena->Take<uint8_t>(area);
+  memory.smooth = arena->Take<SmoothMemory>(1);
   return memory;
 }
 
@@ -311,27 +311,27 @@ ColourTileMemory TakeTile(const EstimatePlan& plan, Carver* carver) {
 
 size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* base,
                           ColourMemory** memory) {
-  Carver carver(base);
+  Arena arena(base);
   const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
-  *memory = carver.Take<ColourMemory>(1);
+  *memory = arena.Take<ColourMemory>(1);
   const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
-  auto* progress = carver.Take<std::atomic<uint32_t>>(ProgressWords(tiles));
+  auto* progress = arena.Take<std::atomic<uint32_t>>(ProgressWords(tiles));
   int16_t* maps[3];
-  maps[0] = carver.Take<int16_t>(width, height);
-  const HairCells hair_cells = TakeHairCells(plan.width, plan.height, &carver);
-  const size_t mark = carver.Mark();
-  for (int k = 1; k < 3; ++k) maps[k] = carver.Take<int16_t>(width, height);
-  auto* gain = carver.Take<int16_t>(width, height);
-  auto* doubt = carver.Take<uint8_t>(width, height);
-  auto* certainty = carver.Take<uint8_t>(width, height);
-  auto* counts = carver.Take<TileCount>(tiles);
-  auto* soft = carver.Take<SoftCount>(tiles);
-  const ThinCells thin = TakeThinCells(GridOf(plan), &carver);
+  maps[0] = arena.Take<int16_t>(width, height);
+  const HairCells hair_cells = TakeHairCells(plan.width, plan.height, &arena);
+  const size_t mark = arena.Mark();
+  for (int k = 1; k < 3; ++k) maps[k] = arena.Take<int16_t>(width, height);
+  auto* gain = arena.Take<int16_t>(width, height);
+  auto* doubt = arena.Take<uint8_t>(width, height);
+  auto* certainty = arena.Take<uint8_t>(width, height);
+  auto* counts = arena.Take<TileCount>(tiles);
+  auto* soft = arena.Take<SoftCount>(tiles);
+  const ThinCells thin = TakeThinCells(GridOf(plan), &arena);
   // Coverage is looked for before anything else is.
-  carver.Reuse(mark);
-  const HairMemory hair = TakeHairMemory(plan, &carver);
-  carver.GoOn();
-  auto* workers = carver.Take<ColourTileMemory>(static_cast<size_t>(max_workers));
+  arena.Reuse(mark);
+  const HairMemory hair = TakeHairMemory(plan, &arena);
+  arena.GoOn();
+  auto* workers = arena.Take<ColourTileMemory>(static_cast<size_t>(max_workers));
   if (base != nullptr) {
     ColourMemory& made = *new (*memory) ColourMemory();
     made.jobs.max_workers = max_workers;
@@ -348,10 +348,10 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
     made.workers = workers;
   }
   for (int32_t worker = 0; worker < max_workers; ++worker) {
-    const ColourTileMemory tile = TakeTile(plan, &carver);
+    const ColourTileMemory tile = TakeTile(plan, &arena);
     if (base != nullptr) workers[worker] = tile;
   }
-  return carver.Bytes();
+  return arena.Bytes();
 }
 
 sf_status RepairByColour(const EstimatePlan& plan, const sf_light_field& light_field,

@@ -20,7 +20,7 @@ Rect LargestRegion(const EstimatePlan& plan) {
   return largest;
 }
 
-TileMemory TakeTile(const EstimatePlan& plan, const Rect& region, Carver* carver) {
+TileMemory TakeTile(const EstimatePlan& plan, const Rect& region, Arena* arena) {
   TileMemory tile = {};
   const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
   const size_t area = width * height, places = simd::PathLabels(static_cast<size_t>(plan.labels));
@@ -30,21 +30,21 @@ TileMemory TakeTile(const EstimatePlan& plan, const Rect& region, Carver* carver
   patches.stride = simd::SliceSamples(width + beyond) + simd::kPadding;
   patches.plane = patches.stride * (height + beyond);
   patches.rgb =
-      carver->Take<uint8_t>(patches.plane, 3 * (static_cast<size_t>(plan.AllPhases()) + 1));
-  patches.split = carver->Take<uint8_t>(patches.stride, 2 * 3);
-  patches.hidden = carver->Take<uint8_t>(patches.plane, side_views);
-  tile.cost = carver->Take<uint8_t>(area, places);
-  tile.prior = plan.repairs ? carver->Take<uint8_t>(area, places) : nullptr;
-  tile.sum = carver->Take<int16_t>(area, places);
+      arena->Take<uint8_t>(patches.plane, 3 * (static_cast<size_t>(plan.AllPhases()) + 1));
+  patches.split = arena->Take<uint8_t>(patches.stride, 2 * 3);
+  patches.hidden = arena->Take<uint8_t>(patches.plane, side_views);
+  tile.cost = arena->Take<uint8_t>(area, places);
+  tile.prior = plan.repairs ? arena->Take<uint8_t>(area, places) : nullptr;
+  tile.sum = arena->Take<int16_t>(area, places);
   for (int k = 0; k < 2; ++k) {
-    int16_t* path = carver->Take<int16_t>((width + 2) * places + 1);
+    int16_t* path = arena->Take<int16_t>((width + 2) * places + 1);
     tile.path[k] = path == nullptr ? nullptr : path + places + 1;
-    int16_t* least = carver->Take<int16_t>(width + 2);
+    int16_t* least = arena->Take<int16_t>(width + 2);
     tile.least[k] = least == nullptr ? nullptr : least + 1;
   }
-  tile.jump = carver->Take<int16_t>(width);
-  tile.moves = carver->Take<simd::ViewMove>(static_cast<size_t>(plan.labels), side_views);
-  tile.choice = carver->Take<int16_t>(width);
+  tile.jump = arena->Take<int16_t>(width);
+  tile.moves = arena->Take<simd::ViewMove>(static_cast<size_t>(plan.labels), side_views);
+  tile.choice = arena->Take<int16_t>(width);
   return tile;
 }
 
@@ -52,25 +52,24 @@ TileMemory TakeTile(const EstimatePlan& plan, const Rect& region, Carver* carver
 
 size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
                       EstimateMemory** memory, const PieceVisitor* pieces) {
-  Carver carver(base, PTRDIFF_MAX, pieces);
+  Arena arena(base, PTRDIFF_MAX, pieces);
   const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
-  *memory = carver.Take<EstimateMemory>(1);
+  *memory = arena.Take<EstimateMemory>(1);
   const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
-  auto* progress = carver.Take<std::atomic<uint32_t>>(ProgressWords(tiles));
-  auto* first = carver.Take<int16_t>(width, height);
-  auto* second = carver.Take<int16_t>(width, height);
-  auto* certainty = carver.Take<uint8_t>(width, height);
+  auto* progress = arena.Take<std::atomic<uint32_t>>(ProgressWords(tiles));
+  auto* first = arena.Take<int16_t>(width, height);
+  auto* second = arena.Take<int16_t>(width, height);
+  auto* certainty = arena.Take<uint8_t>(width, height);
   int16_t* of_given[2] = {};
-  for (int16_t*& map : of_given) map = plan.repairs ? carver.Take<int16_t>(width, height) : nullptr;
+  for (int16_t*& map : of_given) map = plan.repairs ? arena.Take<int16_t>(width, height) : nullptr;
   uint8_t* of_pixels[3] = {};
-  for (uint8_t*& map : of_pixels)
-    map = plan.repairs ? carver.Take<uint8_t>(width, height) : nullptr;
+  for (uint8_t*& map : of_pixels) map = plan.repairs ? arena.Take<uint8_t>(width, height) : nullptr;
   ThinCells cells[2] = {};
   if (plan.repairs) {
-    for (ThinCells& map : cells) map = TakeThinCells(GridOf(plan), &carver);
+    for (ThinCells& map : cells) map = TakeThinCells(GridOf(plan), &arena);
   }
-  TileCount* counts = plan.repairs ? carver.Take<TileCount>(tiles) : nullptr;
-  auto* workers = carver.Take<TileMemory>(static_cast<size_t>(max_workers));
+  TileCount* counts = plan.repairs ? arena.Take<TileCount>(tiles) : nullptr;
+  auto* workers = arena.Take<TileMemory>(static_cast<size_t>(max_workers));
   if (base != nullptr) {
     EstimateMemory& made = *new (*memory) EstimateMemory();
     made.jobs.max_workers = max_workers;
@@ -91,12 +90,12 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
   }
   const Rect region = LargestRegion(plan);
   for (int32_t worker = 0; worker < max_workers; ++worker) {
-    const TileMemory tile = TakeTile(plan, region, &carver);
+    const TileMemory tile = TakeTile(plan, region, &arena);
     if (base == nullptr) continue;
     workers[worker] = tile;
     workers[worker].swept = of_pixels[2];
   }
-  return carver.Bytes();
+  return arena.Bytes();
 }
 
 EstimateZones::EstimateZones(const EstimatePlan& plan, int32_t max_workers, void* base)

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 #include "lib/base/jobs.h"
 #include "lib/depth/estimate_plan.h"
 #include "lib/depth/evidence.h"
@@ -77,7 +77,7 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
                       EstimateMemory** memory, const PieceVisitor* pieces = nullptr);
 
 // Makes the red zones of the memory of an estimate or repair at `base` ones that nobody may touch,
-// as long as the object lives (lib/base/carver.h).
+// as long as the object lives (lib/base/arena.h).
 class EstimateZones {
  public:
   EstimateZones(const EstimatePlan& plan, int32_t max_workers, void* base);

@@ -101,16 +101,16 @@ uint8_t MarkOf(const HairCells& cells, int32_t x, int32_t y) {
 
 }  // namespace
 
-HairCells TakeHairCells(int32_t width, int32_t height, Carver* carver) {
+HairCells TakeHairCells(int32_t width, int32_t height, Arena* arena) {
   HairCells cells = {};
   cells.columns = (width + kHairCell - 1) / kHairCell;
   cells.rows = (height + kHairCell - 1) / kHairCell;
   const auto columns = static_cast<size_t>(cells.columns), rows = static_cast<size_t>(cells.rows);
   for (int16_t** plane : {&cells.low, &cells.high, &cells.farthest, &cells.nearest}) {
-    *plane = carver->Take<int16_t>(columns, rows);
+    *plane = arena->Take<int16_t>(columns, rows);
   }
-  cells.marks = carver->Take<uint8_t>(columns, rows);
-  cells.line = carver->Take<int32_t>(columns > rows ? columns : rows);
+  cells.marks = arena->Take<uint8_t>(columns, rows);
+  cells.line = arena->Take<int32_t>(columns > rows ? columns : rows);
   return cells;
 }
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 #include "lib/depth/colour_map.h"
 #include "lib/depth/colour_pyramid.h"
 
@@ -41,7 +41,7 @@ struct HairCells {
     return (marks[cell] & kHasEdge) != 0 && 2 * disparity > low[cell] + high[cell];
   }
 };
-HairCells TakeHairCells(int32_t width, int32_t height, Carver* carver);
+HairCells TakeHairCells(int32_t width, int32_t height, Arena* arena);
 
 // Returns true if a cell with these marks may have near pixels.
 inline bool MayHaveNear(uint8_t marks) { return marks != 0 && (marks & HairCells::kIsFar) == 0; }

@@ -42,17 +42,17 @@ bool GoOn(const HairJob&) { return true; }
 
 }  // namespace
 
-HairMemory TakeHairMemory(const EstimatePlan& plan, Carver* carver) {
+HairMemory TakeHairMemory(const EstimatePlan& plan, Arena* arena) {
   HairMemory memory;
-  memory.far = TakeColourPyramid(plan.width, plan.height, carver);
-  memory.near = TakeColourPyramid(plan.width, plan.height, carver);
+  memory.far = TakeColourPyramid(plan.width, plan.height, arena);
+  memory.near = TakeColourPyramid(plan.width, plan.height, arena);
   const ColourLevel& cells = memory.far.levels[0];
   for (int32_t** plane : {&memory.contrast, &memory.near_pixels}) {
     *plane =
-        carver->Take<int32_t>(static_cast<size_t>(cells.columns), static_cast<size_t>(cells.rows));
+        arena->Take<int32_t>(static_cast<size_t>(cells.columns), static_cast<size_t>(cells.rows));
   }
   memory.counts =
-      carver->Take<InsideCount>(static_cast<size_t>(plan.columns), static_cast<size_t>(plan.rows));
+      arena->Take<InsideCount>(static_cast<size_t>(plan.columns), static_cast<size_t>(plan.rows));
   return memory;
 }
 

@@ -12,7 +12,7 @@
 
 namespace starfocus {
 
-HairMemory TakeHairMemory(const EstimatePlan& plan, Carver* carver);
+HairMemory TakeHairMemory(const EstimatePlan& plan, Arena* arena);
 
 // Number of phases that FindHairCoverage runs or skips.
 inline constexpr int32_t kHairPhases = 9;

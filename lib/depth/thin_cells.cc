@@ -66,12 +66,12 @@ ThinGrid GridOf(const EstimatePlan& plan) {
   return grid;
 }
 
-ThinCells TakeThinCells(const ThinGrid& grid, Carver* carver) {
+ThinCells TakeThinCells(const ThinGrid& grid, Arena* arena) {
   const auto cells = static_cast<size_t>(grid.Cells());
   ThinCells taken;
-  taken.beside = carver->Take<uint16_t>(cells);
-  taken.dense = carver->Take<uint8_t>(cells);
-  taken.thin = carver->Take<uint8_t>(cells);
+  taken.beside = arena->Take<uint16_t>(cells);
+  taken.dense = arena->Take<uint8_t>(cells);
+  taken.thin = arena->Take<uint8_t>(cells);
   return taken;
 }
 

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 #include "lib/depth/estimate_plan.h"
 
 namespace starfocus {
@@ -33,7 +33,7 @@ struct ThinCells {
   uint8_t* dense;    // whether they do so densely in it and the cells around
   uint8_t* thin;     // whether a cell within reach is dense
 };
-ThinCells TakeThinCells(const ThinGrid& grid, Carver* carver);
+ThinCells TakeThinCells(const ThinGrid& grid, Arena* arena);
 
 // Counts the pixels of the cells of tile `index`, the whole of which is the rectangle `tile`. No
 // pixel beyond it is read.

@@ -29,7 +29,7 @@ void ReadMap(const RowsJob& job, int32_t y, int16_t* row, Counts* counts) {
 void CheckPart(const RowsJob& job, int32_t index, Worker* worker) {
   const RowRange rows = PartOf(job.rows, index, job.jobs);
   for (int32_t y = rows.first; y < rows.last; ++y) {
-    if (!worker->patience.Spend(job.engine->config.width)) return;
+    if (!worker->cancel.Spend(job.engine->config.width)) return;
     ReadMap(job, y, job.disparity.Row(index), &worker->counts);
   }
 }
@@ -54,7 +54,7 @@ void LoadPart(const RowsJob& job, int32_t index, Worker* worker) {
   const int32_t width = engine.config.width;
   const RowRange rows = PartOf(job.rows, index, job.jobs);
   for (int32_t y = rows.first; y < rows.last; ++y) {
-    if (!worker->patience.Spend(4 * int64_t{width})) return;
+    if (!worker->cancel.Spend(4 * int64_t{width})) return;
     if (job.source->converts_centre) CopyCodes(*job.source, 0, y, width, engine.rings[0].Row(y));
     if (job.source->map == nullptr) continue;
     ReadMap(job, y, job.disparity.Row(y), &worker->counts);
@@ -152,7 +152,7 @@ sf_status RefocusRows(const RowSource& source, const RowSink& sink, const Runner
     status = LoadRows(source, rows, engine->pictures.disparity, runner, engine);
     rows.first = rows.last;
     if (status == SF_OK && engine->stripe.changes.active) {
-      status = CompareRows(y, &engine->crew.workers[0].patience, &engine->stripe.changes);
+      status = CompareRows(y, &engine->crew.workers[0].cancel, &engine->stripe.changes);
     }
     if (status == SF_OK) status = RefocusStripe(engine, y, runner);
     if (status != SF_OK) break;

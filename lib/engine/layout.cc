@@ -9,21 +9,21 @@ namespace starfocus {
 namespace {
 
 // Takes the memory that a column of largest blocks is subsampled in.
-void TakeResample(const sf_config& config, Carver* carver, ResampleScratch* resample) {
+void TakeResample(const sf_config& config, Arena* arena, ResampleScratch* resample) {
   // The last column has what a layer has beyond the picture, a pixel or two.
   const auto side = config.largest_block;
   const auto columns = static_cast<size_t>(Max(side / 2 + 1, TapsOfLayer(side / 4 + 2)));
   const int32_t above_two = TapsOfLayer(LayerRows(config, 2));
   const auto rows = static_cast<size_t>(TapsOfLayer(Max(LayerRows(config, 1), above_two)));
-  resample->even = carver->Take<int16_t>(3 * (columns + 3));
-  resample->odd = carver->Take<int16_t>(3 * (columns + 3));
-  resample->half = carver->Take<int16_t>(3 * columns, rows);
-  resample->above = carver->Take<int16_t>(3 * columns, static_cast<size_t>(above_two));
+  resample->even = arena->Take<int16_t>(3 * (columns + 3));
+  resample->odd = arena->Take<int16_t>(3 * (columns + 3));
+  resample->half = arena->Take<int16_t>(3 * columns, rows);
+  resample->above = arena->Take<int16_t>(3 * columns, static_cast<size_t>(above_two));
 }
 
 // Blocks are rendered, or parted, one after the other, and only sums are handed on: all the rest of
 // a worker's memory is shared.
-Worker TakeWorker(const sf_config& config, Carver* carver) {
+Worker TakeWorker(const sf_config& config, Arena* arena) {
   const auto side = static_cast<size_t>(config.largest_block);
   const Borders borders = LargestBorders(config);
   Worker worker = {};
@@ -34,160 +34,160 @@ Worker TakeWorker(const sf_config& config, Carver* carver) {
     max_n[k] =
         Max(LargestN(config, *kRenderers[k], config.max_blur), ViewsOfBenchmark(config.max_blur));
     most = Max(most, max_n[k]);
-    worker.scratch[k] = carver->Take<uint8_t>(kRenderers[k]->scratch_bytes);
+    worker.scratch[k] = arena->Take<uint8_t>(kRenderers[k]->scratch_bytes);
   }
-  worker.sums = carver->Take<uint32_t>(3 * side * side);
-  if (config.cats_eye > 0) worker.aperture_weights = carver->Take<uint16_t>(FullApertureSize(most));
-  if (config.highlights > 1) worker.lamp_runs = carver->Take<LampRuns>(1);
-  const size_t shared = carver->Mark();
+  worker.sums = arena->Take<uint32_t>(3 * side * side);
+  if (config.cats_eye > 0) worker.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
+  if (config.highlights > 1) worker.lamp_runs = arena->Take<LampRuns>(1);
+  const size_t shared = arena->Mark();
   // The pool of slices, which comes last, takes all that others need.
   for (int32_t k = renderers - 1; k >= 0; --k) {
-    kRenderers[k]->take_scratch(config, extended, static_cast<size_t>(max_n[k]), carver,
+    kRenderers[k]->take_scratch(config, extended, static_cast<size_t>(max_n[k]), arena,
                                 worker.scratch[k]);
-    carver->Reuse(shared);
+    arena->Reuse(shared);
   }
   // What is gathered comes to a rendered rectangle from the field.
   const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
-  worker.layer_samples = carver->Take<int16_t>(3 * half * half);
-  const size_t behind = carver->Mark();
-  worker.field.rgb = carver->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
-  worker.field.disparity = carver->Take<int16_t>(extended * extended);
-  worker.spans = TakeSpans(extended, carver);
-  carver->Reuse(behind);
-  worker.upsample.line = carver->Take<int16_t>(3 * half);
-  worker.upsample.between = carver->Take<int16_t>(3 * half);
-  worker.upsample.even = carver->Take<int16_t>(3 * half);
-  worker.middle_samples = carver->Take<int16_t>(3 * half * half);
-  worker.picture_samples = carver->Take<int16_t>(3 * side * side);
-  carver->Reuse(shared);
-  TakeResample(config, carver, &worker.resample);
-  carver->Reuse(shared);
+  worker.layer_samples = arena->Take<int16_t>(3 * half * half);
+  const size_t behind = arena->Mark();
+  worker.field.rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+  worker.field.disparity = arena->Take<int16_t>(extended * extended);
+  worker.spans = TakeSpans(extended, arena);
+  arena->Reuse(behind);
+  worker.upsample.line = arena->Take<int16_t>(3 * half);
+  worker.upsample.between = arena->Take<int16_t>(3 * half);
+  worker.upsample.even = arena->Take<int16_t>(3 * half);
+  worker.middle_samples = arena->Take<int16_t>(3 * half * half);
+  worker.picture_samples = arena->Take<int16_t>(3 * side * side);
+  arena->Reuse(shared);
+  TakeResample(config, arena, &worker.resample);
+  arena->Reuse(shared);
   worker.partition.nodes =
-      carver->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
+      arena->Take<PartitionNode>(static_cast<size_t>(PartitionNodes(config.largest_block)));
   worker.partition.cells =
-      carver->Take<int16_t>(SurroundingSamples(config.largest_block / kCellSize, borders.cells));
-  carver->GoOn();
+      arena->Take<int16_t>(SurroundingSamples(config.largest_block / kCellSize, borders.cells));
+  arena->GoOn();
   return worker;
 }
 
-void TakeTables(const sf_config& config, Carver* carver, Tables* tables) {
-  const Opening opening = OpeningOf(config);
+void TakeTables(const sf_config& config, Arena* arena, Tables* tables) {
+  const ApertureShape opening = ShapeOf(config);
   for (int32_t k = 0; k < RendererCount(config); ++k) {
     const int32_t last = LargestN(config, *kRenderers[k], config.max_blur);
     size_t weights = 0;
-    for (int32_t n = 0; n <= last; ++n) weights += ApertureSize(opening, n);
-    tables->apertures[k].apertures = carver->Take<Aperture>(static_cast<size_t>(last) + 1);
-    tables->apertures[k].weights = carver->Take<uint16_t>(weights);
+    for (int32_t n = 0; n <= last; ++n) weights += ViewWeightsSize(opening, n);
+    tables->apertures[k].apertures = arena->Take<ViewWeights>(static_cast<size_t>(last) + 1);
+    tables->apertures[k].weights = arena->Take<uint16_t>(weights);
   }
   const int32_t benchmark_n = ViewsOfBenchmark(config.max_blur);
   const auto steps = static_cast<size_t>(BlurStepCount(config.max_blur));
-  tables->benchmark_weights = carver->Take<uint16_t>(ApertureSize(opening, benchmark_n));
-  tables->blur_kernels = carver->Take<BlurKernel>(steps);
-  tables->blur_weights = carver->Take<uint16_t>(BlurWeightCount(opening, config.max_blur));
+  tables->benchmark_weights = arena->Take<uint16_t>(ViewWeightsSize(opening, benchmark_n));
+  tables->psfs = arena->Take<Psf>(steps);
+  tables->blur_weights = arena->Take<uint16_t>(BlurWeightCount(opening, config.max_blur));
 }
 
 // Takes the planes of layers 1 and 2 around a stripe.
-void TakeLayers(const sf_config& config, Carver* carver, EngineState* engine) {
+void TakeLayers(const sf_config& config, Arena* arena, EngineState* engine) {
   for (int layer = 1; layer <= config.max_layer; ++layer) {
     LayerPlane& plane = engine->pictures.layers[layer];
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
     plane.samples.stride = 3 * width;
     plane.samples.data =
-        carver->Take<int16_t>(3 * width, static_cast<size_t>(LayerRows(config, layer)));
+        arena->Take<int16_t>(3 * width, static_cast<size_t>(LayerRows(config, layer)));
   }
 }
 
-void TakeStripe(const sf_config& config, Carver* carver, EngineState* engine) {
+void TakeStripe(const sf_config& config, Arena* arena, EngineState* engine) {
   const Borders borders = LargestBorders(config);
   const int32_t side = config.largest_block;
   const auto blocks = static_cast<size_t>((config.width + side - 1) / side);
   engine->stripe.cells.columns = (config.width + kCellSize - 1) / kCellSize;
   engine->stripe.cells.rows = (config.height + kCellSize - 1) / kCellSize;
   engine->stripe.cells.cells =
-      carver->Take<Cell>(static_cast<size_t>(engine->stripe.cells.columns) *
-                         static_cast<size_t>(side / kCellSize + 2 * borders.cells + 1));
-  TakeCoverage(config, borders.parted, carver, &engine->stripe.coverage);
+      arena->Take<Cell>(static_cast<size_t>(engine->stripe.cells.columns) *
+                        static_cast<size_t>(side / kCellSize + 2 * borders.cells + 1));
+  TakeCoverage(config, borders.parted, arena, &engine->stripe.coverage);
   engine->stripe.plan.side = side;
   engine->stripe.plan.columns = static_cast<int32_t>(blocks);
-  engine->stripe.plan.wanted = carver->Take<uint8_t>(blocks);
-  engine->stripe.plan.measured = carver->Take<uint8_t>(blocks);
-  engine->stripe.plan.blocks = carver->Take<Block>(blocks * static_cast<size_t>(MaxBlocks(side)));
-  engine->stripe.plan.counts = carver->Take<int32_t>(blocks);
+  engine->stripe.plan.wanted = arena->Take<uint8_t>(blocks);
+  engine->stripe.plan.measured = arena->Take<uint8_t>(blocks);
+  engine->stripe.plan.blocks = arena->Take<Block>(blocks * static_cast<size_t>(MaxBlocks(side)));
+  engine->stripe.plan.counts = arena->Take<int32_t>(blocks);
   engine->stripe.plan.gathered.columns = static_cast<int32_t>(blocks) * side / kCellSize;
-  engine->stripe.plan.gathered.cells = carver->Take<uint8_t>(
+  engine->stripe.plan.gathered.cells = arena->Take<uint8_t>(
       static_cast<size_t>(engine->stripe.plan.gathered.columns * (side / kCellSize)));
   for (int layer = 1; layer < SF_LAYERS; ++layer) {
-    engine->pictures.needed[layer] = carver->Take<uint8_t>(blocks);
+    engine->pictures.needed[layer] = arena->Take<uint8_t>(blocks);
   }
-  Changes& changes = engine->stripe.changes;
+  FrameDiff& changes = engine->stripe.changes;
   changes.columns = static_cast<int32_t>(blocks);
   // Rows up to a border beyond the stripe after the current one are compared, which flag stripes up
   // to as much again beyond; the one before the current is still asked for.
   changes.stripes = 2 * borders.views / side + 5;
-  changes.flags = carver->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
+  changes.flags = arena->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
   engine->stripe.map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
-  engine->stripe.map.units = carver->Take<uint8_t>(static_cast<size_t>(engine->stripe.map.columns) *
-                                                   static_cast<size_t>(side / kSmallestBlock + 1));
+  engine->stripe.map.units = arena->Take<uint8_t>(static_cast<size_t>(engine->stripe.map.columns) *
+                                                  static_cast<size_t>(side / kSmallestBlock + 1));
 }
 
 // Takes what images need; `rows` are those of a ring.
-void TakeImages(const sf_config& config, int32_t rows, Carver* carver, ImageMemory* images) {
+void TakeImages(const sf_config& config, int32_t rows, Arena* arena, ImageMemory* images) {
   const auto width = static_cast<size_t>(config.width);
-  images->columns = carver->Take<uint32_t>(width);
-  images->odd_row = carver->Take<uint8_t>(3 * width);
+  images->columns = arena->Take<uint32_t>(width);
+  images->odd_row = arena->Take<uint8_t>(3 * width);
   if (config.streaming == 0) return;
   // Alpha is read when finished rows are written, which may be those of a stripe before.
   images->alpha.rows = rows + config.largest_block + kDeblockRows;
   images->alpha.stride = width;
-  images->alpha.data = carver->Take<uint8_t>(width, static_cast<size_t>(images->alpha.rows));
+  images->alpha.data = arena->Take<uint8_t>(width, static_cast<size_t>(images->alpha.rows));
 }
 
-void TakeRows(const sf_config& config, Carver* carver, EngineState* engine) {
+void TakeRows(const sf_config& config, Arena* arena, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = config.streaming != 0;
   const Borders borders = LargestBorders(config);
   const int32_t rows = config.largest_block + 2 * (streaming ? borders.streamed : borders.centre);
   engine->pictures.disparity.rows = rows;
   engine->pictures.disparity.stride = width;
-  engine->pictures.disparity.data = carver->Take<int16_t>(width, static_cast<size_t>(rows));
+  engine->pictures.disparity.data = arena->Take<int16_t>(width, static_cast<size_t>(rows));
   engine->stripe.out =
-      carver->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
+      arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.largest_block + kDeblockRows));
   // Null without streaming also where LayOutAnew made it of an engine that streams.
-  engine->stripe.last_rows = streaming ? carver->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
+  engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
   const int rings = streaming ? config.views : config.images;
   if (streaming && HasCoverage(config)) {
     engine->stripe.coverage.given.rows = rows;
     engine->stripe.coverage.given.stride = width;
-    engine->stripe.coverage.given.data = carver->Take<uint8_t>(width, static_cast<size_t>(rows));
+    engine->stripe.coverage.given.data = arena->Take<uint8_t>(width, static_cast<size_t>(rows));
   }
   for (int view = 0; view < rings; ++view) {
     engine->rings[view].rows = rows;
     engine->rings[view].stride = 3 * width;
-    engine->rings[view].data = carver->Take<uint8_t>(3 * width, static_cast<size_t>(rows));
+    engine->rings[view].data = arena->Take<uint8_t>(3 * width, static_cast<size_t>(rows));
   }
-  if (config.images != 0) TakeImages(config, rows, carver, &engine->images);
+  if (config.images != 0) TakeImages(config, rows, arena, &engine->images);
 }
 
-size_t Carve(const sf_config& config, Carver carver, EngineState** engine) {
-  *engine = carver.Take<EngineState>(1);
+size_t Carve(const sf_config& config, Arena arena, EngineState** engine) {
+  *engine = arena.Take<EngineState>(1);
   EngineState counted;  // stands in for *engine while counting
   EngineState& e = *engine == nullptr ? counted : **engine;
-  TakeTables(config, &carver, &e.tables);
+  TakeTables(config, &arena, &e.tables);
   e.crew.jobs.max_workers = config.max_workers;
-  e.crew.workers = carver.Take<Worker>(static_cast<size_t>(config.max_workers));
+  e.crew.workers = arena.Take<Worker>(static_cast<size_t>(config.max_workers));
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
-    const Worker taken = TakeWorker(config, &carver);
+    const Worker taken = TakeWorker(config, &arena);
     if (*engine == nullptr) continue;
     e.crew.workers[worker] = taken;
-    e.crew.workers[worker].patience = Patience(&e.crew.jobs.watch);
+    e.crew.workers[worker].cancel = CancelToken(&e.crew.jobs.watch);
   }
   // What grows with the picture comes last: LayOut for a smaller one leaves all else in place.
-  TakeRows(config, &carver, &e);
-  TakeLayers(config, &carver, &e);
-  TakeStripe(config, &carver, &e);
+  TakeRows(config, &arena, &e);
+  TakeLayers(config, &arena, &e);
+  TakeStripe(config, &arena, &e);
   e.crew.jobs.progress =
-      carver.Take<std::atomic<uint32_t>>(ProgressWords(static_cast<size_t>(MaxJobs(config))));
-  return carver.Bytes();
+      arena.Take<std::atomic<uint32_t>>(ProgressWords(static_cast<size_t>(MaxJobs(config))));
+  return arena.Bytes();
 }
 
 #ifdef STARFOCUS_RED_ZONES
@@ -202,12 +202,12 @@ void VisitZones(EngineState* engine, void (*visit)(void*, size_t, size_t)) {
 
 size_t LayOut(const sf_config& config, void* base, EngineState** engine,
               const PieceVisitor* pieces) {
-  return Carve(config, Carver(base, PTRDIFF_MAX, pieces), engine);
+  return Carve(config, Arena(base, PTRDIFF_MAX, pieces), engine);
 }
 
 void LayOutAnew(const sf_config& config, EngineState* engine) {
   EngineState* same = nullptr;
-  Carve(config, Carver(engine), &same);
+  Carve(config, Arena(engine), &same);
   engine->config = config;
   engine->images.map_width = 0;
 }

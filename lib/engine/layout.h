@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 #include "lib/base/geometry.h"
 #include "lib/engine/engine.h"
 #include "starfocus/starfocus.h"

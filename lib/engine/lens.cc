@@ -20,7 +20,7 @@ const Renderer& RendererOf(const sf_config& config, const sf_params& params) {
 
 // Returns the one aperture of the frame modes. That of the benchmark is made in memory of its own.
 // SF_MODE_BLUR shows the centre view alone.
-Aperture FrameAperture(const sf_config& config, const Tables& tables, const Lens& lens) {
+ViewWeights FrameWeights(const sf_config& config, const Tables& tables, const Lens& lens) {
   const Renderer& renderer = *lens.renderer;
   if (lens.params.mode == SF_MODE_BLUR) return lens.apertures[0];
   if (IsBenchmark(lens)) {
@@ -70,11 +70,11 @@ sf_status MakeLens(const sf_config& config, const sf_params& params, Watch* watc
   const sf_status status = MakeApertures(*lens->renderer, lens->largest_n, watch, tables);
   if (status != SF_OK) return status;
   lens->apertures = tables->apertures[lens->renderer->index].apertures;
-  lens->aperture = FrameAperture(config, *tables, *lens);
+  lens->aperture = FrameWeights(config, *tables, *lens);
   const ViewGrid grid = MakeViewGrid(lens->aperture, params.focus, params.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
-  if (Gathers(config, *lens)) return MakeBlurKernels(LastGatherStep(*lens) + 1, watch, tables);
-  if (params.mode == SF_MODE_BLUR) return MakeBlurKernels(BlurStepCount(r_max), watch, tables);
+  if (Gathers(config, *lens)) return MakePsfs(LastGatherStep(*lens) + 1, watch, tables);
+  if (params.mode == SF_MODE_BLUR) return MakePsfs(BlurStepCount(r_max), watch, tables);
   return SF_OK;
 }
 

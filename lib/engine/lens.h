@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "lib/base/aperture.h"
 #include "lib/base/geometry.h"
+#include "lib/base/view_weights.h"
 #include "lib/base/watch.h"
 #include "lib/engine/borders.h"
 #include "lib/engine/tables.h"
@@ -20,10 +20,10 @@ struct Lens {
   sf_params params;
   Rect region;  // of params, the whole picture when they have none
   const Renderer* renderer;
-  double r_max;               // largest blur radius of the configured range of disparities, pixels
-  const Aperture* apertures;  // the renderer's, by N
-  int32_t largest_n;          // of these
-  Aperture aperture;          // frame modes: of the one N
+  double r_max;  // largest blur radius of the configured range of disparities, pixels
+  const ViewWeights* apertures;  // the renderer's, by N
+  int32_t largest_n;             // of these
+  ViewWeights aperture;          // frame modes: of the one N
   BlurScale scale;
   Borders borders;
 };
@@ -54,7 +54,7 @@ inline bool Gathers(const sf_config& config, const Lens& lens) {
 int32_t LastGatherStep(const Lens& lens);
 
 // The aperture of a block with the rule's N.
-inline const Aperture& ApertureOf(const Lens& lens, int32_t n) {
+inline const ViewWeights& WeightsOf(const Lens& lens, int32_t n) {
   return IsBlockMode(lens) ? lens.apertures[n] : lens.aperture;
 }
 

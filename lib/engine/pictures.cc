@@ -14,7 +14,7 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
               Pictures* pictures) {
   ViewSet set;
   FindViews(config, &set);  // which were checked when the engine was made
-  const Looks looks = ChooseLooks(set);
+  const OcclusionViews occlusion_views = ChooseOcclusionViews(set);
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
     Window& window = pictures->windows[layer];
     window.layer = layer;
@@ -25,7 +25,7 @@ void SetViews(const sf_config& config, const ViewReader& reader, const Plane<con
     window.picture_width = config.width;
     window.picture_height = config.height;
     window.views = config.views;
-    window.looks = looks;
+    window.occlusion_views = occlusion_views;
     window.transfer = &TransferOf(config.transfer);
     window.reader = reader;
     window.disparity = {pictures->disparity.data, pictures->disparity.stride,

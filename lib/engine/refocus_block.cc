@@ -137,7 +137,7 @@ uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>
   const ExcessWindow excess(in, worker);
   job.window = &excess.window();
   const uint64_t samples = RenderSums(in, job, worker);
-  if (!worker->patience.Spend(0)) return 0;
+  if (!worker->cancel.Spend(0)) return 0;
   const size_t row_samples = 3 * static_cast<size_t>(job.rect.width);
   for (int32_t row = 0; row < job.rect.height; ++row) {
     AddExcess(ExcessOf(in), worker->sums + static_cast<size_t>(row) * row_samples, row_samples,
@@ -149,7 +149,7 @@ uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>
 Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
                 const Plane<uint8_t>& out, Worker* worker) {
   uint64_t samples = RenderSums(in, job, worker);
-  if (!worker->patience.Spend(0)) return {0, 0};  // of sums that nobody has finished
+  if (!worker->cancel.Spend(0)) return {0, 0};  // of sums that nobody has finished
   if (block.layer == 0) {
     FinishPicture(in, job.rect, SumBits(in, job), out, *worker);
   } else {
@@ -157,7 +157,7 @@ Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
     if (!block.gathers) FinishLayer(in, block, out, *worker);
   }
   if (block.has_highlights) samples += RenderExcess(in, job, out, worker);
-  const auto views = static_cast<uint64_t>(ApertureOf(*in.lens, block.n).views);
+  const auto views = static_cast<uint64_t>(WeightsOf(*in.lens, block.n).views);
   return {views, views * samples};
 }
 
@@ -170,15 +170,15 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   const Window counting = Counting(in.windows[block.layer], worker);
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
-  const GatherKernels blur = {tables.blur_kernels, LastGatherStep(*in.lens), tables.mean_square};
-  const GatherJob job = {&counting,  in.cells,         cells, in.lens->scale, blur,
-                         in.kernels, &worker->patience};
+  const GatherKernels blur = {tables.psfs, LastGatherStep(*in.lens), tables.mean_square};
+  const GatherJob job = {&counting, in.cells,   cells,          in.lens->scale,
+                         blur,      in.kernels, &worker->cancel};
   const Rect frame = LayerFrame(block.rect, block.layer);
   const Gathered gathered = block.layer == 0 ? Gathered{At(out, block.rect, 0), nullptr, out.stride}
                                              : Gathered{nullptr, worker->layer_samples,
                                                         3 * static_cast<size_t>(frame.width)};
   worker->counts.gathered_pixels += GatherCells(job, &field, gathered);
-  if (block.layer > 0 && worker->patience.Spend(0)) FinishLayer(in, block, out, *worker);
+  if (block.layer > 0 && worker->cancel.Spend(0)) FinishLayer(in, block, out, *worker);
 }
 
 // The part of a block that views give: at layer 0 they need not be rendered for all of it.
@@ -200,13 +200,13 @@ Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>
 Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                       Worker* worker) {
   const Lens& lens = *in.lens;
-  const Aperture& aperture = ApertureOf(lens, block.n);
+  const ViewWeights& aperture = WeightsOf(lens, block.n);
   // Without skips the one view of N = 0 is rendered as those of a lens that moves no pixel.
   const bool pinhole = aperture.n == 0;
-  const Aperture& whole = pinhole ? lens.apertures[1] : aperture;
-  const Opening& opening = in.tables->opening;
+  const ViewWeights& whole = pinhole ? lens.apertures[1] : aperture;
+  const ApertureShape& opening = in.tables->opening;
   const bool cats_eye = opening.cats_eye > 0;
-  const Aperture rendered =
+  const ViewWeights rendered =
       cats_eye ? MakeCatsEye(whole, opening,
                              ShiftOfRim(opening, block.rect, in.config->width, in.config->height),
                              worker->aperture_weights)
@@ -218,7 +218,7 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const BlockCells* const gathered = block.gathers ? &cells : nullptr;
   const RenderJob job = {
       &in.windows[block.layer], &grid,    in.kernels, block.rendered,   block.border,
-      &worker->patience,        gathered, lens.r_max, IsBenchmark(lens)};
+      &worker->cancel,          gathered, lens.r_max, IsBenchmark(lens)};
   // The views' part of a layer is brought to the picture together with what is gathered.
   const bool in_part = block.layer > 0 && block.gathers;
   if (in.config->skips == 0 || block.has_highlights || in_part) {
@@ -235,9 +235,8 @@ void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& 
   const BlurScratch scratch = {worker->field.rgb, worker->sums, worker->spans};
   const auto blur = [&](const Window& window, const ExcessSum& excess) {
     const Window counting = Counting(window, worker);
-    const BlurJob job = {&counting,  in.lens->scale,   in.tables->blur_kernels,
-                         in.kernels, block.rect,       block.border.left,
-                         excess,     &worker->patience};
+    const BlurJob job = {&counting,  in.lens->scale,    in.tables->psfs, in.kernels,
+                         block.rect, block.border.left, excess,          &worker->cancel};
     BlurRectangle(job, scratch, At(out, block.rect, 0), out.stride);
   };
   blur(in.windows[0], {in.kernels, in.windows[0].transfer, 0});

@@ -22,7 +22,7 @@ struct RefocusJob {
 void RefocusOneBlock(const RefocusJob& job, int32_t index, Worker* worker) {
   const Block& block = job.blocks[index];
   // What is read and filtered whatever becomes of the block; renderers count what they do.
-  if (!worker->patience.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
+  if (!worker->cancel.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
   RefocusBlock(job.in, block, job.out, worker);
 }
 

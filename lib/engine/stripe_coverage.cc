@@ -19,7 +19,7 @@ void RunPassJob(const PassJob& job, int32_t index, Worker* worker) {
   window.reads = &worker->counts.reads;
   const int32_t first = index * job.tiles, last = Min(first + job.tiles, job.in.map->columns);
   for (int32_t row = job.rows.first; row < job.rows.last; ++row) {
-    if (!worker->patience.Spend(int64_t{last - first} * kTileSide * kTileSide)) return;
+    if (!worker->cancel.Spend(int64_t{last - first} * kTileSide * kTileSide)) return;
     RunPass({job.in.kernels, &window, job.in.map}, job.pass, first, last, row);
   }
 }
@@ -75,7 +75,7 @@ sf_status RunPasses(int32_t top, int32_t end, const Runner& runner, EngineState*
 
 }  // namespace
 
-void TakeCoverage(const sf_config& config, int32_t border, Carver* carver, CoverageState* state) {
+void TakeCoverage(const sf_config& config, int32_t border, Arena* arena, CoverageState* state) {
   if (!HasCoverage(config)) return;
   CoverageMap& map = state->map;
   map.width = config.width;
@@ -89,12 +89,12 @@ void TakeCoverage(const sf_config& config, int32_t border, Carver* carver, Cover
   while (range >> map.bin_bits >= 64) ++map.bin_bits;
   const auto tiles = static_cast<size_t>(map.columns) * static_cast<size_t>(map.tile_rows);
   const size_t pixels = map.Stride() * static_cast<size_t>(map.tile_rows) * kTileSide;
-  map.tiles = carver->Take<CoverageTile>(tiles);
-  map.first = carver->Take<uint8_t>(pixels);
-  map.alpha = carver->Take<uint8_t>(pixels);
-  map.near = carver->Take<int16_t>(pixels);
+  map.tiles = arena->Take<CoverageTile>(tiles);
+  map.first = arena->Take<uint8_t>(pixels);
+  map.alpha = arena->Take<uint8_t>(pixels);
+  map.near = arena->Take<int16_t>(pixels);
   for (int level = 0; level < kFarLevels; ++level) {
-    map.far[level] = carver->Take<FarCell>((tiles * kTileSide * kTileSide) >> (2 * level));
+    map.far[level] = arena->Take<FarCell>((tiles * kTileSide * kTileSide) >> (2 * level));
   }
 }
 

@@ -5,14 +5,14 @@
 
 #include <cstdint>
 
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 #include "lib/engine/engine.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
 // Takes the memory of a coverage map for stripes that need `border` rows around them.
-void TakeCoverage(const sf_config& config, int32_t border, Carver* carver, CoverageState* state);
+void TakeCoverage(const sf_config& config, int32_t border, Arena* arena, CoverageState* state);
 
 // Finds the coverage of the rows that the stripe's blocks read.
 sf_status FindCoverage(const Stripe& stripe, const Runner& runner, EngineState* engine);

@@ -24,7 +24,7 @@ struct MeasureJob {
 struct PlanJob {
   const sf_config* config;
   const simd::Kernels* kernels;
-  const Opening* opening;
+  const ApertureShape* opening;
   const Lens* lens;
   const CellGrid* cells;
   const Window* window;  // at layer 0
@@ -139,7 +139,7 @@ bool IsInRegion(const EngineState& engine, const Rect& rect) {
 // what has changed and as far around it as joins reach, and joins reach there from as far again.
 bool IsNew(const EngineState& engine, const Rect& rect) {
   const int32_t reach = 2 * engine.lens.borders.joined;
-  const Changes& changes = engine.stripe.changes;
+  const FrameDiff& changes = engine.stripe.changes;
   return !changes.active || HasChanged(changes, {rect.x - reach, rect.y - reach,
                                                  rect.width + 2 * reach, rect.height + 2 * reach});
 }
@@ -183,11 +183,11 @@ void ClearMap(const Stripe& stripe, LayerMap* map) {
 }
 
 // Counts a block that will be refocused, and tells the caller of it.
-void Announce(const Block& block, EngineState* engine) {
+void ReportBlock(const Block& block, EngineState* engine) {
   sf_report& report = engine->report;
   if (block.n > report.n || report.rendered_views == 0) {
     report.n = block.n;
-    report.rendered_views = ApertureOf(engine->lens, block.n).views;
+    report.rendered_views = WeightsOf(engine->lens, block.n).views;
   }
   const sf_params& params = engine->lens.params;
   if (params.on_block == nullptr) return;
@@ -213,7 +213,7 @@ void ReadPlan(const Stripe& stripe, EngineState* engine) {
       const Block& block = plan.blocks[plan.used++] = planned[k];
       MarkLayerColumns(config, block, &pictures);
       MapBlock(stripe, block, engine->stripe.map);
-      Announce(block, engine);
+      ReportBlock(block, engine);
     }
   }
 }

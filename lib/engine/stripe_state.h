@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "lib/coverage/passes.h"
-#include "lib/engine/frame_changes.h"
+#include "lib/engine/frame_diff.h"
 #include "lib/filter/deblock.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/partition.h"
@@ -49,9 +49,9 @@ struct StripeState {
   CellGrid cells;          // of the stripe, and as far around it as pixels splat
   CoverageState coverage;  // of the stripe, and of the rows around it
   StripePlan plan;
-  LayerMap map;     // which layer each unit has, for deblocking
-  Changes changes;  // which blocks differ from the light field before
-  uint8_t* out;     // kDeblockRows and a stripe, packed
+  LayerMap map;       // which layer each unit has, for deblocking
+  FrameDiff changes;  // which blocks differ from the light field before
+  uint8_t* out;       // kDeblockRows and a stripe, packed
   // With streaming: the last kDeblockRows of the stripe before, as it left them. Else null: what
   // fails is not gone on with, so that they can stay where they are.
   uint8_t* last_rows;

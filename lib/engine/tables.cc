@@ -10,16 +10,16 @@ constexpr int64_t kAperturePoints = 256;
 }  // namespace
 
 int32_t LargestN(const sf_config& config, const Renderer& renderer, double r_max) {
-  const Demand demand = DemandOf(OpeningOf(config));
+  const Demand demand = DemandOf(ShapeOf(config));
   return ScaleViews(renderer.view_count(r_max + 1, demand), config.n_scale);
 }
 
 sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Tables* tables) {
   ApertureTable& table = tables->apertures[renderer.index];
-  Patience patience(watch);
+  CancelToken cancel(watch);
   for (; table.count <= last; ++table.count) {
-    const size_t size = ApertureSize(tables->opening, table.count);
-    if (!patience.Spend(static_cast<int64_t>(size) * kAperturePoints)) return SF_ERROR_CANCELLED;
+    const size_t size = ViewWeightsSize(tables->opening, table.count);
+    if (!cancel.Spend(static_cast<int64_t>(size) * kAperturePoints)) return SF_ERROR_CANCELLED;
     table.apertures[table.count] =
         renderer.make_aperture(table.count, tables->opening, table.weights + table.used);
     table.used += size;
@@ -27,11 +27,11 @@ sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Ta
   return SF_OK;
 }
 
-sf_status MakeBlurKernels(int32_t steps, Watch* watch, Tables* tables) {
+sf_status MakePsfs(int32_t steps, Watch* watch, Tables* tables) {
   if (steps <= tables->blur_steps) return SF_OK;
-  Patience patience(watch);
-  tables->blur_steps = MakeBlurKernels(tables->blur_steps, steps, tables->opening, &patience,
-                                       tables->blur_weights, tables->blur_kernels);
+  CancelToken cancel(watch);
+  tables->blur_steps = MakePsfs(tables->blur_steps, steps, tables->opening, &cancel,
+                                tables->blur_weights, tables->psfs);
   return tables->blur_steps == steps ? SF_OK : SF_ERROR_CANCELLED;
 }
 

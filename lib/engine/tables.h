@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "lib/base/aperture.h"
+#include "lib/base/view_weights.h"
 #include "lib/base/watch.h"
 #include "lib/filter/blur.h"
 #include "lib/plan/renderer.h"
@@ -27,17 +27,17 @@ int32_t LargestN(const sf_config& config, const Renderer& renderer, double r_max
 
 // Apertures of one renderer, by N.
 struct ApertureTable {
-  Aperture* apertures;  // of N up to LargestN for max_blur
+  ViewWeights* apertures;  // of N up to LargestN for max_blur
   uint16_t* weights;
   int32_t count = 0;  // apertures made so far
   size_t used = 0;    // weights of these
 };
 
 struct Tables {
-  Opening opening;
+  ApertureShape opening;
   ApertureTable apertures[kMaxRenderers];
   uint16_t* benchmark_weights;  // of the one aperture of the benchmark mode
-  BlurKernel* blur_kernels;
+  Psf* psfs;
   uint16_t* blur_weights;
   int32_t blur_steps = 0;  // kernels made so far
   int32_t mean_square;     // MeanSquare of the opening
@@ -49,7 +49,7 @@ sf_status MakeApertures(const Renderer& renderer, int32_t last, Watch* watch, Ta
 
 // Makes the blur kernels of steps up to `steps` that are not there yet. Returns SF_OK or
 // SF_ERROR_CANCELLED; those that were made stay.
-sf_status MakeBlurKernels(int32_t steps, Watch* watch, Tables* tables);
+sf_status MakePsfs(int32_t steps, Watch* watch, Tables* tables);
 
 }  // namespace starfocus
 

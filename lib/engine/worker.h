@@ -49,7 +49,7 @@ struct Worker {
   int16_t* picture_samples;  // 3 R^2: the block at layer 0
   PartitionScratch partition;
   Counts counts;
-  Patience patience;
+  CancelToken cancel;
 };
 
 }  // namespace starfocus

@@ -36,7 +36,7 @@ struct Interval {
 
 // Returns the part of `x` where light comes through the polygon of radius r along the line at y:
 // between the zeros of a square for each edge, which bulges, or beyond the one of a straight edge.
-Interval WithinPolygon(const Opening& opening, double y, double r, Interval x) {
+Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interval x) {
   constexpr double kUnit = 1.0 / kOpeningOne;
   const double square = opening.bulge * kUnit;
   for (int32_t edge = 0; edge < opening.blades; ++edge) {
@@ -68,7 +68,7 @@ Interval WithinPolygon(const Opening& opening, double y, double r, Interval x) {
 // to 1.6 gray levels where the aperture ends without having fallen off. The arithmetic and the
 // square root are IEEE's, and so the same everywhere.
 template <sf_shape kShape>
-double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Opening& opening) {
+double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const ApertureShape& opening) {
   const double square = r * r, fall_off = opening.fall_off / 65536.0;
   const double low = Larger(m - 0.5, -r), high = Smaller(m + 0.5, r);
   if (low >= high) return 0;
@@ -91,7 +91,7 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Opening
 
 // Returns that integral for a radius in 1 / kOne pixels. A polygon's edges may lie along the lines
 // and then end between two of them, so that it has four times as many.
-double PixelIntegral(int32_t n, int32_t m, int32_t radius, const Opening& opening) {
+double PixelIntegral(int32_t n, int32_t m, int32_t radius, const ApertureShape& opening) {
   const double r = static_cast<double>(radius) / kOne;
   const int32_t lines = LinesOf(radius);
   if (opening.shape == SF_SHAPE_FALL_OFF) {
@@ -107,18 +107,19 @@ double PixelIntegral(int32_t n, int32_t m, int32_t radius, const Opening& openin
 }
 
 // Calls visit(n, m, how many pixels share the weight, integral of (4)) for the weights of a kernel
-// that are stored. Returns whether patience lasted to the end.
+// that are stored. Returns false if the call was cancelled.
 template <class Visit>
-bool ForEachWeight(int32_t radius, const Opening& opening, Patience* patience, const Visit& visit) {
+bool ForEachWeight(int32_t radius, const ApertureShape& opening, CancelToken* cancel,
+                   const Visit& visit) {
   const int32_t size = SizeOf(radius);
   if (opening.IsSymmetric()) {
     ForEachOfOctant(size, opening.IsRing(), [&](int32_t n, int32_t m) {
       visit(n, m, PointsOfOctant(n, m), PixelIntegral(n, m, radius, opening));
     });
-    return GoesOn(patience, int64_t{kIntegralSamples} * size * size / 2);
+    return GoesOn(cancel, int64_t{kIntegralSamples} * size * size / 2);
   }
   for (int32_t m = -size; m <= size; ++m) {
-    if (!GoesOn(patience, int64_t{kIntegralSamples} * (2 * size + 1))) return false;
+    if (!GoesOn(cancel, int64_t{kIntegralSamples} * (2 * size + 1))) return false;
     for (int32_t n = -size; n <= size; ++n) visit(n, m, 1, PixelIntegral(n, m, radius, opening));
   }
   return true;
@@ -161,8 +162,8 @@ void AddRun(int32_t size, const Weight& weight, const int16_t* at, size_t stride
 }
 
 // Adds it turned by half a turn with `side` -1.
-void AddKernel(const BlurKernel& kernel, int32_t side, const int16_t* at, size_t stride,
-               int32_t count, SpanList* list) {
+void AddKernel(const Psf& kernel, int32_t side, const int16_t* at, size_t stride, int32_t count,
+               SpanList* list) {
   if (kernel.full) {
     AddRun(
         kernel.size, [&](int32_t n, int32_t m) { return kernel.Weight(side * n, side * m); }, at,
@@ -174,10 +175,10 @@ void AddKernel(const BlurKernel& kernel, int32_t side, const int16_t* at, size_t
   }
 }
 
-// Makes the kernel of a radius (kDisparityBits). Returns false if patience ended first. Every orbit
-// takes up the rounding of those before it and the last one the rest, as in MakeAperture.
-bool MakeBlurKernel(int32_t radius, const Opening& opening, Patience* patience, uint16_t* weights,
-                    BlurKernel* kernel) {
+// Makes the kernel of a radius (kDisparityBits). Returns false if the call was cancelled. Every
+// orbit takes up the rounding of those before it and the last one the rest, as in MakeViewWeights.
+bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, uint16_t* weights,
+             Psf* kernel) {
   kernel->size = SizeOf(radius);
   kernel->weights = weights;
   kernel->sum_bits = 14;
@@ -192,7 +193,7 @@ bool MakeBlurKernel(int32_t radius, const Opening& opening, Patience* patience, 
     const int32_t together = kernel->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
     largest = Larger(largest, together * integral);
   };
-  if (!ForEachWeight(radius, opening, patience, add)) return false;
+  if (!ForEachWeight(radius, opening, cancel, add)) return false;
   while (kernel->sum_bits < kMaxLightBits &&
          largest / total * (2 << kernel->sum_bits) < kMaxWeight - 8) {
     ++kernel->sum_bits;
@@ -210,7 +211,7 @@ bool MakeBlurKernel(int32_t radius, const Opening& opening, Patience* patience, 
         static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
     given += weight * points;
   };
-  if (!ForEachWeight(radius, opening, patience, give)) return false;
+  if (!ForEachWeight(radius, opening, cancel, give)) return false;
   Checked(ranges::kRemainder, given - one);
   return true;
 }
@@ -247,7 +248,7 @@ int32_t BlurStepCount(double max_blur) {
   return BlurStep(static_cast<int32_t>(max_blur * kOne) + 1) + 1;
 }
 
-size_t BlurWeightCount(const Opening& opening, double max_blur) {
+size_t BlurWeightCount(const ApertureShape& opening, double max_blur) {
   size_t count = 0;
   for (int32_t step = 0; step < BlurStepCount(max_blur); ++step) {
     count += WeightsOf(!opening.IsSymmetric(), SizeOf(RadiusOfStep(step)));
@@ -255,11 +256,10 @@ size_t BlurWeightCount(const Opening& opening, double max_blur) {
   return count;
 }
 
-int32_t MakeBlurKernels(int32_t first, int32_t last, const Opening& opening, Patience* patience,
-                        uint16_t* weights, BlurKernel* kernels) {
+int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
+                 uint16_t* weights, Psf* kernels) {
   for (int32_t step = 0; step < last; ++step) {
-    if (step >= first &&
-        !MakeBlurKernel(RadiusOfStep(step), opening, patience, weights, &kernels[step])) {
+    if (step >= first && !MakePsf(RadiusOfStep(step), opening, cancel, weights, &kernels[step])) {
       return step;
     }
     weights += WeightsOf(kernels[step].full, kernels[step].size);
@@ -273,7 +273,7 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
   const Rect& rect = job.rect;
   const size_t stride = 3 * static_cast<size_t>(rect.width + 2 * job.border);
   SpanList list(*job.kernels, scratch.spans, scratch.accumulators);
-  const bool turns = job.kernels_of_radius[0].full;
+  const bool turns = job.psfs_of_radius[0].full;
   for (int32_t y = 0; y < rect.height; ++y, out += out_stride) {
     const int16_t* disparity = job.window->disparity.Row(rect.y + y) + rect.x;
     const int16_t* row = scratch.rgb + static_cast<size_t>(y + job.border) * stride +
@@ -288,10 +288,10 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
       const int32_t begin = x, step = step_at(x), side = side_of(x);
       while (++x < rect.width && step_at(x) == step && side_of(x) == side) {
       }
-      const BlurKernel& kernel = job.kernels_of_radius[step];
+      const Psf& kernel = job.psfs_of_radius[step];
       const size_t samples = 3 * static_cast<size_t>(x - begin);
       const int64_t points = (2 * kernel.size + 1) * (2 * kernel.size + 1);
-      if (!GoesOn(job.patience, points * static_cast<int64_t>(samples))) return;
+      if (!GoesOn(job.cancel, points * static_cast<int64_t>(samples))) return;
       std::memset(scratch.accumulators, 0, samples * sizeof(uint32_t));
       AddKernel(kernel, side, row + 3 * begin, stride, x - begin, &list);
       list.Flush();

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/opening.h"
+#include "lib/base/aperture_shape.h"
 #include "lib/base/watch.h"
 #include "lib/filter/add_excess.h"
 #include "lib/filter/span_list.h"
@@ -28,7 +28,7 @@ int32_t BlurStepAbove(int32_t radius);
 // The octant 0 <= m <= n of one kernel, or, when `full`, all of it; weights sum to exactly
 // 2^sum_bits over the plane, and those of an octant that four pixels share, or two on an axis, fit
 // 15 bits together. What is farther than the focus sees it turned by half a turn.
-struct BlurKernel {
+struct Psf {
   int32_t size;  // n of the outermost weights
   int sum_bits;
   bool full;
@@ -44,23 +44,23 @@ struct BlurKernel {
 };
 
 // Weights that all kernels up to max_blur store together.
-size_t BlurWeightCount(const Opening& opening, double max_blur);
+size_t BlurWeightCount(const ApertureShape& opening, double max_blur);
 
 // Makes the kernels of steps [first, last), first <= last, behind those before, which must have
 // been made; kernels[BlurStepCount], weights[BlurWeightCount]. Cat's eyes are left out. Returns
-// `last`, or the step that patience (null: it lasts) ended at.
-int32_t MakeBlurKernels(int32_t first, int32_t last, const Opening& opening, Patience* patience,
-                        uint16_t* weights, BlurKernel* kernels);
+// `last`, or the step at which the call was cancelled (a null token never cancels).
+int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
+                 uint16_t* weights, Psf* kernels);
 
 struct BlurJob {
   const Window* window;
   BlurScale scale;
-  const BlurKernel* kernels_of_radius;
+  const Psf* psfs_of_radius;
   const simd::Kernels* kernels;
   Rect rect;
-  int32_t border;      // largest kernel size in the picture
-  ExcessSum excess;    // with a factor the window's excess is added to `out`
-  Patience* patience;  // once it ends, `out` is left half made
+  int32_t border;       // largest kernel size in the picture
+  ExcessSum excess;     // with a factor the window's excess is added to `out`
+  CancelToken* cancel;  // once it ends, `out` is left half made
 };
 
 struct BlurScratch {

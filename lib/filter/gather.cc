@@ -87,10 +87,10 @@ class Gather {
     }
   }
 
-  // Returns whether patience lasted until then.
-  bool Spend(const BlurKernel& kernel, const Rect& part) const {
+  // Returns false if the call was cancelled.
+  bool Spend(const Psf& kernel, const Rect& part) const {
     const int64_t points = (2 * kernel.size + 1) * (2 * kernel.size + 1);
-    return GoesOn(job_.patience, 3 * points * part.width * part.height);
+    return GoesOn(job_.cancel, 3 * points * part.width * part.height);
   }
 
   simd::SampleRows RowsOf(const Rect& part) const {
@@ -113,14 +113,14 @@ class Gather {
     return part;
   }
 
-  // Filters flat cells from (x, y) on that have the same kernel. Returns where they end, or x when
-  // patience ended before.
+  // Filters flat cells from (x, y) on that have the same kernel. Returns where they end, or x if
+  // the call was cancelled.
   int32_t FilterFlat(int32_t x, int32_t y) {
     const Steps steps = At(x, y);
     int32_t end = x + kCellSize;
     while (end < Right() && HasKernels(end, y, true, steps)) end += kCellSize;
     const Rect part = PixelsOf(x, end, y);
-    const BlurKernel& kernel = KernelOf(steps.less);
+    const Psf& kernel = KernelOf(steps.less);
     if (!Spend(kernel, part)) return x;
     const simd::SampleRows in = RowsOf(part);
     const simd::Disc disc = DiscOf(kernel);
@@ -135,14 +135,14 @@ class Gather {
 
   // Filters cells on a slope from (x, y) on that have the same two kernels: mixes the pictures of
   // the least and of the largest one, pixel by pixel, and moves what that gives to where the views
-  // see it. Returns where the cells end, or x when patience ended before.
+  // see it. Returns where the cells end, or x if the call was cancelled.
   int32_t FilterSlopes(int32_t x, int32_t y) {
     const Steps steps = At(x, y);
     const int32_t most = Min(Right(), x + kSlopeCells * kCellSize);
     int32_t end = x + kCellSize;
     while (end < most && HasKernels(end, y, false, steps)) end += kCellSize;
     const Rect part = PixelsOf(x, end, y);
-    const BlurKernel &less = KernelOf(steps.less), &more = KernelOf(steps.more);
+    const Psf &less = KernelOf(steps.less), &more = KernelOf(steps.more);
     if (!Spend(more, part)) return x;
     job_.kernels->FilterTwoDiscs(RowsOf(part), DiscOf(less), DiscOf(more), rows_.less, rows_.more,
                                  SlopeRows::kStride);
@@ -242,9 +242,9 @@ class Gather {
     return here.less == steps.less && here.more == steps.more && job_.cells.IsFlat(x, y) == flat;
   }
 
-  const BlurKernel& KernelOf(int32_t step) const { return job_.blur.of_step[step]; }
+  const Psf& KernelOf(int32_t step) const { return job_.blur.of_step[step]; }
 
-  static simd::Disc DiscOf(const BlurKernel& kernel) {
+  static simd::Disc DiscOf(const Psf& kernel) {
     return {kernel.size, kernel.sum_bits, kernel.weights};
   }
 

@@ -22,7 +22,7 @@ static_assert(kMaxGather <= simd::kMaxDisc, "");
 
 // The kernels of a lens.
 struct GatherKernels {
-  const BlurKernel* of_step;
+  const Psf* of_step;
   int32_t last_step;
   int32_t mean_square;  // of the opening
 };
@@ -34,7 +34,7 @@ struct GatherJob {
   BlurScale scale;
   GatherKernels blur;
   const simd::Kernels* kernels;
-  Patience* patience;  // once it ends, what is gathered into is left half made
+  CancelToken* cancel;  // once it ends, what is gathered into is left half made
 };
 
 // What is gathered into, from the first pixel of the block's LayerFrame on: codes at layer 0,

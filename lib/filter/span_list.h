@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -20,12 +20,12 @@ struct SpanMemory {
 };
 
 // Takes the memory for lines of up to `side` pixels.
-inline SpanMemory TakeSpans(size_t side, Carver* carver) {
+inline SpanMemory TakeSpans(size_t side, Arena* arena) {
   SpanMemory memory;
   memory.span_capacity = 512;
-  memory.spans = carver->Take<simd::Span>(memory.span_capacity);
+  memory.spans = arena->Take<simd::Span>(memory.span_capacity);
   memory.pixel_capacity = 3 * 2 * side;
-  memory.pixels = carver->Take<int16_t>(memory.pixel_capacity);
+  memory.pixels = arena->Take<int16_t>(memory.pixel_capacity);
   return memory;
 }
 

@@ -66,13 +66,13 @@ Colour ReadBeside(const CentreView& centre, const BoundaryPixel& pixel, const Co
 }
 
 // The view on the side away from the nearer surface, which it shows out of the way.
-const LookView& LookAway(const Window& window, const BoundaryPixel& pixel) {
-  return window.looks.Last(pixel.side ^ 1);
+const OcclusionView& OcclusionViewAway(const Window& window, const BoundaryPixel& pixel) {
+  return window.occlusion_views.Last(pixel.side ^ 1);
 }
 
 // The point of the far surface in that view.
 Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& mixed) {
-  const LookView& look = LookAway(window, pixel);
+  const OcclusionView& look = OcclusionViewAway(window, pixel);
   constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
   const int32_t x = pixel.x * kShiftOne - ScaledByView(look.at.u, pixel.disparity, kBits);
   const int32_t y = pixel.y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, kBits);
@@ -114,8 +114,9 @@ Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const int32_t beyond = centre.Disparity(x + 2 * dx, y + 2 * dy);
   const int pure = Abs(beyond - pixel.near) <= pixel.step ? 2 : 1;
   mixture.near = centre.ColourAt(x + pure * dx, y + pure * dy);
-  mixture.far = LookAway(centre.window, pixel).view != 0 ? ReadFar(centre.window, pixel, mixed)
-                                                         : ReadBeside(centre, pixel, mixed);
+  mixture.far = OcclusionViewAway(centre.window, pixel).view != 0
+                    ? ReadFar(centre.window, pixel, mixed)
+                    : ReadBeside(centre, pixel, mixed);
   if (!is_excess) mixture.share = ShareOf(mixture.near, mixture.far, mixed);
   return mixture;
 }

@@ -83,7 +83,7 @@ void LoadField(const Window& window, const Rect& rect, const Border& border, Fie
     window.reads->centre_bytes +=
         3 * static_cast<uint64_t>(last - first) * static_cast<uint64_t>(field->height);
   }
-  LookBeyond(window, field);
+  ExtendEdges(window, field);
 }
 
 }  // namespace starfocus

@@ -68,7 +68,8 @@ class Beyond {
     const int32_t disparity = DisparityAt(rect_.x + edge.column, rect_.y + edge.row);
     // Nearer surfaces go on where views look over the edge, those behind the focus where views on
     // the other side do.
-    const LookView& look = window_.looks.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
+    const OcclusionView& look =
+        window_.occlusion_views.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
     if (look.view == 0) return;
     const Place moved = {Moved(look.at.u, disparity), Moved(look.at.v, disparity)};
     const int32_t along = edge.out()[0] != 0 ? moved.x : moved.y;
@@ -89,7 +90,8 @@ class Beyond {
   // How many of the `seen` pixels beyond the edge lie before the first that, in the captured view,
   // a nearer pixel inside the picture comes within 3/4 of a pixel of. Surfaces of positive
   // disparity are seen from the side on which nearer ones move farther away.
-  int32_t Uncovered(const Edge& edge, const LookView& look, int32_t disparity, int32_t seen) const {
+  int32_t Uncovered(const Edge& edge, const OcclusionView& look, int32_t disparity,
+                    int32_t seen) const {
     const int layer = window_.layer;
     const int32_t unit = int32_t{1} << (kDisparityBits + layer);
     const int32_t width = Part::Inside(window_.picture_width, layer);
@@ -108,7 +110,7 @@ class Beyond {
     return seen;
   }
 
-  void Read(const Edge& edge, const LookView& look, const Place& moved, int32_t seen) {
+  void Read(const Edge& edge, const OcclusionView& look, const Place& moved, int32_t seen) {
     const int dx = edge.out()[0], dy = edge.out()[1];
     constexpr int32_t kAtOnce = 16;
     int16_t rgb[3 * kAtOnce];
@@ -142,7 +144,7 @@ class Beyond {
 
 }  // namespace
 
-void LookBeyond(const Window& window, Field* field) {
+void ExtendEdges(const Window& window, Field* field) {
   if (window.views > 1) Beyond(window, field).Look();
 }
 

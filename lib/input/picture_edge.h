@@ -17,7 +17,7 @@ inline constexpr int32_t kLookBack = 32;
 // beyond the edge as its disparity moves it from unit to unit take their colour from the captured
 // view that shows them, up to where something nearer covers them there. What lies farther away
 // repeats the last of them. Without side views, and beyond corners, nothing changes.
-void LookBeyond(const Window& window, Field* field);
+void ExtendEdges(const Window& window, Field* field);
 
 }  // namespace starfocus
 

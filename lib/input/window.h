@@ -30,7 +30,7 @@ struct Window {
   int32_t height = 0;
   int layer = 0;                       // L
   int32_t views = 0;                   // captured, the centre one included
-  Looks looks;                         // which of them look behind edges
+  OcclusionViews occlusion_views;      // which of them look behind edges
   const Transfer* transfer = nullptr;  // of the codes of the pictures
   Plane<const uint8_t> centre;         // codes; layer 0
   Plane<const int16_t> samples;        // of the centre view, simd::kLayerBits; layers 1 and 2

@@ -41,8 +41,8 @@ int64_t Difference(const int16_t* a, const int16_t* b) {
   return sum * sum;
 }
 
-// The diagonal view is missing: of the two views beside it, the more a pixel looks like the
-// background the more it counts. This is nearly a choice, but without a jump, and transposing
+// The diagonal view is missing: of the two views beside it, the more a pixel looks like
+// the background the more it counts. This is nearly a choice, but without a jump, and transposing
 // the picture transposes the result.
 void MixNeighbours(const int16_t* a, const int16_t* b, const int16_t* colour, int16_t* out) {
   constexpr int64_t kLeast = 1 << (2 * kLightBits);  // decides where both are like the background

@@ -11,7 +11,7 @@ int32_t LevelOf(const BlockStats& stats, Demand demand) {
 
 // Half of the type A views lie on either axis. Each is rendered over the border of the other. Half
 // of all views are scanned along rows and half along columns, those of type B along both.
-BlockWork MeasureWork(const Rect& rect, const Border& border, const Aperture& aperture,
+BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights& aperture,
                       const Content (&content)[2], int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
   const uint64_t extended_width = width + static_cast<uint64_t>(border.left + border.right);
@@ -29,7 +29,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const Aperture& ap
 }
 
 // E and R of LineScanScratch are `extended` and the side of the largest blocks.
-void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Carver* carver,
+void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Arena* arena,
                  void* memory) {
   LineScanScratch counted;
   LineScanScratch& scratch = memory == nullptr ? counted : *static_cast<LineScanScratch*>(memory);
@@ -37,25 +37,25 @@ void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Carver*
   const size_t area = extended * extended;
   const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
   for (int k = 0; k < 2; ++k) {
-    scratch.field_rgb[k] = carver->Take<int16_t>(extended * rgb_stride);
-    scratch.field_disparity[k] = carver->Take<int16_t>(area);
+    scratch.field_rgb[k] = arena->Take<int16_t>(extended * rgb_stride);
+    scratch.field_disparity[k] = arena->Take<int16_t>(area);
   }
-  scratch.column_sums = carver->Take<uint32_t>(3 * rectangle * rectangle);
-  scratch.diagonal_rgb = carver->Take<int16_t>(3 * area);
-  scratch.diagonal_disparity = carver->Take<int16_t>(area);
-  scratch.diagonal_offsets = carver->Take<uint32_t>(2 * extended);
-  scratch.moves = carver->Take<int64_t>(max_n + 1);
-  scratch.marks.starts = carver->Take<uint16_t>(RunMarkWords(extended, extended));
-  scratch.marks.edges = carver->Take<uint16_t>(RunMarkWords(extended, extended));
-  scratch.marks.middles = carver->Take<int16_t>(RunMiddles(extended, extended));
-  scratch.runs = carver->Take<Run>(area);
-  scratch.run_counts = carver->Take<int32_t>(extended);
-  scratch.line_runs = carver->Take<Run>(extended);
-  scratch.strip_rgb = carver->Take<int16_t>(3 * rectangle * kStripRows);
-  scratch.view_disparity = carver->Take<int16_t>(rectangle * extended);
-  scratch.columns_rgb = carver->Take<int16_t>(rectangle * rgb_stride);
-  scratch.line_accumulators = carver->Take<uint32_t>(3 * extended);
-  scratch.spans = TakeSpans(extended, carver);
+  scratch.column_sums = arena->Take<uint32_t>(3 * rectangle * rectangle);
+  scratch.diagonal_rgb = arena->Take<int16_t>(3 * area);
+  scratch.diagonal_disparity = arena->Take<int16_t>(area);
+  scratch.diagonal_offsets = arena->Take<uint32_t>(2 * extended);
+  scratch.moves = arena->Take<int64_t>(max_n + 1);
+  scratch.marks.starts = arena->Take<uint16_t>(RunMarkWords(extended, extended));
+  scratch.marks.edges = arena->Take<uint16_t>(RunMarkWords(extended, extended));
+  scratch.marks.middles = arena->Take<int16_t>(RunMiddles(extended, extended));
+  scratch.runs = arena->Take<Run>(area);
+  scratch.run_counts = arena->Take<int32_t>(extended);
+  scratch.line_runs = arena->Take<Run>(extended);
+  scratch.strip_rgb = arena->Take<int16_t>(3 * rectangle * kStripRows);
+  scratch.view_disparity = arena->Take<int16_t>(rectangle * extended);
+  scratch.columns_rgb = arena->Take<int16_t>(rectangle * rgb_stride);
+  scratch.line_accumulators = arena->Take<uint32_t>(3 * extended);
+  scratch.spans = TakeSpans(extended, arena);
 }
 
 // A pixel stays in its place in all views, and its neighbour has weight 0, where
@@ -94,12 +94,12 @@ const Renderer kLineScanRenderer = {
     256,  // of any side
     [](double r_max, Demand) { return ViewsByPaper(r_max); },
     LevelOf,
-    MakeAperture,
+    MakeViewWeights,
     MeasureWork,
     sizeof(LineScanScratch),
     TakeScratch,
     NothingMoves,
     RefocusRectangle,
-    [](const Aperture& aperture) { return aperture.sum_bits + kLightBits; }};
+    [](const ViewWeights& aperture) { return aperture.sum_bits + kLightBits; }};
 
 }  // namespace starfocus

@@ -118,7 +118,7 @@ class Star {
     const int64_t samples = 3 * int64_t{field.width} * field.height;  // of a type A view
     for (const int sign : {1, -1}) {
       FindAllRuns(field, other, DirectionOf(sign));
-      for (int32_t i = 1; i <= grid_.n() && GoesOn(job_.patience, samples); ++i) {
+      for (int32_t i = 1; i <= grid_.n() && GoesOn(job_.cancel, samples); ++i) {
         const int32_t last = LastAcross(i);
         const Rows rows = RowsFor(field, last);
         RenderTypeA(field, sign, i, rows);
@@ -208,7 +208,7 @@ class Star {
                          0,
                          {field.x + field.inner.x, field.y + rows.begin, 0, 1}};
       for (int32_t x = 0; x < width; ++x, ++holes.line.x) {
-        if (!GoesOn(job_.patience, 3 * int64_t{height} * (last + 1))) return;
+        if (!GoesOn(job_.cancel, 3 * int64_t{height} * (last + 1))) return;
         const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
                                               scratch_->line_runs)
                                    : 0;
@@ -268,7 +268,7 @@ class Star {
       const int32_t begin = Max(Max(0, inner.x - at.x), top);
       const int32_t end = Min(Min(at.length, inner.x + inner.width - at.x), top + inner.height);
       if (begin >= end) continue;
-      if (!GoesOn(job_.patience, 6 * int64_t{at.length} * last)) return;
+      if (!GoesOn(job_.cancel, 6 * int64_t{at.length} * last)) return;
       AddDiagonal(field, diagonals, at, index, begin, end, last);
     }
   }

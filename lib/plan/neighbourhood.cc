@@ -26,7 +26,7 @@ void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t 
 }
 
 // `widest`: the largest range of one cell.
-Smoothness SmoothnessOf(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
+CellKind KindOf(const BlurScale& scale, int32_t low, int32_t high, int32_t widest) {
   const int32_t range = high - low;
   const auto is_within = [&](int32_t disparities, int32_t limit) {
     return scale.step * disparities <= int64_t{limit} << kStepBits;
@@ -37,11 +37,11 @@ Smoothness SmoothnessOf(const BlurScale& scale, int32_t low, int32_t high, int32
     return is_within(range, Max(scale.Radius(blur) / 2, kSharpSmoothRange));
   };
   if (is_within(range, kSmoothRange) && is_gradual_or_low(2 * widest > range)) {
-    return Smoothness::kFlat;
+    return CellKind::kFlat;
   }
   // A slope goes on from cell to cell, and so may its blur.
   const bool is_slope = is_within(widest, kSlopeRange) && is_gradual_or_low(3 * widest > 2 * range);
-  return is_slope ? Smoothness::kOnSlope : Smoothness::kRough;
+  return is_slope ? CellKind::kSloped : CellKind::kMixed;
 }
 
 }  // namespace
@@ -95,14 +95,14 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
 }
 
 void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
-                const BlurScale& scale, int32_t row, Smoothness* smooth) {
+                const BlurScale& scale, int32_t row, CellKind* smooth) {
   int16_t low[kMaxRowCells], high[kMaxRowCells], edge[kMaxRowCells];
   uint16_t widest[kMaxRowCells];
   static_assert(kMaxRowCells % simd::kSliceLanes == 0, "kernels write whole lanes");
   kernels.SurroundCells(surroundings.At(surroundings.column, row), surroundings.around,
                         static_cast<size_t>(surroundings.columns), {low, high, widest, edge});
   for (int32_t k = 0; k < surroundings.columns; ++k) {
-    smooth[k] = edge[k] > 0 ? Smoothness::kRough : SmoothnessOf(scale, low[k], high[k], widest[k]);
+    smooth[k] = edge[k] > 0 ? CellKind::kMixed : KindOf(scale, low[k], high[k], widest[k]);
   }
 }
 

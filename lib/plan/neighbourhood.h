@@ -48,7 +48,7 @@ Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, cons
 inline constexpr int32_t kSmoothRange = (5 << kDisparityBits) / 4;
 inline constexpr int32_t kSlopeRange = 2 << kDisparityBits;
 inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
-enum class Smoothness : uint8_t { kRough, kOnSlope, kFlat };
+enum class CellKind : uint8_t { kMixed, kSloped, kFlat };
 
 // Stats of the 2x2 cells of the grid at (column, row) of the surroundings.
 BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
@@ -58,7 +58,7 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
 // were measured with.
 inline constexpr int32_t kMaxRowCells = 32;
 void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
-                const BlurScale& scale, int32_t row, Smoothness* smooth);
+                const BlurScale& scale, int32_t row, CellKind* smooth);
 
 }  // namespace starfocus
 

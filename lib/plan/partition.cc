@@ -104,7 +104,7 @@ class Partition {
   void FindGathered(const CellGrid& cells, const Surroundings& inside) {
     const int32_t right = Min(inside.column + inside.columns, cells.columns);
     const int32_t bottom = Min(inside.row + inside.rows, cells.rows);
-    Smoothness smooth[kMaxRowCells] = {};  // rough
+    CellKind smooth[kMaxRowCells] = {};  // rough
     for (int32_t y = inside.row; y < bottom; ++y) {
       if (rules_.gathers) FindSmooth(kernels_, inside, rules_.scale, y, smooth);
       for (int32_t x = inside.column; x < right; ++x) {
@@ -115,11 +115,11 @@ class Partition {
   }
 
   // Returns the lowest layer at which a kernel is large enough for the cell, as GatherMap has it.
-  static uint8_t MarkOf(const Cell& cell, Smoothness smooth) {
-    if (smooth == Smoothness::kRough) return kByViews;
+  static uint8_t MarkOf(const Cell& cell, CellKind smooth) {
+    if (smooth == CellKind::kMixed) return kByViews;
     uint8_t layer = 0;
     while (layer < kByViews && cell.r_max > kMaxGather << (kDisparityBits + layer)) ++layer;
-    return smooth == Smoothness::kOnSlope ? layer | kSlopeMark : layer;
+    return smooth == CellKind::kSloped ? layer | kSlopeMark : layer;
   }
 
   void MeasureUnit(int32_t column, int32_t row, const CellGrid& cells,

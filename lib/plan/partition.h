@@ -31,7 +31,7 @@ struct Block {
 struct PartitionRules {
   const sf_config* config;
   const Renderer* renderer;
-  const Aperture* apertures;  // of the renderer by N, up to max_n
+  const ViewWeights* apertures;  // of the renderer by N, up to max_n
   int32_t max_n;
   Demand demand;  // of the opening
   BlurScale scale;

@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/aperture.h"
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 #include "lib/base/geometry.h"
 #include "lib/base/rules.h"
 #include "lib/base/view_grid.h"
+#include "lib/base/view_weights.h"
 #include "lib/base/watch.h"
 #include "lib/input/window.h"
 #include "lib/plan/block_stats.h"
@@ -30,7 +30,7 @@ struct RenderJob {
   const simd::Kernels* kernels;
   Rect rect;
   Border border;
-  Patience* patience;          // null: the job is never cancelled
+  CancelToken* cancel;         // null: the job is never cancelled
   const BlockCells* gathered;  // null: no pixel is left out
   double r_max;                // largest blur radius of the lens, pixels
   bool is_benchmark;           // the benchmark mode asks for more detail
@@ -45,17 +45,17 @@ struct Renderer {
   int32_t (*view_count)(double r_max, Demand demand);
   // Returns the subsampled layer for a block.
   int32_t (*level)(const BlockStats& stats, Demand demand);
-  // Makes the aperture of N: fills weights[ApertureSize(opening, n)].
-  Aperture (*make_aperture)(int32_t n, const Opening& opening, uint16_t* weights);
+  // Makes the aperture of N: fills weights[ViewWeightsSize(opening, n)].
+  ViewWeights (*make_aperture)(int32_t n, const ApertureShape& opening, uint16_t* weights);
   // Returns the work of `rect` with `border`, both in pixels of the layer, without upsampling.
   // `content`: what the block holds at layer 0 along rows and along columns.
-  BlockWork (*measure_work)(const Rect& rect, const Border& border, const Aperture& aperture,
+  BlockWork (*measure_work)(const Rect& rect, const Border& border, const ViewWeights& aperture,
                             const Content (&content)[2], int32_t layer);
 
   size_t scratch_bytes;
   // Takes the memory of one worker's scratch, which lies at `scratch` (null: only counted).
   // `extended`: largest side of a rectangle with its border; max_n: largest N.
-  void (*take_scratch)(const sf_config& config, size_t extended, size_t max_n, Carver* carver,
+  void (*take_scratch)(const sf_config& config, size_t extended, size_t max_n, Arena* arena,
                        void* scratch);
 
   // Returns true if every view shows every pixel of the rectangle where the centre view has it, so
@@ -65,7 +65,7 @@ struct Renderer {
   // sum_bits(aperture) fractional bits. Returns the samples rendered in each view. After a
   // cancellation `sums` is unspecified.
   uint64_t (*render)(const RenderJob& job, void* scratch, uint32_t* sums);
-  int (*sum_bits)(const Aperture& aperture);
+  int (*sum_bits)(const ViewWeights& aperture);
 };
 
 // Slices: each view stands for its subaperture of the lens (lib/slices).

@@ -37,10 +37,10 @@ class Section {
   uint64_t Refocus() {
     int16_t* const tile_memory = PlaceSlices();
     const uint64_t pixels = FindParts();
-    const TileJob job = {job_.kernels, &stack_,       planes_,      scratch_.weights,
-                         tile_memory,  scratch_.sums, job_.patience};
+    const TileJob job = {job_.kernels, &stack_,       planes_,    scratch_.weights,
+                         tile_memory,  scratch_.sums, job_.cancel};
     const SectionPart *part = scratch_.parts, *last = part + parts_;
-    for (int32_t x = 0; x < rect_.width && GoesOn(job_.patience, 0); x += kChunk) {
+    for (int32_t x = 0; x < rect_.width && GoesOn(job_.cancel, 0); x += kChunk) {
       TileParts tile = {x, part, part};
       while (tile.end < last && tile.end->x == x) ++tile.end;
       part = tile.end;
@@ -180,7 +180,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
                 field.Rgb(inner.x, inner.y + y), row * sizeof(*field.rgb));
   }
   PartThin(*job.window, field, &scratch->surfaces);
-  FillHidden(*job.kernels, job.window->layer, scratch->fill, &scratch->surfaces);
+  InpaintHidden(*job.kernels, job.window->layer, scratch->fill, &scratch->surfaces);
   return inner;
 }
 
@@ -235,7 +235,7 @@ uint64_t CompositeCut(const Rectangle& all, const Rect& cut) {
   const Rect largest = ChooseSection(*all.stack, cut, all.scratch->pool_bytes);
   uint64_t pixels = 0;
   for (int32_t y = 0; y < cut.height; y += largest.height) {
-    for (int32_t x = 0; x < cut.width && GoesOn(all.job->patience, 0); x += largest.width) {
+    for (int32_t x = 0; x < cut.width && GoesOn(all.job->cancel, 0); x += largest.width) {
       const Rect section = {cut.x + x, cut.y + y, Min(largest.width, cut.width - x),
                             Min(largest.height, cut.height - y)};
       pixels += Section(all, section).Refocus();
@@ -259,7 +259,7 @@ uint64_t CompositeRectangle(const RenderJob& job, void* scratch, uint32_t* accum
     cut.height = SideOfCut(job.rect.height - cut.y);
     for (cut.x = 0; cut.x < job.rect.width; cut.x += cut.width) {
       cut.width = SideOfCut(job.rect.width - cut.x);
-      if (!GoesOn(job.patience, 0)) return 3 * pixels;
+      if (!GoesOn(job.cancel, 0)) return 3 * pixels;
       FindStack(job, cut, memory, &stack);
       pixels += CompositeCut(all, cut);
     }

@@ -156,8 +156,8 @@ class HiddenFiller {
 
 }  // namespace
 
-void FillHidden(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
-                LayeredDepth* surfaces) {
+void InpaintHidden(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
+                   LayeredDepth* surfaces) {
   if (surfaces->repeats) HiddenFiller(kernels, layer, scratch, surfaces).Fill();
 }
 

@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Memory of FillHidden for surfaces of a width and height: the farthest surface of each pixel. Rows
-// of disparities lie FillStride(width) apart; a row of colours has R, G and B behind each other,
-// as far apart. All start kFillStep pixels before the row's first one.
+// Memory of InpaintHidden for surfaces of a width and height: the farthest surface of each pixel.
+// Rows of disparities lie FillStride(width) apart; a row of colours has R, G and B behind each
+// other, as far apart. All start kFillStep pixels before the row's first one.
 struct FillScratch {
   int16_t* disparity;  // height rows, and kFillStep pixels, as behind all of these
   int16_t* rgb;        // height rows
@@ -38,8 +38,8 @@ constexpr size_t FillStride(size_t width) {
 // right, top and bottom, by an eighth each: of their farthest surfaces, if these are within a pixel
 // of its disparity, else of itself. So colours beside the edge matter near it, and far from it the
 // mean of what lies around. docs/constants.md tells what was measured.
-void FillHidden(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
-                LayeredDepth* surfaces);
+void InpaintHidden(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
+                   LayeredDepth* surfaces);
 
 }  // namespace starfocus
 

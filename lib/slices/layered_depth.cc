@@ -9,7 +9,7 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kChunk = static_cast<int32_t>(simd::kSliceLanes);
-static_assert(kLooks == simd::kViewLooks, "views that are looked into on a side");
+static_assert(kOcclusionViews == simd::kViewLooks, "views that are looked into on a side");
 
 // Writes that there is no surface behind a row's end, where kernels look at whole vectors.
 void ClearChunk(int16_t* disparity) {
@@ -86,7 +86,7 @@ class HiddenColours {
                   3 * static_cast<size_t>(count) * sizeof(*to));
       return;
     }
-    const LookView& look = LookOf(side, source);
+    const OcclusionView& look = LookOf(side, source);
     const int16_t disparity = chunk.disparity[k];
     const CapturedLine line = {(field_.x + chunk.x + k) * kShiftOne - Moved(look.at.u, disparity),
                                (field_.y + chunk.y) * kShiftOne - Moved(look.at.v, disparity), 1,
@@ -102,8 +102,8 @@ class HiddenColours {
   }
 
   // The view that shows a pixel on that side, if any does.
-  const LookView& LookOf(int32_t side, uint32_t source) const {
-    return window_.looks.on[side][source >> (simd::kSourceSecond + side) & 1];
+  const OcclusionView& LookOf(int32_t side, uint32_t source) const {
+    return window_.occlusion_views.on[side][source >> (simd::kSourceSecond + side) & 1];
   }
 
   const Window& window_;
@@ -112,7 +112,7 @@ class HiddenColours {
 };
 
 // What the kernel needs to look into a view.
-simd::ViewLook ViewLookOf(const LookView& look, int unit_bits) {
+simd::ViewLook ViewLookOf(const OcclusionView& look, int unit_bits) {
   const bool down = Abs(look.at.v) > Abs(look.at.u);
   const int32_t along = down ? look.at.v : look.at.u, across = down ? look.at.u : look.at.v;
   const int32_t size = Abs(along);
@@ -135,8 +135,9 @@ class SurfaceFinder {
         unit_(int32_t{1} << (kDisparityBits + window.layer)),
         step_(kDepthEdge << window.layer) {
     for (int side = 0; side < kSideCount; ++side) {
-      for (int k = 0; k < kLooks; ++k) {
-        looks_[side][k] = ViewLookOf(window.looks.on[side][k], kDisparityBits + window.layer);
+      for (int k = 0; k < kOcclusionViews; ++k) {
+        looks_[side][k] =
+            ViewLookOf(window.occlusion_views.on[side][k], kDisparityBits + window.layer);
       }
     }
   }
@@ -329,7 +330,7 @@ class SurfaceFinder {
   HiddenColours colours_;
   const int32_t unit_;  // disparity that a pixel of the layer is at distance 1
   const int32_t step_;  // a larger one from pixel to pixel may hide something
-  simd::ViewLook looks_[kSideCount][kLooks];
+  simd::ViewLook looks_[kSideCount][kOcclusionViews];
 };
 
 }  // namespace

@@ -66,10 +66,10 @@ struct SurfaceBands {
 // Finds them for a field, which surface 0 is a copy of and covers all of. Behind a pixel lies what
 // its row and its column show behind the next depth edge on either side and behind the one after
 // it, as far as a view at distance 1 can look there: at most two surfaces, the nearest edge's
-// first. Their colours are read from a captured view that looks round that edge (Looks) and in
-// which nothing covers them; without one the background goes on. Sides with the same distance and
-// disparity give their mean. Pixels within a surface hide copies of themselves (kLeastCopy). The
-// memory of `surfaces` must be set.
+// first. Their colours are read from a captured view that looks round that edge
+// (OcclusionViews) and in which nothing covers them; without one the background goes on. Sides with
+// the same distance and disparity give their mean. Pixels within a surface hide copies of
+// themselves (kLeastCopy). The memory of `surfaces` must be set.
 void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const Field& field,
                       LayeredDepth* surfaces);
 

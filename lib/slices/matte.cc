@@ -107,7 +107,7 @@ class MatteFinder {
   // the edge shows it, else as the pixel on that side.
   Colour FarAt(const BoundaryPixel& pixel, const Colour& mixed) const {
     const Window& window = centre_.window;
-    const LookView& look = window.looks.Last(pixel.side ^ 1);
+    const OcclusionView& look = window.occlusion_views.Last(pixel.side ^ 1);
     if (look.view == 0) {
       const int32_t x = pixel.x - kSides[pixel.side][0], y = pixel.y - kSides[pixel.side][1];
       return Abs(DisparityAt(x, y) - pixel.disparity) <= pixel.step ? ColourAt(x, y) : mixed;

@@ -12,7 +12,7 @@ int32_t LevelOf(const BlockStats& stats, Demand demand) {
 
 // The work of type A is to move slices along rows, once for each column of views. That of type C is
 // to composite all views. Each slice is moved as A and composited as C.
-BlockWork MeasureWork(const Rect& rect, const Border& border, const Aperture& aperture,
+BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights& aperture,
                       const Content (&content)[2], int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
   const uint64_t extended_width = width + static_cast<uint64_t>(border.left + border.right);
@@ -31,34 +31,34 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const Aperture& ap
 
 // Takes the memory of what is found of a field before slices of a cut are made. Its surfaces are
 // filled when the field is no longer needed.
-void TakeField(size_t extended, Carver* carver, CompositorScratch* stack) {
+void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
   CompositorScratch& scratch = *stack;
   LayeredDepth& surfaces = scratch.surfaces;
   FillScratch& fill = scratch.fill;
   const size_t row = simd::SliceSamples(extended);
-  for (uint16_t*& sources : surfaces.sources) sources = carver->Take<uint16_t>(extended * row);
-  const size_t field = carver->Mark();
-  scratch.field_rgb = carver->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
-  scratch.field_disparity = carver->Take<int16_t>(extended * extended);
+  for (uint16_t*& sources : surfaces.sources) sources = arena->Take<uint16_t>(extended * row);
+  const size_t field = arena->Mark();
+  scratch.field_rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+  scratch.field_disparity = arena->Take<int16_t>(extended * extended);
   for (uint8_t*& edges : surfaces.edges) {
-    edges = carver->Take<uint8_t>(extended * row + simd::kSliceLanes);
+    edges = arena->Take<uint8_t>(extended * row + simd::kSliceLanes);
   }
-  surfaces.moved = carver->Take<int16_t>(row);
-  surfaces.behind = carver->Take<int16_t>(row);
-  surfaces.steps = carver->Take<simd::StepBits>(row / simd::kSliceLanes);
-  scratch.bins = carver->Take<uint8_t>(kSliceBins);
-  scratch.least_blur = carver->Take<int32_t>(extended);
-  carver->Reuse(field);
+  surfaces.moved = arena->Take<int16_t>(row);
+  surfaces.behind = arena->Take<int16_t>(row);
+  surfaces.steps = arena->Take<simd::StepBits>(row / simd::kSliceLanes);
+  scratch.bins = arena->Take<uint8_t>(kSliceBins);
+  scratch.least_blur = arena->Take<int32_t>(extended);
+  arena->Reuse(field);
   const size_t stride = FillStride(extended), behind = kFillStep;
-  fill.disparity = carver->Take<int16_t>(extended * stride + behind);
-  fill.rgb = carver->Take<int16_t>(3 * extended * stride + behind);
-  fill.saved = carver->Take<int16_t>(3 * size_t{kFillStep + 1} * stride + behind);
-  fill.source = carver->Take<uint16_t>(extended * stride);
-  fill.farthest = carver->Take<uint8_t>(extended);
+  fill.disparity = arena->Take<int16_t>(extended * stride + behind);
+  fill.rgb = arena->Take<int16_t>(3 * extended * stride + behind);
+  fill.saved = arena->Take<int16_t>(3 * size_t{kFillStep + 1} * stride + behind);
+  fill.source = arena->Take<uint16_t>(extended * stride);
+  fill.farthest = arena->Take<uint8_t>(extended);
 }
 
 // E of CompositorScratch is `extended`.
-void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Carver* carver,
+void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Arena* arena,
                  void* memory) {
   CompositorScratch counted;
   CompositorScratch& scratch =
@@ -67,25 +67,25 @@ void TakeScratch(const sf_config& config, size_t extended, size_t max_n, Carver*
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
     // Looking behind a row's first pixels reads lanes before them, of which nothing is used.
-    int16_t* before = carver->Take<int16_t>(simd::kSliceLanes + area);
+    int16_t* before = arena->Take<int16_t>(simd::kSliceLanes + area);
     surfaces.disparity[k] = before == nullptr ? nullptr : before + simd::kSliceLanes;
-    surfaces.rgb[k] = carver->Take<int16_t>(3 * area);
+    surfaces.rgb[k] = arena->Take<int16_t>(3 * area);
   }
-  surfaces.share = carver->Take<uint8_t>(area);
-  surfaces.hiding = carver->Take<uint64_t>(extended);
-  scratch.offsets = carver->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
-  scratch.weights = carver->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
-  scratch.parts = carver->Take<SectionPart>(SectionParts(config.largest_block));
+  surfaces.share = arena->Take<uint8_t>(area);
+  surfaces.hiding = arena->Take<uint64_t>(extended);
+  scratch.offsets = arena->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
+  scratch.weights = arena->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
+  scratch.parts = arena->Take<SectionPart>(SectionParts(config.largest_block));
   const auto rows = static_cast<size_t>(LargestCut(config.largest_block));
-  scratch.sums = carver->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rows);
-  const size_t field = carver->Mark();
-  TakeField(extended, carver, &scratch);
-  carver->Reuse(field);
+  scratch.sums = arena->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rows);
+  const size_t field = arena->Mark();
+  TakeField(extended, arena, &scratch);
+  arena->Reuse(field);
   // Wider sections take less time: cuts of 64 pixels take 1.7 % fewer instructions.
   const auto cut = static_cast<size_t>(Min(config.largest_block, kCutSide));
   const size_t pool = Max(LeastPool(config.max_blur), 119 * cut * cut);
-  scratch.pool_bytes = Max(pool, carver->Shared());
-  scratch.pool = carver->Take<uint8_t>(scratch.pool_bytes);
+  scratch.pool_bytes = Max(pool, arena->Shared());
+  scratch.pool = arena->Take<uint8_t>(scratch.pool_bytes);
 }
 
 }  // namespace
@@ -102,6 +102,6 @@ const Renderer kSliceRenderer = {
     TakeScratch,
     [](const RenderJob&) { return false; },  // slices have ends, which always move a little
     CompositeRectangle,
-    [](const Aperture&) { return kCompositeBits; }};
+    [](const ViewWeights&) { return kCompositeBits; }};
 
 }  // namespace starfocus

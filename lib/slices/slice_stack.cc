@@ -21,7 +21,7 @@ constexpr uint64_t kLeastMean = 2 * kGroupSum / kGroupViews;
 constexpr uint64_t kMostShares = 32;
 
 // Returns the sum of the weights of views (i, first) to (i, last), or four times the largest.
-uint32_t GroupSum(const Aperture& aperture, int32_t i, int32_t first, int32_t last) {
+uint32_t GroupSum(const ViewWeights& aperture, int32_t i, int32_t first, int32_t last) {
   uint32_t sum = 0, most = 0;
   for (int32_t j = first; j <= last; ++j) {
     const uint32_t weight = aperture.Weight(i, j);
@@ -46,19 +46,19 @@ int RankOf(uint32_t weight, uint32_t largest) {
 
 }  // namespace
 
-uint32_t ViewWeights::Shares(int32_t i, int32_t first, int32_t last) const {
+uint32_t ScaledWeights::Shares(int32_t i, int32_t first, int32_t last) const {
   const uint64_t sum = (GroupSum(*aperture, i, first, last) * scale) >> 16;
   return sum <= kGroupSum ? 1 : static_cast<uint32_t>((sum + kGroupSum - 1) / kGroupSum);
 }
 
-int32_t ViewWeights::LastAlike(int32_t i, int32_t first, int32_t last) const {
+int32_t ScaledWeights::LastAlike(int32_t i, int32_t first, int32_t last) const {
   const int rank = RankOf(aperture->Weight(i, first), largest);
   int32_t j = first;
   while (j < last && RankOf(aperture->Weight(i, j + 1), largest) == rank) ++j;
   return j;
 }
 
-int ViewWeights::ExtraBits(int32_t i, int32_t first, int32_t last) const {
+int ScaledWeights::ExtraBits(int32_t i, int32_t first, int32_t last) const {
   const uint64_t sum = (GroupSum(*aperture, i, first, last) * scale) >> 16;
   int bits = 0;
   while (bits < kMostExtraBits && sum << (bits + 1) <= kGroupSum) ++bits;
@@ -66,8 +66,8 @@ int ViewWeights::ExtraBits(int32_t i, int32_t first, int32_t last) const {
   return 2 * aperture->last < kGroupViews && large ? 0 : bits;
 }
 
-ViewWeights ScaleWeights(const Aperture& aperture) {
-  ViewWeights weights = {&aperture, 0, 0, 0};
+ScaledWeights ScaleWeights(const ViewWeights& aperture) {
+  ScaledWeights weights = {&aperture, 0, 0, 0};
   uint32_t largest = 0;
   uint64_t views = 0;
   // Columns on either side of the middle are alike but in full apertures.

@@ -25,8 +25,8 @@ struct WeightShare {
 
 // Weights of views as the kernels sum them: aperture weights times scale / 2^16. A group of larger
 // weights than the kernels take is added share by share.
-struct ViewWeights {
-  const Aperture* aperture;
+struct ScaledWeights {
+  const ViewWeights* aperture;
   uint64_t scale;          // 21 bits
   uint32_t largest;        // weight of the aperture
   uint32_t least_covered;  // sums of less than this are no colour: what rounding adds would show
@@ -60,12 +60,12 @@ struct ViewWeights {
 
 // Scales the weights of an aperture so that those of a group are at most kGroupSum together, and
 // each of them a quarter of it; of steep openings a multiple of that.
-ViewWeights ScaleWeights(const Aperture& aperture);
+ScaledWeights ScaleWeights(const ViewWeights& aperture);
 
 // The nearest slice comes first.
 struct SliceStack {
   const ViewGrid* grid;
-  ViewWeights weights;
+  ScaledWeights weights;
   Rect inner;  // the rectangle that the cut is a part of, in pixels of its surfaces
   int32_t count;
   Slice slices[kMaxSlices];

@@ -14,7 +14,7 @@ namespace starfocus {
 void TakeThinDisparities(const Window& window, Field* field);
 
 // Gives pixels of thin tiles the two surfaces that the coverage map has found there, in place of
-// those that FindLayeredDepth and FindMatte left. Call it before FillHidden.
+// those that FindLayeredDepth and FindMatte left. Call it before InpaintHidden.
 void PartThin(const Window& window, const Field& field, LayeredDepth* surfaces);
 
 }  // namespace starfocus

@@ -18,7 +18,7 @@ class Tile {
     FindRows();
     PlaceSlices();
     for (int32_t i = -stack_.grid->n(); i <= stack_.grid->n(); ++i) {
-      if (!GoesOn(job_.patience, samples_ * (2 * stack_.weights.LastAcross(Abs(i)) + 1))) return;
+      if (!GoesOn(job_.cancel, samples_ * (2 * stack_.weights.LastAcross(Abs(i)) + 1))) return;
       AddColumn(i);
     }
   }
@@ -69,7 +69,7 @@ class Tile {
     const int32_t last = stack_.weights.LastAcross(Abs(i));
     for (int32_t n = 0; n < seen_; ++n) MoveSlice(seen_slices_[n], i, last);
     // Views that no light comes through are left out at either end.
-    const Aperture& aperture = *stack_.weights.aperture;
+    const ViewWeights& aperture = *stack_.weights.aperture;
     int32_t begin = -last, end = last;
     while (begin <= end && aperture.Weight(i, begin) == 0) ++begin;
     while (begin <= end && aperture.Weight(i, end) == 0) --end;

@@ -32,7 +32,7 @@ struct TileJob {
   int16_t* weights;          // G: of a group of views
   int16_t* memory;           // TileBytes of each slice
   uint32_t* sums;            // kPixelSums of each pixel of the tile: output, by rows of the section
-  Patience* patience;        // null: it goes on to the end
+  CancelToken* cancel;       // null: it goes on to the end
 };
 
 // The parts [first, end) of a section that lie at column x, at least one.

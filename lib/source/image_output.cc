@@ -40,7 +40,7 @@ void WritePair(const PairsJob& job, int32_t upper) {
 void WritePairs(const PairsJob& job, int32_t index, Worker* worker) {
   const RowRange pairs = PartOf({job.rows.first / 2, (job.rows.last + 1) / 2}, index, job.jobs);
   for (int32_t pair = pairs.first; pair < pairs.last; ++pair) {
-    if (!worker->patience.Spend(6 * int64_t{job.out->rect.width})) return;
+    if (!worker->cancel.Spend(6 * int64_t{job.out->rect.width})) return;
     WritePair(job, 2 * pair);
   }
 }

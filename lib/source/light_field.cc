@@ -20,8 +20,8 @@ void CopyColumns(const Picture& picture, const Plane<uint8_t>& from, int32_t y, 
 }
 
 // Copies what changed of a row.
-void CopyChanges(const Picture& picture, const Plane<uint8_t>& from, int32_t y,
-                 const EngineState& engine) {
+void CopyFrameDiff(const Picture& picture, const Plane<uint8_t>& from, int32_t y,
+                   const EngineState& engine) {
   const Rect& rect = picture.rect;
   const int32_t side = engine.config.largest_block, reach = engine.lens.borders.joined;
   for (int32_t column = 0; column < Columns(engine.config); ++column) {
@@ -45,7 +45,7 @@ sf_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& fr
         At(picture, rect.x, y),
         picture.previous->out + static_cast<size_t>(y - rect.y) * picture.previous->out_stride,
         3 * static_cast<size_t>(rect.width));
-    CopyChanges(picture, from, y, *engine);
+    CopyFrameDiff(picture, from, y, *engine);
   }
   return SF_OK;
 }

@@ -49,24 +49,24 @@ sf_status MakeLayers(const Prepared& prepared, const RowSource& source, const Ru
 }  // namespace
 
 size_t LayOutPrepared(const sf_config& config, void* base, Prepared** prepared) {
-  Carver carver(base);
-  *prepared = carver.Take<Prepared>(1);
+  Arena arena(base);
+  *prepared = arena.Take<Prepared>(1);
   Prepared counted;  // stands in for **prepared while counting
   Prepared& p = *prepared == nullptr ? counted : **prepared;
   const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
-  if (config.images != 0) p.images = carver.Take<sf_image_field>(1);
+  if (config.images != 0) p.images = arena.Take<sf_image_field>(1);
   p.disparity.stride = width;
-  p.disparity.data = carver.Take<int16_t>(width, height);
+  p.disparity.data = arena.Take<int16_t>(width, height);
   for (int layer = 1; layer <= config.max_layer; ++layer) {
     Plane<int16_t>& plane = p.layers[layer];
     plane.stride = 3 * static_cast<size_t>(LayerSize(config.width, layer));
     plane.data =
-        carver.Take<int16_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
+        arena.Take<int16_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
   }
   for (int shift = 1; shift <= config.previews; ++shift) {
-    TakeReduced(config, shift, &carver, &p.reduced[shift]);
+    TakeReduced(config, shift, &arena, &p.reduced[shift]);
   }
-  return carver.Bytes();
+  return arena.Bytes();
 }
 
 sf_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,

@@ -38,7 +38,7 @@ bool ReduceView(const ReduceJob& job, int view, const Part& part, Worker* worker
   int16_t* const light = worker->picture_samples;
   int16_t* const mean = light + 6 * engine.config.largest_block;
   for (int32_t y = job.rows.first; y < job.rows.last; ++y) {
-    if (!worker->patience.Spend(static_cast<int64_t>(samples) * (1 + job.previews))) return false;
+    if (!worker->cancel.Spend(static_cast<int64_t>(samples) * (1 + job.previews))) return false;
     window.reader.Light(view, part.x, y, part.width, light);
     for (int shift = 1; shift <= job.previews; ++shift) {
       uint32_t* const sums = worker->sums + 3 * shift * engine.config.largest_block;
@@ -69,7 +69,7 @@ bool ReduceMap(const ReduceJob& job, int shift, const Part& part, Worker* worker
   const int16_t high = ConvertedEnd(*job.engine, reduced.disparity_max);
   const int32_t side = 1 << shift;
   for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
-    if (!worker->patience.Spend(int64_t{4} * side * part.width)) return false;
+    if (!worker->cancel.Spend(int64_t{4} * side * part.width)) return false;
     int16_t* const out = job.fields[shift].disparity.Row(y >> shift);
     for (int32_t x = part.x; x < part.x + part.width; x += side) {
       int16_t values[1 << (2 * kMaxReduction)];
@@ -92,7 +92,7 @@ bool ReduceCoverage(const ReduceJob& job, int shift, const Part& part, Worker* w
   if (given.data == nullptr || coverage.data == nullptr) return true;
   const int32_t side = 1 << shift;
   for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
-    if (!worker->patience.Spend(int64_t{side} * part.width)) return false;
+    if (!worker->cancel.Spend(int64_t{side} * part.width)) return false;
     for (int32_t x = part.x; x < part.x + part.width; x += side) {
       int32_t sum = 0, count = 0;
       for (int32_t row = y; row < Min(y + side, job.rows.last); ++row) {
@@ -133,18 +133,18 @@ sf_config ReducedConfig(const sf_config& config, int shift) {
   return reduced;
 }
 
-void TakeReduced(const sf_config& config, int shift, Carver* carver, ReducedField* field) {
+void TakeReduced(const sf_config& config, int shift, Arena* arena, ReducedField* field) {
   const auto width = static_cast<size_t>(ReducedSize(config.width, shift));
   const auto height = static_cast<size_t>(ReducedSize(config.height, shift));
   for (int view = 0; view < config.views; ++view) {
     field->views[view].stride = 3 * width;
-    field->views[view].data = carver->Take<uint8_t>(3 * width, height);
+    field->views[view].data = arena->Take<uint8_t>(3 * width, height);
   }
   field->disparity.stride = width;
-  field->disparity.data = carver->Take<int16_t>(width, height);
+  field->disparity.data = arena->Take<int16_t>(width, height);
   if (!HasCoverage(config)) return;
   field->coverage.stride = width;
-  field->coverage.data = carver->Take<uint8_t>(width, height);
+  field->coverage.data = arena->Take<uint8_t>(width, height);
 }
 
 sf_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,

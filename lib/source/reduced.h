@@ -3,7 +3,7 @@
 #ifndef STARFOCUS_LIB_SOURCE_REDUCED_H_
 #define STARFOCUS_LIB_SOURCE_REDUCED_H_
 
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 #include "lib/base/geometry.h"
 #include "lib/engine/engine.h"
 #include "lib/filter/reduce.h"
@@ -21,7 +21,7 @@ struct ReducedField {
 // The configuration of an engine for the light field of `config`, an engine's own, reduced.
 sf_config ReducedConfig(const sf_config& config, int shift);
 
-void TakeReduced(const sf_config& config, int shift, Carver* carver, ReducedField* field);
+void TakeReduced(const sf_config& config, int shift, Arena* arena, ReducedField* field);
 
 // Reduces rows [rows.first, rows.last) of the light field that the engine's windows show, by all
 // shifts from 1 to `previews` into fields[shift]; disparities are those of `disparity`. The first

@@ -19,9 +19,9 @@
 #include "lib/analysis/subaperture_rule.h"
 #include "lib/analysis/subsampled.h"
 #include "lib/analysis/view_kernel.h"
-#include "lib/base/aperture.h"
 #include "lib/base/fixed.h"
 #include "lib/base/rules.h"
+#include "lib/base/view_weights.h"
 #include "lib/filter/blur.h"
 #include "lib/filter/gather.h"
 #include "lib/filter/layers.h"
@@ -73,9 +73,9 @@ TEST_CASE("constants: the views of (9)") {
 TEST_CASE("constants: aperture weights are a_{d,N} of (5)") {
   for (const int n : {1, 2, 3, 4, 7, 13, 26, 32}) {
     CAPTURE(n);
-    std::vector<uint16_t> memory(ApertureSize(n));
-    const starfocus::Aperture engine =
-        MakeAperture(n, ApertureFallOff(kDefaultTheta), memory.data());
+    std::vector<uint16_t> memory(ViewWeightsSize(n));
+    const starfocus::ViewWeights engine =
+        MakeViewWeights(n, ApertureFallOff(kDefaultTheta), memory.data());
     double sum = 0, worst = 0;
     const auto exact = [&](int i, int j) {
       return analysis::Aperture(double(i * i + j * j) / (double(n) * n), kDefaultTheta);
@@ -275,23 +275,23 @@ TEST_CASE("constants: the width of the lens in subapertures") {
 
 // The kernels (4) that gather, and those of the blur mode up to as far.
 struct GatherKernels {
-  std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(Opening(), kMaxGather));
-  std::vector<BlurKernel> kernels =
-      std::vector<BlurKernel>(static_cast<size_t>(BlurStepCount(kMaxGather)));
+  std::vector<uint16_t> weights =
+      std::vector<uint16_t>(BlurWeightCount(ApertureShape(), kMaxGather));
+  std::vector<Psf> kernels = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));
 
   GatherKernels() {
-    MakeBlurKernels(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), nullptr,
-                    weights.data(), kernels.data());
+    MakePsfs(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), nullptr, weights.data(),
+             kernels.data());
   }
   // Of a radius with kDisparityBits.
-  const BlurKernel& Of(int32_t r) const { return kernels[static_cast<size_t>(BlurStep(r))]; }
+  const Psf& Of(int32_t r) const { return kernels[static_cast<size_t>(BlurStep(r))]; }
 };
 
 TEST_CASE("constants: steps between the radii of kernels that gather") {
   const GatherKernels made;
   double near_focus = 0, fine = 0, coarse = 0;
   for (int32_t r = 1; r <= kMaxGather << kDisparityBits; ++r) {
-    const BlurKernel& kernel = made.Of(r);
+    const Psf& kernel = made.Of(r);
     Kernel engine(kernel.size);
     for (int n = -kernel.size; n <= kernel.size; ++n) {
       for (int m = -kernel.size; m <= kernel.size; ++m) {
@@ -317,7 +317,7 @@ TEST_CASE("constants: taps of a kernel that gathers") {
   timing.upsample = 64;
   const GatherKernels made;
   for (int32_t r = kOne; r <= kMaxGather * kOne; r += kOne / 4) {
-    const BlurKernel& kernel = made.Of(r);
+    const Psf& kernel = made.Of(r);
     const auto counted = static_cast<int32_t>(PredictGather(timing, 1, r)) - 16;
     int32_t taps = 0;
     for (int32_t n = 0; n <= kernel.size; ++n) {

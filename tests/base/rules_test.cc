@@ -144,9 +144,9 @@ TEST_CASE("rules: layers from radius 7 and 24 on by subapertures, no layer 2 bes
 }
 
 TEST_CASE("rules: what openings demand, and that layers and more views follow") {
+  using starfocus::ApertureShape;
   using starfocus::Demand;
-  using starfocus::Opening;
-  Opening opening;
+  ApertureShape opening;
   CHECK(starfocus::DemandOf(opening) == Demand::kFallOff);
   opening.shape = SF_SHAPE_DISC;
   CHECK(starfocus::DemandOf(opening) == Demand::kDisc);

@@ -17,7 +17,7 @@ namespace {
 using starfocus::ViewGrid;
 
 ViewGrid MakeGrid(int n, double focus, double aperture, int layer = 0, bool half = false) {
-  starfocus::Aperture views;
+  starfocus::ViewWeights views;
   views.n = views.last = n;
   return starfocus::MakeViewGrid(views, focus, aperture, layer, half);
 }

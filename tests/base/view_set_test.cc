@@ -12,9 +12,9 @@
 namespace view_set_test {
 namespace {
 
-using starfocus::kLooks;
+using starfocus::kOcclusionViews;
 using starfocus::kSideCount;
-using starfocus::Looks;
+using starfocus::OcclusionViews;
 using starfocus::ViewSet;
 
 sf_config Config(const std::vector<sf_position>& positions) {
@@ -39,17 +39,17 @@ using Sides = std::vector<std::vector<int>>;
 Sides LooksOf(const sf_config& config) {
   ViewSet set;
   REQUIRE(starfocus::FindViews(config, &set) == SF_OK);
-  const Looks looks = starfocus::ChooseLooks(set);
+  const OcclusionViews occlusion_views = starfocus::ChooseOcclusionViews(set);
   Sides sides(kSideCount);
   for (int side = 0; side < kSideCount; ++side) {
-    for (const starfocus::LookView& look : looks.on[side]) {
+    for (const starfocus::OcclusionView& look : occlusion_views.on[side]) {
       if (look.view == 0) continue;
       sides[size_t(side)].push_back(look.view);
       CHECK(look.at.u == set.at[look.view].u);
       CHECK(look.at.v == set.at[look.view].v);
     }
     if (sides[size_t(side)].empty()) continue;
-    CHECK(looks.Last(side).view == sides[size_t(side)].back());
+    CHECK(occlusion_views.Last(side).view == sides[size_t(side)].back());
   }
   return sides;
 }

@@ -21,17 +21,16 @@ struct Caller {
   }
 };
 
-TEST_CASE(
-    "patience: work is counted, however it is cut up, and asked after half a million samples") {
+TEST_CASE("cancel: work is counted, however it is cut up, and asked after half a million samples") {
   for (const int64_t at_once : {1, 1000, 1 << 19, 1 << 25}) {
     CAPTURE(at_once);
     Caller caller;
     Watch watch;
     watch.Begin(Caller::Progress, &caller, 0, 10);
-    Patience patience(&watch);
+    CancelToken cancel(&watch);
     constexpr int64_t kWork = 1 << 26;
     for (int64_t work = 0; work < kWork; work += at_once) {
-      if (!patience.Spend(at_once)) FAIL("asked nobody who says no");
+      if (!cancel.Spend(at_once)) FAIL("asked nobody who says no");
     }
     const int64_t most = at_once > 1 << 19 ? at_once : 1 << 19;
     const auto asked = int64_t(caller.done.size());
@@ -41,12 +40,12 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("patience: no is no for all of a call, and forgotten in the next") {
+TEST_CASE("cancel: no is no for all of a call, and forgotten in the next") {
   Caller caller;
   caller.answer = 1;
   Watch watch;
   watch.Begin(Caller::Progress, &caller, 0, 10);
-  Patience one(&watch), other(&watch);
+  CancelToken one(&watch), other(&watch);
   CHECK(one.Spend(1));
   CHECK(!one.Spend(1 << 20));
   CHECK(!one.Spend(0));
@@ -61,9 +60,9 @@ TEST_CASE("patience: no is no for all of a call, and forgotten in the next") {
   CHECK(other.Spend(1 << 20));
 }
 
-TEST_CASE("patience: without anybody to ask work goes on") {
+TEST_CASE("cancel: without anybody to ask work goes on") {
   Watch watch;
-  Patience nobody, watched(&watch);
+  CancelToken nobody, watched(&watch);
   for (int i = 0; i < 3; ++i) {
     CHECK(nobody.Spend(1 << 25));
     CHECK(watched.Spend(1 << 25));

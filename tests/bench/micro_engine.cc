@@ -52,7 +52,7 @@ void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
   std::vector<uint16_t> starts(RunMarkWords(kPixels, 1)), edges(starts.size());
   std::vector<int16_t> middles(RunMiddles(kPixels, 1));
   simd::RunMarks marks = {starts.data(), edges.data(), middles.data(), 0};
-  Aperture aperture;
+  ViewWeights aperture;
   aperture.n = kViewNumber;
   const ViewGrid grid = MakeViewGrid(aperture, 0, 1, 0, false);
   const Line line = {rgb.data(), disparity.data(), 1, kPixels};

@@ -71,7 +71,7 @@ LightField LoadExcess(const test::Scene& scene, int transfer) {
   return field;
 }
 
-Lens MakeLens(const sf_params& params, const Opening& opening, int n, int layer,
+Lens MakeLens(const sf_params& params, const ApertureShape& opening, int n, int layer,
               bool wide = false) {
   Lens lens;
   lens.n = n;
@@ -324,8 +324,8 @@ void RefocusAll(const LightField& field, const sf_params& params, const sf_confi
   for (const Block& block : blocks) {
     if (excess && (block.layer > 0 || !block.gathered.empty())) continue;
     const bool by_subaperture = params.rule == SF_RULE_SUBAPERTURE && block.n > 0;
-    const Opening here = Opening(config).At(block.x, block.y, block.width, block.height,
-                                            centre.width, centre.height);
+    const ApertureShape here = ApertureShape(config).At(block.x, block.y, block.width, block.height,
+                                                        centre.width, centre.height);
     const Lens lens = MakeLens(params, here, block.n, block.layer, by_subaperture);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,

@@ -58,7 +58,7 @@ inline double Integral(double x0, double x1, double y0, double y1, double cot_sq
 }
 
 // (4), summing to 1.
-struct BlurKernel {
+struct Psf {
   int size = 0;
   std::vector<double> weights;  // (2 size + 1)^2
   double At(int n, int m) const {
@@ -67,7 +67,7 @@ struct BlurKernel {
 };
 
 // The light of the opening's square [x0, x1] x [y0, y1]; a polygon's by points.
-inline double LightOf(const Opening& opening, double x0, double x1, double y0, double y1) {
+inline double LightOf(const ApertureShape& opening, double x0, double x1, double y0, double y1) {
   if (opening.shape == SF_SHAPE_FALL_OFF) return Integral(x0, x1, y0, y1, opening.cot2);
   if (opening.shape == SF_SHAPE_POLYGON) {
     const int points = FinenessOf(x1 - x0);
@@ -86,8 +86,8 @@ inline double LightOf(const Opening& opening, double x0, double x1, double y0, d
   return light;
 }
 
-inline BlurKernel MakeBlurKernel(double r, const Opening& opening) {
-  BlurKernel kernel;
+inline Psf MakePsf(double r, const ApertureShape& opening) {
+  Psf kernel;
   if (r == 0) {
     kernel.weights = {1};
     return kernel;
@@ -106,9 +106,9 @@ inline BlurKernel MakeBlurKernel(double r, const Opening& opening) {
   return kernel;
 }
 
-// The kernel of MakeBlurKernel, made once for all calls that ask for it; good until the next call.
-inline const BlurKernel& BlurKernelOf(double r, const Opening& opening) {
-  static std::map<std::array<double, 7>, BlurKernel> kernels;
+// The kernel of MakePsf, made once for all calls that ask for it; good until the next call.
+inline const Psf& PsfOf(double r, const ApertureShape& opening) {
+  static std::map<std::array<double, 7>, Psf> kernels;
   constexpr size_t kMost = 1000;
   const std::array<double, 7> key = {r,
                                      opening.theta,
@@ -120,7 +120,7 @@ inline const BlurKernel& BlurKernelOf(double r, const Opening& opening) {
   auto found = kernels.find(key);
   if (found == kernels.end()) {
     if (kernels.size() >= kMost) kernels.clear();
-    found = kernels.emplace(key, MakeBlurKernel(r, opening)).first;
+    found = kernels.emplace(key, MakePsf(r, opening)).first;
   }
   return found->second;
 }

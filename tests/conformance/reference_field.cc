@@ -79,13 +79,14 @@ std::vector<Position> LooksOn(const LightField& field, const Direction& side) {
     if (across(at) < along(at)) near.push_back(at);
     if (across(at) < 8 * along(at)) far.push_back(at);
   }
-  std::vector<Position> looks = near.empty() ? far : near;
-  std::stable_sort(looks.begin(), looks.end(), [&](const Position& a, const Position& b) {
-    const int first = 2 * along(a) - across(a), second = 2 * along(b) - across(b);
-    return first != second ? first > second : across(a) < across(b);
-  });
-  if (looks.size() > 2) looks.resize(2);
-  return looks;
+  std::vector<Position> occlusion_views = near.empty() ? far : near;
+  std::stable_sort(occlusion_views.begin(), occlusion_views.end(),
+                   [&](const Position& a, const Position& b) {
+                     const int first = 2 * along(a) - across(a), second = 2 * along(b) - across(b);
+                     return first != second ? first > second : across(a) < across(b);
+                   });
+  if (occlusion_views.size() > 2) occlusion_views.resize(2);
+  return occlusion_views;
 }
 
 double Moved(int position, int disparity, int layer) {
@@ -100,15 +101,15 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
                       std::clamp(y + k * side.y, 0, picture.height - 1));
   };
   const int disparity = picture.disparities[at(0)], near = picture.disparities[at(1)];
-  const std::vector<Position> looks = LooksOn(field, {-side.x, -side.y});
+  const std::vector<Position> occlusion_views = LooksOn(field, {-side.x, -side.y});
   const auto mixed_of = [&](std::vector<Colour> Picture::*colours) {
     const Colour& mixed = (picture.*colours)[at(0)];
     Mixed result;
-    if (looks.empty()) {
+    if (occlusion_views.empty()) {
       const bool same = std::abs(picture.disparities[at(-1)] - disparity) <= step;
       result.far = (picture.*colours)[at(same ? -1 : 0)];
     } else {
-      const Position& view = looks.back();
+      const Position& view = occlusion_views.back();
       result.far = ReadPicture(field, view, x - Moved(view.first, disparity, 0),
                                y - Moved(view.second, disparity, 0), colours);
       // On the engine's grid of light; halves towards the pixel.
@@ -212,8 +213,8 @@ int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction&
 
 }  // namespace
 
-void LookBeyond(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
-                Picture* extended) {
+void ExtendEdges(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
+                 Picture* extended) {
   const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
   const int right = ((picture.width - 1) >> layer), bottom = ((picture.height - 1) >> layer);
   for (int row = 0; row < extended->height; ++row) {
@@ -225,15 +226,15 @@ void LookBeyond(const LightField& field, const Picture& picture, int layer, cons
       const int disparity =
           picture.disparities[picture.At(edge_x * (1 << layer), edge_y * (1 << layer))];
       const Direction side = {disparity < 0 ? -out.x : out.x, disparity < 0 ? -out.y : out.y};
-      const std::vector<Position> looks = LooksOn(field, side);
-      if (looks.empty()) continue;
-      const auto [u, v] = looks[0];
+      const std::vector<Position> occlusion_views = LooksOn(field, side);
+      if (occlusion_views.empty()) continue;
+      const auto [u, v] = occlusion_views[0];
       const int seen =
           SeenBeyond(picture, layer, edge_x, edge_y, out, std::abs(out.x != 0 ? u : v), disparity);
       const int k = std::min(seen, std::abs(x - edge_x) + std::abs(y - edge_y));
       if (seen == 0) continue;
       extended->colours[extended->At(column, row)] =
-          Read(field, layer, looks[0], edge_x + out.x * k - Moved(u, disparity, layer),
+          Read(field, layer, occlusion_views[0], edge_x + out.x * k - Moved(u, disparity, layer),
                edge_y + out.y * k - Moved(v, disparity, layer));
     }
   }

@@ -25,16 +25,16 @@ constexpr Direction kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect);
 
 // Where the layer's edge goes on beyond the picture: the surface at the edge of `picture` (at layer
-// 0) goes on, and the captured view that looks out there shows as much of it as the surface moves
-// from unit to unit, up to what a nearer pixel of the 32 inside covers.
-void LookBeyond(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
-                Picture* extended);
+// 0) goes on, and the captured view that looks out there shows as much of it as the
+// surface moves from unit to unit, up to what a nearer pixel of the 32 inside covers.
+void ExtendEdges(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
+                 Picture* extended);
 
 // What a pixel (x, y) of the centre view is a mixture of that lies beside a depth edge, a step of
 // more than `step` (1/64) up to the side: how much of it shows the near surface (0: it is no
-// mixture), and the colours of both. The far one is what the captured view that looks behind the
-// near surface shows of the pixel; without such a view it is the pixel on the other side, if it is
-// of the same surface.
+// mixture), and the colours of both. The far one is what the captured view that looks
+// behind the near surface shows of the pixel; without such a view it is the pixel on the other
+// side, if it is of the same surface.
 struct Mixed {
   double share;
   Colour near, far;

@@ -75,7 +75,7 @@ class Filler {
 
 }  // namespace
 
-void FillHidden(int unit, SurfaceMap* map) {
+void InpaintHidden(int unit, SurfaceMap* map) {
   Filler filler(unit, map);
   filler.TakeSources();
   for (int step = 16; step > 0; step /= 2) filler.Smooth(step);

@@ -10,7 +10,7 @@ namespace reference {
 // Gives pixels whose farthest surface repeats another pixel that one's far colour, and then smooths
 // them among each other and with what is known: see lib/slices/hidden_fill.h. `unit` is a pixel of
 // disparity.
-void FillHidden(int unit, SurfaceMap* map);
+void InpaintHidden(int unit, SurfaceMap* map);
 
 }  // namespace reference
 

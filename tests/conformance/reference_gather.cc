@@ -26,7 +26,7 @@ double LadderAbove(int radius) {
 }
 
 // Mean square of a coordinate of the opening's light, of the lens's radius.
-double MeanSquare(const Opening& opening) {
+double MeanSquare(const ApertureShape& opening) {
   if (opening.shape == SF_SHAPE_RING) return (1 + opening.inner * opening.inner) / 4;
   if (opening.shape != SF_SHAPE_FALL_OFF) return 1.0 / 4;
   const double c = opening.cot2, light = c / (1 + c);
@@ -120,7 +120,7 @@ class Gather {
 
   // A part of the layer, filtered by a kernel from what lies `border` around it.
   Picture Filtered(const Picture& extended, int border, int width, int height,
-                   const BlurKernel& kernel) const {
+                   const Psf& kernel) const {
     Picture to(width, height);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
@@ -141,7 +141,7 @@ class Gather {
     const Rectangle rectangle = {cell.at_x, cell.at_y, cell.at_width, cell.at_height,
                                  border,    border,    border,        border};
     Picture extended = ExtendedRectangle(of_layer_, rectangle);
-    LookBeyond(field_, picture_, block_.layer, rectangle, &extended);
+    ExtendEdges(field_, picture_, block_.layer, rectangle, &extended);
     return extended;
   }
 
@@ -153,7 +153,7 @@ class Gather {
     const int distance = std::abs((low + high) / 2 - lens_.focus);
     const int radius = int(std::floor(lens_.radius * distance)) >> block_.layer;
     const double nearest = NearestRadius(radius);
-    const BlurKernel kernel = BlurKernelOf(nearest, lens_.opening);
+    const Psf kernel = PsfOf(nearest, lens_.opening);
     const Picture filtered =
         Filtered(Around(cell, kernel.size), kernel.size, cell.at_width, cell.at_height, kernel);
     for (int y = 0; y < cell.at_height; ++y) {
@@ -176,8 +176,8 @@ class Gather {
     const Interval range = IntervalOf(cell);
     const Interval between = {std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
                               std::min(LadderAbove(int(std::ceil(range.high * kOne))), largest_)};
-    const BlurKernel less = BlurKernelOf(between.low, lens_.opening);
-    const BlurKernel more = BlurKernelOf(between.high, lens_.opening);
+    const Psf less = PsfOf(between.low, lens_.opening);
+    const Psf more = PsfOf(between.high, lens_.opening);
     const int border = more.size;
     const Picture extended = Around(cell, border);
     Picture mixed = Filtered(extended, border, cell.at_width, cell.at_height, less);

@@ -57,7 +57,7 @@ struct Lens {
   int most = 0;             // i^2 + j^2 of the views
   double subapertures = 0;  // radius in those that views stand for; 0: they stand for points
   double radius = 0;        // u_t
-  Opening opening = 0.0;
+  ApertureShape opening = 0.0;
   int focus = 0;     // d_t, 1/64
   int64_t step = 0;  // u_t / 2^layer, 2^-24
   int layer = 0;     // L

@@ -16,7 +16,7 @@ inline double ApertureDensity(double u, double v, double cot2) {
   return cot2 * cot2 / (denominator * denominator);
 }
 
-struct Opening {
+struct ApertureShape {
   double theta;
   int shape = SF_SHAPE_FALL_OFF;
   int blades = 0;
@@ -30,9 +30,9 @@ struct Opening {
   std::array<Edge, SF_MAX_BLADES> edges = {};
   double cot2;  // of theta
 
-  Opening(double angle)  // NOLINT: the plain lens is its theta
+  ApertureShape(double angle)  // NOLINT: the plain lens is its theta
       : theta(angle), cot2(1 / (std::tan(theta) * std::tan(theta))) {}
-  Opening(const sf_config& config)  // NOLINT: a lens is its configuration
+  ApertureShape(const sf_config& config)  // NOLINT: a lens is its configuration
       : theta(config.theta),
         shape(config.aperture_shape),
         blades(config.blades),
@@ -54,9 +54,9 @@ struct Opening {
   double Half() const { return kPi / blades; }
 
   // The same with the rim that the middle of a block sees.
-  Opening At(double x, double y, double block_width, double block_height, double width,
-             double height) const {
-    Opening here = *this;
+  ApertureShape At(double x, double y, double block_width, double block_height, double width,
+                   double height) const {
+    ApertureShape here = *this;
     const double diagonal = std::hypot(width, height);
     here.rim_x = -cats_eye * (2 * x + block_width - width) / diagonal;
     here.rim_y = -cats_eye * (2 * y + block_height - height) / diagonal;

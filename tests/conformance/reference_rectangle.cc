@@ -36,7 +36,7 @@ class Views {
         x_(rect.x - rect.left),
         y_(rect.y - rect.top),
         centre_(ExtendedRectangle(layer, rect)) {
-    LookBeyond(field, field.at({0, 0}), lens.layer, rect, &centre_);
+    ExtendEdges(field, field.at({0, 0}), lens.layer, rect, &centre_);
     Unmix(field, lens, rect, &centre_);
   }
 

@@ -335,7 +335,7 @@ void CompositeCut(const SurfaceMap& map, const Picture& extended, const Lens& le
 Picture CompositeRectangle(const LightField& field, const Picture& centre, const Lens& lens,
                            const Rectangle& rectangle, const Slicing& slicing) {
   Picture extended = ExtendedRectangle(centre, rectangle);
-  LookBeyond(field, field.at({0, 0}), lens.layer, rectangle, &extended);
+  ExtendEdges(field, field.at({0, 0}), lens.layer, rectangle, &extended);
   const SurfaceMap map = FindLayeredDepth(field, extended, lens, rectangle.x - rectangle.left,
                                           rectangle.y - rectangle.top);
   Picture picture(rectangle.width, rectangle.height);

@@ -127,12 +127,13 @@ class SurfaceFinder {
       return std::abs(extended_.disparities[at(a)] - extended_.disparities[at(b)]) <= unit_ * 3 / 4;
     };
     const Colour& mixed = extended_.colours[at(0)];
-    const std::vector<Position> looks = LooksOn(field_, {-side.x, -side.y});
+    const std::vector<Position> occlusion_views = LooksOn(field_, {-side.x, -side.y});
     Colour far = extended_.colours[at(same(-1, 0) ? -1 : 0)];
-    if (!looks.empty()) {
-      const auto [u, v] = looks.back();
+    if (!occlusion_views.empty()) {
+      const auto [u, v] = occlusion_views.back();
       const int disparity = extended_.disparities[at(0)];
-      far = Read(field_, lens_.layer, looks.back(), x0_ + x - Moved(u, disparity, lens_.layer),
+      far = Read(field_, lens_.layer, occlusion_views.back(),
+                 x0_ + x - Moved(u, disparity, lens_.layer),
                  y0_ + y - Moved(v, disparity, lens_.layer));
     }
     Mixed result;
@@ -299,7 +300,7 @@ class SurfaceFinder {
 SurfaceMap FindLayeredDepth(const LightField& field, const Picture& extended, const Lens& lens,
                             int x0, int y0) {
   SurfaceMap map = SurfaceFinder(field, extended, lens, x0, y0).Find();
-  FillHidden(64 << lens.layer, &map);
+  InpaintHidden(64 << lens.layer, &map);
   return map;
 }
 

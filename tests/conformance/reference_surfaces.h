@@ -16,8 +16,8 @@ struct Surface {
   Colour colour;
   double share = 1;   // of the pixel; what is behind it has the rest
   bool ends = false;  // beside a depth edge
-  // Behind an edge that no captured view looks behind: the pixels that it repeats lie so far away
-  // in these directions.
+  // Behind an edge that no captured view looks behind: the pixels that it repeats lie so
+  // far away in these directions.
   int repeated = 0;
   std::vector<Direction> towards = {};
 };

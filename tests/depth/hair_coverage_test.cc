@@ -227,16 +227,16 @@ TEST_CASE("hair coverage: bad planes have their errors, and nothing is written")
 // A pyramid in which no colour is known.
 struct PyramidOf {
   PyramidOf(int width, int height) : memory(SizeOf(width, height)) {
-    starfocus::Carver carver(memory.data);
-    pyramid = starfocus::TakeColourPyramid(width, height, &carver);
+    starfocus::Arena arena(memory.data);
+    pyramid = starfocus::TakeColourPyramid(width, height, &arena);
     for (int y = 0; y < pyramid.levels[0].rows; ++y) {
       for (int x = 0; x < pyramid.levels[0].columns; ++x) pyramid.levels[0].At(x, y) = {};
     }
   }
   static size_t SizeOf(int width, int height) {
-    starfocus::Carver carver(nullptr);
-    starfocus::TakeColourPyramid(width, height, &carver);
-    return carver.Bytes();
+    starfocus::Arena arena(nullptr);
+    starfocus::TakeColourPyramid(width, height, &arena);
+    return arena.Bytes();
   }
 
   test::Memory memory;

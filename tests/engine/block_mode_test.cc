@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SF_MODE_BLOCK through the public ABI: the same bytes whichever way the rows come, whoever works
-// and whatever computes; constants stay; what is in focus is copied; and it looks like the
-// benchmark.
+// and whatever computes; constants stay; what is in focus is copied; and it looks like
+// the benchmark.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -124,7 +124,7 @@ class Superblock {
   Borders Limits() const { return test::BordersOf(way_.Config(scene_)); }
   const sf_report& report() const { return report_; }
 
-  bool Changes(const Kept& kept, test::Random* random) {
+  bool FrameDiff(const Kept& kept, test::Random* random) {
     return Refocus(Poisoned(scene_, rect_, kept, random), nullptr) != bytes_;
   }
 
@@ -183,7 +183,7 @@ TEST_CASE("borders: nothing beyond those of a superblock is read") {
     CAPTURE(way.max_layer);
     CAPTURE(way.limit);
     const int centre = way.highlights > 1 ? borders.views : borders.centre;
-    const bool changes = superblock.Changes({centre, borders.centre, borders.views}, &random);
+    const bool changes = superblock.FrameDiff({centre, borders.centre, borders.views}, &random);
     CHECK(!changes);
   }
   for (const uint64_t of_level : pixels) CHECK(of_level > 0);
@@ -242,9 +242,9 @@ TEST_CASE("borders: with one pixel less than they add up to pictures change") {
       const int border = superblock.Limits().*sum.border;
       Kept kept;
       kept.*sum.kept = border;
-      beyond = beyond || superblock.Changes(kept, &random);
+      beyond = beyond || superblock.FrameDiff(kept, &random);
       kept.*sum.kept = border - sum.unused - 1;
-      within = superblock.Changes(kept, &random);
+      within = superblock.FrameDiff(kept, &random);
     }
     const std::string name = sum.name;
     CAPTURE(name);

@@ -14,15 +14,15 @@
 namespace layout_test {
 namespace {
 
-using starfocus::Carver;
+using starfocus::Arena;
 using starfocus::kTooLarge;
 
 // With red zones between them no pieces share memory.
 TEST_CASE("layout: pieces are aligned, padded and counted as they are carved" *
           doctest::skip(starfocus::kRedZone > 0)) {
   alignas(SF_ALIGNMENT) static uint8_t memory[1 << 12];
-  Carver counting(nullptr), carver(memory);
-  for (Carver* one : {&counting, &carver}) {
+  Arena counting(nullptr), arena(memory);
+  for (Arena* one : {&counting, &arena}) {
     uint8_t* first = one->Take<uint8_t>(1);
     int32_t* second = one->Take<int32_t>(7, 5);
     const size_t mark = one->Mark();
@@ -47,16 +47,16 @@ TEST_CASE("layout: pieces are aligned, padded and counted as they are carved" *
     CHECK(last == shared + 1088);                               // 1000 and 64
   }
   CHECK(counting.Bytes() == 128 + 256 + 1088 + 64);
-  CHECK(carver.Bytes() == counting.Bytes());
+  CHECK(arena.Bytes() == counting.Bytes());
 }
 
 TEST_CASE("layout: what memory cannot hold is too large, not small") {
   // Of a piece: padding, rounding.
   constexpr size_t kMost = 1 << 16, kExtra = starfocus::kRedZone + 64 + 63;
   const auto bytes = [](size_t count, size_t times) {
-    Carver carver(nullptr, kMost);
-    carver.Take<uint32_t>(count, times);
-    return carver.Bytes();
+    Arena arena(nullptr, kMost);
+    arena.Take<uint32_t>(count, times);
+    return arena.Bytes();
   };
   CHECK(bytes((kMost - kExtra) / 4, 1) <= kMost);
   CHECK(bytes(1, (kMost - kExtra) / 4) <= kMost);
@@ -67,14 +67,14 @@ TEST_CASE("layout: what memory cannot hold is too large, not small") {
   CHECK(bytes(SIZE_MAX, SIZE_MAX) == kTooLarge);
   CHECK(bytes(0, SIZE_MAX) == starfocus::kRedZone + 64);
   // A sum that wraps, and what follows it.
-  Carver carver(nullptr);
-  carver.Take<uint8_t>(SIZE_MAX / 2 - kExtra);
-  CHECK(carver.Bytes() <= SIZE_MAX / 2);
-  const size_t mark = carver.Mark();
-  carver.Take<uint8_t>(1);
-  CHECK(carver.Bytes() == kTooLarge);
-  carver.Reuse(mark);
-  CHECK(carver.Bytes() == kTooLarge);
+  Arena arena(nullptr);
+  arena.Take<uint8_t>(SIZE_MAX / 2 - kExtra);
+  CHECK(arena.Bytes() <= SIZE_MAX / 2);
+  const size_t mark = arena.Mark();
+  arena.Take<uint8_t>(1);
+  CHECK(arena.Bytes() == kTooLarge);
+  arena.Reuse(mark);
+  CHECK(arena.Bytes() == kTooLarge);
 }
 
 // What a stripe keeps on a board, in KiB of a workspace (docs/boards.md): with all modes and rules.

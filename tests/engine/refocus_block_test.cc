@@ -77,7 +77,7 @@ test::Scene SteppedScene(int width, int height, int views, float limit, test::Ra
 }
 
 // What wider borders changed, by layer.
-struct Changes {
+struct FrameDiff {
   int blocks[SF_LAYERS] = {}, changed[SF_LAYERS] = {}, largest[SF_LAYERS] = {};
   int64_t samples[SF_LAYERS] = {}, changed_samples[SF_LAYERS] = {};
 
@@ -105,7 +105,7 @@ struct Changes {
   }
 };
 
-void CheckPicture(const test::Scene& scene, const sf_params& params, int more, Changes* changes) {
+void CheckPicture(const test::Scene& scene, const sf_params& params, int more, FrameDiff* changes) {
   sf_config config = test::ConfigFor(scene, 40);
   config.gather = 0;           // views everywhere
   config.largest_block = 128;  // the whole picture, so that all of every layer is there
@@ -126,9 +126,9 @@ void CheckPicture(const test::Scene& scene, const sf_params& params, int more, C
 }
 
 template <class MakeScene>
-Changes CheckPictures(int rounds, double least_aperture, const MakeScene& make_scene) {
+FrameDiff CheckPictures(int rounds, double least_aperture, const MakeScene& make_scene) {
   test::Random random(21);
-  Changes changes;
+  FrameDiff changes;
   constexpr double kFocus[] = {0, 0.3, -1.45, 2.5, 7.2, 11, -13.6, 16};
   for (int round = 0; round < rounds; ++round) {
     const int width = random.Int(0, 9) == 0 ? random.Int(1, 20) : random.Int(17, 128);
@@ -144,7 +144,7 @@ Changes CheckPictures(int rounds, double least_aperture, const MakeScene& make_s
   return changes;
 }
 
-void CheckSmall(const Changes& changes) {
+void CheckSmall(const FrameDiff& changes) {
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
     CHECK(changes.blocks[layer] > 50);
     CHECK(changes.changed_samples[layer] * 1000 <= changes.samples[layer]);
@@ -153,7 +153,7 @@ void CheckSmall(const Changes& changes) {
 }
 
 TEST_CASE("refocus_block: the border is enough for a flat surface at every layer, size and place") {
-  const Changes changes = CheckPictures(200, 0.3, FlatScene);
+  const FrameDiff changes = CheckPictures(200, 0.3, FlatScene);
   for (int layer = 0; layer < SF_LAYERS; ++layer) {
     CHECK(changes.blocks[layer] > 30);
     CHECK(changes.changed[layer] == 0);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/base/aperture.h"
+#include "lib/base/view_weights.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/refocused.h"
 #include "tests/support/rounds.h"
@@ -185,9 +185,9 @@ TEST_CASE("skips: no view of an aperture has weight zero, so that there is none 
   for (const auto [theta, most] :
        {Lens{SF_MIN_THETA, 146}, Lens{0.26 * 3.14159265358979, 117}, Lens{SF_MAX_THETA, 31}}) {
     for (int n = 0; n <= most; ++n) {
-      std::vector<uint16_t> weights(starfocus::ApertureSize(n));
-      const starfocus::Aperture aperture =
-          starfocus::MakeAperture(n, starfocus::ApertureFallOff(theta), weights.data());
+      std::vector<uint16_t> weights(starfocus::ViewWeightsSize(n));
+      const starfocus::ViewWeights aperture =
+          starfocus::MakeViewWeights(n, starfocus::ApertureFallOff(theta), weights.data());
       int zero = 0;
       for (int i = 0; i <= n; ++i) {
         for (int j = 0; j <= i; ++j) zero += i * i + j * j <= n * n && aperture.Weight(i, j) == 0;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/base/aperture.h"
+#include "lib/base/view_weights.h"
 #include "starfocus/starfocus.h"
 #include "tests/conformance/reference_blur.h"
 #include "tests/support/shapes.h"
@@ -26,7 +26,7 @@ static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
 
 // The blurred picture, unrounded. What is farther than the focus sees kernels turned.
 std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
-                              const reference::Opening& opening, int transfer) {
+                              const reference::ApertureShape& opening, int transfer) {
   double light[256];
   for (int code = 0; code < 256; ++code) light[code] = test::LightOf(code, transfer);
   std::vector<double> out;
@@ -36,7 +36,7 @@ std::vector<double> Reference(const test::Scene& scene, const sf_params& params,
       const int signed_distance = int(std::floor(scene.Disparity(x, y) * kOne + 0.5f)) - focus;
       const int distance = std::abs(signed_distance), side = signed_distance < 0 ? -1 : 1;
       const double r = reference::NearestRadius(int(std::floor(params.aperture * distance)));
-      const reference::BlurKernel& kernel = reference::BlurKernelOf(r, opening);
+      const reference::Psf& kernel = reference::PsfOf(r, opening);
       double sums[3] = {0, 0, 0};
       for (int m = -kernel.size; m <= kernel.size; ++m) {
         for (int n = -kernel.size; n <= kernel.size; ++n) {
@@ -186,14 +186,14 @@ TEST_CASE("blur: the size of blocks does not matter") {
 TEST_CASE("blur: kernels sum to exactly one, fit their types and fall off from the centre") {
   const double most = SF_MAX_BLUR;
   const int steps = starfocus::BlurStepCount(most);
-  std::vector<uint16_t> weights(starfocus::BlurWeightCount(starfocus::Opening(), most));
-  std::vector<starfocus::BlurKernel> kernels(static_cast<size_t>(steps));
+  std::vector<uint16_t> weights(starfocus::BlurWeightCount(starfocus::ApertureShape(), most));
+  std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));
   // In two parts, as an engine makes them when it is asked for more.
   const uint32_t fall_off = starfocus::ApertureFallOff(kTheta);
-  starfocus::MakeBlurKernels(0, steps / 3, fall_off, nullptr, weights.data(), kernels.data());
-  starfocus::MakeBlurKernels(steps / 3, steps, fall_off, nullptr, weights.data(), kernels.data());
+  starfocus::MakePsfs(0, steps / 3, fall_off, nullptr, weights.data(), kernels.data());
+  starfocus::MakePsfs(steps / 3, steps, fall_off, nullptr, weights.data(), kernels.data());
   for (int step = 0; step < steps; ++step) {
-    const starfocus::BlurKernel& kernel = kernels[size_t(step)];
+    const starfocus::Psf& kernel = kernels[size_t(step)];
     CAPTURE(step);
     REQUIRE(kernel.weights >= weights.data());
     const int size = kernel.size;

@@ -22,9 +22,9 @@ namespace gather_test {
 namespace {
 
 using starfocus::Cell;
+using starfocus::CellKind;
 using starfocus::kCellSize;
 using starfocus::kDisparityBits;
-using starfocus::Smoothness;
 using test::Refocused;
 using test::RefocusScene;
 
@@ -66,7 +66,7 @@ struct Cells {
   }
 
   // Over all cells of the picture.
-  Smoothness SmoothnessOf(int column, int row) const {
+  CellKind KindOf(int column, int row) const {
     const Cell& own = *grid.At(column, row);
     int low = INT32_MAX, high = INT32_MIN, widest = 0;
     for (int y = 0; y < grid.rows; ++y) {
@@ -75,7 +75,7 @@ struct Cells {
         const int between = std::max(std::abs(x - column), std::abs(y - row)) - 1;
         const int nearer = cell.high > own.high ? NearReach(cell) : 0;
         if (between * kCellSize >= std::max(nearer, Reach(own))) continue;
-        if (cell.has_edge) return Smoothness::kRough;
+        if (cell.has_edge) return CellKind::kMixed;
         widest = std::max(widest, cell.high - cell.low);
         low = std::min(low, int{cell.low});
         high = std::max(high, int{cell.high});
@@ -90,9 +90,9 @@ struct Cells {
     };
     const int range = high - low;
     const bool is_low = within(range, of_step);
-    if (within(range, 1.25) && (2 * widest <= range || is_low)) return Smoothness::kFlat;
+    if (within(range, 1.25) && (2 * widest <= range || is_low)) return CellKind::kFlat;
     const bool is_slope = within(widest, 2) && (3 * widest <= 2 * range || is_low);
-    return is_slope ? Smoothness::kOnSlope : Smoothness::kRough;
+    return is_slope ? CellKind::kSloped : CellKind::kMixed;
   }
 
   std::vector<int16_t> disparity;
@@ -109,17 +109,16 @@ TEST_CASE("gather: smooth cells are those of the definition") {
     const int around = test::BordersOf(12).cells;
     for (int row = 0; row < cells.grid.rows; ++row) {
       for (int column = 0; column < cells.grid.columns; ++column) {
-        const Smoothness expected = cells.SmoothnessOf(column, row);
-        const bool same =
-            test::SmoothnessOf(cells.grid, cells.scale, column, row, around) == expected;
+        const CellKind expected = cells.KindOf(column, row);
+        const bool same = test::KindOf(cells.grid, cells.scale, column, row, around) == expected;
         CHECK(same);
         ++found[int(expected)];
       }
     }
   }
-  CHECK(found[int(Smoothness::kRough)] > 500);
-  CHECK(found[int(Smoothness::kOnSlope)] > 100);
-  CHECK(found[int(Smoothness::kFlat)] > 500);
+  CHECK(found[int(CellKind::kMixed)] > 500);
+  CHECK(found[int(CellKind::kSloped)] > 100);
+  CHECK(found[int(CellKind::kFlat)] > 500);
 }
 
 int LargestDifference(const Refocused& a, const Refocused& b) {
@@ -177,10 +176,8 @@ TEST_CASE(
 
 TEST_CASE("gather: the rows that kernels read of a layer are kept") {
   std::vector<uint16_t> weights(starfocus::BlurWeightCount({}, starfocus::kMaxGather));
-  std::vector<starfocus::BlurKernel> kernels(
-      size_t(starfocus::BlurStepCount(starfocus::kMaxGather)));
-  starfocus::MakeBlurKernels(0, int32_t(kernels.size()), {}, nullptr, weights.data(),
-                             kernels.data());
+  std::vector<starfocus::Psf> kernels(size_t(starfocus::BlurStepCount(starfocus::kMaxGather)));
+  starfocus::MakePsfs(0, int32_t(kernels.size()), {}, nullptr, weights.data(), kernels.data());
   for (int blur = 1; blur <= SF_MAX_BLUR * 4; ++blur) {
     const double max_blur = blur / 4.0;
     CAPTURE(max_blur);

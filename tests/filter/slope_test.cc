@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/base/opening.h"
+#include "lib/base/aperture_shape.h"
 #include "tests/plan/measured_cells.h"
 
 namespace slope_test {
@@ -108,7 +108,7 @@ double CentreOfViews(double radius, double gradient) {
 }
 
 TEST_CASE("slope: a picture is moved to the centre of what all views show") {
-  starfocus::Opening disc;
+  starfocus::ApertureShape disc;
   disc.shape = SF_SHAPE_DISC;
   const int32_t spread = starfocus::MeanSquare(disc);
   for (const double radius : {3.0, -7.0}) {
@@ -125,7 +125,7 @@ TEST_CASE("slope: a picture is moved to the centre of what all views show") {
 }
 
 TEST_CASE("slope: the mean square of openings") {
-  starfocus::Opening opening;
+  starfocus::ApertureShape opening;
   const auto mean_square = [&] { return starfocus::MeanSquare(opening) / 16384.0; };
   opening.fall_off = starfocus::ApertureFallOff(0.26 * 3.14159265358979);
   CHECK(mean_square() == doctest::Approx(0.1877).epsilon(0.002));

@@ -76,7 +76,7 @@ struct Recorder {
 };
 
 inline ViewGrid MakeGrid(int n, double focus, double aperture) {
-  starfocus::Aperture views;
+  starfocus::ViewWeights views;
   views.n = views.last = n;
   return starfocus::MakeViewGrid(views, focus, aperture, 0, false);
 }

@@ -34,7 +34,7 @@ using Runs = std::vector<Found>;
 
 // A lens with n views, in focus at `focus`.
 ViewGrid MakeGrid(int n, double focus, int spread, double aperture = 1) {
-  starfocus::Aperture views;
+  starfocus::ViewWeights views;
   views.n = views.last = n;
   ViewGrid grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
   grid.spread = spread;

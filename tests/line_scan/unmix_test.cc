@@ -64,7 +64,7 @@ struct Scene {
     field.disparity = copy.data();
     test::ReadPlanes(&planes, &window);
     starfocus::LoadField(window, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
-    starfocus::Aperture aperture;
+    starfocus::ViewWeights aperture;
     aperture.n = aperture.last = 4;
     window.layer = layer;
     const ViewGrid grid = starfocus::MakeViewGrid(aperture, 0, 1, 0, false);
@@ -97,7 +97,8 @@ TEST_CASE("unmix: the near part of a sharp pixel beside a defocused surface is t
 TEST_CASE("unmix: the captured view is read where the near surface has moved away") {
   for (const int views : {5, 9, 17}) {
     for (const bool mirrored : {false, true}) {
-      // The view that looks behind the edge is grey, the others would say that nothing is mixed.
+      // The view that looks behind the edge is grey, the others would say that nothing is
+      // mixed.
       Scene scene(2, 6, {40, 240, 140}, views, mirrored);
       std::vector<uint8_t> other(scene.side.size(), 240);
       const int right = views == 17 ? 9 : 1, left = right + 1, behind = mirrored ? right : left;

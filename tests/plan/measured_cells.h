@@ -55,10 +55,10 @@ inline starfocus::BlockStats MeasureBlock(const starfocus::CellGrid& grid,
                                  *BlockSurroundings(grid, scale, column, row, around), column, row);
 }
 
-inline starfocus::Smoothness SmoothnessOf(const starfocus::CellGrid& grid,
-                                          const starfocus::BlurScale& scale, int column, int row,
-                                          int around) {
-  starfocus::Smoothness smooth[starfocus::kMaxRowCells];
+inline starfocus::CellKind KindOf(const starfocus::CellGrid& grid,
+                                  const starfocus::BlurScale& scale, int column, int row,
+                                  int around) {
+  starfocus::CellKind smooth[starfocus::kMaxRowCells];
   starfocus::FindSmooth(starfocus::simd::BestKernels(),
                         *BlockSurroundings(grid, scale, column, row, around), scale, row, smooth);
   return smooth[0];

@@ -22,8 +22,8 @@ using starfocus::kSliceRenderer;
 using starfocus::Rect;
 
 // The discs i^2 + j^2 <= N^2, whatever their weights.
-starfocus::Aperture DiscOf(int n) {
-  starfocus::Aperture aperture;
+starfocus::ViewWeights DiscOf(int n) {
+  starfocus::ViewWeights aperture;
   aperture.n = aperture.last = n;
   aperture.views = 0;
   for (int i = -n; i <= n; ++i) {

@@ -90,8 +90,8 @@ class CallMemory {
     Mark(first, count, Role::kFree);
   }
 
-  // Optional: looks at the results of the reference, which returned that, and tells whether they
-  // are right by the kernel's contract; may free what the contract leaves open then.
+  // Optional: looks at the results of the reference, which returned that, and tells
+  // whether they are right by the kernel's contract; may free what the contract leaves open then.
   std::function<bool(uint64_t returned, Met*)> is_right;
 
   // Bytes that a call reads and writes, each counted once.

@@ -53,7 +53,7 @@ struct Scene {
   // Of the middle 16 x 16 pixels.
   std::vector<Slice> Cut(double focus, double aperture = 1,
                          const SliceRule& rule = Ample(starfocus::kSlices)) {
-    starfocus::Aperture views;
+    starfocus::ViewWeights views;
     views.n = views.last = 4;
     const auto grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
     const auto range = std::minmax_element(planes[0].begin(), planes[0].end());

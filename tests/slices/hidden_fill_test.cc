@@ -28,12 +28,12 @@ struct Memory {
 struct Scene : test::LayeredScene {
   explicit Scene(int views) : LayeredScene(views) {}
 
-  void FillHidden() {
+  void InpaintHidden() {
     Memory memory;
-    starfocus::FillHidden(starfocus::simd::BestKernels(), 0,
-                          {memory.disparity.data(), memory.rgb.data(), memory.saved.data(),
-                           memory.source.data(), memory.farthest.data()},
-                          &surfaces);
+    starfocus::InpaintHidden(starfocus::simd::BestKernels(), 0,
+                             {memory.disparity.data(), memory.rgb.data(), memory.saved.data(),
+                              memory.source.data(), memory.farthest.data()},
+                             &surfaces);
   }
 };
 
@@ -52,7 +52,7 @@ TEST_CASE("hidden fill: a wall of one colour goes on to the bit") {
   scene.Find();
   const std::vector<int16_t> before = scene.colours[1];
   REQUIRE(scene.surfaces.repeats);
-  scene.FillHidden();
+  scene.InpaintHidden();
   CHECK(scene.colours[1] == before);
   CHECK(scene.Colour(13, 20, 0) == 137);
 }
@@ -64,7 +64,7 @@ TEST_CASE("hidden fill: beside the edge a pixel is what it repeats, farther in t
   CHECK(scene.Colour(21, 19, 0) == 0);
   CHECK(scene.Colour(21, 22, 0) == 200);
   const std::vector<int16_t> seen = scene.colours[0];
-  scene.FillHidden();
+  scene.InpaintHidden();
   CHECK(scene.colours[0] == seen);
   // In the middle of a stripe, beside the edge and seven pixels farther in.
   CHECK(scene.Colour(14, 19, 0) <= 50);
@@ -76,7 +76,7 @@ TEST_CASE("hidden fill: what captured views show stays") {
   Scene scene = BeforeStripes(5);
   scene.Find();
   const std::vector<int16_t> colours = scene.colours[1];
-  scene.FillHidden();
+  scene.InpaintHidden();
   int same = 0;
   for (int y = 12; y < 28; ++y) {
     const size_t at = scene.surfaces.At(15, y);
@@ -91,7 +91,7 @@ TEST_CASE("hidden fill: surfaces of other disparities do not mix") {
   scene.Fill(20, kSize, 0, kSize, -9, 220);
   scene.Fill(16, 24, 0, kSize, 8, 120);
   scene.Find();
-  scene.FillHidden();
+  scene.InpaintHidden();
   CHECK(scene.Behind(16, 20) == -4);
   CHECK(scene.Colour(16, 20, 0) == 30);
   CHECK(scene.Behind(23, 20) == -9);
@@ -115,7 +115,7 @@ TEST_CASE("hidden fill: of a parted boundary pixel the far colour goes on") {
       scene.surfaces.rgb[1][c * scene.surfaces.plane + at] = 50 << starfocus::kLightBits;
     }
   }
-  scene.FillHidden();
+  scene.InpaintHidden();
   CHECK(scene.Colour(24, 20, 0) == 50);
   CHECK(scene.Colour(19, 20, 0) == 50);
 }
@@ -134,7 +134,7 @@ TEST_CASE("hidden fill: a mirrored scene is filled alike") {
   }
   for (Scene* each : {&scene, &mirrored, &turned}) {
     each->Find();
-    each->FillHidden();
+    each->InpaintHidden();
   }
   int hidden = 0;
   const auto light = [](const Scene& of, int x, int y) {

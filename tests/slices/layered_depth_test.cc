@@ -51,7 +51,8 @@ TEST_CASE("surfaces: behind a near square lies what captured views see beside it
 }
 
 TEST_CASE(
-    "surfaces: a pair looks behind the edges on one side, on the others the background goes on") {
+    "surfaces: a pair occlusion_views behind the edges on one side, on the others the background "
+    "goes on") {
   Scene scene(17);
   test::SetPositions({{1, 0}}, &scene.window);
   scene.Fill(0, kSize, 0, kSize, 1, 10);

@@ -17,11 +17,11 @@ namespace {
 
 struct Views {
   explicit Views(int n)
-      : weights(starfocus::ApertureSize(n)),
+      : weights(starfocus::ViewWeightsSize(n)),
         aperture(starfocus::MakeSubapertures(n, starfocus::ApertureFallOff(0.8), weights.data())) {}
 
   std::vector<uint16_t> weights;
-  starfocus::Aperture aperture;
+  starfocus::ViewWeights aperture;
 };
 
 // Pixels that the slice of `disparity` reaches beyond a rectangle.

@@ -34,7 +34,7 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
       {"slices: apertures of every N", false, e.tables.apertures[0].apertures},
       {"line scan: apertures of every N", false, e.tables.apertures[1].apertures},
       {"the benchmark's aperture", false, e.tables.benchmark_weights},
-      {"kernels of radii", false, e.tables.blur_kernels},
+      {"kernels of radii", false, e.tables.psfs},
       {"workers", false, e.crew.workers},
       {"sums of a block", false, worker.sums},
       {"line scan", true, line_scan == nullptr ? nullptr : line_scan->field_rgb[0]},

@@ -41,14 +41,14 @@ constexpr double kRadiusOne = 1 << starfocus::kDisparityBits;
 struct Apertures {
   explicit Apertures(const Renderer& renderer) : all(&renderer == &kSliceRenderer ? 30 : 110) {
     for (size_t n = 0; n < all.size(); ++n) {
-      std::vector<uint16_t> weights(starfocus::ApertureSize(int(n)));
+      std::vector<uint16_t> weights(starfocus::ViewWeightsSize(int(n)));
       all[n] = renderer.make_aperture(int(n), starfocus::ApertureFallOff(0.8), weights.data());
       all[n].weights = nullptr;  // a plan reads none
     }
   }
-  std::vector<starfocus::Aperture> all;
+  std::vector<starfocus::ViewWeights> all;
 };
-inline const std::vector<starfocus::Aperture>& AperturesOf(const Renderer& renderer) {
+inline const std::vector<starfocus::ViewWeights>& AperturesOf(const Renderer& renderer) {
   static const Apertures slices(kSliceRenderer), line_scan(kLineScanRenderer);
   return (&renderer == &kSliceRenderer ? slices : line_scan).all;
 }
@@ -118,8 +118,7 @@ struct Plan {
   bool MayGather(int x, int y, int layer) const {
     const int column = x / kCellSize, row = y / kCellSize;
     return rules.gathers &&
-           test::SmoothnessOf(grid, rules.scale, column, row, around) !=
-               starfocus::Smoothness::kRough &&
+           test::KindOf(grid, rules.scale, column, row, around) != starfocus::CellKind::kMixed &&
            grid.At(column, row)->r_max <= (12 << layer) * int(kRadiusOne);
   }
 

@@ -14,7 +14,7 @@ inline void SetViews(const sf_config& config, starfocus::Window* window) {
   starfocus::ViewSet views;
   starfocus::FindViews(config, &views);
   window->views = config.views;
-  window->looks = starfocus::ChooseLooks(views);
+  window->occlusion_views = starfocus::ChooseOcclusionViews(views);
 }
 
 // Lets a window read planes of codes, which must outlive it.

@@ -120,7 +120,7 @@ Error FocusFirst(const std::string& folder, const FloatMap& map, LensPlan* plan)
   return ChooseFocus(map, plan);
 }
 
-// Looks at all frames: their views and disparities.
+// OcclusionViews at all frames: their views and disparities.
 Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   std::vector<ViewFile> files;
   Error error = ChooseViewFiles(video->folders[0], plan->views, &files);

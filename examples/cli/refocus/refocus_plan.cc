@@ -140,7 +140,7 @@ void AddLensOptions(Command* command, LensOptions* options) {
           {"--mode", "block|frame|benchmark|blur",
            "In blocks of their own number of views, with one number for the whole frame, "
            "as a benchmark of twice the views that blur can show, or by blurring the "
-           "centre view alone: this looks like a quick preview of the others but takes "
+           "centre view alone: this occlusion_views like a quick preview of the others but takes "
            "about ten times as long as block",
            &options->mode, Use::kDefault},
       },

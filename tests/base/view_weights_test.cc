@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The integer weights against the aperture (3) in double.
-#include "lib/base/aperture.h"
+#include "lib/base/view_weights.h"
 
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@
 #include "lib/base/fixed.h"
 #include "starfocus/starfocus.h"
 
-namespace aperture_test {
+namespace view_weights_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -26,11 +26,12 @@ double Density(double u, double v, double theta) {
 
 struct Sampled {
   explicit Sampled(int n, double theta)
-      : storage(starfocus::ApertureSize(n)),
-        aperture(starfocus::MakeAperture(n, starfocus::ApertureFallOff(theta), storage.data())) {}
+      : storage(starfocus::ViewWeightsSize(n)),
+        aperture(starfocus::MakeViewWeights(n, starfocus::ApertureFallOff(theta), storage.data())) {
+  }
 
   std::vector<uint16_t> storage;
-  starfocus::Aperture aperture;
+  starfocus::ViewWeights aperture;
 };
 
 template <class Visit>
@@ -81,7 +82,7 @@ TEST_CASE("aperture: weights follow (3), sum to a power of two and fit signed 16
       CAPTURE(n);
       CAPTURE(theta);
       const Sampled sampled(n, theta);
-      const starfocus::Aperture& aperture = sampled.aperture;
+      const starfocus::ViewWeights& aperture = sampled.aperture;
       CHECK(aperture.n == n);
       REQUIRE(aperture.sum_bits >= 1);
       REQUIRE(aperture.sum_bits <= 24);
@@ -155,8 +156,8 @@ TEST_CASE("aperture: the largest N of the configuration") {
 TEST_CASE("aperture: subapertures have the light of their part of the lens") {
   for (const double theta : {0.1 * kPi, 0.26 * kPi, 0.4 * kPi}) {
     for (const int n : {1, 2, 3, 4, 5, 6, 7, 9, 13, 40, 256}) {
-      std::vector<uint16_t> storage(starfocus::ApertureSize(n));
-      const starfocus::Aperture subapertures =
+      std::vector<uint16_t> storage(starfocus::ViewWeightsSize(n));
+      const starfocus::ViewWeights subapertures =
           starfocus::MakeSubapertures(n, starfocus::ApertureFallOff(theta), storage.data());
       const double lens = starfocus::LensInSubapertures(n) / 32.0,
                    c = std::pow(std::tan(theta), -2);
@@ -195,11 +196,11 @@ TEST_CASE("aperture: subapertures have the light of their part of the lens") {
 
 TEST_CASE("aperture: no views but the centre's") {
   uint16_t weight = 0;
-  const starfocus::Aperture subapertures = starfocus::MakeSubapertures(0, 65536, &weight);
+  const starfocus::ViewWeights subapertures = starfocus::MakeSubapertures(0, 65536, &weight);
   CHECK(subapertures.views == 1);
   CHECK(subapertures.last == 0);
   CHECK(weight == 1 << subapertures.sum_bits);
 }
 
 }  // namespace
-}  // namespace aperture_test
+}  // namespace view_weights_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which largest blocks depend on pixels that differ between two light fields.
-#ifndef STARFOCUS_LIB_ENGINE_FRAME_CHANGES_H_
-#define STARFOCUS_LIB_ENGINE_FRAME_CHANGES_H_
+#ifndef STARFOCUS_LIB_ENGINE_FRAME_DIFF_H_
+#define STARFOCUS_LIB_ENGINE_FRAME_DIFF_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace starfocus {
 
 // Rows are compared from the first one that is needed to the last; blocks of a stripe and of those
 // beside it are known once all rows within their reach are compared.
-struct Changes {
+struct FrameDiff {
   bool active = false;  // there is something to compare with
   const sf_light_field *before, *now;
   int32_t views;                     // that matter
@@ -33,16 +33,16 @@ struct Changes {
 };
 
 // Starts anew, for stripes from row y on.
-void StartChanges(int32_t y, Changes* changes);
+void StartFrameDiff(int32_t y, FrameDiff* changes);
 
 // Compares all rows that blocks of the stripe at row y, and of those before and after it, depend
 // on. Returns SF_OK or SF_ERROR_CANCELLED.
-sf_status CompareRows(int32_t y, Patience* patience, Changes* changes);
+sf_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes);
 
 // Whether a largest block that has pixels in `rect`, or less than a stripe away from those last
 // compared, has changed.
-bool HasChanged(const Changes& changes, const Rect& rect);
+bool HasChanged(const FrameDiff& changes, const Rect& rect);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_ENGINE_FRAME_CHANGES_H_
+#endif  // STARFOCUS_LIB_ENGINE_FRAME_DIFF_H_

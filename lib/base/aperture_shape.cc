@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/opening.h"
+#include "lib/base/aperture_shape.h"
 
 #include <cmath>
 
@@ -25,7 +25,7 @@ Direction DirectionOf(double angle) {
 // An edge is an arc through two corners of the unit circle, `curvature` over its radius: with
 // `half` of the angle between them, its circle's centre lies at cos(half) - sqrt(1 / curvature^2 -
 // sin(half)^2) along the edge's normal. Times the curvature, that has a limit for straight edges.
-void SetPolygon(const sf_config& config, Opening* opening) {
+void SetPolygon(const sf_config& config, ApertureShape* opening) {
   opening->blades = config.blades;
   const double half = kPi / config.blades;
   const double sine = DirectionOf(half).sine, cosine = DirectionOf(half).cosine;
@@ -56,8 +56,8 @@ uint32_t ApertureFallOff(double theta) {
   return static_cast<uint32_t>(65536.0 / (tangent * tangent) + 0.5);
 }
 
-Opening OpeningOf(const sf_config& config) {
-  Opening opening(ApertureFallOff(config.theta));
+ApertureShape ShapeOf(const sf_config& config) {
+  ApertureShape opening(ApertureFallOff(config.theta));
   opening.shape = static_cast<sf_shape>(config.aperture_shape);
   if (opening.shape == SF_SHAPE_POLYGON) SetPolygon(config, &opening);
   if (opening.shape == SF_SHAPE_RING) opening.inner = Round(config.ring_inner);
@@ -65,7 +65,7 @@ Opening OpeningOf(const sf_config& config) {
   return opening;
 }
 
-int32_t MeanSquare(const Opening& opening) {
+int32_t MeanSquare(const ApertureShape& opening) {
   if (opening.shape != SF_SHAPE_FALL_OFF) {
     const double inner = static_cast<double>(opening.inner) / kOpeningOne;
     return Round((1 + inner * inner) / 4);
@@ -83,7 +83,7 @@ int32_t MeanSquare(const Opening& opening) {
   return Round(sum / light / 2);
 }
 
-bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius) {
+bool LetsThrough(const ApertureShape& opening, int64_t x, int64_t y, int64_t radius) {
   const int64_t square = x * x + y * y;
   if (square > radius * radius) return false;
   if (opening.shape == SF_SHAPE_RING) {
@@ -99,7 +99,7 @@ bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius) {
   return true;
 }
 
-bool IsDark(const Opening& opening, int64_t x, int64_t y, int64_t half, int64_t radius) {
+bool IsDark(const ApertureShape& opening, int64_t x, int64_t y, int64_t half, int64_t radius) {
   const auto nearest = [&](int64_t at) {
     const int64_t distance = (at < 0 ? -at : at) - half;
     return distance > 0 ? distance : 0;
@@ -115,7 +115,7 @@ bool IsDark(const Opening& opening, int64_t x, int64_t y, int64_t half, int64_t 
   return false;
 }
 
-RimShift ShiftOfRim(const Opening& opening, const Rect& rect, int32_t width, int32_t height) {
+RimShift ShiftOfRim(const ApertureShape& opening, const Rect& rect, int32_t width, int32_t height) {
   const double diagonal =
       std::sqrt(static_cast<double>(width) * width + static_cast<double>(height) * height);
   // Both are even about the picture's middle, so that mirrored places have mirrored rims.

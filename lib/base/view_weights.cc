@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/aperture.h"
+#include "lib/base/view_weights.h"
 
 #include <initializer_list>
 
@@ -17,7 +17,7 @@ uint64_t Relative(uint64_t square, uint64_t n_square, uint64_t fall_off) {
 }
 
 // Where the weight of view (i, j) is stored.
-size_t IndexOf(const Aperture& aperture, int32_t i, int32_t j) {
+size_t IndexOf(const ViewWeights& aperture, int32_t i, int32_t j) {
   const int32_t n = aperture.n;
   return static_cast<size_t>(aperture.full ? (i + n) * (2 * n + 1) + j + n : i * (i + 1) / 2 + j);
 }
@@ -25,7 +25,7 @@ size_t IndexOf(const Aperture& aperture, int32_t i, int32_t j) {
 // Calls visit(i, j, views) for the views i^2 + j^2 <= most, |i|, |j| <= last, that have weights of
 // their own, each with the number of views that share it.
 template <class Visit>
-void ForEachWeight(const Aperture& aperture, bool by_size, const Visit& visit) {
+void ForEachWeight(const ViewWeights& aperture, bool by_size, const Visit& visit) {
   const int32_t last = aperture.last, most = aperture.most;
   if (!aperture.full) {
     ForEachOfOctant(last, by_size, [&](int32_t i, int32_t j) {
@@ -40,15 +40,15 @@ void ForEachWeight(const Aperture& aperture, bool by_size, const Visit& visit) {
   }
 }
 
-void Clear(const Aperture& aperture, uint16_t* weights) {
-  const size_t size = aperture.full ? FullApertureSize(aperture.n) : ApertureSize(aperture.n);
+void Clear(const ViewWeights& aperture, uint16_t* weights) {
+  const size_t size = aperture.full ? FullApertureSize(aperture.n) : ViewWeightsSize(aperture.n);
   for (size_t index = 0; index < size; ++index) weights[index] = 0;
 }
 
 // Makes the weights of the aperture's views, those of no view being clear, in proportion to their
 // light `light(i, j)`, 20 bits: which may be what lies there until then.
 template <class Light>
-void Weigh(bool by_size, const Light& light, uint16_t* weights, Aperture* aperture) {
+void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* aperture) {
   aperture->weights = weights;
   uint64_t total = 0, largest = 0;
   aperture->views = 0;
@@ -106,7 +106,7 @@ uint64_t LightOfSubaperture(int32_t i, int32_t j, int32_t radius, uint32_t fall_
 }
 
 // Returns how many points of the subaperture an opening lets through that is as bright everywhere.
-uint32_t OpenPoints(int32_t i, int32_t j, int32_t radius, const Opening& opening) {
+uint32_t OpenPoints(int32_t i, int32_t j, int32_t radius, const ApertureShape& opening) {
   uint32_t open = 0;
   ForEachPoint(i, j,
                [&](int64_t x, int64_t y) { open += LetsThrough(opening, x, y, radius) ? 1 : 0; });
@@ -114,7 +114,7 @@ uint32_t OpenPoints(int32_t i, int32_t j, int32_t radius, const Opening& opening
 }
 
 // A polygon has no dents: where the corners of a subaperture are inside, all of it is.
-uint32_t OpenPointsOfPolygon(int32_t i, int32_t j, int32_t radius, const Opening& opening) {
+uint32_t OpenPointsOfPolygon(int32_t i, int32_t j, int32_t radius, const ApertureShape& opening) {
   constexpr int32_t kHalf = kSubapertureUnits / 2;
   const int64_t x = kSubapertureUnits * (i < 0 ? -i : i) + kHalf;
   const int64_t y = kSubapertureUnits * (j < 0 ? -j : j) + kHalf;
@@ -132,7 +132,7 @@ uint32_t OpenPointsOfPolygon(int32_t i, int32_t j, int32_t radius, const Opening
   return kPoints * kPoints;
 }
 
-void WeighSubapertures(const Opening& opening, uint16_t* weights, Aperture* aperture) {
+void WeighSubapertures(const ApertureShape& opening, uint16_t* weights, ViewWeights* aperture) {
   Clear(*aperture, weights);
   const int32_t radius = aperture->radius;
   if (opening.shape == SF_SHAPE_FALL_OFF) {
@@ -160,7 +160,7 @@ static_assert(2 * kNear * kNear >= kSubapertureUnits * kSubapertureUnits / 2, "h
 
 // Returns the part of the light through the subaperture around (i, j) that passes the rim behind
 // the opening, of kPoints^2.
-uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const Opening& opening,
+uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const ApertureShape& opening,
                        const RimShift& shift) {
   constexpr uint32_t kAll = kPoints * kPoints;
   const int64_t radius = lens, outer = radius + kNear + 2, inner = radius - kNear - 2;
@@ -182,7 +182,7 @@ uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const Opening& openin
 }
 
 // The weights of N = 0: all light comes from the centre view.
-void WeighCentre(uint16_t* weights, Aperture* aperture) {
+void WeighCentre(uint16_t* weights, ViewWeights* aperture) {
   Clear(*aperture, weights);
   Weigh(
       false, [](int32_t, int32_t) { return uint64_t{1} << 20; }, weights, aperture);
@@ -190,8 +190,8 @@ void WeighCentre(uint16_t* weights, Aperture* aperture) {
 
 }  // namespace
 
-Aperture MakeAperture(int32_t n, const Opening& opening, uint16_t* weights) {
-  Aperture aperture;
+ViewWeights MakeViewWeights(int32_t n, const ApertureShape& opening, uint16_t* weights) {
+  ViewWeights aperture;
   aperture.n = aperture.last = n;
   aperture.most = n * n;
   aperture.radius = kSubapertureUnits * n;
@@ -213,9 +213,9 @@ Aperture MakeAperture(int32_t n, const Opening& opening, uint16_t* weights) {
   return aperture;
 }
 
-Aperture MakeSubapertures(int32_t n, const Opening& opening, uint16_t* weights) {
-  if (n == 0) return MakeAperture(n, opening, weights);
-  Aperture aperture;
+ViewWeights MakeSubapertures(int32_t n, const ApertureShape& opening, uint16_t* weights) {
+  if (n == 0) return MakeViewWeights(n, opening, weights);
+  ViewWeights aperture;
   aperture.n = n;
   aperture.last = LastSubaperture(n);
   aperture.most = MostOfSubapertures(n);
@@ -227,9 +227,9 @@ Aperture MakeSubapertures(int32_t n, const Opening& opening, uint16_t* weights) 
   return aperture;
 }
 
-Aperture MakeCatsEye(const Aperture& whole, const Opening& opening, const RimShift& shift,
-                     uint16_t* weights) {
-  Aperture aperture = whole;
+ViewWeights MakeCatsEye(const ViewWeights& whole, const ApertureShape& opening,
+                        const RimShift& shift, uint16_t* weights) {
+  ViewWeights aperture = whole;
   aperture.full = true;
   Clear(aperture, weights);
   ForEachWeight(aperture, false, [&](int32_t i, int32_t j, int32_t) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/engine/frame_changes.h"
+#include "lib/engine/frame_diff.h"
 
 #include <cstring>
 
@@ -17,13 +17,13 @@ struct StripeRange {
   int32_t first, last;
 };
 
-StripeRange StripesOf(const Changes& changes, int32_t y, int32_t reach) {
+StripeRange StripesOf(const FrameDiff& changes, int32_t y, int32_t reach) {
   return {Max(0, y - reach) / changes.side, Min(changes.height - 1, y + reach) / changes.side};
 }
 
 // Whether all blocks of the stripes are flagged already: where much changes, most rows need no
 // look.
-bool AllFlagged(const Changes& changes, const StripeRange& stripes) {
+bool AllFlagged(const FrameDiff& changes, const StripeRange& stripes) {
   for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
     if (std::memchr(changes.Flags(stripe), 0, static_cast<size_t>(changes.columns)) != nullptr) {
       return false;
@@ -49,7 +49,7 @@ struct RowPair {
 // Compares row y and flags the blocks that depend on what differs. widen(&first, &end) may add
 // pixels that change with those of [first, end).
 template <class Widen>
-void CompareRow(const Changes& changes, const RowPair& rows, int32_t y, int32_t reach,
+void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_t reach,
                 const Widen& widen) {
   const StripeRange stripes = StripesOf(changes, y, reach);
   if (AllFlagged(changes, stripes) || !rows.Differs(0, changes.width)) return;
@@ -69,7 +69,7 @@ void CompareRow(const Changes& changes, const RowPair& rows, int32_t y, int32_t 
 }
 
 // Compares row y of the maps. What is filled changes with the known values beside the gap.
-void CompareMaps(const Changes& changes, int32_t y) {
+void CompareMaps(const FrameDiff& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
   const sf_light_field &a = *changes.before, &b = *changes.now;
   const float* const before = a.disparity + row * (a.disparity_stride / sizeof(float));
@@ -85,7 +85,7 @@ void CompareMaps(const Changes& changes, int32_t y) {
 }
 
 // Compares row y of coverage, of which there is as much in both.
-void CompareCoverage(const Changes& changes, int32_t y) {
+void CompareCoverage(const FrameDiff& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
   const sf_light_field &a = *changes.before, &b = *changes.now;
   if (a.coverage == nullptr || b.coverage == nullptr) return;
@@ -94,7 +94,7 @@ void CompareCoverage(const Changes& changes, int32_t y) {
              changes.centre_reach, [](int32_t*, int32_t*) {});
 }
 
-void CompareViews(const Changes& changes, int32_t y) {
+void CompareViews(const FrameDiff& changes, int32_t y) {
   const auto row = static_cast<size_t>(y);
   const sf_light_field &a = *changes.before, &b = *changes.now;
   CompareMaps(changes, y);
@@ -109,13 +109,13 @@ void CompareViews(const Changes& changes, int32_t y) {
 
 }  // namespace
 
-void StartChanges(int32_t y, Changes* changes) {
+void StartFrameDiff(int32_t y, FrameDiff* changes) {
   const int32_t reach = changes->side_reach;
   changes->rows = Max(0, y - changes->side - reach);
   changes->known = Max(0, changes->rows - reach) / changes->side;
 }
 
-sf_status CompareRows(int32_t y, Patience* patience, Changes* changes) {
+sf_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes) {
   const int32_t reach = changes->side_reach;
   const int32_t end = Min(changes->height, y + 2 * changes->side + reach);
   for (; changes->rows < end; ++changes->rows) {
@@ -124,13 +124,13 @@ sf_status CompareRows(int32_t y, Patience* patience, Changes* changes) {
       std::memset(changes->Flags(changes->known), 0, static_cast<size_t>(changes->columns));
     }
     const int64_t samples = int64_t{3} * changes->width * changes->views;
-    if (!patience->Spend(samples)) return SF_ERROR_CANCELLED;
+    if (!cancel->Spend(samples)) return SF_ERROR_CANCELLED;
     CompareViews(*changes, changes->rows);
   }
   return SF_OK;
 }
 
-bool HasChanged(const Changes& changes, const Rect& rect) {
+bool HasChanged(const FrameDiff& changes, const Rect& rect) {
   const int32_t side = changes.side;
   const int32_t first = Max(0, rect.x) / side;
   const int32_t last = Min(changes.width, rect.x + rect.width) - 1;

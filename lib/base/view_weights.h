@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The aperture, (3) or another opening, sampled on the grid of rendered views, as integer weights.
-#ifndef STARFOCUS_LIB_BASE_APERTURE_H_
-#define STARFOCUS_LIB_BASE_APERTURE_H_
+#ifndef STARFOCUS_LIB_BASE_VIEW_WEIGHTS_H_
+#define STARFOCUS_LIB_BASE_VIEW_WEIGHTS_H_
 
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/aperture_shape.h"
 #include "lib/base/fixed.h"
-#include "lib/base/opening.h"
 
 namespace starfocus {
 
 // Weights of the views (i, j), i^2 + j^2 <= most. All views together sum to exactly
 // 2^sum_bits, so that a constant picture comes out unchanged.
-struct Aperture {
+struct ViewWeights {
   int32_t n = 0;     // N
   int32_t last = 0;  // i of the outermost view (i, 0)
   int32_t most = 0;
@@ -52,7 +52,7 @@ constexpr int32_t LensInSubapertures(int32_t n) {
 inline constexpr int32_t kBeyondRim = 5;
 
 // How far from the axis of a lens the centres of its subapertures lie, kSubapertureUnits; `last`
-// and `most` of their Aperture.
+// and `most` of their ViewWeights.
 constexpr int32_t FarthestOfLens(int32_t lens) { return lens + kBeyondRim; }
 constexpr int32_t LastOfLens(int32_t lens) { return FarthestOfLens(lens) / kSubapertureUnits; }
 constexpr int32_t MostOfLens(int32_t lens) {
@@ -82,32 +82,33 @@ constexpr double LargestSubapertureExtent() {
   return largest;
 }
 
-// Number of weights an Aperture of n stores, of an octant or full.
-constexpr size_t ApertureSize(int32_t n) {
+// Number of weights ViewWeights of n stores, of an octant or full.
+constexpr size_t ViewWeightsSize(int32_t n) {
   return (static_cast<size_t>(n) + 1) * (static_cast<size_t>(n) + 2) / 2;
 }
 constexpr size_t FullApertureSize(int32_t n) {
   return (2 * static_cast<size_t>(n) + 1) * (2 * static_cast<size_t>(n) + 1);
 }
-inline size_t ApertureSize(const Opening& opening, int32_t n) {
-  return opening.IsSymmetric() ? ApertureSize(n) : FullApertureSize(n);
+inline size_t ViewWeightsSize(const ApertureShape& opening, int32_t n) {
+  return opening.IsSymmetric() ? ViewWeightsSize(n) : FullApertureSize(n);
 }
 
 // The views i^2 + j^2 <= N^2 as in a_{d,N} of (5); of openings other than (3) by what of the light
-// through the subaperture around each of them is let through. Fills weights[ApertureSize(opening,
-// n)]; n in [0, kMaxViewsAlongRadius]. Before what cat's eyes take.
-Aperture MakeAperture(int32_t n, const Opening& opening, uint16_t* weights);
+// through the subaperture around each of them is let through. Fills
+// weights[ViewWeightsSize(opening, n)]; n in [0, kMaxViewsAlongRadius]. Before what cat's eyes
+// take.
+ViewWeights MakeViewWeights(int32_t n, const ApertureShape& opening, uint16_t* weights);
 
 // Views that stand for their subapertures of a lens LensInSubapertures(n) wide, by what of its
 // light is theirs: of the subapertures that straddle its rim the part within. n in
 // [0, kMaxViewsAlongRadius]; 0 is the centre view alone.
-Aperture MakeSubapertures(int32_t n, const Opening& opening, uint16_t* weights);
+ViewWeights MakeSubapertures(int32_t n, const ApertureShape& opening, uint16_t* weights);
 
 // What a rim behind the opening leaves of the light of `whole`, of N >= 1: all light together stays
 // as it is. Fills weights[FullApertureSize(n)].
-Aperture MakeCatsEye(const Aperture& whole, const Opening& opening, const RimShift& shift,
-                     uint16_t* weights);
+ViewWeights MakeCatsEye(const ViewWeights& whole, const ApertureShape& opening,
+                        const RimShift& shift, uint16_t* weights);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_APERTURE_H_
+#endif  // STARFOCUS_LIB_BASE_VIEW_WEIGHTS_H_

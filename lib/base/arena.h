@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hands out pieces of the caller's memory, or only counts them: one routine sizes a workspace and
 // carves it.
-#ifndef STARFOCUS_LIB_BASE_CARVER_H_
-#define STARFOCUS_LIB_BASE_CARVER_H_
+#ifndef STARFOCUS_LIB_BASE_ARENA_H_
+#define STARFOCUS_LIB_BASE_ARENA_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -45,9 +45,9 @@ void UnpoisonZone(void* base, size_t begin, size_t end);
 
 // Hands out aligned pieces of a block of memory, each followed by simd::kPadding bytes, as long as
 // all of them together take `most` bytes: no object is larger than half of the addresses.
-class Carver {
+class Arena {
  public:
-  explicit Carver(void* base, size_t most = PTRDIFF_MAX, const PieceVisitor* pieces = nullptr)
+  explicit Arena(void* base, size_t most = PTRDIFF_MAX, const PieceVisitor* pieces = nullptr)
       : base_(static_cast<uint8_t*>(base)), most_(most), pieces_(pieces) {}
 
   // Takes `count` times `times` of them.
@@ -102,4 +102,4 @@ class Carver {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_CARVER_H_
+#endif  // STARFOCUS_LIB_BASE_ARENA_H_

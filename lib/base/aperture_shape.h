@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The opening of a lens: where in its disc light comes through. Integers but for what is rounded
 // once, so that every machine makes the same weights of it.
-#ifndef STARFOCUS_LIB_BASE_OPENING_H_
-#define STARFOCUS_LIB_BASE_OPENING_H_
+#ifndef STARFOCUS_LIB_BASE_APERTURE_SHAPE_H_
+#define STARFOCUS_LIB_BASE_APERTURE_SHAPE_H_
 
 #include <cstdint>
 
@@ -18,9 +18,9 @@ inline constexpr int32_t kOpeningOne = 1 << kOpeningBits;
 // cot^2(theta) with 16 fractional bits; theta in [0.05 pi, 0.45 pi] gives [0.025, 40].
 uint32_t ApertureFallOff(double theta);
 
-struct Opening {
+struct ApertureShape {
   // The paper's (3), of what ApertureFallOff gives: an opening that is nothing else.
-  Opening(uint32_t cot_square = 1 << 16) : fall_off(cot_square) {}  // NOLINT: converts
+  ApertureShape(uint32_t cot_square = 1 << 16) : fall_off(cot_square) {}  // NOLINT: converts
 
   sf_shape shape = SF_SHAPE_FALL_OFF;
   uint32_t fall_off;     // of SF_SHAPE_FALL_OFF: cot^2(theta), 16 bits
@@ -41,18 +41,18 @@ struct Opening {
 };
 
 // The opening that a valid configuration asks for.
-Opening OpeningOf(const sf_config& config);
+ApertureShape ShapeOf(const sf_config& config);
 
 // The mean square of a coordinate of the light that an opening other than a polygon lets through,
 // of the lens's radius: kOpeningBits.
-int32_t MeanSquare(const Opening& opening);
+int32_t MeanSquare(const ApertureShape& opening);
 
 // Whether light comes through at (x, y), of a lens whose radius is `radius`; all at most 2^14.
-bool LetsThrough(const Opening& opening, int64_t x, int64_t y, int64_t radius);
+bool LetsThrough(const ApertureShape& opening, int64_t x, int64_t y, int64_t radius);
 
 // Whether a polygon surely lets no light through the square of points up to `half` beside (x, y)
 // and above and below it.
-bool IsDark(const Opening& opening, int64_t x, int64_t y, int64_t half, int64_t radius);
+bool IsDark(const ApertureShape& opening, int64_t x, int64_t y, int64_t half, int64_t radius);
 
 // The centre of the rim behind the lens, as it is seen from a part of the picture: kOpeningBits.
 struct RimShift {
@@ -60,7 +60,7 @@ struct RimShift {
 };
 
 // That of the pixels of `rect`: of those in its middle.
-RimShift ShiftOfRim(const Opening& opening, const Rect& rect, int32_t width, int32_t height);
+RimShift ShiftOfRim(const ApertureShape& opening, const Rect& rect, int32_t width, int32_t height);
 
 // Whether a point that the opening lets through passes the rim behind it as well.
 constexpr bool PassesRim(const RimShift& shift, int64_t x, int64_t y, int64_t radius) {
@@ -103,4 +103,4 @@ constexpr int64_t ShareOfPoints(int64_t left, int64_t points, bool by_size) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_OPENING_H_
+#endif  // STARFOCUS_LIB_BASE_APERTURE_SHAPE_H_

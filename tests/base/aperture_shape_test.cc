@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Openings of lenses against the same shapes in double, and the weights and kernels of all of them.
-#include "lib/base/opening.h"
+#include "lib/base/aperture_shape.h"
 
 #include <doctest/doctest.h>
 
@@ -10,16 +10,16 @@
 #include <cstdlib>
 #include <vector>
 
-#include "lib/base/aperture.h"
+#include "lib/base/view_weights.h"
 #include "lib/filter/blur.h"
 #include "tests/conformance/reference_opening.h"
 #include "tests/support/shapes.h"
 
-namespace opening_test {
+namespace aperture_shape_test {
 namespace {
 
-using starfocus::Aperture;
-using starfocus::Opening;
+using starfocus::ApertureShape;
+using starfocus::ViewWeights;
 
 sf_config ConfigOf(const test::NamedShape& shape) {
   sf_config config;
@@ -44,8 +44,8 @@ TEST_CASE("opening: light passes where the shape is open") {
     sf_config config;
     sf_config_init(&config);
     test::RandomShape(&config, &random);
-    const Opening opening = starfocus::OpeningOf(config);
-    const reference::Opening exact(config);
+    const ApertureShape opening = starfocus::ShapeOf(config);
+    const reference::ApertureShape exact(config);
     int wrong = 0;
     for (int k = 0; k < 2000; ++k) {
       const int x = random.Int(-1050, 1050), y = random.Int(-1050, 1050);
@@ -68,16 +68,16 @@ TEST_CASE("opening: all weights sum to a power of two, and none is beyond its ty
     sf_config config;
     sf_config_init(&config);
     test::RandomShape(&config, &random);
-    const Opening opening = starfocus::OpeningOf(config);
+    const ApertureShape opening = starfocus::ShapeOf(config);
     const int n = random.Int(0, 9) == 0 ? random.Int(60, 130) : random.Int(1, 30);
-    std::vector<uint16_t> weights(starfocus::ApertureSize(opening, n));
+    std::vector<uint16_t> weights(starfocus::ViewWeightsSize(opening, n));
     std::vector<uint16_t> rest(starfocus::FullApertureSize(n));
     CAPTURE(test::ShapeText(config));
     CAPTURE(n);
     for (const bool wide : {false, true}) {
-      const Aperture whole = wide ? starfocus::MakeSubapertures(n, opening, weights.data())
-                                  : starfocus::MakeAperture(n, opening, weights.data());
-      const auto check = [&](const Aperture& aperture) {
+      const ViewWeights whole = wide ? starfocus::MakeSubapertures(n, opening, weights.data())
+                                     : starfocus::MakeViewWeights(n, opening, weights.data());
+      const auto check = [&](const ViewWeights& aperture) {
         const auto weight = [&](int i, int j) { return aperture.Weight(i, j); };
         CHECK(Total(n, weight) == int64_t{1} << aperture.sum_bits);
         int too_large = 0;
@@ -99,12 +99,12 @@ TEST_CASE("opening: all weights sum to a power of two, and none is beyond its ty
 
 TEST_CASE("opening: a rim that does not move takes nothing away") {
   for (const test::NamedShape& shape : test::kShapes) {
-    const Opening opening = starfocus::OpeningOf(ConfigOf(shape));
+    const ApertureShape opening = starfocus::ShapeOf(ConfigOf(shape));
     for (const int n : {4, 6, 11}) {
-      std::vector<uint16_t> weights(starfocus::ApertureSize(opening, n));
+      std::vector<uint16_t> weights(starfocus::ViewWeightsSize(opening, n));
       std::vector<uint16_t> rest(starfocus::FullApertureSize(n));
-      const Aperture whole = starfocus::MakeSubapertures(n, opening, weights.data());
-      const Aperture same = starfocus::MakeCatsEye(whole, opening, {}, rest.data());
+      const ViewWeights whole = starfocus::MakeSubapertures(n, opening, weights.data());
+      const ViewWeights same = starfocus::MakeCatsEye(whole, opening, {}, rest.data());
       CHECK(same.sum_bits == whole.sum_bits);
       int apart = 0;
       Total(n, [&](int i, int j) {
@@ -116,7 +116,7 @@ TEST_CASE("opening: a rim that does not move takes nothing away") {
 }
 
 TEST_CASE("opening: rims of mirrored places are mirrored, farthest in the corners") {
-  Opening opening;
+  ApertureShape opening;
   opening.cats_eye = starfocus::kOpeningOne;
   const auto shift = [&](int x, int y) {
     return starfocus::ShiftOfRim(opening, {x, y, 32, 32}, 640, 480);
@@ -138,12 +138,12 @@ TEST_CASE("opening: kernels that blur sum to exactly one through any shape") {
     sf_config config;
     sf_config_init(&config);
     test::RandomShape(&config, &random);
-    const Opening opening = starfocus::OpeningOf(config);
+    const ApertureShape opening = starfocus::ShapeOf(config);
     std::vector<uint16_t> weights(starfocus::BlurWeightCount(opening, kMost));
-    std::vector<starfocus::BlurKernel> kernels(static_cast<size_t>(steps));
-    starfocus::MakeBlurKernels(0, steps, opening, nullptr, weights.data(), kernels.data());
+    std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));
+    starfocus::MakePsfs(0, steps, opening, nullptr, weights.data(), kernels.data());
     int wrong = 0;
-    for (const starfocus::BlurKernel& kernel : kernels) {
+    for (const starfocus::Psf& kernel : kernels) {
       wrong += Total(kernel.size, [&](int n, int m) { return kernel.Weight(n, m); }) !=
                int64_t{1} << kernel.sum_bits;
     }
@@ -152,4 +152,4 @@ TEST_CASE("opening: kernels that blur sum to exactly one through any shape") {
 }
 
 }  // namespace
-}  // namespace opening_test
+}  // namespace aperture_shape_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/carver.h"
+#include "lib/base/arena.h"
 
 #ifdef STARFOCUS_RED_ZONES
 #include <sanitizer/asan_interface.h>
