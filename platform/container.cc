@@ -132,9 +132,10 @@ bool IsText(const Bytes& bytes) {
 
 }  // namespace
 
-std::string Truncated(const std::string& where, const std::string& format) {
-  return where + ": the " + format +
-         " file is truncated (expected its last part, found the end of the file)";
+Error Truncated(const std::string& where, const std::string& format) {
+  return {ErrorKind::kInput,
+          where + ": the " + format +
+              " file is truncated (expected its last part, found the end of the file)"};
 }
 
 std::string DescribeFile(const Bytes& bytes) {

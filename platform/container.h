@@ -7,6 +7,7 @@
 #include <string>
 
 #include "platform/file.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -20,7 +21,7 @@ enum class Container {
 Container CheckContainer(const Bytes& bytes);
 
 // The error of a file of that format which ends before its last part.
-std::string Truncated(const std::string& where, const std::string& format);
+Error Truncated(const std::string& where, const std::string& format);
 
 // Describes a file that is no picture this program reads, for errors: "a text file", "a GIF file",
 // "an empty file". "a file of an unknown format" if nothing is recognised.

@@ -26,14 +26,6 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 
 std::error_code Reason(int error) { return {error, std::generic_category()}; }
 
-// Replaces line breaks and other control characters, which a file's name or content may have.
-std::string OneLine(std::string line) {
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return line;
-}
-
 bool IsSpecial(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -59,9 +51,7 @@ bool IsProtected(const fs::path& target) {
   return (status.st_mode & 0222) == 0 || access(target.c_str(), W_OK) != 0;
 }
 
-std::string ReadOnly(const std::string& path) {
-  return Cannot("write", path, "the file is read-only");
-}
+Error ReadOnly(const std::string& path) { return Cannot("write", path, "the file is read-only"); }
 
 // Gives the new file the owner and permissions of the one that it will replace. False with errno
 // where that fails.
@@ -80,31 +70,31 @@ bool WriteAll(const Bytes& bytes, std::FILE* file) {
 }
 
 // A device or pipe has no other file to be replaced by.
-std::string WriteInPlace(const std::string& path, const Bytes& bytes) {
+Error WriteInPlace(const std::string& path, const Bytes& bytes) {
   File file(std::fopen(path.c_str(), "wb"));
   const bool whole = file && WriteAll(bytes, file.get()) && std::fclose(file.release()) == 0;
-  return whole ? "" : Cannot("write", path, Reason(errno));
+  return whole ? Error() : Cannot("write", path, Reason(errno));
 }
 
-std::string Replace(const std::string& path, const fs::path& target, const Bytes& bytes) {
+Error Replace(const std::string& path, const fs::path& target, const Bytes& bytes) {
   if (IsProtected(target)) return ReadOnly(path);
   TemporaryFile temporary(FolderOf(target).string());
   const bool whole = temporary.file() != nullptr && TakeStatus(target, temporary.file()) &&
                      WriteAll(bytes, temporary.file()) && temporary.MoveTo(target.string());
-  return whole ? "" : Cannot("write", path, Reason(errno));
+  return whole ? Error() : Cannot("write", path, Reason(errno));
 }
 
 // A picture of 2^28 pixels, the most that is read, has less as a PPM of 16 bits. A pipe has no size
 // to ask for, and may never end.
 constexpr uint64_t kMostBytes = uint64_t{1} << 31;
 
-std::string TooLarge(const std::string& path, uint64_t most, const std::string& found) {
-  return OneLine(path) + ": the file is too large (expected at most " + std::to_string(most) +
-         " bytes, found " + found + ")";
+Error TooLarge(const std::string& path, uint64_t most, const std::string& found) {
+  return {ErrorKind::kInput, path + ": the file is too large (expected at most " +
+                                 std::to_string(most) + " bytes, found " + found + ")"};
 }
 
 // Opens a regular file of at most `most` bytes, or a pipe, whose `size` is 0.
-std::string OpenFile(const std::string& path, uint64_t most, File* file, size_t* size) {
+Error OpenFile(const std::string& path, uint64_t most, File* file, size_t* size) {
   // Standard input is read by a handle of its own, which may be closed.
   const bool standard = path == "-";
   file->reset(standard ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
@@ -117,87 +107,65 @@ std::string OpenFile(const std::string& path, uint64_t most, File* file, size_t*
     return Cannot("read", path, "it is a device");
   }
   *size = 0;
-  if (!S_ISREG(status.st_mode)) return "";
+  if (!S_ISREG(status.st_mode)) return {};
   const auto bytes = static_cast<uint64_t>(status.st_size);
   if (bytes > most) return TooLarge(path, most, std::to_string(bytes));
   *size = static_cast<size_t>(bytes);
-  return "";
+  return {};
 }
 
 using IsWanted = bool (*)(const Bytes& beginning);
 
 // Stops after the first part if `is_wanted`, unless it is null, is false of it.
-std::string ReadAtMost(const std::string& path, uint64_t most, IsWanted is_wanted, Bytes* bytes) {
+Error ReadAtMost(const std::string& path, uint64_t most, IsWanted is_wanted, Bytes* bytes) {
   bytes->clear();
   File file;
   size_t size = 0;
-  const std::string error = OpenFile(path, most, &file, &size);
-  if (!error.empty()) return error;
+  if (Error error = OpenFile(path, most, &file, &size)) return error;
   uint8_t buffer[65536];
   for (;;) {
     const size_t got = std::fread(buffer, 1, sizeof(buffer), file.get());
     const bool first = bytes->empty();
     bytes->insert(bytes->end(), buffer, buffer + got);
-    if (first && is_wanted != nullptr && !is_wanted(*bytes)) return "";
+    if (first && is_wanted != nullptr && !is_wanted(*bytes)) return {};
     if (first) bytes->reserve(size);
     if (bytes->size() > most) return TooLarge(path, most, "more");
     if (got < sizeof(buffer)) break;
   }
-  return std::ferror(file.get()) ? Cannot("read", path, Reason(errno)) : "";
+  return std::ferror(file.get()) ? Cannot("read", path, Reason(errno)) : Error();
 }
 
 }  // namespace
 
-std::string Expected(const std::string& where, const std::string& expected,
-                     const std::string& found) {
-  return OneLine(where + ": expected " + expected + ", found " + found);
-}
-
-std::string Cannot(const std::string& action, const std::string& path, const std::string& reason) {
-  return OneLine("cannot " + action + " " + path + ": " + reason);
-}
-
-std::string Cannot(const std::string& action, const std::string& path, std::error_code reason) {
-  std::string text = reason.message();
-  if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') {
-    text[0] = static_cast<char>(text[0] - 'A' + 'a');
-  }
-  return Cannot(action, path, text);
-}
-
-std::string OutOfMemory(const std::string& where, const std::string& purpose) {
-  return Expected(where, "enough memory to " + purpose, "too little (out of memory)");
-}
-
-std::string ReadFile(const std::string& path, Bytes* bytes) {
+Error ReadFile(const std::string& path, Bytes* bytes) {
   return ReadAtMost(path, kMostBytes, nullptr, bytes);
 }
 
-std::string ReadFileIf(const std::string& path, IsWanted is_wanted, Bytes* bytes) {
+Error ReadFileIf(const std::string& path, IsWanted is_wanted, Bytes* bytes) {
   return ReadAtMost(path, kMostBytes, is_wanted, bytes);
 }
 
-std::string ReadSmallFile(const std::string& path, Bytes* bytes) {
+Error ReadSmallFile(const std::string& path, Bytes* bytes) {
   return ReadAtMost(path, kMostSmallBytes, nullptr, bytes);
 }
 
-std::string WriteFile(const std::string& path, const Bytes& bytes) {
+Error WriteFile(const std::string& path, const Bytes& bytes) {
   if (IsStandardStream(path)) {
     const bool whole = WriteAll(bytes, stdout) && std::fflush(stdout) == 0;
-    return whole ? "" : Cannot("write", path + " to standard output", Reason(errno));
+    return whole ? Error() : Cannot("write", path + " to standard output", Reason(errno));
   }
   const fs::path target = FollowLink(path);
   return IsSpecial(target) ? WriteInPlace(path, bytes) : Replace(path, target, bytes);
 }
 
-std::string CheckPlainFile(const std::string& path) {
-  return IsSpecial(path) ? Cannot("read", path, "it is a device or pipe") : "";
+Error CheckPlainFile(const std::string& path) {
+  return IsSpecial(path) ? Cannot("read", path, "it is a device or pipe") : Error();
 }
 
-std::string CheckOutputPath(const std::string& path) {
+Error CheckOutputPath(const std::string& path) {
   std::error_code error;
   if (path.empty()) return Expected("output", "a file name", "an empty one");
-  if (IsStandardStream(path)) return "";
+  if (IsStandardStream(path)) return {};
   if (fs::is_directory(path, error)) return Cannot("write", path, "it is a folder");
   const fs::path folder = FolderOf(FollowLink(path));
   const fs::file_status folder_status = fs::status(folder, error);
@@ -213,11 +181,11 @@ std::string CheckOutputPath(const std::string& path) {
   if (stat(path.c_str(), &status) != 0 && errno != ENOENT) {
     return Cannot("write", path, Reason(errno));
   }
-  if (IsSpecial(path)) return "";
+  if (IsSpecial(path)) return {};
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
     return Cannot("write into folder", folder.string(), Reason(errno));
   }
-  return IsProtected(path) ? ReadOnly(path) : "";
+  return IsProtected(path) ? ReadOnly(path) : Error();
 }
 
 std::string LowerExtension(const std::string& path) {

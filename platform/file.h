@@ -1,58 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole files in and out of memory.
-//
-// Every function of platform/ that can fail returns an error: empty for success, otherwise one
-// line that names the file and the cause.
 #ifndef STARFOCUS_PLATFORM_FILE_H_
 #define STARFOCUS_PLATFORM_FILE_H_
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <system_error>
 #include <vector>
+
+#include "platform/result.h"
 
 namespace starfocus {
 
 using Bytes = std::vector<uint8_t>;
 
-// "<where>: expected <expected>, found <found>", with line breaks and control characters removed.
-std::string Expected(const std::string& where, const std::string& expected,
-                     const std::string& found);
-
-// "cannot <action> <path>: <reason>", with control characters removed. A system's reason begins in
-// lower case: "cannot read photo.jpg: permission denied".
-std::string Cannot(const std::string& action, const std::string& path, const std::string& reason);
-std::string Cannot(const std::string& action, const std::string& path, std::error_code reason);
-
-// The error of whoever caught std::bad_alloc: "<where>: expected enough memory to <purpose>, ...".
-std::string OutOfMemory(const std::string& where, const std::string& purpose);
-
 // Reads a regular file or a pipe of at most 2 GiB. Rejects folders and devices: a device such as
 // /dev/zero never ends. "-" is standard input, here and below.
-std::string ReadFile(const std::string& path, Bytes* bytes);
+Error ReadFile(const std::string& path, Bytes* bytes);
 
 // The same of a file that is wanted only if its first 64 KiB say so: of any other file `bytes` gets
 // these alone, so that a file of another kind costs no memory and a stream of it ends.
-std::string ReadFileIf(const std::string& path, bool (*is_wanted)(const Bytes& beginning),
-                       Bytes* bytes);
+Error ReadFileIf(const std::string& path, bool (*is_wanted)(const Bytes& beginning), Bytes* bytes);
 
 // Reads a file of at most kMostSmallBytes: timings, calibrations and other texts.
 constexpr size_t kMostSmallBytes = size_t{1} << 20;
-std::string ReadSmallFile(const std::string& path, Bytes* bytes);
+Error ReadSmallFile(const std::string& path, Bytes* bytes);
 
 // Writes to a temporary file in the same folder and renames it, so that `path` holds either what
 // it held before or all of `bytes`. A file that is there keeps its owner and permissions, and a
 // read-only one is refused. A device or pipe is written in place, and standard output
 // (standard_stream.h).
-std::string WriteFile(const std::string& path, const Bytes& bytes);
+Error WriteFile(const std::string& path, const Bytes& bytes);
 
 // Whether a later WriteFile can be expected to work: the folder exists and may be written into, its
 // file system takes the name, and `path` is neither a folder nor read-only.
-std::string CheckOutputPath(const std::string& path);
+Error CheckOutputPath(const std::string& path);
 
 // Whether `path` is no device or pipe, which could keep its reader waiting for ever.
-std::string CheckPlainFile(const std::string& path);
+Error CheckPlainFile(const std::string& path);
 
 // The extension in lower case with its dot; empty when there is none.
 std::string LowerExtension(const std::string& path);

@@ -9,7 +9,7 @@
 
 namespace starfocus {
 
-std::string ListFolder(const std::string& folder, std::vector<std::string>* names) {
+Error ListFolder(const std::string& folder, std::vector<std::string>* names) {
   constexpr size_t kMostFiles = 100000;
   std::error_code error;
   std::filesystem::directory_iterator at(folder, error);
@@ -23,14 +23,14 @@ std::string ListFolder(const std::string& folder, std::vector<std::string>* name
   if (error == std::errc::not_enough_memory) return OutOfMemory(folder, "list its files");
   if (error) return Cannot("read folder", folder, error);
   std::sort(names->begin(), names->end());
-  return "";
+  return {};
 }
 
-std::string MakeFolder(const std::string& folder) {
+Error MakeFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return Cannot("create folder", folder, error);
-  if (std::filesystem::is_directory(folder, error)) return "";
+  if (std::filesystem::is_directory(folder, error)) return {};
   return Cannot("create folder", folder, "a file of that name exists");
 }
 

@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "platform/result.h"
+
 namespace starfocus {
 
 // The names of everything in a folder of at most 100 000, sorted.
-std::string ListFolder(const std::string& folder, std::vector<std::string>* names);
+Error ListFolder(const std::string& folder, std::vector<std::string>* names);
 
 // Makes the folder and those above it, unless it is there.
-std::string MakeFolder(const std::string& folder);
+Error MakeFolder(const std::string& folder);
 
 }  // namespace starfocus
 

@@ -41,7 +41,7 @@ bool Fits(PixelField field, int bits) {
   return field.length >= 1 && field.length <= 16 && field.offset + field.length <= bits;
 }
 
-std::string Map(const std::string& path, int file, Screen* screen, size_t* bytes, void** memory) {
+Error Map(const std::string& path, int file, Screen* screen, size_t* bytes, void** memory) {
   fb_var_screeninfo shown = {};
   fb_fix_screeninfo fixed = {};
   if (ioctl(file, FBIOGET_VSCREENINFO, &shown) != 0 ||
@@ -72,7 +72,7 @@ std::string Map(const std::string& path, int file, Screen* screen, size_t* bytes
   *memory = mmap(nullptr, *bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   if (*memory == MAP_FAILED) return Expected(path, "mappable memory", std::strerror(errno));
   screen->memory = static_cast<uint8_t*>(*memory) + first;
-  return "";
+  return {};
 }
 
 }  // namespace
@@ -92,14 +92,14 @@ void Draw(const Image& picture, const Screen& screen) {
   }
 }
 
-std::string ShowOnFramebuffer(const std::string& path, const Image& picture) {
+Error ShowOnFramebuffer(const std::string& path, const Image& picture) {
   const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) return Expected(path, "a framebuffer", std::strerror(errno));
   Screen screen;
   size_t bytes = 0;
   void* memory = nullptr;
-  const std::string error = Map(path, file, &screen, &bytes, &memory);
-  if (error.empty()) {
+  const Error error = Map(path, file, &screen, &bytes, &memory);
+  if (!error) {
     Draw(picture, screen);
     munmap(memory, bytes);
   }

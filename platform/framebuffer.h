@@ -8,6 +8,7 @@
 #include <string>
 
 #include "platform/image.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -29,7 +30,7 @@ struct Screen {
 void Draw(const Image& picture, const Screen& screen);
 
 // Draws the picture on the framebuffer device `path`.
-std::string ShowOnFramebuffer(const std::string& path, const Image& picture);
+Error ShowOnFramebuffer(const std::string& path, const Image& picture);
 
 }  // namespace starfocus
 

@@ -48,10 +48,10 @@ Bytes ReadAll(std::FILE* file) {
 
 bool HasGnuplot() {
   Bytes ignored;
-  return RunGnuplot("gnuplot", "set terminal svg\n", &ignored).empty();
+  return !RunGnuplot("gnuplot", "set terminal svg\n", &ignored);
 }
 
-std::string RunGnuplot(const std::string& what, const std::string& script, Bytes* picture) {
+Error RunGnuplot(const std::string& what, const std::string& script, Bytes* picture) {
   const TempFile in(std::tmpfile()), out(std::tmpfile()), err(std::tmpfile());
   if (!in || !out || !err) return Expected(what, "room for temporary files", "none");
   const bool written = std::fwrite(script.data(), 1, script.size(), in.get()) == script.size();
@@ -64,7 +64,7 @@ std::string RunGnuplot(const std::string& what, const std::string& script, Bytes
                     code < 0 ? "no gnuplot" : std::string(words.begin(), words.end()));
   }
   *picture = ReadAll(out.get());
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "platform/file.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -14,7 +15,7 @@ bool HasGnuplot();
 
 // Runs gnuplot on `script`, whose data are inline and whose output goes to stdout, into *picture.
 // No shell and no file name is involved. Errors name `what`.
-std::string RunGnuplot(const std::string& what, const std::string& script, Bytes* picture);
+Error RunGnuplot(const std::string& what, const std::string& script, Bytes* picture);
 
 }  // namespace starfocus
 

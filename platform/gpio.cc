@@ -28,7 +28,7 @@ std::string ChipPath(const std::string& chip) {
 std::string Number(int64_t value) { return std::to_string(value); }
 
 // What went wrong with `where`, from errno.
-std::string Failure(const std::string& where, const std::string& expected) {
+Error Failure(const std::string& where, const std::string& expected) {
   const int code = errno;
   if (code == EBUSY) return Expected(where, expected, "a line that another program holds");
   if (code == EACCES || code == EPERM) {
@@ -47,19 +47,19 @@ using Chip = std::unique_ptr<gpiod_chip, CloseChip>;
 
 int LineCount(gpiod_chip* chip);
 
-std::string OpenChip(const std::string& name, Chip* chip) {
+Error OpenChip(const std::string& name, Chip* chip) {
   const std::string path = ChipPath(name);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     return Expected(path, "a GPIO chip (--list shows them)", "nothing");
   }
   chip->reset(gpiod_chip_open(path.c_str()));
-  return *chip == nullptr ? Failure(path, "a GPIO chip (--list shows them)") : "";
+  return *chip == nullptr ? Failure(path, "a GPIO chip (--list shows them)") : Error();
 }
 
-std::string CheckLine(const std::string& chip_name, gpiod_chip* chip, int line) {
+Error CheckLine(const std::string& chip_name, gpiod_chip* chip, int line) {
   const int count = LineCount(chip);
-  if (line >= 0 && line < count) return "";
+  if (line >= 0 && line < count) return {};
   return Expected(ChipPath(chip_name), "lines 0 to " + Number(count - 1), Number(line));
 }
 
@@ -141,22 +141,22 @@ struct FreeBuffer {
 
 }  // namespace
 
-std::string ListGpioChips(std::vector<GpioChip>* chips) {
+Error ListGpioChips(std::vector<GpioChip>* chips) {
   std::vector<std::string> paths;
   std::error_code failure;
   for (const auto& entry : std::filesystem::directory_iterator("/dev", failure)) {
     if (entry.path().filename().string().rfind("gpiochip", 0) == 0) paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
-  std::string error;
+  Error error;
   for (const std::string& path : paths) {
     Chip chip;
-    const std::string refused = OpenChip(path, &chip);
-    if (refused.empty()) chips->push_back(Describe(chip.get()));
-    if (error.empty()) error = refused;
+    const Error refused = OpenChip(path, &chip);
+    if (!refused) chips->push_back(Describe(chip.get()));
+    if (!error) error = refused;
   }
-  if (!chips->empty()) return "";
-  return error.empty() ? Expected("/dev", "a GPIO chip (gpiochip0, ...)", "none") : error;
+  if (!chips->empty()) return {};
+  return error ? error : Expected("/dev", "a GPIO chip (gpiochip0, ...)", "none");
 }
 
 GpioInputs::GpioInputs() = default;
@@ -179,16 +179,13 @@ struct GpioOutput::Line {
   gpiod_line* line;
 };
 
-std::string GpioInputs::Open(const std::string& chip, const std::vector<int>& lines,
-                             GpioBias bias) {
+Error GpioInputs::Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias) {
   auto opened = std::make_unique<Lines>();
   opened->name = ChipPath(chip);
-  std::string error = OpenChip(chip, &opened->chip);
-  if (!error.empty()) return error;
+  if (Error error = OpenChip(chip, &opened->chip)) return error;
   gpiod_line_bulk_init(&opened->bulk);
   for (const int line : lines) {
-    error = CheckLine(chip, opened->chip.get(), line);
-    if (!error.empty()) return error;
+    if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
     gpiod_line* found = gpiod_chip_get_line(opened->chip.get(), static_cast<unsigned>(line));
     // One by one, so that the message can tell which line is taken.
     if (found == nullptr ||
@@ -198,18 +195,18 @@ std::string GpioInputs::Open(const std::string& chip, const std::vector<int>& li
     gpiod_line_bulk_add(&opened->bulk, found);
   }
   lines_ = std::move(opened);
-  return "";
+  return {};
 }
 
-std::string GpioInputs::Read(int line, bool* high) {
+Error GpioInputs::Read(int line, bool* high) {
   gpiod_line* found = gpiod_chip_get_line(lines_->chip.get(), static_cast<unsigned>(line));
   const int value = found == nullptr ? -1 : gpiod_line_get_value(found);
   if (value < 0) return Failure(LineName(lines_->name, line), "a readable line");
   *high = value != 0;
-  return "";
+  return {};
 }
 
-std::string GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
+Error GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
   edges->clear();
   const timespec limit = {timeout / 1000, timeout % 1000 * 1000000L};
   gpiod_line_bulk ready;
@@ -234,33 +231,32 @@ std::string GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
   std::stable_sort(edges->begin(), edges->end(), [](const GpioEdge& a, const GpioEdge& b) {
     return a.nanoseconds < b.nanoseconds;
   });
-  return "";
+  return {};
 }
 
-std::string GpioOutput::Open(const std::string& chip, int line) {
+Error GpioOutput::Open(const std::string& chip, int line) {
   auto opened = std::make_unique<Line>();
   opened->name = LineName(chip, line);
-  std::string error = OpenChip(chip, &opened->chip);
-  if (error.empty()) error = CheckLine(chip, opened->chip.get(), line);
-  if (!error.empty()) return error;
+  if (Error error = OpenChip(chip, &opened->chip)) return error;
+  if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
   opened->line = gpiod_chip_get_line(opened->chip.get(), static_cast<unsigned>(line));
   if (opened->line == nullptr || gpiod_line_request_output(opened->line, kConsumer, 0) != 0) {
     return Failure(opened->name, "a free output");
   }
   line_ = std::move(opened);
-  return "";
+  return {};
 }
 
-std::string GpioOutput::Set(bool high) {
-  if (gpiod_line_set_value(line_->line, high ? 1 : 0) == 0) return "";
+Error GpioOutput::Set(bool high) {
+  if (gpiod_line_set_value(line_->line, high ? 1 : 0) == 0) return {};
   return Failure(line_->name, "an output that can be set");
 }
 
-std::string GpioOutput::Read(bool* high) {
+Error GpioOutput::Read(bool* high) {
   const int value = gpiod_line_get_value(line_->line);
   if (value < 0) return Failure(line_->name, "a readable line");
   *high = value != 0;
-  return "";
+  return {};
 }
 
 #else
@@ -279,16 +275,13 @@ struct GpioOutput::Line {
   LineRequest request;
 };
 
-std::string GpioInputs::Open(const std::string& chip, const std::vector<int>& lines,
-                             GpioBias bias) {
+Error GpioInputs::Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias) {
   auto opened = std::make_unique<Lines>();
   opened->name = ChipPath(chip);
-  std::string error = OpenChip(chip, &opened->chip);
-  if (!error.empty()) return error;
+  if (Error error = OpenChip(chip, &opened->chip)) return error;
   std::string names;
   for (const int line : lines) {
-    error = CheckLine(chip, opened->chip.get(), line);
-    if (!error.empty()) return error;
+    if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
     names += (names.empty() ? " line " : ", ") + Number(line);
   }
   gpiod_line_settings* settings = gpiod_line_settings_new();
@@ -304,25 +297,25 @@ std::string GpioInputs::Open(const std::string& chip, const std::vector<int>& li
   opened->buffer.reset(gpiod_edge_event_buffer_new(lines.size() * kEdgesAtOnce));
   if (opened->buffer == nullptr) return Failure(opened->name, "memory for edges");
   lines_ = std::move(opened);
-  return "";
+  return {};
 }
 
-std::string GpioInputs::Read(int line, bool* high) {
+Error GpioInputs::Read(int line, bool* high) {
   const gpiod_line_value value =
       gpiod_line_request_get_value(lines_->request.get(), static_cast<unsigned>(line));
   if (value == GPIOD_LINE_VALUE_ERROR) {
     return Failure(LineName(lines_->name, line), "a readable line");
   }
   *high = value == GPIOD_LINE_VALUE_ACTIVE;
-  return "";
+  return {};
 }
 
-std::string GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
+Error GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
   edges->clear();
   const int64_t limit = timeout < 0 ? -1 : int64_t{timeout} * 1000000;
   const int result = gpiod_line_request_wait_edge_events(lines_->request.get(), limit);
   if (result < 0) return Failure(lines_->name, "edges of its lines");
-  if (result == 0) return "";
+  if (result == 0) return {};
   const int count = gpiod_line_request_read_edge_events(
       lines_->request.get(), lines_->buffer.get(),
       gpiod_edge_event_buffer_get_capacity(lines_->buffer.get()));
@@ -334,16 +327,15 @@ std::string GpioInputs::Wait(int timeout, std::vector<GpioEdge>* edges) {
                       gpiod_edge_event_get_event_type(event) == GPIOD_EDGE_EVENT_RISING_EDGE,
                       static_cast<int64_t>(gpiod_edge_event_get_timestamp_ns(event))});
   }
-  return "";
+  return {};
 }
 
-std::string GpioOutput::Open(const std::string& chip, int line) {
+Error GpioOutput::Open(const std::string& chip, int line) {
   auto opened = std::make_unique<Line>();
   opened->name = LineName(chip, line);
   opened->offset = static_cast<unsigned>(line);
-  std::string error = OpenChip(chip, &opened->chip);
-  if (error.empty()) error = CheckLine(chip, opened->chip.get(), line);
-  if (!error.empty()) return error;
+  if (Error error = OpenChip(chip, &opened->chip)) return error;
+  if (Error error = CheckLine(chip, opened->chip.get(), line)) return error;
   gpiod_line_settings* settings = gpiod_line_settings_new();
   if (settings != nullptr) {
     gpiod_line_settings_set_direction(settings, GPIOD_LINE_DIRECTION_OUTPUT);
@@ -352,20 +344,20 @@ std::string GpioOutput::Open(const std::string& chip, int line) {
   opened->request.reset(Request(opened->chip.get(), {line}, settings));
   if (opened->request == nullptr) return Failure(opened->name, "a free output");
   line_ = std::move(opened);
-  return "";
+  return {};
 }
 
-std::string GpioOutput::Set(bool high) {
+Error GpioOutput::Set(bool high) {
   const gpiod_line_value value = high ? GPIOD_LINE_VALUE_ACTIVE : GPIOD_LINE_VALUE_INACTIVE;
-  if (gpiod_line_request_set_value(line_->request.get(), line_->offset, value) == 0) return "";
+  if (gpiod_line_request_set_value(line_->request.get(), line_->offset, value) == 0) return {};
   return Failure(line_->name, "an output that can be set");
 }
 
-std::string GpioOutput::Read(bool* high) {
+Error GpioOutput::Read(bool* high) {
   const gpiod_line_value value = gpiod_line_request_get_value(line_->request.get(), line_->offset);
   if (value == GPIOD_LINE_VALUE_ERROR) return Failure(line_->name, "a readable line");
   *high = value == GPIOD_LINE_VALUE_ACTIVE;
-  return "";
+  return {};
 }
 
 #endif

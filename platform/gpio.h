@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "platform/result.h"
+
 namespace starfocus {
 
 struct GpioChip {
@@ -18,7 +20,7 @@ struct GpioChip {
 };
 
 // Every chip this user may open, and an error when there is none.
-std::string ListGpioChips(std::vector<GpioChip>* chips);
+Error ListGpioChips(std::vector<GpioChip>* chips);
 
 enum class GpioBias { kAsIs, kPullUp, kPullDown };
 
@@ -34,12 +36,12 @@ class GpioInputs {
  public:
   GpioInputs();
   ~GpioInputs();
-  std::string Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias);
+  Error Open(const std::string& chip, const std::vector<int>& lines, GpioBias bias);
   // Level of a line now.
-  std::string Read(int line, bool* high);
+  Error Read(int line, bool* high);
   // Waits for edges; empty after `timeout` milliseconds without one (-1: no limit). They come in
   // the order of their times. The kernel drops edges when more than 16 per line wait.
-  std::string Wait(int timeout, std::vector<GpioEdge>* edges);
+  Error Wait(int timeout, std::vector<GpioEdge>* edges);
 
  private:
   struct Lines;
@@ -51,10 +53,10 @@ class GpioOutput {
  public:
   GpioOutput();
   ~GpioOutput();
-  std::string Open(const std::string& chip, int line);
-  std::string Set(bool high);
+  Error Open(const std::string& chip, int line);
+  Error Set(bool high);
   // The level on the line itself, where the chip can read its outputs.
-  std::string Read(bool* high);
+  Error Read(bool* high);
 
  private:
   struct Line;

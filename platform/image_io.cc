@@ -30,37 +30,35 @@ bool CanHold(const Bytes& png, const PngHeader& header) {
 }
 
 // The header of a PNG file whose pixels there is room for.
-std::string CheckPngHeader(const std::string& path, const Bytes& png, PngHeader* header) {
+Error CheckPngHeader(const std::string& path, const Bytes& png, PngHeader* header) {
   if (!ReadPngHeader(png, header)) {
     return Expected(path, "a PNG picture that begins with its header", "none there");
   }
-  const std::string error = CheckPictureSize(path, header->width, header->height);
-  if (!error.empty()) return error;
-  return CanHold(png, *header) ? "" : Truncated(path, "PNG");
+  if (Error error = CheckPictureSize(path, header->width, header->height)) return error;
+  return CanHold(png, *header) ? Error() : Truncated(path, "PNG");
 }
 
-std::string DecodePng(const std::string& path, const Bytes& bytes, Image* image,
-                      Metadata* metadata) {
+Error DecodePng(const std::string& path, const Bytes& bytes, Image* image, Metadata* metadata) {
   if (IsTruncatedPng(bytes)) return Truncated(path, "PNG");
   PngHeader header;
-  const std::string error = CheckPngHeader(path, bytes, &header);
-  return error.empty() ? DecodePngPixels(path, bytes, image, metadata) : error;
+  if (Error error = CheckPngHeader(path, bytes, &header)) return error;
+  return DecodePngPixels(path, bytes, image, metadata);
 }
 
 bool IsJpegStart(const Bytes& bytes) {
   return bytes.size() >= 2 && bytes[0] == 0xff && bytes[1] == 0xd8;
 }
 
-std::string CheckExtension(const std::string& path) {
+Error CheckExtension(const std::string& path) {
   const std::string extension = FormatExtension(path);
-  if (IsPictureExtension(extension)) return "";
+  if (IsPictureExtension(extension)) return {};
   return Expected(path, std::string("a name ending in ") + kPictureExtensions,
                   extension.empty() ? "no extension" : extension);
 }
 
 }  // namespace
 
-std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image, Metadata* metadata) {
+Error DecodeImage(const std::string& where, Bytes* bytes, Image* image, Metadata* metadata) {
   if (bytes->empty()) return Expected(where, kFormats, "an empty file");
   if (bytes->front() == 'P') return DecodePpm(where, *bytes, image);
   if (bytes->size() > INT_MAX) return Expected(where, "a file below 2 GiB", "a larger one");
@@ -72,33 +70,32 @@ std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image, Me
                              : Expected(where, kFormats, DescribeFile(*bytes));
 }
 
-std::string ReadImage(const std::string& path, Image* image) {
+Error ReadImage(const std::string& path, Image* image) {
   try {
     Bytes bytes;
-    const std::string error = ReadFileIf(path, MayBePicture, &bytes);
-    return error.empty() ? DecodeImage(path, &bytes, image) : error;
+    if (Error error = ReadFileIf(path, MayBePicture, &bytes)) return error;
+    return DecodeImage(path, &bytes, image);
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");
   }
 }
 
-std::string WriteImage(const std::string& path, const Image& image, const PictureOptions& options) {
-  std::string error = CheckExtension(path);
-  if (!error.empty()) return error;
+Error WriteImage(const std::string& path, const Image& image, const PictureOptions& options) {
+  if (Error error = CheckExtension(path)) return error;
   try {
     Bytes bytes;
-    error = EncodePicture(path, image, options, &bytes);
-    return error.empty() ? WriteFile(path, bytes) : error;
+    if (Error error = EncodePicture(path, image, options, &bytes)) return error;
+    return WriteFile(path, bytes);
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "write it");
   }
 }
 
-std::string CheckImageOutput(const std::string& path) {
-  std::string error = CheckExtension(path);
-  if (error.empty()) error = CheckOutputPath(path);
-  if (error.empty() && FormatExtension(path) == ".webp") error = WebpWriter::Check(path, 1, 1);
-  if (error.empty() && IsStandardStream(path) && isatty(STDOUT_FILENO) == 1) {
+Error CheckImageOutput(const std::string& path) {
+  Error error = CheckExtension(path);
+  if (!error) error = CheckOutputPath(path);
+  if (!error && FormatExtension(path) == ".webp") error = WebpWriter::Check(path, 1, 1);
+  if (!error && IsStandardStream(path) && isatty(STDOUT_FILENO) == 1) {
     error = Expected(path, "a file or pipe for a picture", "a terminal");
   }
   return error;

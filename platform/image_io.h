@@ -8,27 +8,27 @@
 #include "platform/file.h"
 #include "platform/image.h"
 #include "platform/metadata.h"
+#include "platform/result.h"
 #include "platform/writers/picture.h"
 
 namespace starfocus {
 
 // Reads a picture, whatever its name says, by its content. Grey and CMYK become RGB, alpha is
 // dropped. Pictures may have 2^28 pixels, here and below.
-std::string ReadImage(const std::string& path, Image* image);
+Error ReadImage(const std::string& path, Image* image);
 
 // The same of bytes in memory, which may be changed; `where` only names them in the error.
 // `metadata`, unless it is null, gets the profile, EXIF and whole XMP packet of PNG and WebP files;
 // those of JPEG files are read with the other segments (readers/jpeg_parts.h).
-std::string DecodeImage(const std::string& where, Bytes* bytes, Image* image,
-                        Metadata* metadata = nullptr);
+Error DecodeImage(const std::string& where, Bytes* bytes, Image* image,
+                  Metadata* metadata = nullptr);
 
 // Writes by extension (writers/picture.h).
-std::string WriteImage(const std::string& path, const Image& image,
-                       const PictureOptions& options = {});
+Error WriteImage(const std::string& path, const Image& image, const PictureOptions& options = {});
 
 // Whether WriteImage knows the extension of `path`, this program was built with what writes it, and
 // its folder exists; to be asked before long work.
-std::string CheckImageOutput(const std::string& path);
+Error CheckImageOutput(const std::string& path);
 
 }  // namespace starfocus
 

@@ -29,8 +29,8 @@ enum class Alpha {
 
 // Grey levels of interleaved samples of 1 (grey) to 4 (RGB and alpha) channels.
 template <class Sample>
-std::string TakeGrey(const std::string& where, const Sample* pixel, int channels, Alpha alpha,
-                     Samples* result) {
+Error TakeGrey(const std::string& where, const Sample* pixel, int channels, Alpha alpha,
+               Samples* result) {
   const bool has_alpha = channels % 2 == 0, is_grey = channels < 3;
   const size_t count = size_t(result->map.width) * size_t(result->map.height);
   size_t coloured = 0;
@@ -49,14 +49,13 @@ std::string TakeGrey(const std::string& where, const Sample* pixel, int channels
       result->map.values.push_back(static_cast<float>(pixel[0] + pixel[1] + pixel[2]) / 3);
     }
   }
-  if (coloured * kColouredPart < count) return "";
+  if (coloured * kColouredPart < count) return {};
   return Expected(where, "a picture in grey levels",
                   "one in colours: false colours do not say what is nearer");
 }
 
 // Decodes a PNG file that DecodeImage has read without an error.
-std::string DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha,
-                             Samples* result) {
+Error DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha, Samples* result) {
   PngHeader header = {};
   ReadPngHeader(bytes, &header);
   constexpr int kHasAlpha = 4;  // this bit of the colour type
@@ -81,54 +80,51 @@ std::string DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha
                   "a broken one (" + std::string(stbi_failure_reason()) + ")");
 }
 
-std::string Decode(const std::string& where, Alpha alpha, Bytes* bytes, Samples* samples) {
+Error Decode(const std::string& where, Alpha alpha, Bytes* bytes, Samples* samples) {
   Samples result;
-  std::string error;
   if (!bytes->empty() && bytes->front() == 'P') {
     PnmSamples pnm;
-    error = DecodePnmSamples(where, *bytes, &pnm);
-    if (!error.empty()) return error;
+    if (Error error = DecodePnmSamples(where, *bytes, &pnm)) return error;
     result.map.width = pnm.width;
     result.map.height = pnm.height;
     result.largest = pnm.largest;
-    error = TakeGrey(where, pnm.samples.data(), pnm.channels, alpha, &result);
+    if (Error error = TakeGrey(where, pnm.samples.data(), pnm.channels, alpha, &result)) {
+      return error;
+    }
   } else {
     const Bytes file = IsPng(*bytes) ? *bytes : Bytes();  // DecodeImage changes palettes
     Image image;
-    error = DecodeImage(where, bytes, &image);
-    if (!error.empty()) return error;
+    if (Error error = DecodeImage(where, bytes, &image)) return error;
     result.map.width = image.width;
     result.map.height = image.height;
     result.largest = 255;
     if (file.empty()) {
-      error = TakeGrey(where, image.pixels.data(), 3, alpha, &result);
+      if (Error error = TakeGrey(where, image.pixels.data(), 3, alpha, &result)) return error;
     } else {
       image = {};  // makes room
-      error = DecodePngSamples(where, file, alpha, &result);
+      if (Error error = DecodePngSamples(where, file, alpha, &result)) return error;
     }
   }
-  if (error.empty()) *samples = std::move(result);
-  return error;
+  *samples = std::move(result);
+  return {};
 }
 
 }  // namespace
 
-std::string DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes,
-                          Samples* samples) {
+Error DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes, Samples* samples) {
   return Decode(where, use_alpha ? Alpha::kTransparent : Alpha::kIgnored, bytes, samples);
 }
 
-std::string DecodeCoverage(const std::string& where, Bytes* bytes, Samples* samples) {
+Error DecodeCoverage(const std::string& where, Bytes* bytes, Samples* samples) {
   return Decode(where, Alpha::kTaken, bytes, samples);
 }
 
-std::string DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels) {
+Error DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels) {
   Samples samples;
-  const std::string error = DecodeSamples(where, true, bytes, &samples);
-  if (!error.empty()) return error;
+  if (Error error = DecodeSamples(where, true, bytes, &samples)) return error;
   for (float& value : samples.map.values) value /= static_cast<float>(samples.largest);
   *levels = std::move(samples.map);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

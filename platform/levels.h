@@ -8,6 +8,7 @@
 
 #include "platform/file.h"
 #include "platform/pfm.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -18,13 +19,13 @@ struct Samples {
 
 // Decodes the samples. `where` only names the file in errors; `bytes` may be changed. With
 // `use_alpha`, pixels less than half opaque (alpha channel or tRNS) are NaN.
-std::string DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes, Samples* samples);
+Error DecodeSamples(const std::string& where, bool use_alpha, Bytes* bytes, Samples* samples);
 
 // Decodes coverage as samples of a PNG file's alpha channel, or of another picture's grey levels.
-std::string DecodeCoverage(const std::string& where, Bytes* bytes, Samples* samples);
+Error DecodeCoverage(const std::string& where, Bytes* bytes, Samples* samples);
 
 // Decodes the levels, 0 to 1; NaN where the picture is transparent.
-std::string DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels);
+Error DecodeLevels(const std::string& where, Bytes* bytes, FloatMap* levels);
 
 }  // namespace starfocus
 

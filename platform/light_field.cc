@@ -35,7 +35,7 @@ struct SaveJob {
   const std::string& folder;
   const LightField& light_field;
   const Positions positions;
-  std::vector<std::string> errors;  // of each view
+  std::vector<Error> errors;  // of each view
   Progress progress;
 
   static void Run(void* data, int32_t index, int32_t) {
@@ -49,28 +49,28 @@ struct SaveJob {
 struct LoadJob {
   const std::vector<ViewFile>& files;
   std::vector<Image>* views;
-  std::vector<std::string> errors;  // of each view
+  std::vector<Error> errors;  // of each view
   Progress progress;
 
   static void Run(void* data, int32_t index, int32_t) {
     LoadJob* self = static_cast<LoadJob*>(data);
     const std::string& path = self->files[size_t(index)].path;
-    std::string* error = &self->errors[size_t(index)];
+    Error* error = &self->errors[size_t(index)];
     *error = CheckPlainFile(path);
-    if (error->empty()) *error = ReadImage(path, &(*self->views)[size_t(index)]);
+    if (!*error) *error = ReadImage(path, &(*self->views)[size_t(index)]);
     self->progress.Step();
   }
 };
 
-std::string SaveCoverage(const std::string& folder, const LightField& light_field) {
+Error SaveCoverage(const std::string& folder, const LightField& light_field) {
   GreyImage image;
   image.width = light_field.views[0].width;
   image.height = light_field.views[0].height;
   image.levels.assign(light_field.coverage.begin(), light_field.coverage.end());
   const std::string path = Join(folder, kCoverageName);
   Bytes png;
-  const std::string error = EncodeGreyPng(path, image, &png);
-  return error.empty() ? WriteFile(path, png) : error;
+  if (Error error = EncodeGreyPng(path, image, &png)) return error;
+  return WriteFile(path, png);
 }
 
 }  // namespace
@@ -105,9 +105,10 @@ std::vector<std::string> LightFieldFiles(const std::string& folder) {
   return files;
 }
 
-std::string ReadDisparity(const std::string& folder, FloatMap* map) {
-  const std::string path = DisparityPath(folder), error = CheckPlainFile(path);
-  return error.empty() ? ReadPfm(path, map) : error;
+Error ReadDisparity(const std::string& folder, FloatMap* map) {
+  const std::string path = DisparityPath(folder);
+  if (Error error = CheckPlainFile(path)) return error;
+  return ReadPfm(path, map);
 }
 
 bool HasDisparity(const std::string& folder) {
@@ -115,14 +116,14 @@ bool HasDisparity(const std::string& folder) {
   return fs::exists(DisparityPath(folder), error);
 }
 
-std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
-                          ThreadRunner* runner) {
+Error LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
+                    ThreadRunner* runner) {
   LightField result;
   for (const ViewFile& file : files) result.positions.push_back(file.position);
   result.views.resize(files.size());
   LoadJob load = {files,
                   &result.views,
-                  std::vector<std::string>(files.size()),
+                  std::vector<Error>(files.size()),
                   {"reading views", static_cast<int64_t>(files.size())}};
   const auto count = static_cast<int32_t>(files.size());
   if (runner != nullptr) {
@@ -131,7 +132,7 @@ std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_
     for (int32_t k = 0; k < count; ++k) LoadJob::Run(&load, k, 0);
   }
   for (size_t k = 0; k < files.size(); ++k) {
-    if (!load.errors[k].empty()) return load.errors[k];
+    if (load.errors[k]) return load.errors[k];
     const Image &centre = result.views[0], &view = result.views[k];
     if (view.width != centre.width || view.height != centre.height) {
       return Expected(files[k].path, SizeText(centre.width, centre.height) + " as the centre view",
@@ -139,31 +140,31 @@ std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_
     }
   }
   *light_field = std::move(result);
-  return "";
+  return {};
 }
 
-std::string LoadCaptured(const std::string& folder, const Positions& wanted,
-                         LightField* light_field, ThreadRunner* runner) {
+Error LoadCaptured(const std::string& folder, const Positions& wanted, LightField* light_field,
+                   ThreadRunner* runner) {
   std::vector<ViewFile> files;
-  const std::string error = ChooseViewFiles(folder, wanted, &files);
-  return error.empty() ? LoadViewFiles(files, light_field, runner) : error;
+  if (Error error = ChooseViewFiles(folder, wanted, &files)) return error;
+  return LoadViewFiles(files, light_field, runner);
 }
 
-std::string LoadMap(const std::string& path, LightField* light_field) {
+Error LoadMap(const std::string& path, LightField* light_field) {
   FloatMap map;
-  std::string error = CheckPlainFile(path);
-  if (error.empty()) error = ReadPfm(path, &map);
-  return error.empty() ? TakeMap(path, std::move(map), light_field) : error;
+  if (Error error = CheckPlainFile(path)) return error;
+  if (Error error = ReadPfm(path, &map)) return error;
+  return TakeMap(path, std::move(map), light_field);
 }
 
-std::string TakeMap(const std::string& path, FloatMap map, LightField* light_field) {
+Error TakeMap(const std::string& path, FloatMap map, LightField* light_field) {
   const Image& centre = light_field->views[0];
   if (map.width != centre.width || map.height != centre.height) {
     return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
                     SizeText(map.width, map.height));
   }
   light_field->disparity = std::move(map);
-  return "";
+  return {};
 }
 
 std::string CoveragePath(const std::string& folder) {
@@ -172,13 +173,12 @@ std::string CoveragePath(const std::string& folder) {
   return fs::exists(path, error) ? path : "";
 }
 
-std::string LoadCoverage(const std::string& path, LightField* light_field) {
+Error LoadCoverage(const std::string& path, LightField* light_field) {
   Bytes bytes;
   Samples samples;
-  std::string error = CheckPlainFile(path);
-  if (error.empty()) error = ReadFile(path, &bytes);
-  if (error.empty()) error = DecodeCoverage(path, &bytes, &samples);
-  if (!error.empty()) return error;
+  if (Error error = CheckPlainFile(path)) return error;
+  if (Error error = ReadFile(path, &bytes)) return error;
+  if (Error error = DecodeCoverage(path, &bytes, &samples)) return error;
   const Image& centre = light_field->views[0];
   if (samples.map.width != centre.width || samples.map.height != centre.height) {
     return Expected(path, SizeText(centre.width, centre.height) + " as the centre view",
@@ -189,41 +189,39 @@ std::string LoadCoverage(const std::string& path, LightField* light_field) {
   for (const float value : samples.map.values) {
     light_field->coverage.push_back(static_cast<uint8_t>(value * scale + 0.5F));
   }
-  return "";
+  return {};
 }
 
-std::string LoadLightField(const std::string& folder, const Positions& wanted,
-                           LightField* light_field, ThreadRunner* runner) {
+Error LoadLightField(const std::string& folder, const Positions& wanted, LightField* light_field,
+                     ThreadRunner* runner) {
   LightField result;
-  std::string error = LoadCaptured(folder, wanted, &result, runner);
-  if (error.empty()) error = LoadMap(DisparityPath(folder), &result);
+  Error error = LoadCaptured(folder, wanted, &result, runner);
+  if (!error) error = LoadMap(DisparityPath(folder), &result);
   const std::string coverage = CoveragePath(folder);
-  if (error.empty() && !coverage.empty()) error = LoadCoverage(coverage, &result);
-  if (error.empty()) *light_field = std::move(result);
+  if (!error && !coverage.empty()) error = LoadCoverage(coverage, &result);
+  if (!error) *light_field = std::move(result);
   return error;
 }
 
-std::string SaveLightField(const std::string& folder, const LightField& light_field,
-                           ThreadRunner* runner) {
-  const std::string failure = MakeFolder(folder);
-  if (!failure.empty()) return failure;
+Error SaveLightField(const std::string& folder, const LightField& light_field,
+                     ThreadRunner* runner) {
+  if (Error error = MakeFolder(folder)) return error;
   const Positions& given = light_field.positions;
   const auto views = static_cast<int>(light_field.views.size());
   SaveJob save = {folder,
                   light_field,
                   given.empty() ? StarPositions(views) : given,
-                  std::vector<std::string>(light_field.views.size()),
+                  std::vector<Error>(light_field.views.size()),
                   {"writing views", views}};
   const int status = ThreadRunner::Run(runner, SaveJob::Run, &save, views);
   if (status != 0) return Expected(folder, "a thread runner", "none");
-  for (const std::string& error : save.errors) {
-    if (!error.empty()) return error;
+  for (const Error& error : save.errors) {
+    if (error) return error;
   }
   if (!light_field.coverage.empty()) {
-    const std::string error = SaveCoverage(folder, light_field);
-    if (!error.empty()) return error;
+    if (Error error = SaveCoverage(folder, light_field)) return error;
   }
-  if (light_field.disparity.values.empty()) return "";
+  if (light_field.disparity.values.empty()) return {};
   return WritePfm(DisparityPath(folder), light_field.disparity);
 }
 

@@ -9,6 +9,7 @@
 
 #include "platform/image.h"
 #include "platform/pfm.h"
+#include "platform/result.h"
 #include "platform/runner.h"
 #include "platform/view_files.h"
 
@@ -36,7 +37,7 @@ std::vector<std::string> LightFieldFiles(const std::string& folder);
 // Whether the file of that name, in a folder, is taken for a part of its light field.
 bool IsLightFieldFile(const std::string& name);
 
-std::string ReadDisparity(const std::string& folder, FloatMap* map);
+Error ReadDisparity(const std::string& folder, FloatMap* map);
 
 // Whether the folder has a disparity map; it may be a bad one.
 bool HasDisparity(const std::string& folder);
@@ -44,34 +45,34 @@ bool HasDisparity(const std::string& folder);
 // Loads the views at these positions, or all of the folder's if there are none, without the map.
 // All sizes must agree. Here and below views are decoded several at a time on `runner`; null: one
 // after the other.
-std::string LoadCaptured(const std::string& folder, const Positions& wanted,
-                         LightField* light_field, ThreadRunner* runner = nullptr);
+Error LoadCaptured(const std::string& folder, const Positions& wanted, LightField* light_field,
+                   ThreadRunner* runner = nullptr);
 
 // Loads these views without a map. All sizes must agree.
-std::string LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
-                          ThreadRunner* runner = nullptr);
+Error LoadViewFiles(const std::vector<ViewFile>& files, LightField* light_field,
+                    ThreadRunner* runner = nullptr);
 
 // Loads the map of views that are there, of the same size.
-std::string LoadMap(const std::string& path, LightField* light_field);
+Error LoadMap(const std::string& path, LightField* light_field);
 
 // Takes a map that was read from `path` for views that are there, of the same size.
-std::string TakeMap(const std::string& path, FloatMap map, LightField* light_field);
+Error TakeMap(const std::string& path, FloatMap map, LightField* light_field);
 
 // The file of its coverage; empty if there is none.
 std::string CoveragePath(const std::string& folder);
 
 // Loads the coverage of views that are there, of the same size: the alpha channel of a picture, or
 // the grey levels of one without.
-std::string LoadCoverage(const std::string& path, LightField* light_field);
+Error LoadCoverage(const std::string& path, LightField* light_field);
 
 // Loads these views, the disparity map and the coverage, if there is some, of the same size.
-std::string LoadLightField(const std::string& folder, const Positions& wanted,
-                           LightField* light_field, ThreadRunner* runner = nullptr);
+Error LoadLightField(const std::string& folder, const Positions& wanted, LightField* light_field,
+                     ThreadRunner* runner = nullptr);
 
 // Makes the folder if needed and writes PNG views, several at a time on `runner`, and the coverage
 // and the disparity map if there are any.
-std::string SaveLightField(const std::string& folder, const LightField& light_field,
-                           ThreadRunner* runner);
+Error SaveLightField(const std::string& folder, const LightField& light_field,
+                     ThreadRunner* runner);
 
 }  // namespace starfocus
 

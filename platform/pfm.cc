@@ -32,8 +32,7 @@ void AppendFloat(float value, ByteOrder order, Bytes* bytes) {
   }
 }
 
-std::string ParseHeader(const std::string& path, TextHeader* header, FloatMap* map,
-                        ByteOrder* order) {
+Error ParseHeader(const std::string& path, TextHeader* header, FloatMap* map, ByteOrder* order) {
   const std::string magic = header->Token();
   if (magic != "Pf") return Expected(path, "a one-channel PFM (Pf)", "'" + magic + "'");
   const std::string width = header->Token(), height = header->Token(), scale = header->Token();
@@ -49,18 +48,16 @@ std::string ParseHeader(const std::string& path, TextHeader* header, FloatMap* m
     return Expected(path, "a scale that is a number other than 0", "'" + scale + "'");
   }
   *order = factor < 0 ? ByteOrder::kLittle : ByteOrder::kBig;
-  return "";
+  return {};
 }
 
-std::string Decode(const std::string& path, FloatMap* map) {
+Error Decode(const std::string& path, FloatMap* map) {
   Bytes bytes;
-  std::string error = ReadFile(path, &bytes);
-  if (!error.empty()) return error;
+  if (Error error = ReadFile(path, &bytes)) return error;
   TextHeader header(bytes);
   FloatMap result;
   ByteOrder order = ByteOrder::kLittle;
-  error = ParseHeader(path, &header, &result, &order);
-  if (!error.empty()) return error;
+  if (Error error = ParseHeader(path, &header, &result, &order)) return error;
   if (!FitsMemory(result.width, result.height, sizeof(float))) {
     return OutOfMemory(path, "read it");
   }
@@ -76,7 +73,7 @@ std::string Decode(const std::string& path, FloatMap* map) {
     for (size_t x = 0; x < width; ++x, data += 4) row[x] = LoadFloat(data, order);
   }
   *map = std::move(result);
-  return "";
+  return {};
 }
 
 Bytes Encode(const FloatMap& map, ByteOrder order) {
@@ -92,7 +89,7 @@ Bytes Encode(const FloatMap& map, ByteOrder order) {
 
 }  // namespace
 
-std::string ReadPfm(const std::string& path, FloatMap* map) {
+Error ReadPfm(const std::string& path, FloatMap* map) {
   try {
     return Decode(path, map);
   } catch (const std::bad_alloc&) {
@@ -100,7 +97,7 @@ std::string ReadPfm(const std::string& path, FloatMap* map) {
   }
 }
 
-std::string WritePfm(const std::string& path, const FloatMap& map, ByteOrder order) {
+Error WritePfm(const std::string& path, const FloatMap& map, ByteOrder order) {
   try {
     return WriteFile(path, Encode(map, order));
   } catch (const std::bad_alloc&) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "platform/result.h"
+
 namespace starfocus {
 
 struct FloatMap {
@@ -22,9 +24,8 @@ enum class ByteOrder { kLittle, kBig };
 
 // Values may be NaN or infinite. The magnitude of the scale, a unit without meaning for
 // disparities, is ignored.
-std::string ReadPfm(const std::string& path, FloatMap* map);
-std::string WritePfm(const std::string& path, const FloatMap& map,
-                     ByteOrder order = ByteOrder::kLittle);
+Error ReadPfm(const std::string& path, FloatMap* map);
+Error WritePfm(const std::string& path, const FloatMap& map, ByteOrder order = ByteOrder::kLittle);
 
 }  // namespace starfocus
 

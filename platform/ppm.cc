@@ -13,7 +13,7 @@ struct PnmHeader {
 };
 
 // Reads the header, and checks that all samples follow it.
-std::string ReadHeader(const std::string& path, TextHeader* text, PnmHeader* header) {
+Error ReadHeader(const std::string& path, TextHeader* text, PnmHeader* header) {
   const std::string magic = text->Token();
   if (magic != "P6" && magic != "P5") return Expected(path, "a P6 or P5 picture", magic);
   const std::string width = text->Token(), height = text->Token(), largest = text->Token();
@@ -30,7 +30,7 @@ std::string ReadHeader(const std::string& path, TextHeader* text, PnmHeader* hea
     return OutOfMemory(path, "read it");
   }
   const size_t need = header->samples() * size_t(header->sample_bytes);
-  if (text->remaining() >= need) return "";
+  if (text->remaining() >= need) return {};
   return Expected(path, std::to_string(need) + " bytes of pixels",
                   std::to_string(text->remaining()));
 }
@@ -44,31 +44,29 @@ int SampleAt(const PnmHeader& header, const uint8_t* data, size_t index) {
 
 }  // namespace
 
-std::string DecodePpm(const std::string& path, const Bytes& bytes, Image* image) {
+Error DecodePpm(const std::string& path, const Bytes& bytes, Image* image) {
   TextHeader text(bytes);
   PnmHeader header;
-  const std::string error = ReadHeader(path, &text, &header);
-  if (!error.empty()) return error;
+  if (Error error = ReadHeader(path, &text, &header)) return error;
   *image = Image(header.width, header.height);
   for (size_t i = 0; i < image->pixels.size(); ++i) {
     const int value = SampleAt(header, text.data(), header.channels == 3 ? i : i / 3);
     image->pixels[i] = static_cast<uint8_t>((value * 255 + header.largest / 2) / header.largest);
   }
-  return "";
+  return {};
 }
 
-std::string DecodePnmSamples(const std::string& path, const Bytes& bytes, PnmSamples* result) {
+Error DecodePnmSamples(const std::string& path, const Bytes& bytes, PnmSamples* result) {
   TextHeader text(bytes);
   PnmHeader header;
-  const std::string error = ReadHeader(path, &text, &header);
-  if (!error.empty()) return error;
+  if (Error error = ReadHeader(path, &text, &header)) return error;
   *result = {header.width, header.height, header.channels, header.largest, {}};
   const size_t count = header.samples();
   result->samples.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     result->samples.push_back(static_cast<uint16_t>(SampleAt(header, text.data(), i)));
   }
-  return "";
+  return {};
 }
 
 Bytes EncodePpm(const Image& image) {

@@ -10,12 +10,13 @@
 
 #include "platform/file.h"
 #include "platform/image.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
 // Decodes P6 or P5 (grey becomes RGB) with any largest value up to 65535, scaled to 8 bits.
 // `path` only names the file in the error.
-std::string DecodePpm(const std::string& path, const Bytes& bytes, Image* image);
+Error DecodePpm(const std::string& path, const Bytes& bytes, Image* image);
 
 // Samples as a P6 or P5 file has them, 0 to `largest`.
 struct PnmSamples {
@@ -23,7 +24,7 @@ struct PnmSamples {
   std::vector<uint16_t> samples;
 };
 
-std::string DecodePnmSamples(const std::string& path, const Bytes& bytes, PnmSamples* result);
+Error DecodePnmSamples(const std::string& path, const Bytes& bytes, PnmSamples* result);
 
 Bytes EncodePpm(const Image& image);
 

@@ -60,10 +60,10 @@ bool ReadName(const std::string& name, sf_position* position, size_t* extension)
   return true;
 }
 
-std::string CheckFolder(const std::string& folder) {
+Error CheckFolder(const std::string& folder) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
-  if (fs::is_directory(status)) return "";
+  if (fs::is_directory(status)) return {};
   return Expected(folder, "a light-field folder", fs::exists(status) ? "a file" : "nothing");
 }
 
@@ -83,10 +83,9 @@ bool ComesBefore(const ViewFile& a, const ViewFile& b) {
 }
 
 // Names of views in a folder, each with the first extension that it has.
-std::string ListNames(const std::string& folder, std::vector<ViewFile>* files) {
+Error ListNames(const std::string& folder, std::vector<ViewFile>* files) {
   std::vector<std::string> names;
-  const std::string error = ListFolder(folder, &names);
-  if (!error.empty()) return error;
+  if (Error error = ListFolder(folder, &names)) return error;
   for (const std::string& name : names) {
     ViewFile file;
     size_t extension = 0;
@@ -101,7 +100,7 @@ std::string ListNames(const std::string& folder, std::vector<ViewFile>* files) {
     file.path = (fs::path(folder) / name).string();
     files->push_back(file);
   }
-  return "";
+  return {};
 }
 
 // The pair that a folder has if it has no views by name.
@@ -156,11 +155,10 @@ bool IsViewFile(const std::string& name) {
   return ReadName(name, &position, &extension) || name == kPair[0] || name == kPair[1];
 }
 
-std::string FindViewFiles(const std::string& folder, std::vector<ViewFile>* files) {
+Error FindViewFiles(const std::string& folder, std::vector<ViewFile>* files) {
   std::vector<ViewFile> found;
-  std::string error = CheckFolder(folder);
-  if (error.empty()) error = ListNames(folder, &found);
-  if (!error.empty()) return error;
+  if (Error error = CheckFolder(folder)) return error;
+  if (Error error = ListNames(folder, &found)) return error;
   if (found.empty()) found = ListPair(folder);
   for (const ViewFile& file : found) {
     if (std::fabs(file.position.u) > 1 || std::fabs(file.position.v) > 1) {
@@ -184,11 +182,11 @@ std::string FindViewFiles(const std::string& folder, std::vector<ViewFile>* file
   }
   found[0].position = {0, 0};
   *files = std::move(found);
-  return "";
+  return {};
 }
 
-std::string SelectViewFiles(const std::string& where, const std::vector<ViewFile>& files,
-                            const Positions& wanted, std::vector<ViewFile>* chosen) {
+Error SelectViewFiles(const std::string& where, const std::vector<ViewFile>& files,
+                      const Positions& wanted, std::vector<ViewFile>* chosen) {
   chosen->clear();
   if (wanted.empty()) *chosen = files;
   for (const sf_position& position : wanted) {
@@ -201,14 +199,14 @@ std::string SelectViewFiles(const std::string& where, const std::vector<ViewFile
     }
     chosen->push_back(*at);
   }
-  return "";
+  return {};
 }
 
-std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
-                            std::vector<ViewFile>* chosen) {
+Error ChooseViewFiles(const std::string& folder, const Positions& wanted,
+                      std::vector<ViewFile>* chosen) {
   std::vector<ViewFile> files;
-  const std::string error = FindViewFiles(folder, &files);
-  return error.empty() ? SelectViewFiles(folder, files, wanted, chosen) : error;
+  if (Error error = FindViewFiles(folder, &files)) return error;
+  return SelectViewFiles(folder, files, wanted, chosen);
 }
 
 }  // namespace starfocus

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/result.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -44,16 +45,16 @@ bool IsViewFile(const std::string& name);
 // All files of captured views in a folder, the centre first, then those of sf_view_position in
 // their order, then the others by u and v. Of one name the first of .png, .ppm and .jpg counts.
 // Errors: no folder, no centre view, more than SF_MAX_VIEWS, a position beyond 1, two files of one.
-std::string FindViewFiles(const std::string& folder, std::vector<ViewFile>* files);
+Error FindViewFiles(const std::string& folder, std::vector<ViewFile>* files);
 
 // Those of `files` at the positions wanted, in their order, or all of them if none are. Errors are
 // about `where`.
-std::string SelectViewFiles(const std::string& where, const std::vector<ViewFile>& files,
-                            const Positions& wanted, std::vector<ViewFile>* chosen);
+Error SelectViewFiles(const std::string& where, const std::vector<ViewFile>& files,
+                      const Positions& wanted, std::vector<ViewFile>* chosen);
 
 // The same of all files of a folder.
-std::string ChooseViewFiles(const std::string& folder, const Positions& wanted,
-                            std::vector<ViewFile>* chosen);
+Error ChooseViewFiles(const std::string& folder, const Positions& wanted,
+                      std::vector<ViewFile>* chosen);
 
 }  // namespace starfocus
 

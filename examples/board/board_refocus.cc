@@ -43,7 +43,7 @@ struct Plan {
 constexpr int kLastLine = 100000;
 
 Error ParseLine(const std::string& option, const std::string& text, int* line) {
-  return text.empty() ? "" : ParseWhole(option, text, 0, kLastLine, line);
+  return text.empty() ? Error() : ParseWhole(option, text, 0, kLastLine, line);
 }
 
 Error PlanLines(const Options& options, Plan* plan) {
@@ -52,39 +52,38 @@ Error PlanLines(const Options& options, Plan* plan) {
   if (!options.encoder.empty()) {
     error = ParsePair("--encoder", options.encoder, ',', &lines.encoder_a, &lines.encoder_b);
   }
-  if (error.empty()) error = ParseLine("--aperture-button", options.aperture, &lines.aperture);
-  if (error.empty()) error = ParseLine("--shutter", options.shutter, &lines.shutter);
-  if (error.empty()) error = ParseLine("--busy", options.busy, &plan->busy);
-  if (!error.empty()) return error;
+  if (!error) error = ParseLine("--aperture-button", options.aperture, &lines.aperture);
+  if (!error) error = ParseLine("--shutter", options.shutter, &lines.shutter);
+  if (!error) error = ParseLine("--busy", options.busy, &plan->busy);
+  if (error) return error;
   if (lines.shutter < 0) return Error::Usage("--shutter", "the line of the shutter button", "none");
   std::vector<int> all = lines.All();
   if (plan->busy >= 0) all.push_back(plan->busy);
   std::sort(all.begin(), all.end());
   const auto twice = std::adjacent_find(all.begin(), all.end());
-  if (twice == all.end()) return "";
+  if (twice == all.end()) return {};
   return Error::Usage("lines", "a line for each control", std::to_string(*twice) + " twice");
 }
 
 // Everything that can be refused before the light field is read.
 Error MakePlan(const Options& options, Plan* plan) {
   Error error = PlanLines(options, plan);
-  if (error.empty()) {
+  if (!error) {
     error = ParseWhole("--debounce", options.debounce, 0, 1000, &plan->debounce);
   }
-  if (error.empty() && !options.focus.empty()) {
+  if (!error && !options.focus.empty()) {
     error = ParseNumber("--focus", options.focus, &plan->focus);
     plan->focus_given = true;
   }
-  if (error.empty() && !options.step.empty()) {
+  if (!error && !options.step.empty()) {
     error = ParseNumber("--step", options.step, &plan->step);
   }
-  if (error.empty()) {
+  if (!error) {
     error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
   }
-  if (error.empty())
-    error = ParseWhole("--pictures", options.pictures, 0, 1000000, &plan->pictures);
-  if (error.empty() && !options.out.empty()) error = CheckImageOutput(options.out);
-  if (!error.empty()) return error;
+  if (!error) error = ParseWhole("--pictures", options.pictures, 0, 1000000, &plan->pictures);
+  if (!error && !options.out.empty()) error = CheckImageOutput(options.out);
+  if (error) return error;
   if (options.out.empty() && options.framebuffer.empty()) {
     return Error::Usage("--out", "a picture file to write, or --framebuffer", "neither");
   }
@@ -96,7 +95,7 @@ Error MakePlan(const Options& options, Plan* plan) {
   }
   if (options.bias == "none") plan->bias = GpioBias::kAsIs;
   if (options.bias == "pull-down") plan->bias = GpioBias::kPullDown;
-  if (options.bias == "pull-up" || plan->bias != GpioBias::kPullUp) return "";
+  if (options.bias == "pull-up" || plan->bias != GpioBias::kPullUp) return {};
   return Error::Usage("--bias", "pull-up, pull-down or none", "'" + options.bias + "'");
 }
 
@@ -116,12 +115,12 @@ class Board {
   // The lines are taken before the light field is read: their absence is known sooner.
   Error Open() {
     Error error = inputs_.Open(options_.chip, plan_.lines.All(), plan_.bias);
-    if (error.empty() && plan_.busy >= 0) error = busy_.Open(options_.chip, plan_.busy);
-    if (error.empty()) {
+    if (!error && plan_.busy >= 0) error = busy_.Open(options_.chip, plan_.busy);
+    if (!error) {
       error =
           camera_.Load(options_.folder, options_.mode == "block" ? SF_MODE_BLOCK : SF_MODE_FRAME);
     }
-    if (!error.empty()) return error;
+    if (error) return error;
     step_ = plan_.step != 0 ? plan_.step : (camera_.nearest() - camera_.farthest()) / 40;
     focus_ = 0.5 * (camera_.nearest() + camera_.farthest());
     if (plan_.focus_given) {
@@ -136,7 +135,7 @@ class Board {
     std::printf("ready: focus %g (%g to %g), aperture %g, workspace %zu bytes, %s\n", focus_,
                 camera_.farthest(), camera_.nearest(), aperture(), camera_.workspace_bytes(),
                 sf_simd_target());
-    return "";
+    return {};
   }
 
   // Serves the controls until the wanted number of pictures is taken.
@@ -145,17 +144,17 @@ class Board {
     Error error;
     if (plan_.lines.encoder_a >= 0) {
       error = inputs_.Read(plan_.lines.encoder_a, &a);
-      if (error.empty()) error = inputs_.Read(plan_.lines.encoder_b, &b);
+      if (!error) error = inputs_.Read(plan_.lines.encoder_b, &b);
     }
     Panel panel(plan_.lines, options_.active == "low", int64_t{plan_.debounce} * 1000000, a, b);
     std::vector<GpioEdge> edges;
-    while (error.empty() && !Finished()) {
+    while (!error && !Finished()) {
       const int64_t wait = panel.Wait(Nanoseconds());
       error = inputs_.Wait(wait < 0 ? -1 : static_cast<int>(wait / 1000000 + 1), &edges);
-      for (size_t i = 0; i < edges.size() && error.empty() && !Finished(); ++i) {
+      for (size_t i = 0; i < edges.size() && !error && !Finished(); ++i) {
         error = Act(panel.Edge(edges[i].line, edges[i].high, edges[i].nanoseconds));
       }
-      if (error.empty() && edges.empty()) error = Act(panel.Settle(Nanoseconds()));
+      if (!error && edges.empty()) error = Act(panel.Settle(Nanoseconds()));
     }
     return error;
   }
@@ -165,30 +164,28 @@ class Board {
   bool Finished() const { return plan_.pictures != 0 && taken_ >= plan_.pictures; }
 
   Error Act(const PanelActions& actions) {
-    if (!actions.any()) return "";
+    if (!actions.any()) return {};
     focus_ =
         std::clamp(focus_ + actions.focus_steps * step_, camera_.farthest(), camera_.nearest());
     aperture_ = (aperture_ + static_cast<size_t>(actions.apertures)) % camera_.apertures().size();
     if (actions.shutters != 0) return TakePicture();
     std::printf("focus %g, aperture %g\n", focus_, aperture());
-    return "";
+    return {};
   }
 
   Error SetBusy(bool high, bool* read_back) {
-    if (plan_.busy < 0) return "";
-    const Error error = busy_.Set(high);
-    return error.empty() ? busy_.Read(read_back) : error;
+    if (plan_.busy < 0) return {};
+    if (Error error = busy_.Set(high)) return error;
+    return busy_.Read(read_back);
   }
 
   Error TakePicture() {
     bool during = false, after = false;
-    Error error = SetBusy(true, &during);
-    if (!error.empty()) return error;
+    if (Error error = SetBusy(true, &during)) return error;
     const double start = Seconds();
     const sf_status status = camera_.Take(focus_, aperture());
     const double seconds = Seconds() - start;
-    error = SetBusy(false, &after);
-    if (!error.empty()) return error;
+    if (Error error = SetBusy(false, &after)) return error;
     if (status != SF_OK) {
       return Error::Internal("picture", "a refocused one", sf_status_string(status));
     }
@@ -198,7 +195,7 @@ class Board {
     if (plan_.busy >= 0) std::printf(", busy line read back %d, then %d", during, after);
     std::printf("\n");
     Keep();
-    return "";
+    return {};
   }
 
   // A full disk must not end the camera.
@@ -207,12 +204,12 @@ class Board {
     if (!options_.framebuffer.empty()) {
       error = ShowOnFramebuffer(options_.framebuffer, camera_.picture());
     }
-    if (error.empty() && !options_.out.empty()) {
+    if (!error && !options_.out.empty()) {
       const std::string path = Numbered(options_.out, taken_);
       error = WriteImage(path, camera_.picture());
-      if (error.empty()) std::printf("wrote %s\n", path.c_str());
+      if (!error) std::printf("wrote %s\n", path.c_str());
     }
-    if (!error.empty()) std::fprintf(stderr, "board_refocus: %s\n", error.line().c_str());
+    if (error) std::fprintf(stderr, "board_refocus: %s\n", error.line().c_str());
   }
 
   const Options& options_;
@@ -240,8 +237,8 @@ Error Run(const Options& options) {
   Plan plan;
   Error error = MakePlan(options, &plan);
   Board board(options, plan);
-  if (error.empty()) error = board.Open();
-  if (error.empty()) error = board.Run();
+  if (!error) error = board.Open();
+  if (!error) error = board.Run();
   return error;
 }
 

@@ -14,9 +14,8 @@ void Camera::FreeAligned::operator()(void* memory) const {
   ::operator delete (memory, std::align_val_t{SF_ALIGNMENT});
 }
 
-std::string Camera::Load(const std::string& folder, sf_mode mode) {
-  std::string error = LoadLightField(folder, {}, &light_field_);
-  if (!error.empty()) return error;
+Error Camera::Load(const std::string& folder, sf_mode mode) {
+  if (Error error = LoadLightField(folder, {}, &light_field_)) return error;
   FloatMap& map = light_field_.disparity;
   const size_t stride = sizeof(float) * size_t(map.width);
   sf_status status = sf_fill_disparity(map.values.data(), stride, map.width, map.height);
@@ -61,7 +60,7 @@ std::string Camera::Load(const std::string& folder, sf_mode mode) {
   rows_.disparity_stride = stride;
   picture_ = Image(config.width, config.height);
   mode_ = mode;
-  return "";
+  return {};
 }
 
 sf_status Camera::Take(double focus, double aperture) {

@@ -9,6 +9,7 @@
 
 #include "platform/image.h"
 #include "platform/light_field.h"
+#include "platform/result.h"
 #include "platform/runner.h"
 #include "starfocus/starfocus.h"
 
@@ -19,7 +20,7 @@ class Camera {
   explicit Camera(int threads) : runner_(threads) {}
 
   // Loads the light field and makes an engine for every focus within its disparities.
-  std::string Load(const std::string& folder, sf_mode mode);
+  Error Load(const std::string& folder, sf_mode mode);
 
   double nearest() const { return stats_.max; }
   double farthest() const { return stats_.min; }

@@ -141,7 +141,7 @@ Error CheckSeparators(const std::vector<std::string>& arguments,
       return WrongParts(name, option.type, parts, joined, found);
     }
   }
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "examples/command_line/command.h"
-#include "examples/command_line/error.h"
+#include "platform/result.h"
 
 namespace starfocus {
 

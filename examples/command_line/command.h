@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "examples/command_line/error.h"
+#include "platform/result.h"
 
 namespace starfocus {
 

@@ -50,12 +50,12 @@ bool IsFar(const sf_position& position) {
 }  // namespace
 
 Error ParseNumber(const std::string& option, const std::string& text, double* value) {
-  return ReadNumber(text, value) ? "" : Error::Usage(option, "a finite number", Quoted(text));
+  return ReadNumber(text, value) ? Error() : Error::Usage(option, "a finite number", Quoted(text));
 }
 
 Error ParseWhole(const std::string& option, const std::string& text, int low, int high,
                  int* value) {
-  if (ReadWhole(text, value) && *value >= low && *value <= high) return "";
+  if (ReadWhole(text, value) && *value >= low && *value <= high) return {};
   return Error::Usage(option,
                       "a whole number from " + std::to_string(low) + " to " + std::to_string(high),
                       Quoted(text));
@@ -67,7 +67,7 @@ Error ParsePair(const std::string& option, const std::string& text, char separat
   if (at != std::string::npos && ReadWhole(text.substr(0, at), first) &&
       ReadWhole(text.substr(at + 1), second) && *first <= kMaxPictureSize &&
       *second <= kMaxPictureSize) {
-    return "";
+    return {};
   }
   return Error::Usage(
       option, std::string("two whole numbers with '") + separator + "' between them", Quoted(text));
@@ -86,28 +86,28 @@ Error ParseRegion(const std::string& option, const std::string& text, sf_region*
     begin = end + 1;
   }
   *region = {values[0], values[1], values[2], values[3]};
-  return "";
+  return {};
 }
 
 Error ParseAperture(const std::string& option, const std::string& text, double* value) {
-  if (ReadNumber(text, value) && *value > 0 && *value <= 1) return "";
+  if (ReadNumber(text, value) && *value > 0 && *value <= 1) return {};
   return Error::Usage(option, "an aperture above 0 and at most 1", Quoted(text));
 }
 
 Error ParsePercentage(const std::string& option, const std::string& text, double* value) {
-  if (ReadNumber(text, value) && *value >= 0 && *value <= 100) return "";
+  if (ReadNumber(text, value) && *value >= 0 && *value <= 100) return {};
   return Error::Usage(option, "a percentage from 0 to 100", Quoted(text));
 }
 
 Error ParseScale(const std::string& option, const std::string& text, double* value) {
-  if (ReadNumber(text, value) && *value >= SF_MIN_N_SCALE && *value <= SF_MAX_N_SCALE) return "";
+  if (ReadNumber(text, value) && *value >= SF_MIN_N_SCALE && *value <= SF_MAX_N_SCALE) return {};
   return Error::Usage(option,
                       "a factor from " + Short(SF_MIN_N_SCALE) + " to " + Short(SF_MAX_N_SCALE),
                       Quoted(text));
 }
 
 Error ParseHighlights(const std::string& option, const std::string& text, double* value) {
-  if (ReadNumber(text, value) && *value >= 1 && *value <= SF_MAX_HIGHLIGHTS) return "";
+  if (ReadNumber(text, value) && *value >= 1 && *value <= SF_MAX_HIGHLIGHTS) return {};
   return Error::Usage(option, "a factor from 1 to " + Short(SF_MAX_HIGHLIGHTS), Quoted(text));
 }
 
@@ -115,7 +115,7 @@ Error ParseViews(const std::string& option, const std::string& text, Positions* 
   int star = 0;
   if (ReadWhole(text, &star) && IsStarSet(star)) {
     *positions = StarPositions(star);
-    return "";
+    return {};
   }
   const auto wrong = [&](const std::string& expected) {
     return Error::Usage(option, expected, Quoted(text));
@@ -135,7 +135,7 @@ Error ParseViews(const std::string& option, const std::string& text, Positions* 
     begin = end + 1;
   }
   if (!SamePosition(positions->front(), {0, 0})) return wrong("the centre view, 0,0, first");
-  if (positions->size() <= SF_MAX_VIEWS) return "";
+  if (positions->size() <= SF_MAX_VIEWS) return {};
   return wrong("at most " + std::to_string(SF_MAX_VIEWS) + " views");
 }
 
@@ -144,7 +144,7 @@ Error ParseTransfer(const std::string& option, const std::string& text, sf_trans
     return Error::Usage(option, "srgb or none", "'" + text + "'");
   }
   *value = text == "srgb" ? SF_TRANSFER_SRGB : SF_TRANSFER_NONE;
-  return "";
+  return {};
 }
 
 void AddTransferOption(Command* command, const char* help, std::string* text) {

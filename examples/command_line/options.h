@@ -6,7 +6,7 @@
 #include <string>
 
 #include "examples/command_line/command.h"
-#include "examples/command_line/error.h"
+#include "platform/result.h"
 #include "platform/view_files.h"
 #include "starfocus/starfocus.h"
 

@@ -81,7 +81,7 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
                           output.path + ", which would be taken for a view");
     }
   }
-  return "";
+  return {};
 }
 
 Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders) {
@@ -90,10 +90,10 @@ Error CheckFolderApart(const Output& output, const std::vector<std::string>& fol
     return Error::Usage(output.option, "a folder of its own",
                         output.path + ", a light field that is read");
   }
-  return "";
+  return {};
 }
 
-std::string CheckFolderOutput(const std::string& folder) {
+Error CheckFolderOutput(const std::string& folder) {
   std::error_code ignored;
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {
     return Cannot("create folder", folder, "a file of that name exists");
@@ -103,7 +103,7 @@ std::string CheckFolderOutput(const std::string& folder) {
   if (!fs::is_directory(at, ignored)) {
     return Cannot("create folder", folder, at.string() + " is not a folder");
   }
-  if (access(at.c_str(), W_OK | X_OK) == 0) return "";
+  if (access(at.c_str(), W_OK | X_OK) == 0) return {};
   const std::error_code reason(errno, std::generic_category());
   return Cannot(fs::is_directory(folder, ignored) ? "write into folder" : "create folder", folder,
                 reason);

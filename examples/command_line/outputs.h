@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "examples/command_line/error.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -29,7 +29,7 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs);
 Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders);
 
 // Whether the folder is there and can be written into, or can be made.
-std::string CheckFolderOutput(const std::string& folder);
+Error CheckFolderOutput(const std::string& folder);
 
 }  // namespace starfocus
 

@@ -57,8 +57,7 @@ Error CheckValues(const CLI::App& app) {
     }
   }
   for (const CLI::App* command : app.get_subcommands()) {
-    Error error = CheckValues(*command);
-    if (!error.empty()) return error;
+    if (Error error = CheckValues(*command)) return error;
   }
   return {};
 }
@@ -152,8 +151,7 @@ const Command& CommandOf(const Program& program, const std::string& name) {
 Error RunCommandLine(const Program& program, int argc, char** argv) {
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   const std::string first = arguments.empty() ? "" : arguments[0];
-  Error error = CheckSeparators(arguments, CommandOf(program, first).options);
-  if (!error.empty()) return error;
+  if (Error error = CheckSeparators(arguments, CommandOf(program, first).options)) return error;
   CLI::App app;
   Translate(program, &app);
   try {
@@ -168,8 +166,7 @@ Error RunCommandLine(const Program& program, int argc, char** argv) {
     return WrongLine(&app, wrong);
   }
   const Command& chosen = CommandOf(program, Chosen(&app)->get_name());
-  error = CheckValues(app);
-  if (!error.empty()) return error;
+  if (Error error = CheckValues(app)) return error;
   if (!program.commands.empty() && &chosen == &program.main) {
     return Error::Usage("command line",
                         "a subcommand, of those `" + app.get_name() + " help` lists", "none");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "examples/command_line/command.h"
+#include "platform/result.h"
 
 namespace starfocus {
 

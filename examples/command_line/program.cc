@@ -27,9 +27,15 @@ Error CheckPrinted() {
                   std::generic_category().message(reason));
 }
 
+// Exit codes; that of an internal error is that of sysexits.h.
+constexpr int kFailed = 1, kUsage = 2, kInternal = 70;
+
 int Report(const char* name, const Error& error) {
-  if (!error.empty()) std::fprintf(stderr, "%s: %s\n", name, error.line().c_str());
-  return static_cast<int>(error.code());
+  if (!error) return 0;
+  std::fprintf(stderr, "%s: %s\n", name, error.line().c_str());
+  return error.kind() == ErrorKind::kInput   ? kFailed
+         : error.kind() == ErrorKind::kUsage ? kUsage
+                                             : kInternal;
 }
 
 }  // namespace
@@ -43,13 +49,13 @@ int RunProgram(const char* name, const std::function<Error()>& run) {
   TemporaryFile::RemoveOnSignals();
   try {
     Error error = run();
-    if (error.empty()) error = CheckPrinted();
+    if (!error) error = CheckPrinted();
     return Report(name, error);
   } catch (const std::bad_alloc&) {
     // Nothing here needs memory.
     std::fprintf(stderr,
                  "%s: memory: expected enough to finish, found too little (out of memory)\n", name);
-    return static_cast<int>(ExitCode::kFailed);
+    return kFailed;
   } catch (const std::exception& exception) {
     return Report(name, Error::Internal("program", "no internal error", exception.what()));
   }

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "examples/command_line/error.h"
+#include "platform/result.h"
 
 namespace starfocus {
 

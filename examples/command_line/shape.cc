@@ -24,7 +24,7 @@ std::vector<double> Numbers(const std::string& text) {
   for (size_t begin = 0; begin <= text.size();) {
     const size_t end = std::min(text.find(',', begin), text.size());
     double number = 0;
-    if (!ParseNumber("", text.substr(begin, end - begin), &number).empty()) return {};
+    if (ParseNumber("", text.substr(begin, end - begin), &number)) return {};
     numbers.push_back(number);
     begin = end + 1;
   }
@@ -87,8 +87,7 @@ void AddShapeOptions(Command* command, ShapeOptions* options) {
 Error ParseShape(const ShapeOptions& options, sf_config* config) {
   if (!SetShape(options.shape, config)) return ShapeError(options.shape);
   double theta = 0, cats_eye = 0;
-  Error error = ParseNumber("--theta", options.theta, &theta);
-  if (!error.empty()) return error;
+  if (Error error = ParseNumber("--theta", options.theta, &theta)) return error;
   if (theta < 0.05 || theta > 0.45) {
     return Error::Usage("--theta", "a part of pi from 0.05 to 0.45", "'" + options.theta + "'");
   }
@@ -99,13 +98,12 @@ Error ParseShape(const ShapeOptions& options, sf_config* config) {
   config->theta = theta * kPi;
   if (config->theta < SF_MIN_THETA) config->theta = SF_MIN_THETA;
   if (config->theta > SF_MAX_THETA) config->theta = SF_MAX_THETA;
-  error = ParseNumber("--cats-eye", options.cats_eye, &cats_eye);
-  if (!error.empty()) return error;
+  if (Error error = ParseNumber("--cats-eye", options.cats_eye, &cats_eye)) return error;
   if (cats_eye < 0 || cats_eye > 1) {
     return Error::Usage("--cats-eye", "a number from 0 to 1", "'" + options.cats_eye + "'");
   }
   config->cats_eye = static_cast<float>(cats_eye);
-  return "";
+  return {};
 }
 
 std::string ShapeSuffix(const ShapeOptions& options) {

@@ -40,15 +40,15 @@ struct Plan {
 
 Error MakePlan(const Options& options, Plan* plan) {
   Error error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
-  if (error.empty() && (plan->width < 1 || plan->height < 1)) {
+  if (!error && (plan->width < 1 || plan->height < 1)) {
     error = Error::Usage("--size", "WxH", "'" + options.size + "'");
   }
-  if (error.empty()) {
+  if (!error) {
     error = ParseWhole("--preview", options.shift, 1, SF_MAX_PREVIEW, &plan->shift);
   }
-  if (error.empty()) error = ParseWhole("--frames", options.frames, 1, 1000, &plan->frames);
+  if (!error) error = ParseWhole("--frames", options.frames, 1, 1000, &plan->frames);
   plan->threads = sf_pool_cores();
-  if (error.empty() && !options.threads.empty()) {
+  if (!error && !options.threads.empty()) {
     error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
   }
   return error;
@@ -74,15 +74,14 @@ Error Open(const Options& options, const Plan& plan, ThreadRunner* runner, Light
   field->disparity = renderer.Disparity();
   renderer.ToPixel(scene.points.front().x, scene.points.front().y, &first->x, &first->y);
   renderer.ToPixel(scene.points.back().x, scene.points.back().y, &second->x, &second->y);
-  return "";
+  return {};
 }
 
 Error ParseTap(const std::string& option, const std::string& text, const LightField& field,
                Point* point) {
-  if (text.empty()) return "";
-  const Error error = ParsePair(option, text, ',', &point->x, &point->y);
-  if (!error.empty()) return error;
-  if (point->x < field.width() && point->y < field.height()) return "";
+  if (text.empty()) return {};
+  if (Error error = ParsePair(option, text, ',', &point->x, &point->y)) return error;
+  if (point->x < field.width() && point->y < field.height()) return {};
   return Error::Usage(
       option, "a pixel of " + std::to_string(field.width()) + "x" + std::to_string(field.height()),
       "'" + text + "'");
@@ -107,9 +106,9 @@ class Session {
 
   Error Prepare() {
     sf_disparity_stats stats = {};
-    Error error = Outcome(sf_measure_disparity(field_.disparity, field_.disparity_stride,
-                                               map_.width, map_.height, &stats));
-    if (!error.empty()) return error;
+    if (Error error = Outcome(sf_measure_disparity(field_.disparity, field_.disparity_stride,
+                                                   map_.width, map_.height, &stats)))
+      return error;
     Config config;
     config.width = map_.width;
     config.height = map_.height;
@@ -123,12 +122,11 @@ class Session {
     const double range = double(stats.max) - double(stats.min);
     params_.aperture = std::min(1.0, kBlur / std::max(range, 1e-9));
     const double start = Seconds();
-    error = Outcome(engine_.Init(config));
-    if (!error.empty()) return error;
+    if (Error error = Outcome(engine_.Init(config))) return error;
     Say("make an engine", start);
     const double begin = Seconds();
-    error = Outcome(engine_.Prepare(field_, ThreadRunner::Run, runner_));
-    if (error.empty()) Say("prepare the light field", begin);
+    Error error = Outcome(engine_.Prepare(field_, ThreadRunner::Run, runner_));
+    if (!error) Say("prepare the light field", begin);
     return error;
   }
 
@@ -136,17 +134,17 @@ class Session {
     const double start = Seconds();
     const Error error = Outcome(engine_.FocusAt(field_, point.x, point.y, focus));
     const std::string tap = std::to_string(point.x) + "," + std::to_string(point.y);
-    if (error.empty()) Say("tap at " + tap + ": focus " + Short(*focus), start);
+    if (!error) Say("tap at " + tap + ": focus " + Short(*focus), start);
     return error;
   }
 
   Error Preview(double focus, const std::string& what) {
     params_.focus = focus;
     const double start = Seconds();
-    const Error error =
-        Outcome(engine_.RefocusPreview(params_, plan_.shift, preview_.pixels.data(),
-                                       preview_.stride(), ThreadRunner::Run, runner_));
-    if (!error.empty()) return error;
+    if (Error error =
+            Outcome(engine_.RefocusPreview(params_, plan_.shift, preview_.pixels.data(),
+                                           preview_.stride(), ThreadRunner::Run, runner_)))
+      return error;
     Say(what + ", 1/" + std::to_string(1 << plan_.shift) + " of the size", start);
     return Keep(preview_);
   }
@@ -154,9 +152,9 @@ class Session {
   Error Full(double focus) {
     params_.focus = focus;
     const double start = Seconds();
-    const Error error = Outcome(engine_.RefocusPrepared(
-        params_, full_.pixels.data(), full_.stride(), ThreadRunner::Run, runner_));
-    if (!error.empty()) return error;
+    if (Error error = Outcome(engine_.RefocusPrepared(params_, full_.pixels.data(), full_.stride(),
+                                                      ThreadRunner::Run, runner_)))
+      return error;
     Say("full picture", start);
     return Keep(full_);
   }
@@ -174,14 +172,13 @@ class Session {
       const double share = double(k) / plan_.frames;
       const std::string what =
           "focus pull " + std::to_string(k) + " of " + std::to_string(plan_.frames);
-      const Error error = Preview(from + share * (to - from), what);
-      if (!error.empty()) return error;
+      if (Error error = Preview(from + share * (to - from), what)) return error;
     }
     if (out_.empty()) {
       std::printf("%8.1f pictures a second in the focus pull\n",
                   plan_.frames / std::max(Seconds() - start, 1e-9));
     }
-    return "";
+    return {};
   }
 
  private:
@@ -192,7 +189,7 @@ class Session {
   }
 
   static Error Outcome(sf_status status) {
-    return status == SF_OK ? Error() : Error(std::string(sf_status_string(status)));
+    return status == SF_OK ? Error() : Error(ErrorKind::kInput, sf_status_string(status));
   }
 
   static void Say(const std::string& what, double start) {
@@ -200,7 +197,7 @@ class Session {
   }
 
   Error Keep(const Image& picture) {
-    if (out_.empty()) return "";
+    if (out_.empty()) return {};
     char name[32];
     std::snprintf(name, sizeof(name), "frame_%04d.png", kept_++);
     return WriteImage((std::filesystem::path(out_) / name).string(), picture);
@@ -219,28 +216,26 @@ class Session {
 
 Error Tap(const Options& options) {
   Plan plan;
-  Error error = MakePlan(options, &plan);
-  if (!error.empty()) return error;
+  if (Error error = MakePlan(options, &plan)) return error;
   ThreadRunner runner(plan.threads);
   LightField field;
   Point first, second;
-  error = Open(options, plan, &runner, &field, &first, &second);
-  if (error.empty()) error = ParseTap("--first", options.first, field, &first);
-  if (error.empty()) error = ParseTap("--second", options.second, field, &second);
-  if (!error.empty()) return error;
+  if (Error error = Open(options, plan, &runner, &field, &first, &second)) return error;
+  if (Error error = ParseTap("--first", options.first, field, &first)) return error;
+  if (Error error = ParseTap("--second", options.second, field, &second)) return error;
   if (!options.out.empty()) std::filesystem::create_directories(options.out);
   std::printf("%d x %d, %zu views, %d threads\n", field.width(), field.height(), field.views.size(),
               runner.workers());
   Session session(field, plan, options.out, &runner);
   double from = 0, to = 0;
-  error = session.Prepare();
-  if (error.empty()) error = session.FocusAt(first, &from);
-  if (error.empty()) error = session.Preview(from, "first preview");
-  if (error.empty()) error = session.Full(from);
-  if (error.empty()) session.SayNearness();
-  if (error.empty()) error = session.FocusAt(second, &to);
-  if (error.empty()) error = session.Pull(from, to);
-  if (error.empty()) error = session.Full(to);
+  Error error = session.Prepare();
+  if (!error) error = session.FocusAt(first, &from);
+  if (!error) error = session.Preview(from, "first preview");
+  if (!error) error = session.Full(from);
+  if (!error) session.SayNearness();
+  if (!error) error = session.FocusAt(second, &to);
+  if (!error) error = session.Pull(from, to);
+  if (!error) error = session.Full(to);
   return error;
 }
 

@@ -7,13 +7,14 @@
 
 #include "platform/file.h"
 #include "platform/image.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
 // Decodes to RGB: grey and CMYK become RGB, without a colour profile. By libjpeg-turbo where the
 // build has it, else by stb_image, which reads no arithmetic coding. A truncated file is an error.
 // `where` only names the file in errors.
-std::string DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image);
+Error DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image);
 
 }  // namespace starfocus
 

@@ -10,9 +10,8 @@
 
 namespace starfocus {
 
-std::string DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image) {
-  std::string error = CheckStbContainer(where, jpeg);
-  if (!error.empty()) return error;
+Error DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image) {
+  if (Error error = CheckStbContainer(where, jpeg)) return error;
   int width = 0, height = 0, channels = 0;
   {
     const StbMemory memory;
@@ -21,8 +20,7 @@ std::string DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image
       return StbFailed(where);
     }
   }
-  error = CheckPictureSize(where, width, height);
-  if (!error.empty()) return error;
+  if (Error error = CheckPictureSize(where, width, height)) return error;
   // stb_image would fill hundreds of megabytes for a file of a few bytes first.
   return JpegCanHold(jpeg.size(), false, width, height) ? DecodeStb(where, jpeg, image)
                                                         : Truncated(where, "JPEG");

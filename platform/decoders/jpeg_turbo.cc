@@ -111,7 +111,7 @@ bool ReadRows(Decoder* decoder, uint8_t* cmyk, Image* image) {
   return decoder->reason[0] == '\0';
 }
 
-std::string Failed(const std::string& where, const Decoder& decoder) {
+Error Failed(const std::string& where, const Decoder& decoder) {
   if (decoder.many_scans) {
     return Expected(where, "at most " + std::to_string(kMostScans) + " scans", "more");
   }
@@ -125,12 +125,11 @@ std::string Failed(const std::string& where, const Decoder& decoder) {
 
 }  // namespace
 
-std::string DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image) {
+Error DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image) {
   const auto decoder = std::make_unique<Decoder>();
   if (!ReadHeader(jpeg, decoder.get())) return Failed(where, *decoder);
   const jpeg_decompress_struct& info = decoder->info;
-  const std::string error = CheckPictureSize(where, info.image_width, info.image_height);
-  if (!error.empty()) return error;
+  if (Error error = CheckPictureSize(where, info.image_width, info.image_height)) return error;
   if (!JpegCanHold(jpeg.size(), info.arith_code != FALSE, info.image_width, info.image_height)) {
     return Truncated(where, "JPEG");
   }
@@ -140,7 +139,7 @@ std::string DecodeJpeg(const std::string& where, const Bytes& jpeg, Image* image
     return Failed(where, *decoder);
   }
   *image = std::move(result);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

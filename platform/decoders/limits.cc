@@ -12,12 +12,12 @@ constexpr int64_t kMostPixels = int64_t{1} << 28;
 
 }  // namespace
 
-std::string CheckPictureSize(const std::string& where, int64_t width, int64_t height) {
+Error CheckPictureSize(const std::string& where, int64_t width, int64_t height) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   if (width < 1 || height < 1 || width > kMaxPictureSize || height > kMaxPictureSize) {
     return Expected(where, "width and height from 1 to 65535", size);
   }
-  if (width * height <= kMostPixels) return "";
+  if (width * height <= kMostPixels) return {};
   return Expected(where, "a picture of at most 2^28 pixels", size);
 }
 

@@ -7,11 +7,12 @@
 #include <string>
 
 #include "platform/file.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
 // The error of a size outside of 1 to kMaxPictureSize, or of more than 2^28 pixels.
-std::string CheckPictureSize(const std::string& where, int64_t width, int64_t height);
+Error CheckPictureSize(const std::string& where, int64_t width, int64_t height);
 
 // Returns true if a JPEG file of so many bytes can hold a picture of this size: with Huffman codes
 // a block of data takes a bit at least, and where each component is subsampled another way there is

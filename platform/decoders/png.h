@@ -8,14 +8,14 @@
 #include "platform/file.h"
 #include "platform/image.h"
 #include "platform/metadata.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
 // Decodes to 8 bits of R, G, B: grey becomes RGB, 16 bits are rounded to 8, transparency is
 // dropped. By libpng where the build has it, with the ICC profile and EXIF; else by stb_image,
 // without any. `where` only names the file in errors.
-std::string DecodePngPixels(const std::string& where, const Bytes& png, Image* image,
-                            Metadata* metadata);
+Error DecodePngPixels(const std::string& where, const Bytes& png, Image* image, Metadata* metadata);
 
 }  // namespace starfocus
 

@@ -124,15 +124,14 @@ bool ReadRows(const Reader& reader, int height, size_t row_bytes, uint8_t* rows)
   return true;
 }
 
-std::string Failed(const std::string& where, const Call& call) {
+Error Failed(const std::string& where, const Call& call) {
   if (call.no_memory) return OutOfMemory(where, "read it");
   if (call.truncated) return Expected(where, "an undamaged picture", "a truncated one");
   return Expected(where, "an undamaged picture", "a broken one (" + std::string(call.reason) + ")");
 }
 
 // libpng takes an index beyond the palette for black.
-std::string LookUp(const std::string& where, const Reader& reader, const Bytes& indices,
-                   Image* image) {
+Error LookUp(const std::string& where, const Reader& reader, const Bytes& indices, Image* image) {
   png_colorp palette = nullptr;
   int colours = 0;
   png_get_PLTE(reader.png, reader.info, &palette, &colours);
@@ -146,7 +145,7 @@ std::string LookUp(const std::string& where, const Reader& reader, const Bytes& 
     image->pixels[3 * i + 1] = colour.green;
     image->pixels[3 * i + 2] = colour.blue;
   }
-  return "";
+  return {};
 }
 
 void TakeMetadata(const Reader& reader, Call* call, Metadata* metadata) {
@@ -167,8 +166,8 @@ void TakeMetadata(const Reader& reader, Call* call, Metadata* metadata) {
 
 }  // namespace
 
-std::string DecodePngPixels(const std::string& where, const Bytes& png, Image* image,
-                            Metadata* metadata) {
+Error DecodePngPixels(const std::string& where, const Bytes& png, Image* image,
+                      Metadata* metadata) {
   Call call = {png};
   Reader reader;
   if (!ReadHeader(&call, &reader)) return Failed(where, call);
@@ -182,11 +181,10 @@ std::string DecodePngPixels(const std::string& where, const Bytes& png, Image* i
   }
   uint8_t* const rows = palette ? indices.data() : result.pixels.data();
   if (!ReadRows(reader, result.height, row_bytes, rows)) return Failed(where, call);
-  const std::string error = palette ? LookUp(where, reader, indices, &result) : "";
-  if (!error.empty()) return error;
+  if (Error error = palette ? LookUp(where, reader, indices, &result) : Error()) return error;
   TakeMetadata(reader, &call, metadata);
   *image = std::move(result);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

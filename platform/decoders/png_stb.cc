@@ -8,8 +8,7 @@
 namespace starfocus {
 namespace {
 
-std::string DecodeIndices(const std::string& where, const PngHeader& header, Bytes bytes,
-                          Image* image) {
+Error DecodeIndices(const std::string& where, const PngHeader& header, Bytes bytes, Image* image) {
   const StbMemory memory;
   const Bytes palette = TakePalette(&bytes);
   const int colours = static_cast<int>(palette.size() / 3), step = GreyStep(header);
@@ -25,15 +24,15 @@ std::string DecodeIndices(const std::string& where, const PngHeader& header, Byt
     for (size_t c = 0; c < 3; ++c) result.pixels[3 * i + c] = palette[3 * size_t(index) + c];
   }
   *image = std::move(result);
-  return "";
+  return {};
 }
 
 }  // namespace
 
-std::string DecodePngPixels(const std::string& where, const Bytes& png, Image* image, Metadata*) {
-  const std::string error = CheckStbContainer(where, png);
+Error DecodePngPixels(const std::string& where, const Bytes& png, Image* image, Metadata*) {
+  const Error error = CheckStbContainer(where, png);
   PngHeader header = {};
-  if (!error.empty() || !ReadPngHeader(png, &header)) return error;
+  if (error || !ReadPngHeader(png, &header)) return error;
   return HasPalette(header) ? DecodeIndices(where, header, png, image)
                             : DecodeStb(where, png, image);
 }

@@ -9,9 +9,9 @@
 
 namespace starfocus {
 
-std::string CheckStbContainer(const std::string& where, const Bytes& bytes) {
+Error CheckStbContainer(const std::string& where, const Bytes& bytes) {
   const Container container = CheckContainer(bytes);
-  if (container == Container::kWhole) return "";
+  if (container == Container::kWhole) return {};
   if (container == Container::kTruncated) return Truncated(where, IsPng(bytes) ? "PNG" : "JPEG");
   return Expected(where, "an undamaged picture", "a broken one (checksum or code table)");
 }
@@ -25,19 +25,19 @@ const uint8_t* LoadStb(const Bytes& bytes, int channels, Image* image) {
   return samples;
 }
 
-std::string StbFailed(const std::string& where) {
+Error StbFailed(const std::string& where) {
   return Expected(where, "an undamaged picture",
                   "a broken one (" + std::string(stbi_failure_reason()) + ")");
 }
 
-std::string DecodeStb(const std::string& where, const Bytes& bytes, Image* image) {
+Error DecodeStb(const std::string& where, const Bytes& bytes, Image* image) {
   const StbMemory memory;
   Image result;
   const uint8_t* samples = LoadStb(bytes, 3, &result);
   if (samples == nullptr) return StbFailed(where);
   result.pixels.assign(samples, samples + result.pixels.size());
   *image = std::move(result);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

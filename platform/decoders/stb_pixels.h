@@ -7,21 +7,22 @@
 
 #include "platform/file.h"
 #include "platform/image.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
 // The error of a file whose parts are not all there or do not fit together (container.h).
-std::string CheckStbContainer(const std::string& where, const Bytes& bytes);
+Error CheckStbContainer(const std::string& where, const Bytes& bytes);
 
 // Samples of the picture, `channels` a pixel, in memory of the StbMemory that lives; null if
 // stb_image fails. `image` gets the size alone.
 const uint8_t* LoadStb(const Bytes& bytes, int channels, Image* image);
 
 // The error after a null LoadStb.
-std::string StbFailed(const std::string& where);
+Error StbFailed(const std::string& where);
 
 // Decodes a PNG without a palette, or a JPEG.
-std::string DecodeStb(const std::string& where, const Bytes& bytes, Image* image);
+Error DecodeStb(const std::string& where, const Bytes& bytes, Image* image);
 
 }  // namespace starfocus
 

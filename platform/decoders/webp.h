@@ -8,6 +8,7 @@
 #include "platform/file.h"
 #include "platform/image.h"
 #include "platform/metadata.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -16,8 +17,7 @@ bool IsWebp(const Bytes& bytes);
 
 // Decodes a still picture to RGB, without its alpha, by libwebp where the build has it. `where`
 // only names the file in errors.
-std::string DecodeWebp(const std::string& where, const Bytes& webp, Image* image,
-                       Metadata* metadata);
+Error DecodeWebp(const std::string& where, const Bytes& webp, Image* image, Metadata* metadata);
 
 }  // namespace starfocus
 

@@ -4,7 +4,7 @@
 
 namespace starfocus {
 
-std::string DecodeWebp(const std::string& where, const Bytes&, Image*, Metadata*) {
+Error DecodeWebp(const std::string& where, const Bytes&, Image*, Metadata*) {
   return Expected(where, "a program built with libwebp to read WebP (Debian: libwebp-dev)", "none");
 }
 

@@ -18,7 +18,7 @@ namespace {
 // decoder needs 7 bytes each. Photographs have a few pixels for each byte.
 constexpr int64_t kMostPixelsPerByte = 65536, kAnyFilesPixels = int64_t{1} << 24;
 
-std::string Failed(const std::string& where, VP8StatusCode status) {
+Error Failed(const std::string& where, VP8StatusCode status) {
   if (status == VP8_STATUS_OUT_OF_MEMORY) return OutOfMemory(where, "read it");
   if (status == VP8_STATUS_NOT_ENOUGH_DATA) return Truncated(where, "WebP");
   return Expected(where, "an undamaged picture", "a broken one (libwebp)");
@@ -53,8 +53,7 @@ void ReadMetadata(const Bytes& webp, Metadata* metadata) {
 
 }  // namespace
 
-std::string DecodeWebp(const std::string& where, const Bytes& webp, Image* image,
-                       Metadata* metadata) {
+Error DecodeWebp(const std::string& where, const Bytes& webp, Image* image, Metadata* metadata) {
   if (SizeOf(webp) > webp.size()) return Truncated(where, "WebP");
   WebPDecoderConfig config;
   if (!WebPInitDecoderConfig(&config)) {
@@ -64,8 +63,7 @@ std::string DecodeWebp(const std::string& where, const Bytes& webp, Image* image
   if (status != VP8_STATUS_OK) return Failed(where, status);
   if (config.input.has_animation) return Expected(where, "a still WebP picture", "an animation");
   const int width = config.input.width, height = config.input.height;
-  const std::string error = CheckPictureSize(where, width, height);
-  if (!error.empty()) return error;
+  if (Error error = CheckPictureSize(where, width, height)) return error;
   if (int64_t{width} * height >
       kAnyFilesPixels + kMostPixelsPerByte * static_cast<int64_t>(webp.size())) {
     return Expected(where,
@@ -81,7 +79,7 @@ std::string DecodeWebp(const std::string& where, const Bytes& webp, Image* image
   if (status != VP8_STATUS_OK) return Failed(where, status);
   ReadMetadata(webp, metadata);
   *image = std::move(result);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -26,7 +26,7 @@ XmpNode ReadPackets(const JpegParts& parts) {
   for (const Span& packet : parts.xmp) {
     XmpNode node;
     const char* text = reinterpret_cast<const char*>(packet.data);
-    if (ParseXmp("", text, packet.size, &node).empty()) root.children.push_back(std::move(node));
+    if (!ParseXmp("", text, packet.size, &node)) root.children.push_back(std::move(node));
   }
   return root;
 }
@@ -68,10 +68,10 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo) {
           photo);
 }
 
-std::string ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
-  if (!CanReadXmp()) return "";
+Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
+  if (!CanReadXmp()) return {};
   bool gain_map = false, missing = false;
-  std::string error;
+  Error error;
   for (const MultiPicture& picture : ListMultiPictures(file, parts, &missing)) {
     const XmpNode xmp = ReadPackets(picture.parts);
     const std::string type = TypeOf(xmp);
@@ -79,14 +79,14 @@ std::string ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) 
     if (!IsMap(type) || !photo->map.values.empty()) continue;
     Bytes bytes(picture.file.data, picture.file.data + picture.file.size);
     error = DecodeLevels("auxiliary picture", &bytes, &photo->map);
-    if (!error.empty()) continue;
+    if (error) continue;
     photo->format = "Apple depth photo (JPEG)";
     NoteIndex(parts, picture, photo);
     UnderstandApple(xmp, photo);
   }
   if (gain_map) photo->facts.emplace_back("gain map", "left out");
-  if (!photo->map.values.empty()) return "";
-  if (!error.empty() || !missing) return error;
+  if (!photo->map.values.empty()) return {};
+  if (error || !missing) return error;
   return Expected("multi-picture index", "all pictures that it names", "one cut off or not there");
 }
 

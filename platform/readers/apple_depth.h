@@ -7,6 +7,7 @@
 #include "platform/readers/jpeg_parts.h"
 #include "platform/readers/photo.h"
 #include "platform/readers/xmp.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -16,7 +17,7 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo);
 
 // Reads the map of disparities or depths among the pictures behind the first one, if there is one,
 // into a photo whose picture is there. A gain map is told as a fact.
-std::string ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo);
+Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo);
 
 }  // namespace starfocus
 

@@ -40,21 +40,20 @@ Names PicturesOf(const Names& names) {
   return pictures;
 }
 
-std::string OpenOwn(const std::string& folder, const Names& names, Capture* capture) {
+Error OpenOwn(const std::string& folder, const Names& names, Capture* capture) {
   capture->format = "light-field folder";
-  std::string error = FindViewFiles(folder, &capture->files);
-  if (error.empty() && HasDisparity(folder)) capture->map_path = DisparityPath(folder);
+  Error error = FindViewFiles(folder, &capture->files);
+  if (!error && HasDisparity(folder)) capture->map_path = DisparityPath(folder);
   capture->coverage_path = CoveragePath(folder);
   // Unknown disparities of a pair are infinite.
   if (Has(names, "im0.png")) capture->care = MapCare::kFill;
   const bool pair = Has(names, "im0.png") && Has(names, "calib.txt");
-  return error.empty() && pair ? ReadMiddlebury(folder, capture) : error;
+  return !error && pair ? ReadMiddlebury(folder, capture) : error;
 }
 
-std::string OpenArray(const std::string& folder, const Names& pictures, Capture* capture) {
+Error OpenArray(const std::string& folder, const Names& pictures, Capture* capture) {
   ViewArray array;
-  std::string error = FindArray(folder, pictures, &array);
-  if (!error.empty()) return error;
+  if (Error error = FindArray(folder, pictures, &array)) return error;
   if (array.paths.empty()) {
     return Expected(
         folder,
@@ -66,17 +65,16 @@ std::string OpenArray(const std::string& folder, const Names& pictures, Capture*
   capture->format = stanford ? "Stanford light field" : "rows and columns of views";
   if (stanford) OrderStanford(&array);
   Star star;
-  error = ChooseStar(folder, array, &star, &capture->facts);
+  Error error = ChooseStar(folder, array, &star, &capture->facts);
   capture->files = std::move(star.views);
   if (HasDisparity(folder)) capture->map_path = DisparityPath(folder);
   return error;
 }
 
-std::string OpenFolder(const std::string& folder, Capture* capture) {
+Error OpenFolder(const std::string& folder, Capture* capture) {
   Names names;
-  const std::string error = ListFolder(folder, &names);
-  if (!error.empty()) return error;
-  if (FindGreyMapPair(folder, names, capture)) return "";
+  if (Error error = ListFolder(folder, &names)) return error;
+  if (FindGreyMapPair(folder, names, capture)) return {};
   const Names pictures = PicturesOf(names);
   if (pictures.empty() || std::any_of(names.begin(), names.end(), IsViewFile)) {
     return OpenOwn(folder, names, capture);
@@ -96,20 +94,20 @@ int PixelAt(double share, int pixels) {
   return std::min(static_cast<int>(share * pixels), pixels - 1);
 }
 
-std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Capture* capture) {
+Error OpenPhoto(const std::string& path, const CaptureOptions& options, Capture* capture) {
   DepthPhoto photo;
   std::string depth = options.depth;
-  std::string error = ReadDepthPhotoFile(path, options.map, &depth, &photo);
+  Error error = ReadDepthPhotoFile(path, options.map, &depth, &photo);
   const bool pair = !photo.right.pixels.empty();
-  if (error.empty() && !pair) error = MakeSmallMap(capture->path, &photo, &capture->light_field);
-  if (!error.empty()) return error;
+  if (!error && !pair) error = MakeSmallMap(capture->path, &photo, &capture->light_field);
+  if (error) return error;
   capture->format = photo.format;
   capture->metadata = std::move(photo.metadata);
   capture->facts = std::move(photo.facts);
   capture->notes = std::move(photo.notes);
   if (pair) {
     TakePair(path, &photo, capture);
-    return "";
+    return {};
   }
   if (!options.small_map) FitMap(&capture->light_field);
   const Image& picture = capture->light_field.views[0];
@@ -126,7 +124,7 @@ std::string OpenPhoto(const std::string& path, const CaptureOptions& options, Ca
   capture->subject_x = PixelAt(photo.subject_x, picture.width);
   capture->subject_y = PixelAt(photo.subject_y, picture.height);
   capture->focus = photo.focus_value;
-  return "";
+  return {};
 }
 
 // Leaves the chosen ones of views that are loaded.
@@ -143,9 +141,9 @@ void SelectViews(const std::vector<ViewFile>& chosen, LightField* light_field) {
 }
 
 // Loads the map of views that are there.
-std::string LoadMapOf(Capture* capture) {
+Error LoadMapOf(Capture* capture) {
   if (LowerExtension(capture->map_path) != ".pfm") return LoadGreyMap(capture);
-  std::string error = LoadMap(capture->map_path, &capture->light_field);
+  Error error = LoadMap(capture->map_path, &capture->light_field);
   if (capture->map_scale == 1) return error;
   for (float& value : capture->light_field.disparity.values) {
     value *= static_cast<float>(capture->map_scale);
@@ -153,50 +151,48 @@ std::string LoadMapOf(Capture* capture) {
   return error;
 }
 
-std::string LoadViews(const Positions& wanted, Capture* capture, ThreadRunner* runner) {
+Error LoadViews(const Positions& wanted, Capture* capture, ThreadRunner* runner) {
   std::vector<ViewFile> chosen;
-  std::string error = SelectViewFiles(capture->path, capture->files, wanted, &chosen);
-  if (!error.empty()) return error;
+  if (Error error = SelectViewFiles(capture->path, capture->files, wanted, &chosen)) return error;
   if (capture->photo) {
     FitMap(&capture->light_field);
-    return "";
+    return {};
   }
   if (!capture->light_field.views.empty()) {
     SelectViews(chosen, &capture->light_field);
-    return "";
+    return {};
   }
-  error = LoadViewFiles(chosen, &capture->light_field, runner);
-  return error.empty() && !capture->map_path.empty() ? LoadMapOf(capture) : error;
+  Error error = LoadViewFiles(chosen, &capture->light_field, runner);
+  return !error && !capture->map_path.empty() ? LoadMapOf(capture) : error;
 }
 
 }  // namespace
 
-std::string OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture) {
+Error OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture) {
   try {
     Capture result;
     result.path = InputName(path);
     std::error_code failure;
     if (path == "-") {
-      std::string error = OpenPhoto(path, options, &result);
-      if (error.empty()) *capture = std::move(result);
+      Error error = OpenPhoto(path, options, &result);
+      if (!error) *capture = std::move(result);
       return error;
     }
     const fs::file_status status = fs::status(path, failure);
-    std::string error = CheckPlainFile(path);
-    if (!error.empty()) return error;
+    if (Error error = CheckPlainFile(path)) return error;
     if (!fs::exists(status)) return Cannot("read", path, failure);
-    error =
+    Error error =
         fs::is_directory(status) ? OpenFolder(path, &result) : OpenPhoto(path, options, &result);
-    if (error.empty()) *capture = std::move(result);
+    if (!error) *capture = std::move(result);
     return error;
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");
   }
 }
 
-std::string LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner) {
-  std::string error = LoadViews(wanted, capture, runner);
-  if (error.empty() && !capture->coverage_path.empty()) {
+Error LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner) {
+  Error error = LoadViews(wanted, capture, runner);
+  if (!error && !capture->coverage_path.empty()) {
     error = LoadCoverage(capture->coverage_path, &capture->light_field);
   }
   return error;

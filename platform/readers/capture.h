@@ -9,6 +9,7 @@
 
 #include "platform/light_field.h"
 #include "platform/readers/photo.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -45,11 +46,11 @@ struct Capture {
 // Finds out what `path` is; "-" is a photograph on standard input. Of a photograph everything is
 // read, of a folder its list of files and what lies beside the pictures. The error says what was
 // found and what is missing.
-std::string OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture);
+Error OpenCapture(const std::string& path, const CaptureOptions& options, Capture* capture);
 
 // Reads the views at the positions wanted, or all if none are, and the map and the coverage if
 // there are any. Views are decoded several at a time on `runner`; null: one after the other.
-std::string LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner = nullptr);
+Error LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner = nullptr);
 
 // Every file that is read for it, as far as it is open.
 std::vector<std::string> CaptureFiles(const Capture& capture);

@@ -65,16 +65,15 @@ void TellMap(const std::string& text, DepthPhoto* photo) {
                                        std::to_string(photo->map.height) + ", " + text);
 }
 
-std::string ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts,
-                            DepthPhoto* photo) {
+Error ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts,
+                      DepthPhoto* photo) {
   Bytes bytes(file.data, file.data + file.size);
-  const std::string error = DecodeImage(where, &bytes, &photo->picture);
-  if (!error.empty()) return error;
+  if (Error error = DecodeImage(where, &bytes, &photo->picture)) return error;
   photo->metadata = parts.metadata;
   if (!parts.ignored.empty()) photo->notes.push_back(parts.ignored);
   ReadExif(photo);
   CheckProfile(photo);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -7,6 +7,7 @@
 
 #include "platform/readers/jpeg_parts.h"
 #include "platform/readers/photo.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -33,8 +34,8 @@ void ToOrder(Near near, DepthPhoto* photo);
 void TellMap(const std::string& text, DepthPhoto* photo);
 
 // The picture, EXIF and ICC of a JPEG file and its parts.
-std::string ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts,
-                            DepthPhoto* photo);
+Error ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts,
+                      DepthPhoto* photo);
 
 }  // namespace starfocus
 

@@ -27,17 +27,18 @@ namespace {
 constexpr char kGainMap[] = "http://ns.adobe.com/hdr-gain-map/1.0/|Version";
 constexpr char kExtendedXmp[] = "http://ns.adobe.com/xmp/note/|HasExtendedXMP";
 
-void IgnoreXmp(const std::string& error, DepthPhoto* photo) {
-  photo->notes.push_back(error);
-  if (photo->map_problem.empty()) photo->map_problem = error;
+void IgnoreXmp(const Error& error, DepthPhoto* photo) {
+  photo->notes.push_back(error.line());
+  if (photo->map_problem.empty()) photo->map_problem = error.line();
 }
 
 // Adds a packet to those under `root`. A packet that cannot be read is ignored, which a note says.
 void AddPacket(const std::string& name, const char* text, size_t size, XmpNode* root,
                DepthPhoto* photo) {
   XmpNode packet;
-  const std::string error = ParseXmp(name + " is ignored", text, size, &packet);
-  if (!error.empty()) return IgnoreXmp(error, photo);
+  if (Error error = ParseXmp(name + " is ignored", text, size, &packet)) {
+    return IgnoreXmp(error, photo);
+  }
   root->children.push_back(std::move(packet));
 }
 
@@ -57,11 +58,10 @@ XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
     names.insert(parts.extensions[k].guid);
   for (const std::string& name : names) {
     std::string text;
-    const std::string error = JoinExtensions("the extended XMP is ignored", parts, name, &text);
-    if (error.empty()) {
-      AddPacket("the extended XMP", text.data(), text.size(), &root, photo);
-    } else {
+    if (Error error = JoinExtensions("the extended XMP is ignored", parts, name, &text)) {
       IgnoreXmp(error, photo);
+    } else {
+      AddPacket("the extended XMP", text.data(), text.size(), &root, photo);
     }
   }
   return root;
@@ -69,9 +69,9 @@ XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
 
 // Reads the map by the first of the formats whose map can be read.
 void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near, DepthPhoto* photo) {
-  const auto read = [photo](const std::string& error) {
-    if (!error.empty()) photo->map = {};
-    if (photo->map_problem.empty()) photo->map_problem = error;
+  const auto read = [photo](const Error& error) {
+    if (error) photo->map = {};
+    if (photo->map_problem.empty()) photo->map_problem = error.line();
     return !photo->map.values.empty();
   };
   if (HasGdepth(xmp) && read(ReadGdepth(xmp, near, photo))) return;
@@ -79,26 +79,25 @@ void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near, D
   read(ReadAppleJpeg(file, parts, photo));
 }
 
-std::string DecodeJpegPhoto(const std::string& where, Span file, bool with_map, Near near,
-                            DepthPhoto* photo) {
+Error DecodeJpegPhoto(const std::string& where, Span file, bool with_map, Near near,
+                      DepthPhoto* photo) {
   JpegParts parts;
-  std::string error = ReadJpegParts(where, file, &parts);
-  if (error.empty()) error = ReadJpegPicture(where, file, parts, photo);
-  if (!error.empty()) return error;
+  if (Error error = ReadJpegParts(where, file, &parts)) return error;
+  if (Error error = ReadJpegPicture(where, file, parts, photo)) return error;
   const XmpNode xmp = ReadXmp(parts, false, photo);
   photo->metadata.xmp = KeptXmp(xmp);
   if (FindProperty(xmp, kGainMap) != nullptr) photo->facts.emplace_back("gain map", "left out");
   if (with_map) ReadMap(file, parts, xmp, near, photo);
-  return "";
+  return {};
 }
 
 // What a map within the photo says about itself, no option overrides.
-std::string CheckOptions(const std::string& path, const DepthOptions& options) {
+Error CheckOptions(const std::string& path, const DepthOptions& options) {
   const char* option = options.unit != DepthUnit::kNone                    ? "--depth-unit"
                        : options.has_unknown                               ? "--unknown"
                        : options.orientation != DepthOrientation::kUnknown ? "--depth-orientation"
                                                                            : nullptr;
-  if (option == nullptr) return "";
+  if (option == nullptr) return {};
   return Expected(path, std::string("a depth picture for ") + option + " (--depth FILE)",
                   "a map in the photo");
 }
@@ -107,12 +106,12 @@ std::string CheckOptions(const std::string& path, const DepthOptions& options) {
 // packet anew. By the specification it does not count, so that every other map comes first.
 bool ReadStrayMap(Span file, Near near, DepthPhoto* photo) {
   JpegParts parts;
-  if (!IsJpeg(file) || !ReadJpegParts("", file, &parts).empty() || parts.extensions.empty()) {
+  if (!IsJpeg(file) || ReadJpegParts("", file, &parts) || parts.extensions.empty()) {
     return false;
   }
   DepthPhoto ignored;
   const XmpNode xmp = ReadXmp(parts, true, &ignored);
-  if (!HasGdepth(xmp) || !ReadGdepth(xmp, near, photo).empty()) {
+  if (!HasGdepth(xmp) || ReadGdepth(xmp, near, photo)) {
     photo->map = {};
     return false;
   }
@@ -120,7 +119,7 @@ bool ReadStrayMap(Span file, Near near, DepthPhoto* photo) {
   return true;
 }
 
-std::string NoMap(const std::string& path, const std::string& problem) {
+Error NoMap(const std::string& path, const std::string& problem) {
   std::string found = "a picture without one";
   if (!CanReadXmp()) found += " that is read (this build has no expat)";
   if (!problem.empty()) found += " that can be read (" + problem + ")";
@@ -134,8 +133,9 @@ void KeepCaptions(DepthPhoto* photo) {
   photo->metadata.xmp.clear();
   if (packet.empty() || !CanReadXmp()) return;
   XmpNode root;
-  const std::string error = ParseXmp("the XMP", packet.data(), packet.size(), &root);
-  if (!error.empty()) return IgnoreXmp(error, photo);
+  if (Error error = ParseXmp("the XMP", packet.data(), packet.size(), &root)) {
+    return IgnoreXmp(error, photo);
+  }
   photo->metadata.xmp = KeptXmp(root);
 }
 
@@ -149,35 +149,34 @@ void NoteProblem(DepthPhoto* photo) {
 
 }  // namespace
 
-std::string DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near,
-                             DepthPhoto* photo) {
+Error DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near,
+                       DepthPhoto* photo) {
   if (IsHeif(file)) return ReadHeif(where, file, near, photo);
   if (IsJpeg(file)) return DecodeJpegPhoto(where, file, with_map, near, photo);
   Bytes bytes(file.data, file.data + file.size);
-  const std::string error = DecodeImage(where, &bytes, &photo->picture, &photo->metadata);
-  if (!error.empty()) return error;
+  if (Error error = DecodeImage(where, &bytes, &photo->picture, &photo->metadata)) return error;
   ReadExif(photo);
   CheckProfile(photo);
   KeepCaptions(photo);
-  return "";
+  return {};
 }
 
-std::string ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
-                               std::string* depth, DepthPhoto* photo) {
+Error ReadDepthPhotoFile(const std::string& path, const DepthOptions& options, std::string* depth,
+                         DepthPhoto* photo) {
   Bytes bytes;
   const bool stream = path == "-";  // no depth picture lies beside it
   const std::string where = InputName(path);
-  std::string error = ReadFileIf(path, MayBePicture, &bytes);
+  Error error = ReadFileIf(path, MayBePicture, &bytes);
   const Span file = {bytes.data(), bytes.size()};
-  if (error.empty() && stream && bytes.empty()) error = Expected(where, "a photo", "nothing");
-  if (error.empty()) error = DecodeDepthPhoto(where, file, depth->empty(), options.near, photo);
-  if (!error.empty()) return error;
+  if (!error && stream && bytes.empty()) error = Expected(where, "a photo", "nothing");
+  if (!error) error = DecodeDepthPhoto(where, file, depth->empty(), options.near, photo);
+  if (error) return error;
   if (depth->empty() && !photo->map.values.empty()) return CheckOptions(where, options);
   if (depth->empty() && !stream) error = FindDepthPicture(path, photo, depth);
-  if (!error.empty()) return error;
+  if (error) return error;
   if (depth->empty()) {
     const bool read = ReadStrayMap(file, options.near, photo) || ReadStereoPair(path, file, photo);
-    return read ? "" : NoMap(where, photo->map_problem);
+    return read ? Error() : NoMap(where, photo->map_problem);
   }
   NoteProblem(photo);
   return ReadDepthPicture(*depth, options, photo);

@@ -7,6 +7,7 @@
 
 #include "platform/readers/jpeg_parts.h"
 #include "platform/readers/photo.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -15,13 +16,13 @@ namespace starfocus {
 // the file may be a stereo pair: photo->right is its other picture then. What cannot be read but is
 // not needed is ignored, which photo->notes say. `options` are about the depth picture: an option
 // beyond the near end is an error for a map within the file.
-std::string ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
-                               std::string* depth, DepthPhoto* photo);
+Error ReadDepthPhotoFile(const std::string& path, const DepthOptions& options, std::string* depth,
+                         DepthPhoto* photo);
 
 // The same of bytes in memory, without what lies beside: photo->map is empty if they have none that
 // can be read.
-std::string DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near,
-                             DepthPhoto* photo);
+Error DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near,
+                       DepthPhoto* photo);
 
 }  // namespace starfocus
 

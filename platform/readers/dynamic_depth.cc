@@ -42,7 +42,7 @@ size_t LengthOf(const XmpNode& node, const std::string& name, size_t file) {
   return static_cast<size_t>(value);
 }
 
-std::string ReadItems(Span file, const XmpNode& xmp, std::vector<Item>* items) {
+Error ReadItems(Span file, const XmpNode& xmp, std::vector<Item>* items) {
   for (const std::string& space : kItems) {
     std::vector<const XmpNode*> nodes;
     FindOwners(xmp, space + "Mime", &nodes);
@@ -56,9 +56,9 @@ std::string ReadItems(Span file, const XmpNode& xmp, std::vector<Item>* items) {
                         LengthOf(*node, space + "Length", file.size),
                         LengthOf(*node, space + "Padding", file.size)});
     }
-    if (!items->empty()) return "";
+    if (!items->empty()) return {};
   }
-  return "";
+  return {};
 }
 
 bool BeginsPicture(Span file) {
@@ -153,12 +153,11 @@ bool HasDynamicDepth(const XmpNode& xmp) {
   return false;
 }
 
-std::string ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
-                             DepthPhoto* photo) {
+Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
+                       DepthPhoto* photo) {
   const XmpNode* map = FindMap(xmp);
   std::vector<Item> items;
-  std::string error = ReadItems(file, xmp, &items);
-  if (!error.empty()) return error;
+  if (Error error = ReadItems(file, xmp, &items)) return error;
   const size_t index =
       FindDepth(items, map == nullptr ? nullptr : OwnProperty(*map, kMap + "DepthURI"));
   Span data;
@@ -168,15 +167,14 @@ std::string ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& x
                     index == 0 ? "no such item" : "no picture there");
   }
   Bytes bytes(data.data, data.data + data.size);
-  error = DecodeLevels("Dynamic Depth", &bytes, &photo->map);
-  if (!error.empty()) return error;
+  if (Error error = DecodeLevels("Dynamic Depth", &bytes, &photo->map)) return error;
   if (!by_lengths) {
     photo->notes.push_back(
         "the lengths of its container are wrong and ignored: the depth map was found behind the "
         "picture");
   }
   Understand(map, near, photo);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -7,6 +7,7 @@
 #include "platform/readers/jpeg_parts.h"
 #include "platform/readers/photo.h"
 #include "platform/readers/xmp.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -14,8 +15,8 @@ bool HasDynamicDepth(const XmpNode& xmp);
 
 // `near` counts only where the file does not say which end of the map is near.
 // Reads the map into a photo whose picture is there.
-std::string ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
-                             DepthPhoto* photo);
+Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
+                       DepthPhoto* photo);
 
 }  // namespace starfocus
 

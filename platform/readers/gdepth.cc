@@ -6,7 +6,7 @@
 
 #include "platform/image_io.h"
 #include "platform/levels.h"
-#include "platform/readers/base64.h"
+#include "platform/base64.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/depth_range.h"
 #include "platform/writers/depth_photo.h"
@@ -18,20 +18,19 @@ const std::string kDepth = "http://ns.google.com/photos/1.0/depthmap/|";
 const std::string kFocus = "http://ns.google.com/photos/1.0/focus/|";
 const std::string kImage = "http://ns.google.com/photos/1.0/image/|";
 
-std::string DecodeData(const std::string& where, const std::string& text, Bytes* bytes) {
-  if (DecodeBase64(text, bytes) && !bytes->empty()) return "";
+Error DecodeData(const std::string& where, const std::string& text, Bytes* bytes) {
+  if (DecodeBase64(text, bytes) && !bytes->empty()) return {};
   return Expected(where, "a picture in base64", "something else");
 }
 
-std::string ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
+Error ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   const std::string* data = FindProperty(xmp, kDepth + "Data");
   if (data == nullptr) {
     return Expected("GDepth", "GDepth:Data, the map, in its XMP or extended XMP", "none");
   }
   Bytes bytes;
-  std::string error = DecodeData("GDepth:Data", *data, &bytes);
-  if (error.empty()) error = DecodeLevels("GDepth:Data", &bytes, &photo->map);
-  if (!error.empty()) return error;
+  if (Error error = DecodeData("GDepth:Data", *data, &bytes)) return error;
+  if (Error error = DecodeLevels("GDepth:Data", &bytes, &photo->map)) return error;
   const RangeProperties range = {
       FindProperty(xmp, kDepth + "Format"), FindProperty(xmp, kDepth + "Near"),
       FindProperty(xmp, kDepth + "Far"), FindProperty(xmp, kDepth + "Units")};
@@ -45,7 +44,7 @@ std::string ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   if (unit > 0 && measure != nullptr && *measure == "OpticRay") {
     photo->facts.emplace_back("distances", "along rays, taken for those along the axis");
   }
-  return "";
+  return {};
 }
 
 // Turns inverse distances of a file that this program wrote into its disparities, for pixels of
@@ -76,10 +75,10 @@ void ReadSharp(const XmpNode& xmp, DepthPhoto* photo) {
   if (data == nullptr) return;
   Bytes bytes;
   Image sharp;
-  std::string error = DecodeData("GImage:Data", *data, &bytes);
-  if (error.empty()) error = DecodeImage("GImage:Data", &bytes, &sharp);
-  if (!error.empty()) {
-    photo->notes.push_back("the sharp picture inside is ignored: " + error);
+  Error error = DecodeData("GImage:Data", *data, &bytes);
+  if (!error) error = DecodeImage("GImage:Data", &bytes, &sharp);
+  if (error) {
+    photo->notes.push_back("the sharp picture inside is ignored: " + error.line());
     return;
   }
   photo->picture = std::move(sharp);
@@ -106,14 +105,13 @@ bool HasGdepth(const XmpNode& xmp) {
          FindProperty(xmp, kDepth + "Data") != nullptr;
 }
 
-std::string ReadGdepth(const XmpNode& xmp, Near near, DepthPhoto* photo) {
-  const std::string error = ReadMap(xmp, near, photo);
-  if (!error.empty()) return error;
+Error ReadGdepth(const XmpNode& xmp, Near near, DepthPhoto* photo) {
+  if (Error error = ReadMap(xmp, near, photo)) return error;
   photo->format = "GDepth photo (JPEG)";
   ReadSharp(xmp, photo);
   ReadOwnDisparities(xmp, photo);
   ReadFocus(xmp, photo);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -7,6 +7,7 @@
 
 #include "platform/readers/photo.h"
 #include "platform/readers/xmp.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -14,7 +15,7 @@ bool HasGdepth(const XmpNode& xmp);
 
 // Reads the map, and the sharp picture and the focus if there are any, into a photo whose picture
 // is there. `xmp` has all packets of the file, the extended ones too.
-std::string ReadGdepth(const XmpNode& xmp, Near near, DepthPhoto* photo);
+Error ReadGdepth(const XmpNode& xmp, Near near, DepthPhoto* photo);
 
 }  // namespace starfocus
 

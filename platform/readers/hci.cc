@@ -27,14 +27,13 @@ bool Has(const std::vector<std::string>& names, const std::string& name) {
 
 // The f-stop of the lens whose rim the outermost views lie on: focal length over twice their
 // distance from the centre.
-std::string ReadParameters(const std::string& path, int reach, Capture* capture) {
+Error ReadParameters(const std::string& path, int reach, Capture* capture) {
   KeyValues values;
-  const std::string error = ReadKeyValues(path, &values);
-  if (!error.empty()) return error;
+  if (Error error = ReadKeyValues(path, &values)) return error;
   double baseline = 0, focal = 0;
   if (!NumberOf(values, "baseline_mm", &baseline) || !NumberOf(values, "focal_length_mm", &focal) ||
       !(baseline > 0) || !(focal > 0)) {
-    return "";
+    return {};
   }
   capture->widest = focal / (2 * reach * baseline);
   char f_stop[32];
@@ -42,7 +41,7 @@ std::string ReadParameters(const std::string& path, int reach, Capture* capture)
   capture->facts.emplace_back("cameras", values["baseline_mm"] + " mm apart, lenses of " +
                                              values["focal_length_mm"] + " mm; radius 1 is f/" +
                                              f_stop);
-  return "";
+  return {};
 }
 
 }  // namespace
@@ -51,8 +50,7 @@ bool IsHci(const std::vector<std::string>& names) {
   return std::any_of(names.begin(), names.end(), IsView);
 }
 
-std::string OpenHci(const std::string& folder, const std::vector<std::string>& names,
-                    Capture* capture) {
+Error OpenHci(const std::string& folder, const std::vector<std::string>& names, Capture* capture) {
   capture->format = "HCI 4D light field";
   ViewArray array;
   for (const std::string& name : names) {
@@ -65,14 +63,13 @@ std::string OpenHci(const std::string& folder, const std::vector<std::string>& n
   }
   array.rows = array.columns = side;
   Star star;
-  std::string error = ChooseStar(folder, array, &star, &capture->facts);
-  if (!error.empty()) return error;
+  if (Error error = ChooseStar(folder, array, &star, &capture->facts)) return error;
   capture->files = std::move(star.views);
   if (Has(names, kMap)) {
     capture->map_path = (std::filesystem::path(folder) / kMap).string();
     capture->map_scale = star.reach;  // the file's disparities are those of neighbours
   }
-  if (!Has(names, kParameters)) return "";
+  if (!Has(names, kParameters)) return {};
   return ReadParameters((std::filesystem::path(folder) / kParameters).string(), star.reach,
                         capture);
 }

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "platform/readers/capture.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
 bool IsHci(const std::vector<std::string>& names);
 
-std::string OpenHci(const std::string& folder, const std::vector<std::string>& names,
-                    Capture* capture);
+Error OpenHci(const std::string& folder, const std::vector<std::string>& names, Capture* capture);
 
 }  // namespace starfocus
 

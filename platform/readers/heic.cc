@@ -51,17 +51,17 @@ using Context = std::unique_ptr<heif_context, Freed<heif_context, heif_context_f
 using Handle = std::unique_ptr<heif_image_handle, Freed<heif_image_handle, ReleaseHandle>>;
 using Decoded = std::unique_ptr<heif_image, Freed<heif_image, ReleaseImage>>;
 
-std::string Broken(const std::string& where, const heif_error& error) {
+Error Broken(const std::string& where, const heif_error& error) {
   return Expected(where, "a HEIF file that libheif reads",
                   error.message == nullptr ? "another" : error.message);
 }
 
-std::string CheckSize(const std::string& where, const heif_image_handle* handle, size_t file) {
+Error CheckSize(const std::string& where, const heif_image_handle* handle, size_t file) {
   return CheckHeifSize(where, heif_image_handle_get_width(handle),
                        heif_image_handle_get_height(handle), file);
 }
 
-std::string DecodePicture(const std::string& where, const heif_image_handle* handle, Image* image) {
+Error DecodePicture(const std::string& where, const heif_image_handle* handle, Image* image) {
   heif_image* raw = nullptr;
   const heif_error failure =
       heif_decode_image(handle, &raw, heif_colorspace_RGB, heif_chroma_interleaved_RGB, nullptr);
@@ -81,11 +81,11 @@ std::string DecodePicture(const std::string& where, const heif_image_handle* han
   for (int y = 0; y < height; ++y) {
     std::memcpy(image->row(y), rows + size_t(y) * size_t(stride), image->stride());
   }
-  return "";
+  return {};
 }
 
 // The levels, 0 to 1, of 8 bits or of up to 16 in the machine's order.
-std::string DecodePlane(const std::string& where, const heif_image_handle* handle, FloatMap* map) {
+Error DecodePlane(const std::string& where, const heif_image_handle* handle, FloatMap* map) {
   heif_image* raw = nullptr;
   const heif_error failure =
       heif_decode_image(handle, &raw, heif_colorspace_undefined, heif_chroma_undefined, nullptr);
@@ -117,7 +117,7 @@ std::string DecodePlane(const std::string& where, const heif_image_handle* handl
       map->values.push_back(static_cast<float>(level) / most);
     }
   }
-  return "";
+  return {};
 }
 
 // The first block of metadata of a type; empty if there is none.
@@ -169,7 +169,7 @@ void ReadCaptions(const heif_image_handle* handle, DepthPhoto* photo) {
   XmpNode root;
   if (xmp.empty() || !CanReadXmp()) return;
   const char* text = reinterpret_cast<const char*>(xmp.data());
-  if (ParseXmp("", text, xmp.size(), &root).empty()) photo->metadata.xmp = KeptXmp(root);
+  if (!ParseXmp("", text, xmp.size(), &root)) photo->metadata.xmp = KeptXmp(root);
 }
 
 // Whether an auxiliary picture is something that refocusing has no use for.
@@ -192,8 +192,8 @@ void TellGainMap(const heif_image_handle* handle, DepthPhoto* photo) {
 using Information = heif_depth_representation_info;
 
 // HEVC's depth representation information (ISO/IEC 23008-2, F.14.2.3).
-std::string UnderstandInformation(const std::string& where, const Information& information,
-                                  Near near, DepthPhoto* photo) {
+Error UnderstandInformation(const std::string& where, const Information& information, Near near,
+                            DepthPhoto* photo) {
   const auto type = information.depth_representation_type;
   if (type == heif_depth_representation_type_nonuniform_disparity) {
     return Expected(where, "a depth map in uniform steps", "one of nonuniform disparity");
@@ -205,7 +205,7 @@ std::string UnderstandInformation(const std::string& where, const Information& i
     TellMap("disparities from " + std::to_string(information.d_min) + " to " +
                 std::to_string(information.d_max) + ", right up to a factor",
             photo);
-    return "";
+    return {};
   }
   const DepthRange range = {type == heif_depth_representation_type_uniform_inverse_Z,
                             information.z_near, information.z_far};
@@ -216,52 +216,50 @@ std::string UnderstandInformation(const std::string& where, const Information& i
     TellMap("distances from " + std::to_string(range.near) + " to " + std::to_string(range.far) +
                 ", right up to a factor",
             photo);
-    return "";
+    return {};
   }
   TellMap("without a range", photo);
   const bool distance = type == heif_depth_representation_type_uniform_Z;
   ToOrder(near != Near::kUnknown ? near : distance ? Near::kBlack : Near::kWhite, photo);
-  return "";
+  return {};
 }
 
-std::string Understand(const std::string& where, const heif_image_handle* primary,
-                       const heif_image_handle* depth, heif_item_id id, Near near,
-                       DepthPhoto* photo) {
+Error Understand(const std::string& where, const heif_image_handle* primary,
+                 const heif_image_handle* depth, heif_item_id id, Near near, DepthPhoto* photo) {
   const Bytes xmp = ReadMetadata(depth, "mime", "application/rdf+xml");
   if (!xmp.empty() && CanReadXmp()) {
     XmpNode root;
-    const std::string error =
-        ParseXmp("the XMP of the depth map is ignored", reinterpret_cast<const char*>(xmp.data()),
-                 xmp.size(), &root);
-    if (error.empty()) {
+    const Error error = ParseXmp("the XMP of the depth map is ignored",
+                                 reinterpret_cast<const char*>(xmp.data()), xmp.size(), &root);
+    if (!error) {
       UnderstandApple(root, photo);
-      return "";
+      return {};
     }
-    photo->notes.push_back(error);
+    photo->notes.push_back(error.line());
   }
   const Information* information = nullptr;
   if (heif_image_handle_get_depth_image_representation_info(primary, id, &information) &&
       information != nullptr) {
-    const std::string error = UnderstandInformation(where, *information, near, photo);
+    const Error error = UnderstandInformation(where, *information, near, photo);
     heif_depth_representation_info_free(information);
     return error;
   }
   TellMap("without a range", photo);
   ToOrder(near, photo);
-  return "";
+  return {};
 }
 
-std::string ReadMap(const std::string& where, const heif_image_handle* primary, size_t file,
-                    Near near, DepthPhoto* photo) {
+Error ReadMap(const std::string& where, const heif_image_handle* primary, size_t file, Near near,
+              DepthPhoto* photo) {
   heif_item_id id = 0;
-  if (heif_image_handle_get_list_of_depth_image_IDs(primary, &id, 1) < 1) return "";
+  if (heif_image_handle_get_list_of_depth_image_IDs(primary, &id, 1) < 1) return {};
   heif_image_handle* raw = nullptr;
   const heif_error failure = heif_image_handle_get_depth_image_handle(primary, id, &raw);
   const Handle depth(raw);
   if (failure.code != heif_error_Ok) return Broken(where, failure);
-  std::string error = CheckSize(where + " (depth map)", raw, file);
-  if (error.empty()) error = DecodePlane(where + " (depth map)", raw, &photo->map);
-  return error.empty() ? Understand(where, primary, raw, id, near, photo) : error;
+  if (Error error = CheckSize(where + " (depth map)", raw, file)) return error;
+  if (Error error = DecodePlane(where + " (depth map)", raw, &photo->map)) return error;
+  return Understand(where, primary, raw, id, near, photo);
 }
 
 // Whether a box at the top (ISO/IEC 14496-12, 4.2) is longer than what is left of the file.
@@ -280,9 +278,8 @@ bool EndsWithinBox(Span file) {
   return at < file.size;
 }
 
-std::string Read(const std::string& where, Span file, Near near, DepthPhoto* photo) {
-  std::string error = CheckHeif(where, file);
-  if (!error.empty()) return error;
+Error Read(const std::string& where, Span file, Near near, DepthPhoto* photo) {
+  if (Error error = CheckHeif(where, file)) return error;
   const Context context(heif_context_alloc());
   if (context == nullptr) return OutOfMemory(where, "read it");
   heif_context_set_maximum_image_size_limit(context.get(), kMostSide);
@@ -294,23 +291,22 @@ std::string Read(const std::string& where, Span file, Near near, DepthPhoto* pho
   const Handle primary(raw);
   if (failure.code != heif_error_Ok) return Broken(where, failure);
   photo->format = "HEIF depth photo";
-  error = CheckSize(where, raw, file.size);
-  if (error.empty()) error = DecodePicture(where, raw, &photo->picture);
-  if (!error.empty()) return error;
+  if (Error error = CheckSize(where, raw, file.size)) return error;
+  if (Error error = DecodePicture(where, raw, &photo->picture)) return error;
   ReadProfiles(raw, photo);
   ReadCaptions(raw, photo);
   TellGainMap(raw, photo);
-  photo->map_problem = ReadMap(where, raw, file.size, near, photo);
+  photo->map_problem = ReadMap(where, raw, file.size, near, photo).line();
   if (!photo->map_problem.empty()) photo->map = {};
-  return "";
+  return {};
 }
 
 }  // namespace
 
-std::string ReadHeif(const std::string& where, Span file, Near near, DepthPhoto* photo) {
+Error ReadHeif(const std::string& where, Span file, Near near, DepthPhoto* photo) {
   try {
-    const std::string error = Read(where, file, near, photo);
-    return !error.empty() && EndsWithinBox(file) ? Truncated(where, "HEIF") : error;
+    const Error error = Read(where, file, near, photo);
+    return error && EndsWithinBox(file) ? Truncated(where, "HEIF") : error;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& failure) {  // libheif's, which its C functions let through
@@ -320,7 +316,7 @@ std::string ReadHeif(const std::string& where, Span file, Near near, DepthPhoto*
 
 #else
 
-std::string ReadHeif(const std::string& where, Span, Near, DepthPhoto*) {
+Error ReadHeif(const std::string& where, Span, Near, DepthPhoto*) {
   return Expected(where, "a build with libheif to read HEIC files", "one without");
 }
 

@@ -8,6 +8,7 @@
 
 #include "platform/readers/jpeg_parts.h"
 #include "platform/readers/photo.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -16,7 +17,7 @@ bool IsHeif(Span file);
 
 // Reads the primary picture, and its map unless it has none: photo->map is empty then. Turned as
 // the file says; `near` counts only where it does not say which end of the map is near.
-std::string ReadHeif(const std::string& where, Span file, Near near, DepthPhoto* photo);
+Error ReadHeif(const std::string& where, Span file, Near near, DepthPhoto* photo);
 
 }  // namespace starfocus
 

@@ -39,7 +39,7 @@ bool FitsItsData(const HeifItem& item) {
          WholeOf(item.head, sizes + number, number) == item.height;
 }
 
-std::string CheckInputs(const std::string& where, const HeifItems& items, const HeifItem& item) {
+Error CheckInputs(const std::string& where, const HeifItems& items, const HeifItem& item) {
   const std::string name = "'" + item.type + "'";
   if (item.type != "iden" && !FitsItsData(item)) {
     return Expected(where, "a " + name + " picture of the size and parts that its item declares",
@@ -56,21 +56,21 @@ std::string CheckInputs(const std::string& where, const HeifItems& items, const 
     }
     pixels += AreaOf(found->second);
   }
-  if (pixels <= kAnyFilesPixels + kMostOverlap * AreaOf(item)) return "";
+  if (pixels <= kAnyFilesPixels + kMostOverlap * AreaOf(item)) return {};
   return Expected(where, "parts of a " + name + " picture that are not much larger than it",
                   std::to_string(pixels) + " pixels for " + std::to_string(AreaOf(item)));
 }
 
-std::string CheckCoded(const std::string& where, const HeifItem& item) {
+Error CheckCoded(const std::string& where, const HeifItem& item) {
   constexpr int64_t kPadding = 128;  // to whole blocks of either coder
   int64_t width = 0, height = 0;
   const bool hevc = item.type == "hvc1";
-  if (!hevc && item.type != "av01") return "";
+  if (!hevc && item.type != "av01") return {};
   if (hevc ? !HevcSize(item.configuration, item.head, &width, &height)
            : !Av1Size(item.configuration, item.head, &width, &height)) {
-    return "";  // libheif finds none either
+    return {};  // libheif finds none either
   }
-  if (width <= item.width + kPadding && height <= item.height + kPadding) return "";
+  if (width <= item.width + kPadding && height <= item.height + kPadding) return {};
   return Expected(where,
                   "a coded picture of " + std::to_string(item.width) + "x" +
                       std::to_string(item.height) + ", as its item declares",
@@ -79,32 +79,31 @@ std::string CheckCoded(const std::string& where, const HeifItem& item) {
 
 }  // namespace
 
-std::string CheckHeifSize(const std::string& where, int64_t width, int64_t height, size_t file) {
+Error CheckHeifSize(const std::string& where, int64_t width, int64_t height, size_t file) {
   const std::string found = std::to_string(width) + "x" + std::to_string(height);
   if (width < 1 || height < 1 || width > kMostSide || height > kMostSide) {
     return Expected(where, "a HEIF picture of at most 16384 pixels each way", found);
   }
   if (width * height <= kAnyFilesPixels + kMostPixelsPerByte * static_cast<int64_t>(file))
-    return "";
+    return {};
   return Expected(where, "a HEIF picture of at most 32768 pixels for each byte of its file", found);
 }
 
-std::string CheckHeif(const std::string& where, Span file) {
+Error CheckHeif(const std::string& where, Span file) {
   HeifItems items;
   if (!ReadHeifItems(file, &items)) {
     return Expected(where, "a HEIF file of at most 4096 items in whole boxes", "another");
   }
   for (const auto& [id, item] : items) {  // before CheckInputs multiplies any
     if (item.width == 0 || item.height == 0) continue;
-    std::string error = CheckHeifSize(where, item.width, item.height, file.size);
-    if (!error.empty()) return error;
+    if (Error error = CheckHeifSize(where, item.width, item.height, file.size)) return error;
   }
   for (const auto& [id, item] : items) {
-    std::string error =
-        IsMadeOfOthers(item) ? CheckInputs(where, items, item) : CheckCoded(where, item);
-    if (!error.empty()) return error;
+    if (Error error =
+            IsMadeOfOthers(item) ? CheckInputs(where, items, item) : CheckCoded(where, item))
+      return error;
   }
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -7,16 +7,17 @@
 #include <string>
 
 #include "platform/readers/jpeg_parts.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
 // The error of a picture of this size in a file of so many bytes, if it is too large.
-std::string CheckHeifSize(const std::string& where, int64_t width, int64_t height, size_t file);
+Error CheckHeifSize(const std::string& where, int64_t width, int64_t height, size_t file);
 
 // The error of a file whose items are malformed, too large, or do not fit together: a picture made
 // of others has coded ones alone, as many as it says and not much larger in all, and a coded
 // picture has the size that its item declares.
-std::string CheckHeif(const std::string& where, Span file);
+Error CheckHeif(const std::string& where, Span file);
 
 }  // namespace starfocus
 

@@ -126,7 +126,7 @@ bool IsJpeg(Span file) {
   return file.size >= 3 && file.data[0] == 0xff && file.data[1] == 0xd8 && file.data[2] == 0xff;
 }
 
-std::string ReadJpegParts(const std::string& where, Span file, JpegParts* parts) {
+Error ReadJpegParts(const std::string& where, Span file, JpegParts* parts) {
   JpegParts result;
   std::vector<Span> profile, resources;
   size_t segments = 0;
@@ -143,7 +143,7 @@ std::string ReadJpegParts(const std::string& where, Span file, JpegParts* parts)
       JoinProfile(std::move(profile), &result);
       result.metadata.iptc = FindIptc(resources);
       *parts = std::move(result);
-      return "";
+      return {};
     }
     if (at + 2 > file.size) break;
     const size_t length = size_t(file.data[at]) * 256 + file.data[at + 1];
@@ -164,8 +164,8 @@ std::string ReadJpegParts(const std::string& where, Span file, JpegParts* parts)
   return Truncated(where, "JPEG");
 }
 
-std::string JoinExtensions(const std::string& where, const JpegParts& parts,
-                           const std::string& guid, std::string* text) {
+Error JoinExtensions(const std::string& where, const JpegParts& parts, const std::string& guid,
+                     std::string* text) {
   std::vector<const XmpExtension*> chosen;
   for (const XmpExtension& extension : parts.extensions) {
     if (SameHex(extension.guid, guid)) chosen.push_back(&extension);
@@ -189,7 +189,7 @@ std::string JoinExtensions(const std::string& where, const JpegParts& parts,
                     std::to_string(joined.size()) + " of them in a row");
   }
   *text = std::move(joined);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "platform/readers/photo.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -41,11 +42,11 @@ bool IsJpeg(Span file);
 
 // Reads the segments of the first picture. The parts of an ICC profile are joined by their numbers,
 // in any order; a profile that is not whole or not of RGB colours is left out.
-std::string ReadJpegParts(const std::string& where, Span file, JpegParts* parts);
+Error ReadJpegParts(const std::string& where, Span file, JpegParts* parts);
 
 // The extended XMP of that GUID, put together.
-std::string JoinExtensions(const std::string& where, const JpegParts& parts,
-                           const std::string& guid, std::string* text);
+Error JoinExtensions(const std::string& where, const JpegParts& parts, const std::string& guid,
+                     std::string* text);
 
 }  // namespace starfocus
 

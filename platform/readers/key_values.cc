@@ -35,13 +35,12 @@ void TakeKeyValues(const std::string& text, KeyValues* values) {
   Take(line, values);
 }
 
-std::string ReadKeyValues(const std::string& path, KeyValues* values) {
+Error ReadKeyValues(const std::string& path, KeyValues* values) {
   Bytes bytes;
-  std::string error = CheckPlainFile(path);
-  if (error.empty()) error = ReadSmallFile(path, &bytes);
-  if (!error.empty()) return error;
+  if (Error error = CheckPlainFile(path)) return error;
+  if (Error error = ReadSmallFile(path, &bytes)) return error;
   TakeKeyValues({bytes.begin(), bytes.end()}, values);
-  return "";
+  return {};
 }
 
 bool NumberOf(const KeyValues& values, const std::string& key, double* number) {

@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 
+#include "platform/result.h"
+
 namespace starfocus {
 
 using KeyValues = std::map<std::string, std::string>;
@@ -15,7 +17,7 @@ using KeyValues = std::map<std::string, std::string>;
 void TakeKeyValues(const std::string& text, KeyValues* values);
 
 // Those of a file of at most 1 MiB (ReadSmallFile).
-std::string ReadKeyValues(const std::string& path, KeyValues* values);
+Error ReadKeyValues(const std::string& path, KeyValues* values);
 
 // Whether the key is there and its value a finite number.
 bool NumberOf(const KeyValues& values, const std::string& key, double* number);

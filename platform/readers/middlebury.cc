@@ -88,11 +88,10 @@ int ChooseMultiple(const GreyMapPair& pair, const LightField& field, const Float
 
 }  // namespace
 
-std::string ReadMiddlebury(const std::string& folder, Capture* capture) {
+Error ReadMiddlebury(const std::string& folder, Capture* capture) {
   KeyValues values;
-  const std::string error =
-      ReadKeyValues((std::filesystem::path(folder) / "calib.txt").string(), &values);
-  if (!error.empty()) return error;
+  if (Error error = ReadKeyValues((std::filesystem::path(folder) / "calib.txt").string(), &values))
+    return error;
   capture->format = "Middlebury stereo pair";
   double baseline = 0, offset = 0;
   if (NumberOf(values, "baseline", &baseline)) {
@@ -103,7 +102,7 @@ std::string ReadMiddlebury(const std::string& folder, Capture* capture) {
     const std::string there = offset > 0 ? "-" + text : offset < 0 ? text.substr(1) : "0";
     capture->facts.emplace_back("infinity", "at disparity " + there);
   }
-  return "";
+  return {};
 }
 
 bool FindGreyMapPair(const std::string& folder, const std::vector<std::string>& names,
@@ -122,19 +121,17 @@ bool FindGreyMapPair(const std::string& folder, const std::vector<std::string>& 
   return false;
 }
 
-std::string LoadGreyMap(Capture* capture) {
+Error LoadGreyMap(Capture* capture) {
   const std::string& path = capture->map_path;
   Bytes bytes;
   Samples samples;
-  std::string error = CheckPlainFile(path);
-  if (error.empty()) error = ReadFile(path, &bytes);
-  if (error.empty()) error = DecodeSamples(path, true, &bytes, &samples);
-  if (!error.empty()) return error;
+  if (Error error = CheckPlainFile(path)) return error;
+  if (Error error = ReadFile(path, &bytes)) return error;
+  if (Error error = DecodeSamples(path, true, &bytes, &samples)) return error;
   std::replace(samples.map.values.begin(), samples.map.values.end(), 0.0F,
                std::numeric_limits<float>::quiet_NaN());
   LightField* field = &capture->light_field;
-  error = TakeMap(path, std::move(samples.map), field);
-  if (!error.empty()) return error;
+  if (Error error = TakeMap(path, std::move(samples.map), field)) return error;
   const auto* pair =
       std::find_if(std::begin(kPairs), std::end(kPairs),
                    [&](const GreyMapPair& one) { return capture->format == one.format; });
@@ -142,7 +139,7 @@ std::string LoadGreyMap(Capture* capture) {
   for (float& value : field->disparity.values) value /= static_cast<float>(multiple);
   capture->facts.emplace_back(
       "map", "levels of " + std::to_string(multiple) + " times the disparity, 0 unknown");
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -10,11 +10,12 @@
 #include <vector>
 
 #include "platform/readers/capture.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
 // Adds what calib.txt says to a folder that is open already.
-std::string ReadMiddlebury(const std::string& folder, Capture* capture);
+Error ReadMiddlebury(const std::string& folder, Capture* capture);
 
 // Whether the folder has a pair whose map is a grey picture. Fills in its files and format.
 // `names` are sorted.
@@ -23,7 +24,7 @@ bool FindGreyMapPair(const std::string& folder, const std::vector<std::string>& 
 
 // Loads the grey map of a pair whose views are loaded. The size of the pictures says which multiple
 // of the disparity its levels are, unless the two pictures agree clearly better by another.
-std::string LoadGreyMap(Capture* capture);
+Error LoadGreyMap(Capture* capture);
 
 }  // namespace starfocus
 

@@ -107,7 +107,7 @@ std::vector<MultiPicture> ListMultiPictures(Span file, const JpegParts& parts, b
     if (at >= file.size) break;
     MultiPicture picture;
     picture.file = {file.data + at, file.size - at};
-    if (!ReadJpegParts("", picture.file, &picture.parts).empty()) {
+    if (ReadJpegParts("", picture.file, &picture.parts)) {
       ++at;
       continue;
     }

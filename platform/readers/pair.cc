@@ -66,11 +66,11 @@ bool Fits(const std::string& photo, const std::string& file, Candidate* candidat
   return true;
 }
 
-std::string ReadSamples(const std::string& path, bool use_alpha, Samples* samples) {
+Error ReadSamples(const std::string& path, bool use_alpha, Samples* samples) {
   if (LowerExtension(path) == ".pfm") return ReadPfm(path, &samples->map);
   Bytes bytes;
-  const std::string error = ReadFile(path, &bytes);
-  return error.empty() ? DecodeSamples(path, use_alpha, &bytes, samples) : error;
+  if (Error error = ReadFile(path, &bytes)) return error;
+  return DecodeSamples(path, use_alpha, &bytes, samples);
 }
 
 // Gives the numbers of the map the meaning that the options say.
@@ -96,7 +96,7 @@ bool IsDepthPictureName(const std::string& name) {
   return !NameBefore(fs::path(name).stem().string()).empty();
 }
 
-std::string FindDepthPicture(const std::string& path, DepthPhoto* photo, std::string* depth) {
+Error FindDepthPicture(const std::string& path, DepthPhoto* photo, std::string* depth) {
   const fs::path file(path);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const std::string ending = "-image";
@@ -115,29 +115,27 @@ std::string FindDepthPicture(const std::string& path, DepthPhoto* photo, std::st
     found.push_back(candidate);
   }
   if (error) return Expected(folder.string(), "a folder that can be read", error.message());
-  if (found.empty()) return "";
+  if (found.empty()) return {};
   std::sort(found.begin(), found.end());
   *depth = (file.parent_path() / found[0].name).string();
   if (found.size() > 1) {
     photo->notes.push_back(std::to_string(found.size()) + " depth pictures are beside the photo, " +
                            found[0].name + " is used (else: --depth FILE)");
   }
-  return "";
+  return {};
 }
 
-std::string ReadDepthPicture(const std::string& path, const DepthOptions& options,
-                             DepthPhoto* photo) {
+Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo) {
   photo->format = "photo and depth picture";
   photo->facts.emplace_back("depth picture", path);
   Samples samples;
-  std::string error = CheckPlainFile(path);
-  if (error.empty()) error = ReadSamples(path, options.use_alpha, &samples);
-  if (!error.empty()) return error;
+  if (Error error = CheckPlainFile(path)) return error;
+  if (Error error = ReadSamples(path, options.use_alpha, &samples)) return error;
   photo->map = std::move(samples.map);
   MarkUnknown(options, samples.largest, photo);
   StandWithPhoto(options.orientation, photo);
   Understand(options, samples.largest == 0, photo);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

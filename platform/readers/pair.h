@@ -6,6 +6,7 @@
 #include <string>
 
 #include "platform/readers/photo.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -16,12 +17,11 @@ bool IsDepthPictureName(const std::string& name);
 // Finds the depth picture beside a photograph NAME.jpg or NAME-image.jpg: NAME-depth, NAME_depth or
 // NAME.depth with .png, .pgm, .pfm, .jpg or .jpeg, in any case. *depth is empty if there is none.
 // If there are several, a note names the one that is taken.
-std::string FindDepthPicture(const std::string& path, DepthPhoto* photo, std::string* depth);
+Error FindDepthPicture(const std::string& path, DepthPhoto* photo, std::string* depth);
 
 // Reads the depth picture, PNG, PGM, PPM, JPEG or PFM, into a photo whose picture is there. Without
 // options larger is nearer in a PFM file, and the near end of others is guessed.
-std::string ReadDepthPicture(const std::string& path, const DepthOptions& options,
-                             DepthPhoto* photo);
+Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo);
 
 }  // namespace starfocus
 

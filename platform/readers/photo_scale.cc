@@ -79,11 +79,11 @@ void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
 }
 
 // Disparities stay as they are.
-std::string CheckDisparities(const std::string& where, DepthPhoto* photo) {
+Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
   const auto [low, high] = std::minmax_element(photo->map.values.begin(), photo->map.values.end());
   if (double(*low) >= -SF_MAX_DISPARITY && double(*high) <= SF_MAX_DISPARITY) {
     photo->facts.emplace_back("scale", "disparities of the map, in pixels");
-    return "";
+    return {};
   }
   const double limit = SF_MAX_DISPARITY;
   return Expected(where, "disparities within +-" + Rounded(limit),
@@ -134,7 +134,7 @@ FloatMap Resize(const FloatMap& map, int width, int height) {
   return result;
 }
 
-std::string MakeSmallMap(const std::string& where, DepthPhoto* photo, LightField* light_field) {
+Error MakeSmallMap(const std::string& where, DepthPhoto* photo, LightField* light_field) {
   ApplyOrientation(photo);
   const Image& picture = photo->picture;
   FloatMap& map = photo->map;
@@ -147,15 +147,14 @@ std::string MakeSmallMap(const std::string& where, DepthPhoto* photo, LightField
   if (!range.known) return Expected(where, "a map with a known depth", "none");
   FillUnknown(photo);
   if (photo->meaning == MapMeaning::kDisparity) {
-    const std::string error = CheckDisparities(where, photo);
-    if (!error.empty()) return error;
+    if (Error error = CheckDisparities(where, photo)) return error;
   } else {
     ToDisparity(range, std::hypot(picture.width, picture.height), photo);
   }
   light_field->disparity = std::move(map);
   light_field->views = {std::move(photo->picture)};
   light_field->positions = {{0, 0}};
-  return "";
+  return {};
 }
 
 void FitMap(LightField* light_field) {
@@ -165,9 +164,9 @@ void FitMap(LightField* light_field) {
   map = Resize(map, picture.width, picture.height);
 }
 
-std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field) {
-  const std::string error = MakeSmallMap(where, photo, light_field);
-  if (error.empty()) FitMap(light_field);
+Error MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field) {
+  const Error error = MakeSmallMap(where, photo, light_field);
+  if (!error) FitMap(light_field);
   return error;
 }
 

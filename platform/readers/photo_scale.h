@@ -5,6 +5,7 @@
 
 #include "platform/light_field.h"
 #include "platform/readers/photo.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -15,13 +16,13 @@ FloatMap Resize(const FloatMap& map, int width, int height);
 // Turns the photo upright and makes the map's values disparities of the picture such that an
 // aperture of radius 1 is a lens of f/1 on full frame (docs/formats.md). The light field takes over
 // picture and map, which keeps its own size; photo->focus_value becomes a disparity, too.
-std::string MakeSmallMap(const std::string& where, DepthPhoto* photo, LightField* light_field);
+Error MakeSmallMap(const std::string& where, DepthPhoto* photo, LightField* light_field);
 
 // Brings the map of a photo to the picture's size.
 void FitMap(LightField* light_field);
 
 // MakeSmallMap and FitMap.
-std::string MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field);
+Error MakeLightField(const std::string& where, DepthPhoto* photo, LightField* light_field);
 
 }  // namespace starfocus
 

@@ -30,7 +30,7 @@ bool IsAuxiliary(const MultiPicture& picture) {
 
 bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
   JpegParts parts;
-  if (!IsJpeg(file) || !ReadJpegParts(path, file, &parts).empty()) return false;
+  if (!IsJpeg(file) || ReadJpegParts(path, file, &parts)) return false;
   if (parts.multi_picture.empty() && LowerExtension(path) != ".mpo") return false;
   const std::vector<MultiPicture> pictures = ListMultiPictures(file, parts);
   if (pictures.empty() || IsAuxiliary(pictures[0])) return false;
@@ -38,7 +38,7 @@ bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
   if (type != kUndefined && type != kStereo) return false;
   Bytes bytes(pictures[0].file.data, pictures[0].file.data + pictures[0].file.size);
   Image right;
-  if (!DecodeImage(path, &bytes, &right).empty() || right.width != photo->picture.width ||
+  if (DecodeImage(path, &bytes, &right) || right.width != photo->picture.width ||
       right.height != photo->picture.height) {
     return false;
   }

@@ -93,7 +93,7 @@ void ChooseLine(const Chooser& chooser, bool is_row) {
 
 }  // namespace
 
-std::string ChooseStar(const std::string& where, const ViewArray& array, Star* star, Facts* facts) {
+Error ChooseStar(const std::string& where, const ViewArray& array, Star* star, Facts* facts) {
   const int half_rows = HalfOf(array.rows), half_columns = HalfOf(array.columns);
   const Chooser chooser = {array, half_rows, half_columns, star};
   star->reach = std::min(half_rows, half_columns);
@@ -111,27 +111,27 @@ std::string ChooseStar(const std::string& where, const ViewArray& array, Star* s
   facts->emplace_back("views", std::to_string(star->views.size()) + " of " +
                                    Count(array.rows, array.columns) + ", the outermost " +
                                    std::to_string(star->reach) + " from the centre");
-  return "";
+  return {};
 }
 
-std::string FindArray(const std::string& folder, const std::vector<std::string>& names,
-                      ViewArray* array) {
+Error FindArray(const std::string& folder, const std::vector<std::string>& names,
+                ViewArray* array) {
   std::vector<Parts> parts;
   for (const std::string& name : names) {
     parts.push_back(Split(std::filesystem::path(name).stem().string()));
   }
-  if (names.size() < 3 || names.size() > kMostViews) return "";
+  if (names.size() < 3 || names.size() > kMostViews) return {};
   const std::vector<size_t> varying = FindVarying(parts);
-  if (varying.empty()) return "";
+  if (varying.empty()) return {};
   std::map<std::pair<int, int>, std::string> places;
   std::set<int> rows, columns;
   for (size_t k = 0; k < names.size(); ++k) {
-    if (parts[k].numbers.size() != parts[0].numbers.size()) return "";
+    if (parts[k].numbers.size() != parts[0].numbers.size()) return {};
     const int first = parts[k].numbers[varying[0]];
     const int second = varying.size() > 1 ? parts[k].numbers[varying[1]] : -1;
     const std::pair<int, int> at =
         varying.size() > 1 ? std::pair(first, second) : std::pair(0, first);
-    if (!places.emplace(at, names[k]).second) return "";
+    if (!places.emplace(at, names[k]).second) return {};
     rows.insert(at.first);
     columns.insert(at.second);
   }
@@ -146,7 +146,7 @@ std::string FindArray(const std::string& folder, const std::vector<std::string>&
   for (const auto& place : places) {
     array->paths.push_back((std::filesystem::path(folder) / place.second).string());
   }
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "platform/readers/photo.h"
+#include "platform/result.h"
 #include "platform/view_files.h"
 
 namespace starfocus {
@@ -27,13 +28,12 @@ struct Star {
 // The widest star within an array of at least 3 x 3, 17 views where halves of its reach are whole
 // and 9 elsewhere; of a single row or column up to 17 views. An even row or column more is left
 // out. A fact tells what was chosen.
-std::string ChooseStar(const std::string& where, const ViewArray& array, Star* star, Facts* facts);
+Error ChooseStar(const std::string& where, const ViewArray& array, Star* star, Facts* facts);
 
 // Pictures whose names differ in two numbers, row and column, or in one: NAME_00_01.png and so on.
 // The first two that differ count, so that the camera's place in Stanford's names does not.
 // `array` stays empty when the names are none of that kind.
-std::string FindArray(const std::string& folder, const std::vector<std::string>& names,
-                      ViewArray* array);
+Error FindArray(const std::string& folder, const std::vector<std::string>& names, ViewArray* array);
 
 }  // namespace starfocus
 

@@ -105,7 +105,7 @@ void TrimAll(XmpNode* node) {
 
 bool CanReadXmp() { return true; }
 
-std::string ParseXmp(const std::string& where, const char* text, size_t size, XmpNode* root) {
+Error ParseXmp(const std::string& where, const char* text, size_t size, XmpNode* root) {
   if (size > kMostBytes) {
     return Expected(where, "XMP of at most " + std::to_string(kMostBytes) + " bytes",
                     std::to_string(size));
@@ -129,14 +129,14 @@ std::string ParseXmp(const std::string& where, const char* text, size_t size, Xm
   if (!whole) return Expected(where, "well-formed XMP", XML_ErrorString(code));
   *root = std::move(builder.open[0]);
   TrimAll(root);
-  return "";
+  return {};
 }
 
 #else
 
 bool CanReadXmp() { return false; }
 
-std::string ParseXmp(const std::string& where, const char*, size_t, XmpNode*) {
+Error ParseXmp(const std::string& where, const char*, size_t, XmpNode*) {
   return Expected(where, "a build with expat to read its XMP", "one without");
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "platform/result.h"
+
 namespace starfocus {
 
 // Names are "<namespace>|<name>". A property is an attribute, or an element with text in it.
@@ -21,7 +23,7 @@ bool CanReadXmp();
 
 // Parses a packet with no document type, at most 64 MiB, nested at most 32 deep and of at most
 // 20000 elements and attributes.
-std::string ParseXmp(const std::string& where, const char* text, size_t size, XmpNode* root);
+Error ParseXmp(const std::string& where, const char* text, size_t size, XmpNode* root);
 
 // The value of the node's own property without white space around it; null if it has none.
 const std::string* OwnProperty(const XmpNode& node, const std::string& name);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "platform/writers/base64.h"
+#include "platform/base64.h"
 #include "platform/writers/jpeg.h"
 #include "platform/writers/jpeg_segments.h"
 #include "platform/writers/png.h"
@@ -54,8 +54,8 @@ GreyImage Levels(const FloatMap& map, const Range& range) {
 }
 
 // Our own properties. Disparities at f/1 beyond the limit are moved to it, which changes no blur.
-std::string OwnAttributes(const std::string& path, const SharpOriginal& photo, const Range& range,
-                          std::string* attributes) {
+Error OwnAttributes(const std::string& path, const SharpOriginal& photo, const Range& range,
+                    std::string* attributes) {
   double near = photo.widest * range.high, far = photo.widest * range.low;
   const double moved = std::clamp(0.0, -SF_MAX_DISPARITY - far,
                                   std::max(-SF_MAX_DISPARITY - far, SF_MAX_DISPARITY - near));
@@ -68,7 +68,7 @@ std::string OwnAttributes(const std::string& path, const SharpOriginal& photo, c
   const double diagonal = std::hypot(photo.before->width, photo.before->height);
   *attributes = Attribute(std::string("Starfocus:") + kNearDisparity, near / diagonal) +
                 Attribute(std::string("Starfocus:") + kFarDisparity, far / diagonal);
-  return "";
+  return {};
 }
 
 std::string FocusAttributes(const SharpOriginal& photo, double low) {
@@ -80,16 +80,16 @@ std::string FocusAttributes(const SharpOriginal& photo, double low) {
 
 }  // namespace
 
-std::string EncodeDepthPhoto(const std::string& path, const Image& picture,
-                             const SharpOriginal& photo, int quality, const Metadata& metadata,
-                             Bytes* jpeg) {
+Error EncodeDepthPhoto(const std::string& path, const Image& picture, const SharpOriginal& photo,
+                       int quality, const Metadata& metadata, Bytes* jpeg) {
   const Range range(*photo.disparity);
   Bytes map, before, segments;
-  std::string own, error = OwnAttributes(path, photo, range, &own);
-  if (error.empty()) error = EncodeGreyPng(path, Levels(*photo.disparity, range), &map);
-  if (error.empty())
-    error = EncodeJpeg(path, *photo.before, quality, {{}, metadata.icc}, {}, &before);
-  if (!error.empty()) return error;
+  std::string own;
+  if (Error error = OwnAttributes(path, photo, range, &own)) return error;
+  if (Error error = EncodeGreyPng(path, Levels(*photo.disparity, range), &map)) return error;
+  if (Error error = EncodeJpeg(path, *photo.before, quality, {{}, metadata.icc}, {}, &before)) {
+    return error;
+  }
   const std::string attributes =
       Attribute("GDepth:Format", "RangeInverse") +
       Attribute("GDepth:Near", 1 / (range.high - range.low + 1)) + Attribute("GDepth:Far", 1) +

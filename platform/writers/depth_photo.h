@@ -15,6 +15,7 @@
 #include "platform/image.h"
 #include "platform/metadata.h"
 #include "platform/pfm.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -34,9 +35,8 @@ struct SharpOriginal {
 // The picture as JPEG of that quality with the one before and its map, a PNG of 8 bits whose levels
 // are linear in disparity (RangeInverse). GFocus:BlurAtInfinity is the radius of blur over the
 // longer side. `path` only names the file in errors.
-std::string EncodeDepthPhoto(const std::string& path, const Image& picture,
-                             const SharpOriginal& photo, int quality, const Metadata& metadata,
-                             Bytes* jpeg);
+Error EncodeDepthPhoto(const std::string& path, const Image& picture, const SharpOriginal& photo,
+                       int quality, const Metadata& metadata, Bytes* jpeg);
 
 }  // namespace starfocus
 

@@ -7,11 +7,10 @@
 
 namespace starfocus {
 
-std::string EncodeJpeg(const std::string& path, const Image& image, int quality,
-                       const Metadata& metadata, const Bytes& segments, Bytes* jpeg) {
+Error EncodeJpeg(const std::string& path, const Image& image, int quality, const Metadata& metadata,
+                 const Bytes& segments, Bytes* jpeg) {
   jpeg->clear();
-  const std::string error = EncodeJpegPixels(path, image, quality, jpeg);
-  if (!error.empty()) return error;
+  if (Error error = EncodeJpegPixels(path, image, quality, jpeg)) return error;
   Bytes all, exif = metadata.exif;
   if (MarkEdited("starfocus " SF_VERSION_STRING, image.width, image.height, &exif)) {
     AppendExif(exif, &all);
@@ -21,7 +20,7 @@ std::string EncodeJpeg(const std::string& path, const Image& image, int quality,
   AppendProfile(metadata.icc, &all);
   all.insert(all.end(), segments.begin(), segments.end());
   InsertSegments(all, jpeg);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -7,18 +7,19 @@
 
 #include "platform/image.h"
 #include "platform/metadata.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
 // The pixels alone, appended to `jpeg`, with colours at full resolution from quality 90 on; quality
 // is 1 to 100. By libjpeg-turbo where the build has it, else by stb_image_write. `path` only names
 // the file in errors, here and below.
-std::string EncodeJpegPixels(const std::string& path, const Image& image, int quality, Bytes* jpeg);
+Error EncodeJpegPixels(const std::string& path, const Image& image, int quality, Bytes* jpeg);
 
 // A file with `segments` (jpeg_segments.h), and with metadata changed to what is true of the
 // picture (exif.h). EXIF that cannot be followed is left out, and metadata that has no room.
-std::string EncodeJpeg(const std::string& path, const Image& image, int quality,
-                       const Metadata& metadata, const Bytes& segments, Bytes* jpeg);
+Error EncodeJpeg(const std::string& path, const Image& image, int quality, const Metadata& metadata,
+                 const Bytes& segments, Bytes* jpeg);
 
 }  // namespace starfocus
 

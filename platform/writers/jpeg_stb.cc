@@ -16,12 +16,11 @@ void Append(void* context, void* data, int size) {
 
 }  // namespace
 
-std::string EncodeJpegPixels(const std::string& path, const Image& image, int quality,
-                             Bytes* jpeg) {
+Error EncodeJpegPixels(const std::string& path, const Image& image, int quality, Bytes* jpeg) {
   const StbMemory memory;
   if (stbi_write_jpg_to_func(Append, jpeg, image.width, image.height, 3, image.pixels.data(),
                              quality)) {
-    return "";
+    return {};
   }
   return Expected(path, "a picture that can be encoded", "an encoder failure");
 }

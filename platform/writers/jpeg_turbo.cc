@@ -66,8 +66,7 @@ bool Compress(const Image& image, int quality, Memory* memory, Failure* failure)
 
 }  // namespace
 
-std::string EncodeJpegPixels(const std::string& path, const Image& image, int quality,
-                             Bytes* jpeg) {
+Error EncodeJpegPixels(const std::string& path, const Image& image, int quality, Bytes* jpeg) {
   Memory memory;
   const auto failure = std::make_unique<Failure>();
   if (!Compress(image, quality, &memory, failure.get())) {
@@ -76,7 +75,7 @@ std::string EncodeJpegPixels(const std::string& path, const Image& image, int qu
                : Expected(path, "a picture that libjpeg can write", failure->reason);
   }
   jpeg->insert(jpeg->end(), memory.data, memory.data + memory.size);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -13,21 +13,21 @@ namespace {
 // Encoders count bytes in an int.
 constexpr int64_t kMostPixels = int64_t{1} << 28;
 
-std::string CheckSize(const std::string& path, const Image& image) {
+Error CheckSize(const std::string& path, const Image& image) {
   const int64_t width = image.width, height = image.height;
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   if (width < 1 || height < 1 || width > kMaxPictureSize || height > kMaxPictureSize) {
     return Expected(path, "width and height from 1 to 65535", size);
   }
-  if (width * height <= kMostPixels) return "";
+  if (width * height <= kMostPixels) return {};
   return Expected(path, "a PNG, JPEG or WebP picture of at most 2^28 pixels", size);
 }
 
-std::string EncodeWebp(const std::string& path, const Image& image, const PictureOptions& options,
-                       Bytes* bytes) {
+Error EncodeWebp(const std::string& path, const Image& image, const PictureOptions& options,
+                 Bytes* bytes) {
   WebpWriter writer(path, options.quality);
-  const std::string error = writer.Add(image);
-  return error.empty() ? writer.Finish(options.metadata, bytes) : error;
+  if (Error error = writer.Add(image)) return error;
+  return writer.Finish(options.metadata, bytes);
 }
 
 }  // namespace
@@ -37,15 +37,14 @@ bool IsPictureExtension(const std::string& extension) {
          extension == ".jpeg" || extension == ".webp";
 }
 
-std::string EncodePicture(const std::string& path, const Image& image,
-                          const PictureOptions& options, Bytes* bytes) {
+Error EncodePicture(const std::string& path, const Image& image, const PictureOptions& options,
+                    Bytes* bytes) {
   const std::string extension = FormatExtension(path);
   if (extension == ".ppm") {
     *bytes = EncodePpm(image);
-    return "";
+    return {};
   }
-  const std::string error = CheckSize(path, image);
-  if (!error.empty()) return error;
+  if (Error error = CheckSize(path, image)) return error;
   if (extension == ".png") {
     return EncodePng(path, image, options.metadata, options.png_size, bytes);
   }

@@ -7,6 +7,7 @@
 
 #include "platform/image.h"
 #include "platform/metadata.h"
+#include "platform/result.h"
 #include "platform/writers/png.h"
 
 namespace starfocus {
@@ -25,8 +26,8 @@ bool IsPictureExtension(const std::string& extension);
 
 // Encodes by the extension of `path` (standard_stream.h), which else names the file in errors. PPM
 // has no place for metadata.
-std::string EncodePicture(const std::string& path, const Image& image,
-                          const PictureOptions& options, Bytes* bytes);
+Error EncodePicture(const std::string& path, const Image& image, const PictureOptions& options,
+                    Bytes* bytes);
 
 }  // namespace starfocus
 

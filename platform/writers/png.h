@@ -9,6 +9,7 @@
 
 #include "platform/image.h"
 #include "platform/metadata.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -24,11 +25,11 @@ enum class PngSize { kQuick, kSmall };
 // 8 bits of R, G, B, as all pictures of the engine have. By libpng and libdeflate where the build
 // has them, with metadata changed to what is true of the picture (exif.h); else by stb_image_write,
 // without any and of one size. `path` only names the file in errors, here and below.
-std::string EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
-                      PngSize size, Bytes* png);
+Error EncodePng(const std::string& path, const Image& image, const Metadata& metadata, PngSize size,
+                Bytes* png);
 
 // Levels as they are, in 8 bits where all have room there, else in 16, which only libpng writes.
-std::string EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png);
+Error EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png);
 
 }  // namespace starfocus
 

@@ -165,8 +165,8 @@ bool Write(const Rows& rows, const Pixels& pixels, const Metadata& metadata, Byt
   return true;
 }
 
-std::string Encode(const std::string& path, const Rows& rows, const Metadata& metadata, int level,
-                   Bytes* png) {
+Error Encode(const std::string& path, const Rows& rows, const Metadata& metadata, int level,
+             Bytes* png) {
   const Pixels pixels = Compress(rows, level);
   Bytes exif = metadata.exif;
   if (!MarkEdited("starfocus " SF_VERSION_STRING, rows.width, rows.height, &exif)) exif.clear();
@@ -174,21 +174,21 @@ std::string Encode(const std::string& path, const Rows& rows, const Metadata& me
   png->reserve(pixels.size + exif.size() + metadata.icc.size() + 1024);
   Call call = {png};
   call.xmp = XmpPacket(metadata.xmp);
-  if (Write(rows, pixels, metadata, &exif, &call)) return "";
+  if (Write(rows, pixels, metadata, &exif, &call)) return {};
   if (call.no_memory || call.reason[0] == '\0') return OutOfMemory(path, "write it");
   return Expected(path, "a picture that libpng can write", call.reason);
 }
 
 }  // namespace
 
-std::string EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
-                      PngSize size, Bytes* png) {
+Error EncodePng(const std::string& path, const Image& image, const Metadata& metadata, PngSize size,
+                Bytes* png) {
   const Rows rows = {image.width,        image.height,        8,
                      PNG_COLOR_TYPE_RGB, image.pixels.data(), image.stride()};
   return Encode(path, rows, metadata, size == PngSize::kSmall ? kSmallLevel : kLevel, png);
 }
 
-std::string EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png) {
+Error EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png) {
   const bool wide = std::any_of(image.levels.begin(), image.levels.end(),
                                 [](uint16_t level) { return level > 255; });
   const size_t bytes = wide ? 2 : 1;

@@ -16,25 +16,24 @@ void Append(void* context, void* data, int size) {
   bytes->insert(bytes->end(), first, first + size);
 }
 
-std::string Encode(const std::string& path, int width, int height, int channels,
-                   const uint8_t* samples, Bytes* png) {
+Error Encode(const std::string& path, int width, int height, int channels, const uint8_t* samples,
+             Bytes* png) {
   const StbMemory memory;
   png->clear();
   if (stbi_write_png_to_func(Append, png, width, height, channels, samples, channels * width) &&
       !png->empty()) {
-    return "";
+    return {};
   }
   return Expected(path, "a picture that can be encoded", "an encoder failure");
 }
 
 }  // namespace
 
-std::string EncodePng(const std::string& path, const Image& image, const Metadata&, PngSize,
-                      Bytes* png) {
+Error EncodePng(const std::string& path, const Image& image, const Metadata&, PngSize, Bytes* png) {
   return Encode(path, image.width, image.height, 3, image.pixels.data(), png);
 }
 
-std::string EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png) {
+Error EncodeGreyPng(const std::string& path, const GreyImage& image, Bytes* png) {
   Bytes samples;
   for (const uint16_t level : image.levels) {
     if (level > 255) {

@@ -8,6 +8,7 @@
 
 #include "platform/image.h"
 #include "platform/metadata.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -23,12 +24,12 @@ class WebpWriter {
 
   // Whether pictures of this size can be written: the format has 16383 pixels a side, and
   // a program built without libwebp writes none.
-  static std::string Check(const std::string& path, int width, int height);
+  static Error Check(const std::string& path, int width, int height);
 
-  std::string Add(const Image& picture);
+  Error Add(const Image& picture);
 
   // The whole file, with metadata changed to what is true of the pictures (exif.h).
-  std::string Finish(const Metadata& metadata, Bytes* webp);
+  Error Finish(const Metadata& metadata, Bytes* webp);
 
  private:
   struct State;

@@ -12,14 +12,14 @@ WebpWriter::WebpWriter(std::string path, int) : state_(new State) { state_->path
 
 WebpWriter::~WebpWriter() = default;
 
-std::string WebpWriter::Check(const std::string& path, int, int) {
+Error WebpWriter::Check(const std::string& path, int, int) {
   return Expected(path, "a program built with libwebp (Debian: libwebp-dev)", "none");
 }
 
-std::string WebpWriter::Add(const Image& picture) {
+Error WebpWriter::Add(const Image& picture) {
   return Check(state_->path, picture.width, picture.height);
 }
 
-std::string WebpWriter::Finish(const Metadata&, Bytes*) { return Check(state_->path, 0, 0); }
+Error WebpWriter::Finish(const Metadata&, Bytes*) { return Check(state_->path, 0, 0); }
 
 }  // namespace starfocus

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMilliseconds = 100;  // of a picture
 
-std::string Failed(const std::string& path, const std::string& reason) {
+Error Failed(const std::string& path, const std::string& reason) {
   return Expected(path, "pictures that libwebp can write", reason);
 }
 
@@ -42,15 +42,14 @@ struct WebpWriter::State {
   int quality = 0, pictures = 0, width = 0, height = 0;
   WebPAnimEncoder* encoder = nullptr;
 
-  std::string Begin(int first_width, int first_height) {
-    std::string error = Check(path, first_width, first_height);
-    if (!error.empty()) return error;
+  Error Begin(int first_width, int first_height) {
+    if (Error error = Check(path, first_width, first_height)) return error;
     width = first_width;
     height = first_height;
     WebPAnimEncoderOptions options;
     WebPAnimEncoderOptionsInit(&options);
     encoder = WebPAnimEncoderNew(width, height, &options);
-    return encoder != nullptr ? "" : OutOfMemory(path, "write it");
+    return encoder != nullptr ? Error() : OutOfMemory(path, "write it");
   }
 };
 
@@ -61,17 +60,16 @@ WebpWriter::WebpWriter(std::string path, int quality) : state_(new State) {
 
 WebpWriter::~WebpWriter() { WebPAnimEncoderDelete(state_->encoder); }
 
-std::string WebpWriter::Check(const std::string& path, int width, int height) {
-  if (width <= WEBP_MAX_DIMENSION && height <= WEBP_MAX_DIMENSION) return "";
+Error WebpWriter::Check(const std::string& path, int width, int height) {
+  if (width <= WEBP_MAX_DIMENSION && height <= WEBP_MAX_DIMENSION) return {};
   return Expected(path, "width and height up to 16383 for WebP",
                   std::to_string(width) + "x" + std::to_string(height));
 }
 
-std::string WebpWriter::Add(const Image& picture) {
+Error WebpWriter::Add(const Image& picture) {
   State& state = *state_;
   if (state.encoder == nullptr) {
-    const std::string error = state.Begin(picture.width, picture.height);
-    if (!error.empty()) return error;
+    if (Error error = state.Begin(picture.width, picture.height)) return error;
   }
   WebPConfig config;
   WebPPicture frame;
@@ -89,14 +87,14 @@ std::string WebpWriter::Add(const Image& picture) {
   WebPPictureFree(&frame);
   if (added) {
     ++state.pictures;
-    return "";
+    return {};
   }
   return code == VP8_ENC_ERROR_OUT_OF_MEMORY
              ? OutOfMemory(state.path, "write it")
              : Failed(state.path, WebPAnimEncoderGetError(state.encoder));
 }
 
-std::string WebpWriter::Finish(const Metadata& metadata, Bytes* webp) {
+Error WebpWriter::Finish(const Metadata& metadata, Bytes* webp) {
   State& state = *state_;
   Data coded, whole;
   if (!WebPAnimEncoderAdd(state.encoder, nullptr, kMilliseconds * state.pictures, nullptr) ||
@@ -114,7 +112,7 @@ std::string WebpWriter::Finish(const Metadata& metadata, Bytes* webp) {
   WebPMuxDelete(mux);
   if (!made) return OutOfMemory(state.path, "write it");
   webp->assign(whole.data.bytes, whole.data.bytes + whole.data.size);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -24,26 +24,25 @@ struct Options {
   Settings settings;
 };
 
-std::string Save(const std::string& path, const std::string& text) {
-  return path.empty() ? "" : WriteFile(path, Bytes(text.begin(), text.end()));
+Error Save(const std::string& path, const std::string& text) {
+  return path.empty() ? Error() : WriteFile(path, Bytes(text.begin(), text.end()));
 }
 
-std::string Check(const Options& options) {
+Error Check(const Options& options) {
   for (const std::string& mode : options.choice.modes) {
     if (ModeOf(mode) < 0) {
       return Expected("--modes", "block, frame, benchmark or blur", "'" + mode + "'");
     }
   }
   for (const std::string& path : {options.csv, options.json, options.html}) {
-    const std::string error = path.empty() ? "" : CheckOutputPath(path);
-    if (!error.empty()) return error;
+    if (Error error = path.empty() ? Error() : CheckOutputPath(path)) return error;
   }
   for (const double scale : options.choice.n_scales) {
     if (scale >= SF_MIN_N_SCALE && scale <= SF_MAX_N_SCALE) continue;
     return Expected("--n-scales", "factors from 0.5 to 2", std::to_string(scale));
   }
   if (options.choice.quantiles.empty()) return Expected("--quantiles", "at least one", "none");
-  return "";
+  return {};
 }
 
 std::vector<std::string> MissingTools() {
@@ -54,39 +53,36 @@ std::vector<std::string> MissingTools() {
   return missing;
 }
 
-std::string MeasureSweeps(const Options& options, std::vector<Row>* rows) {
-  if (options.sweep.empty()) return "";
+Error MeasureSweeps(const Options& options, std::vector<Row>* rows) {
+  if (options.sweep.empty()) return {};
   Field field;
-  std::string error = LoadField(options.sweep, &field);
-  if (error.empty()) error = MeasureRadii(field, options.choice, options.settings, rows);
-  if (error.empty()) error = MeasureSizes(field, options.choice, options.settings, rows);
-  return error;
+  if (Error error = LoadField(options.sweep, &field)) return error;
+  if (Error error = MeasureRadii(field, options.choice, options.settings, rows)) return error;
+  return MeasureSizes(field, options.choice, options.settings, rows);
 }
 
-std::string Run(Options options) {
-  std::string error = Check(options);
+Error Run(Options options) {
+  Error error = Check(options);
   options.settings.folder = std::filesystem::temp_directory_path().string();
   if (!options.html.empty()) {
     options.settings.folder = std::filesystem::absolute(options.html).parent_path().string();
   }
   std::vector<Counts> counts;
-  if (error.empty()) error = ReadCounts(options.x86_counts, options.arm_counts, &counts);
+  if (!error) error = ReadCounts(options.x86_counts, options.arm_counts, &counts);
   std::vector<Row> rows;
-  for (size_t i = 0; i < options.folders.size() && error.empty(); ++i) {
+  for (size_t i = 0; i < options.folders.size() && !error; ++i) {
     Field field;
     error = LoadField(options.folders[i], &field);
     field.transfer = options.transfer == "none" ? SF_TRANSFER_NONE : SF_TRANSFER_SRGB;
-    if (error.empty()) error = MeasureField(field, options.choice, options.settings, &rows);
+    if (!error) error = MeasureField(field, options.choice, options.settings, &rows);
   }
-  if (error.empty()) error = MeasureSweeps(options, &rows);
-  if (!error.empty()) return error;
+  if (!error) error = MeasureSweeps(options, &rows);
+  if (error) return error;
   const Machine machine = ThisMachine(options.revision);
   error = Save(options.csv, ToCsv(machine, rows));
-  if (error.empty()) error = Save(options.json, ToJson(machine, rows));
-  if (error.empty() && !options.html.empty()) {
-    std::string page;
-    error = MakeReport({machine, rows, MissingTools(), counts}, &page);
-    if (error.empty()) error = Save(options.html, page);
+  if (!error) error = Save(options.json, ToJson(machine, rows));
+  if (!error && !options.html.empty()) {
+    error = Save(options.html, MakeReport({machine, rows, MissingTools(), counts}));
   }
   return error;
 }
@@ -136,8 +132,8 @@ int main(int argc, char** argv) {
   starfocus::bench::Options options;
   starfocus::bench::AddOptions(&app, &options);
   CLI11_PARSE(app, argc, argv);
-  const std::string error = starfocus::bench::Run(options);
-  if (error.empty()) return 0;
-  std::fprintf(stderr, "%s\n", error.c_str());
+  const starfocus::Error error = starfocus::bench::Run(options);
+  if (!error) return 0;
+  std::fprintf(stderr, "%s\n", error.line().c_str());
   return 1;
 }

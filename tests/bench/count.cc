@@ -63,19 +63,19 @@ Field MakeField() {
   return field;
 }
 
-std::string Load(const std::string& folder, int views, Field* field) {
-  const std::string error = starfocus::bench::LoadField(folder, field);
-  if (!error.empty() || (views >= 1 && views <= field->views())) return error;
+starfocus::Error Load(const std::string& folder, int views, Field* field) {
+  const starfocus::Error error = starfocus::bench::LoadField(folder, field);
+  if (error || (views >= 1 && views <= field->views())) return error;
   return starfocus::Expected(folder, std::to_string(views) + " views",
                              std::to_string(field->views()));
 }
 
-std::string RefocusOnce(const Field& field, const starfocus::bench::Task& task, double focus) {
+starfocus::Error RefocusOnce(const Field& field, const starfocus::bench::Task& task, double focus) {
   starfocus::bench::TimedEngine timed;
-  const std::string error = Prepare(field, task, focus, 1, &timed);
+  const starfocus::Error error = Prepare(field, task, focus, 1, &timed);
   timed.params.clock = nullptr;  // asking the time costs instructions
   starfocus::bench::Elapsed ignored;
-  return error.empty() ? RunOnce(field, task, &timed, &ignored) : error;
+  return error ? error : RunOnce(field, task, &timed, &ignored);
 }
 
 }  // namespace
@@ -90,15 +90,15 @@ int main(int argc, char** argv) {
     return 1;
   }
   Field field;
-  std::string error;
+  starfocus::Error error;
   if (argc == 4) {
     error = Load(argv[2], task.views, &field);
   } else {
     field = MakeField();
   }
-  if (error.empty()) error = RefocusOnce(field, task, argc == 4 ? field.low : 0);
-  if (!error.empty()) {
-    std::fprintf(stderr, "%s\n", error.c_str());
+  if (!error) error = RefocusOnce(field, task, argc == 4 ? field.low : 0);
+  if (error) {
+    std::fprintf(stderr, "%s\n", error.line().c_str());
     return 1;
   }
   std::printf("%.0f %s\n", field.pixels(), sf_simd_target());

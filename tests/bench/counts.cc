@@ -20,12 +20,11 @@ Counts& Find(const std::string& name, std::vector<Counts>* counts) {
 
 // `per_pixel` makes the value of a line from what follows "CASE KERNELS"; false: not such a line.
 template <class PerPixel>
-std::string ReadFileOf(const std::string& path, double Counts::*simd, double Counts::*plain,
-                       PerPixel per_pixel, std::vector<Counts>* counts) {
-  if (path.empty()) return "";
+Error ReadFileOf(const std::string& path, double Counts::*simd, double Counts::*plain,
+                 PerPixel per_pixel, std::vector<Counts>* counts) {
+  if (path.empty()) return {};
   Bytes bytes;
-  const std::string error = ReadFile(path, &bytes);
-  if (!error.empty()) return error;
+  if (Error error = ReadFile(path, &bytes)) return error;
   std::istringstream text(std::string(bytes.begin(), bytes.end()));
   for (std::string line; std::getline(text, line);) {
     std::istringstream words(line);
@@ -35,17 +34,16 @@ std::string ReadFileOf(const std::string& path, double Counts::*simd, double Cou
     if ((kernels != "simd" && kernels != "reference") || !per_pixel(&words, &value)) continue;
     Find(name, counts).*(kernels == "simd" ? simd : plain) = value;
   }
-  return "";
+  return {};
 }
 
 }  // namespace
 
-std::string ReadCounts(const std::string& x86, const std::string& arm,
-                       std::vector<Counts>* counts) {
-  const std::string error = ReadFileOf(
+Error ReadCounts(const std::string& x86, const std::string& arm, std::vector<Counts>* counts) {
+  const Error error = ReadFileOf(
       x86, &Counts::x86_simd, &Counts::x86_plain,
       [](std::istream* words, double* value) { return bool(*words >> *value); }, counts);
-  if (!error.empty()) return error;
+  if (error) return error;
   return ReadFileOf(
       arm, &Counts::arm_simd, &Counts::arm_plain,
       [](std::istream* words, double* value) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "platform/result.h"
+
 namespace starfocus::bench {
 
 // Of a case of tests/instruction_bench.cc, with the kernels of a SIMD target and the plain ones;
@@ -17,7 +19,7 @@ struct Counts {
 
 // x86: lines "CASE simd|reference INSTRUCTIONS-PER-PIXEL"; arm: "CASE simd|reference PIXELS
 // INSTRUCTIONS". Other lines are passed over. An empty path is no file. Errors are lines.
-std::string ReadCounts(const std::string& x86, const std::string& arm, std::vector<Counts>* counts);
+Error ReadCounts(const std::string& x86, const std::string& arm, std::vector<Counts>* counts);
 
 }  // namespace starfocus::bench
 

@@ -21,7 +21,7 @@ void Measure(Field* field) {
   field->high = *high;
 }
 
-std::string LoadTruths(const std::string& folder, Field* field) {
+Error LoadTruths(const std::string& folder, Field* field) {
   std::vector<fs::path> paths;
   std::error_code failure;
   for (const auto& entry : fs::directory_iterator(folder, failure)) paths.push_back(entry.path());
@@ -32,15 +32,14 @@ std::string LoadTruths(const std::string& folder, Field* field) {
     if (std::sscanf(name.c_str(), "truth_dt%lf_ut%lf", &truth.focus, &truth.aperture) != 2) {
       continue;
     }
-    const std::string error = ReadImage(path.string(), &truth.picture);
-    if (!error.empty()) return error;
+    if (Error error = ReadImage(path.string(), &truth.picture)) return error;
     if (truth.picture.width != field->data.width() ||
         truth.picture.height != field->data.height()) {
       return Expected(path.string(), "the size of the views", "another");
     }
     field->truths.push_back(std::move(truth));
   }
-  return "";
+  return {};
 }
 
 // Of a position along a row of mirrored copies.
@@ -64,11 +63,10 @@ const Image* Field::FindTruth(double focus, double aperture) const {
   return nullptr;
 }
 
-std::string LoadField(const std::string& folder, Field* field) {
+Error LoadField(const std::string& folder, Field* field) {
   const fs::path path = fs::path(folder).lexically_normal();
   field->name = (path.has_filename() ? path : path.parent_path()).filename().string();
-  const std::string error = LoadLightField(folder, {}, &field->data);
-  if (!error.empty()) return error;
+  if (Error error = LoadLightField(folder, {}, &field->data)) return error;
   FloatMap* map = &field->data.disparity;
   const sf_status status = sf_fill_disparity(map->values.data(), sizeof(float) * size_t(map->width),
                                              map->width, map->height);

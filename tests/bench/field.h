@@ -9,6 +9,7 @@
 
 #include "platform/image.h"
 #include "platform/light_field.h"
+#include "platform/result.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus::bench {
@@ -33,7 +34,7 @@ struct Field {
 };
 
 // Loads all views, fills invalid disparities, and reads truth_dt<D>_ut<U>.png.
-std::string LoadField(const std::string& folder, Field* field);
+Error LoadField(const std::string& folder, Field* field);
 
 // The light field repeated to width x height with `views` views, as far as needed mirrored so that
 // no new depth edges appear.

@@ -21,17 +21,17 @@ struct Run {
   size_t wanted = 1;
 };
 
-std::string Once(const Field& field, Run* run, Elapsed* elapsed) {
+Error Once(const Field& field, Run* run, Elapsed* elapsed) {
   if (run->shift_and_add == nullptr) {
     return RunOnce(field, run->entry->task, &run->timed, elapsed);
   }
   const Stopwatch stopwatch;
   run->shift_and_add->Run(&run->timed.picture);
   *elapsed = stopwatch.Get();
-  return "";
+  return {};
 }
 
-std::string Start(const Group& group, const Entry& entry, Run* run) {
+Error Start(const Group& group, const Entry& entry, Run* run) {
   run->entry = &entry;
   if (entry.task.mode != "shift-and-add") {
     return Prepare(*group.field, entry.task, group.focus, group.aperture, &run->timed);
@@ -39,7 +39,7 @@ std::string Start(const Group& group, const Entry& entry, Run* run) {
   const LightField& data = group.field->data;
   run->shift_and_add = std::make_unique<ShiftAndAdd>(data, entry.task.views, group.focus);
   run->timed.picture = Image(data.width(), data.height());
-  return "";
+  return {};
 }
 
 void Note(const Elapsed& elapsed, Run* run) {
@@ -49,26 +49,25 @@ void Note(const Elapsed& elapsed, Run* run) {
 
 // A first run warms up and tells how many more there is time for; one that takes longer than the
 // cancel counts itself.
-std::string WarmUp(const Field& field, const Settings& settings, Run* run) {
+Error WarmUp(const Field& field, const Settings& settings, Run* run) {
   Elapsed elapsed;
-  const std::string error = Once(field, run, &elapsed);
+  const Error error = Once(field, run, &elapsed);
   const double fit = settings.cancel / std::max(elapsed.wall, 1e-9);
   run->wanted = size_t(std::clamp(fit, 1.0, double(settings.repetitions)));
   if (elapsed.wall > settings.cancel) Note(elapsed, run);
   return error;
 }
 
-std::string TakeTurns(const Field& field, const Settings& settings, std::vector<Run>* runs) {
+Error TakeTurns(const Field& field, const Settings& settings, std::vector<Run>* runs) {
   for (int turn = 0; turn < settings.repetitions; ++turn) {
     for (Run& run : *runs) {
       if (run.seconds.size() >= run.wanted) continue;
       Elapsed elapsed;
-      const std::string error = Once(field, &run, &elapsed);
-      if (!error.empty()) return error;
+      if (Error error = Once(field, &run, &elapsed)) return error;
       Note(elapsed, &run);
     }
   }
-  return "";
+  return {};
 }
 
 const Run* FindMode(const std::vector<Run>& runs, const char* mode, int views) {
@@ -155,17 +154,17 @@ Row MakeRow(const Group& group, const std::vector<Run>& runs, const Run& run) {
   return row;
 }
 
-std::string MeasureTools(const Group& group, const Settings& settings, const Image* benchmark,
-                         std::vector<Row>* rows) {
+Error MeasureTools(const Group& group, const Settings& settings, const Image* benchmark,
+                   std::vector<Row>* rows) {
   const Image* truth = group.field->FindTruth(group.focus, group.aperture);
-  if (truth == nullptr) return "";
+  if (truth == nullptr) return {};
   for (const Tool& tool : Tools()) {
     if (!IsInstalled(tool)) continue;
     ToolResult result;
-    const std::string error = RunTool(tool, *group.field, group.focus, *truth, settings.folder,
-                                      settings.repetitions, &result);
-    if (!error.empty()) {
-      std::fprintf(stderr, "%s\nleft out: %s\n", error.c_str(), tool.name);
+    const Error error = RunTool(tool, *group.field, group.focus, *truth, settings.folder,
+                                settings.repetitions, &result);
+    if (error) {
+      std::fprintf(stderr, "%s\nleft out: %s\n", error.line().c_str(), tool.name);
       continue;
     }
     Entry entry;
@@ -179,22 +178,20 @@ std::string MeasureTools(const Group& group, const Settings& settings, const Ima
     Judge(group, result.picture, benchmark, &row);
     rows->push_back(row);
   }
-  return "";
+  return {};
 }
 
 }  // namespace
 
-std::string MeasureGroup(const Group& group, const Settings& settings, std::vector<Row>* rows) {
+Error MeasureGroup(const Group& group, const Settings& settings, std::vector<Row>* rows) {
   std::vector<Run> runs(group.entries.size());
   for (size_t i = 0; i < runs.size(); ++i) {
-    std::string error = Start(group, group.entries[i], &runs[i]);
-    if (error.empty()) error = WarmUp(*group.field, settings, &runs[i]);
-    if (!error.empty()) return error;
+    if (Error error = Start(group, group.entries[i], &runs[i])) return error;
+    if (Error error = WarmUp(*group.field, settings, &runs[i])) return error;
   }
-  const std::string error = TakeTurns(*group.field, settings, &runs);
-  if (!error.empty()) return error;
+  if (Error error = TakeTurns(*group.field, settings, &runs)) return error;
   for (const Run& run : runs) rows->push_back(MakeRow(group, runs, run));
-  if (!group.tools || !settings.rivals) return "";
+  if (!group.tools || !settings.rivals) return {};
   const Run* benchmark = FindMode(runs, "benchmark", group.field->views());
   return MeasureTools(group, settings, benchmark == nullptr ? nullptr : &benchmark->timed.picture,
                       rows);

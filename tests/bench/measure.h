@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/result.h"
 #include "tests/bench/field.h"
 #include "tests/bench/row.h"
 
@@ -31,7 +32,7 @@ struct Group {
   bool tools = false;  // also other programs, where there is a truth to compare with
 };
 
-std::string MeasureGroup(const Group& group, const Settings& settings, std::vector<Row>* rows);
+Error MeasureGroup(const Group& group, const Settings& settings, std::vector<Row>* rows);
 
 }  // namespace starfocus::bench
 

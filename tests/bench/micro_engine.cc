@@ -123,13 +123,13 @@ void WholePicture(const std::string& mode, const std::string& target, benchmark:
   task.views = 1;
   task.target = target;
   TimedEngine timed;
-  std::string error = Prepare(field, task, 0, 1, &timed);
+  Error error = Prepare(field, task, 0, 1, &timed);
   timed.params.clock = nullptr;
   Elapsed ignored;
   for (auto _ : state) {
-    if (error.empty()) error = RunOnce(field, task, &timed, &ignored);
+    if (!error) error = RunOnce(field, task, &timed, &ignored);
   }
-  if (!error.empty()) state.SkipWithError(error.c_str());
+  if (error) state.SkipWithError(error.line().c_str());
   state.SetBytesProcessed(int64_t(state.iterations()) * kSide * kSide * (3 + 4 + 3));
 }
 

@@ -38,23 +38,23 @@ std::string About(const Findings& findings) {
 
 }  // namespace
 
-std::string MakeReport(const Findings& findings, std::string* page) {
+std::string MakeReport(const Findings& findings) {
   const std::vector<Row>& rows = findings.rows;
-  *page = kHead + About(findings);
-  *page += "<h2>Averages over the focus values</h2>\n" + TableFour(rows);
-  *page += "<h2>Time and error</h2>\n" + PlanePlots(rows);
-  *page += "<h2>Scales of N</h2>\n" + ScaleTable(rows);
-  *page += "<h2>Against ray-traced truth, with rivals</h2>\n" + TruthTable(rows);
-  *page += "<h2>Along the focus (the paper's Figs. 22 and 23), aperture 1</h2>\n";
-  *page += FocusPlots(rows);
-  *page += "<h2>Growth</h2>\n" + GrowthPlots(rows);
-  *page += "<h2>Layers of block mode</h2>\n" + LayerPlot(rows);
-  *page += "<h2>Throughput</h2>\n" + TableTwo(rows);
-  *page += "<h2>SIMD targets</h2>\n" + TargetTable(rows);
-  *page += "<h2>Workers</h2>\n" + WorkerTable(rows);
-  *page += "<h2>Instructions per pixel</h2>\n" + CountTable(findings.counts);
-  *page += "</body></html>\n";
-  return "";
+  std::string page = kHead + About(findings);
+  page += "<h2>Averages over the focus values</h2>\n" + TableFour(rows);
+  page += "<h2>Time and error</h2>\n" + PlanePlots(rows);
+  page += "<h2>Scales of N</h2>\n" + ScaleTable(rows);
+  page += "<h2>Against ray-traced truth, with rivals</h2>\n" + TruthTable(rows);
+  page += "<h2>Along the focus (the paper's Figs. 22 and 23), aperture 1</h2>\n";
+  page += FocusPlots(rows);
+  page += "<h2>Growth</h2>\n" + GrowthPlots(rows);
+  page += "<h2>Layers of block mode</h2>\n" + LayerPlot(rows);
+  page += "<h2>Throughput</h2>\n" + TableTwo(rows);
+  page += "<h2>SIMD targets</h2>\n" + TargetTable(rows);
+  page += "<h2>Workers</h2>\n" + WorkerTable(rows);
+  page += "<h2>Instructions per pixel</h2>\n" + CountTable(findings.counts);
+  page += "</body></html>\n";
+  return page;
 }
 
 }  // namespace starfocus::bench

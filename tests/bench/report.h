@@ -20,7 +20,7 @@ struct Findings {
 };
 
 // Drawings need gnuplot; without one, the page says so in their place.
-std::string MakeReport(const Findings& findings, std::string* page);
+std::string MakeReport(const Findings& findings);
 
 }  // namespace starfocus::bench
 

@@ -69,10 +69,10 @@ std::string Draw(Drawing drawing) {
                curves.end());
   if (curves.empty()) return "";
   Bytes svg;
-  const std::string error = RunGnuplot(drawing.title, Script(drawing), &svg);
+  const Error error = RunGnuplot(drawing.title, Script(drawing), &svg);
   std::string text(svg.begin(), svg.end());
   text.erase(0, std::min(text.find("<svg"), text.size()));
-  if (!error.empty()) text = "<p>No drawing: " + Escape(error) + "</p>";
+  if (error) text = "<p>No drawing: " + Escape(error.line()) + "</p>";
   return "<figure>" + text + "<figcaption>" + drawing.caption + "</figcaption></figure>\n";
 }
 
@@ -229,8 +229,9 @@ std::string LayerPlot(const Rows& rows) {
   }
   script += "END\nplot for [i=2:4] $data using i:xtic(1) title 'L = '.(i-2)\n";
   Bytes svg;
-  const std::string error = RunGnuplot("layers", script, &svg);
-  if (!error.empty()) return "<p>No drawing: " + Escape(error) + "</p>";
+  if (Error error = RunGnuplot("layers", script, &svg)) {
+    return "<p>No drawing: " + Escape(error.line()) + "</p>";
+  }
   const std::string text(svg.begin(), svg.end());
   return "<figure>" + text.substr(std::min(text.find("<svg"), text.size())) + "</figure>\n";
 }

@@ -26,7 +26,7 @@ struct Files {
   std::string centre, map, out;
 };
 
-std::string Execute(const Words& words) {
+Error Execute(const Words& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -42,7 +42,7 @@ std::string Execute(const Words& words) {
   int status = 0;
   const bool good = failure == 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
                     WEXITSTATUS(status) == 0;
-  return good ? "" : Expected(words[0], "a run without an error", "one");
+  return good ? Error() : Expected(words[0], "a run without an error", "one");
 }
 
 // The half-width of the box of the same variance as a disc of radius 1.
@@ -145,28 +145,27 @@ struct Job {
   Image map;
   double largest;
 
-  std::string Make(double scale, int pictures, bool keep, double* seconds) const {
+  Error Make(double scale, int pictures, bool keep, double* seconds) const {
     Files used = files;
     if (!keep) used.out.clear();
     Image changed = map;
     const Words words = known->words(used, largest, pictures, &changed, scale);
-    std::string error = WriteImage(files.map, changed);
+    Error error = WriteImage(files.map, changed);
     const double start = ChildSeconds();
-    if (error.empty()) error = Execute(words);
+    if (!error) error = Execute(words);
     *seconds = ChildSeconds() - start;
     return error;
   }
 };
 
 // Tries several ratios of the tool's unit to the blur radius and keeps the best picture.
-std::string Tune(const Job& job, const Image& truth, double* scale, ToolResult* result) {
+Error Tune(const Job& job, const Image& truth, double* scale, ToolResult* result) {
   double best = -1;
   for (const double tried : {0.35, 0.5, 0.7, 1.0}) {
     Image picture;
     double ignored = 0;
-    std::string error = job.Make(tried, 1, true, &ignored);
-    if (error.empty()) error = ReadImage(job.files.out, &picture);
-    if (!error.empty()) return error;
+    if (Error error = job.Make(tried, 1, true, &ignored)) return error;
+    if (Error error = ReadImage(job.files.out, &picture)) return error;
     if (picture.pixels.size() != truth.pixels.size()) {
       return Expected(job.known->tool.name, "a picture of the size of the view", "another");
     }
@@ -176,7 +175,7 @@ std::string Tune(const Job& job, const Image& truth, double* scale, ToolResult* 
     *scale = tried;
     result->picture = std::move(picture);
   }
-  return "";
+  return {};
 }
 
 }  // namespace
@@ -202,8 +201,8 @@ bool IsInstalled(const Tool& tool) {
   return false;
 }
 
-std::string RunTool(const Tool& tool, const Field& field, double focus, const Image& truth,
-                    const std::string& folder, int repetitions, ToolResult* result) {
+Error RunTool(const Tool& tool, const Field& field, double focus, const Image& truth,
+              const std::string& folder, int repetitions, ToolResult* result) {
   for (const char* name : {"MAGICK_THREAD_LIMIT", "OMP_NUM_THREADS", "GEGL_THREADS"}) {
     setenv(name, "1", 1);
   }
@@ -217,18 +216,18 @@ std::string RunTool(const Tool& tool, const Field& field, double focus, const Im
   job.largest = std::max(1e-3, field.LargestBlur(focus, 1));
   job.map = BlurMap(field, focus, job.largest);
   double scale = 1;
-  std::string error = WriteImage(job.files.centre, field.data.views[0]);
-  if (error.empty()) error = Tune(job, truth, &scale, result);
+  Error error = WriteImage(job.files.centre, field.data.views[0]);
+  if (!error) error = Tune(job, truth, &scale, result);
   const int more = job.known->more;
-  for (int i = 0; i < std::min(repetitions, 3) && error.empty(); ++i) {
+  for (int i = 0; i < std::min(repetitions, 3) && !error; ++i) {
     double one = 0, many = 0;
     error = job.Make(scale, 1, false, &one);
-    if (error.empty()) error = job.Make(scale, 1 + more, false, &many);
+    if (!error) error = job.Make(scale, 1 + more, false, &many);
     result->each.push_back(std::max(0.0, many - one) / more);
   }
-  if (!error.empty()) return error;
+  if (error) return error;
   result->seconds = Median(result->each);
-  if (result->seconds > 0) return "";
+  if (result->seconds > 0) return {};
   return Expected(tool.name, "a picture's cost above the noise of its start", "none");
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/result.h"
 #include "tests/bench/field.h"
 
 namespace starfocus::bench {
@@ -46,8 +47,8 @@ struct ToolResult {
 
 // Blurs `field` focused at `focus` with aperture 1. The ratio of the tool's unit to the blur radius
 // is chosen among several for the best PSNR against `truth`. `folder` is for its files.
-std::string RunTool(const Tool& tool, const Field& field, double focus, const Image& truth,
-                    const std::string& folder, int repetitions, ToolResult* result);
+Error RunTool(const Tool& tool, const Field& field, double focus, const Image& truth,
+              const std::string& folder, int repetitions, ToolResult* result);
 
 }  // namespace starfocus::bench
 

@@ -104,8 +104,8 @@ bool IsTruth(const Field& field, const Group& group) {
 
 }  // namespace
 
-std::string MeasureField(const Field& field, const Choice& choice, const Settings& settings,
-                         std::vector<Row>* rows) {
+Error MeasureField(const Field& field, const Choice& choice, const Settings& settings,
+                   std::vector<Row>* rows) {
   std::vector<Group> groups;
   for (const double aperture : choice.apertures) {
     for (const double quantile : choice.quantiles) {
@@ -128,16 +128,15 @@ std::string MeasureField(const Field& field, const Choice& choice, const Setting
   }
   for (const Group& group : groups) {
     Say(field, IsTruth(field, group) ? "against truth, focus" : "focus", group.focus);
-    const std::string error = MeasureGroup(group, settings, rows);
-    if (!error.empty()) return error;
+    if (Error error = MeasureGroup(group, settings, rows)) return error;
   }
-  return "";
+  return {};
 }
 
 namespace {
 
-std::string MeasureSweep(const Field& field, const char* study, double focus,
-                         const Settings& settings, std::vector<Row>* rows) {
+Error MeasureSweep(const Field& field, const char* study, double focus, const Settings& settings,
+                   std::vector<Row>* rows) {
   Group group = {&field, 1, focus, kNone, {}};
   for (const char* mode : {"block", "frame", "benchmark", "blur"}) {
     group.entries.push_back(MakeEntry(study, mode, field.views()));
@@ -153,31 +152,30 @@ Field WithRadius(const Field& field, double radius) {
 
 }  // namespace
 
-std::string MeasureRadii(const Field& field, const Choice& choice, const Settings& settings,
-                         std::vector<Row>* rows) {
+Error MeasureRadii(const Field& field, const Choice& choice, const Settings& settings,
+                   std::vector<Row>* rows) {
   for (const double radius : {0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
     if (radius > choice.largest_radius) break;
     Say(field, "blur radius", radius);
     const Field stretched = WithRadius(field, radius);
-    const std::string error =
-        MeasureSweep(stretched, "radius", stretched.FocusAt(0.5), settings, rows);
-    if (!error.empty()) return error;
+    if (Error error = MeasureSweep(stretched, "radius", stretched.FocusAt(0.5), settings, rows))
+      return error;
   }
-  return "";
+  return {};
 }
 
-std::string MeasureSizes(const Field& field, const Choice& choice, const Settings& settings,
-                         std::vector<Row>* rows) {
+Error MeasureSizes(const Field& field, const Choice& choice, const Settings& settings,
+                   std::vector<Row>* rows) {
   const Field stretched = WithRadius(field, kSweepRadius);
   for (const double megapixels : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
     if (megapixels > choice.largest_megapixels) break;
     Say(field, "megapixels", megapixels);
     const int height = int(std::lround(std::sqrt(megapixels * 1e6 * 3 / 4)));
     const Field tiled = Tile(stretched, height * 4 / 3, height, kSweepViews);
-    const std::string error = MeasureSweep(tiled, "pixels", stretched.FocusAt(0.5), settings, rows);
-    if (!error.empty()) return error;
+    if (Error error = MeasureSweep(tiled, "pixels", stretched.FocusAt(0.5), settings, rows))
+      return error;
   }
-  return "";
+  return {};
 }
 
 }  // namespace starfocus::bench

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/result.h"
 #include "tests/bench/field.h"
 #include "tests/bench/measure.h"
 
@@ -27,14 +28,14 @@ struct Choice {
 };
 
 // Every mode, option, aperture and focus of a light field, and its truths with the rivals.
-std::string MeasureField(const Field& field, const Choice& choice, const Settings& settings,
-                         std::vector<Row>* rows);
+Error MeasureField(const Field& field, const Choice& choice, const Settings& settings,
+                   std::vector<Row>* rows);
 
 // Time against the blur radius and against the number of pixels.
-std::string MeasureRadii(const Field& field, const Choice& choice, const Settings& settings,
-                         std::vector<Row>* rows);
-std::string MeasureSizes(const Field& field, const Choice& choice, const Settings& settings,
-                         std::vector<Row>* rows);
+Error MeasureRadii(const Field& field, const Choice& choice, const Settings& settings,
+                   std::vector<Row>* rows);
+Error MeasureSizes(const Field& field, const Choice& choice, const Settings& settings,
+                   std::vector<Row>* rows);
 
 }  // namespace starfocus::bench
 

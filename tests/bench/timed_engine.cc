@@ -16,13 +16,13 @@ const char* const kModes[] = {"frame", "benchmark", "block", "blur"};
 uint64_t Nanoseconds() { return static_cast<uint64_t>(CpuSeconds() * 1e9); }
 
 // A run-time engine takes the best target; the bench may want another.
-std::string UseTarget(const std::string& name, sf_engine* engine) {
-  if (name.empty()) return "";
+Error UseTarget(const std::string& name, sf_engine* engine) {
+  if (name.empty()) return {};
   const simd::Kernels& plain = simd::ReferenceKernels();
   const simd::Kernels* kernels = name == plain.name ? &plain : simd::FindKernels(name.c_str());
   if (kernels == nullptr) return Expected("target", "a SIMD target of this machine", name);
   test::UseKernels(kernels, engine);
-  return "";
+  return {};
 }
 
 }  // namespace
@@ -32,8 +32,8 @@ int ModeOf(const std::string& name) {
   return found == std::end(kModes) ? -1 : int(found - std::begin(kModes));
 }
 
-std::string Prepare(const Field& field, const Task& task, double focus, double aperture,
-                    TimedEngine* timed) {
+Error Prepare(const Field& field, const Task& task, double focus, double aperture,
+              TimedEngine* timed) {
   sf_config config;
   sf_config_init(&config);
   config.width = field.data.width();
@@ -66,7 +66,7 @@ std::string Prepare(const Field& field, const Task& task, double focus, double a
   return UseTarget(task.target, timed->engine);
 }
 
-std::string RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed) {
+Error RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed) {
   const sf_light_field rows = Rows(field.data, task.views);
   Image& out = timed->picture;
   const Stopwatch stopwatch;
@@ -74,7 +74,7 @@ std::string RunOnce(const Field& field, const Task& task, TimedEngine* timed, El
   const sf_status status = sf_refocus(timed->engine, &timed->params, &rows, out.pixels.data(),
                                       out.stride(), runner, timed->pool.get(), &timed->report);
   *elapsed = stopwatch.Get();
-  if (status == SF_OK) return "";
+  if (status == SF_OK) return {};
   return Expected(field.name, "a light field that the engine refocuses", sf_status_string(status));
 }
 

@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 
+#include "platform/result.h"
 #include "platform/runner.h"
 #include "tests/bench/field.h"
 #include "tests/bench/row.h"
@@ -34,11 +35,11 @@ struct TimedEngine {
 int ModeOf(const std::string& name);
 
 // Makes an engine for task, focus and aperture. Errors are lines.
-std::string Prepare(const Field& field, const Task& task, double focus, double aperture,
-                    TimedEngine* timed);
+Error Prepare(const Field& field, const Task& task, double focus, double aperture,
+              TimedEngine* timed);
 
 // Refocuses once; *elapsed is the time inside sf_refocus.
-std::string RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed);
+Error RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed* elapsed);
 
 }  // namespace starfocus::bench
 

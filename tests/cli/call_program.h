@@ -12,6 +12,7 @@
 #include <string>
 
 #include "platform/file.h"
+#include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus {

@@ -13,6 +13,7 @@
 #include "platform/light_field.h"
 #include "tests/cli/call_program.h"
 #include "tests/cli/refusals.h"
+#include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::cli_test {

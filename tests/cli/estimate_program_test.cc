@@ -12,6 +12,7 @@
 #include "platform/runner.h"
 #include "tests/cli/call_program.h"
 #include "tests/support/closed_hair.h"
+#include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_scene.h"
 

@@ -10,6 +10,7 @@
 #include "platform/image_io.h"
 #include "platform/light_field.h"
 #include "tests/cli/call_program.h"
+#include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::lens_options_test {

@@ -16,6 +16,7 @@
 #include "platform/temporary_file.h"
 #include "tests/cli/call_program.h"
 #include "tests/cli/refusals.h"
+#include "tests/support/error_line.h"
 
 namespace starfocus::program_test {
 namespace {
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 
 TEST_CASE("program: exit codes tell whose an error is") {
   CHECK(RunProgram("test", [] { return Error(); }) == 0);
-  CHECK(RunProgram("test", [] { return Error("file: expected a, found b"); }) == 1);
+  CHECK(RunProgram("test", [] { return Expected("file", "a", "b"); }) == 1);
   CHECK(RunProgram("test", [] { return Error::Usage("--option", "a", "b"); }) == 2);
   CHECK(RunProgram("test", [] { return Error::Internal("engine", "a", "b"); }) == 70);
   CHECK(RunProgram("test", []() -> Error { throw std::bad_alloc(); }) == 1);

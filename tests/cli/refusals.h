@@ -13,6 +13,7 @@
 #include "platform/image_io.h"
 #include "platform/pfm.h"
 #include "tests/cli/call_program.h"
+#include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus {

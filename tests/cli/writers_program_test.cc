@@ -11,6 +11,7 @@
 #include "platform/progress.h"
 #include "platform/writers/webp.h"
 #include "tests/cli/call_program.h"
+#include "tests/support/error_line.h"
 
 namespace starfocus::writers_program_test {
 namespace {
@@ -68,7 +69,7 @@ TEST_CASE("writers: quality and depth photos are asked for sensibly or not at al
 TEST_CASE("writers: a sweep is an animation, or a sharp picture with the focus of each pixel") {
   TempFolder folder;
   MakeScene(folder, "lf");
-  const bool webp = WebpWriter::Check("", 1, 1).empty();
+  const bool webp = !WebpWriter::Check("", 1, 1);
   const std::string out = webp ? "s.webp" : "s.png";
   REQUIRE(
       Call(folder,

@@ -12,6 +12,7 @@
 #include "tests/conformance/conformance.h"
 #include "tests/conformance/engine_blocks.h"
 #include "tests/conformance/reference.h"
+#include "tests/support/error_line.h"
 #include "tests/support/rounds.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"

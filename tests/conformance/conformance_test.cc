@@ -14,6 +14,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/conformance/reference.h"
+#include "tests/support/error_line.h"
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 

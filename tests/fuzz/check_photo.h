@@ -22,11 +22,11 @@ inline void CheckCaptions(const Metadata& metadata) {
   const std::string packet = XmpPacket(metadata.xmp);
   XmpNode root;
   if (packet.empty() || !CanReadXmp()) return;
-  const std::string error = ParseXmp("captions", packet.data(), packet.size(), &root);
-  if (error.find("well-formed") != std::string::npos) std::abort();
+  const Error error = ParseXmp("captions", packet.data(), packet.size(), &root);
+  if (error.line().find("well-formed") != std::string::npos) std::abort();
 }
 
-inline std::string Decode(const uint8_t* data, size_t size, DepthPhoto* photo) {
+inline Error Decode(const uint8_t* data, size_t size, DepthPhoto* photo) {
   const MemoryBudget budget(data, size);
   const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
   return DecodeDepthPhoto("photo", {data, size}, true, near, photo);
@@ -34,8 +34,7 @@ inline std::string Decode(const uint8_t* data, size_t size, DepthPhoto* photo) {
 
 inline void CheckPhoto(const uint8_t* data, size_t size) {
   DepthPhoto photo;
-  const std::string error = Decode(data, size, &photo);
-  if (!error.empty()) return;
+  if (Decode(data, size, &photo)) return;
   CheckCaptions(photo.metadata);
   if (photo.map.values.empty()) {
     if (ReadStereoPair("photo", {data, size}, &photo) &&
@@ -48,7 +47,7 @@ inline void CheckPhoto(const uint8_t* data, size_t size) {
   // Small ones: the engine's own fuzz target is for what follows.
   if (photo.picture.pixels.size() > 1 << 20) return;
   LightField field;
-  if (!MakeLightField("photo", &photo, &field).empty()) return;
+  if (MakeLightField("photo", &photo, &field)) return;
   const Image& view = field.views[0];
   if (view.pixels.size() != view.stride() * size_t(view.height)) std::abort();
   if (field.width() != view.width || field.height() != view.height) std::abort();

@@ -35,21 +35,21 @@ class MemoryFile {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const MemoryFile file(data, size);
   starfocus::FloatMap map;
-  if (starfocus::ReadPfm(file.path(), &map).empty()) {
+  if (!starfocus::ReadPfm(file.path(), &map)) {
     if (map.values.size() != size_t(map.width) * size_t(map.height)) std::abort();
   }
   starfocus::Bytes bytes;
-  const bool small = starfocus::ReadSmallFile(file.path(), &bytes).empty();
+  const bool small = !starfocus::ReadSmallFile(file.path(), &bytes);
   if (small != (size <= starfocus::kMostSmallBytes) || (small && bytes.size() != size))
     std::abort();
   if (starfocus::DescribeFile(bytes).empty()) std::abort();
   starfocus::Image image;
-  if (starfocus::ReadImage(file.path(), &image).empty()) {
+  if (!starfocus::ReadImage(file.path(), &image)) {
     if (image.pixels.size() != image.stride() * size_t(image.height)) std::abort();
   }
   starfocus::Bytes copy(data, data + size);
   starfocus::FloatMap levels;
-  if (starfocus::DecodeLevels("levels", &copy, &levels).empty()) {
+  if (!starfocus::DecodeLevels("levels", &copy, &levels)) {
     if (levels.values.size() != size_t(levels.width) * size_t(levels.height)) std::abort();
     for (const float level : levels.values) {
       if (level < 0 || level > 1) std::abort();
@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   copy.assign(data, data + size);
   starfocus::Samples samples;
-  if (starfocus::DecodeCoverage("coverage", &copy, &samples).empty()) {
+  if (!starfocus::DecodeCoverage("coverage", &copy, &samples)) {
     for (const float sample : samples.map.values) {
       if (!(sample >= 0 && sample <= static_cast<float>(samples.largest))) std::abort();
     }

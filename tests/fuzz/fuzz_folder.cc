@@ -86,7 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   starfocus::LightField field;
   constexpr int kWanted[] = {0, 1, 5, 9, 17};
   const starfocus::Positions wanted = starfocus::StarPositions(kWanted[input.Int(0, 4)]);
-  if (starfocus::LoadLightField(folder.path(), wanted, &field).empty()) {
+  if (!starfocus::LoadLightField(folder.path(), wanted, &field)) {
     const size_t loaded = field.views.size();
     if (loaded < 1 || loaded > SF_MAX_VIEWS || field.positions.size() != loaded) std::abort();
     if (!wanted.empty() && loaded != wanted.size()) std::abort();

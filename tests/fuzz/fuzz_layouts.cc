@@ -25,11 +25,11 @@ void CheckArray(const std::string& text) {
     }
   }
   starfocus::ViewArray array;
-  if (!starfocus::FindArray("folder", names, &array).empty() || array.paths.empty()) return;
+  if (starfocus::FindArray("folder", names, &array) || array.paths.empty()) return;
   if (array.paths.size() != size_t(array.rows) * size_t(array.columns)) std::abort();
   starfocus::Star star;
   starfocus::Facts facts;
-  if (!starfocus::ChooseStar("folder", array, &star, &facts).empty()) return;
+  if (starfocus::ChooseStar("folder", array, &star, &facts)) return;
   if (star.views.empty() || star.views.size() > SF_MAX_VIEWS) std::abort();
   if (star.views[0].position.u != 0 || star.views[0].position.v != 0) std::abort();
   for (const starfocus::ViewFile& view : star.views) {
@@ -41,7 +41,7 @@ void CheckArray(const std::string& text) {
 // Segments and indices of JPEG files, without decoding any picture.
 void CheckParts(const uint8_t* data, size_t size) {
   starfocus::JpegParts parts;
-  if (!starfocus::ReadJpegParts("photo", {data, size}, &parts).empty()) return;
+  if (starfocus::ReadJpegParts("photo", {data, size}, &parts)) return;
   if (parts.end > size) std::abort();
   std::string text;
   for (const starfocus::MultiPicture& picture : starfocus::ListMultiPictures({data, size}, parts)) {
@@ -52,7 +52,7 @@ void CheckParts(const uint8_t* data, size_t size) {
   if (!parts.metadata.icc.empty() && !starfocus::IsRgbProfile(parts.metadata.icc)) std::abort();
   if (parts.metadata.iptc.size() > size) std::abort();
   if (!parts.extensions.empty()) {
-    if (starfocus::JoinExtensions("photo", parts, parts.extensions[0].guid, &text).empty() &&
+    if (!starfocus::JoinExtensions("photo", parts, parts.extensions[0].guid, &text) &&
         text.size() > size) {
       std::abort();
     }

@@ -20,9 +20,9 @@ struct Pictures {
 void Decode(const std::string& file) {
   starfocus::DepthPhoto photo;
   const auto* bytes = reinterpret_cast<const uint8_t*>(file.data());
-  const std::string error = starfocus::DecodeDepthPhoto("photo", {bytes, file.size()}, true,
-                                                        starfocus::Near::kUnknown, &photo);
-  if (error.empty() && photo.picture.pixels.empty()) std::abort();
+  const starfocus::Error error = starfocus::DecodeDepthPhoto("photo", {bytes, file.size()}, true,
+                                                             starfocus::Near::kUnknown, &photo);
+  if (!error && photo.picture.pixels.empty()) std::abort();
   starfocus::fuzz::CheckCaptions(photo.metadata);
 }
 

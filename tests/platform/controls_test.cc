@@ -257,8 +257,9 @@ TEST_CASE("framebuffer: centred, cropped, in the screen's own pixels") {
 }
 
 TEST_CASE("framebuffer: what is none is refused") {
-  CHECK(ShowOnFramebuffer("/nowhere/fb0", Image(1, 1)).rfind("/nowhere/fb0: expected", 0) == 0);
-  CHECK(ShowOnFramebuffer("/dev/null", Image(1, 1)).rfind("/dev/null: expected", 0) == 0);
+  CHECK(ShowOnFramebuffer("/nowhere/fb0", Image(1, 1)).line().rfind("/nowhere/fb0: expected", 0) ==
+        0);
+  CHECK(ShowOnFramebuffer("/dev/null", Image(1, 1)).line().rfind("/dev/null: expected", 0) == 0);
 }
 
 }  // namespace

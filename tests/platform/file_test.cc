@@ -15,6 +15,7 @@
 
 #include "platform/folder.h"
 #include "platform/temporary_file.h"
+#include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::file_test {
@@ -116,7 +117,7 @@ TEST_CASE("file: devices and endless pipes are not read, and small files have a 
       }
       _exit(0);
     }
-    const std::string error = ReadSmallFile(path, &bytes);
+    const std::string error = ReadSmallFile(path, &bytes).line();
     if (endless) {
       CHECK(error == path + ": the file is too large (expected at most 1048576 bytes, found more)");
     } else {
@@ -148,8 +149,8 @@ TEST_CASE("file: a read-only file is refused, before the work and when it is wri
   fs::create_symlink("a", folder.file("link"));
   REQUIRE(chmod(path.c_str(), 0444) == 0);
   for (const std::string& name : {path, folder.file("link")}) {
-    CHECK(CheckOutputPath(name).find("read-only") != std::string::npos);
-    CHECK(WriteFile(name, FromText("new")).find("read-only") != std::string::npos);
+    CHECK(CheckOutputPath(name).line().find("read-only") != std::string::npos);
+    CHECK(WriteFile(name, FromText("new")).line().find("read-only") != std::string::npos);
   }
   CHECK(Read(path) == "old");
   CHECK(folder.count() == 2);

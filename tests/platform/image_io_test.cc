@@ -11,6 +11,7 @@
 
 #include "platform/container.h"
 #include "platform/writers/webp.h"
+#include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::image_io_test {
@@ -27,7 +28,7 @@ Image Pattern(int width, int height) {
 Bytes FromText(const std::string& text) { return Bytes(text.begin(), text.end()); }
 
 // Reads `bytes` as a picture; returns the error.
-std::string ReadBytes(const Bytes& bytes, Image* image) {
+Error ReadBytes(const Bytes& bytes, Image* image) {
   TempFolder folder;
   const std::string path = folder.file("picture");
   REQUIRE(WriteFile(path, bytes) == "");
@@ -98,7 +99,7 @@ TEST_CASE("image_io: broken files are one-line errors") {
   for (const std::string& text : bad) {
     CAPTURE(text);
     Image image = Pattern(2, 2);
-    const std::string error = ReadBytes(FromText(text), &image);
+    const std::string error = ReadBytes(FromText(text), &image).line();
     CHECK(error.find("expected ") != std::string::npos);
     CHECK(error.find(", found ") != std::string::npos);
     CHECK(error.find('\n') == std::string::npos);
@@ -144,7 +145,7 @@ TEST_CASE("image_io: a PNG chunk longer than its file is refused before it is re
   Bytes bytes = Written("a.png");
   Image image;
   bytes[33] = 0x67;  // the length of the chunk behind the header: 1.7 GB
-  CHECK(ReadBytes(bytes, &image).find("truncated") != std::string::npos);
+  CHECK(ReadBytes(bytes, &image).line().find("truncated") != std::string::npos);
 }
 
 TEST_CASE("image_io: a JPEG too short for its size is refused before it is decoded") {
@@ -154,7 +155,7 @@ TEST_CASE("image_io: a JPEG too short for its size is refused before it is decod
   REQUIRE(at != bytes.end());
   for (int k = 5; k < 9; ++k) at[k] = 0x3f;  // height and width
   Image image;
-  CHECK(ReadBytes(bytes, &image).find("truncated") != std::string::npos);
+  CHECK(ReadBytes(bytes, &image).line().find("truncated") != std::string::npos);
 }
 
 TEST_CASE("image_io: a JPEG table of more codes than it has room for is refused") {
@@ -165,7 +166,8 @@ TEST_CASE("image_io: a JPEG table of more codes than it has room for is refused"
   REQUIRE(bytes.end() - table > 4 + 17);
   std::fill_n(table + 4 + 1, 16, uint8_t{17});
   const auto names_table = [&image](const Bytes& broken) {
-    const std::string error = ReadBytes(broken, &image);  // by libjpeg-turbo, or for stb_image
+    const std::string error =
+        ReadBytes(broken, &image).line();  // by libjpeg-turbo, or for stb_image
     return error.find("Huffman table") != std::string::npos ||
            error.find("code table") != std::string::npos;
   };
@@ -191,8 +193,8 @@ TEST_CASE("image_io: a JPEG table has 256 codes at most") {
 TEST_CASE("image_io: outputs that cannot be written leave nothing") {
   TempFolder folder;
   const Image image = Pattern(3, 3);
-  CHECK(WriteImage(folder.file("a.bmp"), image).find(".bmp") != std::string::npos);
-  CHECK(WriteImage(folder.file("a"), image).find("no extension") != std::string::npos);
+  CHECK(WriteImage(folder.file("a.bmp"), image).line().find(".bmp") != std::string::npos);
+  CHECK(WriteImage(folder.file("a"), image).line().find("no extension") != std::string::npos);
   CHECK(WriteImage(folder.file("none/a.png"), image) != "");
   std::filesystem::create_directory(folder.file("folder.png"));
   CHECK(WriteImage(folder.file("folder.png"), image) != "");
@@ -261,7 +263,7 @@ TEST_CASE("image_io: a PNG palette is looked up, and an index beyond it refused"
         row[size_t(x / per_byte)] |= uint8_t(index << (8 - depth - x % per_byte * depth));
       }
       Image image;
-      const std::string error = ReadBytes(MakePng(8, 1, depth, 3, palette, row), &image);
+      const std::string error = ReadBytes(MakePng(8, 1, depth, 3, palette, row), &image).line();
       if (last >= 3) {
         CHECK(error.find("3 colours, found " + std::to_string(last)) != std::string::npos);
         continue;
@@ -308,14 +310,14 @@ TEST_CASE("image_io: a picture too large for its format says its size") {
   for (const auto& size : sizes) {
     Image image;
     const Bytes png = MakePng(size.width, size.height, 8, 0, {}, Bytes(8));
-    CHECK(ReadBytes(png, &image).find(size.expected) != std::string::npos);
+    CHECK(ReadBytes(png, &image).line().find(size.expected) != std::string::npos);
   }
   // The encoders count bytes in an int: more of them would be written out of bounds.
   TempFolder folder;
   Image large;
   large.width = large.height = 40000;
   for (const char* name : {"a.png", "a.jpg"}) {
-    CHECK(WriteImage(folder.file(name), large).find("40000x40000") != std::string::npos);
+    CHECK(WriteImage(folder.file(name), large).line().find("40000x40000") != std::string::npos);
   }
   CHECK(folder.count() == 0);
 }
@@ -349,7 +351,7 @@ int DifferenceFromSeed(const Image& image, double share) {
 bool HasLibjpeg() {
   Bytes bytes = Seed("arithmetic.jpg");
   Image image;
-  return DecodeImage("arithmetic.jpg", &bytes, &image).empty();
+  return !DecodeImage("arithmetic.jpg", &bytes, &image);
 }
 
 TEST_CASE("image_io: JPEG of every kind that libjpeg-turbo reads has its colours") {
@@ -385,17 +387,17 @@ TEST_CASE("image_io: JPEG of 12 bits a sample, and a truncated one with an end, 
   const auto at = std::search(bytes.begin(), bytes.end(), frame, frame + 2);
   REQUIRE(at != bytes.end());
   at[4] = 12;
-  CHECK(ReadBytes(bytes, &image).find("precision 12") != std::string::npos);
+  CHECK(ReadBytes(bytes, &image).line().find("precision 12") != std::string::npos);
   bytes = Seed("arithmetic.jpg");
   bytes.resize(bytes.size() * 2 / 3);
-  CHECK(ReadBytes(bytes, &image).find("truncated") != std::string::npos);
+  CHECK(ReadBytes(bytes, &image).line().find("truncated") != std::string::npos);
   bytes = Seed("progressive.jpg");
   bytes.resize(bytes.size() * 2 / 3);
-  CHECK(ReadBytes(bytes, &image).find("truncated") != std::string::npos);
+  CHECK(ReadBytes(bytes, &image).line().find("truncated") != std::string::npos);
   bytes = Seed("restart.jpg");
   bytes.resize(bytes.size() - 60);
   bytes.insert(bytes.end(), {0xff, 0xd9});
-  CHECK(ReadBytes(bytes, &image).find("truncated") != std::string::npos);
+  CHECK(ReadBytes(bytes, &image).line().find("truncated") != std::string::npos);
 }
 
 TEST_CASE("image_io: an interlaced PNG of 16 bits with alpha is a picture of 8") {
@@ -406,9 +408,8 @@ TEST_CASE("image_io: an interlaced PNG of 16 bits with alpha is a picture of 8")
 
 TEST_CASE("image_io: WebP, lossy and lossless, whole or truncated") {
   Image image;
-  const std::string absent = WebpWriter::Check("", 1, 1);
-  if (!absent.empty()) {
-    CHECK(ReadBytes(Seed("lossless.webp"), &image).find("libwebp") != std::string::npos);
+  if (WebpWriter::Check("", 1, 1)) {
+    CHECK(ReadBytes(Seed("lossless.webp"), &image).line().find("libwebp") != std::string::npos);
     return;
   }
   REQUIRE(ReadBytes(Seed("lossless.webp"), &image) == "");
@@ -419,12 +420,12 @@ TEST_CASE("image_io: WebP, lossy and lossless, whole or truncated") {
   for (size_t size = 12; size < whole.size(); ++size) {
     CAPTURE(size);
     const Bytes cut(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size));
-    CHECK(ReadBytes(cut, &image).find("truncated") != std::string::npos);
+    CHECK(ReadBytes(cut, &image).line().find("truncated") != std::string::npos);
   }
 }
 
 TEST_CASE("image_io: an animation is no picture, and the error says so") {
-  if (!WebpWriter::Check("", 1, 1).empty()) return;
+  if (WebpWriter::Check("", 1, 1)) return;
   WebpWriter writer("a.webp", 90);
   Image image(32, 20);
   REQUIRE(writer.Add(image) == "");
@@ -432,7 +433,7 @@ TEST_CASE("image_io: an animation is no picture, and the error says so") {
   REQUIRE(writer.Add(image) == "");
   Bytes bytes;
   REQUIRE(writer.Finish({}, &bytes) == "");
-  CHECK(ReadBytes(bytes, &image).find("animation") != std::string::npos);
+  CHECK(ReadBytes(bytes, &image).line().find("animation") != std::string::npos);
 }
 
 }  // namespace

@@ -8,12 +8,13 @@
 #include <string>
 
 #include "platform/file.h"
+#include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::pfm_test {
 namespace {
 
-std::string ReadText(const std::string& text, FloatMap* map) {
+Error ReadText(const std::string& text, FloatMap* map) {
   TempFolder folder;
   const std::string path = folder.file("map.pfm");
   REQUIRE(WriteFile(path, Bytes(text.begin(), text.end())) == "");
@@ -84,7 +85,7 @@ TEST_CASE("pfm: malformed files are one-line errors and leave the map alone") {
     CAPTURE(text);
     FloatMap map;
     map.width = 9;
-    const std::string error = ReadText(text, &map);
+    const std::string error = ReadText(text, &map).line();
     CHECK(error.find(": expected ") != std::string::npos);
     CHECK(error.find('\n') == std::string::npos);
     CHECK(map.width == 9);

@@ -11,13 +11,14 @@
 #include "platform/icc_profile.h"
 #include "platform/image_io.h"
 #include "platform/png.h"
-#include "platform/writers/base64.h"
+#include "platform/base64.h"
 #include "platform/writers/depth_photo.h"
 #include "platform/writers/exif.h"
 #include "platform/writers/jpeg.h"
 #include "platform/writers/md5.h"
 #include "platform/writers/png.h"
 #include "platform/writers/webp.h"
+#include "tests/support/error_line.h"
 #include "tests/support/photo_files.h"
 #include "tests/support/temp_folder.h"
 
@@ -134,7 +135,7 @@ bool Has(const std::string& program) {
 // Whether the build has libpng: without it PNG files have neither 16 bits nor metadata.
 bool HasLibpng() {
   Bytes png;
-  return EncodeGreyPng("", {1, 1, {256}}, &png).empty();
+  return !EncodeGreyPng("", {1, 1, {256}}, &png);
 }
 
 // What the program prints.
@@ -196,7 +197,7 @@ TEST_CASE("writers: EXIF and the profile stay, edited where the picture is") {
   for (const bool little : {true, false}) {
     const PictureOptions how = {95, {CameraExif(little), Profile(150000)}};
     for (const std::string name : {"a.jpg", "a.png", "a.webp"}) {
-      if (name == "a.webp" && !WebpWriter::Check(name, 1, 1).empty()) continue;
+      if (name == "a.webp" && WebpWriter::Check(name, 1, 1)) continue;
       if (name == "a.png" && !HasLibpng()) continue;
       CAPTURE(name);
       CAPTURE(little);
@@ -220,7 +221,7 @@ TEST_CASE("writers: what PNG and WebP files say of a picture is read again") {
   // libpng reads no profile that is compressed to fewer bytes than its keyword may have.
   for (size_t k = 132; k < 588; ++k) how.metadata.icc[k] = static_cast<uint8_t>(k * k >> 3);
   for (const std::string name : {"a.png", "a.webp"}) {
-    if (name == "a.webp" && !WebpWriter::Check(name, 1, 1).empty()) continue;
+    if (name == "a.webp" && WebpWriter::Check(name, 1, 1)) continue;
     if (name == "a.png" && !HasLibpng()) continue;
     CAPTURE(name);
     REQUIRE(WriteImage(folder.file(name), Ramp(40, 30), how) == "");
@@ -316,7 +317,7 @@ TEST_CASE("writers: grey levels above 255 take 16 bits") {
   GreyImage grey = {300, 2, std::vector<uint16_t>(600)};
   std::iota(grey.levels.begin(), grey.levels.end(), uint16_t{0});
   Bytes png;
-  const std::string error = EncodeGreyPng("a.png", grey, &png);
+  const std::string error = EncodeGreyPng("a.png", grey, &png).line();
   if (!HasLibpng()) {
     CHECK(error.find("libpng") != std::string::npos);
     return;
@@ -337,9 +338,9 @@ TEST_CASE("writers: grey levels above 255 take 16 bits") {
 
 TEST_CASE("writers: an animation shows its pictures in their order") {
   TempFolder folder;
-  const std::string path = folder.file("a.webp"), absent = WebpWriter::Check(path, 1, 1);
-  if (!absent.empty()) {
-    CHECK(absent.find("libwebp") != std::string::npos);
+  const std::string path = folder.file("a.webp");
+  if (Error absent = WebpWriter::Check(path, 1, 1)) {
+    CHECK(absent.line().find("libwebp") != std::string::npos);
     return;
   }
   CHECK(WebpWriter::Check(path, 16384, 1) != "");

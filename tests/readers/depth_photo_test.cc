@@ -14,6 +14,7 @@
 #include "platform/readers/heif_boxes.h"
 #include "platform/readers/heif_limits.h"
 #include "platform/readers/xmp.h"
+#include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
 
@@ -98,9 +99,9 @@ TEST_CASE("GDepth: extended XMP in many segments in any order, maps of 8 and 16 
             doctest::Approx(PerDiopter(50) / 1.5 * (1 - level * 7 / 8)).epsilon(1e-5));
     }
     segments.pop_back();
-    CHECK(
-        Open(Insert(Photo(), XmpSegment(main) + Joined(segments)), &capture).find("extended XMP") !=
-        std::string::npos);
+    CHECK(Open(Insert(Photo(), XmpSegment(main) + Joined(segments)), &capture)
+              .line()
+              .find("extended XMP") != std::string::npos);
   }
   Capture capture;
   const std::string jpeg = Encode(Plain(kWidth / 2, kHeight / 2, 0), ".jpg");
@@ -143,7 +144,7 @@ TEST_CASE("GDepth: what is wrong is said in one line") {
   if (!CanReadXmp()) return;
   Capture capture;
   const auto error = [&](const std::string& attributes, const std::string& extended) {
-    const std::string line = Open(Gdepth(Photo(), attributes, extended), &capture);
+    const std::string line = Open(Gdepth(Photo(), attributes, extended), &capture).line();
     CHECK(line.find(": expected ") != std::string::npos);
     CHECK(line.find('\n') == std::string::npos);
     return line;
@@ -157,7 +158,7 @@ TEST_CASE("GDepth: what is wrong is said in one line") {
   CHECK(error(kInverse, Data(tall)).find("the picture's proportions") != std::string::npos);
   const std::string whole = Gdepth(Photo(), kInverse, data);
   for (const size_t part : {size_t{3}, size_t{30}, whole.size() / 2, whole.size() - 2}) {
-    CHECK(Open(whole.substr(0, part), &capture).find("the JPEG file is truncated") !=
+    CHECK(Open(whole.substr(0, part), &capture).line().find("the JPEG file is truncated") !=
           std::string::npos);
   }
 }
@@ -227,7 +228,7 @@ TEST_CASE("Apple's JPEG: disparities in an auxiliary picture") {
   CHECK(double(map.at(0, 5)) == doctest::Approx(0).epsilon(0.01));
   const std::string gain =
       "<apdi:AuxiliaryImageType>urn:com:apple:photo:2020:aux:hdrgainmap</apdi:AuxiliaryImageType>";
-  CHECK(Open(file(gain), &capture).find("a picture without one") != std::string::npos);
+  CHECK(Open(file(gain), &capture).line().find("a picture without one") != std::string::npos);
 }
 
 TEST_CASE("a photo and a depth picture: beside it or named, near guessed or told") {
@@ -251,7 +252,8 @@ TEST_CASE("a photo and a depth picture: beside it or named, near guessed or told
   CHECK(map.at(0, kHeight - 1) < map.at(0, 0));
   CHECK(capture.notes.empty());
   Write(folder.file("b.jpg"), Photo());
-  CHECK(OpenCapture(folder.file("b.jpg"), {}, &capture).find("--depth") != std::string::npos);
+  CHECK(OpenCapture(folder.file("b.jpg"), {}, &capture).line().find("--depth") !=
+        std::string::npos);
   options.depth = folder.file("a-depth.png");
   REQUIRE(OpenCapture(folder.file("b.jpg"), options, &capture) == "");
   // Turned with its photo, unless it stands already as that will.
@@ -279,20 +281,21 @@ TEST_CASE("photos: limits of segments, items, pictures and pixels are named") {
   Capture capture;
   std::string many;
   for (int k = 0; k < 4097; ++k) many += Segment(0xef, "");
-  CHECK(Open(Insert(Photo(), many), &capture).find("at most 4096 segments") != std::string::npos);
+  CHECK(Open(Insert(Photo(), many), &capture).line().find("at most 4096 segments") !=
+        std::string::npos);
   // A header of 16000 x 16000 pixels of 16 bits on a file of one.
   std::string png = Png16(1, 1, {7});
   const std::string header = "IHDR" + Big(16000, 4) + Big(16000, 4) + png.substr(24, 5);
   png = png.substr(0, 12) + header + Big(Crc(header), 4) + png.substr(33);
   Bytes bytes(png.begin(), png.end());
   FloatMap map;
-  CHECK(DecodeLevels("x", &bytes, &map).find("truncated") != std::string::npos);
+  CHECK(DecodeLevels("x", &bytes, &map).line().find("truncated") != std::string::npos);
   if (!CanReadXmp()) return;
   std::string items;
   for (int k = 0; k < 65; ++k) items += ContainerItem("image/png", 1, "other");
   const std::string packet =
       Packet(kDynamic, "", items + "<Camera:DepthMap DepthMap:DepthURI=\"other\"/>");
-  CHECK(Open(Insert(Photo(), XmpSegment(packet)), &capture).find("at most 64 items") !=
+  CHECK(Open(Insert(Photo(), XmpSegment(packet)), &capture).line().find("at most 64 items") !=
         std::string::npos);
 }
 
@@ -304,16 +307,17 @@ TEST_CASE("XMP: limits are named, and nothing else than elements is read") {
   };
   std::string deep, many = "<a>";
   for (int k = 0; k < 40; ++k) deep += "<a>";
-  CHECK(parse(deep).find("at most 32 deep") != std::string::npos);
+  CHECK(parse(deep).line().find("at most 32 deep") != std::string::npos);
   for (int k = 0; k < 20001; ++k) many += "<a/>";
-  CHECK(parse(many + "</a>").find("at most 20000 elements") != std::string::npos);
+  CHECK(parse(many + "</a>").line().find("at most 20000 elements") != std::string::npos);
   many = "<a";
   for (int k = 0; k < 20001; ++k) many += " a" + std::to_string(k) + "=\"\"";
-  CHECK(parse(many + "/>").find("at most 20000 elements and attributes") != std::string::npos);
-  CHECK(parse("<!DOCTYPE a [<!ENTITY b \"cccc\">]><a>&b;</a>").find("document type") !=
+  CHECK(parse(many + "/>").line().find("at most 20000 elements and attributes") !=
         std::string::npos);
-  CHECK(parse("<a").find("well-formed") != std::string::npos);
-  CHECK(parse(std::string((size_t{1} << 26) + 1, ' ')).find("at most 67108864 bytes") !=
+  CHECK(parse("<!DOCTYPE a [<!ENTITY b \"cccc\">]><a>&b;</a>").line().find("document type") !=
+        std::string::npos);
+  CHECK(parse("<a").line().find("well-formed") != std::string::npos);
+  CHECK(parse(std::string((size_t{1} << 26) + 1, ' ')).line().find("at most 67108864 bytes") !=
         std::string::npos);
   REQUIRE(parse("<a xmlns:n=\"space\" n:p=\" 1 \"><n:q> 2 </n:q></a>") == "");
   double value = 0;
@@ -351,7 +355,7 @@ TEST_CASE("photos: EXIF of PNG and WebP turns the picture as that of JPEG does")
   for (const std::string name : {"photo.png", "photo.webp"}) {
     CAPTURE(name);
     TempFolder folder;
-    if (!CheckImageOutput(folder.file(name)).empty()) continue;
+    if (CheckImageOutput(folder.file(name))) continue;
     Require(WriteImage(folder.file(name), Ramp(kWidth, kHeight), how));
     Bytes bytes;
     Require(ReadFile(folder.file(name), &bytes));
@@ -450,24 +454,29 @@ TEST_CASE("HEIF: a picture made of itself, or declared larger than it is, is ref
   const auto error = [](const std::string& file) { return CheckHeif("a.heic", SpanOf(file)); };
   CHECK(error(Seed("heif/depth.heic")) == "");
   CHECK(error(Seed("heif/plain.avif")) == "");
-  CHECK(error(Seed("heif/grid_of_itself.heic")).find("'grid' picture in it") != std::string::npos);
-  CHECK(error(Seed("heif/malformed_references.heic")).find("boxes") != std::string::npos);
+  CHECK(error(Seed("heif/grid_of_itself.heic")).line().find("'grid' picture in it") !=
+        std::string::npos);
+  CHECK(error(Seed("heif/malformed_references.heic")).line().find("boxes") != std::string::npos);
   const std::string depth = "heif/depth.heic", size("\0\0\0\0", 4);
   // idat: two columns of one tile; another width than ispe's.
-  CHECK(error(Changed(depth, "idat", 3, "\1")).find("grid") != std::string::npos);
-  CHECK(error(Changed(depth, "idat", 4, std::string("\x40\0", 2))).find("grid") !=
+  CHECK(error(Changed(depth, "idat", 3, "\1")).line().find("grid") != std::string::npos);
+  CHECK(error(Changed(depth, "idat", 4, std::string("\x40\0", 2))).line().find("grid") !=
         std::string::npos);
   CHECK(error(Changed(depth, "ispe", 4, std::string("\0\0\x40\0\0\0\x40\0", 8)))
+            .line()
             .find("32768 pixels for each byte") != std::string::npos);
   CHECK(error(Changed(depth, "ispe", 4, std::string("\0\0\x10\0\0\0\x10\0", 8)))
+            .line()
             .find("not much larger") != std::string::npos);
   // A product beyond 64 bits, which sanitizers would see.
   CHECK(error(Changed(depth, "ispe", 4, std::string("\xff\xff\xff\xff\xff\0\0\0", 8)))
+            .line()
             .find("16384 pixels each way") != std::string::npos);
-  CHECK(error(Changed(depth, "dimg", 4, std::string("\0\x09", 2))).find("not there") !=
+  CHECK(error(Changed(depth, "dimg", 4, std::string("\0\x09", 2))).line().find("not there") !=
         std::string::npos);
   const std::string whole = Seed(depth);
-  for (size_t cut = 40; cut < whole.size(); cut += 7) error(whole.substr(0, cut));
+  for (size_t cut = 40; cut < whole.size(); cut += 7)
+    static_cast<void>(error(whole.substr(0, cut)));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "platform/readers/capture.h"
 #include "platform/readers/orientation.h"
 #include "platform/readers/unknown_depth.h"
+#include "tests/support/error_line.h"
 #include "tests/support/photo_files.h"
 
 namespace starfocus::depth_picture_test {
@@ -65,7 +66,7 @@ struct Opened {
     TempFolder folder;
     Write(folder.file("photo.jpg"), Encode(Plain(kWidth, kHeight, 128), ".jpg"));
     Write(folder.file(name), depth);
-    error = OpenCapture(folder.file("photo.jpg"), {folder.file(name), options}, &capture);
+    error = OpenCapture(folder.file("photo.jpg"), {folder.file(name), options}, &capture).line();
   }
 
   double At(int x, int y) const { return double(capture.light_field.disparity.at(x, y)); }

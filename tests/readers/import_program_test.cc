@@ -409,18 +409,18 @@ TEST_CASE("photos: HEIC with an auxiliary depth picture") {
   Bytes bytes;
   REQUIRE(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/depth.heic", &bytes) == "");
   DepthPhoto photo;
-  const std::string error = ReadHeif("x", {bytes.data(), bytes.size()}, Near::kUnknown, &photo);
+  const Error error = ReadHeif("x", {bytes.data(), bytes.size()}, Near::kUnknown, &photo);
 #ifdef STARFOCUS_HAS_HEIF
   REQUIRE(error == "");
   CHECK(photo.picture.width == 16);
   REQUIRE(photo.map.values.size() == 16 * 16);
   CHECK(std::fabs(photo.map.at(0, 8) - photo.map.at(15, 8)) > 0.8F);  // it runs from side to side
   for (const size_t size : {size_t{30}, bytes.size() / 2, bytes.size() - 1}) {
-    CHECK(Contains(ReadHeif("x", {bytes.data(), size}, Near::kUnknown, &photo),
+    CHECK(Contains(ReadHeif("x", {bytes.data(), size}, Near::kUnknown, &photo).line(),
                    "the HEIF file is truncated"));
   }
 #else
-  CHECK(Contains(error, "a build with libheif"));
+  CHECK(Contains(error.line(), "a build with libheif"));
 #endif
 }
 

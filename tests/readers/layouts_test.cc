@@ -13,6 +13,7 @@
 #include "platform/readers/orientation.h"
 #include "platform/readers/photo_scale.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/error_line.h"
 #include "tests/support/photo_files.h"
 
 namespace starfocus::layouts_test {
@@ -43,9 +44,9 @@ int LevelAt(const Capture& capture, double u, double v) {
   return -1;
 }
 
-std::string OpenAndLoad(const TempFolder& folder, Capture* capture) {
-  const std::string error = OpenCapture(folder.path(), {}, capture);
-  return error.empty() ? LoadCapture({}, capture) : error;
+Error OpenAndLoad(const TempFolder& folder, Capture* capture) {
+  if (Error error = OpenCapture(folder.path(), {}, capture)) return error;
+  return LoadCapture({}, capture);
 }
 
 std::string FactOf(const Capture& capture, const std::string& name) {
@@ -79,7 +80,7 @@ TEST_CASE("HCI: 17 of 81 views, disparities times four, f-stops by the baseline"
   CHECK(capture.map_path.empty());
   CHECK(capture.light_field.disparity.values.empty());
   std::filesystem::remove(folder.file("input_Cam080.png"));
-  CHECK(OpenAndLoad(folder, &capture).find("a square of views") != std::string::npos);
+  CHECK(OpenAndLoad(folder, &capture).line().find("a square of views") != std::string::npos);
 }
 
 // 5 rows of 7; `place` gives the rest of a name.
@@ -137,7 +138,7 @@ TEST_CASE("rows and columns by name: squares, a row, what is missing") {
   CHECK(capture.light_field.views.size() == 9);
   CHECK(LevelAt(capture, 1, 1) == 8);
   std::filesystem::remove(three.file("scene r2c2 8bit.png"));
-  CHECK(OpenAndLoad(three, &capture).find("a picture for each of 3 rows of 3, found 8") !=
+  CHECK(OpenAndLoad(three, &capture).line().find("a picture for each of 3 rows of 3, found 8") !=
         std::string::npos);
   grid(sixteen, 8, 8);  // 7 x 7 have a middle; of 3 from there no half is whole
   REQUIRE(OpenAndLoad(sixteen, &capture) == "");
@@ -156,10 +157,11 @@ TEST_CASE("rows and columns by name: squares, a row, what is missing") {
   CHECK(capture.light_field.disparity.values[0] == 2);
   TempFolder two, none;
   grid(two, 2, 2);
-  CHECK(OpenAndLoad(two, &capture).find("3 views or more") != std::string::npos);
+  CHECK(OpenAndLoad(two, &capture).line().find("3 views or more") != std::string::npos);
   WriteView(none, "holiday.png", 1);
   WriteView(none, "portrait.png", 1);
-  CHECK(OpenAndLoad(none, &capture).find("2 pictures, the first holiday.png") != std::string::npos);
+  CHECK(OpenAndLoad(none, &capture).line().find("2 pictures, the first holiday.png") !=
+        std::string::npos);
 }
 
 TEST_CASE("Middlebury: a pair whose unknown disparities are filled") {
@@ -262,7 +264,7 @@ TEST_CASE("Middlebury of 2003 to 2006: grey maps of the multiple that their size
   CHECK(capture.light_field.disparity.at(20, 20) == 9);
   Require(WriteImage(folder.file("disp2.png"), Plain(4, 3, 40)));
   REQUIRE(OpenCapture(folder.path(), {}, &capture) == "");
-  CHECK(Contains(LoadCapture({}, &capture), "as the centre view"));
+  CHECK(Contains(LoadCapture({}, &capture).line(), "as the centre view"));
 }
 
 TEST_CASE("orientation: the corners stand where EXIF says") {

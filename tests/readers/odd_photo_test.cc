@@ -10,6 +10,7 @@
 
 #include "platform/readers/xmp.h"
 #include "platform/writers/jpeg.h"
+#include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
 
@@ -59,7 +60,7 @@ TEST_CASE("GDepth: a range that is none is ignored, and levels are an order") {
 }
 
 // The photo with a depth picture beside it, whose right end is near.
-std::string OpenBeside(const std::string& photo, Capture* capture) {
+Error OpenBeside(const std::string& photo, Capture* capture) {
   TempFolder folder;
   Write(folder.file("photo.jpg"), photo);
   Write(folder.file("photo-depth.png"), RampPng());
@@ -94,7 +95,7 @@ TEST_CASE("XMP that is lost or malformed is ignored, and the depth picture besid
     CheckRamp(capture, 0, PerDiopter(50) / 1.5);
     CHECK(HasNote(capture, one.note));
     // Without a picture beside it the same is the cause of the error.
-    const std::string error = Open(file, &capture);
+    const std::string error = Open(file, &capture).line();
     CHECK(error.find(": expected a depth map") != std::string::npos);
     if (one.note.find("the depth map") != 0) CHECK(error.find(one.note) != std::string::npos);
   }
@@ -161,8 +162,9 @@ TEST_CASE("Apple's JPEG: the map is found where its index is wrong, moved or los
   check(Photo() + "something between\xff\xd8\xff" + map, "the file has no multi-picture index");
   const std::string whole = MultiPicture(Photo(), map);
   for (const size_t cut : {size_t{2}, map.size() / 2, map.size()}) {
-    CHECK(Open(whole.substr(0, whole.size() - cut), &capture).find("one cut off or not there") !=
-          std::string::npos);
+    CHECK(Open(whole.substr(0, whole.size() - cut), &capture)
+              .line()
+              .find("one cut off or not there") != std::string::npos);
   }
 }
 
@@ -173,9 +175,9 @@ TEST_CASE("a stereo pair in one file has two views and no map") {
   Capture capture;
   const auto open = [&](const std::string& name, const std::string& file) {
     Write(folder.file(name), file);
-    std::string error = OpenCapture(folder.file(name), {}, &capture);
-    if (error.empty()) error = LoadCapture({}, &capture);
-    return error.empty() && capture.light_field.views.size() == 2;
+    Error error = OpenCapture(folder.file(name), {}, &capture);
+    if (!error) error = LoadCapture({}, &capture);
+    return !error && capture.light_field.views.size() == 2;
   };
   for (const bool little : {false, true}) {
     for (const uint32_t type : {0u, 0x020002u, 0x20020002u}) {
@@ -263,7 +265,7 @@ TEST_CASE("captions: XMP and IPTC of a photo are kept, but nothing on its depth 
   Bytes jpeg;
   REQUIRE(EncodeJpeg("x", Plain(kWidth, kHeight, 9), 90, capture.metadata, {}, &jpeg) == "");
   Capture again;
-  CHECK(Open({jpeg.begin(), jpeg.end()}, &again).find("a picture without one") !=
+  CHECK(Open({jpeg.begin(), jpeg.end()}, &again).line().find("a picture without one") !=
         std::string::npos);
   REQUIRE(OpenBeside({jpeg.begin(), jpeg.end()}, &again) == "");
   CHECK(again.metadata.xmp == capture.metadata.xmp);
@@ -281,16 +283,17 @@ TEST_CASE("photos: an error names what the file is") {
   Capture capture;
   const std::string photo = Photo(), png = RampPng();
   const auto error = [&](const std::string& bytes) { return Open(bytes, &capture); };
-  CHECK(error("").find("found an empty file") != std::string::npos);
-  CHECK(error("A letter.\n").find("found a text file") != std::string::npos);
-  CHECK(error("GIF89a\1").find("found a GIF file") != std::string::npos);
-  CHECK(error(std::string("II*\0\1", 5)).find("found a TIFF or raw file") != std::string::npos);
-  CHECK(error("version https://git-lfs.github.com/spec/v1\n").find("a pointer of Git LFS") !=
+  CHECK(error("").line().find("found an empty file") != std::string::npos);
+  CHECK(error("A letter.\n").line().find("found a text file") != std::string::npos);
+  CHECK(error("GIF89a\1").line().find("found a GIF file") != std::string::npos);
+  CHECK(error(std::string("II*\0\1", 5)).line().find("found a TIFF or raw file") !=
         std::string::npos);
-  CHECK(error(std::string(100, '\0')).find("found a file of zeros") != std::string::npos);
-  CHECK(error(png.substr(0, png.size() - 5)).find("the PNG file is truncated") !=
+  CHECK(error("version https://git-lfs.github.com/spec/v1\n").line().find("a pointer of Git LFS") !=
         std::string::npos);
-  CHECK(error(photo.substr(0, photo.size() / 2)).find("the JPEG file is truncated") !=
+  CHECK(error(std::string(100, '\0')).line().find("found a file of zeros") != std::string::npos);
+  CHECK(error(png.substr(0, png.size() - 5)).line().find("the PNG file is truncated") !=
+        std::string::npos);
+  CHECK(error(photo.substr(0, photo.size() / 2)).line().find("the JPEG file is truncated") !=
         std::string::npos);
   TempFolder folder;
   CHECK(OpenCapture(folder.file("none.jpg"), {}, &capture) ==

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "platform/readers/capture.h"
+#include "platform/result.h"
 #include "tests/support/photo_files.h"
 
 namespace starfocus::photos {
@@ -20,8 +21,7 @@ inline std::string RampPng() { return Encode(Ramp(kWidth, kHeight), ".png"); }
 
 inline std::string Data(const std::string& map) { return "GDepth:Data=\"" + Base64(map) + "\""; }
 
-inline std::string Open(const std::string& bytes, Capture* capture,
-                        const CaptureOptions& options = {}) {
+inline Error Open(const std::string& bytes, Capture* capture, const CaptureOptions& options = {}) {
   TempFolder folder;
   Write(folder.file("photo.jpg"), bytes);
   return OpenCapture(folder.file("photo.jpg"), options, capture);

@@ -10,13 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "platform/base64.h"
 #include "platform/image_io.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::photos {
 
-inline void Require(const std::string& error) {
-  if (!error.empty()) throw std::runtime_error(error);
+inline void Require(const Error& error) {
+  if (error) throw std::runtime_error(error.line());
 }
 
 // The bytes of a picture as a file of that extension.
@@ -89,18 +90,7 @@ inline std::string Png16(int width, int height, const std::vector<uint16_t>& lev
 }
 
 inline std::string Base64(const std::string& bytes) {
-  constexpr char kCharacters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (size_t at = 0; at < bytes.size(); at += 3) {
-    uint32_t three = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      three = three << 8 | (at + k < bytes.size() ? static_cast<uint8_t>(bytes[at + k]) : 0u);
-    }
-    for (size_t k = 0; k < 4; ++k) {
-      text += at + k <= bytes.size() ? kCharacters[three >> (18 - 6 * k) & 63] : '=';
-    }
-  }
-  return text;
+  return EncodeBase64({bytes.begin(), bytes.end()});
 }
 
 // A segment of a JPEG file.

@@ -36,14 +36,14 @@ Error ParseRange(const std::string& text, DisparityRange* range) {
   const size_t colon = text.find(':');
   double low = 0, high = 0;
   const bool numbers = colon != std::string::npos &&
-                       ParseNumber("", text.substr(0, colon), &low).empty() &&
-                       ParseNumber("", text.substr(colon + 1), &high).empty();
+                       !ParseNumber("", text.substr(0, colon), &low) &&
+                       !ParseNumber("", text.substr(colon + 1), &high);
   if (!numbers || !(low >= -SF_MAX_DISPARITY && low <= high && high <= SF_MAX_DISPARITY)) {
     return Error::Usage("--range", "MIN:MAX, disparities within +-" + Short(SF_MAX_DISPARITY),
                         "'" + text.substr(0, 60) + "'");
   }
   *range = {static_cast<float>(low), static_cast<float>(high)};
-  return "";
+  return {};
 }
 
 // The pictures that were asked for.
@@ -76,35 +76,35 @@ Error PlanOutputs(const DisparityOptions& options, Plan* plan) {
   if (!options.out.empty()) outputs.push_back({"--output", plan->map});
   for (const Output& picture : PicturesOf(options)) outputs.push_back(picture);
   Error error = CheckOutputPath(plan->map);
-  if (error.empty()) error = CheckImageOutput(plan->picture);
+  if (!error) error = CheckImageOutput(plan->picture);
   for (const Output& picture : PicturesOf(options)) {
-    if (error.empty()) error = CheckImageOutput(picture.path);
+    if (!error) error = CheckImageOutput(picture.path);
   }
-  return error.empty() ? CheckApart(outputs, {{options.folder}, {}}) : error;
+  return !error ? CheckApart(outputs, {{options.folder}, {}}) : error;
 }
 
 Error MakePlan(const DisparityOptions& options, Plan* plan) {
   Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
-  if (error.empty() && !options.views.empty()) {
+  if (!error && !options.views.empty()) {
     error = ParseViews("--views", options.views, &plan->views);
-    if (error.empty() && StarWithin(plan->views) == 1 && !options.repair) {
+    if (!error && StarWithin(plan->views) == 1 && !options.repair) {
       error =
           Error::Usage("--views", "17, 9 or 5: other views show no disparity here", options.views);
     }
   }
   plan->has_range = !options.range.empty();
-  if (error.empty() && plan->has_range) error = ParseRange(options.range, &plan->range);
-  return error.empty() ? PlanOutputs(options, plan) : error;
+  if (!error && plan->has_range) error = ParseRange(options.range, &plan->range);
+  return error ? error : PlanOutputs(options, plan);
 }
 
 // Estimates the map of a folder; says what was looked for.
 Error EstimateFolder(const DisparityOptions& options, Plan* plan, const LightField& light_field,
                      DisparityEstimate* estimate) {
   Error error = CheckStar(options.folder, light_field);
-  if (error.empty() && !plan->has_range) {
+  if (!error && !plan->has_range) {
     error = FindRange(options.folder, light_field, plan->threads, &plan->range);
   }
-  if (!error.empty()) return error;
+  if (error) return error;
   return EstimateDisparity(options.folder, light_field, plan->range, plan->threads, estimate);
 }
 
@@ -112,9 +112,9 @@ Error EstimateFolder(const DisparityOptions& options, Plan* plan, const LightFie
 Error RepairFolder(const DisparityOptions& options, Plan* plan, LightField* light_field,
                    DisparityEstimate* estimate) {
   Image* confidence = options.confidence.empty() ? nullptr : &estimate->confidence;
-  const Error error = RepairDisparity(DisparityPath(options.folder), plan->threads,
-                                      !options.coverage.empty(), light_field, confidence);
-  if (!error.empty()) return error;
+  if (Error error = RepairDisparity(DisparityPath(options.folder), plan->threads,
+                                    !options.coverage.empty(), light_field, confidence))
+    return error;
   if (!options.coverage.empty() && light_field->coverage.empty()) {
     std::fprintf(stderr, "%s: no coverage to write: %s\n", options.folder.c_str(),
                  light_field->views.size() > 1 ? "only a repair with one view (--views 1) finds it"
@@ -125,44 +125,44 @@ Error RepairFolder(const DisparityOptions& options, Plan* plan, LightField* ligh
   estimate->map = std::move(light_field->disparity);
   const auto ends = std::minmax_element(estimate->map.values.begin(), estimate->map.values.end());
   plan->range = {*ends.first, *ends.second};
-  return "";
+  return {};
 }
 
 Error WriteMap(const DisparityOptions& options, const Plan& plan,
                const DisparityEstimate& estimate) {
   Error error = WriteImage(plan.picture, DrawDisparity(estimate.map));
-  if (error.empty() && !options.confidence.empty()) {
+  if (!error && !options.confidence.empty()) {
     error = WriteImage(options.confidence, estimate.confidence);
   }
-  if (error.empty() && estimate.coverage.width != 0) {
+  if (!error && estimate.coverage.width != 0) {
     error = WriteImage(options.coverage, estimate.coverage);
   }
-  return error.empty() ? WritePfm(plan.map, estimate.map) : error;
+  return error ? error : WritePfm(plan.map, estimate.map);
 }
 
 Error Run(const DisparityOptions& options) {
   Plan plan;
   LightField light_field;
-  Error error = MakePlan(options, &plan);
-  if (!error.empty()) return error;
+  if (Error error = MakePlan(options, &plan)) return error;
   ThreadRunner runner(plan.threads);
-  error = options.repair ? LoadLightField(options.folder, plan.views, &light_field, &runner)
-                         : LoadCaptured(options.folder, plan.views, &light_field, &runner);
-  if (!error.empty()) return error;
+  if (Error error = options.repair
+                        ? LoadLightField(options.folder, plan.views, &light_field, &runner)
+                        : LoadCaptured(options.folder, plan.views, &light_field, &runner))
+    return error;
   const double start = Seconds();
   DisparityEstimate estimate;
-  error = options.repair ? RepairFolder(options, &plan, &light_field, &estimate)
-                         : EstimateFolder(options, &plan, light_field, &estimate);
+  Error error = options.repair ? RepairFolder(options, &plan, &light_field, &estimate)
+                               : EstimateFolder(options, &plan, light_field, &estimate);
   const double seconds = Seconds() - start;
-  if (error.empty()) error = WriteMap(options, plan, estimate);
-  if (!error.empty()) return error;
+  if (!error) error = WriteMap(options, plan, estimate);
+  if (error) return error;
   const double megapixels = 1e-6 * estimate.map.width * estimate.map.height;
   const int count = StarWithin(light_field.positions);
   std::printf("%s: %s to %s %s %d view%s, %.1f s, %.1f s per megapixel\n", plan.map.c_str(),
               Short(plan.range.min).c_str(), Short(plan.range.max).c_str(),
               options.repair ? "repaired by" : "looked for in", count, count == 1 ? "" : "s",
               seconds, seconds / megapixels);
-  return "";
+  return {};
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ Error Run(const Program& program, const HelpOptions& options) {
   if (options.manual || options.completion) {
     const std::string text = options.manual ? ManualText(program) : CompletionText(program);
     std::printf("%s", text.c_str());
-    return "";
+    return {};
   }
   const Command* command = options.command.empty() ? &program.main : nullptr;
   std::vector<std::string> names;
@@ -32,7 +32,7 @@ Error Run(const Program& program, const HelpOptions& options) {
   }
   if (command != nullptr) {
     std::printf("%s", HelpText(program, *command).c_str());
-    return "";
+    return {};
   }
   const std::string nearest = NearestName(options.command, names);
   return Error::Usage(

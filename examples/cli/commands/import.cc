@@ -23,7 +23,7 @@ struct ImportOptions {
 // A folder that has a light field, or a part of one, would become a mixture.
 Error CheckFolder(const std::string& folder) {
   const std::vector<std::string> files = LightFieldFiles(folder);
-  return files.empty() ? "" : Expected(folder, "a folder without a light field", files[0]);
+  return files.empty() ? Error() : Expected(folder, "a folder without a light field", files[0]);
 }
 
 void Tell(const ImportOptions& options, const Capture& capture) {
@@ -45,23 +45,23 @@ void Tell(const ImportOptions& options, const Capture& capture) {
 Error Run(const ImportOptions& options) {
   int threads = 1;
   Positions views;
-  Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &threads);
-  if (error.empty() && !options.views.empty()) {
-    error = ParseViews("--views", options.views, &views);
+  if (Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &threads)) {
+    return error;
   }
-  if (error.empty()) error = CheckFolderApart({"DIR", options.folder}, {options.input.path});
-  if (error.empty()) error = CheckFolderOutput(options.folder);
-  if (error.empty()) error = CheckFolder(options.folder);
+  if (!options.views.empty()) {
+    if (Error error = ParseViews("--views", options.views, &views)) return error;
+  }
+  if (Error error = CheckFolderApart({"DIR", options.folder}, {options.input.path})) return error;
+  if (Error error = CheckFolderOutput(options.folder)) return error;
+  if (Error error = CheckFolder(options.folder)) return error;
   Capture capture;
-  if (error.empty()) error = OpenInput(options.input, &capture);
-  if (!error.empty()) return error;
+  if (Error error = OpenInput(options.input, &capture)) return error;
   ThreadRunner runner(threads);
-  error = LoadCapture(views, &capture, &runner);
-  if (error.empty()) error = CareForMap(options.map, threads, &capture);
-  if (!error.empty()) return error;
-  error = SaveLightField(options.folder, capture.light_field, &runner);
-  if (error.empty()) Tell(options, capture);
-  return error;
+  if (Error error = LoadCapture(views, &capture, &runner)) return error;
+  if (Error error = CareForMap(options.map, threads, &capture)) return error;
+  if (Error error = SaveLightField(options.folder, capture.light_field, &runner)) return error;
+  Tell(options, capture);
+  return {};
 }
 
 }  // namespace

@@ -99,31 +99,30 @@ bool HasMap(const Capture& capture) {
 
 Error Measure(const Capture& capture, sf_disparity_stats* stats, std::vector<int64_t>* counts) {
   const FloatMap& map = capture.light_field.disparity;
-  if (map.values.empty()) return "";
+  if (map.values.empty()) return {};
   const sf_status status = sf_measure_disparity(
       map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, stats);
   if (status != SF_OK) {
     return Expected(MapName(capture), "disparities that can be measured", sf_status_string(status));
   }
   *counts = Histogram(map, *stats, kBins);
-  return "";
+  return {};
 }
 
 Error Run(const InfoOptions& options) {
   Capture capture;
   sf_disparity_stats stats = {};
   std::vector<int64_t> counts;
-  Error error = OpenInput(options.input, &capture);
-  if (!error.empty()) return error;
-  error = HasMap(capture) ? LoadInput({}, 1, &capture) : LoadCapture({}, &capture);
-  if (error.empty()) error = Measure(capture, &stats, &counts);
-  if (!error.empty()) return error;
+  if (Error error = OpenInput(options.input, &capture)) return error;
+  if (Error error = HasMap(capture) ? LoadInput({}, 1, &capture) : LoadCapture({}, &capture))
+    return error;
+  if (Error error = Measure(capture, &stats, &counts)) return error;
   if (options.json) {
     PrintJson(capture, stats, counts);
   } else {
     PrintText(capture, stats, counts);
   }
-  return "";
+  return {};
 }
 
 }  // namespace

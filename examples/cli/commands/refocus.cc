@@ -52,11 +52,11 @@ std::vector<Output> ListOutputs(const RefocusOptions& options, const LensPlan& p
 Error CheckOutputs(const RefocusOptions& options, const LensPlan& plan) {
   const std::vector<Output> outputs = ListOutputs(options, plan);
   Error error = CheckImageOutput(options.output.out);
-  for (size_t i = 0; i < outputs.size() && error.empty(); ++i) {
+  for (size_t i = 0; i < outputs.size() && !error; ++i) {
     error = outputs[i].option == "--report" ? CheckOutputPath(outputs[i].path)
                                             : CheckImageOutput(outputs[i].path);
   }
-  if (!error.empty()) return error;
+  if (error) return error;
   return CheckApart(outputs, {{options.input.path},
                               {options.input.path, options.input.depth, options.input.coverage,
                                options.lens.timing}});
@@ -68,16 +68,16 @@ Error ParseSweep(const std::string& text, std::vector<double>* foci) {
   double from = 0, to = 0;
   int count = 0;
   if (first == std::string::npos || second == std::string::npos ||
-      !ParseNumber("", text.substr(0, first), &from).empty() ||
-      !ParseNumber("", text.substr(first + 1, second - first - 1), &to).empty() ||
-      !ParseWhole("", text.substr(second + 1), 2, kMostPictures, &count).empty()) {
+      ParseNumber("", text.substr(0, first), &from) ||
+      ParseNumber("", text.substr(first + 1, second - first - 1), &to) ||
+      ParseWhole("", text.substr(second + 1), 2, kMostPictures, &count)) {
     return Error::Usage(
         "--sweep",
         "D0:D1:N, two disparities and 2 to " + std::to_string(kMostPictures) + " pictures",
         "'" + text.substr(0, 60) + "'");
   }
   for (int i = 0; i < count; ++i) foci->push_back(from + (to - from) * i / (count - 1));
-  return "";
+  return {};
 }
 
 Error PlanFoci(const RefocusOptions& options, LensPlan* plan) {
@@ -95,7 +95,7 @@ Error PlanFoci(const RefocusOptions& options, LensPlan* plan) {
 }
 
 Error PlanRegion(const RefocusOptions& options, LensPlan* plan) {
-  if (options.region.empty()) return "";
+  if (options.region.empty()) return {};
   if (options.stream) return Error::Usage("--region", "whole pictures in memory", "--stream");
   return ParseRegion("--region", options.region, &plan->region);
 }
@@ -103,19 +103,19 @@ Error PlanRegion(const RefocusOptions& options, LensPlan* plan) {
 // Everything that can be refused before a file is read.
 Error MakePlan(const RefocusOptions& options, LensPlan* plan, PictureOptions* how) {
   Error error = PlanFoci(options, plan);
-  if (error.empty()) {
+  if (!error) {
     error =
         PlanOutput(options.output, !options.sweep.empty(), !options.region.empty(), &how->quality);
   }
   if (options.output.small_png) how->png_size = PngSize::kSmall;
-  if (error.empty()) error = CheckOutputs(options, *plan);
-  if (error.empty()) error = PlanRegion(options, plan);
-  return error.empty() ? PlanLens(options.lens, plan) : error;
+  if (!error) error = CheckOutputs(options, *plan);
+  if (!error) error = PlanRegion(options, plan);
+  return error ? error : PlanLens(options.lens, plan);
 }
 
 Error CheckRegion(const Image& picture, const RefocusOptions& options, const sf_region& region) {
   if (region.x + region.width <= picture.width && region.y + region.height <= picture.height)
-    return "";
+    return {};
   return Error::Usage("--region",
                       "pixels of the picture, " + std::to_string(picture.width) + "x" +
                           std::to_string(picture.height),
@@ -124,19 +124,18 @@ Error CheckRegion(const Image& picture, const RefocusOptions& options, const sf_
 
 Error Open(const RefocusOptions& options, LensPlan* plan, Capture* capture) {
   Error error = OpenInput(options.input, capture);
-  if (error.empty()) {
+  if (!error) {
     error = CheckApart(ListOutputs(options, *plan),
                        {{}, CaptureFiles(*capture), GridsOf(options.input, *capture)});
   }
-  return error.empty() ? PlanAperture(options.lens.aperture, *capture, &plan->aperture) : error;
+  return error ? error : PlanAperture(options.lens.aperture, *capture, &plan->aperture);
 }
 
 // Checks everything that does not need the map in the picture's size or repaired, which takes long.
 Error Foresee(const RefocusOptions& options, const Capture& capture, LensPlan* plan) {
   const LightField& light_field = capture.light_field;
-  Error error = CheckRule(capture.path, *plan, light_field.positions);
-  if (error.empty()) error = CheckRegion(light_field.views[0], options, plan->region);
-  if (!error.empty()) return error;
+  if (Error error = CheckRule(capture.path, *plan, light_field.positions)) return error;
+  if (Error error = CheckRegion(light_field.views[0], options, plan->region)) return error;
   if (plan->focus_option.empty()) {
     const DefaultFocus focus = FindDefaultFocus(capture);
     TellFocus(capture.path, focus);
@@ -149,18 +148,18 @@ Error Load(const RefocusOptions& options, LensPlan* plan, Loaded* loaded) {
   Capture* capture = &loaded->capture;
   const FloatMap& map = capture->light_field.disparity;
   Error error = Open(options, plan, capture);
-  if (error.empty() && capture->photo) error = Foresee(options, *capture, plan);
-  if (error.empty()) error = LoadInput(plan->views, plan->threads, capture);
-  if (error.empty() && !capture->photo) error = Foresee(options, *capture, plan);
-  if (error.empty()) error = CareForMap(options.disparities, plan->threads, capture);
-  if (error.empty()) error = PrepareDisparity(MapName(*capture), map, &loaded->stats);
-  if (error.empty()) error = ChooseFocus(map, plan);
-  if (error.empty()) error = ChooseBlur(loaded->stats, plan, &loaded->max_blur);
-  if (error.empty()) TellAperture(capture->path, plan->aperture);
+  if (!error && capture->photo) error = Foresee(options, *capture, plan);
+  if (!error) error = LoadInput(plan->views, plan->threads, capture);
+  if (!error && !capture->photo) error = Foresee(options, *capture, plan);
+  if (!error) error = CareForMap(options.disparities, plan->threads, capture);
+  if (!error) error = PrepareDisparity(MapName(*capture), map, &loaded->stats);
+  if (!error) error = ChooseFocus(map, plan);
+  if (!error) error = ChooseBlur(loaded->stats, plan, &loaded->max_blur);
+  if (!error) TellAperture(capture->path, plan->aperture);
   return error;
 }
 
-std::string WriteReport(const RefocusOptions& options, const std::string& text) {
+Error WriteReport(const RefocusOptions& options, const std::string& text) {
   return WriteFile(options.report, Bytes(text.begin(), text.end()));
 }
 
@@ -176,13 +175,13 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, double wi
   EngineRun run(task.threads, 1);
   EngineResult result;
   Error error = run.Start(InputName(options.input.path), task);
-  if (error.empty()) error = run.Refocus(InputName(options.input.path), task, &result);
-  if (error.empty()) error = WriteRefocused(options.output, how, widest, task, result.picture);
-  if (error.empty() && !options.map.empty()) {
+  if (!error) error = run.Refocus(InputName(options.input.path), task, &result);
+  if (!error) error = WriteRefocused(options.output, how, widest, task, result.picture);
+  if (!error && !options.map.empty()) {
     const sf_region& region = task.params.region;
     error = WriteImage(options.map, DrawPartition(result.picture, region.x, region.y, blocks));
   }
-  if (!error.empty() || options.report.empty()) return error;
+  if (error || options.report.empty()) return error;
   return WriteReport(options, ReportText(task, result, Seconds() - start));
 }
 
@@ -192,18 +191,18 @@ Error RunSweep(const RefocusOptions& options, const PictureOptions& how,
   SeriesReport report;
   StackWriter stack(options.output, how, run.runner());
   Error error = WritePair(options.output, how, *task.light_field, foci);
-  if (error.empty()) error = run.Start(InputName(options.input.path), task);
-  if (error.empty()) error = run.Prepare(InputName(options.input.path), task);
-  for (size_t i = 0; i < foci.size() && error.empty(); ++i) {
+  if (!error) error = run.Start(InputName(options.input.path), task);
+  if (!error) error = run.Prepare(InputName(options.input.path), task);
+  for (size_t i = 0; i < foci.size() && !error; ++i) {
     task.params.focus = foci[i];
     std::string out;
     EngineResult result;
     error = run.Refocus(InputName(options.input.path), task, &result);
-    if (error.empty()) error = stack.Add(std::move(result.picture), &out);
+    if (!error) error = stack.Add(std::move(result.picture), &out);
     report.Add(out, task, result);
   }
-  if (error.empty()) error = stack.Finish();
-  if (!error.empty() || options.report.empty()) return error;
+  if (!error) error = stack.Finish();
+  if (error || options.report.empty()) return error;
   return WriteReport(options, report.Text(Seconds() - start));
 }
 
@@ -212,9 +211,8 @@ Error RunInput(const RefocusOptions& options) {
   LensPlan plan;
   PictureOptions how;
   Loaded loaded;
-  Error error = MakePlan(options, &plan, &how);
-  if (error.empty()) error = Load(options, &plan, &loaded);
-  if (!error.empty()) return error;
+  if (Error error = MakePlan(options, &plan, &how)) return error;
+  if (Error error = Load(options, &plan, &loaded)) return error;
   how.metadata = loaded.capture.metadata;
   const EngineTask task = MakeTask(plan, loaded.capture.light_field, loaded.stats, loaded.max_blur,
                                    !options.report.empty());
@@ -232,9 +230,8 @@ Error RunInputs(const RefocusOptions& options) {
   }
   int jobs = 0;
   std::vector<BatchItem> items;
-  Error error = ParseWhole("--jobs", options.jobs, 1, SF_MAX_WORKERS, &jobs);
-  if (error.empty()) error = PlanBatch(options.inputs, options.output.out, &items);
-  if (!error.empty()) return error;
+  if (Error error = ParseWhole("--jobs", options.jobs, 1, SF_MAX_WORKERS, &jobs)) return error;
+  if (Error error = PlanBatch(options.inputs, options.output.out, &items)) return error;
   return RunBatch(items, jobs, [&options](const BatchItem& item) {
     RefocusOptions one = options;
     one.input.path = item.input;

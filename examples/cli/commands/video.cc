@@ -64,7 +64,7 @@ Error FindFrames(const VideoOptions& options, Video* video) {
     std::sort(folders.begin(), folders.end());
     if (folders.empty()) return Expected(options.folders[0], "light-field folders", "none");
   }
-  if (folders.size() <= kMostFrames) return "";
+  if (folders.size() <= kMostFrames) return {};
   return Error::Usage("DIR", "at most " + std::to_string(kMostFrames) + " frames",
                       std::to_string(folders.size()));
 }
@@ -74,15 +74,15 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
   Error error;
   if (options.out.empty()) return Error::Usage("--output", "a folder", "an empty name");
   if (fs::is_directory(options.out, failure)) {
-    for (size_t i = 0; i < video.folders.size() && error.empty(); ++i) {
+    for (size_t i = 0; i < video.folders.size() && !error; ++i) {
       error = CheckImageOutput(FramePath(options.out, i));
     }
   } else {
     error = CheckFolderOutput(options.out);
-    if (error.empty()) error = CheckOutputPath(options.out);
+    if (!error) error = CheckOutputPath(options.out);
   }
-  if (error.empty()) error = CheckFolderApart({"--output", options.out}, video.folders);
-  if (!error.empty()) return error;
+  if (!error) error = CheckFolderApart({"--output", options.out}, video.folders);
+  if (error) return error;
   std::vector<Output> outputs = {{"--output", options.out}};
   for (size_t i = 0; i < video.folders.size(); ++i) {
     outputs.push_back({"--output", FramePath(options.out, i)});
@@ -91,11 +91,11 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
     error = CheckOutputPath(options.report);
     outputs.push_back({"--report", options.report});
   }
-  return error.empty() ? CheckApart(outputs, {video.folders, {options.lens.timing}}) : error;
+  return !error ? CheckApart(outputs, {video.folders, {options.lens.timing}}) : error;
 }
 
 Error CheckSize(const std::string& folder, const FloatMap& map, const Video& video) {
-  if (map.width == video.width && map.height == video.height) return "";
+  if (map.width == video.width && map.height == video.height) return {};
   return Expected(folder,
                   std::to_string(video.width) + "x" + std::to_string(video.height) +
                       " pixels as the first frame",
@@ -106,8 +106,10 @@ Error CheckSize(const std::string& folder, const FloatMap& map, const Video& vid
 Error Prepare(const VideoOptions& options, const std::string& folder, FloatMap* map,
               sf_disparity_stats* stats) {
   const std::string path = DisparityPath(folder);
-  const Error error = options.fill_invalid ? FillHoles(path, map) : "";
-  return error.empty() ? PrepareDisparity(path, *map, stats) : error;
+  if (options.fill_invalid) {
+    if (Error error = FillHoles(path, map)) return error;
+  }
+  return PrepareDisparity(path, *map, stats);
 }
 
 // The focus of all frames: that of the first one.
@@ -123,35 +125,35 @@ Error FocusFirst(const std::string& folder, const FloatMap& map, LensPlan* plan)
 // OcclusionViews at all frames: their views and disparities.
 Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   std::vector<ViewFile> files;
-  Error error = ChooseViewFiles(video->folders[0], plan->views, &files);
+  if (Error error = ChooseViewFiles(video->folders[0], plan->views, &files)) return error;
   for (const ViewFile& file : files) video->views.push_back(file.position);
-  if (error.empty()) error = CheckRule(video->folders[0], *plan, video->views);
-  for (size_t i = 0; i < video->folders.size() && error.empty(); ++i) {
+  if (Error error = CheckRule(video->folders[0], *plan, video->views)) return error;
+  for (size_t i = 0; i < video->folders.size(); ++i) {
     const std::string& folder = video->folders[i];
     FloatMap map;
     sf_disparity_stats stats = {};
-    error = ChooseViewFiles(folder, video->views, &files);
-    if (error.empty()) error = ReadDisparity(folder, &map);
-    if (!error.empty()) return error;
+    if (Error error = ChooseViewFiles(folder, video->views, &files)) return error;
+    if (Error error = ReadDisparity(folder, &map)) return error;
     if (i == 0) video->width = map.width, video->height = map.height;
-    error = CheckSize(folder, map, *video);
-    if (error.empty()) error = Prepare(options, folder, &map, &stats);
-    if (i == 0 && error.empty()) error = FocusFirst(folder, map, plan);
+    if (Error error = CheckSize(folder, map, *video)) return error;
+    if (Error error = Prepare(options, folder, &map, &stats)) return error;
+    if (i == 0) {
+      if (Error error = FocusFirst(folder, map, plan)) return error;
+    }
     video->stats.min = i == 0 ? stats.min : std::min(video->stats.min, stats.min);
     video->stats.max = i == 0 ? stats.max : std::max(video->stats.max, stats.max);
   }
-  if (error.empty()) error = ChooseBlur(video->stats, plan, &video->max_blur);
-  if (error.empty()) TellAperture(video->folders[0], plan->aperture);
-  return error;
+  if (Error error = ChooseBlur(video->stats, plan, &video->max_blur)) return error;
+  TellAperture(video->folders[0], plan->aperture);
+  return {};
 }
 
 Error LoadFrame(const VideoOptions& options, const Video& video, size_t index,
                 LightField* light_field) {
   const std::string& folder = video.folders[index];
   sf_disparity_stats stats;
-  Error error = LoadLightField(folder, video.views, light_field);
-  if (error.empty()) error = CheckSize(folder, light_field->disparity, video);
-  if (!error.empty()) return error;
+  if (Error error = LoadLightField(folder, video.views, light_field)) return error;
+  if (Error error = CheckSize(folder, light_field->disparity, video)) return error;
   return Prepare(options, folder, &light_field->disparity, &stats);
 }
 
@@ -163,39 +165,36 @@ Error RefocusFrames(const VideoOptions& options, const LensPlan& plan, const Vid
   for (size_t i = 0; i < video.folders.size(); ++i) {
     const std::string &folder = video.folders[i], out = FramePath(options.out, i);
     std::swap(now, before);
-    Error error = LoadFrame(options, video, i, &now);
-    if (!error.empty()) return error;
+    if (Error error = LoadFrame(options, video, i, &now)) return error;
     const EngineTask task = MakeTask(plan, now, video.stats, video.max_blur, true);
     EngineResult result;
-    if (i == 0) error = run.Start(folder, task);
-    if (error.empty()) {
+    Error error = i == 0 ? run.Start(folder, task) : Error();
+    if (!error) {
       error = i == 0 ? run.Refocus(folder, task, &result)
                      : run.RefocusAfter(folder, task, before, picture, &result);
     }
-    if (error.empty()) error = WriteImage(out, result.picture);
-    if (!error.empty()) return error;
+    if (!error) error = WriteImage(out, result.picture);
+    if (error) return error;
     report->Add(out, task, result);
     picture = std::move(result.picture);
   }
-  return "";
+  return {};
 }
 
 Error Run(const VideoOptions& options) {
   const double start = Seconds();
   LensPlan plan;
   Video video;
-  Error error = PlanFocus(options.lens, &plan);
-  if (error.empty()) error = PlanLens(options.lens, &plan);
-  if (error.empty()) error = PlanAperture(options.lens.aperture, {}, &plan.aperture);
-  if (error.empty()) error = FindFrames(options, &video);
-  if (error.empty()) error = CheckOutputs(options, video);
-  if (error.empty()) error = Scan(options, &plan, &video);
-  if (!error.empty()) return error;
-  error = MakeFolder(options.out);
-  if (!error.empty()) return error;
+  if (Error error = PlanFocus(options.lens, &plan)) return error;
+  if (Error error = PlanLens(options.lens, &plan)) return error;
+  if (Error error = PlanAperture(options.lens.aperture, {}, &plan.aperture)) return error;
+  if (Error error = FindFrames(options, &video)) return error;
+  if (Error error = CheckOutputs(options, video)) return error;
+  if (Error error = Scan(options, &plan, &video)) return error;
+  if (Error error = MakeFolder(options.out)) return error;
   SeriesReport report;
-  error = RefocusFrames(options, plan, video, &report);
-  if (!error.empty() || options.report.empty()) return error;
+  Error error = RefocusFrames(options, plan, video, &report);
+  if (error || options.report.empty()) return error;
   const std::string text = report.Text(Seconds() - start);
   return WriteFile(options.report, Bytes(text.begin(), text.end()));
 }

@@ -48,9 +48,8 @@ std::string Number(double value, int decimals) {
 
 Error ShowTruth(const TruthFile& truth, const Image& picture, Contents* contents) {
   Image real;
-  Error error = ReadImage(truth.path, &real);
-  if (!error.empty()) return error;
-  if (real.width != picture.width || real.height != picture.height) return "";  // of another one
+  if (Error error = ReadImage(truth.path, &real)) return error;
+  if (real.width != picture.width || real.height != picture.height) return {};  // of another one
   const Difference difference = MeasureDifference(picture, real);
   const std::string lens =
       "focus " + Short(truth.lens.focus) + ", aperture " + Short(truth.lens.aperture);
@@ -63,7 +62,7 @@ Error ShowTruth(const TruthFile& truth, const Image& picture, Contents* contents
                                   std::to_string(difference.largest) + "; white is " +
                                   std::to_string(kWhite) + " or more of 255",
                               Shrink(DrawDifference(picture, real, kWhite), kLarge)});
-  return "";
+  return {};
 }
 
 Error ShowPicture(size_t index, const Image& picture, const std::vector<sf_block>& blocks,
@@ -75,12 +74,12 @@ Error ShowPicture(size_t index, const Image& picture, const std::vector<sf_block
                              "Focus " + focus + (index == 0 ? ", far" : "") +
                                  (index > 0 && index + 1 == foci ? ", near" : ""),
                              Shrink(picture, kSmall)});
-  if (index + 1 != foci) return "";  // where blur is largest
+  if (index + 1 != foci) return {};  // where blur is largest
   contents->blocks.push_back(
       {"The blocks of the picture focused at disparity " + focus + ", coloured by resolution",
        "Blocks at focus " + focus + ": red at full resolution, green at half, blue at a quarter",
        Shrink(DrawPartition(picture, 0, 0, blocks), kLarge)});
-  return "";
+  return {};
 }
 
 Error WritePage(const ViewOptions& options, const Capture& capture, const sf_disparity_stats& stats,
@@ -97,29 +96,28 @@ Error WritePage(const ViewOptions& options, const Capture& capture, const sf_dis
                                    " pixels; larger is nearer"},
                  {"Unknown disparities", std::to_string(stats.invalid)}});
   const std::string& out = options.out;
-  std::string error = page.AddFigures(
+  Error error = page.AddFigures(
       out, "Photograph and disparity map",
       {{"The photograph, sharp everywhere", "The centre view", light_field.views[0]},
        {"The disparity map: bright is near, dark is far", "Disparity: the nearest is white",
         DrawDisparity(light_field.disparity)}},
       kLarge / 2);
-  if (error.empty()) error = page.AddFigures(out, "Refocused", contents.strip, kSmall);
+  if (!error) error = page.AddFigures(out, "Refocused", contents.strip, kSmall);
   page.AddHistogram("Histogram of disparity", Histogram(light_field.disparity, stats, kBins),
                     stats);
-  if (error.empty()) error = page.AddFigures(out, "Blocks", contents.blocks, kLarge);
-  if (error.empty() && !contents.errors.empty()) {
+  if (!error) error = page.AddFigures(out, "Blocks", contents.blocks, kLarge);
+  if (!error && !contents.errors.empty()) {
     error = page.AddFigures(out, "Against the truth", contents.errors, kLarge / 2);
   }
   const std::string html = page.Html();
-  return error.empty() ? WriteFile(out, Bytes(html.begin(), html.end())) : error;
+  return error ? error : WriteFile(out, Bytes(html.begin(), html.end()));
 }
 
 // The lenses of the strip, and of the truths that are within the limit of blur.
 Error ChooseLenses(const Capture& capture, const sf_disparity_stats& stats,
                    ApertureChoice* aperture, Contents* contents) {
   const std::vector<double> foci = StripFoci(capture.light_field.disparity, kFoci);
-  const Error error = FitAperture(FarthestFromFocus(stats, foci), aperture);
-  if (!error.empty()) return error;
+  if (Error error = FitAperture(FarthestFromFocus(stats, foci), aperture)) return error;
   TellAperture(capture.path, *aperture);
   for (const double focus : foci) contents->lenses.push_back({focus, aperture->radius});
   for (const TruthFile& truth : FindTruths(capture.path)) {
@@ -132,7 +130,7 @@ Error ChooseLenses(const Capture& capture, const sf_disparity_stats& stats,
     contents->truths.push_back(truth);
     contents->lenses.push_back(truth.lens);
   }
-  return "";
+  return {};
 }
 
 // Refuses an aperture that is too wide before the map is brought to the picture's size and cared
@@ -152,26 +150,25 @@ Error Open(const ViewOptions& options, int* threads, ApertureChoice* aperture, C
   if (!options.threads.empty()) {
     error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, threads);
   }
-  if (error.empty()) error = CheckOutputPath(options.out);
-  if (error.empty()) {
+  if (!error) error = CheckOutputPath(options.out);
+  if (!error) {
     std::vector<std::string> files = {options.input.path, options.input.depth};
     for (const TruthFile& truth : FindTruths(options.input.path)) files.push_back(truth.path);
     error = CheckApart({{"--output", options.out}}, {{options.input.path}, files, {}});
   }
-  if (error.empty()) error = OpenInput(options.input, capture);
-  if (error.empty()) error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(*capture)});
-  if (error.empty()) error = PlanAperture(options.aperture, *capture, aperture);
-  if (error.empty() && capture->photo) error = ForeseeAperture(*capture, aperture);
-  if (error.empty()) error = LoadInput({}, *threads, capture);
-  return error.empty() && !capture->photo ? ForeseeAperture(*capture, aperture) : error;
+  if (!error) error = OpenInput(options.input, capture);
+  if (!error) error = CheckApart({{"--output", options.out}}, {{}, CaptureFiles(*capture)});
+  if (!error) error = PlanAperture(options.aperture, *capture, aperture);
+  if (!error && capture->photo) error = ForeseeAperture(*capture, aperture);
+  if (!error) error = LoadInput({}, *threads, capture);
+  return !error && !capture->photo ? ForeseeAperture(*capture, aperture) : error;
 }
 
 Error Run(const ViewOptions& options) {
   int threads = 1;
   Capture capture;
   ApertureChoice aperture;
-  Error error = Open(options, &threads, &aperture, &capture);
-  if (!error.empty()) return error;
+  if (Error error = Open(options, &threads, &aperture, &capture)) return error;
   sf_disparity_stats stats = {}, known = {};
   const LightField& light_field = capture.light_field;
   const FloatMap& map = light_field.disparity;
@@ -179,18 +176,18 @@ Error Run(const ViewOptions& options) {
                        &known);
   MapOptions care;
   care.fill = known.invalid > 0;
-  error = CareForMap(care, threads, &capture);
-  if (error.empty()) error = PrepareDisparity(MapName(capture), map, &stats);
+  Error error = CareForMap(care, threads, &capture);
+  if (!error) error = PrepareDisparity(MapName(capture), map, &stats);
   Contents contents;
-  if (error.empty()) error = ChooseLenses(capture, stats, &aperture, &contents);
-  if (!error.empty()) return error;
+  if (!error) error = ChooseLenses(capture, stats, &aperture, &contents);
+  if (error) return error;
   stats.invalid = known.invalid;  // of the map as it is; its holes are filled
   error = RefocusEach(options.input.path, light_field, stats, TransferOf(options.input.path),
                       threads, contents.lenses,
                       [&](size_t i, const Image& picture, const std::vector<sf_block>& blocks) {
                         return ShowPicture(i, picture, blocks, &contents);
                       });
-  return error.empty() ? WritePage(options, capture, stats, contents) : error;
+  return error ? error : WritePage(options, capture, stats, contents);
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ Error MakeMap(const std::string& where, const Images& views, const FloatMap* giv
         make(&config, &light_field, &out, workspace.get(), bytes, ThreadRunner::Run, &maker->pool);
     if (coverage != nullptr && out.has_coverage == 0) coverage->clear();
   }
-  if (status == SF_OK) return "";
+  if (status == SF_OK) return {};
   return Error::Internal(where, "views whose disparities it can make",
                          Describe(status, &problem).text);
 }
@@ -130,7 +130,7 @@ int StarWithin(const Positions& positions) {
 }
 
 Error CheckStar(const std::string& where, const LightField& light_field) {
-  if (StarWithin(light_field.positions) > 1) return "";
+  if (StarWithin(light_field.positions) > 1) return {};
   const size_t views = light_field.views.size();
   return Expected(where, "5, 9 or 17 views of a star to estimate disparities from",
                   views == 1 ? "one, which shows none" : std::to_string(views) + " others");
@@ -147,8 +147,8 @@ Error FindRange(const std::string& where, const LightField& light_field, int thr
   Maker maker(threads, "looking for the disparities");
   FloatMap map;
   Bytes confidence;
-  const Error error = MakeMap(where, small, nullptr, {-most, most}, &maker, &map, &confidence);
-  if (!error.empty()) return error;
+  if (Error error = MakeMap(where, small, nullptr, {-most, most}, &maker, &map, &confidence))
+    return error;
   std::vector<float> sure;
   for (size_t i = 0; i < map.values.size(); ++i) {
     if (confidence[i] >= kLeastConfidence) sure.push_back(map.values[i]);
@@ -160,7 +160,7 @@ Error FindRange(const std::string& where, const LightField& light_field, int thr
   const float low = std::max(sure[strays] - 1, -most);
   const float high = std::min(sure[sure.size() - 1 - strays] + 1, most);
   *range = {low * static_cast<float>(factor), high * static_cast<float>(factor)};
-  return "";
+  return {};
 }
 
 Error EstimateDisparity(const std::string& where, const LightField& light_field,
@@ -169,7 +169,7 @@ Error EstimateDisparity(const std::string& where, const LightField& light_field,
   Maker maker(threads, "estimating disparities");
   Bytes confidence;
   const Error error = MakeMap(where, views, nullptr, range, &maker, &estimate->map, &confidence);
-  if (error.empty()) estimate->confidence = DrawLevels(confidence, views[0]);
+  if (!error) estimate->confidence = DrawLevels(confidence, views[0]);
   return error;
 }
 
@@ -192,13 +192,13 @@ Error RepairDisparity(const std::string& where, int threads, bool covers, LightF
   Maker maker(threads, "repairing disparities");
   FloatMap map;
   Bytes sure;
-  const Error error =
-      MakeMap(where, StarOf(*light_field), &given, range, &maker, &map,
-              confidence == nullptr ? nullptr : &sure, covers ? &light_field->coverage : nullptr);
-  if (!error.empty()) return error;
+  if (Error error = MakeMap(where, StarOf(*light_field), &given, range, &maker, &map,
+                            confidence == nullptr ? nullptr : &sure,
+                            covers ? &light_field->coverage : nullptr))
+    return error;
   if (confidence != nullptr) *confidence = DrawLevels(sure, light_field->views[0]);
   light_field->disparity = std::move(map);
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "examples/command_line/error.h"
 #include "platform/light_field.h"
+#include "platform/result.h"
 
 namespace starfocus {
 

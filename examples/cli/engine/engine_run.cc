@@ -33,7 +33,7 @@ sf_light_field Rows(const LightField& light_field, int first) {
 // What the engine could refuse, the program has looked at before; the address space alone limits
 // sizes beyond that.
 Error Outcome(const std::string& where, sf_status status, const sf_problem* problem) {
-  if (status == SF_OK) return "";
+  if (status == SF_OK) return {};
   if (status == SF_ERROR_TOO_LARGE) return OutOfMemory(where, "refocus it");
   return Error::Internal(where, "a light field that the engine refocuses",
                          Describe(status, problem).text);

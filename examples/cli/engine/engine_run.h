@@ -7,10 +7,10 @@
 #include <memory>
 #include <string>
 
-#include "examples/command_line/error.h"
 #include "platform/image.h"
 #include "platform/light_field.h"
 #include "platform/progress.h"
+#include "platform/result.h"
 #include "platform/runner.h"
 #include "starfocus/starfocus.h"
 

@@ -8,8 +8,8 @@ namespace starfocus {
 namespace {
 
 // Coefficient `name` of the object, in picoseconds.
-std::string ReadCoefficient(const std::string& path, const JsonObject& object,
-                            const std::string& name, uint32_t* value) {
+Error ReadCoefficient(const std::string& path, const JsonObject& object, const std::string& name,
+                      uint32_t* value) {
   const auto expected = [&](const std::string& found) {
     return Expected(
         path, "timing." + name + " as a whole number from 0 to " + std::to_string(SF_MAX_TIMING),
@@ -21,7 +21,7 @@ std::string ReadCoefficient(const std::string& path, const JsonObject& object,
       return expected(member.text.substr(0, 60));
     }
     *value = static_cast<uint32_t>(member.whole);
-    return "";
+    return {};
   }
   return expected("none");
 }
@@ -34,18 +34,17 @@ Json TimingJson(const sf_timing& timing) {
   return json;
 }
 
-std::string ReadTiming(const std::string& path, sf_timing* timing) {
+Error ReadTiming(const std::string& path, sf_timing* timing) {
   Bytes bytes;
-  std::string error = ReadSmallFile(path, &bytes);
-  if (!error.empty()) return error;
+  if (Error error = ReadSmallFile(path, &bytes)) return error;
   const JsonObject object = ReadJsonObject(bytes, "timing");
   if (!object.is_json) return Expected(path, "a JSON file", "other text");
   if (!object.is_there) {
     return Expected(path, "an object \"timing\", as starfocus-lab calibrate writes it", "none");
   }
   for (const TimingTerm& term : kTimingTerms) {
-    error = ReadCoefficient(path, object, term.name, &(timing->*term.coefficient));
-    if (!error.empty()) return error;
+    if (Error error = ReadCoefficient(path, object, term.name, &(timing->*term.coefficient)))
+      return error;
   }
   for (const JsonMember& member : object.members) {
     bool known = false;
@@ -53,7 +52,7 @@ std::string ReadTiming(const std::string& path, sf_timing* timing) {
     if (!known)
       return Expected(path, "no other coefficients", "timing." + member.name.substr(0, 60));
   }
-  return "";
+  return {};
 }
 
 }  // namespace starfocus

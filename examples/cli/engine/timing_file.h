@@ -7,6 +7,7 @@
 #include <string>
 
 #include "examples/cli/json/json.h"
+#include "platform/result.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -15,8 +16,8 @@ namespace starfocus {
 Json TimingJson(const sf_timing& timing);
 
 // Reads the member "timing"; it must hold every coefficient and nothing else. Other members of the
-// file are remarks. Returns an error line, empty for success.
-std::string ReadTiming(const std::string& path, sf_timing* timing);
+// file are remarks.
+Error ReadTiming(const std::string& path, sf_timing* timing);
 
 }  // namespace starfocus
 

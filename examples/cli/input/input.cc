@@ -15,61 +15,61 @@ namespace starfocus {
 namespace {
 
 Error ParseNear(const std::string& text, Near* near) {
-  if (text.empty()) return "";
+  if (text.empty()) return {};
   if (text != "white" && text != "black") {
     return Error::Usage("--near", "white or black", "'" + text + "'");
   }
   *near = text == "white" ? Near::kWhite : Near::kBlack;
-  return "";
+  return {};
 }
 
 Error ParseUnit(const std::string& text, DepthUnit* unit) {
-  if (text.empty()) return "";
+  if (text.empty()) return {};
   if (text != "m" && text != "mm" && text != "disparity") {
     return Error::Usage("--depth-unit", "m, mm or disparity", "'" + text + "'");
   }
   *unit = text == "m"    ? DepthUnit::kMetres
           : text == "mm" ? DepthUnit::kMillimetres
                          : DepthUnit::kDisparity;
-  return "";
+  return {};
 }
 
 Error ParseOrientation(const std::string& text, DepthOrientation* orientation) {
-  if (text.empty()) return "";
+  if (text.empty()) return {};
   if (text != "photo" && text != "upright") {
     return Error::Usage("--depth-orientation", "photo or upright", "'" + text + "'");
   }
   *orientation = text == "photo" ? DepthOrientation::kPhoto : DepthOrientation::kUpright;
-  return "";
+  return {};
 }
 
 // none, or numbers with commas between them.
 Error ParseUnknown(const std::string& text, DepthOptions* options) {
-  if (text.empty()) return "";
+  if (text.empty()) return {};
   options->has_unknown = true;
   options->use_alpha = text != "none";
-  if (!options->use_alpha) return "";
+  if (!options->use_alpha) return {};
   for (size_t at = 0; at <= text.size();) {
     const size_t end = std::min(text.find(',', at), text.size());
     double value = 0;
-    if (!ParseNumber("", text.substr(at, end - at), &value).empty()) {
+    if (ParseNumber("", text.substr(at, end - at), &value)) {
       return Error::Usage("--unknown", "none, or values V,V,... of the depth picture",
                           "'" + text.substr(0, 60) + "'");
     }
     options->unknown.push_back(value);
     at = end + 1;
   }
-  return "";
+  return {};
 }
 
 Error ParseDepthOptions(const InputOptions& typed, DepthOptions* options) {
   Error error = ParseNear(typed.near, &options->near);
-  if (error.empty()) error = ParseUnit(typed.depth_unit, &options->unit);
-  if (error.empty()) error = ParseOrientation(typed.depth_orientation, &options->orientation);
-  if (error.empty()) error = ParseUnknown(typed.unknown, options);
-  if (!error.empty() || options->unit == DepthUnit::kNone) return error;
+  if (!error) error = ParseUnit(typed.depth_unit, &options->unit);
+  if (!error) error = ParseOrientation(typed.depth_orientation, &options->orientation);
+  if (!error) error = ParseUnknown(typed.unknown, options);
+  if (error || options->unit == DepthUnit::kNone) return error;
   const bool disparity = options->unit == DepthUnit::kDisparity;
-  if (options->near != (disparity ? Near::kBlack : Near::kWhite)) return "";
+  if (options->near != (disparity ? Near::kBlack : Near::kWhite)) return {};
   return Error::Usage(
       "--near",
       (disparity ? "white for --depth-unit " : "black for --depth-unit ") + typed.depth_unit,
@@ -97,13 +97,12 @@ Error Estimate(int threads, Capture* capture) {
                     "no file");
   }
   DisparityRange range;
-  Error error = FindRange(capture->path, *light_field, threads, &range);
-  if (!error.empty()) return error;
+  if (Error error = FindRange(capture->path, *light_field, threads, &range)) return error;
   std::fprintf(stderr, "%s: no map: disparities from %s to %s are estimated from %d views\n",
                MapName(*capture).c_str(), Short(range.min).c_str(), Short(range.max).c_str(), star);
   DisparityEstimate estimate;
-  error = EstimateDisparity(capture->path, *light_field, range, threads, &estimate);
-  if (error.empty()) light_field->disparity = std::move(estimate.map);
+  Error error = EstimateDisparity(capture->path, *light_field, range, threads, &estimate);
+  if (!error) light_field->disparity = std::move(estimate.map);
   return error;
 }
 
@@ -182,31 +181,31 @@ Error OpenInput(const InputOptions& options, Capture* capture) {
   Error error = ParseDepthOptions(options, &wanted.map);
   std::error_code ignored;
   const char* option = DepthOption(options);
-  if (error.empty() && option != nullptr && options.path != "-" &&
+  if (!error && option != nullptr && options.path != "-" &&
       std::filesystem::is_directory(options.path, ignored)) {
     error = Error::Usage(option, "a photo, not a folder", options.path);
   }
-  if (error.empty()) error = OpenCapture(options.path, wanted, capture);
-  if (!error.empty()) return error;
+  if (!error) error = OpenCapture(options.path, wanted, capture);
+  if (error) return error;
   if (!options.coverage.empty()) capture->coverage_path = options.coverage;
   for (const std::string& note : capture->notes) {
     std::fprintf(stderr, "%s: %s\n", capture->path.c_str(), note.c_str());
   }
-  return "";
+  return {};
 }
 
 Error LoadInput(const Positions& views, int threads, Capture* capture) {
   std::vector<ViewFile> chosen;
   for (const sf_position& view : views) {
     // A view that is not there is the option's fault.
-    if (SelectViewFiles(capture->path, capture->files, {view}, &chosen).empty()) continue;
+    if (!SelectViewFiles(capture->path, capture->files, {view}, &chosen)) continue;
     return Error::Usage(
         "--views", "some of the " + std::to_string(capture->files.size()) + " in " + capture->path,
         std::to_string(views.size()) + " with " + ViewName(view));
   }
   ThreadRunner runner(threads);
   const Error error = LoadCapture(views, capture, &runner);
-  return error.empty() && capture->map_path.empty() ? Estimate(threads, capture) : error;
+  return !error && capture->map_path.empty() ? Estimate(threads, capture) : error;
 }
 
 bool WillRepair(const MapOptions& options, const Capture& capture) {
@@ -215,20 +214,20 @@ bool WillRepair(const MapOptions& options, const Capture& capture) {
 }
 
 Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
-  if (capture->map_path.empty()) return "";
+  if (capture->map_path.empty()) return {};
   if (WillRepair(options, *capture)) {
     // Coverage that was given stays.
     const bool covers = capture->light_field.coverage.empty();
     return RepairDisparity(MapName(*capture), threads, covers, &capture->light_field, nullptr);
   }
-  if (!options.fill && capture->care == MapCare::kNone) return "";
+  if (!options.fill && capture->care == MapCare::kNone) return {};
   return FillHoles(MapName(*capture), &capture->light_field.disparity);
 }
 
 Error FillHoles(const std::string& where, FloatMap* map) {
   const sf_status status = sf_fill_disparity(map->values.data(), sizeof(float) * size_t(map->width),
                                              map->width, map->height);
-  return status == SF_OK ? "" : Expected(where, "a disparity map", sf_status_string(status));
+  return status == SF_OK ? Error() : Expected(where, "a disparity map", sf_status_string(status));
 }
 
 std::vector<std::string> GridsOf(const InputOptions& options, const Capture& capture) {

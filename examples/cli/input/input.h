@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "examples/command_line/command.h"
-#include "examples/command_line/error.h"
 #include "platform/readers/capture.h"
+#include "platform/result.h"
 
 namespace starfocus {
 

@@ -17,12 +17,11 @@ Error ParseFStop(const ApertureOptions& options, ApertureChoice* aperture) {
   double f_stop = 0;
   Error error;
   if (!options.widest.empty()) error = ParseNumber("--widest", options.widest, &aperture->widest);
-  if (error.empty() && aperture->widest <= 0) {
+  if (!error && aperture->widest <= 0) {
     error = Error::Usage("--widest", "an f-stop above 0", "'" + options.widest + "'");
   }
-  if (error.empty()) error = ParseNumber("--f-stop", options.f_stop, &f_stop);
-  if (!error.empty() ||
-      sf_aperture_of_f_stop(f_stop, aperture->widest, &aperture->radius) == SF_OK) {
+  if (!error) error = ParseNumber("--f-stop", options.f_stop, &f_stop);
+  if (error || sf_aperture_of_f_stop(f_stop, aperture->widest, &aperture->radius) == SF_OK) {
     return error;
   }
   return Error::Usage("--f-stop", "an f-stop from the widest on, " + Short(aperture->widest),
@@ -110,7 +109,7 @@ Error PlanAperture(const ApertureOptions& options, const Capture& capture,
   }
   if (!options.f_stop.empty()) error = ParseFStop(options, aperture);
   double percentage = 100;
-  if (error.empty() && !options.strength.empty()) {
+  if (!error && !options.strength.empty()) {
     error = ParsePercentage("--strength", options.strength, &percentage);
   }
   aperture->strength = percentage / 100;
@@ -129,11 +128,11 @@ double FarthestFromFocus(const sf_disparity_stats& stats, const std::vector<doub
 
 Error FitAperture(double range, ApertureChoice* aperture) {
   const double blur = aperture->radius * range;
-  if (blur <= SF_MAX_BLUR) return "";
+  if (blur <= SF_MAX_BLUR) return {};
   if (aperture->option.empty()) {
     aperture->radius = aperture->widest / WidestFStop(range, *aperture);
     aperture->narrowed = true;
-    return "";
+    return {};
   }
   return Error::Usage(
       aperture->option,

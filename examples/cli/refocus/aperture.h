@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "examples/command_line/error.h"
 #include "platform/readers/capture.h"
+#include "platform/result.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -26,13 +26,13 @@ namespace fs = std::filesystem;
 
 bool IsLightField(const fs::path& folder) {
   Capture capture;
-  return OpenCapture(folder.string(), {}, &capture).empty();
+  return !OpenCapture(folder.string(), {}, &capture);
 }
 
 bool HasDepthPicture(const fs::path& path) {
   DepthPhoto unused;
   std::string depth;
-  return FindDepthPicture(path.string(), &unused, &depth).empty() && !depth.empty();
+  return !FindDepthPicture(path.string(), &unused, &depth) && !depth.empty();
 }
 
 // A depth picture stands beside the photograph that it is of. PNG and WebP pictures without one are
@@ -95,7 +95,7 @@ struct Work {
     for (size_t i = next++; i < items.size(); i = next++) {
       const Error error = RunOne(items[i]);
       progress.Step();
-      if (error.empty()) continue;
+      if (!error) continue;
       // An error about an option does not say which input it is of.
       const bool named = error.line().find(items[i].input) != std::string::npos;
       const std::lock_guard<std::mutex> lock(mutex);
@@ -138,9 +138,9 @@ Error PlanBatch(const std::vector<std::string>& inputs, const std::string& folde
       (fs::is_directory(part, ignored) ? read.folders : read.files).push_back(part);
     }
   }
-  Error error = CheckFolderApart({"--output", folder}, read.folders);
-  if (error.empty()) error = CheckApart(outputs, read);
-  return error.empty() ? MakeFolder(folder) : error;
+  if (Error error = CheckFolderApart({"--output", folder}, read.folders)) return error;
+  if (Error error = CheckApart(outputs, read)) return error;
+  return MakeFolder(folder);
 }
 
 Error RunBatch(const std::vector<BatchItem>& items, int jobs,
@@ -160,7 +160,7 @@ Error RunBatch(const std::vector<BatchItem>& items, int jobs,
   }
   work.Go();
   for (std::thread& thread : threads) thread.join();
-  if (work.failed.empty()) return "";
+  if (work.failed.empty()) return {};
   std::sort(work.failed.begin(), work.failed.end());
   std::string names;
   for (const std::string& name : work.failed) names += (names.empty() ? "" : ", ") + name;

@@ -85,8 +85,7 @@ std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures) 
 }
 
 Error PlanOutput(const OutputOptions& options, bool sweep, bool region, int* quality) {
-  const Error error = ParseWhole("--quality", options.quality, 1, 100, quality);
-  if (!error.empty()) return error;
+  if (Error error = ParseWhole("--quality", options.quality, 1, 100, quality)) return error;
   if (sweep && IsStandardStream(options.out) && FormatExtension(options.out) != kAnimation) {
     return Error::Usage("--sweep", "a file, or webp:- for one animation on standard output",
                         options.out);
@@ -98,7 +97,7 @@ Error PlanOutput(const OutputOptions& options, bool sweep, bool region, int* qua
   if (!options.focus_index.empty() && FormatExtension(options.focus_index) != ".png") {
     return Error::Usage("--focus-index", "a name that ends in .png", options.focus_index);
   }
-  if (!options.depth_photo || (IsJpeg(options.out) && !sweep && !region)) return "";
+  if (!options.depth_photo || (IsJpeg(options.out) && !sweep && !region)) return {};
   return Error::Usage("--depth-photo", "a whole picture as .jpg",
                       sweep    ? "--sweep"
                       : region ? "--region"
@@ -115,9 +114,10 @@ Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, do
   photo.aperture = task.params.aperture;
   photo.widest = widest;
   Bytes bytes;
-  const std::string error =
-      EncodeDepthPhoto(options.out, picture, photo, how.quality, how.metadata, &bytes);
-  return error.empty() ? WriteFile(options.out, bytes) : error;
+  if (Error error =
+          EncodeDepthPhoto(options.out, picture, photo, how.quality, how.metadata, &bytes))
+    return error;
+  return WriteFile(options.out, bytes);
 }
 
 Error WritePair(const OutputOptions& options, const PictureOptions& how,
@@ -129,11 +129,10 @@ Error WritePair(const OutputOptions& options, const PictureOptions& how,
     std::transform(map.begin(), map.end(), std::back_inserter(index.levels),
                    [&](float disparity) { return Nearest(foci, disparity); });
     Bytes bytes;
-    std::string error = EncodeGreyPng(options.focus_index, index, &bytes);
-    if (error.empty()) error = WriteFile(options.focus_index, bytes);
-    if (!error.empty()) return error;
+    if (Error error = EncodeGreyPng(options.focus_index, index, &bytes)) return error;
+    if (Error error = WriteFile(options.focus_index, bytes)) return error;
   }
-  if (options.all_in_focus.empty()) return "";
+  if (options.all_in_focus.empty()) return {};
   return WriteImage(options.all_in_focus, light_field.views[0], how);
 }
 
@@ -153,8 +152,8 @@ Error StackWriter::Add(Image picture, std::string* name) {
   *name = NumberedName(out_, pictures_++);
   const size_t bytes = std::max(size_t{1}, picture.pixels.size());
   const size_t most = std::min(static_cast<size_t>(runner_->workers()), kMostWaiting / bytes);
-  waiting_.push_back({*name, std::move(picture), ""});
-  return waiting_.size() >= most ? WriteWaiting() : "";
+  waiting_.push_back({*name, std::move(picture), {}});
+  return waiting_.size() >= most ? WriteWaiting() : Error();
 }
 
 void StackWriter::Write(void* self, int32_t index, int32_t) {
@@ -167,8 +166,8 @@ Error StackWriter::WriteWaiting() {
   const std::vector<Numbered>& waiting = waiting_;
   ThreadRunner::Run(runner_, Write, this, static_cast<int32_t>(waiting.size()));
   const auto failed = std::find_if(waiting.begin(), waiting.end(),
-                                   [](const Numbered& one) { return !one.error.empty(); });
-  const std::string error = failed == waiting.end() ? "" : failed->error;
+                                   [](const Numbered& one) { return bool(one.error); });
+  const Error error = failed == waiting.end() ? Error() : failed->error;
   waiting_.clear();
   return error;
 }
@@ -176,8 +175,8 @@ Error StackWriter::WriteWaiting() {
 Error StackWriter::Finish() {
   if (!animation_) return WriteWaiting();
   Bytes bytes;
-  const std::string error = animation_->Finish(how_.metadata, &bytes);
-  return error.empty() ? WriteFile(out_, bytes) : error;
+  if (Error error = animation_->Finish(how_.metadata, &bytes)) return error;
+  return WriteFile(out_, bytes);
 }
 
 }  // namespace starfocus

@@ -9,8 +9,8 @@
 
 #include "examples/cli/engine/engine_run.h"
 #include "examples/command_line/command.h"
-#include "examples/command_line/error.h"
 #include "examples/command_line/outputs.h"
+#include "platform/result.h"
 #include "platform/runner.h"
 #include "platform/writers/picture.h"
 #include "platform/writers/webp.h"
@@ -55,7 +55,7 @@ class StackWriter {
   struct Numbered {
     std::string name;
     Image picture;
-    std::string error;
+    Error error;
   };
 
   static void Write(void* self, int32_t index, int32_t worker);

@@ -19,39 +19,38 @@ Error ParseMode(const std::string& text, sf_mode* mode) {
   for (size_t i = 0; i < std::size(kModeNames); ++i) {
     if (text != kModeNames[i]) continue;
     *mode = static_cast<sf_mode>(i);
-    return "";
+    return {};
   }
   return Error::Usage("--mode", "block, frame, benchmark or blur", "'" + text + "'");
 }
 
 Error ParseRule(const std::string& text, sf_rule* rule) {
-  if (text.empty()) return "";
+  if (text.empty()) return {};
   if (text != "paper" && text != "subaperture") {
     return Error::Usage("--rule", "paper or subaperture", "'" + text + "'");
   }
   *rule = text == "paper" ? SF_RULE_PAPER : SF_RULE_SUBAPERTURE;
-  return "";
+  return {};
 }
 
 Error ParseLargestBlock(const std::string& text, int* side) {
-  if (text.empty()) return "";
+  if (text.empty()) return {};
   const Error range = ParseWhole("--largest-block", text, 32, 256, side);
-  if (range.empty() && (*side & (*side - 1)) == 0) return "";
+  if (!range && (*side & (*side - 1)) == 0) return {};
   return Error::Usage("--largest-block", "32, 64, 128 or 256", "'" + text + "'");
 }
 
 // Sets what block mode adds to the plan.
 Error PlanBlocks(const LensOptions& options, LensPlan* plan) {
-  Error error = ParseLargestBlock(options.largest_block, &plan->largest_block);
-  if (!error.empty()) return error;
-  error = ParseWhole("--max-layer", options.max_layer, 0, SF_LAYERS - 1, &plan->max_layer);
-  if (error.empty()) {
-    error = ParseWhole("--deblocking", options.deblocking, 0, 255, &plan->deblocking);
-  }
-  if (!error.empty()) return error;
+  if (Error error = ParseLargestBlock(options.largest_block, &plan->largest_block)) return error;
+  if (Error error =
+          ParseWhole("--max-layer", options.max_layer, 0, SF_LAYERS - 1, &plan->max_layer))
+    return error;
+  if (Error error = ParseWhole("--deblocking", options.deblocking, 0, 255, &plan->deblocking))
+    return error;
   if (!options.timing.empty()) return ReadTiming(options.timing, &plan->timing);
   plan->timing = plan->config.timing;
-  return "";
+  return {};
 }
 
 std::string FirstInvalid(const FloatMap& map, int64_t count) {
@@ -103,7 +102,7 @@ bool FocusAround(const FloatMap& map, int x, int y, double* focus) {
 }
 
 Error CheckPixel(int width, int height, const LensPlan& plan) {
-  if (plan.x < width && plan.y < height) return "";
+  if (plan.x < width && plan.y < height) return {};
   return Error::Usage("--focus-at",
                       "a pixel of the picture, up to " + std::to_string(width - 1) + "," +
                           std::to_string(height - 1),
@@ -183,20 +182,20 @@ void AddLensOptions(Command* command, LensOptions* options) {
 Error PlanLens(const LensOptions& options, LensPlan* plan) {
   sf_config_init(&plan->config);
   Error error = ParseShape(options.shape, &plan->config);
-  if (error.empty()) {
+  if (!error) {
     error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
   }
-  if (error.empty() && !options.views.empty()) {
+  if (!error && !options.views.empty()) {
     error = ParseViews("--views", options.views, &plan->views);
   }
-  if (error.empty()) error = ParseMode(options.mode, &plan->mode);
-  if (error.empty()) error = ParseRule(options.rule, &plan->rule);
-  if (error.empty()) error = ParseTransfer("--transfer", options.transfer, &plan->transfer);
-  if (error.empty()) {
+  if (!error) error = ParseMode(options.mode, &plan->mode);
+  if (!error) error = ParseRule(options.rule, &plan->rule);
+  if (!error) error = ParseTransfer("--transfer", options.transfer, &plan->transfer);
+  if (!error) {
     error = ParseHighlights("--highlights", options.highlights, &plan->highlights);
   }
-  if (error.empty()) error = ParseScale("--n-scale", options.n_scale, &plan->n_scale);
-  return error.empty() ? PlanBlocks(options, plan) : error;
+  if (!error) error = ParseScale("--n-scale", options.n_scale, &plan->n_scale);
+  return error ? error : PlanBlocks(options, plan);
 }
 
 Error PlanFocus(const LensOptions& options, LensPlan* plan) {
@@ -207,7 +206,7 @@ Error PlanFocus(const LensOptions& options, LensPlan* plan) {
     plan->focus_option = "--focus-at";
     return ParsePair("--focus-at", options.focus_at, ',', &plan->x, &plan->y);
   }
-  if (options.focus.empty()) return "";
+  if (options.focus.empty()) return {};
   plan->focus_option = "--focus";
   plan->foci.resize(1);
   return ParseNumber("--focus", options.focus, &plan->foci[0]);
@@ -222,14 +221,13 @@ void UseFocus(const DefaultFocus& focus, LensPlan* plan) {
 
 Error CheckRule(const std::string& where, const LensPlan& plan, const Positions& views) {
   if (plan.rule != SF_RULE_PAPER || plan.mode == SF_MODE_BLUR || AreStar(views)) {
-    return "";
+    return {};
   }
   return Error::Usage("--rule", "subaperture, as paper needs a star of 1, 5, 9 or 17 views",
                       "paper for the " + std::to_string(views.size()) + " views of " + where);
 }
 
-std::string PrepareDisparity(const std::string& where, const FloatMap& map,
-                             sf_disparity_stats* stats) {
+Error PrepareDisparity(const std::string& where, const FloatMap& map, sf_disparity_stats* stats) {
   const sf_status status = sf_measure_disparity(
       map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, stats);
   if (status != SF_OK) return Expected(where, "a disparity map", sf_status_string(status));
@@ -237,21 +235,20 @@ std::string PrepareDisparity(const std::string& where, const FloatMap& map,
     return Expected(where, "finite disparities", FirstInvalid(map, stats->invalid));
   }
   const double largest = std::max(std::fabs(double(stats->min)), std::fabs(double(stats->max)));
-  if (largest <= SF_MAX_DISPARITY) return "";
+  if (largest <= SF_MAX_DISPARITY) return {};
   return Expected(where, "disparities within +-" + Short(SF_MAX_DISPARITY),
                   Short(stats->min) + " to " + Short(stats->max));
 }
 
 Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
-  if (!plan->foci.empty()) return "";
+  if (!plan->foci.empty()) return {};
   double focus = 0;
-  const Error error = CheckPixel(map.width, map.height, *plan);
-  if (!error.empty()) return error;
+  if (Error error = CheckPixel(map.width, map.height, *plan)) return error;
   // The map is a good one (PrepareDisparity).
   sf_focus_at(map.values.data(), sizeof(float) * size_t(map.width), map.width, map.height, plan->x,
               plan->y, &focus);
   plan->foci = {focus};
-  return "";
+  return {};
 }
 
 Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) {
@@ -259,19 +256,18 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) 
   const Image& picture = light_field.views[0];
   std::vector<double> foci = plan->foci;
   if (foci.empty()) {
-    const Error error = CheckPixel(picture.width, picture.height, *plan);
-    if (!error.empty()) return error;
+    if (Error error = CheckPixel(picture.width, picture.height, *plan)) return error;
     const auto x = static_cast<int>(int64_t{plan->x} * map.width / picture.width);
     const auto y = static_cast<int>(int64_t{plan->y} * map.height / picture.height);
     foci.resize(1);
-    if (!FocusAround(map, x, y, &foci[0])) return "";
+    if (!FocusAround(map, x, y, &foci[0])) return {};
   }
   sf_disparity_stats stats = {};
   // Where nothing is known, the care of the map reports it.
   if (sf_measure_disparity(map.values.data(), sizeof(float) * size_t(map.width), map.width,
                            map.height, &stats) != SF_OK ||
       stats.invalid == int64_t{map.width} * map.height) {
-    return "";
+    return {};
   }
   if (repaired) {
     stats.min -= kRepairReach;

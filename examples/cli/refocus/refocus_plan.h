@@ -13,6 +13,7 @@
 #include "examples/command_line/command.h"
 #include "examples/command_line/shape.h"
 #include "platform/readers/capture.h"
+#include "platform/result.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -60,8 +61,7 @@ void UseFocus(const DefaultFocus& focus, LensPlan* plan);
 Error CheckRule(const std::string& where, const LensPlan& plan, const Positions& views);
 
 // Measures a map, which is to have no holes. Errors are about `where`.
-std::string PrepareDisparity(const std::string& where, const FloatMap& map,
-                             sf_disparity_stats* stats);
+Error PrepareDisparity(const std::string& where, const FloatMap& map, sf_disparity_stats* stats);
 
 // The disparity of what is at the chosen pixel, if the focus depends on it.
 Error ChooseFocus(const FloatMap& map, LensPlan* plan);

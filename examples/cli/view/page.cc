@@ -6,7 +6,7 @@
 
 #include "examples/cli/pictures/shrink.h"
 #include "examples/command_line/options.h"
-#include "platform/writers/base64.h"
+#include "platform/base64.h"
 #include "platform/writers/jpeg.h"
 
 namespace starfocus {
@@ -83,14 +83,14 @@ void Page::AddTable(const std::vector<std::pair<std::string, std::string>>& rows
   body_ += "</table>\n";
 }
 
-std::string Page::AddFigures(const std::string& path, const std::string& heading,
-                             const std::vector<PageFigure>& figures, int width) {
+Error Page::AddFigures(const std::string& path, const std::string& heading,
+                       const std::vector<PageFigure>& figures, int width) {
   body_ += "<section>\n<h2>" + Escape(heading) + "</h2>\n<div class=\"figures\">\n";
   for (const PageFigure& figure : figures) {
     const Image small = Shrink(figure.picture, width);
     Bytes jpeg;
-    const std::string error = EncodeJpeg(path, small, kQuality, {{}, icc_}, {}, &jpeg);
-    if (!error.empty()) return error;
+    const Error error = EncodeJpeg(path, small, kQuality, {{}, icc_}, {}, &jpeg);
+    if (error) return error;
     body_ += "<figure style=\"max-width: " + std::to_string(small.width) + "px\"><img width=\"" +
              std::to_string(small.width) + "\" height=\"" + std::to_string(small.height) +
              "\" alt=\"" + Escape(figure.says) + "\" src=\"data:image/jpeg;base64," +
@@ -98,7 +98,7 @@ std::string Page::AddFigures(const std::string& path, const std::string& heading
              "</figcaption></figure>\n";
   }
   body_ += "</div>\n</section>\n";
-  return "";
+  return {};
 }
 
 void Page::AddHistogram(const std::string& heading, const std::vector<int64_t>& counts,

@@ -10,6 +10,7 @@
 
 #include "platform/file.h"
 #include "platform/image.h"
+#include "platform/result.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -30,8 +31,8 @@ class Page {
 
   // Figures under a heading, the pictures of at most `width` pixels, side by side where there is
   // room. The error is about `path`, the page's own.
-  std::string AddFigures(const std::string& path, const std::string& heading,
-                         const std::vector<PageFigure>& figures, int width);
+  Error AddFigures(const std::string& path, const std::string& heading,
+                   const std::vector<PageFigure>& figures, int width);
 
   // Bars, and the numbers as a table to unfold.
   void AddHistogram(const std::string& heading, const std::vector<int64_t>& counts,

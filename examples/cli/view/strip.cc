@@ -66,7 +66,7 @@ std::vector<TruthFile> FindTruths(const std::string& folder) {
 
 std::string TransferOf(const std::string& folder) {
   Bytes bytes;
-  if (!ReadSmallFile((fs::path(folder) / "meta.txt").string(), &bytes).empty()) return "srgb";
+  if (ReadSmallFile((fs::path(folder) / "meta.txt").string(), &bytes)) return "srgb";
   const std::string text(bytes.begin(), bytes.end());
   return text.find("transfer: none\n") != std::string::npos ? "none" : "srgb";
 }
@@ -79,8 +79,7 @@ Error RefocusEach(
   options.transfer = transfer;
   LensPlan plan;
   double max_blur = 1;
-  Error error = PlanLens(options, &plan);
-  if (!error.empty()) return error;
+  if (Error error = PlanLens(options, &plan)) return error;
   for (const LensAt& lens : lenses) {
     max_blur = std::max(max_blur, std::ceil(BlurOf(lens, stats)));
     plan.foci.push_back(lens.focus);
@@ -91,15 +90,15 @@ Error RefocusEach(
   task.params.on_block = CollectBlock;
   task.params.on_block_data = &blocks;
   EngineRun run(threads, static_cast<int>(lenses.size()));
-  error = run.Start(where, task);
-  if (error.empty()) error = run.Prepare(where, task);
-  for (size_t i = 0; i < lenses.size() && error.empty(); ++i) {
+  Error error = run.Start(where, task);
+  if (!error) error = run.Prepare(where, task);
+  for (size_t i = 0; i < lenses.size() && !error; ++i) {
     task.params.focus = lenses[i].focus;
     task.params.aperture = lenses[i].aperture;
     blocks.clear();
     EngineResult result;
     error = run.Refocus(where, task, &result);
-    if (error.empty()) error = show(i, result.picture, blocks);
+    if (!error) error = show(i, result.picture, blocks);
   }
   return error;
 }

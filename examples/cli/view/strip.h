@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "examples/cli/engine/engine_run.h"
-#include "examples/command_line/error.h"
 #include "platform/light_field.h"
+#include "platform/result.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

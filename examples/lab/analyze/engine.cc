@@ -57,9 +57,9 @@ double LeastRadius(sf_rule rule, int layer) {
 }
 
 // Measures one series in the direction of `sign`, from the least r that its layer is used at.
-std::string Measure(const Series& series, int sign, Table* table, Table* layers) {
+Error Measure(const Series& series, int sign, Table* table, Table* layers) {
   const double least = LeastRadius(series.rule, series.layer);
-  if (least > series.largest) return "";
+  if (least > series.largest) return {};
   const int count = static_cast<int>((series.largest - least) / series.increment);
   std::printf("  layer %d, rule %s, r = %g to %d%s\n", series.layer, NameOf(series.rule),
               least == 0 ? 0 : sign * least, sign * series.largest,
@@ -102,7 +102,7 @@ std::string Measure(const Series& series, int sign, Table* table, Table* layers)
     std::printf("    aliasing up to %.2e (at %.3f; theory %.2e)\n", aliasing, aliasing_r,
                 MakeLayerTheory(aliasing_r, series.layer).aliasing);
   }
-  return "";
+  return {};
 }
 
 // Draws one table of kernels at layer 0.
@@ -132,7 +132,7 @@ RuleTables MakeTables(sf_rule rule) {
 
 }  // namespace
 
-Figure AnalyseEngine(int largest, std::string* error) {
+Result<Figure> AnalyseEngine(int largest) {
   Figure figure = {"engine", 860, 1240, {}, ""};
   std::printf("The running engine: SSE of its kernels against (4), and why where above 1e-3\n");
   for (const sf_rule rule : {SF_RULE_PAPER, SF_RULE_SUBAPERTURE}) {
@@ -141,11 +141,11 @@ Figure AnalyseEngine(int largest, std::string* error) {
       const Series series = {SF_MODE_BLOCK, rule, layer, 0, 1.0 / 8, largest};
       Table* table = layer == 0 ? &tables.engine : &tables.engine_layers;
       for (const int sign : {1, -1}) {
-        if (error->empty()) *error = Measure(series, sign, table, &tables.layers);
+        if (Error error = Measure(series, sign, table, &tables.layers)) return error;
       }
     }
     const Series series = {SF_MODE_FRAME, rule, 0, double(largest), 1.0 / 2, largest};
-    if (error->empty()) *error = Measure(series, 1, &tables.r_max, &tables.layers);
+    if (Error error = Measure(series, 1, &tables.r_max, &tables.layers)) return error;
     for (const Table& table : {tables.engine, tables.r_max, tables.engine_layers, tables.layers}) {
       figure.tables.push_back(table);
     }

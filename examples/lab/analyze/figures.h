@@ -6,6 +6,7 @@
 #include <string>
 
 #include "examples/lab/analyze/table.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -23,7 +24,7 @@ Figure AnalyseSubapertures(double max_blur);
 
 // The running engine's kernels of blur radii up to `largest`; *error is set when it could not be
 // run.
-Figure AnalyseEngine(int largest, std::string* error);
+Result<Figure> AnalyseEngine(int largest);
 
 }  // namespace starfocus
 

@@ -27,7 +27,7 @@ sf_config MakeConfig(const LightField& light_field, const sf_disparity_stats& st
 
 }  // namespace
 
-std::string BlockBench::Open(const std::string& where, const LightField& light_field) {
+Error BlockBench::Open(const std::string& where, const LightField& light_field) {
   light_field_ = &light_field;
   const FloatMap& map = light_field.disparity;
   sf_disparity_stats stats = {};
@@ -51,7 +51,7 @@ std::string BlockBench::Open(const std::string& where, const LightField& light_f
   picture_ = Image(map.width, map.height);
   HoldDisparity();
   for (int layer = 1; layer < SF_LAYERS; ++layer) HoldLayer(layer);
-  return "";
+  return {};
 }
 
 void BlockBench::HoldDisparity() {

@@ -11,6 +11,7 @@
 #include "lib/engine/engine.h"
 #include "lib/plan/timing.h"
 #include "platform/light_field.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -22,8 +23,8 @@ struct BlockTask {
 
 class BlockBench {
  public:
-  // The light field must outlive the bench. Returns an error line, empty for success.
-  std::string Open(const std::string& where, const LightField& light_field);
+  // The light field must outlive the bench.
+  Error Open(const std::string& where, const LightField& light_field);
 
   // What the timing model knows of the task's block; its place must be a multiple of kCellSize.
   BlockWork Work(const BlockTask& task);

@@ -14,11 +14,10 @@ constexpr double kNever = 1e30;
 
 }  // namespace
 
-std::string SceneTimes::Open(const std::string& name, LightField light_field) {
+Error SceneTimes::Open(const std::string& name, LightField light_field) {
   name_ = name;
   light_field_ = std::move(light_field);
-  const std::string error = bench_.Open(name, light_field_);
-  if (!error.empty()) return error;
+  if (Error error = bench_.Open(name, light_field_)) return error;
   BlockSampler sampler(light_field_.disparity);
   bool layered = false;
   for (const BlockGroup& group : sampler.Sample(kBlocksPerGroup)) {
@@ -29,7 +28,7 @@ std::string SceneTimes::Open(const std::string& name, LightField light_field) {
       ++blocks_;
     }
   }
-  if (groups_.size() >= 2 * kTimingTermCount && layered) return "";
+  if (groups_.size() >= 2 * kTimingTermCount && layered) return {};
   return Expected(name, "a light field with room for blocks of several sizes",
                   std::to_string(light_field_.width()) + "x" +
                       std::to_string(light_field_.height()) + " with " +

@@ -11,13 +11,14 @@
 #include "examples/lab/calibrate/timing_fit.h"
 #include "platform/light_field.h"
 #include "platform/progress.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
 class SceneTimes {
  public:
-  // Chooses the blocks. Returns an error line, empty for success.
-  std::string Open(const std::string& name, LightField light_field);
+  // Chooses the blocks.
+  Error Open(const std::string& name, LightField light_field);
 
   const std::string& name() const { return name_; }
   int64_t blocks() const { return blocks_; }

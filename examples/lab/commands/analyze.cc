@@ -21,48 +21,43 @@ struct AnalyzeOptions {
   std::string max_blur = "40";
 };
 
-std::string WriteText(const fs::path& path, const std::string& text) {
+Error WriteText(const fs::path& path, const std::string& text) {
   return WriteFile(path.string(), Bytes(text.begin(), text.end()));
 }
 
-std::string Write(const fs::path& folder, const Figure& figure, bool draw) {
+Error Write(const fs::path& folder, const Figure& figure, bool draw) {
   for (const Table& table : figure.tables) {
-    const std::string error = WriteText(folder / (table.name() + ".csv"), table.Csv());
-    if (!error.empty()) return error;
+    if (Error error = WriteText(folder / (table.name() + ".csv"), table.Csv())) return error;
   }
-  if (!draw || figure.name.empty()) return "";
+  if (!draw || figure.name.empty()) return {};
   Bytes picture;
-  const std::string error = RunGnuplot(figure.name + ".svg", figure.Script(), &picture);
-  if (!error.empty()) return error;
+  if (Error error = RunGnuplot(figure.name + ".svg", figure.Script(), &picture)) return error;
   return WriteFile((folder / (figure.name + ".svg")).string(), picture);
 }
 
 Error Run(const AnalyzeOptions& options) {
   int max_blur = 0;
-  Error error = ParseWhole("--max-blur", options.max_blur, 1, 128, &max_blur);
-  if (!error.empty()) return error;
+  if (Error error = ParseWhole("--max-blur", options.max_blur, 1, 128, &max_blur)) return error;
   if (!options.folder.empty()) {
-    error = MakeFolder(options.folder);
-    if (!error.empty()) return error;
+    if (Error error = MakeFolder(options.folder)) return error;
   }
   constexpr int kEngineBlur = 40;  // larger radii take hours
-  std::string engine_error;
   std::vector<Figure> figures = {AnalyseTableOne(), AnalyseViewNumber(),
-                                 AnalyseSubapertures(max_blur),
-                                 AnalyseEngine(std::min(max_blur, kEngineBlur), &engine_error)};
-  if (!engine_error.empty() || options.folder.empty()) return engine_error;
+                                 AnalyseSubapertures(max_blur)};
+  const Result<Figure> engine = AnalyseEngine(std::min(max_blur, kEngineBlur));
+  if (!engine || options.folder.empty()) return engine.error();
+  figures.push_back(*engine);
   figures.push_back(DrawViewKernels());
   figures.push_back(DrawViewResponses());
   figures.push_back(DrawSubsampledBlurs());
   const bool draw = HasGnuplot();
   for (const Figure& figure : figures) {
-    error = Write(options.folder, figure, draw);
-    if (!error.empty()) return error;
+    if (Error error = Write(options.folder, figure, draw)) return error;
   }
   std::printf("%s in %s\n", draw ? "CSV files and SVG drawings" : "CSV files",
               options.folder.c_str());
   if (!draw) std::printf("no drawings: gnuplot is missing (Debian: apt-get install gnuplot-nox)\n");
-  return "";
+  return {};
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct CalibrateOptions {
   std::string out, folder, check;
 };
 
-std::string Trace(const std::string& name, SceneTimes* times) {
+Error Trace(const std::string& name, SceneTimes* times) {
   ThreadRunner runner(sf_pool_cores());
   Scene scene;
   MakeScene(name, &scene);
@@ -47,9 +47,9 @@ Error Load(const std::string& folder, SceneTimes* times) {
   Capture capture;
   InputOptions input;
   input.path = folder;
-  Error error = OpenInput(input, &capture);
-  if (error.empty()) error = LoadInput({}, 1, &capture);
-  return error.empty() ? times->Open(folder, std::move(capture.light_field)) : error;
+  if (Error error = OpenInput(input, &capture)) return error;
+  if (Error error = LoadInput({}, 1, &capture)) return error;
+  return times->Open(folder, std::move(capture.light_field));
 }
 
 using Scenes = std::vector<std::unique_ptr<SceneTimes>>;
@@ -60,13 +60,12 @@ Error OpenScenes(const CalibrateOptions& options, Scenes* scenes) {
     scenes->push_back(std::make_unique<SceneTimes>());
     return folder.empty() ? Trace(name, scenes->back().get()) : Load(folder, scenes->back().get());
   };
-  Error error = add(options.folder, "portrait");
-  if (!error.empty()) return error;
+  if (Error error = add(options.folder, "portrait")) return error;
   if (!options.check.empty()) return add(options.check, "");
   for (const char* name : {"wires", "ramp"}) {
-    if (error.empty()) error = add("", name);
+    if (Error error = add("", name)) return error;
   }
-  return error;
+  return {};
 }
 
 // In turns, so that a slow spell of the machine meets all scenes and sizes alike.
@@ -104,9 +103,8 @@ Json Judge(const char* role, const SceneTimes& scene, const sf_timing& timing) {
 }
 
 Error CheckOutput(const CalibrateOptions& options) {
-  if (options.out.empty()) return "";
-  const Error error = CheckOutputPath(options.out);
-  if (!error.empty()) return error;
+  if (options.out.empty()) return {};
+  if (Error error = CheckOutputPath(options.out)) return error;
   std::vector<std::string> folders;
   for (const std::string& folder : {options.folder, options.check}) {
     if (!folder.empty()) folders.push_back(folder);
@@ -116,9 +114,8 @@ Error CheckOutput(const CalibrateOptions& options) {
 
 Error Calibrate(const CalibrateOptions& options) {
   Scenes scenes;
-  Error error = CheckOutput(options);
-  if (error.empty()) error = OpenScenes(options, &scenes);
-  if (!error.empty()) return error;
+  if (Error error = CheckOutput(options)) return error;
+  if (Error error = OpenScenes(options, &scenes)) return error;
   Measure(scenes);
   const sf_timing timing = FitTiming(scenes[0]->Configurations());
   PrintCoefficients(timing);
@@ -131,7 +128,7 @@ Error Calibrate(const CalibrateOptions& options) {
     checks.Add(Judge("check", *scenes[i], timing));
   }
   json.Set("checks", std::move(checks));
-  if (options.out.empty()) return "";
+  if (options.out.empty()) return {};
   const std::string text = json.Text(2) + "\n";
   return WriteFile(options.out, Bytes(text.begin(), text.end()));
 }

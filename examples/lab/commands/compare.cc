@@ -24,9 +24,8 @@ std::string SizeText(const Image& image) {
 }
 
 Error CheckMap(const CompareOptions& options) {
-  if (options.map.empty()) return "";
-  const Error error = CheckImageOutput(options.map);
-  if (!error.empty()) return error;
+  if (options.map.empty()) return {};
+  if (Error error = CheckImageOutput(options.map)) return error;
   if (IsStandardStream(options.map)) {
     return Error::Usage("--map", "a file: standard output has the figures", options.map);
   }
@@ -35,17 +34,17 @@ Error CheckMap(const CompareOptions& options) {
 
 Error Run(const CompareOptions& options) {
   Image a, b;
-  Error error = CheckMap(options);
-  if (error.empty()) error = ReadImage(options.first, &a);
-  if (error.empty()) error = ReadImage(options.second, &b);
-  if (!error.empty()) return error;
+  if (Error error = CheckMap(options)) return error;
+  if (Error error = ReadImage(options.first, &a)) return error;
+  if (Error error = ReadImage(options.second, &b)) return error;
   if (a.width != b.width || a.height != b.height) {
     return Expected(options.second, SizeText(a) + " as " + options.first, SizeText(b));
   }
   const Difference difference = MeasureDifference(a, b);
   if (!options.map.empty()) {
-    error = WriteImage(options.map, DrawDifference(a, b, std::max(1, difference.largest)));
-    if (!error.empty()) return error;
+    if (Error error =
+            WriteImage(options.map, DrawDifference(a, b, std::max(1, difference.largest))))
+      return error;
   }
   const bool equal = difference.largest == 0;
   if (options.json) {
@@ -58,7 +57,7 @@ Error Run(const CompareOptions& options) {
   } else {
     std::printf("PSNR %.2f dB, largest difference %d\n", difference.psnr, difference.largest);
   }
-  return "";
+  return {};
 }
 
 }  // namespace

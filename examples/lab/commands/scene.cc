@@ -51,8 +51,7 @@ Error ParseTruth(const std::string& text, Truth* truth) {
   if (comma == std::string::npos) {
     return Error::Usage("--truth", "D,U: disparity in focus and aperture", "'" + text + "'");
   }
-  const Error error = ParseNumber("--truth", text.substr(0, comma), &truth->focus);
-  if (!error.empty()) return error;
+  if (Error error = ParseNumber("--truth", text.substr(0, comma), &truth->focus)) return error;
   if (truth->focus < -SF_MAX_DISPARITY || truth->focus > SF_MAX_DISPARITY) {
     return Error::Usage("--truth", "a disparity within +-500", "'" + text + "'");
   }
@@ -62,8 +61,7 @@ Error ParseTruth(const std::string& text, Truth* truth) {
 Error ChooseScene(const SceneOptions& options, Scene* scene) {
   int seed = kSceneSeed;
   if (!options.seed.empty()) {
-    const Error error = ParseWhole("--seed", options.seed, 0, kMostSeed, &seed);
-    if (!error.empty()) return error;
+    if (Error error = ParseWhole("--seed", options.seed, 0, kMostSeed, &seed)) return error;
   }
   if (!MakeScene(options.name, scene, uint32_t(seed))) {
     return Error::Usage("--name", kSceneNames, "'" + options.name + "'");
@@ -71,30 +69,27 @@ Error ChooseScene(const SceneOptions& options, Scene* scene) {
   if (!options.seed.empty() && !scene->seeded) {
     return Error::Usage("--seed", "the scene hair or grass", "'" + options.name + "'");
   }
-  return "";
+  return {};
 }
 
 Error MakePlan(const SceneOptions& options, Plan* plan) {
-  Error error = ChooseScene(options, &plan->scene);
-  if (!error.empty()) return error;
-  error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height);
-  if (!error.empty()) return error;
+  if (Error error = ChooseScene(options, &plan->scene)) return error;
+  if (Error error = ParsePair("--size", options.size, 'x', &plan->width, &plan->height))
+    return error;
   if (plan->width < 1 || plan->height < 1 || int64_t(plan->width) * plan->height > kMostPixels) {
     return Error::Usage("--size", "WxH from 1x1 to " + std::to_string(kMostPixels) + " pixels",
                         "'" + options.size + "'");
   }
-  error = ParseViews("--views", options.views, &plan->views);
-  if (error.empty()) error = ParseTransfer("--transfer", options.transfer, &plan->transfer);
-  if (!error.empty()) return error;
+  if (Error error = ParseViews("--views", options.views, &plan->views)) return error;
+  if (Error error = ParseTransfer("--transfer", options.transfer, &plan->transfer)) return error;
   plan->threads = sf_pool_cores();
   if (!options.threads.empty()) {
-    error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads);
-    if (!error.empty()) return error;
+    if (Error error = ParseWhole("--threads", options.threads, 1, SF_MAX_WORKERS, &plan->threads))
+      return error;
   }
   for (const std::string& text : options.truths) {
     plan->truths.emplace_back();
-    error = ParseTruth(text, &plan->truths.back());
-    if (!error.empty()) return error;
+    if (Error error = ParseTruth(text, &plan->truths.back())) return error;
   }
   sf_config_init(&plan->shape);
   return ParseShape(options.shape, &plan->shape);
@@ -105,8 +100,7 @@ Error MakePlan(const SceneOptions& options, Plan* plan) {
 Error CheckFolder(const std::string& folder, const Plan& plan) {
   const Positions& views = plan.views;
   std::error_code failure;
-  const std::string error = CheckFolderOutput(folder);
-  if (!error.empty()) return error;
+  if (Error error = CheckFolderOutput(folder)) return error;
   for (const auto& entry : fs::directory_iterator(folder, failure)) {
     const std::string name = entry.path().filename().string();
     const bool replaced = std::any_of(views.begin(), views.end(), [&](const sf_position& view) {
@@ -119,7 +113,7 @@ Error CheckFolder(const std::string& folder, const Plan& plan) {
       return Expected(entry.path().string(), "no coverage left from another scene", "one");
     }
   }
-  return "";
+  return {};
 }
 
 std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTracer& renderer,
@@ -184,28 +178,27 @@ Pictures Render(const Plan& plan, const RayTracer& renderer) {
 Error SaveCoverage(const std::string& folder, const GreyImage& coverage) {
   const std::string path = (fs::path(folder) / kCoverageFile).string();
   Bytes png;
-  const std::string error = EncodeGreyPng(path, coverage, &png);
-  return error.empty() ? WriteFile(path, png) : error;
+  if (Error error = EncodeGreyPng(path, coverage, &png)) return error;
+  return WriteFile(path, png);
 }
 
 Error Run(const SceneOptions& options) {
   Plan plan;
-  Error error = MakePlan(options, &plan);
-  if (error.empty()) error = CheckFolder(options.folder, plan);
-  if (!error.empty()) return error;
+  if (Error error = MakePlan(options, &plan)) return error;
+  if (Error error = CheckFolder(options.folder, plan)) return error;
   ThreadRunner runner(plan.threads);
   const RayTracer renderer(plan.scene, plan.width, plan.height, plan.transfer, &runner);
   const Pictures pictures = Render(plan, renderer);
-  error = SaveLightField(options.folder, pictures.light_field, &runner);
-  if (error.empty() && plan.scene.HasForeground()) {
+  Error error = SaveLightField(options.folder, pictures.light_field, &runner);
+  if (!error && plan.scene.HasForeground()) {
     error = SaveCoverage(options.folder, pictures.coverage);
   }
-  for (size_t i = 0; i < pictures.truths.size() && error.empty(); ++i) {
+  for (size_t i = 0; i < pictures.truths.size() && !error; ++i) {
     const std::string name = "truth_dt" + Short(plan.truths[i].focus) + "_ut" +
                              Short(plan.truths[i].aperture) + ShapeSuffix(options.shape) + ".png";
     error = WriteImage((fs::path(options.folder) / name).string(), pictures.truths[i]);
   }
-  if (!error.empty()) return error;
+  if (error) return error;
   const std::string meta = MetaText(options, plan, renderer, pictures.light_field.disparity);
   return WriteFile((fs::path(options.folder) / "meta.txt").string(),
                    Bytes(meta.begin(), meta.end()));

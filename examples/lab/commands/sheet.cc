@@ -42,13 +42,11 @@ Image Arrange(const std::vector<Image>& cells, const std::vector<std::string>& l
 }
 
 Error Run(const SheetOptions& options) {
-  Error error = CheckImageOutput(options.out);
-  if (error.empty()) error = CheckApart({{"--output", options.out}}, {{}, options.pictures});
-  if (!error.empty()) return error;
+  if (Error error = CheckImageOutput(options.out)) return error;
+  if (Error error = CheckApart({{"--output", options.out}}, {{}, options.pictures})) return error;
   const int count = static_cast<int>(options.pictures.size());
   int width = 0;
-  error = ParseWhole("--width", options.width, 16, 16384, &width);
-  if (!error.empty()) return error;
+  if (Error error = ParseWhole("--width", options.width, 16, 16384, &width)) return error;
   const int cell_width = (width - kGap) / count - kGap;
   if (cell_width < 1) {
     return Error::Usage("--width", "at least " + std::to_string(count * (kGap + 1) + kGap),
@@ -61,8 +59,7 @@ Error Run(const SheetOptions& options) {
   std::vector<Image> cells;
   for (const std::string& path : options.pictures) {
     Image picture;
-    error = ReadImage(path, &picture);
-    if (!error.empty()) return error;
+    if (Error error = ReadImage(path, &picture)) return error;
     cells.push_back(Shrink(picture, cell_width));
   }
   return WriteImage(options.out, Arrange(cells, options.labels));

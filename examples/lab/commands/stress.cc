@@ -41,17 +41,16 @@ Error ParseCount(const std::string& option, const std::string& text, uint64_t* v
     return Error::Usage(option, "a whole number", text);
   }
   for (const char digit : text) *value = *value * 10 + static_cast<uint64_t>(digit - '0');
-  return "";
+  return {};
 }
 
 Error RepeatCase(const stress::Family& family, const std::string& text) {
   uint64_t number = 0;
-  const Error error = ParseCount("--case", text, &number);
-  if (!error.empty()) return error;
+  if (Error error = ParseCount("--case", text, &number)) return error;
   const stress::Outcome outcome = stress::RunCase(family, number);
-  if (!outcome.failure.empty()) return outcome.failure;
+  if (!outcome.failure.empty()) return Error(ErrorKind::kInput, outcome.failure);
   std::printf("%s %" PRIu64 ": %g %s\n", family.name, number, outcome.error, family.measures);
-  return "";
+  return {};
 }
 
 void Print(const stress::Report& report) {
@@ -92,13 +91,13 @@ Error Run(const StressOptions& options) {
   if (!options.number.empty()) return RepeatCase(*family, options.number);
   Error error = ParseNumber("--seconds", options.seconds, &wanted.seconds);
   uint64_t seed = 0;
-  if (error.empty()) error = ParseCount("--seed", options.seed, &seed);
-  if (!error.empty()) return error;
+  if (!error) error = ParseCount("--seed", options.seed, &seed);
+  if (error) return error;
   wanted.seed = seed;
   wanted.family = options.family;
   const stress::Report report = Try(&wanted);
   Print(report);
-  if (report.failures == 0) return "";
+  if (report.failures == 0) return {};
   return Expected("stress", "no failure", std::to_string(report.failures));
 }
 

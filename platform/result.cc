@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/result.h"
+
+namespace starfocus {
+namespace {
+
+std::string Line(const std::string& where, const std::string& expected, const std::string& found) {
+  return where + ": expected " + expected + ", found " + found;
+}
+
+}  // namespace
+
+Error::Error(ErrorKind kind, std::string line) : kind_(kind), line_(std::move(line)) {
+  for (char& c : line_) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+}
+
+Error Error::Usage(const std::string& option, const std::string& expected,
+                   const std::string& found) {
+  return {ErrorKind::kUsage, Line(option, expected, found)};
+}
+
+Error Error::Internal(const std::string& where, const std::string& expected,
+                      const std::string& found) {
+  return {ErrorKind::kInternal, Line(where, expected, found)};
+}
+
+Error Expected(const std::string& where, const std::string& expected, const std::string& found) {
+  return {ErrorKind::kInput, Line(where, expected, found)};
+}
+
+Error Cannot(const std::string& action, const std::string& path, const std::string& reason) {
+  return {ErrorKind::kInput, "cannot " + action + " " + path + ": " + reason};
+}
+
+Error Cannot(const std::string& action, const std::string& path, std::error_code reason) {
+  std::string text = reason.message();
+  if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') {
+    text[0] = static_cast<char>(text[0] - 'A' + 'a');
+  }
+  return Cannot(action, path, text);
+}
+
+Error OutOfMemory(const std::string& where, const std::string& purpose) {
+  return Expected(where, "enough memory to " + purpose, "too little (out of memory)");
+}
+
+}  // namespace starfocus
