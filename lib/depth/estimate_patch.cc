@@ -72,23 +72,28 @@ uint8_t HiddenBehind(const EstimatePlan& plan, int32_t d) {
   return static_cast<uint8_t>(Min(labels, plan.labels));
 }
 
-// Enters what the pixels of row y of the map, x in [from, to), hide of a view within `inside`. The
-// compiler leaves out moves in directions that the view has none in.
+// Pixels [from, to) of row y of a map, which begins at `disparity`.
+struct MapRow {
+  const int16_t* disparity;
+  int32_t y, from, to;
+};
+
+// Enters what the pixels of a row hide of a view within `inside`. The compiler leaves out moves in
+// directions that the view has none in.
 template <bool kAcross, bool kDown>
-void HideBehindRow(const EstimatePlan& plan, const SideView& view, const int16_t* map, int32_t y,
-                   int32_t from, int32_t to, const Rect& inside, const Patches& patches,
-                   uint8_t* hidden) {
+void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow& of_map,
+                   const Rect& inside, const Patches& patches, uint8_t* hidden) {
   const auto columns = static_cast<uint32_t>(inside.width);
   const auto rows = static_cast<uint32_t>(inside.height);
   hidden += patches.At(inside.x, inside.y);
   int32_t last = plan.low;
   uint8_t behind = HiddenBehind(plan, last);
-  for (int32_t x = from; x < to; ++x) {
-    const int32_t d = map[x];
+  for (int32_t x = of_map.from; x < of_map.to; ++x) {
+    const int32_t d = of_map.disparity[x];
     const int32_t across = kAcross ? WholeMove(MoveAcross(view, d)) : 0;
     const int32_t down = kDown ? WholeMove(MoveDown(view, d)) : 0;
     const auto column = static_cast<uint32_t>(x + across - inside.x);
-    const auto row = static_cast<uint32_t>(y + down - inside.y);
+    const auto row = static_cast<uint32_t>(of_map.y + down - inside.y);
     if ((kAcross && column >= columns) || (kDown && row >= rows)) continue;
     if (d != last) behind = HiddenBehind(plan, last = d);
     uint8_t& here = hidden[row * patches.stride + column];
@@ -168,8 +173,8 @@ void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region
                       : view.u2 == 0 ? HideBehindRow<false, true>
                                      : HideBehindRow<true, true>;
     for (int32_t y = from.y; y < from.y + from.height; ++y) {
-      hide(plan, view, map + static_cast<size_t>(y) * static_cast<size_t>(plan.width), y, from.x,
-           from.x + from.width, inside, *patches, hidden);
+      const int16_t* row = map + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+      hide(plan, view, {row, y, from.x, from.x + from.width}, inside, *patches, hidden);
     }
   }
 }

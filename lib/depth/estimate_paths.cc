@@ -32,11 +32,14 @@ void BeginAt(const PathRows& rows, int from, size_t labels, int32_t k) {
 }
 
 // Lets paths begin behind those of the pixels [first, last) of the row before that are not swept.
-void BeginBeside(const EstimatePlan& plan, const Rect& region, int32_t y, int32_t first,
-                 int32_t last, const TileMemory& tile, const PathRows& rows) {
+void BeginBeside(const EstimateTile& tile, int32_t y, int32_t first, int32_t last,
+                 const PathRows& rows) {
+  const EstimatePlan& plan = tile.plan;
+  const Rect& region = tile.region;
+  const uint8_t* all_swept = tile.memory.swept;
   const bool inside = y >= region.y && y < region.y + region.height;
   const uint8_t* swept =
-      tile.swept == nullptr || !inside ? nullptr : tile.swept + ptrdiff_t{y} * plan.width;
+      all_swept == nullptr || !inside ? nullptr : all_swept + ptrdiff_t{y} * plan.width;
   for (int32_t x = first; x < last; ++x) {
     const bool goes_on = inside && x >= region.x && x < region.x + region.width &&
                          (swept == nullptr || swept[x] != 0);
@@ -46,36 +49,38 @@ void BeginBeside(const EstimatePlan& plan, const Rect& region, int32_t y, int32_
 
 // Adds the paths of row y of the region, which go on from the swept pixels of the row before, to
 // what is there if anything is.
-void AddRow(const EstimatePlan& plan, const Rect& region, int32_t y, const Direction& direction,
-            bool adds, const simd::DepthKernels& kernels, const PathRows& rows,
-            const TileMemory& tile) {
+void AddRow(const EstimateTile& tile, int32_t y, const Direction& direction, bool adds,
+            const PathRows& rows) {
+  const EstimatePlan& plan = tile.plan;
+  const Rect& region = tile.region;
+  const TileMemory& memory = tile.memory;
   const auto labels = static_cast<size_t>(plan.labels), places = simd::PathLabels(labels);
   const auto stride = static_cast<ptrdiff_t>(places);
   const ptrdiff_t row = ptrdiff_t{y - region.y} * region.width;
   const int from = direction.y == 0 ? 1 : 0;
-  ForRuns(plan, tile.swept, y, region.x, region.x + region.width, [&](int32_t begin, int32_t end) {
+  const int32_t right = region.x + region.width;
+  ForRuns(plan, memory.swept, y, region.x, right, [&](int32_t begin, int32_t end) {
     const ptrdiff_t k = (direction.x < 0 ? end - 1 : begin) - region.x;
     if (direction.y == 0) {
       BeginAt(rows, from, labels, static_cast<int32_t>(k) - direction.x);
     } else {
-      BeginBeside(plan, region, y - direction.y, begin - direction.x, end - direction.x, tile,
-                  rows);
+      BeginBeside(tile, y - direction.y, begin - direction.x, end - direction.x, rows);
     }
     const auto count = static_cast<size_t>(end - begin);
-    const Patches& patches = tile.patches;
-    kernels.FindJumps(patches.Centre(0) + patches.At(begin, y),
-                      patches.Centre(0) + patches.At(begin - direction.x, y - direction.y),
-                      patches.plane, count, tile.jump + (begin - region.x));
+    const Patches& patches = memory.patches;
+    tile.kernels.FindJumps(patches.Centre(0) + patches.At(begin, y),
+                           patches.Centre(0) + patches.At(begin - direction.x, y - direction.y),
+                           patches.plane, count, memory.jump + (begin - region.x));
     simd::PathRow paths = {};
-    paths.cost = tile.cost + (row + k) * stride;
-    paths.sum = tile.sum + (row + k) * stride;
+    paths.cost = memory.cost + (row + k) * stride;
+    paths.sum = memory.sum + (row + k) * stride;
     paths.adds = adds;
     paths.path = rows.path[1] + k * stride;
     paths.least = rows.least[1] + k;
-    paths.jump = tile.jump + k;
+    paths.jump = memory.jump + k;
     paths.before = rows.path[from] + (k - direction.x) * stride;
     paths.before_least = rows.least[from] + k - direction.x;
-    kernels.AddPaths(paths, labels, direction.x < 0 ? -1 : 1, count);
+    tile.kernels.AddPaths(paths, labels, direction.x < 0 ? -1 : 1, count);
   });
 }
 
@@ -86,40 +91,44 @@ int16_t ToDisparity(const EstimatePlan& plan, int32_t choice) {
 
 }  // namespace
 
-void AddAllPaths(const EstimatePlan& plan, const Rect& region, const simd::DepthKernels& kernels,
-                 TileMemory* tile) {
+void AddAllPaths(const EstimateTile& tile) {
+  const EstimatePlan& plan = tile.plan;
+  const Rect& region = tile.region;
+  const TileMemory& memory = tile.memory;
   // What lies before the first label of a pixel is none.
   const auto places = static_cast<ptrdiff_t>(simd::PathLabels(static_cast<size_t>(plan.labels)));
-  for (int16_t* path : tile->path) {
+  for (int16_t* path : memory.path) {
     for (ptrdiff_t k = -1; k <= region.width; ++k) path[k * places - 1] = simd::kNoLabel;
   }
   for (int32_t n = 0; n < plan.directions; ++n) {
     const Direction& direction = kDirections[n];
-    PathRows rows = {{tile->path[0], tile->path[1]}, {tile->least[0], tile->least[1]}};
+    PathRows rows = {{memory.path[0], memory.path[1]}, {memory.least[0], memory.least[1]}};
     for (int32_t k = 0; k < region.height; ++k) {
       const int32_t y = region.y + (direction.y < 0 ? region.height - 1 - k : k);
-      AddRow(plan, region, y, direction, n > 0, kernels, rows, *tile);
+      AddRow(tile, y, direction, n > 0, rows);
       std::swap(rows.path[0], rows.path[1]);
       std::swap(rows.least[0], rows.least[1]);
     }
   }
 }
 
-void ChooseDisparities(const EstimatePlan& plan, const Rect& region, const Rect& tile_rect,
-                       const simd::DepthKernels& kernels, const TileMemory& tile,
-                       int16_t* disparity, uint8_t* certainty) {
+void ChooseDisparities(const EstimateTile& tile, const Rect& tile_rect, int16_t* disparity,
+                       uint8_t* certainty) {
+  const EstimatePlan& plan = tile.plan;
+  const Rect& region = tile.region;
+  const TileMemory& memory = tile.memory;
   const auto labels = static_cast<size_t>(plan.labels), places = simd::PathLabels(labels);
   for (int32_t y = tile_rect.y; y < tile_rect.y + tile_rect.height; ++y) {
     const size_t row = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width);
     const size_t to = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
-    ForRuns(plan, tile.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
+    ForRuns(plan, memory.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
             [&](int32_t begin, int32_t end) {
               const auto count = static_cast<size_t>(end - begin);
               const size_t from = row + static_cast<size_t>(begin - region.x);
-              kernels.ChooseLabels(tile.sum + from * places, labels, count, tile.choice,
-                                   certainty == nullptr ? nullptr : certainty + to + begin);
+              tile.kernels.ChooseLabels(memory.sum + from * places, labels, count, memory.choice,
+                                        certainty == nullptr ? nullptr : certainty + to + begin);
               int16_t* out = disparity + to + begin;
-              for (size_t k = 0; k < count; ++k) out[k] = ToDisparity(plan, tile.choice[k]);
+              for (size_t k = 0; k < count; ++k) out[k] = ToDisparity(plan, memory.choice[k]);
             });
   }
 }

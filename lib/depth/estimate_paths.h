@@ -9,15 +9,21 @@
 
 namespace starfocus {
 
-// Fills tile->sum from tile->cost, for the pixels of `region`.
-void AddAllPaths(const EstimatePlan& plan, const Rect& region, const simd::DepthKernels& kernels,
-                 TileMemory* tile);
+// A tile of an estimate: its pixels with those around it, and its memory.
+struct EstimateTile {
+  const EstimatePlan& plan;
+  const Rect& region;
+  const simd::DepthKernels& kernels;
+  const TileMemory& memory;
+};
 
-// Writes the disparities, kDisparityBits, of the part of `region` that is `tile_rect`, and how sure
-// they are, to maps of the whole picture. certainty may be null.
-void ChooseDisparities(const EstimatePlan& plan, const Rect& region, const Rect& tile_rect,
-                       const simd::DepthKernels& kernels, const TileMemory& tile,
-                       int16_t* disparity, uint8_t* certainty);
+// Fills the memory's sums from its costs, for the pixels of the region.
+void AddAllPaths(const EstimateTile& tile);
+
+// Writes the disparities, kDisparityBits, of the part of the region that is `tile_rect`, and how
+// sure they are, to maps of the whole picture. certainty may be null.
+void ChooseDisparities(const EstimateTile& tile, const Rect& tile_rect, int16_t* disparity,
+                       uint8_t* certainty);
 
 }  // namespace starfocus
 

@@ -26,9 +26,9 @@ void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker)
   }
   MeasureCosts(plan, region, seeing, sweep.kernels, &tile);
   if (plan.repairs) AddMapPrior(plan, region, memory.trusted, sweep.kernels, &tile);
-  AddAllPaths(plan, region, sweep.kernels, &tile);
-  ChooseDisparities(plan, region, tile_rect, sweep.kernels, tile,
-                    first ? memory.first : memory.second,
+  const EstimateTile of_tile = {plan, region, sweep.kernels, tile};
+  AddAllPaths(of_tile);
+  ChooseDisparities(of_tile, tile_rect, first ? memory.first : memory.second,
                     first || !sweep.rates ? nullptr : memory.certainty);
   if (plan.repairs && !first) WeighEvidence(plan, region, tile_rect, tile, &memory);
 }

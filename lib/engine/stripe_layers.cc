@@ -31,7 +31,7 @@ void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Worker* w
   }
   worker->counts.reads.centre_bytes +=
       3 * static_cast<uint64_t>(columns) * static_cast<uint64_t>(rows);
-  DownsamplePicture(*job.kernels, *job.picture, layer, begin, end, worker->resample, &missing);
+  DownsamplePicture(*job.kernels, *job.picture, worker->resample, {layer, begin, end, &missing});
 }
 
 void DownsampleColumn(const LayerJob& job, int32_t index, Worker* worker) {

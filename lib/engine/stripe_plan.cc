@@ -113,9 +113,9 @@ void PlanBlocks(const PlanJob& job, int32_t column, Worker* worker) {
                                 has_highlights ? 0 : job.config->max_layer,
                                 !has_highlights && Gathers(*job.config, lens),
                                 has_highlights};
-  plan.counts[column] =
-      PartitionBlock(*job.kernels, rules, *job.cells, left, job.rows.y, lens.borders.cells,
-                     worker->partition, plan.BlocksOf(column), plan.gathered);
+  const PlanInput input = {*job.kernels, rules, *job.cells, lens.borders.cells};
+  plan.counts[column] = PartitionBlock(input, left, job.rows.y, worker->partition,
+                                       plan.BlocksOf(column), plan.gathered);
 }
 
 void MeasureColumn(const MeasureJob& job, int32_t index, Worker*) {
@@ -123,7 +123,8 @@ void MeasureColumn(const MeasureJob& job, int32_t index, Worker*) {
   const int32_t first = index * job.per_block;
   const int32_t last = Min(first + job.per_block, job.cells.columns);
   for (int32_t row = job.first_row; row < job.cells.last_row; ++row) {
-    MeasureCells(*job.kernels, *job.window, job.scale, row, first, last, job.cells.At(first, row));
+    MeasureCells(*job.kernels, *job.window, job.scale,
+                 {row, first, last, job.cells.At(first, row)});
   }
 }
 

@@ -39,17 +39,27 @@ void FilterLine(const DeblockJob& job, uint8_t* q, ptrdiff_t step, int32_t avail
   }
 }
 
-// A boundary at `at`: a run of `count` pixels `along` bytes apart, at which units of layers before
-// and after meet `across` bytes apart. Room: pixels on either side that belong to the picture.
-void FilterBoundary(const DeblockJob& job, uint8_t* at, int32_t count, ptrdiff_t along,
-                    ptrdiff_t across, int32_t before, int32_t after, int32_t room_before,
-                    int32_t room_after) {
+// A boundary: a run of `count` pixels `along` bytes apart, of which `at` is the first. Those of
+// both sides lie `across` bytes apart, and `room` of them on the side of `at` belong to the
+// picture.
+struct BoundaryLine {
+  uint8_t* at;
+  int32_t count;
+  ptrdiff_t along, across;
+  int32_t room;
+};
+
+// Filters a boundary at which units of layers `before` and `after` meet.
+void FilterBoundary(const DeblockJob& job, const BoundaryLine& line, int32_t before,
+                    int32_t after) {
   const bool lower_after = before > after;
-  uint8_t* q = lower_after ? at : at - across;
-  const ptrdiff_t step = lower_after ? across : -across;
-  const int32_t available = lower_after ? room_after : room_before;
+  uint8_t* q = lower_after ? line.at : line.at - line.across;
+  const ptrdiff_t step = lower_after ? line.across : -line.across;
+  const int32_t available = lower_after ? line.room : kSmallestBlock;
   const bool strong = Max(before, after) == 2;
-  for (int32_t k = 0; k < count; ++k, q += along) FilterLine(job, q, step, available, strong);
+  for (int32_t k = 0; k < line.count; ++k, q += line.along) {
+    FilterLine(job, q, step, available, strong);
+  }
 }
 
 }  // namespace
@@ -62,9 +72,10 @@ void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end) {
       const int32_t before = map.At(column, row - 1), after = map.At(column, row);
       if (!Meet(before, after)) continue;
       const int32_t x = column * kSmallestBlock;
-      FilterBoundary(job, job.out.Row(y) + 3 * x, Min(kSmallestBlock, job.width - x), 3,
-                     static_cast<ptrdiff_t>(job.out.stride), before, after, kSmallestBlock,
-                     Min(kSmallestBlock, job.height - y));
+      const BoundaryLine line = {job.out.Row(y) + 3 * x, Min(kSmallestBlock, job.width - x), 3,
+                                 static_cast<ptrdiff_t>(job.out.stride),
+                                 Min(kSmallestBlock, job.height - y)};
+      FilterBoundary(job, line, before, after);
     }
   }
 }
@@ -77,8 +88,9 @@ void DeblockColumns(const DeblockJob& job, int32_t first, int32_t last) {
       const int32_t before = map.At(column - 1, row), after = map.At(column, row);
       if (!Meet(before, after)) continue;
       const int32_t x = column * kSmallestBlock;
-      FilterBoundary(job, job.out.Row(y) + 3 * x, 1, 0, 3, before, after, kSmallestBlock,
-                     Min(kSmallestBlock, job.width - x));
+      const BoundaryLine line = {job.out.Row(y) + 3 * x, 1, 0, 3,
+                                 Min(kSmallestBlock, job.width - x)};
+      FilterBoundary(job, line, before, after);
     }
   }
 }

@@ -133,10 +133,10 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 
 }  // namespace
 
-void DownsamplePicture(const Kernels& kernels, const Window& picture, int32_t layer, int32_t begin,
-                       int32_t end, const ResampleScratch& scratch, LayerPlane* to) {
-  const LayerPart part = {begin, end, to->rows, to->samples};
-  if (layer == 1) {
+void DownsamplePicture(const Kernels& kernels, const Window& picture,
+                       const ResampleScratch& scratch, const LevelTarget& to) {
+  const LayerPart part = {to.begin, to.end, to.plane->rows, to.plane->samples};
+  if (to.layer == 1) {
     DownsampleOnce(kernels, picture, scratch, part);
   } else {
     DownsampleTwice(kernels, picture, scratch, part);

@@ -46,10 +46,16 @@ struct ResampleScratch {
   int16_t* above;       // what layer 2 is made of: 3 C R samples of layer 1
 };
 
-// Subsamples columns [begin, end) of layer 1 or 2 for the rows of `to` from the centre view. Of
-// layer 2 these are made of TapsOfLayer as many columns and rows of layer 1.
-void DownsamplePicture(const simd::Kernels& kernels, const Window& picture, int32_t layer,
-                       int32_t begin, int32_t end, const ResampleScratch& scratch, LayerPlane* to);
+// Columns [begin, end) of layer 1 or 2, in the rows of its plane.
+struct LevelTarget {
+  int32_t layer, begin, end;
+  const LayerPlane* plane;
+};
+
+// Subsamples the pixels of `to` from the centre view. Of layer 2 these are made of TapsOfLayer as
+// many columns and rows of layer 1.
+void DownsamplePicture(const simd::Kernels& kernels, const Window& picture,
+                       const ResampleScratch& scratch, const LevelTarget& to);
 
 // Samples of a rectangle of a layer.
 struct LayerRect {

@@ -55,8 +55,9 @@ void MixNeighbours(const int16_t* a, const int16_t* b, const int16_t* colour, in
 
 }  // namespace
 
-void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t end,
-              int32_t disparity, const int16_t* colour, int16_t* out) {
+void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, int32_t disparity,
+              const int16_t* colour, int16_t* out) {
+  const int32_t begin = part.begin, end = part.end;
   if (view.window->views == 1) {
     for (int32_t p = begin; p < end; ++p, out += 3) std::memcpy(out, colour, 3 * sizeof(*out));
     return;

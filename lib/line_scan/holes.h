@@ -7,6 +7,7 @@
 
 #include "lib/base/view_grid.h"
 #include "lib/input/window.h"
+#include "lib/line_scan/line_scan.h"
 
 namespace starfocus {
 
@@ -26,13 +27,13 @@ struct HoleLine {
   int32_t x, y, dx, dy;
 };
 
-// Writes the colours of rendered pixels [begin, end) of a line, 3 bytes each, where a background of
+// Writes the colours of the rendered pixels `part` of a line, 3 samples each, where a background of
 // `disparity` shows. The captured view is read at the index that the disparity implies (IV-A). A
 // diagonal view that was not captured (5 views) is interpolated from its horizontal and its
 // vertical neighbour, by how well each agrees with the visible background `colour`; with the centre
 // view alone the background is extended.
-void FillHole(const HoleView& view, const HoleLine& line, int32_t begin, int32_t end,
-              int32_t disparity, const int16_t* colour, int16_t* out);
+void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, int32_t disparity,
+              const int16_t* colour, int16_t* out);
 
 }  // namespace starfocus
 

@@ -25,6 +25,17 @@ struct LinePart {
   int32_t begin, end;
 };
 
+// What is scanned: a line whose surfaces are `run_count` runs, for the wanted part of views
+// first_view .. last_view.
+struct ScanTask {
+  Line line;
+  Direction direction;
+  const Run* runs;
+  int32_t run_count;
+  LinePart part;
+  int32_t first_view, last_view;
+};
+
 // A gap wider than this is no stretched surface, whatever the disparities say, in pixels. Twice and
 // half of it were measured (docs/constants.md).
 inline constexpr int32_t kMaxStretch = 4;
@@ -57,7 +68,8 @@ struct Rim {
   int32_t covered;  // kShiftBits
 };
 
-// Scans `line` for views, one after the other. Calls, in pixels of the line (never mirrored),
+// Scans the line of a task for views, one after the other. Calls, in pixels of the line (never
+// mirrored),
 //   sink.Surface(begin, end, source, neighbour, weight): rendered pixel p is line pixel
 //     source + (p - begin), and its neighbour at +-1 with `weight` (simd::kBlendBits);
 //   sink.Mix(p, source, other, weight): rendered pixel p is line pixel `source`, but `weight`
@@ -68,15 +80,14 @@ struct Rim {
 template <Direction kDirection, class Sink>
 class LineScan {
  public:
-  LineScan(const Line& line, const Run* runs, int32_t count, const ViewGrid& grid,
-           const LinePart& part, Sink* sink)
-      : line_(line),
-        runs_(runs),
-        runs_end_(runs + count),
+  LineScan(const ScanTask& task, const ViewGrid& grid, Sink* sink)
+      : line_(task.line),
+        runs_(task.runs),
+        runs_end_(task.runs + task.run_count),
         grid_(grid),
         sink_(sink),
-        begin_(kMirrored ? line.length - part.end : part.begin),
-        end_(kMirrored ? line.length - part.begin : part.end) {}
+        begin_(kMirrored ? line_.length - task.part.end : task.part.begin),
+        end_(kMirrored ? line_.length - task.part.begin : task.part.end) {}
 
   // move: ViewGrid::Move of the view's distance along the line.
   void Scan(int64_t move) {
@@ -298,17 +309,16 @@ class LineScan {
   Edge edge_ = {nullptr, 0, 0};
 };
 
-// Scans for views first .. last. next(k) makes the sink ready for view k and returns its move.
+// Scans a line. next(k) makes the sink ready for view k and returns its move.
 template <class Sink, class Next>
-void ScanLine(const Line& line, Direction direction, const Run* runs, int32_t count,
-              const ViewGrid& grid, const LinePart& part, int32_t first, int32_t last, Sink* sink,
-              const Next& next) {
-  if (direction == Direction::kRightToLeft) {
-    LineScan<Direction::kRightToLeft, Sink> scan(line, runs, count, grid, part, sink);
-    for (int32_t k = first; k <= last; ++k) scan.Scan(next(k));
+void ScanLine(const ScanTask& task, const ViewGrid& grid, Sink* sink, const Next& next) {
+  const auto scan_views = [&](auto scan) {
+    for (int32_t k = task.first_view; k <= task.last_view; ++k) scan.Scan(next(k));
+  };
+  if (task.direction == Direction::kRightToLeft) {
+    scan_views(LineScan<Direction::kRightToLeft, Sink>(task, grid, sink));
   } else {
-    LineScan<Direction::kLeftToRight, Sink> scan(line, runs, count, grid, part, sink);
-    for (int32_t k = first; k <= last; ++k) scan.Scan(next(k));
+    scan_views(LineScan<Direction::kLeftToRight, Sink>(task, grid, sink));
   }
 }
 

@@ -39,7 +39,7 @@ struct LineHoles {
                            u == 0 ? 0 : moves[i],
                            v == 0 ? 0 : moves[j],
                            Max(i, j) <= job.grid->half_views};
-    FillHole(view, line, begin, end, disparity, colour, out);
+    FillHole(view, line, {begin, end}, disparity, colour, out);
   }
 };
 
@@ -182,9 +182,10 @@ class Star {
     const LineHoles holes = {
         job_, field, scratch_->moves, sign, 0, i, 0, {field.x, field.y + row, 1, 0}};
     SpanSink<LineHoles> sink(line, target, holes, list);
-    ScanLine(line, DirectionOf(sign), RunsOf(field, row), scratch_->run_counts[row], grid_,
-             {field.inner.x, field.inner.x + field.inner.width}, i, i, &sink,
-             [&](int32_t k) { return scratch_->moves[k]; });
+    const LinePart part = {field.inner.x, field.inner.x + field.inner.width};
+    const ScanTask task = {
+        line, DirectionOf(sign), RunsOf(field, row), scratch_->run_counts[row], part, i, i};
+    ScanLine(task, grid_, &sink, [&](int32_t k) { return scratch_->moves[k]; });
   }
 
   // Adds the views (sign * i, j), |j| <= last, from the columns of the type A view.
@@ -221,25 +222,26 @@ class Star {
                   &list);
         }
         if (scan) {
-          AddColumn(line, count, last, {top, top + field.inner.height}, first, &holes, &list);
+          const LinePart part = {top, top + field.inner.height};
+          const ScanTask task = {line, DirectionOf(across), scratch_->line_runs, count, part, 1,
+                                 last};
+          AddColumn(task, first, &holes, &list);
         }
       }
     }
     list.Flush();
   }
 
-  // Adds the pixels of a part of the views j = 1 .. last on one side of a column.
-  void AddColumn(const Line& line, int32_t runs, int32_t last, const LinePart& part, uint32_t pixel,
-                 LineHoles* view, SpanList* list) {
+  // Adds the pixels of a part of the views j on one side of a column.
+  void AddColumn(const ScanTask& task, uint32_t pixel, LineHoles* view, SpanList* list) {
     LineHoles& holes = *view;
-    const SpanTarget target = {part.begin, pixel, 0, nullptr};
-    SpanSink<LineHoles> sink(line, target, holes, list);
-    ScanLine(line, DirectionOf(holes.v), scratch_->line_runs, runs, grid_, part, 1, last, &sink,
-             [&](int32_t j) {
-               holes.j = j;
-               sink.SetWeight(WeightOf(holes.field, holes.u * holes.i, holes.v * j));
-               return scratch_->moves[j];
-             });
+    const SpanTarget target = {task.part.begin, pixel, 0, nullptr};
+    SpanSink<LineHoles> sink(task.line, target, holes, list);
+    ScanLine(task, grid_, &sink, [&](int32_t j) {
+      holes.j = j;
+      sink.SetWeight(WeightOf(holes.field, holes.u * holes.i, holes.v * j));
+      return scratch_->moves[j];
+    });
   }
 
   Diagonals GetDiagonals(const Field& field, bool anti) {
@@ -269,12 +271,13 @@ class Star {
       const int32_t end = Min(Min(at.length, inner.x + inner.width - at.x), top + inner.height);
       if (begin >= end) continue;
       if (!GoesOn(job_.cancel, 6 * int64_t{at.length} * last)) return;
-      AddDiagonal(field, diagonals, at, index, begin, end, last);
+      AddDiagonal(field, diagonals, at, index, {begin, end}, last);
     }
   }
 
   void AddDiagonal(const Field& field, const Diagonals& diagonals, const DiagonalLine& at,
-                   int32_t index, int32_t begin, int32_t end, int32_t last) {
+                   int32_t index, const LinePart& part, int32_t last) {
+    const int32_t begin = part.begin, end = part.end;
     const Line line = GetLine(diagonals, index, at.length);
     uint32_t* sums = scratch_->line_accumulators;
     std::memset(sums, 0, 3 * static_cast<size_t>(end - begin) * sizeof(uint32_t));
@@ -288,12 +291,12 @@ class Star {
       const HoleLine hole_line = {field.x + at.x, field.y + at.y, 1, diagonals.anti ? -1 : 1};
       LineHoles holes = {job_, field, scratch_->moves, sign, across, 0, 0, hole_line};
       SpanSink<LineHoles> sink(line, {begin, 0, 0, nullptr}, holes, &list);
-      ScanLine(line, DirectionOf(sign), scratch_->line_runs, runs, grid_, {begin, end}, 1, last,
-               &sink, [&](int32_t k) {
-                 holes.i = holes.j = k;
-                 sink.SetWeight(WeightOf(field, sign * k, across * k));
-                 return scratch_->moves[k];
-               });
+      const ScanTask task = {line, DirectionOf(sign), scratch_->line_runs, runs, part, 1, last};
+      ScanLine(task, grid_, &sink, [&](int32_t k) {
+        holes.i = holes.j = k;
+        sink.SetWeight(WeightOf(field, sign * k, across * k));
+        return scratch_->moves[k];
+      });
     }
     list.Flush();
     const Rect& inner = field.inner;

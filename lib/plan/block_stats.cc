@@ -189,9 +189,12 @@ void AddCell(const Cell& cell, Content (*sum)[2]) {
 }
 
 void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
-                  int32_t row, int32_t first, int32_t last, Cell* cells) {
-  const CellRow cell_row(kernels, window, scale, row);
-  for (int32_t column = first; column < last; ++column) *cells++ = cell_row.Measure(column);
+                  const CellRange& range) {
+  const CellRow row(kernels, window, scale, range.row);
+  Cell* cells = range.cells;
+  for (int32_t column = range.first; column < range.last; ++column) {
+    *cells++ = row.Measure(column);
+  }
 }
 
 BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {

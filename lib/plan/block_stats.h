@@ -88,9 +88,15 @@ void AddCell(const Cell& cell, Content (*sum)[2]);
 // Pixels around a cell that it is measured with.
 inline constexpr int32_t kCellBorder = 1;
 
-// Measures the cells at columns [first, last) of a row of the grid; the window is at layer 0.
+// Cells at columns [first, last) of a row of the grid.
+struct CellRange {
+  int32_t row, first, last;
+  Cell* cells;
+};
+
+// Measures cells; the window is at layer 0.
 void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
-                  int32_t row, int32_t first, int32_t last, Cell* cells);
+                  const CellRange& range);
 
 // Pixels of a layer around what twice as many become that upsampling reads.
 inline constexpr int32_t kUpBorder = 2;

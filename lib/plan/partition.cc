@@ -294,11 +294,10 @@ class Partition {
 
 }  // namespace
 
-int32_t PartitionBlock(const simd::Kernels& kernels, const PartitionRules& rules,
-                       const CellGrid& cells, int32_t x, int32_t y, int32_t around,
+int32_t PartitionBlock(const PlanInput& input, int32_t x, int32_t y,
                        const PartitionScratch& scratch, Block* blocks, const GatherMap& gathered) {
-  Partition partition(kernels, rules, scratch, gathered);
-  partition.Measure(cells, x, y, around);
+  Partition partition(input.kernels, input.rules, scratch, gathered);
+  partition.Measure(input.cells, x, y, input.around);
   return partition.Emit(blocks);
 }
 

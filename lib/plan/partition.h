@@ -69,12 +69,18 @@ struct PartitionScratch {
   int16_t* cells;
 };
 
+// What a partition is made from.
+struct PlanInput {
+  const simd::Kernels& kernels;
+  const PartitionRules& rules;
+  const CellGrid& cells;
+  int32_t around;  // how many cells away a pixel may splat from
+};
+
 // Splits the largest block at (x, y), multiples of largest_block, into the blocks of least
-// predicted time. `around`: how many cells away a pixel may splat from. Writes at most MaxBlocks
-// blocks in z-order, and what of `gathered` belongs to the largest block; returns the number of
-// blocks.
-int32_t PartitionBlock(const simd::Kernels& kernels, const PartitionRules& rules,
-                       const CellGrid& cells, int32_t x, int32_t y, int32_t around,
+// predicted time. Writes at most MaxBlocks blocks in z-order, and what of `gathered` belongs to the
+// largest block; returns the number of blocks.
+int32_t PartitionBlock(const PlanInput& input, int32_t x, int32_t y,
                        const PartitionScratch& scratch, Block* blocks, const GatherMap& gathered);
 
 }  // namespace starfocus

@@ -67,9 +67,9 @@ class Section {
                          static_cast<size_t>(placed.reach));
     }
     int16_t* const behind = reinterpret_cast<int16_t*>(next);
+    const SliceInput input = {*job_.kernels, scratch_.surfaces, stack_.bands};
     for (int32_t k = 0; k < stack_.count; ++k) {
-      FillSlice(*job_.kernels, scratch_.surfaces, stack_.bands, stack_.slices[k], rect, behind,
-                planes_[k]);
+      FillSlice(input, stack_.slices[k], rect, behind, planes_[k]);
     }
     return behind;
   }

@@ -80,11 +80,12 @@ void ClearTail(size_t width, size_t plane, int16_t* row) {
   }
 }
 
-// Beyond the surfaces' left and right end their outermost pixels go on; behind the row's end there
-// is nothing.
-simd::SliceCover SelectRow(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-                           const Slice& slice, int32_t x, int32_t y, int32_t width, size_t plane,
-                           int16_t* row) {
+// Copies the slice's pixels of one row of the surfaces, `from`. Beyond the surfaces' left and right
+// end their outermost pixels go on; behind the row's end there is nothing.
+simd::SliceCover SelectRow(const SliceInput& input, const Slice& slice, const Rect& from_row,
+                           size_t plane, int16_t* row) {
+  const LayeredDepth& surfaces = input.surfaces;
+  const int32_t x = from_row.x, y = from_row.y, width = from_row.width;
   const int32_t first = Max(0, -x), last = Min(width, surfaces.width - x);
   const size_t at = surfaces.At(x + first, y);
   simd::SurfaceRow from;
@@ -97,8 +98,8 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const LayeredDepth& sur
     from.rgb[k] = surfaces.rgb[k] + at;
   }
   const simd::SliceCover cover =
-      kernels.SelectSlice(from, {slice.low, slice.high, slice.overlap},
-                          static_cast<size_t>(last - first), plane, row + first);
+      input.kernels.SelectSlice(from, {slice.low, slice.high, slice.overlap},
+                                static_cast<size_t>(last - first), plane, row + first);
   ClearTail(static_cast<size_t>(width), plane, row);
   if (last - first == width) return cover;
   for (int c = 0; c < 4; ++c, row += plane) {
@@ -167,24 +168,22 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
   placed->plane = PlaneSamples(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
 }
 
-void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-               const SurfaceBands& bands, const Slice& slice, const Rect& rect, int16_t* filtered,
+void FillSlice(const SliceInput& input, const Slice& slice, const Rect& rect, int16_t* filtered,
                const SlicePlane& placed) {
   const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
   const int32_t width = rect.width + 2 * placed.reach;
   int16_t* samples = placed.samples;
   for (int32_t row = 0; row < placed.rows; ++row, samples += 4 * placed.plane) {
-    const int32_t from = Clamp(y + row, 0, surfaces.height - 1);
-    const simd::DisparityRange& range = bands.At(from);
+    const int32_t from = Clamp(y + row, 0, input.surfaces.height - 1);
+    const simd::DisparityRange& range = input.bands.At(from);
     if (range.high < slice.low || range.low > slice.overlap) {
       std::memset(samples, 0, 4 * placed.plane * sizeof(*samples));
       placed.cover[row] = {0, 0};
     } else {
-      placed.cover[row] =
-          SelectRow(kernels, surfaces, slice, x, from, width, placed.plane, samples);
+      placed.cover[row] = SelectRow(input, slice, {x, from, width, 1}, placed.plane, samples);
     }
   }
-  if (placed.subaperture > kBoxSubaperture) Spread(kernels, filtered, placed);
+  if (placed.subaperture > kBoxSubaperture) Spread(input.kernels, filtered, placed);
 }
 
 void PlaceTile(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted) {

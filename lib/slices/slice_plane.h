@@ -106,12 +106,18 @@ void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride,
 // Geometry of the slice around `rect`.
 void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, SlicePlane* placed);
 
+// What slices are made from.
+struct SliceInput {
+  const simd::Kernels& kernels;
+  const LayeredDepth& surfaces;
+  const SurfaceBands& bands;
+};
+
 // Copies the slice's pixels around `rect` (in pixels of the surfaces, whose outermost pixels go on
 // beyond them) and spreads them for wide subapertures; `filtered` has room for the rows of one
 // plane. Bands that have no disparity of the slice are not looked at. Samples and covers must be
 // set.
-void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-               const SurfaceBands& bands, const Slice& slice, const Rect& rect, int16_t* filtered,
+void FillSlice(const SliceInput& input, const Slice& slice, const Rect& rect, int16_t* filtered,
                const SlicePlane& placed);
 
 // Rows of a slice in a tile, kSliceLanes columns of the rectangle, as a column of views shows them:

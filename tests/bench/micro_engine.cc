@@ -61,7 +61,7 @@ void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
     for (const Direction direction : {Direction::kRightToLeft, Direction::kLeftToRight}) {
       MarkRuns(kernels, grid, {disparity.data(), 1, kPixels, 1}, direction, &marks);
       const int32_t count = ReadRuns(marks, 0, kPixels, grid, grid.Move(1), runs.data());
-      ScanLine(line, direction, runs.data(), count, grid, {0, kPixels}, 1, kViewNumber, &ignore,
+      ScanLine({line, direction, runs.data(), count, {0, kPixels}, 1, kViewNumber}, grid, &ignore,
                [&](int32_t i) { return grid.Move(i); });
     }
     benchmark::DoNotOptimize(ignore.pixels);

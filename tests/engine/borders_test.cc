@@ -304,8 +304,9 @@ TEST_CASE("borders: the filter of levels reads what it declares, and no less") {
       plane.width = plane.height = kRows - 1;
       plane.rows = {kAt, kAt + 1};
       plane.samples = {samples.data(), 3 * kRows, 0, 0};
-      DownsamplePicture(starfocus::simd::BestKernels(), window, 1, 0, plane.width,
-                        {even.data(), odd.data(), half.data(), nullptr}, &plane);
+      DownsamplePicture(starfocus::simd::BestKernels(), window,
+                        {even.data(), odd.data(), half.data(), nullptr},
+                        {1, 0, plane.width, &plane});
       const int16_t* const sample = plane.samples.Row(kAt) + 3 * kAt;
       return std::vector<int16_t>(sample, sample + 3);
     });

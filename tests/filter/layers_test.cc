@@ -166,7 +166,7 @@ struct Layers {
       for (int index = columns - 1; index >= 0; --index) {
         const int begin = index * (largest_block >> layer);
         const int end = index + 1 == columns ? to->width : begin + (largest_block >> layer);
-        DownsamplePicture(kernels, from, layer, begin, end, scratch.memory, to);
+        DownsamplePicture(kernels, from, scratch.memory, {layer, begin, end, to});
       }
     }
   }
@@ -354,8 +354,8 @@ TEST_CASE("layers: rows made alone are those of the whole layer") {
       Layer part(width, height, layer);
       part.plane.rows = rows;
       part.plane.samples.first = rows.first;
-      DownsamplePicture(kernels, WindowOf(picture, width, height), layer, 0, part.plane.width,
-                        scratch.memory, &part.plane);
+      DownsamplePicture(kernels, WindowOf(picture, width, height), scratch.memory,
+                        {layer, 0, part.plane.width, &part.plane});
       for (int y = rows.first; y < rows.last; ++y) {
         CHECK(std::equal(part.plane.samples.Row(y),
                          part.plane.samples.Row(y) + 3 * part.plane.width, all.samples.Row(y)));

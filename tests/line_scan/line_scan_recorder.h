@@ -89,9 +89,14 @@ inline Recorder Record(const Depths& line, const ViewGrid& grid, int view, Direc
   Depths spaced(line.size() * size_t(step));
   for (size_t q = 0; q < line.size(); ++q) spaced[q * size_t(step)] = line[q];
   Recorder recorder = {direction, Picture(line.size()), {}};
-  starfocus::ScanLine(starfocus::Line{nullptr, spaced.data(), step, length}, direction, runs.data(),
-                      int32_t(runs.size()), grid, {begin, end}, view, view, &recorder,
-                      [&](int32_t k) { return grid.Move(k); });
+  const starfocus::ScanTask task = {{nullptr, spaced.data(), step, length},
+                                    direction,
+                                    runs.data(),
+                                    int32_t(runs.size()),
+                                    {begin, end},
+                                    view,
+                                    view};
+  starfocus::ScanLine(task, grid, &recorder, [&](int32_t k) { return grid.Move(k); });
   return recorder;
 }
 

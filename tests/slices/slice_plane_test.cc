@@ -97,7 +97,7 @@ TEST_CASE("slice planes: a pixel behind another is shown wherever groups of pixe
     for (int x = 0; x + kShown <= kWidth; ++x) {
       CAPTURE(behind);
       CAPTURE(x);
-      starfocus::FillSlice(starfocus::simd::BestKernels(), surfaces, bands, slice,
+      starfocus::FillSlice({starfocus::simd::BestKernels(), surfaces, bands}, slice,
                            {x, 0, kShown, 1}, nullptr, placed);
       const bool shown = behind >= x && behind < x + kShown;
       CHECK((cover.some != 0) == shown);

@@ -106,7 +106,7 @@ struct Plan {
     std::vector<int16_t> samples(
         starfocus::SurroundingSamples(config.largest_block / kCellSize, around), kPoison);
     const int count =
-        starfocus::PartitionBlock(starfocus::simd::BestKernels(), rules, grid, x, y, around,
+        starfocus::PartitionBlock({starfocus::simd::BestKernels(), rules, grid, around}, x, y,
                                   {nodes.data(), samples.data()}, blocks.data(), gathered);
     REQUIRE(count >= 1);
     REQUIRE(count <= int(blocks.size()));

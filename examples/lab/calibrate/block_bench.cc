@@ -89,8 +89,8 @@ void BlockBench::HoldLayer(int layer) {
   const ResampleScratch scratch = {even.data(), odd.data(), halved.data(), layer_one.data()};
   for (int32_t begin = 0; begin < plane.width; begin += step) {
     const int32_t end = std::min(begin + step, plane.width);
-    DownsamplePicture(*engine_->kernels, engine_->pictures.windows[0], layer, begin, end, scratch,
-                      &plane);
+    DownsamplePicture(*engine_->kernels, engine_->pictures.windows[0], scratch,
+                      {layer, begin, end, &plane});
   }
   engine_->pictures.windows[layer].samples = {plane.samples.data, stride, 0, 0};
 }
@@ -112,7 +112,7 @@ BlockWork BlockBench::Work(const BlockTask& task) {
   const int first = rect.x / kCellSize;
   for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
     MeasureCells(*engine_->kernels, engine_->pictures.windows[0], engine_->lens.scale,
-                 y / kCellSize, first, first + int(cells.size()), cells.data());
+                 {y / kCellSize, first, first + int(cells.size()), cells.data()});
     for (const Cell& cell : cells) AddCell(cell, &content);
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
